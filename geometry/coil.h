@@ -1,0 +1,44 @@
+#pragma once
+// The dosing coil: a round wire wound on a helix around the z axis, closed by round caps, turning as a rigid body.
+
+#include <vector>
+
+#include "geometry/surface.h"
+#include "host/core/vec.h"
+
+namespace vkdose::geometry {
+
+/// Centre line at wire coordinate s in [0, length], with the coil turned by `angle` (about +z) from its start:
+///   x = radius cos(psi), y = radius sin(psi), z = zStart + s,  psi = angle + startAngle + hand * 2 pi s / pitch.
+struct Coil {
+    double radius;      ///< of the wire's centre line [m]
+    double pitch;       ///< [m per turn]
+    double wireRadius;  ///< [m]
+    double length;      ///< of the centre line along z [m]
+    double zStart = 0;
+    double startAngle = 0;  ///< [rad]
+    int hand = 1;           ///< +1 right-handed, -1 left-handed
+};
+
+/// A local minimum of the distance to the wire, one per turn in reach. `wireAngle` = hand * 2 pi s / pitch
+/// identifies the turn: it moves continuously with the contact, and two turns differ by about 2 pi.
+struct CoilTouch : Closest {
+    double wireAngle;
+};
+
+/// Every local minimum of the distance from `q` to the wire surface that is less than `reach`, ends included, in
+/// order of increasing s. `angle` is the coil's rotation about +z [rad]. The iteration is capped and safeguarded;
+/// throws std::logic_error if it does not converge.
+std::vector<CoilTouch> touches(const Coil& coil, double angle, const Vec3& q, double reach);
+
+/// Closest point of the whole wire, however far.
+CoilTouch closestPoint(const Coil& coil, double angle, const Vec3& q);
+
+/// Upper bound on how many turns a sphere of radius `a` can touch at once.
+int maxTouches(const Coil& coil, double a);
+
+/// Rotation rate about +z [rad/s] that conveys towards +z at `speed` >= 0 [rad/s]: a right-handed coil must turn
+/// clockwise seen from +z.
+double conveyingRate(const Coil& coil, double speed);
+
+}  // namespace vkdose::geometry

@@ -1,0 +1,70 @@
+#pragma once
+// What a backend promises: it holds a world and its particles, advances them n steps, and gives reduced sensors and
+// state back. Coarse on purpose: nothing here is called inside the step loop.
+//
+// One step (leapfrog = velocity Verlet with half-step velocities in the contact law):
+//   forces from x(n), v(n-1/2); springs advance by v dt; v(n+1/2) = v(n-1/2) + dt a; x(n+1) = x(n) + dt v(n+1/2).
+// The very first step of a load kicks by dt/2 and leaves the springs at rest, because the loaded velocity is v(0).
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "host/model/particles.h"
+#include "host/model/world.h"
+
+namespace vkdose {
+
+enum class Region { Canister = 0, Throat = 1, Dosed = 2, Lost = 3 };
+inline constexpr int kRegions = 4;
+
+/// Reduced on the device at the end of an `advance`.
+struct Sensors {
+    std::array<std::uint64_t, kRegions> count{};  ///< particles per region
+    std::array<double, kRegions> mass{};          ///< [kg]
+    double kineticEnergy = 0;                     ///< translational, active particles, half-step velocities [J]
+    double rotationalEnergy = 0;                  ///< [J]
+    double coilTorque = 0;       ///< torque about +z that the particles exert on the coil, mean over the call [N m]
+    double throatMomentumZ = 0;  ///< sum of m v_z in the throat; over its mass: the outlet velocity [kg m/s]
+    double maxOverlapRatio = 0;  ///< largest overlap over smaller radius seen during the call [-]
+    std::uint64_t rebuilds = 0;  ///< neighbour-list builds since load
+};
+
+/// One touching contact and its history. For a wall `other` is the index of the surface, for the coil the turn slot.
+struct Contact {
+    ContactClass kind = ContactClass::ParticleParticle;
+    std::uint32_t particle = 0;  ///< the smaller index of a pair
+    std::uint32_t other = 0;
+    double maxOverlap = 0;  ///< delta_max [m]
+    Vec3 sliding{0};        ///< spring xi [m], acting on `particle`
+    Vec3 rolling{0};        ///< spring rho [m]
+    double torsion = 0;     ///< [m]
+};
+
+class Backend {
+  public:
+    virtual ~Backend() = default;
+
+    /// Start over with these particles. Throws RunError if they do not fit the backend's tables.
+    virtual void load(const World& world, const Particles& particles) = 0;
+
+    /// Replace the contact law, keeping state and history (the switch of k_c after settling).
+    virtual void setLaw(const ContactLaw& law) = 0;
+
+    /// Advance `steps` steps with the coil turning at `coilRate` [rad/s about +z]. Throws RunError on a lost particle,
+    /// NaN, a full table or an overlap above kMaxOverlapRatio, naming the particle and the step.
+    virtual Sensors advance(std::uint32_t steps, double coilRate) = 0;
+
+    virtual Particles particles() const = 0;
+    virtual std::vector<Contact> contacts() const = 0;
+
+    /// Rotation of the coil about +z since load [rad].
+    virtual double coilAngle() const = 0;
+
+    /// "reference" or "vulkan: llvmpipe (LLVM 15.0.6, 256 bits)".
+    virtual std::string description() const = 0;
+};
+
+}  // namespace vkdose

@@ -1,0 +1,43 @@
+#pragma once
+// Errors a user can meet. The message always says what was wrong and what would be right.
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace vkdose {
+
+/// One fault in an input file: where it stands, what it says and what would be right.
+struct Diagnostic {
+    std::string file;
+    int line = 0;  ///< 1-based; 0 when the fault has no line (a missing key of the whole file)
+    std::string key;
+    std::string value;  ///< as written; empty when the key is missing
+    std::string problem;
+    std::string remedy;
+
+    /// "file:line: key = value: problem; remedy"
+    std::string text() const;
+};
+
+/// The input cannot be run. Carries every fault found, not only the first.
+class CaseError : public std::runtime_error {
+  public:
+    explicit CaseError(std::vector<Diagnostic> faults);
+    const std::vector<Diagnostic>& faults() const { return faults_; }
+
+  private:
+    std::vector<Diagnostic> faults_;
+};
+
+/// The run cannot go on: a lost particle, NaN, a full neighbour row, an overlap no contact law covers.
+class RunError : public std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// The Vulkan loader, driver or device refused.
+class DeviceError : public std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+}  // namespace vkdose

@@ -1,0 +1,116 @@
+#pragma once
+// A validated case: everything a run needs, in SI. `loadCase` is the only way from a TOML file to it.
+
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/model/particles.h"
+#include "host/model/world.h"
+
+namespace vkdose {
+
+/// Sizes of the inserted particles (radii, metres).
+struct SizeDistribution {
+    enum class Kind { Uniform, Fixed, Normal, Lognormal, Quantiles };
+    Kind kind = Kind::Fixed;
+    double radius = 0;            ///< Fixed: the radius; Normal: the mean; Lognormal: the median
+    double deviation = 0;         ///< Normal: standard deviation [m]; Lognormal: of ln(radius) [-]
+    double radiusMin = 0;         ///< Uniform: bounds; the others: truncation (draws outside are drawn again)
+    double radiusMax = 0;
+    double r10 = 0, r50 = 0, r90 = 0;  ///< Quantiles (by volume) after scaling: radii of the meso-particles
+    double scaleUp = 1;           ///< Quantiles: factor from the powder's sizes to the meso-particles'
+};
+
+/// How the particles come into being: drawn and put on a grid, or listed in a CSV.
+struct Filling {
+    double mass = 0;  ///< target [kg]; 0 with an explicit list
+    SizeDistribution size;
+    std::optional<Particles> list;
+};
+
+/// When a run is over. Any of them ends it.
+struct StopRule {
+    /// Paper: experiments stop when the cumulative mass changes by no more than `threshold` over `doses` consecutive
+    /// doses; simulations when it does not change at all (threshold 0).
+    enum class Kind { None, Experiment, Simulation };
+    Kind kind = Kind::Experiment;
+    double threshold = 0.15e-3;  ///< [kg]
+    int doses = 3;
+    int maxDoses = std::numeric_limits<int>::max();
+    double endTime = std::numeric_limits<double>::infinity();  ///< simulated time, settling included [s]
+};
+
+struct Schedule {
+    double settleTime = 0;   ///< [s]
+    double rotateTime = 0;   ///< t_d [s]; 0: no doses, the run is the settling
+    double restTime = 0;     ///< [s]
+    double coilSpeed = 0;    ///< conveying speed >= 0 [rad/s]
+    StopRule stop;
+};
+
+/// Dimensions of the canister, kept beside the surfaces made from them for predictions and messages [m].
+struct Canister {
+    double length = 0;   ///< L, along z
+    double width = 0;    ///< W, along x; also the trough's diameter
+    double height = 0;   ///< H, from the lowest point of the floor
+    double outletDiameter = 0;
+    double throatLength = 0;
+    bool flatFloor = false;
+};
+
+struct Case {
+    std::string name;
+    std::string reason;
+    std::uint64_t seed = 1;
+    World world;               ///< with the law of the doses
+    ContactLaw settlingLaw;    ///< with the settling k_c
+    std::optional<Canister> canister;  ///< absent for free boundaries
+    Filling filling;
+    Schedule schedule;
+    double sensorInterval = 0;  ///< [s], a whole number of steps after loading
+    double bulkDensity = 471;   ///< rho_b for the closed form [kg/m3]
+    std::string resolved;       ///< the case as TOML with every default and --set applied
+};
+
+/// Reads, resolves `overrides` ("key.path=value"), checks. Throws CaseError with every fault found.
+Case loadCase(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
+
+/// Draws (or copies) the particles of a case: sizes from the distribution until the target mass is met as closely as
+/// one particle allows, positions on a grid above the coil without overlap. Same case, same particles.
+struct Insertion {
+    Particles particles;
+    double mass = 0;            ///< of all particles [kg]
+    double targetMass = 0;      ///< [kg]
+    std::uint64_t redrawn = 0;  ///< draws outside the truncation bounds
+    double fillHeight = 0;      ///< top of the grid [m, y]
+};
+Insertion insertParticles(const Case& c);
+
+/// Contact duration of the pair (a, b), b = infinity for a wall, on stiffness k: pi / sqrt(k/m12 - (gamma/(2 m12))^2).
+double contactDuration(const ContactParameters& p, double density, double a, double b, double k);
+
+/// Closed forms and stability figures of a case (paper, sections on the coil and on parameters).
+struct Derived {
+    struct PairDuration {
+        std::string name;   ///< "particle-particle", "particle-wall", "particle-coil"
+        double mean;        ///< two mean particles (or one and the wall) on k1 [s]
+        double stiffest;    ///< the smallest on k2Max [s]
+    };
+    std::vector<PairDuration> durations;
+    double stiffest = 0;       ///< smallest of all [s]
+    double timeStep = 0;       ///< [s]
+    std::size_t particles = 0;
+    double fillMass = 0;       ///< inserted [kg]
+    double pushVelocity = 0;   ///< V_z = p Omega / 2 pi [m/s]
+    double tipVelocity = 0;    ///< V_t = Omega r_c [m/s]
+    double massPerDose = 0;    ///< rho_b p pi r_c^2 n_t [kg]
+    double doses = 0;          ///< m_tot / m_dose
+    double steps = 0;          ///< until the predicted last dose plus the stop rule's
+};
+Derived derive(const Case& c, const Insertion& filled);
+
+}  // namespace vkdose

@@ -1,0 +1,45 @@
+#pragma once
+// Contact parameters in SI. Symbols as in Luding (2008), Granular Matter 10:235, and the paper's parameter table.
+
+#include <array>
+
+namespace vkdose {
+
+/// What touches what; each class has its own parameters.
+enum class ContactClass { ParticleParticle = 0, ParticleWall = 1, ParticleCoil = 2 };
+inline constexpr int kContactClasses = 3;
+
+/// Normal force that limits friction: Luding -> max(0, f + k_c delta); Absolute -> |f_n|, damping included.
+enum class CoulombLimit { Luding = 0, Absolute = 1 };
+
+/// Rolling lever a_r: Full -> 2 a_i a_j/(a_i + a_j) (wall: 2 a_i); Half -> half of it (Luding's own).
+enum class RollingLever { Full = 0, Half = 1 };
+
+struct ContactParameters {
+    double k1 = 0;               ///< plastic loading stiffness [N/m]
+    double k2Max = 0;            ///< limit elastic stiffness, k2-hat [N/m]
+    double kc = 0;               ///< adhesion stiffness [N/m]
+    double plasticityDepth = 0;  ///< phi_f [-]
+    double gamma = 0;            ///< normal viscosity [kg/s]
+    double kt = 0;               ///< sliding stiffness [N/m]
+    double gammaT = 0;           ///< sliding viscosity [kg/s]
+    double mu = 0;               ///< sliding friction [-]
+    double kr = 0;               ///< rolling stiffness [N/m]
+    double gammaR = 0;           ///< rolling viscosity [kg/s]
+    double muR = 0;              ///< rolling friction [-]
+    double kTo = 0;              ///< torsion stiffness [N/m]
+    double gammaTo = 0;          ///< torsion viscosity [kg/s]
+    double muTo = 0;             ///< torsion friction [-]; 0 switches torsion off
+};
+
+/// Everything the contact law needs, for one member (canister).
+struct ContactLaw {
+    std::array<ContactParameters, kContactClasses> classes;
+    CoulombLimit coulombLimit = CoulombLimit::Luding;
+    RollingLever rollingLever = RollingLever::Full;
+
+    const ContactParameters& of(ContactClass c) const { return classes[static_cast<int>(c)]; }
+    ContactParameters& of(ContactClass c) { return classes[static_cast<int>(c)]; }
+};
+
+}  // namespace vkdose

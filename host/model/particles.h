@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "host/core/vec.h"
+
+namespace vkdose {
+
+/// Where a particle is in the ledger. A dosed or lost particle takes no further part in the motion.
+enum class Status : std::uint32_t { Active = 0, Dosed = 1, Lost = 2 };
+
+/// Particle state, one entry per particle in every array; the index is the particle's identity for the whole run.
+/// After n steps `velocity` and `spin` are those of the half step n - 1/2 (leapfrog), at n = 0 the initial ones.
+struct Particles {
+    std::vector<Vec3> position;  ///< [m]
+    std::vector<Vec3> velocity;  ///< [m/s]
+    std::vector<Vec3> spin;      ///< angular velocity [rad/s]
+    std::vector<double> radius;  ///< [m]
+    std::vector<Status> status;
+
+    std::size_t size() const { return position.size(); }
+    void add(const Vec3& x, double r, const Vec3& v = Vec3(0), const Vec3& w = Vec3(0)) {
+        position.push_back(x);
+        velocity.push_back(v);
+        spin.push_back(w);
+        radius.push_back(r);
+        status.push_back(Status::Active);
+    }
+};
+
+}  // namespace vkdose

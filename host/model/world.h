@@ -1,0 +1,40 @@
+#pragma once
+// What a backend simulates, free of file formats: surfaces, coil, materials, time step. Built from a Case by
+// model/case.h, or by hand in tests.
+
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "geometry/coil.h"
+#include "geometry/surface.h"
+#include "host/core/vec.h"
+#include "host/model/material.h"
+
+namespace vkdose {
+
+/// Axis-aligned box outside which a particle counts as lost.
+struct Box {
+    Vec3 low{-1.0};
+    Vec3 high{1.0};
+};
+
+/// One member: a canister (or any set of surfaces) and its powder.
+struct World {
+    std::vector<geometry::Surface> surfaces;  ///< contact history is kept per (particle, surface)
+    std::optional<geometry::Coil> coil;
+    ContactLaw law;
+    Vec3 gravity{0, -9.81, 0};
+    double density = 0;   ///< of the particles [kg/m3]
+    double timeStep = 0;  ///< [s]
+    double skin = 0;      ///< extra reach of the neighbour list [m]
+    Box domain;
+    /// A particle whose centre passes throatZ is in the throat, past outletZ it is dosed. Infinite: no outlet.
+    double throatZ = std::numeric_limits<double>::infinity();
+    double outletZ = std::numeric_limits<double>::infinity();
+};
+
+/// Overlap above this fraction of the smaller radius stops the run: no contact law here covers it.
+inline constexpr double kMaxOverlapRatio = 0.2;
+
+}  // namespace vkdose
