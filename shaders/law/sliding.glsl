@@ -1,0 +1,26 @@
+// Sliding friction: spring, dashpot and Coulomb slider in the tangent plane. Rolling friction uses the same element.
+#ifndef VKDOSE_LAW_SLIDING_GLSL
+#define VKDOSE_LAW_SLIDING_GLSL
+
+/// Turns the spring into the plane normal to n, keeping its length.
+vec3 intoTangentPlane(vec3 spring, vec3 n) {
+    vec3 tangent = spring - n * dot(n, spring);
+    float old = dot(spring, spring);
+    float now = dot(tangent, tangent);
+    return now > 0.0 ? tangent * sqrt(old / now) : vec3(0.0);
+}
+
+/// `v` tangential velocity [m/s], `limit` Coulomb force [N], `dt` advance of the spring [s]. Returns the force [N] that
+/// resists v; the spring [m] is what it will be at the next step.
+vec3 frictionForce(float k, float gamma, float limit, vec3 n, vec3 v, float dt, inout vec3 spring) {
+    spring = intoTangentPlane(spring, n) + v * dt;
+    vec3 f = -k * spring - gamma * v;
+    float size = length(f);
+    if (size > limit) {
+        f *= limit / size;
+        spring = k > 0.0 ? -(f + gamma * v) / k : vec3(0.0);
+    }
+    return f;
+}
+
+#endif

@@ -1,0 +1,17 @@
+// Torsion friction: the scalar twin of sliding, about the normal. Twice the spring's sign is the same seen from either
+// particle, so one scalar serves the pair.
+#ifndef VKDOSE_LAW_TORSION_GLSL
+#define VKDOSE_LAW_TORSION_GLSL
+
+/// `v` twisting velocity a_r n.(omega_i - omega_j) [m/s]. Returns the pseudo force [N] that resists it.
+float torsionForce(float k, float gamma, float limit, float v, float dt, inout float spring) {
+    spring += v * dt;
+    float f = -k * spring - gamma * v;
+    if (abs(f) > limit) {
+        f = f > 0.0 ? limit : -limit;
+        spring = k > 0.0 ? -(f + gamma * v) / k : 0.0;
+    }
+    return f;
+}
+
+#endif

@@ -1,0 +1,65 @@
+// Bindings of every pass. One set serves all passes; a pass that does not name a buffer does not touch it.
+#ifndef VKDOSE_SHARED_BUFFERS_GLSL
+#define VKDOSE_SHARED_BUFFERS_GLSL
+
+#extension GL_GOOGLE_include_directive : require
+#include "shared/layout.h"
+
+layout(local_size_x_id = 0) in;                      // workgroup size, chosen by the host
+layout(constant_id = 1) const uint MEMBERS = 1u;     // 1: the member index is a constant and its block a uniform read
+
+layout(push_constant) uniform Push { StepPush push; };
+
+layout(std430, set = 0, binding = 0) buffer StateBuffer { vec4 state[]; };
+// Rows: uint row[2 halves][rowWidth][particles], ascending index within a row.
+layout(std430, set = 0, binding = 1) buffer RowBuffer { uint rows[]; };
+// Marks: x, y: touch bits of the row's slots; z: touch bits of surfaces (0 ...) and coil turns (28 ...); w: row length.
+layout(std430, set = 0, binding = 2) buffer MarkBuffer { uvec4 marks[]; };
+// Pair history: vec4 [2 halves][rowWidth][2][particles]: (xi, delta_max), (rho, torsion).
+layout(std430, set = 0, binding = 3) buffer HistoryBuffer { vec4 history[]; };
+// Wall history: vec4 [surfaces + turns][2][particles], then for the turns vec4 [particles]: wire angle of each slot.
+layout(std430, set = 0, binding = 4) buffer WallHistoryBuffer { vec4 wallHistory[]; };
+layout(std430, set = 0, binding = 5) readonly buffer MemberBuffer { Member members[]; };
+layout(std430, set = 0, binding = 6) buffer ControlBuffer { Control control; };
+// Cells: uint head[cellMask + 1], then next[particles].
+layout(std430, set = 0, binding = 7) buffer CellBuffer { uint cells[]; };
+// Anchor: position at the last rebuild (high part), w unused.
+layout(std430, set = 0, binding = 8) buffer AnchorBuffer { vec4 anchors[]; };
+layout(std430, set = 0, binding = 9) buffer SensorBuffer { SensorRecord sensors[]; };
+// Member of each workgroup; a member never shares a workgroup with another.
+layout(std430, set = 0, binding = 10) readonly buffer GroupBuffer { uint groupMember[]; };
+
+#ifdef TEXEL_READS
+layout(set = 0, binding = 11) uniform samplerBuffer stateView;
+layout(set = 0, binding = 12) uniform usamplerBuffer rowView;
+layout(set = 0, binding = 13) uniform samplerBuffer historyView;
+#endif
+
+uint stateIndex(uint half_, uint field, uint i) { return (half_ * kFields + field) * push.particles + i; }
+uint rowIndex(uint list, uint slot, uint i) { return (list * push.rowWidth + slot) * push.particles + i; }
+uint historyIndex(uint list, uint slot, uint part, uint i) {
+    return ((list * push.rowWidth + slot) * 2u + part) * push.particles + i;
+}
+uint wallHistoryIndex(uint slot, uint part, uint i) { return (slot * 2u + part) * push.particles + i; }
+
+uint memberOfGroup() { return MEMBERS == 1u ? 0u : groupMember[gl_WorkGroupID.x]; }
+
+#ifdef TEXEL_READS
+vec4 readState(uint half_, uint field, uint i) { return texelFetch(stateView, int(stateIndex(half_, field, i))); }
+uint readRow(uint list, uint slot, uint i) { return texelFetch(rowView, int(rowIndex(list, slot, i))).x; }
+vec4 readHistory(uint list, uint slot, uint part, uint i) {
+    return texelFetch(historyView, int(historyIndex(list, slot, part, i)));
+}
+#else
+vec4 readState(uint half_, uint field, uint i) { return state[stateIndex(half_, field, i)]; }
+uint readRow(uint list, uint slot, uint i) { return rows[rowIndex(list, slot, i)]; }
+vec4 readHistory(uint list, uint slot, uint part, uint i) { return history[historyIndex(list, slot, part, i)]; }
+#endif
+
+// The smallest step and the smallest particle of an error are kept: the same whatever order invocations run in.
+void report(uint error, uint particle) {
+    atomicMin(control.error[error].first.x, push.stepInBatch);
+    atomicMin(control.error[error].first.y, particle);
+}
+
+#endif

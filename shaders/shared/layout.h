@@ -1,0 +1,125 @@
+// Buffer layouts seen by both sides: C++ (with GLM) and GLSL. Legal in both; tests/layout compares the offsets that
+// SPIR-V declares with offsetof. Everything is built from 16-byte vectors, so that std430 and C++ agree by construction.
+#ifndef VKDOSE_SHARED_LAYOUT_H
+#define VKDOSE_SHARED_LAYOUT_H
+
+#ifdef __cplusplus
+#include <glm/glm.hpp>
+namespace vkdose::gpu {
+using glm::uvec4;
+using glm::vec4;
+using uint = glm::uint;
+#define SHARED_CONST inline constexpr uint
+#else
+#define SHARED_CONST const uint
+#endif
+
+// --- limits ----------------------------------------------------------------------------------------------------------
+SHARED_CONST kMaxSurfaces = 28u;   // one bit each in the wall mask ...
+SHARED_CONST kMaxTurns = 4u;       // ... and one for every coil turn touched at once
+SHARED_CONST kMaxRow = 64u;        // neighbours per particle: two words of touch bits
+SHARED_CONST kEmpty = 0xffffffffu; // end of a cell's list
+
+// --- particle state: vec4 state[2 halves][4 fields][particles]; the halves take turns as source and destination --------
+SHARED_CONST kPosition = 0u; // xyz: high part [m]; w: radius [m], negative once the particle is out of the motion
+SHARED_CONST kResidue = 1u;  // xyz: low part of the position [m]; w: sum over steps of the torque on the coil [N m]
+SHARED_CONST kVelocity = 2u; // xyz: half-step velocity [m/s]; w: largest overlap / smaller radius since the last sensing
+SHARED_CONST kSpin = 3u;     // xyz: half-step angular velocity [rad/s]; w: status as a float (kActive ...)
+SHARED_CONST kFields = 4u;
+
+SHARED_CONST kActive = 0u;
+SHARED_CONST kDosed = 1u;
+SHARED_CONST kLost = 2u;
+SHARED_CONST kPadding = 3u; // fills a member's last workgroup
+
+// --- contact classes and surface kinds ---------------------------------------------------------------------------------
+SHARED_CONST kParticleParticle = 0u;
+SHARED_CONST kParticleWall = 1u;
+SHARED_CONST kParticleCoil = 2u;
+
+SHARED_CONST kPlane = 0u;
+SHARED_CONST kTrough = 1u;
+SHARED_CONST kTube = 2u;
+SHARED_CONST kFront = 3u;
+
+// --- one canister's parameters -----------------------------------------------------------------------------------------
+struct ContactParams {
+    vec4 normal;  // k1, k2Max, kc [N/m], gamma [kg/s]
+    vec4 sliding; // kt [N/m], gammaT [kg/s], mu, plasticity depth
+    vec4 rolling; // kr [N/m], gammaR [kg/s], muR, -
+    vec4 torsion; // kTo [N/m], gammaTo [kg/s], muTo, -
+};
+
+struct SurfaceParams {
+    vec4 pointHigh; // xyz: plane point or tube base, high part (front: z in z) [m]; w: kind
+    vec4 pointLow;  // xyz: low part; w: +1 touched from inside, -1 from outside (tube)
+    vec4 axis;      // plane normal or tube axis, unit; w: length of tube or throat [m]
+    vec4 radius;    // x, y: radius high, low (trough: half width; front: hole) [m]
+};
+
+struct CoilParams {
+    vec4 radius;    // x, y: centre-line radius high, low; z: wire radius; w: length [m]
+    vec4 pitch;     // x: pitch; y: its leading 16 bits; z: the rest [m]; w: hand * 2 pi / pitch [rad/m]
+    vec4 reach;     // x: largest angle off the wire at which a sphere can touch it [rad]; y: turns to try on each side;
+                    // z, w: zStart high, low [m]
+    uvec4 phase;    // start of the batch: high, low word of the angle in 2^-64 turns; advance per step: high, low
+    vec4 motion;    // x: rotation rate about +z [rad/s]; y: slots (turns touched at once); z: 1 if there is a coil
+};
+
+struct Member {
+    ContactParams contact[3];
+    SurfaceParams surface[kMaxSurfaces];
+    CoilParams coil;
+    vec4 gravity;     // xyz [m/s2]; w: density of the particles [kg/m3]
+    vec4 domainLow;   // xyz [m]; w: throatZ [m]
+    vec4 domainHigh;  // xyz [m]; w: outletZ [m]
+    vec4 numerics;    // time step [s], skin [m], cell size [m], largest allowed overlap ratio
+    uvec4 choices;    // surfaces, coulomb limit (0 luding, 1 absolute), rolling lever (0 full, 1 half), -
+};
+
+// --- control block: what the device decides and reports ------------------------------------------------------------------
+SHARED_CONST kErrorLost = 0u;
+SHARED_CONST kErrorNan = 1u;
+SHARED_CONST kErrorRowFull = 2u;
+SHARED_CONST kErrorOverlap = 3u;
+SHARED_CONST kErrorTurns = 4u;
+SHARED_CONST kErrorNewton = 5u;
+SHARED_CONST kErrors = 6u;
+
+struct ErrorRecord {
+    uvec4 first; // x: smallest step of the batch at which it happened, y: smallest particle index; kEmpty: none
+};
+
+struct Control {
+    uvec4 cells;      // indirect arguments: workgroups that clear the cell table, 0 while no rebuild is wanted
+    uvec4 particles;  // indirect arguments: workgroups over the particles, ditto
+    uvec4 single;     // indirect arguments: one workgroup, ditto
+    uvec4 list;       // x: which half of the lists is current; y: rebuilds since load; z: longest row ever
+    ErrorRecord error[kErrors];
+};
+
+// --- sensing: one record per workgroup, summed by the host in double precision ----------------------------------------------
+struct SensorRecord {
+    uvec4 count;   // particles per region: canister, throat, dosed, lost
+    vec4 mass;     // per region [kg]
+    vec4 motion;   // kinetic energy, rotational energy [J], momentum along z in the throat [kg m/s], torque sum [N m]
+    vec4 extremes; // x: largest overlap ratio
+};
+
+// --- per dispatch --------------------------------------------------------------------------------------------------------
+struct StepPush {
+    uint stepInBatch;
+    uint half;          // which half of the state is the source
+    uint opening;       // 1 on the very first step of a load: half a kick, springs at rest
+    uint particles;     // slots, padding included (a multiple of the workgroup size)
+    uint rowWidth;
+    uint cellMask;      // size of the cell table - 1 (a power of two)
+    uint reserved0;
+    uint reserved1;
+};
+
+#ifdef __cplusplus
+#undef SHARED_CONST
+}  // namespace vkdose::gpu
+#endif
+#endif
