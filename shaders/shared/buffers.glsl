@@ -35,7 +35,7 @@ layout(set = 0, binding = 12) uniform usamplerBuffer rowView;
 layout(set = 0, binding = 13) uniform samplerBuffer historyView;
 #endif
 
-uint stateIndex(uint half_, uint field, uint i) { return (half_ * kFields + field) * push.particles + i; }
+uint stateIndex(uint side, uint field, uint i) { return (side * kFields + field) * push.particles + i; }
 uint rowIndex(uint list, uint slot, uint i) { return (list * push.rowWidth + slot) * push.particles + i; }
 uint historyIndex(uint list, uint slot, uint part, uint i) {
     return ((list * push.rowWidth + slot) * 2u + part) * push.particles + i;
@@ -45,13 +45,13 @@ uint wallHistoryIndex(uint slot, uint part, uint i) { return (slot * 2u + part) 
 uint memberOfGroup() { return MEMBERS == 1u ? 0u : groupMember[gl_WorkGroupID.x]; }
 
 #ifdef TEXEL_READS
-vec4 readState(uint half_, uint field, uint i) { return texelFetch(stateView, int(stateIndex(half_, field, i))); }
+vec4 readState(uint side, uint field, uint i) { return texelFetch(stateView, int(stateIndex(side, field, i))); }
 uint readRow(uint list, uint slot, uint i) { return texelFetch(rowView, int(rowIndex(list, slot, i))).x; }
 vec4 readHistory(uint list, uint slot, uint part, uint i) {
     return texelFetch(historyView, int(historyIndex(list, slot, part, i)));
 }
 #else
-vec4 readState(uint half_, uint field, uint i) { return state[stateIndex(half_, field, i)]; }
+vec4 readState(uint side, uint field, uint i) { return state[stateIndex(side, field, i)]; }
 uint readRow(uint list, uint slot, uint i) { return rows[rowIndex(list, slot, i)]; }
 vec4 readHistory(uint list, uint slot, uint part, uint i) { return history[historyIndex(list, slot, part, i)]; }
 #endif

@@ -109,7 +109,7 @@ struct SensorRecord {
 // --- per dispatch --------------------------------------------------------------------------------------------------------
 struct StepPush {
     uint stepInBatch;
-    uint half;          // which half of the state is the source
+    uint source;        // which half of the state is read; the other is written
     uint opening;       // 1 on the very first step of a load: half a kick, springs at rest
     uint particles;     // slots, padding included (a multiple of the workgroup size)
     uint rowWidth;

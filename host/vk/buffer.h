@@ -1,0 +1,61 @@
+#pragma once
+// A storage buffer with its own memory, optionally seen through a texel view as well.
+
+#include <vulkan/vulkan.h>
+
+#include <cstring>
+#include <span>
+#include <vector>
+
+#include "host/vk/device.h"
+
+namespace vkdose::vk {
+
+class Buffer {
+  public:
+    /// Zero-filled. `texelFormat` other than undefined adds a uniform texel view over the whole buffer.
+    /// Throws DeviceError, naming `name`, if the size exceeds the device's storage-buffer range or its memory.
+    Buffer(const Device& device, const char* name, VkDeviceSize size, VkFormat texelFormat = VK_FORMAT_UNDEFINED);
+    ~Buffer();
+    Buffer(const Buffer&) = delete;
+    Buffer& operator=(const Buffer&) = delete;
+
+    VkBuffer handle() const { return buffer_; }
+    VkDeviceSize size() const { return size_; }
+    VkBufferView texelView() const { return view_; }
+
+    /// Host access, through a staging buffer where the memory is not host-visible. The device must be idle.
+    void write(VkDeviceSize offset, const void* data, VkDeviceSize bytes);
+    void read(VkDeviceSize offset, void* data, VkDeviceSize bytes) const;
+
+    template <class T>
+    void writeAll(const std::vector<T>& values, VkDeviceSize offset = 0) {
+        write(offset, values.data(), values.size() * sizeof(T));
+    }
+    template <class T>
+    std::vector<T> readAll(std::size_t count, VkDeviceSize offset = 0) const {
+        std::vector<T> values(count);
+        read(offset, values.data(), count * sizeof(T));
+        return values;
+    }
+
+  private:
+    struct Memory {
+        VkBuffer buffer = VK_NULL_HANDLE;
+        VkDeviceMemory memory = VK_NULL_HANDLE;
+        void* mapped = nullptr;
+    };
+    Memory allocate(VkDeviceSize size, VkBufferUsageFlags usage, VkMemoryPropertyFlags first,
+                    VkMemoryPropertyFlags second) const;
+    Memory staging(VkDeviceSize bytes) const;
+    void release(Memory& memory) const;
+
+    const Device& device_;
+    const char* name_;
+    VkDeviceSize size_;
+    VkBuffer buffer_ = VK_NULL_HANDLE;
+    Memory own_;
+    VkBufferView view_ = VK_NULL_HANDLE;
+};
+
+}  // namespace vkdose::vk

@@ -1,0 +1,42 @@
+#pragma once
+// One primary command buffer, recorded, submitted and waited for.
+
+#include <vulkan/vulkan.h>
+
+#include <cstdint>
+
+#include "host/vk/device.h"
+
+namespace vkdose::vk {
+
+class Commands {
+  public:
+    explicit Commands(const Device& device);
+    ~Commands();
+    Commands(const Commands&) = delete;
+    Commands& operator=(const Commands&) = delete;
+
+    void begin();
+    /// Ends, submits and waits for the device.
+    void submit();
+
+    /// Every write of a dispatch or copy before is visible to every dispatch, indirect argument or copy after.
+    void barrier();
+    /// As `barrier`, towards reads and writes of the host.
+    void hostBarrier();
+    void dispatch(std::uint32_t groups);
+    /// Workgroup counts from three consecutive words of `buffer` at `offset`.
+    void dispatchIndirect(VkBuffer buffer, VkDeviceSize offset);
+    void copy(VkBuffer from, VkDeviceSize fromOffset, VkBuffer to, VkDeviceSize toOffset, VkDeviceSize size);
+
+    VkCommandBuffer handle() const { return commands_; }
+
+  private:
+    void memoryBarrier(VkPipelineStageFlags from, VkAccessFlags wrote, VkPipelineStageFlags to, VkAccessFlags reads);
+
+    const Device& device_;
+    VkCommandBuffer commands_ = VK_NULL_HANDLE;
+    VkFence fence_ = VK_NULL_HANDLE;
+};
+
+}  // namespace vkdose::vk

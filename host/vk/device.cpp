@@ -1,0 +1,262 @@
+#include "host/vk/device.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstring>
+#include <string_view>
+
+namespace vkdose::vk {
+
+namespace {
+
+constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
+
+const char* resultName(VkResult r) {
+    switch (r) {
+        case VK_ERROR_OUT_OF_HOST_MEMORY:
+            return "out of host memory";
+        case VK_ERROR_OUT_OF_DEVICE_MEMORY:
+            return "out of device memory: use fewer particles or another device";
+        case VK_ERROR_INITIALIZATION_FAILED:
+            return "initialisation failed";
+        case VK_ERROR_DEVICE_LOST:
+            return "the device was lost: the driver reset it or a submission ran too long";
+        case VK_ERROR_LAYER_NOT_PRESENT:
+            return "a layer is not installed";
+        case VK_ERROR_EXTENSION_NOT_PRESENT:
+            return "an extension is not supported";
+        case VK_ERROR_FEATURE_NOT_PRESENT:
+            return "a feature is not supported";
+        case VK_ERROR_INCOMPATIBLE_DRIVER:
+            return "no Vulkan driver found: install one (Debian: mesa-vulkan-drivers)";
+        default:
+            return "error";
+    }
+}
+
+std::string lower(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+    return text;
+}
+
+const char* typeName(VkPhysicalDeviceType type) {
+    switch (type) {
+        case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+            return "discrete GPU";
+        case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+            return "integrated GPU";
+        case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+            return "virtual GPU";
+        case VK_PHYSICAL_DEVICE_TYPE_CPU:
+            return "CPU";
+        default:
+            return "other";
+    }
+}
+
+int preference(const std::string& type) {
+    constexpr std::string_view order[] = {"discrete GPU", "integrated GPU", "virtual GPU", "CPU", "other"};
+    return int(std::find(std::begin(order), std::end(order), type) - std::begin(order));
+}
+
+std::string versionText(std::uint32_t v) {
+    return fmt::format("{}.{}.{}", VK_API_VERSION_MAJOR(v), VK_API_VERSION_MINOR(v), VK_API_VERSION_PATCH(v));
+}
+
+/// Queue family with compute; -1 if none.
+int computeFamily(VkPhysicalDevice physical) {
+    std::uint32_t n = 0;
+    vkGetPhysicalDeviceQueueFamilyProperties(physical, &n, nullptr);
+    std::vector<VkQueueFamilyProperties> families(n);
+    vkGetPhysicalDeviceQueueFamilyProperties(physical, &n, families.data());
+    for (std::uint32_t i = 0; i < n; ++i)
+        if (families[i].queueFlags & VK_QUEUE_COMPUTE_BIT) return int(i);
+    return -1;
+}
+
+DeviceInfo describe(VkPhysicalDevice physical, int index) {
+    VkPhysicalDeviceProperties base{};
+    vkGetPhysicalDeviceProperties(physical, &base);
+    DeviceInfo info;
+    info.index = index;
+    info.name = base.deviceName;
+    info.type = typeName(base.deviceType);
+    info.apiVersion = versionText(base.apiVersion);
+    info.maxStorageBufferRange = base.limits.maxStorageBufferRange;
+    info.driver = fmt::format("{:#x}", base.driverVersion);
+    constexpr std::uint32_t kStorageBuffers = 11;
+    if (base.apiVersion < VK_API_VERSION_1_1) {
+        info.reason = "needs Vulkan 1.1, has " + info.apiVersion;
+    } else if (computeFamily(physical) < 0) {
+        info.reason = "has no compute queue";
+    } else if (base.limits.maxPerStageDescriptorStorageBuffers < kStorageBuffers) {
+        info.reason = fmt::format("needs {} storage buffers per stage, has {}", kStorageBuffers,
+                                  base.limits.maxPerStageDescriptorStorageBuffers);
+    } else {
+        info.usable = true;
+        VkPhysicalDeviceSubgroupProperties subgroup{
+            VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES, nullptr, 0, 0, 0, VK_FALSE};
+        VkPhysicalDeviceProperties2 all{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &subgroup, {}};
+        vkGetPhysicalDeviceProperties2(physical, &all);
+        info.subgroupSize = subgroup.subgroupSize;
+    }
+    return info;
+}
+
+bool layerInstalled() {
+    std::uint32_t n = 0;
+    vkEnumerateInstanceLayerProperties(&n, nullptr);
+    std::vector<VkLayerProperties> layers(n);
+    vkEnumerateInstanceLayerProperties(&n, layers.data());
+    return std::any_of(layers.begin(), layers.end(),
+                       [](const VkLayerProperties& l) { return std::strcmp(l.layerName, kValidationLayer) == 0; });
+}
+
+VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
+                                         const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
+    static_cast<std::vector<std::string>*>(user)->emplace_back(data->pMessage);
+    return VK_FALSE;
+}
+
+VkInstance makeInstance(bool validation) {
+    VkApplicationInfo application{
+        VK_STRUCTURE_TYPE_APPLICATION_INFO, nullptr, "vkdose", 1, "vkdose", 1, VK_API_VERSION_1_1};
+    VkInstanceCreateInfo create{
+        VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO, nullptr, 0, &application, 0, nullptr, 0, nullptr};
+    const char* extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
+    VkValidationFeatureEnableEXT enable = VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
+    VkValidationFeaturesEXT features{VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT, nullptr, 1, &enable, 0, nullptr};
+    if (validation) {
+        create.enabledLayerCount = 1;
+        create.ppEnabledLayerNames = &kValidationLayer;
+        create.enabledExtensionCount = 1;
+        create.ppEnabledExtensionNames = &extension;
+        create.pNext = &features;
+    }
+    VkInstance instance = VK_NULL_HANDLE;
+    check(vkCreateInstance(&create, nullptr, &instance), "vkCreateInstance");
+    return instance;
+}
+
+std::vector<VkPhysicalDevice> physicalDevices(VkInstance instance) {
+    std::uint32_t n = 0;
+    check(vkEnumeratePhysicalDevices(instance, &n, nullptr), "vkEnumeratePhysicalDevices");
+    std::vector<VkPhysicalDevice> devices(n);
+    if (n > 0) check(vkEnumeratePhysicalDevices(instance, &n, devices.data()), "vkEnumeratePhysicalDevices");
+    return devices;
+}
+
+std::vector<DeviceInfo> describeAll(const std::vector<VkPhysicalDevice>& devices) {
+    std::vector<DeviceInfo> infos;
+    for (std::size_t i = 0; i < devices.size(); ++i) infos.push_back(describe(devices[i], int(i)));
+    if (infos.empty())
+        throw DeviceError("no Vulkan device: install a driver (Debian: mesa-vulkan-drivers brings a software one)");
+    return infos;
+}
+
+std::string choices(const std::vector<DeviceInfo>& infos) {
+    std::string text;
+    for (const DeviceInfo& d : infos) text += fmt::format("{}{} ({})", text.empty() ? "" : ", ", d.index, d.name);
+    return text;
+}
+
+const DeviceInfo& choose(const std::vector<DeviceInfo>& infos, const std::string& wanted) {
+    const DeviceInfo* best = nullptr;
+    bool number =
+        !wanted.empty() && std::all_of(wanted.begin(), wanted.end(), [](unsigned char c) { return std::isdigit(c); });
+    for (const DeviceInfo& d : infos) {
+        bool match = wanted.empty() ? d.usable
+                     : number       ? std::to_string(d.index) == wanted
+                                    : lower(d.name).find(lower(wanted)) != std::string::npos;
+        if (match && (best == nullptr || (wanted.empty() && preference(d.type) < preference(best->type)))) best = &d;
+    }
+    if (best == nullptr)
+        throw DeviceError(wanted.empty() ? fmt::format("none of the Vulkan devices can be used: {}", choices(infos))
+                                         : fmt::format("no Vulkan device '{}'; there are: {}", wanted, choices(infos)));
+    if (!best->usable) throw DeviceError(fmt::format("device {} ({}) {}", best->index, best->name, best->reason));
+    return *best;
+}
+
+}  // namespace
+
+void check(VkResult result, const char* call) {
+    if (result != VK_SUCCESS)
+        throw DeviceError(fmt::format("{} failed: {} (VkResult {})", call, resultName(result), int(result)));
+}
+
+std::vector<DeviceInfo> listDevices() {
+    VkInstance instance = makeInstance(false);
+    struct Guard {
+        VkInstance instance;
+        ~Guard() { vkDestroyInstance(instance, nullptr); }
+    } guard{instance};
+    return describeAll(physicalDevices(instance));
+}
+
+void Device::createInstance(bool validation) {
+    messages_ = std::make_unique<std::vector<std::string>>();
+    bool validate = validation && layerInstalled();
+    instance_ = makeInstance(validate);
+    if (!validate) return;
+    VkDebugUtilsMessengerCreateInfoEXT create{};
+    create.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT;
+    create.messageSeverity =
+        VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
+    create.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_TYPE_GENERAL_BIT_EXT;
+    create.pfnUserCallback = onMessage;
+    create.pUserData = messages_.get();
+    auto make = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
+        vkGetInstanceProcAddr(instance_, "vkCreateDebugUtilsMessengerEXT"));
+    check(make(instance_, &create, nullptr, &messenger_), "vkCreateDebugUtilsMessengerEXT");
+}
+
+void Device::createDevice(std::uint32_t family) {
+    float priority = 1.0f;
+    VkDeviceQueueCreateInfo queue{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO, nullptr, 0, family, 1, &priority};
+    VkDeviceCreateInfo create{};
+    create.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
+    create.queueCreateInfoCount = 1;
+    create.pQueueCreateInfos = &queue;
+    check(vkCreateDevice(physical_, &create, nullptr, &device_), "vkCreateDevice");
+    vkGetDeviceQueue(device_, family, 0, &queue_);
+    VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, nullptr,
+                                 VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT, family};
+    check(vkCreateCommandPool(device_, &pool, nullptr, &pool_), "vkCreateCommandPool");
+}
+
+Device::Device(const DeviceChoice& choice) {
+    createInstance(choice.validation);
+    std::vector<VkPhysicalDevice> devices = physicalDevices(instance_);
+    std::vector<DeviceInfo> infos = describeAll(devices);
+    info_ = choose(infos, choice.name);
+    physical_ = devices[std::size_t(info_.index)];
+    VkPhysicalDeviceProperties properties{};
+    vkGetPhysicalDeviceProperties(physical_, &properties);
+    limits_ = properties.limits;
+    vkGetPhysicalDeviceMemoryProperties(physical_, &memory_);
+    createDevice(std::uint32_t(computeFamily(physical_)));
+}
+
+Device::~Device() {
+    if (device_ != VK_NULL_HANDLE) {
+        vkDeviceWaitIdle(device_);
+        vkDestroyCommandPool(device_, pool_, nullptr);
+        vkDestroyDevice(device_, nullptr);
+    }
+    if (messenger_ != VK_NULL_HANDLE) {
+        auto destroy = reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(
+            vkGetInstanceProcAddr(instance_, "vkDestroyDebugUtilsMessengerEXT"));
+        destroy(instance_, messenger_, nullptr);
+    }
+    if (instance_ != VK_NULL_HANDLE) vkDestroyInstance(instance_, nullptr);
+}
+
+int Device::memoryType(std::uint32_t typeBits, VkMemoryPropertyFlags wanted) const {
+    for (std::uint32_t i = 0; i < memory_.memoryTypeCount; ++i)
+        if ((typeBits & (1u << i)) && (memory_.memoryTypes[i].propertyFlags & wanted) == wanted) return int(i);
+    return -1;
+}
+
+}  // namespace vkdose::vk

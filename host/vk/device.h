@@ -1,0 +1,78 @@
+#pragma once
+// Instance, device and queue: choosing where to compute. Knows no physics.
+
+#include <vulkan/vulkan.h>
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "host/core/error.h"
+
+namespace vkdose::vk {
+
+/// Throws DeviceError naming the call and the result unless `result` is VK_SUCCESS.
+void check(VkResult result, const char* call);
+
+struct DeviceChoice {
+    /// Empty: automatic (discrete, then integrated, then virtual, then CPU). Else an index of listDevices() or a
+    /// case-insensitive part of a device's name.
+    std::string name;
+    bool validation = false;  ///< load the validation layer with synchronisation checks, if it is installed
+};
+
+struct DeviceInfo {
+    int index = 0;
+    std::string name;
+    std::string type;  ///< "discrete GPU", "integrated GPU", "virtual GPU", "CPU", "other"
+    std::string driver;
+    std::string apiVersion;
+    unsigned subgroupSize = 0;
+    std::uint64_t maxStorageBufferRange = 0;  ///< [bytes]
+    bool usable = false;
+    std::string reason;  ///< why not usable
+};
+
+/// Every device the Vulkan loader shows. Throws DeviceError if there is no loader or no driver.
+std::vector<DeviceInfo> listDevices();
+
+class Device {
+  public:
+    explicit Device(const DeviceChoice& choice);
+    ~Device();
+    Device(const Device&) = delete;
+    Device& operator=(const Device&) = delete;
+
+    VkDevice handle() const { return device_; }
+    VkPhysicalDevice physical() const { return physical_; }
+    VkQueue queue() const { return queue_; }
+    VkCommandPool pool() const { return pool_; }
+    const VkPhysicalDeviceLimits& limits() const { return limits_; }
+    const DeviceInfo& info() const { return info_; }
+
+    /// Index of a memory type allowed by `typeBits` with all of `wanted`; -1 if none.
+    int memoryType(std::uint32_t typeBits, VkMemoryPropertyFlags wanted) const;
+
+    /// Messages of the validation layer since creation (warnings and errors).
+    const std::vector<std::string>& validationMessages() const { return *messages_; }
+    /// True if validation was asked for and the layer is there.
+    bool validated() const { return messenger_ != VK_NULL_HANDLE; }
+
+  private:
+    void createInstance(bool validation);
+    void createDevice(std::uint32_t family);
+
+    VkInstance instance_ = VK_NULL_HANDLE;
+    VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
+    VkPhysicalDevice physical_ = VK_NULL_HANDLE;
+    VkDevice device_ = VK_NULL_HANDLE;
+    VkQueue queue_ = VK_NULL_HANDLE;
+    VkCommandPool pool_ = VK_NULL_HANDLE;
+    VkPhysicalDeviceLimits limits_{};
+    VkPhysicalDeviceMemoryProperties memory_{};
+    DeviceInfo info_;
+    std::unique_ptr<std::vector<std::string>> messages_;
+};
+
+}  // namespace vkdose::vk

@@ -1,0 +1,141 @@
+// Closest points on the turning coil (geometry/coil.h): local minima of the distance from a point to a helical wire.
+//
+// In cylindrical coordinates (rho, theta, z) of the point, with u = phase of the wire - theta, the distance is
+// stationary where  u + eps sin u = M,  eps = rho r_c kappa^2,  M = u at the point's own z. Around every u = 2 pi k lies
+// at most one minimum; with v = u - 2 pi k, m = M - 2 pi k, Newton from v0 = m/(1 + eps) converges without ever passing
+// the root, because the left side is concave for v > 0 (and odd). A sphere smaller than r_c cannot touch the wire further
+// than `reach.x` from its own angle, where the slope is still positive: six steps are plenty, and a failure is reported.
+//
+// The distance is formed in the polar frame, g^2 + 4 rho r_c sin^2(v/2) + dz^2, so that no large angle and no device
+// sine (2^-11 is all Vulkan promises) ever meets the overlap.
+#ifndef VKDOSE_LAW_COIL_GLSL
+#define VKDOSE_LAW_COIL_GLSL
+
+#include "law/surface.glsl"
+
+const float kTwoPi = 6.28318530717958648;
+
+struct CoilTouch {
+    float depth;      // overlap [m]; <= 0: not touching
+    vec3 normal;      // unit, from the wire to the sphere's centre
+    float wireAngle;  // hand 2 pi s / pitch: identifies the turn [rad]
+    bool failed;      // Newton did not converge
+};
+
+/// sin and cos of half an angle |v| <= pi, by their series (errors below 1e-9).
+vec2 halfSinCos(float v) {
+    float h = 0.5 * v, q = h * h;
+    float s = h * (1.0 + q * (-1.0 / 6.0 + q * (1.0 / 120.0 + q * (-1.0 / 5040.0 + q * (1.0 / 362880.0
+              + q * (-1.0 / 39916800.0 + q / 6227020800.0))))));
+    float c = 1.0 + q * (-1.0 / 2.0 + q * (1.0 / 24.0 + q * (-1.0 / 720.0 + q * (1.0 / 40320.0
+              + q * (-1.0 / 3628800.0 + q * (1.0 / 479001600.0 - q / 87178291200.0))))));
+    return vec2(s, c);
+}
+
+/// Polar angle of (x, y) in (-pi, pi], to a few units in the last place of pi on every device.
+float polarAngle(float x, float y) {
+    float ax = abs(x), ay = abs(y);
+    float t = min(ax, ay) / max(max(ax, ay), 1e-30);
+    bool wide = t > 0.41421356;
+    float r = wide ? (t - 1.0) / (t + 1.0) : t;
+    float q = r * r;
+    float a = r * (1.0 + q * (-1.0 / 3.0 + q * (1.0 / 5.0 + q * (-1.0 / 7.0 + q * (1.0 / 9.0 + q * (-1.0 / 11.0
+              + q * (1.0 / 13.0 + q * (-1.0 / 15.0 + q / 17.0))))))));
+    if (wide) a += 0.785398163397448310;
+    if (ay > ax) a = 1.57079632679489662 - a;
+    if (x < 0.0) a = 3.14159265358979324 - a;
+    return y < 0.0 ? -a : a;
+}
+
+float fold(float angle) { return angle - kTwoPi * floor(angle / kTwoPi + 0.5); }
+
+/// What the candidates of one sphere have in common.
+struct CoilView {
+    float rho;       // distance from the axis [m]
+    float off;       // rho - r_c, accurate [m]
+    vec2 outward;    // unit
+    float z;         // from the wire's start, along the axis [m]
+    float start;     // u at the wire's start, folded [rad]
+    float phase;     // M folded into (-pi, pi] [rad]
+    float wirePhase; // kappa z [rad]
+    float reach;     // sphere + wire radius [m]
+    bool near;       // close enough to touch at all
+    bool nearEnd;
+};
+
+/// `turn`: the coil's rotation about +z, in turns, [-0.5, 0.5).
+CoilView coilView(CoilParams c, float turn, Sphere a) {
+    CoilView w;
+    Two3 d = Two3(vec3(a.high.xy, 0.0), vec3(a.low.xy, 0.0));
+    w.rho = length(a.high.xy);
+    w.off = -differenceOfSquares(c.radius.xy, d) / (c.radius.x + w.rho);
+    w.outward = w.rho > 0.0 ? a.high.xy / w.rho : vec2(1.0, 0.0);
+    precise float z = (a.high.z - c.reach.z) + (a.low.z - c.reach.w);
+    w.z = z;
+    w.reach = a.radius + c.radius.z;
+    w.near = abs(w.off) < w.reach && z > -w.reach && z < c.radius.w + w.reach;
+    w.nearEnd = w.near && (z < w.reach || z > c.radius.w - w.reach);
+
+    float hand = c.pitch.w > 0.0 ? 1.0 : -1.0;
+    float turns = floor(z / c.pitch.x + 0.5);
+    precise float rest = (z - turns * c.pitch.y) - turns * c.pitch.z;  // exact products: 16 bits x a small integer
+    float theta = polarAngle(a.high.x, a.high.y);
+    w.start = fold(kTwoPi * turn - theta);
+    w.phase = fold(kTwoPi * (turn + hand * rest / c.pitch.x) - theta);
+    w.wirePhase = c.pitch.w * z;
+    return w;
+}
+
+uint coilCandidates(CoilParams c, CoilView w) {
+    uint windows = 2u * uint(c.reach.y) + 1u;
+    return w.near ? (w.nearEnd ? windows + 2u : windows) : 0u;
+}
+
+/// Candidate 0 ... 2K: the minimum in window k = candidate - K; then the two ends of the wire.
+CoilTouch coilCandidate(CoilParams c, CoilView w, uint candidate) {
+    float kappa = c.pitch.w, rc = c.radius.x;
+    float eps = w.rho * rc * kappa * kappa;
+    int turnsEachSide = int(c.reach.y);
+    bool end = int(candidate) > 2 * turnsEachSide;
+    bool last = int(candidate) == 2 * turnsEachSide + 2;
+
+    float v, dz, wireAngle;
+    bool valid, failed = false;
+    if (end) {
+        float s = last ? c.radius.w : 0.0;
+        v = fold(w.phase + kappa * (s - w.z));
+        if (!last) v = w.start;
+        vec2 h = halfSinCos(v);
+        float slope = w.rho * rc * kappa * (2.0 * h.x * h.y) + (s - w.z);  // d(distance^2/2)/ds
+        dz = w.z - s;
+        wireAngle = kappa * s;
+        valid = last ? slope < 0.0 : slope > 0.0;
+    } else {
+        float m = w.phase - kTwoPi * float(int(candidate) - turnsEachSide);
+        float limit = c.reach.x;
+        v = m / (1.0 + eps);
+        float residual = 0.0, step = 0.0;
+        for (int i = 0; i < 6; ++i) {
+            v = clamp(v, -limit, limit);
+            vec2 h = halfSinCos(v);
+            residual = v + eps * (2.0 * h.x * h.y) - m;
+            step = residual / (1.0 + eps * (1.0 - 2.0 * h.x * h.x));
+            v -= step;
+        }
+        valid = abs(v) < limit;
+        failed = valid && abs(step) > 1e-5;
+        dz = (m - v) / kappa;
+        float s = w.z - dz;
+        wireAngle = w.wirePhase + (v - m);
+        valid = valid && s >= 0.0 && s <= c.radius.w;
+    }
+    vec2 h = halfSinCos(v);
+    float distance = sqrt(w.off * w.off + 4.0 * w.rho * rc * h.x * h.x + dz * dz);
+    // Components in the point's polar frame: the wire point sits at angle v from it.
+    float radial = w.off + 2.0 * rc * h.x * h.x;
+    float tangential = -rc * (2.0 * h.x * h.y);
+    vec3 normal = vec3(w.outward * radial + vec2(-w.outward.y, w.outward.x) * tangential, dz) / distance;
+    return CoilTouch(valid ? w.reach - distance : -1.0, normal, wireAngle, failed);
+}
+
+#endif

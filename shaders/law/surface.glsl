@@ -1,0 +1,96 @@
+// Closest points on the fixed surfaces (geometry/surface.h), as overlap and normal for a sphere. Distances come from
+// differences of squares in two-float arithmetic where a plain subtraction would cost the overlap its digits.
+#ifndef VKDOSE_LAW_SURFACE_GLSL
+#define VKDOSE_LAW_SURFACE_GLSL
+
+#include "law/twofloat.glsl"
+#include "shared/layout.h"
+
+struct Sphere {
+    vec3 high; // centre, high and low part [m]
+    vec3 low;
+    float radius;
+};
+
+struct Overlap {
+    float depth;  // overlap [m]; <= 0: not touching
+    vec3 normal;  // unit, from the surface to the sphere's centre
+};
+
+Overlap sphereOverlap(Sphere a, Sphere b) {
+    Two3 d = twoDifference(a.high, a.low, b.high, b.low);
+    vec2 s = twoSum(a.radius, b.radius);
+    float distance = length(d.high);
+    return Overlap(differenceOfSquares(s, d) / (s.x + distance), d.high / distance);
+}
+
+Overlap planeOverlap(SurfaceParams p, Sphere a) {
+    Two3 d = twoDifference(a.high, a.low, p.pointHigh.xyz, p.pointLow.xyz);
+    precise float depth = (a.radius - dot(p.axis.xyz, d.high)) - dot(p.axis.xyz, d.low);
+    return Overlap(depth, p.axis.xyz);
+}
+
+/// Cylinder of radius `r` (high, low): `d` is the offset from its axis, perpendicular to it.
+/// `side` = 1: touched from inside; -1: from outside.
+Overlap cylinderOverlap(vec2 r, Two3 d, float side, float radius) {
+    float rho = length(d.high);
+    vec2 contact = twoSum(r.x, -side * radius);  // distance from the axis at which the sphere just touches
+    contact.y += r.y;
+    float depth = -side * differenceOfSquares(contact, d) / (contact.x + rho);
+    vec3 outward = rho > 0.0 ? d.high / rho : vec3(1.0, 0.0, 0.0);
+    return Overlap(depth, -side * outward);
+}
+
+/// Circular edge of radius r: `d` perpendicular offset from the axis, `along` the offset from the edge's plane.
+Overlap edgeOverlap(vec2 r, Two3 d, vec3 axis, float along, float radius) {
+    float rho = length(d.high);
+    float off = -differenceOfSquares(r, d) / (r.x + rho);  // rho - r
+    vec3 outward = rho > 0.0 ? d.high / rho : vec3(1.0, 0.0, 0.0);
+    vec3 e = outward * off + axis * along;
+    float distance = length(e);
+    return Overlap(radius - distance, distance > 0.0 ? e / distance : axis);
+}
+
+Overlap troughOverlap(SurfaceParams p, Sphere a) {
+    if (a.high.y >= 0.0) {
+        float side = a.high.x >= 0.0 ? 1.0 : -1.0;
+        precise float depth = a.radius - ((p.radius.x - side * a.high.x) + (p.radius.y - side * a.low.x));
+        return Overlap(depth, vec3(-side, 0.0, 0.0));
+    }
+    return cylinderOverlap(p.radius.xy, Two3(vec3(a.high.xy, 0.0), vec3(a.low.xy, 0.0)), 1.0, a.radius);
+}
+
+Overlap tubeOverlap(SurfaceParams p, Sphere a) {
+    vec3 axis = p.axis.xyz;
+    Two3 d = twoDifference(a.high, a.low, p.pointHigh.xyz, p.pointLow.xyz);
+    float along = dot(axis, d.high) + dot(axis, d.low);
+    d.low -= axis * dot(axis, d.low);
+    d.high -= axis * dot(axis, d.high);
+    float beyond = along < 0.0 ? along : max(along - p.axis.w, 0.0);
+    if (beyond != 0.0) return edgeOverlap(p.radius.xy, d, axis, beyond, a.radius);
+    return cylinderOverlap(p.radius.xy, d, p.pointLow.w, a.radius);
+}
+
+Overlap frontOverlap(SurfaceParams p, Sphere a) {
+    Two3 d = Two3(vec3(a.high.xy, 0.0), vec3(a.low.xy, 0.0));
+    precise float before = (p.pointHigh.z - a.high.z) + (p.pointLow.z - a.low.z);  // > 0: inside the canister
+    vec3 z = vec3(0.0, 0.0, 1.0);
+    float rho = length(a.high.xy);
+    if (before > 0.0) {
+        if (rho >= p.radius.x) return Overlap(a.radius - before, -z);
+        return edgeOverlap(p.radius.xy, d, z, -before, a.radius);
+    }
+    float beyond = -before - p.axis.w;
+    if (beyond > 0.0) return edgeOverlap(p.radius.xy, d, z, beyond, a.radius);
+    return cylinderOverlap(p.radius.xy, d, 1.0, a.radius);
+}
+
+Overlap surfaceOverlap(SurfaceParams p, Sphere a) {
+    uint kind = uint(p.pointHigh.w);
+    if (kind == kPlane) return planeOverlap(p, a);
+    if (kind == kTrough) return troughOverlap(p, a);
+    if (kind == kTube) return tubeOverlap(p, a);
+    return frontOverlap(p, a);
+}
+
+#endif

@@ -1,0 +1,15 @@
+#version 450
+// bin: chains every moving particle into its cell. Reads the state; writes heads and links. The order within a chain
+// depends on timing; `neighbours` sorts its rows, so that nothing after it does.
+#extension GL_GOOGLE_include_directive : require
+#include "shared/buffers.glsl"
+#include "shared/cells.glsl"
+
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    uint member = memberOfGroup();
+    vec4 p = state[stateIndex(push.source, kPosition, i)];
+    if (p.w <= 0.0) return;
+    uint slot = cellSlot(cellOf(p.xyz, members[member].numerics.z), member);
+    cells[push.cellMask + 1u + i] = atomicExchange(cells[slot], i);
+}

@@ -1,0 +1,51 @@
+#version 450
+// sense: one record per workgroup of what the host wants to know (shared/layout.h, SensorRecord); the host adds the
+// records up in double precision. Reads the source half of the state; resets the accumulators in it. The order of every
+// sum is fixed by the tree.
+#extension GL_GOOGLE_include_directive : require
+#include "shared/buffers.glsl"
+
+shared uvec4 count[gl_WorkGroupSize.x];
+shared vec4 mass[gl_WorkGroupSize.x];
+shared vec4 motion[gl_WorkGroupSize.x];
+shared float overlap[gl_WorkGroupSize.x];
+
+void main() {
+    uint i = gl_GlobalInvocationID.x, lane = gl_LocalInvocationID.x;
+    uint member = memberOfGroup();
+    vec4 position = state[stateIndex(push.source, kPosition, i)];
+    vec4 residue = state[stateIndex(push.source, kResidue, i)];
+    vec4 velocity = state[stateIndex(push.source, kVelocity, i)];
+    vec4 spin = state[stateIndex(push.source, kSpin, i)];
+    uint status = uint(spin.w);
+    float r = abs(position.w);
+    float m = members[member].gravity.w * (4.0 / 3.0 * 3.14159265358979) * r * r * r;
+
+    uint region = kEmpty;
+    if (status == kActive) region = position.z > members[member].domainLow.w ? 1u : 0u;
+    if (status == kDosed) region = 2u;
+    if (status == kLost) region = 3u;
+    uvec4 here = uvec4(equal(uvec4(region), uvec4(0u, 1u, 2u, 3u)));
+    count[lane] = here;
+    mass[lane] = m * vec4(here);
+    float active_ = status == kActive ? 1.0 : 0.0;
+    motion[lane] = vec4(active_ * 0.5 * m * dot(velocity.xyz, velocity.xyz),
+                        active_ * 0.2 * m * r * r * dot(spin.xyz, spin.xyz), float(here.y) * m * velocity.z, residue.w);
+    overlap[lane] = velocity.w;
+    if (status != kPadding) {
+        state[stateIndex(push.source, kResidue, i)] = vec4(residue.xyz, 0.0);
+        state[stateIndex(push.source, kVelocity, i)] = vec4(velocity.xyz, 0.0);
+    }
+
+    for (uint width = gl_WorkGroupSize.x / 2u; width > 0u; width /= 2u) {
+        barrier();
+        if (lane < width) {
+            count[lane] += count[lane + width];
+            mass[lane] += mass[lane + width];
+            motion[lane] += motion[lane + width];
+            overlap[lane] = max(overlap[lane], overlap[lane + width]);
+        }
+    }
+    if (lane == 0u)
+        sensors[gl_WorkGroupID.x] = SensorRecord(count[0], mass[0], motion[0], vec4(overlap[0], 0.0, 0.0, 0.0));
+}
