@@ -5,9 +5,13 @@
 namespace vkdose {
 
 std::string Diagnostic::text() const {
-    std::string place = line > 0 ? fmt::format("{}:{}: ", file, line) : fmt::format("{}: ", file);
+    // A fault of the command line has no line; it reads as it was typed: "--set contact.friction = -1: ...".
+    std::string place = file.empty() ? "" : file + ": ";
+    if (file == kCommandLine) place = file + " ";
+    if (line > 0) place = fmt::format("{}:{}: ", file, line);
     std::string what = value.empty() ? key : fmt::format("{} = {}", key, value);
-    return fmt::format("{}{}: {}; {}", place, what, problem, remedy);
+    if (!what.empty()) what += ": ";
+    return remedy.empty() ? place + what + problem : fmt::format("{}{}{}; {}", place, what, problem, remedy);
 }
 
 namespace {

@@ -7,6 +7,9 @@
 
 namespace vkdose {
 
+/// `Diagnostic::file` of a fault in an override given on the command line.
+inline constexpr const char* kCommandLine = "--set";
+
 /// One fault in an input file: where it stands, what it says and what would be right.
 struct Diagnostic {
     std::string file;
@@ -16,7 +19,7 @@ struct Diagnostic {
     std::string problem;
     std::string remedy;
 
-    /// "file:line: key = value: problem; remedy"
+    /// "file:line: key = value: problem; remedy", or "--set key = value: problem; remedy"
     std::string text() const;
 };
 

@@ -17,12 +17,12 @@ namespace vkdose {
 struct SizeDistribution {
     enum class Kind { Uniform, Fixed, Normal, Lognormal, Quantiles };
     Kind kind = Kind::Fixed;
-    double radius = 0;            ///< Fixed: the radius; Normal: the mean; Lognormal: the median
-    double deviation = 0;         ///< Normal: standard deviation [m]; Lognormal: of ln(radius) [-]
-    double radiusMin = 0;         ///< Uniform: bounds; the others: truncation (draws outside are drawn again)
+    double radius = 0;     ///< Fixed: the radius; Normal: the mean; Lognormal: the median
+    double deviation = 0;  ///< Normal: standard deviation [m]; Lognormal: of ln(radius) [-]
+    double radiusMin = 0;  ///< Uniform: bounds; the others: truncation (draws outside are drawn again)
     double radiusMax = 0;
     double r10 = 0, r50 = 0, r90 = 0;  ///< Quantiles (by volume) after scaling: radii of the meso-particles
-    double scaleUp = 1;           ///< Quantiles: factor from the powder's sizes to the meso-particles'
+    double scaleUp = 1;                ///< Quantiles: factor from the powder's sizes to the meso-particles'
 };
 
 /// How the particles come into being: drawn and put on a grid, or listed in a CSV.
@@ -30,6 +30,7 @@ struct Filling {
     double mass = 0;  ///< target [kg]; 0 with an explicit list
     SizeDistribution size;
     std::optional<Particles> list;
+    Box region;  ///< of the grid, open upwards in a canister (high.y infinite); unused with a list
 };
 
 /// When a run is over. Any of them ends it.
@@ -45,18 +46,18 @@ struct StopRule {
 };
 
 struct Schedule {
-    double settleTime = 0;   ///< [s]
-    double rotateTime = 0;   ///< t_d [s]; 0: no doses, the run is the settling
-    double restTime = 0;     ///< [s]
-    double coilSpeed = 0;    ///< conveying speed >= 0 [rad/s]
+    double settleTime = 0;  ///< [s]
+    double rotateTime = 0;  ///< t_d [s]; 0: no doses, the run is the settling
+    double restTime = 0;    ///< [s]
+    double coilSpeed = 0;   ///< conveying speed >= 0 [rad/s]
     StopRule stop;
 };
 
 /// Dimensions of the canister, kept beside the surfaces made from them for predictions and messages [m].
 struct Canister {
-    double length = 0;   ///< L, along z
-    double width = 0;    ///< W, along x; also the trough's diameter
-    double height = 0;   ///< H, from the lowest point of the floor
+    double length = 0;  ///< L, along z
+    double width = 0;   ///< W, along x; also the trough's diameter
+    double height = 0;  ///< H, from the lowest point of the floor
     double outletDiameter = 0;
     double throatLength = 0;
     bool flatFloor = false;
@@ -66,8 +67,8 @@ struct Case {
     std::string name;
     std::string reason;
     std::uint64_t seed = 1;
-    World world;               ///< with the law of the doses
-    ContactLaw settlingLaw;    ///< with the settling k_c
+    World world;                       ///< with the law of the doses
+    ContactLaw settlingLaw;            ///< with the settling k_c
     std::optional<Canister> canister;  ///< absent for free boundaries
     Filling filling;
     Schedule schedule;
@@ -85,7 +86,9 @@ struct Insertion {
     Particles particles;
     double mass = 0;            ///< of all particles [kg]
     double targetMass = 0;      ///< [kg]
-    std::uint64_t redrawn = 0;  ///< draws outside the truncation bounds
+    std::uint64_t redrawn = 0;  ///< draws outside the truncation bounds (Normal, Lognormal)
+    double cutBelow = 0;        ///< Quantiles: mass fraction of the powder finer than the lower bound [-]
+    double cutAbove = 0;        ///< Quantiles: mass fraction coarser than the upper bound [-]
     double fillHeight = 0;      ///< top of the grid [m, y]
 };
 Insertion insertParticles(const Case& c);
@@ -96,20 +99,20 @@ double contactDuration(const ContactParameters& p, double density, double a, dou
 /// Closed forms and stability figures of a case (paper, sections on the coil and on parameters).
 struct Derived {
     struct PairDuration {
-        std::string name;   ///< "particle-particle", "particle-wall", "particle-coil"
-        double mean;        ///< two mean particles (or one and the wall) on k1 [s]
-        double stiffest;    ///< the smallest on k2Max [s]
+        std::string name;  ///< "particle-particle", "particle-wall", "particle-coil"
+        double mean;       ///< two mean particles (or one and the wall) on k1 [s]
+        double stiffest;   ///< the smallest on k2Max, undamped (the shorter, so the safe figure) [s]
     };
     std::vector<PairDuration> durations;
-    double stiffest = 0;       ///< smallest of all [s]
-    double timeStep = 0;       ///< [s]
+    double stiffest = 0;  ///< smallest of all [s]
+    double timeStep = 0;  ///< [s]
     std::size_t particles = 0;
-    double fillMass = 0;       ///< inserted [kg]
-    double pushVelocity = 0;   ///< V_z = p Omega / 2 pi [m/s]
-    double tipVelocity = 0;    ///< V_t = Omega r_c [m/s]
-    double massPerDose = 0;    ///< rho_b p pi r_c^2 n_t [kg]
-    double doses = 0;          ///< m_tot / m_dose
-    double steps = 0;          ///< until the predicted last dose plus the stop rule's
+    double fillMass = 0;      ///< inserted [kg]
+    double pushVelocity = 0;  ///< V_z = p Omega / 2 pi [m/s]
+    double tipVelocity = 0;   ///< V_t = Omega r_c [m/s]
+    double massPerDose = 0;   ///< rho_b p pi r_c^2 n_t [kg]
+    double doses = 0;         ///< m_tot / m_dose
+    double steps = 0;         ///< until the predicted last dose plus the stop rule's
 };
 Derived derive(const Case& c, const Insertion& filled);
 

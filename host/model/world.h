@@ -37,4 +37,7 @@ struct World {
 /// Overlap above this fraction of the smaller radius stops the run: no contact law here covers it.
 inline constexpr double kMaxOverlapRatio = 0.2;
 
+/// Turns of the coil one sphere may touch at once: the slots a backend keeps contact history for.
+inline constexpr int kMaxCoilTouches = 4;
+
 }  // namespace vkdose

@@ -1,0 +1,125 @@
+#pragma once
+// Typed access to a case tree that collects every fault instead of stopping at the first, tells unknown keys by what
+// was never asked for, and writes down each value it gave out: that record is the resolved case.
+
+#include <cstdint>
+#include <list>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "host/core/vec.h"
+#include "host/model/case_tree.h"
+
+namespace vkdose {
+
+/// Unit of a key in the file: value in the file = value in SI * perSI.
+struct Unit {
+    double perSI;
+    const char* name;
+};
+inline constexpr Unit kPlain{1, ""};
+inline constexpr Unit kMetre{1, "m"};
+inline constexpr Unit kSecond{1, "s"};
+inline constexpr Unit kMillimetre{1e3, "mm"};
+inline constexpr Unit kMicrometre{1e6, "um"};
+inline constexpr Unit kGram{1e3, "g"};
+inline constexpr Unit kRpm{60 / (2 * kPi), "rpm"};
+inline constexpr Unit kDegree{180 / kPi, "degrees"};
+
+enum class Bound { Any, NonNegative, Positive };
+
+class CaseReader;
+
+/// One table of the case. Getters return SI; where the file is at fault they note it and return NaN (0, "") so that
+/// later comparisons, written to be false for NaN, stay quiet about the same key.
+class Section {
+  public:
+    Section(CaseReader& reader, const Node* node, std::string path, bool broken)
+        : reader_(reader), node_(node), path_(std::move(path)), broken_(broken) {}
+
+    bool has(std::string_view key) const { return node_ != nullptr && node_->child(key) != nullptr; }
+    bool isString(std::string_view key) const;
+    std::string path(std::string_view key) const;
+
+    /// `fallback` is in the unit of the file (NaN: what it follows from is at fault); without it the key must be there.
+    double number(std::string_view key, Bound bound, Unit unit, std::optional<double> fallback = std::nullopt);
+    std::int64_t integer(std::string_view key, std::int64_t low, std::optional<std::int64_t> fallback = std::nullopt);
+    bool boolean(std::string_view key, bool fallback);
+    std::string string(std::string_view key, std::optional<std::string> fallback = std::nullopt);
+    /// Index of the chosen word.
+    std::size_t choice(std::string_view key, const std::vector<std::string>& words,
+                       std::optional<std::size_t> fallback = std::nullopt);
+    Vec3 vector(std::string_view key, std::optional<Vec3> fallback = std::nullopt);
+
+    /// A table inside this one, the same object at every call; when it is not there, all its keys take their defaults
+    /// or are missing.
+    Section& table(std::string_view key);
+    /// The same, but a missing table is one fault instead of one for each of its keys.
+    Section& requiredTable(std::string_view key);
+    /// The tables of [[key]]; none when the key is absent.
+    std::vector<Section*> tables(std::string_view key);
+
+    /// Notes a value worked out elsewhere (in the unit of the file) for the resolved case.
+    void record(std::string_view key, double value);
+    void record(std::string_view key, const Vec3& value);
+    void record(std::string_view key, const std::string& value);
+    /// Marks a key as known without reading it.
+    void know(std::string_view key) { known_.emplace_back(key); }
+
+  private:
+    friend class CaseReader;
+    const Node* take(std::string_view key, bool required, const std::string& remedy);
+    void fault(const Node& node, std::string_view key, std::string problem, std::string remedy);
+    double checked(const Node& node, std::string_view key, Bound bound, const std::string& remedy);
+    void write(std::string_view key, const std::string& value);
+    void finish();
+
+    CaseReader& reader_;
+    const Node* node_;
+    std::string path_;
+    bool broken_;  ///< already reported; stay silent
+    bool isItem_ = false;
+    std::vector<std::string> known_;
+    std::vector<std::pair<std::string, std::string>> used_;  ///< key and value for the resolved case
+};
+
+class CaseReader {
+  public:
+    CaseReader(std::string file, Node tree);
+
+    Section& root() { return sections_.front(); }
+
+    /// Reports a fault of the key at `path` ("coil.radius_mm"), at its line, or at its table's when it is a default.
+    void fault(const std::string& path, std::string problem, std::string remedy);
+    void add(Diagnostic fault) { faults_.push_back(std::move(fault)); }
+
+    bool faulty() const { return !faults_.empty(); }
+    /// Reports the keys nobody asked for. Call once, after reading.
+    void finish();
+    /// Throws CaseError when there are faults.
+    void throwIfFaulty() const;
+
+    /// The case as TOML, every key as it was used.
+    std::string resolved() const;
+
+    /// Folder against which the paths in the value at `path` are meant.
+    std::filesystem::path folderOf(const std::string& path) const;
+
+  private:
+    friend class Section;
+    const Node* find(const std::string& path, const Node** nearest) const;
+    Section* opened(const std::string& path);
+    Section& open(const Node* node, std::string path, bool broken);
+
+    std::string file_;
+    Node tree_;
+    std::list<Section> sections_;  ///< a list: references stay valid
+    std::vector<Diagnostic> faults_;
+};
+
+/// The word of `known` that `word` was probably meant to be; empty when none is close.
+std::string closestWord(std::string_view word, const std::vector<std::string>& known);
+
+}  // namespace vkdose

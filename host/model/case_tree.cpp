@@ -1,0 +1,276 @@
+#include "host/model/case_tree.h"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <fstream>
+#include <sstream>
+
+namespace vkdose {
+namespace {
+
+/// TOML text being converted: its name for messages and its lines, to show a value as it was written.
+struct Source {
+    std::string name;
+    std::vector<std::string> lines;
+};
+
+Source makeSource(std::string name, const std::string& text) {
+    Source source{std::move(name), {}};
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line);) source.lines.push_back(line);
+    return source;
+}
+
+/// The value's own characters where they stand on one line; "..." otherwise.
+std::string written(const toml::source_region& region, const Source& source) {
+    const std::size_t line = region.begin.line;
+    if (line == 0 || line > source.lines.size() || region.end.line != region.begin.line) return "...";
+    const std::string& text = source.lines[line - 1];
+    const std::size_t first = std::min<std::size_t>(region.begin.column - 1, text.size());
+    const std::size_t last = std::min<std::size_t>(region.end.column - 1, text.size());
+    std::string value = text.substr(first, last - first);
+    while (!value.empty() && std::isspace(static_cast<unsigned char>(value.back())) != 0) value.pop_back();
+    return value;
+}
+
+void setScalar(Node& node, const toml::node& from) {
+    if (const auto* value = from.as_boolean()) {
+        node.kind = Node::Kind::Boolean;
+        node.boolean = value->get();
+    } else if (const auto* whole = from.as_integer()) {
+        node.kind = Node::Kind::Integer;
+        node.integer = whole->get();
+        node.number = static_cast<double>(whole->get());
+    } else if (const auto* real = from.as_floating_point()) {
+        node.kind = Node::Kind::Float;
+        node.number = real->get();
+    } else if (const auto* string = from.as_string()) {
+        node.kind = Node::Kind::String;
+        node.string = string->get();
+        node.text = fmt::format("\"{}\"", node.string);
+    } else {
+        node.kind = Node::Kind::Other;
+    }
+}
+
+Node convert(const toml::node& from, const Source& source, std::string key) {
+    Node node;
+    node.key = std::move(key);
+    node.file = source.name;
+    node.line = static_cast<int>(from.source().begin.line);
+    if (const toml::table* table = from.as_table()) {
+        node.kind = Node::Kind::Table;
+        for (const auto& [name, value] : *table)
+            node.children.push_back(convert(value, source, std::string(name.str())));
+        // Keep the order of the file, not of the alphabet: faults are then told from top to bottom.
+        std::stable_sort(node.children.begin(), node.children.end(),
+                         [](const Node& a, const Node& b) { return a.line < b.line; });
+    } else if (const toml::array* array = from.as_array()) {
+        node.kind = Node::Kind::Array;
+        node.text = written(from.source(), source);
+        for (const toml::node& value : *array) node.children.push_back(convert(value, source, ""));
+    } else {
+        node.text = written(from.source(), source);
+        setScalar(node, from);
+    }
+    return node;
+}
+
+std::string readText(const std::filesystem::path& file, const Diagnostic& whoAsks) {
+    std::error_code code;
+    std::ifstream stream(file, std::ios::binary);
+    Diagnostic fault = whoAsks;
+    if (!std::filesystem::exists(file, code)) {
+        fault.problem = fmt::format("there is no file {}", file.string());
+        throw CaseError({fault});
+    }
+    if (!std::filesystem::is_regular_file(file, code) || !stream) {
+        fault.problem = fmt::format("{} cannot be read", file.string());
+        throw CaseError({fault});
+    }
+    std::ostringstream text;
+    text << stream.rdbuf();
+    return text.str();
+}
+
+Node parseText(const std::string& text, const std::string& name) {
+    try {
+        const toml::table table = toml::parse(text, name);
+        Node node = convert(table, makeSource(name, text), "");
+        node.line = 0;
+        return node;
+    } catch (const toml::parse_error& error) {
+        throw CaseError({{name, static_cast<int>(error.source().begin.line), "", "",
+                          fmt::format("not TOML: {}", error.description()), "see https://toml.io for the syntax"}});
+    }
+}
+
+Node readWithBase(const std::filesystem::path& file, const Diagnostic& whoAsks,
+                  std::vector<std::filesystem::path>& above) {
+    std::error_code code;
+    const std::filesystem::path canonical = std::filesystem::weakly_canonical(file, code);
+    if (std::find(above.begin(), above.end(), canonical) != above.end()) {
+        Diagnostic fault = whoAsks;
+        fault.problem = "this base leads back to the file itself";
+        fault.remedy = "name a base that does not build on this case";
+        throw CaseError({fault});
+    }
+    above.push_back(canonical);
+    Node tree = parseText(readText(file, whoAsks), file.string());
+    const Node* base = tree.child("base");
+    if (base == nullptr) return tree;
+    const Diagnostic place{base->file, base->line, "base",
+                           base->text, "",         "give the path of a case file, relative to this one"};
+    if (base->kind != Node::Kind::String) {
+        Diagnostic fault = place;
+        fault.problem = "must be a string";
+        throw CaseError({fault});
+    }
+    Node lower = readWithBase(file.parent_path() / base->string, place, above);
+    tree.drop("base");
+    merge(lower, std::move(tree));
+    return lower;
+}
+
+/// Keys that exclude one another, so that the upper of two layers wins. "*": every other key of the table.
+struct Rival {
+    std::string_view table;
+    std::string_view key;
+    std::string_view loser;
+    bool onlyIfDifferent;  ///< the key chooses a variant; the losers belong to the old one
+};
+constexpr std::array<Rival, 14> kRivals{{
+    {"coil", "turns", "pitch_mm", false},
+    {"coil", "pitch_mm", "turns", false},
+    {"coil", "radius_mm", "clearance_mm", false},
+    {"coil", "clearance_mm", "radius_mm", false},
+    {"particles", "mass_g", "list", false},
+    {"particles", "list", "mass_g", false},
+    {"particles", "list", "size", false},
+    {"particles", "list", "region", false},
+    {"particles.size", "distribution", "*", true},
+    {"stop", "rule", "threshold_g", true},
+    {"stop", "rule", "doses", true},
+    {"", "boundaries", "canister", true},
+    {"", "boundaries", "plane", true},
+    {"", "boundaries", "cylinder", true},
+}};
+
+void dropRivals(Node& lower, const Node& upper, std::string_view path) {
+    for (const Rival& rival : kRivals) {
+        const Node* winner = upper.child(rival.key);
+        if (rival.table != path || winner == nullptr) continue;
+        const Node* before = lower.child(rival.key);
+        if (rival.onlyIfDifferent && (before == nullptr || before->string == winner->string)) continue;
+        if (rival.loser == "*")
+            lower.children.clear();
+        else
+            lower.drop(rival.loser);
+    }
+}
+
+void mergeAt(Node& lower, Node upper, const std::string& path) {
+    dropRivals(lower, upper, path);
+    for (Node& value : upper.children) {
+        Node* below = lower.child(value.key);
+        if (below == nullptr)
+            lower.children.push_back(std::move(value));
+        else if (below->kind == Node::Kind::Table && value.kind == Node::Kind::Table)
+            mergeAt(*below, std::move(value), path.empty() ? below->key : path + "." + below->key);
+        else
+            *below = std::move(value);
+    }
+}
+
+bool isBareWord(const std::string& value) {
+    const auto first = static_cast<unsigned char>(value.empty() ? '-' : value.front());
+    if (std::isalpha(first) == 0 && first != '/' && first != '.' && first != '_') return false;
+    return std::none_of(value.begin(), value.end(), [](char c) { return c == '"' || c == '\'' || c == '\n'; });
+}
+
+Node overrideNode(const std::string& path, const std::string& value) {
+    const Diagnostic fault{kCommandLine, 0, path, value, "", "write key.path=value with a TOML value or a bare word"};
+    if (path.empty() || path.front() == '.' || path.back() == '.' || path.find("..") != std::string::npos ||
+        path.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.") !=
+            std::string::npos) {
+        Diagnostic bad = fault;
+        bad.problem = "is not the path of a key";
+        throw CaseError({bad});
+    }
+    Node tree;
+    try {
+        const std::string text = fmt::format("{} = {}", path, value);
+        tree = convert(toml::parse(text), makeSource(kCommandLine, text), "");
+    } catch (const toml::parse_error&) {
+        if (!isBareWord(value)) {
+            Diagnostic bad = fault;
+            bad.problem = "is not a value";
+            throw CaseError({bad});
+        }
+        const std::string text = fmt::format("{} = '{}'", path, value);
+        tree = convert(toml::parse(text), makeSource(kCommandLine, text), "");
+    }
+    return tree;
+}
+
+void clearLines(Node& node) {
+    node.line = 0;
+    for (Node& child : node.children) clearLines(child);
+}
+
+}  // namespace
+
+const Node* Node::child(std::string_view name) const {
+    if (kind != Kind::Table) return nullptr;
+    const auto found = std::find_if(children.begin(), children.end(), [&](const Node& n) { return n.key == name; });
+    return found == children.end() ? nullptr : &*found;
+}
+
+Node* Node::child(std::string_view name) {
+    return const_cast<Node*>(static_cast<const Node*>(this)->child(name));
+}
+
+void Node::drop(std::string_view name) {
+    children.erase(std::remove_if(children.begin(), children.end(), [&](const Node& n) { return n.key == name; }),
+                   children.end());
+}
+
+Node readTree(const std::filesystem::path& file) {
+    std::vector<std::filesystem::path> above;
+    return readWithBase(file, {"", 0, "", "", "", "give the path of a case file"}, above);
+}
+
+Node overrideTree(const std::vector<std::string>& overrides) {
+    Node all;
+    all.file = kCommandLine;
+    std::vector<Diagnostic> faults;
+    for (const std::string& text : overrides) {
+        const std::size_t equals = text.find('=');
+        const auto trim = [](std::string s) {
+            s.erase(0, s.find_first_not_of(" \t"));
+            s.erase(s.find_last_not_of(" \t") + 1);
+            return s;
+        };
+        try {
+            if (equals == std::string::npos)
+                throw CaseError({{kCommandLine, 0, text, "", "has no value", "write key.path=value"}});
+            // A path no rival has: two overrides that exclude each other are a fault to report, not to settle.
+            mergeAt(all, overrideNode(trim(text.substr(0, equals)), trim(text.substr(equals + 1))), "\n");
+        } catch (const CaseError& error) {
+            faults.insert(faults.end(), error.faults().begin(), error.faults().end());
+        }
+    }
+    if (!faults.empty()) throw CaseError(faults);
+    clearLines(all);
+    return all;
+}
+
+void merge(Node& lower, Node upper) {
+    mergeAt(lower, std::move(upper), "");
+}
+
+}  // namespace vkdose

@@ -1,0 +1,47 @@
+#pragma once
+// A case file as a plain tree in which every value knows where it was written. TOML goes in; base files and
+// overrides are merged here, before anything is interpreted.
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "host/core/error.h"
+
+namespace vkdose {
+
+struct Node {
+    enum class Kind { Boolean, Integer, Float, String, Array, Table, Other };
+    Kind kind = Kind::Table;
+    bool boolean = false;
+    std::int64_t integer = 0;
+    double number = 0;  ///< of an Integer or a Float
+    std::string string;
+    std::vector<Node> children;  ///< of an Array or a Table
+
+    std::string key;  ///< in the parent table; empty inside an array
+    std::string file;
+    int line = 0;
+    std::string text;  ///< the value as written
+
+    bool isNumber() const { return kind == Kind::Integer || kind == Kind::Float; }
+    const Node* child(std::string_view name) const;
+    Node* child(std::string_view name);
+    void drop(std::string_view name);
+};
+
+/// Reads `file` and, below it, the file its key `base` names (relative to it). Throws CaseError when a file cannot be
+/// read or is not TOML, and when bases form a circle.
+Node readTree(const std::filesystem::path& file);
+
+/// The overrides "key.path=value" as one tree. A value that is not TOML but a bare word is a string.
+/// Throws CaseError naming every override that cannot be read.
+Node overrideTree(const std::vector<std::string>& overrides);
+
+/// Lays `upper` over `lower`, table by table. A key of `upper` also removes its rivals in `lower`: `pitch_mm` replaces
+/// `turns`, another `distribution` takes the old one's keys away.
+void merge(Node& lower, Node upper);
+
+}  // namespace vkdose

@@ -1,0 +1,316 @@
+#include "host/model/checks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "host/model/grid.h"
+#include "host/model/size_distribution.h"
+#include "host/model/stability.h"
+
+namespace vkdose {
+namespace {
+
+/// Volume fraction below which a settled cohesive bed does not stay (measured beds: about 0.46).
+constexpr double kLoosestBed = 0.35;
+/// More particles than this is a slip of a unit, not a case.
+constexpr double kMaxParticles = 5e7;
+
+double mm(double metres) {
+    return metres * 1e3;
+}
+
+void checkContact(CaseReader& reader, const Case& c) {
+    const std::array<const char*, kContactClasses> path{"contact", "contact.wall", "contact.coil"};
+    for (std::size_t i = 0; i < path.size(); ++i) {
+        const ContactParameters& p = c.world.law.classes[i];
+        // What a class inherits is reported once, where it is written.
+        const ContactParameters* parent = i == 0 ? nullptr : &c.world.law.classes[i - 1];
+        const bool sameK1 = parent != nullptr && p.k1 / p.k2Max == parent->k1 / parent->k2Max;
+        if (p.k1 > p.k2Max && !sameK1)
+            reader.fault(fmt::format("{}.k1_over_k", path[i]), "the plastic stiffness exceeds the elastic one",
+                         "give a ratio > 0 and <= 1 (the paper's table prints the inverse, 5 for 0.2)");
+        if (p.k1 < p.k2Max && p.plasticityDepth == 0 && !(sameK1 && parent->plasticityDepth == 0))
+            reader.fault(fmt::format("{}.plasticity_depth", path[i]), "is zero, which leaves k2 undefined while k1 < k",
+                         "give a fraction > 0 of the radius, e.g. 0.05, or k1_over_k = 1");
+    }
+}
+
+void checkSize(CaseReader& reader, const SizeDistribution& s) {
+    using Kind = SizeDistribution::Kind;
+    const bool bounded = s.kind != Kind::Fixed;
+    if (bounded && s.radiusMin > s.radiusMax)
+        reader.fault("particles.size.radius_min_mm", "exceeds radius_max_mm",
+                     fmt::format("give at most {:.6g} mm", mm(s.radiusMax)));
+    if (s.kind == Kind::Quantiles && (s.r10 >= s.r50 || s.r50 >= s.r90)) {
+        reader.fault("particles.size.d50_um", "the quantiles do not increase", "give d10_um < d50_um < d90_um");
+        return;
+    }
+    if (s.kind == Kind::Quantiles && s.radiusMin <= s.radiusMax &&
+        finerVolume(s, s.radiusMax) - finerVolume(s, s.radiusMin) <= 0)
+        reader.fault("particles.size.radius_min_mm", "the bounds leave nothing of the scaled powder",
+                     fmt::format("keep them between {:.4g} and {:.4g} mm", mm(finestRadius(s)), mm(coarsestRadius(s))));
+    const bool drawnAgain = s.kind == Kind::Normal || s.kind == Kind::Lognormal;
+    if (drawnAgain && s.radiusMin <= s.radiusMax && acceptance(s) < 0.01)
+        reader.fault("particles.size.radius_min_mm",
+                     fmt::format("the bounds keep only {:.2g} of the draws", acceptance(s)),
+                     "move them nearer to the middle of the distribution");
+}
+
+void checkCanister(CaseReader& reader, const Case& c) {
+    const Canister& can = *c.canister;
+    if (can.outletDiameter > can.width)
+        reader.fault("canister.outlet_diameter_mm", "the hole is wider than the canister",
+                     fmt::format("give at most width_mm = {:.6g}", mm(can.width)));
+    if (can.height <= can.width / 2)
+        reader.fault("canister.height_mm", "the canister ends below the coil's axis",
+                     fmt::format("give more than width_mm / 2 = {:.6g}", mm(can.width / 2)));
+}
+
+/// The key that sets the coil's radius in this case.
+const char* radiusKey(CaseReader& reader) {
+    return reader.root().table("coil").has("clearance_mm") ? "coil.clearance_mm" : "coil.radius_mm";
+}
+
+void checkCoil(CaseReader& reader, const Case& c) {
+    const geometry::Coil& coil = *c.world.coil;
+    const double outer = coil.radius + coil.wireRadius;
+    if (c.canister) {
+        const Canister& can = *c.canister;
+        // A coil that ends before the front wall need not pass the hole.
+        const bool inHole = coil.zStart + coil.length > can.length && can.outletDiameter < can.width;
+        const double room = (inHole ? can.outletDiameter : can.width) / 2;
+        if (outer > room)
+            reader.fault(radiusKey(reader),
+                         fmt::format("the coil reaches {:.6g} mm from its axis, the {} only {:.6g} mm", mm(outer),
+                                     inHole ? "outlet" : "trough", mm(room)),
+                         fmt::format("give a radius_mm of at most {:.6g}", mm(room - coil.wireRadius)));
+    }
+    if (coil.radius <= coil.wireRadius)
+        reader.fault(radiusKey(reader),
+                     fmt::format("the wire ({:.6g} mm thick) fills the coil", mm(2 * coil.wireRadius)),
+                     fmt::format("give a radius_mm above {:.6g}", mm(coil.wireRadius)));
+    if (coil.pitch <= 2 * coil.wireRadius)
+        reader.fault(
+            reader.root().table("coil").has("pitch_mm") ? "coil.pitch_mm" : "coil.turns",
+            fmt::format("the turns overlap: pitch {:.6g} mm, wire {:.6g} mm", mm(coil.pitch), mm(2 * coil.wireRadius)),
+            fmt::format("wind fewer than {:.4g} turns", coil.length / (2 * coil.wireRadius)));
+}
+
+void checkSchedule(CaseReader& reader, const Case& c) {
+    const Schedule& s = c.schedule;
+    if (s.rotateTime > 0 && !c.world.coil)
+        reader.fault("dose.rotate_s", "there is no coil to turn", "add [coil] or set rotate_s = 0");
+    if (s.rotateTime == 0 && s.restTime > 0)
+        reader.fault("dose.rest_s", "there is no dose to rest after", "give rotate_s > 0, or settle.time_s instead");
+    if (s.rotateTime == 0 && s.settleTime == 0)
+        reader.fault("settle.time_s", "there is nothing to run", "give settle.time_s or dose.rotate_s > 0");
+    if (s.rotateTime > 0 && s.stop.kind == StopRule::Kind::None && s.stop.maxDoses == std::numeric_limits<int>::max() &&
+        std::isinf(s.stop.endTime))
+        reader.fault("stop.rule", "the run would never end", "give max_doses or end_time_s, or another rule");
+    if (s.rotateTime == 0 && s.stop.kind != StopRule::Kind::None)
+        reader.fault("stop.rule", "there are no doses to judge", "give dose.rotate_s > 0, or rule = \"none\"");
+}
+
+void checkBox(CaseReader& reader, const char* path, const Box& box) {
+    if (box.low.x >= box.high.x || box.low.y >= box.high.y || box.low.z >= box.high.z)
+        reader.fault(path, "low is not below high in every coordinate",
+                     "give the lower corner as low, the upper as high");
+}
+
+/// What makes a mass fit: the bed's volume against the canister's, at the loosest packing a bed keeps.
+void checkBed(CaseReader& reader, const Case& c) {
+    const Canister& can = *c.canister;
+    const double half = can.width / 2;
+    const double below = can.flatFloor ? can.width * half : 0.5 * kPi * half * half;
+    const double volume = can.length * (below + can.width * (can.height - half));
+    const double bed = c.filling.mass / c.world.density / kLoosestBed;
+    if (bed > volume)
+        reader.fault(
+            "particles.mass_g",
+            fmt::format("the fill does not fit: a loose bed of it (volume fraction {}) takes {:.4g} cm3, the "
+                        "canister holds {:.4g} cm3",
+                        kLoosestBed, bed * 1e6, volume * 1e6),
+            fmt::format("give at most {:.4g} g or a higher canister", volume * kLoosestBed * c.world.density * 1e3));
+}
+
+/// The largest sphere must pass the canister and its outlet.
+void checkLargest(CaseReader& reader, const Case& c, double largest) {
+    const Canister& can = *c.canister;
+    const char* key = c.filling.list                                         ? "particles.list"
+                      : c.filling.size.kind == SizeDistribution::Kind::Fixed ? "particles.size.radius_mm"
+                                                                             : "particles.size.radius_max_mm";
+    const double narrowest = std::min(can.width, can.outletDiameter);
+    if (largest >= narrowest / 2)
+        reader.fault(key,
+                     fmt::format("spheres of radius {:.4g} mm do not pass the {:.4g} mm {}", mm(largest), mm(narrowest),
+                                 can.outletDiameter < can.width ? "outlet" : "trough"),
+                     fmt::format("keep radii below {:.4g} mm", mm(narrowest / 2)));
+}
+
+void checkGrid(CaseReader& reader, const Case& c, double largest) {
+    const Filling& f = c.filling;
+    const double count = f.mass / (c.world.density * 4.0 / 3.0 * kPi * meanCubedRadius(f.size));
+    if (count > kMaxParticles) {
+        reader.fault("particles.mass_g", fmt::format("takes about {:.2g} particles", count),
+                     "give less mass or larger meso-particles");
+        return;
+    }
+    const double capacity = InsertionGrid(f.region, largest).capacity();
+    if (capacity >= 1.2 * count + 10) return;  // the draw varies
+    if (capacity < static_cast<double>(1) && c.canister)
+        reader.fault("particles.size", "the largest sphere does not fit between the walls", "give smaller particles");
+    else if (capacity < 1.2 * count + 10)
+        reader.fault("particles.region",
+                     fmt::format("has {:.0f} sites of the grid for about {:.0f} particles", capacity, count),
+                     "give a larger region, less mass or smaller particles");
+}
+
+/// Reports up to a handful of faults of one kind, then says how many more there are.
+class Few {
+  public:
+    Few(CaseReader& reader, std::string path) : reader_(reader), path_(std::move(path)) {}
+    void add(std::string problem, std::string remedy) {
+        if (++count_ <= kShown) reader_.fault(path_, std::move(problem), std::move(remedy));
+    }
+    ~Few() {
+        if (count_ > kShown)
+            reader_.fault(path_, fmt::format("{} more particles like this", count_ - kShown), "correct them as well");
+    }
+    Few(const Few&) = delete;
+    Few& operator=(const Few&) = delete;
+
+  private:
+    static constexpr int kShown = 5;
+    CaseReader& reader_;
+    std::string path_;
+    int count_ = 0;
+};
+
+std::string named(const Particles& p, std::size_t i) {
+    const Vec3 x = p.position[i] * 1e3;
+    return fmt::format("particle {} at ({:.4g}, {:.4g}, {:.4g}) mm", i, x.x, x.y, x.z);
+}
+
+void checkDomain(CaseReader& reader, const Case& c, const Particles& p, const std::string& path) {
+    Few faults(reader, path);
+    for (std::size_t i = 0; i < p.size(); ++i) {
+        const Vec3 x = p.position[i];
+        const bool inside = glm::all(glm::greaterThanEqual(x, c.world.domain.low)) &&
+                            glm::all(glm::lessThanEqual(x, c.world.domain.high));
+        if (!inside)
+            faults.add(named(p, i) + " is outside the domain", "move it or widen [domain]");
+        else if (x.z > c.world.outletZ)
+            faults.add(named(p, i) + " is past the outlet", "place it in the canister");
+    }
+}
+
+double coilDistance(const geometry::Coil& coil, const Vec3& x, double radius) {
+    const double reach = radius + coil.wireRadius;
+    const double fromAxis = std::hypot(x.x, x.y);
+    const bool far = std::abs(fromAxis - coil.radius) > reach || x.z < coil.zStart - reach ||
+                     x.z > coil.zStart + coil.length + reach;
+    return far ? radius : geometry::closestPoint(coil, 0, x).distance;
+}
+
+/// Overlap with the walls and the coil. The grid must not overlap at all, a list a little: it may be a settled bed.
+void checkWalls(CaseReader& reader, const Case& c, const Particles& p, const std::string& path, double allowed) {
+    Few faults(reader, path);
+    for (std::size_t i = 0; i < p.size(); ++i) {
+        double distance = p.radius[i];
+        for (const geometry::Surface& surface : c.world.surfaces)
+            distance = std::min(distance, geometry::closestPoint(surface, p.position[i]).distance);
+        std::string what = "a wall";
+        if (c.world.coil) {
+            const double toCoil = coilDistance(*c.world.coil, p.position[i], p.radius[i]);
+            if (toCoil < distance) what = "the coil";
+            distance = std::min(distance, toCoil);
+        }
+        const double overlap = p.radius[i] - distance;
+        if (overlap > allowed * p.radius[i])
+            faults.add(fmt::format("{} overlaps {} by {:.3g} of its radius", named(p, i), what, overlap / p.radius[i]),
+                       fmt::format("keep the overlap below {}", allowed));
+    }
+}
+
+/// Overlaps among the particles, found along x in sorted order.
+void checkPairs(CaseReader& reader, const Particles& p, const std::string& path) {
+    Few faults(reader, path);
+    std::vector<std::size_t> order(p.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b) { return p.position[a].x < p.position[b].x; });
+    const double largest = p.size() == 0 ? 0 : *std::max_element(p.radius.begin(), p.radius.end());
+    for (std::size_t a = 0; a < order.size(); ++a) {
+        const std::size_t i = order[a];
+        for (std::size_t b = a + 1; b < order.size(); ++b) {
+            const std::size_t j = order[b];
+            if (p.position[j].x - p.position[i].x > p.radius[i] + largest) break;
+            const double overlap = p.radius[i] + p.radius[j] - glm::distance(p.position[i], p.position[j]);
+            const double ratio = overlap / std::min(p.radius[i], p.radius[j]);
+            if (ratio > kMaxOverlapRatio)
+                faults.add(fmt::format("{} overlaps particle {} by {:.3g} of the smaller radius",
+                                       named(p, std::min(i, j)), std::max(i, j), ratio),
+                           fmt::format("keep the overlap below {}", kMaxOverlapRatio));
+        }
+    }
+}
+
+}  // namespace
+
+void checkFields(CaseReader& reader, const Case& c) {
+    checkContact(reader, c);
+    if (!c.filling.list) checkSize(reader, c.filling.size);
+    if (c.canister) checkCanister(reader, c);
+    if (c.world.coil) checkCoil(reader, c);
+    checkSchedule(reader, c);
+    checkBox(reader, "domain", c.world.domain);
+    if (!c.filling.list) checkBox(reader, "particles.region", c.filling.region);
+}
+
+void checkTimeStep(CaseReader& reader, const Case& c, double smallestRadius) {
+    const double dt = c.world.timeStep;
+    const auto modes = contactModes(c.world.law, c.world.density, smallestRadius, contactClasses(c.world));
+    const std::string automatic = fmt::format("give at most {:.3g} s, or \"auto\"", automaticTimeStep(modes));
+    const ContactMode* stiffest = nullptr;
+    const ContactMode* damped = nullptr;
+    for (const ContactMode& mode : modes) {
+        if (stiffest == nullptr || mode.duration < stiffest->duration) stiffest = &mode;
+        if (damped == nullptr || mode.decay > damped->decay) damped = &mode;
+    }
+    if (dt > kUnstableFraction * stiffest->duration)
+        reader.fault("time.step_s",
+                     fmt::format("the time step {:.4g} s is unstable: the stiffest contact ({}) lasts {:.4g} s", dt,
+                                 stiffest->name, stiffest->duration),
+                     automatic);
+    else if (dt * damped->decay > 1)
+        reader.fault("time.step_s",
+                     fmt::format("the time step {:.4g} s is unstable: damping ({}) acts within {:.4g} s", dt,
+                                 damped->name, 1 / damped->decay),
+                     automatic);
+    if (c.sensorInterval > 1e9 * dt)
+        reader.fault("sensors.interval_s", "is more than 1e9 time steps", "give a shorter interval");
+}
+
+void checkFilling(CaseReader& reader, const Case& c, double largestRadius) {
+    if (c.canister) checkLargest(reader, c, largestRadius);
+    if (c.canister && !c.filling.list) checkBed(reader, c);
+    if (!reader.faulty() && !c.filling.list) checkGrid(reader, c, largestRadius);
+    if (!c.world.coil) return;
+    const int touches = geometry::maxTouches(*c.world.coil, largestRadius);
+    if (touches > kMaxCoilTouches)
+        reader.fault(reader.root().table("coil").has("pitch_mm") ? "coil.pitch_mm" : "coil.turns",
+                     fmt::format("a sphere of {:.4g} mm could touch {} turns at once", mm(largestRadius), touches),
+                     fmt::format("wind the coil wider or use smaller spheres: {} turns are followed", kMaxCoilTouches));
+}
+
+void checkPlacement(CaseReader& reader, const Case& c, const Particles& particles) {
+    const std::string path = c.filling.list ? "particles.list" : c.canister ? "particles.mass_g" : "particles.region";
+    checkDomain(reader, c, particles, path);
+    checkWalls(reader, c, particles, path, c.filling.list ? kMaxOverlapRatio : 0.0);
+    checkPairs(reader, particles, path);
+}
+
+}  // namespace vkdose

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+
+#include "host/core/vec.h"
+#include "host/model/world.h"
+
+namespace vkdose {
+
+/// Play between the largest spheres of the insertion grid, as a fraction of their diameter.
+inline constexpr double kGridGap = 0.02;
+
+/// Regular grid that fills a box layer by layer from below; the sites are at least 2 r_max (1 + kGridGap) apart and
+/// half of that away from the sides, so that no two spheres overlap wherever the jitter puts them.
+class InsertionGrid {
+  public:
+    InsertionGrid(const Box& region, double largestRadius);
+
+    Vec3 site(std::uint64_t index) const;  ///< index < capacity()
+    double capacity() const;               ///< number of sites, 0 if the region is too narrow
+    double jitterAmplitude() const;        ///< per coordinate [m]
+
+  private:
+    double pitch_;
+    Vec3 low_;
+    Vec3 high_;
+    std::uint64_t columns_ = 0;
+    std::uint64_t rows_ = 0;
+    double layers_ = 0;
+};
+
+}  // namespace vkdose

@@ -1,0 +1,112 @@
+// From a validated case to its particles: draw sizes up to the mass, stack them on a grid.
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "host/core/random.h"
+#include "host/model/case.h"
+#include "host/model/grid.h"
+#include "host/model/size_distribution.h"
+
+namespace vkdose {
+namespace {
+
+double sphereMass(double density, double r) {
+    return density * 4.0 / 3.0 * kPi * r * r * r;
+}
+
+double listedMass(const Particles& list, double density) {
+    double mass = 0;
+    for (const double r : list.radius) mass += sphereMass(density, r);
+    return mass;
+}
+
+/// Radii until one more would lead further from the target than it brings.
+std::vector<double> drawRadii(const Case& c, Insertion& result) {
+    const SizeDistribution& size = c.filling.size;
+    std::vector<double> radii;
+    for (std::uint64_t index = 0;; ++index) {
+        const double r = drawRadius(size, c.seed, index, result.redrawn);
+        const double next = result.mass + sphereMass(c.world.density, r);
+        if (std::abs(next - c.filling.mass) >= std::abs(result.mass - c.filling.mass)) break;
+        radii.push_back(r);
+        result.mass = next;
+    }
+    return radii;
+}
+
+/// More sites in a row than any case can fill; keeps the counts of an open or absurd region representable.
+constexpr double kMaxSites = 1e9;
+
+/// Shift of site `index`, within the grid's play, so that the bed does not start out as a crystal.
+Vec3 jitter(std::uint64_t seed, std::uint64_t index, double amplitude) {
+    const auto [x, y] = uniforms(seed, Stream::Jitter, index, 0);
+    const auto [z, unused] = uniforms(seed, Stream::Jitter, index, 1);
+    (void)unused;
+    return amplitude * (2.0 * Vec3(x, y, z) - 1.0);
+}
+
+}  // namespace
+
+InsertionGrid::InsertionGrid(const Box& region, double largestRadius)
+    : pitch_(2 * largestRadius * (1 + kGridGap)), low_(region.low + 0.5 * pitch_), high_(region.high - 0.5 * pitch_) {
+    const Vec3 room = (high_ - low_) / pitch_;
+    const auto sites = [](double n) {  // the tolerance lets a region of exactly n pitches hold n
+        return n < -1e-9 ? 0.0 : std::min(std::floor(n + 1e-9) + 1, kMaxSites);
+    };
+    columns_ = static_cast<std::uint64_t>(sites(room.x));
+    rows_ = static_cast<std::uint64_t>(sites(room.z));
+    layers_ = columns_ * rows_ == 0 ? 0 : sites(room.y);
+}
+
+Vec3 InsertionGrid::site(std::uint64_t index) const {
+    const std::uint64_t column = index % columns_;
+    const std::uint64_t row = index / columns_ % rows_;
+    const std::uint64_t layer = index / columns_ / rows_;
+    // Sideways the sites spread over the whole region, upwards they are packed.
+    const auto across = [](double low, double high, std::uint64_t i, std::uint64_t n) {
+        return n == 1 ? 0.5 * (low + high) : low + (high - low) * static_cast<double>(i) / static_cast<double>(n - 1);
+    };
+    return {across(low_.x, high_.x, column, columns_), low_.y + pitch_ * static_cast<double>(layer),
+            across(low_.z, high_.z, row, rows_)};
+}
+
+double InsertionGrid::capacity() const {
+    return static_cast<double>(columns_) * static_cast<double>(rows_) * layers_;
+}
+
+double InsertionGrid::jitterAmplitude() const {
+    return 0.25 * pitch_ * kGridGap / (1 + kGridGap);
+}
+
+Insertion insertParticles(const Case& c) {
+    Insertion result;
+    if (c.filling.list) {
+        result.particles = *c.filling.list;
+        result.mass = result.targetMass = listedMass(result.particles, c.world.density);
+        result.fillHeight = c.world.domain.low.y;
+        for (std::size_t i = 0; i < result.particles.size(); ++i)
+            result.fillHeight =
+                std::max(result.fillHeight, result.particles.position[i].y + result.particles.radius[i]);
+        return result;
+    }
+    const SizeDistribution& size = c.filling.size;
+    result.targetMass = c.filling.mass;
+    if (size.kind == SizeDistribution::Kind::Quantiles) {
+        result.cutBelow = finerVolume(size, size.radiusMin);
+        result.cutAbove = 1 - finerVolume(size, size.radiusMax);
+    }
+    const InsertionGrid grid(c.filling.region, largestRadius(size));
+    const std::vector<double> radii = drawRadii(c, result);
+    if (static_cast<double>(radii.size()) > grid.capacity())
+        throw std::logic_error("the grid is too small for the filling");  // loadCase refuses such a case
+    result.fillHeight = c.filling.region.low.y;
+    for (std::size_t i = 0; i < radii.size(); ++i) {
+        const Vec3 x = grid.site(i) + jitter(c.seed, i, grid.jitterAmplitude());
+        result.particles.add(x, radii[i]);
+        result.fillHeight = std::max(result.fillHeight, x.y + radii[i]);
+    }
+    return result;
+}
+
+}  // namespace vkdose

@@ -1,0 +1,180 @@
+#include "host/model/particle_list.h"
+
+#include <csv.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <string>
+
+#include "host/model/case_reader.h"
+
+namespace vkdose {
+namespace {
+
+constexpr std::size_t kMaxFaults = 20;
+const std::vector<std::string> kColumns{"x", "y", "z", "r", "vx", "vy", "vz", "wx", "wy", "wz"};
+constexpr std::size_t kAbsent = std::numeric_limits<std::size_t>::max();
+
+/// One line split by libcsv. Lines are fed one by one because the parser skips empty ones without counting them.
+class Splitter {
+  public:
+    Splitter() { csv_init(&parser_, CSV_STRICT | CSV_STRICT_FINI); }
+    ~Splitter() { csv_free(&parser_); }
+    Splitter(const Splitter&) = delete;
+    Splitter& operator=(const Splitter&) = delete;
+
+    /// False when the line is not CSV (a stray quote).
+    bool split(const std::string& line, std::vector<std::string>& fields) {
+        fields.clear();
+        const auto onField = [](void* text, std::size_t size, void* out) {
+            static_cast<std::vector<std::string>*>(out)->emplace_back(static_cast<const char*>(text), size);
+        };
+        const auto onRow = [](int, void*) {};
+        const bool good = csv_parse(&parser_, line.data(), line.size(), onField, onRow, &fields) == line.size() &&
+                          csv_fini(&parser_, onField, onRow, &fields) == 0;
+        if (!good) {  // the parser keeps its state after an error
+            csv_free(&parser_);
+            csv_init(&parser_, CSV_STRICT | CSV_STRICT_FINI);
+        }
+        return good;
+    }
+
+  private:
+    csv_parser parser_{};
+};
+
+class ListReader {
+  public:
+    ListReader(std::string file, std::vector<Diagnostic>& faults) : file_(std::move(file)), faults_(faults) {
+        place_.fill(kAbsent);
+    }
+
+    Particles read(std::istream& stream) {
+        Splitter splitter;
+        std::vector<std::string> fields;
+        for (std::string text; std::getline(stream, text);) {
+            ++line_;
+            if (!text.empty() && text.back() == '\r') text.pop_back();
+            if (text.find_first_not_of(" \t") == std::string::npos) continue;
+            if (!splitter.split(text, fields)) {
+                fault("", text, "is not CSV", "separate plain numbers by commas");
+                if (columns_ == 0) return {};
+            } else if (columns_ == 0) {
+                if (!readHeader(fields)) return {};
+            } else {
+                readRow(fields);
+            }
+        }
+        line_ = 0;
+        if (columns_ == 0) fault("", "", "is empty", "begin with the header x,y,z,r");
+        if (columns_ != 0 && rows_ == 0) fault("", "", "lists no particles", "add a line for each particle");
+        if (count_ > kMaxFaults)
+            faults_.push_back({file_, 0, "", "", fmt::format("{} more faults", count_ - kMaxFaults), ""});
+        return std::move(particles_);
+    }
+
+  private:
+    void fault(const std::string& key, const std::string& value, std::string problem, std::string remedy) {
+        if (++count_ <= kMaxFaults)
+            faults_.push_back({file_, line_, key, value, std::move(problem), std::move(remedy)});
+    }
+
+    bool readHeader(const std::vector<std::string>& names) {
+        const std::size_t before = count_;
+        columns_ = names.size();
+        for (std::size_t i = 0; i < names.size(); ++i) {
+            const auto known = std::find(kColumns.begin(), kColumns.end(), names[i]);
+            if (known == kColumns.end()) {
+                const std::string meant = closestColumn(names[i]);
+                fault(names[i], "", "unknown column",
+                      meant.empty() ? "known: x,y,z,r,vx,vy,vz,wx,wy,wz" : fmt::format("did you mean {}?", meant));
+                continue;
+            }
+            std::size_t& place = place_[static_cast<std::size_t>(known - kColumns.begin())];
+            if (place != kAbsent) fault(names[i], "", "stands twice in the header", "name each column once");
+            place = i;
+        }
+        for (std::size_t i = 0; i < 4; ++i)
+            if (place_[i] == kAbsent) fault(kColumns[i], "", "is missing in the header", "begin with x,y,z,r");
+        for (const std::size_t first : {std::size_t{4}, std::size_t{7}}) {
+            const auto missing = std::count(place_.begin() + first, place_.begin() + first + 3, kAbsent);
+            if (missing == 1 || missing == 2)
+                fault(kColumns[first].substr(0, 1), "", "has only some of its components in the header",
+                      fmt::format("give {},{},{} or none", kColumns[first], kColumns[first + 1], kColumns[first + 2]));
+        }
+        return count_ == before;
+    }
+
+    static std::string closestColumn(const std::string& name) {
+        std::string lower = name;
+        std::transform(lower.begin(), lower.end(), lower.begin(),
+                       [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+        if (std::find(kColumns.begin(), kColumns.end(), lower) != kColumns.end()) return lower;
+        if (lower == "radius" || lower == "r_m" || lower == "radius_m") return "r";
+        const std::string head = lower.substr(0, lower.find('_'));
+        return std::find(kColumns.begin(), kColumns.end(), head) != kColumns.end() ? head : "";
+    }
+
+    void readRow(const std::vector<std::string>& fields) {
+        if (fields.size() != columns_) {
+            fault("", "", fmt::format("has {} fields, the header {}", fields.size(), columns_),
+                  "give one number for each column");
+            return;
+        }
+        std::array<double, 10> value{};
+        const std::size_t before = count_;
+        for (std::size_t i = 0; i < value.size(); ++i)
+            if (place_[i] != kAbsent) value[i] = number(fields[place_[i]], kColumns[i]);
+        if (count_ == before && value[3] <= 0)
+            fault("r", fields[place_[3]], "is not positive", "give a radius > 0 [m]");
+        if (count_ == before)
+            particles_.add({value[0], value[1], value[2]}, value[3], {value[4], value[5], value[6]},
+                           {value[7], value[8], value[9]});
+        ++rows_;
+    }
+
+    double number(const std::string& text, const std::string& column) {
+        const std::size_t start = text.find_first_not_of(" \t+");
+        const std::size_t end = text.find_last_not_of(" \t") + 1;
+        double value = 0;
+        if (start == std::string::npos || start >= end) {
+            fault(column, "", "is empty", "give a number");
+            return 0;
+        }
+        const auto [stop, code] = std::from_chars(text.data() + start, text.data() + end, value);
+        if (code != std::errc() || stop != text.data() + end)
+            fault(column, text, "is not a number", "give a plain decimal number in SI units");
+        else if (!std::isfinite(value))
+            fault(column, text, "is not a finite number", "give a finite number");
+        return value;
+    }
+
+    std::string file_;
+    std::vector<Diagnostic>& faults_;
+    std::array<std::size_t, 10> place_{};
+    std::size_t columns_ = 0;
+    std::size_t rows_ = 0;
+    std::size_t count_ = 0;
+    int line_ = 0;
+    Particles particles_;
+};
+
+}  // namespace
+
+Particles readParticleList(const std::filesystem::path& file, std::vector<Diagnostic>& faults) {
+    std::ifstream stream(file, std::ios::binary);
+    std::error_code code;
+    if (!std::filesystem::is_regular_file(file, code) || !stream) {
+        faults.push_back(
+            {file.string(), 0, "", "", "cannot be read", "give the path of a CSV, relative to the case file"});
+        return {};
+    }
+    return ListReader(file.string(), faults).read(stream);
+}
+
+}  // namespace vkdose

@@ -1,0 +1,143 @@
+#include "host/model/size_distribution.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+#include "host/core/random.h"
+
+namespace vkdose {
+namespace {
+
+constexpr std::uint32_t kMaxAttempts = 100000;
+
+double normalCdf(double z) {
+    return 0.5 * std::erfc(-z / std::sqrt(2.0));
+}
+
+/// A stretch of the volume distribution: `slope` = d(volume fraction)/d(ln r) between two radii.
+struct Stretch {
+    double low;
+    double high;
+    double slope;
+
+    /// Integral of r^power d(number), with d(number) = slope r^-3 d(ln r); up to a common factor.
+    double moment(int power) const {
+        if (power == 3) return slope * std::log(high / low);
+        const double exponent = power - 3;
+        return slope * (std::pow(high, exponent) - std::pow(low, exponent)) / exponent;
+    }
+    /// Radius below which a fraction t of the stretch's particles lie.
+    double quantile(double t) const {
+        const double a = std::pow(low, -3.0);
+        const double b = std::pow(high, -3.0);
+        return std::pow(a - t * (a - b), -1.0 / 3.0);
+    }
+};
+
+/// The two slopes of the volume distribution, cut at the truncation bounds. An empty stretch has low == high.
+std::array<Stretch, 2> stretches(const SizeDistribution& size) {
+    const auto cut = [&](double r) { return std::clamp(r, size.radiusMin, size.radiusMax); };
+    return {Stretch{cut(finestRadius(size)), cut(size.r50), 0.4 / std::log(size.r50 / size.r10)},
+            Stretch{cut(size.r50), cut(coarsestRadius(size)), 0.4 / std::log(size.r90 / size.r50)}};
+}
+
+double numberMoment(const SizeDistribution& size, int power) {
+    const auto [fine, coarse] = stretches(size);
+    return (fine.moment(power) + coarse.moment(power)) / (fine.moment(0) + coarse.moment(0));
+}
+
+double drawQuantiles(const SizeDistribution& size, double u) {
+    const auto [fine, coarse] = stretches(size);
+    const double share = fine.moment(0) / (fine.moment(0) + coarse.moment(0));
+    const double r = u < share ? fine.quantile(u / share) : coarse.quantile((u - share) / (1 - share));
+    return std::clamp(r, size.radiusMin, size.radiusMax);  // pow may be off by the last bit
+}
+
+}  // namespace
+
+double drawRadius(const SizeDistribution& size, std::uint64_t seed, std::uint64_t index, std::uint64_t& redrawn) {
+    if (size.kind == SizeDistribution::Kind::Fixed) return size.radius;
+    for (std::uint32_t attempt = 0; attempt < kMaxAttempts; ++attempt) {
+        const auto [u, v] = uniforms(seed, Stream::Radius, index, attempt);
+        if (size.kind == SizeDistribution::Kind::Uniform) return size.radiusMin + u * (size.radiusMax - size.radiusMin);
+        if (size.kind == SizeDistribution::Kind::Quantiles) return drawQuantiles(size, u);
+        const double gauss = std::sqrt(-2 * std::log(u)) * std::cos(2 * kPi * v);  // Box and Muller
+        const double r = size.kind == SizeDistribution::Kind::Normal ? size.radius + size.deviation * gauss
+                                                                     : size.radius * std::exp(size.deviation * gauss);
+        if (r >= size.radiusMin && r <= size.radiusMax) return r;
+        ++redrawn;
+    }
+    throw std::logic_error("the truncation bounds of the size distribution leave nothing to draw");
+}
+
+double smallestRadius(const SizeDistribution& size) {
+    if (size.kind == SizeDistribution::Kind::Fixed) return size.radius;
+    if (size.kind == SizeDistribution::Kind::Quantiles) return std::max(size.radiusMin, finestRadius(size));
+    return size.radiusMin;
+}
+
+double largestRadius(const SizeDistribution& size) {
+    if (size.kind == SizeDistribution::Kind::Fixed) return size.radius;
+    if (size.kind == SizeDistribution::Kind::Quantiles) return std::min(size.radiusMax, coarsestRadius(size));
+    return size.radiusMax;
+}
+
+double meanRadius(const SizeDistribution& size) {
+    switch (size.kind) {
+        case SizeDistribution::Kind::Uniform:
+            return 0.5 * (size.radiusMin + size.radiusMax);
+        case SizeDistribution::Kind::Lognormal:
+            return size.radius * std::exp(0.5 * size.deviation * size.deviation);
+        case SizeDistribution::Kind::Quantiles:
+            return numberMoment(size, 1);
+        default:
+            return size.radius;
+    }
+}
+
+double meanCubedRadius(const SizeDistribution& size) {
+    const double a = size.radiusMin;
+    const double b = size.radiusMax;
+    const double r = size.radius;
+    const double s = size.deviation;
+    switch (size.kind) {
+        case SizeDistribution::Kind::Uniform:
+            return (a + b) * (a * a + b * b) / 4;
+        case SizeDistribution::Kind::Normal:
+            return r * (r * r + 3 * s * s);
+        case SizeDistribution::Kind::Lognormal:
+            return r * r * r * std::exp(4.5 * s * s);
+        case SizeDistribution::Kind::Quantiles:
+            return numberMoment(size, 3);
+        default:
+            return r * r * r;
+    }
+}
+
+double acceptance(const SizeDistribution& size) {
+    const auto inside = [&](double low, double high) { return normalCdf(high) - normalCdf(low); };
+    const double s = size.deviation;
+    if (size.kind == SizeDistribution::Kind::Normal)
+        return inside((size.radiusMin - size.radius) / s, (size.radiusMax - size.radius) / s);
+    if (size.kind == SizeDistribution::Kind::Lognormal)
+        return inside(std::log(size.radiusMin / size.radius) / s, std::log(size.radiusMax / size.radius) / s);
+    return 1;
+}
+
+double finerVolume(const SizeDistribution& size, double radius) {
+    const double neighbour = radius < size.r50 ? size.r10 : size.r90;
+    const double slope = 0.4 / std::abs(std::log(size.r50 / neighbour));
+    return std::clamp(0.5 + slope * std::log(radius / size.r50), 0.0, 1.0);
+}
+
+// From the median to the end the volume is 0.5, to the quantile it is 0.4: 1.25 times the way in ln r.
+double finestRadius(const SizeDistribution& size) {
+    return size.r50 * std::pow(size.r10 / size.r50, 1.25);
+}
+double coarsestRadius(const SizeDistribution& size) {
+    return size.r50 * std::pow(size.r90 / size.r50, 1.25);
+}
+
+}  // namespace vkdose

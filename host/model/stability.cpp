@@ -1,0 +1,69 @@
+#include "host/model/stability.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "host/core/vec.h"
+
+namespace vkdose {
+namespace {
+
+bool isNormal(const ContactMode& mode) {
+    return mode.name.ends_with(" normal");
+}
+
+}  // namespace
+
+std::string className(ContactClass c) {
+    switch (c) {
+        case ContactClass::ParticleParticle:
+            return "particle-particle";
+        case ContactClass::ParticleWall:
+            return "particle-wall";
+        case ContactClass::ParticleCoil:
+            return "particle-coil";
+    }
+    return "unknown";
+}
+
+std::vector<ContactClass> contactClasses(const World& world) {
+    std::vector<ContactClass> classes{ContactClass::ParticleParticle};
+    if (!world.surfaces.empty()) classes.push_back(ContactClass::ParticleWall);
+    if (world.coil) classes.push_back(ContactClass::ParticleCoil);
+    return classes;
+}
+
+std::vector<ContactMode> contactModes(const ContactLaw& law, double density, double smallest,
+                                      const std::vector<ContactClass>& used) {
+    const double mass = density * 4.0 / 3.0 * kPi * smallest * smallest * smallest;
+    std::vector<ContactMode> modes;
+    const auto add = [&](const std::string& name, double k, double gamma, double effectiveMass) {
+        if (k <= 0) return;
+        modes.push_back({name, kPi * std::sqrt(effectiveMass / k), gamma / effectiveMass});
+    };
+    for (const ContactClass c : used) {
+        const ContactParameters& p = law.of(c);
+        const double normal = c == ContactClass::ParticleParticle ? mass / 2 : mass;
+        add(className(c) + " normal", p.k2Max, p.gamma, normal);
+        // Sliding moves the surface: 1/m + a^2/I = 3.5/m for a full sphere of inertia 0.4 m a^2.
+        if (p.mu > 0) add(className(c) + " sliding", p.kt, p.gammaT, normal / 3.5);
+        // Rolling: a_r^2/I with a_r <= 2 a, reached against a wall or a much larger sphere; half of it for "half".
+        const double lever = law.rollingLever == RollingLever::Full ? 2 : 1;
+        const double turning = 0.4 * mass / (lever * lever);
+        if (p.muR > 0) add(className(c) + " rolling", p.kr, p.gammaR, turning);
+        if (p.muTo > 0) add(className(c) + " torsion", p.kTo, p.gammaTo, turning);
+    }
+    return modes;
+}
+
+double automaticTimeStep(const std::vector<ContactMode>& modes) {
+    double step = std::numeric_limits<double>::infinity();
+    for (const ContactMode& mode : modes) {
+        step = std::min(step, mode.duration / (isNormal(mode) ? 8 : 6));
+        if (mode.decay > 0) step = std::min(step, 0.5 / mode.decay);
+    }
+    return step;
+}
+
+}  // namespace vkdose

@@ -1,0 +1,34 @@
+#pragma once
+// The fastest motions the explicit time step must resolve. Contacts oscillate along the normal, in sliding, rolling and
+// torsion; each mode is a spring on an effective mass. Bounds, taken for the smallest particle against the largest.
+
+#include <string>
+#include <vector>
+
+#include "host/model/world.h"
+
+namespace vkdose {
+
+struct ContactMode {
+    std::string name;     ///< "particle-wall rolling"
+    double duration = 0;  ///< half a period without damping, pi sqrt(m/k) [s]
+    double decay = 0;     ///< damping rate gamma/m [1/s]
+};
+
+/// Name of a class in messages: "particle-particle", ...
+std::string className(ContactClass c);
+
+/// The classes that can occur in `world`: walls only with surfaces, the coil only with a coil.
+std::vector<ContactClass> contactClasses(const World& world);
+
+/// Every mode of every class in `used`, for particles no smaller than `smallest` [m].
+std::vector<ContactMode> contactModes(const ContactLaw& law, double density, double smallest,
+                                      const std::vector<ContactClass>& used);
+
+/// A time step must not exceed this fraction of a mode's duration (stability alone would allow 2/pi of it).
+inline constexpr double kUnstableFraction = 1.0 / 5;
+
+/// Time step for `step_s = "auto"`: 1/8 of the stiffest normal mode, 1/6 of any other, and half of a damping time.
+double automaticTimeStep(const std::vector<ContactMode>& modes);
+
+}  // namespace vkdose
