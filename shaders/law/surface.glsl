@@ -85,8 +85,7 @@ Overlap frontOverlap(SurfaceParams p, Sphere a) {
     return cylinderOverlap(p.radius.xy, d, 1.0, a.radius);
 }
 
-Overlap surfaceOverlap(SurfaceParams p, Sphere a) {
-    uint kind = uint(p.pointHigh.w);
+Overlap surfaceOverlap(uint kind, SurfaceParams p, Sphere a) {
     if (kind == kPlane) return planeOverlap(p, a);
     if (kind == kTrough) return troughOverlap(p, a);
     if (kind == kTube) return tubeOverlap(p, a);

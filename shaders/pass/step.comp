@@ -6,6 +6,10 @@
 // Both particles of a pair compute it, always as (smaller index, larger index) from the same bits by the same
 // instructions, so action = - reaction to the last bit and each side keeps an identical copy of the history. That costs
 // every contact twice, and needs one dispatch and no atomics per step. The sum over a row runs in ascending index.
+//
+// Shape of the code: software devices execute every branch under a mask and only loops without a lane left are skipped;
+// so candidates are marked by cheap straight code first, and the contact law stands in loops over what touches. The
+// member's parameters are read before any branch, where all lanes share one load.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/buffers.glsl"
 #include "law/contact.glsl"
@@ -26,82 +30,81 @@ struct Sum {
 };
 
 uint member;
+ContactParams pairLaw, wallLaw, coilLaw;
+CoilParams coil;
+uvec4 choices;
 float springDt;
 
 #include "pass/step_pairs.glsl"
-#include "pass/step_walls.glsl"
+#include "pass/step_surfaces.glsl"
+#include "pass/step_coil.glsl"
 
-uint finite(vec3 v) { return any(isnan(v)) || any(isinf(v)) ? 0u : 1u; }
-
-void copyState(uint i) {
-    for (uint f = 0u; f < kFields; ++f) state[stateIndex(1u - push.source, f, i)] = readState(push.source, f, i);
-}
+bool finite(vec3 v) { return !(any(isnan(v)) || any(isinf(v))); }
 
 void requestRebuild() {
-    uint groups = gl_NumWorkGroups.x;
     atomicMax(control.cells.x, (push.cellMask + gl_WorkGroupSize.x) / gl_WorkGroupSize.x);
-    atomicMax(control.particles.x, groups);
+    atomicMax(control.particles.x, gl_NumWorkGroups.x);
     atomicMax(control.single.x, 1u);
 }
 
 void main() {
     uint i = gl_GlobalInvocationID.x;
     member = memberOfGroup();
-    vec4 spin4 = readState(push.source, kSpin, i);
-    if (uint(spin4.w) != kActive) {
-        copyState(i);
-        return;
-    }
+    pairLaw = members[member].contact[kParticleParticle];
+    wallLaw = members[member].contact[kParticleWall];
+    coilLaw = members[member].contact[kParticleCoil];
+    coil = members[member].coil;
+    choices = members[member].choices;
+    vec4 gravity = members[member].gravity, numerics = members[member].numerics;
+    vec4 bottom = members[member].domainLow, top = members[member].domainHigh;
+    uint list = control.list.x;
+
     vec4 position = readState(push.source, kPosition, i);
     vec4 residue = readState(push.source, kResidue, i);
     vec4 velocity4 = readState(push.source, kVelocity, i);
+    vec4 spin4 = readState(push.source, kSpin, i);
+    uvec4 mark = marks[i];
+    vec3 anchor = anchors[i].xyz;
+    uint status = uint(spin4.w);
+    bool moving = status == kActive;
     Body me = Body(Sphere(position.xyz, residue.xyz, position.w), velocity4.xyz, spin4.xyz);
-    vec4 numerics = members[member].numerics;
     float dt = numerics.x;
     springDt = push.opening == 1u ? 0.0 : dt;
 
+    // A particle out of the motion has an empty row and a negative radius, so that all it does is copy itself.
     Sum sum = Sum(vec3(0.0), vec3(0.0), 0.0, 0.0);
-    uvec4 mark = marks[i];
-    mark.xy = touchPairs(i, me, mark, sum);
-    mark.z = touchWalls(i, me, mark.z, sum);
-    marks[i] = mark;
-    if (sum.overlap > numerics.w) report(kErrorOverlap, i);
+    uvec2 touched = touchPairs(i, me, list, mark, sum);
+    uint met = touchSurfaces(i, me, mark.z, sum);
+    if (coil.motion.z != 0.0) met |= touchCoil(i, me, mark.z, sum);
+    mark.xyz = uvec3(touched, met);
 
     // Leapfrog. The loaded velocity belongs to t = 0, so the opening kick is half a step.
-    vec4 gravity = members[member].gravity;
-    float mass = gravity.w * (4.0 / 3.0 * 3.14159265358979) * position.w * position.w * position.w;
+    float r = abs(position.w);
+    float mass = gravity.w * (4.0 / 3.0 * 3.14159265358979) * r * r * r;
     float kick = push.opening == 1u ? 0.5 * dt : dt;
     vec3 velocity = me.velocity + kick * (sum.force / mass + gravity.xyz);
-    vec3 spin = me.spin + kick / (0.4 * mass * position.w * position.w) * sum.torque;
+    vec3 spin = me.spin + kick / (0.4 * mass * r * r) * sum.torque;
 
-    vec3 step_ = dt * velocity + residue.xyz;
-    precise vec3 high = position.xyz + step_;
+    vec3 advance = dt * velocity + residue.xyz;
+    precise vec3 high = position.xyz + advance;
     precise vec3 taken = high - position.xyz;
-    precise vec3 low = (position.xyz - (high - taken)) + (step_ - taken);
+    precise vec3 low = (position.xyz - (high - taken)) + (advance - taken);
 
-    vec4 bottom = members[member].domainLow, top = members[member].domainHigh;
-    uint status = kActive;
-    if (finite(high) * finite(velocity) * finite(spin) == 0u) {
-        report(kErrorNan, i);
-        status = kLost;
-    } else if (high.z > top.w) {
-        status = kDosed;
-    } else if (any(lessThan(high, bottom.xyz)) || any(greaterThan(high, top.xyz))) {
-        report(kErrorLost, i);
-        status = kLost;
-    }
-    if (status != kActive) {
-        marks[i] = uvec4(0u);
-        requestRebuild();
-    }
-    vec3 moved = high - anchors[i].xyz;
-    float allowed = 0.5 * numerics.y;
-    if (dot(moved, moved) > allowed * allowed) requestRebuild();
+    bool sound = finite(high) && finite(velocity) && finite(spin);
+    bool outside = any(lessThan(high, bottom.xyz)) || any(greaterThan(high, top.xyz));
+    if (moving && !sound) report(kErrorNan, i);
+    if (moving && sound && outside && high.z <= top.w) report(kErrorLost, i);
+    if (moving && sum.overlap > numerics.w) report(kErrorOverlap, i);
+    uint now = !sound ? kLost : high.z > top.w ? kDosed : outside ? kLost : kActive;
+    bool leaves = moving && now != kActive;
+    vec3 moved = high - anchor;
+    if (moving && dot(moved, moved) > 0.25 * numerics.y * numerics.y || leaves) requestRebuild();
 
-    float radius = status == kActive ? position.w : -position.w;  // a negative radius touches nothing
     uint to = 1u - push.source;
-    state[stateIndex(to, kPosition, i)] = vec4(high, radius);
-    state[stateIndex(to, kResidue, i)] = vec4(low, residue.w + sum.coilTorque);
-    state[stateIndex(to, kVelocity, i)] = vec4(velocity, max(velocity4.w, sum.overlap));
-    state[stateIndex(to, kSpin, i)] = vec4(spin, float(status));
+    float radius = leaves ? -position.w : position.w;  // a negative radius touches nothing
+    marks[i] = leaves ? uvec4(0u) : mark;
+    state[stateIndex(to, kPosition, i)] = moving ? vec4(high, radius) : position;
+    state[stateIndex(to, kResidue, i)] = moving ? vec4(low, residue.w + sum.coilTorque) : residue;
+    state[stateIndex(to, kVelocity, i)] = moving ? vec4(velocity, max(velocity4.w, sum.overlap)) : velocity4;
+    state[stateIndex(to, kSpin, i)] = moving ? vec4(spin, float(now)) : spin4;
 }

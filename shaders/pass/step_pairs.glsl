@@ -1,10 +1,18 @@
 // Part of pass/step: contacts with other particles.
 
-/// Contact of this particle with j; `slot` holds its history. Returns whether they touch.
-bool meetParticle(uint i, Body me, uint j, uint list, uint slot, bool known, inout Sum sum) {
+Body readBody(uint j) {
     vec4 position = readState(push.source, kPosition, j);
-    Body other = Body(Sphere(position.xyz, readState(push.source, kResidue, j).xyz, position.w),
-                      readState(push.source, kVelocity, j).xyz, readState(push.source, kSpin, j).xyz);
+    return Body(Sphere(position.xyz, readState(push.source, kResidue, j).xyz, position.w),
+                readState(push.source, kVelocity, j).xyz, readState(push.source, kSpin, j).xyz);
+}
+
+/// Contact of this particle with the one in `slot` of its row. Returns whether they touch.
+bool meetParticle(uint i, Body me, uint list, uint slot, bool known, inout Sum sum) {
+    uint j = readRow(list, slot, i);
+    Body other = readBody(j);
+    vec4 old0 = readHistory(list, slot, 0u, i), old1 = readHistory(list, slot, 1u, i);
+    History h = History(known ? old0 : vec4(0.0), known ? old1 : vec4(0.0));
+
     bool first = i < j;
     Body a = me, b = other;
     if (!first) {
@@ -12,49 +20,46 @@ bool meetParticle(uint i, Body me, uint j, uint list, uint slot, bool known, ino
         b = me;
     }
     Overlap o = sphereOverlap(a.sphere, b.sphere);
-    if (!(o.depth > 0.0) || position.w <= 0.0) return false;
-
-    float leverA = a.sphere.radius - 0.5 * o.depth, leverB = b.sphere.radius - 0.5 * o.depth;
-    vec3 velocity = (a.velocity - b.velocity) - cross(leverA * a.spin + leverB * b.spin, o.normal);
+    bool touching = o.depth > 0.0 && other.sphere.radius > 0.0;
     float ra = a.sphere.radius, rb = b.sphere.radius;
+    float leverA = ra - 0.5 * o.depth, leverB = rb - 0.5 * o.depth;
+    vec3 velocity = (a.velocity - b.velocity) - cross(leverA * a.spin + leverB * b.spin, o.normal);
     Meeting m = Meeting(o.normal, o.depth, 2.0 * ra * rb / (ra + rb), velocity, a.spin - b.spin);
-    History h = History(vec4(0.0), vec4(0.0));
-    if (known) {
-        h.slidingMax = readHistory(list, slot, 0u, i);
-        h.rollingTorsion = readHistory(list, slot, 1u, i);
-    }
-    Response r = contactResponse(members[member].contact[kParticleParticle], members[member].choices, m, springDt, h);
-    history[historyIndex(list, slot, 0u, i)] = h.slidingMax;
-    history[historyIndex(list, slot, 1u, i)] = h.rollingTorsion;
-
+    Response r = contactResponse(pairLaw, choices, m, springDt, h);
     vec3 turn = cross(o.normal, r.sliding);
-    sum.force += first ? r.force : -r.force;
-    sum.torque += first ? r.couple - leverA * turn : -r.couple - leverB * turn;
-    sum.overlap = max(sum.overlap, o.depth / min(ra, rb));
-    return true;
+    if (touching) {
+        history[historyIndex(list, slot, 0u, i)] = h.slidingMax;
+        history[historyIndex(list, slot, 1u, i)] = h.rollingTorsion;
+        sum.force += first ? r.force : -r.force;
+        sum.torque += first ? r.couple - leverA * turn : -r.couple - leverB * turn;
+        sum.overlap = max(sum.overlap, o.depth / min(ra, rb));
+    }
+    return touching;
 }
 
-/// Every contact of the row. Returns the row's new touch bits. Candidates are found first, from the high parts alone
-/// and a margin far above their rounding, so that the expensive loop runs over touching slots only.
-uvec2 touchPairs(uint i, Body me, uvec4 mark, inout Sum sum) {
-    uint list = control.list.x;
+/// Slots whose spheres can overlap, from the high parts of the positions alone and a margin far above their rounding.
+uint candidatesInWord(uint i, Body me, uint list, uint first, uint slots) {
+    uint candidates = 0u;
+    for (uint s = 0u; s < slots; ++s) {
+        vec4 q = readState(push.source, kPosition, readRow(list, first + s, i));
+        vec3 d = me.sphere.high - q.xyz;
+        float reach = 1.00001 * (me.sphere.radius + q.w) + 1e-7;
+        candidates |= dot(d, d) < reach * reach && q.w > 0.0 ? 1u << s : 0u;
+    }
+    return candidates;
+}
+
+/// Every contact of the row. Returns the row's new touch bits.
+uvec2 touchPairs(uint i, Body me, uint list, uvec4 mark, inout Sum sum) {
     uvec2 touch = uvec2(0u);
     for (uint word = 0u; word * 32u < mark.w; ++word) {
-        uint slots = min(mark.w - word * 32u, 32u);
-        uint candidates = 0u;
-        for (uint s = 0u; s < slots; ++s) {
-            vec4 q = readState(push.source, kPosition, readRow(list, word * 32u + s, i));
-            vec3 d = me.sphere.high - q.xyz;
-            float reach = 1.00001 * (me.sphere.radius + q.w) + 1e-7;
-            if (dot(d, d) < reach * reach && q.w > 0.0) candidates |= 1u << s;
-        }
+        uint candidates = candidatesInWord(i, me, list, word * 32u, min(mark.w - word * 32u, 32u));
         uint known = word == 0u ? mark.x : mark.y;
         uint met = 0u;
         for (; candidates != 0u; candidates &= candidates - 1u) {
             uint s = findLSB(candidates);
-            uint slot = word * 32u + s;
             uint bit = 1u << s;
-            if (meetParticle(i, me, readRow(list, slot, i), list, slot, (known & bit) != 0u, sum)) met |= bit;
+            if (meetParticle(i, me, list, word * 32u + s, (known & bit) != 0u, sum)) met |= bit;
         }
         if (word == 0u)
             touch.x = met;

@@ -7,6 +7,8 @@
 
 layout(local_size_x_id = 0) in;                      // workgroup size, chosen by the host
 layout(constant_id = 1) const uint MEMBERS = 1u;     // 1: the member index is a constant and its block a uniform read
+layout(constant_id = 2) const uint SURFACES = 0u;    // fixed surfaces of every member
+layout(constant_id = 3) const uint KINDS = 0u;       // kinds of the first surfaces, 4 bits each (kUnrolledSurfaces)
 
 layout(push_constant) uniform Push { StepPush push; };
 
@@ -17,7 +19,7 @@ layout(std430, set = 0, binding = 1) buffer RowBuffer { uint rows[]; };
 layout(std430, set = 0, binding = 2) buffer MarkBuffer { uvec4 marks[]; };
 // Pair history: vec4 [2 halves][rowWidth][2][particles]: (xi, delta_max), (rho, torsion).
 layout(std430, set = 0, binding = 3) buffer HistoryBuffer { vec4 history[]; };
-// Wall history: vec4 [surfaces + turns][2][particles], then for the turns vec4 [particles]: wire angle of each slot.
+// Wall history: vec4 [surfaces + turns][2][particles], then vec4 [particles]: wire angle in each slot of a turn.
 layout(std430, set = 0, binding = 4) buffer WallHistoryBuffer { vec4 wallHistory[]; };
 layout(std430, set = 0, binding = 5) readonly buffer MemberBuffer { Member members[]; };
 layout(std430, set = 0, binding = 6) buffer ControlBuffer { Control control; };
@@ -33,6 +35,7 @@ layout(std430, set = 0, binding = 10) readonly buffer GroupBuffer { uint groupMe
 layout(set = 0, binding = 11) uniform samplerBuffer stateView;
 layout(set = 0, binding = 12) uniform usamplerBuffer rowView;
 layout(set = 0, binding = 13) uniform samplerBuffer historyView;
+layout(set = 0, binding = 14) uniform samplerBuffer wallHistoryView;
 #endif
 
 uint stateIndex(uint side, uint field, uint i) { return (side * kFields + field) * push.particles + i; }
@@ -41,6 +44,7 @@ uint historyIndex(uint list, uint slot, uint part, uint i) {
     return ((list * push.rowWidth + slot) * 2u + part) * push.particles + i;
 }
 uint wallHistoryIndex(uint slot, uint part, uint i) { return (slot * 2u + part) * push.particles + i; }
+uint wireAngleIndex(uint i) { return wallHistoryIndex(SURFACES + kMaxTurns, 0u, i); }
 
 uint memberOfGroup() { return MEMBERS == 1u ? 0u : groupMember[gl_WorkGroupID.x]; }
 
@@ -50,10 +54,12 @@ uint readRow(uint list, uint slot, uint i) { return texelFetch(rowView, int(rowI
 vec4 readHistory(uint list, uint slot, uint part, uint i) {
     return texelFetch(historyView, int(historyIndex(list, slot, part, i)));
 }
+vec4 readWallHistory(uint index) { return texelFetch(wallHistoryView, int(index)); }
 #else
 vec4 readState(uint side, uint field, uint i) { return state[stateIndex(side, field, i)]; }
 uint readRow(uint list, uint slot, uint i) { return rows[rowIndex(list, slot, i)]; }
 vec4 readHistory(uint list, uint slot, uint part, uint i) { return history[historyIndex(list, slot, part, i)]; }
+vec4 readWallHistory(uint index) { return wallHistory[index]; }
 #endif
 
 // The smallest step and the smallest particle of an error are kept: the same whatever order invocations run in.

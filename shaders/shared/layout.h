@@ -17,6 +17,7 @@ using uint = glm::uint;
 // --- limits ----------------------------------------------------------------------------------------------------------
 SHARED_CONST kMaxSurfaces = 28u;   // one bit each in the wall mask ...
 SHARED_CONST kMaxTurns = 4u;       // ... and one for every coil turn touched at once
+SHARED_CONST kUnrolledSurfaces = 8u; // surfaces whose kind is a specialisation constant; more go through a slower loop
 SHARED_CONST kMaxRow = 64u;        // neighbours per particle: two words of touch bits
 SHARED_CONST kEmpty = 0xffffffffu; // end of a cell's list
 

@@ -1,0 +1,178 @@
+#include "host/backend/vulkan/pack.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "host/core/error.h"
+
+namespace vkdose {
+
+namespace {
+
+using gpu::uvec4;
+using gpu::vec4;
+
+/// A double as the unevaluated sum of two floats.
+struct Split {
+    float high, low;
+    explicit Split(double x) : high(float(x)), low(float(x - double(float(x)))) {}
+};
+
+struct Split3 {
+    glm::vec3 high, low;
+    explicit Split3(const Vec3& v) {
+        for (int i = 0; i < 3; ++i) {
+            Split s(v[i]);
+            high[i] = s.high;
+            low[i] = s.low;
+        }
+    }
+};
+
+double largestRadius(const Particles& p) {
+    return p.radius.empty() ? 0.0 : *std::max_element(p.radius.begin(), p.radius.end());
+}
+
+gpu::ContactParams packContact(const ContactParameters& c) {
+    gpu::ContactParams p;
+    p.normal = vec4(float(c.k1), float(c.k2Max), float(c.kc), float(c.gamma));
+    p.sliding = vec4(float(c.kt), float(c.gammaT), float(c.mu), float(c.plasticityDepth));
+    p.rolling = vec4(float(c.kr), float(c.gammaR), float(c.muR), 0.0f);
+    p.torsion = vec4(float(c.kTo), float(c.gammaTo), float(c.muTo), 0.0f);
+    return p;
+}
+
+vec4 radiusPair(double r) {
+    Split s(r);
+    return {s.high, s.low, 0.0f, 0.0f};
+}
+
+gpu::SurfaceParams packed(uint32_t kind, const Vec3& point, double side, const Vec3& axis, double length,
+                          double radius) {
+    Split3 p(point);
+    gpu::SurfaceParams s;
+    s.pointHigh = vec4(p.high, float(kind));
+    s.pointLow = vec4(p.low, float(side));
+    s.axis = vec4(glm::vec3(axis), float(std::min(length, 1e30)));
+    s.radius = radiusPair(radius);
+    return s;
+}
+
+struct PackSurface {
+    gpu::SurfaceParams operator()(const geometry::Plane& g) const {
+        return packed(gpu::kPlane, g.point, 1, g.normal, 0, 0);
+    }
+    gpu::SurfaceParams operator()(const geometry::Trough& g) const {
+        return packed(gpu::kTrough, Vec3(0), 1, Vec3(0), 0, g.halfWidth);
+    }
+    gpu::SurfaceParams operator()(const geometry::Tube& g) const {
+        return packed(gpu::kTube, g.base, g.inside ? 1 : -1, g.axis, g.length, g.radius);
+    }
+    gpu::SurfaceParams operator()(const geometry::Front& g) const {
+        return packed(gpu::kFront, Vec3(0, 0, g.z), 1, Vec3(0, 0, 1), g.throatLength, g.holeRadius);
+    }
+};
+
+gpu::CoilParams packCoil(const geometry::Coil& c, double largest) {
+    const double reach = largest + c.wireRadius;
+    if (reach >= c.radius)
+        throw RunError(
+            fmt::format("a particle of radius {} m can touch the coil across its axis (coil radius {} m): the "
+                        "device's coil contact covers smaller ones; use --backend reference",
+                        largest, c.radius));
+    const double kappa = c.hand * 2 * kPi / c.pitch;
+    // Seen from the sphere's centre, the wire can only be touched within this angle; a little more for rounding.
+    const double widest = std::min(std::asin(reach / c.radius) * 1.0001 + 1e-6, kPi / 2);
+    const double bound = std::abs(kappa) * reach + widest;
+    const double turnsEachSide = std::ceil((bound + kPi) / (2 * kPi)) - 1;
+    Split start(c.zStart), radius(c.radius);
+    gpu::CoilParams p;
+    p.radius = vec4(radius.high, radius.low, float(c.wireRadius), float(c.length));
+    // The leading 16 bits of the pitch times a small integer are exact in a float.
+    const float leading = std::bit_cast<float>(std::bit_cast<uint32_t>(float(c.pitch)) & 0xffffff00u);
+    p.pitch = vec4(float(c.pitch), leading, float(c.pitch - double(leading)), float(kappa));
+    p.reach = vec4(float(widest), float(turnsEachSide), start.high, start.low);
+    p.phase = uvec4(0u);
+    p.motion = vec4(0.0f, 0.0f, 1.0f, 0.0f);
+    if (c.length / c.pitch > 250)
+        throw RunError(fmt::format("the coil has {:.0f} turns; the device's exact range reduction covers 250",
+                                   c.length / c.pitch));
+    return p;
+}
+
+uint64_t turnsFixed(double angle) {
+    double turns = angle / (2 * kPi);
+    turns -= std::floor(turns);
+    // Two words, so that the double's 53 bits are kept and 1.0 never overflows the conversion.
+    const double high = std::floor(turns * 4294967296.0);
+    const double low = (turns * 4294967296.0 - high) * 4294967296.0;
+    return (uint64_t(high) << 32) + uint64_t(low);
+}
+
+}  // namespace
+
+void packLaw(const ContactLaw& law, gpu::Member& member) {
+    for (int i = 0; i < kContactClasses; ++i) member.contact[i] = packContact(law.classes[i]);
+    member.choices.y = uint32_t(law.coulombLimit);
+    member.choices.z = uint32_t(law.rollingLever);
+}
+
+gpu::Member packMember(const World& world, const Particles& particles) {
+    if (world.surfaces.size() > gpu::kMaxSurfaces)
+        throw RunError(fmt::format("{} surfaces; the Vulkan backend holds {}", world.surfaces.size(),
+                                   uint32_t(gpu::kMaxSurfaces)));
+    gpu::Member m{};
+    packLaw(world.law, m);
+    m.choices.x = uint32_t(world.surfaces.size());
+    for (std::size_t i = 0; i < world.surfaces.size(); ++i) m.surface[i] = std::visit(PackSurface{}, world.surfaces[i]);
+    const double largest = largestRadius(particles);
+    if (world.coil) m.coil = packCoil(*world.coil, largest);
+    const auto finite = [](double x) { return float(std::clamp(x, -1e30, 1e30)); };
+    m.gravity = vec4(glm::vec3(world.gravity), float(world.density));
+    m.domainLow = vec4(glm::vec3(world.domain.low), finite(world.throatZ));
+    m.domainHigh = vec4(glm::vec3(world.domain.high), finite(world.outletZ));
+    m.numerics =
+        vec4(float(world.timeStep), float(world.skin), float(2 * largest + world.skin), float(kMaxOverlapRatio));
+    return m;
+}
+
+void packPhase(double startAngle, double anglePerStep, gpu::Member& member) {
+    const uint64_t start = turnsFixed(startAngle), step = turnsFixed(anglePerStep);
+    member.coil.phase = uvec4(uint32_t(start >> 32), uint32_t(start), uint32_t(step >> 32), uint32_t(step));
+}
+
+std::vector<gpu::vec4> packState(const Particles& p, std::size_t slots) {
+    std::vector<vec4> half(gpu::kFields * slots, vec4(0.0f));
+    for (std::size_t i = 0; i < slots; ++i) {
+        vec4& position = half[gpu::kPosition * slots + i];
+        vec4& spin = half[gpu::kSpin * slots + i];
+        if (i >= p.size()) {
+            spin.w = float(gpu::kPadding);
+            continue;
+        }
+        Split3 x(p.position[i]);
+        const bool active = p.status[i] == Status::Active;
+        position = vec4(x.high, float(active ? p.radius[i] : -p.radius[i]));
+        half[gpu::kResidue * slots + i] = vec4(x.low, 0.0f);
+        half[gpu::kVelocity * slots + i] = vec4(glm::vec3(p.velocity[i]), 0.0f);
+        spin = vec4(glm::vec3(p.spin[i]), float(uint32_t(p.status[i])));
+    }
+    return half;
+}
+
+Particles unpackState(const std::vector<gpu::vec4>& half, std::size_t slots, const Particles& loaded) {
+    Particles p = loaded;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+        p.position[i] =
+            Vec3(glm::vec3(half[gpu::kPosition * slots + i])) + Vec3(glm::vec3(half[gpu::kResidue * slots + i]));
+        p.velocity[i] = Vec3(glm::vec3(half[gpu::kVelocity * slots + i]));
+        p.spin[i] = Vec3(glm::vec3(half[gpu::kSpin * slots + i]));
+        p.status[i] = Status(uint32_t(half[gpu::kSpin * slots + i].w));
+    }
+    return p;
+}
+
+}  // namespace vkdose

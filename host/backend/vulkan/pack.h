@@ -1,0 +1,25 @@
+#pragma once
+// From the host's double-precision world to the device's layouts (shaders/shared/layout.h), and back.
+
+#include <vector>
+
+#include "host/model/particles.h"
+#include "host/model/world.h"
+#include "shaders/shared/layout.h"
+
+namespace vkdose {
+
+/// Everything of a member but the coil's phase. Throws RunError if the world does not fit the tables.
+gpu::Member packMember(const World& world, const Particles& particles);
+
+/// Replaces the contact law of a packed member.
+void packLaw(const ContactLaw& law, gpu::Member& member);
+
+/// Coil rotation as 64-bit fixed point [2^-64 turns]: phase at the start of a batch and advance per step.
+void packPhase(double startAngle, double anglePerStep, gpu::Member& member);
+
+/// One half of the state buffer: [field][slot], `slots` >= particles, the rest padding.
+std::vector<gpu::vec4> packState(const Particles& particles, std::size_t slots);
+Particles unpackState(const std::vector<gpu::vec4>& half, std::size_t slots, const Particles& loaded);
+
+}  // namespace vkdose

@@ -1,0 +1,50 @@
+#pragma once
+// The device side of one load: buffers, bindings and pipelines, sized for its particles. Mirrors shaders/pass and
+// shaders/shared/buffers.glsl; the order of the buffers is the order of the bindings.
+
+#include <cstdint>
+#include <memory>
+
+#include "host/vk/buffer.h"
+#include "host/vk/commands.h"
+#include "host/vk/device.h"
+#include "host/vk/pipeline.h"
+#include "shaders/shared/layout.h"
+
+namespace vkdose {
+
+struct TableSizes {
+    std::uint32_t particles = 0;  ///< slots, a multiple of the workgroup
+    std::uint32_t workgroup = 64;
+    std::uint32_t rowWidth = 0;
+    std::uint32_t surfaces = 0;
+    std::uint32_t surfaceKinds = 0;  ///< of the first kUnrolledSurfaces, 4 bits each
+    std::uint32_t cells = 0;         ///< a power of two
+    bool texelReads = true;          ///< wanted; used if every view fits the device's limit
+
+    std::uint32_t groups() const { return particles / workgroup; }
+    std::uint32_t wallSlots() const { return surfaces + gpu::kMaxTurns; }
+};
+
+class Passes {
+  public:
+    Passes(const vk::Device& device, const TableSizes& sizes);
+
+    /// Records steps `first` ... `first + count - 1` of a batch; `source` is the half of the state they start from.
+    void recordSteps(vk::Commands& commands, std::uint32_t first, std::uint32_t count, std::uint32_t source,
+                     bool opening) const;
+    void recordSensing(vk::Commands& commands, std::uint32_t source) const;
+
+    vk::Buffer state, rows, marks, history, wallHistory, members, control, cells, anchors, sensors, groupMember;
+    const TableSizes sizes;
+    bool texelReads() const { return texel_; }
+
+  private:
+    gpu::StepPush push(std::uint32_t step, std::uint32_t source, bool opening) const;
+
+    bool texel_;
+    vk::BindingSet bindings_;
+    vk::Pipeline clear_, bin_, neighbours_, commit_, step_, sense_;
+};
+
+}  // namespace vkdose

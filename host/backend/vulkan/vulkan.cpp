@@ -1,0 +1,232 @@
+#include "host/backend/vulkan/vulkan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "host/backend/vulkan/pack.h"
+#include "host/backend/vulkan/passes.h"
+
+namespace vkdose {
+
+namespace {
+
+/// Longest row a particle can have: spheres of the smallest size packed around the largest, within reach of the list.
+/// A shell of radius R holds about 0.9069 * 4 (R/r)^2 caps of radius r; the bound is the table's width at most.
+std::uint32_t rowWidthFor(const Particles& p, double skin) {
+    const auto [smallest, largest] = std::minmax_element(p.radius.begin(), p.radius.end());
+    const double shell = *largest + *smallest + skin;
+    const double bound = 0.9069 * 4 * std::pow(shell / *smallest, 2) + 4;
+    return std::uint32_t(std::clamp(std::ceil(bound), 8.0, double(gpu::kMaxRow)));
+}
+
+std::uint32_t roundUp(std::size_t n, std::uint32_t unit) {
+    return std::uint32_t((n + unit - 1) / unit * unit);
+}
+
+class VulkanBackend final : public Backend {
+  public:
+    explicit VulkanBackend(const VulkanOptions& options) : options_(options), device_(options.device) {
+        if (options_.workgroup > device_.limits().maxComputeWorkGroupInvocations)
+            throw DeviceError(fmt::format("workgroups of {} exceed the {} invocations of {}", options_.workgroup,
+                                          device_.limits().maxComputeWorkGroupInvocations, device_.info().name));
+    }
+
+    void load(const World& world, const Particles& particles) override;
+    void setLaw(const ContactLaw& law) override {
+        packLaw(law, member_);
+        world_.law = law;
+    }
+    Sensors advance(std::uint32_t steps, double coilRate) override;
+    Particles particles() const override;
+    std::vector<Contact> contacts() const override;
+    double coilAngle() const override { return angle_; }
+    std::string description() const override { return "vulkan: " + device_.info().name; }
+    const vk::Device& device() const { return device_; }
+
+  private:
+    void runBatch(std::uint32_t count, double coilRate);
+    Sensors sense(std::uint32_t steps);
+    void throwErrors(std::uint64_t firstStep) const;
+    std::string nameParticle(std::uint32_t i) const;
+
+    VulkanOptions options_;
+    vk::Device device_;
+    std::unique_ptr<Passes> passes_;
+    World world_;
+    Particles loaded_;
+    gpu::Member member_{};
+    std::uint32_t source_ = 0;  // half of the state that is current
+    std::uint64_t step_ = 0;
+    double angle_ = 0;
+    std::uint32_t batch_ = 16;  // steps per submission, adapted to the device
+};
+
+void VulkanBackend::load(const World& world, const Particles& particles) {
+    if (particles.size() == 0) throw RunError("there are no particles to simulate");
+    member_ = packMember(world, particles);
+    world_ = world;
+    loaded_ = particles;
+    TableSizes sizes;
+    sizes.workgroup = options_.workgroup;
+    sizes.particles = roundUp(particles.size(), options_.workgroup);
+    sizes.rowWidth = rowWidthFor(particles, world.skin);
+    sizes.surfaces = std::uint32_t(world.surfaces.size());
+    for (std::uint32_t i = 0; i < std::min<std::uint32_t>(sizes.surfaces, gpu::kUnrolledSurfaces); ++i)
+        sizes.surfaceKinds |= std::uint32_t(member_.surface[i].pointHigh.w) << (4 * i);
+    sizes.cells = 64;
+    while (sizes.cells < 2 * particles.size()) sizes.cells *= 2;
+    sizes.texelReads = options_.reads == VulkanOptions::Reads::Automatic;
+    passes_ = std::make_unique<Passes>(device_, sizes);
+
+    passes_->state.writeAll(packState(particles, sizes.particles));
+    gpu::Control control{};
+    control.cells = gpu::uvec4((sizes.cells + sizes.workgroup - 1) / sizes.workgroup, 1, 1, 0);
+    control.particles = gpu::uvec4(sizes.groups(), 1, 1, 0);
+    control.single = gpu::uvec4(1, 1, 1, 0);
+    for (gpu::ErrorRecord& e : control.error) e.first = gpu::uvec4(gpu::kEmpty);
+    passes_->control.write(0, &control, sizeof control);
+    source_ = 0;
+    step_ = 0;
+    angle_ = 0;
+}
+
+void VulkanBackend::runBatch(std::uint32_t count, double coilRate) {
+    const double perStep = coilRate * world_.timeStep;
+    packPhase(angle_ + (world_.coil ? world_.coil->startAngle : 0.0), perStep, member_);
+    member_.coil.motion.x = float(coilRate);
+    passes_->members.write(0, &member_, sizeof member_);
+    vk::Commands commands(device_);
+    commands.begin();
+    passes_->recordSteps(commands, 0, count, source_, step_ == 0);
+    commands.hostBarrier();
+    commands.submit();
+    source_ = (source_ + count) % 2;
+    angle_ += perStep * count;
+    throwErrors(step_);
+    step_ += count;
+}
+
+Sensors VulkanBackend::advance(std::uint32_t steps, double coilRate) {
+    using clock = std::chrono::steady_clock;
+    // Long submissions starve the display and trip watchdogs, short ones waste time on the fence: aim between.
+    constexpr double kShortest = 0.05, kLongest = 0.25;
+    constexpr std::uint32_t kMostSteps = 4096;
+    for (std::uint32_t done = 0; done < steps;) {
+        const std::uint32_t count = std::min(batch_, steps - done);
+        const auto start = clock::now();
+        runBatch(count, coilRate);
+        done += count;
+        const double seconds = std::chrono::duration<double>(clock::now() - start).count();
+        if (count == batch_ && seconds < kShortest && batch_ < kMostSteps) batch_ *= 2;
+        if (seconds > kLongest && batch_ > 1) batch_ /= 2;
+    }
+    return sense(steps);
+}
+
+Sensors VulkanBackend::sense(std::uint32_t steps) {
+    vk::Commands commands(device_);
+    commands.begin();
+    if (step_ == 0) passes_->members.write(0, &member_, sizeof member_);
+    passes_->recordSensing(commands, source_);
+    commands.hostBarrier();
+    commands.submit();
+    Sensors s;
+    for (const gpu::SensorRecord& r : passes_->sensors.readAll<gpu::SensorRecord>(passes_->sizes.groups())) {
+        for (int region = 0; region < kRegions; ++region) {
+            s.count[region] += r.count[region];
+            s.mass[region] += double(r.mass[region]);
+        }
+        s.kineticEnergy += double(r.motion.x);
+        s.rotationalEnergy += double(r.motion.y);
+        s.throatMomentumZ += double(r.motion.z);
+        s.coilTorque += double(r.motion.w);
+        s.maxOverlapRatio = std::max(s.maxOverlapRatio, double(r.extremes.x));
+    }
+    s.coilTorque = steps > 0 ? s.coilTorque / steps : 0.0;
+    s.rebuilds = passes_->control.readAll<gpu::Control>(1)[0].list.y;
+    return s;
+}
+
+std::string VulkanBackend::nameParticle(std::uint32_t i) const {
+    const Particles now = particles();
+    const Vec3& x = now.position[i];
+    return fmt::format("particle {} (radius {:.6g} m) at ({:.6g}, {:.6g}, {:.6g}) m", i, now.radius[i], x.x, x.y, x.z);
+}
+
+void VulkanBackend::throwErrors(std::uint64_t firstStep) const {
+    static constexpr const char* kTexts[gpu::kErrors] = {
+        "left the domain: enlarge the domain, or look for a gap between the surfaces",
+        "has a position or velocity that is not a number: the time step is too large or two particles started in one "
+        "place",
+        "has more neighbours than a row holds: use a smaller skin or a narrower size distribution",
+        "is in an overlap above 20 % of the smaller radius, which the contact law does not cover: use a smaller time "
+        "step "
+        "or a stiffer k",
+        "touches more turns of the coil than there are slots: use a larger pitch",
+        "met the coil where the search for its closest point did not converge: report this case"};
+    const gpu::Control control = passes_->control.readAll<gpu::Control>(1)[0];
+    for (std::uint32_t e : {gpu::kErrorNan, gpu::kErrorRowFull, gpu::kErrorOverlap, gpu::kErrorLost, gpu::kErrorTurns,
+                            gpu::kErrorNewton}) {
+        const gpu::uvec4 first = control.error[e].first;
+        if (first.x == gpu::kEmpty) continue;
+        const std::uint64_t step = firstStep + first.x;
+        throw RunError(fmt::format("{} {} (step {}, t = {:.6g} s)", nameParticle(first.y), kTexts[e], step,
+                                   double(step) * world_.timeStep));
+    }
+}
+
+Particles VulkanBackend::particles() const {
+    const std::size_t slots = passes_->sizes.particles;
+    return unpackState(passes_->state.readAll<gpu::vec4>(gpu::kFields * slots, source_ * gpu::kFields * slots * 16),
+                       slots, loaded_);
+}
+
+std::vector<Contact> VulkanBackend::contacts() const {
+    const TableSizes& t = passes_->sizes;
+    const std::size_t n = t.particles;
+    const auto marks = passes_->marks.readAll<gpu::uvec4>(n);
+    const auto rows = passes_->rows.readAll<std::uint32_t>(2 * t.rowWidth * n);
+    const auto pairs = passes_->history.readAll<gpu::vec4>(2ull * t.rowWidth * 2 * n);
+    const auto walls = passes_->wallHistory.readAll<gpu::vec4>(2ull * t.wallSlots() * n);
+    const std::uint32_t list = passes_->control.readAll<gpu::Control>(1)[0].list.x;
+    std::vector<Contact> contacts;
+    const auto add = [&](ContactClass kind, std::size_t i, std::uint32_t other, const gpu::vec4& a,
+                         const gpu::vec4& b) {
+        contacts.push_back(
+            {kind, std::uint32_t(i), other, double(a.w), Vec3(glm::vec3(a)), Vec3(glm::vec3(b)), double(b.w)});
+    };
+    for (std::size_t i = 0; i < loaded_.size(); ++i) {
+        for (std::uint32_t s = 0; s < marks[i].w; ++s) {
+            const std::size_t row = list * t.rowWidth + s;
+            const bool touching = ((s < 32 ? marks[i].x : marks[i].y) >> (s % 32)) & 1u;
+            if (touching && rows[row * n + i] > i)
+                add(ContactClass::ParticleParticle, i, rows[row * n + i], pairs[2 * row * n + i],
+                    pairs[(2 * row + 1) * n + i]);
+        }
+        for (std::uint32_t s = 0; s < t.wallSlots(); ++s) {
+            const bool coil = s >= t.surfaces;
+            const std::uint32_t bit = coil ? gpu::kMaxSurfaces + s - t.surfaces : s;
+            if ((marks[i].z >> bit) & 1u)
+                add(coil ? ContactClass::ParticleCoil : ContactClass::ParticleWall, i, coil ? s - t.surfaces : s,
+                    walls[2 * s * n + i], walls[(2 * s + 1) * n + i]);
+        }
+    }
+    return contacts;
+}
+
+}  // namespace
+
+std::unique_ptr<Backend> makeVulkanBackend(const VulkanOptions& options) {
+    return std::make_unique<VulkanBackend>(options);
+}
+
+ValidationReport validationReport(const Backend& backend) {
+    const auto* vulkan = dynamic_cast<const VulkanBackend*>(&backend);
+    if (vulkan == nullptr) return {};
+    return {vulkan->device().validated(), vulkan->device().validationMessages()};
+}
+
+}  // namespace vkdose
