@@ -1,0 +1,169 @@
+// Closest points on the wire's centre line.
+//
+// Write the query point in cylindrical coordinates (rho, theta, z) and let u = psi(s) - theta be the wire's phase as
+// seen from it. Half the squared distance to the centre line is, up to a constant,
+//   D(s) = -rho radius cos u + (s - h)^2 / 2,  h = z - zStart,  u = u0 + kappa s,  kappa = hand 2 pi / pitch,
+// and its derivative times kappa is
+//   f(u) = u + eps sin u - M,  eps = rho radius kappa^2,  M = u0 + kappa h (the phase at the point's own height).
+// A minimum needs f = 0 with f' = 1 + eps cos u > 0: at most one in every window |u - 2 pi k| < w, where
+// w = acos(-1/eps), or pi if eps <= 1 (then f grows everywhere and there is one minimum altogether).
+// In a window, with v = u - 2 pi k and m = M - 2 pi k, f is odd in (v, m) and concave for v > 0, so Newton started at
+// v = m / (1 + eps) <= root climbs to the root without passing it.
+
+#include "geometry/coil.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace vkdose::geometry {
+
+namespace {
+
+/// Two minima of different turns are never this close in phase; two results that are, are one minimum [rad].
+constexpr double kSameMinimum = 1e-8;
+
+/// A query point in the wire's frame.
+struct View {
+    double rho;
+    double height;  ///< h, the point's own wire coordinate [m]
+    double kappa;   ///< [rad/m]
+    double eps;
+    double u0;     ///< phase of the wire's start, seen from the point [rad]
+    double phase;  ///< M [rad]
+};
+
+View viewFrom(const Coil& coil, double angle, const Vec3& q) {
+    View view{};
+    view.rho = std::hypot(q.x, q.y);
+    view.height = q.z - coil.zStart;
+    view.kappa = coil.hand * 2 * kPi / coil.pitch;
+    view.eps = view.rho * coil.radius * view.kappa * view.kappa;
+    view.u0 = std::remainder(angle + coil.startAngle - std::atan2(q.y, q.x), 2 * kPi);
+    view.phase = view.u0 + view.kappa * view.height;
+    return view;
+}
+
+/// Root v of v + eps sin v = m inside the window; the caller has made sure there is one.
+double rootInWindow(double eps, double m) {
+    constexpr int kMaxSteps = 200;  // quadratic as a rule; by halves towards the window's edge, where f' vanishes
+    const double target = std::abs(m);
+    double v = target / (1 + eps);
+    for (int step = 0; step < kMaxSteps; ++step) {
+        const double shortfall = target - (v + eps * std::sin(v));
+        const double slope = 1 + eps * std::cos(v);
+        // Rounding alone makes the climb stop, reach the root from above or meet a slope of zero.
+        if (shortfall <= 0 || slope <= 0 || v + shortfall / slope <= v) return std::copysign(v, m);
+        v += shortfall / slope;
+    }
+    throw std::logic_error("closest point on the coil: Newton did not converge");
+}
+
+CoilTouch touchAt(const Coil& coil, double angle, const Vec3& q, double s) {
+    const double wireAngle = coil.hand * 2 * kPi * s / coil.pitch;
+    const double psi = angle + coil.startAngle + wireAngle;
+    const Vec3 outward(std::cos(psi), std::sin(psi), 0);
+    const Vec3 centre = coil.radius * outward + Vec3(0, 0, coil.zStart + s);
+    const double away = glm::length(q - centre);
+    const Vec3 normal = away > 0 ? (q - centre) / away : outward;  // on the centre line every direction is as good
+
+    CoilTouch touch{};
+    touch.point = centre + coil.wireRadius * normal;
+    touch.normal = normal;
+    touch.distance = away - coil.wireRadius;
+    touch.wireAngle = wireAngle;
+    return touch;
+}
+
+/// Appends the wire coordinates of every interior minimum between s = low and s = high, in no particular order.
+void interiorMinima(const View& view, double low, double high, std::vector<double>& found) {
+    const auto keep = [&](double k) {
+        const double m = view.phase - 2 * kPi * k;
+        const double s = view.height + (rootInWindow(view.eps, m) - m) / view.kappa;
+        // A minimum at the very end must not fall between this test and the one of the ends for want of a digit.
+        if (s >= low - kSameMinimum / std::abs(view.kappa) && s <= high + kSameMinimum / std::abs(view.kappa))
+            found.push_back(glm::clamp(s, low, high));
+    };
+    if (view.eps <= 1) {
+        keep(std::round(view.phase / (2 * kPi)));
+        return;
+    }
+    const double window = std::acos(-1 / view.eps);
+    const double widest = window + std::sqrt((view.eps - 1) * (view.eps + 1));  // w + eps sin w
+    const double uLow = std::min(view.u0 + view.kappa * low, view.u0 + view.kappa * high);
+    const double uHigh = std::max(view.u0 + view.kappa * low, view.u0 + view.kappa * high);
+    const double first = std::ceil(std::max(view.phase - widest, uLow - window) / (2 * kPi));
+    const double last = std::floor(std::min(view.phase + widest, uHigh + window) / (2 * kPi));
+    for (double k = first; k <= last; ++k) keep(k);
+}
+
+/// Wire coordinates of every local minimum of the distance with |s - h| <= span, in increasing order.
+std::vector<double> minima(const Coil& coil, const View& view, double span) {
+    std::vector<double> found;
+    interiorMinima(view, std::max(0.0, view.height - span), std::min(coil.length, view.height + span), found);
+    // dD/ds: an end is a minimum when the distance grows from there into the wire.
+    const auto slope = [&](double s) {
+        return view.rho * coil.radius * view.kappa * std::sin(view.u0 + view.kappa * s) + (s - view.height);
+    };
+    const auto addEnd = [&](double s) {
+        const bool known = std::any_of(found.begin(), found.end(), [&](double other) {
+            return std::abs(view.kappa * (other - s)) < 2 * kSameMinimum;
+        });
+        if (!known && std::abs(s - view.height) <= span) found.push_back(s);
+    };
+    if (slope(0) >= 0) addEnd(0);
+    if (slope(coil.length) <= 0) addEnd(coil.length);
+    std::sort(found.begin(), found.end());
+    return found;
+}
+
+void requireFinite(const Vec3& q, double angle) {
+    if (!std::isfinite(q.x) || !std::isfinite(q.y) || !std::isfinite(q.z) || !std::isfinite(angle))
+        throw std::logic_error("closest point on the coil: the query point or the coil's angle is not finite");
+}
+
+}  // namespace
+
+std::vector<CoilTouch> touches(const Coil& coil, double angle, const Vec3& q, double reach) {
+    requireFinite(q, angle);
+    const double span = reach + coil.wireRadius;  // between the point and the centre line
+    const double height = q.z - coil.zStart;
+    const double rho = std::hypot(q.x, q.y);
+    std::vector<CoilTouch> found;
+    if (std::abs(rho - coil.radius) >= span || height <= -span || height >= coil.length + span) return found;
+    for (const double s : minima(coil, viewFrom(coil, angle, q), span)) {
+        const CoilTouch touch = touchAt(coil, angle, q, s);
+        if (touch.distance < reach) found.push_back(touch);
+    }
+    return found;
+}
+
+CoilTouch closestPoint(const Coil& coil, double angle, const Vec3& q) {
+    requireFinite(q, angle);
+    CoilTouch nearest{};
+    nearest.distance = std::numeric_limits<double>::infinity();
+    for (const double s : minima(coil, viewFrom(coil, angle, q), std::numeric_limits<double>::infinity())) {
+        const CoilTouch touch = touchAt(coil, angle, q, s);
+        if (touch.distance < nearest.distance) nearest = touch;
+    }
+    return nearest;
+}
+
+int maxTouches(const Coil& coil, double a) {
+    const double reach = a + coil.wireRadius;
+    const double span = std::min(2 * reach, coil.length);  // of the touching wire points along z
+    // A wire point within reach < radius is less than asin(reach/radius) off the sphere's own angle, so that two of
+    // them, on different turns, differ by at least this much along z.
+    if (reach < coil.radius) {
+        const double separation = coil.pitch * (1 - std::asin(reach / coil.radius) / kPi);
+        return static_cast<int>(std::floor(span / separation)) + 1;
+    }
+    // Wider than the coil: one minimum in each turn that the span meets, and the two ends.
+    return static_cast<int>(std::floor(span / coil.pitch)) + 4;
+}
+
+double conveyingRate(const Coil& coil, double speed) {
+    return -coil.hand * speed;  // at a fixed angle the wire's z moves at -rate / kappa
+}
+
+}  // namespace vkdose::geometry

@@ -1,0 +1,77 @@
+#include "host/backend/reference/contact.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/backend/reference/normal.h"
+#include "host/backend/reference/rolling.h"
+#include "host/backend/reference/sliding.h"
+#include "host/backend/reference/torsion.h"
+
+namespace vkdose::reference {
+
+std::optional<Touch> touchSphere(const Body& i, const Body& j) {
+    const Vec3 apart = i.position - j.position;
+    const double distance = glm::length(apart);
+    const double overlap = i.radius + j.radius - distance;
+    if (!(overlap > 0)) return std::nullopt;
+
+    Touch touch{};
+    touch.normal = apart / distance;
+    touch.overlap = overlap;
+    touch.reduced = 2 * i.radius * j.radius / (i.radius + j.radius);
+    touch.smaller = std::min(i.radius, j.radius);
+    touch.leverI = -(i.radius - overlap / 2) * touch.normal;
+    touch.leverJ = (j.radius - overlap / 2) * touch.normal;
+    touch.velocity = (i.velocity + glm::cross(i.spin, touch.leverI)) - (j.velocity + glm::cross(j.spin, touch.leverJ));
+    touch.spin = i.spin - j.spin;
+    return touch;
+}
+
+std::optional<Touch> touchWall(const Body& i, const Vec3& normal, double distance, double rate) {
+    const double overlap = i.radius - distance;
+    if (!(overlap > 0)) return std::nullopt;
+
+    Touch touch{};
+    touch.normal = normal;
+    touch.overlap = overlap;
+    touch.reduced = 2 * i.radius;
+    touch.smaller = i.radius;
+    touch.leverI = -(i.radius - overlap / 2) * normal;
+    touch.leverJ = Vec3(0);
+    const Vec3 wallSpin(0, 0, rate);
+    const Vec3 point = i.position + touch.leverI;
+    touch.velocity = (i.velocity + glm::cross(i.spin, touch.leverI)) - glm::cross(wallSpin, point);
+    touch.spin = i.spin - wallSpin;
+    return touch;
+}
+
+Response contactResponse(const ContactLaw& law, ContactClass kind, const Touch& touch, double dt, History& history) {
+    const ContactParameters& p = law.of(kind);
+    const Vec3& n = touch.normal;
+
+    const double normalVelocity = glm::dot(touch.velocity, n);
+    const double hysteretic = normalForce(p, touch.overlap, touch.reduced, history.maxOverlap);
+    const double normal = hysteretic - p.gamma * normalVelocity;
+    const double bearing = law.coulombLimit == CoulombLimit::Luding
+                               ? std::max(0.0, hysteretic + p.kc * touch.overlap)  // adhesion moves friction's zero
+                               : std::abs(normal);
+
+    const Vec3 tangentialVelocity = touch.velocity - n * normalVelocity;
+    const Vec3 tangential = frictionForce({p.kt, p.gammaT, p.mu}, bearing, n, tangentialVelocity, dt, history.sliding);
+
+    const double lever = rollingLever(law.rollingLever, touch.reduced);
+    const Vec3 rolling =
+        frictionForce({p.kr, p.gammaR, p.muR}, bearing, n, rollingVelocity(lever, n, touch.spin), dt, history.rolling);
+    const double torsion =
+        torsionForce({p.kTo, p.gammaTo, p.muTo}, bearing, torsionVelocity(lever, n, touch.spin), dt, history.torsion);
+
+    Response response{};
+    response.force = normal * n + tangential;
+    response.couple = rollingTorque(lever, n, rolling) + lever * torsion * n;
+    response.torqueI = glm::cross(touch.leverI, tangential) + response.couple;
+    response.torqueJ = glm::cross(touch.leverJ, -tangential) - response.couple;
+    return response;
+}
+
+}  // namespace vkdose::reference

@@ -1,0 +1,57 @@
+#pragma once
+// One contact: where two bodies touch, how they move there, and the four laws put together.
+
+#include <optional>
+
+#include "host/core/vec.h"
+#include "host/model/material.h"
+
+namespace vkdose::reference {
+
+/// A sphere in motion.
+struct Body {
+    Vec3 position;  ///< [m]
+    Vec3 velocity;  ///< [m/s]
+    Vec3 spin;      ///< [rad/s]
+    double radius;  ///< [m]
+};
+
+/// What a contact remembers.
+struct History {
+    double maxOverlap = 0;  ///< delta_max [m]
+    Vec3 sliding{0};        ///< xi [m]
+    Vec3 rolling{0};        ///< rho [m]
+    double torsion = 0;     ///< [m]
+};
+
+/// Kinematics of a touching contact; `i` is the particle (the smaller index of a pair), `j` the other one or the wall.
+struct Touch {
+    Vec3 normal;     ///< from j to i
+    double overlap;  ///< delta > 0 [m]
+    double reduced;  ///< 2 a_i a_j / (a_i + a_j), wall 2 a_i [m]
+    double smaller;  ///< the smaller radius, wall a_i [m]
+    Vec3 leverI;     ///< from the centre of i to the contact point [m]
+    Vec3 leverJ;     ///< from the centre of j; zero for a wall [m]
+    Vec3 velocity;   ///< of i relative to j at the contact point [m/s]
+    Vec3 spin;       ///< omega_i - omega_j [rad/s]
+};
+
+/// Contact of two spheres; nothing unless they overlap.
+std::optional<Touch> touchSphere(const Body& i, const Body& j);
+
+/// Contact with a wall at `distance` from the centre of `i` along `normal`. The wall turns about the z axis at
+/// `rate` [rad/s]; a fixed one has rate 0.
+std::optional<Touch> touchWall(const Body& i, const Vec3& normal, double distance, double rate);
+
+/// Forces and torques of a contact. On j act the opposite force and couple, and the force on its own lever.
+struct Response {
+    Vec3 force;    ///< on i [N]
+    Vec3 torqueI;  ///< on i about its centre [N m]
+    Vec3 torqueJ;  ///< on j about its centre [N m]
+    Vec3 couple;   ///< rolling and torsion part of torqueI [N m]
+};
+
+/// The contact law. `dt` [s] is the time by which the springs advance; `history` is updated.
+Response contactResponse(const ContactLaw& law, ContactClass kind, const Touch& touch, double dt, History& history);
+
+}  // namespace vkdose::reference

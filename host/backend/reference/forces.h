@@ -1,0 +1,82 @@
+#pragma once
+// The sum of all contact forces, and the histories that the contacts carry from step to step.
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "host/backend/backend.h"
+#include "host/backend/reference/contact.h"
+#include "host/backend/reference/neighbours.h"
+
+namespace vkdose::reference {
+
+/// The deepest contact of a step.
+struct Deepest {
+    double ratio = 0;  ///< overlap over the smaller radius [-]
+    ContactClass kind = ContactClass::ParticleParticle;
+    std::uint32_t particle = 0;
+    std::uint32_t other = 0;
+};
+
+/// What the contacts do to the particles and the coil at one instant.
+struct Loads {
+    std::vector<Vec3> force;   ///< without gravity [N]
+    std::vector<Vec3> torque;  ///< about the particle's centre [N m]
+    double coilTorque = 0;     ///< about +z, on the coil [N m]
+    Deepest deepest;
+};
+
+/// Where the coil is at that instant.
+struct CoilMotion {
+    double angle;  ///< since load, about +z [rad]
+    double rate;   ///< [rad/s]
+};
+
+class Forces {
+  public:
+    /// Forgets every contact.
+    void reset(std::size_t particles);
+
+    /// Contact forces of all active particles; histories advance by `springDt` [s], those of contacts that have
+    /// parted vanish. Throws RunError when a particle touches more turns of the coil than there are slots for.
+    void evaluate(const World& world, const Particles& particles, const Neighbours& neighbours, const CoilMotion& coil,
+                  double springDt, Loads& loads);
+
+    /// Every contact touching at the last `evaluate`, by class, particle, other.
+    std::vector<Contact> contacts() const;
+
+  private:
+    struct Known {
+        std::uint32_t other;  ///< the larger index of a pair, or the surface
+        History history;
+    };
+    struct Turn {
+        bool touching = false;
+        double wireAngle = 0;  ///< where on the wire; tells the turns apart [rad]
+        History history;
+    };
+    using Turns = std::array<Turn, kMaxCoilTouches>;
+
+    void pairs(std::size_t i);
+    void surfaces(std::size_t i);
+    void coil(std::size_t i);
+    void wall(std::size_t i, ContactClass kind, std::uint32_t other, const Touch& touch, History& history);
+    static std::size_t slotOf(const Turns& before, const Turns& now, double wireAngle);
+    Body body(std::size_t i) const;
+    void note(const Touch& touch, ContactClass kind, std::size_t particle, std::size_t other);
+
+    std::vector<std::vector<Known>> pairs_, surfaces_;  ///< per particle, ascending in `other`
+    std::vector<Turns> turns_;                          ///< per particle
+    std::vector<Known> before_;                         ///< scratch: a row as it was at the last step
+
+    // The arguments of the `evaluate` in progress.
+    const World* world_ = nullptr;
+    const Particles* particles_ = nullptr;
+    const Neighbours* neighbours_ = nullptr;
+    CoilMotion motion_{};
+    double springDt_ = 0;
+    Loads* loads_ = nullptr;
+};
+
+}  // namespace vkdose::reference

@@ -1,0 +1,34 @@
+#pragma once
+// Which pairs may touch: a list with a skin, good until some particle has moved half of it.
+
+#include <cstdint>
+#include <vector>
+
+#include "host/model/particles.h"
+
+namespace vkdose::reference {
+
+class Neighbours {
+  public:
+    /// Forgets everything; the next `update` builds. `skin` [m].
+    void reset(double skin);
+
+    /// Rebuilds the list if a particle has moved more than half the skin since the last build (or never was built).
+    void update(const Particles& particles);
+
+    /// Indices j > i, ascending, of the particles closer to i than a_i + a_j + skin at the last build.
+    const std::vector<std::uint32_t>& after(std::size_t i) const { return rows_[i]; }
+
+    std::uint64_t builds() const { return builds_; }
+
+  private:
+    bool stale(const Particles& particles) const;
+    void build(const Particles& particles);
+
+    double skin_ = 0;
+    std::uint64_t builds_ = 0;
+    std::vector<Vec3> anchors_;  ///< positions at the last build
+    std::vector<std::vector<std::uint32_t>> rows_;
+};
+
+}  // namespace vkdose::reference

@@ -1,0 +1,28 @@
+#include "host/backend/reference/normal.h"
+
+#include <algorithm>
+
+namespace vkdose::reference {
+
+double normalForce(const ContactParameters& p, double overlap, double reduced, double& maxOverlap) {
+    maxOverlap = std::max(maxOverlap, overlap);
+    // One stiffness: delta* is infinite and delta_0 zero, so the spring never leaves its loading line.
+    if (p.k2Max <= p.k1) return p.k1 * overlap;
+
+    const double limit = p.k2Max / (p.k2Max - p.k1) * p.plasticityDepth * reduced;          // delta*
+    const double capped = std::min(maxOverlap, limit);                                      // delta_max, as it acts
+    const double k2 = p.k1 + (p.k2Max - p.k1) * (capped < limit ? maxOverlap / limit : 1);  // between k1 and k2Max
+    const double plastic = (1 - p.k1 / k2) * capped;                                        // delta_0
+
+    const double loading = p.k1 * overlap;
+    const double unloading = k2 * (overlap - plastic);
+    const double adhesive = -p.kc * overlap;
+
+    if (overlap > limit) return unloading;  // beyond the plastic limit: the stiffest line, up and down
+    if (unloading >= loading) return loading;
+    if (unloading > adhesive) return unloading;
+    maxOverlap = overlap * (k2 + p.kc) / (k2 - p.k1);  // where the unloading line meets the adhesive branch
+    return adhesive;
+}
+
+}  // namespace vkdose::reference

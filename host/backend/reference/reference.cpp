@@ -1,0 +1,180 @@
+#include "host/backend/reference/reference.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "host/backend/reference/forces.h"
+#include "host/backend/reference/neighbours.h"
+#include "host/core/error.h"
+
+namespace vkdose {
+
+namespace {
+
+using reference::CoilMotion;
+using reference::Deepest;
+using reference::Forces;
+using reference::Loads;
+using reference::Neighbours;
+
+bool finite(const Vec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+bool inside(const Box& box, const Vec3& x) {
+    return glm::all(glm::greaterThanEqual(x, box.low)) && glm::all(glm::lessThanEqual(x, box.high));
+}
+
+std::string nameOf(const Deepest& deepest) {
+    switch (deepest.kind) {
+        case ContactClass::ParticleParticle:
+            return fmt::format("particles {} and {}", deepest.particle, deepest.other);
+        case ContactClass::ParticleWall:
+            return fmt::format("particle {} and surface {}", deepest.particle, deepest.other);
+        case ContactClass::ParticleCoil:
+            return fmt::format("particle {} and the coil", deepest.particle);
+    }
+    return {};
+}
+
+class ReferenceBackend final : public Backend {
+  public:
+    void load(const World& world, const Particles& particles) override {
+        world_ = world;
+        particles_ = particles;
+        forces_.reset(particles.size());
+        neighbours_.reset(world.skin);
+        steps_ = 0;
+        angle_ = 0;
+    }
+
+    void setLaw(const ContactLaw& law) override { world_.law = law; }
+
+    Sensors advance(std::uint32_t steps, double coilRate) override;
+
+    Particles particles() const override { return particles_; }
+    std::vector<Contact> contacts() const override { return forces_.contacts(); }
+    double coilAngle() const override { return angle_; }
+    std::string description() const override { return "reference"; }
+
+  private:
+    void step(double coilRate);
+    void move(std::size_t i, double kick);
+    void settleStatus(std::size_t i);
+    void refuseDeepOverlap() const;
+    Sensors sense() const;
+
+    double mass(std::size_t i) const {
+        return world_.density * (4.0 / 3.0) * kPi * particles_.radius[i] * particles_.radius[i] * particles_.radius[i];
+    }
+    std::string when() const {
+        return fmt::format("step {} (t = {:.6g} s)", steps_, static_cast<double>(steps_) * world_.timeStep);
+    }
+
+    World world_;
+    Particles particles_;
+    Neighbours neighbours_;
+    Forces forces_;
+    Loads loads_;
+    std::uint64_t steps_ = 0;  ///< since load
+    double angle_ = 0;         ///< of the coil since load [rad]
+    std::string lost_;         ///< the first loss of the step, as an error message
+};
+
+Sensors ReferenceBackend::advance(std::uint32_t steps, double coilRate) {
+    double torque = 0, deepest = 0;
+    const double start = angle_;
+    for (std::uint32_t n = 0; n < steps; ++n) {
+        step(coilRate);
+        angle_ = start + coilRate * world_.timeStep * (n + 1);  // a product, so that rounding does not pile up
+        torque += loads_.coilTorque;
+        deepest = std::max(deepest, loads_.deepest.ratio);
+    }
+    Sensors sensors = sense();
+    sensors.coilTorque = steps > 0 ? torque / steps : 0;
+    sensors.maxOverlapRatio = deepest;
+    return sensors;
+}
+
+/// One step of the leapfrog, as backend.h describes it.
+void ReferenceBackend::step(double coilRate) {
+    const bool opening = steps_ == 0;
+    const double dt = world_.timeStep;
+    neighbours_.update(particles_);
+    forces_.evaluate(world_, particles_, neighbours_, CoilMotion{angle_, coilRate}, opening ? 0 : dt, loads_);
+    refuseDeepOverlap();
+
+    lost_.clear();
+    for (std::size_t i = 0; i < particles_.size(); ++i) {
+        if (particles_.status[i] != Status::Active) continue;
+        move(i, opening ? dt / 2 : dt);
+        settleStatus(i);
+    }
+    ++steps_;
+    if (!lost_.empty()) throw RunError(lost_);
+}
+
+void ReferenceBackend::move(std::size_t i, double kick) {
+    const double m = mass(i);
+    const double inertia = 0.4 * m * particles_.radius[i] * particles_.radius[i];
+    particles_.velocity[i] += kick * (loads_.force[i] / m + world_.gravity);
+    particles_.spin[i] += kick / inertia * loads_.torque[i];
+    particles_.position[i] += world_.timeStep * particles_.velocity[i];
+}
+
+/// Takes a particle out of the motion that has been dosed or lost.
+void ReferenceBackend::settleStatus(std::size_t i) {
+    const Vec3& x = particles_.position[i];
+    const bool broken = !finite(x) || !finite(particles_.velocity[i]) || !finite(particles_.spin[i]);
+    if (!broken && x.z > world_.outletZ) {
+        particles_.status[i] = Status::Dosed;
+    } else if (broken || !inside(world_.domain, x)) {
+        particles_.status[i] = Status::Lost;
+        if (lost_.empty())
+            lost_ = fmt::format(
+                "particle {} {} in {}, at ({:.6g}, {:.6g}, {:.6g}) m: {}", i,
+                broken ? "is no longer finite" : "left the domain", when(), x.x, x.y, x.z,
+                broken ? "use a smaller time step" : "close the boundaries around it or use a smaller time step");
+    }
+}
+
+void ReferenceBackend::refuseDeepOverlap() const {
+    const Deepest& deepest = loads_.deepest;
+    if (deepest.ratio > kMaxOverlapRatio)
+        throw RunError(
+            fmt::format("{} overlap by {:.1f} % of the smaller radius in {}, more than the {:.0f} % a contact "
+                        "law covers: use a smaller time step or stiffer contacts (k1, k2)",
+                        nameOf(deepest), 100 * deepest.ratio, when(), 100 * kMaxOverlapRatio));
+}
+
+Sensors ReferenceBackend::sense() const {
+    Sensors sensors;
+    for (std::size_t i = 0; i < particles_.size(); ++i) {
+        const Status status = particles_.status[i];
+        Region region = particles_.position[i].z > world_.throatZ ? Region::Throat : Region::Canister;
+        if (status == Status::Dosed) region = Region::Dosed;
+        if (status == Status::Lost) region = Region::Lost;
+        sensors.count[static_cast<std::size_t>(region)] += 1;
+        sensors.mass[static_cast<std::size_t>(region)] += mass(i);
+        if (status != Status::Active) continue;
+
+        const double m = mass(i), a = particles_.radius[i];
+        const Vec3 &v = particles_.velocity[i], &w = particles_.spin[i];
+        sensors.kineticEnergy += 0.5 * m * glm::dot(v, v);
+        sensors.rotationalEnergy += 0.5 * (0.4 * m * a * a) * glm::dot(w, w);
+        if (region == Region::Throat) sensors.throatMomentumZ += m * v.z;
+    }
+    sensors.rebuilds = neighbours_.builds();
+    return sensors;
+}
+
+}  // namespace
+
+std::unique_ptr<Backend> makeReferenceBackend() {
+    return std::make_unique<ReferenceBackend>();
+}
+
+}  // namespace vkdose
