@@ -32,8 +32,12 @@ SizeDistribution readSize(Section& section) {
         size.radiusMin = positive("radius_min_mm", kMillimetre, low * 1e3);
         size.radiusMax = positive("radius_max_mm", kMillimetre, high * 1e3);
     };
-    size.kind =
-        static_cast<Kind>(section.choice("distribution", {"uniform", "fixed", "normal", "lognormal", "quantiles"}));
+    const auto kind = section.choice("distribution", {"uniform", "fixed", "normal", "lognormal", "quantiles"});
+    if (!kind) {
+        section.abandon();
+        return size;
+    }
+    size.kind = static_cast<Kind>(*kind);
     switch (size.kind) {
         case Kind::Uniform:
             size.radiusMin = positive("radius_min_mm");
@@ -84,9 +88,10 @@ void readParticles(CaseReader& reader, Section& root, Case& c) {
 }
 
 /// The box of the insertion grid: the canister above its coil, or as given.
-void readRegion(Section& root, Boundaries kind, Case& c) {
+void readRegion(Section& root, std::optional<Boundaries> kind, Case& c) {
     Section& particles = root.table("particles");
-    if (c.filling.list) return;
+    if (!kind) particles.know("region");
+    if (!kind || c.filling.list) return;
     if (kind == Boundaries::Canister) {
         const Canister& can = *c.canister;
         // "the initial position of the lowest particle is higher than the diameter of the coil" (paper)
@@ -155,8 +160,10 @@ Ratios readRatios(Section& section, const Ratios* parent) {
 
 void readContact(Section& root, Case& c) {
     Section& contact = root.requiredTable("contact");
-    c.world.law.coulombLimit = static_cast<CoulombLimit>(contact.choice("coulomb_limit", {"luding", "absolute"}, 0));
-    c.world.law.rollingLever = static_cast<RollingLever>(contact.choice("rolling_lever", {"full", "half"}, 0));
+    c.world.law.coulombLimit =
+        static_cast<CoulombLimit>(contact.choice("coulomb_limit", {"luding", "absolute"}, 0).value_or(0));
+    c.world.law.rollingLever =
+        static_cast<RollingLever>(contact.choice("rolling_lever", {"full", "half"}, 0).value_or(0));
     const Ratios pair = readRatios(contact, nullptr);
     Section& wallSection = contact.table("wall");
     const Ratios wall = readRatios(wallSection, &pair);
@@ -206,7 +213,7 @@ void readCanister(Section& root, Case& c) {
     can.length = section.number("length_mm", Bound::Positive, kMillimetre);
     can.width = section.number("width_mm", Bound::Positive, kMillimetre);
     can.height = section.number("height_mm", Bound::Positive, kMillimetre);
-    can.flatFloor = section.choice("floor", {"trough", "flat"}, 0) == 1;
+    can.flatFloor = section.choice("floor", {"trough", "flat"}, 0) == std::size_t{1};
     can.outletDiameter = section.number("outlet_diameter_mm", Bound::Positive, kMillimetre);
     can.throatLength = section.number("throat_length_mm", Bound::Positive, kMillimetre);
     c.canister = can;
@@ -254,10 +261,12 @@ void refuseUnused(CaseReader& reader, Section& root, Boundaries kind) {
     if (kind != Boundaries::List) refuse("cylinder", "list");
 }
 
-Boundaries readBoundaries(CaseReader& reader, Section& root, Case& c) {
-    const auto kind = static_cast<Boundaries>(root.choice("boundaries", {"canister", "list", "none"}, 0));
+std::optional<Boundaries> readBoundaries(CaseReader& reader, Section& root, Case& c) {
+    const auto index = root.choice("boundaries", {"canister", "list", "none"}, 0);
     for (const char* key : {"canister", "plane", "cylinder"})
-        if (!root.has(key)) root.know(key);
+        if (!index || !root.has(key)) root.know(key);
+    if (!index) return std::nullopt;
+    const auto kind = static_cast<Boundaries>(*index);
     if (kind == Boundaries::Canister) readCanister(root, c);
     if (kind == Boundaries::List) readSurfaces(reader, root, c);
     refuseUnused(reader, root, kind);
@@ -299,7 +308,7 @@ void readCoil(CaseReader& reader, Section& root, Case& c) {
         coil.radius = std::min(c.canister->width, c.canister->outletDiameter) / 2 - size - coil.wireRadius;
     coil.zStart = section.number("z_start_mm", Bound::Any, kMillimetre, 0.0);
     coil.startAngle = section.number("start_angle_deg", Bound::Any, kDegree, 0.0);
-    coil.hand = section.choice("hand", {"right", "left"}, 0) == 0 ? 1 : -1;
+    coil.hand = section.choice("hand", {"right", "left"}, 0) == std::size_t{1} ? -1 : 1;
     c.schedule.coilSpeed = section.number("speed_rpm", Bound::NonNegative, kRpm);
     c.world.coil = coil;
 }
@@ -310,8 +319,13 @@ void readStop(Section& root, Case& c) {
     const bool doses = c.schedule.rotateTime > 0;
     Section& section = root.table("stop");
     StopRule stop;
-    stop.kind = static_cast<StopRule::Kind>(
-        section.choice("rule", {"none", "experiment", "simulation"}, doses ? std::size_t{1} : std::size_t{0}));
+    const auto rule =
+        section.choice("rule", {"none", "experiment", "simulation"}, doses ? std::size_t{1} : std::size_t{0});
+    if (!rule) {
+        section.abandon();
+        return;
+    }
+    stop.kind = static_cast<StopRule::Kind>(*rule);
     stop.threshold = 0;
     if (stop.kind == StopRule::Kind::Experiment)
         stop.threshold = section.number("threshold_g", Bound::NonNegative, kGram, 0.15);
@@ -425,7 +439,7 @@ Case loadCase(const std::filesystem::path& file, const std::vector<std::string>&
     c.bulkDensity = root.number("bulk_density", Bound::Positive, {1, "kg/m3"}, 471.0);
     readParticles(reader, root, c);
     readContact(root, c);
-    const Boundaries kind = readBoundaries(reader, root, c);
+    const std::optional<Boundaries> kind = readBoundaries(reader, root, c);
     readCoil(reader, root, c);
     readRegion(root, kind, c);
     readSchedule(root, c);

@@ -198,12 +198,13 @@ std::string Section::string(std::string_view key, std::optional<std::string> fal
     return value;
 }
 
-std::size_t Section::choice(std::string_view key, const std::vector<std::string>& words,
-                            std::optional<std::size_t> fallback) {
+std::optional<std::size_t> Section::choice(std::string_view key, const std::vector<std::string>& words,
+                                           std::optional<std::size_t> fallback) {
     const std::string remedy = fmt::format("give one of {}", listed(words));
     const Node* node = take(key, !fallback, remedy);
-    std::size_t index = fallback.value_or(0);
+    std::optional<std::size_t> index = fallback;
     if (node != nullptr) {
+        index.reset();
         const auto found = std::find(words.begin(), words.end(), node->string);
         if (node->kind != Node::Kind::String) {
             fault(*node, key, fmt::format("is {}, not a string", kindName(node->kind)), remedy);
@@ -215,7 +216,7 @@ std::size_t Section::choice(std::string_view key, const std::vector<std::string>
             index = static_cast<std::size_t>(found - words.begin());
         }
     }
-    write(key, tomlString(words[index]));
+    if (index) write(key, tomlString(words[*index]));
     return index;
 }
 
@@ -288,7 +289,7 @@ void Section::record(std::string_view key, const std::string& value) {
 }
 
 void Section::finish() {
-    if (node_ == nullptr) return;
+    if (node_ == nullptr || abandoned_) return;
     for (const Node& child : node_->children) {
         if (std::find(known_.begin(), known_.end(), child.key) != known_.end()) continue;
         const std::string meant = closestWord(child.key, known_);

@@ -48,9 +48,9 @@ class Section {
     std::int64_t integer(std::string_view key, std::int64_t low, std::optional<std::int64_t> fallback = std::nullopt);
     bool boolean(std::string_view key, bool fallback);
     std::string string(std::string_view key, std::optional<std::string> fallback = std::nullopt);
-    /// Index of the chosen word.
-    std::size_t choice(std::string_view key, const std::vector<std::string>& words,
-                       std::optional<std::size_t> fallback = std::nullopt);
+    /// Index of the chosen word; nothing when it is missing or not one of them.
+    std::optional<std::size_t> choice(std::string_view key, const std::vector<std::string>& words,
+                                      std::optional<std::size_t> fallback = std::nullopt);
     Vec3 vector(std::string_view key, std::optional<Vec3> fallback = std::nullopt);
 
     /// A table inside this one, the same object at every call; when it is not there, all its keys take their defaults
@@ -65,6 +65,9 @@ class Section {
     void record(std::string_view key, double value);
     void record(std::string_view key, const Vec3& value);
     void record(std::string_view key, const std::string& value);
+    /// After a fault that decides which keys belong here: no more faults from this table.
+    void abandon() { broken_ = abandoned_ = true; }
+
     /// Marks a key as known without reading it.
     void know(std::string_view key) { known_.emplace_back(key); }
 
@@ -80,6 +83,7 @@ class Section {
     const Node* node_;
     std::string path_;
     bool broken_;  ///< already reported; stay silent
+    bool abandoned_ = false;
     bool isItem_ = false;
     std::vector<std::string> known_;
     std::vector<std::pair<std::string, std::string>> used_;  ///< key and value for the resolved case

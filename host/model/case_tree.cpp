@@ -86,6 +86,7 @@ std::string readText(const std::filesystem::path& file, const Diagnostic& whoAsk
     Diagnostic fault = whoAsks;
     if (!std::filesystem::exists(file, code)) {
         fault.problem = fmt::format("there is no file {}", file.string());
+        if (fault.file.empty()) fault = {file.string(), 0, "", "", "there is no such file", fault.remedy};
         throw CaseError({fault});
     }
     if (!std::filesystem::is_regular_file(file, code) || !stream) {

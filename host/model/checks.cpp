@@ -298,7 +298,7 @@ void checkFilling(CaseReader& reader, const Case& c, double largestRadius) {
     if (c.canister) checkLargest(reader, c, largestRadius);
     if (c.canister && !c.filling.list) checkBed(reader, c);
     if (!reader.faulty() && !c.filling.list) checkGrid(reader, c, largestRadius);
-    if (!c.world.coil) return;
+    if (!c.world.coil || reader.faulty()) return;
     const int touches = geometry::maxTouches(*c.world.coil, largestRadius);
     if (touches > kMaxCoilTouches)
         reader.fault(reader.root().table("coil").has("pitch_mm") ? "coil.pitch_mm" : "coil.turns",

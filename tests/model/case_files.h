@@ -1,0 +1,108 @@
+#pragma once
+// Case files written by a test: a folder of its own per test, removed at the end.
+
+#include <stdlib.h>
+
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+
+#include "host/model/case.h"
+
+namespace vkdose::test {
+
+class Folder {
+  public:
+    Folder() {
+        std::string name = (std::filesystem::temp_directory_path() / "vkdose-model-XXXXXX").string();
+        if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
+        path_ = name;
+    }
+    ~Folder() {
+        std::error_code ignored;
+        std::filesystem::remove_all(path_, ignored);
+    }
+    Folder(const Folder&) = delete;
+    Folder& operator=(const Folder&) = delete;
+
+    std::filesystem::path write(const std::string& name, const std::string& text) const {
+        std::ofstream(path_ / name, std::ios::binary) << text;
+        return path_ / name;
+    }
+    const std::filesystem::path& path() const { return path_; }
+
+  private:
+    std::filesystem::path path_;
+};
+
+inline std::filesystem::path shippedCase(const std::string& name) {
+    return std::filesystem::path(VKDOSE_SOURCE_DIR) / "cases" / name;
+}
+
+/// A valid small case; the tests break one thing of it at a time.
+inline const std::string kGoodCase = R"(name = "good"
+seed = 3
+boundaries = "canister"
+[particles]
+density = 1427.0
+mass_g = 0.9
+[particles.size]
+distribution = "uniform"
+radius_min_mm = 0.9
+radius_max_mm = 1.3
+[contact]
+k = 2000.0
+k1_over_k = 0.2
+kc_over_k = 0.5
+plasticity_depth = 0.05
+damping = 0.02
+friction = 0.5
+rolling_friction = 0.2
+[contact.wall]
+friction = 0.2
+[canister]
+length_mm = 16.0
+width_mm = 14.0
+height_mm = 60.0
+outlet_diameter_mm = 14.0
+throat_length_mm = 5.0
+[coil]
+turns = 3
+length_mm = 21.0
+wire_diameter_mm = 1.6
+radius_mm = 5.9
+speed_rpm = 120.0
+[settle]
+time_s = 0.15
+[dose]
+rotate_s = 0.3
+rest_s = 0.1
+[stop]
+rule = "experiment"
+)";
+
+/// Two particles and nothing else.
+inline const std::string kFreeCase = R"(boundaries = "none"
+gravity = [0, 0, 0]
+[particles]
+density = 1427.0
+list = "two.csv"
+[contact]
+k = 24067.0
+k1_over_k = 0.2
+kc_over_k = 0.0
+plasticity_depth = 0.05
+damping = 0.0827
+friction = 0.5
+[settle]
+time_s = 0.01
+)";
+
+inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
+    const std::size_t at = text.find(from);
+    if (at == std::string::npos) throw std::logic_error("nothing to replace: " + from);
+    return text.replace(at, from.size(), to);
+}
+
+}  // namespace vkdose::test

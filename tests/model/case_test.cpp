@@ -1,0 +1,266 @@
+#include "host/model/case.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "host/core/error.h"
+#include "tests/model/case_files.h"
+
+using namespace vkdose;
+using test::Folder;
+using test::kFreeCase;
+using test::kGoodCase;
+using test::replaced;
+using test::shippedCase;
+
+namespace {
+
+void checkSameLaw(const ContactLaw& a, const ContactLaw& b) {
+    CHECK(a.coulombLimit == b.coulombLimit);
+    CHECK(a.rollingLever == b.rollingLever);
+    for (std::size_t i = 0; i < a.classes.size(); ++i) {
+        const ContactParameters& p = a.classes[i];
+        const ContactParameters& q = b.classes[i];
+        CHECK(std::vector<double>{p.k1, p.k2Max, p.kc, p.plasticityDepth, p.gamma, p.kt, p.gammaT, p.mu, p.kr, p.gammaR,
+                                  p.muR, p.kTo, p.gammaTo, p.muTo} ==
+              std::vector<double>{q.k1, q.k2Max, q.kc, q.plasticityDepth, q.gamma, q.kt, q.gammaT, q.mu, q.kr, q.gammaR,
+                                  q.muR, q.kTo, q.gammaTo, q.muTo});
+    }
+}
+
+/// Everything but `resolved`, to the last bit.
+void checkSame(const Case& a, const Case& b) {
+    CHECK(a.name == b.name);
+    CHECK(a.reason == b.reason);
+    CHECK(a.seed == b.seed);
+    checkSameLaw(a.world.law, b.world.law);
+    checkSameLaw(a.settlingLaw, b.settlingLaw);
+    CHECK(a.world.surfaces.size() == b.world.surfaces.size());
+    CHECK(a.world.gravity == b.world.gravity);
+    CHECK(a.world.density == b.world.density);
+    CHECK(a.world.timeStep == b.world.timeStep);
+    CHECK(a.world.skin == b.world.skin);
+    CHECK(a.world.domain.low == b.world.domain.low);
+    CHECK(a.world.domain.high == b.world.domain.high);
+    CHECK(a.world.throatZ == b.world.throatZ);
+    CHECK(a.world.outletZ == b.world.outletZ);
+    REQUIRE(a.world.coil.has_value() == b.world.coil.has_value());
+    if (a.world.coil) {
+        CHECK(a.world.coil->radius == b.world.coil->radius);
+        CHECK(a.world.coil->pitch == b.world.coil->pitch);
+        CHECK(a.world.coil->wireRadius == b.world.coil->wireRadius);
+        CHECK(a.world.coil->length == b.world.coil->length);
+        CHECK(a.world.coil->hand == b.world.coil->hand);
+    }
+    CHECK(a.schedule.settleTime == b.schedule.settleTime);
+    CHECK(a.schedule.rotateTime == b.schedule.rotateTime);
+    CHECK(a.schedule.restTime == b.schedule.restTime);
+    CHECK(a.schedule.coilSpeed == b.schedule.coilSpeed);
+    CHECK(a.schedule.stop.kind == b.schedule.stop.kind);
+    CHECK(a.schedule.stop.threshold == b.schedule.stop.threshold);
+    CHECK(a.schedule.stop.doses == b.schedule.stop.doses);
+    CHECK(a.schedule.stop.maxDoses == b.schedule.stop.maxDoses);
+    CHECK(a.schedule.stop.endTime == b.schedule.stop.endTime);
+    CHECK(a.sensorInterval == b.sensorInterval);
+    CHECK(a.bulkDensity == b.bulkDensity);
+    const Insertion x = insertParticles(a);
+    const Insertion y = insertParticles(b);
+    CHECK(x.particles.position == y.particles.position);
+    CHECK(x.particles.radius == y.particles.radius);
+    CHECK(x.particles.velocity == y.particles.velocity);
+}
+
+}  // namespace
+
+TEST_CASE("the paper's case, value by value") {
+    const Case c = loadCase(shippedCase("paper-48g.toml"));
+    const ContactParameters& p = c.world.law.of(ContactClass::ParticleParticle);
+    CHECK(p.k2Max == 24067.0);
+    CHECK(p.k1 == Approx(4813.4).epsilon(1e-14));
+    CHECK(p.kc == Approx(0.873 * 24067).epsilon(1e-14));
+    CHECK(p.plasticityDepth == 0.05);
+    CHECK(p.gamma == 0.0827);
+    CHECK(p.kt == Approx(6883.162).epsilon(1e-14));
+    CHECK(p.kr == Approx(6883.162).epsilon(1e-14));
+    CHECK(p.gammaT == Approx(0.0236522).epsilon(1e-14));
+    CHECK(p.gammaR == Approx(0.0236522).epsilon(1e-14));
+    CHECK(p.mu == 0.5);
+    CHECK(p.muR == 0.5);
+    CHECK(p.muTo == 0);
+    CHECK(c.world.law.of(ContactClass::ParticleWall).mu == 0.2);
+    CHECK(c.world.law.of(ContactClass::ParticleCoil).mu == 0.2);
+    CHECK(c.world.law.of(ContactClass::ParticleCoil).k2Max == 24067.0);
+    for (const ContactParameters& q : c.settlingLaw.classes) CHECK(q.kc == Approx(0.3 * 24067).epsilon(1e-14));
+    CHECK(c.world.law.coulombLimit == CoulombLimit::Luding);
+    CHECK(c.world.law.rollingLever == RollingLever::Full);
+    CHECK(c.world.density == 1427);
+    CHECK(c.world.gravity == Vec3(0, -9.81, 0));
+    CHECK(c.world.timeStep == 2.26e-6);
+    REQUIRE(c.world.coil);
+    CHECK(c.world.coil->pitch == Approx(8.75e-3).epsilon(1e-14));
+    CHECK(c.world.coil->radius == Approx(10.4e-3).epsilon(1e-14));
+    CHECK(c.world.coil->wireRadius == 1e-3);
+    CHECK(c.world.coil->hand == 1);
+    CHECK(c.world.throatZ == 0.06);
+    CHECK(c.world.outletZ == Approx(0.07).epsilon(1e-14));
+    CHECK(c.filling.mass == 0.048);
+    CHECK(c.schedule.coilSpeed == Approx(9.42477796).epsilon(1e-8));
+    CHECK(c.schedule.settleTime == 2);
+    CHECK(c.schedule.rotateTime == 2);
+    CHECK(c.schedule.restTime == 0.5);
+    CHECK(c.schedule.stop.threshold == 0.15e-3);
+    CHECK(c.schedule.stop.doses == 3);
+    // 0.01 s / 2.26e-6 s = 4424.8 steps
+    CHECK(c.sensorInterval / c.world.timeStep == Approx(4425).epsilon(1e-12));
+    REQUIRE(c.world.surfaces.size() == 3);
+    CHECK(std::get<geometry::Trough>(c.world.surfaces[0]).halfWidth == 11.5e-3);
+    CHECK(std::get<geometry::Plane>(c.world.surfaces[1]).normal == Vec3(0, 0, 1));
+    CHECK(std::get<geometry::Front>(c.world.surfaces[2]).holeRadius == 11.5e-3);
+}
+
+TEST_CASE("every shipped case loads, says why it exists and survives being resolved") {
+    int count = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(VKDOSE_SOURCE_DIR "/cases")) {
+        if (entry.path().extension() != ".toml") continue;
+        INFO(entry.path());
+        ++count;
+        const Case c = loadCase(entry.path());
+        CHECK(c.name == entry.path().stem().string());
+        CHECK(c.reason.size() > 20);
+        const Folder folder;
+        const Case again = loadCase(folder.write("resolved.toml", c.resolved));
+        checkSame(c, again);
+        CHECK(again.resolved == c.resolved);
+    }
+    CHECK(count >= 16);
+}
+
+TEST_CASE("a resolved case with a list, planes and words of its own loads again") {
+    const Folder folder;
+    std::filesystem::create_directory(folder.path() / "deep");
+    folder.write("deep/two.csv", "x,y,z,r,vx,vy,vz\n0,2e-3,0,1e-3,0.1,0,0\n0,5e-3,0,0.7e-3,0,0,0\n");
+    const std::string text =
+        replaced(kFreeCase, "boundaries = \"none\"", "reason = 'a \"quoted\" \\ word'\nboundaries = \"list\"") +
+        "[[plane]]\npoint = [0, 0, 0]\nnormal = [0, 3, 0]\n[[plane]]\npoint = [0.1, 0, 0]\nnormal = [-1, 0, 0]\n"
+        "[[cylinder]]\nbase = [0, 0, 0]\naxis = [0, 0, 2]\nradius_mm = 9\ninside = true\n";
+    const Case c = loadCase(folder.write("deep/case.toml", text));
+    CHECK(c.reason == "a \"quoted\" \\ word");
+    REQUIRE(c.world.surfaces.size() == 3);
+    CHECK(std::get<geometry::Plane>(c.world.surfaces[0]).normal == Vec3(0, 1, 0));
+    CHECK(std::get<geometry::Tube>(c.world.surfaces[2]).radius == 9e-3);
+    CHECK(std::isinf(std::get<geometry::Tube>(c.world.surfaces[2]).length));
+    // Elsewhere than the original: the path of the list must still hold.
+    const Case again = loadCase(folder.write("resolved.toml", c.resolved));
+    checkSame(c, again);
+    CHECK(insertParticles(again).particles.velocity[0] == Vec3(0.1, 0, 0));
+}
+
+TEST_CASE("overrides are TOML values or bare words, the last one wins") {
+    const Folder folder;
+    const auto file = folder.write("case.toml", kGoodCase);
+    const Case c = loadCase(file, {"contact.friction=0.1", "contact.friction = 0.3", "coil.hand=left", "seed=9",
+                                   "gravity=[0, -1.62, 0]", "contact.coil.friction=0.7", "name=other-name"});
+    CHECK(c.world.law.of(ContactClass::ParticleParticle).mu == 0.3);
+    CHECK(c.world.law.of(ContactClass::ParticleWall).mu == 0.2);
+    CHECK(c.world.law.of(ContactClass::ParticleCoil).mu == 0.7);
+    CHECK(c.world.coil->hand == -1);
+    CHECK(c.seed == 9);
+    CHECK(c.world.gravity.y == -1.62);
+    CHECK(c.name == "other-name");
+    CHECK_THAT(c.resolved, Catch::Contains("hand = \"left\"") && Catch::Contains("friction = 0.3"));
+}
+
+TEST_CASE("an override replaces its rival") {
+    const Folder folder;
+    const auto file = folder.write("case.toml", kGoodCase);
+    CHECK(loadCase(file, {"coil.pitch_mm=5.25"}).world.coil->pitch == 5.25e-3);
+    CHECK(loadCase(file, {"coil.clearance_mm=0.5"}).world.coil->radius == Approx(5.7e-3).epsilon(1e-14));
+    const Case fixed = loadCase(file, {"particles.size.distribution=fixed", "particles.size.radius_mm=1.1"});
+    CHECK(fixed.filling.size.kind == SizeDistribution::Kind::Fixed);
+    CHECK(fixed.filling.size.radius == Approx(1.1e-3));
+    // The distribution the file has already: its keys stay.
+    CHECK(loadCase(file, {"particles.size.distribution=uniform"}).filling.size.radiusMax == 1.3e-3);
+}
+
+TEST_CASE("a base file is overridden key by key, faults name the file they stand in") {
+    const Folder folder;
+    std::filesystem::create_directory(folder.path() / "variants");
+    const auto base = folder.write("base.toml", kGoodCase);
+    const auto middle = folder.write("variants/middle.toml", "base = \"../base.toml\"\n[contact]\nfriction = 0.4\n");
+    const auto top =
+        folder.write("variants/top.toml", "base = \"middle.toml\"\nname = \"top\"\n[coil]\npitch_mm = 6\n");
+    const Case c = loadCase(top);
+    CHECK(c.name == "top");
+    CHECK(c.world.law.of(ContactClass::ParticleParticle).mu == 0.4);
+    CHECK(c.world.law.of(ContactClass::ParticleWall).mu == 0.2);
+    CHECK(c.world.coil->pitch == 6e-3);
+    CHECK(c.resolved.find("base") == std::string::npos);
+
+    const auto bad = folder.write("variants/bad.toml", "base = \"middle.toml\"\n\n[contact]\nkc_over_k = -1\n");
+    try {
+        loadCase(bad);
+        FAIL("accepted");
+    } catch (const CaseError& error) {
+        REQUIRE(error.faults().size() == 1);
+        CHECK(error.faults()[0].file == bad.string());
+        CHECK(error.faults()[0].line == 4);
+    }
+    folder.write("base.toml", replaced(kGoodCase, "damping = 0.02", "damping = -0.02"));
+    try {
+        loadCase(top);
+        FAIL("accepted");
+    } catch (const CaseError& error) {
+        REQUIRE(error.faults().size() == 1);
+        CHECK(std::filesystem::equivalent(error.faults()[0].file, base));
+        CHECK(error.faults()[0].line == 16);
+    }
+    CHECK(std::filesystem::exists(middle));
+}
+
+TEST_CASE("settling adhesion: for every class without one of its own") {
+    const Folder folder;
+    const auto file = folder.write("case.toml", kGoodCase);
+    const Case plain = loadCase(file);  // no settling value: the doses' law from the start
+    CHECK(plain.settlingLaw.classes[0].kc == plain.world.law.classes[0].kc);
+    const Case c = loadCase(file, {"settle.kc_over_k=0.3", "contact.wall.kc_over_k=0.1"});
+    CHECK(c.settlingLaw.of(ContactClass::ParticleParticle).kc == Approx(600));
+    CHECK(c.settlingLaw.of(ContactClass::ParticleWall).kc == Approx(200));
+    CHECK(c.settlingLaw.of(ContactClass::ParticleCoil).kc == Approx(200));
+    CHECK(c.world.law.of(ContactClass::ParticleCoil).kc == Approx(200));
+    const Case d = loadCase(file, {"settle.kc_over_k=0.3", "settle.coil_kc_over_k=0"});
+    CHECK(d.settlingLaw.of(ContactClass::ParticleWall).kc == Approx(600));
+    CHECK(d.settlingLaw.of(ContactClass::ParticleCoil).kc == 0);
+}
+
+TEST_CASE("stop rules") {
+    const Folder folder;
+    const auto file = folder.write("case.toml", kGoodCase);
+    CHECK(loadCase(file).schedule.stop.threshold == 0.15e-3);
+    const Case simulation = loadCase(file, {"stop.rule=simulation", "stop.doses=5"});
+    CHECK(simulation.schedule.stop.kind == StopRule::Kind::Simulation);
+    CHECK(simulation.schedule.stop.threshold == 0);
+    CHECK(simulation.schedule.stop.doses == 5);
+    const Case none = loadCase(file, {"stop.rule=none", "stop.end_time_s=1.5"});
+    CHECK(none.schedule.stop.kind == StopRule::Kind::None);
+    CHECK(none.schedule.stop.endTime == 1.5);
+    CHECK_THROWS_AS(loadCase(file, {"stop.rule=simulation", "stop.threshold_g=0.1"}), CaseError);
+}
+
+TEST_CASE("flat floor and free boundaries") {
+    const Folder folder;
+    const Case flat = loadCase(folder.write("case.toml", kGoodCase), {"canister.floor=flat"});
+    CHECK(flat.canister->flatFloor);
+    REQUIRE(flat.world.surfaces.size() == 5);
+    CHECK(std::get<geometry::Plane>(flat.world.surfaces[2]).point.y == -7e-3);
+
+    folder.write("two.csv", "x,y,z,r\n0,0,0,1e-3\n0,3e-3,0,1e-3\n");
+    const Case free = loadCase(folder.write("free.toml", kFreeCase));
+    CHECK(free.world.surfaces.empty());
+    CHECK_FALSE(free.world.coil);
+    CHECK_FALSE(free.canister);
+    CHECK(std::isinf(free.world.outletZ));
+    CHECK(free.world.gravity == Vec3(0));
+    CHECK(free.schedule.stop.kind == StopRule::Kind::None);
+    CHECK(free.world.domain.low.x <= -20e-3);
+    CHECK(free.world.domain.high.y >= 23e-3);
+}

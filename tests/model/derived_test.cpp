@@ -1,0 +1,100 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+
+#include "host/model/case.h"
+#include "host/model/stability.h"
+#include "tests/model/case_files.h"
+
+using namespace vkdose;
+using test::Folder;
+using test::kGoodCase;
+using test::shippedCase;
+
+TEST_CASE("contact durations of the paper") {
+    const Case c = loadCase(shippedCase("paper-48g.toml"));
+    const ContactParameters& p = c.world.law.of(ContactClass::ParticleParticle);
+    // Printed: 1.1297e-4 s. The table's k1 and gamma are rounded to 0.2 %, so t_c may differ by half as much.
+    CHECK(contactDuration(p, 1427, 1.25e-3, 1.25e-3, p.k1) == Approx(1.1297e-4).epsilon(1e-3));
+    // Against a wall the reduced mass doubles. By hand: m = 1.167458e-5 kg, k1/m = 4.12298e8, (gamma/2m)^2 = 1.25449e7.
+    const double wall = contactDuration(p, 1427, 1.25e-3, std::numeric_limits<double>::infinity(), p.k1);
+    CHECK(wall == Approx(kPi / std::sqrt(4.12298e8 - 1.25449e7)).epsilon(1e-5));
+    ContactParameters overdamped = p;
+    overdamped.gamma = 10;
+    CHECK(std::isinf(contactDuration(overdamped, 1427, 1.25e-3, 1.25e-3, p.k1)));
+}
+
+TEST_CASE("predictions for the paper's case") {
+    const Case c = loadCase(shippedCase("paper-48g.toml"));
+    const Insertion filled = insertParticles(c);
+    const Derived d = derive(c, filled);
+    CHECK(d.pushVelocity == Approx(13.125e-3).epsilon(1e-12));
+    CHECK(d.tipVelocity == Approx(98.0e-3).epsilon(1e-3));
+    CHECK(d.massPerDose == Approx(4.20e-3).epsilon(1e-3));
+    CHECK(d.doses == Approx(filled.mass / d.massPerDose));
+    CHECK(d.doses == Approx(11.43).epsilon(1e-3));
+    CHECK(d.particles == filled.particles.size());
+    CHECK(d.timeStep == 2.26e-6);
+    REQUIRE(d.durations.size() == 3);
+    CHECK(d.durations[0].name == "particle-particle");
+    CHECK(d.durations[0].mean == Approx(1.1297e-4).epsilon(1e-3));
+    CHECK(d.durations[0].stiffest == Approx(1.73e-5).epsilon(1e-3));
+    CHECK(d.durations[1].stiffest == Approx(std::sqrt(2.0) * d.durations[0].stiffest));
+    CHECK(d.stiffest == d.durations[0].stiffest);
+    // 2 s, then 12 predicted doses and 3 for the stop rule, 2.5 s each
+    CHECK(d.steps == Approx((2 + 15 * 2.5) / 2.26e-6).epsilon(1e-6));
+}
+
+TEST_CASE("the wide coil pushes twice as fast and doses twice as much") {
+    const Case narrow = loadCase(shippedCase("paper-48g.toml"));
+    const Case wide = loadCase(shippedCase("paper-48g-wide.toml"));
+    const Derived a = derive(narrow, insertParticles(narrow));
+    const Derived b = derive(wide, insertParticles(wide));
+    CHECK(b.pushVelocity == Approx(2 * a.pushVelocity));
+    CHECK(b.massPerDose == Approx(2 * a.massPerDose));
+}
+
+TEST_CASE("a run is as long as its limits allow") {
+    const Folder folder;
+    const auto file = folder.write("case.toml", kGoodCase);
+    const auto duration = [&](const std::vector<std::string>& overrides) {
+        const Case c = loadCase(file, overrides);
+        return derive(c, insertParticles(c)).steps * c.world.timeStep;
+    };
+    CHECK(duration({"stop.max_doses=2"}) == Approx(0.15 + 2 * 0.4).epsilon(1e-4));
+    CHECK(duration({"stop.end_time_s=0.5"}) == Approx(0.5).epsilon(1e-4));
+    CHECK(duration({"dose.rotate_s=0", "dose.rest_s=0", "stop.rule=none"}) == Approx(0.15).epsilon(1e-4));
+}
+
+TEST_CASE("the automatic time step resolves the stiffest contact") {
+    const Folder folder;
+    const auto file = folder.write("case.toml", kGoodCase);
+    const Case c = loadCase(file);
+    const Derived d = derive(c, insertParticles(c));
+    // 1/8 of the normal mode, rounded down to three digits
+    CHECK(c.world.timeStep <= d.stiffest / 8);
+    CHECK(c.world.timeStep > d.stiffest / 8 * 0.989);
+    // Four times the sliding stiffness is the stiffer motion: half the normal mode's time, of which a sixth.
+    const Case sliding = loadCase(file, {"contact.kt_over_k=1.142857"});
+    CHECK(sliding.world.timeStep == Approx(d.stiffest / 2 / 6).epsilon(0.011));
+}
+
+TEST_CASE("contact modes: sliding of a full sphere has 2/7 of its mass") {
+    ContactLaw law;
+    ContactParameters& p = law.of(ContactClass::ParticleParticle);
+    p.k1 = 1000;
+    p.k2Max = 7000;
+    p.kt = 2000;
+    p.mu = 0.5;
+    p.kr = 1000;
+    p.muR = 0.1;
+    const auto modes = contactModes(law, 1000, 1e-3, {ContactClass::ParticleParticle});
+    REQUIRE(modes.size() == 3);
+    const double mass = 1000 * 4.0 / 3.0 * kPi * 1e-9;
+    CHECK(modes[0].duration == Approx(kPi * std::sqrt(mass / 2 / 7000)));
+    CHECK(modes[1].duration == Approx(modes[0].duration));
+    // torque a_r^2 kr with a_r = 2 a on inertia 0.4 m a^2: rate^2 = 10 kr/m
+    CHECK(modes[2].duration == Approx(kPi * std::sqrt(mass / 10 / 1000)));
+    law.rollingLever = RollingLever::Half;
+    CHECK(contactModes(law, 1000, 1e-3, {ContactClass::ParticleParticle})[2].duration == Approx(2 * modes[2].duration));
+}
