@@ -1,0 +1,189 @@
+// The tables [particles], [contact] and the adhesion of [settle].
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "host/model/case_sections.h"
+#include "host/model/particle_list.h"
+#include "host/model/size_distribution.h"
+
+namespace vkdose {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// ---- particles ----------------------------------------------------------------------------------------------------
+
+SizeDistribution readSize(Section& section) {
+    using Kind = SizeDistribution::Kind;
+    SizeDistribution size;
+    const auto positive = [&](const char* key, Unit unit = kMillimetre, std::optional<double> fallback = std::nullopt) {
+        return section.number(key, Bound::Positive, unit, fallback);
+    };
+    const auto bounds = [&](double low, double high) {  // defaults, in metres
+        size.radiusMin = positive("radius_min_mm", kMillimetre, low * 1e3);
+        size.radiusMax = positive("radius_max_mm", kMillimetre, high * 1e3);
+    };
+    const auto kind = section.choice("distribution", {"uniform", "fixed", "normal", "lognormal", "quantiles"});
+    if (!kind) {
+        section.abandon();
+        return size;
+    }
+    size.kind = static_cast<Kind>(*kind);
+    switch (size.kind) {
+        case Kind::Uniform:
+            size.radiusMin = positive("radius_min_mm");
+            size.radiusMax = positive("radius_max_mm");
+            break;
+        case Kind::Fixed:
+            size.radius = positive("radius_mm");
+            break;
+        case Kind::Normal:
+            size.radius = positive("radius_mean_mm");
+            size.deviation = positive("radius_deviation_mm");
+            bounds(std::max(size.radius - 2 * size.deviation, 0.1 * size.radius), size.radius + 2 * size.deviation);
+            break;
+        case Kind::Lognormal:
+            size.radius = positive("radius_median_mm");
+            size.deviation = positive("log_deviation", kPlain);
+            bounds(size.radius * std::exp(-2 * size.deviation), size.radius * std::exp(2 * size.deviation));
+            break;
+        case Kind::Quantiles:
+            size.scaleUp = positive("scale_up", kPlain, 1.0);
+            size.r10 = 0.5 * size.scaleUp * positive("d10_um", kMicrometre);
+            size.r50 = 0.5 * size.scaleUp * positive("d50_um", kMicrometre);
+            size.r90 = 0.5 * size.scaleUp * positive("d90_um", kMicrometre);
+            bounds(finestRadius(size), coarsestRadius(size));
+            break;
+    }
+    return size;
+}
+
+}  // namespace
+
+void readParticles(CaseReader& reader, Section& root, Case& c) {
+    Section& section = root.requiredTable("particles");
+    c.world.density = section.number("density", Bound::Positive, {1, "kg/m3"});
+    if (section.has("list")) {
+        const std::string path = section.string("list");
+        if (section.has("mass_g"))
+            reader.fault("particles.mass_g", "a list of particles has its own mass", "give mass_g or list, not both");
+        section.know("mass_g");
+        std::vector<Diagnostic> faults;
+        const std::filesystem::path file = reader.folderOf("particles.list") / path;
+        c.filling.list = readParticleList(file, faults);
+        section.record("list", std::filesystem::absolute(file).lexically_normal().string());
+        for (Diagnostic& fault : faults) reader.add(std::move(fault));
+        return;
+    }
+    section.know("list");
+    c.filling.mass = section.number("mass_g", Bound::Positive, kGram);
+    c.filling.size = readSize(section.requiredTable("size"));
+}
+
+void readRegion(Section& root, std::optional<Boundaries> kind, Case& c) {
+    Section& particles = root.table("particles");
+    if (!kind) particles.know("region");
+    if (!kind || c.filling.list) return;
+    if (kind == Boundaries::Canister) {
+        const Canister& can = *c.canister;
+        // "the initial position of the lowest particle is higher than the diameter of the coil" (paper)
+        double floor = can.flatFloor ? -can.width / 2 : 0.0;
+        if (c.world.coil) floor = c.world.coil->radius + c.world.coil->wireRadius;
+        c.filling.region = {{-can.width / 2, floor, 0}, {can.width / 2, kInfinity, can.length}};
+        return;
+    }
+    Section& region = particles.requiredTable("region");
+    c.filling.region = {region.vector("low"), region.vector("high")};
+}
+
+namespace {
+
+// ---- contact ------------------------------------------------------------------------------------------------------
+
+/// Contact parameters as ratios, the way the file has them.
+struct Ratios {
+    double k, k1, kc, plasticity, damping, mu, kt, dampingT, muR, kr, dampingR, muTo, kTo, dampingTo;
+
+    ContactParameters parameters(double adhesion) const {
+        ContactParameters p;
+        p.k2Max = k;
+        p.k1 = k1 * k;
+        p.kc = adhesion * k;
+        p.plasticityDepth = plasticity;
+        p.gamma = damping;
+        p.mu = mu;
+        p.kt = kt * k;
+        p.gammaT = dampingT * damping;
+        p.muR = muR;
+        p.kr = kr * k;
+        p.gammaR = dampingR * damping;
+        p.muTo = muTo;
+        p.kTo = kTo * k;
+        p.gammaTo = dampingTo * damping;
+        return p;
+    }
+};
+
+/// Reads one class; keys that are not there come from `parent`, or from the defaults when there is none.
+Ratios readRatios(Section& section, const Ratios* parent) {
+    const auto key = [&](const char* name, Bound bound, double Ratios::*member, std::optional<double> fallback = {},
+                         Unit unit = kPlain) {
+        if (parent != nullptr) fallback = parent->*member;
+        return section.number(name, bound, unit, fallback);
+    };
+    constexpr double kTwoSevenths = 0.286;  // sliding then oscillates as fast as the normal direction (paper)
+    const Bound low = Bound::NonNegative;
+    Ratios r{};
+    r.k = key("k", Bound::Positive, &Ratios::k, {}, {1, "N/m"});
+    r.k1 = key("k1_over_k", Bound::Positive, &Ratios::k1);
+    r.kc = key("kc_over_k", low, &Ratios::kc);
+    // Without plasticity (k1 = k) the depth means nothing and may be left out.
+    r.plasticity = key("plasticity_depth", low, &Ratios::plasticity, r.k1 < 1 ? std::optional<double>() : 0.0);
+    r.damping = key("damping", low, &Ratios::damping, {}, {1, "kg/s"});
+    r.mu = key("friction", low, &Ratios::mu);
+    r.kt = key("kt_over_k", Bound::Positive, &Ratios::kt, kTwoSevenths);
+    r.dampingT = key("damping_t_ratio", low, &Ratios::dampingT, kTwoSevenths);
+    r.muR = key("rolling_friction", low, &Ratios::muR, 0.0);
+    r.kr = key("kr_over_k", Bound::Positive, &Ratios::kr, kTwoSevenths);
+    r.dampingR = key("damping_r_ratio", low, &Ratios::dampingR, kTwoSevenths);
+    r.muTo = key("torsion_friction", low, &Ratios::muTo, 0.0);
+    r.kTo = key("kto_over_k", Bound::Positive, &Ratios::kTo, kTwoSevenths);
+    r.dampingTo = key("damping_to_ratio", low, &Ratios::dampingTo, kTwoSevenths);
+    return r;
+}
+
+}  // namespace
+
+void readContact(Section& root, Case& c) {
+    Section& contact = root.requiredTable("contact");
+    c.world.law.coulombLimit =
+        static_cast<CoulombLimit>(contact.choice("coulomb_limit", {"luding", "absolute"}, 0).value_or(0));
+    c.world.law.rollingLever =
+        static_cast<RollingLever>(contact.choice("rolling_lever", {"full", "half"}, 0).value_or(0));
+    const Ratios pair = readRatios(contact, nullptr);
+    Section& wallSection = contact.table("wall");
+    const Ratios wall = readRatios(wallSection, &pair);
+    Section& coilSection = contact.table("coil");
+    const Ratios coil = readRatios(coilSection, &wall);
+    const std::array<Ratios, kContactClasses> ratios{pair, wall, coil};
+
+    // While settling, adhesion has its own strength, except where a class was given one of its own.
+    Section& settle = root.table("settle");
+    const auto adhesion = [&](const char* key, double fallback) {
+        return settle.number(key, Bound::NonNegative, kPlain, fallback);
+    };
+    const double pairKc = adhesion("kc_over_k", pair.kc);
+    const double wallKc = adhesion("wall_kc_over_k", wallSection.has("kc_over_k") ? wall.kc : pairKc);
+    const double coilKc = adhesion("coil_kc_over_k", coilSection.has("kc_over_k") ? coil.kc : wallKc);
+    const std::array<double, kContactClasses> settling{pairKc, wallKc, coilKc};
+
+    c.settlingLaw = c.world.law;
+    for (std::size_t i = 0; i < ratios.size(); ++i) {
+        c.world.law.classes[i] = ratios[i].parameters(ratios[i].kc);
+        c.settlingLaw.classes[i] = ratios[i].parameters(settling[i]);
+    }
+}
+
+}  // namespace vkdose

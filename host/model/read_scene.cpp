@@ -1,0 +1,205 @@
+// The boundaries, the coil, and the tables of time: [settle] (its time), [dose], [stop], [sensors], [time], [domain].
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "host/model/case_sections.h"
+
+namespace vkdose {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+// ---- boundaries ---------------------------------------------------------------------------------------------------
+
+void addCanister(Case& c) {
+    const Canister& can = *c.canister;
+    const double half = can.width / 2;
+    auto& surfaces = c.world.surfaces;
+    if (can.flatFloor) {
+        surfaces.push_back(geometry::Plane{{-half, 0, 0}, {1, 0, 0}});
+        surfaces.push_back(geometry::Plane{{half, 0, 0}, {-1, 0, 0}});
+        surfaces.push_back(geometry::Plane{{0, -half, 0}, {0, 1, 0}});
+    } else {
+        surfaces.push_back(geometry::Trough{half});
+    }
+    surfaces.push_back(geometry::Plane{{0, 0, 0}, {0, 0, 1}});
+    surfaces.push_back(geometry::Front{can.length, can.outletDiameter / 2, can.throatLength});
+    c.world.throatZ = can.length;
+    c.world.outletZ = can.length + can.throatLength;
+}
+
+void readCanister(Section& root, Case& c) {
+    Section& section = root.requiredTable("canister");
+    Canister can;
+    can.length = section.number("length_mm", Bound::Positive, kMillimetre);
+    can.width = section.number("width_mm", Bound::Positive, kMillimetre);
+    can.height = section.number("height_mm", Bound::Positive, kMillimetre);
+    can.flatFloor = section.choice("floor", {"trough", "flat"}, 0) == std::size_t{1};
+    can.outletDiameter = section.number("outlet_diameter_mm", Bound::Positive, kMillimetre);
+    can.throatLength = section.number("throat_length_mm", Bound::Positive, kMillimetre);
+    c.canister = can;
+    addCanister(c);
+}
+
+/// A direction from the file as a unit vector; a zero vector is a fault.
+Vec3 readDirection(CaseReader& reader, Section& section, const char* key) {
+    const Vec3 v = section.vector(key);
+    const double length = glm::length(v);
+    if (length == 0) reader.fault(section.path(key), "has no direction", "give a vector that is not zero");
+    return v / length;
+}
+
+void readSurfaces(CaseReader& reader, Section& root, Case& c) {
+    for (Section* plane : root.tables("plane")) {
+        const Vec3 point = plane->vector("point");
+        c.world.surfaces.push_back(geometry::Plane{point, readDirection(reader, *plane, "normal")});
+    }
+    for (Section* tube : root.tables("cylinder")) {
+        geometry::Tube shape;
+        shape.base = tube->vector("base");
+        shape.axis = readDirection(reader, *tube, "axis");
+        shape.radius = tube->number("radius_mm", Bound::Positive, kMillimetre);
+        if (tube->has("length_mm")) shape.length = tube->number("length_mm", Bound::Positive, kMillimetre);
+        tube->know("length_mm");
+        shape.inside = tube->boolean("inside", true);
+        c.world.surfaces.push_back(shape);
+    }
+    if (c.world.surfaces.empty() && !reader.faulty())
+        reader.fault("boundaries", "the list is empty",
+                     "add [[plane]] or [[cylinder]], or write boundaries = \"none\"");
+}
+
+/// A table that the chosen boundaries leave without a use is a mistake worth telling.
+void refuseUnused(CaseReader& reader, Section& root, Boundaries kind) {
+    const auto refuse = [&](const char* key, const char* needed) {
+        if (!root.has(key)) return;
+        root.know(key);
+        reader.fault(key, "has no use with these boundaries",
+                     fmt::format("write boundaries = \"{}\" or remove it", needed));
+    };
+    if (kind != Boundaries::Canister) refuse("canister", "canister");
+    if (kind != Boundaries::List) refuse("plane", "list");
+    if (kind != Boundaries::List) refuse("cylinder", "list");
+}
+
+}  // namespace
+
+std::optional<Boundaries> readBoundaries(CaseReader& reader, Section& root, Case& c) {
+    const auto index = root.choice("boundaries", {"canister", "list", "none"}, 0);
+    for (const char* key : {"canister", "plane", "cylinder"})
+        if (!index || !root.has(key)) root.know(key);
+    if (!index) return std::nullopt;
+    const auto kind = static_cast<Boundaries>(*index);
+    if (kind == Boundaries::Canister) readCanister(root, c);
+    if (kind == Boundaries::List) readSurfaces(reader, root, c);
+    refuseUnused(reader, root, kind);
+    return kind;
+}
+
+namespace {
+
+/// The value of one of two keys of which exactly one must be given; the index of that key in `which`.
+double readEither(CaseReader& reader, Section& section, const char* first, Unit firstUnit, const char* second,
+                  Unit secondUnit, int& which) {
+    which = section.has(second) && !section.has(first) ? 1 : 0;
+    section.know(first);
+    section.know(second);
+    if (section.has(first) && section.has(second))
+        reader.fault(section.path(second), fmt::format("{} is given too", first), "give one of the two");
+    if (!section.has(first) && !section.has(second)) {
+        reader.fault(section.path(first), "is missing", fmt::format("give {} or {}", first, second));
+        return kNaN;
+    }
+    return section.number(which == 0 ? first : second, Bound::Positive, which == 0 ? firstUnit : secondUnit);
+}
+
+}  // namespace
+
+void readCoil(CaseReader& reader, Section& root, Case& c) {
+    if (!root.has("coil")) {
+        root.know("coil");
+        return;
+    }
+    Section& section = root.table("coil");
+    geometry::Coil coil{};
+    int which = 0;
+    coil.length = section.number("length_mm", Bound::Positive, kMillimetre);
+    const double winding = readEither(reader, section, "turns", kPlain, "pitch_mm", kMillimetre, which);
+    coil.pitch = which == 0 ? coil.length / winding : winding;
+    coil.wireRadius = section.number("wire_diameter_mm", Bound::Positive, kMillimetre) / 2;
+    const double size = readEither(reader, section, "radius_mm", kMillimetre, "clearance_mm", kMillimetre, which);
+    coil.radius = size;
+    if (which == 1 && !c.canister)
+        reader.fault("coil.clearance_mm", "needs a canister to be measured from", "give radius_mm");
+    else if (which == 1)  // between the wire and the narrower of trough and hole
+        coil.radius = std::min(c.canister->width, c.canister->outletDiameter) / 2 - size - coil.wireRadius;
+    coil.zStart = section.number("z_start_mm", Bound::Any, kMillimetre, 0.0);
+    coil.startAngle = section.number("start_angle_deg", Bound::Any, kDegree, 0.0);
+    coil.hand = section.choice("hand", {"right", "left"}, 0) == std::size_t{1} ? -1 : 1;
+    c.schedule.coilSpeed = section.number("speed_rpm", Bound::NonNegative, kRpm);
+    c.world.coil = coil;
+}
+
+namespace {
+
+// ---- time ---------------------------------------------------------------------------------------------------------
+
+void readStop(Section& root, Case& c) {
+    const bool doses = c.schedule.rotateTime > 0;
+    Section& section = root.table("stop");
+    StopRule stop;
+    const auto rule =
+        section.choice("rule", {"none", "experiment", "simulation"}, doses ? std::size_t{1} : std::size_t{0});
+    if (!rule) {
+        section.abandon();
+        return;
+    }
+    stop.kind = static_cast<StopRule::Kind>(*rule);
+    stop.threshold = 0;
+    if (stop.kind == StopRule::Kind::Experiment)
+        stop.threshold = section.number("threshold_g", Bound::NonNegative, kGram, 0.15);
+    if (stop.kind != StopRule::Kind::None) stop.doses = static_cast<int>(section.integer("doses", 1, 3));
+    if (section.has("max_doses"))
+        stop.maxDoses = static_cast<int>(std::min<std::int64_t>(section.integer("max_doses", 1), 1 << 30));
+    if (section.has("end_time_s")) stop.endTime = section.number("end_time_s", Bound::Positive, kSecond);
+    section.know("max_doses");
+    section.know("end_time_s");
+    c.schedule.stop = stop;
+}
+
+}  // namespace
+
+void readSchedule(Section& root, Case& c) {
+    Section& settle = root.table("settle");
+    c.schedule.settleTime = settle.number("time_s", Bound::NonNegative, kSecond, 0.0);
+    Section& dose = root.table("dose");
+    c.schedule.rotateTime = dose.number("rotate_s", Bound::NonNegative, kSecond, 0.0);
+    c.schedule.restTime = dose.number("rest_s", Bound::NonNegative, kSecond, 0.0);
+    readStop(root, c);
+    Section& sensors = root.table("sensors");
+    c.sensorInterval = sensors.number("interval_s", Bound::Positive, kSecond, 0.01);
+}
+
+void readTime(Section& root, Case& c) {
+    Section& time = root.table("time");
+    if (time.isString("step_s"))
+        time.choice("step_s", {"auto"});
+    else if (time.has("step_s"))
+        c.world.timeStep = time.number("step_s", Bound::Positive, kSecond);
+    if (time.has("skin_mm")) c.world.skin = time.number("skin_mm", Bound::Positive, kMillimetre);
+    time.know("step_s");
+    time.know("skin_mm");
+}
+
+bool readDomain(Section& root, Case& c) {
+    root.know("domain");
+    if (!root.has("domain")) return false;
+    Section& domain = root.table("domain");
+    c.world.domain = {domain.vector("low"), domain.vector("high")};
+    return true;
+}
+
+}  // namespace vkdose
