@@ -1,0 +1,45 @@
+#pragma once
+// Reads the CSV tables of numbers in tests/oracle.
+
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace vkdose::test {
+
+using Row = std::map<std::string, double>;
+
+/// Rows of tests/oracle/<name> by column name. Throws if the file is missing, empty or a cell is not a number.
+inline std::vector<Row> oracleTable(const std::string& name) {
+    std::ifstream file(std::string(VKDOSE_SOURCE_DIR) + "/tests/oracle/" + name);
+    if (!file) throw std::runtime_error("cannot open tests/oracle/" + name);
+    const auto cells = [](const std::string& line) {
+        std::vector<std::string> list;
+        std::istringstream in(line);
+        for (std::string cell; std::getline(in, cell, ',');) list.push_back(cell);
+        return list;
+    };
+    std::string line;
+    std::getline(file, line);
+    const std::vector<std::string> header = cells(line);
+    std::vector<Row> rows;
+    while (std::getline(file, line)) {
+        const std::vector<std::string> values = cells(line);
+        if (values.size() != header.size()) throw std::runtime_error(name + ": a row of the wrong length: " + line);
+        Row row;
+        for (std::size_t c = 0; c < header.size(); ++c) {
+            char* end = nullptr;
+            row[header[c]] = std::strtod(values[c].c_str(), &end);
+            if (end == values[c].c_str()) throw std::runtime_error(name + ": not a number: " + values[c]);
+        }
+        rows.push_back(row);
+    }
+    if (rows.empty()) throw std::runtime_error(name + " has no rows");
+    return rows;
+}
+
+}  // namespace vkdose::test
