@@ -59,9 +59,15 @@ struct CoilView {
     float phase;     // M folded into (-pi, pi] [rad]
     float wirePhase; // kappa z [rad]
     float reach;     // sphere + wire radius [m]
-    bool near;       // close enough to touch at all
     bool nearEnd;
 };
+
+/// Whether the sphere reaches the shell that the wire fills, to float accuracy and a margin.
+bool nearCoil(CoilParams c, Sphere a) {
+    float reach = a.radius + c.radius.z + 1e-7;
+    float z = a.high.z - c.reach.z;
+    return abs(length(a.high.xy) - c.radius.x) < reach && z > -reach && z < c.radius.w + reach;
+}
 
 /// `turn`: the coil's rotation about +z, in turns, [-0.5, 0.5).
 CoilView coilView(CoilParams c, float turn, Sphere a) {
@@ -73,8 +79,7 @@ CoilView coilView(CoilParams c, float turn, Sphere a) {
     precise float z = (a.high.z - c.reach.z) + (a.low.z - c.reach.w);
     w.z = z;
     w.reach = a.radius + c.radius.z;
-    w.near = abs(w.off) < w.reach && z > -w.reach && z < c.radius.w + w.reach;
-    w.nearEnd = w.near && (z < w.reach || z > c.radius.w - w.reach);
+    w.nearEnd = z < w.reach || z > c.radius.w - w.reach;
 
     float hand = c.pitch.w > 0.0 ? 1.0 : -1.0;
     float turns = floor(z / c.pitch.x + 0.5);
@@ -88,7 +93,7 @@ CoilView coilView(CoilParams c, float turn, Sphere a) {
 
 uint coilCandidates(CoilParams c, CoilView w) {
     uint windows = 2u * uint(c.reach.y) + 1u;
-    return w.near ? (w.nearEnd ? windows + 2u : windows) : 0u;
+    return w.nearEnd ? windows + 2u : windows;
 }
 
 /// Candidate 0 ... 2K: the minimum in window k = candidate - K; then the two ends of the wire.
@@ -114,16 +119,14 @@ CoilTouch coilCandidate(CoilParams c, CoilView w, uint candidate) {
         float m = w.phase - kTwoPi * float(int(candidate) - turnsEachSide);
         float limit = c.reach.x;
         v = m / (1.0 + eps);
-        float residual = 0.0, step = 0.0;
-        for (int i = 0; i < 6; ++i) {
-            v = clamp(v, -limit, limit);
+        float step = 1.0;
+        for (int i = 0; i < 8 && abs(step) > 1e-4 && abs(v) < limit; ++i) {
             vec2 h = halfSinCos(v);
-            residual = v + eps * (2.0 * h.x * h.y) - m;
-            step = residual / (1.0 + eps * (1.0 - 2.0 * h.x * h.x));
-            v -= step;
+            step = (v + eps * (2.0 * h.x * h.y) - m) / (1.0 + eps * (1.0 - 2.0 * h.x * h.x));
+            v -= step;  // quadratic: after a step of 1e-4 what is left is below a float's rounding
         }
         valid = abs(v) < limit;
-        failed = valid && abs(step) > 1e-5;
+        failed = valid && abs(step) > 1e-4;
         dz = (m - v) / kappa;
         float s = w.z - dz;
         wireAngle = w.wirePhase + (v - m);

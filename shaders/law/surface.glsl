@@ -85,6 +85,18 @@ Overlap frontOverlap(SurfaceParams p, Sphere a) {
     return cylinderOverlap(p.radius.xy, d, 1.0, a.radius);
 }
 
+/// Distance from the sphere's surface to the wall to plain float accuracy (about 1e-8 m), for ruling contacts out.
+float surfaceGap(uint kind, SurfaceParams p, Sphere a) {
+    if (kind == kTube) return -1.0;  // two ends and a side: let the accurate form decide
+    float rho = length(a.high.xy);
+    float plane = dot(p.axis.xyz, a.high - p.pointHigh.xyz);
+    float trough = p.radius.x - (a.high.y >= 0.0 ? abs(a.high.x) : rho);
+    float before = p.pointHigh.z - a.high.z;
+    float off = p.radius.x - rho;
+    float front = before > 0.0 ? (off > 0.0 ? sqrt(off * off + before * before) : before) : off;
+    return (kind == kPlane ? plane : kind == kTrough ? trough : front) - a.radius;
+}
+
 Overlap surfaceOverlap(uint kind, SurfaceParams p, Sphere a) {
     if (kind == kPlane) return planeOverlap(p, a);
     if (kind == kTrough) return troughOverlap(p, a);

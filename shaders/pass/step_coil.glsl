@@ -31,28 +31,31 @@ uint freeTurn(uint mark, uint met) {
 }
 
 uint touchCoil(uint i, Body me, uint mark, inout Sum sum) {
-    CoilView view = coilView(coil, coilTurn(coil.phase), me.sphere);
-    uint trips = me.sphere.radius > 0.0 ? coilCandidates(coil, view) : 0u;
-    CoilTouch found[kMaxTurns];
-    uint touching = 0u;
-    for (uint k = 0u; k < trips; ++k) {
-        CoilTouch touch = coilCandidate(coil, view, k);
-        if (touch.failed) report(kErrorNewton, i);
-        if (touch.depth > 0.0 && touching == kMaxTurns) report(kErrorTurns, i);
-        if (touch.depth > 0.0 && touching < kMaxTurns) {
-            found[touching] = touch;
-            ++touching;
+    uint candidates = 0u;
+    CoilView view;
+    // A loop of at most one trip: it is skipped where no lane is near, which a branch is not.
+    bool near = me.sphere.radius > 0.0 && nearCoil(coil, me.sphere);
+    for (uint once = near ? 1u : 0u; once > 0u; --once) {
+        view = coilView(coil, coilTurn(coil.phase), me.sphere);
+        uint trips = coilCandidates(coil, view);
+        for (uint k = 0u; k < trips; ++k) {
+            CoilTouch touch = coilCandidate(coil, view, k);
+            if (touch.failed) report(kErrorNewton, i);
+            candidates |= touch.depth > 0.0 ? 1u << k : 0u;
         }
     }
 
     uint met = 0u;
-    for (uint k = 0u; k < touching; ++k) {
-        CoilTouch touch = found[k];
-        vec4 angles = readWallHistory(wireAngleIndex(i));
-        if (k > 0u) angles = wallHistory[wireAngleIndex(i)];  // written in the trip before
+    for (; candidates != 0u; candidates &= candidates - 1u) {
+        CoilTouch touch = coilCandidate(coil, view, findLSB(candidates));
+        vec4 angles = wallHistory[wireAngleIndex(i)];
         uint slot = knownTurn(mark & ~met, angles, touch.wireAngle);
         bool known = slot != kEmpty;
         if (!known) slot = freeTurn(mark, met);
+        if (slot == kEmpty) {
+            report(kErrorTurns, i);
+            slot = 0u;
+        }
         met |= turnBit(slot);
         angles[slot] = touch.wireAngle;
         wallHistory[wireAngleIndex(i)] = angles;

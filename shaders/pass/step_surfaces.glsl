@@ -23,18 +23,16 @@ WallForce meetWall(uint i, Body me, Overlap o, ContactParams law, vec3 wall, vec
     return WallForce(r.force, r.couple);
 }
 
-vec4 unrolledOverlap[kUnrolledSurfaces];  // normal, depth
+// The kind is known when the pipeline is made, so that all but one branch of surfaceGap fold away, and the parameters
+// are read outside any branch. One line per surface, because drivers differ in which loops they unroll.
+#define PROBE(s)                                                                                           \
+    if (s < SURFACES)                                                                                      \
+        candidates |= surfaceGap((KINDS >> (4u * s)) & 15u, members[member].surface[s], me.sphere) < kSlack \
+                          ? 1u << s                                                                        \
+                          : 0u;
 
-// The kind is known when the pipeline is made: three quarters of surfaceOverlap fold away, and the parameters are read
-// outside any branch. One line per surface, because drivers differ in which loops they unroll.
-#define PROBE(s)                                                                                              \
-    if (s < SURFACES) {                                                                                       \
-        Overlap o = surfaceOverlap((KINDS >> (4u * s)) & 15u, members[member].surface[s], me.sphere);         \
-        unrolledOverlap[s] = vec4(o.normal, o.depth);                                                         \
-        candidates |= o.depth > 0.0 ? 1u << s : 0u;                                                           \
-    }
-
-uint touchSurfaces(uint i, Body me, uint mark, inout Sum sum) {
+uint surfaceCandidates(Body me) {
+    const float kSlack = 1e-7;  // [m], above the rounding of surfaceGap
     uint candidates = 0u;
     PROBE(0u)
     PROBE(1u)
@@ -46,21 +44,21 @@ uint touchSurfaces(uint i, Body me, uint mark, inout Sum sum) {
     PROBE(7u)
     for (uint s = kUnrolledSurfaces; s < SURFACES; ++s) {
         SurfaceParams p = members[member].surface[s];
-        if (surfaceOverlap(uint(p.pointHigh.w), p, me.sphere).depth > 0.0) candidates |= 1u << s;
+        if (surfaceGap(uint(p.pointHigh.w), p, me.sphere) < kSlack) candidates |= 1u << s;
     }
-    if (me.sphere.radius <= 0.0) candidates = 0u;
-    uint met = candidates;
-    for (; candidates != 0u; candidates &= candidates - 1u) {
+    return me.sphere.radius > 0.0 ? candidates : 0u;
+}
+
+uint touchSurfaces(uint i, Body me, uint mark, inout Sum sum) {
+    uint met = 0u;
+    for (uint candidates = surfaceCandidates(me); candidates != 0u; candidates &= candidates - 1u) {
         uint s = findLSB(candidates);
-        Overlap o;
-        if (s < kUnrolledSurfaces || SURFACES <= kUnrolledSurfaces) {
-            vec4 found = unrolledOverlap[s];
-            o = Overlap(found.w, found.xyz);
-        } else {
-            SurfaceParams p = members[member].surface[s];
-            o = surfaceOverlap(uint(p.pointHigh.w), p, me.sphere);
+        SurfaceParams p = members[member].surface[s];
+        Overlap o = surfaceOverlap(uint(p.pointHigh.w), p, me.sphere);
+        if (o.depth > 0.0) {
+            met |= 1u << s;
+            meetWall(i, me, o, wallLaw, vec3(0.0), vec3(0.0), s, (mark & (1u << s)) != 0u, sum);
         }
-        meetWall(i, me, o, wallLaw, vec3(0.0), vec3(0.0), s, (mark & (1u << s)) != 0u, sum);
     }
     return met;
 }
