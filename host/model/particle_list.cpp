@@ -18,6 +18,9 @@ namespace {
 
 constexpr std::size_t kMaxFaults = 20;
 const std::vector<std::string> kColumns{"x", "y", "z", "r", "vx", "vy", "vz", "wx", "wy", "wz"};
+/// The same columns as a run writes them to particles.csv, so that its end state can be the start of another case.
+const std::vector<std::string> kRunColumns{"x_m",    "y_m",    "z_m",      "radius_m", "vx_m_s",
+                                           "vy_m_s", "vz_m_s", "wx_rad_s", "wy_rad_s", "wz_rad_s"};
 constexpr std::size_t kAbsent = std::numeric_limits<std::size_t>::max();
 
 /// One line split by libcsv. Lines are fed one by one because the parser skips empty ones without counting them.
@@ -72,7 +75,8 @@ class ListReader {
         }
         line_ = 0;
         if (columns_ == 0) fault("", "", "is empty", "begin with the header x,y,z,r");
-        if (columns_ != 0 && rows_ == 0) fault("", "", "lists no particles", "add a line for each particle");
+        if (columns_ != 0 && rows_ == 0 && count_ == 0)
+            fault("", "", "lists no particles", "add a line for each particle");
         if (count_ > kMaxFaults)
             faults_.push_back({file_, 0, "", "", fmt::format("{} more faults", count_ - kMaxFaults), ""});
         return std::move(particles_);
@@ -88,14 +92,19 @@ class ListReader {
         const std::size_t before = count_;
         columns_ = names.size();
         for (std::size_t i = 0; i < names.size(); ++i) {
-            const auto known = std::find(kColumns.begin(), kColumns.end(), names[i]);
-            if (known == kColumns.end()) {
+            if (names[i] == "id") continue;  // the place in the list is the identity
+            if (names[i] == "status") {
+                status_ = i;
+                continue;
+            }
+            const std::size_t column = columnOf(names[i]);
+            if (column == kAbsent) {
                 const std::string meant = closestColumn(names[i]);
                 fault(names[i], "", "unknown column",
                       meant.empty() ? "known: x,y,z,r,vx,vy,vz,wx,wy,wz" : fmt::format("did you mean {}?", meant));
                 continue;
             }
-            std::size_t& place = place_[static_cast<std::size_t>(known - kColumns.begin())];
+            std::size_t& place = place_[column];
             if (place != kAbsent) fault(names[i], "", "stands twice in the header", "name each column once");
             place = i;
         }
@@ -110,12 +119,18 @@ class ListReader {
         return count_ == before;
     }
 
+    static std::size_t columnOf(const std::string& name) {
+        for (std::size_t i = 0; i < kColumns.size(); ++i)
+            if (name == kColumns[i] || name == kRunColumns[i]) return i;
+        return kAbsent;
+    }
+
     static std::string closestColumn(const std::string& name) {
         std::string lower = name;
         std::transform(lower.begin(), lower.end(), lower.begin(),
                        [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
         if (std::find(kColumns.begin(), kColumns.end(), lower) != kColumns.end()) return lower;
-        if (lower == "radius" || lower == "r_m" || lower == "radius_m") return "r";
+        if (lower == "radius" || lower == "radius_m") return "r";
         const std::string head = lower.substr(0, lower.find('_'));
         return std::find(kColumns.begin(), kColumns.end(), head) != kColumns.end() ? head : "";
     }
@@ -124,6 +139,11 @@ class ListReader {
         if (fields.size() != columns_) {
             fault("", "", fmt::format("has {} fields, the header {}", fields.size(), columns_),
                   "give one number for each column");
+            return;
+        }
+        if (status_ != kAbsent && fields[status_] != "active") {  // what a run dosed takes no part in the next
+            if (fields[status_] != "dosed" && fields[status_] != "lost")
+                fault("status", fields[status_], "is not known", "give active, dosed or lost");
             return;
         }
         std::array<double, 10> value{};
@@ -157,6 +177,7 @@ class ListReader {
     std::string file_;
     std::vector<Diagnostic>& faults_;
     std::array<std::size_t, 10> place_{};
+    std::size_t status_ = kAbsent;
     std::size_t columns_ = 0;
     std::size_t rows_ = 0;
     std::size_t count_ = 0;

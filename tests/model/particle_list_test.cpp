@@ -32,6 +32,23 @@ TEST_CASE("particle list: spins and a last line without its end") {
     CHECK(p.spin[0] == Vec3(4, 5, 6));
 }
 
+TEST_CASE("particle list: the end state of a run") {
+    const Folder folder;
+    std::vector<Diagnostic> faults;
+    const std::string header = "id,x_m,y_m,z_m,vx_m_s,vy_m_s,vz_m_s,wx_rad_s,wy_rad_s,wz_rad_s,radius_m,status\n";
+    const Particles p = readParticleList(
+        folder.write("p.csv", header + "0,1,2,3,4,5,6,7,8,9,1e-3,active\n1,0,0,0,0,0,0,0,0,0,1e-3,dosed\n"), faults);
+    REQUIRE(faults.empty());
+    REQUIRE(p.size() == 1);
+    CHECK(p.position[0] == Vec3(1, 2, 3));
+    CHECK(p.velocity[0] == Vec3(4, 5, 6));
+    CHECK(p.spin[0] == Vec3(7, 8, 9));
+    CHECK(p.radius[0] == 1e-3);
+    readParticleList(folder.write("p.csv", header + "0,1,2,3,4,5,6,7,8,9,1e-3,activ\n"), faults);
+    REQUIRE(faults.size() == 1);
+    CHECK(faults[0].key == "status");
+}
+
 TEST_CASE("particle list: every fault names its line") {
     struct Row {
         std::string text;
