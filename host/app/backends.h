@@ -1,0 +1,26 @@
+#pragma once
+// The only place that names concrete backends.
+
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+#include "host/backend/backend.h"
+
+namespace vkdose {
+
+/// Options that make no sense together.
+class UsageError : public std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+struct BackendChoice {
+    std::string backend = "vulkan";  ///< or "reference"
+    std::string device;              ///< index or part of a name; empty: automatic
+    bool validation = false;         ///< Vulkan validation layer
+};
+
+/// Throws UsageError if a device is asked for on the reference backend, DeviceError if there is none.
+std::unique_ptr<Backend> makeBackend(const BackendChoice& choice);
+
+}  // namespace vkdose

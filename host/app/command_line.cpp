@@ -1,0 +1,121 @@
+#include "host/app/command_line.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <functional>
+
+#include "host/app/commands.h"
+#include "host/app/exit_code.h"
+#include "host/core/error.h"
+#include "host/output/run_folder.h"
+
+namespace vkdose {
+
+namespace {
+
+void addCase(CLI::App& command, CaseOptions& input) {
+    command.add_option("case", input.file, "case file (TOML)")->required();
+    command
+        .add_option("--set", input.overrides, "replace a value of the case, e.g. --set coil.speed_rpm=60; repeatable")
+        ->type_name("KEY=VALUE")
+        ->take_all()
+        ->allow_extra_args(false);
+}
+
+void addDevice(CLI::App& command, BackendChoice& backend) {
+    command.add_option("--device", backend.device, "Vulkan device: index or part of its name (see `vkdose devices`)");
+    command.add_flag("--validation", backend.validation, "load the Vulkan validation layer (slow, for development)");
+}
+
+void addBackend(CLI::App& command, BackendChoice& backend) {
+    command.add_option("--backend", backend.backend, "vulkan or reference")
+        ->check(CLI::IsMember({"vulkan", "reference"}))
+        ->capture_default_str();
+    addDevice(command, backend);
+}
+
+void addRun(CLI::App& program, RunOptions& options) {
+    CLI::App& command = *program.add_subcommand("run", "simulate a case and write its output folder");
+    addCase(command, options.input);
+    command.add_option("--out", options.out, "output folder (default: out/<case name>)")->type_name("DIR");
+    command.add_flag("--force", options.force, "replace a former run in the output folder");
+    command.add_flag("--quiet", options.quiet, "print errors only");
+    addBackend(command, options.backend);
+}
+
+void addCheck(CLI::App& program, CheckOptions& options) {
+    CLI::App& command = *program.add_subcommand("check", "validate a case; print time scales, predictions, run time");
+    addCase(command, options.input);
+    command.add_flag("--measure", options.measure, "measure the device for about a second to estimate the run time");
+    addBackend(command, options.backend);
+}
+
+void addCompare(CLI::App& program, CompareOptions& options) {
+    CLI::App& command = *program.add_subcommand("compare", "run a case on both backends and compare them over time");
+    addCase(command, options.input);
+    auto* steps = command.add_option("--steps", options.steps, "stop after so many steps")->check(CLI::PositiveNumber);
+    command.add_option("--time", options.time, "stop after so many simulated seconds (default: settling, first dose)")
+        ->check(CLI::PositiveNumber)
+        ->excludes(steps);
+    command.add_option("--twins", options.twins, "perturbed reference runs that measure the chaos of the packing")
+        ->check(CLI::Range(1, 16))
+        ->capture_default_str();
+    addDevice(command, options.backend);
+}
+
+/// Runs `command`; every error becomes lines on stderr and an exit code.
+int guarded(const std::function<int()>& command) {
+    const auto say = [](const char* what) { fmt::print(stderr, "vkdose: {}\n", what); };
+    try {
+        return command();
+    } catch (const CaseError& e) {
+        for (const Diagnostic& fault : e.faults()) fmt::print(stderr, "{}\n", fault.text());
+        return kBadInput;
+    } catch (const FolderError& e) {
+        say(e.what());
+        return kBadInput;
+    } catch (const UsageError& e) {
+        say(e.what());
+        return kBadInput;
+    } catch (const RunError& e) {
+        say(e.what());
+        return kRunError;
+    } catch (const DeviceError& e) {
+        say(e.what());
+        return kDeviceError;
+    } catch (const std::exception& e) {
+        fmt::print(stderr, "vkdose: internal error: {}\n", e.what());
+        return kRunError;
+    }
+}
+
+}  // namespace
+
+int commandLine(int argc, const char* const* argv) {
+    CLI::App program("Simulates the dosing of cohesive powder by a turning coil (discrete element method).", "vkdose");
+    program.require_subcommand(1);
+    RunOptions run;
+    CheckOptions check;
+    CompareOptions compare;
+    addRun(program, run);
+    addCheck(program, check);
+    program.add_subcommand("devices", "list the Vulkan devices");
+    addCompare(program, compare);
+    try {
+        program.parse(argc, argv);
+    } catch (const CLI::ParseError& e) {
+        // --help is a ParseError too, with code 0 and its text on stdout.
+        if (e.get_exit_code() == 0) return program.exit(e);
+        fmt::print(stderr, "vkdose: {}\nRun `vkdose --help` or `vkdose COMMAND --help`.\n", e.what());
+        return kBadInput;
+    }
+    if (program.got_subcommand("run")) return guarded([&] { return runCommand(run); });
+    if (program.got_subcommand("check")) return guarded([&] { return checkCommand(check); });
+    if (program.got_subcommand("compare")) return guarded([&] { return compareCommand(compare); });
+    return guarded([] { return devicesCommand(); });
+}
+
+}  // namespace vkdose

@@ -1,0 +1,45 @@
+#pragma once
+// One function per command of the program. Each returns an exit code and throws what command_line.cpp turns into one.
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "host/app/backends.h"
+
+namespace vkdose {
+
+struct CaseOptions {
+    std::filesystem::path file;
+    std::vector<std::string> overrides;  ///< "key.path=value"
+};
+
+struct RunOptions {
+    CaseOptions input;
+    BackendChoice backend;
+    std::filesystem::path out;  ///< empty: out/<case name>
+    bool force = false;
+    bool quiet = false;
+};
+
+struct CheckOptions {
+    CaseOptions input;
+    BackendChoice backend;
+    bool measure = false;
+};
+
+struct CompareOptions {
+    CaseOptions input;
+    BackendChoice backend;    ///< the candidate
+    std::uint64_t steps = 0;  ///< 0: see `time`
+    double time = 0;          ///< [s]; 0: settling and the first dose
+    int twins = 2;
+};
+
+int runCommand(const RunOptions& options);
+int checkCommand(const CheckOptions& options);
+int devicesCommand();
+int compareCommand(const CompareOptions& options);
+
+}  // namespace vkdose

@@ -1,0 +1,95 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "host/app/commands.h"
+#include "host/app/exit_code.h"
+#include "host/app/interrupt.h"
+#include "host/sim/comparison.h"
+
+namespace vkdose {
+
+namespace {
+
+std::uint64_t stepsToCompare(const CompareOptions& options, const Case& c, const Timeline& timeline) {
+    const std::uint64_t longest = timeline.stepsUntilDose(c.schedule.stop.maxDoses);
+    const auto asked =
+        options.time > 0 ? static_cast<std::uint64_t>(std::llround(options.time / c.world.timeStep)) : options.steps;
+    const std::uint64_t steps = std::min(asked > 0 ? asked : timeline.stepsUntilDose(1), longest);
+    if (steps == 0) throw UsageError("there is nothing to compare: not a single step is made");
+    return steps;
+}
+
+void printParticles(const std::vector<ParticleRow>& rows) {
+    fmt::print(
+        "Particle by particle (largest difference; positions in mean radii, velocities in the velocity scale)\n");
+    fmt::print("{:>10} {:>10} {:<7} {:>8} {:>10} {:>10} {:>10} {:>10}  verdict\n", "step", "time [s]", "phase",
+               "contacts", "position", "allowed", "velocity", "allowed");
+    bool chaos = false;
+    for (const ParticleRow& r : rows) {
+        if (!r.judged && std::exchange(chaos, true)) continue;
+        fmt::print("{:>10} {:>10.4g} {:<7} {:>8} {:>10.2e} {:>10.2e} {:>10.2e} {:>10.2e}  {}\n", r.step, r.time,
+                   phaseName(r.phase), r.contacts, r.position, r.positionLimit, r.velocity, r.velocityLimit,
+                   !r.judged  ? "chaotic from here on: not judged"
+                   : r.agrees ? "agrees"
+                              : "DIFFERS");
+    }
+}
+
+void printQuantities(const std::vector<QuantityRow>& rows) {
+    fmt::print("\nThe packing as a whole (largest difference over time; spread: perturbed twins of the reference)\n");
+    fmt::print("{:<27} {:>10} {:>10} {:>10}  {:<15} {:>9}  verdict\n", "quantity", "difference", "spread", "allowed",
+               "unit", "at [s]");
+    for (const QuantityRow& r : rows) {
+        fmt::print("{:<27} {:>10.3g} {:>10.3g} {:>10.3g}  {:<15} {:>9.4g}  {}\n", r.name, r.difference, r.spread,
+                   r.tolerance, r.unit, r.time, r.agrees ? "agrees" : "DIFFERS");
+    }
+}
+
+}  // namespace
+
+int compareCommand(const CompareOptions& options) {
+    const Case c = loadCase(options.input.file, options.input.overrides);
+    const Insertion filled = insertParticles(c);
+    const Timeline timeline(c);
+    const std::uint64_t steps = stepsToCompare(options, c, timeline);
+
+    BackendChoice onReference;
+    onReference.backend = "reference";
+    const std::unique_ptr<Backend> reference = makeBackend(onReference);
+    const std::unique_ptr<Backend> candidate = makeBackend(options.backend);
+    std::vector<std::unique_ptr<Backend>> twins;
+    std::vector<Backend*> twinPointers;
+    for (int i = 0; i < options.twins; ++i) {
+        twins.push_back(makeBackend(onReference));
+        twinPointers.push_back(twins.back().get());
+    }
+    fmt::print("{}: {} particles, {} steps ({:.4g} s): {} against {}, {} perturbed twins\n\n", c.name,
+               filled.particles.size(), steps, timeline.time(steps), candidate->description(), reference->description(),
+               options.twins);
+    std::fflush(stdout);
+
+    const bool terminal = isatty(fileno(stderr)) == 1;
+    const auto progress = [&](std::uint64_t step) {
+        if (!terminal) return;
+        fmt::print(stderr, "\r{:>5.1f} %", 100.0 * static_cast<double>(step) / static_cast<double>(steps));
+        std::fflush(stderr);
+    };
+    const Comparison result =
+        compareBackends(c, filled, *reference, twinPointers, *candidate, steps, progress, watchInterrupts());
+    if (terminal) fmt::print(stderr, "\r\033[K");
+    printParticles(result.particles);
+    printQuantities(result.quantities);
+    fmt::print("\nledger closed on every backend at {} times\n", result.particles.size());
+    if (result.interrupted) {
+        fmt::print("interrupted after {} of {} steps\n", result.steps, steps);
+        return kInterrupted;
+    }
+    fmt::print("{}\n", result.agrees() ? "the backends agree" : "the backends DIFFER");
+    return result.agrees() ? kOk : kDisagree;
+}
+
+}  // namespace vkdose

@@ -1,0 +1,11 @@
+#pragma once
+
+#include <atomic>
+
+namespace vkdose {
+
+/// Turns Ctrl-C (and a polite termination) into a flag that the run looks at between calls of the backend. A second
+/// Ctrl-C ends the program at once.
+const std::atomic<bool>& watchInterrupts();
+
+}  // namespace vkdose

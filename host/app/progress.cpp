@@ -1,0 +1,79 @@
+#include "host/app/progress.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <string>
+
+#include "host/app/text.h"
+
+namespace vkdose {
+
+namespace {
+
+constexpr int kBarWidth = 24;
+constexpr std::chrono::milliseconds kRedraw{200};
+constexpr std::chrono::seconds kLine{10};
+
+double fraction(const Progress& p) {
+    if (p.expectedSteps == 0) return 0;
+    return std::min(1.0, static_cast<double>(p.step) / static_cast<double>(p.expectedSteps));
+}
+
+std::string bar(const Progress& p) {
+    const auto full = static_cast<int>(fraction(p) * kBarWidth);
+    return "[" + std::string(full, '#') + std::string(kBarWidth - full, '-') + "]";
+}
+
+}  // namespace
+
+std::string progressText(const Progress& p) {
+    const std::string phase =
+        p.dose > 0 ? fmt::format("dose {} {}", p.dose, phaseName(p.phase)) : std::string(phaseName(p.phase));
+    const double rate = p.wallTime > 0 ? p.particleSteps / p.wallTime : 0;
+    std::string text = fmt::format("{:<14} t = {:.3f} s", phase, p.time);
+    if (p.expectedSteps > 0) {
+        const double left = static_cast<double>(p.expectedSteps - p.step);
+        const double eta = p.step > 0 ? left * p.wallTime / static_cast<double>(p.step) : -1;
+        text += fmt::format(", {:.0f} %, {}particle-steps/s, ETA {}", 100 * fraction(p), large(rate), duration(eta));
+    } else {
+        text += fmt::format(", {}particle-steps/s", large(rate));
+    }
+    return text;
+}
+
+ProgressDisplay::ProgressDisplay(std::FILE* stream)
+    : stream_(stream), terminal_(isatty(fileno(stream)) == 1), last_(Clock::now()) {}
+
+ProgressDisplay::~ProgressDisplay() {
+    close();
+}
+
+void ProgressDisplay::onProgress(const Progress& p) {
+    const auto now = Clock::now();
+    if (terminal_) {
+        if (now - last_ < kRedraw && !p.phaseEnd) return;
+        // \033[K clears what a longer line before left behind.
+        fmt::print(stream_, "\r{} {}\033[K", bar(p), progressText(p));
+        open_ = true;
+    } else {
+        if (now - last_ < kLine && !p.phaseEnd) return;
+        fmt::print(stream_, "{}\n", progressText(p));
+    }
+    std::fflush(stream_);
+    last_ = now;
+}
+
+void ProgressDisplay::onDose(const Dose& d) {
+    close();
+    fmt::print(stream_, "dose {}: {:.3f} g{}, cumulative {:.3f} g\n", d.index, d.mass * 1e3,
+               d.complete ? "" : " (incomplete)", d.cumulative * 1e3);
+}
+
+void ProgressDisplay::close() {
+    if (open_) fmt::print(stream_, "\n");
+    open_ = false;
+}
+
+}  // namespace vkdose

@@ -1,0 +1,35 @@
+#pragma once
+// How far a run is, on stderr: a bar that redraws itself on a terminal, plain lines otherwise.
+
+#include <chrono>
+#include <cstdio>
+
+#include "host/sim/runner.h"
+
+namespace vkdose {
+
+class ProgressDisplay : public RunObserver {
+  public:
+    explicit ProgressDisplay(std::FILE* stream = stderr);
+    ~ProgressDisplay() override;
+
+    void onProgress(const Progress& progress) override;
+    void onDose(const Dose& dose) override;
+
+    /// Ends the bar's line, so that other text can follow.
+    void close();
+
+  private:
+    using Clock = std::chrono::steady_clock;
+
+    std::FILE* stream_;
+    bool terminal_;
+    bool open_ = false;  ///< a bar stands on the current line
+    Clock::time_point last_;
+};
+
+/// The text of one progress line without bar: "dose 3 rotate, t = 6.2 s, 41 %, 8.1 M particle-steps/s, ETA 12 min 05
+/// s".
+std::string progressText(const Progress& progress);
+
+}  // namespace vkdose

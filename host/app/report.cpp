@@ -1,0 +1,58 @@
+#include "host/app/report.h"
+
+#include <fmt/format.h>
+
+#include <iterator>
+
+#include "host/app/text.h"
+
+namespace vkdose {
+
+namespace {
+
+std::string doseTable(const std::vector<Dose>& doses) {
+    std::string text = fmt::format("{:>5} {:>10} {:>14} {:>16} {:>15}\n", "dose", "mass [g]", "cumulative [g]",
+                                   "torque [mN m]", "closed form [g]");
+    for (const Dose& d : doses) {
+        text +=
+            fmt::format("{:>5} {:>10.3f} {:>14.3f} {:>16.3f} {:>15.3f}{}\n", d.index, d.mass * 1e3, d.cumulative * 1e3,
+                        d.coilTorque * 1e3, d.closedForm * 1e3, d.complete ? "" : "  incomplete, not in the mean");
+    }
+    return text;
+}
+
+std::string ledgerLine(const RunResult& r) {
+    const Sensors& s = r.last.sensors;
+    const auto entry = [&s](Region region) {
+        const auto i = static_cast<std::size_t>(region);
+        return fmt::format("{:.3f} g ({})", s.mass[i] * 1e3, s.count[i]);
+    };
+    const bool closed = r.ledger.closings() > 0 && r.reason != StopReason::RunError;
+    return fmt::format(
+        "ledger   canister {} + throat {} + dosed {} + lost {} = filled {:.3f} g ({}): {}\n", entry(Region::Canister),
+        entry(Region::Throat), entry(Region::Dosed), entry(Region::Lost), r.ledger.filledMass() * 1e3,
+        r.ledger.filledCount(),
+        closed ? fmt::format("closed {} times, worst error {:.1e}", r.ledger.closings(), r.ledger.worstMassError())
+               : std::string("as of the last sample"));
+}
+
+}  // namespace
+
+std::string reportText(const Case& c, const RunResult& r, const std::string& backend) {
+    std::string text;
+    if (!r.doses.empty()) text += doseTable(r.doses);
+    const DoseStatistics& s = r.statistics;
+    if (s.doses > 1) {
+        text += fmt::format("mean {:.3f} g, standard deviation {:.3f} g, RSD {:.1f} % over {} doses\n", s.mean * 1e3,
+                            s.deviation * 1e3, s.relative * 100, s.doses);
+    } else if (s.doses == 1) {
+        text += fmt::format("mean {:.3f} g (one dose: no standard deviation, no RSD)\n", s.mean * 1e3);
+    }
+    text += ledgerLine(r);
+    text += fmt::format("stopped  {} at t = {:.4g} s\n", stopSentence(r.reason, c.schedule.stop), r.last.time);
+    text += fmt::format("speed    {}particle-steps/s ({}particle-steps in {}) on {}\n",
+                        large(r.particleStepsPerSecond()), large(r.particleSteps), duration(r.wallTime), backend);
+    return text;
+}
+
+}  // namespace vkdose

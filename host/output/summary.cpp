@@ -1,0 +1,104 @@
+#include "host/output/summary.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace vkdose {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// JSON knows no infinity and no NaN: such a figure does not exist.
+Json number(double x) {
+    return std::isfinite(x) ? Json(x) : Json(nullptr);
+}
+
+Json inputs(const Case& c, const RunResult& r) {
+    Json j;
+    j["case"] = c.name;
+    j["reason"] = c.reason;
+    j["seed"] = c.seed;
+    j["particles"] = r.filled.particles.size();
+    j["filled_mass_kg"] = number(r.filled.mass);
+    j["target_mass_kg"] = number(r.filled.targetMass);
+    j["redrawn"] = r.filled.redrawn;
+    j["time_step_s"] = number(c.world.timeStep);
+    j["settle_time_s"] = number(c.schedule.settleTime);
+    j["rotate_time_s"] = number(c.schedule.rotateTime);
+    j["rest_time_s"] = number(c.schedule.restTime);
+    j["coil_speed_rad_s"] = number(c.schedule.coilSpeed);
+    j["sensor_interval_s"] = number(c.sensorInterval);
+    return j;
+}
+
+Json closedForms(const Derived& d) {
+    Json j;
+    j["push_velocity_m_s"] = number(d.pushVelocity);
+    j["tip_velocity_m_s"] = number(d.tipVelocity);
+    j["mass_per_dose_kg"] = number(d.massPerDose);
+    j["doses"] = number(d.doses);
+    j["stiffest_contact_duration_s"] = number(d.stiffest);
+    return j;
+}
+
+Json doseList(const std::vector<Dose>& doses) {
+    Json list = Json::array();
+    for (const Dose& d : doses) {
+        Json j;
+        j["dose"] = d.index;
+        j["mass_kg"] = number(d.mass);
+        j["cumulative_mass_kg"] = number(d.cumulative);
+        j["particles"] = d.particles;
+        j["coil_torque_Nm"] = number(d.coilTorque);
+        j["closed_form_mass_kg"] = number(d.closedForm);
+        j["complete"] = d.complete;
+        list.push_back(std::move(j));
+    }
+    return list;
+}
+
+Json ledger(const RunResult& r) {
+    const Sensors& s = r.last.sensors;
+    Json j;
+    j["filled_count"] = r.ledger.filledCount();
+    j["filled_mass_kg"] = number(r.ledger.filledMass());
+    const char* names[kRegions] = {"canister", "throat", "dosed", "lost"};
+    for (std::size_t i = 0; i < kRegions; ++i) {
+        j[std::string(names[i]) + "_count"] = s.count[i];
+        j[std::string(names[i]) + "_mass_kg"] = number(s.mass[i]);
+    }
+    j["worst_relative_mass_error"] = number(r.ledger.worstMassError());
+    j["closings"] = r.ledger.closings();
+    return j;
+}
+
+}  // namespace
+
+std::string summaryJson(const Case& c, const RunResult& r, const std::string& backend) {
+    const DoseStatistics& s = r.statistics;
+    Json j;
+    j["inputs"] = inputs(c, r);
+    j["backend"] = backend;
+    j["stop_reason"] = stopKeyword(r.reason);
+    j["stop_sentence"] = stopSentence(r.reason, c.schedule.stop);
+    j["interrupted"] = r.reason == StopReason::Interrupted;
+    j["error"] = r.error.empty() ? Json(nullptr) : Json(r.error);
+    j["simulated_time_s"] = number(r.last.time);
+    j["steps"] = r.last.step;
+    j["coil_angle_rad"] = number(r.last.coilAngle);
+    j["doses"] = doseList(r.doses);
+    j["dose_statistics"] = {{"complete_doses", s.doses},
+                            {"mean_kg", s.doses > 0 ? number(s.mean) : Json(nullptr)},
+                            {"standard_deviation_kg", s.doses > 1 ? number(s.deviation) : Json(nullptr)},
+                            {"rsd", s.doses > 1 && s.mean > 0 ? number(s.relative) : Json(nullptr)}};
+    j["dosed_while_settling_kg"] = number(r.dosedWhileSettling);
+    j["closed_form"] = closedForms(r.derived);
+    j["ledger"] = ledger(r);
+    j["particle_steps"] = number(r.particleSteps);
+    j["particle_steps_per_second"] = number(r.particleStepsPerSecond());
+    j["stepping_wall_time_s"] = number(r.wallTime);
+    return j.dump(2, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace vkdose

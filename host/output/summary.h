@@ -1,0 +1,13 @@
+#pragma once
+// summary.json: what was run, on what, and what came out, for scripts.
+
+#include <string>
+
+#include "host/sim/runner.h"
+
+namespace vkdose {
+
+/// The summary as indented JSON. Units are in the names; a figure that does not exist is null.
+std::string summaryJson(const Case& c, const RunResult& result, const std::string& backend);
+
+}  // namespace vkdose

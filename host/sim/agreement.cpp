@@ -1,0 +1,171 @@
+#include "host/sim/agreement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+namespace vkdose {
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// The larger of two differences, where NaN counts as infinitely large: std::max would drop it.
+double worse(double a, double b) {
+    return std::isnan(b) ? kInfinity : std::max(a, b);
+}
+
+double rootMeanSquareSpeed(const Particles& p) {
+    double sum = 0, active = 0;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+        if (p.status[i] != Status::Active) continue;
+        sum += glm::dot(p.velocity[i], p.velocity[i]);
+        active += 1;
+    }
+    return active > 0 ? std::sqrt(sum / active) : 0;
+}
+
+/// A difference in units of a scale; without a scale only equality is small.
+double inUnits(double difference, double scale) {
+    if (scale > 0) return difference / scale;
+    return difference == 0 ? 0 : kInfinity;
+}
+
+/// One figure of the packing and how much of it may differ without a reason.
+struct Quantity {
+    const char* name;
+    const char* unit;
+    std::function<double(const Moment&)> value;
+    std::function<bool(const Moment&)> counts;  ///< at which moments
+    double fixedScale;                          ///< 0: the largest magnitude of the reference
+    double floor;
+    double cap;
+};
+
+bool settling(const Moment& m) {
+    return m.phase == Phase::Settle;
+}
+bool dosing(const Moment& m) {
+    return m.phase != Phase::Settle;
+}
+bool turning(const Moment& m) {
+    return m.phase == Phase::Rotate;
+}
+
+/// Floors. Energies and torques: 2 % of the largest, the order of what one particle more or less in motion makes in a
+/// small packing. Height: a fiftieth of a radius. Contacts: each particle's number within 0.1. Overlap: 5 %, it is an
+/// extreme of a few hard contacts. Dosed mass: two particles, because they leave one by one and those near the edge
+/// may or may not.
+std::vector<Quantity> quantities(const Scales& s) {
+    const auto energy = [](const Moment& m) { return m.kineticEnergy; };
+    const auto height = [](const Moment& m) { return m.meanHeight; };
+    const auto contacts = [](const Moment& m) { return m.contactsEach; };
+    const auto overlap = [](const Moment& m) { return m.maxOverlap; };
+    const auto torque = [](const Moment& m) { return m.meanTorque; };
+    const auto dosed = [](const Moment& m) { return m.dosedMass; };
+    const auto late = [](const Moment& m) { return turning(m) && m.lateInPhase; };
+    const double dosedCap = std::max(3.0, 0.2 * s.filledMass / s.particleMass);
+    return {
+        {"kinetic energy, settling", "of its largest", energy, settling, 0, 0.02, 0.5},
+        {"kinetic energy, dosing", "of its largest", energy, dosing, 0, 0.02, 0.5},
+        {"mean height, settling", "mean radii", height, settling, s.radius, 0.02, 1},
+        {"mean height, dosing", "mean radii", height, dosing, s.radius, 0.02, 1},
+        {"contacts per particle", "contacts", contacts, [](const Moment&) { return true; }, 1, 0.1, 0.5},
+        {"largest overlap, settling", "of its largest", overlap, settling, 0, 0.05, 0.5},
+        {"largest overlap, dosing", "of its largest", overlap, dosing, 0, 0.05, 0.5},
+        {"mean coil torque, turning", "of its largest", torque, late, 0, 0.02, 0.5},
+        {"dosed mass", "mean particles", dosed, [](const Moment&) { return true; }, s.particleMass, 2, dosedCap},
+    };
+}
+
+double scaleOf(const Quantity& q, const History& reference) {
+    double scale = q.fixedScale;
+    if (scale > 0) return scale;
+    for (const Moment& m : reference) {
+        if (q.counts(m)) scale = worse(scale, std::abs(q.value(m)));
+    }
+    return scale;
+}
+
+QuantityRow judge(const Quantity& q, const History& reference, const std::vector<const History*>& twins,
+                  const History& candidate) {
+    QuantityRow row;
+    row.name = q.name;
+    row.unit = q.unit;
+    const double scale = scaleOf(q, reference);
+    const auto off = [&](const History& h, std::size_t i) {
+        if (i >= h.size()) return kInfinity;
+        return inUnits(std::abs(q.value(h[i]) - q.value(reference[i])), scale);
+    };
+    for (std::size_t i = 0; i < reference.size(); ++i) {
+        if (!q.counts(reference[i])) continue;
+        const double d = worse(0, off(candidate, i));
+        if (d > row.difference || row.time == 0) row.time = reference[i].time;
+        row.difference = std::max(row.difference, d);
+        for (const History* twin : twins) row.spread = worse(row.spread, off(*twin, i));
+    }
+    row.tolerance = std::min(q.floor + 3 * row.spread, q.cap);
+    row.agrees = std::isfinite(row.difference) && row.difference <= row.tolerance;
+    return row;
+}
+
+}  // namespace
+
+Scales scalesOf(const Particles& particles, double filledMass) {
+    Scales s;
+    const auto n = static_cast<double>(particles.size());
+    for (const double r : particles.radius) s.radius += r / n;
+    s.filledMass = filledMass;
+    s.particleMass = filledMass / n;
+    return s;
+}
+
+StateDifference difference(const Particles& a, const Particles& b) {
+    if (a.size() != b.size()) return {kInfinity, kInfinity};
+    StateDifference d;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        if (a.status[i] != Status::Active || b.status[i] != Status::Active) continue;
+        d.position = worse(d.position, glm::length(a.position[i] - b.position[i]));
+        d.velocity = worse(d.velocity, glm::length(a.velocity[i] - b.velocity[i]));
+    }
+    return d;
+}
+
+ParticleRow ParticleJudge::row(std::uint64_t step, double time, const Particles& reference,
+                               const std::vector<const Particles*>& twins, const Particles& candidate) {
+    speed_ = worse(speed_, rootMeanSquareSpeed(reference));
+    for (const Particles* twin : twins) {
+        const StateDifference t = difference(reference, *twin);
+        twinPosition_ = worse(twinPosition_, inUnits(t.position, scales_.radius));
+        twinVelocity_ = worse(twinVelocity_, inUnits(t.velocity, speed_));
+    }
+    const StateDifference d = difference(reference, candidate);
+    ParticleRow row;
+    row.step = step;
+    row.time = time;
+    row.position = inUnits(d.position, scales_.radius);
+    row.velocity = inUnits(d.velocity, speed_);
+
+    const double rounding = kFloor + 0x1p-24 * static_cast<double>(step);           // of the velocity scale
+    const double drift = kFloor + 0.5 * rounding * speed_ * time / scales_.radius;  // in mean radii
+    row.positionLimit = drift * std::max(1.0, twinPosition_ / kTwinShift);
+    row.velocityLimit = rounding + drift * twinVelocity_ / kTwinShift;
+    chaotic_ = chaotic_ || !(row.positionLimit <= kWidest) || !(row.velocityLimit <= kWidest);
+    row.judged = !chaotic_;
+    row.agrees = chaotic_ || (row.position <= row.positionLimit && row.velocity <= row.velocityLimit);
+    return row;
+}
+
+std::vector<QuantityRow> judgeQuantities(const History& reference, const std::vector<const History*>& twins,
+                                         const History& candidate, const Scales& scales) {
+    std::vector<QuantityRow> rows;
+    for (const Quantity& q : quantities(scales)) {
+        if (std::any_of(reference.begin(), reference.end(), q.counts)) {
+            rows.push_back(judge(q, reference, twins, candidate));
+        }
+    }
+    return rows;
+}
+
+}  // namespace vkdose

@@ -1,0 +1,70 @@
+#pragma once
+// The verdicts of a comparison: which differences rounding and chaos explain, and which not. NaN never agrees.
+
+#include <vector>
+
+#include "host/sim/comparison.h"
+
+namespace vkdose {
+
+/// Units of the differences.
+struct Scales {
+    double radius = 0;        ///< mean [m]
+    double particleMass = 0;  ///< mean [kg]
+    double filledMass = 0;    ///< [kg]
+};
+Scales scalesOf(const Particles& particles, double filledMass);
+
+/// Largest difference of two states over the particles that are active in both.
+struct StateDifference {
+    double position = 0;  ///< [m]
+    double velocity = 0;  ///< [m/s]
+};
+StateDifference difference(const Particles& a, const Particles& b);
+
+/// Particle by particle, time after time. What a candidate may differ by:
+/// - It keeps velocities in single precision: every step rounds them by up to 2^-24 of themselves, and where the
+///   acceleration is steady (a free fall) always to the same side. After n steps that is up to n 2^-24 of the velocity
+///   scale, and half of that times the distance travelled in position. kFloor covers what does not grow with n:
+///   the size, mass and parameters are rounded to single precision once.
+/// - Contacts amplify differences: not more than they amplified the twins' displacement.
+/// Once that limit exceeds kWidest (of a radius, of the velocity scale) the state is chaotic: it is no longer judged.
+class ParticleJudge {
+  public:
+    static constexpr double kFloor = 1e-6;
+    static constexpr double kWidest = 0.1;
+
+    explicit ParticleJudge(const Scales& scales) : scales_(scales) {}
+
+    ParticleRow row(std::uint64_t step, double time, const Particles& reference,
+                    const std::vector<const Particles*>& twins, const Particles& candidate);
+
+  private:
+    Scales scales_;
+    double speed_ = 0;         ///< velocity scale [m/s]
+    double twinPosition_ = 0;  ///< largest so far [mean radii]
+    double twinVelocity_ = 0;  ///< largest so far [velocity scales]
+    bool chaotic_ = false;
+};
+
+/// The packing as a whole at one time.
+struct Moment {
+    double time = 0;
+    Phase phase = Phase::Settle;
+    bool lateInPhase = false;  ///< in the second half: the mean torque means something
+    double kineticEnergy = 0;  ///< translation and rotation [J]
+    double meanTorque = 0;     ///< on the coil about +z, since the start of the phase [N m]
+    double maxOverlap = 0;     ///< over the radius, since the start of the phase [-]
+    double meanHeight = 0;     ///< of the active particles [m]
+    double contactsEach = 0;   ///< contacts over active particles
+    double dosedMass = 0;      ///< [kg]
+};
+using History = std::vector<Moment>;
+
+/// Compares histories made at the same times. A quantity may differ by a floor (see the table in agreement.cpp) plus
+/// three times the largest spread of the twins; never by more than the quantity's cap, beyond which agreement would
+/// mean nothing.
+std::vector<QuantityRow> judgeQuantities(const History& reference, const std::vector<const History*>& twins,
+                                         const History& candidate, const Scales& scales);
+
+}  // namespace vkdose

@@ -1,0 +1,175 @@
+#include "host/sim/comparison.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <utility>
+
+#include "host/core/error.h"
+#include "host/core/random.h"
+#include "host/sim/agreement.h"
+#include "host/sim/ledger.h"
+
+namespace vkdose {
+
+namespace {
+
+/// The reference with every particle displaced a little, each twin differently.
+Particles twinOf(const Particles& original, double shift, std::uint64_t seed, std::uint32_t twin) {
+    Particles p = original;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+        const auto [x, y] = uniforms(seed, Stream::Jitter, i, 2 * twin);
+        const auto [z, unused] = uniforms(seed, Stream::Jitter, i, 2 * twin + 1);
+        (void)unused;
+        p.position[i] += shift * (2.0 * Vec3(x, y, z) - 1.0);
+    }
+    return p;
+}
+
+/// Steps at which all stop to be compared: 1, 2, 5, 10, ... for the first contacts, forty evenly spread ones for the
+/// packing, and every end of a phase (so that no interval holds two phases).
+std::vector<std::uint64_t> checkpoints(const Timeline& timeline, std::uint64_t steps) {
+    std::set<std::uint64_t> at;
+    for (std::uint64_t decade = 1; decade < steps; decade *= 10) {
+        for (const std::uint64_t factor : {1, 2, 5}) at.insert(factor * decade);
+    }
+    for (std::uint64_t i = 1; i <= 40; ++i) at.insert(steps * i / 40);
+    for (std::uint64_t s = 0; s < steps && !timeline.over(s); s = timeline.at(s).end) at.insert(timeline.at(s).end);
+    at.insert(steps);
+    at.erase(0);
+    at.erase(at.upper_bound(steps), at.end());
+    return {at.begin(), at.end()};
+}
+
+/// One backend on its way through the schedule.
+class Walker {
+  public:
+    Walker(std::string name, const Case& c, const Timeline& timeline, Backend& backend, const Particles& start,
+           double filledMass)
+        : name_(std::move(name)), case_(c), timeline_(timeline), backend_(backend), ledger_(start.size(), filledMass) {
+        World world = c.world;
+        world.law = c.settlingLaw;
+        told([&] { backend_.load(world, start); });
+    }
+
+    void advanceTo(std::uint64_t step) {
+        const Timeline::Stretch stretch = timeline_.at(step_);
+        const auto n = static_cast<std::uint32_t>(step - step_);
+        Sensors sensors;
+        told([&] {
+            if (stretch.phase != Phase::Settle && !dosing_) {
+                backend_.setLaw(case_.world.law);
+                dosing_ = true;
+            }
+            sensors = backend_.advance(n, stretch.rate);
+            ledger_.close(sensors, timeline_.time(step));
+            state = backend_.particles();
+            contacts = backend_.contacts().size();
+        });
+        step_ = step;
+        append(sensors, stretch, n);
+    }
+
+    Particles state;
+    std::size_t contacts = 0;
+    History history;
+
+  private:
+    /// An error says which of the backends met it.
+    template <typename F>
+    void told(F&& work) {
+        try {
+            work();
+        } catch (const RunError& e) {
+            throw RunError(fmt::format("{}: {}", name_, e.what()));
+        }
+    }
+
+    void append(const Sensors& s, const Timeline::Stretch& stretch, std::uint32_t n) {
+        const bool fresh = history.empty() || stretch.end != phaseEnd_;
+        phaseEnd_ = stretch.end;
+        impulse_ = (fresh ? 0.0 : impulse_) + s.coilTorque * n;
+        phaseSteps_ = (fresh ? 0 : phaseSteps_) + n;
+        Moment m;
+        m.time = timeline_.time(step_);
+        m.phase = stretch.phase;
+        m.kineticEnergy = s.kineticEnergy + s.rotationalEnergy;
+        m.meanTorque = impulse_ / static_cast<double>(phaseSteps_);
+        m.lateInPhase = 2 * phaseSteps_ >= phaseSteps_ + (stretch.end - step_);
+        m.maxOverlap = fresh ? s.maxOverlapRatio : std::max(history.back().maxOverlap, s.maxOverlapRatio);
+        m.dosedMass = s.mass[static_cast<std::size_t>(Region::Dosed)];
+        double height = 0, active = 0;
+        for (std::size_t i = 0; i < state.size(); ++i) {
+            if (state.status[i] != Status::Active) continue;
+            height += state.position[i].y;
+            active += 1;
+        }
+        m.meanHeight = active > 0 ? height / active : 0;
+        m.contactsEach = active > 0 ? static_cast<double>(contacts) / active : 0;
+        history.push_back(m);
+    }
+
+    std::string name_;
+    const Case& case_;
+    const Timeline& timeline_;
+    Backend& backend_;
+    Ledger ledger_;
+    std::uint64_t step_ = 0;
+    bool dosing_ = false;
+    std::uint64_t phaseEnd_ = 0;
+    double impulse_ = 0;
+    std::uint64_t phaseSteps_ = 0;
+};
+
+}  // namespace
+
+bool Comparison::agrees() const {
+    const auto good = [](const auto& row) { return row.agrees; };
+    return std::all_of(particles.begin(), particles.end(), good) &&
+           std::all_of(quantities.begin(), quantities.end(), good);
+}
+
+Comparison compareBackends(const Case& c, const Insertion& filled, Backend& reference,
+                           const std::vector<Backend*>& twins, Backend& candidate, std::uint64_t steps,
+                           const std::function<void(std::uint64_t)>& progress, const std::atomic<bool>& stop) {
+    const Timeline timeline(c);
+    const Scales scales = scalesOf(filled.particles, filled.mass);
+    Walker ref("reference", c, timeline, reference, filled.particles, filled.mass);
+    Walker other(candidate.description(), c, timeline, candidate, filled.particles, filled.mass);
+    std::vector<Walker> others;
+    others.reserve(twins.size());
+    for (std::uint32_t t = 0; t < twins.size(); ++t) {
+        const Particles start = twinOf(filled.particles, kTwinShift * scales.radius, c.seed, t + 1);
+        others.emplace_back(fmt::format("twin {}", t + 1), c, timeline, *twins[t], start, filled.mass);
+    }
+
+    Comparison result;
+    ParticleJudge judge(scales);
+    for (const std::uint64_t step : checkpoints(timeline, steps)) {
+        if (stop || timeline.over(result.steps)) break;
+        const Phase phase = timeline.at(result.steps).phase;
+        ref.advanceTo(step);
+        other.advanceTo(step);
+        std::vector<const Particles*> twinStates;
+        for (Walker& t : others) {
+            t.advanceTo(step);
+            twinStates.push_back(&t.state);
+        }
+        ParticleRow row = judge.row(step, timeline.time(step), ref.state, twinStates, other.state);
+        row.phase = phase;
+        row.contacts = ref.contacts;
+        result.particles.push_back(row);
+        result.steps = step;
+        progress(step);
+    }
+    result.interrupted = stop;
+    std::vector<const History*> twinHistories;
+    for (const Walker& t : others) twinHistories.push_back(&t.history);
+    result.quantities = judgeQuantities(ref.history, twinHistories, other.history, scales);
+    return result;
+}
+
+}  // namespace vkdose

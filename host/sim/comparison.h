@@ -1,0 +1,65 @@
+#pragma once
+// Two backends on the same case and the same particles, in lockstep: how far they differ, and whether that is more
+// than rounding and the chaos of a packing explain.
+//
+// A packing of spheres amplifies every difference. How much is not guessed but measured: "twins" are further runs of
+// the reference whose particles start displaced by up to kTwinShift of the mean radius. The candidate makes a rounding
+// error in every step; none of them grows faster than the twins' displacement does.
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "host/backend/backend.h"
+#include "host/model/case.h"
+#include "host/sim/timeline.h"
+
+namespace vkdose {
+
+/// Displacement of the twins' particles, in mean radii.
+inline constexpr double kTwinShift = 1e-7;
+
+/// Particle by particle, at one time. Positions in mean radii, velocities in the velocity scale (the largest
+/// root-mean-square speed of the reference so far).
+struct ParticleRow {
+    std::uint64_t step = 0;
+    double time = 0;
+    Phase phase = Phase::Settle;
+    std::size_t contacts = 0;  ///< of the reference
+    double position = 0;       ///< largest difference of the candidate
+    double velocity = 0;
+    double positionLimit = 0;  ///< what rounding times measured amplification explains
+    double velocityLimit = 0;
+    bool judged = false;  ///< false once the limit is so wide that it would say nothing
+    bool agrees = true;
+};
+
+/// A figure of the whole packing, over all times of a phase.
+struct QuantityRow {
+    std::string name;       ///< "kinetic energy, settle"
+    std::string unit;       ///< what the differences are given in: "of its largest", "mean radii"
+    double difference = 0;  ///< largest over time, candidate to reference
+    double spread = 0;      ///< largest over time, twins to reference
+    double tolerance = 0;
+    double time = 0;  ///< of the largest difference [s]
+    bool agrees = true;
+};
+
+struct Comparison {
+    std::vector<ParticleRow> particles;
+    std::vector<QuantityRow> quantities;
+    std::uint64_t steps = 0;
+    bool interrupted = false;
+    bool agrees() const;
+};
+
+/// Advances all backends through the schedule of `c` for `steps` steps (or until its end time) and compares them at a
+/// series of times. The ledger of every backend must close: RunError otherwise, naming the backend. `progress` is told
+/// the step reached.
+Comparison compareBackends(const Case& c, const Insertion& filled, Backend& reference,
+                           const std::vector<Backend*>& twins, Backend& candidate, std::uint64_t steps,
+                           const std::function<void(std::uint64_t)>& progress, const std::atomic<bool>& stop);
+
+}  // namespace vkdose

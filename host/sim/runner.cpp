@@ -1,0 +1,284 @@
+#include "host/sim/runner.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+#include "host/core/error.h"
+
+namespace vkdose {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Work of one `advance`: enough that the call costs nothing beside it, little enough that Ctrl-C and the progress
+/// bar answer within a second or so at the speeds of a CPU. A fixed number, so that the same case makes the same calls.
+constexpr double kParticleStepsPerCall = 4e6;
+
+std::uint64_t count(const Sensors& s, Region r) {
+    return s.count[static_cast<std::size_t>(r)];
+}
+double mass(const Sensors& s, Region r) {
+    return s.mass[static_cast<std::size_t>(r)];
+}
+std::uint64_t active(const Sensors& s) {
+    return count(s, Region::Canister) + count(s, Region::Throat);
+}
+
+class Run {
+  public:
+    Run(const Case& c, Insertion filled, Derived derived, Backend& backend, RunObserver& observer,
+        const std::atomic<bool>& stop)
+        : case_(c), backend_(backend), observer_(observer), stop_(stop), timeline_(c), judge_(c.schedule.stop) {
+        result_.filled = std::move(filled);
+        result_.derived = std::move(derived);
+        result_.particles = result_.filled.particles;
+        result_.ledger = Ledger(result_.particles.size(), result_.filled.mass);
+        result_.last.sensors.count[0] = result_.particles.size();
+        result_.last.sensors.mass[0] = result_.filled.mass;
+        active_ = result_.particles.size();
+    }
+
+    RunResult play() {
+        try {
+            load();
+            result_.reason = steps();
+        } catch (const RunError& e) {
+            fail(StopReason::RunError, e.what());
+        } catch (const DeviceError& e) {
+            fail(StopReason::DeviceError, e.what());
+        }
+        result_.statistics = statistics(result_.doses);
+        return std::move(result_);
+    }
+
+  private:
+    void load() {
+        World world = case_.world;
+        world.law = case_.settlingLaw;
+        backend_.load(world, result_.particles);
+    }
+
+    StopReason steps() {
+        while (!timeline_.over(step_)) {
+            if (stop_) {
+                sample();
+                if (dose_.index > 0) closeDose(false);
+                keepEndState();
+                return StopReason::Interrupted;
+            }
+            stretch_ = timeline_.at(step_);
+            if (stretch_.phase != Phase::Settle && !dosing_) beginDosing();
+            if (stretch_.phase == Phase::Rotate && dose_.index != stretch_.dose) openDose();
+            advance(timeline_.nextSample(step_));
+            if (step_ == sampleStep_) sample();
+            if (step_ == stretch_.end && phaseEnded()) {
+                keepEndState();
+                return judge_.reason();
+            }
+        }
+        if (dose_.index > 0) closeDose(false);
+        keepEndState();
+        return timeline_.cutByEndTime(step_) ? StopReason::EndTime : StopReason::Settled;
+    }
+
+    /// One call of the backend, towards the next sample.
+    void advance(std::uint64_t sampleStep) {
+        sampleStep_ = sampleStep;
+        const double perCall = kParticleStepsPerCall / static_cast<double>(std::max<std::uint64_t>(active_, 1));
+        const auto limit = static_cast<std::uint64_t>(std::clamp(perCall, 64.0, 1e6));
+        const std::uint64_t n = std::min(sampleStep_ - step_, limit);
+        const auto begin = Clock::now();
+        const Sensors s = backend_.advance(static_cast<std::uint32_t>(n), stretch_.rate);
+        result_.wallTime += std::chrono::duration<double>(Clock::now() - begin).count();
+        result_.particleSteps += static_cast<double>(active_) * static_cast<double>(n);
+        step_ += n;
+        active_ = active(s);
+        gather(s, n);
+        report();
+    }
+
+    /// Joins the sensors of one call to those since the last sample.
+    void gather(const Sensors& s, std::uint64_t n) {
+        const double impulse = s.coilTorque * static_cast<double>(n);
+        const double overlap = gathered_ > 0 ? std::max(now_.maxOverlapRatio, s.maxOverlapRatio) : s.maxOverlapRatio;
+        now_ = s;
+        now_.maxOverlapRatio = overlap;
+        gathered_ += n;
+        impulse_ += impulse;
+        if (stretch_.phase == Phase::Rotate) {
+            doseImpulse_ += impulse;
+            doseSteps_ += n;
+        }
+    }
+
+    void sample() {
+        if (gathered_ == 0) return;
+        Sample s;
+        s.step = step_;
+        s.time = timeline_.time(step_);
+        s.phase = stretch_.phase;
+        s.dose = stretch_.dose;
+        s.coilAngle = backend_.coilAngle() * timeline_.conveyingSense();
+        s.sensors = now_;
+        s.sensors.coilTorque = impulse_ / static_cast<double>(gathered_);
+        s.coilTorque = driveTorque(s.sensors.coilTorque);
+        s.coilPower = s.coilTorque * std::abs(stretch_.rate);
+        const double throat = mass(now_, Region::Throat);
+        s.outletVelocity = throat > 0 ? now_.throatMomentumZ / throat : std::numeric_limits<double>::quiet_NaN();
+        gathered_ = 0;
+        impulse_ = 0;
+        observer_.onSample(s);
+        result_.ledger.close(s.sensors, s.time);  // after the observer: a ledger that does not close is on record
+        result_.last = s;
+    }
+
+    /// What the drive must supply to convey against the powder's torque on the coil.
+    double driveTorque(double onCoil) const { return -onCoil * timeline_.conveyingSense() + 0.0; }
+
+    void beginDosing() {
+        dosing_ = true;
+        backend_.setLaw(case_.world.law);
+        result_.dosedWhileSettling = mass(result_.last.sensors, Region::Dosed);
+    }
+
+    void openDose() {
+        dose_ = Dose{};
+        dose_.index = stretch_.dose;
+        dose_.startTime = timeline_.time(step_);
+        dose_.closedForm = result_.derived.massPerDose;
+        dosedBefore_ = result_.last.sensors;
+        doseImpulse_ = 0;
+        doseSteps_ = 0;
+    }
+
+    void closeDose(bool complete) {
+        const Sensors& s = result_.last.sensors;
+        dose_.complete = complete;
+        dose_.cumulative = mass(s, Region::Dosed);
+        dose_.mass = dose_.cumulative - mass(dosedBefore_, Region::Dosed);
+        dose_.particles = count(s, Region::Dosed) - count(dosedBefore_, Region::Dosed);
+        dose_.coilTorque = doseSteps_ > 0 ? driveTorque(doseImpulse_ / static_cast<double>(doseSteps_)) : 0;
+        result_.doses.push_back(std::exchange(dose_, Dose{}));
+        observer_.onDose(result_.doses.back());
+    }
+
+    /// Returns true if the phase that ended completes a dose and the judge says it was the last one.
+    bool phaseEnded() {
+        if (stretch_.phase == Phase::Settle) return false;
+        const std::uint64_t cycle = timeline_.rotateSteps() + timeline_.restSteps();
+        if ((step_ - timeline_.settleSteps()) % cycle != 0) return false;
+        closeDose(true);
+        const Dose& d = result_.doses.back();
+        return judge_.over(d.mass, d.particles, active_);
+    }
+
+    /// After an error: what the last good sample knew stays, the dose under way is closed as incomplete.
+    void fail(StopReason reason, const char* what) {
+        result_.reason = reason;
+        result_.error = what;
+        if (dose_.index > 0) closeDose(false);
+        try {
+            keepEndState();
+        } catch (const std::runtime_error&) {
+            // The backend cannot give its state any more; `endState` stays false and the first error is the one told.
+        }
+    }
+
+    void keepEndState() {
+        result_.particles = backend_.particles();
+        result_.endState = true;
+    }
+
+    void report() {
+        Progress p;
+        p.phase = stretch_.phase;
+        p.dose = stretch_.dose;
+        p.time = timeline_.time(step_);
+        p.step = step_;
+        p.expectedSteps = expectedSteps();
+        p.particleSteps = result_.particleSteps;
+        p.wallTime = result_.wallTime;
+        p.phaseEnd = step_ == stretch_.end;
+        observer_.onProgress(p);
+    }
+
+    /// Steps of the whole run if the doses go on as they have so far (before the first: as the closed form says).
+    std::uint64_t expectedSteps() const {
+        if (!timeline_.hasDoses()) return timeline_.stepsUntilDose(0);
+        double done = 0, dosed = 0;
+        for (const Dose& d : result_.doses) {
+            done += 1;
+            dosed += d.mass;
+        }
+        const double perDose = dosed > 0 ? dosed / done : result_.derived.massPerDose;
+        const StopRule& rule = case_.schedule.stop;
+        double doses = static_cast<double>(rule.maxDoses);
+        if (perDose > 0) {
+            const double left = result_.filled.mass - result_.dosedWhileSettling - dosed;
+            doses = std::min(doses, done + std::max(1.0, std::ceil(left / perDose)));
+        }
+        const std::uint64_t steps = timeline_.stepsUntilDose(doses);
+        const bool unknown =
+            perDose <= 0 && rule.maxDoses == std::numeric_limits<int>::max() && !std::isfinite(rule.endTime);
+        return unknown ? 0 : std::max(steps, step_);
+    }
+
+    const Case& case_;
+    Backend& backend_;
+    RunObserver& observer_;
+    const std::atomic<bool>& stop_;
+    Timeline timeline_;
+    DoseJudge judge_;
+    RunResult result_;
+
+    std::uint64_t step_ = 0;
+    std::uint64_t sampleStep_ = 0;
+    std::uint64_t active_ = 0;  ///< particles still moving
+    Timeline::Stretch stretch_{Phase::Settle, 0, 0, 0};
+    bool dosing_ = false;
+
+    Sensors now_;                 ///< of the last call, joined with the calls since the last sample
+    std::uint64_t gathered_ = 0;  ///< steps since the last sample
+    double impulse_ = 0;          ///< torque times steps since the last sample
+
+    Dose dose_;            ///< under way; index 0: none
+    Sensors dosedBefore_;  ///< at its start
+    double doseImpulse_ = 0;
+    std::uint64_t doseSteps_ = 0;
+};
+
+}  // namespace
+
+DoseStatistics statistics(const std::vector<Dose>& doses) {
+    DoseStatistics s;
+    double sum = 0, squares = 0;
+    for (const Dose& d : doses) {
+        if (!d.complete) continue;
+        ++s.doses;
+        sum += d.mass;
+    }
+    if (s.doses == 0) return s;
+    s.mean = sum / s.doses;
+    for (const Dose& d : doses) {
+        if (d.complete) squares += (d.mass - s.mean) * (d.mass - s.mean);
+    }
+    if (s.doses > 1) s.deviation = std::sqrt(squares / (s.doses - 1));
+    if (s.mean > 0) s.relative = s.deviation / s.mean;
+    return s;
+}
+
+RunResult runFilled(const Case& c, Insertion filled, Derived derived, Backend& backend, RunObserver& observer,
+                    const std::atomic<bool>& stop) {
+    return Run(c, std::move(filled), std::move(derived), backend, observer, stop).play();
+}
+
+RunResult runCase(const Case& c, Backend& backend, RunObserver& observer, const std::atomic<bool>& stop) {
+    Insertion filled = insertParticles(c);
+    Derived derived = derive(c, filled);
+    return runFilled(c, std::move(filled), std::move(derived), backend, observer, stop);
+}
+
+}  // namespace vkdose

@@ -1,0 +1,79 @@
+#include "host/sim/stop_rule.h"
+
+#include <fmt/format.h>
+
+#include <numeric>
+
+namespace vkdose {
+
+std::string stopKeyword(StopReason reason) {
+    switch (reason) {
+        case StopReason::Settled:
+            return "settled";
+        case StopReason::Experiment:
+            return "experiment_rule";
+        case StopReason::Simulation:
+            return "simulation_rule";
+        case StopReason::Empty:
+            return "empty";
+        case StopReason::Doses:
+            return "dose_count";
+        case StopReason::EndTime:
+            return "end_time";
+        case StopReason::Interrupted:
+            return "interrupted";
+        case StopReason::RunError:
+            return "run_error";
+        case StopReason::DeviceError:
+            return "device_error";
+    }
+    return "unknown";
+}
+
+std::string stopSentence(StopReason reason, const StopRule& rule) {
+    switch (reason) {
+        case StopReason::Settled:
+            return "settled; the case asks for no doses";
+        case StopReason::Experiment:
+            return fmt::format("the last {} doses together gave no more than {:.3g} g (experiment rule)", rule.doses,
+                               rule.threshold * 1e3);
+        case StopReason::Simulation:
+            return fmt::format("the last {} doses gave nothing (simulation rule)", rule.doses);
+        case StopReason::Empty:
+            return "the canister is empty";
+        case StopReason::Doses:
+            return fmt::format("the {} doses asked for are done", rule.maxDoses);
+        case StopReason::EndTime:
+            return fmt::format("the end time {:.6g} s is reached", rule.endTime);
+        case StopReason::Interrupted:
+            return "interrupted; everything computed until then is kept";
+        case StopReason::RunError:
+            return "stopped by an error; everything computed until then is kept";
+        case StopReason::DeviceError:
+            return "stopped by the device; everything computed until then is kept";
+    }
+    return "unknown";
+}
+
+bool DoseJudge::over(double mass, std::uint64_t particles, std::uint64_t left) {
+    ++doses_;
+    recent_.push_back(particles == 0 ? 0.0 : mass);
+    if (static_cast<int>(recent_.size()) > rule_.doses) recent_.pop_front();
+
+    if (left == 0) {
+        reason_ = StopReason::Empty;
+        return true;
+    }
+    if (rule_.doses > 0 && static_cast<int>(recent_.size()) == rule_.doses && rule_.kind != StopRule::Kind::None) {
+        const bool experiment = rule_.kind == StopRule::Kind::Experiment;
+        const double change = std::accumulate(recent_.begin(), recent_.end(), 0.0);
+        if (change <= (experiment ? rule_.threshold : 0.0)) {
+            reason_ = experiment ? StopReason::Experiment : StopReason::Simulation;
+            return true;
+        }
+    }
+    reason_ = StopReason::Doses;
+    return doses_ >= rule_.maxDoses;
+}
+
+}  // namespace vkdose

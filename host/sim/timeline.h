@@ -1,0 +1,67 @@
+#pragma once
+// The schedule of a case in whole steps: settle, then doses of rotating and resting, one after the other.
+
+#include <cstdint>
+#include <limits>
+#include <string_view>
+
+#include "host/model/case.h"
+
+namespace vkdose {
+
+enum class Phase { Settle, Rotate, Rest };
+std::string_view phaseName(Phase phase);
+
+class Timeline {
+  public:
+    /// Rounds every duration to the nearest whole number of steps. Throws CaseError if the time step or the sensor
+    /// interval is not positive, or if a duration that is not zero is shorter than half a step.
+    explicit Timeline(const Case& c);
+
+    /// The part of one phase that starts at a step. Steps `step` ... `end` - 1 are made in it.
+    struct Stretch {
+        Phase phase;
+        int dose;           ///< 1 for the first; 0 while settling
+        std::uint64_t end;  ///< first step that is no longer in it
+        double rate;        ///< of the coil about +z [rad/s]
+    };
+
+    /// The stretch in which the step that follows `step` finished steps is made. Call only while !over(step).
+    Stretch at(std::uint64_t step) const;
+
+    /// The next step after `step` at which sensors are read: a multiple of the sensor interval or the end of a phase.
+    std::uint64_t nextSample(std::uint64_t step) const;
+
+    /// True once the end time is reached, or the settling is done and the case asks for no doses.
+    bool over(std::uint64_t step) const { return step >= end_; }
+
+    /// True if the end time of the stop rule is what ends the run at `step`.
+    bool cutByEndTime(std::uint64_t step) const { return over(step) && end_ == endTime_; }
+
+    /// Steps until dose `doses` is complete, cut at the end time.
+    std::uint64_t stepsUntilDose(double doses) const;
+
+    bool hasDoses() const { return cycle() > 0; }
+    double time(std::uint64_t step) const { return static_cast<double>(step) * timeStep_; }
+    std::uint64_t settleSteps() const { return settle_; }
+    std::uint64_t rotateSteps() const { return rotate_; }
+    std::uint64_t restSteps() const { return rest_; }
+    std::uint64_t sensorSteps() const { return sensor_; }
+
+    /// +1 or -1: sense of the coil's rotation about +z when it conveys; 0 without a coil.
+    double conveyingSense() const { return sense_; }
+
+  private:
+    static constexpr std::uint64_t kNever = std::numeric_limits<std::uint64_t>::max();
+
+    std::uint64_t cycle() const { return rotate_ == 0 ? 0 : rotate_ + rest_; }
+
+    double timeStep_;
+    std::uint64_t settle_, rotate_, rest_, sensor_;
+    std::uint64_t endTime_ = kNever;  ///< step of the stop rule's end time
+    std::uint64_t end_ = kNever;
+    double sense_ = 0;
+    double rate_ = 0;
+};
+
+}  // namespace vkdose
