@@ -18,7 +18,12 @@ using gpu::vec4;
 /// A double as the unevaluated sum of two floats.
 struct Split {
     float high, low;
-    explicit Split(double x) : high(float(x)), low(float(x - double(float(x)))) {}
+    explicit Split(double x) {
+        // GCC 12.2's vectoriser folds x - double(float(x)) to zero at -O2; through memory it cannot.
+        volatile float rounded = float(x);
+        high = rounded;
+        low = float(x - double(high));
+    }
 };
 
 struct Split3 {
