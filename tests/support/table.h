@@ -17,7 +17,8 @@ using Row = std::map<std::string, double>;
 inline std::vector<Row> oracleTable(const std::string& name) {
     std::ifstream file(std::string(VKDOSE_SOURCE_DIR) + "/tests/oracle/" + name);
     if (!file) throw std::runtime_error("cannot open tests/oracle/" + name);
-    const auto cells = [](const std::string& line) {
+    const auto cells = [](std::string line) {
+        if (!line.empty() && line.back() == '\r') line.pop_back();
         std::vector<std::string> list;
         std::istringstream in(line);
         for (std::string cell; std::getline(in, cell, ',');) list.push_back(cell);

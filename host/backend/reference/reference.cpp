@@ -107,13 +107,13 @@ void ReferenceBackend::step(double coilRate) {
     forces_.evaluate(world_, particles_, neighbours_, CoilMotion{angle_, coilRate}, opening ? 0 : dt, loads_);
     refuseDeepOverlap();
 
+    ++steps_;
     lost_.clear();
     for (std::size_t i = 0; i < particles_.size(); ++i) {
         if (particles_.status[i] != Status::Active) continue;
         move(i, opening ? dt / 2 : dt);
         settleStatus(i);
     }
-    ++steps_;
     if (!lost_.empty()) throw RunError(lost_);
 }
 
