@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <random>
 
+#include "host/core/error.h"
 #include "tests/law/setups.h"
 #include "tests/support/near.h"
 
@@ -127,6 +128,54 @@ TEST_CASE("canister: torque on the coil is the moment of the opposite of the for
     REQUIRE(glm::length(force) > 0);
     CHECK(near(sensors.coilTorque, expected, glm::length(force) * coil.radius, 1e-6));
     CHECK(near(force, 500 * overlap * wire.normal, 500 * overlap, 1e-6));  // at rest: the k1 branch alone
+}
+
+TEST_CASE("canister: the coil's torque is what the particles' angular momentum about it loses") {
+    World world = freeWorld(softParameters(), 1e-5);
+    for (ContactParameters& p : world.law.classes) {
+        p.kTo = 100;
+        p.gammaTo = 1e-3;
+        p.muTo = 0.05;
+    }
+    const Coil coil = coilOf(70e-3, 1);
+    world.coil = coil;
+    const geometry::CoilTouch wire = geometry::closestPoint(coil, 0, Vec3(1e-3, -9e-3, 30e-3));
+    Particles one;
+    one.add(wire.point + 1.01 * kRadius * wire.normal, kRadius, -0.3 * wire.normal + Vec3(0.05, 0, 0.05),
+            Vec3(20, -30, 40));
+    auto backend = makeReferenceBackend();
+    backend->load(world, one);
+    const auto aboutAxis = [&]() {
+        const Particles p = backend->particles();
+        const double m = massOf(kRadius);
+        return m * glm::cross(p.position[0], p.velocity[0]).z + 0.4 * m * kRadius * kRadius * p.spin[0].z;
+    };
+    const double rate = -9.42, dt = world.timeStep;
+    backend->advance(1, rate);
+    const double before = aboutAxis();
+    std::size_t touching = 0;
+    double impulse = 0;
+    for (int n = 0; n < 300; ++n) {
+        impulse += backend->advance(1, rate).coilTorque * dt;
+        touching += backend->contacts().size();
+    }
+    REQUIRE(touching > 20);
+    REQUIRE(std::abs(impulse) > 0.01 * std::abs(before));
+    // Exact in every step of the leapfrog: only rounding is left.
+    CHECK(near(aboutAxis() - before, -impulse, std::abs(before), 1e-10));
+}
+
+TEST_CASE("canister: a sphere that touches more turns than have slots is an error that names it") {
+    World world = freeWorld(softParameters(), 1e-5);
+    const Coil coil{30e-3, 0.7e-3, 0.3e-3, 30e-3, 0, 0, 1};
+    world.coil = coil;
+    const double a = 10e-3;
+    Particles one;
+    one.add(Vec3(30e-3 + 0.3e-3 + a - 0.9e-3, 0, 15e-3), a);
+    REQUIRE(geometry::touches(coil, 0, one.position[0], a).size() > kMaxCoilTouches);
+    auto backend = makeReferenceBackend();
+    backend->load(world, one);
+    CHECK_THROWS_WITH(backend->advance(1, 0), Catch::Matchers::Contains("particle 0 touches more than 4 turns"));
 }
 
 TEST_CASE("canister: two turns touched at once are two contacts with histories of their own") {
