@@ -23,6 +23,18 @@ std::uint64_t stepsToCompare(const CompareOptions& options, const Case& c, const
     return steps;
 }
 
+const char* verdictText(Verdict verdict) {
+    switch (verdict) {
+        case Verdict::Agrees:
+            return "agrees";
+        case Verdict::Differs:
+            return "DIFFERS";
+        case Verdict::Undecided:
+            return "undecided: the twins differ too much";
+    }
+    return "?";
+}
+
 void printParticles(const std::vector<ParticleRow>& rows) {
     fmt::print(
         "Particle by particle (largest difference; positions in mean radii, velocities in the velocity scale)\n");
@@ -30,12 +42,10 @@ void printParticles(const std::vector<ParticleRow>& rows) {
                "contacts", "position", "allowed", "velocity", "allowed");
     bool chaos = false;
     for (const ParticleRow& r : rows) {
-        if (!r.judged && std::exchange(chaos, true)) continue;
+        if (r.verdict == Verdict::Undecided && std::exchange(chaos, true)) continue;
         fmt::print("{:>10} {:>10.4g} {:<7} {:>8} {:>10.2e} {:>10.2e} {:>10.2e} {:>10.2e}  {}\n", r.step, r.time,
                    phaseName(r.phase), r.contacts, r.position, r.positionLimit, r.velocity, r.velocityLimit,
-                   !r.judged  ? "chaotic from here on: not judged"
-                   : r.agrees ? "agrees"
-                              : "DIFFERS");
+                   r.verdict == Verdict::Undecided ? "chaotic from here on: not judged" : verdictText(r.verdict));
     }
 }
 
@@ -45,7 +55,7 @@ void printQuantities(const std::vector<QuantityRow>& rows) {
                "unit", "at [s]");
     for (const QuantityRow& r : rows) {
         fmt::print("{:<27} {:>10.3g} {:>10.3g} {:>10.3g}  {:<15} {:>9.4g}  {}\n", r.name, r.difference, r.spread,
-                   r.tolerance, r.unit, r.time, r.agrees ? "agrees" : "DIFFERS");
+                   r.tolerance, r.unit, r.time, verdictText(r.verdict));
     }
 }
 
@@ -87,6 +97,10 @@ int compareCommand(const CompareOptions& options) {
     if (result.interrupted) {
         fmt::print("interrupted after {} of {} steps\n", result.steps, steps);
         return kInterrupted;
+    }
+    if (result.undecided() > 0) {
+        fmt::print("{} of {} quantities are too chaotic for {} twins to decide\n", result.undecided(),
+                   result.quantities.size(), options.twins);
     }
     fmt::print("{}\n", result.agrees() ? "the backends agree" : "the backends DIFFER");
     return result.agrees() ? kOk : kDisagree;

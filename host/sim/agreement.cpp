@@ -105,8 +105,9 @@ QuantityRow judge(const Quantity& q, const History& reference, const std::vector
         row.difference = std::max(row.difference, d);
         for (const History* twin : twins) row.spread = worse(row.spread, off(*twin, i));
     }
-    row.tolerance = std::min(q.floor + 3 * row.spread, q.cap);
-    row.agrees = std::isfinite(row.difference) && row.difference <= row.tolerance;
+    row.tolerance = q.floor + 3 * row.spread;
+    const bool within = std::isfinite(row.difference) && row.difference <= row.tolerance;
+    row.verdict = !within ? Verdict::Differs : row.tolerance <= q.cap ? Verdict::Agrees : Verdict::Undecided;
     return row;
 }
 
@@ -132,7 +133,7 @@ StateDifference difference(const Particles& a, const Particles& b) {
     return d;
 }
 
-ParticleRow ParticleJudge::row(std::uint64_t step, double time, const Particles& reference,
+ParticleRow ParticleJudge::row(std::uint64_t step, double time, std::size_t contacts, const Particles& reference,
                                const std::vector<const Particles*>& twins, const Particles& candidate) {
     speed_ = worse(speed_, rootMeanSquareSpeed(reference));
     for (const Particles* twin : twins) {
@@ -147,13 +148,16 @@ ParticleRow ParticleJudge::row(std::uint64_t step, double time, const Particles&
     row.position = inUnits(d.position, scales_.radius);
     row.velocity = inUnits(d.velocity, speed_);
 
-    const double rounding = kFloor + 0x1p-24 * static_cast<double>(step);           // of the velocity scale
-    const double drift = kFloor + 0.5 * rounding * speed_ * time / scales_.radius;  // in mean radii
+    row.contacts = contacts;
+    touched_ = touched_ || contacts > 0;
+    const double rounding = kVelocityFloor + 0x1p-24 * static_cast<double>(step);  // of the velocity scale
+    const double drift = (touched_ ? kRadiusRounding : kPositionFloor) +           // in mean radii
+                         0.5 * rounding * speed_ * time / scales_.radius;
     row.positionLimit = drift * std::max(1.0, twinPosition_ / kTwinShift);
     row.velocityLimit = rounding + drift * twinVelocity_ / kTwinShift;
-    chaotic_ = chaotic_ || !(row.positionLimit <= kWidest) || !(row.velocityLimit <= kWidest);
-    row.judged = !chaotic_;
-    row.agrees = chaotic_ || (row.position <= row.positionLimit && row.velocity <= row.velocityLimit);
+    chaotic_ = chaotic_ || row.positionLimit > kWidest || row.velocityLimit > kWidest;
+    const bool within = row.position <= row.positionLimit && row.velocity <= row.velocityLimit;  // false for NaN
+    row.verdict = chaotic_ ? Verdict::Undecided : within ? Verdict::Agrees : Verdict::Differs;
     return row;
 }
 

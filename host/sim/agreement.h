@@ -25,18 +25,22 @@ StateDifference difference(const Particles& a, const Particles& b);
 /// Particle by particle, time after time. What a candidate may differ by:
 /// - It keeps velocities in single precision: every step rounds them by up to 2^-24 of themselves, and where the
 ///   acceleration is steady (a free fall) always to the same side. After n steps that is up to n 2^-24 of the velocity
-///   scale, and half of that times the distance travelled in position. kFloor covers what does not grow with n:
-///   the size, mass and parameters are rounded to single precision once.
+///   scale, and half of that times the distance travelled in position. kVelocityFloor covers what does not grow with
+///   n: mass and parameters are rounded to single precision once.
+/// - It keeps positions in two floats: loading them loses nothing that matters (kPositionFloor). The radii are
+///   rounded to single precision, so that the first touch comes early or late by up to kRadiusRounding.
 /// - Contacts amplify differences: not more than they amplified the twins' displacement.
 /// Once that limit exceeds kWidest (of a radius, of the velocity scale) the state is chaotic: it is no longer judged.
 class ParticleJudge {
   public:
-    static constexpr double kFloor = 1e-6;
+    static constexpr double kVelocityFloor = 1e-6;
+    static constexpr double kPositionFloor = 1e-9;
+    static constexpr double kRadiusRounding = 0x1p-22;
     static constexpr double kWidest = 0.1;
 
     explicit ParticleJudge(const Scales& scales) : scales_(scales) {}
 
-    ParticleRow row(std::uint64_t step, double time, const Particles& reference,
+    ParticleRow row(std::uint64_t step, double time, std::size_t contacts, const Particles& reference,
                     const std::vector<const Particles*>& twins, const Particles& candidate);
 
   private:
@@ -44,6 +48,7 @@ class ParticleJudge {
     double speed_ = 0;         ///< velocity scale [m/s]
     double twinPosition_ = 0;  ///< largest so far [mean radii]
     double twinVelocity_ = 0;  ///< largest so far [velocity scales]
+    bool touched_ = false;     ///< there was a contact
     bool chaotic_ = false;
 };
 
@@ -62,8 +67,8 @@ struct Moment {
 using History = std::vector<Moment>;
 
 /// Compares histories made at the same times. A quantity may differ by a floor (see the table in agreement.cpp) plus
-/// three times the largest spread of the twins; never by more than the quantity's cap, beyond which agreement would
-/// mean nothing.
+/// three times the largest spread of the twins. If that is more than the quantity's cap, agreement would mean nothing
+/// and the verdict is Undecided (unless the candidate differs by even more).
 std::vector<QuantityRow> judgeQuantities(const History& reference, const std::vector<const History*>& twins,
                                          const History& candidate, const Scales& scales);
 

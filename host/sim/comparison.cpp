@@ -29,12 +29,12 @@ Particles twinOf(const Particles& original, double shift, std::uint64_t seed, st
     return p;
 }
 
-/// Steps at which all stop to be compared: 1, 2, 5, 10, ... for the first contacts, forty evenly spread ones for the
-/// packing, and every end of a phase (so that no interval holds two phases).
+/// Steps at which all stop to be compared: 1, 2, 3, 5, 7, 10, 15, ... for the first contacts, forty evenly spread ones
+/// for the packing, and every end of a phase (so that no interval holds two phases).
 std::vector<std::uint64_t> checkpoints(const Timeline& timeline, std::uint64_t steps) {
     std::set<std::uint64_t> at;
     for (std::uint64_t decade = 1; decade < steps; decade *= 10) {
-        for (const std::uint64_t factor : {1, 2, 5}) at.insert(factor * decade);
+        for (const std::uint64_t tenths : {10, 15, 20, 30, 50, 70}) at.insert(tenths * decade / 10);
     }
     for (std::uint64_t i = 1; i <= 40; ++i) at.insert(steps * i / 40);
     for (std::uint64_t s = 0; s < steps && !timeline.over(s); s = timeline.at(s).end) at.insert(timeline.at(s).end);
@@ -127,9 +127,17 @@ class Walker {
 }  // namespace
 
 bool Comparison::agrees() const {
-    const auto good = [](const auto& row) { return row.agrees; };
-    return std::all_of(particles.begin(), particles.end(), good) &&
-           std::all_of(quantities.begin(), quantities.end(), good);
+    const auto differs = [](const auto& row) { return row.verdict == Verdict::Differs; };
+    const auto judged = [](const auto& row) { return row.verdict == Verdict::Agrees; };
+    return std::none_of(particles.begin(), particles.end(), differs) &&
+           std::none_of(quantities.begin(), quantities.end(), differs) &&
+           std::any_of(particles.begin(), particles.end(), judged);
+}
+
+int Comparison::undecided() const {
+    const auto count = std::count_if(quantities.begin(), quantities.end(),
+                                     [](const QuantityRow& row) { return row.verdict == Verdict::Undecided; });
+    return static_cast<int>(count);
 }
 
 Comparison compareBackends(const Case& c, const Insertion& filled, Backend& reference,
@@ -158,9 +166,8 @@ Comparison compareBackends(const Case& c, const Insertion& filled, Backend& refe
             t.advanceTo(step);
             twinStates.push_back(&t.state);
         }
-        ParticleRow row = judge.row(step, timeline.time(step), ref.state, twinStates, other.state);
+        ParticleRow row = judge.row(step, timeline.time(step), ref.contacts, ref.state, twinStates, other.state);
         row.phase = phase;
-        row.contacts = ref.contacts;
         result.particles.push_back(row);
         result.steps = step;
         progress(step);

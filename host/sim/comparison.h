@@ -21,6 +21,9 @@ namespace vkdose {
 /// Displacement of the twins' particles, in mean radii.
 inline constexpr double kTwinShift = 1e-7;
 
+/// Undecided: the twins differ so much that a candidate that does not differ more proves nothing.
+enum class Verdict { Agrees, Differs, Undecided };
+
 /// Particle by particle, at one time. Positions in mean radii, velocities in the velocity scale (the largest
 /// root-mean-square speed of the reference so far).
 struct ParticleRow {
@@ -32,19 +35,18 @@ struct ParticleRow {
     double velocity = 0;
     double positionLimit = 0;  ///< what rounding times measured amplification explains
     double velocityLimit = 0;
-    bool judged = false;  ///< false once the limit is so wide that it would say nothing
-    bool agrees = true;
+    Verdict verdict = Verdict::Agrees;  ///< Undecided once the limit is so wide that it would say nothing
 };
 
 /// A figure of the whole packing, over all times of a phase.
 struct QuantityRow {
-    std::string name;       ///< "kinetic energy, settle"
+    std::string name;       ///< "kinetic energy, settling"
     std::string unit;       ///< what the differences are given in: "of its largest", "mean radii"
     double difference = 0;  ///< largest over time, candidate to reference
     double spread = 0;      ///< largest over time, twins to reference
     double tolerance = 0;
     double time = 0;  ///< of the largest difference [s]
-    bool agrees = true;
+    Verdict verdict = Verdict::Agrees;
 };
 
 struct Comparison {
@@ -52,7 +54,10 @@ struct Comparison {
     std::vector<QuantityRow> quantities;
     std::uint64_t steps = 0;
     bool interrupted = false;
+
+    /// Nothing differs by more than it may, and at least one state was judged particle by particle.
     bool agrees() const;
+    int undecided() const;
 };
 
 /// Advances all backends through the schedule of `c` for `steps` steps (or until its end time) and compares them at a

@@ -41,7 +41,7 @@ void Ledger::close(const Sensors& sensors, double time) {
     const bool sane = std::all_of(sensors.mass.begin(), sensors.mass.end(), [](double m) { return m >= 0; });
     if (!sane) fail("a mass is negative or not a number");
     const double mass = std::accumulate(sensors.mass.begin(), sensors.mass.end(), 0.0);
-    const double error = mass_ > 0 ? std::abs(mass - mass_) / mass_ : mass;
+    const double error = mass_ > 0 || mass > 0 ? std::abs(mass - mass_) / mass_ : 0.0;
     if (!(error <= kLedgerTolerance)) fail(fmt::format("the masses differ from the filled one by {:.3g} of it", error));
 
     worst_ = std::max(worst_, error);

@@ -1,0 +1,90 @@
+#include "host/sim/stop_rule.h"
+
+#include <catch2/catch.hpp>
+
+using namespace vkdose;
+
+namespace {
+
+StopRule rule(StopRule::Kind kind) {
+    StopRule r;
+    r.kind = kind;
+    return r;
+}
+
+/// Feeds doses until the judge ends the run; returns how many that took, 0 if it never did.
+int dosesUntilOver(DoseJudge& judge, const std::vector<double>& masses) {
+    int n = 0;
+    for (const double m : masses) {
+        ++n;
+        if (judge.over(m, m > 0 ? 1 : 0, 100)) return n;
+    }
+    return 0;
+}
+
+}  // namespace
+
+TEST_CASE("experiment rule: three consecutive doses together give at most 0.15 g") {
+    DoseJudge judge(rule(StopRule::Kind::Experiment));
+    CHECK(dosesUntilOver(judge, {4e-3, 0.1e-3, 0.04e-3, 0.02e-3, 0.02e-3, 0.02e-3}) == 5);  // 0.16 g, then 0.08 g
+    CHECK(judge.reason() == StopReason::Experiment);
+}
+
+TEST_CASE("experiment rule: the change over the three doses counts, not each dose alone") {
+    DoseJudge judge(rule(StopRule::Kind::Experiment));
+    CHECK(dosesUntilOver(judge, {0.14e-3, 0.14e-3, 0.14e-3, 0.14e-3}) == 0);
+}
+
+TEST_CASE("experiment rule: a big dose between small ones starts the count anew") {
+    DoseJudge judge(rule(StopRule::Kind::Experiment));
+    CHECK(dosesUntilOver(judge, {0, 0, 3e-3, 0, 0, 0}) == 6);
+}
+
+TEST_CASE("simulation rule: not a single particle in three doses") {
+    DoseJudge judge(rule(StopRule::Kind::Simulation));
+    CHECK(dosesUntilOver(judge, {4e-3, 0, 0, 1e-6, 0, 0, 0, 0}) == 7);
+    CHECK(judge.reason() == StopReason::Simulation);
+}
+
+TEST_CASE("simulation rule: rounding in the sums of an empty dose is not mass") {
+    DoseJudge judge(rule(StopRule::Kind::Simulation));
+    CHECK_FALSE(judge.over(1e-12, 0, 100));
+    CHECK_FALSE(judge.over(-1e-12, 0, 100));
+    CHECK(judge.over(1e-12, 0, 100));
+}
+
+TEST_CASE("the number of doses in a row is the case's") {
+    StopRule r = rule(StopRule::Kind::Simulation);
+    r.doses = 1;
+    DoseJudge judge(r);
+    CHECK(dosesUntilOver(judge, {4e-3, 4e-3, 0}) == 3);
+}
+
+TEST_CASE("without a rule on mass only the dose count and emptiness end a run") {
+    StopRule r = rule(StopRule::Kind::None);
+    DoseJudge endless(r);
+    CHECK(dosesUntilOver(endless, std::vector<double>(50, 0.0)) == 0);
+    r.maxDoses = 4;
+    DoseJudge four(r);
+    CHECK(dosesUntilOver(four, std::vector<double>(50, 0.0)) == 4);
+    CHECK(four.reason() == StopReason::Doses);
+    DoseJudge empty(r);
+    CHECK_FALSE(empty.over(4e-3, 7, 1));
+    CHECK(empty.over(4e-3, 1, 0));
+    CHECK(empty.reason() == StopReason::Empty);
+}
+
+TEST_CASE("a mass that is not a number does not end a run as if nothing had come") {
+    DoseJudge judge(rule(StopRule::Kind::Experiment));
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    for (int i = 0; i < 5; ++i) CHECK_FALSE(judge.over(nan, 1, 100));
+}
+
+TEST_CASE("every reason has a keyword and a sentence") {
+    for (int i = 0; i <= static_cast<int>(StopReason::DeviceError); ++i) {
+        const auto reason = static_cast<StopReason>(i);
+        CHECK(stopKeyword(reason) != "unknown");
+        CHECK(stopSentence(reason, StopRule{}) != "unknown");
+    }
+    CHECK_THAT(stopSentence(StopReason::Experiment, StopRule{}), Catch::Contains("3 doses") && Catch::Contains("0.15"));
+}
