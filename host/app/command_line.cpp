@@ -60,7 +60,8 @@ void addCompare(CLI::App& program, CompareOptions& options) {
     command.add_option("--time", options.time, "stop after so many simulated seconds (default: settling, first dose)")
         ->check(CLI::PositiveNumber)
         ->excludes(steps);
-    command.add_option("--twins", options.twins, "perturbed reference runs that measure the chaos of the packing")
+    command
+        .add_option("--twins", options.twins, "perturbed runs of the reference that measure the chaos of the packing")
         ->check(CLI::Range(1, 16))
         ->capture_default_str();
     addDevice(command, options.backend);

@@ -34,7 +34,7 @@ struct CompareOptions {
     BackendChoice backend;    ///< the candidate
     std::uint64_t steps = 0;  ///< 0: see `time`
     double time = 0;          ///< [s]; 0: settling and the first dose
-    int twins = 2;
+    int twins = 3;            ///< rough ones, see sim/comparison.h
 };
 
 int runCommand(const RunOptions& options);

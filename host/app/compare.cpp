@@ -50,7 +50,7 @@ void printParticles(const std::vector<ParticleRow>& rows) {
 }
 
 void printQuantities(const std::vector<QuantityRow>& rows) {
-    fmt::print("\nThe packing as a whole (largest difference over time; spread: perturbed twins of the reference)\n");
+    fmt::print("\nThe packing as a whole (largest difference over time; spread: rough twins of the reference)\n");
     fmt::print("{:<27} {:>10} {:>10} {:>10}  {:<15} {:>9}  verdict\n", "quantity", "difference", "spread", "allowed",
                "unit", "at [s]");
     for (const QuantityRow& r : rows) {
@@ -71,13 +71,12 @@ int compareCommand(const CompareOptions& options) {
     onReference.backend = "reference";
     const std::unique_ptr<Backend> reference = makeBackend(onReference);
     const std::unique_ptr<Backend> candidate = makeBackend(options.backend);
-    std::vector<std::unique_ptr<Backend>> twins;
-    std::vector<Backend*> twinPointers;
-    for (int i = 0; i < options.twins; ++i) {
-        twins.push_back(makeBackend(onReference));
-        twinPointers.push_back(twins.back().get());
-    }
-    fmt::print("{}: {} particles, {} steps ({:.4g} s): {} against {}, {} perturbed twins\n\n", c.name,
+    std::vector<std::unique_ptr<Backend>> more;
+    const auto another = [&] { return more.emplace_back(makeBackend(onReference)).get(); };
+    Twins twins;
+    twins.fine = another();
+    for (int i = 0; i < options.twins; ++i) twins.rough.push_back(another());
+    fmt::print("{}: {} particles, {} steps ({:.4g} s): {} against {}, {} + 1 perturbed twins\n\n", c.name,
                filled.particles.size(), steps, timeline.time(steps), candidate->description(), reference->description(),
                options.twins);
     std::fflush(stdout);
@@ -89,7 +88,7 @@ int compareCommand(const CompareOptions& options) {
         std::fflush(stderr);
     };
     const Comparison result =
-        compareBackends(c, filled, *reference, twinPointers, *candidate, steps, progress, watchInterrupts());
+        compareBackends(c, filled, *reference, twins, *candidate, steps, progress, watchInterrupts());
     if (terminal) fmt::print(stderr, "\r\033[K");
     printParticles(result.particles);
     printQuantities(result.quantities);

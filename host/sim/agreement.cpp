@@ -134,13 +134,11 @@ StateDifference difference(const Particles& a, const Particles& b) {
 }
 
 ParticleRow ParticleJudge::row(std::uint64_t step, double time, std::size_t contacts, const Particles& reference,
-                               const std::vector<const Particles*>& twins, const Particles& candidate) {
+                               const Particles& fineTwin, const Particles& candidate) {
     speed_ = worse(speed_, rootMeanSquareSpeed(reference));
-    for (const Particles* twin : twins) {
-        const StateDifference t = difference(reference, *twin);
-        twinPosition_ = worse(twinPosition_, inUnits(t.position, scales_.radius));
-        twinVelocity_ = worse(twinVelocity_, inUnits(t.velocity, speed_));
-    }
+    const StateDifference t = difference(reference, fineTwin);
+    twinPosition_ = worse(twinPosition_, inUnits(t.position, scales_.radius));
+    twinVelocity_ = worse(twinVelocity_, inUnits(t.velocity, speed_));
     const StateDifference d = difference(reference, candidate);
     ParticleRow row;
     row.step = step;
@@ -153,8 +151,8 @@ ParticleRow ParticleJudge::row(std::uint64_t step, double time, std::size_t cont
     const double rounding = kVelocityFloor + 0x1p-24 * static_cast<double>(step);  // of the velocity scale
     const double drift = (touched_ ? kRadiusRounding : kPositionFloor) +           // in mean radii
                          0.5 * rounding * speed_ * time / scales_.radius;
-    row.positionLimit = drift * std::max(1.0, twinPosition_ / kTwinShift);
-    row.velocityLimit = rounding + drift * twinVelocity_ / kTwinShift;
+    row.positionLimit = drift * std::max(1.0, twinPosition_ / kFineShift);
+    row.velocityLimit = rounding + drift * twinVelocity_ / kFineShift;
     chaotic_ = chaotic_ || row.positionLimit > kWidest || row.velocityLimit > kWidest;
     const bool within = row.position <= row.positionLimit && row.velocity <= row.velocityLimit;  // false for NaN
     row.verdict = chaotic_ ? Verdict::Undecided : within ? Verdict::Agrees : Verdict::Differs;

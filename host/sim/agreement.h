@@ -29,7 +29,7 @@ StateDifference difference(const Particles& a, const Particles& b);
 ///   n: mass and parameters are rounded to single precision once.
 /// - It keeps positions in two floats: loading them loses nothing that matters (kPositionFloor). The radii are
 ///   rounded to single precision, so that the first touch comes early or late by up to kRadiusRounding.
-/// - Contacts amplify differences: not more than they amplified the twins' displacement.
+/// - Contacts amplify differences: not more than they amplified the fine twin's displacement.
 /// Once that limit exceeds kWidest (of a radius, of the velocity scale) the state is chaotic: it is no longer judged.
 class ParticleJudge {
   public:
@@ -41,7 +41,7 @@ class ParticleJudge {
     explicit ParticleJudge(const Scales& scales) : scales_(scales) {}
 
     ParticleRow row(std::uint64_t step, double time, std::size_t contacts, const Particles& reference,
-                    const std::vector<const Particles*>& twins, const Particles& candidate);
+                    const Particles& fineTwin, const Particles& candidate);
 
   private:
     Scales scales_;
@@ -67,8 +67,8 @@ struct Moment {
 using History = std::vector<Moment>;
 
 /// Compares histories made at the same times. A quantity may differ by a floor (see the table in agreement.cpp) plus
-/// three times the largest spread of the twins. If that is more than the quantity's cap, agreement would mean nothing
-/// and the verdict is Undecided (unless the candidate differs by even more).
+/// three times the largest spread of the rough twins. If that is more than the quantity's cap, agreement would mean
+/// nothing and the verdict is Undecided (unless the candidate differs by even more).
 std::vector<QuantityRow> judgeQuantities(const History& reference, const std::vector<const History*>& twins,
                                          const History& candidate, const Scales& scales);
 

@@ -140,18 +140,23 @@ int Comparison::undecided() const {
     return static_cast<int>(count);
 }
 
-Comparison compareBackends(const Case& c, const Insertion& filled, Backend& reference,
-                           const std::vector<Backend*>& twins, Backend& candidate, std::uint64_t steps,
-                           const std::function<void(std::uint64_t)>& progress, const std::atomic<bool>& stop) {
+Comparison compareBackends(const Case& c, const Insertion& filled, Backend& reference, const Twins& twins,
+                           Backend& candidate, std::uint64_t steps, const std::function<void(std::uint64_t)>& progress,
+                           const std::atomic<bool>& stop) {
     const Timeline timeline(c);
     const Scales scales = scalesOf(filled.particles, filled.mass);
     Walker ref("reference", c, timeline, reference, filled.particles, filled.mass);
     Walker other(candidate.description(), c, timeline, candidate, filled.particles, filled.mass);
-    std::vector<Walker> others;
-    others.reserve(twins.size());
-    for (std::uint32_t t = 0; t < twins.size(); ++t) {
-        const Particles start = twinOf(filled.particles, kTwinShift * scales.radius, c.seed, t + 1);
-        others.emplace_back(fmt::format("twin {}", t + 1), c, timeline, *twins[t], start, filled.mass);
+    const auto start = [&](double shift, std::uint32_t twin) {
+        return twinOf(filled.particles, shift * scales.radius, c.seed, twin);
+    };
+    Walker fine("fine twin", c, timeline, *twins.fine, start(kFineShift, 1), filled.mass);
+    std::vector<Walker> rough;
+    rough.reserve(twins.rough.size());
+    for (Backend* twin : twins.rough) {
+        const auto number = static_cast<std::uint32_t>(rough.size()) + 1;
+        rough.emplace_back(fmt::format("rough twin {}", number), c, timeline, *twin, start(kRoughShift, number + 1),
+                           filled.mass);
     }
 
     Comparison result;
@@ -161,21 +166,18 @@ Comparison compareBackends(const Case& c, const Insertion& filled, Backend& refe
         const Phase phase = timeline.at(result.steps).phase;
         ref.advanceTo(step);
         other.advanceTo(step);
-        std::vector<const Particles*> twinStates;
-        for (Walker& t : others) {
-            t.advanceTo(step);
-            twinStates.push_back(&t.state);
-        }
-        ParticleRow row = judge.row(step, timeline.time(step), ref.contacts, ref.state, twinStates, other.state);
+        fine.advanceTo(step);
+        for (Walker& twin : rough) twin.advanceTo(step);
+        ParticleRow row = judge.row(step, timeline.time(step), ref.contacts, ref.state, fine.state, other.state);
         row.phase = phase;
         result.particles.push_back(row);
         result.steps = step;
         progress(step);
     }
     result.interrupted = stop;
-    std::vector<const History*> twinHistories;
-    for (const Walker& t : others) twinHistories.push_back(&t.history);
-    result.quantities = judgeQuantities(ref.history, twinHistories, other.history, scales);
+    std::vector<const History*> spread;
+    for (const Walker& twin : rough) spread.push_back(&twin.history);
+    result.quantities = judgeQuantities(ref.history, spread, other.history, scales);
     return result;
 }
 

@@ -2,9 +2,12 @@
 // Two backends on the same case and the same particles, in lockstep: how far they differ, and whether that is more
 // than rounding and the chaos of a packing explain.
 //
-// A packing of spheres amplifies every difference. How much is not guessed but measured: "twins" are further runs of
-// the reference whose particles start displaced by up to kTwinShift of the mean radius. The candidate makes a rounding
-// error in every step; none of them grows faster than the twins' displacement does.
+// A packing of spheres amplifies every difference. How much is not guessed but measured, by further runs of the
+// reference whose particles start displaced:
+// - the fine twin by up to kFineShift of the mean radius: how fast do small errors grow? The candidate makes a rounding
+//   error in every step; none of them grows faster. While they are small, particles are compared one by one.
+// - the rough twins by up to kRoughShift, a micrometre for a millimetre: no experiment could tell these fillings apart,
+//   so what differs between them says nothing about the powder. Energies, masses and torques may differ as much.
 
 #include <atomic>
 #include <cstdint>
@@ -19,7 +22,8 @@
 namespace vkdose {
 
 /// Displacement of the twins' particles, in mean radii.
-inline constexpr double kTwinShift = 1e-7;
+inline constexpr double kFineShift = 1e-7;
+inline constexpr double kRoughShift = 1e-3;
 
 /// Undecided: the twins differ so much that a candidate that does not differ more proves nothing.
 enum class Verdict { Agrees, Differs, Undecided };
@@ -43,7 +47,7 @@ struct QuantityRow {
     std::string name;       ///< "kinetic energy, settling"
     std::string unit;       ///< what the differences are given in: "of its largest", "mean radii"
     double difference = 0;  ///< largest over time, candidate to reference
-    double spread = 0;      ///< largest over time, twins to reference
+    double spread = 0;      ///< largest over time, rough twins to reference
     double tolerance = 0;
     double time = 0;  ///< of the largest difference [s]
     Verdict verdict = Verdict::Agrees;
@@ -60,11 +64,17 @@ struct Comparison {
     int undecided() const;
 };
 
+/// References to make the twins of.
+struct Twins {
+    Backend* fine = nullptr;
+    std::vector<Backend*> rough;
+};
+
 /// Advances all backends through the schedule of `c` for `steps` steps (or until its end time) and compares them at a
 /// series of times. The ledger of every backend must close: RunError otherwise, naming the backend. `progress` is told
 /// the step reached.
-Comparison compareBackends(const Case& c, const Insertion& filled, Backend& reference,
-                           const std::vector<Backend*>& twins, Backend& candidate, std::uint64_t steps,
-                           const std::function<void(std::uint64_t)>& progress, const std::atomic<bool>& stop);
+Comparison compareBackends(const Case& c, const Insertion& filled, Backend& reference, const Twins& twins,
+                           Backend& candidate, std::uint64_t steps, const std::function<void(std::uint64_t)>& progress,
+                           const std::atomic<bool>& stop);
 
 }  // namespace vkdose

@@ -46,12 +46,12 @@ const QuantityRow& named(const std::vector<QuantityRow>& rows, const std::string
 TEST_CASE("equal states agree, and a difference beyond rounding does not") {
     const Particles reference = three(), twin = three(1e-10);
     ParticleJudge judge(kScales);
-    CHECK(judge.row(1, 1e-6, 0, reference, {&twin}, reference).verdict == Verdict::Agrees);
+    CHECK(judge.row(1, 1e-6, 0, reference, twin, reference).verdict == Verdict::Agrees);
     // Positions hold two floats: losing the second one (2 nm at 4 cm) must show before the first contact.
-    CHECK(judge.row(2, 2e-6, 0, reference, {&twin}, three(2e-9)).verdict == Verdict::Differs);
+    CHECK(judge.row(2, 2e-6, 0, reference, twin, three(2e-9)).verdict == Verdict::Differs);
     Particles fast = reference;
     fast.velocity[1].x += 1e-4;  // 1e-3 of the velocity scale, after two steps
-    CHECK(judge.row(2, 2e-6, 0, reference, {&twin}, fast).verdict == Verdict::Differs);
+    CHECK(judge.row(2, 2e-6, 0, reference, twin, fast).verdict == Verdict::Differs);
 }
 
 TEST_CASE("NaN and a missing particle differ") {
@@ -59,13 +59,13 @@ TEST_CASE("NaN and a missing particle differ") {
     ParticleJudge judge(kScales);
     Particles bad = reference;
     bad.position[0].x = kNan;
-    CHECK(judge.row(1, 1e-6, 0, reference, {&twin}, bad).verdict == Verdict::Differs);
+    CHECK(judge.row(1, 1e-6, 0, reference, twin, bad).verdict == Verdict::Differs);
     bad = reference;
     bad.velocity[2].z = kNan;
-    CHECK(judge.row(1, 1e-6, 0, reference, {&twin}, bad).verdict == Verdict::Differs);
+    CHECK(judge.row(1, 1e-6, 0, reference, twin, bad).verdict == Verdict::Differs);
     Particles fewer = three();
     fewer.position.pop_back();
-    CHECK(judge.row(1, 1e-6, 0, reference, {&twin}, fewer).verdict == Verdict::Differs);
+    CHECK(judge.row(1, 1e-6, 0, reference, twin, fewer).verdict == Verdict::Differs);
 }
 
 TEST_CASE("what the twins amplified, the candidate may have amplified, until it says nothing") {
@@ -73,13 +73,13 @@ TEST_CASE("what the twins amplified, the candidate may have amplified, until it 
     ParticleJudge judge(kScales);
     // The twin's 1e-7 of a radius became 1e-3: errors grew ten thousand times.
     const Particles twin = three(1e-6);
-    const ParticleRow row = judge.row(1000, 1e-3, 1, reference, {&twin}, three(1e-6));
+    const ParticleRow row = judge.row(1000, 1e-3, 1, reference, twin, three(1e-6));
     CHECK(row.positionLimit > 1e-3);
     CHECK(row.verdict == Verdict::Agrees);
     const Particles lost = three(5e-4);
-    CHECK(judge.row(2000, 2e-3, 1, reference, {&lost}, three(5e-4)).verdict == Verdict::Undecided);
+    CHECK(judge.row(2000, 2e-3, 1, reference, lost, three(5e-4)).verdict == Verdict::Undecided);
     // Once chaotic, always chaotic.
-    CHECK(judge.row(3000, 3e-3, 1, reference, {&reference}, reference).verdict == Verdict::Undecided);
+    CHECK(judge.row(3000, 3e-3, 1, reference, reference, reference).verdict == Verdict::Undecided);
 }
 
 TEST_CASE("a history agrees with itself in every quantity") {

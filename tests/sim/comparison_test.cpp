@@ -73,10 +73,10 @@ Case fallingSpheres() {
 Comparison against(Backend& candidate, std::uint64_t steps = 4000) {
     const Case c = fallingSpheres();
     const Insertion filled = insertParticles(c);
-    const auto reference = makeReferenceBackend(), twin = makeReferenceBackend();
+    const auto reference = makeReferenceBackend(), fine = makeReferenceBackend(), rough = makeReferenceBackend();
     const std::atomic<bool> stop{false};
     return compareBackends(
-        c, filled, *reference, {twin.get()}, candidate, steps, [](std::uint64_t) {}, stop);
+        c, filled, *reference, {fine.get(), {rough.get()}}, candidate, steps, [](std::uint64_t) {}, stop);
 }
 
 }  // namespace
@@ -122,10 +122,10 @@ TEST_CASE("a backend that is a little wrong is found out") {
 
 TEST_CASE("a comparison stops when asked to") {
     const Case c = fallingSpheres();
-    const auto a = makeReferenceBackend(), b = makeReferenceBackend();
+    const auto a = makeReferenceBackend(), b = makeReferenceBackend(), fine = makeReferenceBackend();
     const std::atomic<bool> stop{true};
     const Comparison result = compareBackends(
-        c, insertParticles(c), *a, {}, *b, 100, [](std::uint64_t) {}, stop);
+        c, insertParticles(c), *a, {fine.get(), {}}, *b, 100, [](std::uint64_t) {}, stop);
     CHECK(result.interrupted);
     CHECK(result.steps == 0);
     CHECK_FALSE(result.agrees());

@@ -107,6 +107,21 @@ TEST_CASE("doses carry their mass, torque while turning and closed form") {
     CHECK(r.statistics.relative == Approx(std::sqrt(114.0 / 18) / (8.0 / 3)));
 }
 
+TEST_CASE("an incomplete dose is in no statistics, and one dose has no deviation") {
+    Dose a, b, cut;
+    a.complete = b.complete = true;
+    a.mass = 3e-3;
+    b.mass = 5e-3;
+    cut.mass = 1e-3;
+    const DoseStatistics s = statistics({a, b, cut});
+    CHECK(s.doses == 2);
+    CHECK(s.mean == Approx(4e-3));
+    CHECK(s.deviation == Approx(std::sqrt(2.0) * 1e-3));
+    CHECK(statistics({a, cut}).deviation == 0);
+    CHECK(statistics({cut}).doses == 0);
+    CHECK(statistics({cut}).mean == 0);
+}
+
 TEST_CASE("the drive's torque and power do not depend on the coil's hand") {
     for (const int hand : {-1, 1}) {
         Case c = smallCase();

@@ -1,0 +1,246 @@
+// The program as a user meets it: arguments in; exit code, text and files out.
+
+#include <sys/types.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <csignal>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "tests/app/sandbox.h"
+
+using namespace vkdose::test;
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::string kMini = "'" VKDOSE_SOURCE_DIR "/cases/mini.toml' ";
+
+/// The mini canister cut to a few hundred steps.
+const std::string kShort =
+    kMini + "--set settle.time_s=0.01 --set dose.rotate_s=0.005 --set dose.rest_s=0.002 --set stop.max_doses=2 ";
+
+/// A spoonful of loose particles in and behind the front wall, so that doses come at once.
+const std::string kQuickDose = kMini +
+                               "--set settle.time_s=0.1 --set dose.rotate_s=0.3 --set dose.rest_s=0.05 "
+                               "--set stop.max_doses=1 --set contact.k=8000 ";
+
+/// One sphere falls out of its domain, 10 cm deep, after 0.14 s.
+const std::string kFalls = R"(name = "falls"
+boundaries = "none"
+[particles]
+density = 1427.0
+list = "list.csv"
+[contact]
+k = 2000.0
+k1_over_k = 0.2
+kc_over_k = 0.0
+plasticity_depth = 0.05
+damping = 0.0827
+friction = 0.5
+[domain]
+low = [-0.1, -0.1, -0.1]
+high = [0.1, 0.1, 0.1]
+[settle]
+time_s = 1.0
+[sensors]
+interval_s = 0.01
+)";
+
+bool vulkanHere(const Sandbox& box) {
+    return box.vkdose("devices").code == 0;
+}
+
+}  // namespace
+
+TEST_CASE("help and usage") {
+    const Sandbox box;
+    const auto help = box.vkdose("--help");
+    CHECK(help.code == 0);
+    for (const char* word : {"run", "check", "devices", "compare"}) CHECK_THAT(help.out, Catch::Contains(word));
+    CHECK(box.vkdose("run --help").code == 0);
+    for (const char* bad : {"", "fly", "run", "run x.toml --backend cuda", "run x.toml --nonsense",
+                            "compare x.toml --steps 5 --time 1", "compare x.toml --steps 0"}) {
+        const auto o = box.vkdose(bad);
+        CAPTURE(bad, o.err);
+        CHECK(o.code == 2);
+        CHECK_FALSE(o.err.empty());
+        CHECK(o.out.empty());
+    }
+    CHECK(box.files().empty());
+}
+
+TEST_CASE("a bad case is refused with exit code 2 and nothing written") {
+    const Sandbox box;
+    struct Bad {
+        std::string arguments;
+        std::string says;
+    };
+    const std::vector<Bad> all{
+        {"missing.toml", "missing.toml"},
+        {kMini + "--set canister.lenght_mm=3", "length_mm"},
+        {kMini + "--set contact.k=-1", "contact.k"},
+        {kMini + "--set contact.k=nan", "contact.k"},
+        {kMini + "--set contact.k=stiff", "contact.k"},
+        {kMini + "--set particles.mass_g=500", "mass_g"},
+        {kMini + "--set coil.radius_mm=9", "radius_mm"},
+        {kMini + "--set time.step_s=1e-3", "step_s"},
+        {kMini + "--set nonsense", "nonsense"},
+    };
+    for (const Bad& bad : all) {
+        for (const char* command : {"run --backend reference --out out ", "check ", "compare "}) {
+            const auto o = box.vkdose(command + bad.arguments);
+            CAPTURE(command, bad.arguments, o.err);
+            CHECK(o.code == 2);
+            CHECK_THAT(o.err, Catch::Contains(bad.says));
+            CHECK(o.out.empty());
+        }
+    }
+    CHECK(box.files().empty());
+}
+
+TEST_CASE("every fault of a case is one line of its own") {
+    const Sandbox box;
+    const auto o = box.vkdose("check " + kMini + "--set contact.k=-1 --set particles.density=-5");
+    CHECK(o.code == 2);
+    CHECK(std::count(o.err.begin(), o.err.end(), '\n') >= 2);
+    CHECK_THAT(o.err, Catch::Contains("density") && Catch::Contains("contact.k"));
+}
+
+TEST_CASE("check prints what the case implies") {
+    const Sandbox box;
+    const auto o = box.vkdose("check '" VKDOSE_SOURCE_DIR "/cases/paper-48g.toml'");
+    CHECK(o.code == 0);
+    CHECK(o.err.empty());
+    for (const char* words : {"particle-particle", "particle-wall", "particle-coil", "1.73e-05", "0.0001129",
+                              "13.13 mm/s", "98.02 mm/s", "4.201 g", "11.4"}) {
+        CHECK_THAT(o.out, Catch::Contains(words));
+    }
+    CHECK(box.files().empty());
+}
+
+TEST_CASE("a device is for the vulkan backend only") {
+    const Sandbox box;
+    const auto o = box.vkdose("run " + kShort + "--backend reference --device 0 --out out");
+    CHECK(o.code == 2);
+    CHECK_THAT(o.err, Catch::Contains("--device"));
+    CHECK(box.files().empty());
+}
+
+TEST_CASE("a device that is not there is a device error, and nothing is written") {
+    const Sandbox box;
+    const auto o = box.vkdose("run " + kShort + "--device 'no such thing' --out out");
+    CHECK(o.code == 4);
+    CHECK_FALSE(o.err.empty());
+    CHECK(box.files().empty());
+}
+
+TEST_CASE("an output folder is named after the case, and never overwritten by accident") {
+    const Sandbox box;
+    const auto first = box.vkdose("run " + kShort + "--backend reference");
+    CAPTURE(first.err);
+    REQUIRE(first.code == 0);
+    CHECK(fs::exists(box / "out/mini/summary.json"));
+    const auto second = box.vkdose("run " + kShort + "--backend reference");
+    CHECK(second.code == 2);
+    CHECK_THAT(second.err, Catch::Contains("--force"));
+    const auto third = box.vkdose("run " + kShort + "--backend reference --force --quiet");
+    CHECK(third.code == 0);
+    CHECK(third.out.empty());
+    CHECK(third.err.empty());
+}
+
+TEST_CASE("--set is in the resolved case, and the resolved case runs again") {
+    const Sandbox box;
+    REQUIRE(box.vkdose("run " + kShort + "--backend reference --out a --set seed=5").code == 0);
+    const auto again = box.vkdose("run a/case.toml --backend reference --out b");
+    CAPTURE(again.err);
+    REQUIRE(again.code == 0);
+    CHECK(readText(box / "a/particles.csv") == readText(box / "b/particles.csv"));
+    CHECK(readText(box / "a/timeseries.csv") == readText(box / "b/timeseries.csv"));
+    REQUIRE(box.vkdose("run " + kShort + "--backend reference --out c --set seed=6").code == 0);
+    CHECK(readText(box / "a/particles.csv") != readText(box / "c/particles.csv"));
+}
+
+TEST_CASE("a mini dose ends with a closed ledger on every backend") {
+    const Sandbox box;
+    std::vector<std::string> backends{"reference"};
+    if (vulkanHere(box)) {
+        backends.push_back("vulkan");
+    } else {
+        WARN("vulkan skipped: there is no usable Vulkan device");
+    }
+    for (const std::string& backend : backends) {
+        const auto o = box.vkdose("run " + kQuickDose + "--out " + backend + " --backend " + backend);
+        CAPTURE(backend, o.err, o.out);
+        REQUIRE(o.code == 0);
+        CHECK_THAT(o.out,
+                   Catch::Contains("closed") && Catch::Contains("particle-steps/s") && Catch::Contains("closed form"));
+        const auto summary = nlohmann::json::parse(readText(box / backend / "summary.json"));
+        const auto& ledger = summary["ledger"];
+        CHECK(ledger["lost_count"] == 0);
+        CHECK(ledger["canister_count"].get<int>() + ledger["throat_count"].get<int>() +
+                  ledger["dosed_count"].get<int>() ==
+              summary["inputs"]["particles"].get<int>());
+        CHECK(ledger["worst_relative_mass_error"].get<double>() < 1e-6);
+        CHECK(ledger["throat_count"].get<int>() + ledger["dosed_count"].get<int>() > 0);  // the coil conveyed
+        CHECK(summary["doses"].size() == 1);
+        CHECK(summary["doses"][0]["complete"] == true);
+        CHECK_THAT(summary["backend"].get<std::string>(), Catch::StartsWith(backend));
+    }
+}
+
+TEST_CASE("a particle that leaves the domain is a run error that keeps what was computed") {
+    const Sandbox box;
+    box.write("list.csv", "x,y,z,r\n0,0.001,0,0.001\n");
+    box.write("falls.toml", kFalls);
+    const auto o = box.vkdose("run falls.toml --backend reference --out out");
+    CAPTURE(o.err);
+    CHECK(o.code == 3);
+    CHECK_THAT(o.err, Catch::Contains("particle 0"));
+    const auto summary = nlohmann::json::parse(readText(box / "out/summary.json"));
+    CHECK(summary["stop_reason"] == "run_error");
+    CHECK(readCsv(box / "out/timeseries.csv").size() > 2);
+}
+
+TEST_CASE("Ctrl-C ends a run with what was computed") {
+    const Sandbox box;
+    const std::string out = (box / "out").string();
+    const pid_t child = fork();
+    REQUIRE(child >= 0);
+    if (child == 0) {
+        execl(VKDOSE_BINARY_DIR "/vkdose", "vkdose", "run", VKDOSE_SOURCE_DIR "/cases/mini.toml", "--backend",
+              "reference", "--quiet", "--set", "settle.time_s=1000", "--out", out.c_str(), static_cast<char*>(nullptr));
+        _exit(127);
+    }
+    int status = 0;
+    bool ended = false;
+    while (!ended && readCsv(box / "out/timeseries.csv").size() < 2) {
+        ended = waitpid(child, &status, WNOHANG) == child;
+        std::this_thread::yield();
+    }
+    REQUIRE_FALSE(ended);
+    kill(child, SIGINT);
+    waitpid(child, &status, 0);
+    REQUIRE(WIFEXITED(status));
+    CHECK(WEXITSTATUS(status) == 130);
+    const auto summary = nlohmann::json::parse(readText(box / "out/summary.json"));
+    CHECK(summary["interrupted"] == true);
+    CHECK(summary["stop_reason"] == "interrupted");
+    CHECK(fs::exists(box / "out/particles.csv"));
+}
+
+TEST_CASE("compare finds the backends in agreement, and tells when they are not") {
+    const Sandbox box;
+    if (!vulkanHere(box)) {
+        WARN("skipped: there is no usable Vulkan device");
+        return;
+    }
+    const auto o = box.vkdose("compare " + kMini + "--set contact.k=8000 --time 0.06 --twins 1");
+    CAPTURE(o.out, o.err);
+    CHECK(o.code == 0);
+    CHECK_THAT(o.out, Catch::Contains("the backends agree") && Catch::Contains("kinetic energy, settling"));
+    CHECK(box.files().empty());
+}

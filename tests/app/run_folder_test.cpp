@@ -1,0 +1,194 @@
+#include "host/output/run_folder.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "host/output/summary.h"
+#include "tests/app/sandbox.h"
+#include "tests/sim/fake_backend.h"
+
+using namespace vkdose;
+using namespace vkdose::test;
+namespace fs = std::filesystem;
+
+namespace {
+
+RunResult runInto(RunFolder& folder, FakeBackend& backend, const Case& c) {
+    const std::atomic<bool> stop{false};
+    Derived derived;
+    derived.massPerDose = 2e-3;
+    RunResult r = runFilled(c, smallFilling(), derived, backend, folder, stop);
+    folder.finish(c, r, backend.description());
+    return r;
+}
+
+std::size_t column(const std::vector<std::vector<std::string>>& rows, const std::string& name) {
+    const auto& header = rows.at(0);
+    const auto found = std::find(header.begin(), header.end(), name);
+    if (found == header.end()) throw std::logic_error("no column " + name);
+    return static_cast<std::size_t>(found - header.begin());
+}
+
+}  // namespace
+
+TEST_CASE("the folder of a run parses back to what was computed") {
+    const Sandbox box;
+    Case c = smallCase();
+    c.resolved = "name = \"fake\"\n";
+    FakeBackend backend;
+    backend.dosed = [](std::uint64_t s) { return s < 130 ? 0 : s < 200 ? 2 : 5; };
+    backend.torque = [](std::uint64_t) { return -0.25; };
+    RunFolder folder(box / "out", false, c);
+    const RunResult r = runInto(folder, backend, c);
+
+    CHECK(readText(box / "out/case.toml") == c.resolved);
+
+    const auto series = readCsv(box / "out/timeseries.csv");
+    REQUIRE(series.size() == 1 + r.ledger.closings());
+    const std::vector<std::string> header{"time_s",
+                                          "phase",
+                                          "dose",
+                                          "coil_angle_rad",
+                                          "dosed_mass_kg",
+                                          "canister_mass_kg",
+                                          "throat_mass_kg",
+                                          "lost_mass_kg",
+                                          "dosed_count",
+                                          "canister_count",
+                                          "throat_count",
+                                          "lost_count",
+                                          "kinetic_energy_J",
+                                          "rotational_energy_J",
+                                          "outlet_velocity_m_s",
+                                          "coil_torque_Nm",
+                                          "coil_power_W",
+                                          "max_overlap_ratio"};
+    CHECK(series[0] == header);
+    for (std::size_t i = 1; i < series.size(); ++i) {
+        REQUIRE(series[i].size() == header.size());
+        const double sum = std::stod(series[i][4]) + std::stod(series[i][5]) + std::stod(series[i][6]);
+        CHECK(sum == Approx(0.01));
+    }
+    const auto& last = series.back();
+    CHECK(std::stod(last[0]) == Approx(0.31));
+    CHECK(last[1] == "rest");
+    CHECK(last[2] == "3");
+    CHECK(std::stod(last[3]) == Approx(3 * 4 * 0.05));
+    CHECK(std::isnan(std::stod(last[14])));
+    CHECK(std::stod(last[15]) == Approx(0.25));
+
+    const auto doses = readCsv(box / "out/doses.csv");
+    REQUIRE(doses.size() == 4);
+    CHECK(std::stod(doses[1][column(doses, "mass_kg")]) == Approx(2e-3));
+    CHECK(std::stod(doses[2][column(doses, "cumulative_mass_kg")]) == Approx(5e-3));
+    CHECK(std::stod(doses[2][column(doses, "coil_torque_Nm")]) == Approx(0.25));
+    CHECK(std::stod(doses[3][column(doses, "closed_form_mass_kg")]) == Approx(2e-3));
+    CHECK(doses[3][column(doses, "complete")] == "1");
+
+    const auto summary = nlohmann::json::parse(readText(box / "out/summary.json"));
+    CHECK(summary["backend"] == "fake");
+    CHECK(summary["stop_reason"] == "dose_count");
+    CHECK(summary["error"].is_null());
+    CHECK(summary["doses"].size() == 3);
+    CHECK(summary["doses"][1]["mass_kg"].get<double>() == Approx(3e-3));
+    CHECK(summary["dose_statistics"]["mean_kg"].get<double>() == Approx(5e-3 / 3));
+    CHECK(summary["dose_statistics"]["rsd"].get<double>() == Approx(r.statistics.relative));
+    CHECK(summary["ledger"]["dosed_count"] == 5);
+    CHECK(summary["ledger"]["lost_count"] == 0);
+    CHECK(summary["ledger"]["closings"] == r.ledger.closings());
+    CHECK(summary["closed_form"]["mass_per_dose_kg"].get<double>() == Approx(2e-3));
+    CHECK(summary["particle_steps"].get<double>() == Approx(r.particleSteps));
+    CHECK(summary["inputs"]["particles"] == 10);
+}
+
+TEST_CASE("particles are written with every digit") {
+    const Sandbox box;
+    Particles p;
+    p.add(Vec3(0.1, 1.0 / 3, -2.5e-9), 1.25e-3, Vec3(1e-17, -0.1, 3), Vec3(7, 8.000000000000002, 9));
+    p.add(Vec3(0, 0, 0), 1e-3);
+    p.status[1] = Status::Dosed;
+    writeParticles(box / "p.csv", p);
+    const auto rows = readCsv(box / "p.csv");
+    REQUIRE(rows.size() == 3);
+    const std::vector<std::string> header{"id",     "x_m",      "y_m",      "z_m",      "vx_m_s",   "vy_m_s",
+                                          "vz_m_s", "wx_rad_s", "wy_rad_s", "wz_rad_s", "radius_m", "status"};
+    CHECK(rows[0] == header);
+    CHECK(std::stod(rows[1][1]) == p.position[0].x);
+    CHECK(std::stod(rows[1][2]) == p.position[0].y);
+    CHECK(std::stod(rows[1][3]) == p.position[0].z);
+    CHECK(std::stod(rows[1][4]) == p.velocity[0].x);
+    CHECK(std::stod(rows[1][8]) == p.spin[0].y);
+    CHECK(std::stod(rows[1][10]) == p.radius[0]);
+    CHECK(rows[1][11] == "active");
+    CHECK(rows[2][11] == "dosed");
+    CHECK(rows[2][0] == "1");
+}
+
+TEST_CASE("the time series can be read while the run goes on") {
+    const Sandbox box;
+    RunFolder folder(box / "out", false, smallCase());
+    folder.onSample(Sample{});
+    CHECK(readCsv(box / "out/timeseries.csv").size() == 2);
+    folder.onDose(Dose{});
+    CHECK(readCsv(box / "out/doses.csv").size() == 2);
+}
+
+TEST_CASE("a folder that holds something is refused, a former run replaced only by force") {
+    const Sandbox box;
+    const Case c = smallCase();
+    FakeBackend backend;
+    {
+        RunFolder folder(box / "out", false, c);
+        runInto(folder, backend, c);
+    }
+    box.write("out/mine.txt", "keep");
+    const std::string before = readText(box / "out/timeseries.csv");
+    CHECK_THROWS_WITH(RunFolder(box / "out", false, c), Catch::Contains("former run") && Catch::Contains("--force"));
+    CHECK(readText(box / "out/timeseries.csv") == before);
+    RunFolder again(box / "out", true, c);
+    CHECK_FALSE(fs::exists(box / "out/summary.json"));  // a stale one would lie
+    CHECK_FALSE(fs::exists(box / "out/particles.csv"));
+    CHECK(readCsv(box / "out/timeseries.csv").size() == 1);
+    CHECK(readText(box / "out/mine.txt") == "keep");
+
+    fs::create_directories(box / "other");
+    box.write("other/thesis.txt", "x");
+    CHECK_THROWS_WITH(RunFolder(box / "other", false, c), Catch::Contains("not empty"));
+    fs::create_directories(box / "empty");
+    CHECK_NOTHROW(RunFolder(box / "empty", false, c));
+    CHECK_THROWS_AS(RunFolder(box / "other/thesis.txt", true, c), FolderError);
+    CHECK_THROWS_AS(RunFolder(box / "other/thesis.txt/below", true, c), FolderError);
+}
+
+TEST_CASE("a failed run is summed up as such") {
+    const Sandbox box;
+    const Case c = smallCase();
+    FakeBackend backend;
+    backend.runErrorAt = 120;
+    RunFolder folder(box / "out", false, c);
+    runInto(folder, backend, c);
+    const auto summary = nlohmann::json::parse(readText(box / "out/summary.json"));
+    CHECK(summary["stop_reason"] == "run_error");
+    CHECK_THAT(summary["error"].get<std::string>(), Catch::Contains("particle 3"));
+    CHECK(summary["dose_statistics"]["mean_kg"].is_null());
+    CHECK(summary["doses"][0]["complete"] == false);
+}
+
+TEST_CASE("a time series that cannot be written stops the run with a reason") {
+    if (!fs::exists("/dev/full")) {
+        WARN("skipped: there is no /dev/full here to stand in for a full disk");
+        return;
+    }
+    CHECK_THROWS_AS(CsvFile("/dev/full", "header"), RunError);
+}
+
+TEST_CASE("figures that are not numbers become null in the summary") {
+    RunResult r;
+    r.last.coilAngle = std::numeric_limits<double>::quiet_NaN();
+    r.derived.doses = std::numeric_limits<double>::infinity();
+    const auto summary = nlohmann::json::parse(summaryJson(smallCase(), r, "fake"));
+    CHECK(summary["coil_angle_rad"].is_null());
+    CHECK(summary["closed_form"]["doses"].is_null());
+}

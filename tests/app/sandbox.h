@@ -1,0 +1,89 @@
+#pragma once
+// A folder of its own for a test, gone afterwards, and the program run as a user would.
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace vkdose::test {
+
+inline std::string readText(const std::filesystem::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    std::ostringstream text;
+    text << stream.rdbuf();
+    return text.str();
+}
+
+/// The lines of a CSV, split at commas, header first.
+inline std::vector<std::vector<std::string>> readCsv(const std::filesystem::path& file) {
+    std::vector<std::vector<std::string>> rows;
+    std::ifstream stream(file);
+    for (std::string line; std::getline(stream, line);) {
+        std::vector<std::string> fields;
+        std::istringstream split(line);
+        for (std::string field; std::getline(split, field, ',');) fields.push_back(field);
+        rows.push_back(fields);
+    }
+    return rows;
+}
+
+class Sandbox {
+  public:
+    Sandbox() {
+        static std::atomic<int> count{0};
+        path_ = std::filesystem::temp_directory_path() /
+                ("vkdose_test_" + std::to_string(getpid()) + "_" + std::to_string(count++));
+        std::filesystem::create_directories(path_);
+    }
+    ~Sandbox() {
+        std::error_code ignored;
+        std::filesystem::remove_all(path_, ignored);
+    }
+    Sandbox(const Sandbox&) = delete;
+    Sandbox& operator=(const Sandbox&) = delete;
+
+    const std::filesystem::path& path() const { return path_; }
+    std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+
+    std::filesystem::path write(const std::string& name, const std::string& text) const {
+        std::ofstream(path_ / name) << text;
+        return path_ / name;
+    }
+
+    struct Outcome {
+        int code;
+        std::string out;
+        std::string err;
+    };
+
+    /// Runs the program in the sandbox with these arguments (shell syntax).
+    Outcome vkdose(const std::string& arguments) const {
+        const std::string command = "cd '" + path_.string() + "' && '" VKDOSE_BINARY_DIR "/vkdose' " + arguments +
+                                    " > stdout.txt 2> stderr.txt < /dev/null";
+        const int status = std::system(command.c_str());
+        return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, readText(path_ / "stdout.txt"),
+                readText(path_ / "stderr.txt")};
+    }
+
+    /// What lies in the sandbox beside the captured output.
+    std::vector<std::string> files() const {
+        std::vector<std::string> names;
+        for (const auto& entry : std::filesystem::directory_iterator(path_)) {
+            const std::string name = entry.path().filename().string();
+            if (name != "stdout.txt" && name != "stderr.txt") names.push_back(name);
+        }
+        return names;
+    }
+
+  private:
+    std::filesystem::path path_;
+};
+
+}  // namespace vkdose::test

@@ -1,0 +1,86 @@
+#include "host/app/text.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <limits>
+
+#include "host/app/progress.h"
+#include "host/app/report.h"
+#include "tests/app/sandbox.h"
+#include "tests/sim/fake_backend.h"
+
+using namespace vkdose;
+using namespace vkdose::test;
+
+TEST_CASE("durations read as people say them") {
+    CHECK(duration(0.04) == "0.0 s");
+    CHECK(duration(9.94) == "9.9 s");
+    CHECK(duration(59.4) == "59 s");
+    CHECK(duration(59.6) == "1 min 00 s");
+    CHECK(duration(3599.6) == "1 h 00 min");
+    CHECK(duration(7805) == "2 h 10 min");
+    CHECK(duration(100 * 3600.0) == "4 d 4 h");
+    CHECK(duration(-1) == "?");
+    CHECK(duration(std::numeric_limits<double>::quiet_NaN()) == "?");
+    CHECK(duration(std::numeric_limits<double>::infinity()) == "?");
+}
+
+TEST_CASE("large figures stand before a unit") {
+    CHECK(large(12) == "12 ");
+    CHECK(large(950e3) == "950 k ");
+    CHECK(large(8.31e6) == "8.31 M ");
+    CHECK(large(1.2e9) == "1.2 G ");
+}
+
+TEST_CASE("a progress line says phase, dose, time, speed and what is left") {
+    Progress p;
+    p.phase = Phase::Rotate;
+    p.dose = 3;
+    p.time = 6.2;
+    p.step = 250;
+    p.expectedSteps = 1000;
+    p.particleSteps = 1e9;
+    p.wallTime = 100;
+    CHECK_THAT(progressText(p), Catch::Contains("dose 3 rotate") && Catch::Contains("t = 6.200 s") &&
+                                    Catch::Contains("25 %") && Catch::Contains("10 M particle-steps/s") &&
+                                    Catch::Contains("ETA 5 min 00 s"));
+    p.expectedSteps = 0;
+    CHECK_THAT(progressText(p), !Catch::Contains("ETA"));
+}
+
+TEST_CASE("where there is no terminal, progress is plain lines at phase ends") {
+    const Sandbox box;
+    std::FILE* file = std::fopen((box / "progress.txt").c_str(), "w");
+    REQUIRE(file != nullptr);
+    {
+        ProgressDisplay display(file);
+        Progress p;
+        for (int i = 0; i < 1000; ++i) display.onProgress(p);
+        p.phaseEnd = true;
+        display.onProgress(p);
+        Dose d;
+        d.index = 1;
+        d.mass = d.cumulative = 3.7e-3;
+        d.complete = true;
+        display.onDose(d);
+    }
+    std::fclose(file);
+    const std::string text = readText(box / "progress.txt");
+    CHECK(text.find('\r') == std::string::npos);
+    CHECK(text.find('\033') == std::string::npos);
+    CHECK(std::count(text.begin(), text.end(), '\n') == 2);
+    CHECK_THAT(text, Catch::Contains("dose 1: 3.700 g, cumulative 3.700 g"));
+}
+
+TEST_CASE("the table at the end shows doses beside the closed form, statistics, ledger and reason") {
+    FakeBackend backend;
+    backend.dosed = [](std::uint64_t s) { return s < 130 ? 0 : s < 200 ? 2 : s < 300 ? 5 : 6; };
+    Notebook notes;
+    const RunResult r = play(smallCase(), backend, notes);
+    const std::string text = reportText(smallCase(), r, "fake");
+    CHECK_THAT(text, Catch::Contains("    2      3.000          5.000            0.000           2.000\n"));
+    CHECK_THAT(text, Catch::Contains("mean 2.000 g, standard deviation 1.000 g, RSD 50.0 % over 3 doses"));
+    CHECK_THAT(text, Catch::Contains("canister 4.000 g (4) + throat 0.000 g (0) + dosed 6.000 g (6) + lost 0.000 g (0) "
+                                     "= filled 10.000 g (10): closed"));
+    CHECK_THAT(text, Catch::Contains("the 3 doses asked for are done at t = 0.31 s"));
+}
