@@ -1,0 +1,62 @@
+#pragma once
+// Both backends on the same scene, compared particle by particle and contact by contact.
+
+#include <map>
+#include <tuple>
+
+#include "tests/support/gpu.h"
+#include "tests/support/near.h"
+
+namespace vkdose::test {
+
+/// Largest differences between two backends, in the units a tolerance can be argued in.
+struct Differences {
+    double position = 0;        ///< of a particle's radius
+    double velocity = 0;        ///< of the scene's speed scale
+    double spin = 0;            ///< surface speed, of the speed scale
+    double maxOverlap = 0;      ///< of the smaller particle's radius
+    double spring = 0;          ///< ditto
+    std::size_t unmatched = 0;  ///< contacts only one of them has
+};
+
+inline Differences differences(const Backend& a, const Backend& b, double speed) {
+    const Particles p = a.particles(), q = b.particles();
+    REQUIRE(p.size() == q.size());
+    Differences d;
+    const auto raise = [](double& worst, double value) {
+        worst = std::isfinite(value) ? std::max(worst, value) : INFINITY;
+    };
+    for (std::size_t i = 0; i < p.size(); ++i) {
+        REQUIRE(p.status[i] == q.status[i]);
+        raise(d.position, glm::length(p.position[i] - q.position[i]) / p.radius[i]);
+        raise(d.velocity, glm::length(p.velocity[i] - q.velocity[i]) / speed);
+        raise(d.spin, glm::length(p.spin[i] - q.spin[i]) * p.radius[i] / speed);
+    }
+    using Key = std::tuple<ContactClass, std::uint32_t, std::uint32_t>;
+    std::map<Key, Contact> known;
+    for (const Contact& c : b.contacts()) known[{c.kind, c.particle, c.other}] = c;
+    for (const Contact& c : a.contacts()) {
+        const auto twin = known.find({c.kind, c.particle, c.other});
+        if (twin == known.end()) {
+            ++d.unmatched;
+            continue;
+        }
+        const double r = c.kind == ContactClass::ParticleParticle ? std::min(p.radius[c.particle], p.radius[c.other])
+                                                                  : p.radius[c.particle];
+        const Contact& t = twin->second;
+        raise(d.maxOverlap, std::abs(c.maxOverlap - t.maxOverlap) / r);
+        raise(d.spring, glm::length(c.sliding - t.sliding) / r);
+        raise(d.spring, glm::length(c.rolling - t.rolling) / r);
+        raise(d.spring, std::abs(c.torsion - t.torsion) / r);
+        known.erase(twin);
+    }
+    d.unmatched += known.size();
+    return d;
+}
+
+/// Radii and time steps as both precisions see them: what is compared is the arithmetic, not the input's last bits.
+inline double single(double x) {
+    return double(float(x));
+}
+
+}  // namespace vkdose::test

@@ -1,0 +1,83 @@
+// What the user must see: particles lost, overlaps no law covers, tables that are full.
+
+#include "tests/support/gpu.h"
+
+using namespace vkdose;
+using namespace vkdose::test;
+using Catch::Matchers::Contains;
+
+namespace {
+
+void requireRunError(const World& w, const Particles& p, std::uint32_t steps, const std::string& words) {
+    auto device = gpu();
+    device->load(w, p);
+    REQUIRE_THROWS_AS(device->advance(steps, 0), RunError);
+    auto again = gpu();
+    again->load(w, p);
+    REQUIRE_THROWS_WITH(again->advance(steps, 0), Contains(words));
+    requireClean(*device);
+}
+
+}  // namespace
+
+TEST_CASE("a particle that leaves the domain is named with its place and time") {
+    World w = emptyWorld();
+    w.domain = {Vec3(-0.01), Vec3(0.01)};
+    Particles p;
+    p.add({0, 0, 0}, 1e-3);
+    p.add({0.0099, 0, 0}, 1e-3, {1, 0, 0});
+    requireRunError(w, p, 200, "particle 1 ");
+    requireRunError(w, p, 200, "left the domain");
+}
+
+TEST_CASE("a velocity that is not a number is reported, not carried on") {
+    Particles p;
+    p.add({0, 0, 0}, 1e-3, {std::nan(""), 0, 0});
+    requireRunError(emptyWorld(), p, 2, "not a number");
+}
+
+TEST_CASE("two spheres in one place are reported") {
+    Particles p;
+    p.add({0, 0, 0}, 1e-3);
+    p.add({1e-4, 0, 0}, 1e-3);
+    requireRunError(emptyWorld(), p, 1, "overlap");
+}
+
+TEST_CASE("a full neighbour row is reported") {
+    Particles p;
+    p.add({0, 0, 0}, 1e-3);
+    // Ninety small spheres inside the large one's reach, apart from it and from each other.
+    for (int i = 0; i < 90; ++i) {
+        const double z = -1 + (2 * i + 1) / 90.0, phi = i * 2.399963;
+        p.add(1.21e-3 * Vec3(std::sqrt(1 - z * z) * std::cos(phi), std::sqrt(1 - z * z) * std::sin(phi), z), 1.0e-4);
+    }
+    World w = emptyWorld();
+    w.timeStep = 1e-8;
+    w.skin = 0.15e-3;
+    requireRunError(w, p, 1, "more neighbours than a row holds");
+}
+
+TEST_CASE("a dosed particle is counted once and its neighbours forget it") {
+    World w = canisterWorld();
+    w.surfaces.clear();
+    w.coil.reset();
+    Particles p;
+    p.add({0, 0, 0.0699}, 1e-3, {0, 0, 0.5});
+    p.add({0, 0, 0.0679}, 1e-3, {0, 0, 0.5});
+    p.add({0, 0, 0.03}, 1e-3);
+    auto device = gpu();
+    device->load(w, p);
+    const Sensors before = device->advance(1, 0);
+    CHECK(before.count == std::array<std::uint64_t, 4>{1, 2, 0, 0});
+    const Sensors after = device->advance(300, 0);
+    CHECK(after.count == std::array<std::uint64_t, 4>{1, 1, 1, 0});
+    const Sensors later = device->advance(600, 0);
+    CHECK(later.count == std::array<std::uint64_t, 4>{1, 1, 1, 0});
+    CHECK(device->contacts().empty());
+    CHECK(device->particles().status[0] == Status::Dosed);
+    requireClean(*device);
+}
+
+TEST_CASE("a device that is not there is refused by name") {
+    REQUIRE_THROWS_WITH(makeVulkanBackend(vk::DeviceChoice{"no such device", false}), Contains("no such device"));
+}
