@@ -115,8 +115,6 @@ struct StepPush {
     uint particles;     // slots, padding included (a multiple of the workgroup size)
     uint rowWidth;
     uint cellMask;      // size of the cell table - 1 (a power of two)
-    uint reserved0;
-    uint reserved1;
 };
 
 #ifdef __cplusplus

@@ -1,0 +1,144 @@
+// The structs of shaders/shared/layout.h as C++ lays them out, against the offsets the compiled passes declare.
+
+#include <spirv_cross/spirv_cross_c.h>
+
+#include <catch2/catch.hpp>
+#include <cstddef>
+#include <map>
+#include <set>
+#include <span>
+#include <string>
+
+#include "neighbours.spv.h"
+#include "sense.spv.h"
+#include "shaders/shared/layout.h"
+#include "step.spv.h"
+#include "step_texel.spv.h"
+
+namespace {
+
+struct Field {
+    std::string name;
+    std::size_t offset;
+    std::size_t size;
+};
+
+struct Layout {
+    std::vector<Field> fields;
+    std::size_t size;
+};
+
+#define FIELD(type, name) \
+    { #name, offsetof(vkdose::gpu::type, name), sizeof(vkdose::gpu::type::name) }
+
+const std::map<std::string, Layout>& hostLayouts() {
+    using namespace vkdose::gpu;
+    static const std::map<std::string, Layout> layouts = {
+        {"ContactParams",
+         {{FIELD(ContactParams, normal), FIELD(ContactParams, sliding), FIELD(ContactParams, rolling),
+           FIELD(ContactParams, torsion)},
+          sizeof(ContactParams)}},
+        {"SurfaceParams",
+         {{FIELD(SurfaceParams, pointHigh), FIELD(SurfaceParams, pointLow), FIELD(SurfaceParams, axis),
+           FIELD(SurfaceParams, radius)},
+          sizeof(SurfaceParams)}},
+        {"CoilParams",
+         {{FIELD(CoilParams, radius), FIELD(CoilParams, pitch), FIELD(CoilParams, reach), FIELD(CoilParams, phase),
+           FIELD(CoilParams, motion)},
+          sizeof(CoilParams)}},
+        {"Member",
+         {{FIELD(Member, contact), FIELD(Member, surface), FIELD(Member, coil), FIELD(Member, gravity),
+           FIELD(Member, domainLow), FIELD(Member, domainHigh), FIELD(Member, numerics), FIELD(Member, choices)},
+          sizeof(Member)}},
+        {"ErrorRecord", {{FIELD(ErrorRecord, first)}, sizeof(ErrorRecord)}},
+        {"Control",
+         {{FIELD(Control, cells), FIELD(Control, particles), FIELD(Control, single), FIELD(Control, list),
+           FIELD(Control, error)},
+          sizeof(Control)}},
+        {"SensorRecord",
+         {{FIELD(SensorRecord, count), FIELD(SensorRecord, mass), FIELD(SensorRecord, motion),
+           FIELD(SensorRecord, extremes)},
+          sizeof(SensorRecord)}},
+        {"StepPush",
+         {{FIELD(StepPush, stepInBatch), FIELD(StepPush, source), FIELD(StepPush, opening), FIELD(StepPush, particles),
+           FIELD(StepPush, rowWidth), FIELD(StepPush, cellMask)},
+          sizeof(StepPush)}},
+    };
+    return layouts;
+}
+
+/// Every named struct reachable from the buffers and push constants of a module, checked against the host's.
+class Reflection {
+  public:
+    explicit Reflection(std::span<const std::uint32_t> code) {
+        REQUIRE(spvc_context_create(&context_) == SPVC_SUCCESS);
+        spvc_parsed_ir ir = nullptr;
+        REQUIRE(spvc_context_parse_spirv(context_, code.data(), code.size(), &ir) == SPVC_SUCCESS);
+        REQUIRE(spvc_context_create_compiler(context_, SPVC_BACKEND_NONE, ir, SPVC_CAPTURE_MODE_TAKE_OWNERSHIP,
+                                             &compiler_) == SPVC_SUCCESS);
+    }
+    ~Reflection() { spvc_context_destroy(context_); }
+
+    std::set<std::string> check() {
+        spvc_resources resources = nullptr;
+        REQUIRE(spvc_compiler_create_shader_resources(compiler_, &resources) == SPVC_SUCCESS);
+        for (const spvc_resource_type kind : {SPVC_RESOURCE_TYPE_STORAGE_BUFFER, SPVC_RESOURCE_TYPE_PUSH_CONSTANT}) {
+            const spvc_reflected_resource* list = nullptr;
+            std::size_t count = 0;
+            REQUIRE(spvc_resources_get_resource_list_for_type(resources, kind, &list, &count) == SPVC_SUCCESS);
+            for (std::size_t i = 0; i < count; ++i) visit(list[i].base_type_id);
+        }
+        return seen_;
+    }
+
+  private:
+    void visit(spvc_type_id id) {
+        const spvc_type type = spvc_compiler_get_type_handle(compiler_, id);
+        if (spvc_type_get_basetype(type) != SPVC_BASETYPE_STRUCT) return;
+        const spvc_type_id base = spvc_type_get_base_type_id(type);
+        const std::string name = spvc_compiler_get_name(compiler_, base);
+        const unsigned members = spvc_type_get_num_member_types(type);
+        const auto host = hostLayouts().find(name);
+        if (host != hostLayouts().end() && seen_.insert(name).second) {
+            INFO("struct " << name);
+            REQUIRE(members == host->second.fields.size());
+            for (unsigned m = 0; m < members; ++m) checkField(type, base, m, host->second.fields[m]);
+            std::size_t size = 0;
+            REQUIRE(spvc_compiler_get_declared_struct_size(compiler_, type, &size) == SPVC_SUCCESS);
+            CHECK(size == host->second.size);
+        }
+        for (unsigned m = 0; m < members; ++m) visit(spvc_type_get_member_type(type, m));
+    }
+
+    void checkField(spvc_type type, spvc_type_id base, unsigned m, const Field& field) {
+        INFO("member " << field.name);
+        CHECK(spvc_compiler_get_member_name(compiler_, base, m) == field.name);
+        unsigned offset = 0;
+        REQUIRE(spvc_compiler_type_struct_member_offset(compiler_, type, m, &offset) == SPVC_SUCCESS);
+        CHECK(offset == field.offset);
+        std::size_t size = 0;
+        REQUIRE(spvc_compiler_get_declared_struct_member_size(compiler_, type, m, &size) == SPVC_SUCCESS);
+        CHECK(size == field.size);
+    }
+
+    spvc_context context_ = nullptr;
+    spvc_compiler compiler_ = nullptr;
+    std::set<std::string> seen_;
+};
+
+std::set<std::string> structsOf(std::span<const std::uint32_t> code) {
+    return Reflection(code).check();
+}
+
+}  // namespace
+
+TEST_CASE("C++ and GLSL see the same structs") {
+    std::set<std::string> seen;
+    for (const auto& structs :
+         {structsOf(step_spv), structsOf(step_texel_spv), structsOf(sense_spv), structsOf(neighbours_spv)})
+        seen.insert(structs.begin(), structs.end());
+    for (const auto& [name, layout] : hostLayouts()) {
+        INFO("struct " << name << " is in no pass: nothing was compared");
+        CHECK(seen.count(name) == 1);
+    }
+}

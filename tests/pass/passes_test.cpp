@@ -1,0 +1,154 @@
+// Single passes against what the host computes from the same buffers: the rows of the neighbour list and the sensor
+// records. Sizes are odd on purpose: the last workgroup is never full.
+
+#include <algorithm>
+#include <random>
+
+#include "host/backend/vulkan/pack.h"
+#include "host/backend/vulkan/passes.h"
+#include "tests/support/gpu.h"
+#include "tests/support/near.h"
+
+using namespace vkdose;
+using namespace vkdose::test;
+
+namespace {
+
+Particles cloud(std::size_t n, double box, unsigned seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> unit(-0.5, 0.5), radius(0.6e-3, 1.8e-3), speed(-1, 1);
+    Particles p;
+    for (std::size_t i = 0; i < n; ++i)
+        p.add(box * Vec3(unit(random), unit(random), unit(random)), double(float(radius(random))),
+              {speed(random), speed(random), speed(random)}, 100.0 * Vec3(speed(random), speed(random), speed(random)));
+    return p;
+}
+
+struct Rig {
+    vk::Device device{testDevice()};
+    TableSizes sizes;
+    std::unique_ptr<Passes> passes;
+
+    Rig(const World& world, const Particles& p) {
+        sizes.particles = std::uint32_t((p.size() + 63) / 64 * 64);
+        sizes.rowWidth = gpu::kMaxRow;
+        sizes.cells = 32;  // far fewer than cells in use: many share a slot of the table
+        passes = std::make_unique<Passes>(device, sizes);
+        const gpu::Member member = packMember(world, p);
+        passes->members.write(0, &member, sizeof member);
+        passes->state.writeAll(packState(p, sizes.particles));
+        gpu::Control control{};
+        control.cells = {1, 1, 1, 0};
+        control.particles = {sizes.groups(), 1, 1, 0};
+        control.single = {1, 1, 1, 0};
+        for (gpu::ErrorRecord& e : control.error) e.first = gpu::uvec4(gpu::kEmpty);
+        passes->control.write(0, &control, sizeof control);
+    }
+
+    template <class Record>
+    void run(Record&& record) {
+        vk::Commands commands(device);
+        commands.begin();
+        record(commands);
+        commands.hostBarrier();
+        commands.submit();
+        for (const std::string& message : device.validationMessages()) FAIL_CHECK(message);
+    }
+};
+
+}  // namespace
+
+TEST_CASE("the rows hold every neighbour within reach and the skin, ascending, and no other") {
+    World world = emptyWorld();
+    world.timeStep = 1e-9;  // the one step that follows the rebuild moves nothing
+    world.skin = 0.4e-3;
+    for (const std::size_t n : {1u, 63u, 65u, 257u}) {
+        DYNAMIC_SECTION(n << " particles") {
+            Particles p = cloud(n, 0.003 * std::cbrt(double(n)), unsigned(n));
+            if (n > 60) p.status[5] = Status::Dosed;  // takes no part
+            Rig rig(world, p);
+            rig.run([&](vk::Commands& c) { rig.passes->recordSteps(c, 0, 1, 0, true); });
+            const auto control = rig.passes->control.readAll<gpu::Control>(1)[0];
+            CHECK(control.list.x == 1);
+            CHECK(control.list.y == 1);
+            CHECK(control.particles.x == 0);
+            CHECK(control.error[gpu::kErrorRowFull].first.x == gpu::kEmpty);
+            const auto marks = rig.passes->marks.readAll<gpu::uvec4>(rig.sizes.particles);
+            const auto rows = rig.passes->rows.readAll<std::uint32_t>(2ull * rig.sizes.rowWidth * rig.sizes.particles);
+            std::size_t wrong = 0, listed = 0;
+            for (std::size_t i = 0; i < n; ++i) {
+                std::vector<std::uint32_t> expected, row;
+                for (std::size_t j = 0; j < n; ++j)
+                    if (j != i && p.status[i] == Status::Active && p.status[j] == Status::Active &&
+                        glm::length(p.position[i] - p.position[j]) < p.radius[i] + p.radius[j] + world.skin)
+                        expected.push_back(std::uint32_t(j));
+                for (std::uint32_t s = 0; s < marks[i].w; ++s)
+                    row.push_back(rows[(control.list.x * rig.sizes.rowWidth + s) * rig.sizes.particles + i]);
+                wrong += row != expected;
+                listed += row.size();
+            }
+            CHECK(wrong == 0);
+            CHECK((n < 60 || listed > n));
+        }
+    }
+}
+
+TEST_CASE("the sensor records add up to the host's sums") {
+    World world = emptyWorld();
+    world.throatZ = 0.004;
+    const std::size_t n = 203;
+    Particles p = cloud(n, 0.02, 3);
+    for (std::size_t i = 0; i < n; i += 7) p.status[i] = Status::Dosed;
+    p.status[1] = Status::Lost;
+    Rig rig(world, p);
+    rig.run([&](vk::Commands& c) { rig.passes->recordSensing(c, 0); });
+    gpu::uvec4 count(0);
+    double mass[4] = {}, kinetic = 0, rotational = 0, throat = 0;
+    for (const auto& r : rig.passes->sensors.readAll<gpu::SensorRecord>(rig.sizes.groups())) {
+        count += r.count;
+        for (int k = 0; k < 4; ++k) mass[k] += double(r.mass[k]);
+        kinetic += double(r.motion.x);
+        rotational += double(r.motion.y);
+        throat += double(r.motion.z);
+    }
+    gpu::uvec4 counted(0);
+    double weighed[4] = {}, k = 0, rot = 0, pz = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        const double m = world.density * 4 / 3 * kPi * std::pow(p.radius[i], 3);
+        const int region = p.status[i] == Status::Dosed  ? 2
+                           : p.status[i] == Status::Lost ? 3
+                                                         : (p.position[i].z > world.throatZ ? 1 : 0);
+        ++counted[region];
+        weighed[region] += m;
+        if (region > 1) continue;
+        k += 0.5 * m * glm::dot(p.velocity[i], p.velocity[i]);
+        rot += 0.2 * m * p.radius[i] * p.radius[i] * glm::dot(p.spin[i], p.spin[i]);
+        if (region == 1) pz += m * p.velocity[i].z;
+    }
+    CHECK(count == counted);
+    CHECK(counted[1] > 5);
+    // A record sums 64 numbers in single precision: six additions deep, 6e-8 each.
+    for (int region = 0; region < 4; ++region) CHECK(nearRelative(mass[region], weighed[region], 1e-6));
+    CHECK(nearRelative(kinetic, k, 1e-6));
+    CHECK(nearRelative(rotational, rot, 1e-6));
+    CHECK(near(throat, pz, k, 1e-5));
+}
+
+TEST_CASE("the coil's phase keeps its turns in fixed point") {
+    gpu::Member m{};
+    const double perStep = 2 * kPi * 1.5 * 2.26e-6;
+    packPhase(-2 * kPi * 0.25, perStep, m);
+    CHECK(m.coil.phase.x == 0xc0000000u);  // minus a quarter turn is three quarters
+    const double turns = (double(m.coil.phase.z) + double(m.coil.phase.w) / 4294967296.0) / 4294967296.0;
+    CHECK(nearRelative(turns * 15e6, 1.5 * 2.26e-6 * 15e6, 1e-13));  // over a whole run
+    packPhase(0, -perStep, m);
+    const double back = (double(m.coil.phase.z) + double(m.coil.phase.w) / 4294967296.0) / 4294967296.0;
+    CHECK(nearRelative(1 - back, 1.5 * 2.26e-6, 1e-10));
+}
+
+TEST_CASE("positions survive packing to single precision twice over") {
+    Particles p = cloud(31, 0.3, 9);
+    const Particles q = unpackState(packState(p, 64), 64, p);
+    // Two floats hold 48 bits: 0.15 m to 1e-15 m.
+    for (std::size_t i = 0; i < p.size(); ++i) CHECK(near(q.position[i], p.position[i], 0.15, 2e-14));
+}
