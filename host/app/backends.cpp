@@ -1,5 +1,9 @@
 #include "host/app/backends.h"
 
+#include <fmt/format.h>
+
+#include <cstdio>
+
 #include "host/backend/reference/reference.h"
 #include "host/backend/vulkan/vulkan.h"
 
@@ -15,6 +19,15 @@ std::unique_ptr<Backend> makeBackend(const BackendChoice& choice) {
     device.name = choice.device;
     device.validation = choice.validation;
     return makeVulkanBackend(device);
+}
+
+bool validationClean(const BackendChoice& choice, const Backend& backend) {
+    if (!choice.validation) return true;
+    const ValidationReport report = validationReport(backend);
+    for (const std::string& message : report.messages) fmt::print(stderr, "validation: {}\n", message);
+    if (!report.validated)
+        fmt::print(stderr, "vkdose: the validation layer is not installed (vulkan-validationlayers)\n");
+    return report.validated && report.messages.empty();
 }
 
 }  // namespace vkdose

@@ -23,4 +23,8 @@ struct BackendChoice {
 /// Throws UsageError if a device is asked for on the reference backend, DeviceError if there is none.
 std::unique_ptr<Backend> makeBackend(const BackendChoice& choice);
 
+/// Prints on stderr what the Vulkan validation layer found, if it was asked for; false if it found something or is
+/// not installed.
+bool validationClean(const BackendChoice& choice, const Backend& backend);
+
 }  // namespace vkdose

@@ -70,7 +70,8 @@ int runCommand(const RunOptions& options) {
     if (!options.quiet) {
         fmt::print("{}output   {}\n", reportText(c, result, backend->description()), folder.path().string());
     }
-    return exitCode(result.reason);
+    const bool clean = validationClean(options.backend, *backend);
+    return result.error.empty() && !clean ? kDeviceError : exitCode(result.reason);
 }
 
 }  // namespace vkdose

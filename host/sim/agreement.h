@@ -56,13 +56,14 @@ class ParticleJudge {
 struct Moment {
     double time = 0;
     Phase phase = Phase::Settle;
-    bool lateInPhase = false;  ///< in the second half: the mean torque means something
-    double kineticEnergy = 0;  ///< translation and rotation [J]
-    double meanTorque = 0;     ///< on the coil about +z, since the start of the phase [N m]
-    double maxOverlap = 0;     ///< over the radius, since the start of the phase [-]
-    double meanHeight = 0;     ///< of the active particles [m]
-    double contactsEach = 0;   ///< contacts over active particles
-    double dosedMass = 0;      ///< [kg]
+    bool lateInPhase = false;      ///< in the second half: the mean torque means something
+    double kineticEnergy = 0;      ///< translation and rotation [J]
+    double meanKineticEnergy = 0;  ///< since the start of the phase [J]
+    double meanTorque = 0;         ///< on the coil about +z, since the start of the phase [N m]
+    double maxOverlap = 0;         ///< over the radius, since the start of the phase [-]
+    double meanHeight = 0;         ///< of the active particles [m]
+    double contactsEach = 0;       ///< contacts over active particles, mean since the start of the phase
+    double dosedMass = 0;          ///< [kg]
 };
 using History = std::vector<Moment>;
 

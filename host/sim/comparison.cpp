@@ -29,14 +29,14 @@ Particles twinOf(const Particles& original, double shift, std::uint64_t seed, st
     return p;
 }
 
-/// Steps at which all stop to be compared: 1, 2, 3, 5, 7, 10, 15, ... for the first contacts, forty evenly spread ones
-/// for the packing, and every end of a phase (so that no interval holds two phases).
+/// Steps at which all stop to be compared: 1, 2, 3, 5, 7, 10, 15, ... for the first contacts, two hundred evenly
+/// spread ones for the packing, and every end of a phase (so that no interval holds two phases).
 std::vector<std::uint64_t> checkpoints(const Timeline& timeline, std::uint64_t steps) {
     std::set<std::uint64_t> at;
     for (std::uint64_t decade = 1; decade < steps; decade *= 10) {
         for (const std::uint64_t tenths : {10, 15, 20, 30, 50, 70}) at.insert(tenths * decade / 10);
     }
-    for (std::uint64_t i = 1; i <= 40; ++i) at.insert(steps * i / 40);
+    for (std::uint64_t i = 1; i <= 200; ++i) at.insert(steps * i / 200);
     for (std::uint64_t s = 0; s < steps && !timeline.over(s); s = timeline.at(s).end) at.insert(timeline.at(s).end);
     at.insert(steps);
     at.erase(0);
@@ -91,13 +91,15 @@ class Walker {
     void append(const Sensors& s, const Timeline::Stretch& stretch, std::uint32_t n) {
         const bool fresh = history.empty() || stretch.end != phaseEnd_;
         phaseEnd_ = stretch.end;
-        impulse_ = (fresh ? 0.0 : impulse_) + s.coilTorque * n;
-        phaseSteps_ = (fresh ? 0 : phaseSteps_) + n;
+        if (fresh) {
+            impulse_ = energySteps_ = contactSteps_ = 0;
+            phaseSteps_ = 0;
+        }
+        phaseSteps_ += n;
         Moment m;
         m.time = timeline_.time(step_);
         m.phase = stretch.phase;
         m.kineticEnergy = s.kineticEnergy + s.rotationalEnergy;
-        m.meanTorque = impulse_ / static_cast<double>(phaseSteps_);
         m.lateInPhase = 2 * phaseSteps_ >= phaseSteps_ + (stretch.end - step_);
         m.maxOverlap = fresh ? s.maxOverlapRatio : std::max(history.back().maxOverlap, s.maxOverlapRatio);
         m.dosedMass = s.mass[static_cast<std::size_t>(Region::Dosed)];
@@ -108,7 +110,14 @@ class Walker {
             active += 1;
         }
         m.meanHeight = active > 0 ? height / active : 0;
-        m.contactsEach = active > 0 ? static_cast<double>(contacts) / active : 0;
+        // Means over the phase; energy and contacts from the values at the checkpoints.
+        impulse_ += s.coilTorque * n;
+        energySteps_ += m.kineticEnergy * n;
+        contactSteps_ += active > 0 ? static_cast<double>(contacts) / active * n : 0;
+        const auto steps = static_cast<double>(phaseSteps_);
+        m.meanTorque = impulse_ / steps;
+        m.meanKineticEnergy = energySteps_ / steps;
+        m.contactsEach = contactSteps_ / steps;
         history.push_back(m);
     }
 
@@ -120,7 +129,7 @@ class Walker {
     std::uint64_t step_ = 0;
     bool dosing_ = false;
     std::uint64_t phaseEnd_ = 0;
-    double impulse_ = 0;
+    double impulse_ = 0, energySteps_ = 0, contactSteps_ = 0;  // sums over the phase, times steps
     std::uint64_t phaseSteps_ = 0;
 };
 

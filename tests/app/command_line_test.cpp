@@ -22,10 +22,9 @@ const std::string kMini = "'" VKDOSE_SOURCE_DIR "/cases/mini.toml' ";
 const std::string kShort =
     kMini + "--set settle.time_s=0.01 --set dose.rotate_s=0.005 --set dose.rest_s=0.002 --set stop.max_doses=2 ";
 
-/// A spoonful of loose particles in and behind the front wall, so that doses come at once.
-const std::string kQuickDose = kMini +
-                               "--set settle.time_s=0.1 --set dose.rotate_s=0.3 --set dose.rest_s=0.05 "
-                               "--set stop.max_doses=1 --set contact.k=8000 ";
+/// The mini canister's first dose. With the Coulomb limit on |f_n| its coil does not jam, so that particles do come
+/// out.
+const std::string kQuickDose = kMini + "--set contact.coulomb_limit=absolute --set stop.max_doses=1 ";
 
 /// One sphere falls out of its domain, 10 cm deep, after 0.14 s.
 const std::string kFalls = R"(name = "falls"
@@ -185,11 +184,27 @@ TEST_CASE("a mini dose ends with a closed ledger on every backend") {
                   ledger["dosed_count"].get<int>() ==
               summary["inputs"]["particles"].get<int>());
         CHECK(ledger["worst_relative_mass_error"].get<double>() < 1e-6);
-        CHECK(ledger["throat_count"].get<int>() + ledger["dosed_count"].get<int>() > 0);  // the coil conveyed
+        CHECK(ledger["throat_count"].get<int>() > 0);  // the coil conveyed
+        CHECK(ledger["dosed_count"].get<int>() > 0);
         CHECK(summary["doses"].size() == 1);
         CHECK(summary["doses"][0]["complete"] == true);
         CHECK_THAT(summary["backend"].get<std::string>(), Catch::StartsWith(backend));
     }
+}
+
+TEST_CASE("a run under the validation layer is clean") {
+    const Sandbox box;
+    if (!vulkanHere(box)) {
+        WARN("skipped: there is no usable Vulkan device");
+        return;
+    }
+    const auto o = box.vkdose("run " + kShort + "--validation --quiet --out out");
+    if (o.err.find("not installed") != std::string::npos) {
+        WARN("skipped: the Vulkan validation layer is not installed");
+        return;
+    }
+    CHECK(o.code == 0);
+    CHECK(o.err == "");
 }
 
 TEST_CASE("a particle that leaves the domain is a run error that keeps what was computed") {

@@ -26,7 +26,7 @@ History flat(double value) {
         m.time = i;
         m.phase = i <= 2 ? Phase::Settle : Phase::Rotate;
         m.lateInPhase = i >= 5;
-        m.kineticEnergy = m.meanTorque = m.maxOverlap = m.contactsEach = value;
+        m.kineticEnergy = m.meanKineticEnergy = m.meanTorque = m.maxOverlap = m.contactsEach = value;
         m.meanHeight = value * 1e-3;
         m.dosedMass = value * 1e-5;
         h.push_back(m);
