@@ -36,6 +36,16 @@ std::string ledgerLine(const RunResult& r) {
                : std::string("as of the last sample"));
 }
 
+/// Always shown: a deep overlap is a result to distrust, not a detail.
+std::string overlapLine(const RunResult& r) {
+    std::string text = fmt::format("overlap  at most {:.3g} of the smaller radius, at t = {:.4g} s", r.maxOverlapRatio,
+                                   r.maxOverlapTime);
+    if (r.maxOverlapRatio > kMaxOverlapRatio)
+        text += fmt::format("; beyond {} (a particle pinched between coil and wall) the contact law is extrapolated",
+                            kMaxOverlapRatio);
+    return text + "\n";
+}
+
 }  // namespace
 
 std::string reportText(const Case& c, const RunResult& r, const std::string& backend) {
@@ -49,6 +59,7 @@ std::string reportText(const Case& c, const RunResult& r, const std::string& bac
         text += fmt::format("mean {:.3f} g (one dose: no standard deviation, no RSD)\n", s.mean * 1e3);
     }
     text += ledgerLine(r);
+    text += overlapLine(r);
     text += fmt::format("stopped  {} at t = {:.4g} s\n", stopSentence(r.reason, c.schedule.stop), r.last.time);
     text += fmt::format("speed    {}particle-steps/s ({}particle-steps in {}) on {}\n",
                         large(r.particleStepsPerSecond()), large(r.particleSteps), duration(r.wallTime), backend);

@@ -54,7 +54,7 @@ class Backend {
     virtual void setLaw(const ContactLaw& law) = 0;
 
     /// Advance `steps` steps with the coil turning at `coilRate` [rad/s about +z]. Throws RunError on a lost particle,
-    /// NaN, a full table or an overlap above kMaxOverlapRatio, naming the particle and the step.
+    /// NaN, a full table or an overlap above the world's limit, naming the particle and the step.
     virtual Sensors advance(std::uint32_t steps, double coilRate) = 0;
 
     virtual Particles particles() const = 0;

@@ -162,6 +162,7 @@ void readContact(Section& root, Case& c) {
         static_cast<CoulombLimit>(contact.choice("coulomb_limit", {"luding", "absolute"}, 0).value_or(0));
     c.world.law.rollingLever =
         static_cast<RollingLever>(contact.choice("rolling_lever", {"full", "half"}, 0).value_or(0));
+    c.world.maxOverlapRatio = contact.number("max_overlap_ratio", Bound::Positive, kPlain, kMaxOverlapRatio);
     const Ratios pair = readRatios(contact, nullptr);
     Section& wallSection = contact.table("wall");
     const Ratios wall = readRatios(wallSection, &pair);

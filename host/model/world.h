@@ -19,6 +19,10 @@ struct Box {
     Vec3 high{1.0};
 };
 
+/// Overlap over smaller radius above which a run stops unless the case says otherwise: no contact law here was made
+/// for more.
+inline constexpr double kMaxOverlapRatio = 0.2;
+
 /// One member: a canister (or any set of surfaces) and its powder.
 struct World {
     std::vector<geometry::Surface> surfaces;  ///< contact history is kept per (particle, surface)
@@ -28,14 +32,12 @@ struct World {
     double density = 0;   ///< of the particles [kg/m3]
     double timeStep = 0;  ///< [s]
     double skin = 0;      ///< extra reach of the neighbour list [m]
+    double maxOverlapRatio = kMaxOverlapRatio;
     Box domain;
     /// A particle whose centre passes throatZ is in the throat, past outletZ it is dosed. Infinite: no outlet.
     double throatZ = std::numeric_limits<double>::infinity();
     double outletZ = std::numeric_limits<double>::infinity();
 };
-
-/// Overlap above this fraction of the smaller radius stops the run: no contact law here covers it.
-inline constexpr double kMaxOverlapRatio = 0.2;
 
 /// Turns of the coil one sphere may touch at once: the slots a backend keeps contact history for.
 inline constexpr int kMaxCoilTouches = 4;

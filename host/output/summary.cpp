@@ -95,6 +95,8 @@ std::string summaryJson(const Case& c, const RunResult& r, const std::string& ba
     j["dosed_while_settling_kg"] = number(r.dosedWhileSettling);
     j["closed_form"] = closedForms(r.derived);
     j["ledger"] = ledger(r);
+    j["max_overlap_ratio"] = number(r.maxOverlapRatio);
+    j["max_overlap_time_s"] = number(r.maxOverlapTime);
     j["particle_steps"] = number(r.particleSteps);
     j["particle_steps_per_second"] = number(r.particleStepsPerSecond());
     j["stepping_wall_time_s"] = number(r.wallTime);

@@ -102,6 +102,10 @@ class Run {
 
     /// Joins the sensors of one call to those since the last sample.
     void gather(const Sensors& s, std::uint64_t n) {
+        if (s.maxOverlapRatio > result_.maxOverlapRatio) {
+            result_.maxOverlapRatio = s.maxOverlapRatio;
+            result_.maxOverlapTime = timeline_.time(step_);
+        }
         const double impulse = s.coilTorque * static_cast<double>(n);
         const double overlap = gathered_ > 0 ? std::max(now_.maxOverlapRatio, s.maxOverlapRatio) : s.maxOverlapRatio;
         now_ = s;

@@ -77,8 +77,10 @@ struct RunResult {
     StopReason reason = StopReason::Settled;
     std::string error;  ///< what stopped the run, for RunError and DeviceError
     Ledger ledger{0, 0};
-    Particles particles;    ///< end state; the inserted ones if the backend cannot give it any more
-    bool endState = false;  ///< true if `particles` is the end state
+    Particles particles;         ///< end state; the inserted ones if the backend cannot give it any more
+    bool endState = false;       ///< true if `particles` is the end state
+    double maxOverlapRatio = 0;  ///< largest overlap over smaller radius of the whole run
+    double maxOverlapTime = 0;   ///< when the call in which it occurred ended [s]
     double particleSteps = 0;
     double wallTime = 0;  ///< spent stepping [s]
 

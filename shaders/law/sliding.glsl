@@ -18,7 +18,7 @@ vec3 frictionForce(float k, float gamma, float limit, vec3 n, vec3 v, float dt, 
     float size = length(f);
     if (size > limit) {
         f *= limit / size;
-        spring = k > 0.0 ? -(f + gamma * v) / k : vec3(0.0);
+        spring = k > 0.0 && limit > 0.0 ? -(f + gamma * v) / k : vec3(0.0);
     }
     return f;
 }

@@ -66,8 +66,9 @@ Overlap tubeOverlap(SurfaceParams p, Sphere a) {
     float along = dot(axis, d.high) + dot(axis, d.low);
     d.low -= axis * dot(axis, d.low);
     d.high -= axis * dot(axis, d.high);
+    bool endless = p.axis.w > 1e29;
     float beyond = along < 0.0 ? along : max(along - p.axis.w, 0.0);
-    if (beyond != 0.0) return edgeOverlap(p.radius.xy, d, axis, beyond, a.radius);
+    if (beyond != 0.0 && !endless) return edgeOverlap(p.radius.xy, d, axis, beyond, a.radius);
     return cylinderOverlap(p.radius.xy, d, p.pointLow.w, a.radius);
 }
 

@@ -9,7 +9,7 @@ float torsionForce(float k, float gamma, float limit, float v, float dt, inout f
     float f = -k * spring - gamma * v;
     if (abs(f) > limit) {
         f = f > 0.0 ? limit : -limit;
-        spring = k > 0.0 ? -(f + gamma * v) / k : 0.0;
+        spring = k > 0.0 && limit > 0.0 ? -(f + gamma * v) / k : 0.0;
     }
     return f;
 }

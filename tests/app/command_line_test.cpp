@@ -24,7 +24,7 @@ const std::string kShort =
 
 /// The mini canister's first dose. With the Coulomb limit on |f_n| its coil does not jam, so that particles do come
 /// out.
-const std::string kQuickDose = kMini + "--set contact.coulomb_limit=absolute --set stop.max_doses=1 ";
+const std::string kQuickDose = kMini + "--set stop.max_doses=1 ";
 
 /// One sphere falls out of its domain, 10 cm deep, after 0.14 s.
 const std::string kFalls = R"(name = "falls"

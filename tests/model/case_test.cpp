@@ -91,7 +91,8 @@ TEST_CASE("the paper's case, value by value") {
     CHECK(c.world.law.of(ContactClass::ParticleCoil).mu == 0.2);
     CHECK(c.world.law.of(ContactClass::ParticleCoil).k2Max == 24067.0);
     for (const ContactParameters& q : c.settlingLaw.classes) CHECK(q.kc == Approx(0.3 * 24067).epsilon(1e-14));
-    CHECK(c.world.law.coulombLimit == CoulombLimit::Luding);
+    CHECK(c.world.law.coulombLimit == CoulombLimit::Absolute);
+    CHECK(c.world.maxOverlapRatio == 1);
     CHECK(c.world.law.rollingLever == RollingLever::Full);
     CHECK(c.world.density == 1427);
     CHECK(c.world.gravity == Vec3(0, -9.81, 0));
@@ -215,6 +216,13 @@ TEST_CASE("a base file is overridden key by key, faults name the file they stand
         CHECK(error.faults()[0].line == 16);
     }
     CHECK(std::filesystem::exists(middle));
+}
+
+TEST_CASE("the overlap that stops a run is the case's choice") {
+    const std::string file = std::string(VKDOSE_SOURCE_DIR) + "/cases/mini.toml";
+    CHECK(loadCase(file, {"contact.max_overlap_ratio=0.35"}).world.maxOverlapRatio == 0.35);
+    CHECK_THROWS_AS(loadCase(file, {"contact.max_overlap_ratio=0"}), CaseError);
+    CHECK_THROWS_AS(loadCase(file, {"contact.wall.max_overlap_ratio=0.3"}), CaseError);
 }
 
 TEST_CASE("settling adhesion: for every class without one of its own") {

@@ -43,6 +43,28 @@ TEST_CASE("two spheres in one place are reported") {
     requireRunError(emptyWorld(), p, 1, "overlap");
 }
 
+TEST_CASE("how deep an overlap may be is the world's choice") {
+    World w = emptyWorld();
+    w.timeStep = 1e-8;
+    Particles p;
+    p.add({0, 0, 0}, 1e-3);
+    p.add({1.7e-3, 0, 0}, 1e-3);
+    for (const double limit : {0.29, 0.31}) {
+        w.maxOverlapRatio = limit;
+        auto device = gpu();
+        auto reference = makeReferenceBackend();
+        device->load(w, p);
+        reference->load(w, p);
+        if (limit < 0.3) {
+            CHECK_THROWS_AS(device->advance(1, 0), RunError);
+            CHECK_THROWS_AS(reference->advance(1, 0), RunError);
+        } else {
+            CHECK(device->advance(1, 0).maxOverlapRatio == Approx(0.3).epsilon(1e-5));
+            CHECK(reference->advance(1, 0).maxOverlapRatio == Approx(0.3));
+        }
+    }
+}
+
 TEST_CASE("a full neighbour row is reported") {
     Particles p;
     p.add({0, 0, 0}, 1e-3);

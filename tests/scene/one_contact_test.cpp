@@ -100,6 +100,7 @@ TEST_CASE("a sphere meets every surface") {
         {"rim of the hole", front, {0, R, 0.06}, {0, s, s}},
         {"tube from inside", geometry::Tube{{0, 0, 0}, {0, 1, 0}, R, 0.05, true}, {R, 0.03, 0}, {1, 0, 0}},
         {"tube from outside", geometry::Tube{{0, 0, 0}, {s, s, 0}, R, 0.05, false}, {0.02, 0.02, R}, {0, 0, -1}},
+        {"endless tube behind its base", geometry::Tube{{0, 0, 0}, {0, 1, 0}, R}, {R, -0.03, 0}, {1, 0, 0}},
         {"edge of a tube", geometry::Tube{{0, 0, 0}, {0, 0, 1}, R, 0.05, true}, {R, 0, 0}, {s, 0, s}},
     };
     for (const Shot& shot : shots) {

@@ -143,11 +143,11 @@ void ReferenceBackend::settleStatus(std::size_t i) {
 
 void ReferenceBackend::refuseDeepOverlap() const {
     const Deepest& deepest = loads_.deepest;
-    if (deepest.ratio > kMaxOverlapRatio)
+    if (deepest.ratio > world_.maxOverlapRatio)
         throw RunError(
             fmt::format("{} overlap by {:.1f} % of the smaller radius in {}, more than the {:.0f} % a contact "
                         "law covers: use a smaller time step or stiffer contacts (k1, k2)",
-                        nameOf(deepest), 100 * deepest.ratio, when(), 100 * kMaxOverlapRatio));
+                        nameOf(deepest), 100 * deepest.ratio, when(), 100 * world_.maxOverlapRatio));
 }
 
 Sensors ReferenceBackend::sense() const {

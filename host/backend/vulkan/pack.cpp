@@ -140,7 +140,7 @@ gpu::Member packMember(const World& world, const Particles& particles) {
     m.domainLow = vec4(glm::vec3(world.domain.low), finite(world.throatZ));
     m.domainHigh = vec4(glm::vec3(world.domain.high), finite(world.outletZ));
     m.numerics =
-        vec4(float(world.timeStep), float(world.skin), float(2 * largest + world.skin), float(kMaxOverlapRatio));
+        vec4(float(world.timeStep), float(world.skin), float(2 * largest + world.skin), float(world.maxOverlapRatio));
     return m;
 }
 

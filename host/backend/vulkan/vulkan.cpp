@@ -162,9 +162,9 @@ void VulkanBackend::throwErrors(std::uint64_t firstStep) const {
         "has a position or velocity that is not a number: the time step is too large or two particles started in one "
         "place",
         "has more neighbours than a row holds: use a smaller skin or a narrower size distribution",
-        "is in an overlap above 20 % of the smaller radius, which the contact law does not cover: use a smaller time "
-        "step "
-        "or a stiffer k",
+        "is in an overlap deeper than the case allows (contact.max_overlap_ratio, of the smaller radius): use a "
+        "smaller "
+        "time step or a stiffer k; if it is pinched between coil and wall, allow more",
         "touches more turns of the coil than there are slots: use a larger pitch",
         "met the coil where the search for its closest point did not converge: report this case"};
     const gpu::Control control = passes_->control.readAll<gpu::Control>(1)[0];
