@@ -178,3 +178,26 @@ TEST_CASE("spheres pressed against the coil wherever it is") {
     }
     CHECK(most >= 2);  // two turns were touched at once somewhere
 }
+
+TEST_CASE("the comparison of two backends sees what it is there to see") {
+    Particles p = thrown({0.02, -0.01, 0.03}, {0, -1, 0}, single(1.25e-3), {0.1, 0, 0.05});
+    World w = emptyWorld();
+    w.surfaces = {geometry::Plane{{0, -0.01, 0}, {0, 1, 0}}};
+    const auto played = [](const World& world, const Particles& particles) {
+        auto backend = makeReferenceBackend();
+        backend->load(world, particles);
+        backend->advance(30, 0);
+        return backend;
+    };
+    const auto sound = played(w, p);
+    World other = w;
+    other.law.of(ContactClass::ParticleWall).mu *= 1.001;
+    CHECK(differences(*played(other, p), *sound, kSpeed).velocity > 1e-5);
+    other = w;
+    other.law.of(ContactClass::ParticleWall).muR *= 1.01;
+    CHECK(differences(*played(other, p), *sound, kSpeed).spin > 2e-5);
+    other = w;
+    other.surfaces.clear();
+    CHECK(differences(*played(other, p), *sound, kSpeed).unmatched == 1);
+    CHECK(differences(*played(w, p), *sound, std::nan("")).velocity == INFINITY);
+}
