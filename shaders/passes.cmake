@@ -3,7 +3,7 @@
 set(spirv_dir ${CMAKE_BINARY_DIR}/spirv)
 file(MAKE_DIRECTORY ${spirv_dir})
 file(GLOB shader_headers CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/shaders/shared/*.h ${CMAKE_SOURCE_DIR}/shaders/law/*.glsl
-                                           ${CMAKE_SOURCE_DIR}/shaders/shared/*.glsl)
+                                           ${CMAKE_SOURCE_DIR}/shaders/shared/*.glsl ${CMAKE_SOURCE_DIR}/shaders/pass/*.glsl)
 set(spirv_outputs)
 
 function(vkdose_compile source name)
