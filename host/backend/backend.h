@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "host/core/record.h"
 #include "host/model/particles.h"
 #include "host/model/world.h"
 
@@ -56,6 +57,14 @@ class Backend {
     /// Advance `steps` steps with the coil turning at `coilRate` [rad/s about +z]. Throws RunError on a lost particle,
     /// NaN, a full table or an overlap above the world's limit, naming the particle and the step.
     virtual Sensors advance(std::uint32_t steps, double coilRate) = 0;
+
+    /// Everything the next `advance` depends on, beside the world and the radii: restored, the run goes on with the same
+    /// bits as if it had not been interrupted. Take it between calls of `advance`.
+    virtual Record snapshot() const = 0;
+
+    /// Puts back what `snapshot` gave, on top of a `load` of the same world and radii (and a `setLaw` if there was one).
+    /// Throws RecordError if the record is not of this kind of backend or does not fit what was loaded.
+    virtual void restore(const Record& record) = 0;
 
     virtual Particles particles() const = 0;
     virtual std::vector<Contact> contacts() const = 0;

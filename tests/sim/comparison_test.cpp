@@ -26,6 +26,8 @@ class Wrong : public Backend {
         inner_->setLaw(w.law);
     }
     Sensors advance(std::uint32_t n, double rate) override { return inner_->advance(n, rate); }
+    Record snapshot() const override { return inner_->snapshot(); }
+    void restore(const Record& record) override { inner_->restore(record); }
     Particles particles() const override { return inner_->particles(); }
     std::vector<Contact> contacts() const override { return inner_->contacts(); }
     double coilAngle() const override { return inner_->coilAngle(); }

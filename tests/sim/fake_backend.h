@@ -59,6 +59,17 @@ class FakeBackend : public Backend {
         return s;
     }
 
+    Record snapshot() const override {
+        Record record;
+        record.putOne("step", step);
+        record.putOne("angle", angle_);
+        return record;
+    }
+    void restore(const Record& record) override {
+        step = record.one<std::uint64_t>("step");
+        angle_ = record.one<double>("angle");
+    }
+
     Particles particles() const override { return particles_; }
     std::vector<Contact> contacts() const override { return {}; }
     double coilAngle() const override { return angle_; }

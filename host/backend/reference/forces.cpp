@@ -152,4 +152,38 @@ std::vector<Contact> Forces::contacts() const {
     return list;
 }
 
+void Forces::save(Record& record) const {
+    const std::vector<Contact> list = contacts();
+    std::vector<std::uint32_t> ends;
+    std::vector<double> history, wireAngle;
+    for (const Contact& c : list) {
+        ends.insert(ends.end(), {static_cast<std::uint32_t>(c.kind), c.particle, c.other});
+        history.insert(history.end(), {c.maxOverlap, c.sliding.x, c.sliding.y, c.sliding.z, c.rolling.x, c.rolling.y,
+                                       c.rolling.z, c.torsion});
+        wireAngle.push_back(c.kind == ContactClass::ParticleCoil ? turns_[c.particle][c.other].wireAngle : 0);
+    }
+    record.put("contact_ends", std::move(ends));
+    record.put("contact_history", std::move(history));
+    record.put("contact_wire_angle", std::move(wireAngle));
+}
+
+void Forces::restore(const Record& record) {
+    const auto& wireAngle = record.get<double>("contact_wire_angle");
+    const auto& ends = record.get<std::uint32_t>("contact_ends", 3 * wireAngle.size());
+    const auto& h = record.get<double>("contact_history", 8 * wireAngle.size());
+    for (std::size_t c = 0; c < wireAngle.size(); ++c) {
+        const std::uint32_t kind = ends[3 * c], particle = ends[3 * c + 1], other = ends[3 * c + 2];
+        const double* v = &h[8 * c];
+        const History history{v[0], Vec3(v[1], v[2], v[3]), Vec3(v[4], v[5], v[6]), v[7]};
+        const bool coil = kind == static_cast<std::uint32_t>(ContactClass::ParticleCoil);
+        if (particle >= pairs_.size() || kind >= kContactClasses || (coil && other >= kMaxCoilTouches))
+            throw RecordError(fmt::format("contact {} is of a particle or turn that there is not", c));
+        // Saved in this order, so that every row is ascending again.
+        if (coil)
+            turns_[particle][other] = {true, wireAngle[c], history};
+        else
+            (kind == 0 ? pairs_ : surfaces_)[particle].push_back({other, history});
+    }
+}
+
 }  // namespace vkdose::reference

@@ -46,6 +46,11 @@ class Forces {
     /// Every contact touching at the last `evaluate`, by class, particle, other.
     std::vector<Contact> contacts() const;
 
+    /// The contacts for Backend::snapshot, and back. Call `restore` after `reset`; throws RecordError if an index does
+    /// not fit.
+    void save(Record& record) const;
+    void restore(const Record& record);
+
   private:
     struct Known {
         std::uint32_t other;  ///< the larger index of a pair, or the surface

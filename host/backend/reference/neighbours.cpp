@@ -66,9 +66,9 @@ class CellGrid {
 
 }  // namespace
 
-void Neighbours::reset(double skin) {
+void Neighbours::reset(double skin, std::uint64_t builds) {
     skin_ = skin;
-    builds_ = 0;
+    builds_ = builds;
     anchors_.clear();
     rows_.clear();
 }
@@ -78,7 +78,7 @@ void Neighbours::update(const Particles& particles) {
 }
 
 bool Neighbours::stale(const Particles& particles) const {
-    if (anchors_.size() != particles.size() || builds_ == 0) return true;
+    if (anchors_.size() != particles.size()) return true;
     const double allowed = skin_ / 2;
     for (std::size_t i = 0; i < particles.size(); ++i) {
         const Vec3 moved = particles.position[i] - anchors_[i];

@@ -10,8 +10,8 @@ namespace vkdose::reference {
 
 class Neighbours {
   public:
-    /// Forgets everything; the next `update` builds. `skin` [m].
-    void reset(double skin);
+    /// Forgets everything; the next `update` builds, and counts on from `builds`. `skin` [m].
+    void reset(double skin, std::uint64_t builds = 0);
 
     /// Rebuilds the list if a particle has moved more than half the skin since the last build (or never was built).
     void update(const Particles& particles);

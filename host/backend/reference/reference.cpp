@@ -55,6 +55,9 @@ class ReferenceBackend final : public Backend {
 
     Sensors advance(std::uint32_t steps, double coilRate) override;
 
+    Record snapshot() const override;
+    void restore(const Record& record) override;
+
     Particles particles() const override { return particles_; }
     std::vector<Contact> contacts() const override { return forces_.contacts(); }
     double coilAngle() const override { return angle_; }
@@ -83,6 +86,44 @@ class ReferenceBackend final : public Backend {
     double angle_ = 0;         ///< of the coil since load [rad]
     std::string lost_;         ///< the first loss of the step, as an error message
 };
+
+Record ReferenceBackend::snapshot() const {
+    const auto flat = [](const std::vector<Vec3>& vectors) {
+        std::vector<double> values;
+        for (const Vec3& v : vectors) values.insert(values.end(), {v.x, v.y, v.z});
+        return values;
+    };
+    std::vector<std::uint32_t> status;
+    for (const Status s : particles_.status) status.push_back(static_cast<std::uint32_t>(s));
+    Record record;
+    record.put("position", flat(particles_.position));
+    record.put("velocity", flat(particles_.velocity));
+    record.put("spin", flat(particles_.spin));
+    record.put("status", std::move(status));
+    record.putOne("steps", steps_);
+    record.putOne("coil_angle", angle_);
+    record.putOne("rebuilds", neighbours_.builds());
+    forces_.save(record);
+    return record;
+}
+
+void ReferenceBackend::restore(const Record& record) {
+    const std::size_t n = particles_.size();
+    const auto vectors = [&](const char* name, std::vector<Vec3>& to) {
+        const auto& values = record.get<double>(name, 3 * n);
+        for (std::size_t i = 0; i < n; ++i) to[i] = Vec3(values[3 * i], values[3 * i + 1], values[3 * i + 2]);
+    };
+    vectors("position", particles_.position);
+    vectors("velocity", particles_.velocity);
+    vectors("spin", particles_.spin);
+    const auto& status = record.get<std::uint32_t>("status", n);
+    for (std::size_t i = 0; i < n; ++i) particles_.status[i] = static_cast<Status>(status[i]);
+    steps_ = record.one<std::uint64_t>("steps");
+    angle_ = record.one<double>("coil_angle");
+    neighbours_.reset(world_.skin, record.one<std::uint64_t>("rebuilds"));
+    forces_.reset(n);
+    forces_.restore(record);
+}
 
 Sensors ReferenceBackend::advance(std::uint32_t steps, double coilRate) {
     double torque = 0, deepest = 0;

@@ -108,7 +108,9 @@ gpu::CoilParams packCoil(const geometry::Coil& c, double largest) {
     return p;
 }
 
-uint64_t turnsFixed(double angle) {
+}  // namespace
+
+std::uint64_t turnsFixed(double angle) {
     double turns = angle / (2 * kPi);
     turns -= std::floor(turns);
     // Two words, so that the double's 53 bits are kept and 1.0 never overflows the conversion.
@@ -116,8 +118,6 @@ uint64_t turnsFixed(double angle) {
     const double low = (turns * 4294967296.0 - high) * 4294967296.0;
     return (uint64_t(high) << 32) + uint64_t(low);
 }
-
-}  // namespace
 
 void packLaw(const ContactLaw& law, gpu::Member& member) {
     for (int i = 0; i < kContactClasses; ++i) member.contact[i] = packContact(law.classes[i]);
@@ -144,9 +144,8 @@ gpu::Member packMember(const World& world, const Particles& particles) {
     return m;
 }
 
-void packPhase(double startAngle, double anglePerStep, gpu::Member& member) {
-    const uint64_t start = turnsFixed(startAngle), step = turnsFixed(anglePerStep);
-    member.coil.phase = uvec4(uint32_t(start >> 32), uint32_t(start), uint32_t(step >> 32), uint32_t(step));
+void packPhase(uint64_t start, uint64_t perStep, gpu::Member& member) {
+    member.coil.phase = uvec4(uint32_t(start >> 32), uint32_t(start), uint32_t(perStep >> 32), uint32_t(perStep));
 }
 
 std::vector<gpu::vec4> packState(const Particles& p, std::size_t slots) {

@@ -1,6 +1,7 @@
 #pragma once
 // From the host's double-precision world to the device's layouts (shaders/shared/layout.h), and back.
 
+#include <cstdint>
 #include <vector>
 
 #include "host/model/particles.h"
@@ -15,8 +16,11 @@ gpu::Member packMember(const World& world, const Particles& particles);
 /// Replaces the contact law of a packed member.
 void packLaw(const ContactLaw& law, gpu::Member& member);
 
-/// Coil rotation as 64-bit fixed point [2^-64 turns]: phase at the start of a batch and advance per step.
-void packPhase(double startAngle, double anglePerStep, gpu::Member& member);
+/// An angle [rad] in 64-bit fixed point [2^-64 turns], whole turns dropped.
+std::uint64_t turnsFixed(double angle);
+
+/// Coil rotation [2^-64 turns]: phase at the start of a batch and advance per step, both modulo a turn.
+void packPhase(std::uint64_t start, std::uint64_t perStep, gpu::Member& member);
 
 /// One half of the state buffer: [field][slot], `slots` >= particles, the rest padding.
 std::vector<gpu::vec4> packState(const Particles& particles, std::size_t slots);

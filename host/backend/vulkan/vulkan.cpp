@@ -8,6 +8,7 @@
 
 #include "host/backend/vulkan/pack.h"
 #include "host/backend/vulkan/passes.h"
+#include "host/backend/vulkan/snapshot.h"
 
 namespace vkdose {
 
@@ -40,6 +41,8 @@ class VulkanBackend final : public Backend {
         world_.law = law;
     }
     Sensors advance(std::uint32_t steps, double coilRate) override;
+    Record snapshot() const override;
+    void restore(const Record& record) override;
     Particles particles() const override;
     std::vector<Contact> contacts() const override;
     double coilAngle() const override { return angle_; }
@@ -60,7 +63,8 @@ class VulkanBackend final : public Backend {
     gpu::Member member_{};
     std::uint32_t source_ = 0;  // half of the state that is current
     std::uint64_t step_ = 0;
-    double angle_ = 0;
+    double angle_ = 0;          // of the coil since load, for people
+    std::uint64_t turned_ = 0;  // the same for the device: exact, so that it matters not how steps are cut into batches
     std::uint32_t batch_ = 16;  // steps per submission, adapted to the device
 };
 
@@ -91,11 +95,32 @@ void VulkanBackend::load(const World& world, const Particles& particles) {
     source_ = 0;
     step_ = 0;
     angle_ = 0;
+    turned_ = 0;
+}
+
+Record VulkanBackend::snapshot() const {
+    Record record;
+    saveState(*passes_, loaded_.size(), source_, record);
+    record.putOne("steps", step_);
+    record.putOne("coil_angle", angle_);
+    record.putOne("coil_phase", turned_);
+    return record;
+}
+
+void VulkanBackend::restore(const Record& record) {
+    const auto steps = record.one<std::uint64_t>("steps");
+    const auto angle = record.one<double>("coil_angle");
+    const auto phase = record.one<std::uint64_t>("coil_phase");
+    restoreState(*passes_, loaded_.size(), record);
+    source_ = 0;
+    step_ = steps;
+    angle_ = angle;
+    turned_ = phase;
 }
 
 void VulkanBackend::runBatch(std::uint32_t count, double coilRate) {
-    const double perStep = coilRate * world_.timeStep;
-    packPhase(angle_ + (world_.coil ? world_.coil->startAngle : 0.0), perStep, member_);
+    const std::uint64_t perStep = turnsFixed(coilRate * world_.timeStep);
+    packPhase(turnsFixed(world_.coil ? world_.coil->startAngle : 0.0) + turned_, perStep, member_);
     member_.coil.motion.x = float(coilRate);
     passes_->members.write(0, &member_, sizeof member_);
     vk::Commands commands(device_);
@@ -104,7 +129,7 @@ void VulkanBackend::runBatch(std::uint32_t count, double coilRate) {
     commands.hostBarrier();
     commands.submit();
     source_ = (source_ + count) % 2;
-    angle_ += perStep * count;
+    turned_ += perStep * count;
     throwErrors(step_);
     step_ += count;
 }
@@ -114,11 +139,13 @@ Sensors VulkanBackend::advance(std::uint32_t steps, double coilRate) {
     // Long submissions starve the display and trip watchdogs, short ones waste time on the fence: aim between.
     constexpr double kShortest = 0.05, kLongest = 0.25;
     constexpr std::uint32_t kMostSteps = 4096;
+    const double angleBefore = angle_;
     for (std::uint32_t done = 0; done < steps;) {
-        const std::uint32_t count = std::min(batch_, steps - done);
+        const std::uint32_t count = std::min(options_.batch > 0 ? options_.batch : batch_, steps - done);
         const auto start = clock::now();
         runBatch(count, coilRate);
         done += count;
+        angle_ = angleBefore + coilRate * world_.timeStep * done;  // a product, so that rounding does not pile up
         const double seconds = std::chrono::duration<double>(clock::now() - start).count();
         if (count == batch_ && seconds < kShortest && batch_ < kMostSteps) batch_ *= 2;
         if (seconds > kLongest && batch_ > 1) batch_ /= 2;

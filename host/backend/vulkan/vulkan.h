@@ -14,6 +14,7 @@ struct VulkanOptions {
     /// buffers.
     enum class Reads { Automatic, Storage } reads = Reads::Automatic;
     std::uint32_t workgroup = 64;  ///< invocations; a power of two, at most 128
+    std::uint32_t batch = 0;       ///< steps per submission; 0: adapted to the device. Changes no bit of the result.
 };
 
 /// Throws DeviceError if there is no such device or it cannot compute.

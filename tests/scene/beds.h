@@ -1,0 +1,43 @@
+#pragma once
+// Particles in a canister, and equality to the last bit.
+
+#include <random>
+#include <vector>
+
+#include "tests/scene/agreement.h"
+
+namespace vkdose::test {
+
+/// `n` spheres of mixed sizes flying about: a bundle inside the coil, the rest on a grid above it.
+inline Particles thrownIn(std::size_t n) {
+    Particles p;
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> radius(0.625e-3, 1.875e-3), jitter(-5e-5, 5e-5), speed(-1, 1);
+    const auto add = [&](double x, double y, double z) {
+        if (p.size() < n)
+            p.add({x + jitter(random), y + jitter(random), z + jitter(random)}, single(radius(random)),
+                  {speed(random), speed(random) - 0.5, speed(random)});
+    };
+    for (int z = 0; z < 14; ++z)
+        for (const double x : {-0.002, 0.002})
+            for (const double y : {-0.002, 0.002}) add(x, y, 0.004 + 0.0039 * z);
+    for (int layer = 0; p.size() < n; ++layer)
+        for (int z = 0; z < 13; ++z)
+            for (int x = 0; x < 5; ++x) add(-0.0078 + 0.0039 * x, 0.0135 + 0.0039 * layer, 0.004 + 0.0041 * z);
+    return p;
+}
+
+inline bool sameBits(const Particles& a, const Particles& b) {
+    return a.position == b.position && a.velocity == b.velocity && a.spin == b.spin && a.status == b.status;
+}
+
+inline bool sameBits(const std::vector<Contact>& a, const std::vector<Contact>& b) {
+    if (a.size() != b.size()) return false;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        if (a[i].particle != b[i].particle || a[i].other != b[i].other || a[i].maxOverlap != b[i].maxOverlap ||
+            a[i].sliding != b[i].sliding || a[i].rolling != b[i].rolling || a[i].torsion != b[i].torsion)
+            return false;
+    return true;
+}
+
+}  // namespace vkdose::test

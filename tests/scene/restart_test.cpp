@@ -1,0 +1,99 @@
+// A snapshot carries everything: a backend that restores it goes on with the same bits as the one it was taken from.
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "tests/scene/beds.h"
+
+using namespace vkdose;
+using namespace vkdose::test;
+
+namespace {
+
+constexpr double kRate = -2 * kPi * 1.5 * 1.0000001;  // no round number of 2^-64 turns a step
+
+std::unique_ptr<Backend> made(bool reference, VulkanOptions options = {}) {
+    return reference ? makeReferenceBackend() : gpu(options);
+}
+
+std::size_t coilContacts(const Backend& backend) {
+    const auto contacts = backend.contacts();
+    return std::size_t(std::count_if(contacts.begin(), contacts.end(),
+                                     [](const Contact& c) { return c.kind == ContactClass::ParticleCoil; }));
+}
+
+void restartAgrees(bool reference) {
+    World w = canisterWorld();
+    w.maxOverlapRatio = 1;
+    const Particles p = thrownIn(203);
+    const auto whole = made(reference);
+    whole->load(w, p);
+    whole->advance(4001, 0);
+    w.law = paperLaw(0.87);
+    whole->setLaw(w.law);
+    whole->advance(3000, kRate);
+    const Record taken = whole->snapshot();
+    CHECK(taken == whole->snapshot());
+    CHECK(coilContacts(*whole) > 3);
+    CHECK(whole->contacts().size() > 100);
+
+    const auto second = made(reference);
+    second->load(w, p);
+    second->advance(17, 3.0);  // traces of another life must not survive
+    second->load(w, p);
+    second->restore(taken);
+    CHECK(sameBits(second->particles(), whole->particles()));
+    CHECK(second->coilAngle() == whole->coilAngle());
+    for (int call = 0; call < 3; ++call) {
+        const Sensors a = whole->advance(1501, kRate), b = second->advance(1501, kRate);
+        CHECK(a.coilTorque == b.coilTorque);
+        CHECK(a.kineticEnergy == b.kineticEnergy);
+        CHECK(a.maxOverlapRatio == b.maxOverlapRatio);
+        CHECK(a.count == b.count);
+        CHECK(sameBits(whole->particles(), second->particles()));
+        CHECK(sameBits(whole->contacts(), second->contacts()));
+        CHECK(whole->coilAngle() == second->coilAngle());
+    }
+    if (!reference) requireClean(*second);
+}
+
+}  // namespace
+
+TEST_CASE("vulkan: restored and uninterrupted are the same bits") {
+    restartAgrees(false);
+}
+
+TEST_CASE("reference: restored and uninterrupted are the same bits") {
+    restartAgrees(true);
+}
+
+TEST_CASE("a snapshot that does not fit is refused") {
+    const bool reference = GENERATE(false, true);
+    const auto backend = made(reference), other = made(!reference);
+    backend->load(canisterWorld(), thrownIn(20));
+    other->load(canisterWorld(), thrownIn(20));
+    CHECK_THROWS_AS(backend->restore(Record()), RecordError);
+    CHECK_THROWS_AS(backend->restore(other->snapshot()), RecordError);
+    const Record taken = backend->snapshot();
+    backend->load(canisterWorld(), thrownIn(21));
+    CHECK_THROWS_AS(backend->restore(taken), RecordError);
+}
+
+TEST_CASE("the bits do not depend on how many steps a submission holds") {
+    World w = canisterWorld();
+    w.maxOverlapRatio = 1;
+    const Particles p = thrownIn(67);
+    const auto play = [&](std::uint32_t batch) {
+        VulkanOptions options;
+        options.batch = batch;
+        auto backend = gpu(options);
+        backend->load(w, p);
+        for (int call = 0; call < 4; ++call) backend->advance(1999, kRate);
+        return backend;
+    };
+    const auto one = play(1999), many = play(13);
+    CHECK(coilContacts(*one) > 3);
+    CHECK(sameBits(one->particles(), many->particles()));
+    CHECK(sameBits(one->contacts(), many->contacts()));
+    CHECK(one->snapshot() == many->snapshot());
+    CHECK(one->coilAngle() == many->coilAngle());
+}
