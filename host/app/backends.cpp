@@ -21,6 +21,15 @@ std::unique_ptr<Backend> makeBackend(const BackendChoice& choice) {
     return makeVulkanBackend(device);
 }
 
+BackendChoice sameBackend(const std::string& description, const BackendChoice& choice) {
+    const std::string vulkan = "vulkan: ";
+    BackendChoice same = choice;
+    const bool onDevice = description.rfind(vulkan, 0) == 0;
+    same.backend = onDevice ? "vulkan" : "reference";
+    if (onDevice && same.device.empty()) same.device = description.substr(vulkan.size());
+    return same;
+}
+
 bool validationClean(const BackendChoice& choice, const Backend& backend) {
     if (!choice.validation) return true;
     const ValidationReport report = validationReport(backend);

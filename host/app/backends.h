@@ -23,6 +23,9 @@ struct BackendChoice {
 /// Throws UsageError if a device is asked for on the reference backend, DeviceError if there is none.
 std::unique_ptr<Backend> makeBackend(const BackendChoice& choice);
 
+/// The backend and device a description (Backend::description) stands for; `device` of `choice` wins, if given.
+BackendChoice sameBackend(const std::string& description, const BackendChoice& choice);
+
 /// Prints on stderr what the Vulkan validation layer found, if it was asked for; false if it found something or is
 /// not installed.
 bool validationClean(const BackendChoice& choice, const Backend& backend);

@@ -46,6 +46,13 @@ void addRun(CLI::App& program, RunOptions& options) {
     addBackend(command, options.backend);
 }
 
+void addResume(CLI::App& program, ResumeOptions& options) {
+    CLI::App& command = *program.add_subcommand("resume", "go on with an interrupted run from its checkpoint");
+    command.add_option("dir", options.folder, "output folder of the run")->required()->type_name("DIR");
+    command.add_flag("--quiet", options.quiet, "print errors only");
+    addDevice(command, options.backend);
+}
+
 void addCheck(CLI::App& program, CheckOptions& options) {
     CLI::App& command = *program.add_subcommand("check", "validate a case; print time scales, predictions, run time");
     addCase(command, options.input);
@@ -78,6 +85,12 @@ int guarded(const std::function<int()>& command) {
     } catch (const FolderError& e) {
         say(e.what());
         return kBadInput;
+    } catch (const CheckpointError& e) {
+        say(e.what());
+        return kBadInput;
+    } catch (const OutputError& e) {
+        say(e.what());
+        return kOutputError;
     } catch (const UsageError& e) {
         say(e.what());
         return kBadInput;
@@ -99,9 +112,11 @@ int commandLine(int argc, const char* const* argv) {
     CLI::App program("Simulates the dosing of cohesive powder by a turning coil (discrete element method).", "vkdose");
     program.require_subcommand(1);
     RunOptions run;
+    ResumeOptions resume;
     CheckOptions check;
     CompareOptions compare;
     addRun(program, run);
+    addResume(program, resume);
     addCheck(program, check);
     program.add_subcommand("devices", "list the Vulkan devices");
     addCompare(program, compare);
@@ -114,6 +129,7 @@ int commandLine(int argc, const char* const* argv) {
         return kBadInput;
     }
     if (program.got_subcommand("run")) return guarded([&] { return runCommand(run); });
+    if (program.got_subcommand("resume")) return guarded([&] { return resumeCommand(resume); });
     if (program.got_subcommand("check")) return guarded([&] { return checkCommand(check); });
     if (program.got_subcommand("compare")) return guarded([&] { return compareCommand(compare); });
     return guarded([] { return devicesCommand(); });

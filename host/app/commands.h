@@ -23,6 +23,12 @@ struct RunOptions {
     bool quiet = false;
 };
 
+struct ResumeOptions {
+    std::filesystem::path folder;
+    BackendChoice backend;  ///< its backend is the checkpoint's
+    bool quiet = false;
+};
+
 struct CheckOptions {
     CaseOptions input;
     BackendChoice backend;
@@ -38,6 +44,7 @@ struct CompareOptions {
 };
 
 int runCommand(const RunOptions& options);
+int resumeCommand(const ResumeOptions& options);
 int checkCommand(const CheckOptions& options);
 int devicesCommand();
 int compareCommand(const CompareOptions& options);

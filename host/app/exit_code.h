@@ -9,6 +9,7 @@ enum ExitCode {
     kBadInput = 2,       ///< bad case or usage; nothing was written
     kRunError = 3,       ///< the run could not go on
     kDeviceError = 4,    ///< no usable device, or the device failed
+    kOutputError = 5,    ///< a result could not be written
     kInterrupted = 130,  ///< Ctrl-C; what was computed is kept
 };
 

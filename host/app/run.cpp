@@ -24,6 +24,8 @@ class Fanout : public RunObserver {
         folder_.onDose(d);
         if (display_) display_->onDose(d);
     }
+    void onCheckpoint(const RunCheckpoint& c, double time) override { folder_.onCheckpoint(c, time); }
+    bool storesCheckpoints() const override { return folder_.storesCheckpoints(); }
 
   private:
     RunObserver& folder_;
@@ -38,9 +40,47 @@ int exitCode(StopReason reason) {
             return kRunError;
         case StopReason::DeviceError:
             return kDeviceError;
+        case StopReason::OutputError:
+            return kOutputError;
         default:
             return kOk;
     }
+}
+
+/// How to go on with a run that ended before it was over.
+std::string wayOn(const RunFolder& folder) {
+    if (!folder.checkpointTime()) return "no checkpoint had been written; start again";
+    return fmt::format("go on from t = {:.6g} s with `vkdose resume {}`", *folder.checkpointTime(),
+                       folder.path().string());
+}
+
+/// Runs, from the start or from a checkpoint, and tells how it ended.
+int play(const Case& c, Insertion filled, Backend& backend, const BackendChoice& choice, RunFolder& folder, bool quiet,
+         const RunCheckpoint* from = nullptr) {
+    Derived derived = derive(c, filled);
+    const std::atomic<bool>& stop = watchInterrupts();
+    ProgressDisplay display;
+    if (!quiet) {
+        fmt::print("{}: {} particles, {:.3f} g, on {}\n", c.name, filled.particles.size(), filled.mass * 1e3,
+                   backend.description());
+        std::fflush(stdout);
+    }
+    Fanout observers(folder, quiet ? nullptr : &display);
+    const RunResult result = runFilled(c, std::move(filled), std::move(derived), backend, observers, stop, from);
+    display.close();
+
+    if (result.reason == StopReason::OutputError) {
+        fmt::print(stderr, "vkdose: {}; make room, then {}\n", result.error, wayOn(folder));
+        return kOutputError;
+    }
+    if (!result.error.empty()) fmt::print(stderr, "vkdose: {}\n", result.error);
+    folder.finish(c, result);
+    if (!quiet) {
+        fmt::print("{}output   {}\n", reportText(c, result, backend.description()), folder.path().string());
+        if (result.reason == StopReason::Interrupted) fmt::print("resume   {}\n", wayOn(folder));
+    }
+    const bool clean = validationClean(choice, backend);
+    return result.error.empty() && !clean ? kDeviceError : exitCode(result.reason);
 }
 
 }  // namespace
@@ -48,30 +88,33 @@ int exitCode(StopReason reason) {
 int runCommand(const RunOptions& options) {
     // Everything that can be refused is refused before the folder is touched.
     const Case c = loadCase(options.input.file, options.input.overrides);
-    Insertion filled = insertParticles(c);
-    Derived derived = derive(c, filled);
     (void)Timeline(c);
     const std::unique_ptr<Backend> backend = makeBackend(options.backend);
-    RunFolder folder(options.out.empty() ? std::filesystem::path("out") / c.name : options.out, options.force, c);
+    RunFolder folder(options.out.empty() ? std::filesystem::path("out") / c.name : options.out, options.force, c,
+                     backend->description());
+    return play(c, insertParticles(c), *backend, options.backend, folder, options.quiet);
+}
 
-    const std::atomic<bool>& stop = watchInterrupts();
-    ProgressDisplay display;
-    if (!options.quiet) {
-        fmt::print("{}: {} particles, {:.3f} g, on {}\n", c.name, filled.particles.size(), filled.mass * 1e3,
-                   backend->description());
-        std::fflush(stdout);
+int resumeCommand(const ResumeOptions& options) {
+    const std::filesystem::path file = options.folder / kCheckpointName;
+    if (!std::filesystem::exists(file) && std::filesystem::exists(options.folder / "summary.json"))
+        throw CheckpointError(
+            fmt::format("the run in {} is over; there is nothing to resume", options.folder.string()));
+    const Checkpoint from = readCheckpoint(file);
+    const Case c = loadResolvedCase(from.caseText, options.folder / "case.toml");
+    const BackendChoice choice = sameBackend(from.backend, options.backend);
+    const std::unique_ptr<Backend> backend = makeBackend(choice);
+    if (backend->description() != from.backend || from.program != VKDOSE_VERSION)
+        fmt::print(stderr,
+                   "vkdose: the checkpoint was written by vkdose {} on {}; going on with {} on {} is not bound to give "
+                   "the same bits\n",
+                   from.program, from.backend, VKDOSE_VERSION, backend->description());
+    RunFolder folder(options.folder, from, c, backend->description());
+    try {
+        return play(c, insertParticles(c), *backend, choice, folder, options.quiet, &from.run);
+    } catch (const RecordError& e) {
+        throw CheckpointError(fmt::format("{} cannot be used: {}", file.string(), e.what()));
     }
-    Fanout observers(folder, options.quiet ? nullptr : &display);
-    const RunResult result = runFilled(c, std::move(filled), std::move(derived), *backend, observers, stop);
-    display.close();
-
-    if (!result.error.empty()) fmt::print(stderr, "vkdose: {}\n", result.error);
-    folder.finish(c, result, backend->description());
-    if (!options.quiet) {
-        fmt::print("{}output   {}\n", reportText(c, result, backend->description()), folder.path().string());
-    }
-    const bool clean = validationClean(options.backend, *backend);
-    return result.error.empty() && !clean ? kDeviceError : exitCode(result.reason);
 }
 
 }  // namespace vkdose

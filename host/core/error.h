@@ -38,6 +38,11 @@ class RunError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// A result cannot be written: a full disk, a folder that is gone.
+class OutputError : public std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
 /// The Vulkan loader, driver or device refused.
 class DeviceError : public std::runtime_error {
     using std::runtime_error::runtime_error;

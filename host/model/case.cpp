@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "host/model/case_reader.h"
 #include "host/model/case_sections.h"
@@ -72,11 +73,7 @@ Box defaultDomain(const Case& c, const SizeRange& sizes, const Insertion& filled
     return {box.low - margin, box.high + margin};
 }
 
-}  // namespace
-
-Case loadCase(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
-    Node tree = readTree(file);
-    merge(tree, overrideTree(overrides));
+Case interpret(const std::filesystem::path& file, Node tree) {
     CaseReader reader(file.string(), std::move(tree));
     Section& root = reader.root();
     Case c;
@@ -113,6 +110,18 @@ Case loadCase(const std::filesystem::path& file, const std::vector<std::string>&
     reader.throwIfFaulty();
     c.resolved = reader.resolved();
     return c;
+}
+
+}  // namespace
+
+Case loadCase(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+    Node tree = readTree(file);
+    merge(tree, overrideTree(overrides));
+    return interpret(file, std::move(tree));
+}
+
+Case loadResolvedCase(const std::string& text, const std::filesystem::path& file) {
+    return interpret(file, readTreeText(text, file.string()));
 }
 
 }  // namespace vkdose

@@ -63,6 +63,12 @@ struct Canister {
     bool flatFloor = false;
 };
 
+/// How often a run stores what it needs to go on after an interruption; 0: not by this clock.
+struct CheckpointInterval {
+    double wall = 300;     ///< of wall time [s]
+    double simulated = 0;  ///< of simulated time [s]
+};
+
 struct Case {
     std::string name;
     std::string reason;
@@ -73,12 +79,16 @@ struct Case {
     Filling filling;
     Schedule schedule;
     double sensorInterval = 0;  ///< [s], a whole number of steps after loading
+    CheckpointInterval checkpoint;
     double bulkDensity = 471;   ///< rho_b for the closed form [kg/m3]
     std::string resolved;       ///< the case as TOML with every default and --set applied
 };
 
 /// Reads, resolves `overrides` ("key.path=value"), checks. Throws CaseError with every fault found.
 Case loadCase(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
+
+/// The same for the text of a resolved case (`Case::resolved`), as if it stood in `file`.
+Case loadResolvedCase(const std::string& text, const std::filesystem::path& file);
 
 /// Draws (or copies) the particles of a case: sizes from the distribution until the target mass is met as closely as
 /// one particle allows, positions on a grid above the coil without overlap. Same case, same particles.

@@ -245,6 +245,13 @@ Node readTree(const std::filesystem::path& file) {
     return readWithBase(file, {"", 0, "", "", "", "give the path of a case file"}, above);
 }
 
+Node readTreeText(const std::string& text, const std::string& name) {
+    Node tree = parseText(text, name);
+    if (const Node* base = tree.child("base"))
+        throw CaseError({{name, base->line, "base", base->text, "there is no base here", "give the resolved case"}});
+    return tree;
+}
+
 Node overrideTree(const std::vector<std::string>& overrides) {
     Node all;
     all.file = kCommandLine;

@@ -36,6 +36,9 @@ struct Node {
 /// read or is not TOML, and when bases form a circle.
 Node readTree(const std::filesystem::path& file);
 
+/// The same for a text; `name` stands for the file in messages. Throws CaseError when it is not TOML or has a base.
+Node readTreeText(const std::string& text, const std::string& name);
+
 /// The overrides "key.path=value" as one tree. A value that is not TOML but a bare word is a string.
 /// Throws CaseError naming every override that cannot be read.
 Node overrideTree(const std::vector<std::string>& overrides);

@@ -16,7 +16,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array kFiles{"case.toml", "timeseries.csv", "doses.csv", "particles.csv", "summary.json"};
+constexpr std::array kFiles{"case.toml",     "timeseries.csv", "doses.csv",
+                            "particles.csv", "summary.json",   kCheckpointName};
 
 constexpr const char* kTimeSeriesHeader =
     "time_s,phase,dose,coil_angle_rad,dosed_mass_kg,canister_mass_kg,throat_mass_kg,lost_mass_kg,"
@@ -29,6 +30,16 @@ constexpr const char* kDosesHeader =
 constexpr const char* kParticlesHeader =
     "id,x_m,y_m,z_m,vx_m_s,vy_m_s,vz_m_s,wx_rad_s,wy_rad_s,wz_rad_s,radius_m,status";
 
+[[noreturn]] void busy(const fs::path& folder) {
+    throw FolderError(fmt::format("another vkdose is writing into {}; wait for it or stop it", folder.string()));
+}
+
+void refuseBusy(const fs::path& folder) {
+    std::error_code error;
+    const fs::path file = folder / "timeseries.csv";
+    if (fs::exists(file, error) && !CsvFile(file, fs::file_size(file, error)).lock()) busy(folder);
+}
+
 void prepareFolder(const fs::path& folder, bool force) {
     std::error_code error;
     if (fs::exists(folder, error) && !fs::is_directory(folder, error)) {
@@ -36,22 +47,20 @@ void prepareFolder(const fs::path& folder, bool force) {
     }
     if (fs::is_directory(folder, error) && !fs::is_empty(folder, error) && !force) {
         const bool former = fs::exists(folder / "summary.json") || fs::exists(folder / "case.toml");
-        throw FolderError(fmt::format("{} {}; choose another folder with --out, or --force to {}", folder.string(),
-                                      former ? "holds a former run" : "is not empty",
+        const bool unfinished = fs::exists(folder / kCheckpointName);
+        throw FolderError(fmt::format("{} {}; {}choose another folder with --out, or --force to {}", folder.string(),
+                                      unfinished ? "holds an unfinished run"
+                                      : former   ? "holds a former run"
+                                                 : "is not empty",
+                                      unfinished ? fmt::format("go on with `vkdose resume {}`, ", folder.string()) : "",
                                       former ? "replace that run" : "write into it"));
     }
+    refuseBusy(folder);
     fs::create_directories(folder, error);
     if (error) throw FolderError(fmt::format("cannot create {}: {}", folder.string(), error.message()));
     // A stale summary beside a new time series would lie if this run is killed.
     for (const char* name : kFiles) fs::remove(folder / name, error);
     if (error) throw FolderError(fmt::format("cannot write in {}: {}", folder.string(), error.message()));
-}
-
-void writeText(const fs::path& file, const std::string& text) {
-    std::ofstream stream(file);
-    stream << text;
-    stream.flush();
-    if (!stream) throw RunError(fmt::format("cannot write {}: is the disk full or the folder gone?", file.string()));
 }
 
 double mass(const Sensors& s, Region r) {
@@ -63,15 +72,29 @@ std::uint64_t count(const Sensors& s, Region r) {
 
 }  // namespace
 
-RunFolder::RunFolder(fs::path folder, bool force, const Case& c) : folder_(std::move(folder)) {
-    prepareFolder(folder_, force);
+RunFolder::RunFolder(fs::path folder, bool force, const Case& c, std::string backend)
+    : folder_(std::move(folder)), backend_(std::move(backend)), caseText_(c.resolved) {
     try {
-        writeText(folder_ / "case.toml", c.resolved);
+        prepareFolder(folder_, force);
+        replaceFile(folder_ / "case.toml", c.resolved);
         timeSeries_.emplace(folder_ / "timeseries.csv", kTimeSeriesHeader);
         doses_.emplace(folder_ / "doses.csv", kDosesHeader);
-    } catch (const RunError& e) {
+    } catch (const OutputError& e) {
         throw FolderError(e.what());
     }
+    if (!timeSeries_->lock()) busy(folder_);
+}
+
+RunFolder::RunFolder(fs::path folder, const Checkpoint& from, const Case& c, std::string backend)
+    : folder_(std::move(folder)), backend_(std::move(backend)), caseText_(c.resolved), checkpointTime_(from.time) {
+    try {
+        refuseBusy(folder_);
+        timeSeries_.emplace(folder_ / "timeseries.csv", from.timeSeriesBytes);
+        doses_.emplace(folder_ / "doses.csv", from.dosesBytes);
+    } catch (const OutputError& e) {
+        throw FolderError(e.what());
+    }
+    if (!timeSeries_->lock()) busy(folder_);
 }
 
 void RunFolder::onSample(const Sample& s) {
@@ -91,9 +114,21 @@ void RunFolder::onDose(const Dose& d) {
     doses_->flush();
 }
 
-void RunFolder::finish(const Case& c, const RunResult& result, const std::string& backend) {
+void RunFolder::onCheckpoint(const RunCheckpoint& checkpoint, double time) {
+    // The lines first, then the checkpoint that counts on them.
+    const std::uint64_t timeSeriesBytes = timeSeries_->store(), dosesBytes = doses_->store();
+    writeCheckpoint(folder_ / kCheckpointName,
+                    {VKDOSE_VERSION, backend_, caseText_, time, checkpoint, timeSeriesBytes, dosesBytes});
+    checkpointTime_ = time;
+}
+
+void RunFolder::finish(const Case& c, const RunResult& result) {
     if (result.endState) writeParticles(folder_ / "particles.csv", result.particles);
-    writeText(folder_ / "summary.json", summaryJson(c, result, backend) + "\n");
+    replaceFile(folder_ / "summary.json", summaryJson(c, result, backend_) + "\n");
+    if (result.reason == StopReason::Interrupted || !result.error.empty()) return;
+    std::error_code ignored;
+    fs::remove(folder_ / kCheckpointName, ignored);
+    checkpointTime_.reset();
 }
 
 void writeParticles(const fs::path& file, const Particles& p) {

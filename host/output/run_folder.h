@@ -1,12 +1,13 @@
 #pragma once
-// The output folder of a run: case.toml, timeseries.csv and doses.csv as they come, particles.csv and summary.json at
-// the end.
+// The output folder of a run: case.toml, timeseries.csv and doses.csv as they come, checkpoint.h5 while it lasts,
+// particles.csv and summary.json at the end.
 
 #include <filesystem>
 #include <optional>
 #include <stdexcept>
 #include <string>
 
+#include "host/output/checkpoint.h"
 #include "host/output/csv.h"
 #include "host/sim/runner.h"
 
@@ -20,25 +21,39 @@ class FolderError : public std::runtime_error {
 class RunFolder : public RunObserver {
   public:
     /// Creates the folder and the files that stream. Throws FolderError if it holds anything and `force` is not set,
-    /// or if it cannot be created. With `force` the files of a former run in it are removed, others left alone.
-    RunFolder(std::filesystem::path folder, bool force, const Case& c);
+    /// if another process is writing into it, or if it cannot be created. With `force` the files of a former run in it
+    /// are removed, others left alone. `backend` is the description of what computes.
+    RunFolder(std::filesystem::path folder, bool force, const Case& c, std::string backend);
+
+    /// Goes on in a folder as it was when `from` was written: lines that came later are cut off. Throws FolderError if
+    /// another process is writing into it, or if a file has been shortened since.
+    RunFolder(std::filesystem::path folder, const Checkpoint& from, const Case& c, std::string backend);
 
     void onSample(const Sample& sample) override;
     void onDose(const Dose& dose) override;
+    void onCheckpoint(const RunCheckpoint& checkpoint, double time) override;
+    bool storesCheckpoints() const override { return true; }
 
-    /// Writes the end state and the summary. Throws RunError if they cannot be written.
-    void finish(const Case& c, const RunResult& result, const std::string& backend);
+    /// Writes the end state and the summary. A run that is over needs no checkpoint any more: it is removed. Throws
+    /// OutputError if something cannot be written.
+    void finish(const Case& c, const RunResult& result);
 
     const std::filesystem::path& path() const { return folder_; }
 
+    /// Simulated time of the checkpoint in the folder [s]; none if there is none.
+    std::optional<double> checkpointTime() const { return checkpointTime_; }
+
   private:
     std::filesystem::path folder_;
+    std::string backend_;
+    std::string caseText_;
     std::optional<CsvFile> timeSeries_;
     std::optional<CsvFile> doses_;
+    std::optional<double> checkpointTime_;
 };
 
 /// particles.csv: id, position [m], velocity [m/s], spin [rad/s], radius [m] and status of every particle, with enough
-/// digits to read the same numbers back. Throws RunError if it cannot be written.
+/// digits to read the same numbers back. Throws OutputError if it cannot be written.
 void writeParticles(const std::filesystem::path& file, const Particles& particles);
 
 /// "active", "dosed" or "lost".

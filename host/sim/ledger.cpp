@@ -49,4 +49,16 @@ void Ledger::close(const Sensors& sensors, double time) {
     ++closings_;
 }
 
+void Ledger::save(Record& record) const {
+    record.putOne("ledger_worst", worst_);
+    record.put("ledger_counts", std::vector<std::uint64_t>{closings_, dosedBefore_});
+}
+
+void Ledger::restore(const Record& record) {
+    worst_ = record.one<double>("ledger_worst");
+    const auto& counts = record.get<std::uint64_t>("ledger_counts", 2);
+    closings_ = counts[0];
+    dosedBefore_ = counts[1];
+}
+
 }  // namespace vkdose

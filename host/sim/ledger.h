@@ -20,6 +20,9 @@ class Ledger {
     /// mass is not a number or negative, or if fewer particles are dosed than before.
     void close(const Sensors& sensors, double time);
 
+    void save(Record& record) const;
+    void restore(const Record& record);
+
     std::uint64_t filledCount() const { return count_; }
     double filledMass() const { return mass_; }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "host/core/error.h"
+#include "host/sim/run_record.h"
 
 namespace vkdose {
 
@@ -41,29 +42,110 @@ class Run {
         active_ = result_.particles.size();
     }
 
-    RunResult play() {
+    RunResult play(const RunCheckpoint* from) {
         try {
-            load();
-            result_.reason = steps();
-        } catch (const RunError& e) {
-            fail(StopReason::RunError, e.what());
-        } catch (const DeviceError& e) {
-            fail(StopReason::DeviceError, e.what());
+            playThrough(from);
+        } catch (const OutputError& e) {
+            result_.reason = StopReason::OutputError;
+            result_.error = e.what();
         }
         result_.statistics = statistics(result_.doses);
         return std::move(result_);
     }
 
   private:
+    void playThrough(const RunCheckpoint* from) {
+        try {
+            load();
+            if (from != nullptr) goOn(*from);
+            checkpointed_ = Clock::now();
+            checkpointTime_ = timeline_.time(step_);
+            result_.reason = steps();
+        } catch (const RunError& e) {
+            fail(StopReason::RunError, e.what());
+        } catch (const DeviceError& e) {
+            fail(StopReason::DeviceError, e.what());
+        }
+    }
+
     void load() {
         World world = case_.world;
         world.law = case_.settlingLaw;
         backend_.load(world, result_.particles);
     }
 
+    /// Goes on where the run was when `from` was taken.
+    void goOn(const RunCheckpoint& from) {
+        restore(from.run);
+        if (dosing_) backend_.setLaw(case_.world.law);
+        backend_.restore(from.backend);
+    }
+
+    Record save() const {
+        Record r;
+        r.put("progress", std::vector<std::uint64_t>{step_, active_, dosing_ ? 1U : 0U, gathered_, doseSteps_});
+        r.put("sums", std::vector<double>{impulse_, doseImpulse_, result_.dosedWhileSettling, result_.maxOverlapRatio,
+                                          result_.maxOverlapTime, result_.particleSteps, result_.wallTime});
+        put(r, "now", now_);
+        put(r, "dose", std::vector<Dose>{dose_});
+        put(r, "dosed_before", dosedBefore_);
+        put(r, "doses", result_.doses);
+        put(r, "last", result_.last);
+        r.put("radius", result_.filled.particles.radius);
+        result_.ledger.save(r);
+        judge_.save(r);
+        return r;
+    }
+
+    void restore(const Record& r) {
+        if (r.get<double>("radius") != result_.filled.particles.radius)
+            throw RecordError("its particles are not those of its case: a list that has changed, or another version");
+        const auto& progress = r.get<std::uint64_t>("progress", 5);
+        step_ = progress[0];
+        active_ = progress[1];
+        dosing_ = progress[2] != 0;
+        gathered_ = progress[3];
+        doseSteps_ = progress[4];
+        const auto& sums = r.get<double>("sums", 7);
+        impulse_ = sums[0];
+        doseImpulse_ = sums[1];
+        result_.dosedWhileSettling = sums[2];
+        result_.maxOverlapRatio = sums[3];
+        result_.maxOverlapTime = sums[4];
+        result_.particleSteps = sums[5];
+        result_.wallTime = sums[6];
+        get(r, "now", now_);
+        std::vector<Dose> underWay;
+        get(r, "dose", underWay);
+        dose_ = underWay.at(0);
+        get(r, "dosed_before", dosedBefore_);
+        get(r, "doses", result_.doses);
+        get(r, "last", result_.last);
+        result_.ledger.restore(r);
+        judge_.restore(r);
+        if (!timeline_.over(step_)) stretch_ = timeline_.at(step_);
+    }
+
+    void checkpoint() {
+        if (!observer_.storesCheckpoints()) return;
+        checkpointTime_ = timeline_.time(step_);
+        observer_.onCheckpoint({save(), backend_.snapshot()}, checkpointTime_);
+        checkpointed_ = Clock::now();
+    }
+
+    bool checkpointDue() const {
+        const CheckpointInterval& every = case_.checkpoint;
+        const double wall = std::chrono::duration<double>(Clock::now() - checkpointed_).count();
+        const double time = timeline_.time(step_);
+        return (every.wall > 0 && wall >= every.wall) ||
+               (every.simulated > 0 &&
+                std::floor(time / every.simulated) > std::floor(checkpointTime_ / every.simulated));
+    }
+
     StopReason steps() {
         while (!timeline_.over(step_)) {
             if (stop_) {
+                checkpoint();
                 sample();
                 if (dose_.index > 0) closeDose(false);
                 keepEndState();
@@ -78,6 +160,7 @@ class Run {
                 keepEndState();
                 return judge_.reason();
             }
+            if (checkpointDue()) checkpoint();
         }
         if (dose_.index > 0) closeDose(false);
         keepEndState();
@@ -252,6 +335,9 @@ class Run {
     Sensors dosedBefore_;  ///< at its start
     double doseImpulse_ = 0;
     std::uint64_t doseSteps_ = 0;
+
+    Clock::time_point checkpointed_;  ///< last checkpoint, or start of the run
+    double checkpointTime_ = 0;       ///< the same in simulated time [s]
 };
 
 }  // namespace
@@ -275,8 +361,8 @@ DoseStatistics statistics(const std::vector<Dose>& doses) {
 }
 
 RunResult runFilled(const Case& c, Insertion filled, Derived derived, Backend& backend, RunObserver& observer,
-                    const std::atomic<bool>& stop) {
-    return Run(c, std::move(filled), std::move(derived), backend, observer, stop).play();
+                    const std::atomic<bool>& stop, const RunCheckpoint* from) {
+    return Run(c, std::move(filled), std::move(derived), backend, observer, stop).play(from);
 }
 
 RunResult runCase(const Case& c, Backend& backend, RunObserver& observer, const std::atomic<bool>& stop) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/backend/backend.h"
+#include "host/core/record.h"
 #include "host/model/case.h"
 #include "host/sim/ledger.h"
 #include "host/sim/stop_rule.h"
@@ -59,12 +60,22 @@ struct Progress {
     bool phaseEnd = false;
 };
 
+/// What a run can go on from: the runner's own state and the backend's snapshot.
+struct RunCheckpoint {
+    Record run;
+    Record backend;
+};
+
+/// Told as a run goes on. What it throws ends the run; an OutputError says that a result could not be stored.
 class RunObserver {
   public:
     virtual ~RunObserver() = default;
     virtual void onProgress(const Progress&) {}
     virtual void onSample(const Sample&) {}
     virtual void onDose(const Dose&) {}
+    /// At the intervals of the case and when the run is interrupted, if `storesCheckpoints`.
+    virtual void onCheckpoint(const RunCheckpoint&, double time) { (void)time; }
+    virtual bool storesCheckpoints() const { return false; }
 };
 
 struct RunResult {
@@ -75,7 +86,7 @@ struct RunResult {
     double dosedWhileSettling = 0;  ///< [kg]
     Sample last;                    ///< the last sample; step 0 if there was none
     StopReason reason = StopReason::Settled;
-    std::string error;  ///< what stopped the run, for RunError and DeviceError
+    std::string error;  ///< what stopped the run, for RunError, DeviceError and OutputError
     Ledger ledger{0, 0};
     Particles particles;         ///< end state; the inserted ones if the backend cannot give it any more
     bool endState = false;       ///< true if `particles` is the end state
@@ -88,10 +99,11 @@ struct RunResult {
 };
 
 /// Runs `c` with the particles in `filled`. Setting `stop` ends the run at the next opportunity, keeping everything
-/// computed until then. Errors of the run or the device after loading began end it likewise: `reason` and `error`
-/// tell. Throws CaseError if the schedule makes no sense.
+/// computed until then. Errors of the run, the device or the output after loading began end it likewise: `reason` and
+/// `error` tell. With `from`, goes on where that checkpoint of the same case was taken, as if never interrupted.
+/// Throws CaseError if the schedule makes no sense and RecordError if the checkpoint does not fit.
 RunResult runFilled(const Case& c, Insertion filled, Derived derived, Backend& backend, RunObserver& observer,
-                    const std::atomic<bool>& stop);
+                    const std::atomic<bool>& stop, const RunCheckpoint* from = nullptr);
 
 /// The same, inserting the particles first.
 RunResult runCase(const Case& c, Backend& backend, RunObserver& observer, const std::atomic<bool>& stop);

@@ -26,6 +26,8 @@ std::string stopKeyword(StopReason reason) {
             return "run_error";
         case StopReason::DeviceError:
             return "device_error";
+        case StopReason::OutputError:
+            return "output_error";
     }
     return "unknown";
 }
@@ -51,8 +53,21 @@ std::string stopSentence(StopReason reason, const StopRule& rule) {
             return "stopped by an error; everything computed until then is kept";
         case StopReason::DeviceError:
             return "stopped by the device; everything computed until then is kept";
+        case StopReason::OutputError:
+            return "stopped because a result could not be written";
     }
     return "unknown";
+}
+
+void DoseJudge::save(Record& record) const {
+    record.put("judge_recent", std::vector<double>(recent_.begin(), recent_.end()));
+    record.putOne("judge_doses", static_cast<std::uint64_t>(doses_));
+}
+
+void DoseJudge::restore(const Record& record) {
+    const auto& recent = record.get<double>("judge_recent");
+    recent_.assign(recent.begin(), recent.end());
+    doses_ = static_cast<int>(record.one<std::uint64_t>("judge_doses"));
 }
 
 bool DoseJudge::over(double mass, std::uint64_t particles, std::uint64_t left) {

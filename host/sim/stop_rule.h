@@ -5,6 +5,7 @@
 #include <deque>
 #include <string>
 
+#include "host/core/record.h"
 #include "host/model/case.h"
 
 namespace vkdose {
@@ -20,6 +21,7 @@ enum class StopReason {
     Interrupted,  ///< by the user
     RunError,
     DeviceError,
+    OutputError,
 };
 
 /// One word for files: "experiment_rule", "empty", ...
@@ -42,6 +44,9 @@ class DoseJudge {
     bool over(double mass, std::uint64_t particles, std::uint64_t left);
 
     StopReason reason() const { return reason_; }
+
+    void save(Record& record) const;
+    void restore(const Record& record);
 
   private:
     StopRule rule_;

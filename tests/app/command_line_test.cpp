@@ -59,7 +59,8 @@ TEST_CASE("help and usage") {
     const Sandbox box;
     const auto help = box.vkdose("--help");
     CHECK(help.code == 0);
-    for (const char* word : {"run", "check", "devices", "compare"}) CHECK_THAT(help.out, Catch::Contains(word));
+    for (const char* word : {"run", "resume", "check", "devices", "compare"})
+        CHECK_THAT(help.out, Catch::Contains(word));
     CHECK(box.vkdose("run --help").code == 0);
     for (const char* bad : {"", "fly", "run", "run x.toml --backend cuda", "run x.toml --nonsense",
                             "compare x.toml --steps 5 --time 1", "compare x.toml --steps 0"}) {
@@ -212,14 +213,9 @@ TEST_CASE("a particle that leaves the domain is a run error that keeps what was 
 
 TEST_CASE("Ctrl-C ends a run with what was computed") {
     const Sandbox box;
-    const std::string out = (box / "out").string();
-    const pid_t child = fork();
-    REQUIRE(child >= 0);
-    if (child == 0) {
-        execl(VKDOSE_BINARY_DIR "/vkdose", "vkdose", "run", VKDOSE_SOURCE_DIR "/cases/mini.toml", "--backend",
-              "reference", "--quiet", "--set", "settle.time_s=1000", "--out", out.c_str(), static_cast<char*>(nullptr));
-        _exit(127);
-    }
+    const pid_t child = box.start({"run", VKDOSE_SOURCE_DIR "/cases/mini.toml", "--backend", "reference", "--quiet",
+                                   "--set", "settle.time_s=1000", "--out", "out"});
+    REQUIRE(child > 0);
     int status = 0;
     bool ended = false;
     while (!ended && readCsv(box / "out/timeseries.csv").size() < 2) {

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -64,9 +65,12 @@ class Sandbox {
     };
 
     /// Runs the program in the sandbox with these arguments (shell syntax).
-    Outcome vkdose(const std::string& arguments) const {
-        const std::string command = "cd '" + path_.string() + "' && '" VKDOSE_BINARY_DIR "/vkdose' " + arguments +
-                                    " > stdout.txt 2> stderr.txt < /dev/null";
+    Outcome vkdose(const std::string& arguments) const { return vkdose("", arguments); }
+
+    /// The same after the shell commands `before`, e.g. "export X=1;".
+    Outcome vkdose(const std::string& before, const std::string& arguments) const {
+        const std::string command = "cd '" + path_.string() + "' && { " + before + " '" VKDOSE_BINARY_DIR "/vkdose' " +
+                                    arguments + "; } > stdout.txt 2> stderr.txt < /dev/null";
         const int status = std::system(command.c_str());
         return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, readText(path_ / "stdout.txt"),
                 readText(path_ / "stderr.txt")};
@@ -80,6 +84,21 @@ class Sandbox {
             if (name != "stdout.txt" && name != "stderr.txt") names.push_back(name);
         }
         return names;
+    }
+
+    /// Starts the program in the sandbox without waiting for it, its output thrown away. Returns its process.
+    pid_t start(const std::vector<std::string>& arguments) const {
+        const pid_t child = fork();
+        if (child != 0) return child;
+        std::vector<std::string> words{VKDOSE_BINARY_DIR "/vkdose"};
+        words.insert(words.end(), arguments.begin(), arguments.end());
+        std::vector<char*> argv;
+        for (std::string& word : words) argv.push_back(word.data());
+        argv.push_back(nullptr);
+        const bool ready = chdir(path_.c_str()) == 0 && std::freopen("/dev/null", "w", stdout) != nullptr &&
+                           std::freopen("/dev/null", "w", stderr) != nullptr;
+        if (ready) execv(argv[0], argv.data());
+        _exit(127);
     }
 
   private:

@@ -1,0 +1,95 @@
+#include "host/output/checkpoint.h"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+#include "host/output/csv.h"
+#include "host/output/hdf5.h"
+
+namespace vkdose {
+
+namespace {
+
+constexpr std::size_t kUserBlock = 512;
+constexpr std::string_view kMagic = "vkdose checkpoint";
+constexpr int kVersion = 1;
+
+/// FNV-1a, 64 bits: it has to catch accidents, not forgers.
+std::uint64_t checksum(std::string_view bytes) {
+    std::uint64_t hash = 0xcbf29ce484222325;
+    for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3;
+    return hash;
+}
+
+std::string head(std::string_view body) {
+    std::string block =
+        fmt::format("{}\nversion {}\nbytes {}\nchecksum {:016x}\n", kMagic, kVersion, body.size(), checksum(body));
+    block.resize(kUserBlock, '\0');
+    return block;
+}
+
+/// The HDF5 part of a checkpoint, once its head has been believed.
+std::string_view body(const std::string& bytes, const std::string& name) {
+    const auto refuse = [&](const std::string& why) { throw CheckpointError(fmt::format("{} {}", name, why)); };
+    if (bytes.compare(0, kMagic.size(), kMagic) != 0) refuse("is not a checkpoint of vkdose");
+    if (bytes.size() < kUserBlock) refuse("is cut off");
+    int version = 0;
+    unsigned long long size = 0;
+    const std::string text(bytes.data() + kMagic.size(), kUserBlock - kMagic.size());
+    if (std::sscanf(text.c_str(), "\nversion %d\nbytes %llu\n", &version, &size) != 2) refuse("has a damaged head");
+    if (version != kVersion)
+        refuse(fmt::format("has format version {}; this vkdose reads version {}", version, kVersion));
+    const std::string_view rest = std::string_view(bytes).substr(kUserBlock);
+    if (rest.size() < size) refuse(fmt::format("is cut off: {} of {} bytes are there", rest.size(), size));
+    if (std::string_view(bytes).substr(0, kUserBlock) != head(rest)) refuse("is damaged: its checksum does not fit");
+    return rest;
+}
+
+}  // namespace
+
+void writeCheckpoint(const std::filesystem::path& file, const Checkpoint& c) {
+    hdf5::Writer writer;
+    writer.text("/program", c.program);
+    writer.text("/backend", c.backend);
+    writer.text("/case", c.caseText);
+    writer.record("/run", c.run.run);
+    writer.record("/state", c.run.backend);
+    Record when;
+    when.putOne("time", c.time);
+    when.putOne("timeseries", c.timeSeriesBytes);
+    when.putOne("doses", c.dosesBytes);
+    writer.record("/when", when);
+    const std::string image = writer.image();
+    replaceFile(file, head(image) + image);
+}
+
+Checkpoint readCheckpoint(const std::filesystem::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream) throw CheckpointError(fmt::format("there is no checkpoint {}", file.string()));
+    std::ostringstream content;
+    content << stream.rdbuf();
+    const std::string bytes = content.str();
+    const std::string_view rest = body(bytes, file.string());
+    try {
+        const hdf5::Reader reader{std::string(rest)};
+        Checkpoint c;
+        c.program = reader.text("/program");
+        c.backend = reader.text("/backend");
+        c.caseText = reader.text("/case");
+        c.run = {reader.record("/run"), reader.record("/state")};
+        const Record when = reader.record("/when");
+        c.time = when.one<double>("time");
+        c.timeSeriesBytes = when.one<std::uint64_t>("timeseries");
+        c.dosesBytes = when.one<std::uint64_t>("doses");
+        return c;
+    } catch (const hdf5::Error& e) {
+        throw CheckpointError(fmt::format("{} cannot be read: {}", file.string(), e.what()));
+    } catch (const RecordError& e) {
+        throw CheckpointError(fmt::format("{} cannot be used: {}", file.string(), e.what()));
+    }
+}
+
+}  // namespace vkdose

@@ -1,0 +1,43 @@
+#pragma once
+// The checkpoint file: an HDF5 file whose user block (its first 512 bytes, in plain text) names format, version, length
+// and checksum, so that a foreign, cut or damaged one is refused before anything in it is believed.
+//
+//   /program /backend /case           texts: version of vkdose, description of the backend, the resolved case
+//   /run/*                            the runner's state          (RunCheckpoint::run)
+//   /state/*                          the backend's snapshot      (RunCheckpoint::backend)
+//   /when/time                        simulated time [s]
+//   /when/timeseries, /when/doses     bytes of the CSV files at that time
+
+#include <cstdint>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+
+#include "host/sim/runner.h"
+
+namespace vkdose {
+
+inline constexpr const char* kCheckpointName = "checkpoint.h5";
+
+/// The checkpoint cannot be used: there is none, it is cut, damaged, of another format or does not fit.
+class CheckpointError : public std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+struct Checkpoint {
+    std::string program;  ///< version of the vkdose that wrote it
+    std::string backend;  ///< "reference", or "vulkan: device"
+    std::string caseText;
+    double time = 0;  ///< simulated [s]
+    RunCheckpoint run;
+    std::uint64_t timeSeriesBytes = 0;
+    std::uint64_t dosesBytes = 0;
+};
+
+/// Replaces `file` in one move. Throws OutputError if it cannot be written; the checkpoint before is then still there.
+void writeCheckpoint(const std::filesystem::path& file, const Checkpoint& checkpoint);
+
+/// Throws CheckpointError, which names the file and what is wrong with it.
+Checkpoint readCheckpoint(const std::filesystem::path& file);
+
+}  // namespace vkdose

@@ -1,0 +1,248 @@
+// An interrupted run goes on as if nothing had happened, whatever interrupted it.
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <catch2/catch.hpp>
+#include <csignal>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <thread>
+
+#include "host/output/checkpoint.h"
+#include "tests/app/sandbox.h"
+
+using namespace vkdose;
+using namespace vkdose::test;
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::vector<std::string> kDoses{VKDOSE_SOURCE_DIR "/cases/mini.toml",
+                                      "--quiet",
+                                      "--set",
+                                      "settle.time_s=0.03",
+                                      "--set",
+                                      "dose.rotate_s=0.08",
+                                      "--set",
+                                      "dose.rest_s=0.01",
+                                      "--set",
+                                      "stop.max_doses=2",
+                                      "--set",
+                                      "checkpoint.time_s=0.006"};
+
+std::string words(const std::vector<std::string>& list) {
+    std::string text;
+    for (const std::string& word : list) text += "'" + word + "' ";
+    return text;
+}
+
+std::vector<std::string> joined(std::vector<std::string> a, const std::vector<std::string>& b) {
+    a.insert(a.end(), b.begin(), b.end());
+    return a;
+}
+
+/// The summary without what depends on the clock.
+nlohmann::json timeless(const fs::path& file) {
+    auto summary = nlohmann::json::parse(readText(file));
+    summary.erase("particle_steps_per_second");
+    summary.erase("stepping_wall_time_s");
+    return summary;
+}
+
+void checkSame(const fs::path& a, const fs::path& b) {
+    for (const char* name : {"case.toml", "timeseries.csv", "doses.csv", "particles.csv"}) {
+        CAPTURE(name);
+        CHECK(!readText(a / name).empty());
+        CHECK(readText(a / name) == readText(b / name));
+    }
+    CHECK(timeless(a / "summary.json") == timeless(b / "summary.json"));
+    CHECK_FALSE(fs::exists(b / kCheckpointName));
+}
+
+/// Tells one checkpoint from the next: file number and time of writing [ns]; zeros while there is none.
+std::array<std::int64_t, 2> identity(const fs::path& file) {
+    struct stat info {};
+    if (stat(file.c_str(), &info) != 0) return {};
+    return {std::int64_t(info.st_ino), std::int64_t(info.st_mtim.tv_sec) * 1000000000 + info.st_mtim.tv_nsec};
+}
+
+/// Lets a child write `checkpoints` checkpoints, counts to `spins`, then ends it with `signal`. Its exit status.
+int endAfter(pid_t child, const fs::path& file, int checkpoints, int spins, int signal) {
+    int status = 0;
+    auto last = identity(file);
+    while (checkpoints > 0) {
+        if (waitpid(child, &status, WNOHANG) == child) return status;
+        const auto now = identity(file);
+        if (now[0] != 0 && now != last) {
+            last = now;
+            --checkpoints;
+        }
+        std::this_thread::yield();
+    }
+    for (int i = 0; i < spins; ++i) std::atomic_signal_fence(std::memory_order_seq_cst);  // kept by the compiler
+    kill(child, signal);
+    waitpid(child, &status, 0);
+    return status;
+}
+
+/// A finished checkpoint of a run of a few hundred steps, to be spoilt.
+fs::path interrupted(const Sandbox& box) {
+    const pid_t child = box.start(joined({"run", "--backend", "reference", "--out", "out"}, kDoses));
+    endAfter(child, box / "out" / kCheckpointName, 2, 0, SIGKILL);
+    return box / "out" / kCheckpointName;
+}
+
+}  // namespace
+
+TEST_CASE("killed again and again at random moments, a run ends with the same bits") {
+    const std::string backend = GENERATE(std::string("reference"), std::string("vulkan"));
+    const Sandbox box;
+    REQUIRE(box.vkdose("run " + words(kDoses) + "--out whole --backend " + backend).code == 0);
+
+    std::mt19937 random(3);
+    const fs::path file = box / "cut" / kCheckpointName;
+    pid_t child = box.start(joined({"run", "--backend", backend, "--out", "cut"}, kDoses));
+    int kills = 0;
+    for (;;) {
+        const int status = endAfter(child, file, 1 + int(random() % 8), int(random() % 5000000), SIGKILL);
+        if (WIFEXITED(status)) {
+            CHECK(WEXITSTATUS(status) == 0);
+            break;
+        }
+        ++kills;
+        child = box.start({"resume", "--quiet", "cut"});
+    }
+    CAPTURE(backend);
+    CHECK(kills >= 3);
+    checkSame(box / "whole", box / "cut");
+}
+
+TEST_CASE("after Ctrl-C a run can be resumed, to the same bits") {
+    const Sandbox box;
+    REQUIRE(box.vkdose("run " + words(kDoses) + "--out whole --backend reference").code == 0);
+    const pid_t child = box.start(joined({"run", "--backend", "reference", "--out", "cut"}, kDoses));
+    const int status = endAfter(child, box / "cut" / kCheckpointName, 20, 0, SIGINT);
+    REQUIRE(WEXITSTATUS(status) == 130);
+    const auto early = box.vkdose("run " + words(kDoses) + "--out cut --backend reference");
+    CHECK(early.code == 2);
+    CHECK_THAT(early.err, Catch::Contains("vkdose resume cut"));
+    const auto on = box.vkdose("resume cut");
+    CAPTURE(on.err);
+    CHECK(on.code == 0);
+    checkSame(box / "whole", box / "cut");
+    const auto over = box.vkdose("resume cut");
+    CHECK(over.code == 2);
+    CHECK_THAT(over.err, Catch::Contains("over"));
+}
+
+TEST_CASE("the bits do not depend on the number of driver threads") {
+    const Sandbox box;
+    for (const std::string threads : {"0", "1", "3"}) {
+        const auto o =
+            box.vkdose("export LP_NUM_THREADS=" + threads + ";", "run " + words(kDoses) + "--out " + threads);
+        CAPTURE(o.err);
+        REQUIRE(o.code == 0);
+    }
+    checkSame(box / "0", box / "1");
+    checkSame(box / "0", box / "3");
+}
+
+TEST_CASE("a full disk ends the run with a message and leaves the last good checkpoint") {
+    const Sandbox box;
+    // The limit on the size of a file stands in for the end of the disk: enough for checkpoints, not for the series.
+    const std::string many = "--set sensors.interval_s=0.0001 --backend reference ";
+    REQUIRE(box.vkdose("run " + words(kDoses) + many + "--out whole").code == 0);
+    const auto series = fs::file_size(box / "whole/timeseries.csv");
+    REQUIRE(series > 150 * 1024);
+    const auto full = box.vkdose("ulimit -f 240;", "run " + words(kDoses) + many + "--out cut");  // 120 KiB
+    CAPTURE(full.err);
+    CHECK(full.code == 5);
+    CHECK_THAT(full.err, Catch::Contains("timeseries.csv: File too large") && Catch::Contains("vkdose resume cut"));
+    const auto on = box.vkdose("resume cut");
+    CAPTURE(on.err);
+    CHECK(on.code == 0);
+    checkSame(box / "whole", box / "cut");
+
+    const auto none = box.vkdose("ulimit -f 20;", "run " + words(kDoses) + "--backend reference --out none");
+    CHECK(none.code == 5);
+    CHECK_THAT(none.err, Catch::Contains("checkpoint.h5: File too large") && Catch::Contains("no checkpoint"));
+    CHECK(fs::exists(box / "none/timeseries.csv"));
+    CHECK_FALSE(fs::exists(box / "none/checkpoint.h5.new"));
+}
+
+TEST_CASE("a checkpoint that cannot be used is refused by name") {
+    const Sandbox box;
+    const fs::path file = interrupted(box);
+    const std::string good = readText(file);
+    const auto refused = [&](const std::string& content, const std::string& why) {
+        box.write("out/checkpoint.h5", content);
+        const auto o = box.vkdose("resume out");
+        CAPTURE(o.err);
+        CHECK(o.code == 2);
+        CHECK_THAT(o.err, Catch::Contains("out/checkpoint.h5") && Catch::Contains(why));
+    };
+    refused("", "not a checkpoint of vkdose");
+    refused("name = \"mini\"\n", "not a checkpoint of vkdose");
+    refused(good.substr(512), "not a checkpoint of vkdose");
+    refused(good.substr(0, good.size() / 2), "cut off");
+    refused(good + "x", "damaged");
+    std::string later = good;
+    later.replace(good.find("version 1"), 9, "version 7");
+    refused(later, "format version 7");
+    const auto missing = box.vkdose("resume nowhere");
+    CHECK(missing.code == 2);
+    CHECK_THAT(missing.err, Catch::Contains("nowhere/checkpoint.h5"));
+
+    box.write("out/checkpoint.h5", good);
+    box.write("out/timeseries.csv", "time_s\n");
+    const auto shorter = box.vkdose("resume out");
+    CHECK(shorter.code == 2);
+    CHECK_THAT(shorter.err, Catch::Contains("timeseries.csv"));
+}
+
+TEST_CASE("no cut and no flipped bit of a checkpoint goes unnoticed") {
+    const Sandbox box;
+    const fs::path file = interrupted(box);
+    REQUIRE_NOTHROW(readCheckpoint(file));
+    const std::string good = readText(file);
+    std::mt19937 random(8);
+    for (int i = 0; i < 150; ++i) {
+        const std::size_t length = random() % good.size();
+        box.write("out/checkpoint.h5", good.substr(0, length));
+        CAPTURE(length);
+        CHECK_THROWS_AS(readCheckpoint(file), CheckpointError);
+    }
+    // Behind the text of the head its block is empty: what stands there is nobody's.
+    const std::size_t text = good.find('\0');
+    for (int i = 0; i < 150; ++i) {
+        std::size_t at = random() % good.size();
+        if (i % 3 == 0) at = random() % text;
+        if (at >= text && at < 512) continue;
+        std::string bad = good;
+        bad[at] = char(bad[at] ^ (1 << random() % 8));
+        box.write("out/checkpoint.h5", bad);
+        CAPTURE(at);
+        CHECK_THROWS_AS(readCheckpoint(file), CheckpointError);
+    }
+}
+
+TEST_CASE("two runs do not write into one folder") {
+    const Sandbox box;
+    const pid_t child =
+        box.start(joined({"run", "--backend", "reference", "--out", "out", "--set", "settle.time_s=1000"}, kDoses));
+    int status = 0;
+    while (identity(box / "out" / kCheckpointName)[0] == 0 && waitpid(child, &status, WNOHANG) == 0)
+        std::this_thread::yield();
+    for (const std::string& command : {std::string("resume out"), "run --force --out out " + words(kDoses)}) {
+        const auto o = box.vkdose(command);
+        CAPTURE(o.err);
+        CHECK(o.code == 2);
+        CHECK_THAT(o.err, Catch::Contains("another vkdose is writing into out"));
+    }
+    kill(child, SIGKILL);
+    waitpid(child, &status, 0);
+}
