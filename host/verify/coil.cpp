@@ -113,11 +113,11 @@ void pushedAlongTrough(Bench& bench) {
     const geometry::Coil coil = narrowCoil();
     const double slope = 20 * kPi / 180, rate = geometry::conveyingRate(coil, 4 * kPi);
     for (const double mu : {0.0, 0.3}) {
-        ContactParameters p = spring(500, 0.1);
+        ContactParameters p = spring(200, 0.05);
         p.mu = mu;
-        p.kt = 150;
+        p.kt = 60;
         p.gammaT = 0.003;
-        World world = space(p, 4e-5);
+        World world = space(p, 8e-5);
         world.gravity = kGravity * Vec3(0, -std::cos(slope), -std::sin(slope));
         world.coil = coil;
         world.surfaces = {geometry::Trough{kTrough}};

@@ -226,8 +226,8 @@ double partingFromNeck(Bench& bench, double ratio, double timeStep) {
 // "Verification".
 void neck(Bench& bench) {
     const std::vector<double> ratios{1, 3, 5};
-    const std::vector<Descent> coarse = descend(bench, ratios, kStart, 2e-6);
-    const std::vector<Descent> fine = descend(bench, ratios, kStart, 0.5e-6);
+    const std::vector<Descent> coarse = descend(bench, ratios, kStart, 4e-6);
+    const std::vector<Descent> fine = descend(bench, ratios, kStart, 1e-6);
     for (std::size_t i = 0; i < ratios.size(); ++i) {
         bench.check(fmt::format("speed over that of rolling, ratio {}", ratios[i]), "-", 1, coarse[i].speedRatio,
                     {2e-4, "stretch of the springs"});
