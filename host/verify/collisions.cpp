@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "host/verify/cases.h"
 #include "host/verify/setups.h"
 
@@ -53,7 +55,27 @@ struct HeadOn {
         const double chi = kc / kK1;
         return (1 + 1 / chi) / (kK2Max / kK1 - 1) * limit * std::sqrt(kK1 / reducedMass);
     }
+
+    /// Overlaps between which a pair that sticks swings for good, [m]. It turns back on the adhesive branch at `low`,
+    /// where the energy is used up, and from then on moves on the unloading line through that point: delta_max has
+    /// shrunk until k2 (delta - delta_0) = -k_c delta there, with k2 - k1 = slope delta_max.
+    struct Swing {
+        double low, high, remembered;
+    };
+    Swing swing(double speed) const {
+        const double slope = (kK2Max - kK1) / limit, deepest = speed * std::sqrt(reducedMass / kK1);
+        const double k2 = kK1 + slope * deepest, rest = (1 - kK1 / k2) * deepest, meets = k2 * rest / (k2 + kc);
+        const double left = kK1 * deepest * deepest * kK1 / k2 - k2 * (rest - meets) * (rest - meets);
+        const double low = std::sqrt(meets * meets - left / kc);
+        const double remembered = (low + std::sqrt(low * low + 4 * low * (kK1 + kc) / slope)) / 2;
+        const double middle = (1 - kK1 / (kK1 + slope * remembered)) * remembered;
+        return {low, 2 * middle - low, remembered};
+    }
 };
+
+double overlapOf(const Particles& p, std::size_t pair) {
+    return 2 * kRadius - glm::length(p.position[2 * pair + 1] - p.position[2 * pair]);
+}
 
 }  // namespace
 
@@ -75,6 +97,21 @@ void headOnAdhesive(Bench& bench) {
     for (std::size_t i = rebounding; i < speeds.size(); ++i)
         bench.check(fmt::format("sticks at {:.4f} m/s, {:.2f} of the limit", speeds[i], speeds[i] / sticks), "-",
                     speeds[i] > sticks ? 1 : 0, stuck[i], {0, "it does or it does not", 1});
+
+    const std::size_t last = speeds.size() - 1;
+    double low = kRadius, high = 0;
+    while (trial.time() < 6e-4) {
+        trial.advance(10);
+        low = std::min(low, overlapOf(trial.now(), last));
+        high = std::max(high, overlapOf(trial.now(), last));
+    }
+    const HeadOn::Swing swing = law.swing(speeds[last]);
+    const Tolerance tolerance{3e-4, "looked at every microsecond, in units of the swing", swing.high - swing.low};
+    bench.check("least overlap of the stuck pair", "m", swing.low, low, tolerance);
+    bench.check("largest overlap of the stuck pair", "m", swing.high, high, tolerance);
+    for (const Contact& c : trial.contacts())
+        if (c.particle == 2 * last)
+            bench.check("delta_max it remembers", "m", swing.remembered, c.maxOverlap, {1e-4, "time step"});
 }
 
 // With damping there is no closed form. The figures are those of the MercuryDPM kernel, another program (the same law,
