@@ -74,6 +74,15 @@ void addCompare(CLI::App& program, CompareOptions& options) {
     addDevice(command, options.backend);
 }
 
+void addVerify(CLI::App& program, VerifyOptions& options) {
+    CLI::App& command = *program.add_subcommand("verify", "run small cases with known answers and judge the results");
+    addBackend(command, options.backend);
+    command.add_option("--out", options.out, "folder for verify.md and verify.json")
+        ->type_name("DIR")
+        ->capture_default_str();
+    command.add_option("--only", options.only, "play the cases with this in their name")->type_name("NAME");
+}
+
 /// Runs `command`; every error becomes lines on stderr and an exit code.
 int guarded(const std::function<int()>& command) {
     const auto say = [](const char* what) { fmt::print(stderr, "vkdose: {}\n", what); };
@@ -115,11 +124,13 @@ int commandLine(int argc, const char* const* argv) {
     ResumeOptions resume;
     CheckOptions check;
     CompareOptions compare;
+    VerifyOptions verification;
     addRun(program, run);
     addResume(program, resume);
     addCheck(program, check);
     program.add_subcommand("devices", "list the Vulkan devices");
     addCompare(program, compare);
+    addVerify(program, verification);
     try {
         program.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
@@ -132,6 +143,7 @@ int commandLine(int argc, const char* const* argv) {
     if (program.got_subcommand("resume")) return guarded([&] { return resumeCommand(resume); });
     if (program.got_subcommand("check")) return guarded([&] { return checkCommand(check); });
     if (program.got_subcommand("compare")) return guarded([&] { return compareCommand(compare); });
+    if (program.got_subcommand("verify")) return guarded([&] { return verifyCommand(verification); });
     return guarded([] { return devicesCommand(); });
 }
 

@@ -43,10 +43,17 @@ struct CompareOptions {
     int twins = 3;            ///< rough ones, see sim/comparison.h
 };
 
+struct VerifyOptions {
+    BackendChoice backend;
+    std::filesystem::path out = "out/verify";
+    std::string only;  ///< part of the name of the cases to play; empty: all
+};
+
 int runCommand(const RunOptions& options);
 int resumeCommand(const ResumeOptions& options);
 int checkCommand(const CheckOptions& options);
 int devicesCommand();
 int compareCommand(const CompareOptions& options);
+int verifyCommand(const VerifyOptions& options);
 
 }  // namespace vkdose

@@ -1,0 +1,65 @@
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+
+#include "host/app/commands.h"
+#include "host/app/exit_code.h"
+#include "host/app/interrupt.h"
+#include "host/verify/suite.h"
+#include "host/verify/table.h"
+
+namespace vkdose {
+
+namespace {
+
+std::vector<verify::Scene> chosenScenes(const std::string& only) {
+    std::vector<verify::Scene> scenes = verify::scenesNamed(only);
+    if (!scenes.empty()) return scenes;
+    std::string known;
+    for (const verify::Scene& scene : verify::scenes()) known += "\n  " + scene.name;
+    throw UsageError("--only " + only + ": no case has this in its name; the cases are" + known);
+}
+
+void write(const std::filesystem::path& file, const std::string& text) {
+    std::ofstream stream(file, std::ios::binary);
+    stream << text;
+    stream.close();
+    if (!stream) throw UsageError("cannot write " + file.string());
+}
+
+}  // namespace
+
+int verifyCommand(const VerifyOptions& options) {
+    const std::vector<verify::Scene> scenes = chosenScenes(options.only);
+    const std::unique_ptr<Backend> backend = makeBackend(options.backend);
+    std::error_code error;
+    std::filesystem::create_directories(options.out, error);
+    if (error) throw UsageError("cannot create " + options.out.string() + ": " + error.message());
+
+    using clock = std::chrono::steady_clock;
+    const std::atomic<bool>& stop = watchInterrupts();
+    const auto start = clock::now();
+    std::vector<verify::Check> checks;
+    fmt::print("on {}\n\n{}\n", backend->description(), verify::headLine());
+    for (const verify::Scene& scene : scenes) {
+        if (stop) break;
+        std::fflush(stdout);
+        for (const verify::Check& check : verify::play(scene, *backend)) {
+            fmt::print("{}\n", verify::tableLine(check));
+            checks.push_back(check);
+        }
+    }
+    const verify::Setting setting{backend->description(), std::chrono::duration<double>(clock::now() - start).count()};
+    write(options.out / "verify.json", verify::jsonTable(checks, setting));
+    write(options.out / "verify.md", verify::markdownTable(checks, setting));
+    const std::size_t failed = verify::failures(checks);
+    fmt::print("\n{} of {} checks passed in {:.0f} s; {} and verify.json say the same\n", checks.size() - failed,
+               checks.size(), setting.seconds, (options.out / "verify.md").string());
+    if (stop) return kInterrupted;
+    if (!validationClean(options.backend, *backend)) return kDeviceError;
+    return failed == 0 ? kOk : kDisagree;
+}
+
+}  // namespace vkdose

@@ -1,0 +1,30 @@
+#pragma once
+// What the verification suite finds: one figure of one small case beside what it must be.
+
+#include <string>
+
+namespace vkdose::verify {
+
+/// How far a figure may be off, and why so far. `share` is in units of `scale`, a physical scale in the unit of the
+/// figure; 0 stands for the expected value itself.
+struct Tolerance {
+    double share;
+    std::string reason;
+    double scale = 0;
+};
+
+struct Check {
+    std::string where;  ///< the case, "collisions/head-on"
+    std::string quantity;
+    std::string unit;
+    double expected;
+    double got;
+    Tolerance tolerance;
+
+    /// |got - expected| in units of the scale; NaN if any of the three is not finite or the scale is not positive.
+    double error() const;
+    /// NaN never passes.
+    bool passes() const;
+};
+
+}  // namespace vkdose::verify

@@ -1,0 +1,198 @@
+// Collisions: what comes back along the normal and in the tangent plane.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "host/verify/cases.h"
+#include "host/verify/setups.h"
+
+namespace vkdose::verify {
+
+namespace {
+
+constexpr double kFar = 0.02;  // between scenes that share a world [m]
+
+/// The paper's normal parameters.
+ContactParameters plastic(double kc, double gamma) {
+    ContactParameters p = spring(kK2Max, gamma);
+    p.k1 = kK1;
+    p.kc = kc;
+    p.plasticityDepth = kPlasticity;
+    return p;
+}
+
+/// Two equal spheres for every relative speed, about to touch along x.
+Particles pairsAt(const std::vector<double>& speeds) {
+    Particles p;
+    for (std::size_t i = 0; i < speeds.size(); ++i) {
+        const Vec3 middle(0, kFar * static_cast<double>(i), 0), half(kRadius, 0, 0);
+        p.add(middle - half, kRadius, Vec3(speeds[i] / 2, 0, 0));
+        p.add(middle + half, kRadius, Vec3(-speeds[i] / 2, 0, 0));
+    }
+    return p;
+}
+
+double partingSpeed(const Particles& p, std::size_t pair) {
+    return p.velocity[2 * pair + 1].x - p.velocity[2 * pair].x;
+}
+
+/// Restitution of two equal spheres under the adhesive law without damping. Loading to delta_max costs
+/// E = k1 delta_max^2/2; the unloading line returns E/kappa, the way out along -k_c delta costs
+/// E chi (kappa - 1)^2/(kappa (kappa + chi)), with kappa = k2/k1 and chi = k_c/k1. Nothing is left: they stick.
+struct HeadOn {
+    double reducedMass = massOf(kRadius) / 2;
+    double limit = kK2Max / (kK2Max - kK1) * kPlasticity * kRadius;  ///< delta* of equal spheres [m]
+    double kc;
+
+    double restitutionSquared(double speed) const {
+        const double deepest = speed * std::sqrt(reducedMass / kK1);
+        const double kappa = 1 + (kK2Max / kK1 - 1) * deepest / limit, chi = kc / kK1;
+        return 1 / kappa - chi * (kappa - 1) * (kappa - 1) / (kappa * (kappa + chi));
+    }
+    /// Where kappa = 2 + 1/chi.
+    double stickingSpeed() const {
+        const double chi = kc / kK1;
+        return (1 + 1 / chi) / (kK2Max / kK1 - 1) * limit * std::sqrt(kK1 / reducedMass);
+    }
+
+    /// Overlaps between which a pair that sticks swings for good, [m]. It turns back on the adhesive branch at `low`,
+    /// where the energy is used up, and from then on moves on the unloading line through that point: delta_max has
+    /// shrunk until k2 (delta - delta_0) = -k_c delta there, with k2 - k1 = slope delta_max.
+    struct Swing {
+        double low, high, remembered;
+    };
+    Swing swing(double speed) const {
+        const double slope = (kK2Max - kK1) / limit, deepest = speed * std::sqrt(reducedMass / kK1);
+        const double k2 = kK1 + slope * deepest, rest = (1 - kK1 / k2) * deepest, meets = k2 * rest / (k2 + kc);
+        const double left = kK1 * deepest * deepest * kK1 / k2 - k2 * (rest - meets) * (rest - meets);
+        const double low = std::sqrt(meets * meets - left / kc);
+        const double remembered = (low + std::sqrt(low * low + 4 * low * (kK1 + kc) / slope)) / 2;
+        const double middle = (1 - kK1 / (kK1 + slope * remembered)) * remembered;
+        return {low, 2 * middle - low, remembered};
+    }
+};
+
+double overlapOf(const Particles& p, std::size_t pair) {
+    return 2 * kRadius - glm::length(p.position[2 * pair + 1] - p.position[2 * pair]);
+}
+
+}  // namespace
+
+void headOnAdhesive(Bench& bench) {
+    const HeadOn law{.kc = 0.873 * kK2Max};
+    const double sticks = law.stickingSpeed();
+    std::vector<double> speeds{0.1, 0.4, 0.6, 0.65, 0.99 * sticks, 1.01 * sticks, 1.1 * sticks};
+    const std::size_t rebounding = 4;
+    const Particles pairs = pairsAt(speeds);
+    Trial trial(bench, space(plastic(law.kc, 0), 1e-7), pairs);
+    trial.advanceTo(3e-4);
+
+    for (std::size_t i = 0; i < rebounding; ++i)
+        bench.check(fmt::format("restitution at {:.2f} m/s", speeds[i]), "-",
+                    std::sqrt(law.restitutionSquared(speeds[i])), partingSpeed(trial.now(), i) / speeds[i],
+                    {5e-5, "time step of 1/300 of the shortest half period on k2, rounding", 1});
+    std::vector<double> stuck(speeds.size(), 0);
+    for (const Contact& c : trial.contacts()) stuck[c.particle / 2] += 1;
+    for (std::size_t i = rebounding; i < speeds.size(); ++i)
+        bench.check(fmt::format("sticks at {:.4f} m/s, {:.2f} of the limit", speeds[i], speeds[i] / sticks), "-",
+                    speeds[i] > sticks ? 1 : 0, stuck[i], {0, "it does or it does not", 1});
+
+    const std::size_t last = speeds.size() - 1;
+    double low = kRadius, high = 0;
+    while (trial.time() < 6e-4) {
+        trial.advance(10);
+        low = std::min(low, overlapOf(trial.now(), last));
+        high = std::max(high, overlapOf(trial.now(), last));
+    }
+    const HeadOn::Swing swing = law.swing(speeds[last]);
+    const Tolerance tolerance{3e-4, "looked at every microsecond, in units of the swing", swing.high - swing.low};
+    bench.check("least overlap of the stuck pair", "m", swing.low, low, tolerance);
+    bench.check("largest overlap of the stuck pair", "m", swing.high, high, tolerance);
+    for (const Contact& c : trial.contacts())
+        if (c.particle == 2 * last)
+            bench.check("delta_max it remembers", "m", swing.remembered, c.maxOverlap, {1e-4, "time step"});
+}
+
+// With damping there is no closed form. The figures are those of the MercuryDPM kernel, another program (the same law,
+// double precision, velocity Verlet with half-step velocities), for d = 2.5 mm, gamma = 0.0827 kg/s, dt = 1e-7 s.
+void headOnDamped(Bench& bench) {
+    struct Known {
+        double kc, speed, restitution;
+    };
+    const std::vector<std::vector<Known>> tables{
+        {{0, 0.05, 0.4220781761}, {0, 0.2, 0.3541910262}, {0, 1.0, 0.1578007475}},
+        {{0.873, 0.05, 0.4202912628}, {0.873, 0.2, 0.325962277}}};
+    for (const std::vector<Known>& table : tables) {
+        std::vector<double> speeds;
+        for (const Known& row : table) speeds.push_back(row.speed);
+        Trial trial(bench, space(plastic(table[0].kc * kK2Max, 0.0827), 1e-7), pairsAt(speeds));
+        trial.advanceTo(2e-4);
+        for (std::size_t i = 0; i < table.size(); ++i)
+            bench.check(fmt::format("restitution at {:.2f} m/s, k_c/k = {:.3f}", speeds[i], table[i].kc), "-",
+                        table[i].restitution, partingSpeed(trial.now(), i) / speeds[i],
+                        {1e-5, "both make the same steps; rounding", 1});
+    }
+}
+
+namespace {
+
+/// One sphere for every pair of normal and tangential speed, about to touch the floor, without gravity.
+Particles thrownAtFloor(double normal, const std::vector<double>& tangential) {
+    Particles p;
+    for (std::size_t i = 0; i < tangential.size(); ++i)
+        p.add(Vec3(0, kRadius, kFar * static_cast<double>(i)), kRadius, Vec3(tangential[i], -normal, 0));
+    return p;
+}
+
+}  // namespace
+
+// Slipping from first to last, friction's impulse is mu times that of the normal force: with theta from the normal
+// e_t = 1 - mu (1 + e)/tan(theta), and the spin is 5/2 mu (1 + e) v_n/a^2 times the mean lever.
+void obliqueSliding(Bench& bench) {
+    const double normal = 0.05, mu = 0.2;
+    ContactParameters p = plastic(0, 0);
+    p.mu = mu;
+    p.kt = 0.286 * kK2Max;
+    const std::vector<double> tangential{normal * std::tan(75 * kPi / 180), normal * std::tan(85 * kPi / 180)};
+    World world = floor(p, 1e-7, 0);
+    Trial trial(bench, world, thrownAtFloor(normal, tangential));
+    trial.advanceTo(4e-4);
+
+    // Loading on k1, unloading on k2 without adhesion: e^2 = k1/k2 at the depth v sqrt(m/k1).
+    const double deepest = normal * std::sqrt(massOf(kRadius) / kK1);
+    const double limit = kK2Max / (kK2Max - kK1) * kPlasticity * 2 * kRadius;
+    const double e = std::sqrt(1 / (1 + (kK2Max / kK1 - 1) * deepest / limit));
+    // The lever is a - delta/2; weighted with the force of a half sine, delta is pi/4 of its largest.
+    const double lever = 1 - kPi / 8 * deepest / kRadius;
+    for (std::size_t i = 0; i < tangential.size(); ++i) {
+        const std::string angle = i == 0 ? "75" : "85";
+        const Vec3 v = trial.now().velocity[i], w = trial.now().spin[i];
+        const double lost = mu * (1 + e) * normal;
+        bench.check("normal restitution at " + angle + " deg", "-", e, v.y / normal, {1e-5, "time step, rounding"});
+        bench.check("tangential restitution at " + angle + " deg", "-", 1 - lost / tangential[i], v.x / tangential[i],
+                    {1e-4, "time step, rounding, in units of the loss", lost / tangential[i]});
+        bench.check("spin times radius at " + angle + " deg", "m/s", 2.5 * lost * lever, -w.z * kRadius,
+                    {1e-4, "k2 is larger than k1 on the way out, so that the force is not quite a sine"});
+    }
+}
+
+// Never slipping, the surface speed follows its spring, of stiffness k_t on 2/7 of the mass, for the half period of
+// the normal spring: it comes back times cos(pi sqrt(7/2 k_t/k)).
+void obliqueSticking(Bench& bench) {
+    const double normal = 0.02, k = 5000, ratio = 0.5, tangential = 0.03;
+    ContactParameters p = spring(k);
+    p.mu = 1e6;
+    p.kt = ratio * k;
+    Trial trial(bench, floor(p, 1e-7, 0), thrownAtFloor(normal, {tangential}));
+    trial.advanceTo(3e-4);
+    const Vec3 v = trial.now().velocity[0], w = trial.now().spin[0];
+    const double depth = normal * std::sqrt(massOf(kRadius) / k) / kRadius;
+    const Tolerance tolerance{depth / 2, "the lever is a - delta/2: half the depth over the radius", tangential};
+    const double factor = std::cos(kPi * std::sqrt(3.5 * ratio));
+    bench.check("surface speed after", "m/s", factor * tangential, v.x + kRadius * w.z, tolerance);
+    // Friction acts on velocity and surface as 1 to 7/2.
+    bench.check("speed after", "m/s", tangential * (1 - (1 - factor) / 3.5), v.x, tolerance);
+}
+
+}  // namespace vkdose::verify

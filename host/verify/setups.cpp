@@ -1,0 +1,60 @@
+#include "host/verify/setups.h"
+
+namespace vkdose::verify {
+
+double massOf(double radius) {
+    return kDensity * (4.0 / 3.0) * kPi * radius * radius * radius;
+}
+
+double inertiaOf(double radius) {
+    return 0.4 * massOf(radius) * radius * radius;
+}
+
+ContactParameters spring(double k, double gamma) {
+    ContactParameters p;
+    p.k1 = p.k2Max = k;
+    p.gamma = gamma;
+    return p;
+}
+
+ContactLaw lawOf(const ContactParameters& p) {
+    ContactLaw law;
+    law.classes.fill(p);
+    return law;
+}
+
+World space(const ContactParameters& p, double timeStep) {
+    World world;
+    world.law = lawOf(p);
+    world.gravity = Vec3(0);
+    world.density = kDensity;
+    world.timeStep = timeStep;
+    world.skin = kRadius / 10;
+    return world;
+}
+
+World floor(const ContactParameters& p, double timeStep, double gravity, double tilt) {
+    World world = space(p, timeStep);
+    world.gravity = gravity * Vec3(std::sin(tilt), -std::cos(tilt), 0);
+    world.surfaces.push_back(geometry::Plane{Vec3(0), Vec3(0, 1, 0)});
+    return world;
+}
+
+Trial::Trial(Bench& bench, const World& world, const Particles& particles)
+    : backend_(&bench.backend()), now_(particles), timeStep_(world.timeStep) {
+    backend_->load(world, particles);
+}
+
+Sensors Trial::advance(std::uint64_t steps, double coilRate) {
+    const Sensors sensors = backend_->advance(static_cast<std::uint32_t>(steps), coilRate);
+    steps_ += steps;
+    now_ = backend_->particles();
+    return sensors;
+}
+
+Sensors Trial::advanceTo(double seconds, double coilRate) {
+    const auto target = static_cast<std::uint64_t>(std::llround(seconds / timeStep_));
+    return advance(target > steps_ ? target - steps_ : 0, coilRate);
+}
+
+}  // namespace vkdose::verify

@@ -1,0 +1,65 @@
+#pragma once
+// Worlds and arithmetic that the cases share. The sphere is the mean one of the paper unless a case says otherwise.
+
+#include <cmath>
+
+#include "host/verify/suite.h"
+
+namespace vkdose::verify {
+
+inline constexpr double kRadius = 1.25e-3;   // [m]
+inline constexpr double kDensity = 1427;     // [kg/m3]
+inline constexpr double kGravity = 9.81;     // [m/s2]
+inline constexpr double kK2Max = 24067;      // [N/m], and with it the paper's ratios:
+inline constexpr double kK1 = kK2Max / 5;    // [N/m]
+inline constexpr double kPlasticity = 0.05;  // phi_f
+
+double massOf(double radius);     ///< [kg]
+double inertiaOf(double radius);  ///< of a full sphere [kg m2]
+
+/// A linear spring with damping `gamma` [kg/s], without friction and adhesion.
+ContactParameters spring(double k, double gamma = 0);
+
+/// The same parameters for every class of contact.
+ContactLaw lawOf(const ContactParameters& p);
+
+/// Empty space without gravity.
+World space(const ContactParameters& p, double timeStep);
+
+/// The floor y = 0 under gravity that pulls by `gravity` [m/s2], `tilt` [rad] from the vertical towards +x.
+World floor(const ContactParameters& p, double timeStep, double gravity = kGravity, double tilt = 0);
+
+/// Loads a world and counts its steps.
+class Trial {
+  public:
+    Trial(Bench& bench, const World& world, const Particles& particles);
+
+    Sensors advance(std::uint64_t steps, double coilRate = 0);
+    /// As many steps as come nearest to `seconds` from the load.
+    Sensors advanceTo(double seconds, double coilRate = 0);
+
+    /// Positions belong to `time()`, velocities and spins to `halfStep()`.
+    const Particles& now() const { return now_; }
+    std::vector<Contact> contacts() const { return backend_->contacts(); }
+    double time() const { return static_cast<double>(steps_) * timeStep_; }
+    double halfStep() const { return time() - timeStep_ / 2; }
+
+  private:
+    Backend* backend_;
+    Particles now_;
+    double timeStep_;
+    std::uint64_t steps_ = 0;
+};
+
+/// Root of `f` in [low, high], where it changes sign.
+template <class F>
+double root(F f, double low, double high) {
+    const bool rising = f(low) < 0;
+    for (int i = 0; i < 200; ++i) {
+        const double middle = (low + high) / 2;
+        ((f(middle) < 0) == rising ? low : high) = middle;
+    }
+    return (low + high) / 2;
+}
+
+}  // namespace vkdose::verify

@@ -1,0 +1,58 @@
+#include "host/verify/suite.h"
+
+#include <limits>
+
+#include "host/core/error.h"
+#include "host/verify/cases.h"
+
+namespace vkdose::verify {
+
+std::vector<Scene> scenes() {
+    return {
+        {"integrator/free-fall", "a sphere falls freely", freeFall},
+        {"integrator/bounce", "it falls, meets a floor that is a damped spring, and rebounds", bounce},
+        {"integrator/elastic-order", "an elastic oscillator at three time steps", elasticOrder},
+        {"integrator/damped-order", "a damped oscillator at three time steps", dampedOrder},
+        {"collisions/head-on", "plastic and adhesive spheres collide, rebound or stick", headOnAdhesive},
+        {"collisions/head-on-damped", "the same with damping, against another program", headOnDamped},
+        {"collisions/oblique-sliding", "a sphere grazes a wall and slips throughout", obliqueSliding},
+        {"collisions/oblique-sticking", "a sphere hits a wall obliquely and never slips", obliqueSticking},
+        {"sliding/slip-then-roll", "a sphere set sliding on a floor ends up rolling", slipThenRoll},
+        {"sliding/steep-incline", "a sphere on a slope too steep to roll without slipping", inclineSlides},
+        {"rolling/gentle-incline", "a sphere rolls down a slope", inclineRolls},
+        {"rolling/resistance", "rolling friction holds a sphere up to a certain slope", rollingResistance},
+        {"torsion/spin-decay", "a sphere spinning about the normal is braked", spinDecay},
+        {"coil/empty-canister", "a coil turning where no particle is does no work", emptyCanister},
+        {"coil/pressed-sphere", "the turning wire drags a sphere pressed against it", pressedAgainstWire},
+        {"coil/pushed-sphere", "the coil pushes a sphere along the trough", pushedAlongTrough},
+        {"bed/column", "spheres stacked upon each other", column},
+        {"bed/weight", "a bed in a box and what its floor and walls bear", bedWeight},
+        {"bed/heap", "a block of spheres slumps, with friction and without", heap},
+        {"momentum/cluster", "a cluster collapses with every interaction on", isolatedCluster},
+        {"size-ratio/wedge-bounce", "a small sphere bounces in the wedge between two large ones", wedgeBounce},
+        {"size-ratio/wedge-rest", "a small sphere comes to rest between two large cylinders", wedgeRest},
+        {"size-ratio/roll-off", "a small sphere rolls off a large cylinder", rollOff},
+        {"size-ratio/neck", "a small sphere rolls around the neck between two large ones", neck},
+    };
+}
+
+std::vector<Scene> scenesNamed(const std::string& part) {
+    std::vector<Scene> chosen;
+    for (Scene& scene : scenes())
+        if (scene.name.find(part) != std::string::npos) chosen.push_back(std::move(scene));
+    return chosen;
+}
+
+std::vector<Check> play(const Scene& scene, Backend& backend) {
+    Bench bench(backend, scene.name);
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    try {
+        scene.play(bench);
+        if (bench.checks().empty()) bench.check("checks made", "-", nan, 0, {0, "a case must check something"});
+    } catch (const RunError& e) {
+        bench.check("run", "-", 0, nan, {0, e.what()});
+    }
+    return bench.checks();
+}
+
+}  // namespace vkdose::verify

@@ -1,0 +1,79 @@
+#include "host/verify/table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace vkdose::verify {
+
+namespace {
+
+const char* verdict(const Check& check) {
+    return check.passes() ? "pass" : "FAIL";
+}
+
+/// JSON knows no infinity and no NaN.
+nlohmann::ordered_json number(double x) {
+    return std::isfinite(x) ? nlohmann::ordered_json(x) : nlohmann::ordered_json(nullptr);
+}
+
+/// A vertical bar would end the cell.
+std::string cell(std::string text) {
+    for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2) text.insert(at, "\\");
+    return text;
+}
+
+}  // namespace
+
+std::string headLine() {
+    return fmt::format("{:<27} {:<50} {:>13} {:>13} {:<7} {:>8} {:>8}  {:<4}  {}", "case", "quantity", "expected",
+                       "got", "unit", "error", "allowed", "", "why so much is allowed");
+}
+
+std::string tableLine(const Check& c) {
+    return fmt::format("{:<27} {:<50} {:>13.6g} {:>13.6g} {:<7} {:>8.1e} {:>8.1e}  {:<4}  {}", c.where, c.quantity,
+                       c.expected, c.got, c.unit, c.error(), c.tolerance.share, verdict(c), c.tolerance.reason);
+}
+
+std::string markdownTable(const std::vector<Check>& checks, const Setting& setting) {
+    std::string text = fmt::format("# Verification\n\n{} of {} checks passed on {}, in {:.0f} s.\n\n",
+                                   checks.size() - failures(checks), checks.size(), setting.backend, setting.seconds);
+    text +=
+        "`error` and `allowed` are in units of the expected value, or of the scale that the last column names.\n\n"
+        "| case | quantity | expected | got | unit | error | allowed | | why so much is allowed |\n"
+        "| --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";
+    for (const Check& c : checks)
+        text +=
+            fmt::format("| {} | {} | {:.6g} | {:.6g} | {} | {:.1e} | {:.1e} | {} | {} |\n", c.where, cell(c.quantity),
+                        c.expected, c.got, c.unit, c.error(), c.tolerance.share, verdict(c), cell(c.tolerance.reason));
+    return text;
+}
+
+std::string jsonTable(const std::vector<Check>& checks, const Setting& setting) {
+    nlohmann::ordered_json j;
+    j["backend"] = setting.backend;
+    j["wall_time_s"] = number(setting.seconds);
+    j["checks"] = checks.size();
+    j["failures"] = failures(checks);
+    j["results"] = nlohmann::ordered_json::array();
+    for (const Check& c : checks)
+        j["results"].push_back({{"case", c.where},
+                                {"quantity", c.quantity},
+                                {"unit", c.unit},
+                                {"expected", number(c.expected)},
+                                {"got", number(c.got)},
+                                {"error", number(c.error())},
+                                {"tolerance", number(c.tolerance.share)},
+                                {"reason", c.tolerance.reason},
+                                {"passes", c.passes()}});
+    return j.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+std::size_t failures(const std::vector<Check>& checks) {
+    return static_cast<std::size_t>(
+        std::count_if(checks.begin(), checks.end(), [](const Check& c) { return !c.passes(); }));
+}
+
+}  // namespace vkdose::verify

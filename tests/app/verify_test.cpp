@@ -1,0 +1,77 @@
+// `vkdose verify` as a user meets it, family by family on the device, so that the suite runs wherever the app tests do.
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "tests/app/sandbox.h"
+
+using namespace vkdose::test;
+
+namespace {
+
+/// VKDOSE_TEST_DEVICE chooses the device, as in the other tests that use one.
+std::string device() {
+    const char* name = std::getenv("VKDOSE_TEST_DEVICE");
+    return name == nullptr ? "" : " --device '" + std::string(name) + "'";
+}
+
+void requireGreen(const std::string& family) {
+    const Sandbox box;
+    const auto outcome = box.vkdose("verify --only " + family + "/ --out found" + device());
+    INFO(outcome.out << outcome.err);
+    CHECK(outcome.code == 0);
+    const auto json = nlohmann::json::parse(readText(box / "found/verify.json"));
+    CHECK(json["backend"].get<std::string>().find("vulkan") == 0);
+    CHECK(json["checks"] > 0);
+    CHECK(json["failures"] == 0);
+}
+
+}  // namespace
+
+TEST_CASE("verify on the device: integrator") {
+    requireGreen("integrator");
+}
+TEST_CASE("verify on the device: collisions") {
+    requireGreen("collisions");
+}
+TEST_CASE("verify on the device: sliding") {
+    requireGreen("sliding");
+}
+TEST_CASE("verify on the device: rolling") {
+    requireGreen("rolling");
+}
+TEST_CASE("verify on the device: torsion") {
+    requireGreen("torsion");
+}
+TEST_CASE("verify on the device: coil") {
+    requireGreen("coil");
+}
+TEST_CASE("verify on the device: bed") {
+    requireGreen("bed");
+}
+TEST_CASE("verify on the device: momentum") {
+    requireGreen("momentum");
+}
+TEST_CASE("verify on the device: size ratio") {
+    requireGreen("size-ratio");
+}
+
+TEST_CASE("verify writes what it prints") {
+    const Sandbox box;
+    const auto outcome = box.vkdose("verify --backend reference --only integrator/free-fall");
+    CHECK(outcome.code == 0);
+    CHECK(outcome.out.find("3 of 3 checks passed") != std::string::npos);
+    CHECK(readText(box / "out/verify/verify.md").find("3 of 3 checks passed on reference") != std::string::npos);
+    const auto json = nlohmann::json::parse(readText(box / "out/verify/verify.json"));
+    CHECK(json["results"].size() == 3);
+    CHECK(json["results"][0]["case"] == "integrator/free-fall");
+}
+
+TEST_CASE("verify tells an unknown case from a known one") {
+    const Sandbox box;
+    const auto outcome = box.vkdose("verify --backend reference --only colisions");
+    CHECK(outcome.code == 2);
+    CHECK(outcome.err.find("collisions/head-on") != std::string::npos);
+    CHECK(box.files().empty());
+    CHECK(box.vkdose("verify --backend reference --device llvmpipe").code == 2);
+}
