@@ -16,7 +16,7 @@ namespace {
 /// Volume fraction below which a settled cohesive bed does not stay (measured beds: about 0.46).
 constexpr double kLoosestBed = 0.35;
 /// More particles than this is a slip of a unit, not a case.
-constexpr double kMaxParticles = 5e7;
+constexpr double kMaxParticles = 5e6;
 
 double mm(double metres) {
     return metres * 1e3;

@@ -63,9 +63,10 @@ class Sandbox {
         std::string err;
     };
 
-    /// Runs the program in the sandbox with these arguments (shell syntax).
-    Outcome vkdose(const std::string& arguments) const {
-        const std::string command = "cd '" + path_.string() + "' && '" VKDOSE_BINARY_DIR "/vkdose' " + arguments +
+    /// Runs the program in the sandbox with these arguments (shell syntax), `environment` before it ("A=b ").
+    Outcome vkdose(const std::string& arguments, const std::string& environment = "") const {
+        const std::string command = "cd '" + path_.string() + "' && " + environment +
+                                    "'" VKDOSE_BINARY_DIR "/vkdose' " + arguments +
                                     " > stdout.txt 2> stderr.txt < /dev/null";
         const int status = std::system(command.c_str());
         return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, readText(path_ / "stdout.txt"),
