@@ -150,16 +150,17 @@ CoilTouch closestPoint(const Coil& coil, double angle, const Vec3& q) {
 }
 
 int maxTouches(const Coil& coil, double a) {
+    const auto whole = [](double turns) { return static_cast<int>(std::min(std::floor(turns), 1e9)); };
     const double reach = a + coil.wireRadius;
     const double span = std::min(2 * reach, coil.length);  // of the touching wire points along z
     // A wire point within reach < radius is less than asin(reach/radius) off the sphere's own angle, so that two of
     // them, on different turns, differ by at least this much along z.
     if (reach < coil.radius) {
         const double separation = coil.pitch * (1 - std::asin(reach / coil.radius) / kPi);
-        return static_cast<int>(std::floor(span / separation)) + 1;
+        return whole(span / separation) + 1;
     }
     // Wider than the coil: one minimum in each turn that the span meets, and the two ends.
-    return static_cast<int>(std::floor(span / coil.pitch)) + 4;
+    return whole(span / coil.pitch) + 4;
 }
 
 double conveyingRate(const Coil& coil, double speed) {

@@ -4,14 +4,54 @@
 
 namespace vkdose {
 
+namespace {
+
+/// What a file says may be anything; a message is one line that no terminal takes for a command.
+std::string printable(const std::string& text) {
+    std::string out;
+    for (const char c : text) {
+        const auto byte = static_cast<unsigned char>(c);
+        out += byte < 0x20 || byte == 0x7f ? fmt::format("\\x{:02x}", byte) : std::string(1, c);
+    }
+    return out;
+}
+
+/// Long enough to recognise what was written, cut where a character of UTF-8 begins.
+std::string shortened(const std::string& text) {
+    constexpr std::size_t kShown = 120;
+    if (text.size() <= kShown) return text;
+    std::size_t end = kShown;
+    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0U) == 0x80U) --end;
+    return text.substr(0, end) + "...";
+}
+
+}  // namespace
+
+bool isUtf8(std::string_view text) {
+    const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U; };
+    for (std::size_t i = 0; i < text.size();) {
+        const unsigned lead = byte(i);
+        const std::size_t length = lead < 0x80 ? 1 : lead < 0xc2 ? 0 : lead < 0xe0 ? 2 : lead < 0xf0 ? 3 : 4;
+        if (length == 0 || lead > 0xf4) return false;
+        for (std::size_t k = 1; k < length; ++k)
+            if ((byte(i + k) & 0xc0U) != 0x80U) return false;
+        const unsigned next = byte(i + 1);
+        const bool overlong = (lead == 0xe0 && next < 0xa0) || (lead == 0xf0 && next < 0x90);
+        if (overlong || (lead == 0xed && next > 0x9f) || (lead == 0xf4 && next > 0x8f)) return false;
+        i += length;
+    }
+    return true;
+}
+
 std::string Diagnostic::text() const {
     // A fault of the command line has no line; it reads as it was typed: "--set contact.friction = -1: ...".
     std::string place = file.empty() ? "" : file + ": ";
     if (file == kCommandLine) place = file + " ";
     if (line > 0) place = fmt::format("{}:{}: ", file, line);
-    std::string what = value.empty() ? key : fmt::format("{} = {}", key, value);
+    std::string what = shortened(key);
+    if (!value.empty()) what += " = " + shortened(value);
     if (!what.empty()) what += ": ";
-    return remedy.empty() ? place + what + problem : fmt::format("{}{}{}; {}", place, what, problem, remedy);
+    return printable(place + what + problem + (remedy.empty() ? "" : "; " + remedy));
 }
 
 namespace {

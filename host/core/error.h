@@ -3,12 +3,16 @@
 
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace vkdose {
 
 /// `Diagnostic::file` of a fault in an override given on the command line.
 inline constexpr const char* kCommandLine = "--set";
+
+/// Whether `text` is well-formed UTF-8 (no overlong forms, no surrogates).
+bool isUtf8(std::string_view text);
 
 /// One fault in an input file: where it stands, what it says and what would be right.
 struct Diagnostic {

@@ -20,13 +20,6 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Smallest and largest radius, and the mean.
-struct SizeRange {
-    double smallest = kInfinity;
-    double largest = 0;
-    double mean = 0;
-};
-
 SizeRange sizeRange(const Case& c) {
     if (!c.filling.list)
         return {smallestRadius(c.filling.size), largestRadius(c.filling.size), meanRadius(c.filling.size)};
@@ -38,6 +31,17 @@ SizeRange sizeRange(const Case& c) {
         range.mean += r / static_cast<double>(radii.size());
     }
     return range;
+}
+
+/// The name becomes a folder and stands in the summary, which is UTF-8; by default it is that of the file, which may be
+/// anything.
+void checkName(CaseReader& reader, const std::string& name) {
+    constexpr std::size_t kLongestName = 200;
+    const auto bad = [](char c) { return c == '/' || static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
+    if (name.empty() || name == "." || name == ".." || name.size() > kLongestName || !isUtf8(name) ||
+        std::any_of(name.begin(), name.end(), bad))
+        reader.fault("name", fmt::format("\"{}\" is no name for a folder", name.substr(0, kLongestName)),
+                     "give a short name without slashes");
 }
 
 void completeTime(Section& time, Case& c, const SizeRange& sizes) {
@@ -78,6 +82,7 @@ Case interpret(const std::filesystem::path& file, Node tree) {
     Section& root = reader.root();
     Case c;
     c.name = root.string("name", file.stem().string());
+    if (!root.has("name") || root.isString("name")) checkName(reader, c.name);
     c.reason = root.string("reason", "");
     c.seed = static_cast<std::uint64_t>(root.integer("seed", 0, 1));
     c.world.gravity = root.vector("gravity", Vec3(0, -9.81, 0));
@@ -97,6 +102,8 @@ Case interpret(const std::filesystem::path& file, Node tree) {
     const SizeRange sizes = sizeRange(c);
     completeTime(root.table("time"), c, sizes);
     checkTimeStep(reader, c, sizes.smallest);
+    checkScales(reader, c, sizes);
+    reader.throwIfFaulty();
     checkFilling(reader, c, sizes.largest);
     reader.throwIfFaulty();
 
@@ -106,6 +113,8 @@ Case interpret(const std::filesystem::path& file, Node tree) {
         root.table("domain").record("low", c.world.domain.low);
         root.table("domain").record("high", c.world.domain.high);
     }
+    checkExtent(reader, c, sizes.smallest, domainGiven || !c.filling.list ? "domain" : "particles.list");
+    reader.throwIfFaulty();
     checkPlacement(reader, c, filled.particles);
     reader.throwIfFaulty();
     c.resolved = reader.resolved();

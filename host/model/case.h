@@ -102,6 +102,8 @@ struct Insertion {
     double fillHeight = 0;      ///< top of the grid [m, y]
 };
 Insertion insertParticles(const Case& c);
+/// How many particles the mass of a case without a list takes, exactly.
+std::size_t drawnParticles(const Case& c);
 
 /// Contact duration of the pair (a, b), b = infinity for a wall, on stiffness k: pi / sqrt(k/m12 - (gamma/(2 m12))^2).
 double contactDuration(const ContactParameters& p, double density, double a, double b, double k);

@@ -16,7 +16,7 @@ std::string tomlString(const std::string& text) {
     std::string out = "\"";
     for (const char c : text) {
         if (c == '"' || c == '\\') out += '\\';
-        if (static_cast<unsigned char>(c) < 0x20)
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
             out += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
         else
             out += c;
@@ -136,7 +136,7 @@ void Section::write(std::string_view key, const std::string& value) {
     used_.emplace_back(key, value);
 }
 
-double Section::checked(const Node& node, std::string_view key, Bound bound, const std::string& remedy) {
+double Section::checked(const Node& node, std::string_view key, Bound bound, Unit unit, const std::string& remedy) {
     std::string problem;
     if (!node.isNumber())
         problem = fmt::format("is {}, not a number", kindName(node.kind));
@@ -146,6 +146,10 @@ double Section::checked(const Node& node, std::string_view key, Bound bound, con
         problem = "is negative";
     else if (bound == Bound::Positive && node.number == 0)
         problem = "is zero";
+    else if (std::abs(node.number / unit.perSI) > kLargestNumber)
+        problem = "is larger than anything in a canister";
+    else if (bound == Bound::Positive && node.number / unit.perSI < kSmallestNumber)
+        problem = "is smaller than anything in a canister";
     if (problem.empty()) return node.number;
     fault(node, key, problem, remedy);
     return kNaN;
@@ -155,19 +159,23 @@ double Section::number(std::string_view key, Bound bound, Unit unit, std::option
     const std::string remedy = numberRemedy(bound, unit);
     const Node* node = take(key, !fallback, remedy);
     double value = fallback.value_or(kNaN);
-    if (node != nullptr) value = checked(*node, key, bound, remedy);
+    if (node != nullptr) value = checked(*node, key, bound, unit, remedy);
     if (std::isfinite(value)) write(key, numeral(value));
     return value / unit.perSI;
 }
 
-std::int64_t Section::integer(std::string_view key, std::int64_t low, std::optional<std::int64_t> fallback) {
-    const std::string remedy = fmt::format("give a whole number >= {}", low);
+std::int64_t Section::integer(std::string_view key, std::int64_t low, std::optional<std::int64_t> fallback,
+                              std::int64_t high) {
+    std::string remedy = fmt::format("give a whole number >= {}", low);
+    if (high != std::numeric_limits<std::int64_t>::max()) remedy += fmt::format(" and <= {}", high);
     const Node* node = take(key, !fallback, remedy);
     std::int64_t value = fallback.value_or(low);
     if (node != nullptr && node->kind != Node::Kind::Integer) {
         fault(*node, key, fmt::format("is {}, not a whole number", kindName(node->kind)), remedy);
     } else if (node != nullptr && node->integer < low) {
         fault(*node, key, node->integer < 0 ? "is negative" : "is too small", remedy);
+    } else if (node != nullptr && node->integer > high) {
+        fault(*node, key, "is too large", remedy);
     } else {
         if (node != nullptr) value = node->integer;
         write(key, fmt::format("{}", value));
@@ -231,8 +239,12 @@ Vec3 Section::vector(std::string_view key, std::optional<Vec3> fallback) {
     for (glm::length_t axis = 0; node != nullptr && axis < 3; ++axis) {
         const Node& item = node->children[static_cast<std::size_t>(axis)];
         value[axis] = item.isNumber() ? item.number : kNaN;
-        if (std::isfinite(value[axis])) continue;
-        fault(*node, key, fmt::format("{} is not a finite number", item.text.empty() ? "an entry" : item.text), remedy);
+        const bool finite = std::isfinite(value[axis]);
+        if (finite && std::abs(value[axis]) <= kLargestNumber) continue;
+        fault(*node, key,
+              fmt::format("{} is {}", item.text.empty() ? "an entry" : item.text,
+                          finite ? "larger than anything in a canister" : "not a finite number"),
+              remedy);
         return Vec3(kNaN);
     }
     if (std::isfinite(value.x)) write(key, numeral(value));
@@ -289,10 +301,11 @@ void Section::record(std::string_view key, const std::string& value) {
 }
 
 void Section::finish() {
-    if (node_ == nullptr || abandoned_) return;
+    if (node_ == nullptr) return;
     for (const Node& child : node_->children) {
         if (std::find(known_.begin(), known_.end(), child.key) != known_.end()) continue;
         const std::string meant = closestWord(child.key, known_);
+        if (abandoned_ && meant.empty()) continue;  // it may belong to the choice that is at fault
         const bool isTable = child.kind == Node::Kind::Table;
         std::vector<std::string> sorted = known_;
         std::sort(sorted.begin(), sorted.end());

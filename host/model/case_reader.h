@@ -3,6 +3,7 @@
 // was never asked for, and writes down each value it gave out: that record is the resolved case.
 
 #include <cstdint>
+#include <limits>
 #include <list>
 #include <optional>
 #include <string>
@@ -30,6 +31,11 @@ inline constexpr Unit kDegree{180 / kPi, "degrees"};
 
 enum class Bound { Any, NonNegative, Positive };
 
+/// Beyond these, in SI, no number of a case or of a list of particles means anything: a unit or an exponent slipped.
+/// Powers and ratios of what lies between stay far from the ends of a double.
+inline constexpr double kLargestNumber = 1e15;
+inline constexpr double kSmallestNumber = 1e-15;  ///< of what must be positive
+
 class CaseReader;
 
 /// One table of the case. Getters return SI; where the file is at fault they note it and return NaN (0, "") so that
@@ -45,7 +51,8 @@ class Section {
 
     /// `fallback` is in the unit of the file (NaN: what it follows from is at fault); without it the key must be there.
     double number(std::string_view key, Bound bound, Unit unit, std::optional<double> fallback = std::nullopt);
-    std::int64_t integer(std::string_view key, std::int64_t low, std::optional<std::int64_t> fallback = std::nullopt);
+    std::int64_t integer(std::string_view key, std::int64_t low, std::optional<std::int64_t> fallback = std::nullopt,
+                         std::int64_t high = std::numeric_limits<std::int64_t>::max());
     bool boolean(std::string_view key, bool fallback);
     std::string string(std::string_view key, std::optional<std::string> fallback = std::nullopt);
     /// Index of the chosen word; nothing when it is missing or not one of them.
@@ -65,7 +72,7 @@ class Section {
     void record(std::string_view key, double value);
     void record(std::string_view key, const Vec3& value);
     void record(std::string_view key, const std::string& value);
-    /// After a fault that decides which keys belong here: no more faults from this table.
+    /// After a fault that decides which keys belong here: no more faults from this table but misspelt known keys.
     void abandon() { broken_ = abandoned_ = true; }
 
     /// Marks a key as known without reading it.
@@ -75,7 +82,7 @@ class Section {
     friend class CaseReader;
     const Node* take(std::string_view key, bool required, const std::string& remedy);
     void fault(const Node& node, std::string_view key, std::string problem, std::string remedy);
-    double checked(const Node& node, std::string_view key, Bound bound, const std::string& remedy);
+    double checked(const Node& node, std::string_view key, Bound bound, Unit unit, const std::string& remedy);
     void write(std::string_view key, const std::string& value);
     void finish();
 

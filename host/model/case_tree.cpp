@@ -25,14 +25,23 @@ Source makeSource(std::string name, const std::string& text) {
     return source;
 }
 
+/// Byte at which the column of toml++ begins, which counts characters.
+std::size_t byteOf(const std::string& text, std::size_t column) {
+    std::size_t at = 0;
+    for (std::size_t seen = 1; at < text.size() && seen < column; ++seen) {
+        ++at;
+        while (at < text.size() && (static_cast<unsigned char>(text[at]) & 0xc0U) == 0x80U) ++at;
+    }
+    return at;
+}
+
 /// The value's own characters where they stand on one line; "..." otherwise.
 std::string written(const toml::source_region& region, const Source& source) {
     const std::size_t line = region.begin.line;
     if (line == 0 || line > source.lines.size() || region.end.line != region.begin.line) return "...";
     const std::string& text = source.lines[line - 1];
-    const std::size_t first = std::min<std::size_t>(region.begin.column - 1, text.size());
-    const std::size_t last = std::min<std::size_t>(region.end.column - 1, text.size());
-    std::string value = text.substr(first, last - first);
+    const std::size_t first = byteOf(text, region.begin.column);
+    std::string value = text.substr(first, byteOf(text, region.end.column) - first);
     while (!value.empty() && std::isspace(static_cast<unsigned char>(value.back())) != 0) value.pop_back();
     return value;
 }
@@ -98,7 +107,31 @@ std::string readText(const std::filesystem::path& file, const Diagnostic& whoAsk
     return text.str();
 }
 
+/// The parser takes apart what it has read by recursion, a level for every part of a dotted key and every bracket. It
+/// bounds the brackets itself (256); with this bound on the dots the deepest text stays far from the end of the stack.
+constexpr std::ptrdiff_t kMostDots = 64;
+/// A case is a few kilobytes.
+constexpr std::size_t kMostBytes = 1U << 20U;
+
+/// Refuses what is no case before the parser sees it.
+void requirePlain(const std::string& text, const std::string& name) {
+    const char* remedy = "give the path of a case file";
+    if (text.size() > kMostBytes)
+        throw CaseError({{name, 0, "", "", fmt::format("not a case: {} MiB long", text.size() >> 20U), remedy}});
+    std::istringstream stream(text);
+    int number = 0;
+    for (std::string line; std::getline(stream, line);) {
+        ++number;
+        const std::size_t first = line.find_first_not_of(" \t");
+        const bool comment = first != std::string::npos && line[first] == '#';
+        if (!comment && std::count(line.begin(), line.end(), '.') > kMostDots)
+            throw CaseError(
+                {{name, number, "", "", fmt::format("not a case: more than {} dots in a line", kMostDots), remedy}});
+    }
+}
+
 Node parseText(const std::string& text, const std::string& name) {
+    requirePlain(text, name);
     try {
         const toml::table table = toml::parse(text, name);
         Node node = convert(table, makeSource(name, text), "");
@@ -195,6 +228,11 @@ bool isBareWord(const std::string& value) {
 
 Node overrideNode(const std::string& path, const std::string& value) {
     const Diagnostic fault{kCommandLine, 0, path, value, "", "write key.path=value with a TOML value or a bare word"};
+    if (value.find('\n') != std::string::npos) {
+        Diagnostic bad = fault;
+        bad.problem = "is more than one line";
+        throw CaseError({bad});
+    }
     if (path.empty() || path.front() == '.' || path.back() == '.' || path.find("..") != std::string::npos ||
         path.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.") !=
             std::string::npos) {
@@ -205,6 +243,7 @@ Node overrideNode(const std::string& path, const std::string& value) {
     Node tree;
     try {
         const std::string text = fmt::format("{} = {}", path, value);
+        requirePlain(text, kCommandLine);
         tree = convert(toml::parse(text), makeSource(kCommandLine, text), "");
     } catch (const toml::parse_error&) {
         if (!isBareWord(value)) {

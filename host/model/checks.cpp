@@ -16,7 +16,7 @@ namespace {
 /// Volume fraction below which a settled cohesive bed does not stay (measured beds: about 0.46).
 constexpr double kLoosestBed = 0.35;
 /// More particles than this is a slip of a unit, not a case.
-constexpr double kMaxParticles = 5e7;
+constexpr double kMaxParticles = 5e6;
 
 double mm(double metres) {
     return metres * 1e3;
@@ -36,6 +36,12 @@ void checkContact(CaseReader& reader, const Case& c) {
             reader.fault(fmt::format("{}.plasticity_depth", path[i]), "is zero, which leaves k2 undefined while k1 < k",
                          "give a fraction > 0 of the radius, e.g. 0.05, or k1_over_k = 1");
     }
+}
+
+/// At an overlap of two smaller radii equal spheres are in one place.
+void checkOverlapLimit(CaseReader& reader, const Case& c) {
+    if (c.world.maxOverlapRatio > 2)
+        reader.fault("contact.max_overlap_ratio", "lets spheres pass through each other", "give at most 2");
 }
 
 void checkSize(CaseReader& reader, const SizeDistribution& s) {
@@ -152,19 +158,21 @@ void checkLargest(CaseReader& reader, const Case& c, double largest) {
 
 void checkGrid(CaseReader& reader, const Case& c, double largest) {
     const Filling& f = c.filling;
-    const double count = f.mass / (c.world.density * 4.0 / 3.0 * kPi * meanCubedRadius(f.size));
-    if (count > kMaxParticles) {
-        reader.fault("particles.mass_g", fmt::format("takes about {:.2g} particles", count),
+    const double expected = f.mass / (c.world.density * 4.0 / 3.0 * kPi * meanCubedRadius(f.size));
+    if (expected > kMaxParticles) {
+        reader.fault("particles.mass_g", fmt::format("takes about {:.2g} particles", expected),
                      "give less mass or larger meso-particles");
         return;
     }
     const double capacity = InsertionGrid(f.region, largest).capacity();
-    if (capacity >= 1.2 * count + 10) return;  // the draw varies
-    if (capacity < static_cast<double>(1) && c.canister)
+    const auto count = static_cast<double>(drawnParticles(c));
+    if (count == 0)
+        reader.fault("particles.mass_g", "is less than half of the first particle drawn", "give more mass");
+    else if (capacity < 1 && c.canister)
         reader.fault("particles.size", "the largest sphere does not fit between the walls", "give smaller particles");
-    else if (capacity < 1.2 * count + 10)
+    else if (capacity < count)
         reader.fault("particles.region",
-                     fmt::format("has {:.0f} sites of the grid for about {:.0f} particles", capacity, count),
+                     fmt::format("has {:.0f} sites of the grid for {:.0f} particles", capacity, count),
                      "give a larger region, less mass or smaller particles");
 }
 
@@ -235,6 +243,17 @@ void checkWalls(CaseReader& reader, const Case& c, const Particles& p, const std
     }
 }
 
+/// A particle that passes another within one step never meets it.
+void checkMotion(CaseReader& reader, const Case& c, const Particles& p, const std::string& path) {
+    Few faults(reader, path);
+    for (std::size_t i = 0; i < p.size(); ++i) {
+        if (glm::length(p.velocity[i]) * c.world.timeStep > p.radius[i])
+            faults.add(named(p, i) + " moves by more than its radius in a time step", "give its velocity in m/s");
+        if (glm::length(p.spin[i]) * c.world.timeStep > 1)
+            faults.add(named(p, i) + " turns by more than a radian in a time step", "give its spin in rad/s");
+    }
+}
+
 /// Overlaps among the particles, found along x in sorted order.
 void checkPairs(CaseReader& reader, const Particles& p, const std::string& path) {
     Few faults(reader, path);
@@ -262,6 +281,7 @@ void checkPairs(CaseReader& reader, const Particles& p, const std::string& path)
 
 void checkFields(CaseReader& reader, const Case& c) {
     checkContact(reader, c);
+    checkOverlapLimit(reader, c);
     if (!c.filling.list) checkSize(reader, c.filling.size);
     if (c.canister) checkCanister(reader, c);
     if (c.world.coil) checkCoil(reader, c);
@@ -310,6 +330,8 @@ void checkPlacement(CaseReader& reader, const Case& c, const Particles& particle
     const std::string path = c.filling.list ? "particles.list" : c.canister ? "particles.mass_g" : "particles.region";
     checkDomain(reader, c, particles, path);
     checkWalls(reader, c, particles, path, c.filling.list ? kMaxOverlapRatio : 0.0);
+    if (!c.filling.list) return;  // the grid keeps its particles apart and at rest
+    checkMotion(reader, c, particles, path);
     checkPairs(reader, particles, path);
 }
 

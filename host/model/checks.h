@@ -2,10 +2,20 @@
 // What single keys cannot tell: faults between fields of a case. Comparisons are false for NaN, which stands for a
 // value whose key is already reported.
 
+#include <limits>
+#include <string>
+
 #include "host/model/case.h"
 #include "host/model/case_reader.h"
 
 namespace vkdose {
+
+/// Radii of the particles to come [m].
+struct SizeRange {
+    double smallest = std::numeric_limits<double>::infinity();
+    double largest = 0;
+    double mean = 0;
+};
 
 /// Relations between the fields of a freshly read case.
 void checkFields(CaseReader& reader, const Case& c);
@@ -16,7 +26,14 @@ void checkTimeStep(CaseReader& reader, const Case& c, double smallestRadius);
 /// Whether the mass fits the canister, and the grid its region; whether the coil can be touched by too many turns.
 void checkFilling(CaseReader& reader, const Case& c, double largestRadius);
 
-/// Particles against the domain, the surfaces, the coil and one another.
+// scales.cpp
+/// Numbers that do not go together: masses beyond single precision, a way in one step that skips contacts, durations
+/// that are no number of steps.
+void checkScales(CaseReader& reader, const Case& c, const SizeRange& radii);
+/// Whether positions in the whole domain are exact enough for the smallest sphere; `path` is to blame.
+void checkExtent(CaseReader& reader, const Case& c, double smallestRadius, const std::string& path);
+
+/// Particles against the domain, the surfaces, the coil and one another; their motion against the time step.
 void checkPlacement(CaseReader& reader, const Case& c, const Particles& particles);
 
 }  // namespace vkdose

@@ -79,6 +79,11 @@ double InsertionGrid::jitterAmplitude() const {
     return 0.25 * pitch_ * kGridGap / (1 + kGridGap);
 }
 
+std::size_t drawnParticles(const Case& c) {
+    Insertion unused;
+    return drawRadii(c, unused).size();
+}
+
 Insertion insertParticles(const Case& c) {
     Insertion result;
     if (c.filling.list) {

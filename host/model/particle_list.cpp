@@ -61,7 +61,8 @@ class ListReader {
         Splitter splitter;
         std::vector<std::string> fields;
         for (std::string text; std::getline(stream, text);) {
-            ++line_;
+            // Spreadsheets put a byte order mark before the header.
+            if (++line_ == 1 && text.starts_with("\xef\xbb\xbf")) text.erase(0, 3);
             if (!text.empty() && text.back() == '\r') text.pop_back();
             if (text.find_first_not_of(" \t") == std::string::npos) continue;
             if (!splitter.split(text, fields)) {
@@ -152,6 +153,8 @@ class ListReader {
             if (place_[i] != kAbsent) value[i] = number(fields[place_[i]], kColumns[i]);
         if (count_ == before && value[3] <= 0)
             fault("r", fields[place_[3]], "is not positive", "give a radius > 0 [m]");
+        else if (count_ == before && value[3] < kSmallestNumber)
+            fault("r", fields[place_[3]], "is smaller than anything in a canister", "give a radius in m");
         if (count_ == before)
             particles_.add({value[0], value[1], value[2]}, value[3], {value[4], value[5], value[6]},
                            {value[7], value[8], value[9]});
@@ -159,18 +162,24 @@ class ListReader {
     }
 
     double number(const std::string& text, const std::string& column) {
-        const std::size_t start = text.find_first_not_of(" \t+");
+        std::size_t start = text.find_first_not_of(" \t");
         const std::size_t end = text.find_last_not_of(" \t") + 1;
         double value = 0;
-        if (start == std::string::npos || start >= end) {
+        if (start == std::string::npos) {
             fault(column, "", "is empty", "give a number");
             return 0;
         }
+        // from_chars knows no plus; what follows one must not be another sign.
+        if (text[start] == '+' && text.find('-', start) != start + 1) ++start;
         const auto [stop, code] = std::from_chars(text.data() + start, text.data() + end, value);
-        if (code != std::errc() || stop != text.data() + end)
+        if (code == std::errc::result_out_of_range)
+            fault(column, text, "is beyond what a number can be", "give a plain decimal number in SI units");
+        else if (code != std::errc() || stop != text.data() + end)
             fault(column, text, "is not a number", "give a plain decimal number in SI units");
         else if (!std::isfinite(value))
             fault(column, text, "is not a finite number", "give a finite number");
+        else if (std::abs(value) > kLargestNumber)
+            fault(column, text, "is larger than anything in a canister", "give it in SI units");
         return value;
     }
 

@@ -1,4 +1,6 @@
 // The tables [particles], [contact] and the adhesion of [settle].
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -72,6 +74,14 @@ void readParticles(CaseReader& reader, Section& root, Case& c) {
         section.know("mass_g");
         std::vector<Diagnostic> faults;
         const std::filesystem::path file = reader.folderOf("particles.list") / path;
+        std::error_code code;
+        c.filling.list.emplace();
+        if (!section.isString("list")) return;  // told by now
+        if (!std::filesystem::is_regular_file(file, code)) {
+            reader.fault("particles.list", fmt::format("there is no file {}", file.string()),
+                         "give the path of a CSV, relative to the case file");
+            return;
+        }
         c.filling.list = readParticleList(file, faults);
         section.record("list", std::filesystem::absolute(file).lexically_normal().string());
         for (Diagnostic& fault : faults) reader.add(std::move(fault));

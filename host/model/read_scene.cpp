@@ -145,6 +145,8 @@ void readCoil(CaseReader& reader, Section& root, Case& c) {
 
 namespace {
 
+constexpr std::int64_t kMostDoses = 1'000'000'000;
+
 // ---- time ---------------------------------------------------------------------------------------------------------
 
 void readStop(Section& root, Case& c) {
@@ -161,9 +163,9 @@ void readStop(Section& root, Case& c) {
     stop.threshold = 0;
     if (stop.kind == StopRule::Kind::Experiment)
         stop.threshold = section.number("threshold_g", Bound::NonNegative, kGram, 0.15);
-    if (stop.kind != StopRule::Kind::None) stop.doses = static_cast<int>(section.integer("doses", 1, 3));
+    if (stop.kind != StopRule::Kind::None) stop.doses = static_cast<int>(section.integer("doses", 1, 3, kMostDoses));
     if (section.has("max_doses"))
-        stop.maxDoses = static_cast<int>(std::min<std::int64_t>(section.integer("max_doses", 1), 1 << 30));
+        stop.maxDoses = static_cast<int>(section.integer("max_doses", 1, std::nullopt, kMostDoses));
     if (section.has("end_time_s")) stop.endTime = section.number("end_time_s", Bound::Positive, kSecond);
     section.know("max_doses");
     section.know("end_time_s");

@@ -16,7 +16,7 @@ double drawRadius(const SizeDistribution& size, std::uint64_t seed, std::uint64_
 double smallestRadius(const SizeDistribution& size);
 double largestRadius(const SizeDistribution& size);
 
-/// Mean radius and mean cubed radius by number [m, m3]. For Normal and Lognormal without the truncation.
+/// Mean radius and mean cubed radius by number [m, m3] of what is drawn.
 double meanRadius(const SizeDistribution& size);
 double meanCubedRadius(const SizeDistribution& size);
 

@@ -35,9 +35,14 @@ Buffer::Memory Buffer::allocate(VkDeviceSize size, VkBufferUsageFlags usage, VkM
         vkDestroyBuffer(device_.handle(), m.buffer, nullptr);
         check(result, fmt::format("allocating {} bytes for {}", size, name_).c_str());
     }
-    check(vkBindBufferMemory(device_.handle(), m.buffer, m.memory, 0), "vkBindBufferMemory");
-    if ((flags & kHost) == kHost)
-        check(vkMapMemory(device_.handle(), m.memory, 0, VK_WHOLE_SIZE, 0, &m.mapped), "vkMapMemory");
+    const char* call = "vkBindBufferMemory";
+    result = vkBindBufferMemory(device_.handle(), m.buffer, m.memory, 0);
+    if (result == VK_SUCCESS && (flags & kHost) == kHost) {
+        call = "vkMapMemory";
+        result = vkMapMemory(device_.handle(), m.memory, 0, VK_WHOLE_SIZE, 0, &m.mapped);
+    }
+    if (result != VK_SUCCESS) release(m);
+    check(result, call);
     return m;
 }
 
@@ -51,8 +56,11 @@ void Buffer::release(Memory& m) const {
     m = {};
 }
 
+Buffer::Buffer(const Device& device, const char* name, VkDeviceSize size, std::nullptr_t)
+    : device_(device), name_(name), size_(size) {}
+
 Buffer::Buffer(const Device& device, const char* name, VkDeviceSize size, VkFormat texelFormat)
-    : device_(device), name_(name), size_(size) {
+    : Buffer(device, name, size, nullptr) {
     if (size > device.limits().maxStorageBufferRange)
         throw DeviceError(
             fmt::format("{} needs {} bytes, but {} allows storage buffers of {} bytes: use fewer particles "

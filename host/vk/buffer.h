@@ -1,8 +1,9 @@
 #pragma once
 // A storage buffer with its own memory, optionally seen through a texel view as well.
 
-#include <vulkan/vulkan.h>
+#include <volk.h>
 
+#include <cstddef>
 #include <cstring>
 #include <span>
 #include <vector>
@@ -45,6 +46,7 @@ class Buffer {
         VkDeviceMemory memory = VK_NULL_HANDLE;
         void* mapped = nullptr;
     };
+    Buffer(const Device& device, const char* name, VkDeviceSize size, std::nullptr_t);
     Memory allocate(VkDeviceSize size, VkBufferUsageFlags usage, VkMemoryPropertyFlags first,
                     VkMemoryPropertyFlags second) const;
     Memory staging(VkDeviceSize bytes) const;

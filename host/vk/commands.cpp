@@ -2,7 +2,7 @@
 
 namespace vkdose::vk {
 
-Commands::Commands(const Device& device) : device_(device) {
+Commands::Commands(const Device& device) : Commands(device, nullptr) {
     VkCommandBufferAllocateInfo allocate{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, nullptr, device.pool(),
                                          VK_COMMAND_BUFFER_LEVEL_PRIMARY, 1};
     check(vkAllocateCommandBuffers(device.handle(), &allocate, &commands_), "vkAllocateCommandBuffers");
@@ -12,7 +12,7 @@ Commands::Commands(const Device& device) : device_(device) {
 
 Commands::~Commands() {
     vkDestroyFence(device_.handle(), fence_, nullptr);
-    vkFreeCommandBuffers(device_.handle(), device_.pool(), 1, &commands_);
+    if (commands_ != VK_NULL_HANDLE) vkFreeCommandBuffers(device_.handle(), device_.pool(), 1, &commands_);
 }
 
 void Commands::begin() {

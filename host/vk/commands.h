@@ -1,8 +1,9 @@
 #pragma once
 // One primary command buffer, recorded, submitted and waited for.
 
-#include <vulkan/vulkan.h>
+#include <volk.h>
 
+#include <cstddef>
 #include <cstdint>
 
 #include "host/vk/device.h"
@@ -32,6 +33,7 @@ class Commands {
     VkCommandBuffer handle() const { return commands_; }
 
   private:
+    Commands(const Device& device, std::nullptr_t) : device_(device) {}
     void memoryBarrier(VkPipelineStageFlags from, VkAccessFlags wrote, VkPipelineStageFlags to, VkAccessFlags reads);
 
     const Device& device_;

@@ -16,13 +16,19 @@ constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 const char* resultName(VkResult r) {
     switch (r) {
         case VK_ERROR_OUT_OF_HOST_MEMORY:
-            return "out of host memory";
+            return "out of host memory: use fewer particles or end other programs";
         case VK_ERROR_OUT_OF_DEVICE_MEMORY:
             return "out of device memory: use fewer particles or another device";
         case VK_ERROR_INITIALIZATION_FAILED:
-            return "initialisation failed";
+            return "initialisation failed: the driver does not start; try another with --device or update it";
         case VK_ERROR_DEVICE_LOST:
-            return "the device was lost: the driver reset it or a submission ran too long";
+            return "the device was lost: the driver reset it, or it was unplugged or hung; run again, on another "
+                   "device "
+                   "if it happens again";
+        case VK_ERROR_MEMORY_MAP_FAILED:
+            return "memory of the device cannot be mapped: free some memory of this machine";
+        case VK_ERROR_TOO_MANY_OBJECTS:
+            return "too many objects: end other programs that use the device";
         case VK_ERROR_LAYER_NOT_PRESENT:
             return "a layer is not installed";
         case VK_ERROR_EXTENSION_NOT_PRESENT:
@@ -105,6 +111,15 @@ DeviceInfo describe(VkPhysicalDevice physical, int index) {
     return info;
 }
 
+/// Finds the loader on this machine; once.
+void requireLoader() {
+    static const VkResult found = volkInitialize();
+    if (found != VK_SUCCESS)
+        throw DeviceError(
+            "no Vulkan loader (libvulkan.so.1): install it and a driver (Debian: libvulkan1, mesa-vulkan-drivers), or "
+            "use --backend reference");
+}
+
 bool layerInstalled() {
     std::uint32_t n = 0;
     vkEnumerateInstanceLayerProperties(&n, nullptr);
@@ -137,6 +152,7 @@ VkInstance makeInstance(bool validation) {
     }
     VkInstance instance = VK_NULL_HANDLE;
     check(vkCreateInstance(&create, nullptr, &instance), "vkCreateInstance");
+    volkLoadInstance(instance);
     return instance;
 }
 
@@ -158,7 +174,10 @@ std::vector<DeviceInfo> describeAll(const std::vector<VkPhysicalDevice>& devices
 
 std::string choices(const std::vector<DeviceInfo>& infos) {
     std::string text;
-    for (const DeviceInfo& d : infos) text += fmt::format("{}{} ({})", text.empty() ? "" : ", ", d.index, d.name);
+    for (const DeviceInfo& d : infos) {
+        text += fmt::format("{}{} ({})", text.empty() ? "" : ", ", d.index, d.name);
+        if (!d.usable) text += " " + d.reason;
+    }
     return text;
 }
 
@@ -187,6 +206,7 @@ void check(VkResult result, const char* call) {
 }
 
 std::vector<DeviceInfo> listDevices() {
+    requireLoader();
     VkInstance instance = makeInstance(false);
     struct Guard {
         VkInstance instance;
@@ -196,6 +216,7 @@ std::vector<DeviceInfo> listDevices() {
 }
 
 void Device::createInstance(bool validation) {
+    requireLoader();
     messages_ = std::make_unique<std::vector<std::string>>();
     bool validate = validation && layerInstalled();
     instance_ = makeInstance(validate);
@@ -226,7 +247,11 @@ void Device::createDevice(std::uint32_t family) {
     check(vkCreateCommandPool(device_, &pool, nullptr, &pool_), "vkCreateCommandPool");
 }
 
-Device::Device(const DeviceChoice& choice) {
+// Each class here that owns Vulkan objects delegates to a constructor that owns nothing yet, so that its destructor
+// cleans up when the rest throws.
+Device::Device() = default;
+
+Device::Device(const DeviceChoice& choice) : Device() {
     createInstance(choice.validation);
     std::vector<VkPhysicalDevice> devices = physicalDevices(instance_);
     std::vector<DeviceInfo> infos = describeAll(devices);

@@ -1,7 +1,7 @@
 #pragma once
 // Instance, device and queue: choosing where to compute. Knows no physics.
 
-#include <vulkan/vulkan.h>
+#include <volk.h>
 
 #include <cstdint>
 #include <memory>
@@ -60,6 +60,7 @@ class Device {
     bool validated() const { return messenger_ != VK_NULL_HANDLE; }
 
   private:
+    Device();
     void createInstance(bool validation);
     void createDevice(std::uint32_t family);
 

@@ -4,7 +4,7 @@ namespace vkdose::vk {
 
 BindingSet::BindingSet(const Device& device, const std::vector<const Buffer*>& storage,
                        const std::vector<const Buffer*>& texel, std::uint32_t pushBytes)
-    : device_(device), pushBytes_(pushBytes) {
+    : BindingSet(device, pushBytes) {
     const std::uint32_t storageCount = std::uint32_t(storage.size()), texelCount = std::uint32_t(texel.size());
     std::vector<VkDescriptorSetLayoutBinding> bindings;
     for (std::uint32_t i = 0; i < storageCount + texelCount; ++i)

@@ -1,7 +1,7 @@
 #pragma once
 // Compute pipelines over one descriptor set shared by all of them.
 
-#include <vulkan/vulkan.h>
+#include <volk.h>
 
 #include <cstdint>
 #include <span>
@@ -26,6 +26,8 @@ class BindingSet {
     void push(VkCommandBuffer commands, const void* data) const;
 
   private:
+    BindingSet(const Device& device, std::uint32_t pushBytes) : device_(device), pushBytes_(pushBytes) {}
+
     const Device& device_;
     std::uint32_t pushBytes_;
     VkDescriptorSetLayout setLayout_ = VK_NULL_HANDLE;

@@ -9,6 +9,11 @@
 
 uint row[kMaxRow];
 
+// Particles looked at for one row. Spheres of sizes that a row of kMaxRow holds stay far below. lavapipe ends all loops
+// of a subgroup after 65535 trips together, silently: 8 rows of this, with the loops that sort them and find old slots,
+// stay below as well.
+const uint kMostVisits = 4096u;
+
 void insertSorted(uint j, uint count) {
     uint at = count;
     for (; at > 0u && row[at - 1u] > j; --at) row[at] = row[at - 1u];
@@ -18,10 +23,12 @@ void insertSorted(uint j, uint count) {
 uint collect(uint i, uint member, vec4 p) {
     float skin = members[member].numerics.y, size = members[member].numerics.z;
     ivec3 home = cellOf(p.xyz, size);
-    uint count = 0u, found = 0u;
+    uint count = 0u, found = 0u, visits = 0u;
     for (int n = 0; n < 27; ++n) {
         ivec3 cell = home + ivec3(n % 3, (n / 3) % 3, n / 9) - 1;
-        for (uint j = cells[cellSlot(cell, member)]; j != kEmpty; j = cells[push.cellMask + 1u + j]) {
+        uint j = cells[cellSlot(cell, member)];
+        for (; j != kEmpty && visits <= kMostVisits; j = cells[push.cellMask + 1u + j]) {
+            ++visits;
             if (j == i) continue;
             vec4 q = state[stateIndex(push.source, kPosition, j)];
             // Two cells may share a slot of the table: take a particle only from the cell it is in.
@@ -37,6 +44,7 @@ uint collect(uint i, uint member, vec4 p) {
             }
         }
     }
+    if (visits > kMostVisits) report(kErrorCrowded, i);
     if (found > push.rowWidth) report(kErrorRowFull, i);
     return count;
 }

@@ -85,7 +85,8 @@ SHARED_CONST kErrorRowFull = 2u;
 SHARED_CONST kErrorOverlap = 3u;
 SHARED_CONST kErrorTurns = 4u;
 SHARED_CONST kErrorNewton = 5u;
-SHARED_CONST kErrors = 6u;
+SHARED_CONST kErrorCrowded = 6u;
+SHARED_CONST kErrors = 7u;
 
 struct ErrorRecord {
     uvec4 first; // x: smallest step of the batch at which it happened, y: smallest particle index; kEmpty: none

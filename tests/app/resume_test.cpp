@@ -142,8 +142,7 @@ TEST_CASE("after Ctrl-C a run can be resumed, to the same bits") {
 TEST_CASE("the bits do not depend on the number of driver threads") {
     const Sandbox box;
     for (const std::string threads : {"0", "1", "3"}) {
-        const auto o =
-            box.vkdose("export LP_NUM_THREADS=" + threads + ";", "run " + words(kDoses) + "--out " + threads);
+        const auto o = box.vkdose("run " + words(kDoses) + "--out " + threads, "LP_NUM_THREADS=" + threads + " ");
         CAPTURE(o.err);
         REQUIRE(o.code == 0);
     }
@@ -158,7 +157,7 @@ TEST_CASE("a full disk ends the run with a message and leaves the last good chec
     REQUIRE(box.vkdose("run " + words(kDoses) + many + "--out whole").code == 0);
     const auto series = fs::file_size(box / "whole/timeseries.csv");
     REQUIRE(series > 150 * 1024);
-    const auto full = box.vkdose("ulimit -f 240;", "run " + words(kDoses) + many + "--out cut");  // 120 KiB
+    const auto full = box.vkdose("run " + words(kDoses) + many + "--out cut", "ulimit -f 240; ");  // 120 KiB
     CAPTURE(full.err);
     CHECK(full.code == 5);
     CHECK_THAT(full.err, Catch::Contains("timeseries.csv: File too large") && Catch::Contains("vkdose resume cut"));
@@ -167,7 +166,7 @@ TEST_CASE("a full disk ends the run with a message and leaves the last good chec
     CHECK(on.code == 0);
     checkSame(box / "whole", box / "cut");
 
-    const auto none = box.vkdose("ulimit -f 20;", "run " + words(kDoses) + "--backend reference --out none");
+    const auto none = box.vkdose("run " + words(kDoses) + "--backend reference --out none", "ulimit -f 20; ");
     CHECK(none.code == 5);
     CHECK_THAT(none.err, Catch::Contains("checkpoint.h5: File too large") && Catch::Contains("no checkpoint"));
     CHECK(fs::exists(box / "none/timeseries.csv"));

@@ -64,13 +64,11 @@ class Sandbox {
         std::string err;
     };
 
-    /// Runs the program in the sandbox with these arguments (shell syntax).
-    Outcome vkdose(const std::string& arguments) const { return vkdose("", arguments); }
-
-    /// The same after the shell commands `before`, e.g. "export X=1;".
-    Outcome vkdose(const std::string& before, const std::string& arguments) const {
-        const std::string command = "cd '" + path_.string() + "' && { " + before + " '" VKDOSE_BINARY_DIR "/vkdose' " +
-                                    arguments + "; } > stdout.txt 2> stderr.txt < /dev/null";
+    /// Runs the program in the sandbox with these arguments (shell syntax); `before` is shell in front of it ("A=b ",
+    /// "ulimit -f 9; ").
+    Outcome vkdose(const std::string& arguments, const std::string& before = "") const {
+        const std::string command = "cd '" + path_.string() + "' && " + before + "'" VKDOSE_BINARY_DIR "/vkdose' " +
+                                    arguments + " > stdout.txt 2> stderr.txt < /dev/null";
         const int status = std::system(command.c_str());
         return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, readText(path_ / "stdout.txt"),
                 readText(path_ / "stderr.txt")};

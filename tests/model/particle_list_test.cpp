@@ -68,7 +68,7 @@ TEST_CASE("particle list: every fault names its line") {
         {"x,y,z,r\n0,0,1mm,1e-3\n", 2, "z", "not a number"},
         {"x,y,z,r\n0,0,,1e-3\n", 2, "z", "empty"},
         {"x,y,z,r\n0,nan,0,1e-3\n", 2, "y", "finite"},
-        {"x,y,z,r\n0,1e999,0,1e-3\n", 2, "y", "not a number"},
+        {"x,y,z,r\n0,1e999,0,1e-3\n", 2, "y", "beyond what a number can be"},
         {"x,y,z,r\n0,0,0,-1e-3\n", 2, "r", "not positive"},
         {"x,y,z,r\n0,0,0,0\n", 2, "r", "not positive"},
         {"x,y,z,r\n0,\"0,0,1\n", 2, "", "not CSV"},

@@ -79,6 +79,17 @@ TEST_CASE("a full neighbour row is reported") {
     requireRunError(w, p, 1, "more neighbours than a row holds");
 }
 
+TEST_CASE("more particles around one than the neighbour search may look at are reported") {
+    Particles p;
+    // The large sphere, far away, makes the cells of the search large; the small ones, apart from each other, fill one.
+    p.add({0.5, 0, 0}, 0.01);
+    for (int i = 0; i < 17 * 17 * 17; ++i) p.add(3e-4 * Vec3(1 + i % 17, 1 + i / 17 % 17, 1 + i / 289), 1e-4);
+    World w = emptyWorld();
+    w.timeStep = 1e-8;
+    w.skin = 1e-5;
+    requireRunError(w, p, 1, "has thousands of others around it");
+}
+
 TEST_CASE("a dosed particle is counted once and its neighbours forget it") {
     World w = canisterWorld();
     w.surfaces.clear();

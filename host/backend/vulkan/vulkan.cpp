@@ -30,9 +30,11 @@ std::uint32_t roundUp(std::size_t n, std::uint32_t unit) {
 class VulkanBackend final : public Backend {
   public:
     explicit VulkanBackend(const VulkanOptions& options) : options_(options), device_(options.device) {
-        if (options_.workgroup > device_.limits().maxComputeWorkGroupInvocations)
-            throw DeviceError(fmt::format("workgroups of {} exceed the {} invocations of {}", options_.workgroup,
-                                          device_.limits().maxComputeWorkGroupInvocations, device_.info().name));
+        const VkPhysicalDeviceLimits& limits = device_.limits();
+        const std::uint32_t most = std::min(limits.maxComputeWorkGroupInvocations, limits.maxComputeWorkGroupSize[0]);
+        if (options_.workgroup > most)
+            throw DeviceError(fmt::format("workgroups of {} exceed the {} invocations of {}", options_.workgroup, most,
+                                          device_.info().name));
     }
 
     void load(const World& world, const Particles& particles) override;
@@ -50,6 +52,14 @@ class VulkanBackend final : public Backend {
     const vk::Device& device() const { return device_; }
 
   private:
+    void requireDispatch(std::uint32_t groups) const {
+        const std::uint32_t most = device_.limits().maxComputeWorkGroupCount[0];
+        if (groups > most)
+            throw DeviceError(
+                fmt::format("the particles need dispatches of {} workgroups, but {} allows {}: use fewer "
+                            "particles or another device",
+                            groups, device_.info().name, most));
+    }
     void runBatch(std::uint32_t count, double coilRate);
     Sensors sense(std::uint32_t steps);
     void throwErrors(std::uint64_t firstStep) const;
@@ -83,6 +93,7 @@ void VulkanBackend::load(const World& world, const Particles& particles) {
     sizes.cells = 64;
     while (sizes.cells < 2 * particles.size()) sizes.cells *= 2;
     sizes.texelReads = options_.reads == VulkanOptions::Reads::Automatic;
+    requireDispatch(std::max(sizes.groups(), roundUp(sizes.cells, sizes.workgroup) / sizes.workgroup));
     passes_ = std::make_unique<Passes>(device_, sizes);
 
     passes_->state.writeAll(packState(particles, sizes.particles));
@@ -193,10 +204,12 @@ void VulkanBackend::throwErrors(std::uint64_t firstStep) const {
         "smaller "
         "time step or a stiffer k; if it is pinched between coil and wall, allow more",
         "touches more turns of the coil than there are slots: use a larger pitch",
-        "met the coil where the search for its closest point did not converge: report this case"};
+        "met the coil where the search for its closest point did not converge: report this case",
+        "has thousands of others around it, within the size of the largest: use a narrower size distribution or a "
+        "smaller skin"};
     const gpu::Control control = passes_->control.readAll<gpu::Control>(1)[0];
     for (std::uint32_t e : {gpu::kErrorNan, gpu::kErrorRowFull, gpu::kErrorOverlap, gpu::kErrorLost, gpu::kErrorTurns,
-                            gpu::kErrorNewton}) {
+                            gpu::kErrorNewton, gpu::kErrorCrowded}) {
         const gpu::uvec4 first = control.error[e].first;
         if (first.x == gpu::kEmpty) continue;
         const std::uint64_t step = firstStep + first.x;

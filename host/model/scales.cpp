@@ -1,0 +1,101 @@
+// Whether the numbers of a case go together: what a device keeps in single precision, and what may happen in one step.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "host/model/checks.h"
+
+namespace vkdose {
+namespace {
+
+/// Masses and moments of inertia outside these are not normal single-precision numbers, with room for a factor or two.
+constexpr double kSmallestFloat = 1e-36;
+constexpr double kLargestFloat = 1e36;
+/// A position is kept to 48 bits; so far out it is still known to 1e-7 of the radius, as an overlap must be.
+constexpr double kFarthestOverRadius = 1e7;
+/// Way in one step, in units of the smallest radius: a contact has to be met before it is passed.
+constexpr double kLongestWay = 0.1;
+/// A longer list of neighbours than any row holds, but not yet every particle with every other.
+constexpr double kWidestSkin = 100;
+constexpr double kMostSteps = 1e15;
+/// A flatter coil is a disc, whose closest point is a search through as many turns as the ratio squared.
+constexpr double kFlattestCoil = 100;
+
+std::string sizeKey(const Case& c, const char* bound) {
+    if (c.filling.list) return "particles.list";
+    if (c.filling.size.kind == SizeDistribution::Kind::Fixed) return "particles.size.radius_mm";
+    return fmt::format("particles.size.radius_{}_mm", bound);
+}
+
+void checkMasses(CaseReader& reader, const Case& c, const SizeRange& radii) {
+    const auto inertia = [&](double r) { return 0.4 * c.world.density * 4.0 / 3.0 * kPi * std::pow(r, 5); };
+    if (inertia(radii.smallest) < kSmallestFloat)
+        reader.fault(sizeKey(c, "min"),
+                     fmt::format("a sphere of {:.3g} mm is too light to compute", radii.smallest * 1e3),
+                     "give larger spheres, or fewer and larger ones in their place");
+    if (inertia(radii.largest) > kLargestFloat)
+        reader.fault(sizeKey(c, "max"),
+                     fmt::format("a sphere of {:.3g} mm is too heavy to compute", radii.largest * 1e3),
+                     "give smaller spheres");
+}
+
+void checkSteps(CaseReader& reader, const Case& c) {
+    const Schedule& s = c.schedule;
+    const std::array<std::pair<const char*, double>, 4> durations{{{"settle.time_s", s.settleTime},
+                                                                   {"dose.rotate_s", s.rotateTime},
+                                                                   {"dose.rest_s", s.restTime},
+                                                                   {"stop.end_time_s", s.stop.endTime}}};
+    for (const auto& [key, duration] : durations) {
+        const double steps = std::round(duration / c.world.timeStep);
+        if (duration > 0 && steps < 1)
+            reader.fault(key, "is shorter than half a time step",
+                         fmt::format("give 0 or at least {:.4g} s", c.world.timeStep));
+        if (std::isfinite(duration) && steps > kMostSteps)
+            reader.fault(key, fmt::format("is more than {:.0e} time steps", kMostSteps), "give a shorter time");
+    }
+}
+
+void checkWays(CaseReader& reader, const Case& c, double smallest) {
+    const double dt = c.world.timeStep;
+    const double longest = kLongestWay * smallest;
+    if (glm::length(c.world.gravity) * dt * dt > longest)
+        reader.fault("gravity", "moves the smallest sphere by more than a tenth of its radius in a time step",
+                     "give gravity in m/s2, or a shorter time.step_s");
+    if (!c.world.coil) return;
+    const double rim = c.schedule.coilSpeed * (c.world.coil->radius + c.world.coil->wireRadius);
+    if (rim * dt > longest)
+        reader.fault("coil.speed_rpm", "moves the wire by more than a tenth of the smallest radius in a time step",
+                     fmt::format("give at most {:.3g} rpm, or a shorter time.step_s",
+                                 c.schedule.coilSpeed * kRpm.perSI * longest / (rim * dt)));
+}
+
+}  // namespace
+
+void checkScales(CaseReader& reader, const Case& c, const SizeRange& radii) {
+    checkMasses(reader, c, radii);
+    checkSteps(reader, c);
+    checkWays(reader, c, radii.smallest);
+    if (c.world.skin > kWidestSkin * radii.largest)
+        reader.fault("time.skin_mm", "makes every particle a neighbour of hundreds of thousands",
+                     fmt::format("give about {:.3g}, a tenth of the radius", 0.1 * radii.largest * 1e3));
+    if (c.world.coil && c.world.coil->radius > kFlattestCoil * c.world.coil->pitch)
+        reader.fault("coil", fmt::format("is wider than {:.0f} times its pitch", kFlattestCoil),
+                     "give fewer turns or a smaller radius");
+}
+
+void checkExtent(CaseReader& reader, const Case& c, double smallest, const std::string& path) {
+    const Box& box = c.world.domain;
+    const double farthest = kFarthestOverRadius * smallest;
+    double reach = 0;
+    for (const Vec3& corner : {box.low, box.high})
+        for (glm::length_t axis = 0; axis < 3; ++axis) reach = std::max(reach, std::abs(corner[axis]));
+    if (reach > farthest)
+        reader.fault(path,
+                     fmt::format("reaches {:.3g} m from the origin, where a sphere of {:.3g} mm is lost in rounding",
+                                 reach, smallest * 1e3),
+                     fmt::format("stay within {:.3g} m", farthest));
+}
+
+}  // namespace vkdose

@@ -1,0 +1,164 @@
+// Devices that lack something or fail on the way: what the user is told, and what goes on working.
+#include <filesystem>
+
+#include "tests/app/sandbox.h"
+#include "tests/support/fault.h"
+#include "tests/support/gpu.h"
+
+using namespace vkdose;
+using namespace vkdose::test;
+using Catch::Matchers::Contains;
+
+namespace {
+
+/// A heap of odd size in the canister, falling on the coil.
+Particles heap() {
+    Particles p;
+    for (int i = 0; i < 131; ++i)
+        p.add({-6e-3 + 3e-3 * (i % 5), 0.0135 + 2.9e-3 * (i / 75), 3e-3 + 3e-3 * (i / 5 % 15)}, 1.4e-3, {0, -0.5, 0});
+    return p;
+}
+
+struct End {
+    Sensors sensors;
+    Particles particles;
+};
+
+End run(Backend& backend, std::uint32_t steps = 1500) {
+    backend.load(canisterWorld(), heap());
+    return {backend.advance(steps, -9.0), backend.particles()};
+}
+
+std::string failure() {
+    try {
+        const auto backend = makeVulkanBackend(VulkanOptions{{testDevice().name, false}});
+        run(*backend, 64);
+    } catch (const DeviceError& error) {
+        return error.what();
+    }
+    return "nothing failed";
+}
+
+/// The mini case cut to a few hundred steps.
+const std::string kRun = "run '" VKDOSE_SOURCE_DIR
+                         "/cases/mini.toml' --set settle.time_s=0.05 --set dose.rotate_s=0.005 --set dose.rest_s=0.002 "
+                         "--set stop.max_doses=1 --set sensors.interval_s=0.001 --out out ";
+
+}  // namespace
+
+TEST_CASE("a device that lacks something is refused with what it lacks") {
+    struct Row {
+        std::string fault;
+        std::string says;
+    };
+    const std::vector<Row> rows{
+        {"no-device", "no Vulkan device: install a driver"},
+        {"no-compute", "has no compute queue"},
+        {"vulkan-1.0", "needs Vulkan 1.1, has 1.0"},
+        {"few-buffers", "needs 11 storage buffers per stage, has 4"},
+        {"small-range", "allows storage buffers of 65536 bytes: use fewer particles or another device"},
+        {"few-groups", "allows 2: use fewer particles or another device"},
+    };
+    CHECK(failure() == "nothing failed");
+    for (const Row& row : rows) {
+        INFO(row.fault);
+        const Fault fault(row.fault, false);
+        CHECK_THAT(failure(), Contains(row.says));
+    }
+}
+
+TEST_CASE("a call that fails is named with what to do") {
+    struct Row {
+        std::string fault;
+        std::string call;
+        std::string says;
+    };
+    const std::vector<Row> rows{
+        {"no-queue", "vkCreateDevice", "try another with --device"},
+        {"no-memory", "for the particle state failed", "out of device memory: use fewer particles or another device"},
+        {"no-memory:3", "for the contact history failed", "out of device memory"},
+        {"no-map", "vkMapMemory", "cannot be mapped"},
+        {"no-pipeline", "vkCreateComputePipelines", "out of host memory: use fewer particles"},
+        {"lost", "vkQueueSubmit", "the device was lost"},
+        {"lost:12", "vkQueueSubmit", "the device was lost"},
+        {"lost-waiting:13", "vkWaitForFences", "run again, on another device if it happens again"},
+    };
+    for (const Row& row : rows) {
+        INFO(row.fault);
+        const Fault fault(row.fault, false);
+        const std::string told = failure();
+        CHECK_THAT(told, Contains(row.call) && Contains(row.says));
+    }
+}
+
+TEST_CASE("a device of the least limits gives the same bits") {
+    const auto good = gpu();
+    const End expected = run(*good);
+    const Fault fault("least-limits");
+    const auto least = gpu();
+    const End end = run(*least);
+    CHECK(end.particles.position == expected.particles.position);
+    CHECK(end.particles.spin == expected.particles.spin);
+    CHECK(end.sensors.coilTorque == expected.sensors.coilTorque);
+    CHECK(end.sensors.maxOverlapRatio > 0);
+    CHECK(end.sensors.rebuilds > 1);
+    requireClean(*least);
+}
+
+TEST_CASE("a device whose memory the host cannot map gives the same bits") {
+    const auto good = gpu();
+    const End expected = run(*good);
+    const auto contacts = good->contacts();
+    const Fault fault("split-memory");
+    const auto split = gpu();
+    const End end = run(*split);
+    CHECK(end.particles.position == expected.particles.position);
+    CHECK(end.particles.spin == expected.particles.spin);
+    CHECK(end.sensors.kineticEnergy == expected.sensors.kineticEnergy);
+    REQUIRE(split->contacts().size() == contacts.size());
+    REQUIRE_FALSE(contacts.empty());
+    requireClean(*split);
+}
+
+TEST_CASE("a device lost on the way ends the run with code 4 and keeps what was computed") {
+    const Sandbox box;
+    const Fault fault("lost:120", false);
+    const auto o = box.vkdose(kRun);
+    CAPTURE(o.err, o.out);
+    CHECK(o.code == 4);
+    CHECK_THAT(o.err, Contains("the device was lost"));
+    CHECK_THAT(readText(box / "out/summary.json"), Contains("\"stop_reason\": \"device_error\""));
+    CHECK(readCsv(box / "out/timeseries.csv").size() > 2);
+}
+
+TEST_CASE("a device that cannot be used is code 4 of every command, and nothing is written") {
+    const Sandbox box;
+    for (const std::string fault : {"no-device", "no-compute", "few-buffers", "no-queue"}) {
+        const Fault spoilt(fault, false);
+        const auto o = box.vkdose(kRun);
+        CAPTURE(fault, o.err);
+        CHECK(o.code == 4);
+        CHECK_THAT(o.err, Contains("vkdose: "));
+        if (fault != "no-queue") CHECK(box.vkdose("devices").code == 4);
+    }
+    CHECK(box.files().empty());
+    const Fault fault("few-buffers", false);
+    CHECK_THAT(box.vkdose("devices").out, Contains("not usable: needs 11 storage buffers per stage, has 4"));
+}
+
+TEST_CASE("without a Vulkan loader the reference runs and the rest says what to install") {
+    const Sandbox box;
+    // Files of the loader's names that are no libraries hide the real one.
+    std::filesystem::create_directory(box / "lib");
+    box.write("lib/libvulkan.so.1", "no library");
+    box.write("lib/libvulkan.so", "no library");
+    const std::string hide = "LD_LIBRARY_PATH='" + (box / "lib").string() + "' ";
+    for (const std::string& command : {kRun, std::string("devices")}) {
+        const auto o = box.vkdose(command, hide);
+        CAPTURE(command, o.err);
+        CHECK(o.code == 4);
+        CHECK_THAT(o.err, Contains("no Vulkan loader") && Contains("libvulkan1"));
+    }
+    CHECK(box.vkdose(kRun + "--backend reference --quiet", hide).code == 0);
+    CHECK(box.vkdose("check '" VKDOSE_SOURCE_DIR "/cases/mini.toml'", hide).code == 0);
+}

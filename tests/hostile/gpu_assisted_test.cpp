@@ -1,0 +1,66 @@
+// The passes under the validation layer's GPU-assisted checks, which put a bounds check before every access of a
+// buffer: no pass reads or writes outside.
+#include "host/backend/vulkan/pack.h"
+#include "host/backend/vulkan/passes.h"
+#include "tests/support/gpu.h"
+
+using namespace vkdose;
+using namespace vkdose::test;
+
+namespace {
+
+/// While it lives, the validation layer checks on the device as well.
+class Assisted {
+  public:
+    Assisted() { setenv("VK_LAYER_ENABLES", "VK_VALIDATION_FEATURE_ENABLE_GPU_ASSISTED_EXT", 1); }
+    ~Assisted() { unsetenv("VK_LAYER_ENABLES"); }
+    Assisted(const Assisted&) = delete;
+    Assisted& operator=(const Assisted&) = delete;
+};
+
+}  // namespace
+
+TEST_CASE("GPU-assisted checks find an access outside a buffer") {
+    const Assisted assisted;
+    vk::Device device(testDevice());
+    REQUIRE(device.validated());
+    TableSizes sizes;
+    sizes.particles = 64;
+    sizes.rowWidth = 8;
+    sizes.cells = 64;
+    Passes passes(device, sizes);
+    Particles p;
+    p.add({0, 0, 0}, 1e-3);
+    const gpu::Member member = packMember(emptyWorld(), p);
+    passes.members.write(0, &member, sizeof member);
+    passes.state.writeAll(packState(p, sizes.particles));
+    gpu::Control control{};
+    control.cells = {1, 1, 1, 0};
+    control.particles = {2, 1, 1, 0};  // one workgroup more than there are particles
+    control.single = {1, 1, 1, 0};
+    passes.control.write(0, &control, sizeof control);
+    vk::Commands commands(device);
+    commands.begin();
+    passes.recordSteps(commands, 0, 1, 0, true);
+    commands.hostBarrier();
+    commands.submit();
+    REQUIRE_FALSE(device.validationMessages().empty());
+    CHECK_THAT(device.validationMessages().front(), Catch::Contains("out of bounds"));
+}
+
+TEST_CASE("no pass reaches outside its buffers while a heap falls on the turning coil") {
+    const Assisted assisted;
+    for (const auto reads : {VulkanOptions::Reads::Automatic, VulkanOptions::Reads::Storage}) {
+        VulkanOptions options;
+        options.reads = reads;
+        const auto backend = test::gpu(options);
+        Particles p;
+        for (int i = 0; i < 67; ++i)
+            p.add({-6e-3 + 3e-3 * (i % 5), 0.0128 + 2.9e-3 * (i / 35), 3e-3 + 3e-3 * (i / 5 % 7)}, 1.4e-3, {0, -1, 0});
+        backend->load(canisterWorld(), p);
+        const Sensors end = backend->advance(500, -9.0);
+        CHECK(end.maxOverlapRatio > 0);  // something was touched
+        CHECK(end.rebuilds > 1);
+        requireClean(*backend);
+    }
+}

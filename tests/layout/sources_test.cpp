@@ -1,0 +1,57 @@
+// What our shaders must not contain, because drivers are known to get it wrong.
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <sstream>
+#include <string>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string withoutComments(const std::string& text) {
+    std::string code;
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line);) code += line.substr(0, line.find("//")) + "\n";
+    return code;
+}
+
+bool hasDo(const std::string& code) {
+    return std::regex_search(code, std::regex("\\bdo\\b\\s*[\\{\\n]"));
+}
+
+/// A loop without a condition, bounded by a break alone if at all.
+bool hasEndlessLoop(const std::string& code) {
+    return std::regex_search(code, std::regex("while\\s*\\(\\s*true\\s*\\)|for\\s*\\([^;]*;\\s*;[^)]*\\)"));
+}
+
+}  // namespace
+
+// lavapipe of Mesa 22.3 miscompiles a do-while whose invocations leave at different trips, and ends any loop silently
+// after 65535 trips of one invocation's loops together. So: for and while only, each with a condition that bounds it.
+// The bounds: rows of at most 64, at most 27 cells around a particle and kMostVisits particles in them, 8 Newton steps
+// for each of a handful of turns, 28 surfaces.
+TEST_CASE("no shader holds a do-while loop or a loop without a condition") {
+    CHECK(hasDo(withoutComments("do {\n} while (x);")));
+    CHECK(hasDo(withoutComments("  do\n  {")));
+    CHECK_FALSE(hasDo(withoutComments("double dot; // do { }\n")));
+    CHECK(hasEndlessLoop("for (;;) {"));
+    CHECK(hasEndlessLoop("for (uint i = 0u; ; ++i) {"));
+    CHECK(hasEndlessLoop("while (true) {"));
+    CHECK_FALSE(hasEndlessLoop("for (uint i = 0u; i < n; ++i) {"));
+    std::size_t files = 0;
+    for (const auto& entry : fs::recursive_directory_iterator(VKDOSE_SOURCE_DIR "/shaders")) {
+        const std::string suffix = entry.path().extension().string();
+        if (suffix != ".comp" && suffix != ".glsl" && suffix != ".h") continue;
+        std::ifstream stream(entry.path());
+        std::ostringstream text;
+        text << stream.rdbuf();
+        INFO(entry.path());
+        REQUIRE_FALSE(text.str().empty());
+        CHECK_FALSE(hasDo(withoutComments(text.str())));
+        CHECK_FALSE(hasEndlessLoop(withoutComments(text.str())));
+        ++files;
+    }
+    CHECK(files >= 15);
+}

@@ -1,0 +1,292 @@
+// A Vulkan layer that makes a good driver a bad one, for tests: production code has no hooks. VKDOSE_FAULT names what
+// fails, several at once separated by commas; NAME:N fails from the N-th call on (counted from 0).
+//
+//   no-device       no physical device is shown           no-compute     no queue family computes
+//   vulkan-1.0      the devices say Vulkan 1.0             few-buffers    4 storage buffers per stage, the least
+//   allowed least-limits    what compute uses is at the least that Vulkan 1.1 promises, except storage buffers per
+//   stage small-range     storage buffers of 64 KiB             few-groups     dispatches of 2 workgroups split-memory
+//   device memory the host cannot map, as on a discrete card, beside host memory no-queue        vkCreateDevice fails
+//   no-pipeline    vkCreateComputePipelines fails no-memory:N     vkAllocateMemory fails                 no-map
+//   vkMapMemory fails lost:N          vkQueueSubmit loses the device         lost-waiting:N vkWaitForFences does
+#include <vulkan/vk_layer.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdlib>
+#include <cstring>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace {
+
+/// The number after the colon of a fault that is asked for, 0 without one.
+std::optional<int> fault(std::string_view name) {
+    const char* all = std::getenv("VKDOSE_FAULT");
+    std::string_view rest = all == nullptr ? "" : all;
+    while (!rest.empty()) {
+        const std::string_view one = rest.substr(0, rest.find(','));
+        rest.remove_prefix(std::min(rest.size(), one.size() + 1));
+        if (one.substr(0, one.find(':')) != name) continue;
+        const std::size_t colon = one.find(':');
+        return colon == std::string_view::npos ? 0 : std::atoi(std::string(one.substr(colon + 1)).c_str());
+    }
+    return std::nullopt;
+}
+
+/// Whether a call of its kind, counted by `calls`, fails now.
+bool failsNow(std::string_view name, std::atomic<int>& calls) {
+    const std::optional<int> from = fault(name);
+    return from && calls++ >= *from;
+}
+
+/// The functions of the layer below. Asked for when the object is made: later the loader answers with the top layer's.
+using Functions = std::map<std::string_view, PFN_vkVoidFunction>;
+
+struct Instance {
+    PFN_vkGetInstanceProcAddr next = nullptr;
+    VkInstance handle = VK_NULL_HANDLE;
+    Functions functions;
+};
+struct Device {
+    PFN_vkGetDeviceProcAddr next = nullptr;
+    Functions functions;
+    std::atomic<int> allocations{0}, submissions{0}, waits{0};
+};
+
+std::mutex mutex;
+std::map<void*, Instance> instances;  // by dispatch table, which an object shares with its children
+std::map<void*, Device> devices;
+
+void* key(const void* handle) {
+    return *static_cast<void* const*>(handle);
+}
+Instance& instanceOf(const void* handle) {
+    const std::lock_guard lock(mutex);
+    return instances.at(key(handle));
+}
+Device& deviceOf(const void* handle) {
+    const std::lock_guard lock(mutex);
+    return devices.at(key(handle));
+}
+/// What this layer intercepts, by name.
+const Functions& intercepted();
+
+template <class Function, class Owner>
+Function next(const Owner& owner, std::string_view name) {
+    return reinterpret_cast<Function>(owner.functions.at(name));
+}
+#define NEXT(owner, name) next<PFN_##name>(owner, #name)
+
+/// The loader's link to the layer below, and the step down for it.
+template <class Link>
+Link* linkOf(const void* chain, VkStructureType type) {
+    for (auto* at = static_cast<Link*>(const_cast<void*>(chain)); at != nullptr;
+         at = static_cast<Link*>(const_cast<void*>(at->pNext)))
+        if (at->sType == type && at->function == VK_LAYER_LINK_INFO) return at;
+    return nullptr;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL createInstance(const VkInstanceCreateInfo* create,
+                                              const VkAllocationCallbacks* allocator, VkInstance* made) {
+    auto* link = linkOf<VkLayerInstanceCreateInfo>(create->pNext, VK_STRUCTURE_TYPE_LOADER_INSTANCE_CREATE_INFO);
+    if (link == nullptr) return VK_ERROR_INITIALIZATION_FAILED;
+    const PFN_vkGetInstanceProcAddr below = link->u.pLayerInfo->pfnNextGetInstanceProcAddr;
+    link->u.pLayerInfo = link->u.pLayerInfo->pNext;
+    const auto call = reinterpret_cast<PFN_vkCreateInstance>(below(VK_NULL_HANDLE, "vkCreateInstance"));
+    const VkResult result = call(create, allocator, made);
+    if (result != VK_SUCCESS) return result;
+    const std::lock_guard lock(mutex);
+    Instance& instance = instances[key(*made)];
+    instance = {below, *made, {}};
+    for (const auto& [name, ours] : intercepted()) instance.functions[name] = below(*made, name.data());
+    return VK_SUCCESS;
+}
+
+VKAPI_ATTR void VKAPI_CALL destroyInstance(VkInstance instance, const VkAllocationCallbacks* allocator) {
+    if (instance == VK_NULL_HANDLE) return;
+    void* const table = key(instance);
+    NEXT(instanceOf(instance), vkDestroyInstance)(instance, allocator);
+    const std::lock_guard lock(mutex);
+    instances.erase(table);
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL enumeratePhysicalDevices(VkInstance instance, std::uint32_t* count,
+                                                        VkPhysicalDevice* found) {
+    const VkResult result = NEXT(instanceOf(instance), vkEnumeratePhysicalDevices)(instance, count, found);
+    if (!fault("no-device")) return result;
+    *count = 0;
+    return VK_SUCCESS;
+}
+
+VKAPI_ATTR void VKAPI_CALL queueFamilies(VkPhysicalDevice physical, std::uint32_t* count,
+                                         VkQueueFamilyProperties* families) {
+    NEXT(instanceOf(physical), vkGetPhysicalDeviceQueueFamilyProperties)(physical, count, families);
+    for (std::uint32_t i = 0; fault("no-compute") && families != nullptr && i < *count; ++i)
+        families[i].queueFlags &= ~VkQueueFlags(VK_QUEUE_COMPUTE_BIT);
+}
+
+/// What the specification's table of required limits lets a Vulkan 1.1 device have at the least.
+void lower(VkPhysicalDeviceLimits& l) {
+    const auto least = [](auto& limit, auto value) {
+        limit = std::min<std::remove_reference_t<decltype(limit)>>(limit, value);
+    };
+    least(l.maxStorageBufferRange, 1u << 27);
+    least(l.maxTexelBufferElements, 65536u);
+    least(l.maxUniformBufferRange, 16384u);
+    least(l.maxPushConstantsSize, 128u);
+    least(l.maxMemoryAllocationCount, 4096u);
+    least(l.maxBoundDescriptorSets, 4u);
+    least(l.maxComputeSharedMemorySize, 16384u);
+    least(l.maxComputeWorkGroupInvocations, 128u);
+    const std::uint32_t size[] = {128, 128, 64};
+    for (int axis = 0; axis < 3; ++axis) {
+        least(l.maxComputeWorkGroupCount[axis], 65535u);
+        least(l.maxComputeWorkGroupSize[axis], size[axis]);
+    }
+    l.timestampComputeAndGraphics = VK_FALSE;
+}
+
+void spoil(VkPhysicalDeviceProperties& p) {
+    if (fault("vulkan-1.0")) p.apiVersion = VK_API_VERSION_1_0;
+    if (fault("least-limits")) lower(p.limits);
+    if (fault("few-buffers")) p.limits.maxPerStageDescriptorStorageBuffers = 4;
+    if (fault("small-range")) p.limits.maxStorageBufferRange = 65536;
+    if (fault("few-groups")) p.limits.maxComputeWorkGroupCount[0] = 2;
+}
+
+VKAPI_ATTR void VKAPI_CALL properties(VkPhysicalDevice physical, VkPhysicalDeviceProperties* p) {
+    NEXT(instanceOf(physical), vkGetPhysicalDeviceProperties)(physical, p);
+    spoil(*p);
+}
+VKAPI_ATTR void VKAPI_CALL properties2(VkPhysicalDevice physical, VkPhysicalDeviceProperties2* p) {
+    NEXT(instanceOf(physical), vkGetPhysicalDeviceProperties2)(physical, p);
+    spoil(p->properties);
+}
+
+// split-memory: type 0 is the device's own, type 1 the host's. Both are made of the driver's first host-visible type.
+constexpr VkMemoryPropertyFlags kHost = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+
+VKAPI_ATTR void VKAPI_CALL memoryProperties(VkPhysicalDevice physical, VkPhysicalDeviceMemoryProperties* p) {
+    NEXT(instanceOf(physical), vkGetPhysicalDeviceMemoryProperties)(physical, p);
+    if (!fault("split-memory")) return;
+    p->memoryTypeCount = 2;
+    p->memoryTypes[0] = {VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, 0};
+    p->memoryTypes[1] = {kHost, 0};
+}
+VKAPI_ATTR void VKAPI_CALL bufferRequirements(VkDevice device, VkBuffer buffer, VkMemoryRequirements* needs) {
+    NEXT(deviceOf(device), vkGetBufferMemoryRequirements)(device, buffer, needs);
+    if (fault("split-memory")) needs->memoryTypeBits = 3;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL createDevice(VkPhysicalDevice physical, const VkDeviceCreateInfo* create,
+                                            const VkAllocationCallbacks* allocator, VkDevice* made) {
+    if (fault("no-queue")) return VK_ERROR_INITIALIZATION_FAILED;
+    auto* link = linkOf<VkLayerDeviceCreateInfo>(create->pNext, VK_STRUCTURE_TYPE_LOADER_DEVICE_CREATE_INFO);
+    if (link == nullptr) return VK_ERROR_INITIALIZATION_FAILED;
+    const PFN_vkGetInstanceProcAddr below = link->u.pLayerInfo->pfnNextGetInstanceProcAddr;
+    const PFN_vkGetDeviceProcAddr belowDevice = link->u.pLayerInfo->pfnNextGetDeviceProcAddr;
+    link->u.pLayerInfo = link->u.pLayerInfo->pNext;
+    const auto call = reinterpret_cast<PFN_vkCreateDevice>(below(instanceOf(physical).handle, "vkCreateDevice"));
+    const VkResult result = call(physical, create, allocator, made);
+    if (result != VK_SUCCESS) return result;
+    const std::lock_guard lock(mutex);
+    Device& device = devices[key(*made)];
+    device.next = belowDevice;
+    for (const auto& [name, ours] : intercepted()) device.functions[name] = belowDevice(*made, name.data());
+    device.allocations = device.submissions = device.waits = 0;
+    return VK_SUCCESS;
+}
+
+VKAPI_ATTR void VKAPI_CALL destroyDevice(VkDevice device, const VkAllocationCallbacks* allocator) {
+    if (device == VK_NULL_HANDLE) return;
+    void* const table = key(device);
+    NEXT(deviceOf(device), vkDestroyDevice)(device, allocator);
+    const std::lock_guard lock(mutex);
+    devices.erase(table);
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL allocateMemory(VkDevice device, const VkMemoryAllocateInfo* info,
+                                              const VkAllocationCallbacks* allocator, VkDeviceMemory* memory) {
+    Device& d = deviceOf(device);
+    if (failsNow("no-memory", d.allocations)) return VK_ERROR_OUT_OF_DEVICE_MEMORY;
+    VkMemoryAllocateInfo real = *info;
+    if (fault("split-memory")) real.memoryTypeIndex = 0;
+    return NEXT(d, vkAllocateMemory)(device, &real, allocator, memory);
+}
+VKAPI_ATTR VkResult VKAPI_CALL mapMemory(VkDevice device, VkDeviceMemory memory, VkDeviceSize offset, VkDeviceSize size,
+                                         VkMemoryMapFlags flags, void** data) {
+    if (fault("no-map")) return VK_ERROR_MEMORY_MAP_FAILED;
+    return NEXT(deviceOf(device), vkMapMemory)(device, memory, offset, size, flags, data);
+}
+VKAPI_ATTR VkResult VKAPI_CALL createPipelines(VkDevice device, VkPipelineCache cache, std::uint32_t count,
+                                               const VkComputePipelineCreateInfo* infos,
+                                               const VkAllocationCallbacks* allocator, VkPipeline* made) {
+    if (fault("no-pipeline")) return VK_ERROR_OUT_OF_HOST_MEMORY;
+    return NEXT(deviceOf(device), vkCreateComputePipelines)(device, cache, count, infos, allocator, made);
+}
+VKAPI_ATTR VkResult VKAPI_CALL queueSubmit(VkQueue queue, std::uint32_t count, const VkSubmitInfo* infos,
+                                           VkFence fence) {
+    Device& d = deviceOf(queue);
+    if (failsNow("lost", d.submissions)) return VK_ERROR_DEVICE_LOST;
+    return NEXT(d, vkQueueSubmit)(queue, count, infos, fence);
+}
+VKAPI_ATTR VkResult VKAPI_CALL waitForFences(VkDevice device, std::uint32_t count, const VkFence* fences, VkBool32 all,
+                                             std::uint64_t timeout) {
+    Device& d = deviceOf(device);
+    const VkResult result = NEXT(d, vkWaitForFences)(device, count, fences, all, timeout);
+    return failsNow("lost-waiting", d.waits) ? VK_ERROR_DEVICE_LOST : result;
+}
+
+PFN_vkVoidFunction ours(const char* name) {
+    const auto found = intercepted().find(name);
+    return found == intercepted().end() ? nullptr : found->second;
+}
+VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL getDeviceProcAddr(VkDevice device, const char* name) {
+    if (const auto function = ours(name)) return function;
+    return deviceOf(device).next(device, name);
+}
+VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL getInstanceProcAddr(VkInstance instance, const char* name) {
+    if (const auto function = ours(name)) return function;
+    return instance == VK_NULL_HANDLE ? nullptr : instanceOf(instance).next(instance, name);
+}
+
+const Functions& intercepted() {
+    static const Functions functions = [] {
+        Functions all;
+        const auto add = [&](std::string_view name, auto function) {
+            all[name] = reinterpret_cast<PFN_vkVoidFunction>(function);
+        };
+        add("vkGetInstanceProcAddr", getInstanceProcAddr);
+        add("vkGetDeviceProcAddr", getDeviceProcAddr);
+        add("vkCreateInstance", createInstance);
+        add("vkDestroyInstance", destroyInstance);
+        add("vkEnumeratePhysicalDevices", enumeratePhysicalDevices);
+        add("vkGetPhysicalDeviceQueueFamilyProperties", queueFamilies);
+        add("vkGetPhysicalDeviceProperties", properties);
+        add("vkGetPhysicalDeviceProperties2", properties2);
+        add("vkGetPhysicalDeviceMemoryProperties", memoryProperties);
+        add("vkGetBufferMemoryRequirements", bufferRequirements);
+        add("vkCreateDevice", createDevice);
+        add("vkDestroyDevice", destroyDevice);
+        add("vkAllocateMemory", allocateMemory);
+        add("vkMapMemory", mapMemory);
+        add("vkCreateComputePipelines", createPipelines);
+        add("vkQueueSubmit", queueSubmit);
+        add("vkWaitForFences", waitForFences);
+        return all;
+    }();
+    return functions;
+}
+
+}  // namespace
+
+extern "C" VK_LAYER_EXPORT VkResult vkNegotiateLoaderLayerInterfaceVersion(VkNegotiateLayerInterface* version) {
+    version->loaderLayerInterfaceVersion = 2;
+    version->pfnGetInstanceProcAddr = getInstanceProcAddr;
+    version->pfnGetDeviceProcAddr = getDeviceProcAddr;
+    version->pfnGetPhysicalDeviceProcAddr = nullptr;
+    return VK_SUCCESS;
+}
