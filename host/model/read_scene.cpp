@@ -181,6 +181,7 @@ void readSchedule(Section& root, Case& c) {
     readStop(root, c);
     Section& sensors = root.table("sensors");
     c.sensorInterval = sensors.number("interval_s", Bound::Positive, kSecond, 0.01);
+    c.world.energyBook = sensors.boolean("energy", false);
 }
 
 void readTime(Section& root, Case& c) {

@@ -102,6 +102,7 @@ class Run {
 
     /// Joins the sensors of one call to those since the last sample.
     void gather(const Sensors& s, std::uint64_t n) {
+        if (s.energy) energy_.add(*s.energy);
         if (s.maxOverlapRatio > result_.maxOverlapRatio) {
             result_.maxOverlapRatio = s.maxOverlapRatio;
             result_.maxOverlapTime = timeline_.time(step_);
@@ -132,6 +133,7 @@ class Run {
         s.coilPower = s.coilTorque * std::abs(stretch_.rate);
         const double throat = mass(now_, Region::Throat);
         s.outletVelocity = throat > 0 ? now_.throatMomentumZ / throat : std::numeric_limits<double>::quiet_NaN();
+        if (now_.energy) s.energy = energy_;
         gathered_ = 0;
         impulse_ = 0;
         observer_.onSample(s);
@@ -247,6 +249,8 @@ class Run {
     Sensors now_;                 ///< of the last call, joined with the calls since the last sample
     std::uint64_t gathered_ = 0;  ///< steps since the last sample
     double impulse_ = 0;          ///< torque times steps since the last sample
+
+    EnergyLedger energy_;  ///< since the start of the run
 
     Dose dose_;            ///< under way; index 0: none
     Sensors dosedBefore_;  ///< at its start
