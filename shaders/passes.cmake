@@ -1,5 +1,6 @@
-# Compiles every pass to SPIR-V and embeds it as a C++ header. A pass that reads particle state is built twice: from
-# storage buffers, and (suffix _texel) through texel-buffer views, which some devices read several times faster.
+# Compiles every pass to SPIR-V and embeds it as a C++ header. A pass that names TEXEL_READS is built twice: from storage
+# buffers, and (suffix _texel) through texel-buffer views, which some devices read several times faster. One that names
+# ENERGY_BOOK is built without the energy book, which then costs nothing, and (suffix _energy) with it.
 set(spirv_dir ${CMAKE_BINARY_DIR}/spirv)
 file(MAKE_DIRECTORY ${spirv_dir})
 file(GLOB shader_headers CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/shaders/shared/*.h ${CMAKE_SOURCE_DIR}/shaders/law/*.glsl
@@ -23,10 +24,17 @@ endfunction()
 file(GLOB passes CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/shaders/pass/*.comp)
 foreach(pass ${passes})
   get_filename_component(stem ${pass} NAME_WE)
-  vkdose_compile(${pass} ${stem})
   file(STRINGS ${pass} texel REGEX "TEXEL_READS")
+  file(STRINGS ${pass} energy REGEX "ENERGY_BOOK")
+  vkdose_compile(${pass} ${stem})
   if(texel)
     vkdose_compile(${pass} ${stem}_texel -DTEXEL_READS)
+  endif()
+  if(energy)
+    vkdose_compile(${pass} ${stem}_energy -DENERGY_BOOK)
+  endif()
+  if(texel AND energy)
+    vkdose_compile(${pass} ${stem}_texel_energy -DTEXEL_READS -DENERGY_BOOK)
   endif()
 endforeach()
 

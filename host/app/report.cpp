@@ -46,6 +46,22 @@ std::string overlapLine(const RunResult& r) {
     return text + "\n";
 }
 
+/// Shares are of the coil's work where it did some, else of what was loaded and lost since.
+std::string energyLine(const EnergyLedger& ledger) {
+    const EnergyBook& b = ledger.sum;
+    const bool turned = b.coilWork != 0;
+    const double whole = turned ? b.coilWork : ledger.losses();
+    const auto share = [whole](double x) { return whole != 0 ? 100 * x / whole : 0.0; };
+    return fmt::format(
+        "energy   coil work {:.4g} mJ + loaded {:.4g} mJ = present {:.4g} + left {:.4g} + plastic {:.4g} + adhesive "
+        "{:.4g} "
+        "+ viscous {:.4g} + sliding {:.4g} + rolling {:.4g} + torsion {:.4g} + numerical {:.4g} ({:.2g} %) + residual "
+        "{:.2g} ({:.2g} % of the {})\n",
+        b.coilWork * 1e3, b.loaded * 1e3, ledger.present() * 1e3, b.left * 1e3, b.plastic * 1e3, b.adhesive * 1e3,
+        b.viscous * 1e3, b.sliding * 1e3, b.rolling * 1e3, b.torsion * 1e3, b.numerical * 1e3, share(b.numerical),
+        ledger.residual() * 1e3, share(ledger.residual()), turned ? "coil's work" : "losses");
+}
+
 }  // namespace
 
 std::string reportText(const Case& c, const RunResult& r, const std::string& backend) {
@@ -59,6 +75,7 @@ std::string reportText(const Case& c, const RunResult& r, const std::string& bac
         text += fmt::format("mean {:.3f} g (one dose: no standard deviation, no RSD)\n", s.mean * 1e3);
     }
     text += ledgerLine(r);
+    if (r.last.energy) text += energyLine(*r.last.energy);
     text += overlapLine(r);
     text += fmt::format("stopped  {} at t = {:.4g} s\n", stopSentence(r.reason, c.schedule.stop), r.last.time);
     text += fmt::format("speed    {}particle-steps/s ({}particle-steps in {}) on {}\n",

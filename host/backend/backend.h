@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,34 @@ namespace vkdose {
 enum class Region { Canister = 0, Throat = 1, Dosed = 2, Lost = 3 };
 inline constexpr int kRegions = 4;
 
+/// Where the energy is and where it went, kept if World::energyBook asks for it [J]. Energies belong to the full step n
+/// at which forces last acted: positions x(n), springs as they were then, and the product of the half-step velocities
+/// around it, m/2 v(n-1/2).v(n+1/2). With these the leapfrog obeys an exact balance (exact apart from rounding):
+///
+///   change of (motion + potential + elastic) = loaded + coilWork - all losses - left,
+///
+/// because summation by parts turns the work of a contact force into (F(n-1) + F(n))/2 . v(n-1/2) dt, which is what
+/// each contact books, for every part of its force, against its own relative motion.
+struct EnergyBook {
+    // At the instant.
+    double kinetic = 0, rotational = 0;
+    double potential = 0;  ///< in gravity, zero at the origin
+    double elasticNormal = 0, elasticSliding = 0, elasticRolling = 0, elasticTorsion = 0;
+    Vec3 momentum{0};         ///< of active particles, half-step velocities [kg m/s]
+    Vec3 angularMomentum{0};  ///< about the origin, spins included [kg m2/s]
+
+    // During the call. A loss is what a part of the force took from the motion and did not store in its spring.
+    double plastic = 0;   ///< by the normal force off the adhesive branch
+    double adhesive = 0;  ///< by the normal force on the adhesive branch, and where k_c falls
+    double viscous = 0;   ///< by normal damping, and by the dashpots of sliders that stick
+    double sliding = 0, rolling = 0,
+           torsion = 0;    ///< by slipping sliders, and by springs that snap when a contact opens
+    double numerical = 0;  ///< the time step's own: between the true start or end of a contact and the nearest step
+    double coilWork = 0;   ///< done by the coil on the particles
+    double left = 0;       ///< carried off by particles that were dosed or lost, energy of their contacts included
+    double loaded = 0;     ///< of the state loaded, contacts included; in the call that makes the first step
+};
+
 /// Reduced on the device at the end of an `advance`.
 struct Sensors {
     std::array<std::uint64_t, kRegions> count{};  ///< particles per region
@@ -31,6 +60,7 @@ struct Sensors {
     double throatMomentumZ = 0;  ///< sum of m v_z in the throat; over its mass: the outlet velocity [kg m/s]
     double maxOverlapRatio = 0;  ///< largest overlap over smaller radius seen during the call [-]
     std::uint64_t rebuilds = 0;  ///< neighbour-list builds since load
+    std::optional<EnergyBook> energy;  ///< if the world asks for it and a step has been made since load
 };
 
 /// One touching contact and its history. For a wall `other` is the index of the surface, for the coil the turn slot.
@@ -51,7 +81,8 @@ class Backend {
     /// Start over with these particles. Throws RunError if they do not fit the backend's tables.
     virtual void load(const World& world, const Particles& particles) = 0;
 
-    /// Replace the contact law, keeping state and history (the switch of k_c after settling).
+    /// Replace the contact law, keeping state and history (the switch of k_c after settling). The energy book stays
+    /// closed if only adhesion changes.
     virtual void setLaw(const ContactLaw& law) = 0;
 
     /// Advance `steps` steps with the coil turning at `coilRate` [rad/s about +z]. Throws RunError on a lost particle,

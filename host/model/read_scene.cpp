@@ -183,6 +183,7 @@ void readSchedule(Section& root, Case& c) {
     readStop(root, c);
     Section& sensors = root.table("sensors");
     c.sensorInterval = sensors.number("interval_s", Bound::Positive, kSecond, 0.01);
+    c.world.energyBook = sensors.boolean("energy", false);
     Section& checkpoint = root.table("checkpoint");
     c.checkpoint.wall = checkpoint.number("wall_s", Bound::NonNegative, kSecond, c.checkpoint.wall);
     c.checkpoint.simulated = checkpoint.number("time_s", Bound::NonNegative, kSecond, c.checkpoint.simulated);

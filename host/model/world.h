@@ -33,6 +33,7 @@ struct World {
     double timeStep = 0;  ///< [s]
     double skin = 0;      ///< extra reach of the neighbour list [m]
     double maxOverlapRatio = kMaxOverlapRatio;
+    bool energyBook = false;  ///< keep the energy book (Sensors::energy)
     Box domain;
     /// A particle whose centre passes throatZ is in the throat, past outletZ it is dosed. Infinite: no outlet.
     double throatZ = std::numeric_limits<double>::infinity();

@@ -24,6 +24,12 @@ constexpr const char* kTimeSeriesHeader =
     "dosed_count,canister_count,throat_count,lost_count,kinetic_energy_J,rotational_energy_J,outlet_velocity_m_s,"
     "coil_torque_Nm,coil_power_W,max_overlap_ratio";
 
+constexpr const char* kEnergyHeader =
+    ",full_step_kinetic_J,full_step_rotational_J,potential_J,elastic_normal_J,elastic_sliding_J,elastic_rolling_J,"
+    "elastic_torsion_J,loaded_J,coil_work_J,left_J,loss_plastic_J,loss_adhesive_J,loss_viscous_J,loss_sliding_J,"
+    "loss_rolling_J,loss_torsion_J,loss_numerical_J,residual_J,momentum_x_kg_m_s,momentum_y_kg_m_s,momentum_z_kg_m_s,"
+    "angular_momentum_x_kg_m2_s,angular_momentum_y_kg_m2_s,angular_momentum_z_kg_m2_s";
+
 constexpr const char* kDosesHeader =
     "dose,start_time_s,mass_kg,cumulative_mass_kg,particles,coil_torque_Nm,closed_form_mass_kg,complete";
 
@@ -38,6 +44,25 @@ void refuseBusy(const fs::path& folder) {
     std::error_code error;
     const fs::path file = folder / "timeseries.csv";
     if (fs::exists(file, error) && !CsvFile(file, fs::file_size(file, error)).lock()) busy(folder);
+}
+
+std::string energyFields(const EnergyLedger& ledger) {
+    const EnergyBook& b = ledger.sum;
+    std::string fields;
+    for (const double x : {b.kinetic,           b.rotational,
+                           b.potential,         b.elasticNormal,
+                           b.elasticSliding,    b.elasticRolling,
+                           b.elasticTorsion,    b.loaded,
+                           b.coilWork,          b.left,
+                           b.plastic,           b.adhesive,
+                           b.viscous,           b.sliding,
+                           b.rolling,           b.torsion,
+                           b.numerical,         ledger.residual(),
+                           b.momentum.x,        b.momentum.y,
+                           b.momentum.z,        b.angularMomentum.x,
+                           b.angularMomentum.y, b.angularMomentum.z})
+        fields += fmt::format(",{:.9g}", x);
+    return fields;
 }
 
 void prepareFolder(const fs::path& folder, bool force) {
@@ -77,7 +102,8 @@ RunFolder::RunFolder(fs::path folder, bool force, const Case& c, std::string bac
     try {
         prepareFolder(folder_, force);
         replaceFile(folder_ / "case.toml", c.resolved);
-        timeSeries_.emplace(folder_ / "timeseries.csv", kTimeSeriesHeader);
+        const std::string energy = c.world.energyBook ? kEnergyHeader : "";
+        timeSeries_.emplace(folder_ / "timeseries.csv", kTimeSeriesHeader + energy);
         doses_.emplace(folder_ / "doses.csv", kDosesHeader);
     } catch (const OutputError& e) {
         throw FolderError(e.what());
@@ -99,12 +125,14 @@ RunFolder::RunFolder(fs::path folder, const Checkpoint& from, const Case& c, std
 
 void RunFolder::onSample(const Sample& s) {
     const Sensors& v = s.sensors;
-    timeSeries_->line(fmt::format(
+    std::string line = fmt::format(
         "{:.9g},{},{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{},{},{},{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.6g}", s.time,
         phaseName(s.phase), s.dose, s.coilAngle, mass(v, Region::Dosed), mass(v, Region::Canister),
         mass(v, Region::Throat), mass(v, Region::Lost), count(v, Region::Dosed), count(v, Region::Canister),
         count(v, Region::Throat), count(v, Region::Lost), v.kineticEnergy, v.rotationalEnergy, s.outletVelocity,
-        s.coilTorque, s.coilPower, v.maxOverlapRatio));
+        s.coilTorque, s.coilPower, v.maxOverlapRatio);
+    if (s.energy) line += energyFields(*s.energy);
+    timeSeries_->line(line);
     timeSeries_->flush();
 }
 

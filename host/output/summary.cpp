@@ -73,6 +73,26 @@ Json ledger(const RunResult& r) {
     return j;
 }
 
+Json energy(const EnergyLedger& ledger) {
+    const EnergyBook& b = ledger.sum;
+    Json j;
+    j["loaded_J"] = number(b.loaded);
+    j["coil_work_J"] = number(b.coilWork);
+    j["left_J"] = number(b.left);
+    j["present_J"] = number(ledger.present());
+    j["elastic_J"] = number(ledger.elastic());
+    j["loss_plastic_J"] = number(b.plastic);
+    j["loss_adhesive_J"] = number(b.adhesive);
+    j["loss_viscous_J"] = number(b.viscous);
+    j["loss_sliding_J"] = number(b.sliding);
+    j["loss_rolling_J"] = number(b.rolling);
+    j["loss_torsion_J"] = number(b.torsion);
+    j["loss_numerical_J"] = number(b.numerical);
+    j["residual_J"] = number(ledger.residual());
+    j["residual_of_coil_work"] = number(ledger.residual() / b.coilWork);
+    return j;
+}
+
 }  // namespace
 
 std::string summaryJson(const Case& c, const RunResult& r, const std::string& backend) {
@@ -95,6 +115,7 @@ std::string summaryJson(const Case& c, const RunResult& r, const std::string& ba
     j["dosed_while_settling_kg"] = number(r.dosedWhileSettling);
     j["closed_form"] = closedForms(r.derived);
     j["ledger"] = ledger(r);
+    if (r.last.energy) j["energy"] = energy(*r.last.energy);
     j["max_overlap_ratio"] = number(r.maxOverlapRatio);
     j["max_overlap_time_s"] = number(r.maxOverlapTime);
     j["particle_steps"] = number(r.particleSteps);

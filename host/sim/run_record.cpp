@@ -1,6 +1,8 @@
 #include "host/sim/run_record.h"
 
 #include <algorithm>
+#include <array>
+#include <utility>
 
 namespace vkdose {
 
@@ -28,7 +30,41 @@ void get(const Record& record, const std::string& name, Sensors& s) {
     s.maxOverlapRatio = f[4];
 }
 
+namespace {
+
+constexpr std::array kBookFigures{&EnergyBook::kinetic,        &EnergyBook::rotational,     &EnergyBook::potential,
+                                  &EnergyBook::elasticNormal,  &EnergyBook::elasticSliding, &EnergyBook::elasticRolling,
+                                  &EnergyBook::elasticTorsion, &EnergyBook::plastic,        &EnergyBook::adhesive,
+                                  &EnergyBook::viscous,        &EnergyBook::sliding,        &EnergyBook::rolling,
+                                  &EnergyBook::torsion,        &EnergyBook::numerical,      &EnergyBook::coilWork,
+                                  &EnergyBook::left,           &EnergyBook::loaded};
+constexpr std::array kBookVectors{&EnergyBook::momentum, &EnergyBook::angularMomentum};
+
+}  // namespace
+
+void put(Record& record, const std::string& name, const std::optional<EnergyLedger>& ledger) {
+    std::vector<double> figures;
+    if (ledger) {
+        for (const auto figure : kBookFigures) figures.push_back(ledger->sum.*figure);
+        for (const auto vector : kBookVectors)
+            for (int d = 0; d < 3; ++d) figures.push_back((ledger->sum.*vector)[d]);
+    }
+    record.put(name, std::move(figures));
+}
+
+void get(const Record& record, const std::string& name, std::optional<EnergyLedger>& ledger) {
+    ledger.reset();
+    if (record.get<double>(name).empty()) return;
+    const auto& figures = record.get<double>(name, kBookFigures.size() + 3 * kBookVectors.size());
+    ledger.emplace();
+    auto next = figures.begin();
+    for (const auto figure : kBookFigures) ledger->sum.*figure = *next++;
+    for (const auto vector : kBookVectors)
+        for (int d = 0; d < 3; ++d) (ledger->sum.*vector)[d] = *next++;
+}
+
 void put(Record& record, const std::string& name, const Sample& s) {
+    put(record, name + "_energy", s.energy);
     put(record, name + "_sensors", s.sensors);
     record.put(name + "_state", std::vector<std::uint64_t>{s.step, static_cast<std::uint64_t>(s.phase),
                                                            static_cast<std::uint64_t>(s.dose)});
@@ -36,6 +72,7 @@ void put(Record& record, const std::string& name, const Sample& s) {
 }
 
 void get(const Record& record, const std::string& name, Sample& s) {
+    get(record, name + "_energy", s.energy);
     get(record, name + "_sensors", s.sensors);
     const auto& state = record.get<std::uint64_t>(name + "_state", 3);
     s.step = state[0];

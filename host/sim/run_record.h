@@ -12,6 +12,10 @@ namespace vkdose {
 void put(Record& record, const std::string& name, const Sensors& sensors);
 void get(const Record& record, const std::string& name, Sensors& sensors);
 
+/// An energy ledger that may not be kept.
+void put(Record& record, const std::string& name, const std::optional<EnergyLedger>& ledger);
+void get(const Record& record, const std::string& name, std::optional<EnergyLedger>& ledger);
+
 void put(Record& record, const std::string& name, const Sample& sample);
 void get(const Record& record, const std::string& name, Sample& sample);
 

@@ -87,6 +87,7 @@ class Run {
         r.put("sums", std::vector<double>{impulse_, doseImpulse_, result_.dosedWhileSettling, result_.maxOverlapRatio,
                                           result_.maxOverlapTime, result_.particleSteps, result_.wallTime});
         put(r, "now", now_);
+        put(r, "energy", energy_);
         put(r, "dose", std::vector<Dose>{dose_});
         put(r, "dosed_before", dosedBefore_);
         put(r, "doses", result_.doses);
@@ -115,6 +116,7 @@ class Run {
         result_.particleSteps = sums[5];
         result_.wallTime = sums[6];
         get(r, "now", now_);
+        get(r, "energy", energy_);
         std::vector<Dose> underWay;
         get(r, "dose", underWay);
         dose_ = underWay.at(0);
@@ -185,6 +187,10 @@ class Run {
 
     /// Joins the sensors of one call to those since the last sample.
     void gather(const Sensors& s, std::uint64_t n) {
+        if (s.energy) {
+            if (!energy_) energy_.emplace();
+            energy_->add(*s.energy);
+        }
         if (s.maxOverlapRatio > result_.maxOverlapRatio) {
             result_.maxOverlapRatio = s.maxOverlapRatio;
             result_.maxOverlapTime = timeline_.time(step_);
@@ -215,6 +221,7 @@ class Run {
         s.coilPower = s.coilTorque * std::abs(stretch_.rate);
         const double throat = mass(now_, Region::Throat);
         s.outletVelocity = throat > 0 ? now_.throatMomentumZ / throat : std::numeric_limits<double>::quiet_NaN();
+        s.energy = energy_;
         gathered_ = 0;
         impulse_ = 0;
         observer_.onSample(s);
@@ -330,6 +337,8 @@ class Run {
     Sensors now_;                 ///< of the last call, joined with the calls since the last sample
     std::uint64_t gathered_ = 0;  ///< steps since the last sample
     double impulse_ = 0;          ///< torque times steps since the last sample
+
+    std::optional<EnergyLedger> energy_;  ///< since the start of the run, if the case asks for it
 
     Dose dose_;            ///< under way; index 0: none
     Sensors dosedBefore_;  ///< at its start

@@ -9,6 +9,7 @@
 #include "host/backend/backend.h"
 #include "host/core/record.h"
 #include "host/model/case.h"
+#include "host/sim/energy_ledger.h"
 #include "host/sim/ledger.h"
 #include "host/sim/stop_rule.h"
 #include "host/sim/timeline.h"
@@ -21,12 +22,13 @@ struct Sample {
     std::uint64_t step = 0;
     double time = 0;  ///< [s]
     Phase phase = Phase::Settle;
-    int dose = 0;           ///< 0 while settling
-    double coilAngle = 0;   ///< turned since the start, positive when conveying [rad]
-    Sensors sensors;        ///< coilTorque: about +z, on the coil, mean since the last sample [N m]
-    double outletVelocity;  ///< mean v_z of the mass in the throat [m/s]; NaN while it is empty
-    double coilTorque = 0;  ///< the drive's: positive when the powder resists conveying [N m]
-    double coilPower = 0;   ///< drive torque times speed [W]
+    int dose = 0;                        ///< 0 while settling
+    double coilAngle = 0;                ///< turned since the start, positive when conveying [rad]
+    Sensors sensors;                     ///< coilTorque: about +z, on the coil, mean since the last sample [N m]
+    double outletVelocity;               ///< mean v_z of the mass in the throat [m/s]; NaN while it is empty
+    double coilTorque = 0;               ///< the drive's: positive when the powder resists conveying [N m]
+    double coilPower = 0;                ///< drive torque times speed [W]
+    std::optional<EnergyLedger> energy;  ///< if the case asks for it
 };
 
 struct Dose {

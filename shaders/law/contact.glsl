@@ -24,6 +24,8 @@ struct Response {
     vec3 force;   // on i [N]; on j the opposite
     vec3 sliding; // its tangential part, which acts on the lever arms [N]
     vec3 couple;  // rolling and torsion torque on i [N m]; on j the opposite
+    float hysteretic, damping;  // the normal part: without damping, and damping alone [N]
+    bvec3 slips;  // sliding, rolling, torsion
 };
 
 Response contactResponse(ContactParams p, uvec4 choices, Meeting m, float dt, inout History h) {
@@ -34,21 +36,24 @@ Response contactResponse(ContactParams p, uvec4 choices, Meeting m, float dt, in
     // What limits friction: adhesion moves its zero (Luding 2008), or the size of the whole normal force.
     float bearing = choices.y == 0u ? max(0.0, f + p.normal.z * m.overlap) : abs(fn);
 
+    bool slides, rolls, twists;
     vec3 spring = h.slidingMax.xyz;
-    vec3 ft = frictionForce(p.sliding.x, p.sliding.y, p.sliding.z * bearing, m.normal, vt, dt, spring);
+    vec3 ft = frictionForce(p.sliding.x, p.sliding.y, p.sliding.z * bearing, m.normal, vt, dt, spring, slides);
     h.slidingMax.xyz = spring;
 
     float lever = rollingLever(m.reduced, choices.z);
     spring = h.rollingTorsion.xyz;
     vec3 fr = frictionForce(p.rolling.x, p.rolling.y, p.rolling.z * bearing, m.normal,
-                            rollingVelocity(lever, m.normal, m.spin), dt, spring);
+                            rollingVelocity(lever, m.normal, m.spin), dt, spring, rolls);
     h.rollingTorsion.xyz = spring;
 
     float twist = h.rollingTorsion.w;
-    float fto = torsionForce(p.torsion.x, p.torsion.y, p.torsion.z * bearing, lever * dot(m.normal, m.spin), dt, twist);
+    float fto = torsionForce(p.torsion.x, p.torsion.y, p.torsion.z * bearing, lever * dot(m.normal, m.spin), dt, twist,
+                             twists);
     h.rollingTorsion.w = twist;
 
-    return Response(m.normal * fn + ft, ft, lever * (cross(m.normal, fr) + m.normal * fto));
+    return Response(m.normal * fn + ft, ft, lever * (cross(m.normal, fr) + m.normal * fto), f,
+                    -p.normal.w * vn, bvec3(slides, rolls, twists));
 }
 
 #endif

@@ -26,4 +26,11 @@ float normalForce(ContactParams p, float overlap, float reduced, inout float max
     return f;
 }
 
+/// Slope of the line on which a contact with this history unloads [N/m].
+float unloadingStiffness(ContactParams p, float reduced, float maxOverlap) {
+    float k1 = p.normal.x, range = p.normal.y - k1;
+    if (range <= 0.0) return k1;
+    return k1 + range * min(1.0, maxOverlap * range / (p.normal.y * p.sliding.w * reduced));
+}
+
 #endif

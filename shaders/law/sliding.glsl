@@ -11,12 +11,13 @@ vec3 intoTangentPlane(vec3 spring, vec3 n) {
 }
 
 /// `v` tangential velocity [m/s], `limit` Coulomb force [N], `dt` advance of the spring [s]. Returns the force [N] that
-/// resists v; the spring [m] is what it will be at the next step.
-vec3 frictionForce(float k, float gamma, float limit, vec3 n, vec3 v, float dt, inout vec3 spring) {
+/// resists v; the spring [m] is what it will be at the next step, `slips` whether the slider does.
+vec3 frictionForce(float k, float gamma, float limit, vec3 n, vec3 v, float dt, inout vec3 spring, out bool slips) {
     spring = intoTangentPlane(spring, n) + v * dt;
     vec3 f = -k * spring - gamma * v;
     float size = length(f);
-    if (size > limit) {
+    slips = size > limit;
+    if (slips) {
         f *= limit / size;
         spring = k > 0.0 && limit > 0.0 ? -(f + gamma * v) / k : vec3(0.0);
     }

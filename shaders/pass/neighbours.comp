@@ -2,10 +2,13 @@
 // neighbours: builds the other half of the neighbour rows, sorted by index, and carries the history of touching pairs
 // over to it. Reads state, cells, the current rows, marks and history; writes the new rows and history, marks, anchors.
 // A row lists every particle closer than the sum of radii + skin, so it stays complete until some particle has moved
-// half the skin from its anchor.
+// half the skin from its anchor. Built with and without ENERGY_BOOK, which carries what contacts exert along as well.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/buffers.glsl"
 #include "shared/cells.glsl"
+#ifdef ENERGY_BOOK
+#include "law/energy.glsl"
+#endif
 
 uint row[kMaxRow];
 
@@ -55,6 +58,25 @@ uint find(uint j, uint count) {
     return kEmpty;
 }
 
+#ifdef ENERGY_BOOK
+/// Books a pair whose other particle `j` has left the motion: this one's half of the energy in its springs, and what its
+/// last force still did to this one; the other booked the rest when it left.
+void bookDeparture(uint i, uint j, uint list, uint slot, uint member) {
+    ContactParams law = members[member].contact[kParticleParticle];
+    History h = History(history[historyIndex(list, slot, 0u, i)], history[historyIndex(list, slot, 1u, i)]);
+    Exerted e = Exerted(history[historyIndex(list, slot, 2u, i)], history[historyIndex(list, slot, 3u, i)],
+                        history[historyIndex(list, slot, 4u, i)]);
+    vec4 stored = elasticEnergy(law, 0.0, 1.0, h);
+    stored.x = e.couple.w;
+    float side = i < j ? 1.0 : -1.0, lever = state[stateIndex(push.source, kPosition, i)].w - 0.5 * e.rest.w;
+    vec3 spin = state[stateIndex(push.source, kSpin, i)].xyz;
+    vec3 velocity = side * state[stateIndex(push.source, kVelocity, i)].xyz - lever * cross(spin, e.normal.xyz);
+    Work w = halfStepWork(e, velocity, side * spin, members[member].numerics.x);
+    books[bookIndex(kBookFlow, i)].y +=
+        0.5 * dot(stored, vec4(1.0)) + w.hysteretic + w.damping + dot(w.sliders, vec3(1.0));
+}
+#endif
+
 void main() {
     uint i = gl_GlobalInvocationID.x;
     uint member = memberOfGroup();
@@ -71,9 +93,14 @@ void main() {
         bool touching = ((s < 32u ? mark.x : mark.y) & (1u << (s & 31u))) != 0u;
         if (!touching) continue;
         uint to = find(rows[rowIndex(now, s, i)], count);
-        if (to == kEmpty) continue;  // one of the two has left the canister
-        history[historyIndex(next, to, 0u, i)] = history[historyIndex(now, s, 0u, i)];
-        history[historyIndex(next, to, 1u, i)] = history[historyIndex(now, s, 1u, i)];
+        if (to == kEmpty) {  // the other has left the canister
+#ifdef ENERGY_BOOK
+            bookDeparture(i, rows[rowIndex(now, s, i)], now, s, member);
+#endif
+            continue;
+        }
+        for (uint part = 0u; part < kParts; ++part)
+            history[historyIndex(next, to, part, i)] = history[historyIndex(now, s, part, i)];
         touch[to >> 5u] |= 1u << (to & 31u);
     }
     marks[i] = uvec4(touch, mark.z, count);

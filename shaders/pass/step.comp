@@ -1,5 +1,6 @@
 #version 450
-// step: one time step of one particle per invocation. TEXEL_READS (built twice, see shared/buffers.glsl).
+// step: one time step of one particle per invocation. Built with and without TEXEL_READS (shared/buffers.glsl) and
+// ENERGY_BOOK (pass/step_energy.glsl).
 // Reads the source half of the state, rows, marks, histories; writes the destination half, marks, histories; asks for a
 // rebuild of the rows when the particle has moved half the skin.
 //
@@ -15,6 +16,9 @@
 #include "law/contact.glsl"
 #include "law/surface.glsl"
 #include "law/coil.glsl"
+#ifdef ENERGY_BOOK
+#include "law/energy.glsl"
+#endif
 
 struct Body {
     Sphere sphere;
@@ -35,6 +39,15 @@ CoilParams coil;
 uvec4 choices;
 float springDt;
 
+Body readBody(uint j) {
+    vec4 position = readState(push.source, kPosition, j);
+    return Body(Sphere(position.xyz, readState(push.source, kResidue, j).xyz, position.w),
+                readState(push.source, kVelocity, j).xyz, readState(push.source, kSpin, j).xyz);
+}
+
+#ifdef ENERGY_BOOK
+#include "pass/step_energy.glsl"
+#endif
 #include "pass/step_pairs.glsl"
 #include "pass/step_surfaces.glsl"
 #include "pass/step_coil.glsl"
@@ -73,9 +86,15 @@ void main() {
 
     // A particle out of the motion has an empty row and a negative radius, so that all it does is copy itself.
     Sum sum = Sum(vec3(0.0), vec3(0.0), 0.0, 0.0);
+#ifdef ENERGY_BOOK
+    openBook(i);
+#endif
     uvec2 touched = touchPairs(i, me, list, mark, sum);
     uint met = touchSurfaces(i, me, mark.z, sum);
     if (coil.motion.z != 0.0) met |= touchCoil(i, me, mark.z, sum);
+#ifdef ENERGY_BOOK
+    partWalls(i, me, mark.z, met);
+#endif
     mark.xyz = uvec3(touched, met);
 
     // Leapfrog. The loaded velocity belongs to t = 0, so the opening kick is half a step.
@@ -99,6 +118,10 @@ void main() {
     bool leaves = moving && now != kActive;
     vec3 moved = high - anchor;
     if (moving && dot(moved, moved) > 0.25 * numerics.y * numerics.y || leaves) requestRebuild();
+
+#ifdef ENERGY_BOOK
+    if (moving) closeBook(i, me, velocity, spin, mass, gravity.xyz, sum.coilTorque, leaves);
+#endif
 
     uint to = 1u - push.source;
     float radius = leaves ? -position.w : position.w;  // a negative radius touches nothing

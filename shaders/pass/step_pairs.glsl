@@ -1,11 +1,5 @@
 // Part of pass/step: contacts with other particles.
 
-Body readBody(uint j) {
-    vec4 position = readState(push.source, kPosition, j);
-    return Body(Sphere(position.xyz, readState(push.source, kResidue, j).xyz, position.w),
-                readState(push.source, kVelocity, j).xyz, readState(push.source, kSpin, j).xyz);
-}
-
 /// Contact of this particle with the one in `slot` of its row. Returns whether they touch.
 bool meetParticle(uint i, Body me, uint list, uint slot, bool known, inout Sum sum) {
     uint j = readRow(list, slot, i);
@@ -25,6 +19,9 @@ bool meetParticle(uint i, Body me, uint list, uint slot, bool known, inout Sum s
     float leverA = ra - 0.5 * o.depth, leverB = rb - 0.5 * o.depth;
     vec3 velocity = (a.velocity - b.velocity) - cross(leverA * a.spin + leverB * b.spin, o.normal);
     Meeting m = Meeting(o.normal, o.depth, 2.0 * ra * rb / (ra + rb), velocity, a.spin - b.spin);
+#ifdef ENERGY_BOOK
+    History old = h;
+#endif
     Response r = contactResponse(pairLaw, choices, m, springDt, h);
     vec3 turn = cross(o.normal, r.sliding);
     if (touching) {
@@ -34,6 +31,9 @@ bool meetParticle(uint i, Body me, uint list, uint slot, bool known, inout Sum s
         sum.torque += first ? r.couple - leverA * turn : -r.couple - leverB * turn;
         sum.overlap = max(sum.overlap, o.depth / min(ra, rb));
     }
+#ifdef ENERGY_BOOK
+    bookPair(i, list, slot, a, b, o, r, known, touching, old, h);
+#endif
     return touching;
 }
 
@@ -56,11 +56,19 @@ uvec2 touchPairs(uint i, Body me, uint list, uvec4 mark, inout Sum sum) {
         uint candidates = candidatesInWord(i, me, list, word * 32u, min(mark.w - word * 32u, 32u));
         uint known = word == 0u ? mark.x : mark.y;
         uint met = 0u;
+#ifdef ENERGY_BOOK
+        uint checked = candidates;
+#endif
         for (; candidates != 0u; candidates &= candidates - 1u) {
             uint s = findLSB(candidates);
             uint bit = 1u << s;
             if (meetParticle(i, me, list, word * 32u + s, (known & bit) != 0u, sum)) met |= bit;
         }
+#ifdef ENERGY_BOOK
+        // A touch bit without a candidate: what was no candidate has certainly parted; the others booked it themselves.
+        for (uint parted = known & ~checked; parted != 0u; parted &= parted - 1u)
+            partPair(i, me, list, word * 32u + findLSB(parted));
+#endif
         if (word == 0u)
             touch.x = met;
         else

@@ -14,9 +14,15 @@ WallForce meetWall(uint i, Body me, Overlap o, ContactParams law, vec3 wall, vec
     float lever = me.sphere.radius - 0.5 * o.depth;
     Meeting m = Meeting(o.normal, o.depth, 2.0 * me.sphere.radius,
                         (me.velocity - wall) - lever * cross(me.spin, o.normal), me.spin - wallSpin);
+#ifdef ENERGY_BOOK
+    History old = h;
+#endif
     Response r = contactResponse(law, choices, m, springDt, h);
     wallHistory[at0] = h.slidingMax;
     wallHistory[at1] = h.rollingTorsion;
+#ifdef ENERGY_BOOK
+    bookWall(i, slot, me, law, wallSpin.z, o, r, known, true, old, h);
+#endif
     sum.force += r.force;
     sum.torque += r.couple - lever * cross(o.normal, r.sliding);
     sum.overlap = max(sum.overlap, o.depth / me.sphere.radius);

@@ -17,9 +17,10 @@ layout(std430, set = 0, binding = 0) buffer StateBuffer { vec4 state[]; };
 layout(std430, set = 0, binding = 1) buffer RowBuffer { uint rows[]; };
 // Marks: x, y: touch bits of the row's slots; z: touch bits of surfaces (0 ...) and coil turns (28 ...); w: row length.
 layout(std430, set = 0, binding = 2) buffer MarkBuffer { uvec4 marks[]; };
-// Pair history: vec4 [2 halves][rowWidth][2][particles]: (xi, delta_max), (rho, torsion).
+// Pair history: vec4 [2 halves][rowWidth][parts][particles]: (xi, delta_max), (rho, torsion); with the energy book the
+// three of law/energy.glsl's Exerted as well.
 layout(std430, set = 0, binding = 3) buffer HistoryBuffer { vec4 history[]; };
-// Wall history: vec4 [surfaces + turns][2][particles], then vec4 [particles]: wire angle in each slot of a turn.
+// Wall history: vec4 [surfaces + turns][parts][particles], then vec4 [particles]: wire angle in each slot of a turn.
 layout(std430, set = 0, binding = 4) buffer WallHistoryBuffer { vec4 wallHistory[]; };
 layout(std430, set = 0, binding = 5) readonly buffer MemberBuffer { Member members[]; };
 layout(std430, set = 0, binding = 6) buffer ControlBuffer { Control control; };
@@ -31,20 +32,31 @@ layout(std430, set = 0, binding = 9) buffer SensorBuffer { SensorRecord sensors[
 // Member of each workgroup; a member never shares a workgroup with another.
 layout(std430, set = 0, binding = 10) readonly buffer GroupBuffer { uint groupMember[]; };
 
+// The energy book, and its sums.
+layout(std430, set = 0, binding = 11) buffer BookBuffer { vec4 books[]; };
+layout(std430, set = 0, binding = 12) buffer EnergyBuffer { EnergyRecord energies[]; };
+
 #ifdef TEXEL_READS
-layout(set = 0, binding = 11) uniform samplerBuffer stateView;
-layout(set = 0, binding = 12) uniform usamplerBuffer rowView;
-layout(set = 0, binding = 13) uniform samplerBuffer historyView;
-layout(set = 0, binding = 14) uniform samplerBuffer wallHistoryView;
+layout(set = 0, binding = 13) uniform samplerBuffer stateView;
+layout(set = 0, binding = 14) uniform usamplerBuffer rowView;
+layout(set = 0, binding = 15) uniform samplerBuffer historyView;
+layout(set = 0, binding = 16) uniform samplerBuffer wallHistoryView;
+#endif
+
+#ifdef ENERGY_BOOK
+const uint kParts = 5u;
+#else
+const uint kParts = 2u;
 #endif
 
 uint stateIndex(uint side, uint field, uint i) { return (side * kFields + field) * push.particles + i; }
 uint rowIndex(uint list, uint slot, uint i) { return (list * push.rowWidth + slot) * push.particles + i; }
 uint historyIndex(uint list, uint slot, uint part, uint i) {
-    return ((list * push.rowWidth + slot) * 2u + part) * push.particles + i;
+    return ((list * push.rowWidth + slot) * kParts + part) * push.particles + i;
 }
-uint wallHistoryIndex(uint slot, uint part, uint i) { return (slot * 2u + part) * push.particles + i; }
+uint wallHistoryIndex(uint slot, uint part, uint i) { return (slot * kParts + part) * push.particles + i; }
 uint wireAngleIndex(uint i) { return wallHistoryIndex(SURFACES + kMaxTurns, 0u, i); }
+uint bookIndex(uint field, uint i) { return field * push.particles + i; }
 
 uint memberOfGroup() { return MEMBERS == 1u ? 0u : groupMember[gl_WorkGroupID.x]; }
 

@@ -108,6 +108,23 @@ struct SensorRecord {
     vec4 extremes; // x: largest overlap ratio
 };
 
+// --- the energy book (host/backend/backend.h, EnergyBook), kept only where the world asks for it [J] --------------------------
+// vec4 book[4 fields][particles]: a particle's walls and coil, and half of its pairs.
+SHARED_CONST kBookNormal = 0u;  // since the last sensing: plastic, adhesive, viscous, numerical loss
+SHARED_CONST kBookSliders = 1u; // ditto: sliding, rolling, torsion loss, work of the coil
+SHARED_CONST kBookFlow = 2u;    // ditto: loaded, left; z: torque on the coil in the last step [N m]
+SHARED_CONST kBookElastic = 3u; // in the last step: normal, sliding, rolling, torsion springs
+SHARED_CONST kBookFields = 4u;
+
+struct EnergyRecord {  // one per workgroup
+    vec4 normal;       // as kBookNormal
+    vec4 sliders;      // as kBookSliders
+    vec4 flow;         // loaded, left, kinetic, rotational energy
+    vec4 elastic;      // as kBookElastic
+    vec4 momentum;     // xyz [kg m/s]; w: potential energy
+    vec4 angular;      // xyz: angular momentum about the origin [kg m2/s]
+};
+
 // --- per dispatch --------------------------------------------------------------------------------------------------------
 struct StepPush {
     uint stepInBatch;

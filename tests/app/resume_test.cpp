@@ -32,7 +32,9 @@ const std::vector<std::string> kDoses{VKDOSE_SOURCE_DIR "/cases/mini.toml",
                                       "--set",
                                       "stop.max_doses=2",
                                       "--set",
-                                      "checkpoint.time_s=0.006"};
+                                      "checkpoint.time_s=0.006",
+                                      "--set",
+                                      "sensors.energy=true"};
 
 std::string words(const std::vector<std::string>& list) {
     std::string text;

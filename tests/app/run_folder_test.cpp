@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "host/app/report.h"
 #include "host/output/summary.h"
 #include "tests/app/sandbox.h"
 #include "tests/sim/fake_backend.h"
@@ -101,6 +102,54 @@ TEST_CASE("the folder of a run parses back to what was computed") {
     CHECK(summary["closed_form"]["mass_per_dose_kg"].get<double>() == Approx(2e-3));
     CHECK(summary["particle_steps"].get<double>() == Approx(r.particleSteps));
     CHECK(summary["inputs"]["particles"] == 10);
+}
+
+TEST_CASE("with an energy book the time series has its columns, and they add up to the residual") {
+    const Sandbox box;
+    Case c = smallCase();
+    c.world.energyBook = true;
+    FakeBackend backend;
+    backend.spoil = [](std::uint64_t step, Sensors& s) {
+        EnergyBook b;
+        double next = 1e-3;
+        for (double EnergyBook::*term :
+             {&EnergyBook::kinetic, &EnergyBook::rotational, &EnergyBook::potential, &EnergyBook::elasticNormal,
+              &EnergyBook::elasticSliding, &EnergyBook::elasticRolling, &EnergyBook::elasticTorsion,
+              &EnergyBook::plastic, &EnergyBook::adhesive, &EnergyBook::viscous, &EnergyBook::sliding,
+              &EnergyBook::rolling, &EnergyBook::torsion, &EnergyBook::numerical, &EnergyBook::left,
+              &EnergyBook::coilWork, &EnergyBook::loaded}) {
+            b.*term = next;
+            next *= 2;
+        }
+        b.momentum = Vec3(1, 2, 3);
+        b.angularMomentum = Vec3(4, 5, static_cast<double>(step));
+        s.energy = b;
+    };
+    RunFolder folder(box / "out", false, c, "fake");
+    const RunResult r = runInto(folder, backend, c);
+
+    const auto series = readCsv(box / "out/timeseries.csv");
+    const auto& last = series.back();
+    REQUIRE(last.size() == series[0].size());
+    const auto value = [&](const char* name) { return std::stod(last[column(series, name)]); };
+    double closing = value("loaded_J") + value("coil_work_J") - value("left_J");
+    for (const char* name :
+         {"full_step_kinetic_J", "full_step_rotational_J", "potential_J", "elastic_normal_J", "elastic_sliding_J",
+          "elastic_rolling_J", "elastic_torsion_J", "loss_plastic_J", "loss_adhesive_J", "loss_viscous_J",
+          "loss_sliding_J", "loss_rolling_J", "loss_torsion_J", "loss_numerical_J"})
+        closing -= value(name);
+    CHECK(closing == Approx(value("residual_J")));
+    CHECK(value("potential_J") == Approx(4e-3));
+    CHECK(value("loss_plastic_J") == Approx(0.128 * static_cast<double>(backend.calls.size())));
+    CHECK(value("momentum_y_kg_m_s") == 2);
+    CHECK(value("angular_momentum_z_kg_m2_s") == static_cast<double>(backend.step));
+
+    const auto summary = nlohmann::json::parse(readText(box / "out/summary.json"));
+    CHECK(summary["energy"]["residual_J"].get<double>() == Approx(value("residual_J")));
+    CHECK(summary["energy"]["residual_of_coil_work"].get<double>() ==
+          Approx(value("residual_J") / value("coil_work_J")));
+    CHECK_THAT(reportText(c, r, "fake"),
+               Catch::Contains("energy   coil work") && Catch::Contains("of the coil's work"));
 }
 
 TEST_CASE("particles are written with every digit") {

@@ -10,10 +10,14 @@
 #include <string>
 
 #include "neighbours.spv.h"
+#include "neighbours_energy.spv.h"
 #include "sense.spv.h"
+#include "sense_energy.spv.h"
 #include "shaders/shared/layout.h"
 #include "step.spv.h"
+#include "step_energy.spv.h"
 #include "step_texel.spv.h"
+#include "step_texel_energy.spv.h"
 
 namespace {
 
@@ -59,6 +63,10 @@ const std::map<std::string, Layout>& hostLayouts() {
          {{FIELD(SensorRecord, count), FIELD(SensorRecord, mass), FIELD(SensorRecord, motion),
            FIELD(SensorRecord, extremes)},
           sizeof(SensorRecord)}},
+        {"EnergyRecord",
+         {{FIELD(EnergyRecord, normal), FIELD(EnergyRecord, sliders), FIELD(EnergyRecord, flow),
+           FIELD(EnergyRecord, elastic), FIELD(EnergyRecord, momentum), FIELD(EnergyRecord, angular)},
+          sizeof(EnergyRecord)}},
         {"StepPush",
          {{FIELD(StepPush, stepInBatch), FIELD(StepPush, source), FIELD(StepPush, opening), FIELD(StepPush, particles),
            FIELD(StepPush, rowWidth), FIELD(StepPush, cellMask)},
@@ -134,8 +142,9 @@ std::set<std::string> structsOf(std::span<const std::uint32_t> code) {
 
 TEST_CASE("C++ and GLSL see the same structs") {
     std::set<std::string> seen;
-    for (const auto& structs :
-         {structsOf(step_spv), structsOf(step_texel_spv), structsOf(sense_spv), structsOf(neighbours_spv)})
+    for (const auto& structs : {structsOf(step_spv), structsOf(step_texel_spv), structsOf(step_energy_spv),
+                                structsOf(step_texel_energy_spv), structsOf(sense_spv), structsOf(sense_energy_spv),
+                                structsOf(neighbours_spv), structsOf(neighbours_energy_spv)})
         seen.insert(structs.begin(), structs.end());
     for (const auto& [name, layout] : hostLayouts()) {
         INFO("struct " << name << " is in no pass: nothing was compared");

@@ -21,9 +21,16 @@ std::size_t coilContacts(const Backend& backend) {
                                      [](const Contact& c) { return c.kind == ContactClass::ParticleCoil; }));
 }
 
+std::vector<double> flatBook(const EnergyBook& b) {
+    return {b.kinetic,        b.rotational, b.potential, b.elasticNormal, b.elasticSliding, b.elasticRolling,
+            b.elasticTorsion, b.plastic,    b.adhesive,  b.viscous,       b.sliding,        b.rolling,
+            b.torsion,        b.numerical,  b.coilWork,  b.left,          b.loaded};
+}
+
 void restartAgrees(bool reference) {
     World w = canisterWorld();
     w.maxOverlapRatio = 1;
+    w.energyBook = GENERATE(false, true);
     const Particles p = thrownIn(203);
     const auto whole = made(reference);
     whole->load(w, p);
@@ -49,6 +56,8 @@ void restartAgrees(bool reference) {
         CHECK(a.kineticEnergy == b.kineticEnergy);
         CHECK(a.maxOverlapRatio == b.maxOverlapRatio);
         CHECK(a.count == b.count);
+        REQUIRE(a.energy.has_value() == w.energyBook);
+        if (w.energyBook) CHECK(flatBook(*a.energy) == flatBook(*b.energy));
         CHECK(sameBits(whole->particles(), second->particles()));
         CHECK(sameBits(whole->contacts(), second->contacts()));
         CHECK(whole->coilAngle() == second->coilAngle());

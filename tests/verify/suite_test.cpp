@@ -27,6 +27,8 @@ class Skewed final : public Backend {
     }
     void setLaw(const ContactLaw& law) override { sound_->setLaw(law); }
     Sensors advance(std::uint32_t steps, double coilRate) override { return sound_->advance(steps, rate * coilRate); }
+    Record snapshot() const override { return sound_->snapshot(); }
+    void restore(const Record& record) override { sound_->restore(record); }
     Particles particles() const override { return sound_->particles(); }
     std::vector<Contact> contacts() const override { return sound_->contacts(); }
     double coilAngle() const override { return sound_->coilAngle(); }

@@ -23,7 +23,7 @@ std::optional<Touch> touchSphere(const Body& i, const Body& j) {
     touch.smaller = std::min(i.radius, j.radius);
     touch.leverI = -(i.radius - overlap / 2) * touch.normal;
     touch.leverJ = (j.radius - overlap / 2) * touch.normal;
-    touch.velocity = (i.velocity + glm::cross(i.spin, touch.leverI)) - (j.velocity + glm::cross(j.spin, touch.leverJ));
+    touch.velocity = contactVelocity(i, touch.leverI, j, touch.leverJ);
     touch.spin = i.spin - j.spin;
     return touch;
 }
@@ -46,6 +46,10 @@ std::optional<Touch> touchWall(const Body& i, const Vec3& normal, double distanc
     return touch;
 }
 
+Vec3 contactVelocity(const Body& i, const Vec3& leverI, const Body& j, const Vec3& leverJ) {
+    return (i.velocity + glm::cross(i.spin, leverI)) - (j.velocity + glm::cross(j.spin, leverJ));
+}
+
 Response contactResponse(const ContactLaw& law, ContactClass kind, const Touch& touch, double dt, History& history) {
     const ContactParameters& p = law.of(kind);
     const Vec3& n = touch.normal;
@@ -58,19 +62,26 @@ Response contactResponse(const ContactLaw& law, ContactClass kind, const Touch& 
                                : std::abs(normal);
 
     const Vec3 tangentialVelocity = touch.velocity - n * normalVelocity;
-    const Vec3 tangential = frictionForce({p.kt, p.gammaT, p.mu}, bearing, n, tangentialVelocity, dt, history.sliding);
+    bool slides = false, rolls = false, twists = false;
+    const Vec3 tangential =
+        frictionForce({p.kt, p.gammaT, p.mu}, bearing, n, tangentialVelocity, dt, history.sliding, &slides);
 
     const double lever = rollingLever(law.rollingLever, touch.reduced);
-    const Vec3 rolling =
-        frictionForce({p.kr, p.gammaR, p.muR}, bearing, n, rollingVelocity(lever, n, touch.spin), dt, history.rolling);
-    const double torsion =
-        torsionForce({p.kTo, p.gammaTo, p.muTo}, bearing, torsionVelocity(lever, n, touch.spin), dt, history.torsion);
+    const Vec3 rolling = frictionForce({p.kr, p.gammaR, p.muR}, bearing, n, rollingVelocity(lever, n, touch.spin), dt,
+                                       history.rolling, &rolls);
+    const double torsion = torsionForce({p.kTo, p.gammaTo, p.muTo}, bearing, torsionVelocity(lever, n, touch.spin), dt,
+                                        history.torsion, &twists);
 
     Response response{};
     response.force = normal * n + tangential;
-    response.couple = rollingTorque(lever, n, rolling) + lever * torsion * n;
+    const Vec3 rollingCouple = rollingTorque(lever, n, rolling), torsionCouple = lever * torsion * n;
+    response.couple = rollingCouple + torsionCouple;
     response.torqueI = glm::cross(touch.leverI, tangential) + response.couple;
     response.torqueJ = glm::cross(touch.leverJ, -tangential) - response.couple;
+    const bool adhesive = onAdhesiveBranch(p, touch.overlap, hysteretic);
+    response.parts = {
+        hysteretic, -p.gamma * normalVelocity, tangential, rollingCouple, torsionCouple, adhesive, slides, rolls,
+        twists};
     return response;
 }
 

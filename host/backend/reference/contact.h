@@ -43,12 +43,27 @@ std::optional<Touch> touchSphere(const Body& i, const Body& j);
 /// `rate` [rad/s]; a fixed one has rate 0.
 std::optional<Touch> touchWall(const Body& i, const Vec3& normal, double distance, double rate);
 
+/// Velocity of i relative to j at the ends of their levers [m/s].
+Vec3 contactVelocity(const Body& i, const Vec3& leverI, const Body& j, const Vec3& leverJ);
+
+/// The parts that a contact's force is made of, and the state of the elements that exert them.
+struct Parts {
+    double hysteretic;           ///< along the normal, without damping [N]
+    double damping;              ///< ditto [N]
+    Vec3 sliding;                ///< on i [N]
+    Vec3 rolling;                ///< couple on i [N m]
+    Vec3 torsion;                ///< couple on i [N m]
+    bool adhesive;               ///< on the adhesive branch
+    bool slides, rolls, twists;  ///< whether the slider slips
+};
+
 /// Forces and torques of a contact. On j act the opposite force and couple, and the force on its own lever.
 struct Response {
     Vec3 force;    ///< on i [N]
     Vec3 torqueI;  ///< on i about its centre [N m]
     Vec3 torqueJ;  ///< on j about its centre [N m]
     Vec3 couple;   ///< rolling and torsion part of torqueI [N m]
+    Parts parts{};
 };
 
 /// The contact law. `dt` [s] is the time by which the springs advance; `history` is updated.

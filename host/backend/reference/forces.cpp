@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "host/core/error.h"
 
@@ -27,6 +28,7 @@ void Forces::evaluate(const World& world, const Particles& particles, const Neig
     loads.torque.assign(particles.size(), Vec3(0));
     loads.coilTorque = 0;
     loads.deepest = {};
+    loads.energy = {};
     for (std::size_t i = 0; i < particles.size(); ++i) {
         pairs(i);
         surfaces(i);
@@ -44,19 +46,66 @@ void Forces::note(const Touch& touch, ContactClass kind, std::size_t particle, s
         loads_->deepest = {ratio, kind, static_cast<std::uint32_t>(particle), static_cast<std::uint32_t>(other)};
 }
 
+/// A wall turns about the origin, the fixed ones at no rate.
+Body Forces::wallBody(ContactClass kind) const {
+    return {Vec3(0), Vec3(0), Vec3(0, 0, kind == ContactClass::ParticleCoil ? motion_.rate : 0), 0};
+}
+
+Exerted Forces::exertedBy(ContactClass kind, const Touch& touch, const Response& response,
+                          const History& history) const {
+    if (!world_->energyBook) return {};
+    const Elastic elastic = elasticEnergy(world_->law.of(kind), response.parts.hysteretic, touch.reduced, history);
+    return {true, touch.normal, touch.overlap, touch.leverI, touch.leverJ, response.parts, elastic, 0};
+}
+
+/// Books a contact that goes on, begins or ends, or that was loaded touching.
+void Forces::book(const Exerted& before, const Exerted& now, const Body& i, const Body& j) {
+    if (!world_->energyBook) return;
+    if (springDt_ > 0)
+        bookContact(before, now, i, j, springDt_, loads_->energy);
+    else
+        bookLoaded(now, loads_->energy);
+    addElastic(now.elastic, loads_->energy);
+}
+
+/// A pair of the last step that no longer touches, or of which one or both are no longer in the motion.
+void Forces::partPair(std::size_t i, const Known& known) {
+    if (!world_->energyBook) return;
+    const auto present = [&](std::size_t k) {
+        return particles_->status[k] == Status::Active ? body(k) : Body{particles_->position[k], Vec3(0), Vec3(0), 0};
+    };
+    const bool both = particles_->status[i] == Status::Active && particles_->status[known.other] == Status::Active;
+    if (both)
+        book(known.exerted, Exerted{}, body(i), body(known.other));
+    else
+        bookDeparture(known.exerted, present(i), present(known.other), springDt_, loads_->energy);
+}
+
+void Forces::partWall(std::size_t i, ContactClass kind, const Exerted& before) {
+    if (!world_->energyBook) return;
+    if (particles_->status[i] == Status::Active)
+        book(before, Exerted{}, body(i), wallBody(kind));
+    else
+        loads_->energy.left += before.elastic.sum();
+}
+
 /// Contacts of particle i with those of larger index: each pair once.
 void Forces::pairs(std::size_t i) {
     before_.swap(pairs_[i]);
     pairs_[i].clear();
-    if (particles_->status[i] != Status::Active) return;
     auto known = before_.cbegin();
+    const auto partThoseBefore = [&](std::uint32_t j) {
+        for (; known != before_.cend() && known->other < j; ++known) partPair(i, *known);
+    };
     for (const std::uint32_t j : neighbours_->after(i)) {
+        if (particles_->status[i] != Status::Active) break;
         if (particles_->status[j] != Status::Active) continue;
         const std::optional<Touch> touch = touchSphere(body(i), body(j));
         if (!touch) continue;
-        while (known != before_.cend() && known->other < j) ++known;
+        partThoseBefore(j);
         const bool continues = known != before_.cend() && known->other == j;
-        History history = continues ? known->history : History{};
+        const Known before = continues ? *known++ : Known{j, {}, {}};
+        History history = before.history;
 
         const Response response =
             contactResponse(world_->law, ContactClass::ParticleParticle, *touch, springDt_, history);
@@ -64,34 +113,52 @@ void Forces::pairs(std::size_t i) {
         loads_->force[j] -= response.force;
         loads_->torque[i] += response.torqueI;
         loads_->torque[j] += response.torqueJ;
-        pairs_[i].push_back({j, history});
+        const Exerted now = exertedBy(ContactClass::ParticleParticle, *touch, response, history);
+        book(before.exerted, now, body(i), body(j));
+        pairs_[i].push_back({j, history, now});
         note(*touch, ContactClass::ParticleParticle, i, j);
     }
+    partThoseBefore(std::numeric_limits<std::uint32_t>::max());
 }
 
-void Forces::wall(std::size_t i, ContactClass kind, std::uint32_t other, const Touch& touch, History& history) {
+/// Returns what the contact exerted; booking it is the caller's, who knows what it exerted before.
+Exerted Forces::wall(std::size_t i, ContactClass kind, std::uint32_t other, const Touch& touch, History& history) {
     const Response response = contactResponse(world_->law, kind, touch, springDt_, history);
     loads_->force[i] += response.force;
     loads_->torque[i] += response.torqueI;
     note(touch, kind, i, other);
-    if (kind != ContactClass::ParticleCoil) return;
-    // The coil bears the opposite force at the contact point, and the opposite couple.
+    Exerted exerted = exertedBy(kind, touch, response, history);
     const Vec3 point = particles_->position[i] + touch.leverI;
-    loads_->coilTorque -= (glm::cross(point, response.force) + response.couple).z;
+    exerted.leverJ = point;
+    if (kind == ContactClass::ParticleCoil) {
+        // The coil bears the opposite force at the contact point, and the opposite couple.
+        exerted.coilTorque = -(glm::cross(point, response.force) + response.couple).z;
+        loads_->coilTorque += exerted.coilTorque;
+    }
+    return exerted;
 }
 
 void Forces::surfaces(std::size_t i) {
     before_.swap(surfaces_[i]);
     surfaces_[i].clear();
-    if (particles_->status[i] != Status::Active) return;
+    auto known = before_.cbegin();
     for (std::uint32_t s = 0; s < world_->surfaces.size(); ++s) {
+        const bool continues = known != before_.cend() && known->other == s;
+        const Known before = continues ? *known++ : Known{s, {}, {}};
+        if (particles_->status[i] != Status::Active) {
+            if (continues) partWall(i, ContactClass::ParticleWall, before.exerted);
+            continue;
+        }
         const geometry::Closest closest = geometry::closestPoint(world_->surfaces[s], particles_->position[i]);
         const std::optional<Touch> touch = touchWall(body(i), closest.normal, closest.distance, 0);
-        if (!touch) continue;
-        const auto known = std::find_if(before_.cbegin(), before_.cend(), [&](const Known& k) { return k.other == s; });
-        History history = known != before_.cend() ? known->history : History{};
-        wall(i, ContactClass::ParticleWall, s, *touch, history);
-        surfaces_[i].push_back({s, history});
+        if (!touch) {
+            if (continues) partWall(i, ContactClass::ParticleWall, before.exerted);
+            continue;
+        }
+        History history = before.history;
+        const Exerted now = wall(i, ContactClass::ParticleWall, s, *touch, history);
+        book(before.exerted, now, body(i), wallBody(ContactClass::ParticleWall));
+        surfaces_[i].push_back({s, history, now});
     }
 }
 
@@ -110,8 +177,13 @@ void Forces::coil(std::size_t i) {
     const Turns before = turns_[i];
     Turns& now = turns_[i];
     for (Turn& turn : now) turn.touching = false;
-    if (particles_->status[i] != Status::Active || !world_->coil) return;
+    if (!world_->coil) return;
+    if (particles_->status[i] == Status::Active) touchTurns(i, before, now);
+    for (std::size_t slot = 0; slot < now.size(); ++slot)
+        if (before[slot].touching && !now[slot].touching) partWall(i, ContactClass::ParticleCoil, before[slot].exerted);
+}
 
+void Forces::touchTurns(std::size_t i, const Turns& before, Turns& now) {
     const std::vector<geometry::CoilTouch> found =
         geometry::touches(*world_->coil, motion_.angle, particles_->position[i], particles_->radius[i]);
     std::array<bool, kMaxCoilTouches> taken{};  // slots spoken for, by a turn of the last step or a new one
@@ -131,8 +203,11 @@ void Forces::coil(std::size_t i) {
             slot = static_cast<std::size_t>(free - taken.begin());
             taken[slot] = true;
         }
-        now[slot] = {true, at.wireAngle, continues ? before[slot].history : History{}};
-        wall(i, ContactClass::ParticleCoil, static_cast<std::uint32_t>(slot), *touch, now[slot].history);
+        const Turn old = continues ? before[slot] : Turn{};
+        Turn& turn = now[slot];
+        turn = {true, at.wireAngle, old.history, {}};
+        turn.exerted = wall(i, ContactClass::ParticleCoil, static_cast<std::uint32_t>(slot), *touch, turn.history);
+        book(old.exerted, turn.exerted, body(i), wallBody(ContactClass::ParticleCoil));
     }
 }
 
@@ -150,40 +225,6 @@ std::vector<Contact> Forces::contacts() const {
         for (std::size_t slot = 0; slot < turns_[i].size(); ++slot)
             if (turns_[i][slot].touching) add(ContactClass::ParticleCoil, i, slot, turns_[i][slot].history);
     return list;
-}
-
-void Forces::save(Record& record) const {
-    const std::vector<Contact> list = contacts();
-    std::vector<std::uint32_t> ends;
-    std::vector<double> history, wireAngle;
-    for (const Contact& c : list) {
-        ends.insert(ends.end(), {static_cast<std::uint32_t>(c.kind), c.particle, c.other});
-        history.insert(history.end(), {c.maxOverlap, c.sliding.x, c.sliding.y, c.sliding.z, c.rolling.x, c.rolling.y,
-                                       c.rolling.z, c.torsion});
-        wireAngle.push_back(c.kind == ContactClass::ParticleCoil ? turns_[c.particle][c.other].wireAngle : 0);
-    }
-    record.put("contact_ends", std::move(ends));
-    record.put("contact_history", std::move(history));
-    record.put("contact_wire_angle", std::move(wireAngle));
-}
-
-void Forces::restore(const Record& record) {
-    const auto& wireAngle = record.get<double>("contact_wire_angle");
-    const auto& ends = record.get<std::uint32_t>("contact_ends", 3 * wireAngle.size());
-    const auto& h = record.get<double>("contact_history", 8 * wireAngle.size());
-    for (std::size_t c = 0; c < wireAngle.size(); ++c) {
-        const std::uint32_t kind = ends[3 * c], particle = ends[3 * c + 1], other = ends[3 * c + 2];
-        const double* v = &h[8 * c];
-        const History history{v[0], Vec3(v[1], v[2], v[3]), Vec3(v[4], v[5], v[6]), v[7]};
-        const bool coil = kind == static_cast<std::uint32_t>(ContactClass::ParticleCoil);
-        if (particle >= pairs_.size() || kind >= kContactClasses || (coil && other >= kMaxCoilTouches))
-            throw RecordError(fmt::format("contact {} is of a particle or turn that there is not", c));
-        // Saved in this order, so that every row is ascending again.
-        if (coil)
-            turns_[particle][other] = {true, wireAngle[c], history};
-        else
-            (kind == 0 ? pairs_ : surfaces_)[particle].push_back({other, history});
-    }
 }
 
 }  // namespace vkdose::reference

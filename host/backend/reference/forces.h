@@ -7,6 +7,7 @@
 
 #include "host/backend/backend.h"
 #include "host/backend/reference/contact.h"
+#include "host/backend/reference/energy.h"
 #include "host/backend/reference/neighbours.h"
 
 namespace vkdose::reference {
@@ -24,6 +25,7 @@ struct Loads {
     std::vector<Vec3> force;   ///< without gravity [N]
     std::vector<Vec3> torque;  ///< about the particle's centre [N m]
     double coilTorque = 0;     ///< about +z, on the coil [N m]
+    EnergyBook energy;         ///< what the contacts book in this step, and what they store; if the world asks for it
     Deepest deepest;
 };
 
@@ -55,18 +57,26 @@ class Forces {
     struct Known {
         std::uint32_t other;  ///< the larger index of a pair, or the surface
         History history;
+        Exerted exerted;
     };
     struct Turn {
         bool touching = false;
         double wireAngle = 0;  ///< where on the wire; tells the turns apart [rad]
         History history;
+        Exerted exerted;
     };
     using Turns = std::array<Turn, kMaxCoilTouches>;
 
     void pairs(std::size_t i);
     void surfaces(std::size_t i);
     void coil(std::size_t i);
-    void wall(std::size_t i, ContactClass kind, std::uint32_t other, const Touch& touch, History& history);
+    void touchTurns(std::size_t i, const Turns& before, Turns& now);
+    Exerted wall(std::size_t i, ContactClass kind, std::uint32_t other, const Touch& touch, History& history);
+    Exerted exertedBy(ContactClass kind, const Touch& touch, const Response& response, const History& history) const;
+    void book(const Exerted& before, const Exerted& now, const Body& i, const Body& j);
+    void partPair(std::size_t i, const Known& known);
+    void partWall(std::size_t i, ContactClass kind, const Exerted& before);
+    Body wallBody(ContactClass kind) const;
     static std::size_t slotOf(const Turns& before, const Turns& now, double wireAngle);
     Body body(std::size_t i) const;
     void note(const Touch& touch, ContactClass kind, std::size_t particle, std::size_t other);
@@ -80,7 +90,7 @@ class Forces {
     const Particles* particles_ = nullptr;
     const Neighbours* neighbours_ = nullptr;
     CoilMotion motion_{};
-    double springDt_ = 0;
+    double springDt_ = 0;  ///< 0 in the opening step
     Loads* loads_ = nullptr;
 };
 

@@ -4,15 +4,34 @@
 
 namespace vkdose::reference {
 
+namespace {
+
+/// delta*: the overlap from which a contact is as stiff as it gets. Needs k1 < k2Max.
+double plasticLimit(const ContactParameters& p, double reduced) {
+    return p.k2Max / (p.k2Max - p.k1) * p.plasticityDepth * reduced;
+}
+
+}  // namespace
+
+double unloadingStiffness(const ContactParameters& p, double reduced, double maxOverlap) {
+    if (p.k2Max <= p.k1) return p.k1;
+    const double limit = plasticLimit(p, reduced);
+    return p.k1 + (p.k2Max - p.k1) * (maxOverlap < limit ? maxOverlap / limit : 1);
+}
+
+bool onAdhesiveBranch(const ContactParameters& p, double overlap, double force) {
+    return force < 0 && force <= -p.kc * overlap;
+}
+
 double normalForce(const ContactParameters& p, double overlap, double reduced, double& maxOverlap) {
     maxOverlap = std::max(maxOverlap, overlap);
     // One stiffness: delta* is infinite and delta_0 zero, so the spring never leaves its loading line.
     if (p.k2Max <= p.k1) return p.k1 * overlap;
 
-    const double limit = p.k2Max / (p.k2Max - p.k1) * p.plasticityDepth * reduced;          // delta*
-    const double capped = std::min(maxOverlap, limit);                                      // delta_max, as it acts
-    const double k2 = p.k1 + (p.k2Max - p.k1) * (capped < limit ? maxOverlap / limit : 1);  // between k1 and k2Max
-    const double plastic = (1 - p.k1 / k2) * capped;                                        // delta_0
+    const double limit = plasticLimit(p, reduced);
+    const double capped = std::min(maxOverlap, limit);  // delta_max, as it acts
+    const double k2 = unloadingStiffness(p, reduced, maxOverlap);
+    const double plastic = (1 - p.k1 / k2) * capped;  // delta_0
 
     const double loading = p.k1 * overlap;
     const double unloading = k2 * (overlap - plastic);

@@ -49,6 +49,7 @@ class ReferenceBackend final : public Backend {
         neighbours_.reset(world.skin);
         steps_ = 0;
         angle_ = 0;
+        book_ = {};
     }
 
     void setLaw(const ContactLaw& law) override { world_.law = law; }
@@ -67,8 +68,17 @@ class ReferenceBackend final : public Backend {
     void step(double coilRate);
     void move(std::size_t i, double kick);
     void settleStatus(std::size_t i);
+    void bookStep(bool opening);
     void refuseDeepOverlap() const;
     Sensors sense() const;
+
+    /// Kinetic, rotational and potential energy of a particle at the full step that was made last (EnergyBook) [J].
+    struct Mechanical {
+        double kinetic, rotational, potential;
+        double sum() const { return kinetic + rotational + potential; }
+    };
+    Mechanical mechanicalEnergy(std::size_t i) const;
+    EnergyBook senseEnergy() const;
 
     double mass(std::size_t i) const {
         return world_.density * (4.0 / 3.0) * kPi * particles_.radius[i] * particles_.radius[i] * particles_.radius[i];
@@ -82,6 +92,8 @@ class ReferenceBackend final : public Backend {
     Neighbours neighbours_;
     Forces forces_;
     Loads loads_;
+    Particles before_;  ///< the state before the last step, velocities half a step before its forces; for the book
+    EnergyBook book_;   ///< losses and works of the call so far
     std::uint64_t steps_ = 0;  ///< since load
     double angle_ = 0;         ///< of the coil since load [rad]
     std::string lost_;         ///< the first loss of the step, as an error message
@@ -121,6 +133,7 @@ void ReferenceBackend::restore(const Record& record) {
     steps_ = record.one<std::uint64_t>("steps");
     angle_ = record.one<double>("coil_angle");
     neighbours_.reset(world_.skin, record.one<std::uint64_t>("rebuilds"));
+    book_ = {};
     forces_.reset(n);
     forces_.restore(record);
 }
@@ -128,6 +141,7 @@ void ReferenceBackend::restore(const Record& record) {
 Sensors ReferenceBackend::advance(std::uint32_t steps, double coilRate) {
     double torque = 0, deepest = 0;
     const double start = angle_;
+    book_ = {};
     for (std::uint32_t n = 0; n < steps; ++n) {
         step(coilRate);
         angle_ = start + coilRate * world_.timeStep * (n + 1);  // a product, so that rounding does not pile up
@@ -137,6 +151,7 @@ Sensors ReferenceBackend::advance(std::uint32_t steps, double coilRate) {
     Sensors sensors = sense();
     sensors.coilTorque = steps > 0 ? torque / steps : 0;
     sensors.maxOverlapRatio = deepest;
+    if (world_.energyBook && steps_ > 0) sensors.energy = senseEnergy();
     return sensors;
 }
 
@@ -147,6 +162,7 @@ void ReferenceBackend::step(double coilRate) {
     neighbours_.update(particles_);
     forces_.evaluate(world_, particles_, neighbours_, CoilMotion{angle_, coilRate}, opening ? 0 : dt, loads_);
     refuseDeepOverlap();
+    if (world_.energyBook) before_ = particles_;
 
     ++steps_;
     lost_.clear();
@@ -155,6 +171,7 @@ void ReferenceBackend::step(double coilRate) {
         move(i, opening ? dt / 2 : dt);
         settleStatus(i);
     }
+    if (world_.energyBook) bookStep(opening);
     if (!lost_.empty()) throw RunError(lost_);
 }
 
@@ -180,6 +197,57 @@ void ReferenceBackend::settleStatus(std::size_t i) {
                 broken ? "is no longer finite" : "left the domain", when(), x.x, x.y, x.z,
                 broken ? "use a smaller time step" : "close the boundaries around it or use a smaller time step");
     }
+}
+
+/// Adds what the contacts booked in this step, and what came with the load or went with particles that left.
+void ReferenceBackend::bookStep(bool opening) {
+    const EnergyBook& step = loads_.energy;
+    book_.plastic += step.plastic;
+    book_.adhesive += step.adhesive;
+    book_.viscous += step.viscous;
+    book_.sliding += step.sliding;
+    book_.rolling += step.rolling;
+    book_.torsion += step.torsion;
+    book_.numerical += step.numerical;
+    book_.coilWork += step.coilWork;
+    book_.left += step.left;
+    book_.loaded += step.loaded;
+    for (std::size_t i = 0; i < particles_.size(); ++i) {
+        if (before_.status[i] != Status::Active) continue;
+        if (opening) {  // half a kick: the velocity half a step before the forces is as far on the other side
+            before_.velocity[i] = 2.0 * before_.velocity[i] - particles_.velocity[i];
+            before_.spin[i] = 2.0 * before_.spin[i] - particles_.spin[i];
+            book_.loaded += mechanicalEnergy(i).sum();
+        }
+        if (particles_.status[i] != Status::Active) book_.left += mechanicalEnergy(i).sum();
+    }
+}
+
+ReferenceBackend::Mechanical ReferenceBackend::mechanicalEnergy(std::size_t i) const {
+    const double m = mass(i), a = particles_.radius[i];
+    return {0.5 * m * glm::dot(before_.velocity[i], particles_.velocity[i]),
+            0.5 * (0.4 * m * a * a) * glm::dot(before_.spin[i], particles_.spin[i]),
+            -m * glm::dot(world_.gravity, before_.position[i])};
+}
+
+EnergyBook ReferenceBackend::senseEnergy() const {
+    EnergyBook book = book_;
+    book.elasticNormal = loads_.energy.elasticNormal;
+    book.elasticSliding = loads_.energy.elasticSliding;
+    book.elasticRolling = loads_.energy.elasticRolling;
+    book.elasticTorsion = loads_.energy.elasticTorsion;
+    for (std::size_t i = 0; i < particles_.size(); ++i) {
+        if (particles_.status[i] != Status::Active) continue;
+        const Mechanical energy = mechanicalEnergy(i);
+        book.kinetic += energy.kinetic;
+        book.rotational += energy.rotational;
+        book.potential += energy.potential;
+        const double m = mass(i), a = particles_.radius[i];
+        book.momentum += m * particles_.velocity[i];
+        book.angularMomentum +=
+            m * glm::cross(particles_.position[i], particles_.velocity[i]) + (0.4 * m * a * a) * particles_.spin[i];
+    }
+    return book;
 }
 
 void ReferenceBackend::refuseDeepOverlap() const {

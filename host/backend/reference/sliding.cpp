@@ -9,7 +9,8 @@ Vec3 intoTangentPlane(const Vec3& spring, const Vec3& n) {
 }
 
 Vec3 frictionForce(const FrictionElement& element, double bearing, const Vec3& n, const Vec3& v, double dt,
-                   Vec3& spring) {
+                   Vec3& spring, bool* slips) {
+    if (slips) *slips = false;
     if (element.friction <= 0) {
         spring = Vec3(0);
         return Vec3(0);
@@ -20,6 +21,7 @@ Vec3 frictionForce(const FrictionElement& element, double bearing, const Vec3& n
     const double limit = element.friction * bearing;
     if (size <= limit) return trial;  // sticks
 
+    if (slips) *slips = true;
     const Vec3 force = trial * (limit / size);
     spring = element.stiffness > 0 ? -(force + element.viscosity * v) / element.stiffness : Vec3(0);
     return force;

@@ -16,8 +16,9 @@ struct FrictionElement {
 Vec3 intoTangentPlane(const Vec3& spring, const Vec3& n);
 
 /// Force that resists the tangential velocity `v` [N], at most friction * `bearing` (F_C [N]). `spring` [m] is turned
-/// into the plane normal to `n`, advanced by v dt and, where the slider slips, set to what the slider bears.
+/// into the plane normal to `n`, advanced by v dt and, where the slider slips, set to what the slider bears. `slips`
+/// tells whether it does.
 Vec3 frictionForce(const FrictionElement& element, double bearing, const Vec3& n, const Vec3& v, double dt,
-                   Vec3& spring);
+                   Vec3& spring, bool* slips = nullptr);
 
 }  // namespace vkdose::reference

@@ -12,6 +12,8 @@ double torsionVelocity(double lever, const Vec3& n, const Vec3& spin);
 
 /// Pseudo force that resists the twisting velocity `v` [N], at most friction * `bearing` (F_C [N]); lever * force * n
 /// is the torque on i. `spring` [m] is advanced by v dt and, where the slider slips, set to what the slider bears.
-double torsionForce(const FrictionElement& element, double bearing, double v, double dt, double& spring);
+/// `slips` tells whether it does.
+double torsionForce(const FrictionElement& element, double bearing, double v, double dt, double& spring,
+                    bool* slips = nullptr);
 
 }  // namespace vkdose::reference

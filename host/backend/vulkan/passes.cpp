@@ -7,9 +7,13 @@
 #include "clear.spv.h"
 #include "commit.spv.h"
 #include "neighbours.spv.h"
+#include "neighbours_energy.spv.h"
 #include "sense.spv.h"
+#include "sense_energy.spv.h"
 #include "step.spv.h"
+#include "step_energy.spv.h"
 #include "step_texel.spv.h"
+#include "step_texel_energy.spv.h"
 
 namespace vkdose {
 
@@ -18,12 +22,13 @@ namespace {
 constexpr VkDeviceSize kVec4 = 16;
 
 struct Elements {
-    VkDeviceSize state, rows, history, wallHistory;
+    VkDeviceSize state, rows, history, wallHistory, books;
     explicit Elements(const TableSizes& s)
         : state(2ull * gpu::kFields * s.particles),
           rows(2ull * s.rowWidth * s.particles),
-          history(2ull * s.rowWidth * 2 * s.particles),
-          wallHistory((2ull * s.wallSlots() + 1) * s.particles) {}
+          history(2ull * s.rowWidth * s.historyParts() * s.particles),
+          wallHistory((1ull * s.historyParts() * s.wallSlots() + 1) * s.particles),
+          books(s.energyBook ? 1ull * gpu::kBookFields * s.particles : 1) {}
 };
 
 bool viewsFit(const vk::Device& device, const TableSizes& s) {
@@ -40,8 +45,15 @@ std::array<std::uint32_t, 4> constants(const TableSizes& s) {
     return {s.workgroup, 1u, s.surfaces, s.surfaceKinds};
 }
 
-std::span<const std::uint32_t> stepCode(bool texel) {
-    return texel ? std::span<const std::uint32_t>(step_texel_spv) : std::span<const std::uint32_t>(step_spv);
+std::span<const std::uint32_t> stepCode(bool texel, bool energy) {
+    using Code = std::span<const std::uint32_t>;
+    if (energy) return texel ? Code(step_texel_energy_spv) : Code(step_energy_spv);
+    return texel ? Code(step_texel_spv) : Code(step_spv);
+}
+
+std::span<const std::uint32_t> neighboursCode(bool energy) {
+    using Code = std::span<const std::uint32_t>;
+    return energy ? Code(neighbours_energy_spv) : Code(neighbours_spv);
 }
 
 }  // namespace
@@ -61,20 +73,23 @@ Passes::Passes(const vk::Device& device, const TableSizes& s)
       anchors(device, "the anchors", s.particles * kVec4),
       sensors(device, "the sensors", s.groups() * sizeof(gpu::SensorRecord)),
       groupMember(device, "the workgroups' members", s.groups() * 4ull),
+      books(device, "the energy book", Elements(s).books * kVec4),
+      energies(device, "the energy records", s.groups() * sizeof(gpu::EnergyRecord)),
       sizes(s),
       texel_(viewsFit(device, s)),
-      bindings_(
-          device,
-          {&state, &rows, &marks, &history, &wallHistory, &members, &control, &cells, &anchors, &sensors, &groupMember},
-          texel_ ? std::vector<const vk::Buffer*>{&state, &rows, &history, &wallHistory}
-                 : std::vector<const vk::Buffer*>{},
-          sizeof(gpu::StepPush)),
+      bindings_(device,
+                {&state, &rows, &marks, &history, &wallHistory, &members, &control, &cells, &anchors, &sensors,
+                 &groupMember, &books, &energies},
+                texel_ ? std::vector<const vk::Buffer*>{&state, &rows, &history, &wallHistory}
+                       : std::vector<const vk::Buffer*>{},
+                sizeof(gpu::StepPush)),
       clear_(device, bindings_, clear_spv, constants(s)),
       bin_(device, bindings_, bin_spv, constants(s)),
-      neighbours_(device, bindings_, neighbours_spv, constants(s)),
+      neighbours_(device, bindings_, neighboursCode(s.energyBook), constants(s)),
       commit_(device, bindings_, commit_spv, constants(s)),
-      step_(device, bindings_, stepCode(texel_), constants(s)),
-      sense_(device, bindings_, sense_spv, constants(s)) {}
+      step_(device, bindings_, stepCode(texel_, s.energyBook), constants(s)),
+      sense_(device, bindings_, sense_spv, constants(s)),
+      senseEnergy_(device, bindings_, sense_energy_spv, constants(s)) {}
 
 gpu::StepPush Passes::push(std::uint32_t step, std::uint32_t source, bool opening) const {
     gpu::StepPush p{};
@@ -119,6 +134,16 @@ void Passes::recordSensing(vk::Commands& commands, std::uint32_t source) const {
     const gpu::StepPush p = push(0, source, false);
     bindings_.push(c, &p);
     sense_.bind(c);
+    commands.dispatch(sizes.groups());
+    commands.barrier();
+}
+
+void Passes::recordEnergySensing(vk::Commands& commands, std::uint32_t source, bool opening) const {
+    const VkCommandBuffer c = commands.handle();
+    bindings_.bind(c);
+    const gpu::StepPush p = push(0, source, opening);
+    bindings_.push(c, &p);
+    senseEnergy_.bind(c);
     commands.dispatch(sizes.groups());
     commands.barrier();
 }

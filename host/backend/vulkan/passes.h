@@ -20,9 +20,12 @@ struct TableSizes {
     std::uint32_t surfaces = 0;
     std::uint32_t surfaceKinds = 0;  ///< of the first kUnrolledSurfaces, 4 bits each
     std::uint32_t cells = 0;         ///< a power of two
-    bool texelReads = true;          ///< wanted; used if every view fits the device's limit
+    bool energyBook = false;
+    bool texelReads = true;  ///< wanted; used if every view fits the device's limit
 
     std::uint32_t groups() const { return particles / workgroup; }
+    /// Vectors of a contact's history (kParts in shared/buffers.glsl).
+    std::uint32_t historyParts() const { return energyBook ? 5 : 2; }
     std::uint32_t wallSlots() const { return surfaces + gpu::kMaxTurns; }
 };
 
@@ -34,8 +37,11 @@ class Passes {
     void recordSteps(vk::Commands& commands, std::uint32_t first, std::uint32_t count, std::uint32_t source,
                      bool opening) const;
     void recordSensing(vk::Commands& commands, std::uint32_t source) const;
+    /// Needs an energy book and a step made; `opening` if it was the first.
+    void recordEnergySensing(vk::Commands& commands, std::uint32_t source, bool opening) const;
 
-    vk::Buffer state, rows, marks, history, wallHistory, members, control, cells, anchors, sensors, groupMember;
+    vk::Buffer state, rows, marks, history, wallHistory, members, control, cells, anchors, sensors, groupMember, books,
+        energies;
     const TableSizes sizes;
     bool texelReads() const { return texel_; }
 
@@ -44,7 +50,7 @@ class Passes {
 
     bool texel_;
     vk::BindingSet bindings_;
-    vk::Pipeline clear_, bin_, neighbours_, commit_, step_, sense_;
+    vk::Pipeline clear_, bin_, neighbours_, commit_, step_, sense_, senseEnergy_;
 };
 
 }  // namespace vkdose

@@ -28,7 +28,7 @@ void unpack(const std::vector<float>& values, std::size_t rows, std::size_t stri
 }
 
 std::size_t wallRows(const Passes& passes) {
-    return 2 * passes.sizes.wallSlots() + 1;
+    return passes.sizes.historyParts() * passes.sizes.wallSlots() + 1;
 }
 
 bool touches(const uvec4& mark, std::uint32_t slot) {
@@ -38,9 +38,11 @@ bool touches(const uvec4& mark, std::uint32_t slot) {
 /// Both sides of every touching pair: how many of each particle, the partners in ascending order, their histories.
 void savePairs(const Passes& passes, std::size_t particles, const std::vector<uvec4>& marks, Record& record) {
     const std::size_t stride = passes.sizes.particles, width = passes.sizes.rowWidth;
+    const std::size_t parts = passes.sizes.historyParts();
     const std::size_t half = passes.control.readAll<gpu::Control>(1)[0].list.x;
     const auto rows = passes.rows.readAll<std::uint32_t>(width * stride, half * width * stride * 4);
-    const auto history = passes.history.readAll<vec4>(2 * width * stride, half * 2 * width * stride * sizeof(vec4));
+    const auto history =
+        passes.history.readAll<vec4>(parts * width * stride, half * parts * width * stride * sizeof(vec4));
     std::vector<std::uint32_t> counts, partners;
     std::vector<float> springs;
     for (std::size_t i = 0; i < particles; ++i) {
@@ -48,8 +50,8 @@ void savePairs(const Passes& passes, std::size_t particles, const std::vector<uv
         for (std::uint32_t s = 0; s < marks[i].w; ++s) {
             if (!touches(marks[i], s)) continue;
             partners.push_back(rows[s * stride + i]);
-            for (std::size_t part = 0; part < 2; ++part)
-                for (int c = 0; c < 4; ++c) springs.push_back(history[(2 * s + part) * stride + i][c]);
+            for (std::size_t part = 0; part < parts; ++part)
+                for (int c = 0; c < 4; ++c) springs.push_back(history[(parts * s + part) * stride + i][c]);
         }
         counts.push_back(static_cast<std::uint32_t>(partners.size() - before));
     }
@@ -60,21 +62,23 @@ void savePairs(const Passes& passes, std::size_t particles, const std::vector<uv
 
 void restorePairs(Passes& passes, std::size_t particles, std::vector<uvec4>& marks, const Record& record) {
     const std::size_t stride = passes.sizes.particles, width = passes.sizes.rowWidth;
+    const std::size_t parts = passes.sizes.historyParts();
     const auto& counts = record.get<std::uint32_t>("pair_counts", particles);
     std::size_t total = 0;
     for (const std::uint32_t n : counts) total += n;
     const auto& partners = record.get<std::uint32_t>("pair_partners", total);
-    const auto& springs = record.get<float>("pair_history", 8 * total);
+    const auto& springs = record.get<float>("pair_history", 4 * parts * total);
     std::vector<std::uint32_t> rows(width * stride, 0);
-    std::vector<vec4> history(2 * width * stride, vec4(0));
+    std::vector<vec4> history(parts * width * stride, vec4(0));
     std::size_t at = 0;
     for (std::size_t i = 0; i < particles; ++i) {
         if (counts[i] > width) throw RecordError("pair_counts exceeds the rows of this load");
         for (std::uint32_t s = 0; s < counts[i]; ++s, ++at) {
             if (partners[at] >= particles) throw RecordError("pair_partners names a particle that there is not");
             rows[s * stride + i] = partners[at];
-            for (std::size_t part = 0; part < 2; ++part)
-                for (int c = 0; c < 4; ++c) history[(2 * s + part) * stride + i][c] = springs[8 * at + 4 * part + c];
+            for (std::size_t part = 0; part < parts; ++part)
+                for (int c = 0; c < 4; ++c)
+                    history[(parts * s + part) * stride + i][c] = springs[4 * (parts * at + part) + c];
             (s < 32 ? marks[i].x : marks[i].y) |= 1U << (s % 32);
         }
         marks[i].w = counts[i];
@@ -96,6 +100,9 @@ void saveState(const Passes& passes, std::size_t particles, std::uint32_t source
     record.put("wall_marks", std::move(walls));
     record.put("wall_history", packed(passes.wallHistory.readAll<vec4>(wallRows(passes) * stride), wallRows(passes),
                                       stride, particles));
+    if (passes.sizes.energyBook)
+        record.put("energy_book",
+                   packed(passes.books.readAll<vec4>(gpu::kBookFields * stride), gpu::kBookFields, stride, particles));
     record.putOne("rebuilds", std::uint32_t(passes.control.readAll<gpu::Control>(1)[0].list.y));
 }
 
@@ -113,6 +120,12 @@ void restoreState(Passes& passes, std::size_t particles, const Record& record) {
     passes.state.writeAll(half);
     passes.marks.writeAll(marks);
     passes.wallHistory.writeAll(wallHistory);
+    if (passes.sizes.energyBook) {
+        std::vector<vec4> books(gpu::kBookFields * stride, vec4(0));
+        unpack(record.get<float>("energy_book", 4 * gpu::kBookFields * particles), gpu::kBookFields, stride, particles,
+               books);
+        passes.books.writeAll(books);
+    }
     gpu::Control control = passes.control.readAll<gpu::Control>(1)[0];
     control.list = uvec4(0U, record.one<std::uint32_t>("rebuilds"), 0U, 0U);
     passes.control.write(0, &control, sizeof control);

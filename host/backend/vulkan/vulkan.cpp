@@ -62,6 +62,7 @@ class VulkanBackend final : public Backend {
     }
     void runBatch(std::uint32_t count, double coilRate);
     Sensors sense(std::uint32_t steps);
+    EnergyBook readEnergy() const;
     void throwErrors(std::uint64_t firstStep) const;
     std::string nameParticle(std::uint32_t i) const;
 
@@ -92,6 +93,7 @@ void VulkanBackend::load(const World& world, const Particles& particles) {
         sizes.surfaceKinds |= std::uint32_t(member_.surface[i].pointHigh.w) << (4 * i);
     sizes.cells = 64;
     while (sizes.cells < 2 * particles.size()) sizes.cells *= 2;
+    sizes.energyBook = world.energyBook;
     sizes.texelReads = options_.reads == VulkanOptions::Reads::Automatic;
     requireDispatch(std::max(sizes.groups(), roundUp(sizes.cells, sizes.workgroup) / sizes.workgroup));
     passes_ = std::make_unique<Passes>(device_, sizes);
@@ -169,6 +171,8 @@ Sensors VulkanBackend::sense(std::uint32_t steps) {
     commands.begin();
     if (step_ == 0) passes_->members.write(0, &member_, sizeof member_);
     passes_->recordSensing(commands, source_);
+    const bool energy = world_.energyBook && step_ > 0;
+    if (energy) passes_->recordEnergySensing(commands, source_, step_ == 1);
     commands.hostBarrier();
     commands.submit();
     Sensors s;
@@ -184,8 +188,35 @@ Sensors VulkanBackend::sense(std::uint32_t steps) {
         s.maxOverlapRatio = std::max(s.maxOverlapRatio, double(r.extremes.x));
     }
     s.coilTorque = steps > 0 ? s.coilTorque / steps : 0.0;
+    if (energy) s.energy = readEnergy();
     s.rebuilds = passes_->control.readAll<gpu::Control>(1)[0].list.y;
     return s;
+}
+
+EnergyBook VulkanBackend::readEnergy() const {
+    EnergyBook b;
+    for (const gpu::EnergyRecord& r : passes_->energies.readAll<gpu::EnergyRecord>(passes_->sizes.groups())) {
+        b.plastic += double(r.normal.x);
+        b.adhesive += double(r.normal.y);
+        b.viscous += double(r.normal.z);
+        b.numerical += double(r.normal.w);
+        b.sliding += double(r.sliders.x);
+        b.rolling += double(r.sliders.y);
+        b.torsion += double(r.sliders.z);
+        b.coilWork += double(r.sliders.w);
+        b.loaded += double(r.flow.x);
+        b.left += double(r.flow.y);
+        b.kinetic += double(r.flow.z);
+        b.rotational += double(r.flow.w);
+        b.elasticNormal += double(r.elastic.x);
+        b.elasticSliding += double(r.elastic.y);
+        b.elasticRolling += double(r.elastic.z);
+        b.elasticTorsion += double(r.elastic.w);
+        b.momentum += Vec3(glm::vec3(r.momentum));
+        b.potential += double(r.momentum.w);
+        b.angularMomentum += Vec3(glm::vec3(r.angular));
+    }
+    return b;
 }
 
 std::string VulkanBackend::nameParticle(std::uint32_t i) const {
@@ -229,8 +260,9 @@ std::vector<Contact> VulkanBackend::contacts() const {
     const std::size_t n = t.particles;
     const auto marks = passes_->marks.readAll<gpu::uvec4>(n);
     const auto rows = passes_->rows.readAll<std::uint32_t>(2 * t.rowWidth * n);
-    const auto pairs = passes_->history.readAll<gpu::vec4>(2ull * t.rowWidth * 2 * n);
-    const auto walls = passes_->wallHistory.readAll<gpu::vec4>(2ull * t.wallSlots() * n);
+    const std::size_t parts = t.historyParts();
+    const auto pairs = passes_->history.readAll<gpu::vec4>(2ull * t.rowWidth * parts * n);
+    const auto walls = passes_->wallHistory.readAll<gpu::vec4>(parts * t.wallSlots() * n);
     const std::uint32_t list = passes_->control.readAll<gpu::Control>(1)[0].list.x;
     std::vector<Contact> contacts;
     const auto add = [&](ContactClass kind, std::size_t i, std::uint32_t other, const gpu::vec4& a,
@@ -243,15 +275,15 @@ std::vector<Contact> VulkanBackend::contacts() const {
             const std::size_t row = list * t.rowWidth + s;
             const bool touching = ((s < 32 ? marks[i].x : marks[i].y) >> (s % 32)) & 1u;
             if (touching && rows[row * n + i] > i)
-                add(ContactClass::ParticleParticle, i, rows[row * n + i], pairs[2 * row * n + i],
-                    pairs[(2 * row + 1) * n + i]);
+                add(ContactClass::ParticleParticle, i, rows[row * n + i], pairs[parts * row * n + i],
+                    pairs[(parts * row + 1) * n + i]);
         }
         for (std::uint32_t s = 0; s < t.wallSlots(); ++s) {
             const bool coil = s >= t.surfaces;
             const std::uint32_t bit = coil ? gpu::kMaxSurfaces + s - t.surfaces : s;
             if ((marks[i].z >> bit) & 1u)
                 add(coil ? ContactClass::ParticleCoil : ContactClass::ParticleWall, i, coil ? s - t.surfaces : s,
-                    walls[2 * s * n + i], walls[(2 * s + 1) * n + i]);
+                    walls[parts * s * n + i], walls[(parts * s + 1) * n + i]);
         }
     }
     return contacts;

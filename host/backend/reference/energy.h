@@ -1,0 +1,45 @@
+#pragma once
+// What a contact does with energy in a step: each part of its force takes some from the motion, stores some in its
+// spring and loses the rest (backend.h, EnergyBook, for the balance that this closes).
+
+#include "host/backend/backend.h"
+#include "host/backend/reference/contact.h"
+
+namespace vkdose::reference {
+
+/// Energy in the springs of a contact [J].
+struct Elastic {
+    double normal = 0, sliding = 0, rolling = 0, torsion = 0;
+    double sum() const { return normal + sliding + rolling + torsion; }
+};
+
+/// Energy stored by a contact that exerts `hysteretic` [N] with this history.
+Elastic elasticEnergy(const ContactParameters& p, double hysteretic, double reduced, const History& history);
+
+/// What a contact exerted in a step and where, kept until the next. None of it if it did not touch.
+struct Exerted {
+    bool touching = false;
+    Vec3 normal{0};
+    double overlap = 0;         ///< [m]
+    Vec3 leverI{0}, leverJ{0};  ///< for a wall, which turns about the origin, leverJ is the contact point [m]
+    Parts parts{};
+    Elastic elastic;
+    double coilTorque = 0;  ///< on the coil about +z [N m]
+};
+
+/// Books the step of a contact that exerted `before` at the step's start (does not touch: a new contact) and exerts
+/// `now` at its end (does not touch: it has parted). `i` and `j` move as they did during the step of `dt` [s].
+void bookContact(const Exerted& before, const Exerted& now, const Body& i, const Body& j, double dt, EnergyBook& book);
+
+/// Books the first of a contact that was loaded touching: what the normal spring stores came with the load; what a
+/// slider's dashpot sets up in its spring counts against friction, as in any new contact.
+void bookLoaded(const Exerted& now, EnergyBook& book);
+
+/// Books a contact that ends because `i` or `j` has left the motion; who has is to be given at rest, the one that
+/// stays moves as it did during the step.
+void bookDeparture(const Exerted& before, const Body& i, const Body& j, double dt, EnergyBook& book);
+
+/// Adds the energy in the contact's springs.
+void addElastic(const Elastic& elastic, EnergyBook& book);
+
+}  // namespace vkdose::reference

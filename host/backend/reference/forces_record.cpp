@@ -1,0 +1,94 @@
+// The contacts as a record, and back: every number that the next step depends on.
+
+#include <fmt/format.h>
+
+#include "host/backend/reference/forces.h"
+
+namespace vkdose::reference {
+
+namespace {
+
+/// Calls `visit` for every number of a contact's history, in a fixed order; a flag is visited as 0 or 1.
+template <class Visit>
+void eachNumber(History& h, Visit visit) {
+    visit(h.maxOverlap);
+    for (int d = 0; d < 3; ++d) visit(h.sliding[d]);
+    for (int d = 0; d < 3; ++d) visit(h.rolling[d]);
+    visit(h.torsion);
+}
+
+template <class Visit>
+void eachNumber(Exerted& e, Visit visit) {
+    const auto flag = [&](bool& b) {
+        double number = b ? 1 : 0;
+        visit(number);
+        b = number != 0;
+    };
+    flag(e.touching);
+    flag(e.parts.adhesive);
+    flag(e.parts.slides);
+    flag(e.parts.rolls);
+    flag(e.parts.twists);
+    for (Vec3* v : {&e.normal, &e.leverI, &e.leverJ, &e.parts.sliding, &e.parts.rolling, &e.parts.torsion})
+        for (int d = 0; d < 3; ++d) visit((*v)[d]);
+    for (double* x : {&e.overlap, &e.coilTorque, &e.parts.hysteretic, &e.parts.damping, &e.elastic.normal,
+                      &e.elastic.sliding, &e.elastic.rolling, &e.elastic.torsion})
+        visit(*x);
+}
+
+}  // namespace
+
+void Forces::save(Record& record) const {
+    std::vector<std::uint32_t> ends;
+    std::vector<double> numbers, wireAngle;
+    const auto add = [&](ContactClass kind, std::size_t i, std::size_t other, History history, Exerted exerted,
+                         double angle) {
+        ends.insert(ends.end(), {static_cast<std::uint32_t>(kind), static_cast<std::uint32_t>(i),
+                                 static_cast<std::uint32_t>(other)});
+        const auto push = [&](double& x) { numbers.push_back(x); };
+        eachNumber(history, push);
+        eachNumber(exerted, push);
+        wireAngle.push_back(angle);
+    };
+    for (std::size_t i = 0; i < pairs_.size(); ++i) {
+        for (const Known& k : pairs_[i]) add(ContactClass::ParticleParticle, i, k.other, k.history, k.exerted, 0);
+        for (const Known& k : surfaces_[i]) add(ContactClass::ParticleWall, i, k.other, k.history, k.exerted, 0);
+        for (std::size_t slot = 0; slot < turns_[i].size(); ++slot) {
+            const Turn& t = turns_[i][slot];
+            if (t.touching) add(ContactClass::ParticleCoil, i, slot, t.history, t.exerted, t.wireAngle);
+        }
+    }
+    record.put("contact_ends", std::move(ends));
+    record.put("contact_numbers", std::move(numbers));
+    record.put("contact_wire_angle", std::move(wireAngle));
+}
+
+void Forces::restore(const Record& record) {
+    const auto& wireAngle = record.get<double>("contact_wire_angle");
+    const std::size_t count = wireAngle.size();
+    const auto& ends = record.get<std::uint32_t>("contact_ends", 3 * count);
+    std::size_t each = 0;
+    History history;
+    Exerted exerted;
+    const auto tally = [&](double&) { ++each; };
+    eachNumber(history, tally);
+    eachNumber(exerted, tally);
+    const auto& numbers = record.get<double>("contact_numbers", each * count);
+    auto next = numbers.begin();
+    const auto take = [&](double& x) { x = *next++; };
+    for (std::size_t c = 0; c < count; ++c) {
+        const std::uint32_t kind = ends[3 * c], particle = ends[3 * c + 1], other = ends[3 * c + 2];
+        eachNumber(history, take);
+        eachNumber(exerted, take);
+        const bool coil = kind == static_cast<std::uint32_t>(ContactClass::ParticleCoil);
+        if (particle >= pairs_.size() || kind >= kContactClasses || (coil && other >= kMaxCoilTouches))
+            throw RecordError(fmt::format("contact {} is of a particle or turn that there is not", c));
+        // Saved in this order, so that every row is ascending again.
+        if (coil)
+            turns_[particle][other] = {true, wireAngle[c], history, exerted};
+        else
+            (kind == 0 ? pairs_ : surfaces_)[particle].push_back({other, history, exerted});
+    }
+}
+
+}  // namespace vkdose::reference

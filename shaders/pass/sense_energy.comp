@@ -1,0 +1,52 @@
+#version 450
+// sense_energy: one record per workgroup of the energy book (shared/layout.h, EnergyRecord), with the energies of motion
+// and gravity at the full step before the last kick. Reads both halves of the state, the other one being what the last
+// step started from; push.opening tells that it was the opening step. Resets what the book accumulates.
+#extension GL_GOOGLE_include_directive : require
+#include "shared/buffers.glsl"
+
+shared EnergyRecord record[gl_WorkGroupSize.x];
+
+void main() {
+    uint i = gl_GlobalInvocationID.x, lane = gl_LocalInvocationID.x;
+    uint member = memberOfGroup(), before = 1u - push.source;
+    vec4 gravity = members[member].gravity;
+    vec4 position = state[stateIndex(push.source, kPosition, i)];
+    vec3 velocity = state[stateIndex(push.source, kVelocity, i)].xyz;
+    vec4 spin = state[stateIndex(push.source, kSpin, i)];
+    vec3 start = state[stateIndex(before, kPosition, i)].xyz;
+    vec3 oldVelocity = state[stateIndex(before, kVelocity, i)].xyz;
+    vec3 oldSpin = state[stateIndex(before, kSpin, i)].xyz;
+    if (push.opening == 1u) {  // half a kick: see pass/step_energy.glsl
+        oldVelocity = 2.0 * oldVelocity - velocity;
+        oldSpin = 2.0 * oldSpin - spin.xyz;
+    }
+    float r = abs(position.w);
+    bool moving = uint(spin.w) == kActive;
+    float m = moving ? gravity.w * (4.0 / 3.0 * 3.14159265358979) * r * r * r : 0.0;
+    float inertia = 0.4 * m * r * r;
+
+    vec4 flow = books[bookIndex(kBookFlow, i)];
+    record[lane] = EnergyRecord(
+        books[bookIndex(kBookNormal, i)], books[bookIndex(kBookSliders, i)],
+        vec4(flow.xy, 0.5 * m * dot(oldVelocity, velocity), 0.5 * inertia * dot(oldSpin, spin.xyz)),
+        books[bookIndex(kBookElastic, i)], vec4(m * velocity, -m * dot(gravity.xyz, start)),
+        vec4(m * cross(position.xyz, velocity) + inertia * spin.xyz, 0.0));
+    books[bookIndex(kBookNormal, i)] = vec4(0.0);
+    books[bookIndex(kBookSliders, i)] = vec4(0.0);
+    books[bookIndex(kBookFlow, i)] = vec4(0.0, 0.0, flow.zw);
+
+    for (uint width = gl_WorkGroupSize.x / 2u; width > 0u; width /= 2u) {
+        barrier();
+        if (lane < width) {
+            EnergyRecord other = record[lane + width];
+            record[lane].normal += other.normal;
+            record[lane].sliders += other.sliders;
+            record[lane].flow += other.flow;
+            record[lane].elastic += other.elastic;
+            record[lane].momentum += other.momentum;
+            record[lane].angular += other.angular;
+        }
+    }
+    if (lane == 0u) energies[gl_WorkGroupID.x] = record[0];
+}
