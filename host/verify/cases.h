@@ -20,6 +20,7 @@ void obliqueSticking(Bench& bench);
 // sliding.cpp
 void slipThenRoll(Bench& bench);
 void inclineSlides(Bench& bench);
+void coulombLimit(Bench& bench);
 
 // rolling.cpp
 void inclineRolls(Bench& bench);

@@ -70,4 +70,26 @@ void inclineSlides(Bench& bench) {
                 tolerance);
 }
 
+// An adhesive sphere on the floor, pressed in by m g/k1: friction is mu m g with the limit on |f_n|, and (1 + k_c/k1)
+// times that with Luding's, which starts from the adhesive branch.
+void coulombLimit(Bench& bench) {
+    const double mu = 0.1, dt = 1e-5, chi = 2;
+    ContactParameters p = rough(mu);
+    p.k2Max = 2 * kStiffness;
+    p.kc = chi * kStiffness;
+    p.plasticityDepth = 0.05;
+    for (const CoulombLimit limit : {CoulombLimit::Luding, CoulombLimit::Absolute}) {
+        World world = floor(p, dt);
+        world.law.coulombLimit = limit;
+        Trial trial(bench, world, resting(world, 0.2));
+        trial.advance(200);  // the spring stretches first
+        const double before = trial.now().velocity[0].x;
+        trial.advance(1000);
+        const bool luding = limit == CoulombLimit::Luding;
+        bench.check(luding ? "deceleration, limit \"luding\"" : "deceleration, limit \"absolute\"", "m/s2",
+                    mu * kGravity * (luding ? 1 + chi : 1), (before - trial.now().velocity[0].x) / (1000 * dt),
+                    {8e-4, "mu g dt is rounded to the last bit of a single-precision velocity, 660 of them"});
+    }
+}
+
 }  // namespace vkdose::verify

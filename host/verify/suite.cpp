@@ -19,6 +19,7 @@ std::vector<Scene> scenes() {
         {"collisions/oblique-sticking", "a sphere hits a wall obliquely and never slips", obliqueSticking},
         {"sliding/slip-then-roll", "a sphere set sliding on a floor ends up rolling", slipThenRoll},
         {"sliding/steep-incline", "a sphere on a slope too steep to roll without slipping", inclineSlides},
+        {"sliding/coulomb-limit", "what an adhesive contact bears in friction, both readings", coulombLimit},
         {"rolling/gentle-incline", "a sphere rolls down a slope", inclineRolls},
         {"rolling/resistance", "rolling friction holds a sphere up to a certain slope", rollingResistance},
         {"torsion/spin-decay", "a sphere spinning about the normal is braked", spinDecay},

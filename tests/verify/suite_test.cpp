@@ -79,6 +79,14 @@ TEST_CASE("the wrong physics fails the cases that are about it, and those it has
          {"collisions/oblique-sliding", "sliding/slip-then-roll", "sliding/steep-incline", "coil/pressed-sphere"},
          "head-on"},
         {"k_c 2 % down", scaled(&ContactParameters::kc, 0.98), 1, {"collisions/head-on"}, "integrator"},
+        {"the other Coulomb limit",
+         [](World& w) {
+             w.law.coulombLimit =
+                 w.law.coulombLimit == CoulombLimit::Luding ? CoulombLimit::Absolute : CoulombLimit::Luding;
+         },
+         1,
+         {"sliding/coulomb-limit"},
+         "integrator"},
         {"k_1 1 % up",
          scaled(&ContactParameters::k1, 1.01),
          1,
