@@ -92,7 +92,6 @@ DeviceInfo describe(VkPhysicalDevice physical, int index) {
     info.apiVersion = versionText(base.apiVersion);
     info.maxStorageBufferRange = base.limits.maxStorageBufferRange;
     info.driver = fmt::format("{:#x}", base.driverVersion);
-    constexpr std::uint32_t kStorageBuffers = 11;
     if (base.apiVersion < VK_API_VERSION_1_1) {
         info.reason = "needs Vulkan 1.1, has " + info.apiVersion;
     } else if (computeFamily(physical) < 0) {

@@ -15,6 +15,10 @@ namespace vkdose::vk {
 /// Throws DeviceError naming the call and the result unless `result` is VK_SUCCESS.
 void check(VkResult result, const char* call);
 
+/// Storage buffers that one binding set may hold, so that a device with fewer per stage is refused before anything is
+/// built on it.
+inline constexpr std::uint32_t kStorageBuffers = 13;
+
 struct DeviceChoice {
     /// Empty: automatic (discrete, then integrated, then virtual, then CPU). Else an index of listDevices() or a
     /// case-insensitive part of a device's name.

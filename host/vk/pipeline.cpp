@@ -1,11 +1,14 @@
 #include "host/vk/pipeline.h"
 
+#include <cassert>
+
 namespace vkdose::vk {
 
 BindingSet::BindingSet(const Device& device, const std::vector<const Buffer*>& storage,
                        const std::vector<const Buffer*>& texel, std::uint32_t pushBytes)
     : BindingSet(device, pushBytes) {
     const std::uint32_t storageCount = std::uint32_t(storage.size()), texelCount = std::uint32_t(texel.size());
+    assert(storageCount <= kStorageBuffers);
     std::vector<VkDescriptorSetLayoutBinding> bindings;
     for (std::uint32_t i = 0; i < storageCount + texelCount; ++i)
         bindings.push_back(
