@@ -12,7 +12,9 @@ class Fault {
   public:
     explicit Fault(const std::string& names, bool validated = true) {
         setenv("VKDOSE_FAULT", names.c_str(), 1);
-        setenv("VK_ADD_LAYER_PATH", VKDOSE_LAYER_DIR, 1);
+        // The layer found last stands next to the driver: the system's folders, with the validation layer, come first.
+        setenv("VK_ADD_LAYER_PATH", "/etc/vulkan/explicit_layer.d:/usr/share/vulkan/explicit_layer.d:" VKDOSE_LAYER_DIR,
+               1);
         const char* layers = "VK_LAYER_KHRONOS_validation:VK_LAYER_VKDOSE_faults";
         setenv("NODEVICE_SELECT", "1", 1);  // Mesa's own layer overruns its list when there is no device
         setenv("VK_INSTANCE_LAYERS", validated ? layers : "VK_LAYER_VKDOSE_faults", 1);
