@@ -2,11 +2,11 @@
 
 #include <chrono>
 #include <cstdio>
-#include <fstream>
 
 #include "host/app/commands.h"
 #include "host/app/exit_code.h"
 #include "host/app/interrupt.h"
+#include "host/output/csv.h"
 #include "host/verify/suite.h"
 #include "host/verify/table.h"
 
@@ -20,13 +20,6 @@ std::vector<verify::Scene> chosenScenes(const std::string& only) {
     std::string known;
     for (const verify::Scene& scene : verify::scenes()) known += "\n  " + scene.name;
     throw UsageError("--only " + only + ": no case has this in its name; the cases are" + known);
-}
-
-void write(const std::filesystem::path& file, const std::string& text) {
-    std::ofstream stream(file, std::ios::binary);
-    stream << text;
-    stream.close();
-    if (!stream) throw UsageError("cannot write " + file.string());
 }
 
 }  // namespace
@@ -52,8 +45,8 @@ int verifyCommand(const VerifyOptions& options) {
         }
     }
     const verify::Setting setting{backend->description(), std::chrono::duration<double>(clock::now() - start).count()};
-    write(options.out / "verify.json", verify::jsonTable(checks, setting));
-    write(options.out / "verify.md", verify::markdownTable(checks, setting));
+    replaceFile(options.out / "verify.json", verify::jsonTable(checks, setting));
+    replaceFile(options.out / "verify.md", verify::markdownTable(checks, setting));
     const std::size_t failed = verify::failures(checks);
     fmt::print("\n{} of {} checks passed in {:.0f} s; {} and verify.json say the same\n", checks.size() - failed,
                checks.size(), setting.seconds, (options.out / "verify.md").string());

@@ -42,6 +42,12 @@ void heap(Bench& bench);
 // momentum.cpp
 void isolatedCluster(Bench& bench);
 
+// energy.cpp
+void plasticLoss(Bench& bench);
+void dampingLoss(Bench& bench);
+void frictionLoss(Bench& bench);
+void clusterBalance(Bench& bench);
+
 // size_ratio.cpp
 void wedgeBounce(Bench& bench);
 void wedgeRest(Bench& bench);

@@ -27,10 +27,7 @@ struct Momentum {
 
 }  // namespace
 
-// The leapfrog conserves both exactly: x(n) x v(n-1/2) changes only by the torques of the contacts about the origin,
-// and both sides of a pair act at the same point. What is left is rounding. Both backends are given radii that single
-// precision holds, so that masses agree.
-void isolatedCluster(Bench& bench) {
+ContactParameters everyInteraction() {
     ContactParameters p;
     p.k1 = kK1;
     p.k2Max = kK2Max;
@@ -41,7 +38,10 @@ void isolatedCluster(Bench& bench) {
     p.muTo = 0.2;
     p.kt = p.kr = p.kTo = 0.286 * kK2Max;
     p.gammaT = p.gammaR = p.gammaTo = 0.286 * p.gamma;
+    return p;
+}
 
+Particles collapsingCluster() {
     // A grid with jitter, thrown at its middle, so that all collide within a few milliseconds.
     Particles cluster;
     std::uint64_t draw = 0;
@@ -55,7 +55,15 @@ void isolatedCluster(Bench& bench) {
         const Vec3 v = -60.0 * x + 0.02 * (Vec3(random(), random(), random()) - 0.5);
         cluster.add(x, radius, v, 20.0 * (Vec3(random(), random(), random()) - 0.5));
     }
-    World world = space(p, 1e-6);
+    return cluster;
+}
+
+// The leapfrog conserves both exactly: x(n) x v(n-1/2) changes only by the torques of the contacts about the origin,
+// and both sides of a pair act at the same point. What is left is rounding. Both backends are given radii that single
+// precision holds, so that masses agree.
+void isolatedCluster(Bench& bench) {
+    const Particles cluster = collapsingCluster();
+    World world = space(everyInteraction(), 1e-6);
     const Momentum before(cluster);
     Trial trial(bench, world, cluster);
     std::size_t most = 0;

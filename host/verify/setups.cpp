@@ -47,6 +47,7 @@ Trial::Trial(Bench& bench, const World& world, const Particles& particles)
 
 Sensors Trial::advance(std::uint64_t steps, double coilRate) {
     const Sensors sensors = backend_->advance(static_cast<std::uint32_t>(steps), coilRate);
+    if (sensors.energy) energy_.add(*sensors.energy);
     steps_ += steps;
     now_ = backend_->particles();
     return sensors;

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "host/sim/energy_ledger.h"
 #include "host/verify/suite.h"
 
 namespace vkdose::verify {
@@ -29,6 +30,11 @@ World space(const ContactParameters& p, double timeStep);
 /// The floor y = 0 under gravity that pulls by `gravity` [m/s2], `tilt` [rad] from the vertical towards +x.
 World floor(const ContactParameters& p, double timeStep, double gravity = kGravity, double tilt = 0);
 
+/// Friction, rolling, torsion, damping, adhesion and plasticity all at once, and a cluster of 31 spheres thrown at its
+/// middle, so that they collide within a few milliseconds (momentum.cpp).
+ContactParameters everyInteraction();
+Particles collapsingCluster();
+
 /// Loads a world and counts its steps.
 class Trial {
   public:
@@ -40,6 +46,8 @@ class Trial {
 
     /// Positions belong to `time()`, velocities and spins to `halfStep()`.
     const Particles& now() const { return now_; }
+    /// Of the calls so far, if the world keeps the book.
+    const EnergyLedger& energy() const { return energy_; }
     std::vector<Contact> contacts() const { return backend_->contacts(); }
     double time() const { return static_cast<double>(steps_) * timeStep_; }
     double halfStep() const { return time() - timeStep_ / 2; }
@@ -47,6 +55,7 @@ class Trial {
   private:
     Backend* backend_;
     Particles now_;
+    EnergyLedger energy_;
     double timeStep_;
     std::uint64_t steps_ = 0;
 };

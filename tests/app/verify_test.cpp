@@ -52,6 +52,9 @@ TEST_CASE("verify on the device: bed") {
 TEST_CASE("verify on the device: momentum") {
     requireGreen("momentum");
 }
+TEST_CASE("verify on the device: energy") {
+    requireGreen("energy");
+}
 TEST_CASE("verify on the device: size ratio") {
     requireGreen("size-ratio");
 }
