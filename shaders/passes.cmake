@@ -1,6 +1,6 @@
 # Compiles every pass to SPIR-V and embeds it as a C++ header. A pass that names TEXEL_READS is built twice: from storage
-# buffers, and (suffix _texel) through texel-buffer views, which some devices read several times faster. One that names
-# ENERGY_BOOK is built without the energy book, which then costs nothing, and (suffix _energy) with it.
+# buffers, and (suffix _texel) through texel-buffer views, which some devices read several times faster. One that
+# says "and ENERGY_BOOK" is built without the energy book, which then costs nothing, and (suffix _energy) with it.
 set(spirv_dir ${CMAKE_BINARY_DIR}/spirv)
 file(MAKE_DIRECTORY ${spirv_dir})
 file(GLOB shader_headers CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/shaders/shared/*.h ${CMAKE_SOURCE_DIR}/shaders/law/*.glsl
@@ -25,7 +25,7 @@ file(GLOB passes CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/shaders/pass/*.comp)
 foreach(pass ${passes})
   get_filename_component(stem ${pass} NAME_WE)
   file(STRINGS ${pass} texel REGEX "TEXEL_READS")
-  file(STRINGS ${pass} energy REGEX "ENERGY_BOOK")
+  file(STRINGS ${pass} energy REGEX "and ENERGY_BOOK")
   vkdose_compile(${pass} ${stem})
   if(texel)
     vkdose_compile(${pass} ${stem}_texel -DTEXEL_READS)

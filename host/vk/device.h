@@ -17,7 +17,7 @@ void check(VkResult result, const char* call);
 
 /// Storage buffers that one binding set may hold, so that a device with fewer per stage is refused before anything is
 /// built on it.
-inline constexpr std::uint32_t kStorageBuffers = 13;
+inline constexpr std::uint32_t kStorageBuffers = 16;
 
 struct DeviceChoice {
     /// Empty: automatic (discrete, then integrated, then virtual, then CPU). Else an index of listDevices() or a

@@ -62,9 +62,9 @@ struct CoilView {
     bool nearEnd;
 };
 
-/// Whether the sphere reaches the shell that the wire fills, to float accuracy and a margin.
-bool nearCoil(CoilParams c, Sphere a) {
-    float reach = a.radius + c.radius.z + 1e-7;
+/// Whether the sphere comes closer than `margin` to the shell that the wire fills, to float accuracy.
+bool nearCoil(CoilParams c, Sphere a, float margin) {
+    float reach = a.radius + c.radius.z + margin + 1e-7;
     float z = a.high.z - c.reach.z;
     return abs(length(a.high.xy) - c.radius.x) < reach && z > -reach && z < c.radius.w + reach;
 }

@@ -1,5 +1,5 @@
 #version 450
-// bin: chains every moving particle into its cell. Reads the state; writes heads and links. The order within a chain
+// bin: chains every moving particle into its cell. Built with and without TEXEL_READS (shared/buffers.glsl). Reads the state; writes heads and links. The order within a chain
 // depends on timing; `neighbours` sorts its rows, so that nothing after it does.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/buffers.glsl"
@@ -7,9 +7,8 @@
 
 void main() {
     uint i = gl_GlobalInvocationID.x;
-    uint member = memberOfGroup();
-    vec4 p = state[stateIndex(push.source, kPosition, i)];
+    vec4 p = readState(push.source, kPosition, i);
     if (p.w <= 0.0) return;
-    uint slot = cellSlot(cellOf(p.xyz, members[member].numerics.z), member);
+    uint slot = cellSlot(cellOf(p.xyz, member.numerics.z));
     cells[push.cellMask + 1u + i] = atomicExchange(cells[slot], i);
 }

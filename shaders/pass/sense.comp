@@ -12,17 +12,16 @@ shared float overlap[gl_WorkGroupSize.x];
 
 void main() {
     uint i = gl_GlobalInvocationID.x, lane = gl_LocalInvocationID.x;
-    uint member = memberOfGroup();
     vec4 position = state[stateIndex(push.source, kPosition, i)];
     vec4 residue = state[stateIndex(push.source, kResidue, i)];
     vec4 velocity = state[stateIndex(push.source, kVelocity, i)];
     vec4 spin = state[stateIndex(push.source, kSpin, i)];
     uint status = uint(spin.w);
     float r = abs(position.w);
-    float m = members[member].gravity.w * (4.0 / 3.0 * 3.14159265358979) * r * r * r;
+    float m = member.gravity.w * (4.0 / 3.0 * 3.14159265358979) * r * r * r;
 
     uint region = kEmpty;
-    if (status == kActive) region = position.z > members[member].domainLow.w ? 1u : 0u;
+    if (status == kActive) region = position.z > member.domainLow.w ? 1u : 0u;
     if (status == kDosed) region = 2u;
     if (status == kLost) region = 3u;
     uvec4 here = uvec4(equal(uvec4(region), uvec4(0u, 1u, 2u, 3u)));

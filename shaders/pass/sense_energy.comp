@@ -1,16 +1,18 @@
 #version 450
 // sense_energy: one record per workgroup of the energy book (shared/layout.h, EnergyRecord), with the energies of motion
 // and gravity at the full step before the last kick. Reads both halves of the state, the other one being what the last
-// step started from; push.opening tells that it was the opening step. Resets what the book accumulates.
+// step started from, and the books of the contacts; push.opening tells that it was the opening step. Resets what the book
+// accumulates. Only ENERGY_BOOK (shared/buffers.glsl) exists of it.
 #extension GL_GOOGLE_include_directive : require
+#define ENERGY_BOOK
 #include "shared/buffers.glsl"
 
 shared EnergyRecord record[gl_WorkGroupSize.x];
 
 void main() {
     uint i = gl_GlobalInvocationID.x, lane = gl_LocalInvocationID.x;
-    uint member = memberOfGroup(), before = 1u - push.source;
-    vec4 gravity = members[member].gravity;
+    uint before = 1u - push.source;
+    vec4 gravity = member.gravity;
     vec4 position = state[stateIndex(push.source, kPosition, i)];
     vec3 velocity = state[stateIndex(push.source, kVelocity, i)].xyz;
     vec4 spin = state[stateIndex(push.source, kSpin, i)];
@@ -26,11 +28,17 @@ void main() {
     float m = moving ? gravity.w * (4.0 / 3.0 * 3.14159265358979) * r * r * r : 0.0;
     float inertia = 0.4 * m * r * r;
 
+    uvec4 range = readRange(rowRangeIndex(i));
+    vec4 elastic = vec4(0.0);
+    for (uint k = 0u; k < range.w; ++k) {
+        uint link = readRow(linkIndex(range.z + k));
+        if ((link & 1u) == 0u) elastic += books[slotBookIndex(kBookElastic, link >> 1u)];
+    }
     vec4 flow = books[bookIndex(kBookFlow, i)];
     record[lane] = EnergyRecord(
         books[bookIndex(kBookNormal, i)], books[bookIndex(kBookSliders, i)],
         vec4(flow.xy, 0.5 * m * dot(oldVelocity, velocity), 0.5 * inertia * dot(oldSpin, spin.xyz)),
-        books[bookIndex(kBookElastic, i)], vec4(m * velocity, -m * dot(gravity.xyz, start)),
+        elastic, vec4(m * velocity, -m * dot(gravity.xyz, start)),
         vec4(m * cross(position.xyz, velocity) + inertia * spin.xyz, 0.0));
     books[bookIndex(kBookNormal, i)] = vec4(0.0);
     books[bookIndex(kBookSliders, i)] = vec4(0.0);

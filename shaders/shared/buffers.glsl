@@ -6,41 +6,54 @@
 #include "shared/layout.h"
 
 layout(local_size_x_id = 0) in;                      // workgroup size, chosen by the host
-layout(constant_id = 1) const uint MEMBERS = 1u;     // 1: the member index is a constant and its block a uniform read
-layout(constant_id = 2) const uint SURFACES = 0u;    // fixed surfaces of every member
-layout(constant_id = 3) const uint KINDS = 0u;       // kinds of the first surfaces, 4 bits each (kUnrolledSurfaces)
+layout(constant_id = 1) const uint SURFACES = 0u;    // fixed surfaces
+layout(constant_id = 2) const uint KINDS = 0u;       // kinds of the first surfaces, 4 bits each (kUnrolledSurfaces)
+layout(constant_id = 3) const uint KIND_SET = 0u;    // bit k: there is a surface of kind k
 
 layout(push_constant) uniform Push { StepPush push; };
 
 layout(std430, set = 0, binding = 0) buffer StateBuffer { vec4 state[]; };
-// Rows: uint row[2 halves][rowWidth][particles], ascending index within a row.
+// Rows: of every particle the indices of those within reach and skin, ascending; then links: of every particle the
+// contacts it takes part in, ascending by the other's index, then surfaces, then the coil: slot << 1 | 1 if it is the
+// contact's second body.
 layout(std430, set = 0, binding = 1) buffer RowBuffer { uint rows[]; };
-// Marks: x, y: touch bits of the row's slots; z: touch bits of surfaces (0 ...) and coil turns (28 ...); w: row length.
-layout(std430, set = 0, binding = 2) buffer MarkBuffer { uvec4 marks[]; };
-// Pair history: vec4 [2 halves][rowWidth][parts][particles]: (xi, delta_max), (rho, torsion); with the energy book the
-// three of law/energy.glsl's Exerted as well.
+// Ranges: uvec4[2][particles]: row (first, count), links (first, count); own pair slots (first, count), own surface slots.
+layout(std430, set = 0, binding = 2) buffer RangeBuffer { uvec4 ranges[]; };
+// History of pairs and surfaces: vec4[parts][pair and surface slots]: (xi, delta_max), (rho, torsion), zero while they do
+// not touch; with the energy book the three of law/energy.glsl's Exerted as well.
 layout(std430, set = 0, binding = 3) buffer HistoryBuffer { vec4 history[]; };
-// Wall history: vec4 [surfaces + turns][parts][particles], then vec4 [particles]: wire angle in each slot of a turn.
-layout(std430, set = 0, binding = 4) buffer WallHistoryBuffer { vec4 wallHistory[]; };
-layout(std430, set = 0, binding = 5) readonly buffer MemberBuffer { Member members[]; };
+// History with the coil: vec4[turns][parts][particles], then vec4[particles]: wire angle of each turn, kNoTurn if free.
+layout(std430, set = 0, binding = 4) buffer CoilHistoryBuffer { vec4 coilHistory[]; };
+layout(std430, set = 0, binding = 5) readonly buffer MemberBuffer { Member member; };
 layout(std430, set = 0, binding = 6) buffer ControlBuffer { Control control; };
 // Cells: uint head[cellMask + 1], then next[particles].
 layout(std430, set = 0, binding = 7) buffer CellBuffer { uint cells[]; };
-// Anchor: position at the last rebuild (high part), w unused.
+// Anchors: vec4[2][particles]: high part of the position when the rows were built, and when the contacts were listed.
 layout(std430, set = 0, binding = 8) buffer AnchorBuffer { vec4 anchors[]; };
 layout(std430, set = 0, binding = 9) buffer SensorBuffer { SensorRecord sensors[]; };
-// Member of each workgroup; a member never shares a workgroup with another.
-layout(std430, set = 0, binding = 10) readonly buffer GroupBuffer { uint groupMember[]; };
-
+// Who meets in a slot: uvec2[2][slots]: particle, the other particle or the surface; then those that a refresh prepares.
+layout(std430, set = 0, binding = 10) buffer EntryBuffer { uvec2 entries[]; };
 // The energy book, and its sums.
 layout(std430, set = 0, binding = 11) buffer BookBuffer { vec4 books[]; };
 layout(std430, set = 0, binding = 12) buffer EnergyBuffer { EnergyRecord energies[]; };
+// What a slot's contact exerts: force on its first body [N], w: overlap over the smaller radius; vec4[2][slots]: torque on
+// the first body [N m], w: on the coil about +z; torque on the second body.
+layout(std430, set = 0, binding = 13) buffer ForceBuffer { vec4 forces[]; };
+layout(std430, set = 0, binding = 14) buffer TorqueBuffer { vec4 torques[]; };
+// History on its way to the slots that a refresh prepares.
+layout(std430, set = 0, binding = 15) buffer CarriedBuffer { vec4 carried[]; };
 
 #ifdef TEXEL_READS
-layout(set = 0, binding = 13) uniform samplerBuffer stateView;
-layout(set = 0, binding = 14) uniform usamplerBuffer rowView;
-layout(set = 0, binding = 15) uniform samplerBuffer historyView;
-layout(set = 0, binding = 16) uniform samplerBuffer wallHistoryView;
+layout(set = 0, binding = 16) uniform samplerBuffer stateView;
+layout(set = 0, binding = 17) uniform usamplerBuffer rowView;
+layout(set = 0, binding = 18) uniform usamplerBuffer rangeView;
+layout(set = 0, binding = 19) uniform samplerBuffer historyView;
+layout(set = 0, binding = 20) uniform samplerBuffer coilHistoryView;
+layout(set = 0, binding = 21) uniform samplerBuffer memberView;
+layout(set = 0, binding = 22) uniform samplerBuffer anchorView;
+layout(set = 0, binding = 23) uniform usamplerBuffer entryView;
+layout(set = 0, binding = 24) uniform samplerBuffer forceView;
+layout(set = 0, binding = 25) uniform samplerBuffer torqueView;
 #endif
 
 #ifdef ENERGY_BOOK
@@ -48,30 +61,50 @@ const uint kParts = 5u;
 #else
 const uint kParts = 2u;
 #endif
+const uint kRowAnchor = 0u;
+const uint kListAnchor = 1u;
+
+uint springSlots() { return push.pairSlots + push.surfaceSlots; }
+uint slotCount() { return springSlots() + push.coilSlots; }
 
 uint stateIndex(uint side, uint field, uint i) { return (side * kFields + field) * push.particles + i; }
-uint rowIndex(uint list, uint slot, uint i) { return (list * push.rowWidth + slot) * push.particles + i; }
-uint historyIndex(uint list, uint slot, uint part, uint i) {
-    return ((list * push.rowWidth + slot) * kParts + part) * push.particles + i;
-}
-uint wallHistoryIndex(uint slot, uint part, uint i) { return (slot * kParts + part) * push.particles + i; }
-uint wireAngleIndex(uint i) { return wallHistoryIndex(SURFACES + kMaxTurns, 0u, i); }
+uint linkIndex(uint at) { return push.rowEntries + at; }
+uint rowRangeIndex(uint i) { return i; }
+uint slotRangeIndex(uint i) { return push.particles + i; }
+uint historyIndex(uint part, uint slot) { return part * springSlots() + slot; }
+uint coilHistoryIndex(uint turn, uint part, uint i) { return (turn * kParts + part) * push.particles + i; }
+uint wireAngleIndex(uint i) { return coilHistoryIndex(kMaxTurns, 0u, i); }
+uint anchorIndex(uint which, uint i) { return which * push.particles + i; }
+uint comingEntryIndex(uint slot) { return slotCount() + slot; }
 uint bookIndex(uint field, uint i) { return field * push.particles + i; }
-
-uint memberOfGroup() { return MEMBERS == 1u ? 0u : groupMember[gl_WorkGroupID.x]; }
+uint slotBookIndex(uint field, uint slot) { return kBookFields * push.particles + field * slotCount() + slot; }
 
 #ifdef TEXEL_READS
 vec4 readState(uint side, uint field, uint i) { return texelFetch(stateView, int(stateIndex(side, field, i))); }
-uint readRow(uint list, uint slot, uint i) { return texelFetch(rowView, int(rowIndex(list, slot, i))).x; }
-vec4 readHistory(uint list, uint slot, uint part, uint i) {
-    return texelFetch(historyView, int(historyIndex(list, slot, part, i)));
+uint readRow(uint at) { return texelFetch(rowView, int(at)).x; }
+uvec4 readRange(uint at) { return texelFetch(rangeView, int(at)); }
+vec4 readHistory(uint part, uint slot) { return texelFetch(historyView, int(historyIndex(part, slot))); }
+vec4 readCoilHistory(uint at) { return texelFetch(coilHistoryView, int(at)); }
+vec4 readAnchor(uint which, uint i) { return texelFetch(anchorView, int(anchorIndex(which, i))); }
+uvec2 readEntry(uint slot) { return texelFetch(entryView, int(slot)).xy; }
+vec4 readForce(uint slot) { return texelFetch(forceView, int(slot)); }
+vec4 readTorque(uint side, uint slot) { return texelFetch(torqueView, int(side * slotCount() + slot)); }
+SurfaceParams readSurface(uint s) {
+    int at = int(12u + 4u * s);  // vectors before them in Member
+    return SurfaceParams(texelFetch(memberView, at), texelFetch(memberView, at + 1), texelFetch(memberView, at + 2),
+                         texelFetch(memberView, at + 3));
 }
-vec4 readWallHistory(uint index) { return texelFetch(wallHistoryView, int(index)); }
 #else
 vec4 readState(uint side, uint field, uint i) { return state[stateIndex(side, field, i)]; }
-uint readRow(uint list, uint slot, uint i) { return rows[rowIndex(list, slot, i)]; }
-vec4 readHistory(uint list, uint slot, uint part, uint i) { return history[historyIndex(list, slot, part, i)]; }
-vec4 readWallHistory(uint index) { return wallHistory[index]; }
+uint readRow(uint at) { return rows[at]; }
+uvec4 readRange(uint at) { return ranges[at]; }
+vec4 readHistory(uint part, uint slot) { return history[historyIndex(part, slot)]; }
+vec4 readCoilHistory(uint at) { return coilHistory[at]; }
+vec4 readAnchor(uint which, uint i) { return anchors[anchorIndex(which, i)]; }
+uvec2 readEntry(uint slot) { return entries[slot]; }
+vec4 readForce(uint slot) { return forces[slot]; }
+vec4 readTorque(uint side, uint slot) { return torques[side * slotCount() + slot]; }
+SurfaceParams readSurface(uint s) { return member.surface[s]; }
 #endif
 
 // The smallest step and the smallest particle of an error are kept: the same whatever order invocations run in.

@@ -4,9 +4,9 @@
 
 ivec3 cellOf(vec3 position, float size) { return ivec3(floor(position / size)); }
 
-uint cellSlot(ivec3 cell, uint member) {
+uint cellSlot(ivec3 cell) {
     uvec3 c = uvec3(cell) * uvec3(73856093u, 19349663u, 83492791u);
-    return (c.x ^ c.y ^ c.z ^ (member * 2654435761u)) & push.cellMask;
+    return (c.x ^ c.y ^ c.z) & push.cellMask;
 }
 
 #endif

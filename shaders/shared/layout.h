@@ -10,16 +10,21 @@ using glm::uvec4;
 using glm::vec4;
 using uint = glm::uint;
 #define SHARED_CONST inline constexpr uint
+#define SHARED_REAL inline constexpr float
 #else
 #define SHARED_CONST const uint
+#define SHARED_REAL const float
 #endif
 
 // --- limits ----------------------------------------------------------------------------------------------------------
-SHARED_CONST kMaxSurfaces = 28u;   // one bit each in the wall mask ...
-SHARED_CONST kMaxTurns = 4u;       // ... and one for every coil turn touched at once
+SHARED_CONST kMaxSurfaces = 28u;
+SHARED_CONST kMaxTurns = 4u;       // of the coil that one particle touches at once
 SHARED_CONST kUnrolledSurfaces = 8u; // surfaces whose kind is a specialisation constant; more go through a slower loop
-SHARED_CONST kMaxRow = 64u;        // neighbours per particle: two words of touch bits
+SHARED_CONST kMaxRow = 64u;        // neighbours per particle
+SHARED_CONST kMaxLinks = 96u;      // contacts per particle: a row, every surface, the coil
 SHARED_CONST kEmpty = 0xffffffffu; // end of a cell's list
+SHARED_REAL kNoTurn = 1e30f;       // wire angle in the place of a coil turn that is not touched
+SHARED_REAL kMarginOfSkin = 0.1f;  // extra reach of the contact lists, of the skin of the rows
 
 // --- particle state: vec4 state[2 halves][4 fields][particles]; the halves take turns as source and destination --------
 SHARED_CONST kPosition = 0u; // xyz: high part [m]; w: radius [m], negative once the particle is out of the motion
@@ -86,17 +91,24 @@ SHARED_CONST kErrorOverlap = 3u;
 SHARED_CONST kErrorTurns = 4u;
 SHARED_CONST kErrorNewton = 5u;
 SHARED_CONST kErrorCrowded = 6u;
-SHARED_CONST kErrors = 7u;
+SHARED_CONST kErrorTables = 7u;
+SHARED_CONST kErrors = 8u;
 
 struct ErrorRecord {
     uvec4 first; // x: smallest step of the batch at which it happened, y: smallest particle index; kEmpty: none
 };
 
 struct Control {
-    uvec4 cells;      // indirect arguments: workgroups that clear the cell table, 0 while no rebuild is wanted
-    uvec4 particles;  // indirect arguments: workgroups over the particles, ditto
-    uvec4 single;     // indirect arguments: one workgroup, ditto
-    uvec4 list;       // x: which half of the lists is current; y: rebuilds since load; z: longest row ever
+    // Indirect arguments, three words each.
+    uvec4 cells;      // workgroups that clear the cell table, 0 while no rebuild of the rows is wanted
+    uvec4 particles;  // workgroups over the particles, ditto
+    uvec4 single;     // one workgroup, ditto
+    uvec4 refresh;    // workgroups over the particles, 0 while no refresh of the contact lists is wanted
+    uvec4 settle;     // one workgroup, ditto
+    uvec4 contacts;   // workgroups over what the contact lists hold: w of them pairs ...
+    uvec4 listed;     // ... entries in use: pairs, surfaces, coil; w: workgroups of surfaces
+    uvec4 coming;     // entries taken so far by the refresh at work: pairs, surfaces, coil, links
+    uvec4 list;       // x: entries of the rows in use; y: rebuilds since load; z: longest row ever; w: refreshes since load
     ErrorRecord error[kErrors];
 };
 
@@ -109,18 +121,19 @@ struct SensorRecord {
 };
 
 // --- the energy book (host/backend/backend.h, EnergyBook), kept only where the world asks for it [J] --------------------------
-// vec4 book[4 fields][particles]: a particle's walls and coil, and half of its pairs.
-SHARED_CONST kBookNormal = 0u;  // since the last sensing: plastic, adhesive, viscous, numerical loss
-SHARED_CONST kBookSliders = 1u; // ditto: sliding, rolling, torsion loss, work of the coil
-SHARED_CONST kBookFlow = 2u;    // ditto: loaded, left; z: torque on the coil in the last step [N m]
-SHARED_CONST kBookElastic = 3u; // in the last step: normal, sliding, rolling, torsion springs
-SHARED_CONST kBookFields = 4u;
+// vec4 book[3 fields][particles], then vec4 book[3 fields][slots]: of the contacts, which book to their first body.
+// A particle's holds what came together since the last sensing, a contact's the last step.
+SHARED_CONST kBookNormal = 0u;  // plastic, adhesive, viscous, numerical loss
+SHARED_CONST kBookSliders = 1u; // sliding, rolling, torsion loss; of a particle: work of the coil, of a contact: loaded
+SHARED_CONST kBookFlow = 2u;    // of a particle: loaded, left; z: torque on the coil in the last step [N m]
+SHARED_CONST kBookElastic = 2u; // of a contact: energy of its normal, sliding, rolling, torsion springs
+SHARED_CONST kBookFields = 3u;
 
 struct EnergyRecord {  // one per workgroup
     vec4 normal;       // as kBookNormal
     vec4 sliders;      // as kBookSliders
     vec4 flow;         // loaded, left, kinetic, rotational energy
-    vec4 elastic;      // as kBookElastic
+    vec4 elastic;      // as kBookElastic, of the contacts that the particles own
     vec4 momentum;     // xyz [kg m/s]; w: potential energy
     vec4 angular;      // xyz: angular momentum about the origin [kg m2/s]
 };
@@ -131,12 +144,17 @@ struct StepPush {
     uint source;        // which half of the state is read; the other is written
     uint opening;       // 1 on the very first step of a load: half a kick, springs at rest
     uint particles;     // slots, padding included (a multiple of the workgroup size)
-    uint rowWidth;
     uint cellMask;      // size of the cell table - 1 (a power of two)
+    uint rowEntries;    // room in the rows ...
+    uint linkEntries;   // ... and in the links behind them
+    uint pairSlots;     // contact slots: first the pairs, multiples of the workgroup size ...
+    uint surfaceSlots;  // ... then the surfaces ...
+    uint coilSlots;     // ... then the coil
 };
 
 #ifdef __cplusplus
 #undef SHARED_CONST
+#undef SHARED_REAL
 }  // namespace vkdose::gpu
 #endif
 #endif

@@ -24,20 +24,16 @@ TEST_CASE("GPU-assisted checks find an access outside a buffer") {
     const Assisted assisted;
     vk::Device device(testDevice());
     REQUIRE(device.validated());
-    TableSizes sizes;
-    sizes.particles = 64;
-    sizes.rowWidth = 8;
-    sizes.cells = 64;
-    Passes passes(device, sizes);
     Particles p;
     p.add({0, 0, 0}, 1e-3);
-    const gpu::Member member = packMember(emptyWorld(), p);
-    passes.members.write(0, &member, sizeof member);
-    passes.state.writeAll(packState(p, sizes.particles));
-    gpu::Control control{};
-    control.cells = {1, 1, 1, 0};
-    control.particles = {2, 1, 1, 0};  // one workgroup more than there are particles
-    control.single = {1, 1, 1, 0};
+    const World world = emptyWorld();
+    const gpu::Member member = packMember(world, p);
+    Passes passes(device, tableSizes(world, p, member, 64, device.limits().maxStorageBufferRange));
+    passes.member.write(0, &member, sizeof member);
+    passes.state.writeAll(packState(p, 64));
+    passes.reset();
+    auto control = passes.control.readAll<gpu::Control>(1)[0];
+    control.particles.x = 2;  // one workgroup more than there are particles
     passes.control.write(0, &control, sizeof control);
     vk::Commands commands(device);
     commands.begin();

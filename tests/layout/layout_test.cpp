@@ -9,15 +9,19 @@
 #include <span>
 #include <string>
 
+#include "commit_lists.spv.h"
+#include "contacts.spv.h"
+#include "contacts_energy.spv.h"
+#include "contacts_texel.spv.h"
+#include "contacts_texel_energy.spv.h"
+#include "move.spv.h"
+#include "move_texel_energy.spv.h"
+#include "near.spv.h"
+#include "near_texel_energy.spv.h"
 #include "neighbours.spv.h"
-#include "neighbours_energy.spv.h"
 #include "sense.spv.h"
 #include "sense_energy.spv.h"
 #include "shaders/shared/layout.h"
-#include "step.spv.h"
-#include "step_energy.spv.h"
-#include "step_texel.spv.h"
-#include "step_texel_energy.spv.h"
 
 namespace {
 
@@ -56,8 +60,9 @@ const std::map<std::string, Layout>& hostLayouts() {
           sizeof(Member)}},
         {"ErrorRecord", {{FIELD(ErrorRecord, first)}, sizeof(ErrorRecord)}},
         {"Control",
-         {{FIELD(Control, cells), FIELD(Control, particles), FIELD(Control, single), FIELD(Control, list),
-           FIELD(Control, error)},
+         {{FIELD(Control, cells), FIELD(Control, particles), FIELD(Control, single), FIELD(Control, refresh),
+           FIELD(Control, settle), FIELD(Control, contacts), FIELD(Control, listed), FIELD(Control, coming),
+           FIELD(Control, list), FIELD(Control, error)},
           sizeof(Control)}},
         {"SensorRecord",
          {{FIELD(SensorRecord, count), FIELD(SensorRecord, mass), FIELD(SensorRecord, motion),
@@ -69,7 +74,8 @@ const std::map<std::string, Layout>& hostLayouts() {
           sizeof(EnergyRecord)}},
         {"StepPush",
          {{FIELD(StepPush, stepInBatch), FIELD(StepPush, source), FIELD(StepPush, opening), FIELD(StepPush, particles),
-           FIELD(StepPush, rowWidth), FIELD(StepPush, cellMask)},
+           FIELD(StepPush, cellMask), FIELD(StepPush, rowEntries), FIELD(StepPush, linkEntries),
+           FIELD(StepPush, pairSlots), FIELD(StepPush, surfaceSlots), FIELD(StepPush, coilSlots)},
           sizeof(StepPush)}},
     };
     return layouts;
@@ -142,9 +148,11 @@ std::set<std::string> structsOf(std::span<const std::uint32_t> code) {
 
 TEST_CASE("C++ and GLSL see the same structs") {
     std::set<std::string> seen;
-    for (const auto& structs : {structsOf(step_spv), structsOf(step_texel_spv), structsOf(step_energy_spv),
-                                structsOf(step_texel_energy_spv), structsOf(sense_spv), structsOf(sense_energy_spv),
-                                structsOf(neighbours_spv), structsOf(neighbours_energy_spv)})
+    for (const auto& structs : {structsOf(contacts_spv), structsOf(contacts_texel_spv), structsOf(contacts_energy_spv),
+                                structsOf(contacts_texel_energy_spv), structsOf(move_spv),
+                                structsOf(move_texel_energy_spv), structsOf(near_spv), structsOf(near_texel_energy_spv),
+                                structsOf(commit_lists_spv), structsOf(sense_spv), structsOf(sense_energy_spv),
+                                structsOf(neighbours_spv)})
         seen.insert(structs.begin(), structs.end());
     for (const auto& [name, layout] : hostLayouts()) {
         INFO("struct " << name << " is in no pass: nothing was compared");

@@ -1,19 +1,35 @@
 #include "host/backend/vulkan/passes.h"
 
+#include <algorithm>
 #include <array>
 #include <span>
+#include <vector>
 
 #include "bin.spv.h"
+#include "bin_texel.spv.h"
 #include "clear.spv.h"
-#include "commit.spv.h"
+#include "commit_lists.spv.h"
+#include "commit_rows.spv.h"
+#include "contacts.spv.h"
+#include "contacts_energy.spv.h"
+#include "contacts_texel.spv.h"
+#include "contacts_texel_energy.spv.h"
+#include "link.spv.h"
+#include "link_energy.spv.h"
+#include "link_texel.spv.h"
+#include "link_texel_energy.spv.h"
+#include "move.spv.h"
+#include "move_energy.spv.h"
+#include "move_texel.spv.h"
+#include "move_texel_energy.spv.h"
+#include "near.spv.h"
+#include "near_energy.spv.h"
+#include "near_texel.spv.h"
+#include "near_texel_energy.spv.h"
 #include "neighbours.spv.h"
-#include "neighbours_energy.spv.h"
+#include "neighbours_texel.spv.h"
 #include "sense.spv.h"
 #include "sense_energy.spv.h"
-#include "step.spv.h"
-#include "step_energy.spv.h"
-#include "step_texel.spv.h"
-#include "step_texel_energy.spv.h"
 
 namespace vkdose {
 
@@ -22,74 +38,114 @@ namespace {
 constexpr VkDeviceSize kVec4 = 16;
 
 struct Elements {
-    VkDeviceSize state, rows, history, wallHistory, books;
+    VkDeviceSize state, rows, ranges, history, coilHistory, anchors, entries, books, forces, torques;
     explicit Elements(const TableSizes& s)
         : state(2ull * gpu::kFields * s.particles),
-          rows(2ull * s.rowWidth * s.particles),
-          history(2ull * s.rowWidth * s.historyParts() * s.particles),
-          wallHistory((1ull * s.historyParts() * s.wallSlots() + 1) * s.particles),
-          books(s.energyBook ? 1ull * gpu::kBookFields * s.particles : 1) {}
+          rows(1ull * s.rowEntries + s.linkEntries),
+          ranges(2ull * s.particles),
+          history(std::max<VkDeviceSize>(1, 1ull * s.historyParts() * s.springSlots())),
+          coilHistory(std::max<VkDeviceSize>(1, 1ull * s.coilHistoryRows() * s.particles)),
+          anchors(2ull * s.particles),
+          entries(2ull * s.slots()),
+          books(s.energyBook ? 1ull * gpu::kBookFields * (s.particles + s.slots()) : 1),
+          forces(s.slots()),
+          torques(2ull * s.slots()) {}
 };
 
 bool viewsFit(const vk::Device& device, const TableSizes& s) {
     const Elements e(s);
-    const VkDeviceSize limit = device.limits().maxTexelBufferElements;
-    return s.texelReads && e.state <= limit && e.rows <= limit && e.history <= limit && e.wallHistory <= limit;
-}
-
-VkFormat viewFormat(bool texel, VkFormat format) {
-    return texel ? format : VK_FORMAT_UNDEFINED;
+    const VkDeviceSize most = std::max({e.state, e.rows, e.ranges, e.history, e.coilHistory, e.anchors, e.entries,
+                                        e.forces, e.torques});
+    return s.texelReads && most <= device.limits().maxTexelBufferElements;
 }
 
 std::array<std::uint32_t, 4> constants(const TableSizes& s) {
-    return {s.workgroup, 1u, s.surfaces, s.surfaceKinds};
+    return {s.workgroup, s.surfaces, s.surfaceKinds, s.kindSet};
 }
 
-std::span<const std::uint32_t> stepCode(bool texel, bool energy) {
+/// The variants of one pass (shaders/passes.cmake).
+struct Variants {
     using Code = std::span<const std::uint32_t>;
-    if (energy) return texel ? Code(step_texel_energy_spv) : Code(step_energy_spv);
-    return texel ? Code(step_texel_spv) : Code(step_spv);
-}
+    Code plain, texel, energy, texelEnergy;
 
-std::span<const std::uint32_t> neighboursCode(bool energy) {
-    using Code = std::span<const std::uint32_t>;
-    return energy ? Code(neighbours_energy_spv) : Code(neighbours_spv);
-}
+    Code pick(bool wantsTexel, bool wantsEnergy) const {
+        if (wantsEnergy) return wantsTexel ? texelEnergy : energy;
+        return wantsTexel ? texel : plain;
+    }
+};
+
+const Variants kNear{near_spv, near_texel_spv, near_energy_spv, near_texel_energy_spv};
+const Variants kLink{link_spv, link_texel_spv, link_energy_spv, link_texel_energy_spv};
+const Variants kContacts{contacts_spv, contacts_texel_spv, contacts_energy_spv, contacts_texel_energy_spv};
+const Variants kMove{move_spv, move_texel_spv, move_energy_spv, move_texel_energy_spv};
+const Variants kBin{bin_spv, bin_texel_spv, bin_spv, bin_texel_spv};
+const Variants kNeighbours{neighbours_spv, neighbours_texel_spv, neighbours_spv, neighbours_texel_spv};
 
 }  // namespace
 
 Passes::Passes(const vk::Device& device, const TableSizes& s)
-    : state(device, "the particle state", Elements(s).state * kVec4,
-            viewFormat(viewsFit(device, s), VK_FORMAT_R32G32B32A32_SFLOAT)),
-      rows(device, "the neighbour rows", Elements(s).rows * 4, viewFormat(viewsFit(device, s), VK_FORMAT_R32_UINT)),
-      marks(device, "the touch marks", s.particles * kVec4),
-      history(device, "the contact history", Elements(s).history * kVec4,
-              viewFormat(viewsFit(device, s), VK_FORMAT_R32G32B32A32_SFLOAT)),
-      wallHistory(device, "the wall history", Elements(s).wallHistory * kVec4,
-                  viewFormat(viewsFit(device, s), VK_FORMAT_R32G32B32A32_SFLOAT)),
-      members(device, "the members", sizeof(gpu::Member)),
+    : Passes(device, s, viewsFit(device, s) ? VK_FORMAT_R32G32B32A32_SFLOAT : VK_FORMAT_UNDEFINED) {}
+
+// A view's format does not matter where there are no views.
+Passes::Passes(const vk::Device& device, const TableSizes& s, VkFormat vec)
+    : state(device, "the particle state", Elements(s).state * kVec4, vec),
+      rows(device, "the neighbour rows", Elements(s).rows * 4, vec != 0 ? VK_FORMAT_R32_UINT : vec),
+      ranges(device, "the ranges of rows", Elements(s).ranges * kVec4, vec != 0 ? VK_FORMAT_R32G32B32A32_UINT : vec),
+      history(device, "the contact history", Elements(s).history * kVec4, vec),
+      coilHistory(device, "the coil's contact history", Elements(s).coilHistory * kVec4, vec),
+      member(device, "the parameters", sizeof(gpu::Member), vec),
       control(device, "the control block", sizeof(gpu::Control)),
       cells(device, "the cell table", (VkDeviceSize(s.cells) + s.particles) * 4),
-      anchors(device, "the anchors", s.particles * kVec4),
+      anchors(device, "the anchors", Elements(s).anchors * kVec4, vec),
       sensors(device, "the sensors", s.groups() * sizeof(gpu::SensorRecord)),
-      groupMember(device, "the workgroups' members", s.groups() * 4ull),
+      entries(device, "the contact lists", Elements(s).entries * 8, vec != 0 ? VK_FORMAT_R32G32_UINT : vec),
       books(device, "the energy book", Elements(s).books * kVec4),
       energies(device, "the energy records", s.groups() * sizeof(gpu::EnergyRecord)),
+      forces(device, "the contact forces", Elements(s).forces * kVec4, vec),
+      torques(device, "the contact torques", Elements(s).torques * kVec4, vec),
+      carried(device, "the carried history", Elements(s).history * kVec4),
       sizes(s),
-      texel_(viewsFit(device, s)),
+      texel_(vec != VK_FORMAT_UNDEFINED),
       bindings_(device,
-                {&state, &rows, &marks, &history, &wallHistory, &members, &control, &cells, &anchors, &sensors,
-                 &groupMember, &books, &energies},
-                texel_ ? std::vector<const vk::Buffer*>{&state, &rows, &history, &wallHistory}
+                {&state, &rows, &ranges, &history, &coilHistory, &member, &control, &cells, &anchors, &sensors,
+                 &entries, &books, &energies, &forces, &torques, &carried},
+                texel_ ? std::vector<const vk::Buffer*>{&state, &rows, &ranges, &history, &coilHistory, &member,
+                                                        &anchors, &entries, &forces, &torques}
                        : std::vector<const vk::Buffer*>{},
                 sizeof(gpu::StepPush)),
       clear_(device, bindings_, clear_spv, constants(s)),
-      bin_(device, bindings_, bin_spv, constants(s)),
-      neighbours_(device, bindings_, neighboursCode(s.energyBook), constants(s)),
-      commit_(device, bindings_, commit_spv, constants(s)),
-      step_(device, bindings_, stepCode(texel_, s.energyBook), constants(s)),
+      bin_(device, bindings_, kBin.pick(texel_, s.energyBook), constants(s)),
+      neighbours_(device, bindings_, kNeighbours.pick(texel_, s.energyBook), constants(s)),
+      commitRows_(device, bindings_, commit_rows_spv, constants(s)),
+      near_(device, bindings_, kNear.pick(texel_, s.energyBook), constants(s)),
+      link_(device, bindings_, kLink.pick(texel_, s.energyBook), constants(s)),
+      commitLists_(device, bindings_, commit_lists_spv, constants(s)),
+      contacts_(device, bindings_, kContacts.pick(texel_, s.energyBook), constants(s)),
+      move_(device, bindings_, kMove.pick(texel_, s.energyBook), constants(s)),
       sense_(device, bindings_, sense_spv, constants(s)),
       senseEnergy_(device, bindings_, sense_energy_spv, constants(s)) {}
+
+void Passes::reset() {
+    const std::vector<gpu::uvec4> none(2ull * sizes.particles, gpu::uvec4(0U));
+    ranges.writeAll(none);
+    if (sizes.coilSlots > 0) {
+        const std::vector<gpu::vec4> angles(sizes.particles, gpu::vec4(gpu::kNoTurn));
+        coilHistory.writeAll(angles, (sizes.coilHistoryRows() - 1) * sizes.particles * kVec4);
+    }
+    gpu::Control c{};
+    for (gpu::ErrorRecord& e : c.error) e.first = gpu::uvec4(gpu::kEmpty);
+    control.write(0, &c, sizeof c);
+    requestRebuild();
+}
+
+void Passes::requestRebuild() {
+    auto c = control.readAll<gpu::Control>(1)[0];
+    c.cells = gpu::uvec4((sizes.cells + sizes.workgroup - 1) / sizes.workgroup, 1, 1, 0);
+    c.particles = c.refresh = gpu::uvec4(sizes.groups(), 1, 1, 0);
+    c.single = c.settle = gpu::uvec4(1, 1, 1, 0);
+    c.contacts = gpu::uvec4(0, 1, 1, 0);
+    control.write(0, &c, sizeof c);
+}
 
 gpu::StepPush Passes::push(std::uint32_t step, std::uint32_t source, bool opening) const {
     gpu::StepPush p{};
@@ -97,8 +153,12 @@ gpu::StepPush Passes::push(std::uint32_t step, std::uint32_t source, bool openin
     p.source = source;
     p.opening = opening ? 1u : 0u;
     p.particles = sizes.particles;
-    p.rowWidth = sizes.rowWidth;
     p.cellMask = sizes.cells - 1;
+    p.rowEntries = sizes.rowEntries;
+    p.linkEntries = sizes.linkEntries;
+    p.pairSlots = sizes.pairSlots;
+    p.surfaceSlots = sizes.surfaceSlots;
+    p.coilSlots = sizes.coilSlots;
     return p;
 }
 
@@ -109,20 +169,24 @@ void Passes::recordSteps(vk::Commands& commands, std::uint32_t first, std::uint3
     for (std::uint32_t n = first; n < first + count; ++n, source = 1 - source, opening = false) {
         const gpu::StepPush p = push(n, source, opening);
         bindings_.push(c, &p);
-        // The rebuild: zero workgroups each unless the step before asked for it.
+        // How many workgroups, the device decides: none for a rebuild or a refresh that no particle asked for.
         const struct {
             const vk::Pipeline& pass;
             VkDeviceSize arguments;
-        } rebuild[] = {{clear_, offsetof(gpu::Control, cells)},
+        } decided[] = {{clear_, offsetof(gpu::Control, cells)},
                        {bin_, offsetof(gpu::Control, particles)},
                        {neighbours_, offsetof(gpu::Control, particles)},
-                       {commit_, offsetof(gpu::Control, single)}};
-        for (const auto& r : rebuild) {
-            r.pass.bind(c);
-            commands.dispatchIndirect(control.handle(), r.arguments);
+                       {commitRows_, offsetof(gpu::Control, single)},
+                       {near_, offsetof(gpu::Control, refresh)},
+                       {link_, offsetof(gpu::Control, refresh)},
+                       {commitLists_, offsetof(gpu::Control, settle)},
+                       {contacts_, offsetof(gpu::Control, contacts)}};
+        for (const auto& d : decided) {
+            d.pass.bind(c);
+            commands.dispatchIndirect(control.handle(), d.arguments);
             commands.barrier();
         }
-        step_.bind(c);
+        move_.bind(c);
         commands.dispatch(sizes.groups());
         commands.barrier();
     }

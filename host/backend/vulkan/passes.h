@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "host/backend/vulkan/tables.h"
 #include "host/vk/buffer.h"
 #include "host/vk/commands.h"
 #include "host/vk/device.h"
@@ -12,22 +13,6 @@
 #include "shaders/shared/layout.h"
 
 namespace vkdose {
-
-struct TableSizes {
-    std::uint32_t particles = 0;  ///< slots, a multiple of the workgroup
-    std::uint32_t workgroup = 64;
-    std::uint32_t rowWidth = 0;
-    std::uint32_t surfaces = 0;
-    std::uint32_t surfaceKinds = 0;  ///< of the first kUnrolledSurfaces, 4 bits each
-    std::uint32_t cells = 0;         ///< a power of two
-    bool energyBook = false;
-    bool texelReads = true;  ///< wanted; used if every view fits the device's limit
-
-    std::uint32_t groups() const { return particles / workgroup; }
-    /// Vectors of a contact's history (kParts in shared/buffers.glsl).
-    std::uint32_t historyParts() const { return energyBook ? 5 : 2; }
-    std::uint32_t wallSlots() const { return surfaces + gpu::kMaxTurns; }
-};
 
 class Passes {
   public:
@@ -40,17 +25,23 @@ class Passes {
     /// Needs an energy book and a step made; `opening` if it was the first.
     void recordEnergySensing(vk::Commands& commands, std::uint32_t source, bool opening) const;
 
-    vk::Buffer state, rows, marks, history, wallHistory, members, control, cells, anchors, sensors, groupMember, books,
-        energies;
+    /// Asks for lists from scratch and for empty tables of what was met before: a load without history.
+    void reset();
+    /// Asks for rows and contact lists before the next step; the contacts listed now keep their history.
+    void requestRebuild();
+
+    vk::Buffer state, rows, ranges, history, coilHistory, member, control, cells, anchors, sensors, entries, books,
+        energies, forces, torques, carried;
     const TableSizes sizes;
     bool texelReads() const { return texel_; }
 
   private:
+    Passes(const vk::Device& device, const TableSizes& sizes, VkFormat vectorViews);
     gpu::StepPush push(std::uint32_t step, std::uint32_t source, bool opening) const;
 
     bool texel_;
     vk::BindingSet bindings_;
-    vk::Pipeline clear_, bin_, neighbours_, commit_, step_, sense_, senseEnergy_;
+    vk::Pipeline clear_, bin_, neighbours_, commitRows_, near_, link_, commitLists_, contacts_, move_, sense_, senseEnergy_;
 };
 
 }  // namespace vkdose

@@ -1,6 +1,7 @@
 #include "host/backend/vulkan/snapshot.h"
 
-#include <vector>
+#include <algorithm>
+#include <tuple>
 
 namespace vkdose {
 
@@ -27,79 +28,89 @@ void unpack(const std::vector<float>& values, std::size_t rows, std::size_t stri
             for (int c = 0; c < 4; ++c) to[row * stride + i][c] = values[4 * (row * count + i) + c];
 }
 
-std::size_t wallRows(const Passes& passes) {
-    return passes.sizes.historyParts() * passes.sizes.wallSlots() + 1;
-}
-
-bool touches(const uvec4& mark, std::uint32_t slot) {
-    return (((slot < 32 ? mark.x : mark.y) >> (slot % 32)) & 1U) != 0;
-}
-
-/// Both sides of every touching pair: how many of each particle, the partners in ascending order, their histories.
-void savePairs(const Passes& passes, std::size_t particles, const std::vector<uvec4>& marks, Record& record) {
-    const std::size_t stride = passes.sizes.particles, width = passes.sizes.rowWidth;
-    const std::size_t parts = passes.sizes.historyParts();
-    const std::size_t half = passes.control.readAll<gpu::Control>(1)[0].list.x;
-    const auto rows = passes.rows.readAll<std::uint32_t>(width * stride, half * width * stride * 4);
-    const auto history =
-        passes.history.readAll<vec4>(parts * width * stride, half * parts * width * stride * sizeof(vec4));
-    std::vector<std::uint32_t> counts, partners;
+/// Contacts that keep springs in a slot: who meets whom, and their histories.
+void saveContacts(const Passes& passes, Record& record) {
+    std::vector<std::uint32_t> pairs, particles, others;
     std::vector<float> springs;
-    for (std::size_t i = 0; i < particles; ++i) {
-        const std::size_t before = partners.size();
-        for (std::uint32_t s = 0; s < marks[i].w; ++s) {
-            if (!touches(marks[i], s)) continue;
-            partners.push_back(rows[s * stride + i]);
-            for (std::size_t part = 0; part < parts; ++part)
-                for (int c = 0; c < 4; ++c) springs.push_back(history[(parts * s + part) * stride + i][c]);
-        }
-        counts.push_back(static_cast<std::uint32_t>(partners.size() - before));
+    for (const SlotContact& c : touchingSlots(passes)) {
+        pairs.push_back(c.pair ? 1 : 0);
+        particles.push_back(c.particle);
+        others.push_back(c.other);
+        for (std::size_t part = 0; part < passes.sizes.historyParts(); ++part)
+            for (int k = 0; k < 4; ++k) springs.push_back(c.history[part][k]);
     }
-    record.put("pair_counts", std::move(counts));
-    record.put("pair_partners", std::move(partners));
-    record.put("pair_history", std::move(springs));
+    record.put("contact_is_pair", std::move(pairs));
+    record.put("contact_particle", std::move(particles));
+    record.put("contact_other", std::move(others));
+    record.put("contact_history", std::move(springs));
 }
 
-void restorePairs(Passes& passes, std::size_t particles, std::vector<uvec4>& marks, const Record& record) {
-    const std::size_t stride = passes.sizes.particles, width = passes.sizes.rowWidth;
-    const std::size_t parts = passes.sizes.historyParts();
-    const auto& counts = record.get<std::uint32_t>("pair_counts", particles);
-    std::size_t total = 0;
-    for (const std::uint32_t n : counts) total += n;
-    const auto& partners = record.get<std::uint32_t>("pair_partners", total);
-    const auto& springs = record.get<float>("pair_history", 4 * parts * total);
-    std::vector<std::uint32_t> rows(width * stride, 0);
-    std::vector<vec4> history(parts * width * stride, vec4(0));
-    std::size_t at = 0;
-    for (std::size_t i = 0; i < particles; ++i) {
-        if (counts[i] > width) throw RecordError("pair_counts exceeds the rows of this load");
-        for (std::uint32_t s = 0; s < counts[i]; ++s, ++at) {
-            if (partners[at] >= particles) throw RecordError("pair_partners names a particle that there is not");
-            rows[s * stride + i] = partners[at];
-            for (std::size_t part = 0; part < parts; ++part)
-                for (int c = 0; c < 4; ++c)
-                    history[(parts * s + part) * stride + i][c] = springs[4 * (parts * at + part) + c];
-            (s < 32 ? marks[i].x : marks[i].y) |= 1U << (s % 32);
-        }
-        marks[i].w = counts[i];
+/// Lists what touched, as a refresh would have: the next one carries the histories on.
+void restoreContacts(Passes& passes, std::size_t particles, const Record& record) {
+    const TableSizes& t = passes.sizes;
+    const auto& owner = record.get<std::uint32_t>("contact_particle");
+    const std::size_t count = owner.size(), parts = t.historyParts();
+    const auto& isPair = record.get<std::uint32_t>("contact_is_pair", count);
+    const auto& other = record.get<std::uint32_t>("contact_other", count);
+    const auto& springs = record.get<float>("contact_history", 4 * parts * count);
+    std::vector<glm::uvec2> entries(t.slots());
+    std::vector<std::uint32_t> links;
+    std::vector<uvec4> ranges(t.particles, uvec4(0U));
+    std::vector<vec4> history(parts * t.springSlots(), vec4(0));
+    std::uint32_t pairs = 0, surfaces = 0;
+    for (std::size_t c = 0; c < count; ++c) {
+        if (owner[c] >= particles || other[c] >= (isPair[c] != 0 ? particles : t.surfaces))
+            throw RecordError("contact_particle or contact_other names what there is not");
+        if (c > 0 && owner[c] < owner[c - 1]) throw RecordError("contact_particle is not in order");
+        std::uint32_t& used = isPair[c] != 0 ? pairs : surfaces;
+        if (used == (isPair[c] != 0 ? t.pairSlots : t.surfaceSlots)) throw RecordError("there are too many contacts");
+        const std::uint32_t slot = (isPair[c] != 0 ? 0 : t.pairSlots) + used++;
+        entries[slot] = {owner[c], other[c]};
+        for (std::size_t part = 0; part < parts; ++part)
+            for (int k = 0; k < 4; ++k) history[part * t.springSlots() + slot][k] = springs[4 * (parts * c + part) + k];
+        uvec4& range = ranges[owner[c]];
+        if (range.w == 0) range.z = std::uint32_t(links.size());
+        ++range.w;
+        links.push_back(slot << 1);
     }
-    passes.rows.writeAll(rows);
+    passes.entries.writeAll(entries);
+    passes.rows.writeAll(links, t.rowEntries * sizeof(std::uint32_t));
+    passes.ranges.writeAll(ranges);
     passes.history.writeAll(history);
 }
 
 }  // namespace
 
+std::vector<SlotContact> touchingSlots(const Passes& passes) {
+    const TableSizes& t = passes.sizes;
+    const uvec4 listed = passes.control.readAll<gpu::Control>(1)[0].listed;
+    const auto entries = passes.entries.readAll<glm::uvec2>(t.slots());
+    const auto history = passes.history.readAll<vec4>(std::size_t(t.historyParts()) * t.springSlots());
+    std::vector<SlotContact> found;
+    const auto collect = [&](bool pair, std::uint32_t first, std::uint32_t count) {
+        for (std::uint32_t slot = first; slot < first + count; ++slot) {
+            if (history[slot].w <= 0) continue;
+            SlotContact c{pair, entries[slot].x, entries[slot].y, {}};
+            for (std::size_t part = 0; part < t.historyParts(); ++part)
+                c.history[part] = history[part * t.springSlots() + slot];
+            found.push_back(c);
+        }
+    };
+    collect(true, 0, listed.x);
+    collect(false, t.pairSlots, listed.y);
+    std::sort(found.begin(), found.end(), [](const SlotContact& a, const SlotContact& b) {
+        return std::tuple(a.particle, !a.pair, a.other) < std::tuple(b.particle, !b.pair, b.other);
+    });
+    return found;
+}
+
 void saveState(const Passes& passes, std::size_t particles, std::uint32_t source, Record& record) {
-    const std::size_t stride = passes.sizes.particles;
+    const std::size_t stride = passes.sizes.particles, coilRows = passes.sizes.coilHistoryRows();
     const auto half = passes.state.readAll<vec4>(gpu::kFields * stride, source * gpu::kFields * stride * sizeof(vec4));
     record.put("state", packed(half, gpu::kFields, stride, particles));
-    const auto marks = passes.marks.readAll<uvec4>(stride);
-    savePairs(passes, particles, marks, record);
-    std::vector<std::uint32_t> walls;
-    for (std::size_t i = 0; i < particles; ++i) walls.push_back(marks[i].z);
-    record.put("wall_marks", std::move(walls));
-    record.put("wall_history", packed(passes.wallHistory.readAll<vec4>(wallRows(passes) * stride), wallRows(passes),
-                                      stride, particles));
+    saveContacts(passes, record);
+    record.put("coil_history",
+               packed(passes.coilHistory.readAll<vec4>(coilRows * stride), coilRows, stride, particles));
     if (passes.sizes.energyBook)
         record.put("energy_book",
                    packed(passes.books.readAll<vec4>(gpu::kBookFields * stride), gpu::kBookFields, stride, particles));
@@ -107,19 +118,14 @@ void saveState(const Passes& passes, std::size_t particles, std::uint32_t source
 }
 
 void restoreState(Passes& passes, std::size_t particles, const Record& record) {
-    const std::size_t stride = passes.sizes.particles;
+    const std::size_t stride = passes.sizes.particles, coilRows = passes.sizes.coilHistoryRows();
     auto half = passes.state.readAll<vec4>(gpu::kFields * stride);  // the padding stays as it was loaded
     unpack(record.get<float>("state", 4 * gpu::kFields * particles), gpu::kFields, stride, particles, half);
-    std::vector<uvec4> marks(stride, uvec4(0U));
-    restorePairs(passes, particles, marks, record);
-    const auto& walls = record.get<std::uint32_t>("wall_marks", particles);
-    for (std::size_t i = 0; i < particles; ++i) marks[i].z = walls[i];
-    std::vector<vec4> wallHistory(wallRows(passes) * stride, vec4(0));
-    unpack(record.get<float>("wall_history", 4 * wallRows(passes) * particles), wallRows(passes), stride, particles,
-           wallHistory);
+    auto coil = passes.coilHistory.readAll<vec4>(coilRows * stride);
+    unpack(record.get<float>("coil_history", 4 * coilRows * particles), coilRows, stride, particles, coil);
+    restoreContacts(passes, particles, record);
     passes.state.writeAll(half);
-    passes.marks.writeAll(marks);
-    passes.wallHistory.writeAll(wallHistory);
+    passes.coilHistory.writeAll(coil);
     if (passes.sizes.energyBook) {
         std::vector<vec4> books(gpu::kBookFields * stride, vec4(0));
         unpack(record.get<float>("energy_book", 4 * gpu::kBookFields * particles), gpu::kBookFields, stride, particles,

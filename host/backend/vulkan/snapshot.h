@@ -1,11 +1,24 @@
 #pragma once
-// The device's state as a record, and back. The neighbour rows are not stored: a restored load starts with rows that
-// hold what touched, and the rebuild that opens every load carries these contacts' histories into the full rows.
+// The device's state as a record, and back. Rows and lists are not stored: a restored load starts with lists of what
+// touched, and the refresh that opens every load carries these contacts' histories into the full ones.
+
+#include <array>
+#include <vector>
 
 #include "host/backend/vulkan/passes.h"
 #include "host/core/record.h"
 
 namespace vkdose {
+
+/// A pair or a contact with a surface that touches, from the device's slots.
+struct SlotContact {
+    bool pair;
+    std::uint32_t particle, other;
+    std::array<gpu::vec4, 5> history;  ///< TableSizes::historyParts() of them
+};
+
+/// In order of particle, pairs before surfaces, other. The device must be idle.
+std::vector<SlotContact> touchingSlots(const Passes& passes);
 
 /// State of the first `particles` slots, read from half `source`. The device must be idle, and sensed since its last
 /// step (the sensors' accumulators are not stored).

@@ -14,19 +14,6 @@ namespace vkdose {
 
 namespace {
 
-/// Longest row a particle can have: spheres of the smallest size packed around the largest, within reach of the list.
-/// A shell of radius R holds about 0.9069 * 4 (R/r)^2 caps of radius r; the bound is the table's width at most.
-std::uint32_t rowWidthFor(const Particles& p, double skin) {
-    const auto [smallest, largest] = std::minmax_element(p.radius.begin(), p.radius.end());
-    const double shell = *largest + *smallest + skin;
-    const double bound = 0.9069 * 4 * std::pow(shell / *smallest, 2) + 4;
-    return std::uint32_t(std::clamp(std::ceil(bound), 8.0, double(gpu::kMaxRow)));
-}
-
-std::uint32_t roundUp(std::size_t n, std::uint32_t unit) {
-    return std::uint32_t((n + unit - 1) / unit * unit);
-}
-
 class VulkanBackend final : public Backend {
   public:
     explicit VulkanBackend(const VulkanOptions& options) : options_(options), device_(options.device) {
@@ -84,27 +71,13 @@ void VulkanBackend::load(const World& world, const Particles& particles) {
     member_ = packMember(world, particles);
     world_ = world;
     loaded_ = particles;
-    TableSizes sizes;
-    sizes.workgroup = options_.workgroup;
-    sizes.particles = roundUp(particles.size(), options_.workgroup);
-    sizes.rowWidth = rowWidthFor(particles, world.skin);
-    sizes.surfaces = std::uint32_t(world.surfaces.size());
-    for (std::uint32_t i = 0; i < std::min<std::uint32_t>(sizes.surfaces, gpu::kUnrolledSurfaces); ++i)
-        sizes.surfaceKinds |= std::uint32_t(member_.surface[i].pointHigh.w) << (4 * i);
-    sizes.cells = 64;
-    while (sizes.cells < 2 * particles.size()) sizes.cells *= 2;
-    sizes.energyBook = world.energyBook;
+    TableSizes sizes =
+        tableSizes(world, particles, member_, options_.workgroup, device_.limits().maxStorageBufferRange);
     sizes.texelReads = options_.reads == VulkanOptions::Reads::Automatic;
-    requireDispatch(std::max(sizes.groups(), roundUp(sizes.cells, sizes.workgroup) / sizes.workgroup));
+    requireDispatch(std::max({sizes.groups(), sizes.cells / sizes.workgroup + 1, sizes.slots() / sizes.workgroup}));
     passes_ = std::make_unique<Passes>(device_, sizes);
-
     passes_->state.writeAll(packState(particles, sizes.particles));
-    gpu::Control control{};
-    control.cells = gpu::uvec4((sizes.cells + sizes.workgroup - 1) / sizes.workgroup, 1, 1, 0);
-    control.particles = gpu::uvec4(sizes.groups(), 1, 1, 0);
-    control.single = gpu::uvec4(1, 1, 1, 0);
-    for (gpu::ErrorRecord& e : control.error) e.first = gpu::uvec4(gpu::kEmpty);
-    passes_->control.write(0, &control, sizeof control);
+    passes_->reset();
     source_ = 0;
     step_ = 0;
     angle_ = 0;
@@ -135,7 +108,7 @@ void VulkanBackend::runBatch(std::uint32_t count, double coilRate) {
     const std::uint64_t perStep = turnsFixed(coilRate * world_.timeStep);
     packPhase(turnsFixed(world_.coil ? world_.coil->startAngle : 0.0) + turned_, perStep, member_);
     member_.coil.motion.x = float(coilRate);
-    passes_->members.write(0, &member_, sizeof member_);
+    passes_->member.write(0, &member_, sizeof member_);
     vk::Commands commands(device_);
     commands.begin();
     passes_->recordSteps(commands, 0, count, source_, step_ == 0);
@@ -169,7 +142,7 @@ Sensors VulkanBackend::advance(std::uint32_t steps, double coilRate) {
 Sensors VulkanBackend::sense(std::uint32_t steps) {
     vk::Commands commands(device_);
     commands.begin();
-    if (step_ == 0) passes_->members.write(0, &member_, sizeof member_);
+    if (step_ == 0) passes_->member.write(0, &member_, sizeof member_);
     passes_->recordSensing(commands, source_);
     const bool energy = world_.energyBook && step_ > 0;
     if (energy) passes_->recordEnergySensing(commands, source_, step_ == 1);
@@ -237,10 +210,12 @@ void VulkanBackend::throwErrors(std::uint64_t firstStep) const {
         "touches more turns of the coil than there are slots: use a larger pitch",
         "met the coil where the search for its closest point did not converge: report this case",
         "has thousands of others around it, within the size of the largest: use a narrower size distribution or a "
-        "smaller skin"};
+        "smaller skin",
+        "finds no room in the tables of neighbours and contacts, which are sized for a dense packing: use a smaller "
+        "skin"};
     const gpu::Control control = passes_->control.readAll<gpu::Control>(1)[0];
     for (std::uint32_t e : {gpu::kErrorNan, gpu::kErrorRowFull, gpu::kErrorOverlap, gpu::kErrorLost, gpu::kErrorTurns,
-                            gpu::kErrorNewton, gpu::kErrorCrowded}) {
+                            gpu::kErrorNewton, gpu::kErrorCrowded, gpu::kErrorTables}) {
         const gpu::uvec4 first = control.error[e].first;
         if (first.x == gpu::kEmpty) continue;
         const std::uint64_t step = firstStep + first.x;
@@ -257,35 +232,25 @@ Particles VulkanBackend::particles() const {
 
 std::vector<Contact> VulkanBackend::contacts() const {
     const TableSizes& t = passes_->sizes;
-    const std::size_t n = t.particles;
-    const auto marks = passes_->marks.readAll<gpu::uvec4>(n);
-    const auto rows = passes_->rows.readAll<std::uint32_t>(2 * t.rowWidth * n);
-    const std::size_t parts = t.historyParts();
-    const auto pairs = passes_->history.readAll<gpu::vec4>(2ull * t.rowWidth * parts * n);
-    const auto walls = passes_->wallHistory.readAll<gpu::vec4>(parts * t.wallSlots() * n);
-    const std::uint32_t list = passes_->control.readAll<gpu::Control>(1)[0].list.x;
     std::vector<Contact> contacts;
-    const auto add = [&](ContactClass kind, std::size_t i, std::uint32_t other, const gpu::vec4& a,
+    const auto add = [&](ContactClass kind, std::uint32_t i, std::uint32_t other, const gpu::vec4& a,
                          const gpu::vec4& b) {
-        contacts.push_back(
-            {kind, std::uint32_t(i), other, double(a.w), Vec3(glm::vec3(a)), Vec3(glm::vec3(b)), double(b.w)});
+        contacts.push_back({kind, i, other, double(a.w), Vec3(glm::vec3(a)), Vec3(glm::vec3(b)), double(b.w)});
     };
-    for (std::size_t i = 0; i < loaded_.size(); ++i) {
-        for (std::uint32_t s = 0; s < marks[i].w; ++s) {
-            const std::size_t row = list * t.rowWidth + s;
-            const bool touching = ((s < 32 ? marks[i].x : marks[i].y) >> (s % 32)) & 1u;
-            if (touching && rows[row * n + i] > i)
-                add(ContactClass::ParticleParticle, i, rows[row * n + i], pairs[parts * row * n + i],
-                    pairs[(parts * row + 1) * n + i]);
-        }
-        for (std::uint32_t s = 0; s < t.wallSlots(); ++s) {
-            const bool coil = s >= t.surfaces;
-            const std::uint32_t bit = coil ? gpu::kMaxSurfaces + s - t.surfaces : s;
-            if ((marks[i].z >> bit) & 1u)
-                add(coil ? ContactClass::ParticleCoil : ContactClass::ParticleWall, i, coil ? s - t.surfaces : s,
-                    walls[parts * s * n + i], walls[(parts * s + 1) * n + i]);
-        }
+    for (const SlotContact& c : touchingSlots(*passes_))
+        add(c.pair ? ContactClass::ParticleParticle : ContactClass::ParticleWall, c.particle, c.other, c.history[0],
+            c.history[1]);
+    if (t.coilSlots > 0) {
+        const std::size_t n = t.particles, parts = t.historyParts();
+        const auto coil = passes_->coilHistory.readAll<gpu::vec4>(t.coilHistoryRows() * n);
+        for (std::uint32_t i = 0; i < loaded_.size(); ++i)
+            for (std::uint32_t turn = 0; turn < gpu::kMaxTurns; ++turn)
+                if (coil[gpu::kMaxTurns * parts * n + i][int(turn)] != gpu::kNoTurn)
+                    add(ContactClass::ParticleCoil, i, turn, coil[turn * parts * n + i],
+                        coil[(turn * parts + 1) * n + i]);
     }
+    std::stable_sort(contacts.begin(), contacts.end(),
+                     [](const Contact& a, const Contact& b) { return a.particle < b.particle; });
     return contacts;
 }
 

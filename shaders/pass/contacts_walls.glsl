@@ -1,0 +1,128 @@
+// Part of pass/contacts: the fixed surfaces and the turning coil.
+
+struct WallForce {
+    vec3 force;
+    vec3 couple;
+    vec3 torque; // couple and the force's moment about the particle's centre
+};
+
+/// Contact with a wall that moves with velocity `wall` at the contact and turns with `wallSpin`.
+WallForce meetWall(Body me, Overlap o, ContactParams law, vec3 wall, vec3 wallSpin, inout History h, out Response r) {
+    float lever = me.sphere.radius - 0.5 * o.depth;
+    Meeting m = Meeting(o.normal, o.depth, 2.0 * me.sphere.radius,
+                        (me.velocity - wall) - lever * cross(me.spin, o.normal), me.spin - wallSpin);
+    r = contactResponse(law, choices, m, springDt, h);
+    return WallForce(r.force, r.couple, r.couple - lever * cross(o.normal, r.sliding));
+}
+
+void meetSurface(uint slot) {
+    uvec2 who = readEntry(slot);
+    Body me = readBody(who.x);
+    SurfaceParams p = readSurface(who.y);
+    History h = History(readHistory(0u, slot), readHistory(1u, slot));
+#ifdef ENERGY_BOOK
+    History old = h;
+#endif
+    Overlap o = surfaceOverlap(uint(p.pointHigh.w), p, me.sphere);
+    bool touching = o.depth > 0.0;
+    Response r;
+    WallForce f = meetWall(me, o, wallLaw, vec3(0.0), vec3(0.0), h, r);
+    history[historyIndex(0u, slot)] = touching ? h.slidingMax : vec4(0.0);
+    history[historyIndex(1u, slot)] = touching ? h.rollingTorsion : vec4(0.0);
+    forces[slot] = touching ? vec4(f.force, o.depth / me.sphere.radius) : vec4(0.0);
+    torques[slot] = touching ? vec4(f.torque, 0.0) : vec4(0.0);
+#ifdef ENERGY_BOOK
+    bookSurface(slot, me, o, r, touching, old, h);
+#endif
+}
+
+/// Rotation of the coil in turns at this step, in [-0.5, 0.5): start + step x increment in 64-bit fixed point, so that
+/// hours of turning lose nothing. Only the high word is needed.
+float coilTurn(uvec4 phase) {
+    uint high, low, carry;
+    umulExtended(phase.w, push.stepInBatch, high, low);
+    low = uaddCarry(low, phase.y, carry);
+    high += phase.z * push.stepInBatch + phase.x + carry;
+    return float(int(high)) * (1.0 / 4294967296.0);
+}
+
+/// The turn that was touched at `angle`: the same turn moves far less than half a turn along the wire in a step.
+uint knownTurn(vec4 angles, uint met, float angle) {
+    uint turn = kEmpty;
+    for (uint t = 0u; t < kMaxTurns; ++t)
+        if ((met & (1u << t)) == 0u && abs(angles[t] - angle) < 0.5 * kTwoPi) turn = t;
+    return turn;
+}
+
+/// Room for a new turn: one that no old contact may still claim, else any not taken in this step.
+uint freeTurn(vec4 angles, uint met) {
+    uint turn = kEmpty;
+    for (uint t = kMaxTurns; t > 0u; --t)
+        if ((met & (1u << (t - 1u))) == 0u) turn = t - 1u;
+    for (uint t = kMaxTurns; t > 0u; --t)
+        if ((met & (1u << (t - 1u))) == 0u && angles[t - 1u] == kNoTurn) turn = t - 1u;
+    return turn;
+}
+
+void meetCoil(uint slot) {
+    uint i = readEntry(slot).x;
+    Body me = readBody(i);
+    vec4 angles = readCoilHistory(wireAngleIndex(i));
+    CoilView view = coilView(coil, coilTurn(coil.phase), me.sphere);
+    uint trips = coilCandidates(coil, view), candidates = 0u;
+    for (uint k = 0u; k < trips; ++k) {
+        CoilTouch touch = coilCandidate(coil, view, k);
+        if (touch.failed) report(kErrorNewton, i);
+        candidates |= touch.depth > 0.0 ? 1u << k : 0u;
+    }
+
+    vec3 force = vec3(0.0), torque = vec3(0.0);
+    float coilTorque = 0.0, overlap = 0.0;
+    uint met = 0u;
+    vec4 was = angles;
+#ifdef ENERGY_BOOK
+    openCoilBook();
+#endif
+    for (; candidates != 0u; candidates &= candidates - 1u) {
+        CoilTouch touch = coilCandidate(coil, view, findLSB(candidates));
+        uint turn = knownTurn(was, met, touch.wireAngle);
+        bool known = turn != kEmpty;
+        if (!known) turn = freeTurn(was, met);
+        if (turn == kEmpty) {
+            report(kErrorTurns, i);
+            turn = 0u;
+        }
+        met |= 1u << turn;
+        angles[turn] = touch.wireAngle;
+
+        uint at = coilHistoryIndex(turn, 0u, i);
+        vec4 old0 = readCoilHistory(at), old1 = readCoilHistory(at + push.particles);
+        History h = History(known ? old0 : vec4(0.0), known ? old1 : vec4(0.0));
+#ifdef ENERGY_BOOK
+        History old = h;
+#endif
+        vec3 point = me.sphere.high - touch.normal * (me.sphere.radius - 0.5 * touch.depth);
+        vec3 wall = coil.motion.x * vec3(-point.y, point.x, 0.0);
+        Overlap o = Overlap(touch.depth, touch.normal);
+        Response r;
+        WallForce f = meetWall(me, o, coilLaw, wall, vec3(0.0, 0.0, coil.motion.x), h, r);
+        coilHistory[at] = h.slidingMax;
+        coilHistory[at + push.particles] = h.rollingTorsion;
+        force += f.force;
+        torque += f.torque;
+        coilTorque -= point.x * f.force.y - point.y * f.force.x + f.couple.z;
+        overlap = max(overlap, o.depth / me.sphere.radius);
+#ifdef ENERGY_BOOK
+        bookCoil(i, turn, me, o, r, known, true, old, h);
+#endif
+    }
+#ifdef ENERGY_BOOK
+    partCoil(i, me, was, met);
+    closeCoilBook(slot);
+#endif
+    for (uint t = 0u; t < kMaxTurns; ++t)
+        if ((met & (1u << t)) == 0u) angles[t] = kNoTurn;
+    if (any(notEqual(angles, was))) coilHistory[wireAngleIndex(i)] = angles;
+    forces[slot] = vec4(force, overlap);
+    torques[slot] = vec4(torque, coilTorque);
+}

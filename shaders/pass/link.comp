@@ -1,0 +1,62 @@
+#version 450
+// link: makes the lists that `near` prepared the current ones, and tells every particle the slots of the contacts it takes
+// part in, in an order that no timing changes. Built with and without TEXEL_READS and ENERGY_BOOK.
+// Reads state, rows, coming entries, carried history; writes entries, history, links and their ranges, list anchors.
+#extension GL_GOOGLE_include_directive : require
+#include "shared/buffers.glsl"
+#include "shared/near.glsl"
+
+uint links[kMaxLinks];
+
+void adopt(uint slot) {
+    entries[slot] = entries[comingEntryIndex(slot)];
+    for (uint part = 0u; part < kParts; ++part) history[historyIndex(part, slot)] = carried[historyIndex(part, slot)];
+}
+
+/// The slot of the pair (j, i) among those that j owns.
+uint slotOfOwner(uint j, uint i) {
+    uvec4 own = readRange(slotRangeIndex(j));
+    uint slot = kEmpty;
+    for (uint k = 0u; k < own.y; ++k)
+        if (entries[comingEntryIndex(own.x + k)].y == i) slot = own.x + k;
+    return slot;
+}
+
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    vec4 p = readState(push.source, kPosition, i);
+    float margin = listMargin();
+    uvec4 range = readRange(rowRangeIndex(i)), own = readRange(slotRangeIndex(i));
+
+    uint count = 0u, mine = own.x;
+    for (uint s = 0u; s < range.y; ++s) {
+        uint j = readRow(range.x + s);
+        if (!nearPair(p, readState(push.source, kPosition, j), margin)) continue;
+        uint link;
+        if (j > i) {
+            link = mine << 1u;
+            ++mine;
+        } else {
+            link = slotOfOwner(j, i) << 1u | 1u;
+        }
+        links[count] = link;
+        ++count;
+    }
+    for (uint k = 0u; k < own.w; ++k, ++count) links[count] = (own.z + k) << 1u;
+    if (range.z != kEmpty) {
+        links[count] = range.z << 1u;
+        ++count;
+    }
+    for (uint k = 0u; k < own.y; ++k) adopt(own.x + k);
+    for (uint k = 0u; k < own.w; ++k) adopt(own.z + k);
+    if (range.z != kEmpty) entries[range.z] = entries[comingEntryIndex(range.z)];
+
+    uint first = atomicAdd(control.coming.w, count);
+    if (first + count > push.linkEntries) {
+        report(kErrorTables, i);
+        count = 0u;
+    }
+    for (uint k = 0u; k < count; ++k) rows[linkIndex(first + k)] = links[k];
+    ranges[rowRangeIndex(i)].zw = uvec2(first, count);
+    anchors[anchorIndex(kListAnchor, i)] = p;
+}

@@ -1,0 +1,100 @@
+#version 450
+// move: gathers the forces on one particle per invocation and moves it a time step. Built with and without TEXEL_READS
+// (shared/buffers.glsl) and ENERGY_BOOK.
+// Reads the source half of the state, links, forces and torques, anchors; writes the destination half; asks for a refresh
+// of the contact lists and a rebuild of the rows when the particle has moved as far as they allow for.
+//
+// The sum runs in the order of the links: other particles by ascending index, surfaces, coil; wherever their slots are.
+#extension GL_GOOGLE_include_directive : require
+#include "shared/buffers.glsl"
+#ifdef ENERGY_BOOK
+#include "shared/body.glsl"
+#include "shared/books.glsl"
+#endif
+
+bool finite(vec3 v) { return !(any(isnan(v)) || any(isinf(v))); }
+
+void requestRefresh() {
+    atomicMax(control.refresh.x, gl_NumWorkGroups.x);
+    atomicMax(control.settle.x, 1u);
+}
+
+void requestRebuild() {
+    atomicMax(control.cells.x, (push.cellMask + gl_WorkGroupSize.x) / gl_WorkGroupSize.x);
+    atomicMax(control.particles.x, gl_NumWorkGroups.x);
+    atomicMax(control.single.x, 1u);
+}
+
+bool beyond(vec3 way, float limit) { return dot(way, way) > limit * limit; }
+
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    vec4 gravity = member.gravity, numerics = member.numerics;
+    vec4 bottom = member.domainLow, top = member.domainHigh;
+
+    vec4 position = readState(push.source, kPosition, i);
+    vec4 residue = readState(push.source, kResidue, i);
+    vec4 velocity4 = readState(push.source, kVelocity, i);
+    vec4 spin4 = readState(push.source, kSpin, i);
+    vec3 rowAnchor = readAnchor(kRowAnchor, i).xyz, listAnchor = readAnchor(kListAnchor, i).xyz;
+    uvec4 range = readRange(rowRangeIndex(i));
+    bool moving = uint(spin4.w) == kActive;
+
+    // A particle out of the motion has no links, so that all it does is copy itself.
+    vec3 force = vec3(0.0), torque = vec3(0.0);
+    float coilTorque = 0.0, overlap = 0.0;
+#ifdef ENERGY_BOOK
+    vec4 normal = vec4(0.0), sliders = vec4(0.0);
+#endif
+    for (uint k = 0u; k < range.w; ++k) {
+        uint link = readRow(linkIndex(range.z + k));
+        vec4 f = readForce(link >> 1u), t = readTorque(link & 1u, link >> 1u);
+        force += (link & 1u) == 0u ? f.xyz : -f.xyz;
+        torque += t.xyz;
+        coilTorque += t.w;
+        overlap = max(overlap, f.w);
+#ifdef ENERGY_BOOK
+        if ((link & 1u) == 0u) {
+            normal += books[slotBookIndex(kBookNormal, link >> 1u)];
+            sliders += books[slotBookIndex(kBookSliders, link >> 1u)];
+        }
+#endif
+    }
+
+    // Leapfrog. The loaded velocity belongs to t = 0, so the opening kick is half a step.
+    float dt = numerics.x, r = abs(position.w);
+    float mass = gravity.w * (4.0 / 3.0 * 3.14159265358979) * r * r * r;
+    float kick = push.opening == 1u ? 0.5 * dt : dt;
+    vec3 velocity = velocity4.xyz + kick * (force / mass + gravity.xyz);
+    vec3 spin = spin4.xyz + kick / (0.4 * mass * r * r) * torque;
+
+    vec3 advance = dt * velocity + residue.xyz;
+    precise vec3 high = position.xyz + advance;
+    precise vec3 taken = high - position.xyz;
+    precise vec3 low = (position.xyz - (high - taken)) + (advance - taken);
+
+    bool sound = finite(high) && finite(velocity) && finite(spin);
+    bool outside = any(lessThan(high, bottom.xyz)) || any(greaterThan(high, top.xyz));
+    if (moving && !sound) report(kErrorNan, i);
+    if (moving && sound && outside && high.z <= top.w) report(kErrorLost, i);
+    if (moving && overlap > numerics.w) report(kErrorOverlap, i);
+    uint now = !sound ? kLost : high.z > top.w ? kDosed : outside ? kLost : kActive;
+    bool leaves = moving && now != kActive;
+    // The rows must hold what is within the margin as well.
+    float margin = kMarginOfSkin * numerics.y;
+    bool rebuild = leaves || moving && beyond(high - rowAnchor, 0.5 * (numerics.y - margin));
+    if (rebuild) requestRebuild();
+    if (rebuild || moving && beyond(high - listAnchor, 0.5 * margin)) requestRefresh();
+
+#ifdef ENERGY_BOOK
+    if (moving)
+        bookStep(i, normal, sliders, position.xyz, r, mass, velocity4.xyz, spin4.xyz, velocity, spin, coilTorque, leaves);
+#endif
+
+    uint to = 1u - push.source;
+    float radius = leaves ? -position.w : position.w;  // a negative radius touches nothing
+    state[stateIndex(to, kPosition, i)] = moving ? vec4(high, radius) : position;
+    state[stateIndex(to, kResidue, i)] = moving ? vec4(low, residue.w + coilTorque) : residue;
+    state[stateIndex(to, kVelocity, i)] = moving ? vec4(velocity, max(velocity4.w, overlap)) : velocity4;
+    state[stateIndex(to, kSpin, i)] = moving ? vec4(spin, float(now)) : spin4;
+}

@@ -1,0 +1,96 @@
+#version 450
+// near: lists the contacts that can come about before the next refresh and gives each a slot: pairs to their particle of
+// smaller index, surfaces and the coil. Built with and without TEXEL_READS and ENERGY_BOOK.
+// Reads state, rows, current entries, links and history; writes the coming entries, the history carried to them and the
+// ranges of own slots. `link` then makes them current. Which slot a contact gets depends on timing; nothing that moves a
+// particle depends on the slot.
+//
+// The rows alone would do. But they hold three times what touches, and with a margin of a hundredth of a radius instead
+// of their skin nearly every slot is a touching contact, which keeps all lanes of `contacts` busy.
+#extension GL_GOOGLE_include_directive : require
+#include "shared/buffers.glsl"
+#include "shared/near.glsl"
+#ifdef ENERGY_BOOK
+#include "shared/books.glsl"
+#endif
+
+uint partners[kMaxRow];
+uint pairs, surfaces, firstPair, firstSurface;
+
+/// The coming slot of what the contact `slot` joins; kEmpty if the two are no longer near.
+uint comingSlot(uint slot, uint other) {
+    uint to = kEmpty;
+    if (slot < push.pairSlots) {
+        for (uint k = 0u; k < pairs; ++k)
+            if (partners[k] == other) to = firstPair + k;
+    } else if ((surfaces & (1u << other)) != 0u) {
+        to = firstSurface + bitCount(surfaces & ((1u << other) - 1u));
+    }
+    return to;
+}
+
+void prepare(uint slot, uint i, uint other) {
+    entries[comingEntryIndex(slot)] = uvec2(i, other);
+    for (uint part = 0u; part < kParts; ++part) carried[historyIndex(part, slot)] = vec4(0.0);
+}
+
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    vec4 p = readState(push.source, kPosition, i);
+    Sphere me = Sphere(p.xyz, vec3(0.0), p.w);
+    float margin = listMargin();
+    uvec4 range = readRange(rowRangeIndex(i));
+
+    pairs = 0u;
+    for (uint s = 0u; s < range.y; ++s) {
+        uint j = readRow(range.x + s);
+        if (j > i && nearPair(p, readState(push.source, kPosition, j), margin)) {
+            partners[pairs] = j;
+            ++pairs;
+        }
+    }
+    surfaces = nearSurfaces(me, margin);
+    uint met = bitCount(surfaces);
+    uint coil = member.coil.motion.z != 0.0 && p.w > 0.0 && nearCoil(member.coil, me, margin) ? 1u : 0u;
+
+    firstPair = atomicAdd(control.coming.x, pairs);
+    firstSurface = atomicAdd(control.coming.y, met);
+    uint firstCoil = atomicAdd(control.coming.z, coil);
+    bool fits = firstPair + pairs <= push.pairSlots && firstSurface + met <= push.surfaceSlots;
+    if (!fits) {
+        report(kErrorTables, i);
+        pairs = 0u;
+        surfaces = 0u;
+        met = 0u;
+    }
+    firstSurface += push.pairSlots;
+    firstCoil += springSlots();
+
+    for (uint k = 0u; k < pairs; ++k) prepare(firstPair + k, i, partners[k]);
+    uint at = firstSurface;
+    for (uint left = surfaces; left != 0u; left &= left - 1u, ++at) prepare(at, i, findLSB(left));
+    for (uint once = coil; once > 0u; --once) entries[comingEntryIndex(firstCoil)] = uvec2(i, 0u);
+
+    for (uint k = 0u; k < range.w; ++k) {
+        uint link = readRow(linkIndex(range.z + k)), slot = link >> 1u;
+        if ((link & 1u) != 0u) continue;  // the other particle's
+        if (slot >= springSlots()) continue;
+        uint to = comingSlot(slot, readEntry(slot).y);
+        if (to != kEmpty) {
+            for (uint part = 0u; part < kParts; ++part)
+                carried[historyIndex(part, to)] = readHistory(part, slot);
+        }
+#ifdef ENERGY_BOOK
+        if (to == kEmpty) bookDeparture(i, slot);
+#endif
+    }
+    if (p.w < 0.0 && member.coil.motion.z != 0.0) {
+#ifdef ENERGY_BOOK
+        bookDepartureFromCoil(i);
+#endif
+        coilHistory[wireAngleIndex(i)] = vec4(kNoTurn);
+    }
+
+    ranges[slotRangeIndex(i)] = uvec4(firstPair, pairs, firstSurface, met);
+    ranges[rowRangeIndex(i)].zw = uvec2(coil != 0u ? firstCoil : kEmpty, 0u);  // for `link`
+}

@@ -1,0 +1,42 @@
+// Which contacts the lists hold: all that can touch before some particle has moved half the margin from its list anchor.
+#ifndef VKDOSE_SHARED_NEAR_GLSL
+#define VKDOSE_SHARED_NEAR_GLSL
+
+#include "law/coil.glsl"
+#include "law/surface.glsl"
+
+float listMargin() { return kMarginOfSkin * member.numerics.y; }
+
+/// Symmetric to the last bit, so that both particles of a pair decide the same. The factor covers the rounding.
+bool nearPair(vec4 p, vec4 q, float margin) {
+    vec3 d = p.xyz - q.xyz;
+    float reach = 1.00001 * (p.w + q.w) + margin;
+    return q.w > 0.0 && dot(d, d) < reach * reach;
+}
+
+// The kind is known when the pipeline is made, so that all but one branch of surfaceGap fold away, and the parameters
+// are read outside any branch. One line per surface, because drivers differ in which loops they unroll.
+#define PROBE(s)                                                                                    \
+    if (s < SURFACES)                                                                               \
+        near |= surfaceGap((KINDS >> (4u * s)) & 15u, member.surface[s], a) < reach ? 1u << s : 0u;
+
+/// Surfaces, a bit each.
+uint nearSurfaces(Sphere a, float margin) {
+    float reach = margin + 1e-7;  // [m], above the rounding of surfaceGap
+    uint near = 0u;
+    PROBE(0u)
+    PROBE(1u)
+    PROBE(2u)
+    PROBE(3u)
+    PROBE(4u)
+    PROBE(5u)
+    PROBE(6u)
+    PROBE(7u)
+    for (uint s = kUnrolledSurfaces; s < SURFACES; ++s) {
+        SurfaceParams p = member.surface[s];
+        if (surfaceGap(uint(p.pointHigh.w), p, a) < reach) near |= 1u << s;
+    }
+    return a.radius > 0.0 ? near : 0u;
+}
+
+#endif
