@@ -91,6 +91,14 @@ Passes::Passes(const vk::Device& device, const TableSizes& s)
       sense_(device, bindings_, sense_spv, constants(s)),
       senseEnergy_(device, bindings_, sense_energy_spv, constants(s)) {}
 
+VkDeviceSize Passes::bytes() const {
+    VkDeviceSize sum = 0;
+    for (const vk::Buffer* b : {&state, &rows, &marks, &history, &wallHistory, &members, &control, &cells, &anchors,
+                                &sensors, &groupMember, &books, &energies})
+        sum += b->size();
+    return sum;
+}
+
 gpu::StepPush Passes::push(std::uint32_t step, std::uint32_t source, bool opening) const {
     gpu::StepPush p{};
     p.stepInBatch = step;
@@ -103,9 +111,10 @@ gpu::StepPush Passes::push(std::uint32_t step, std::uint32_t source, bool openin
 }
 
 void Passes::recordSteps(vk::Commands& commands, std::uint32_t first, std::uint32_t count, std::uint32_t source,
-                         bool opening) const {
+                         bool opening, vk::Timestamps* times) const {
     const VkCommandBuffer c = commands.handle();
     bindings_.bind(c);
+    if (times != nullptr) times->mark(commands);
     for (std::uint32_t n = first; n < first + count; ++n, source = 1 - source, opening = false) {
         const gpu::StepPush p = push(n, source, opening);
         bindings_.push(c, &p);
@@ -121,10 +130,12 @@ void Passes::recordSteps(vk::Commands& commands, std::uint32_t first, std::uint3
             r.pass.bind(c);
             commands.dispatchIndirect(control.handle(), r.arguments);
             commands.barrier();
+            if (times != nullptr) times->mark(commands);
         }
         step_.bind(c);
         commands.dispatch(sizes.groups());
         commands.barrier();
+        if (times != nullptr) times->mark(commands);
     }
 }
 

@@ -2,6 +2,7 @@
 // The device side of one load: buffers, bindings and pipelines, sized for its particles. Mirrors shaders/pass and
 // shaders/shared/buffers.glsl; the order of the buffers is the order of the bindings.
 
+#include <array>
 #include <cstdint>
 #include <memory>
 
@@ -9,6 +10,7 @@
 #include "host/vk/commands.h"
 #include "host/vk/device.h"
 #include "host/vk/pipeline.h"
+#include "host/vk/timestamps.h"
 #include "shaders/shared/layout.h"
 
 namespace vkdose {
@@ -34,8 +36,9 @@ class Passes {
     Passes(const vk::Device& device, const TableSizes& sizes);
 
     /// Records steps `first` ... `first + count - 1` of a batch; `source` is the half of the state they start from.
+    /// `times` gets a mark before the first step and one after each of the kTimed passes of every step.
     void recordSteps(vk::Commands& commands, std::uint32_t first, std::uint32_t count, std::uint32_t source,
-                     bool opening) const;
+                     bool opening, vk::Timestamps* times = nullptr) const;
     void recordSensing(vk::Commands& commands, std::uint32_t source) const;
     /// Needs an energy book and a step made; `opening` if it was the first.
     void recordEnergySensing(vk::Commands& commands, std::uint32_t source, bool opening) const;
@@ -44,6 +47,9 @@ class Passes {
         energies;
     const TableSizes sizes;
     bool texelReads() const { return texel_; }
+    VkDeviceSize bytes() const;  ///< of all tables
+
+    static constexpr std::array<const char*, 5> kTimed{"clear", "bin", "neighbours", "commit", "step"};
 
   private:
     gpu::StepPush push(std::uint32_t step, std::uint32_t source, bool opening) const;
