@@ -124,14 +124,19 @@ Row measuredCopies(const std::string& name, const Workload& w, const BenchOption
     Row row = named(name, w, effort);
     row.on = fmt::format("{} processes", options.copies);
     row.copies = options.copies;
-    row.speed.rates = bench::sumOfCopies(options.copies, effort.repeats, [&](const bench::Meet& meet) {
+    const auto oneCopy = [&](const bench::Meet& meet) {
         const std::unique_ptr<Backend> backend = makeBackend(options.backend);
         backend->load(w.world, w.particles);
         effort.meet = meet;
         const auto advance = [&](std::uint32_t n) { backend->advance(n, w.coilRate); };
         return bench::time(advance, row.particles, w.warmSteps, effort).rates;
-    });
-    row.speed.particleSteps = bench::spreadOf(row.speed.rates);
+    };
+    try {
+        row.speed.rates = bench::sumOfCopies(options.copies, effort.repeats, oneCopy);
+        row.speed.particleSteps = bench::spreadOf(row.speed.rates);
+    } catch (const DeviceError& e) {
+        row.refused = e.what();
+    }
     return row;
 }
 
@@ -181,6 +186,8 @@ int benchCommand(const BenchOptions& options) {
         write(options.out / "bench.json", bench::jsonTable(rows));
         write(options.out / "bench.csv", bench::csvTable(rows));
     }
+    if (!rows.empty() && std::all_of(rows.begin(), rows.end(), [](const Row& r) { return !r.refused.empty(); }))
+        throw DeviceError("nothing could be measured");
     if (!rows.empty()) fmt::print("\non {}; all figures: {}\n", rows.front().on, (options.out / "bench.csv").string());
     return stop ? kInterrupted : kOk;
 }

@@ -16,6 +16,8 @@
 #include <new>
 #include <stdexcept>
 
+#include "host/core/error.h"
+
 namespace vkdose::bench {
 
 namespace {
@@ -113,7 +115,7 @@ std::vector<double> sumOfCopies(int copies, int repeats, const std::function<std
     if (started.size() < std::size_t(copies))
         for (const pid_t copy : started) kill(copy, SIGKILL);
     if (!waitForAll(started) || started.size() < std::size_t(copies))
-        throw std::runtime_error(fmt::format("one of the {} copies failed", copies));
+        throw DeviceError(fmt::format("one of the {} copies failed and said why", copies));
     std::vector<double> sums(std::size_t(repeats), 0.0);
     for (int i = 0; i < copies * repeats; ++i) sums[std::size_t(i % repeats)] += shared.figures()[i];
     return sums;

@@ -13,7 +13,7 @@ using Meet = std::function<void()>;
 /// each, which gives one figure for each of the `repeats` and must call `Meet` equally often in all. Sets
 /// LP_NUM_THREADS=0 in them unless the caller's environment says otherwise, so that lavapipe keeps to this processor.
 /// Gives the sums over the copies. Call it before the process has used a device: drivers do not survive a fork. Throws
-/// std::runtime_error if a copy fails; it has said why on stderr.
+/// DeviceError if a copy fails; it has said why on stderr.
 std::vector<double> sumOfCopies(int copies, int repeats, const std::function<std::vector<double>(const Meet&)>& work);
 
 }  // namespace vkdose::bench
