@@ -83,6 +83,27 @@ void addVerify(CLI::App& program, VerifyOptions& options) {
     command.add_option("--only", options.only, "play the cases with this in their name")->type_name("NAME");
 }
 
+void addBench(CLI::App& program, BenchOptions& options) {
+    CLI::App& command = *program.add_subcommand("bench", "measure the speed of a device on fixed workloads");
+    addDevice(command, options.backend);
+    command
+        .add_option("--bed", options.bed,
+                    "case with a list of settled particles, to run at rest and turning (default: " +
+                        std::string(kSettledBed) + ")")
+        ->type_name("CASE");
+    command.add_option("--only", options.only, "run the workloads with this in their name")->type_name("NAME");
+    command.add_option("--repeats", options.repeats, "timed repeats of each workload")
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
+    command.add_option("--copies", options.copies, "processes that run each workload at once, one for each core")
+        ->check(CLI::Range(1, 1024))
+        ->capture_default_str();
+    command.add_flag("--quick", options.quick, "the small workloads, too short to measure: a trial of the command");
+    command.add_option("--out", options.out, "folder for bench.csv and bench.json")
+        ->type_name("DIR")
+        ->capture_default_str();
+}
+
 /// Runs `command`; every error becomes lines on stderr and an exit code.
 int guarded(const std::function<int()>& command) {
     const auto say = [](const char* what) { fmt::print(stderr, "vkdose: {}\n", what); };
@@ -125,12 +146,14 @@ int commandLine(int argc, const char* const* argv) {
     CheckOptions check;
     CompareOptions compare;
     VerifyOptions verification;
+    BenchOptions bench;
     addRun(program, run);
     addResume(program, resume);
     addCheck(program, check);
     program.add_subcommand("devices", "list the Vulkan devices");
     addCompare(program, compare);
     addVerify(program, verification);
+    addBench(program, bench);
     try {
         program.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
@@ -144,6 +167,7 @@ int commandLine(int argc, const char* const* argv) {
     if (program.got_subcommand("check")) return guarded([&] { return checkCommand(check); });
     if (program.got_subcommand("compare")) return guarded([&] { return compareCommand(compare); });
     if (program.got_subcommand("verify")) return guarded([&] { return verifyCommand(verification); });
+    if (program.got_subcommand("bench")) return guarded([&] { return benchCommand(bench); });
     return guarded([] { return devicesCommand(); });
 }
 

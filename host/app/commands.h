@@ -49,11 +49,25 @@ struct VerifyOptions {
     std::string only;  ///< part of the name of the cases to play; empty: all
 };
 
+/// The settled bed that comes with the project, seen from its folder.
+inline constexpr const char* kSettledBed = "tools/bench-data/bed-48g.toml";
+
+struct BenchOptions {
+    BackendChoice backend;  ///< a Vulkan device
+    std::filesystem::path out = "out/bench";
+    std::filesystem::path bed;  ///< case of a settled bed; empty: the project's, if this is its folder
+    std::string only;           ///< part of the name of the workloads to run; empty: all
+    int repeats = 5;
+    int copies = 1;      ///< processes side by side, each with the workload for itself
+    bool quick = false;  ///< the small workloads, a fraction of a second each: does it work at all
+};
+
 int runCommand(const RunOptions& options);
 int resumeCommand(const ResumeOptions& options);
 int checkCommand(const CheckOptions& options);
 int devicesCommand();
 int compareCommand(const CompareOptions& options);
 int verifyCommand(const VerifyOptions& options);
+int benchCommand(const BenchOptions& options);
 
 }  // namespace vkdose

@@ -71,13 +71,18 @@ std::string versionText(std::uint32_t v) {
     return fmt::format("{}.{}.{}", VK_API_VERSION_MAJOR(v), VK_API_VERSION_MINOR(v), VK_API_VERSION_PATCH(v));
 }
 
-/// Queue family with compute; -1 if none.
-int computeFamily(VkPhysicalDevice physical) {
+std::vector<VkQueueFamilyProperties> queueFamilies(VkPhysicalDevice physical) {
     std::uint32_t n = 0;
     vkGetPhysicalDeviceQueueFamilyProperties(physical, &n, nullptr);
     std::vector<VkQueueFamilyProperties> families(n);
     vkGetPhysicalDeviceQueueFamilyProperties(physical, &n, families.data());
-    for (std::uint32_t i = 0; i < n; ++i)
+    return families;
+}
+
+/// Queue family with compute; -1 if none.
+int computeFamily(VkPhysicalDevice physical) {
+    const std::vector<VkQueueFamilyProperties> families = queueFamilies(physical);
+    for (std::size_t i = 0; i < families.size(); ++i)
         if (families[i].queueFlags & VK_QUEUE_COMPUTE_BIT) return int(i);
     return -1;
 }
@@ -101,6 +106,7 @@ DeviceInfo describe(VkPhysicalDevice physical, int index) {
                                   base.limits.maxPerStageDescriptorStorageBuffers);
     } else {
         info.usable = true;
+        info.timestampBits = queueFamilies(physical)[std::size_t(computeFamily(physical))].timestampValidBits;
         VkPhysicalDeviceSubgroupProperties subgroup{
             VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES, nullptr, 0, 0, 0, VK_FALSE};
         VkPhysicalDeviceProperties2 all{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &subgroup, {}};

@@ -34,6 +34,7 @@ struct DeviceInfo {
     std::string apiVersion;
     unsigned subgroupSize = 0;
     std::uint64_t maxStorageBufferRange = 0;  ///< [bytes]
+    unsigned timestampBits = 0;               ///< of the compute queue's clock; 0: it keeps none
     bool usable = false;
     std::string reason;  ///< why not usable
 };

@@ -147,6 +147,14 @@ void Passes::requestRebuild() {
     control.write(0, &c, sizeof c);
 }
 
+VkDeviceSize Passes::bytes() const {
+    VkDeviceSize sum = 0;
+    for (const vk::Buffer* b : {&state, &rows, &ranges, &history, &coilHistory, &member, &control, &cells, &anchors,
+                                &sensors, &entries, &books, &energies, &forces, &torques, &carried})
+        sum += b->size();
+    return sum;
+}
+
 gpu::StepPush Passes::push(std::uint32_t step, std::uint32_t source, bool opening) const {
     gpu::StepPush p{};
     p.stepInBatch = step;
@@ -163,9 +171,10 @@ gpu::StepPush Passes::push(std::uint32_t step, std::uint32_t source, bool openin
 }
 
 void Passes::recordSteps(vk::Commands& commands, std::uint32_t first, std::uint32_t count, std::uint32_t source,
-                         bool opening) const {
+                         bool opening, vk::Timestamps* times) const {
     const VkCommandBuffer c = commands.handle();
     bindings_.bind(c);
+    if (times != nullptr) times->mark(commands);
     for (std::uint32_t n = first; n < first + count; ++n, source = 1 - source, opening = false) {
         const gpu::StepPush p = push(n, source, opening);
         bindings_.push(c, &p);
@@ -185,10 +194,12 @@ void Passes::recordSteps(vk::Commands& commands, std::uint32_t first, std::uint3
             d.pass.bind(c);
             commands.dispatchIndirect(control.handle(), d.arguments);
             commands.barrier();
+            if (times != nullptr) times->mark(commands);
         }
         move_.bind(c);
         commands.dispatch(sizes.groups());
         commands.barrier();
+        if (times != nullptr) times->mark(commands);
     }
 }
 

@@ -2,6 +2,7 @@
 // The device side of one load: buffers, bindings and pipelines, sized for its particles. Mirrors shaders/pass and
 // shaders/shared/buffers.glsl; the order of the buffers is the order of the bindings.
 
+#include <array>
 #include <cstdint>
 #include <memory>
 
@@ -10,6 +11,7 @@
 #include "host/vk/commands.h"
 #include "host/vk/device.h"
 #include "host/vk/pipeline.h"
+#include "host/vk/timestamps.h"
 #include "shaders/shared/layout.h"
 
 namespace vkdose {
@@ -19,8 +21,9 @@ class Passes {
     Passes(const vk::Device& device, const TableSizes& sizes);
 
     /// Records steps `first` ... `first + count - 1` of a batch; `source` is the half of the state they start from.
+    /// `times` gets a mark before the first step and one after each of the kTimed passes of every step.
     void recordSteps(vk::Commands& commands, std::uint32_t first, std::uint32_t count, std::uint32_t source,
-                     bool opening) const;
+                     bool opening, vk::Timestamps* times = nullptr) const;
     void recordSensing(vk::Commands& commands, std::uint32_t source) const;
     /// Needs an energy book and a step made; `opening` if it was the first.
     void recordEnergySensing(vk::Commands& commands, std::uint32_t source, bool opening) const;
@@ -34,6 +37,10 @@ class Passes {
         energies, forces, torques, carried;
     const TableSizes sizes;
     bool texelReads() const { return texel_; }
+    VkDeviceSize bytes() const;  ///< of all tables
+
+    static constexpr std::array<const char*, 9> kTimed{"clear", "bin",  "neighbours",   "commit_rows", "near",
+                                                       "link",  "commit_lists", "contacts", "move"};
 
   private:
     Passes(const vk::Device& device, const TableSizes& sizes, VkFormat vectorViews);

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <stdexcept>
 
 #include "host/backend/vulkan/pack.h"
 #include "host/backend/vulkan/passes.h"
 #include "host/backend/vulkan/snapshot.h"
+#include "host/vk/copy_bandwidth.h"
 
 namespace vkdose {
 
@@ -37,6 +39,7 @@ class VulkanBackend final : public Backend {
     double coilAngle() const override { return angle_; }
     std::string description() const override { return "vulkan: " + device_.info().name; }
     const vk::Device& device() const { return device_; }
+    VulkanProfile profile(std::uint32_t steps, double coilRate);
 
   private:
     void requireDispatch(std::uint32_t groups) const {
@@ -47,7 +50,7 @@ class VulkanBackend final : public Backend {
                             "particles or another device",
                             groups, device_.info().name, most));
     }
-    void runBatch(std::uint32_t count, double coilRate);
+    void runBatch(std::uint32_t count, double coilRate, vk::Timestamps* times = nullptr);
     Sensors sense(std::uint32_t steps);
     EnergyBook readEnergy() const;
     void throwErrors(std::uint64_t firstStep) const;
@@ -104,14 +107,15 @@ void VulkanBackend::restore(const Record& record) {
     turned_ = phase;
 }
 
-void VulkanBackend::runBatch(std::uint32_t count, double coilRate) {
+void VulkanBackend::runBatch(std::uint32_t count, double coilRate, vk::Timestamps* times) {
     const std::uint64_t perStep = turnsFixed(coilRate * world_.timeStep);
     packPhase(turnsFixed(world_.coil ? world_.coil->startAngle : 0.0) + turned_, perStep, member_);
     member_.coil.motion.x = float(coilRate);
     passes_->member.write(0, &member_, sizeof member_);
     vk::Commands commands(device_);
     commands.begin();
-    passes_->recordSteps(commands, 0, count, source_, step_ == 0);
+    if (times != nullptr) times->reset(commands);
+    passes_->recordSteps(commands, 0, count, source_, step_ == 0, times);
     commands.hostBarrier();
     commands.submit();
     source_ = (source_ + count) % 2;
@@ -137,6 +141,37 @@ Sensors VulkanBackend::advance(std::uint32_t steps, double coilRate) {
         if (seconds > kLongest && batch_ > 1) batch_ /= 2;
     }
     return sense(steps);
+}
+
+VulkanProfile VulkanBackend::profile(std::uint32_t steps, double coilRate) {
+    constexpr std::uint32_t kBatch = 32;
+    const std::size_t kinds = Passes::kTimed.size();
+    const auto lists = [&] { return passes_->control.readAll<gpu::Control>(1)[0].list; };
+    VulkanProfile p;
+    std::unique_ptr<vk::Timestamps> times;
+    if (vk::Timestamps::available(device_)) {
+        times = std::make_unique<vk::Timestamps>(device_, std::uint32_t(kBatch * kinds + 1));
+        for (const char* name : Passes::kTimed) p.passes.push_back({name});
+    }
+    const gpu::uvec4 before = lists();
+    const double angleBefore = angle_;
+    for (; p.steps < steps; angle_ = angleBefore + coilRate * world_.timeStep * p.steps) {
+        const std::uint32_t count = std::min(kBatch, steps - p.steps);
+        runBatch(count, coilRate, times.get());
+        p.steps += count;
+        if (!times) continue;
+        const std::vector<double> seconds = times->durations();
+        for (std::size_t i = 0; i < seconds.size(); ++i) p.passes[i % kinds].seconds += seconds[i];
+    }
+    p.rebuilds = lists().y - before.y;
+    p.refreshes = lists().w - before.w;
+    const auto ranges = passes_->ranges.readAll<gpu::uvec4>(loaded_.size());
+    for (const gpu::uvec4& range : ranges) p.listed += range.y;
+    p.listed /= double(loaded_.size());
+    p.tableBytes = double(passes_->bytes());
+    p.copyBandwidth = vk::copyBandwidth(device_);
+    p.texelReads = passes_->texelReads();
+    return p;
 }
 
 Sensors VulkanBackend::sense(std::uint32_t steps) {
@@ -258,6 +293,22 @@ std::vector<Contact> VulkanBackend::contacts() const {
 
 std::unique_ptr<Backend> makeVulkanBackend(const VulkanOptions& options) {
     return std::make_unique<VulkanBackend>(options);
+}
+
+VulkanProfile profile(Backend& backend, std::uint32_t steps, double coilRate) {
+    auto* vulkan = dynamic_cast<VulkanBackend*>(&backend);
+    if (vulkan == nullptr) throw std::invalid_argument("only a Vulkan backend has a profile");
+    return vulkan->profile(steps, coilRate);
+}
+
+double stepBytes(double touching, double touchingWalls) {
+    constexpr double kVector = 16, kIndex = 4;
+    const double pairs = touching / 2;
+    const double own = (2 * gpu::kFields + 3) * kVector;  // state in and out, range, anchors
+    const double gathered = (touching + touchingWalls) * (kIndex + 2 * kVector);
+    const double pair = 2 * kIndex + (2 * gpu::kFields + 2 * 2 + 3) * kVector;  // who, both states, history, what it exerts
+    const double wall = 2 * kIndex + (gpu::kFields + 4 + 2 * 2 + 2) * kVector;  // ditto with the surface's parameters
+    return own + gathered + pairs * pair + touchingWalls * wall;
 }
 
 ValidationReport validationReport(const Backend& backend) {

@@ -2,6 +2,8 @@
 // The Vulkan backend: the passes of shaders/pass on any device with Vulkan 1.1 compute.
 
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "host/backend/backend.h"
 #include "host/vk/device.h"
@@ -29,5 +31,31 @@ struct ValidationReport {
     std::vector<std::string> messages;
 };
 ValidationReport validationReport(const Backend& backend);
+
+/// Where the device's time goes, and what its tables take.
+struct VulkanProfile {
+    struct Pass {
+        std::string name;
+        double seconds =
+            0;  ///< on the device's clock, over all steps of the profile; a pass asked for nothing included
+    };
+    std::vector<Pass> passes;    ///< in the order of a step; empty: the device keeps no time
+    std::uint32_t steps = 0;     ///< made for the profile
+    std::uint64_t rebuilds = 0;  ///< of the neighbour rows, in these steps
+    std::uint64_t refreshes = 0; ///< of the contact lists
+    double listed = 0;           ///< neighbours in a row, mean over particles
+    double tableBytes = 0;       ///< of all buffers
+    double copyBandwidth = 0;    ///< of a copy between two buffers, read and write counted [bytes/s]
+    bool texelReads = false;
+};
+
+/// Advances a loaded Vulkan backend by `steps` with a time mark after every pass, which costs some speed itself. Throws
+/// what `advance` throws; std::invalid_argument if the backend is another one.
+VulkanProfile profile(Backend& backend, std::uint32_t steps, double coilRate);
+
+/// Bytes that one particle's step moves between kernels and tables if no cache holds anything, from the layout and the
+/// reads and writes of shaders/pass/contacts.comp and move.comp without energy book: an estimate. Arguments are means over
+/// particles.
+double stepBytes(double touching, double touchingWalls);
 
 }  // namespace vkdose

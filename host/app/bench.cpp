@@ -1,0 +1,196 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+#include <new>
+#include <thread>
+
+#include "host/app/commands.h"
+#include "host/app/exit_code.h"
+#include "host/app/interrupt.h"
+#include "host/backend/vulkan/vulkan.h"
+#include "host/bench/copies.h"
+#include "host/bench/table.h"
+#include "host/core/error.h"
+#include "host/output/run_folder.h"
+
+namespace vkdose {
+
+namespace {
+
+using bench::Row;
+using bench::Workload;
+
+constexpr std::uint32_t kProfiledSteps = 256, kFirstSteps = 32;
+
+/// Processors that work at once. The plain loop takes as many threads as a software device would.
+int processors() {
+    return std::max(1, int(std::thread::hardware_concurrency()));
+}
+
+std::optional<Case> settledBed(const BenchOptions& options) {
+    if (!options.bed.empty()) return loadCase(options.bed);
+    if (std::filesystem::exists(kSettledBed)) return loadCase(kSettledBed);
+    fmt::print(stderr, "vkdose: there is no {} here, so nothing is measured on it; --bed names it\n", kSettledBed);
+    return std::nullopt;
+}
+
+std::vector<bench::Plan> chosenPlans(const BenchOptions& options) {
+    std::vector<bench::Plan> plans = bench::plans(settledBed(options)), chosen;
+    std::string known;
+    for (const bench::Plan& p : plans) {
+        known += "\n  " + p.name;
+        if (p.name.find(options.only) != std::string::npos && (p.quick || !options.quick)) chosen.push_back(p);
+    }
+    if (chosen.empty())
+        throw UsageError(fmt::format("--only {}: no {}workload has this in its name; the workloads are{}", options.only,
+                                     options.quick ? "quick " : "", known));
+    return chosen;
+}
+
+double since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Mean time of a rebuild of the neighbour rows with the refresh of the contact lists that follows: all passes but those
+/// of every step, in the first steps after loading, of which the very first builds the rows.
+double rebuildSeconds(const VulkanProfile& first) {
+    double seconds = 0;
+    for (const VulkanProfile::Pass& p : first.passes)
+        if (p.name != "contacts" && p.name != "move") seconds += p.seconds;
+    return first.rebuilds > 0 ? seconds / double(first.rebuilds) : 0;
+}
+
+void fillProfile(Row& row, const VulkanProfile& p) {
+    for (const VulkanProfile::Pass& pass : p.passes) row.passes.push_back({pass.name, pass.seconds / p.steps});
+    row.listed = p.listed;
+    row.refreshesPer1000 = 1e3 * double(p.refreshes) / p.steps;
+    row.tableBytes = p.tableBytes / double(row.particles);
+    row.copyBandwidth = p.copyBandwidth;
+    row.stepBytes = stepBytes(row.coordination.touching, row.coordination.walls);
+}
+
+/// A backend of its own for each workload, so that the time to the first step is that of a program just started.
+void measure(Row& row, const Workload& w, const BackendChoice& choice, const bench::Effort& effort) {
+    const auto start = std::chrono::steady_clock::now();
+    const std::unique_ptr<Backend> backend = makeBackend(choice);
+    row.on = backend->description();
+    backend->load(w.world, w.particles);
+    backend->advance(1, w.coilRate);
+    row.startUp = since(start);
+    backend->load(w.world, w.particles);
+    row.rebuildSeconds = rebuildSeconds(profile(*backend, kFirstSteps, w.coilRate));
+
+    std::uint64_t steps = 0, lastSteps = 0, rebuilds = 0, lastRebuilds = 0;
+    const auto advance = [&](std::uint32_t n) {
+        lastSteps = n;
+        lastRebuilds = rebuilds;
+        rebuilds = backend->advance(n, w.coilRate).rebuilds;
+        steps += n;
+    };
+    row.speed = bench::time(advance, row.particles, w.warmSteps, effort);
+    row.rebuildsPer1000 = 1e3 * double(rebuilds - lastRebuilds) / double(lastSteps);
+    row.coordination = bench::coordinationOf(*backend, row.particles);
+    row.contactsPerSecond = row.speed.particleSteps.median * (row.coordination.touching / 2 + row.coordination.walls);
+    fillProfile(row, profile(*backend, kProfiledSteps, w.coilRate));
+    if (!validationClean(choice, *backend)) throw DeviceError("the validation layer found faults");
+}
+
+Row named(const std::string& name, const Workload& w, const bench::Effort& effort) {
+    Row row;
+    row.workload = name;
+    row.particles = w.particles.size();
+    row.repeats = effort.repeats;
+    return row;
+}
+
+/// What a device or this machine cannot hold is a result too.
+Row measured(const std::string& name, const Workload& w, const BackendChoice& choice, const bench::Effort& effort) {
+    Row row = named(name, w, effort);
+    try {
+        measure(row, w, choice, effort);
+    } catch (const DeviceError& e) {
+        if (row.on.empty()) throw;  // no device at all
+        row.refused = e.what();
+    } catch (const std::bad_alloc&) {
+        row.refused = "this machine has not enough memory for it";
+    }
+    return row;
+}
+
+/// The sum of several processes. This one leaves the device alone.
+Row measuredCopies(const std::string& name, const Workload& w, const BenchOptions& options, bench::Effort effort) {
+    Row row = named(name, w, effort);
+    row.on = fmt::format("{} processes", options.copies);
+    row.copies = options.copies;
+    const auto oneCopy = [&](const bench::Meet& meet) {
+        const std::unique_ptr<Backend> backend = makeBackend(options.backend);
+        backend->load(w.world, w.particles);
+        effort.meet = meet;
+        const auto advance = [&](std::uint32_t n) { backend->advance(n, w.coilRate); };
+        return bench::time(advance, row.particles, w.warmSteps, effort).rates;
+    };
+    try {
+        row.speed.rates = bench::sumOfCopies(options.copies, effort.repeats, oneCopy);
+        row.speed.particleSteps = bench::spreadOf(row.speed.rates);
+    } catch (const DeviceError& e) {
+        row.refused = e.what();
+    }
+    return row;
+}
+
+void write(const std::filesystem::path& file, const std::string& text) {
+    std::ofstream stream(file, std::ios::binary);
+    stream << text;
+    stream.close();
+    if (!stream) throw OutputError("cannot write " + file.string());
+}
+
+void print(const Row& row) {
+    fmt::print("{}\n", bench::tableLine(row));
+    const std::string details = bench::detailLines(row);
+    if (!details.empty()) fmt::print("{}\n", details);
+    std::fflush(stdout);
+}
+
+}  // namespace
+
+int benchCommand(const BenchOptions& options) {
+    const std::vector<bench::Plan> plans = chosenPlans(options);
+    std::error_code error;
+    std::filesystem::create_directories(options.out, error);
+    if (error) throw UsageError("cannot create " + options.out.string() + ": " + error.message());
+    bench::Effort effort;
+    effort.repeats = options.repeats;
+    if (options.quick) {
+        effort.seconds = 0.02;
+        effort.mostWarmSteps = 50;
+    }
+
+    const std::atomic<bool>& stop = watchInterrupts();
+    std::vector<Row> rows;
+    fmt::print("{}\n", bench::headLine());
+    for (const bench::Plan& plan : plans) {
+        if (stop) break;
+        const Workload workload = plan.make();
+        if (options.copies > 1) {
+            rows.push_back(measuredCopies(plan.name, workload, options, effort));
+            print(rows.back());
+        } else {
+            rows.push_back(measured(plan.name, workload, options.backend, effort));
+            print(rows.back());
+            rows.push_back(bench::plainRow(plan.name, workload, processors(), effort));
+            print(rows.back());
+        }
+        write(options.out / "bench.json", bench::jsonTable(rows));
+        write(options.out / "bench.csv", bench::csvTable(rows));
+    }
+    if (!rows.empty() && std::all_of(rows.begin(), rows.end(), [](const Row& r) { return !r.refused.empty(); }))
+        throw DeviceError("nothing could be measured");
+    if (!rows.empty()) fmt::print("\non {}; all figures: {}\n", rows.front().on, (options.out / "bench.csv").string());
+    return stop ? kInterrupted : kOk;
+}
+
+}  // namespace vkdose

@@ -1,0 +1,19 @@
+#pragma once
+// The same work in several processes at once: what a processor is worth for many canisters, one for each core.
+
+#include <functional>
+#include <vector>
+
+namespace vkdose::bench {
+
+/// In a copy: waits until all copies have come here.
+using Meet = std::function<void()>;
+
+/// Forks `copies` processes, pins each to a processor of its own (round robin if there are fewer), and runs `work` in
+/// each, which gives one figure for each of the `repeats` and must call `Meet` equally often in all. Sets
+/// LP_NUM_THREADS=0 in them unless the caller's environment says otherwise, so that lavapipe keeps to this processor.
+/// Gives the sums over the copies. Call it before the process has used a device: drivers do not survive a fork. Throws
+/// DeviceError if a copy fails; it has said why on stderr.
+std::vector<double> sumOfCopies(int copies, int repeats, const std::function<std::vector<double>(const Meet&)>& work);
+
+}  // namespace vkdose::bench

@@ -1,0 +1,89 @@
+#include "host/bench/workloads.h"
+
+#include "host/bench/packing.h"
+
+namespace vkdose::bench {
+
+namespace {
+
+constexpr std::uint64_t kSeed = 1;
+constexpr double kTimeStep = 2.26e-6;  // the paper's [s]
+constexpr double kSkin = 0.125e-3;     // a tenth of the mean radius, as a case has it by default [m]
+constexpr double kFallSpeed = 0.1;     // about that of the coil's rim [m/s]
+/// The contacts of a list of particles start without history; in so many steps (9 ms for the paper's case) they find
+/// it: sound crosses the bed some ten times.
+constexpr std::uint32_t kReliefSteps = 4000;
+
+/// The paper's parameters (physics: README), friction limited as in cases/paper-48g.toml.
+World paperWorld() {
+    ContactParameters p;
+    const double k = 24067;
+    p.k1 = 0.2 * k;
+    p.k2Max = k;
+    p.kc = 0.873 * k;
+    p.plasticityDepth = 0.05;
+    p.gamma = 0.0827;
+    p.kt = p.kr = 0.286 * k;
+    p.gammaT = p.gammaR = 0.286 * p.gamma;
+    p.mu = p.muR = 0.5;
+    World world;
+    world.law.classes.fill(p);
+    world.law.coulombLimit = CoulombLimit::Absolute;
+    world.density = 1427;
+    world.timeStep = kTimeStep;
+    world.skin = kSkin;
+    return world;
+}
+
+Workload box(int nx, int ny, int nz) {
+    const Packing packing = tiled(relaxedTile(kSeed), nx, ny, nz);
+    Workload w{paperWorld(), packing.particles, 0, 64};
+    // Where a tile's neighbour is missing, spheres reach beyond the face by up to a radius.
+    const Vec3 low(-kRadiusMax), high = packing.size + Vec3(kRadiusMax);
+    for (glm::length_t axis = 0; axis < 3; ++axis) {
+        Vec3 normal(0);
+        normal[axis] = 1;
+        w.world.surfaces.push_back(geometry::Plane{low, normal});
+        w.world.surfaces.push_back(geometry::Plane{high, -normal});
+    }
+    w.world.gravity = Vec3(0);
+    w.world.domain = {low - Vec3(kRadiusMax), high + Vec3(kRadiusMax)};
+    return w;
+}
+
+Workload freeFall() {
+    const Packing packing = relaxedTile(kSeed);
+    Workload w{paperWorld(), {}, 0, 64};
+    // Three times the distances: nothing touches, and no list reaches anyone. All at one speed: with gravity the rows
+    // would be rebuilt the more often the longer it runs.
+    for (std::size_t i = 0; i < packing.particles.size(); ++i)
+        w.particles.add(3.0 * packing.particles.position[i], packing.particles.radius[i], Vec3(0, -kFallSpeed, 0));
+    w.world.gravity = Vec3(0);
+    return w;
+}
+
+Workload bedOf(const Case& c, double coilRate) {
+    return {c.world, insertParticles(c).particles, coilRate, kReliefSteps};
+}
+
+}  // namespace
+
+std::vector<Plan> plans(const std::optional<Case>& bed) {
+    std::vector<Plan> all;
+    all.push_back({"free-fall", true, freeFall});
+    if (bed) {
+        all.push_back({bed->name + "-rest", true, [c = *bed] { return bedOf(c, 0); }});
+        all.push_back({bed->name + "-turning", true, [c = *bed] {
+                           return bedOf(
+                               c, c.world.coil ? geometry::conveyingRate(*c.world.coil, c.schedule.coilSpeed) : 0.0);
+                       }});
+    }
+    all.push_back({"bed-3k", true, [] { return box(1, 1, 1); }});
+    all.push_back({"bed-27k", false, [] { return box(2, 2, 2); }});
+    all.push_back({"bed-100k", false, [] { return box(3, 5, 2); }});
+    all.push_back({"bed-300k", false, [] { return box(5, 6, 3); }});
+    all.push_back({"bed-1M", false, [] { return box(6, 10, 5); }});
+    return all;
+}
+
+}  // namespace vkdose::bench

@@ -1,0 +1,32 @@
+#pragma once
+// What the benchmark runs: fixed worlds with fixed particles, the same on every machine.
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/model/case.h"
+
+namespace vkdose::bench {
+
+struct Workload {
+    World world;
+    Particles particles;
+    double coilRate = 0;           ///< [rad/s about +z]
+    std::uint32_t warmSteps = 64;  ///< before anything is timed
+};
+
+/// A workload by name, made when it is its turn: the large ones take a gigabyte.
+struct Plan {
+    std::string name;
+    bool quick;  ///< small enough for a test
+    std::function<Workload()> make;
+};
+
+/// `free-fall` (no contacts), `bed-3k` ... `bed-1M` (boxes filled with a dense packing, without gravity, so that it
+/// stays as it was made however many steps run), and for a case with a list of settled particles `<name>-rest` and
+/// `<name>-turning`: its bed with the law of the doses, the coil still or at the case's speed.
+std::vector<Plan> plans(const std::optional<Case>& bed);
+
+}  // namespace vkdose::bench

@@ -1,0 +1,78 @@
+// `vkdose bench` as a user meets it. Nothing is judged by the clock: the figures must be there and be figures.
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "tests/app/sandbox.h"
+
+using namespace vkdose::test;
+
+namespace {
+
+/// VKDOSE_TEST_DEVICE chooses the device, as in the other tests that use one.
+std::string device() {
+    const char* name = std::getenv("VKDOSE_TEST_DEVICE");
+    return name == nullptr ? "" : " --device '" + std::string(name) + "'";
+}
+
+void requirePositive(const nlohmann::json& result, const std::string& key) {
+    INFO(result.dump() << " " << key);
+    REQUIRE(result.contains(key));
+    const double value = result[key];
+    CHECK(std::isfinite(value));
+    CHECK(value > 0);
+}
+
+}  // namespace
+
+TEST_CASE("bench measures the small workloads on the device") {
+    const Sandbox box;
+    const auto outcome = box.vkdose("bench --quick --validation --repeats 2 --out found --bed '" VKDOSE_SOURCE_DIR
+                                    "/tools/bench-data/bed-48g.toml'" +
+                                    device());
+    INFO(outcome.out << outcome.err);
+    REQUIRE(outcome.code == 0);
+    const auto results = nlohmann::json::parse(readText(box / "found/bench.json"))["results"];
+    REQUIRE(results.size() == 8);  // four workloads, each with its plain loop
+    for (const auto& result : results) {
+        requirePositive(result, "particle_steps_per_s");
+        CHECK(result["particle_steps_per_s_low"] <= result["particle_steps_per_s_high"]);
+        if (result["workload"] != "free-fall") requirePositive(result, "touching_per_particle");
+        if (result["on"].get<std::string>().find("plain") == 0) continue;
+        requirePositive(result, "table_bytes_per_particle");
+        requirePositive(result, "bytes_per_particle_step_estimated");
+        requirePositive(result, "bandwidth_of_copy_bytes_per_s");
+        requirePositive(result, "start_up_s");
+        if (result.contains("pass_step_s")) requirePositive(result, "pass_step_s");
+    }
+    CHECK(readCsv(box / "found/bench.csv").size() == 9);
+}
+
+TEST_CASE("bench sums processes that run side by side") {
+    const Sandbox box;
+    const auto outcome = box.vkdose("bench --quick --repeats 2 --copies 2 --only free-fall --out found" + device());
+    INFO(outcome.out << outcome.err);
+    REQUIRE(outcome.code == 0);
+    CHECK(outcome.out.find("free-fall x2") != std::string::npos);
+    const auto results = nlohmann::json::parse(readText(box / "found/bench.json"))["results"];
+    REQUIRE(results.size() == 1);
+    CHECK(results[0]["copies"] == 2);
+    requirePositive(results[0], "particle_steps_per_s");
+}
+
+TEST_CASE("bench says what it does not know and what is not there") {
+    const Sandbox box;
+    const auto unknown = box.vkdose("bench --only feather");
+    CHECK(unknown.code == 2);
+    CHECK(unknown.err.find("free-fall") != std::string::npos);
+    CHECK(unknown.err.find("tools/bench-data/bed-48g.toml") != std::string::npos);
+    CHECK(box.files().empty());
+    CHECK(box.vkdose("bench --bed nowhere.toml").code == 2);
+    CHECK(box.vkdose("bench --repeats 0").code == 2);
+    const auto nodevice = box.vkdose("bench --quick --only free-fall --device nosuch");
+    CHECK(nodevice.code == 4);
+    const auto copies = box.vkdose("bench --quick --only free-fall --copies 2 --device nosuch");
+    CHECK(copies.code == 4);
+    CHECK(copies.err.find("nosuch") != std::string::npos);
+}
