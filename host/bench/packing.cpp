@@ -10,63 +10,66 @@ namespace vkdose::bench {
 namespace {
 
 constexpr int kSide = 15;                 // lattice sites along an edge of the tile
-constexpr double kVolumeFraction = 0.66;  // random close packing of this size range is at about 0.65
-constexpr int kRounds = 400;              // of pushing apart; the tests say what overlaps are left
-constexpr double kShare = 0.3;            // of an overlap, taken by each of the two: more rings, less creeps
+constexpr double kVolumeFraction = 0.62;  // enough for overlaps like those of a bed, a hundredth of a radius
+constexpr int kRounds = 800;              // of pushing apart; the tests say what forces are left
+constexpr double kShare = 0.1;            // of an overlap, taken by each of the two in a round
+constexpr double kInertia = 0.9;          // of the last round's push: without it long waves take thousands of rounds
 
-/// Spheres sorted into cubes at least as wide as the largest sphere, of a periodic box.
+/// Spheres of a box sorted into cubes at least as wide as the largest sphere.
 class Grid {
   public:
     Grid(double edge, double reach) : cells_(int(edge / reach)), width_(edge / cells_) {}
 
     void sort(const std::vector<Vec3>& x) {
         members_.assign(std::size_t(cells_) * cells_ * cells_, {});
-        for (std::size_t i = 0; i < x.size(); ++i) members_[cell(x[i].x, x[i].y, x[i].z)].push_back(i);
+        for (std::size_t i = 0; i < x.size(); ++i)
+            members_[index(cell(x[i].x), cell(x[i].y), cell(x[i].z))].push_back(i);
     }
 
     /// Calls `visit(j)` for every sphere j > i in the 27 cells around x.
     template <class Visit>
     void around(const Vec3& x, std::size_t i, const Visit& visit) const {
-        for (int a = -1; a <= 1; ++a)
-            for (int b = -1; b <= 1; ++b)
-                for (int c = -1; c <= 1; ++c)
-                    for (std::size_t j : members_[cell(x.x + a * width_, x.y + b * width_, x.z + c * width_)])
+        const auto low = [&](double v) { return std::max(0, cell(v) - 1); };
+        const auto high = [&](double v) { return std::min(cells_ - 1, cell(v) + 1); };
+        for (int a = low(x.x); a <= high(x.x); ++a)
+            for (int b = low(x.y); b <= high(x.y); ++b)
+                for (int c = low(x.z); c <= high(x.z); ++c)
+                    for (std::size_t j : members_[index(a, b, c)])
                         if (j > i) visit(j);
     }
 
   private:
-    std::size_t cell(double x, double y, double z) const {
-        const auto wrapped = [&](double v) { return std::size_t((int(std::floor(v / width_)) + cells_) % cells_); };
-        return (wrapped(x) * cells_ + wrapped(y)) * cells_ + wrapped(z);
-    }
+    int cell(double v) const { return std::clamp(int(std::floor(v / width_)), 0, cells_ - 1); }
+    std::size_t index(int a, int b, int c) const { return (std::size_t(a) * cells_ + b) * cells_ + c; }
 
     int cells_;
     double width_;
     std::vector<std::vector<std::size_t>> members_;
 };
 
+/// Minimises the sum of the squared overlaps: at the end linear springs balance.
 void pushApart(Particles& p, double edge) {
     std::vector<Vec3>& x = p.position;
-    std::vector<Vec3> push(x.size());
+    std::vector<Vec3> push(x.size(), Vec3(0));
     Grid grid(edge, 2 * kRadiusMax);
     for (int round = 0; round < kRounds; ++round) {
         grid.sort(x);
-        std::fill(push.begin(), push.end(), Vec3(0));
-        for (std::size_t i = 0; i < x.size(); ++i)
+        for (Vec3& d : push) d *= kInertia;
+        for (std::size_t i = 0; i < x.size(); ++i) {
+            const double r = p.radius[i];
             grid.around(x[i], i, [&](std::size_t j) {
-                const Vec3 apart = x[i] - x[j];
-                const Vec3 d = apart - edge * glm::round(apart / edge);
-                const double reach = p.radius[i] + p.radius[j], square = glm::dot(d, d);
+                const Vec3 d = x[i] - x[j];
+                const double reach = r + p.radius[j], square = glm::dot(d, d);
                 if (square >= reach * reach || square == 0) return;
                 const double distance = std::sqrt(square);
                 const Vec3 shift = kShare * (reach - distance) / distance * d;
                 push[i] += shift;
                 push[j] -= shift;
             });
-        for (std::size_t i = 0; i < x.size(); ++i) {
-            x[i] += push[i];
-            x[i] -= edge * glm::floor(x[i] / edge);
+            for (glm::length_t a = 0; a < 3; ++a)  // a wall is where the sphere meets its own mirror image
+                push[i][a] += 2 * kShare * (std::max(0.0, r - x[i][a]) - std::max(0.0, x[i][a] + r - edge));
         }
+        for (std::size_t i = 0; i < x.size(); ++i) x[i] += push[i];
     }
 }
 
@@ -95,11 +98,16 @@ Packing relaxedTile(std::uint64_t seed) {
 Packing tiled(const Packing& tile, int nx, int ny, int nz) {
     Packing all;
     all.size = tile.size * Vec3(nx, ny, nz);
+    const auto place = [](double x, double size, int n) { return n * size + (n % 2 == 0 ? x : size - x); };
     for (int a = 0; a < nx; ++a)
         for (int b = 0; b < ny; ++b)
             for (int c = 0; c < nz; ++c)
-                for (std::size_t i = 0; i < tile.particles.size(); ++i)
-                    all.particles.add(tile.particles.position[i] + tile.size * Vec3(a, b, c), tile.particles.radius[i]);
+                for (std::size_t i = 0; i < tile.particles.size(); ++i) {
+                    const Vec3& x = tile.particles.position[i];
+                    all.particles.add(
+                        Vec3(place(x.x, tile.size.x, a), place(x.y, tile.size.y, b), place(x.z, tile.size.z, c)),
+                        tile.particles.radius[i]);
+                }
     return all;
 }
 

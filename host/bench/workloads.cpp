@@ -35,11 +35,20 @@ World paperWorld() {
     return world;
 }
 
+/// A second's work; all boxes are made of it.
+const Packing& tile() {
+    static const Packing relaxed = relaxedTile(kSeed);
+    return relaxed;
+}
+
 Workload box(int nx, int ny, int nz) {
-    const Packing packing = tiled(relaxedTile(kSeed), nx, ny, nz);
-    Workload w{paperWorld(), packing.particles, 0, 64};
-    // Where a tile's neighbour is missing, spheres reach beyond the face by up to a radius.
-    const Vec3 low(-kRadiusMax), high = packing.size + Vec3(kRadiusMax);
+    const Packing packing = tiled(tile(), nx, ny, nz);
+    Workload w{paperWorld(), packing.particles, 0, 200};
+    // What the packing is at rest with.
+    ContactParameters& wall = w.world.law.classes[std::size_t(ContactClass::ParticleWall)];
+    wall.k1 *= 2;
+    wall.k2Max *= 2;
+    const Vec3 low(0), high = packing.size;
     for (glm::length_t axis = 0; axis < 3; ++axis) {
         Vec3 normal(0);
         normal[axis] = 1;
@@ -52,7 +61,7 @@ Workload box(int nx, int ny, int nz) {
 }
 
 Workload freeFall() {
-    const Packing packing = relaxedTile(kSeed);
+    const Packing& packing = tile();
     Workload w{paperWorld(), {}, 0, 64};
     // Three times the distances: nothing touches, and no list reaches anyone. All at one speed: with gravity the rows
     // would be rebuilt the more often the longer it runs.

@@ -24,8 +24,8 @@ struct Plan {
     std::function<Workload()> make;
 };
 
-/// `free-fall` (no contacts), `bed-3k` ... `bed-1M` (boxes filled with a dense packing, without gravity, so that it
-/// stays as it was made however many steps run), and for a case with a list of settled particles `<name>-rest` and
+/// `free-fall` (no contacts, one speed), `bed-3k` ... `bed-1M` (boxes full of spheres that press on each other and are
+/// at rest, without gravity), and for a case with a list of settled particles `<name>-rest` and
 /// `<name>-turning`: its bed with the law of the doses, the coil still or at the case's speed.
 std::vector<Plan> plans(const std::optional<Case>& bed);
 
