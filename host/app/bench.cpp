@@ -59,7 +59,7 @@ double since(std::chrono::steady_clock::time_point start) {
 double rebuildSeconds(const VulkanProfile& first) {
     double seconds = 0;
     for (const VulkanProfile::Pass& p : first.passes)
-        if (p.name != "contacts" && p.name != "move") seconds += p.seconds;
+        if (p.name != "pairs" && p.name != "surfaces" && p.name != "coil" && p.name != "move") seconds += p.seconds;
     return first.rebuilds > 0 ? seconds / double(first.rebuilds) : 0;
 }
 

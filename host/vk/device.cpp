@@ -245,6 +245,11 @@ void Device::createDevice(std::uint32_t family) {
     create.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
     create.queueCreateInfoCount = 1;
     create.pQueueCreateInfos = &queue;
+    VkPhysicalDeviceFeatures has{}, wanted{};
+    vkGetPhysicalDeviceFeatures(physical_, &has);
+    wanted.shaderInt64 = has.shaderInt64;
+    int64_ = has.shaderInt64 == VK_TRUE;
+    create.pEnabledFeatures = &wanted;
     check(vkCreateDevice(physical_, &create, nullptr, &device_), "vkCreateDevice");
     vkGetDeviceQueue(device_, family, 0, &queue_);
     VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, nullptr,

@@ -55,6 +55,8 @@ class Device {
     VkCommandPool pool() const { return pool_; }
     const VkPhysicalDeviceLimits& limits() const { return limits_; }
     const DeviceInfo& info() const { return info_; }
+    /// Whether shaders may use 64-bit integers; enabled where the device has them.
+    bool hasInt64() const { return int64_; }
 
     /// Index of a memory type allowed by `typeBits` with all of `wanted`; -1 if none.
     int memoryType(std::uint32_t typeBits, VkMemoryPropertyFlags wanted) const;
@@ -78,6 +80,7 @@ class Device {
     VkPhysicalDeviceLimits limits_{};
     VkPhysicalDeviceMemoryProperties memory_{};
     DeviceInfo info_;
+    bool int64_ = false;
     std::unique_ptr<std::vector<std::string>> messages_;
 };
 

@@ -1,5 +1,5 @@
 #version 450
-// commit_lists: ends a refresh of the contact lists: sizes the dispatch of `contacts` and withdraws the request. One
+// commit_lists: ends a refresh of the contact lists: sizes the dispatches over them and withdraws the request. One
 // invocation writes.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/buffers.glsl"
@@ -10,9 +10,10 @@ void main() {
     if (gl_GlobalInvocationID.x != 0u) return;
     // A full table is reported; until the host hears of it nothing may reach outside.
     uvec3 held = min(control.coming.xyz, uvec3(push.pairSlots, push.surfaceSlots, push.coilSlots));
-    uvec3 groups = uvec3(groupsOf(held.x), groupsOf(held.y), groupsOf(held.z));
-    control.listed = uvec4(held, groups.y);
-    control.contacts = uvec4(groups.x + groups.y + groups.z, 1u, 1u, groups.x);
+    control.listed = uvec4(held, 0u);
+    control.pairs.x = groupsOf(held.x);
+    control.surfaces.x = groupsOf(held.y);
+    control.coil.x = groupsOf(held.z);
     control.coming = uvec4(0u);
     control.list.w += 1u;
     control.refresh.x = 0u;

@@ -1,6 +1,6 @@
 #version 450
-// move: gathers the forces on one particle per invocation and moves it a time step. Built with and without TEXEL_READS
-// (shared/buffers.glsl) and ENERGY_BOOK.
+// move: gathers the forces on one particle per invocation and moves it a time step. Built with and without TEXEL_READS,
+// PACKED_STORES (shared/buffers.glsl) and ENERGY_BOOK.
 // Reads the source half of the state, links, forces and torques, anchors; writes the destination half; asks for a refresh
 // of the contact lists and a rebuild of the rows when the particle has moved as far as they allow for.
 //
@@ -93,8 +93,8 @@ void main() {
 
     uint to = 1u - push.source;
     float radius = leaves ? -position.w : position.w;  // a negative radius touches nothing
-    state[stateIndex(to, kPosition, i)] = moving ? vec4(high, radius) : position;
-    state[stateIndex(to, kResidue, i)] = moving ? vec4(low, residue.w + coilTorque) : residue;
-    state[stateIndex(to, kVelocity, i)] = moving ? vec4(velocity, max(velocity4.w, overlap)) : velocity4;
-    state[stateIndex(to, kSpin, i)] = moving ? vec4(spin, float(now)) : spin4;
+    writeState(to, kPosition, i, moving ? vec4(high, radius) : position,
+               moving ? vec4(low, residue.w + coilTorque) : residue);
+    writeState(to, kVelocity, i, moving ? vec4(velocity, max(velocity4.w, overlap)) : velocity4,
+               moving ? vec4(spin, float(now)) : spin4);
 }

@@ -3,6 +3,9 @@
 #define VKDOSE_SHARED_BUFFERS_GLSL
 
 #extension GL_GOOGLE_include_directive : require
+#ifdef PACKED_STORES
+#extension GL_ARB_gpu_shader_int64 : require
+#endif
 #include "shared/layout.h"
 
 layout(local_size_x_id = 0) in;                      // workgroup size, chosen by the host
@@ -19,8 +22,8 @@ layout(std430, set = 0, binding = 0) buffer StateBuffer { vec4 state[]; };
 layout(std430, set = 0, binding = 1) buffer RowBuffer { uint rows[]; };
 // Ranges: uvec4[2][particles]: row (first, count), links (first, count); own pair slots (first, count), own surface slots.
 layout(std430, set = 0, binding = 2) buffer RangeBuffer { uvec4 ranges[]; };
-// History of pairs and surfaces: vec4[parts][pair and surface slots]: (xi, delta_max), (rho, torsion), zero while they do
-// not touch; with the energy book the three of law/energy.glsl's Exerted as well.
+// History of pairs and surfaces: vec4[pair and surface slots][2]: (xi, delta_max), (rho, torsion), zero while they do not
+// touch; with the energy book vec4[3][slots] follow, law/energy.glsl's Exerted.
 layout(std430, set = 0, binding = 3) buffer HistoryBuffer { vec4 history[]; };
 // History with the coil: vec4[turns][parts][particles], then vec4[particles]: wire angle of each turn, kNoTurn if free.
 layout(std430, set = 0, binding = 4) buffer CoilHistoryBuffer { vec4 coilHistory[]; };
@@ -36,7 +39,7 @@ layout(std430, set = 0, binding = 10) buffer EntryBuffer { uvec2 entries[]; };
 // The energy book, and its sums.
 layout(std430, set = 0, binding = 11) buffer BookBuffer { vec4 books[]; };
 layout(std430, set = 0, binding = 12) buffer EnergyBuffer { EnergyRecord energies[]; };
-// What a slot's contact exerts: force on its first body [N], w: overlap over the smaller radius; vec4[2][slots]: torque on
+// What a slot's contact exerts: force on its first body [N], w: overlap over the smaller radius; vec4[slots][2]: torque on
 // the first body [N m], w: on the coil about +z; torque on the second body.
 layout(std430, set = 0, binding = 13) buffer ForceBuffer { vec4 forces[]; };
 layout(std430, set = 0, binding = 14) buffer TorqueBuffer { vec4 torques[]; };
@@ -67,11 +70,15 @@ const uint kListAnchor = 1u;
 uint springSlots() { return push.pairSlots + push.surfaceSlots; }
 uint slotCount() { return springSlots() + push.coilSlots; }
 
-uint stateIndex(uint side, uint field, uint i) { return (side * kFields + field) * push.particles + i; }
+uint stateIndex(uint side, uint field, uint i) {
+    return side * kFields * push.particles + stateOffset(field, i, push.particles);
+}
 uint linkIndex(uint at) { return push.rowEntries + at; }
 uint rowRangeIndex(uint i) { return i; }
 uint slotRangeIndex(uint i) { return push.particles + i; }
-uint historyIndex(uint part, uint slot) { return part * springSlots() + slot; }
+uint historyIndex(uint part, uint slot) {
+    return part < 2u ? 2u * slot + part : part * springSlots() + slot;
+}
 uint coilHistoryIndex(uint turn, uint part, uint i) { return (turn * kParts + part) * push.particles + i; }
 uint wireAngleIndex(uint i) { return coilHistoryIndex(kMaxTurns, 0u, i); }
 uint anchorIndex(uint which, uint i) { return which * push.particles + i; }
@@ -88,7 +95,7 @@ vec4 readCoilHistory(uint at) { return texelFetch(coilHistoryView, int(at)); }
 vec4 readAnchor(uint which, uint i) { return texelFetch(anchorView, int(anchorIndex(which, i))); }
 uvec2 readEntry(uint slot) { return texelFetch(entryView, int(slot)).xy; }
 vec4 readForce(uint slot) { return texelFetch(forceView, int(slot)); }
-vec4 readTorque(uint side, uint slot) { return texelFetch(torqueView, int(side * slotCount() + slot)); }
+vec4 readTorque(uint side, uint slot) { return texelFetch(torqueView, int(2u * slot + side)); }
 SurfaceParams readSurface(uint s) {
     int at = int(12u + 4u * s);  // vectors before them in Member
     return SurfaceParams(texelFetch(memberView, at), texelFetch(memberView, at + 1), texelFetch(memberView, at + 2),
@@ -103,9 +110,46 @@ vec4 readCoilHistory(uint at) { return coilHistory[at]; }
 vec4 readAnchor(uint which, uint i) { return anchors[anchorIndex(which, i)]; }
 uvec2 readEntry(uint slot) { return entries[slot]; }
 vec4 readForce(uint slot) { return forces[slot]; }
-vec4 readTorque(uint side, uint slot) { return torques[side * slotCount() + slot]; }
+vec4 readTorque(uint side, uint slot) { return torques[2u * slot + side]; }
 SurfaceParams readSurface(uint s) { return member.surface[s]; }
 #endif
+
+// What every step stores. PACKED_STORES writes 64 bits at a time, for devices that store component by component.
+#ifdef PACKED_STORES
+layout(std430, set = 0, binding = 0) buffer PackedStateBuffer { u64vec4 packedState[]; };
+layout(std430, set = 0, binding = 3) buffer PackedHistoryBuffer { u64vec4 packedHistory[]; };
+layout(std430, set = 0, binding = 13) buffer PackedForceBuffer { u64vec2 packedForces[]; };
+layout(std430, set = 0, binding = 14) buffer PackedTorqueBuffer { u64vec4 packedTorques[]; };
+
+u64vec2 pack(vec4 a) {
+    return u64vec2(packUint2x32(floatBitsToUint(a.xy)), packUint2x32(floatBitsToUint(a.zw)));
+}
+u64vec4 pack(vec4 a, vec4 b) { return u64vec4(pack(a), pack(b)); }
+
+/// `field` and the one after it, kPosition or kVelocity.
+void writeState(uint side, uint field, uint i, vec4 a, vec4 b) {
+    packedState[stateIndex(side, field, i) / 2u] = pack(a, b);
+}
+void writeHistory(uint slot, vec4 a, vec4 b) { packedHistory[slot] = pack(a, b); }
+void writeForce(uint slot, vec4 force) { packedForces[slot] = pack(force); }
+void writeTorques(uint slot, vec4 first, vec4 second) { packedTorques[slot] = pack(first, second); }
+#else
+void writeState(uint side, uint field, uint i, vec4 a, vec4 b) {
+    uint at = stateIndex(side, field, i);
+    state[at] = a;
+    state[at + 1u] = b;
+}
+void writeHistory(uint slot, vec4 a, vec4 b) {
+    history[2u * slot] = a;
+    history[2u * slot + 1u] = b;
+}
+void writeForce(uint slot, vec4 force) { forces[slot] = force; }
+void writeTorques(uint slot, vec4 first, vec4 second) {
+    torques[2u * slot] = first;
+    torques[2u * slot + 1u] = second;
+}
+#endif
+void writeTorque(uint slot, vec4 first) { torques[2u * slot] = first; }
 
 // The smallest step and the smallest particle of an error are kept: the same whatever order invocations run in.
 void report(uint error, uint particle) {

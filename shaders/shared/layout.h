@@ -11,9 +11,11 @@ using glm::vec4;
 using uint = glm::uint;
 #define SHARED_CONST inline constexpr uint
 #define SHARED_REAL inline constexpr float
+#define SHARED_FUNCTION constexpr
 #else
 #define SHARED_CONST const uint
 #define SHARED_REAL const float
+#define SHARED_FUNCTION
 #endif
 
 // --- limits ----------------------------------------------------------------------------------------------------------
@@ -26,12 +28,17 @@ SHARED_CONST kEmpty = 0xffffffffu; // end of a cell's list
 SHARED_REAL kNoTurn = 1e30f;       // wire angle in the place of a coil turn that is not touched
 SHARED_REAL kMarginOfSkin = 0.1f;  // extra reach of the contact lists, of the skin of the rows
 
-// --- particle state: vec4 state[2 halves][4 fields][particles]; the halves take turns as source and destination --------
+// --- particle state: vec4 state[2 halves][2 couples][particles][2 fields]; the halves take turns as source and destination
+// Two fields side by side are 32 bytes, which a device with 64-bit integers can store in four pieces instead of eight.
 SHARED_CONST kPosition = 0u; // xyz: high part [m]; w: radius [m], negative once the particle is out of the motion
 SHARED_CONST kResidue = 1u;  // xyz: low part of the position [m]; w: sum over steps of the torque on the coil [N m]
 SHARED_CONST kVelocity = 2u; // xyz: half-step velocity [m/s]; w: largest overlap / smaller radius since the last sensing
 SHARED_CONST kSpin = 3u;     // xyz: half-step angular velocity [rad/s]; w: status as a float (kActive ...)
 SHARED_CONST kFields = 4u;
+
+SHARED_FUNCTION uint stateOffset(uint field, uint i, uint particles) {
+    return (field / 2u * particles + i) * 2u + field % 2u;
+}
 
 SHARED_CONST kActive = 0u;
 SHARED_CONST kDosed = 1u;
@@ -105,8 +112,10 @@ struct Control {
     uvec4 single;     // one workgroup, ditto
     uvec4 refresh;    // workgroups over the particles, 0 while no refresh of the contact lists is wanted
     uvec4 settle;     // one workgroup, ditto
-    uvec4 contacts;   // workgroups over what the contact lists hold: w of them pairs ...
-    uvec4 listed;     // ... entries in use: pairs, surfaces, coil; w: workgroups of surfaces
+    uvec4 pairs;      // workgroups over what the contact lists hold: pairs ...
+    uvec4 surfaces;   // ... contacts with surfaces ...
+    uvec4 coil;       // ... particles near the coil
+    uvec4 listed;     // entries of these in use: pairs, surfaces, coil
     uvec4 coming;     // entries taken so far by the refresh at work: pairs, surfaces, coil, links
     uvec4 list;       // x: entries of the rows in use; y: rebuilds since load; z: longest row ever; w: refreshes since load
     ErrorRecord error[kErrors];
@@ -155,6 +164,7 @@ struct StepPush {
 #ifdef __cplusplus
 #undef SHARED_CONST
 #undef SHARED_REAL
+#undef SHARED_FUNCTION
 }  // namespace vkdose::gpu
 #endif
 #endif

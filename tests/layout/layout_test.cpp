@@ -9,19 +9,8 @@
 #include <span>
 #include <string>
 
-#include "commit_lists.spv.h"
-#include "contacts.spv.h"
-#include "contacts_energy.spv.h"
-#include "contacts_texel.spv.h"
-#include "contacts_texel_energy.spv.h"
-#include "move.spv.h"
-#include "move_texel_energy.spv.h"
-#include "near.spv.h"
-#include "near_texel_energy.spv.h"
-#include "neighbours.spv.h"
-#include "sense.spv.h"
-#include "sense_energy.spv.h"
 #include "shaders/shared/layout.h"
+#include "spirv/passes.h"
 
 namespace {
 
@@ -61,7 +50,7 @@ const std::map<std::string, Layout>& hostLayouts() {
         {"ErrorRecord", {{FIELD(ErrorRecord, first)}, sizeof(ErrorRecord)}},
         {"Control",
          {{FIELD(Control, cells), FIELD(Control, particles), FIELD(Control, single), FIELD(Control, refresh),
-           FIELD(Control, settle), FIELD(Control, contacts), FIELD(Control, listed), FIELD(Control, coming),
+           FIELD(Control, settle), FIELD(Control, pairs), FIELD(Control, surfaces), FIELD(Control, coil), FIELD(Control, listed), FIELD(Control, coming),
            FIELD(Control, list), FIELD(Control, error)},
           sizeof(Control)}},
         {"SensorRecord",
@@ -148,8 +137,8 @@ std::set<std::string> structsOf(std::span<const std::uint32_t> code) {
 
 TEST_CASE("C++ and GLSL see the same structs") {
     std::set<std::string> seen;
-    for (const auto& structs : {structsOf(contacts_spv), structsOf(contacts_texel_spv), structsOf(contacts_energy_spv),
-                                structsOf(contacts_texel_energy_spv), structsOf(move_spv),
+    for (const auto& structs : {structsOf(pairs_spv), structsOf(pairs_texel_spv), structsOf(coil_energy_spv),
+                                structsOf(surfaces_packed_energy_spv), structsOf(move_spv),
                                 structsOf(move_texel_energy_spv), structsOf(near_spv), structsOf(near_texel_energy_spv),
                                 structsOf(commit_lists_spv), structsOf(sense_spv), structsOf(sense_energy_spv),
                                 structsOf(neighbours_spv)})

@@ -150,9 +150,12 @@ void packPhase(uint64_t start, uint64_t perStep, gpu::Member& member) {
 
 std::vector<gpu::vec4> packState(const Particles& p, std::size_t slots) {
     std::vector<vec4> half(gpu::kFields * slots, vec4(0.0f));
+    const auto at = [&](std::uint32_t field, std::size_t i) -> vec4& {
+        return half[gpu::stateOffset(field, std::uint32_t(i), std::uint32_t(slots))];
+    };
     for (std::size_t i = 0; i < slots; ++i) {
-        vec4& position = half[gpu::kPosition * slots + i];
-        vec4& spin = half[gpu::kSpin * slots + i];
+        vec4& position = at(gpu::kPosition, i);
+        vec4& spin = at(gpu::kSpin, i);
         if (i >= p.size()) {
             spin.w = float(gpu::kPadding);
             continue;
@@ -160,8 +163,8 @@ std::vector<gpu::vec4> packState(const Particles& p, std::size_t slots) {
         Split3 x(p.position[i]);
         const bool active = p.status[i] == Status::Active;
         position = vec4(x.high, float(active ? p.radius[i] : -p.radius[i]));
-        half[gpu::kResidue * slots + i] = vec4(x.low, 0.0f);
-        half[gpu::kVelocity * slots + i] = vec4(glm::vec3(p.velocity[i]), 0.0f);
+        at(gpu::kResidue, i) = vec4(x.low, 0.0f);
+        at(gpu::kVelocity, i) = vec4(glm::vec3(p.velocity[i]), 0.0f);
         spin = vec4(glm::vec3(p.spin[i]), float(uint32_t(p.status[i])));
     }
     return half;
@@ -169,12 +172,14 @@ std::vector<gpu::vec4> packState(const Particles& p, std::size_t slots) {
 
 Particles unpackState(const std::vector<gpu::vec4>& half, std::size_t slots, const Particles& loaded) {
     Particles p = loaded;
+    const auto at = [&](std::uint32_t field, std::size_t i) {
+        return half[gpu::stateOffset(field, std::uint32_t(i), std::uint32_t(slots))];
+    };
     for (std::size_t i = 0; i < p.size(); ++i) {
-        p.position[i] =
-            Vec3(glm::vec3(half[gpu::kPosition * slots + i])) + Vec3(glm::vec3(half[gpu::kResidue * slots + i]));
-        p.velocity[i] = Vec3(glm::vec3(half[gpu::kVelocity * slots + i]));
-        p.spin[i] = Vec3(glm::vec3(half[gpu::kSpin * slots + i]));
-        p.status[i] = Status(uint32_t(half[gpu::kSpin * slots + i].w));
+        p.position[i] = Vec3(glm::vec3(at(gpu::kPosition, i))) + Vec3(glm::vec3(at(gpu::kResidue, i)));
+        p.velocity[i] = Vec3(glm::vec3(at(gpu::kVelocity, i)));
+        p.spin[i] = Vec3(glm::vec3(at(gpu::kSpin, i)));
+        p.status[i] = Status(uint32_t(at(gpu::kSpin, i).w));
     }
     return p;
 }

@@ -22,7 +22,7 @@ std::uint64_t turnsFixed(double angle);
 /// Coil rotation [2^-64 turns]: phase at the start of a batch and advance per step, both modulo a turn.
 void packPhase(std::uint64_t start, std::uint64_t perStep, gpu::Member& member);
 
-/// One half of the state buffer: [field][slot], `slots` >= particles, the rest padding.
+/// One half of the state buffer (gpu::stateOffset), `slots` >= particles, the rest padding.
 std::vector<gpu::vec4> packState(const Particles& particles, std::size_t slots);
 Particles unpackState(const std::vector<gpu::vec4>& half, std::size_t slots, const Particles& loaded);
 

@@ -5,31 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "bin.spv.h"
-#include "bin_texel.spv.h"
-#include "clear.spv.h"
-#include "commit_lists.spv.h"
-#include "commit_rows.spv.h"
-#include "contacts.spv.h"
-#include "contacts_energy.spv.h"
-#include "contacts_texel.spv.h"
-#include "contacts_texel_energy.spv.h"
-#include "link.spv.h"
-#include "link_energy.spv.h"
-#include "link_texel.spv.h"
-#include "link_texel_energy.spv.h"
-#include "move.spv.h"
-#include "move_energy.spv.h"
-#include "move_texel.spv.h"
-#include "move_texel_energy.spv.h"
-#include "near.spv.h"
-#include "near_energy.spv.h"
-#include "near_texel.spv.h"
-#include "near_texel_energy.spv.h"
-#include "neighbours.spv.h"
-#include "neighbours_texel.spv.h"
-#include "sense.spv.h"
-#include "sense_energy.spv.h"
+#include "spirv/passes.h"
+
 
 namespace vkdose {
 
@@ -52,76 +29,88 @@ struct Elements {
           torques(2ull * s.slots()) {}
 };
 
-bool viewsFit(const vk::Device& device, const TableSizes& s) {
+Access accessOn(const vk::Device& device, const TableSizes& s) {
     const Elements e(s);
     const VkDeviceSize most = std::max({e.state, e.rows, e.ranges, e.history, e.coilHistory, e.anchors, e.entries,
                                         e.forces, e.torques});
-    return s.texelReads && most <= device.limits().maxTexelBufferElements;
+    const bool texel = s.texelReads && most <= device.limits().maxTexelBufferElements;
+    return {texel, texel && device.hasInt64()};
 }
 
 std::array<std::uint32_t, 4> constants(const TableSizes& s) {
     return {s.workgroup, s.surfaces, s.surfaceKinds, s.kindSet};
 }
 
-/// The variants of one pass (shaders/passes.cmake).
+/// The variants of one pass (shaders/passes.cmake), as far as it has them.
 struct Variants {
     using Code = std::span<const std::uint32_t>;
-    Code plain, texel, energy, texelEnergy;
+    Code plain, texel, packed, energy, texelEnergy, packedEnergy;
 
-    Code pick(bool wantsTexel, bool wantsEnergy) const {
-        if (wantsEnergy) return wantsTexel ? texelEnergy : energy;
-        return wantsTexel ? texel : plain;
+    Code pick(const Access& access, bool wantsEnergy) const {
+        if (access.packedStores) return wantsEnergy ? packedEnergy : packed;
+        if (access.texelReads) return wantsEnergy ? texelEnergy : texel;
+        return wantsEnergy ? energy : plain;
     }
 };
 
-const Variants kNear{near_spv, near_texel_spv, near_energy_spv, near_texel_energy_spv};
-const Variants kLink{link_spv, link_texel_spv, link_energy_spv, link_texel_energy_spv};
-const Variants kContacts{contacts_spv, contacts_texel_spv, contacts_energy_spv, contacts_texel_energy_spv};
-const Variants kMove{move_spv, move_texel_spv, move_energy_spv, move_texel_energy_spv};
-const Variants kBin{bin_spv, bin_texel_spv, bin_spv, bin_texel_spv};
-const Variants kNeighbours{neighbours_spv, neighbours_texel_spv, neighbours_spv, neighbours_texel_spv};
+const Variants kBin{bin_spv, bin_texel_spv, bin_texel_spv, bin_spv, bin_texel_spv, bin_texel_spv};
+const Variants kNeighbours{neighbours_spv, neighbours_texel_spv, neighbours_texel_spv,
+                           neighbours_spv, neighbours_texel_spv, neighbours_texel_spv};
+const Variants kNear{near_spv, near_texel_spv, near_texel_spv, near_energy_spv, near_texel_energy_spv,
+                     near_texel_energy_spv};
+const Variants kLink{link_spv, link_texel_spv, link_texel_spv, link_energy_spv, link_texel_energy_spv,
+                     link_texel_energy_spv};
+const Variants kPairs{pairs_spv,        pairs_texel_spv,        pairs_packed_spv,
+                      pairs_energy_spv, pairs_texel_energy_spv, pairs_packed_energy_spv};
+const Variants kSurfaces{surfaces_spv,        surfaces_texel_spv,        surfaces_packed_spv,
+                         surfaces_energy_spv, surfaces_texel_energy_spv, surfaces_packed_energy_spv};
+const Variants kCoil{coil_spv,        coil_texel_spv,        coil_packed_spv,
+                     coil_energy_spv, coil_texel_energy_spv, coil_packed_energy_spv};
+const Variants kMove{move_spv,        move_texel_spv,        move_packed_spv,
+                     move_energy_spv, move_texel_energy_spv, move_packed_energy_spv};
 
 }  // namespace
 
 Passes::Passes(const vk::Device& device, const TableSizes& s)
-    : Passes(device, s, viewsFit(device, s) ? VK_FORMAT_R32G32B32A32_SFLOAT : VK_FORMAT_UNDEFINED) {}
+    : Passes(device, s, accessOn(device, s)) {}
 
-// A view's format does not matter where there are no views.
-Passes::Passes(const vk::Device& device, const TableSizes& s, VkFormat vec)
-    : state(device, "the particle state", Elements(s).state * kVec4, vec),
-      rows(device, "the neighbour rows", Elements(s).rows * 4, vec != 0 ? VK_FORMAT_R32_UINT : vec),
-      ranges(device, "the ranges of rows", Elements(s).ranges * kVec4, vec != 0 ? VK_FORMAT_R32G32B32A32_UINT : vec),
-      history(device, "the contact history", Elements(s).history * kVec4, vec),
-      coilHistory(device, "the coil's contact history", Elements(s).coilHistory * kVec4, vec),
-      member(device, "the parameters", sizeof(gpu::Member), vec),
+Passes::Passes(const vk::Device& device, const TableSizes& s, const Access& access)
+    : state(device, "the particle state", Elements(s).state * kVec4, access.view(VK_FORMAT_R32G32B32A32_SFLOAT)),
+      rows(device, "the neighbour rows", Elements(s).rows * 4, access.view(VK_FORMAT_R32_UINT)),
+      ranges(device, "the ranges of rows", Elements(s).ranges * kVec4, access.view(VK_FORMAT_R32G32B32A32_UINT)),
+      history(device, "the contact history", Elements(s).history * kVec4, access.view(VK_FORMAT_R32G32B32A32_SFLOAT)),
+      coilHistory(device, "the coil's contact history", Elements(s).coilHistory * kVec4, access.view(VK_FORMAT_R32G32B32A32_SFLOAT)),
+      member(device, "the parameters", sizeof(gpu::Member), access.view(VK_FORMAT_R32G32B32A32_SFLOAT)),
       control(device, "the control block", sizeof(gpu::Control)),
       cells(device, "the cell table", (VkDeviceSize(s.cells) + s.particles) * 4),
-      anchors(device, "the anchors", Elements(s).anchors * kVec4, vec),
+      anchors(device, "the anchors", Elements(s).anchors * kVec4, access.view(VK_FORMAT_R32G32B32A32_SFLOAT)),
       sensors(device, "the sensors", s.groups() * sizeof(gpu::SensorRecord)),
-      entries(device, "the contact lists", Elements(s).entries * 8, vec != 0 ? VK_FORMAT_R32G32_UINT : vec),
+      entries(device, "the contact lists", Elements(s).entries * 8, access.view(VK_FORMAT_R32G32_UINT)),
       books(device, "the energy book", Elements(s).books * kVec4),
       energies(device, "the energy records", s.groups() * sizeof(gpu::EnergyRecord)),
-      forces(device, "the contact forces", Elements(s).forces * kVec4, vec),
-      torques(device, "the contact torques", Elements(s).torques * kVec4, vec),
+      forces(device, "the contact forces", Elements(s).forces * kVec4, access.view(VK_FORMAT_R32G32B32A32_SFLOAT)),
+      torques(device, "the contact torques", Elements(s).torques * kVec4, access.view(VK_FORMAT_R32G32B32A32_SFLOAT)),
       carried(device, "the carried history", Elements(s).history * kVec4),
       sizes(s),
-      texel_(vec != VK_FORMAT_UNDEFINED),
+      access_(access),
       bindings_(device,
                 {&state, &rows, &ranges, &history, &coilHistory, &member, &control, &cells, &anchors, &sensors,
                  &entries, &books, &energies, &forces, &torques, &carried},
-                texel_ ? std::vector<const vk::Buffer*>{&state, &rows, &ranges, &history, &coilHistory, &member,
+                access.texelReads ? std::vector<const vk::Buffer*>{&state, &rows, &ranges, &history, &coilHistory, &member,
                                                         &anchors, &entries, &forces, &torques}
                        : std::vector<const vk::Buffer*>{},
                 sizeof(gpu::StepPush)),
       clear_(device, bindings_, clear_spv, constants(s)),
-      bin_(device, bindings_, kBin.pick(texel_, s.energyBook), constants(s)),
-      neighbours_(device, bindings_, kNeighbours.pick(texel_, s.energyBook), constants(s)),
+      bin_(device, bindings_, kBin.pick(access, s.energyBook), constants(s)),
+      neighbours_(device, bindings_, kNeighbours.pick(access, s.energyBook), constants(s)),
       commitRows_(device, bindings_, commit_rows_spv, constants(s)),
-      near_(device, bindings_, kNear.pick(texel_, s.energyBook), constants(s)),
-      link_(device, bindings_, kLink.pick(texel_, s.energyBook), constants(s)),
+      near_(device, bindings_, kNear.pick(access, s.energyBook), constants(s)),
+      link_(device, bindings_, kLink.pick(access, s.energyBook), constants(s)),
       commitLists_(device, bindings_, commit_lists_spv, constants(s)),
-      contacts_(device, bindings_, kContacts.pick(texel_, s.energyBook), constants(s)),
-      move_(device, bindings_, kMove.pick(texel_, s.energyBook), constants(s)),
+      pairs_(device, bindings_, kPairs.pick(access, s.energyBook), constants(s)),
+      surfaces_(device, bindings_, kSurfaces.pick(access, s.energyBook), constants(s)),
+      coil_(device, bindings_, kCoil.pick(access, s.energyBook), constants(s)),
+      move_(device, bindings_, kMove.pick(access, s.energyBook), constants(s)),
       sense_(device, bindings_, sense_spv, constants(s)),
       senseEnergy_(device, bindings_, sense_energy_spv, constants(s)) {}
 
@@ -143,7 +132,7 @@ void Passes::requestRebuild() {
     c.cells = gpu::uvec4((sizes.cells + sizes.workgroup - 1) / sizes.workgroup, 1, 1, 0);
     c.particles = c.refresh = gpu::uvec4(sizes.groups(), 1, 1, 0);
     c.single = c.settle = gpu::uvec4(1, 1, 1, 0);
-    c.contacts = gpu::uvec4(0, 1, 1, 0);
+    c.pairs = c.surfaces = c.coil = gpu::uvec4(0, 1, 1, 0);
     control.write(0, &c, sizeof c);
 }
 
@@ -189,7 +178,9 @@ void Passes::recordSteps(vk::Commands& commands, std::uint32_t first, std::uint3
                        {near_, offsetof(gpu::Control, refresh)},
                        {link_, offsetof(gpu::Control, refresh)},
                        {commitLists_, offsetof(gpu::Control, settle)},
-                       {contacts_, offsetof(gpu::Control, contacts)}};
+                       {pairs_, offsetof(gpu::Control, pairs)},
+                       {surfaces_, offsetof(gpu::Control, surfaces)},
+                       {coil_, offsetof(gpu::Control, coil)}};
         for (const auto& d : decided) {
             d.pass.bind(c);
             commands.dispatchIndirect(control.handle(), d.arguments);

@@ -16,6 +16,13 @@
 
 namespace vkdose {
 
+/// How the passes read and store, chosen for the device.
+struct Access {
+    bool texelReads = false;    ///< through texel-buffer views
+    bool packedStores = false;  ///< 64 bits at a time; only with texelReads
+    VkFormat view(VkFormat format) const { return texelReads ? format : VK_FORMAT_UNDEFINED; }
+};
+
 class Passes {
   public:
     Passes(const vk::Device& device, const TableSizes& sizes);
@@ -36,19 +43,20 @@ class Passes {
     vk::Buffer state, rows, ranges, history, coilHistory, member, control, cells, anchors, sensors, entries, books,
         energies, forces, torques, carried;
     const TableSizes sizes;
-    bool texelReads() const { return texel_; }
+    bool texelReads() const { return access_.texelReads; }
     VkDeviceSize bytes() const;  ///< of all tables
 
-    static constexpr std::array<const char*, 9> kTimed{"clear", "bin",  "neighbours",   "commit_rows", "near",
-                                                       "link",  "commit_lists", "contacts", "move"};
+    static constexpr std::array<const char*, 11> kTimed{"clear", "bin",          "neighbours", "commit_rows",
+                                                        "near",  "link",         "commit_lists", "pairs",
+                                                        "surfaces", "coil",      "move"};
 
   private:
-    Passes(const vk::Device& device, const TableSizes& sizes, VkFormat vectorViews);
+    Passes(const vk::Device& device, const TableSizes& sizes, const Access& access);
     gpu::StepPush push(std::uint32_t step, std::uint32_t source, bool opening) const;
 
-    bool texel_;
+    Access access_;
     vk::BindingSet bindings_;
-    vk::Pipeline clear_, bin_, neighbours_, commitRows_, near_, link_, commitLists_, contacts_, move_, sense_, senseEnergy_;
+    vk::Pipeline clear_, bin_, neighbours_, commitRows_, near_, link_, commitLists_, pairs_, surfaces_, coil_, move_, sense_, senseEnergy_;
 };
 
 }  // namespace vkdose

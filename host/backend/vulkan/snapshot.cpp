@@ -67,7 +67,7 @@ void restoreContacts(Passes& passes, std::size_t particles, const Record& record
         const std::uint32_t slot = (isPair[c] != 0 ? 0 : t.pairSlots) + used++;
         entries[slot] = {owner[c], other[c]};
         for (std::size_t part = 0; part < parts; ++part)
-            for (int k = 0; k < 4; ++k) history[part * t.springSlots() + slot][k] = springs[4 * (parts * c + part) + k];
+            for (int k = 0; k < 4; ++k) history[t.historyOffset(std::uint32_t(part), slot)][k] = springs[4 * (parts * c + part) + k];
         uvec4& range = ranges[owner[c]];
         if (range.w == 0) range.z = std::uint32_t(links.size());
         ++range.w;
@@ -89,10 +89,10 @@ std::vector<SlotContact> touchingSlots(const Passes& passes) {
     std::vector<SlotContact> found;
     const auto collect = [&](bool pair, std::uint32_t first, std::uint32_t count) {
         for (std::uint32_t slot = first; slot < first + count; ++slot) {
-            if (history[slot].w <= 0) continue;
+            if (history[t.historyOffset(0, slot)].w <= 0) continue;
             SlotContact c{pair, entries[slot].x, entries[slot].y, {}};
             for (std::size_t part = 0; part < t.historyParts(); ++part)
-                c.history[part] = history[part * t.springSlots() + slot];
+                c.history[part] = history[t.historyOffset(std::uint32_t(part), slot)];
             found.push_back(c);
         }
     };
@@ -107,7 +107,7 @@ std::vector<SlotContact> touchingSlots(const Passes& passes) {
 void saveState(const Passes& passes, std::size_t particles, std::uint32_t source, Record& record) {
     const std::size_t stride = passes.sizes.particles, coilRows = passes.sizes.coilHistoryRows();
     const auto half = passes.state.readAll<vec4>(gpu::kFields * stride, source * gpu::kFields * stride * sizeof(vec4));
-    record.put("state", packed(half, gpu::kFields, stride, particles));
+    record.put("state", packed(half, gpu::kFields / 2, 2 * stride, 2 * particles));
     saveContacts(passes, record);
     record.put("coil_history",
                packed(passes.coilHistory.readAll<vec4>(coilRows * stride), coilRows, stride, particles));
@@ -120,7 +120,7 @@ void saveState(const Passes& passes, std::size_t particles, std::uint32_t source
 void restoreState(Passes& passes, std::size_t particles, const Record& record) {
     const std::size_t stride = passes.sizes.particles, coilRows = passes.sizes.coilHistoryRows();
     auto half = passes.state.readAll<vec4>(gpu::kFields * stride);  // the padding stays as it was loaded
-    unpack(record.get<float>("state", 4 * gpu::kFields * particles), gpu::kFields, stride, particles, half);
+    unpack(record.get<float>("state", 4 * gpu::kFields * particles), gpu::kFields / 2, 2 * stride, 2 * particles, half);
     auto coil = passes.coilHistory.readAll<vec4>(coilRows * stride);
     unpack(record.get<float>("coil_history", 4 * coilRows * particles), coilRows, stride, particles, coil);
     restoreContacts(passes, particles, record);

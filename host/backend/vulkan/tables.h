@@ -26,6 +26,10 @@ struct TableSizes {
     std::uint32_t slots() const { return springSlots() + coilSlots; }
     /// Vectors of a contact's history (kParts in shared/buffers.glsl).
     std::uint32_t historyParts() const { return energyBook ? 5 : 2; }
+    /// Place of a contact's vector in the history (historyIndex in shared/buffers.glsl).
+    std::size_t historyOffset(std::uint32_t part, std::uint32_t slot) const {
+        return part < 2 ? 2ULL * slot + part : std::size_t(part) * springSlots() + slot;
+    }
     std::uint32_t coilHistoryRows() const { return coilSlots > 0 ? gpu::kMaxTurns * historyParts() + 1 : 0; }
 };
 

@@ -54,7 +54,7 @@ struct VulkanProfile {
 VulkanProfile profile(Backend& backend, std::uint32_t steps, double coilRate);
 
 /// Bytes that one particle's step moves between kernels and tables if no cache holds anything, from the layout and the
-/// reads and writes of shaders/pass/contacts.comp and move.comp without energy book: an estimate. Arguments are means over
+/// reads and writes of shaders/pass/pairs.comp, surfaces.comp and move.comp without energy book: an estimate. Arguments are means over
 /// particles.
 double stepBytes(double touching, double touchingWalls);
 

@@ -1,40 +1,14 @@
-// Part of pass/contacts: the fixed surfaces and the turning coil.
-
-struct WallForce {
-    vec3 force;
-    vec3 couple;
-    vec3 torque; // couple and the force's moment about the particle's centre
-};
-
-/// Contact with a wall that moves with velocity `wall` at the contact and turns with `wallSpin`.
-WallForce meetWall(Body me, Overlap o, ContactParams law, vec3 wall, vec3 wallSpin, inout History h, out Response r) {
-    float lever = me.sphere.radius - 0.5 * o.depth;
-    Meeting m = Meeting(o.normal, o.depth, 2.0 * me.sphere.radius,
-                        (me.velocity - wall) - lever * cross(me.spin, o.normal), me.spin - wallSpin);
-    r = contactResponse(law, choices, m, springDt, h);
-    return WallForce(r.force, r.couple, r.couple - lever * cross(o.normal, r.sliding));
-}
-
-void meetSurface(uint slot) {
-    uvec2 who = readEntry(slot);
-    Body me = readBody(who.x);
-    SurfaceParams p = readSurface(who.y);
-    History h = History(readHistory(0u, slot), readHistory(1u, slot));
+#version 450
+// coil: what the turning coil exerts in this step, one particle near it per invocation with all its contacts.
+// Built with and without TEXEL_READS, PACKED_STORES (shared/buffers.glsl) and ENERGY_BOOK.
+// Reads the source half of the state, entries, the coil's history; writes it, forces and torques, which `move` gathers.
+#extension GL_GOOGLE_include_directive : require
+#include "shared/buffers.glsl"
+#include "shared/wall.glsl"
+#include "law/coil.glsl"
 #ifdef ENERGY_BOOK
-    History old = h;
+#include "shared/slot_books.glsl"
 #endif
-    Overlap o = surfaceOverlap(uint(p.pointHigh.w), p, me.sphere);
-    bool touching = o.depth > 0.0;
-    Response r;
-    WallForce f = meetWall(me, o, wallLaw, vec3(0.0), vec3(0.0), h, r);
-    history[historyIndex(0u, slot)] = touching ? h.slidingMax : vec4(0.0);
-    history[historyIndex(1u, slot)] = touching ? h.rollingTorsion : vec4(0.0);
-    forces[slot] = touching ? vec4(f.force, o.depth / me.sphere.radius) : vec4(0.0);
-    torques[slot] = touching ? vec4(f.torque, 0.0) : vec4(0.0);
-#ifdef ENERGY_BOOK
-    bookSurface(slot, me, o, r, touching, old, h);
-#endif
-}
 
 /// Rotation of the coil in turns at this step, in [-0.5, 0.5): start + step x increment in 64-bit fixed point, so that
 /// hours of turning lose nothing. Only the high word is needed.
@@ -64,7 +38,12 @@ uint freeTurn(vec4 angles, uint met) {
     return turn;
 }
 
-void meetCoil(uint slot) {
+void main() {
+    if (gl_GlobalInvocationID.x >= control.listed.z) return;
+    uint slot = springSlots() + gl_GlobalInvocationID.x;
+    ContactParams law = member.contact[kParticleCoil];
+    CoilParams coil = member.coil;
+    float springDt = push.opening == 1u ? 0.0 : member.numerics.x;
     uint i = readEntry(slot).x;
     Body me = readBody(i);
     vec4 angles = readCoilHistory(wireAngleIndex(i));
@@ -105,7 +84,7 @@ void meetCoil(uint slot) {
         vec3 wall = coil.motion.x * vec3(-point.y, point.x, 0.0);
         Overlap o = Overlap(touch.depth, touch.normal);
         Response r;
-        WallForce f = meetWall(me, o, coilLaw, wall, vec3(0.0, 0.0, coil.motion.x), h, r);
+        WallForce f = meetWall(me, o, law, springDt, wall, vec3(0.0, 0.0, coil.motion.x), h, r);
         coilHistory[at] = h.slidingMax;
         coilHistory[at + push.particles] = h.rollingTorsion;
         force += f.force;
@@ -113,16 +92,16 @@ void meetCoil(uint slot) {
         coilTorque -= point.x * f.force.y - point.y * f.force.x + f.couple.z;
         overlap = max(overlap, o.depth / me.sphere.radius);
 #ifdef ENERGY_BOOK
-        bookCoil(i, turn, me, o, r, known, true, old, h);
+        bookCoil(law, springDt, coil.motion.x, i, turn, me, o, r, known, true, old, h);
 #endif
     }
 #ifdef ENERGY_BOOK
-    partCoil(i, me, was, met);
+    partCoil(law, springDt, coil.motion.x, i, me, was, met);
     closeCoilBook(slot);
 #endif
     for (uint t = 0u; t < kMaxTurns; ++t)
         if ((met & (1u << t)) == 0u) angles[t] = kNoTurn;
     if (any(notEqual(angles, was))) coilHistory[wireAngleIndex(i)] = angles;
-    forces[slot] = vec4(force, overlap);
-    torques[slot] = vec4(torque, coilTorque);
+    writeForce(slot, vec4(force, overlap));
+    writeTorque(slot, vec4(torque, coilTorque));
 }

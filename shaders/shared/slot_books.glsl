@@ -1,5 +1,9 @@
-// Part of pass/contacts, in its variant ENERGY_BOOK: the book of a slot, of this step alone; `move` adds it to that of the
-// owner. Nothing that moves a particle reads it.
+// The book of a contact, of one step; `move` adds it to that of its first body. Nothing that moves a particle reads it.
+#ifndef VKDOSE_SHARED_SLOT_BOOKS_GLSL
+#define VKDOSE_SHARED_SLOT_BOOKS_GLSL
+
+#include "law/energy.glsl"
+#include "shared/body.glsl"
 
 const Exerted kNothing = Exerted(vec4(0.0), vec4(0.0), vec4(0.0));
 const Response kNoResponse = Response(vec3(0.0), vec3(0.0), vec3(0.0), 0.0, 0.0, bvec3(false));
@@ -33,14 +37,14 @@ vec3 pairVelocity(Exerted e, Body a, Body b) {
 }
 
 /// `old` and `h` are the history before and after the step.
-void bookPair(uint slot, Body a, Body b, Overlap o, Response r, bool touching, History old, History h) {
+void bookPair(ContactParams law, float springDt, uint slot, Body a, Body b, Overlap o, Response r, bool touching, History old, History h) {
     bool known = old.slidingMax.w > 0.0;
     Exerted before = exertedBefore(slot, known), now = kNothing;
     float ra = a.sphere.radius, rb = b.sphere.radius, reduced = 2.0 * ra * rb / (ra + rb);
-    vec4 storedBefore = elasticEnergy(pairLaw, 0.0, reduced, old), stored = vec4(0.0);
+    vec4 storedBefore = elasticEnergy(law, 0.0, reduced, old), stored = vec4(0.0);
     storedBefore.x = before.couple.w;
     if (touching) {
-        stored = elasticEnergy(pairLaw, r.hysteretic, reduced, h);
+        stored = elasticEnergy(law, r.hysteretic, reduced, h);
         now = exertedNow(o, r, stored);
     }
     keepExerted(slot, now);
@@ -50,7 +54,7 @@ void bookPair(uint slot, Body a, Body b, Overlap o, Response r, bool touching, H
     if (push.opening == 1u)
         booked = bookLoaded(stored);
     else if (known || touching)
-        booked = bookContact(before, now, known, touching, storedBefore, stored, x, y, pairLaw.normal.z, r.slips);
+        booked = bookContact(before, now, known, touching, storedBefore, stored, x, y, law.normal.z, r.slips);
     writeBook(slot, booked);
 }
 
@@ -62,8 +66,8 @@ vec3 wallVelocity(Exerted e, Body me, vec3 centre, float rate) {
     return (me.velocity - rate * vec3(-point.y, point.x, 0.0)) - lever * cross(me.spin, e.normal.xyz);
 }
 
-Book bookWall(Body me, ContactParams law, float rate, Exerted before, Response r, bool known, bool touching, vec4 stored,
-              Exerted now, History old) {
+Book bookWall(ContactParams law, float springDt, float rate, Body me, Exerted before, Response r, bool known,
+              bool touching, vec4 stored, Exerted now, History old) {
     vec4 storedBefore = elasticEnergy(law, 0.0, 2.0 * me.sphere.radius, old);
     storedBefore.x = before.couple.w;
     vec3 spin = me.spin - vec3(0.0, 0.0, rate);
@@ -74,17 +78,17 @@ Book bookWall(Body me, ContactParams law, float rate, Exerted before, Response r
     return bookContact(before, now, known, touching, storedBefore, stored, x, y, law.normal.z, r.slips);
 }
 
-void bookSurface(uint slot, Body me, Overlap o, Response r, bool touching, History old, History h) {
+void bookSurface(ContactParams law, float springDt, uint slot, Body me, Overlap o, Response r, bool touching, History old, History h) {
     bool known = old.slidingMax.w > 0.0;
     Exerted before = exertedBefore(slot, known), now = kNothing;
     vec4 stored = vec4(0.0);
     if (touching) {
-        stored = elasticEnergy(wallLaw, r.hysteretic, 2.0 * me.sphere.radius, h);
+        stored = elasticEnergy(law, r.hysteretic, 2.0 * me.sphere.radius, h);
         now = exertedNow(o, r, stored);
     }
     keepExerted(slot, now);
     Book booked = Book(vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
-    if (known || touching) booked = bookWall(me, wallLaw, 0.0, before, r, known, touching, stored, now, old);
+    if (known || touching) booked = bookWall(law, springDt, 0.0, me, before, r, known, touching, stored, now, old);
     writeBook(slot, booked);
 }
 
@@ -92,7 +96,7 @@ Book coilBook;
 
 void openCoilBook() { coilBook = Book(vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0)); }
 
-void bookCoil(uint i, uint turn, Body me, Overlap o, Response r, bool known, bool touching, History old, History h) {
+void bookCoil(ContactParams law, float springDt, float rate, uint i, uint turn, Body me, Overlap o, Response r, bool known, bool touching, History old, History h) {
     uint at = coilHistoryIndex(turn, 2u, i);
     Exerted before = kNothing, now = kNothing;
     if (known)
@@ -100,13 +104,13 @@ void bookCoil(uint i, uint turn, Body me, Overlap o, Response r, bool known, boo
                          readCoilHistory(at + 2u * push.particles));
     vec4 stored = vec4(0.0);
     if (touching) {
-        stored = elasticEnergy(coilLaw, r.hysteretic, 2.0 * me.sphere.radius, h);
+        stored = elasticEnergy(law, r.hysteretic, 2.0 * me.sphere.radius, h);
         now = exertedNow(o, r, stored);
         coilHistory[at] = now.normal;
         coilHistory[at + push.particles] = now.rest;
         coilHistory[at + 2u * push.particles] = now.couple;
     }
-    Book b = bookWall(me, coilLaw, coil.motion.x, before, r, known, touching, stored, now, old);
+    Book b = bookWall(law, springDt, rate, me, before, r, known, touching, stored, now, old);
     coilBook.normal += b.normal;
     coilBook.sliders += b.sliders;
     coilBook.flow += b.flow;
@@ -114,13 +118,15 @@ void bookCoil(uint i, uint turn, Body me, Overlap o, Response r, bool known, boo
 }
 
 /// Turns that touched at the last step (`was`) and do not any more (not in `met`).
-void partCoil(uint i, Body me, vec4 was, uint met) {
+void partCoil(ContactParams law, float springDt, float rate, uint i, Body me, vec4 was, uint met) {
     for (uint t = 0u; t < kMaxTurns; ++t) {
         if (was[t] == kNoTurn || (met & (1u << t)) != 0u) continue;
         uint at = coilHistoryIndex(t, 0u, i);
         History old = History(readCoilHistory(at), readCoilHistory(at + push.particles));
-        bookCoil(i, t, me, kNoOverlap, kNoResponse, true, false, old, old);
+        bookCoil(law, springDt, rate, i, t, me, kNoOverlap, kNoResponse, true, false, old, old);
     }
 }
 
 void closeCoilBook(uint slot) { writeBook(slot, coilBook); }
+
+#endif

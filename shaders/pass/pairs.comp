@@ -1,0 +1,43 @@
+#version 450
+// pairs: what two particles exert on each other in this step, one listed pair per invocation.
+// Built with and without TEXEL_READS, PACKED_STORES (shared/buffers.glsl) and ENERGY_BOOK.
+// Reads the source half of the state, entries, history; writes history, forces and torques, which `move` gathers. A
+// contact that does not touch exerts nothing and remembers nothing.
+#extension GL_GOOGLE_include_directive : require
+#include "shared/buffers.glsl"
+#include "shared/body.glsl"
+#include "law/contact.glsl"
+#ifdef ENERGY_BOOK
+#include "shared/slot_books.glsl"
+#endif
+
+void main() {
+    uint slot = gl_GlobalInvocationID.x;
+    if (slot >= control.listed.x) return;
+    ContactParams law = member.contact[kParticleParticle];
+    uvec4 choices = member.choices;
+    float springDt = push.opening == 1u ? 0.0 : member.numerics.x;
+
+    uvec2 who = readEntry(slot);
+    Body a = readBody(who.x), b = readBody(who.y);
+    History h = History(readHistory(0u, slot), readHistory(1u, slot));
+#ifdef ENERGY_BOOK
+    History old = h;
+#endif
+    Overlap o = sphereOverlap(a.sphere, b.sphere);
+    bool touching = o.depth > 0.0;
+    float ra = a.sphere.radius, rb = b.sphere.radius;
+    float leverA = ra - 0.5 * o.depth, leverB = rb - 0.5 * o.depth;
+    vec3 velocity = (a.velocity - b.velocity) - cross(leverA * a.spin + leverB * b.spin, o.normal);
+    Meeting m = Meeting(o.normal, o.depth, 2.0 * ra * rb / (ra + rb), velocity, a.spin - b.spin);
+    Response r = contactResponse(law, choices, m, springDt, h);
+    vec3 turn = cross(o.normal, r.sliding);
+
+    writeHistory(slot, touching ? h.slidingMax : vec4(0.0), touching ? h.rollingTorsion : vec4(0.0));
+    writeForce(slot, touching ? vec4(r.force, o.depth / min(ra, rb)) : vec4(0.0));
+    writeTorques(slot, touching ? vec4(r.couple - leverA * turn, 0.0) : vec4(0.0),
+                 touching ? vec4(-r.couple - leverB * turn, 0.0) : vec4(0.0));
+#ifdef ENERGY_BOOK
+    bookPair(law, springDt, slot, a, b, o, r, touching, old, h);
+#endif
+}
