@@ -26,7 +26,7 @@ SHARED_CONST kMaxRow = 64u;        // neighbours per particle
 SHARED_CONST kMaxLinks = 96u;      // contacts per particle: a row, every surface, the coil
 SHARED_CONST kEmpty = 0xffffffffu; // end of a cell's list
 SHARED_REAL kNoTurn = 1e30f;       // wire angle in the place of a coil turn that is not touched
-SHARED_REAL kMarginOfSkin = 0.1f;  // extra reach of the contact lists, of the skin of the rows
+SHARED_REAL kMarginOfSkin = 0.08f;  // extra reach of the contact lists, of the skin of the rows
 
 // --- particle state: vec4 state[2 halves][2 couples][particles][2 fields]; the halves take turns as source and destination
 // Two fields side by side are 32 bytes, which a device with 64-bit integers can store in four pieces instead of eight.
