@@ -3,18 +3,37 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <cstdlib>
 
 #include "host/backend/reference/reference.h"
 #include "host/backend/vulkan/vulkan.h"
 
 namespace vkdose {
 
-std::unique_ptr<Backend> makeBackend(const BackendChoice& choice) {
+namespace {
+
+/// What lavapipe's threads gain, a canister loses again because they are woken for every pass. Other drivers do not look
+/// at this variable, and whoever has set it is right.
+void chooseThreads(std::size_t particles) {
+    constexpr const char* kVariable = "LP_NUM_THREADS";
+    constexpr std::size_t kWorthThreads = 10000;
+    static const bool chosen = std::getenv(kVariable) != nullptr;
+    if (chosen) return;
+    if (particles < kWorthThreads)
+        setenv(kVariable, "0", 1);
+    else
+        unsetenv(kVariable);
+}
+
+}  // namespace
+
+std::unique_ptr<Backend> makeBackend(const BackendChoice& choice, std::size_t particles) {
     if (choice.backend == "reference") {
         if (!choice.device.empty())
             throw UsageError("--device is for the vulkan backend; the reference runs on the CPU");
         return makeReferenceBackend();
     }
+    chooseThreads(particles);
     vk::DeviceChoice device;
     device.name = choice.device;
     device.validation = choice.validation;

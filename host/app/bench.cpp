@@ -75,7 +75,7 @@ void fillProfile(Row& row, const VulkanProfile& p) {
 /// A backend of its own for each workload, so that the time to the first step is that of a program just started.
 void measure(Row& row, const Workload& w, const BackendChoice& choice, const bench::Effort& effort) {
     const auto start = std::chrono::steady_clock::now();
-    const std::unique_ptr<Backend> backend = makeBackend(choice);
+    const std::unique_ptr<Backend> backend = makeBackend(choice, row.particles);
     row.on = backend->description();
     backend->load(w.world, w.particles);
     backend->advance(1, w.coilRate);
@@ -126,7 +126,7 @@ Row measuredCopies(const std::string& name, const Workload& w, const BenchOption
     row.on = fmt::format("{} processes", options.copies);
     row.copies = options.copies;
     const auto oneCopy = [&](const bench::Meet& meet) {
-        const std::unique_ptr<Backend> backend = makeBackend(options.backend);
+        const std::unique_ptr<Backend> backend = makeBackend(options.backend, row.particles);
         backend->load(w.world, w.particles);
         effort.meet = meet;
         const auto advance = [&](std::uint32_t n) { backend->advance(n, w.coilRate); };

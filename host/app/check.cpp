@@ -77,7 +77,7 @@ int checkCommand(const CheckOptions& options) {
     const double work = d.steps * static_cast<double>(d.particles);
     fmt::print("work       about {:.3g} million steps, {}particle-steps\n", d.steps * 1e-6, large(work));
     if (options.measure) {
-        const std::unique_ptr<Backend> backend = makeBackend(options.backend);
+        const std::unique_ptr<Backend> backend = makeBackend(options.backend, filled.particles.size());
         const double speed = measuredSpeed(c, filled, *backend);
         fmt::print(
             "run time   {} at {}particle-steps/s, measured on {}\n"

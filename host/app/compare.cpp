@@ -74,8 +74,8 @@ int compareCommand(const CompareOptions& options) {
 
     BackendChoice onReference;
     onReference.backend = "reference";
-    const std::unique_ptr<Backend> reference = makeBackend(onReference);
-    const std::unique_ptr<Backend> candidate = makeBackend(options.backend);
+    const std::unique_ptr<Backend> reference = makeBackend(onReference, filled.particles.size());
+    const std::unique_ptr<Backend> candidate = makeBackend(options.backend, filled.particles.size());
     std::vector<std::unique_ptr<Backend>> more;
     const auto another = [&] { return more.emplace_back(makeBackend(onReference)).get(); };
     Twins twins;

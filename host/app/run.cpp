@@ -89,10 +89,11 @@ int runCommand(const RunOptions& options) {
     // Everything that can be refused is refused before the folder is touched.
     const Case c = loadCase(options.input.file, options.input.overrides);
     (void)Timeline(c);
-    const std::unique_ptr<Backend> backend = makeBackend(options.backend);
+    const Insertion filled = insertParticles(c);
+    const std::unique_ptr<Backend> backend = makeBackend(options.backend, filled.particles.size());
     RunFolder folder(options.out.empty() ? std::filesystem::path("out") / c.name : options.out, options.force, c,
                      backend->description());
-    return play(c, insertParticles(c), *backend, options.backend, folder, options.quiet);
+    return play(c, filled, *backend, options.backend, folder, options.quiet);
 }
 
 int resumeCommand(const ResumeOptions& options) {
@@ -103,7 +104,8 @@ int resumeCommand(const ResumeOptions& options) {
     const Checkpoint from = readCheckpoint(file);
     const Case c = loadResolvedCase(from.caseText, options.folder / "case.toml");
     const BackendChoice choice = sameBackend(from.backend, options.backend);
-    const std::unique_ptr<Backend> backend = makeBackend(choice);
+    const Insertion filled = insertParticles(c);
+    const std::unique_ptr<Backend> backend = makeBackend(choice, filled.particles.size());
     if (backend->description() != from.backend || from.program != VKDOSE_VERSION)
         fmt::print(stderr,
                    "vkdose: the checkpoint was written by vkdose {} on {}; going on with {} on {} is not bound to give "
@@ -111,7 +113,7 @@ int resumeCommand(const ResumeOptions& options) {
                    from.program, from.backend, VKDOSE_VERSION, backend->description());
     RunFolder folder(options.folder, from, c, backend->description());
     try {
-        return play(c, insertParticles(c), *backend, choice, folder, options.quiet, &from.run);
+        return play(c, filled, *backend, choice, folder, options.quiet, &from.run);
     } catch (const RecordError& e) {
         throw CheckpointError(fmt::format("{} cannot be used: {}", file.string(), e.what()));
     }

@@ -26,7 +26,7 @@ std::vector<verify::Scene> chosenScenes(const std::string& only) {
 
 int verifyCommand(const VerifyOptions& options) {
     const std::vector<verify::Scene> scenes = chosenScenes(options.only);
-    const std::unique_ptr<Backend> backend = makeBackend(options.backend);
+    const std::unique_ptr<Backend> backend = makeBackend(options.backend, 1);
     std::error_code error;
     std::filesystem::create_directories(options.out, error);
     if (error) throw UsageError("cannot create " + options.out.string() + ": " + error.message());

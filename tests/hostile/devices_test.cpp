@@ -56,7 +56,7 @@ TEST_CASE("a device that lacks something is refused with what it lacks") {
         {"no-device", "no Vulkan device: install a driver"},
         {"no-compute", "has no compute queue"},
         {"vulkan-1.0", "needs Vulkan 1.1, has 1.0"},
-        {"few-buffers", "needs 13 storage buffers per stage, has 4"},
+        {"few-buffers", "needs 16 storage buffers per stage, has 4"},
         {"small-range", "allows storage buffers of 65536 bytes: use fewer particles or another device"},
         {"few-groups", "allows 2: use fewer particles or another device"},
     };
@@ -157,7 +157,7 @@ TEST_CASE("a device that cannot be used is code 4 of every command, and nothing 
     }
     CHECK(box.files().empty());
     const Fault fault("few-buffers", false);
-    CHECK_THAT(box.vkdose("devices").out, Contains("not usable: needs 13 storage buffers per stage, has 4"));
+    CHECK_THAT(box.vkdose("devices").out, Contains("not usable: needs 16 storage buffers per stage, has 4"));
 }
 
 TEST_CASE("without a Vulkan loader the reference runs and the rest says what to install") {

@@ -33,7 +33,7 @@ TEST_CASE("GPU-assisted checks find an access outside a buffer") {
     passes.state.writeAll(packState(p, 64));
     passes.reset();
     auto control = passes.control.readAll<gpu::Control>(1)[0];
-    control.particles.x = 2;  // one workgroup more than there are particles
+    control.particles.x = 4;  // reaches beyond the two ranges and anchors that the one workgroup of particles has
     passes.control.write(0, &control, sizeof control);
     vk::Commands commands(device);
     commands.begin();
