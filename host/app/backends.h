@@ -20,8 +20,8 @@ struct BackendChoice {
     bool validation = false;         ///< Vulkan validation layer
 };
 
-/// For `particles`, of which it takes the number of lavapipe's threads. Throws UsageError if a device is asked for on the
-/// reference backend, DeviceError if there is none.
+/// For `particles`, of which it takes the number of lavapipe's threads. Throws UsageError if a device is asked for on
+/// the reference backend, DeviceError if there is none.
 std::unique_ptr<Backend> makeBackend(const BackendChoice& choice, std::size_t particles);
 
 /// The backend and device a description (Backend::description) stands for; `device` of `choice` wins, if given.

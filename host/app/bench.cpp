@@ -54,8 +54,8 @@ double since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// Mean time of a rebuild of the neighbour rows with the refresh of the contact lists that follows: all passes but those
-/// of every step, in the first steps after loading, of which the very first builds the rows.
+/// Mean time of a rebuild of the neighbour rows with the refresh of the contact lists that follows: all passes but
+/// those of every step, in the first steps after loading, of which the very first builds the rows.
 double rebuildSeconds(const VulkanProfile& first) {
     double seconds = 0;
     for (const VulkanProfile::Pass& p : first.passes)

@@ -77,7 +77,7 @@ int compareCommand(const CompareOptions& options) {
     const std::unique_ptr<Backend> reference = makeBackend(onReference, filled.particles.size());
     const std::unique_ptr<Backend> candidate = makeBackend(options.backend, filled.particles.size());
     std::vector<std::unique_ptr<Backend>> more;
-    const auto another = [&] { return more.emplace_back(makeBackend(onReference)).get(); };
+    const auto another = [&] { return more.emplace_back(makeBackend(onReference, filled.particles.size())).get(); };
     Twins twins;
     twins.fine = another();
     for (int i = 0; i < options.twins; ++i) twins.rough.push_back(another());

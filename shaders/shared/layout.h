@@ -1,5 +1,6 @@
 // Buffer layouts seen by both sides: C++ (with GLM) and GLSL. Legal in both; tests/layout compares the offsets that
-// SPIR-V declares with offsetof. Everything is built from 16-byte vectors, so that std430 and C++ agree by construction.
+// SPIR-V declares with offsetof. Everything is built from 16-byte vectors, so that std430 and C++ agree by
+// construction.
 #ifndef VKDOSE_SHARED_LAYOUT_H
 #define VKDOSE_SHARED_LAYOUT_H
 
@@ -20,20 +21,22 @@ using uint = glm::uint;
 
 // --- limits ----------------------------------------------------------------------------------------------------------
 SHARED_CONST kMaxSurfaces = 28u;
-SHARED_CONST kMaxTurns = 4u;       // of the coil that one particle touches at once
-SHARED_CONST kUnrolledSurfaces = 8u; // surfaces whose kind is a specialisation constant; more go through a slower loop
-SHARED_CONST kMaxRow = 64u;        // neighbours per particle
-SHARED_CONST kMaxLinks = 96u;      // contacts per particle: a row, every surface, the coil
-SHARED_CONST kEmpty = 0xffffffffu; // end of a cell's list
-SHARED_REAL kNoTurn = 1e30f;       // wire angle in the place of a coil turn that is not touched
-SHARED_REAL kMarginOfSkin = 0.08f;  // extra reach of the contact lists, of the skin of the rows
+SHARED_CONST kMaxTurns = 4u;          // of the coil that one particle touches at once
+SHARED_CONST kUnrolledSurfaces = 8u;  // surfaces whose kind is a specialisation constant; more go through a slower loop
+SHARED_CONST kMaxRow = 64u;           // neighbours per particle
+SHARED_CONST kMaxLinks = 96u;         // contacts per particle: a row, every surface, the coil
+SHARED_CONST kEmpty = 0xffffffffu;    // end of a cell's list
+SHARED_REAL kNoTurn = 1e30f;          // wire angle in the place of a coil turn that is not touched
+SHARED_REAL kMarginOfSkin = 0.08f;    // extra reach of the contact lists, of the skin of the rows
 
-// --- particle state: vec4 state[2 halves][2 couples][particles][2 fields]; the halves take turns as source and destination
-// Two fields side by side are 32 bytes, which a device with 64-bit integers can store in four pieces instead of eight.
-SHARED_CONST kPosition = 0u; // xyz: high part [m]; w: radius [m], negative once the particle is out of the motion
-SHARED_CONST kResidue = 1u;  // xyz: low part of the position [m]; w: sum over steps of the torque on the coil [N m]
-SHARED_CONST kVelocity = 2u; // xyz: half-step velocity [m/s]; w: largest overlap / smaller radius since the last sensing
-SHARED_CONST kSpin = 3u;     // xyz: half-step angular velocity [rad/s]; w: status as a float (kActive ...)
+// --- particle state: vec4 state[2 halves][2 couples][particles][2 fields]; the halves take turns as source and
+// destination Two fields side by side are 32 bytes, which a device with 64-bit integers can store in four pieces
+// instead of eight.
+SHARED_CONST kPosition = 0u;  // xyz: high part [m]; w: radius [m], negative once the particle is out of the motion
+SHARED_CONST kResidue = 1u;   // xyz: low part of the position [m]; w: sum over steps of the torque on the coil [N m]
+SHARED_CONST kVelocity =
+    2u;                   // xyz: half-step velocity [m/s]; w: largest overlap / smaller radius since the last sensing
+SHARED_CONST kSpin = 3u;  // xyz: half-step angular velocity [rad/s]; w: status as a float (kActive ...)
 SHARED_CONST kFields = 4u;
 
 SHARED_FUNCTION uint stateOffset(uint field, uint i, uint particles) {
@@ -43,9 +46,10 @@ SHARED_FUNCTION uint stateOffset(uint field, uint i, uint particles) {
 SHARED_CONST kActive = 0u;
 SHARED_CONST kDosed = 1u;
 SHARED_CONST kLost = 2u;
-SHARED_CONST kPadding = 3u; // fills a member's last workgroup
+SHARED_CONST kPadding = 3u;  // fills a member's last workgroup
 
-// --- contact classes and surface kinds ---------------------------------------------------------------------------------
+// --- contact classes and surface kinds
+// ---------------------------------------------------------------------------------
 SHARED_CONST kParticleParticle = 0u;
 SHARED_CONST kParticleWall = 1u;
 SHARED_CONST kParticleCoil = 2u;
@@ -55,28 +59,29 @@ SHARED_CONST kTrough = 1u;
 SHARED_CONST kTube = 2u;
 SHARED_CONST kFront = 3u;
 
-// --- one canister's parameters -----------------------------------------------------------------------------------------
+// --- one canister's parameters
+// -----------------------------------------------------------------------------------------
 struct ContactParams {
-    vec4 normal;  // k1, k2Max, kc [N/m], gamma [kg/s]
-    vec4 sliding; // kt [N/m], gammaT [kg/s], mu, plasticity depth
-    vec4 rolling; // kr [N/m], gammaR [kg/s], muR, -
-    vec4 torsion; // kTo [N/m], gammaTo [kg/s], muTo, -
+    vec4 normal;   // k1, k2Max, kc [N/m], gamma [kg/s]
+    vec4 sliding;  // kt [N/m], gammaT [kg/s], mu, plasticity depth
+    vec4 rolling;  // kr [N/m], gammaR [kg/s], muR, -
+    vec4 torsion;  // kTo [N/m], gammaTo [kg/s], muTo, -
 };
 
 struct SurfaceParams {
-    vec4 pointHigh; // xyz: plane point or tube base, high part (front: z in z) [m]; w: kind
-    vec4 pointLow;  // xyz: low part; w: +1 touched from inside, -1 from outside (tube)
-    vec4 axis;      // plane normal or tube axis, unit; w: length of tube or throat [m]
-    vec4 radius;    // x, y: radius high, low (trough: half width; front: hole) [m]
+    vec4 pointHigh;  // xyz: plane point or tube base, high part (front: z in z) [m]; w: kind
+    vec4 pointLow;   // xyz: low part; w: +1 touched from inside, -1 from outside (tube)
+    vec4 axis;       // plane normal or tube axis, unit; w: length of tube or throat [m]
+    vec4 radius;     // x, y: radius high, low (trough: half width; front: hole) [m]
 };
 
 struct CoilParams {
-    vec4 radius;    // x, y: centre-line radius high, low; z: wire radius; w: length [m]
-    vec4 pitch;     // x: pitch; y: its leading 16 bits; z: the rest [m]; w: hand * 2 pi / pitch [rad/m]
-    vec4 reach;     // x: largest angle off the wire at which a sphere can touch it [rad]; y: turns to try on each side;
-                    // z, w: zStart high, low [m]
-    uvec4 phase;    // start of the batch: high, low word of the angle in 2^-64 turns; advance per step: high, low
-    vec4 motion;    // x: rotation rate about +z [rad/s]; z: 1 if there is a coil
+    vec4 radius;  // x, y: centre-line radius high, low; z: wire radius; w: length [m]
+    vec4 pitch;   // x: pitch; y: its leading 16 bits; z: the rest [m]; w: hand * 2 pi / pitch [rad/m]
+    vec4 reach;   // x: largest angle off the wire at which a sphere can touch it [rad]; y: turns to try on each side;
+                  // z, w: zStart high, low [m]
+    uvec4 phase;  // start of the batch: high, low word of the angle in 2^-64 turns; advance per step: high, low
+    vec4 motion;  // x: rotation rate about +z [rad/s]; z: 1 if there is a coil
 };
 
 struct Member {
@@ -90,7 +95,8 @@ struct Member {
     uvec4 choices;    // surfaces, coulomb limit (0 luding, 1 absolute), rolling lever (0 full, 1 half), -
 };
 
-// --- control block: what the device decides and reports ------------------------------------------------------------------
+// --- control block: what the device decides and reports
+// ------------------------------------------------------------------
 SHARED_CONST kErrorLost = 0u;
 SHARED_CONST kErrorNan = 1u;
 SHARED_CONST kErrorRowFull = 2u;
@@ -102,7 +108,7 @@ SHARED_CONST kErrorTables = 7u;
 SHARED_CONST kErrors = 8u;
 
 struct ErrorRecord {
-    uvec4 first; // x: smallest step of the batch at which it happened, y: smallest particle index; kEmpty: none
+    uvec4 first;  // x: smallest step of the batch at which it happened, y: smallest particle index; kEmpty: none
 };
 
 struct Control {
@@ -117,25 +123,27 @@ struct Control {
     uvec4 coil;       // ... particles near the coil
     uvec4 listed;     // entries of these in use: pairs, surfaces, coil
     uvec4 coming;     // entries taken so far by the refresh at work: pairs, surfaces, coil, links
-    uvec4 list;       // x: entries of the rows in use; y: rebuilds since load; z: longest row ever; w: refreshes since load
+    uvec4 list;  // x: entries of the rows in use; y: rebuilds since load; z: longest row ever; w: refreshes since load
     ErrorRecord error[kErrors];
 };
 
-// --- sensing: one record per workgroup, summed by the host in double precision ----------------------------------------------
+// --- sensing: one record per workgroup, summed by the host in double precision
+// ----------------------------------------------
 struct SensorRecord {
-    uvec4 count;   // particles per region: canister, throat, dosed, lost
-    vec4 mass;     // per region [kg]
-    vec4 motion;   // kinetic energy, rotational energy [J], momentum along z in the throat [kg m/s], torque sum [N m]
-    vec4 extremes; // x: largest overlap ratio
+    uvec4 count;    // particles per region: canister, throat, dosed, lost
+    vec4 mass;      // per region [kg]
+    vec4 motion;    // kinetic energy, rotational energy [J], momentum along z in the throat [kg m/s], torque sum [N m]
+    vec4 extremes;  // x: largest overlap ratio
 };
 
-// --- the energy book (host/backend/backend.h, EnergyBook), kept only where the world asks for it [J] --------------------------
-// vec4 book[3 fields][particles], then vec4 book[3 fields][slots]: of the contacts, which book to their first body.
-// A particle's holds what came together since the last sensing, a contact's the last step.
+// --- the energy book (host/backend/backend.h, EnergyBook), kept only where the world asks for it [J]
+// -------------------------- vec4 book[3 fields][particles], then vec4 book[3 fields][slots]: of the contacts, which
+// book to their first body. A particle's holds what came together since the last sensing, a contact's the last step.
 SHARED_CONST kBookNormal = 0u;  // plastic, adhesive, viscous, numerical loss
-SHARED_CONST kBookSliders = 1u; // sliding, rolling, torsion loss; of a particle: work of the coil, of a contact: loaded
-SHARED_CONST kBookFlow = 2u;    // of a particle: loaded, left; z: torque on the coil in the last step [N m]
-SHARED_CONST kBookElastic = 2u; // of a contact: energy of its normal, sliding, rolling, torsion springs
+SHARED_CONST kBookSliders =
+    1u;                       // sliding, rolling, torsion loss; of a particle: work of the coil, of a contact: loaded
+SHARED_CONST kBookFlow = 2u;  // of a particle: loaded, left; z: torque on the coil in the last step [N m]
+SHARED_CONST kBookElastic = 2u;  // of a contact: energy of its normal, sliding, rolling, torsion springs
 SHARED_CONST kBookFields = 3u;
 
 struct EnergyRecord {  // one per workgroup
@@ -147,7 +155,8 @@ struct EnergyRecord {  // one per workgroup
     vec4 angular;      // xyz: angular momentum about the origin [kg m2/s]
 };
 
-// --- per dispatch --------------------------------------------------------------------------------------------------------
+// --- per dispatch
+// --------------------------------------------------------------------------------------------------------
 struct StepPush {
     uint stepInBatch;
     uint source;        // which half of the state is read; the other is written

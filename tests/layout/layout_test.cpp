@@ -50,8 +50,8 @@ const std::map<std::string, Layout>& hostLayouts() {
         {"ErrorRecord", {{FIELD(ErrorRecord, first)}, sizeof(ErrorRecord)}},
         {"Control",
          {{FIELD(Control, cells), FIELD(Control, particles), FIELD(Control, single), FIELD(Control, refresh),
-           FIELD(Control, settle), FIELD(Control, pairs), FIELD(Control, surfaces), FIELD(Control, coil), FIELD(Control, listed), FIELD(Control, coming),
-           FIELD(Control, list), FIELD(Control, error)},
+           FIELD(Control, settle), FIELD(Control, pairs), FIELD(Control, surfaces), FIELD(Control, coil),
+           FIELD(Control, listed), FIELD(Control, coming), FIELD(Control, list), FIELD(Control, error)},
           sizeof(Control)}},
         {"SensorRecord",
          {{FIELD(SensorRecord, count), FIELD(SensorRecord, mass), FIELD(SensorRecord, motion),
@@ -137,11 +137,11 @@ std::set<std::string> structsOf(std::span<const std::uint32_t> code) {
 
 TEST_CASE("C++ and GLSL see the same structs") {
     std::set<std::string> seen;
-    for (const auto& structs : {structsOf(pairs_spv), structsOf(pairs_texel_spv), structsOf(coil_energy_spv),
-                                structsOf(surfaces_packed_energy_spv), structsOf(move_spv),
-                                structsOf(move_texel_energy_spv), structsOf(near_spv), structsOf(near_texel_energy_spv),
-                                structsOf(commit_lists_spv), structsOf(sense_spv), structsOf(sense_energy_spv),
-                                structsOf(neighbours_spv)})
+    for (const auto& structs :
+         {structsOf(pairs_spv), structsOf(pairs_texel_spv), structsOf(coil_energy_spv),
+          structsOf(surfaces_packed_energy_spv), structsOf(move_spv), structsOf(move_texel_energy_spv),
+          structsOf(near_spv), structsOf(near_texel_energy_spv), structsOf(commit_lists_spv), structsOf(sense_spv),
+          structsOf(sense_energy_spv), structsOf(neighbours_spv)})
         seen.insert(structs.begin(), structs.end());
     for (const auto& [name, layout] : hostLayouts()) {
         INFO("struct " << name << " is in no pass: nothing was compared");

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <random>
+#include <tuple>
 
 #include "host/backend/vulkan/pack.h"
 #include "host/backend/vulkan/passes.h"
@@ -83,6 +84,62 @@ TEST_CASE("the rows hold every neighbour within reach and the skin, ascending, a
             CHECK((n < 60 || listed > n));
         }
     }
+}
+
+TEST_CASE("the lists hold every contact within the margin once, and the links name them in order") {
+    World world = emptyWorld();
+    world.timeStep = 1e-9;
+    world.skin = 0.4e-3;
+    world.surfaces = {geometry::Plane{{0, -0.004, 0}, {0, 1, 0}}, geometry::Plane{{-0.003, 0, 0}, {1, 0, 0}}};
+    world.maxOverlapRatio = 1e9;
+    const std::size_t n = 257;
+    Particles p = cloud(n, 0.015, 5);
+    p.status[5] = Status::Dosed;  // takes no part
+    const double margin = double(gpu::kMarginOfSkin) * world.skin;
+    using Link = std::tuple<std::uint32_t, std::uint32_t, bool>;  // first body, other, whether a pair
+    std::vector<std::vector<Link>> expected(n);
+    std::size_t pairs = 0, surfaces = 0;
+    for (std::uint32_t i = 0; i < n; ++i) {
+        if (p.status[i] != Status::Active) continue;
+        for (std::uint32_t j = 0; j < n; ++j) {
+            const double gap = glm::length(p.position[i] - p.position[j]) - p.radius[i] - p.radius[j];
+            if (i == j || p.status[j] != Status::Active || gap >= margin) continue;
+            expected[i].push_back({std::min(i, j), std::max(i, j), true});
+            pairs += i < j;
+        }
+        const double gaps[] = {p.position[i].y + 0.004 - p.radius[i], p.position[i].x + 0.003 - p.radius[i]};
+        for (std::uint32_t s = 0; s < 2; ++s)
+            if (gaps[s] < margin) {
+                expected[i].push_back({i, s, false});
+                ++surfaces;
+            }
+    }
+    REQUIRE(pairs > 100);
+    REQUIRE(surfaces > 20);
+
+    Rig rig(world, p);
+    rig.run([&](vk::Commands& c) { rig.passes->recordSteps(c, 0, 1, 0, true); });
+    const TableSizes& t = rig.sizes;
+    const auto control = rig.passes->control.readAll<gpu::Control>(1)[0];
+    CHECK(control.listed.x == pairs);
+    CHECK(control.listed.y == surfaces);
+    CHECK(control.listed.z == 0);
+    CHECK(control.list.w == 1);
+    const auto ranges = rig.passes->ranges.readAll<gpu::uvec4>(t.particles);
+    const auto rows = rig.passes->rows.readAll<std::uint32_t>(t.rowEntries + t.linkEntries);
+    const auto entries = rig.passes->entries.readAll<glm::uvec2>(t.slots());
+    std::size_t wrong = 0;
+    for (std::uint32_t i = 0; i < n; ++i) {
+        std::vector<Link> found;
+        for (std::uint32_t k = 0; k < ranges[i].w; ++k) {
+            const std::uint32_t link = rows[t.rowEntries + ranges[i].z + k], slot = link >> 1;
+            const bool pair = slot < t.pairSlots, second = (link & 1U) != 0;
+            found.push_back({entries[slot].x, entries[slot].y, pair});
+            wrong += (second ? entries[slot].y : entries[slot].x) != i;
+        }
+        wrong += found != expected[i];
+    }
+    CHECK(wrong == 0);
 }
 
 TEST_CASE("the sensor records add up to the host's sums") {

@@ -7,7 +7,6 @@
 
 #include "spirv/passes.h"
 
-
 namespace vkdose {
 
 namespace {
@@ -31,8 +30,8 @@ struct Elements {
 
 Access accessOn(const vk::Device& device, const TableSizes& s) {
     const Elements e(s);
-    const VkDeviceSize most = std::max({e.state, e.rows, e.ranges, e.history, e.coilHistory, e.anchors, e.entries,
-                                        e.forces, e.torques});
+    const VkDeviceSize most =
+        std::max({e.state, e.rows, e.ranges, e.history, e.coilHistory, e.anchors, e.entries, e.forces, e.torques});
     const bool texel = s.texelReads && most <= device.limits().maxTexelBufferElements;
     return {texel, texel && device.hasInt64()};
 }
@@ -56,10 +55,10 @@ struct Variants {
 const Variants kBin{bin_spv, bin_texel_spv, bin_texel_spv, bin_spv, bin_texel_spv, bin_texel_spv};
 const Variants kNeighbours{neighbours_spv, neighbours_texel_spv, neighbours_texel_spv,
                            neighbours_spv, neighbours_texel_spv, neighbours_texel_spv};
-const Variants kNear{near_spv, near_texel_spv, near_texel_spv, near_energy_spv, near_texel_energy_spv,
-                     near_texel_energy_spv};
-const Variants kLink{link_spv, link_texel_spv, link_texel_spv, link_energy_spv, link_texel_energy_spv,
-                     link_texel_energy_spv};
+const Variants kNear{near_spv,        near_texel_spv,        near_texel_spv,
+                     near_energy_spv, near_texel_energy_spv, near_texel_energy_spv};
+const Variants kLink{link_spv,        link_texel_spv,        link_texel_spv,
+                     link_energy_spv, link_texel_energy_spv, link_texel_energy_spv};
 const Variants kPairs{pairs_spv,        pairs_texel_spv,        pairs_packed_spv,
                       pairs_energy_spv, pairs_texel_energy_spv, pairs_packed_energy_spv};
 const Variants kSurfaces{surfaces_spv,        surfaces_texel_spv,        surfaces_packed_spv,
@@ -71,15 +70,15 @@ const Variants kMove{move_spv,        move_texel_spv,        move_packed_spv,
 
 }  // namespace
 
-Passes::Passes(const vk::Device& device, const TableSizes& s)
-    : Passes(device, s, accessOn(device, s)) {}
+Passes::Passes(const vk::Device& device, const TableSizes& s) : Passes(device, s, accessOn(device, s)) {}
 
 Passes::Passes(const vk::Device& device, const TableSizes& s, const Access& access)
     : state(device, "the particle state", Elements(s).state * kVec4, access.view(VK_FORMAT_R32G32B32A32_SFLOAT)),
       rows(device, "the neighbour rows", Elements(s).rows * 4, access.view(VK_FORMAT_R32_UINT)),
       ranges(device, "the ranges of rows", Elements(s).ranges * kVec4, access.view(VK_FORMAT_R32G32B32A32_UINT)),
       history(device, "the contact history", Elements(s).history * kVec4, access.view(VK_FORMAT_R32G32B32A32_SFLOAT)),
-      coilHistory(device, "the coil's contact history", Elements(s).coilHistory * kVec4, access.view(VK_FORMAT_R32G32B32A32_SFLOAT)),
+      coilHistory(device, "the coil's contact history", Elements(s).coilHistory * kVec4,
+                  access.view(VK_FORMAT_R32G32B32A32_SFLOAT)),
       member(device, "the parameters", sizeof(gpu::Member), access.view(VK_FORMAT_R32G32B32A32_SFLOAT)),
       control(device, "the control block", sizeof(gpu::Control)),
       cells(device, "the cell table", (VkDeviceSize(s.cells) + s.particles) * 4),
@@ -96,9 +95,9 @@ Passes::Passes(const vk::Device& device, const TableSizes& s, const Access& acce
       bindings_(device,
                 {&state, &rows, &ranges, &history, &coilHistory, &member, &control, &cells, &anchors, &sensors,
                  &entries, &books, &energies, &forces, &torques, &carried},
-                access.texelReads ? std::vector<const vk::Buffer*>{&state, &rows, &ranges, &history, &coilHistory, &member,
-                                                        &anchors, &entries, &forces, &torques}
-                       : std::vector<const vk::Buffer*>{},
+                access.texelReads ? std::vector<const vk::Buffer*>{&state, &rows, &ranges, &history, &coilHistory,
+                                                                   &member, &anchors, &entries, &forces, &torques}
+                                  : std::vector<const vk::Buffer*>{},
                 sizeof(gpu::StepPush)),
       clear_(device, bindings_, clear_spv, constants(s)),
       bin_(device, bindings_, kBin.pick(access, s.energyBook), constants(s)),
@@ -123,12 +122,6 @@ void Passes::reset() {
     }
     gpu::Control c{};
     for (gpu::ErrorRecord& e : c.error) e.first = gpu::uvec4(gpu::kEmpty);
-    control.write(0, &c, sizeof c);
-    requestRebuild();
-}
-
-void Passes::requestRebuild() {
-    auto c = control.readAll<gpu::Control>(1)[0];
     c.cells = gpu::uvec4((sizes.cells + sizes.workgroup - 1) / sizes.workgroup, 1, 1, 0);
     c.particles = c.refresh = gpu::uvec4(sizes.groups(), 1, 1, 0);
     c.single = c.settle = gpu::uvec4(1, 1, 1, 0);
@@ -171,16 +164,11 @@ void Passes::recordSteps(vk::Commands& commands, std::uint32_t first, std::uint3
         const struct {
             const vk::Pipeline& pass;
             VkDeviceSize arguments;
-        } decided[] = {{clear_, offsetof(gpu::Control, cells)},
-                       {bin_, offsetof(gpu::Control, particles)},
-                       {neighbours_, offsetof(gpu::Control, particles)},
-                       {commitRows_, offsetof(gpu::Control, single)},
-                       {near_, offsetof(gpu::Control, refresh)},
-                       {link_, offsetof(gpu::Control, refresh)},
-                       {commitLists_, offsetof(gpu::Control, settle)},
-                       {pairs_, offsetof(gpu::Control, pairs)},
-                       {surfaces_, offsetof(gpu::Control, surfaces)},
-                       {coil_, offsetof(gpu::Control, coil)}};
+        } decided[] = {{clear_, offsetof(gpu::Control, cells)},          {bin_, offsetof(gpu::Control, particles)},
+                       {neighbours_, offsetof(gpu::Control, particles)}, {commitRows_, offsetof(gpu::Control, single)},
+                       {near_, offsetof(gpu::Control, refresh)},         {link_, offsetof(gpu::Control, refresh)},
+                       {commitLists_, offsetof(gpu::Control, settle)},   {pairs_, offsetof(gpu::Control, pairs)},
+                       {surfaces_, offsetof(gpu::Control, surfaces)},    {coil_, offsetof(gpu::Control, coil)}};
         for (const auto& d : decided) {
             d.pass.bind(c);
             commands.dispatchIndirect(control.handle(), d.arguments);

@@ -35,10 +35,8 @@ class Passes {
     /// Needs an energy book and a step made; `opening` if it was the first.
     void recordEnergySensing(vk::Commands& commands, std::uint32_t source, bool opening) const;
 
-    /// Asks for lists from scratch and for empty tables of what was met before: a load without history.
+    /// A load without history: nothing is listed, and the first step builds rows and contact lists.
     void reset();
-    /// Asks for rows and contact lists before the next step; the contacts listed now keep their history.
-    void requestRebuild();
 
     vk::Buffer state, rows, ranges, history, coilHistory, member, control, cells, anchors, sensors, entries, books,
         energies, forces, torques, carried;
@@ -46,9 +44,9 @@ class Passes {
     bool texelReads() const { return access_.texelReads; }
     VkDeviceSize bytes() const;  ///< of all tables
 
-    static constexpr std::array<const char*, 11> kTimed{"clear", "bin",          "neighbours", "commit_rows",
-                                                        "near",  "link",         "commit_lists", "pairs",
-                                                        "surfaces", "coil",      "move"};
+    static constexpr std::array<const char*, 11> kTimed{"clear",    "bin",  "neighbours",   "commit_rows",
+                                                        "near",     "link", "commit_lists", "pairs",
+                                                        "surfaces", "coil", "move"};
 
   private:
     Passes(const vk::Device& device, const TableSizes& sizes, const Access& access);
@@ -56,7 +54,8 @@ class Passes {
 
     Access access_;
     vk::BindingSet bindings_;
-    vk::Pipeline clear_, bin_, neighbours_, commitRows_, near_, link_, commitLists_, pairs_, surfaces_, coil_, move_, sense_, senseEnergy_;
+    vk::Pipeline clear_, bin_, neighbours_, commitRows_, near_, link_, commitLists_, pairs_, surfaces_, coil_, move_,
+        sense_, senseEnergy_;
 };
 
 }  // namespace vkdose

@@ -67,7 +67,8 @@ void restoreContacts(Passes& passes, std::size_t particles, const Record& record
         const std::uint32_t slot = (isPair[c] != 0 ? 0 : t.pairSlots) + used++;
         entries[slot] = {owner[c], other[c]};
         for (std::size_t part = 0; part < parts; ++part)
-            for (int k = 0; k < 4; ++k) history[t.historyOffset(std::uint32_t(part), slot)][k] = springs[4 * (parts * c + part) + k];
+            for (int k = 0; k < 4; ++k)
+                history[t.historyOffset(std::uint32_t(part), slot)][k] = springs[4 * (parts * c + part) + k];
         uvec4& range = ranges[owner[c]];
         if (range.w == 0) range.z = std::uint32_t(links.size());
         ++range.w;

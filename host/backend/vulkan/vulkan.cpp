@@ -306,7 +306,8 @@ double stepBytes(double touching, double touchingWalls) {
     const double pairs = touching / 2;
     const double own = (2 * gpu::kFields + 3) * kVector;  // state in and out, range, anchors
     const double gathered = (touching + touchingWalls) * (kIndex + 2 * kVector);
-    const double pair = 2 * kIndex + (2 * gpu::kFields + 2 * 2 + 3) * kVector;  // who, both states, history, what it exerts
+    const double pair =
+        2 * kIndex + (2 * gpu::kFields + 2 * 2 + 3) * kVector;  // who, both states, history, what it exerts
     const double wall = 2 * kIndex + (gpu::kFields + 4 + 2 * 2 + 2) * kVector;  // ditto with the surface's parameters
     return own + gathered + pairs * pair + touchingWalls * wall;
 }

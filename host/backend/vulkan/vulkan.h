@@ -39,13 +39,13 @@ struct VulkanProfile {
         double seconds =
             0;  ///< on the device's clock, over all steps of the profile; a pass asked for nothing included
     };
-    std::vector<Pass> passes;    ///< in the order of a step; empty: the device keeps no time
-    std::uint32_t steps = 0;     ///< made for the profile
-    std::uint64_t rebuilds = 0;  ///< of the neighbour rows, in these steps
-    std::uint64_t refreshes = 0; ///< of the contact lists
-    double listed = 0;           ///< neighbours in a row, mean over particles
-    double tableBytes = 0;       ///< of all buffers
-    double copyBandwidth = 0;    ///< of a copy between two buffers, read and write counted [bytes/s]
+    std::vector<Pass> passes;     ///< in the order of a step; empty: the device keeps no time
+    std::uint32_t steps = 0;      ///< made for the profile
+    std::uint64_t rebuilds = 0;   ///< of the neighbour rows, in these steps
+    std::uint64_t refreshes = 0;  ///< of the contact lists
+    double listed = 0;            ///< neighbours in a row, mean over particles
+    double tableBytes = 0;        ///< of all buffers
+    double copyBandwidth = 0;     ///< of a copy between two buffers, read and write counted [bytes/s]
     bool texelReads = false;
 };
 
@@ -54,8 +54,8 @@ struct VulkanProfile {
 VulkanProfile profile(Backend& backend, std::uint32_t steps, double coilRate);
 
 /// Bytes that one particle's step moves between kernels and tables if no cache holds anything, from the layout and the
-/// reads and writes of shaders/pass/pairs.comp, surfaces.comp and move.comp without energy book: an estimate. Arguments are means over
-/// particles.
+/// reads and writes of shaders/pass/pairs.comp, surfaces.comp and move.comp without energy book: an estimate. Arguments
+/// are means over particles.
 double stepBytes(double touching, double touchingWalls);
 
 }  // namespace vkdose
