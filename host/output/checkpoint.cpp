@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kUserBlock = 512;
 constexpr std::string_view kMagic = "vkdose checkpoint";
-constexpr int kVersion = 1;
+constexpr int kVersion = 2;
 
 /// FNV-1a, 64 bits: it has to catch accidents, not forgers.
 std::uint64_t checksum(std::string_view bytes) {

@@ -98,12 +98,12 @@ float surfaceGap(uint kind, SurfaceParams p, Sphere a) {
     return (kind == kPlane ? plane : kind == kTrough ? trough : front) - a.radius;
 }
 
-/// KIND_SET (shared/buffers.glsl) is known when the pipeline is made: kinds that there are not cost nothing.
-Overlap surfaceOverlap(uint kind, SurfaceParams p, Sphere a) {
-    if ((KIND_SET & (1u << kPlane)) != 0u && kind == kPlane) return planeOverlap(p, a);
-    if ((KIND_SET & (1u << kTrough)) != 0u && kind == kTrough) return troughOverlap(p, a);
-    if ((KIND_SET & (1u << kTube)) != 0u && kind == kTube) return tubeOverlap(p, a);
-    if ((KIND_SET & (1u << kFront)) != 0u) return frontOverlap(p, a);
+/// `kinds`: those that there are, a bit each. A constant when the pipeline is made, so that the others cost nothing.
+Overlap surfaceOverlap(uint kinds, uint kind, SurfaceParams p, Sphere a) {
+    if ((kinds & (1u << kPlane)) != 0u && kind == kPlane) return planeOverlap(p, a);
+    if ((kinds & (1u << kTrough)) != 0u && kind == kTrough) return troughOverlap(p, a);
+    if ((kinds & (1u << kTube)) != 0u && kind == kTube) return tubeOverlap(p, a);
+    if ((kinds & (1u << kFront)) != 0u) return frontOverlap(p, a);
     return Overlap(-1.0, vec3(0.0));
 }
 

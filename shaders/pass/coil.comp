@@ -4,10 +4,10 @@
 // Reads the source half of the state, entries, the coil's history; writes it, forces and torques, which `move` gathers.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/buffers.glsl"
-#include "shared/wall.glsl"
+#include "pass/wall.glsl"
 #include "law/coil.glsl"
 #ifdef ENERGY_BOOK
-#include "shared/slot_books.glsl"
+#include "pass/slot_books.glsl"
 #endif
 
 /// Rotation of the coil in turns at this step, in [-0.5, 0.5): start + step x increment in 64-bit fixed point, so that

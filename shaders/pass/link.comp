@@ -4,7 +4,7 @@
 // Reads state, rows, coming entries, carried history; writes entries, history, links and their ranges, list anchors.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/buffers.glsl"
-#include "shared/near.glsl"
+#include "pass/margin.glsl"
 
 uint links[kMaxLinks];
 

@@ -8,8 +8,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shared/buffers.glsl"
 #ifdef ENERGY_BOOK
-#include "shared/body.glsl"
-#include "shared/books.glsl"
+#include "pass/body.glsl"
+#include "pass/books.glsl"
 #endif
 
 bool finite(vec3 v) { return !(any(isnan(v)) || any(isinf(v))); }

@@ -9,9 +9,9 @@
 // of their skin nearly every slot is a touching contact, which keeps all lanes of `contacts` busy.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/buffers.glsl"
-#include "shared/near.glsl"
+#include "pass/margin.glsl"
 #ifdef ENERGY_BOOK
-#include "shared/books.glsl"
+#include "pass/books.glsl"
 #endif
 
 uint partners[kMaxRow];

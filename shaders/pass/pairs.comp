@@ -5,10 +5,10 @@
 // contact that does not touch exerts nothing and remembers nothing.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/buffers.glsl"
-#include "shared/body.glsl"
+#include "pass/body.glsl"
 #include "law/contact.glsl"
 #ifdef ENERGY_BOOK
-#include "shared/slot_books.glsl"
+#include "pass/slot_books.glsl"
 #endif
 
 void main() {

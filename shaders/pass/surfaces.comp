@@ -5,9 +5,9 @@
 // contact that does not touch exerts nothing and remembers nothing.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/buffers.glsl"
-#include "shared/wall.glsl"
+#include "pass/wall.glsl"
 #ifdef ENERGY_BOOK
-#include "shared/slot_books.glsl"
+#include "pass/slot_books.glsl"
 #endif
 
 void main() {
@@ -23,7 +23,7 @@ void main() {
 #ifdef ENERGY_BOOK
     History old = h;
 #endif
-    Overlap o = surfaceOverlap(uint(p.pointHigh.w), p, me.sphere);
+    Overlap o = surfaceOverlap(KIND_SET, uint(p.pointHigh.w), p, me.sphere);
     bool touching = o.depth > 0.0;
     Response r;
     WallForce f = meetWall(me, o, law, springDt, vec3(0.0), vec3(0.0), h, r);

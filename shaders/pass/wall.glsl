@@ -1,9 +1,9 @@
 // A particle against a wall, at rest or turning.
-#ifndef VKDOSE_SHARED_WALL_GLSL
-#define VKDOSE_SHARED_WALL_GLSL
+#ifndef VKDOSE_PASS_WALL_GLSL
+#define VKDOSE_PASS_WALL_GLSL
 
 #include "law/contact.glsl"
-#include "shared/body.glsl"
+#include "pass/body.glsl"
 
 struct WallForce {
     vec3 force;

@@ -1,6 +1,6 @@
 // A particle as the contact laws see it.
-#ifndef VKDOSE_SHARED_BODY_GLSL
-#define VKDOSE_SHARED_BODY_GLSL
+#ifndef VKDOSE_PASS_BODY_GLSL
+#define VKDOSE_PASS_BODY_GLSL
 
 #include "law/surface.glsl"
 

@@ -1,6 +1,6 @@
 // Which contacts the lists hold: all that can touch before some particle has moved half the margin from its list anchor.
-#ifndef VKDOSE_SHARED_NEAR_GLSL
-#define VKDOSE_SHARED_NEAR_GLSL
+#ifndef VKDOSE_PASS_MARGIN_GLSL
+#define VKDOSE_PASS_MARGIN_GLSL
 
 #include "law/coil.glsl"
 #include "law/surface.glsl"

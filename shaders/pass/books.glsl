@@ -1,9 +1,9 @@
 // Books of particles: what is not booked by a contact while it touches.
-#ifndef VKDOSE_SHARED_BOOKS_GLSL
-#define VKDOSE_SHARED_BOOKS_GLSL
+#ifndef VKDOSE_PASS_BOOKS_GLSL
+#define VKDOSE_PASS_BOOKS_GLSL
 
 #include "law/energy.glsl"
-#include "shared/body.glsl"
+#include "pass/body.glsl"
 
 float workOnOneSide(Exerted e, Body b, float side) {
     float lever = abs(b.sphere.radius) - 0.5 * e.rest.w;

@@ -1,9 +1,9 @@
 // The book of a contact, of one step; `move` adds it to that of its first body. Nothing that moves a particle reads it.
-#ifndef VKDOSE_SHARED_SLOT_BOOKS_GLSL
-#define VKDOSE_SHARED_SLOT_BOOKS_GLSL
+#ifndef VKDOSE_PASS_SLOT_BOOKS_GLSL
+#define VKDOSE_PASS_SLOT_BOOKS_GLSL
 
 #include "law/energy.glsl"
-#include "shared/body.glsl"
+#include "pass/body.glsl"
 
 const Exerted kNothing = Exerted(vec4(0.0), vec4(0.0), vec4(0.0));
 const Response kNoResponse = Response(vec3(0.0), vec3(0.0), vec3(0.0), 0.0, 0.0, bvec3(false));
