@@ -32,14 +32,13 @@ void main() {
     for (uint s = 0u; s < range.y; ++s) {
         uint j = readRow(range.x + s);
         if (!nearPair(p, readState(push.source, kPosition, j), margin)) continue;
-        uint link;
-        if (j > i) {
-            link = mine << 1u;
+        uint slot = mine;
+        if (j > i)
             ++mine;
-        } else {
-            link = slotOfOwner(j, i) << 1u | 1u;
-        }
-        links[count] = link;
+        else
+            slot = slotOfOwner(j, i);
+        if (slot == kEmpty || j > i && mine > own.x + own.y) continue;  // the owner found no room, and has said so
+        links[count] = slot << 1u | (j > i ? 0u : 1u);
         ++count;
     }
     for (uint k = 0u; k < own.w; ++k, ++count) links[count] = (own.z + k) << 1u;

@@ -79,6 +79,18 @@ TEST_CASE("a full neighbour row is reported") {
     requireRunError(w, p, 1, "more neighbours than a row holds");
 }
 
+TEST_CASE("more neighbours and contacts than the tables are made for are reported") {
+    // A lattice squeezed until every sphere overlaps three shells of others, far denser than any packing.
+    const double radius = 1e-3, spacing = 2 * radius / GENERATE(1.75, 1.45);  // 26 others overflow the rows, 18 the pairs
+    Particles p;
+    for (int i = 0; i < 12 * 12 * 12; ++i) p.add(spacing * Vec3(i % 12, i / 12 % 12, i / 144), radius);
+    World w = emptyWorld();
+    w.timeStep = 1e-9;
+    w.skin = 1e-6;
+    w.maxOverlapRatio = 2;
+    requireRunError(w, p, 1, "finds no room in the tables of neighbours and contacts");
+}
+
 TEST_CASE("more particles around one than the neighbour search may look at are reported") {
     Particles p;
     // The large sphere, far away, makes the cells of the search large; the small ones, apart from each other, fill one.

@@ -249,14 +249,18 @@ void VulkanBackend::throwErrors(std::uint64_t firstStep) const {
         "finds no room in the tables of neighbours and contacts, which are sized for a dense packing: use a smaller "
         "skin"};
     const gpu::Control control = passes_->control.readAll<gpu::Control>(1)[0];
-    for (std::uint32_t e : {gpu::kErrorNan, gpu::kErrorRowFull, gpu::kErrorOverlap, gpu::kErrorLost, gpu::kErrorTurns,
-                            gpu::kErrorNewton, gpu::kErrorCrowded, gpu::kErrorTables}) {
-        const gpu::uvec4 first = control.error[e].first;
-        if (first.x == gpu::kEmpty) continue;
-        const std::uint64_t step = firstStep + first.x;
-        throw RunError(fmt::format("{} {} (step {}, t = {:.6g} s)", nameParticle(first.y), kTexts[e], step,
-                                   double(step) * world_.timeStep));
-    }
+    // The earliest; of those in one step what may have caused the others.
+    constexpr std::uint32_t kCausesFirst[gpu::kErrors] = {gpu::kErrorRowFull, gpu::kErrorCrowded, gpu::kErrorTables,
+                                                          gpu::kErrorNan,     gpu::kErrorOverlap, gpu::kErrorLost,
+                                                          gpu::kErrorTurns,   gpu::kErrorNewton};
+    const std::uint32_t e = *std::min_element(
+        std::begin(kCausesFirst), std::end(kCausesFirst),
+        [&](std::uint32_t a, std::uint32_t b) { return control.error[a].first.x < control.error[b].first.x; });
+    const gpu::uvec4 first = control.error[e].first;
+    if (first.x == gpu::kEmpty) return;
+    const std::uint64_t step = firstStep + first.x;
+    throw RunError(fmt::format("{} {} (step {}, t = {:.6g} s)", nameParticle(first.y), kTexts[e], step,
+                               double(step) * world_.timeStep));
 }
 
 Particles VulkanBackend::particles() const {
