@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <stdexcept>
 
 namespace vkdose::geometry {
@@ -92,9 +93,9 @@ void interiorMinima(const View& view, double low, double high, std::vector<doubl
     const double widest = window + std::sqrt((view.eps - 1) * (view.eps + 1));  // w + eps sin w
     const double uLow = std::min(view.u0 + view.kappa * low, view.u0 + view.kappa * high);
     const double uHigh = std::max(view.u0 + view.kappa * low, view.u0 + view.kappa * high);
-    const double first = std::ceil(std::max(view.phase - widest, uLow - window) / (2 * kPi));
-    const double last = std::floor(std::min(view.phase + widest, uHigh + window) / (2 * kPi));
-    for (double k = first; k <= last; ++k) keep(k);
+    const auto first = std::int64_t(std::ceil(std::max(view.phase - widest, uLow - window) / (2 * kPi)));
+    const auto last = std::int64_t(std::floor(std::min(view.phase + widest, uHigh + window) / (2 * kPi)));
+    for (std::int64_t k = first; k <= last; ++k) keep(double(k));
 }
 
 /// Wire coordinates of every local minimum of the distance with |s - h| <= span, in increasing order.

@@ -11,10 +11,10 @@ namespace vkdose::geometry {
 /// Centre line at wire coordinate s in [0, length], with the coil turned by `angle` (about +z) from its start:
 ///   x = radius cos(psi), y = radius sin(psi), z = zStart + s,  psi = angle + startAngle + hand * 2 pi s / pitch.
 struct Coil {
-    double radius;      ///< of the wire's centre line [m]
-    double pitch;       ///< [m per turn]
-    double wireRadius;  ///< [m]
-    double length;      ///< of the centre line along z [m]
+    double radius = 0;      ///< of the wire's centre line [m]
+    double pitch = 0;       ///< [m per turn]
+    double wireRadius = 0;  ///< [m]
+    double length = 0;      ///< of the centre line along z [m]
     double zStart = 0;
     double startAngle = 0;  ///< [rad]
     int hand = 1;           ///< +1 right-handed, -1 left-handed

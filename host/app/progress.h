@@ -12,6 +12,8 @@ class ProgressDisplay : public RunObserver {
   public:
     explicit ProgressDisplay(std::FILE* stream = stderr);
     ~ProgressDisplay() override;
+    ProgressDisplay(const ProgressDisplay&) = delete;
+    ProgressDisplay& operator=(const ProgressDisplay&) = delete;
 
     void onProgress(const Progress& progress) override;
     void onDose(const Dose& dose) override;

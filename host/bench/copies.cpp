@@ -73,7 +73,7 @@ void pin(int copy) {
         setenv("LP_NUM_THREADS", "0", 0);
         const std::vector<double> figures = work([&] { pthread_barrier_wait(shared.barrier()); });
         if (figures.size() != std::size_t(repeats)) throw std::logic_error("a copy gives a figure for each repeat");
-        std::copy(figures.begin(), figures.end(), shared.figures() + copy * repeats);
+        std::copy(figures.begin(), figures.end(), shared.figures() + std::ptrdiff_t(copy) * repeats);
         status = 0;
     } catch (const std::exception& e) {
         fmt::print(stderr, "vkdose: copy {}: {}\n", copy + 1, e.what());

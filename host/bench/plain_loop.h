@@ -17,6 +17,8 @@ class PlainLoop {
   public:
     PlainLoop(const World& world, const Particles& particles, int threads);
     ~PlainLoop();
+    PlainLoop(const PlainLoop&) = delete;
+    PlainLoop& operator=(const PlainLoop&) = delete;
 
     void advance(std::uint32_t steps);
 

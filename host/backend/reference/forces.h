@@ -55,7 +55,7 @@ class Forces {
 
   private:
     struct Known {
-        std::uint32_t other;  ///< the larger index of a pair, or the surface
+        std::uint32_t other = 0;  ///< the larger index of a pair, or the surface
         History history;
         Exerted exerted;
     };

@@ -27,7 +27,7 @@ struct Split {
 };
 
 struct Split3 {
-    glm::vec3 high, low;
+    glm::vec3 high{0}, low{0};
     explicit Split3(const Vec3& v) {
         for (int i = 0; i < 3; ++i) {
             Split s(v[i]);
@@ -42,7 +42,7 @@ double largestRadius(const Particles& p) {
 }
 
 gpu::ContactParams packContact(const ContactParameters& c) {
-    gpu::ContactParams p;
+    gpu::ContactParams p{};
     p.normal = vec4(float(c.k1), float(c.k2Max), float(c.kc), float(c.gamma));
     p.sliding = vec4(float(c.kt), float(c.gammaT), float(c.mu), float(c.plasticityDepth));
     p.rolling = vec4(float(c.kr), float(c.gammaR), float(c.muR), 0.0f);
@@ -58,7 +58,7 @@ vec4 radiusPair(double r) {
 gpu::SurfaceParams packed(uint32_t kind, const Vec3& point, double side, const Vec3& axis, double length,
                           double radius) {
     Split3 p(point);
-    gpu::SurfaceParams s;
+    gpu::SurfaceParams s{};
     s.pointHigh = vec4(p.high, float(kind));
     s.pointLow = vec4(p.low, float(side));
     s.axis = vec4(glm::vec3(axis), float(std::min(length, 1e30)));
@@ -94,7 +94,7 @@ gpu::CoilParams packCoil(const geometry::Coil& c, double largest) {
     const double bound = std::abs(kappa) * reach + widest;
     const double turnsEachSide = std::ceil((bound + kPi) / (2 * kPi)) - 1;
     Split start(c.zStart), radius(c.radius);
-    gpu::CoilParams p;
+    gpu::CoilParams p{};
     p.radius = vec4(radius.high, radius.low, float(c.wireRadius), float(c.length));
     // The leading 16 bits of the pitch times a small integer are exact in a float.
     const float leading = std::bit_cast<float>(std::bit_cast<uint32_t>(float(c.pitch)) & 0xffffff00u);

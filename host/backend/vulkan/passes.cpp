@@ -118,7 +118,7 @@ void Passes::reset() {
     ranges.writeAll(none);
     if (sizes.coilSlots > 0) {
         const std::vector<gpu::vec4> angles(sizes.particles, gpu::vec4(gpu::kNoTurn));
-        coilHistory.writeAll(angles, (sizes.coilHistoryRows() - 1) * sizes.particles * kVec4);
+        coilHistory.writeAll(angles, kVec4 * (sizes.coilHistoryRows() - 1) * sizes.particles);
     }
     gpu::Control c{};
     for (gpu::ErrorRecord& e : c.error) e.first = gpu::uvec4(gpu::kEmpty);

@@ -121,15 +121,15 @@ void saveState(const Passes& passes, std::size_t particles, std::uint32_t source
 void restoreState(Passes& passes, std::size_t particles, const Record& record) {
     const std::size_t stride = passes.sizes.particles, coilRows = passes.sizes.coilHistoryRows();
     auto half = passes.state.readAll<vec4>(gpu::kFields * stride);  // the padding stays as it was loaded
-    unpack(record.get<float>("state", 4 * gpu::kFields * particles), gpu::kFields / 2, 2 * stride, 2 * particles, half);
+    unpack(record.get<float>("state", 4 * particles * gpu::kFields), gpu::kFields / 2, 2 * stride, 2 * particles, half);
     auto coil = passes.coilHistory.readAll<vec4>(coilRows * stride);
-    unpack(record.get<float>("coil_history", 4 * coilRows * particles), coilRows, stride, particles, coil);
+    unpack(record.get<float>("coil_history", 4 * particles * coilRows), coilRows, stride, particles, coil);
     restoreContacts(passes, particles, record);
     passes.state.writeAll(half);
     passes.coilHistory.writeAll(coil);
     if (passes.sizes.energyBook) {
         std::vector<vec4> books(gpu::kBookFields * stride, vec4(0));
-        unpack(record.get<float>("energy_book", 4 * gpu::kBookFields * particles), gpu::kBookFields, stride, particles,
+        unpack(record.get<float>("energy_book", 4 * particles * gpu::kBookFields), gpu::kBookFields, stride, particles,
                books);
         passes.books.writeAll(books);
     }
