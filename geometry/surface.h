@@ -32,9 +32,9 @@ struct Trough {
 /// Cylinder wall of finite or infinite length, touched from inside or outside. Beyond an end the closest point
 /// lies on that end's circular edge.
 struct Tube {
-    Vec3 base;  ///< centre of the first end (any point of the axis when infinite)
-    Vec3 axis;  ///< unit
-    double radius;
+    Vec3 base{0};  ///< centre of the first end (any point of the axis when infinite)
+    Vec3 axis{0, 0, 1};  ///< unit
+    double radius = 0;
     double length = std::numeric_limits<double>::infinity();
     bool inside = true;  ///< particles live inside
 };

@@ -65,7 +65,7 @@ std::string tableLine(const Row& r) {
     const std::string name = r.plain ? "  plain loop" : r.workload;
     if (!r.refused.empty()) return fmt::format("{:<20} {:>9} refused: {}", name, r.particles, r.refused);
     const Spread& s = r.speed.particleSteps;
-    const std::string speed =
+    std::string speed =
         fmt::format("{:<20} {:>9} {:>9.3f} {:>17}", r.copies > 1 ? fmt::format("{} x{}", name, r.copies) : name,
                     r.particles, s.median * 1e-6, fmt::format("{:.3f} ... {:.3f}", s.low * 1e-6, s.high * 1e-6));
     if (r.copies > 1) return speed;

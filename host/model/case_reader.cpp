@@ -194,7 +194,7 @@ bool Section::boolean(std::string_view key, bool fallback) {
     return value;
 }
 
-std::string Section::string(std::string_view key, std::optional<std::string> fallback) {
+std::string Section::string(std::string_view key, const std::optional<std::string>& fallback) {
     const std::string remedy = "give a string";
     const Node* node = take(key, !fallback, remedy);
     std::string value = fallback.value_or("");

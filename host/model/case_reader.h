@@ -54,7 +54,7 @@ class Section {
     std::int64_t integer(std::string_view key, std::int64_t low, std::optional<std::int64_t> fallback = std::nullopt,
                          std::int64_t high = std::numeric_limits<std::int64_t>::max());
     bool boolean(std::string_view key, bool fallback);
-    std::string string(std::string_view key, std::optional<std::string> fallback = std::nullopt);
+    std::string string(std::string_view key, const std::optional<std::string>& fallback = std::nullopt);
     /// Index of the chosen word; nothing when it is missing or not one of them.
     std::optional<std::size_t> choice(std::string_view key, const std::vector<std::string>& words,
                                       std::optional<std::size_t> fallback = std::nullopt);

@@ -300,6 +300,7 @@ void checkTimeStep(CaseReader& reader, const Case& c, double smallestRadius) {
         if (stiffest == nullptr || mode.duration < stiffest->duration) stiffest = &mode;
         if (damped == nullptr || mode.decay > damped->decay) damped = &mode;
     }
+    if (stiffest == nullptr) return;  // no contact, no limit
     if (dt > kUnstableFraction * stiffest->duration)
         reader.fault("time.step_s",
                      fmt::format("the time step {:.4g} s is unstable: the stiffest contact ({}) lasts {:.4g} s", dt,

@@ -25,7 +25,7 @@ struct Sample {
     int dose = 0;                        ///< 0 while settling
     double coilAngle = 0;                ///< turned since the start, positive when conveying [rad]
     Sensors sensors;                     ///< coilTorque: about +z, on the coil, mean since the last sample [N m]
-    double outletVelocity;               ///< mean v_z of the mass in the throat [m/s]; NaN while it is empty
+    double outletVelocity = 0;           ///< mean v_z of the mass in the throat [m/s]; NaN while it is empty
     double coilTorque = 0;               ///< the drive's: positive when the powder resists conveying [N m]
     double coilPower = 0;                ///< drive torque times speed [W]
     std::optional<EnergyLedger> energy;  ///< if the case asks for it

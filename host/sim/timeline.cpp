@@ -58,7 +58,7 @@ Timeline::Timeline(const Case& c) : timeStep_(c.world.timeStep) {
 }
 
 Timeline::Stretch Timeline::at(std::uint64_t step) const {
-    if (step < settle_) return {Phase::Settle, 0, std::min(settle_, end_), 0.0};
+    if (step < settle_ || !hasDoses()) return {Phase::Settle, 0, std::min(settle_, end_), 0.0};
     const std::uint64_t dose = (step - settle_) / cycle();
     const std::uint64_t start = settle_ + dose * cycle();
     const bool rotating = step - start < rotate_;

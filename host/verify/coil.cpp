@@ -50,7 +50,7 @@ std::vector<Pressed> aroundWire(const geometry::Coil& coil, double depth, double
         const Vec3 along = glm::normalize(coil.hand * coil.radius * round + Vec3(0, 0, coil.pitch / (2 * kPi)));
         // From straight outwards up to 67 degrees to either side: further in, another turn may be nearer.
         const double around = (i - 3) * kPi / 8;
-        Pressed p;
+        Pressed p{};
         p.normal = std::cos(around) * radial + std::sin(around) * glm::cross(along, radial);
         p.centre = coil.radius * radial + Vec3(0, 0, s) + (kRadius + coil.wireRadius - depth) * p.normal;
         p.point = p.centre - (kRadius - depth / 2) * p.normal;

@@ -40,7 +40,7 @@ inline double partingSpeed(const Particles& p, std::size_t pair) {
 struct HeadOn {
     double reducedMass = massOf(kRadius) / 2;
     double limit = kK2Max / (kK2Max - kK1) * kPlasticity * kRadius;  ///< delta* of equal spheres [m]
-    double kc;
+    double kc = 0;
 
     double restitutionSquared(double speed) const {
         const double deepest = speed * std::sqrt(reducedMass / kK1);

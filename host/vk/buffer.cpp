@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <stdexcept>
+
 #include "host/vk/commands.h"
 
 namespace vkdose::vk {
@@ -47,7 +49,10 @@ Buffer::Memory Buffer::allocate(VkDeviceSize size, VkBufferUsageFlags usage, VkM
 }
 
 Buffer::Memory Buffer::staging(VkDeviceSize bytes) const {
-    return allocate(bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, kHost, kHost);
+    Memory stage =
+        allocate(bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, kHost, kHost);
+    if (stage.mapped == nullptr) throw std::logic_error("staging memory is host-visible");
+    return stage;
 }
 
 void Buffer::release(Memory& m) const {

@@ -20,7 +20,8 @@ extern "C" int __lsan_is_turned_off() {
     return dlopen("libvk_swiftshader.so", RTLD_LAZY | RTLD_NOLOAD) != nullptr ? 1 : 0;
 }
 
-// Keeps every library loaded: a suppression goes by the library's name, and of one that was unloaded only addresses are left.
+// Keeps every library loaded: a suppression goes by the library's name, and of one that was unloaded only addresses are
+// left.
 extern "C" int dlclose(void*) noexcept {
     return 0;
 }
