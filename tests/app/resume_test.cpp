@@ -158,7 +158,7 @@ TEST_CASE("a full disk ends the run with a message and leaves the last good chec
     const std::string many = "--set sensors.interval_s=0.0001 --backend reference ";
     REQUIRE(box.vkdose("run " + words(kDoses) + many + "--out whole").code == 0);
     const auto series = fs::file_size(box / "whole/timeseries.csv");
-    REQUIRE(series > 150 * 1024);
+    REQUIRE(series > 150UL * 1024);
     const auto full = box.vkdose("run " + words(kDoses) + many + "--out cut", "ulimit -f 240; ");  // 120 KiB
     CAPTURE(full.err);
     CHECK(full.code == 5);

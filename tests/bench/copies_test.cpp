@@ -27,7 +27,8 @@ TEST_CASE("the figures of the copies are summed, repeat by repeat") {
 
 TEST_CASE("copies keep lavapipe to their own processor, if nothing else is asked for") {
     const auto asked = [](const Meet&) {
-        return std::vector<double>{double(std::atoi(std::getenv("LP_NUM_THREADS")))};
+        const char* threads = std::getenv("LP_NUM_THREADS");
+        return std::vector<double>{threads == nullptr ? -1.0 : double(std::atoi(threads))};
     };
     unsetenv("LP_NUM_THREADS");
     CHECK(sumOfCopies(2, 1, asked)[0] == 0);

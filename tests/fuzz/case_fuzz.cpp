@@ -31,6 +31,8 @@ const std::filesystem::path& folder() {
             if (mkdtemp(name.data()) == nullptr) fail("no temporary folder");
             path = name;
         }
+        Folder(const Folder&) = delete;
+        Folder& operator=(const Folder&) = delete;
         ~Folder() {
             std::error_code ignored;
             std::filesystem::remove_all(path, ignored);
@@ -40,7 +42,7 @@ const std::filesystem::path& folder() {
 }
 
 std::filesystem::path write(const char* name, const std::string& text) {
-    const std::filesystem::path file = folder() / name;
+    std::filesystem::path file = folder() / name;
     std::ofstream(file, std::ios::binary) << text;
     return file;
 }
