@@ -104,6 +104,18 @@ void addBench(CLI::App& program, BenchOptions& options) {
         ->capture_default_str();
 }
 
+void addExportCoil(CLI::App& program, ExportCoilOptions& options) {
+    CLI::App& command = *program.add_subcommand("export-coil", "write the coil of a case as an STL mesh");
+    addCase(command, options.input);
+    command.add_option("--out", options.out, "file to write")->type_name("FILE")->capture_default_str();
+    command.add_option("--around", options.around, "corners of the wire's cross-section")
+        ->check(CLI::Range(3, 1000))
+        ->capture_default_str();
+    command.add_option("--per-turn", options.perTurn, "straight pieces of a turn")
+        ->check(CLI::Range(4, 10000))
+        ->capture_default_str();
+}
+
 /// Runs `command`; every error becomes lines on stderr and an exit code.
 int guarded(const std::function<int()>& command) {
     const auto say = [](const char* what) { fmt::print(stderr, "vkdose: {}\n", what); };
@@ -147,6 +159,7 @@ int commandLine(int argc, const char* const* argv) {
     CompareOptions compare;
     VerifyOptions verification;
     BenchOptions bench;
+    ExportCoilOptions exportCoil;
     addRun(program, run);
     addResume(program, resume);
     addCheck(program, check);
@@ -154,6 +167,7 @@ int commandLine(int argc, const char* const* argv) {
     addCompare(program, compare);
     addVerify(program, verification);
     addBench(program, bench);
+    addExportCoil(program, exportCoil);
     try {
         program.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
@@ -168,6 +182,7 @@ int commandLine(int argc, const char* const* argv) {
     if (program.got_subcommand("compare")) return guarded([&] { return compareCommand(compare); });
     if (program.got_subcommand("verify")) return guarded([&] { return verifyCommand(verification); });
     if (program.got_subcommand("bench")) return guarded([&] { return benchCommand(bench); });
+    if (program.got_subcommand("export-coil")) return guarded([&] { return exportCoilCommand(exportCoil); });
     return guarded([] { return devicesCommand(); });
 }
 

@@ -62,6 +62,13 @@ struct BenchOptions {
     bool quick = false;  ///< the small workloads, a fraction of a second each: does it work at all
 };
 
+struct ExportCoilOptions {
+    CaseOptions input;
+    std::filesystem::path out = "coil.stl";
+    int around = 8;    ///< corners of the wire
+    int perTurn = 20;  ///< pieces of a turn
+};
+
 int runCommand(const RunOptions& options);
 int resumeCommand(const ResumeOptions& options);
 int checkCommand(const CheckOptions& options);
@@ -69,5 +76,6 @@ int devicesCommand();
 int compareCommand(const CompareOptions& options);
 int verifyCommand(const VerifyOptions& options);
 int benchCommand(const BenchOptions& options);
+int exportCoilCommand(const ExportCoilOptions& options);
 
 }  // namespace vkdose

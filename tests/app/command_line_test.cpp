@@ -242,3 +242,13 @@ TEST_CASE("compare finds the backends in agreement, and tells when they are not"
     CHECK_THAT(o.out, Catch::Contains("the backends agree") && Catch::Contains("kinetic energy, settling"));
     CHECK(box.files().empty());
 }
+
+TEST_CASE("export-coil writes the coil of a case") {
+    const Sandbox box;
+    const auto outcome = box.vkdose("export-coil '" VKDOSE_SOURCE_DIR "/cases/paper-48g.toml' --out c.stl --around 12");
+    INFO(outcome.out << outcome.err);
+    REQUIRE(outcome.code == 0);
+    CHECK(outcome.out.find("3860 triangles in c.stl") != std::string::npos);  // 160 pieces of 24, two ends of 10
+    CHECK(readText(box / "c.stl").find("solid coil\n") == 0);
+    CHECK(box.vkdose("export-coil '" VKDOSE_SOURCE_DIR "/cases/paper-48g.toml' --out no/c.stl").code == 5);
+}

@@ -1,0 +1,59 @@
+#include "geometry/coil_mesh.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+namespace vkdose::geometry {
+
+namespace {
+
+/// Corners around the centre line at wire coordinate s, anticlockwise for who looks against its direction.
+std::vector<Vec3> ring(const Coil& coil, double s, int around) {
+    const double kappa = coil.hand * 2 * kPi / coil.pitch, psi = coil.startAngle + kappa * s;
+    const Vec3 outwards(std::cos(psi), std::sin(psi), 0);
+    const Vec3 along = glm::normalize(Vec3(-coil.radius * kappa * outwards.y, coil.radius * kappa * outwards.x, 1));
+    const Vec3 aside = glm::cross(along, outwards), centre = coil.radius * outwards + Vec3(0, 0, coil.zStart + s);
+    std::vector<Vec3> corners;
+    for (int i = 0; i < around; ++i) {
+        const double angle = 2 * kPi * i / around;
+        corners.push_back(centre + coil.wireRadius * (std::cos(angle) * outwards + std::sin(angle) * aside));
+    }
+    return corners;
+}
+
+}  // namespace
+
+std::vector<Triangle> coilMesh(const Coil& coil, int around, int perTurn) {
+    const int rings = std::max(1, int(std::lround(perTurn * coil.length / coil.pitch)));
+    std::vector<Triangle> mesh;
+    std::vector<Vec3> last = ring(coil, 0, around);
+    for (int i = 1; i + 1 < around; ++i) mesh.push_back({last[0], last[i + 1], last[i]});
+    for (int r = 1; r <= rings; ++r) {
+        const std::vector<Vec3> next = ring(coil, coil.length * r / rings, around);
+        for (int i = 0; i < around; ++i) {
+            const int j = (i + 1) % around;
+            mesh.push_back({last[i], last[j], next[j]});
+            mesh.push_back({last[i], next[j], next[i]});
+        }
+        last = next;
+    }
+    for (int i = 1; i + 1 < around; ++i) mesh.push_back({last[0], last[i], last[i + 1]});
+    return mesh;
+}
+
+std::string stlText(const std::vector<Triangle>& mesh) {
+    std::string text = "solid coil\n";
+    const auto out = std::back_inserter(text);
+    for (const auto& [a, b, c] : mesh) {
+        const Vec3 n = glm::normalize(glm::cross(b - a, c - a));
+        fmt::format_to(out, "facet normal {:.9g} {:.9g} {:.9g}\nouter loop\n", n.x, n.y, n.z);
+        for (const Vec3& v : {a, b, c}) fmt::format_to(out, "vertex {:.9g} {:.9g} {:.9g}\n", v.x, v.y, v.z);
+        fmt::format_to(out, "endloop\nendfacet\n");
+    }
+    return text + "endsolid coil\n";
+}
+
+}  // namespace vkdose::geometry
