@@ -195,7 +195,7 @@ TEST_CASE("a run under the validation layer is clean") {
     const auto o = box.vkdose("run " + kShort + "--validation --quiet --out out");
     CHECK(o.err.find("not installed") == std::string::npos);  // the layer must be there to listen
     CHECK(o.code == 0);
-    CHECK(o.err.empty());
+    CHECK(o.err == "");
 }
 
 TEST_CASE("a particle that leaves the domain is a run error that keeps what was computed") {

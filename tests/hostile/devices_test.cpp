@@ -96,9 +96,9 @@ TEST_CASE("the validation layer takes the lowered limits for the device's own") 
     const Fault fault("least-limits");
     const vk::Device device(testDevice());
     REQUIRE(device.limits().maxTexelBufferElements == 65536);
-    const vk::Buffer fits(device, "a view that fits", 65536 * 4, VK_FORMAT_R32_UINT);
+    const vk::Buffer fits(device, "a view that fits", 4UL * 65536, VK_FORMAT_R32_UINT);
     CHECK(device.validationMessages().empty());
-    const vk::Buffer tooLarge(device, "a view too large", 65537 * 4, VK_FORMAT_R32_UINT);
+    const vk::Buffer tooLarge(device, "a view too large", 4UL * 65537, VK_FORMAT_R32_UINT);
     REQUIRE_FALSE(device.validationMessages().empty());
     CHECK_THAT(device.validationMessages().front(), Contains("maxTexelBufferElements"));
 }

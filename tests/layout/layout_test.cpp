@@ -81,6 +81,8 @@ class Reflection {
                                              &compiler_) == SPVC_SUCCESS);
     }
     ~Reflection() { spvc_context_destroy(context_); }
+    Reflection(const Reflection&) = delete;
+    Reflection& operator=(const Reflection&) = delete;
 
     std::set<std::string> check() {
         spvc_resources resources = nullptr;

@@ -59,7 +59,7 @@ class ListBreaker {
     }
 
     void header(std::size_t c) {
-        const auto with = [&](std::vector<std::string> names) { return withLine(lines_, 0, row(names)); };
+        const auto with = [&](const std::vector<std::string>& names) { return withLine(lines_, 0, row(names)); };
         std::vector<std::string> names = names_;
         names[c] += "q";
         add("a column nobody knows", with(names), names[c], 0);
