@@ -62,11 +62,14 @@ struct CoilView {
     bool nearEnd;
 };
 
-/// Whether the sphere comes closer than `margin` to the shell that the wire fills, to float accuracy.
-bool nearCoil(CoilParams c, Sphere a, float margin) {
-    float reach = a.radius + c.radius.z + margin + 1e-7;
-    float z = a.high.z - c.reach.z;
-    return abs(length(a.high.xy) - c.radius.x) < reach && z > -reach && z < c.radius.w + reach;
+/// Rotation of the coil in turns at this step, in [-0.5, 0.5): start + step x increment in 64-bit fixed point, so that
+/// hours of turning lose nothing. Only the high word is needed.
+float coilTurn(uvec4 phase, uint step) {
+    uint high, low, carry;
+    umulExtended(phase.w, step, high, low);
+    low = uaddCarry(low, phase.y, carry);
+    high += phase.z * step + phase.x + carry;
+    return float(int(high)) * (1.0 / 4294967296.0);
 }
 
 /// `turn`: the coil's rotation about +z, in turns, [-0.5, 0.5).
@@ -89,6 +92,17 @@ CoilView coilView(CoilParams c, float turn, Sphere a) {
     w.phase = fold(kTwoPi * (turn + hand * rest / c.pitch.x) - theta);
     w.wirePhase = c.pitch.w * z;
     return w;
+}
+
+/// Whether the sphere comes closer than `slack` to the wire, or may: with the wire's next turn off by the angle m at the
+/// sphere's own z, a wire point at the angle v is at least  off^2 + A v^2 + ((m - v) / kappa)^2  away (squared), with
+/// A = 4 rho r_c / pi^2 for sin(v/2) >= v/pi; that is least where v makes it  off^2 + m^2 A / (1 + A kappa^2).
+bool nearCoil(CoilParams c, float turn, Sphere a, float slack) {
+    CoilView w = coilView(c, turn, a);
+    float reach = w.reach + slack + 1e-7;
+    float A = 0.405284735 * w.rho * c.radius.x;
+    float least = w.off * w.off + w.phase * w.phase * A / (1.0 + A * c.pitch.w * c.pitch.w);
+    return least < reach * reach && w.z > -reach && w.z < c.radius.w + reach;
 }
 
 uint coilCandidates(CoilParams c, CoilView w) {

@@ -10,16 +10,6 @@
 #include "pass/slot_books.glsl"
 #endif
 
-/// Rotation of the coil in turns at this step, in [-0.5, 0.5): start + step x increment in 64-bit fixed point, so that
-/// hours of turning lose nothing. Only the high word is needed.
-float coilTurn(uvec4 phase) {
-    uint high, low, carry;
-    umulExtended(phase.w, push.stepInBatch, high, low);
-    low = uaddCarry(low, phase.y, carry);
-    high += phase.z * push.stepInBatch + phase.x + carry;
-    return float(int(high)) * (1.0 / 4294967296.0);
-}
-
 /// The turn that was touched at `angle`: the same turn moves far less than half a turn along the wire in a step.
 uint knownTurn(vec4 angles, uint met, float angle) {
     uint turn = kEmpty;
@@ -39,19 +29,21 @@ uint freeTurn(vec4 angles, uint met) {
 }
 
 void main() {
+    ContactParams law = member.contact[kParticleCoil];  // before any branch, as in `pairs`
+    CoilParams coil = member.coil;
+    uvec4 choices = member.choices;
+    float springDt = push.opening == 1u ? 0.0 : member.numerics.x;
     if (gl_GlobalInvocationID.x >= control.listed.z) return;
     uint slot = springSlots() + gl_GlobalInvocationID.x;
-    ContactParams law = member.contact[kParticleCoil];
-    CoilParams coil = member.coil;
-    float springDt = push.opening == 1u ? 0.0 : member.numerics.x;
     uint i = readEntry(slot).x;
     Body me = readBody(i);
     vec4 angles = readCoilHistory(wireAngleIndex(i));
-    CoilView view = coilView(coil, coilTurn(coil.phase), me.sphere);
+    CoilView view = coilView(coil, coilTurn(coil.phase, push.stepInBatch), me.sphere);
+    uint trouble = kEmpty;
     uint trips = coilCandidates(coil, view), candidates = 0u;
     for (uint k = 0u; k < trips; ++k) {
         CoilTouch touch = coilCandidate(coil, view, k);
-        if (touch.failed) report(kErrorNewton, i);
+        if (touch.failed) trouble = kErrorNewton;
         candidates |= touch.depth > 0.0 ? 1u << k : 0u;
     }
 
@@ -68,7 +60,7 @@ void main() {
         bool known = turn != kEmpty;
         if (!known) turn = freeTurn(was, met);
         if (turn == kEmpty) {
-            report(kErrorTurns, i);
+            trouble = kErrorTurns;
             turn = 0u;
         }
         met |= 1u << turn;
@@ -84,7 +76,7 @@ void main() {
         vec3 wall = coil.motion.x * vec3(-point.y, point.x, 0.0);
         Overlap o = Overlap(touch.depth, touch.normal);
         Response r;
-        WallForce f = meetWall(me, o, law, springDt, wall, vec3(0.0, 0.0, coil.motion.x), h, r);
+        WallForce f = meetWall(me, o, law, choices, springDt, wall, vec3(0.0, 0.0, coil.motion.x), h, r);
         coilHistory[at] = h.slidingMax;
         coilHistory[at + push.particles] = h.rollingTorsion;
         force += f.force;
@@ -102,6 +94,7 @@ void main() {
     for (uint t = 0u; t < kMaxTurns; ++t)
         if ((met & (1u << t)) == 0u) angles[t] = kNoTurn;
     if (any(notEqual(angles, was))) coilHistory[wireAngleIndex(i)] = angles;
+    if (trouble != kEmpty) report(trouble, i);
     writeForce(slot, vec4(force, overlap));
     writeTorque(slot, vec4(torque, coilTorque));
 }

@@ -1,6 +1,5 @@
 #version 450
-// commit_lists: ends a refresh of the contact lists: sizes the dispatches over them and withdraws the request. One
-// invocation writes.
+// commit_lists: ends a refresh of the contact lists: sizes the dispatches over them. One invocation writes.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/buffers.glsl"
 
@@ -15,7 +14,6 @@ void main() {
     control.surfaces.x = groupsOf(held.y);
     control.coil.x = groupsOf(held.z);
     control.coming = uvec4(0u);
+    control.drift = vec4(0.0);
     control.list.w += 1u;
-    control.refresh.x = 0u;
-    control.settle.x = 0u;
 }

@@ -1,17 +1,24 @@
-// Which contacts the lists hold: all that can touch before some particle has moved half the margin from its list anchor.
+// Which contacts the lists hold: all that can touch while every particle and the coil keep within their slack.
 #ifndef VKDOSE_PASS_MARGIN_GLSL
 #define VKDOSE_PASS_MARGIN_GLSL
 
 #include "law/coil.glsl"
 #include "law/surface.glsl"
+#include "pass/slack.glsl"
 
-float listMargin() { return kMarginOfSkin * member.numerics.y; }
+float slackOfParticle(uint i) { return slackOf(readState(push.source, kVelocity, i).xyz); }
 
 /// Symmetric to the last bit, so that both particles of a pair decide the same. The factor covers the rounding.
-bool nearPair(vec4 p, vec4 q, float margin) {
+bool nearPair(vec4 p, float slackP, vec4 q, float slackQ) {
     vec3 d = p.xyz - q.xyz;
-    float reach = 1.00001 * (p.w + q.w) + margin;
+    float reach = 1.00001 * (p.w + q.w) + (slackP + slackQ);
     return q.w > 0.0 && dot(d, d) < reach * reach;
+}
+
+bool nearTheCoil(Sphere a, float slack) {
+    CoilParams coil = member.coil;
+    if (coil.motion.z == 0.0 || a.radius < 0.0) return false;
+    return nearCoil(coil, coilTurn(coil.phase, push.stepInBatch), a, slack + coilSlack());
 }
 
 // The kind is known when the pipeline is made, so that all but one branch of surfaceGap fold away, and the parameters
@@ -21,8 +28,8 @@ bool nearPair(vec4 p, vec4 q, float margin) {
         near |= surfaceGap((KINDS >> (4u * s)) & 15u, member.surface[s], a) < reach ? 1u << s : 0u;
 
 /// Surfaces, a bit each.
-uint nearSurfaces(Sphere a, float margin) {
-    float reach = margin + 1e-7;  // [m], above the rounding of surfaceGap
+uint nearSurfaces(Sphere a, float slack) {
+    float reach = slack + 1e-7;  // [m], above the rounding of surfaceGap
     uint near = 0u;
     PROBE(0u)
     PROBE(1u)

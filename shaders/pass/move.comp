@@ -1,12 +1,14 @@
 #version 450
 // move: gathers the forces on one particle per invocation and moves it a time step. Built with and without TEXEL_READS,
 // PACKED_STORES (shared/buffers.glsl) and ENERGY_BOOK.
-// Reads the source half of the state, links, forces and torques, anchors; writes the destination half; asks for a refresh
-// of the contact lists and a rebuild of the rows when the particle has moved as far as they allow for.
+// Reads the source half of the state, links, forces and torques, anchors; writes the destination half; calls for a refresh
+// of the contact lists or a rebuild of the rows when the particle has moved as far as they allow for.
 //
-// The sum runs in the order of the links: other particles by ascending index, surfaces, coil; wherever their slots are.
+// `link` says which particle is whose: lavapipe's eight lanes take as many rounds as the one with most links, on average
+// eight where the mean is five. The sum runs in the order of the links: other particles by ascending index, surfaces, coil; wherever their slots are.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/buffers.glsl"
+#include "pass/slack.glsl"
 #ifdef ENERGY_BOOK
 #include "pass/body.glsl"
 #include "pass/books.glsl"
@@ -14,21 +16,11 @@
 
 bool finite(vec3 v) { return !(any(isnan(v)) || any(isinf(v))); }
 
-void requestRefresh() {
-    atomicMax(control.refresh.x, gl_NumWorkGroups.x);
-    atomicMax(control.settle.x, 1u);
-}
-
-void requestRebuild() {
-    atomicMax(control.cells.x, (push.cellMask + gl_WorkGroupSize.x) / gl_WorkGroupSize.x);
-    atomicMax(control.particles.x, gl_NumWorkGroups.x);
-    atomicMax(control.single.x, 1u);
-}
-
 bool beyond(vec3 way, float limit) { return dot(way, way) > limit * limit; }
 
 void main() {
-    uint i = gl_GlobalInvocationID.x;
+    uvec4 turn = readRange(turnIndex(gl_GlobalInvocationID.x));
+    uint i = turn.x, firstLink = turn.y, links = turn.z;
     vec4 gravity = member.gravity, numerics = member.numerics;
     vec4 bottom = member.domainLow, top = member.domainHigh;
 
@@ -36,8 +28,8 @@ void main() {
     vec4 residue = readState(push.source, kResidue, i);
     vec4 velocity4 = readState(push.source, kVelocity, i);
     vec4 spin4 = readState(push.source, kSpin, i);
-    vec3 rowAnchor = readAnchor(kRowAnchor, i).xyz, listAnchor = readAnchor(kListAnchor, i).xyz;
-    uvec4 range = readRange(rowRangeIndex(i));
+    vec3 rowAnchor = readAnchor(kRowAnchor, i).xyz;
+    vec4 listAnchor = readAnchor(kListAnchor, i);  // w: slack
     bool moving = uint(spin4.w) == kActive;
 
     // A particle out of the motion has no links, so that all it does is copy itself.
@@ -46,8 +38,8 @@ void main() {
 #ifdef ENERGY_BOOK
     vec4 normal = vec4(0.0), sliders = vec4(0.0);
 #endif
-    for (uint k = 0u; k < range.w; ++k) {
-        uint link = readRow(linkIndex(range.z + k));
+    for (uint k = 0u; k < links; ++k) {
+        uint link = readRow(linkIndex(firstLink + k));
         vec4 f = readForce(link >> 1u), t = readTorque(link & 1u, link >> 1u);
         force += (link & 1u) == 0u ? f.xyz : -f.xyz;
         torque += t.xyz;
@@ -75,16 +67,18 @@ void main() {
 
     bool sound = finite(high) && finite(velocity) && finite(spin);
     bool outside = any(lessThan(high, bottom.xyz)) || any(greaterThan(high, top.xyz));
-    if (moving && !sound) report(kErrorNan, i);
-    if (moving && sound && outside && high.z <= top.w) report(kErrorLost, i);
-    if (moving && overlap > numerics.w) report(kErrorOverlap, i);
     uint now = !sound ? kLost : high.z > top.w ? kDosed : outside ? kLost : kActive;
     bool leaves = moving && now != kActive;
-    // The rows must hold what is within the margin as well.
-    float margin = kMarginOfSkin * numerics.y;
-    bool rebuild = leaves || moving && beyond(high - rowAnchor, 0.5 * (numerics.y - margin));
-    if (rebuild) requestRebuild();
-    if (rebuild || moving && beyond(high - listAnchor, 0.5 * margin)) requestRefresh();
+
+    // Whenever lists are made of them, the rows must hold what is within the slack as well.
+    bool rebuild = leaves || beyond(high - rowAnchor, (1.0 - kMostSlack) * slackUnit());
+    bool refresh = beyond(high - listAnchor.xyz, listAnchor.w);
+    uint call = !sound                   ? kErrorNan
+                : overlap > numerics.w   ? kErrorOverlap
+                : now == kLost           ? kErrorLost
+                : rebuild                ? kCallRebuild
+                                         : kCallRefresh;
+    if (moving && (call < kErrors || rebuild || refresh)) report(call, i);
 
 #ifdef ENERGY_BOOK
     if (moving)

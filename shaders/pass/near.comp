@@ -5,8 +5,8 @@
 // ranges of own slots. `link` then makes them current. Which slot a contact gets depends on timing; nothing that moves a
 // particle depends on the slot.
 //
-// The rows alone would do. But they hold three times what touches, and with a margin of a hundredth of a radius instead
-// of their skin nearly every slot is a touching contact, which keeps all lanes of `contacts` busy.
+// The rows alone would do. But they hold three times what touches, and with a slack of a hundredth of a radius instead
+// of their skin nearly every slot is a touching contact, which keeps all lanes of `pairs` busy.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/buffers.glsl"
 #include "pass/margin.glsl"
@@ -38,20 +38,20 @@ void main() {
     uint i = gl_GlobalInvocationID.x;
     vec4 p = readState(push.source, kPosition, i);
     Sphere me = Sphere(p.xyz, vec3(0.0), p.w);
-    float margin = listMargin();
+    float slack = slackOfParticle(i);
     uvec4 range = readRange(rowRangeIndex(i));
 
     pairs = 0u;
     for (uint s = 0u; s < range.y; ++s) {
         uint j = readRow(range.x + s);
-        if (j > i && nearPair(p, readState(push.source, kPosition, j), margin)) {
+        if (j > i && nearPair(p, slack, readState(push.source, kPosition, j), slackOfParticle(j))) {
             partners[pairs] = j;
             ++pairs;
         }
     }
-    surfaces = nearSurfaces(me, margin);
+    surfaces = nearSurfaces(me, slack);
     uint met = bitCount(surfaces);
-    uint coil = member.coil.motion.z != 0.0 && p.w > 0.0 && nearCoil(member.coil, me, margin) ? 1u : 0u;
+    uint coil = nearTheCoil(me, slack) ? 1u : 0u;
 
     firstPair = atomicAdd(control.coming.x, pairs);
     firstSurface = atomicAdd(control.coming.y, met);

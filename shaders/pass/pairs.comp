@@ -12,11 +12,12 @@
 #endif
 
 void main() {
-    uint slot = gl_GlobalInvocationID.x;
-    if (slot >= control.listed.x) return;
+    // What is the same for all comes before any branch: there lavapipe reads it once, behind it lane by lane.
     ContactParams law = member.contact[kParticleParticle];
     uvec4 choices = member.choices;
     float springDt = push.opening == 1u ? 0.0 : member.numerics.x;
+    uint slot = gl_GlobalInvocationID.x;
+    if (slot >= control.listed.x) return;
 
     uvec2 who = readEntry(slot);
     Body a = readBody(who.x), b = readBody(who.y);

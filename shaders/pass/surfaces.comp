@@ -11,10 +11,11 @@
 #endif
 
 void main() {
+    ContactParams law = member.contact[kParticleWall];  // before any branch, as in `pairs`
+    uvec4 choices = member.choices;
+    float springDt = push.opening == 1u ? 0.0 : member.numerics.x;
     if (gl_GlobalInvocationID.x >= control.listed.y) return;
     uint slot = push.pairSlots + gl_GlobalInvocationID.x;
-    ContactParams law = member.contact[kParticleWall];
-    float springDt = push.opening == 1u ? 0.0 : member.numerics.x;
 
     uvec2 who = readEntry(slot);
     Body me = readBody(who.x);
@@ -26,7 +27,7 @@ void main() {
     Overlap o = surfaceOverlap(KIND_SET, uint(p.pointHigh.w), p, me.sphere);
     bool touching = o.depth > 0.0;
     Response r;
-    WallForce f = meetWall(me, o, law, springDt, vec3(0.0), vec3(0.0), h, r);
+    WallForce f = meetWall(me, o, law, choices, springDt, vec3(0.0), vec3(0.0), h, r);
     writeHistory(slot, touching ? h.slidingMax : vec4(0.0), touching ? h.rollingTorsion : vec4(0.0));
     writeForce(slot, touching ? vec4(f.force, o.depth / me.sphere.radius) : vec4(0.0));
     writeTorque(slot, touching ? vec4(f.torque, 0.0) : vec4(0.0));

@@ -20,7 +20,8 @@ layout(std430, set = 0, binding = 0) buffer StateBuffer { vec4 state[]; };
 // contacts it takes part in, ascending by the other's index, then surfaces, then the coil: slot << 1 | 1 if it is the
 // contact's second body.
 layout(std430, set = 0, binding = 1) buffer RowBuffer { uint rows[]; };
-// Ranges: uvec4[2][particles]: row (first, count), links (first, count); own pair slots (first, count), own surface slots.
+// Ranges: uvec4[3][particles]: row (first, count), links (first, count); own pair slots (first, count), own surface slots;
+// then, by falling number of links within a workgroup: particle, its links (first, count).
 layout(std430, set = 0, binding = 2) buffer RangeBuffer { uvec4 ranges[]; };
 // History of pairs and surfaces: vec4[pair and surface slots][2]: (xi, delta_max), (rho, torsion), zero while they do not
 // touch; with the energy book vec4[3][slots] follow, law/energy.glsl's Exerted.
@@ -76,6 +77,7 @@ uint stateIndex(uint side, uint field, uint i) {
 uint linkIndex(uint at) { return push.rowEntries + at; }
 uint rowRangeIndex(uint i) { return i; }
 uint slotRangeIndex(uint i) { return push.particles + i; }
+uint turnIndex(uint invocation) { return 2u * push.particles + invocation; }
 uint historyIndex(uint part, uint slot) {
     return part < 2u ? 2u * slot + part : part * springSlots() + slot;
 }
@@ -151,10 +153,7 @@ void writeTorques(uint slot, vec4 first, vec4 second) {
 #endif
 void writeTorque(uint slot, vec4 first) { torques[2u * slot] = first; }
 
-// The smallest step and the smallest particle of an error are kept: the same whatever order invocations run in.
-void report(uint error, uint particle) {
-    atomicMin(control.error[error].first.x, push.stepInBatch);
-    atomicMin(control.error[error].first.y, particle);
-}
+/// An error or another call (kErrorLost ...), for `decide` at the end of the step.
+void report(uint kind, uint particle) { atomicMin(control.call.x, kind << kCallShift | particle); }
 
 #endif

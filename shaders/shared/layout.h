@@ -27,7 +27,12 @@ SHARED_CONST kMaxRow = 64u;           // neighbours per particle
 SHARED_CONST kMaxLinks = 96u;         // contacts per particle: a row, every surface, the coil
 SHARED_CONST kEmpty = 0xffffffffu;    // end of a cell's list
 SHARED_REAL kNoTurn = 1e30f;          // wire angle in the place of a coil turn that is not touched
-SHARED_REAL kMarginOfSkin = 0.08f;    // extra reach of the contact lists, of the skin of the rows
+// Slack: how far a particle may move before the contact lists are made anew; with half the skin of the rows as unit.
+// A particle at rest needs next to none; what falls gets room for a while.
+SHARED_REAL kLeastSlack = 0.01f;
+SHARED_REAL kMostSlack = 0.25f;
+SHARED_REAL kSlackSteps = 256.0f;  // steps at the present speed
+SHARED_REAL kCoilSlack = 0.04f;    // of the coil's wire
 
 // --- particle state: vec4 state[2 halves][2 couples][particles][2 fields]; the halves take turns as source and
 // destination Two fields side by side are 32 bytes, which a device with 64-bit integers can store in four pieces
@@ -97,25 +102,26 @@ struct Member {
 
 // --- control block: what the device decides and reports
 // ------------------------------------------------------------------
-SHARED_CONST kErrorLost = 0u;
-SHARED_CONST kErrorNan = 1u;
-SHARED_CONST kErrorRowFull = 2u;
-SHARED_CONST kErrorOverlap = 3u;
-SHARED_CONST kErrorTurns = 4u;
-SHARED_CONST kErrorNewton = 5u;
-SHARED_CONST kErrorCrowded = 6u;
-SHARED_CONST kErrorTables = 7u;
+// What a particle calls for in a step, the most urgent of all of them first: errors, what may have caused others before
+// these. A call is one word, kind << kCallShift | particle, and the least wins, whatever order invocations run in.
+SHARED_CONST kErrorRowFull = 0u;
+SHARED_CONST kErrorCrowded = 1u;
+SHARED_CONST kErrorTables = 2u;
+SHARED_CONST kErrorNan = 3u;
+SHARED_CONST kErrorOverlap = 4u;
+SHARED_CONST kErrorLost = 5u;
+SHARED_CONST kErrorTurns = 6u;
+SHARED_CONST kErrorNewton = 7u;
 SHARED_CONST kErrors = 8u;
-
-struct ErrorRecord {
-    uvec4 first;  // x: smallest step of the batch at which it happened, y: smallest particle index; kEmpty: none
-};
+SHARED_CONST kCallRebuild = 8u;  // of the rows, and so of the contact lists
+SHARED_CONST kCallRefresh = 9u;  // of the contact lists
+SHARED_CONST kCallShift = 27u;
+SHARED_CONST kMostParticles = 1u << kCallShift;
 
 struct Control {
     // Indirect arguments, three words each.
     uvec4 cells;      // workgroups that clear the cell table, 0 while no rebuild of the rows is wanted
     uvec4 particles;  // workgroups over the particles, ditto
-    uvec4 single;     // one workgroup, ditto
     uvec4 refresh;    // workgroups over the particles, 0 while no refresh of the contact lists is wanted
     uvec4 settle;     // one workgroup, ditto
     uvec4 pairs;      // workgroups over what the contact lists hold: pairs ...
@@ -124,7 +130,9 @@ struct Control {
     uvec4 listed;     // entries of these in use: pairs, surfaces, coil
     uvec4 coming;     // entries taken so far by the refresh at work: pairs, surfaces, coil, links
     uvec4 list;  // x: entries of the rows in use; y: rebuilds since load; z: longest row ever; w: refreshes since load
-    ErrorRecord error[kErrors];
+    vec4 drift;   // x: way of the coil's wire since the last refresh, along the axis [m]
+    uvec4 call;   // x: the most urgent call of this step; kEmpty: none
+    uvec4 error;  // the first: x: step of the batch, y: kind, z: particle; x is kEmpty while there is none
 };
 
 // --- sensing: one record per workgroup, summed by the host in double precision

@@ -18,7 +18,7 @@ struct Elements {
     explicit Elements(const TableSizes& s)
         : state(2ull * gpu::kFields * s.particles),
           rows(1ull * s.rowEntries + s.linkEntries),
-          ranges(2ull * s.particles),
+          ranges(3ull * s.particles),
           history(std::max<VkDeviceSize>(1, 1ull * s.historyParts() * s.springSlots())),
           coilHistory(std::max<VkDeviceSize>(1, 1ull * s.coilHistoryRows() * s.particles)),
           anchors(2ull * s.particles),
@@ -102,7 +102,6 @@ Passes::Passes(const vk::Device& device, const TableSizes& s, const Access& acce
       clear_(device, bindings_, clear_spv, constants(s)),
       bin_(device, bindings_, kBin.pick(access, s.energyBook), constants(s)),
       neighbours_(device, bindings_, kNeighbours.pick(access, s.energyBook), constants(s)),
-      commitRows_(device, bindings_, commit_rows_spv, constants(s)),
       near_(device, bindings_, kNear.pick(access, s.energyBook), constants(s)),
       link_(device, bindings_, kLink.pick(access, s.energyBook), constants(s)),
       commitLists_(device, bindings_, commit_lists_spv, constants(s)),
@@ -110,6 +109,7 @@ Passes::Passes(const vk::Device& device, const TableSizes& s, const Access& acce
       surfaces_(device, bindings_, kSurfaces.pick(access, s.energyBook), constants(s)),
       coil_(device, bindings_, kCoil.pick(access, s.energyBook), constants(s)),
       move_(device, bindings_, kMove.pick(access, s.energyBook), constants(s)),
+      decide_(device, bindings_, decide_spv, constants(s)),
       sense_(device, bindings_, sense_spv, constants(s)),
       senseEnergy_(device, bindings_, sense_energy_spv, constants(s)) {}
 
@@ -121,10 +121,10 @@ void Passes::reset() {
         coilHistory.writeAll(angles, kVec4 * (sizes.coilHistoryRows() - 1) * sizes.particles);
     }
     gpu::Control c{};
-    for (gpu::ErrorRecord& e : c.error) e.first = gpu::uvec4(gpu::kEmpty);
+    c.call = c.error = gpu::uvec4(gpu::kEmpty);
     c.cells = gpu::uvec4((sizes.cells + sizes.workgroup - 1) / sizes.workgroup, 1, 1, 0);
     c.particles = c.refresh = gpu::uvec4(sizes.groups(), 1, 1, 0);
-    c.single = c.settle = gpu::uvec4(1, 1, 1, 0);
+    c.settle = gpu::uvec4(1, 1, 1, 0);
     c.pairs = c.surfaces = c.coil = gpu::uvec4(0, 1, 1, 0);
     control.write(0, &c, sizeof c);
 }
@@ -165,7 +165,7 @@ void Passes::recordSteps(vk::Commands& commands, std::uint32_t first, std::uint3
             const vk::Pipeline& pass;
             VkDeviceSize arguments;
         } decided[] = {{clear_, offsetof(gpu::Control, cells)},          {bin_, offsetof(gpu::Control, particles)},
-                       {neighbours_, offsetof(gpu::Control, particles)}, {commitRows_, offsetof(gpu::Control, single)},
+                       {neighbours_, offsetof(gpu::Control, particles)},
                        {near_, offsetof(gpu::Control, refresh)},         {link_, offsetof(gpu::Control, refresh)},
                        {commitLists_, offsetof(gpu::Control, settle)},   {pairs_, offsetof(gpu::Control, pairs)},
                        {surfaces_, offsetof(gpu::Control, surfaces)},    {coil_, offsetof(gpu::Control, coil)}};
@@ -175,10 +175,16 @@ void Passes::recordSteps(vk::Commands& commands, std::uint32_t first, std::uint3
             commands.barrier();
             if (times != nullptr) times->mark(commands);
         }
-        move_.bind(c);
-        commands.dispatch(sizes.groups());
-        commands.barrier();
-        if (times != nullptr) times->mark(commands);
+        const struct {
+            const vk::Pipeline& pass;
+            std::uint32_t groups;
+        } fixed[] = {{move_, sizes.groups()}, {decide_, 1}};
+        for (const auto& f : fixed) {
+            f.pass.bind(c);
+            commands.dispatch(f.groups);
+            commands.barrier();
+            if (times != nullptr) times->mark(commands);
+        }
     }
 }
 

@@ -44,9 +44,7 @@ class Passes {
     bool texelReads() const { return access_.texelReads; }
     VkDeviceSize bytes() const;  ///< of all tables
 
-    static constexpr std::array<const char*, 11> kTimed{"clear",    "bin",  "neighbours",   "commit_rows",
-                                                        "near",     "link", "commit_lists", "pairs",
-                                                        "surfaces", "coil", "move"};
+    static constexpr std::array<const char*, 11> kTimed{"clear", "bin", "neighbours", "near", "link", "commit_lists", "pairs", "surfaces", "coil", "move", "decide"};
 
   private:
     Passes(const vk::Device& device, const TableSizes& sizes, const Access& access);
@@ -54,7 +52,7 @@ class Passes {
 
     Access access_;
     vk::BindingSet bindings_;
-    vk::Pipeline clear_, bin_, neighbours_, commitRows_, near_, link_, commitLists_, pairs_, surfaces_, coil_, move_,
+    vk::Pipeline clear_, bin_, neighbours_, near_, link_, commitLists_, pairs_, surfaces_, coil_, move_, decide_,
         sense_, senseEnergy_;
 };
 

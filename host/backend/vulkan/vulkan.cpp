@@ -16,6 +16,31 @@ namespace vkdose {
 
 namespace {
 
+const char* text(std::uint32_t error) {
+    switch (error) {
+        case gpu::kErrorRowFull:
+            return "has more neighbours than a row holds: use a smaller skin or a narrower size distribution";
+        case gpu::kErrorCrowded:
+            return "has thousands of others around it, within the size of the largest: use a narrower size distribution "
+                   "or a smaller skin";
+        case gpu::kErrorTables:
+            return "finds no room in the tables of neighbours and contacts, which are sized for a dense packing: use a "
+                   "smaller skin";
+        case gpu::kErrorNan:
+            return "has a position or velocity that is not a number: the time step is too large or two particles "
+                   "started in one place";
+        case gpu::kErrorOverlap:
+            return "is in an overlap deeper than the case allows (contact.max_overlap_ratio, of the smaller radius): use "
+                   "a smaller time step or a stiffer k; if it is pinched between coil and wall, allow more";
+        case gpu::kErrorLost:
+            return "left the domain: enlarge the domain, or look for a gap between the surfaces";
+        case gpu::kErrorTurns:
+            return "touches more turns of the coil than there are slots: use a larger pitch";
+        default:
+            return "met the coil where the search for its closest point did not converge: report this case";
+    }
+}
+
 class VulkanBackend final : public Backend {
   public:
     explicit VulkanBackend(const VulkanOptions& options) : options_(options), device_(options.device) {
@@ -234,32 +259,10 @@ std::string VulkanBackend::nameParticle(std::uint32_t i) const {
 }
 
 void VulkanBackend::throwErrors(std::uint64_t firstStep) const {
-    static constexpr const char* kTexts[gpu::kErrors] = {
-        "left the domain: enlarge the domain, or look for a gap between the surfaces",
-        "has a position or velocity that is not a number: the time step is too large or two particles started in one "
-        "place",
-        "has more neighbours than a row holds: use a smaller skin or a narrower size distribution",
-        "is in an overlap deeper than the case allows (contact.max_overlap_ratio, of the smaller radius): use a "
-        "smaller "
-        "time step or a stiffer k; if it is pinched between coil and wall, allow more",
-        "touches more turns of the coil than there are slots: use a larger pitch",
-        "met the coil where the search for its closest point did not converge: report this case",
-        "has thousands of others around it, within the size of the largest: use a narrower size distribution or a "
-        "smaller skin",
-        "finds no room in the tables of neighbours and contacts, which are sized for a dense packing: use a smaller "
-        "skin"};
-    const gpu::Control control = passes_->control.readAll<gpu::Control>(1)[0];
-    // The earliest; of those in one step what may have caused the others.
-    constexpr std::uint32_t kCausesFirst[gpu::kErrors] = {gpu::kErrorRowFull, gpu::kErrorCrowded, gpu::kErrorTables,
-                                                          gpu::kErrorNan,     gpu::kErrorOverlap, gpu::kErrorLost,
-                                                          gpu::kErrorTurns,   gpu::kErrorNewton};
-    const std::uint32_t e = *std::min_element(
-        std::begin(kCausesFirst), std::end(kCausesFirst),
-        [&](std::uint32_t a, std::uint32_t b) { return control.error[a].first.x < control.error[b].first.x; });
-    const gpu::uvec4 first = control.error[e].first;
-    if (first.x == gpu::kEmpty) return;
-    const std::uint64_t step = firstStep + first.x;
-    throw RunError(fmt::format("{} {} (step {}, t = {:.6g} s)", nameParticle(first.y), kTexts[e], step,
+    const gpu::uvec4 error = passes_->control.readAll<gpu::Control>(1)[0].error;
+    if (error.x == gpu::kEmpty) return;
+    const std::uint64_t step = firstStep + error.x;
+    throw RunError(fmt::format("{} {} (step {}, t = {:.6g} s)", nameParticle(error.z), text(error.y), step,
                                double(step) * world_.timeStep));
 }
 
