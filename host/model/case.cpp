@@ -53,7 +53,7 @@ void completeTime(Section& time, Case& c, const SizeRange& sizes) {
         c.world.timeStep = std::stod(fmt::format("{:.2e}", std::floor(exact / unit) * unit));
         time.record("step_s", c.world.timeStep);
     }
-    if (c.world.skin == 0) c.world.skin = time.number("skin_mm", Bound::Positive, kMillimetre, 0.4 * sizes.mean * 1e3);
+    if (c.world.skin == 0) c.world.skin = time.number("skin_mm", Bound::Positive, kMillimetre, 0.6 * sizes.mean * 1e3);
     const double steps = std::max(1.0, std::round(c.sensorInterval / c.world.timeStep));
     c.sensorInterval = steps * c.world.timeStep;
 }

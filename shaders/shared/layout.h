@@ -29,10 +29,10 @@ SHARED_CONST kEmpty = 0xffffffffu;    // end of a cell's list
 SHARED_REAL kNoTurn = 1e30f;          // wire angle in the place of a coil turn that is not touched
 // Slack: how far a particle may move before the contact lists are made anew; with half the skin of the rows as unit.
 // A particle at rest needs next to none; what falls gets room for a while.
-SHARED_REAL kLeastSlack = 0.01f;
-SHARED_REAL kMostSlack = 0.25f;
+SHARED_REAL kLeastSlack = 0.0067f;
+SHARED_REAL kMostSlack = 0.2f;
 SHARED_REAL kSlackSteps = 256.0f;  // steps at the present speed
-SHARED_REAL kCoilSlack = 0.04f;    // of the coil's wire
+SHARED_REAL kCoilSlack = 0.03f;    // of the coil's wire
 
 // --- particle state: vec4 state[2 halves][2 couples][particles][2 fields]; the halves take turns as source and
 // destination Two fields side by side are 32 bytes, which a device with 64-bit integers can store in four pieces
