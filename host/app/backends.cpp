@@ -40,6 +40,18 @@ std::unique_ptr<Backend> makeBackend(const BackendChoice& choice, std::size_t pa
     return makeVulkanBackend(device);
 }
 
+std::vector<std::unique_ptr<Backend>> makeEnsemble(const BackendChoice& choice, std::size_t members,
+                                                   std::size_t particles) {
+    if (choice.backend == "reference") throw UsageError("an ensemble needs a device; the reference runs one canister");
+    chooseThreads(particles);
+    vk::DeviceChoice device;
+    device.name = choice.device;
+    device.validation = choice.validation;
+    VulkanOptions options;
+    options.device = device;
+    return makeVulkanEnsemble(options, members);
+}
+
 BackendChoice sameBackend(const std::string& description, const BackendChoice& choice) {
     const std::string vulkan = "vulkan: ";
     BackendChoice same = choice;

@@ -4,6 +4,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "host/backend/backend.h"
 
@@ -23,6 +24,10 @@ struct BackendChoice {
 /// For `particles`, of which it takes the number of lavapipe's threads. Throws UsageError if a device is asked for on
 /// the reference backend, DeviceError if there is none.
 std::unique_ptr<Backend> makeBackend(const BackendChoice& choice, std::size_t particles);
+
+/// Backends of canisters that share a device (makeVulkanEnsemble), of `particles` all together.
+std::vector<std::unique_ptr<Backend>> makeEnsemble(const BackendChoice& choice, std::size_t members,
+                                                   std::size_t particles);
 
 /// The backend and device a description (Backend::description) stands for; `device` of `choice` wins, if given.
 BackendChoice sameBackend(const std::string& description, const BackendChoice& choice);

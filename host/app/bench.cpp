@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdio>
 #include <fstream>
+#include <future>
 #include <new>
 #include <thread>
 
@@ -59,7 +60,8 @@ double since(std::chrono::steady_clock::time_point start) {
 double rebuildSeconds(const VulkanProfile& first) {
     double seconds = 0;
     for (const VulkanProfile::Pass& p : first.passes)
-        if (p.name != "pairs" && p.name != "surfaces" && p.name != "coil" && p.name != "move") seconds += p.seconds;
+        if (p.name != "pairs" && p.name != "surfaces" && p.name != "coil" && p.name != "move" && p.name != "decide")
+            seconds += p.seconds;
     return first.rebuilds > 0 ? seconds / double(first.rebuilds) : 0;
 }
 
@@ -141,6 +143,31 @@ Row measuredCopies(const std::string& name, const Workload& w, const BenchOption
     return row;
 }
 
+/// `options.members` copies of the workload in one ensemble.
+Row measuredEnsemble(const std::string& name, const Workload& w, const BenchOptions& options,
+                     const bench::Effort& effort) {
+    const std::size_t members = std::size_t(options.members);
+    Row row = named(name, w, effort);
+    row.members = options.members;
+    row.particles *= members;
+    try {
+        const auto backends = makeEnsemble(options.backend, members, row.particles);
+        row.on = backends[0]->description();
+        // Every member in a thread of its own, as Rendezvous wants it.
+        const auto together = [&](const std::function<void(Backend&)>& act) {
+            std::vector<std::future<void>> acts;
+            for (const auto& backend : backends) acts.push_back(std::async(std::launch::async, [&] { act(*backend); }));
+            for (std::future<void>& a : acts) a.get();
+        };
+        together([&](Backend& b) { b.load(w.world, w.particles); });
+        const auto advance = [&](std::uint32_t n) { together([&](Backend& b) { b.advance(n, w.coilRate); }); };
+        row.speed = bench::time(advance, row.particles, w.warmSteps, effort);
+    } catch (const DeviceError& e) {
+        row.refused = e.what();
+    }
+    return row;
+}
+
 void write(const std::filesystem::path& file, const std::string& text) {
     std::ofstream stream(file, std::ios::binary);
     stream << text;
@@ -177,6 +204,9 @@ int benchCommand(const BenchOptions& options) {
         const Workload workload = plan.make();
         if (options.copies > 1) {
             rows.push_back(measuredCopies(plan.name, workload, options, effort));
+            print(rows.back());
+        } else if (options.members > 1) {
+            rows.push_back(measuredEnsemble(plan.name, workload, options, effort));
             print(rows.back());
         } else {
             rows.push_back(measured(plan.name, workload, options.backend, effort));

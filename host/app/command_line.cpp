@@ -98,6 +98,10 @@ void addBench(CLI::App& program, BenchOptions& options) {
     command.add_option("--copies", options.copies, "processes that run each workload at once, one for each core")
         ->check(CLI::Range(1, 1024))
         ->capture_default_str();
+    command.add_option("--members", options.members, "canisters with each workload that share the device")
+        ->check(CLI::Range(1, 65535))
+        ->capture_default_str()
+        ->excludes("--copies");
     command.add_flag("--quick", options.quick, "the small workloads, too short to measure: a trial of the command");
     command.add_option("--out", options.out, "folder for bench.csv and bench.json")
         ->type_name("DIR")

@@ -59,6 +59,7 @@ struct BenchOptions {
     std::string only;           ///< part of the name of the workloads to run; empty: all
     int repeats = 5;
     int copies = 1;      ///< processes side by side, each with the workload for itself
+    int members = 1;     ///< canisters in one ensemble, ditto
     bool quick = false;  ///< the small workloads, a fraction of a second each: does it work at all
 };
 

@@ -70,6 +70,9 @@ struct Row {
     // Not of a backend in a process of its own: then only the speed and the list are known, or only the speed.
     bool plain = false;  ///< the plain loop
     int copies = 1;      ///< processes side by side, of which `speed` is the sum
+    int members = 1;     ///< canisters in one ensemble, each with the workload for itself; `speed` is that of all
+
+    bool onlySpeed() const { return copies > 1 || members > 1; }
 
     double bandwidth() const { return stepBytes * speed.particleSteps.median; }  ///< [bytes/s]
 };

@@ -14,11 +14,12 @@ using Json = nlohmann::ordered_json;
 Json figuresOf(const Row& r) {
     Json j{{"particles", r.particles},
            {"copies", r.copies},
+           {"members", r.members},
            {"repeats", r.repeats},
            {"particle_steps_per_s", r.speed.particleSteps.median},
            {"particle_steps_per_s_low", r.speed.particleSteps.low},
            {"particle_steps_per_s_high", r.speed.particleSteps.high}};
-    if (r.copies > 1) return j;
+    if (r.onlySpeed()) return j;
     j["steps"] = r.speed.steps;
     j["cores_busy"] = r.speed.coresBusy.median;
     j["listed_per_particle"] = r.listed;
@@ -62,13 +63,15 @@ std::string headLine() {
 }
 
 std::string tableLine(const Row& r) {
-    const std::string name = r.plain ? "  plain loop" : r.workload;
+    const std::string several = r.copies > 1    ? fmt::format(" x{}", r.copies)
+                                : r.members > 1 ? fmt::format(", {} in one", r.members)
+                                                : "";
+    const std::string name = r.plain ? "  plain loop" : r.workload + several;
     if (!r.refused.empty()) return fmt::format("{:<20} {:>9} refused: {}", name, r.particles, r.refused);
     const Spread& s = r.speed.particleSteps;
-    std::string speed =
-        fmt::format("{:<20} {:>9} {:>9.3f} {:>17}", r.copies > 1 ? fmt::format("{} x{}", name, r.copies) : name,
-                    r.particles, s.median * 1e-6, fmt::format("{:.3f} ... {:.3f}", s.low * 1e-6, s.high * 1e-6));
-    if (r.copies > 1) return speed;
+    std::string speed = fmt::format("{:<20} {:>9} {:>9.3f} {:>17}", name, r.particles, s.median * 1e-6,
+                                    fmt::format("{:.3f} ... {:.3f}", s.low * 1e-6, s.high * 1e-6));
+    if (r.onlySpeed()) return speed;
     const std::string own = r.plain ? fmt::format("{:>10}", "") : fmt::format("{:>10.2f}", r.contactsPerSecond * 1e-6);
     const std::string rest = r.plain ? fmt::format("{:>7} {:>9}", "", "")
                                      : fmt::format("{:>7.2f} {:>9.2f}", r.coordination.walls, r.rebuildsPer1000);
@@ -77,7 +80,7 @@ std::string tableLine(const Row& r) {
 }
 
 std::string detailLines(const Row& r) {
-    if (r.plain || r.copies > 1 || !r.refused.empty()) return {};
+    if (r.plain || r.onlySpeed() || !r.refused.empty()) return {};
     std::string text;
     if (r.passes.empty()) {
         text += "    this device keeps no time for its passes\n";

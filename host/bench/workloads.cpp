@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::uint64_t kSeed = 1;
 constexpr double kTimeStep = 2.26e-6;  // the paper's [s]
-constexpr double kSkin = 0.5e-3;       // 0.4 of the mean radius, as a case has it by default [m]
+constexpr double kSkin = 0.75e-3;      // 0.6 of the mean radius, as a case has it by default [m]
 constexpr double kFallSpeed = 0.1;     // about that of the coil's rim [m/s]
 /// The contacts of a list of particles start without history; in so many steps (9 ms for the paper's case) they find
 /// it: sound crosses the bed some ten times.

@@ -25,7 +25,7 @@ class Commands {
     void barrier();
     /// As `barrier`, towards reads and writes of the host.
     void hostBarrier();
-    void dispatch(std::uint32_t groups);
+    void dispatch(std::uint32_t groups, std::uint32_t rows = 1);
     /// Workgroup counts from three consecutive words of `buffer` at `offset`.
     void dispatchIndirect(VkBuffer buffer, VkDeviceSize offset);
     void copy(VkBuffer from, VkDeviceSize fromOffset, VkBuffer to, VkDeviceSize toOffset, VkDeviceSize size);

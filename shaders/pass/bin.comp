@@ -6,9 +6,11 @@
 #include "shared/cells.glsl"
 
 void main() {
-    uint i = gl_GlobalInvocationID.x;
+    openMember();
+    if (control.wanted.x == 0u) return;
+    uint i = firstParticle() + gl_GlobalInvocationID.x;
     vec4 p = readState(push.source, kPosition, i);
     if (p.w <= 0.0) return;
-    uint slot = cellSlot(cellOf(p.xyz, member.numerics.z));
-    cells[push.cellMask + 1u + i] = atomicExchange(cells[slot], i);
+    uint head = headIndex(cellSlot(cellOf(p.xyz, numerics().z)));
+    cells[nextIndex(i)] = atomicExchange(cells[head], i);
 }

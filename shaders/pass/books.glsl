@@ -7,7 +7,7 @@
 
 float workOnOneSide(Exerted e, Body b, float side) {
     float lever = abs(b.sphere.radius) - 0.5 * e.rest.w;
-    Work w = halfStepWork(e, side * b.velocity - lever * cross(b.spin, e.normal.xyz), side * b.spin, member.numerics.x);
+    Work w = halfStepWork(e, side * b.velocity - lever * cross(b.spin, e.normal.xyz), side * b.spin, numerics().x);
     return w.hysteretic + w.damping + dot(w.sliders, vec3(1.0));
 }
 
@@ -17,8 +17,8 @@ void bookDeparture(uint i, uint slot) {
     History h = History(readHistory(0u, slot), readHistory(1u, slot));
     if (h.slidingMax.w <= 0.0) return;
     Exerted e = Exerted(readHistory(2u, slot), readHistory(3u, slot), readHistory(4u, slot));
-    bool isPair = slot < push.pairSlots;
-    vec4 stored = elasticEnergy(member.contact[isPair ? kParticleParticle : kParticleWall], 0.0, 1.0, h);
+    bool isPair = ofPair(slot);
+    vec4 stored = elasticEnergy(lawOf(isPair ? kParticleParticle : kParticleWall), 0.0, 1.0, h);
     stored.x = e.couple.w;
     float left = dot(stored, vec4(1.0));
     if (isPair) {
@@ -35,7 +35,7 @@ void bookDepartureFromCoil(uint i) {
     for (uint t = 0u; t < kMaxTurns; ++t) {
         if (angles[t] == kNoTurn) continue;
         uint at = coilHistoryIndex(t, 0u, i);
-        vec4 stored = elasticEnergy(member.contact[kParticleCoil], 0.0, 1.0,
+        vec4 stored = elasticEnergy(lawOf(kParticleCoil), 0.0, 1.0,
                                     History(coilHistory[at], coilHistory[at + push.particles]));
         stored.x = coilHistory[at + 4u * push.particles].w;
         books[bookIndex(kBookFlow, i)].y += dot(stored, vec4(1.0));
@@ -46,14 +46,14 @@ void bookDepartureFromCoil(uint i) {
 /// with the load and what leaves with the particle. Velocities before and after the kick.
 void bookStep(uint i, vec4 normal, vec4 sliders, vec3 centre, float r, float mass, vec3 velocity, vec3 spin,
               vec3 newVelocity, vec3 newSpin, float coilTorque, bool leaves) {
-    bool opening = push.opening == 1u;
-    float springDt = opening ? 0.0 : member.numerics.x;
+    bool first = opening();
+    float springDt = first ? 0.0 : numerics().x;
     vec4 flow = books[bookIndex(kBookFlow, i)];
     float coilWork = -0.5 * springDt * member.coil.motion.x * (flow.z + coilTorque);
-    vec3 v = opening ? 2.0 * velocity - newVelocity : velocity, w = opening ? 2.0 * spin - newSpin : spin;
+    vec3 v = first ? 2.0 * velocity - newVelocity : velocity, w = first ? 2.0 * spin - newSpin : spin;
     float motion =
-        mass * (0.5 * dot(v, newVelocity) + 0.2 * r * r * dot(w, newSpin) - dot(member.gravity.xyz, centre));
-    flow.x += sliders.w + (opening ? motion : 0.0);
+        mass * (0.5 * dot(v, newVelocity) + 0.2 * r * r * dot(w, newSpin) - dot(gravity().xyz, centre));
+    flow.x += sliders.w + (first ? motion : 0.0);
     if (leaves) flow.y += motion;
     flow.z = leaves ? 0.0 : coilTorque;
     books[bookIndex(kBookNormal, i)] += normal;

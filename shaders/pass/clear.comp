@@ -4,5 +4,7 @@
 #include "shared/buffers.glsl"
 
 void main() {
-    if (gl_GlobalInvocationID.x <= push.cellMask) cells[gl_GlobalInvocationID.x] = kEmpty;
+    openMember();
+    bool mine = control.wanted.x != 0u && gl_GlobalInvocationID.x <= push.cellMask;
+    if (mine) cells[headIndex(gl_GlobalInvocationID.x)] = kEmpty;
 }

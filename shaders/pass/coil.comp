@@ -29,12 +29,13 @@ uint freeTurn(vec4 angles, uint met) {
 }
 
 void main() {
-    ContactParams law = member.contact[kParticleCoil];  // before any branch, as in `pairs`
+    openMember();
+    ContactParams law = lawOf(kParticleCoil);  // before any branch, as in `pairs`
     CoilParams coil = member.coil;
-    uvec4 choices = member.choices;
-    float springDt = push.opening == 1u ? 0.0 : member.numerics.x;
+    uvec4 chosen = choices();
+    float springDt = springStep();
     if (gl_GlobalInvocationID.x >= control.listed.z) return;
-    uint slot = springSlots() + gl_GlobalInvocationID.x;
+    uint slot = firstCoilSlot() + gl_GlobalInvocationID.x;
     uint i = readEntry(slot).x;
     Body me = readBody(i);
     vec4 angles = readCoilHistory(wireAngleIndex(i));
@@ -76,7 +77,7 @@ void main() {
         vec3 wall = coil.motion.x * vec3(-point.y, point.x, 0.0);
         Overlap o = Overlap(touch.depth, touch.normal);
         Response r;
-        WallForce f = meetWall(me, o, law, choices, springDt, wall, vec3(0.0, 0.0, coil.motion.x), h, r);
+        WallForce f = meetWall(me, o, law, chosen, springDt, wall, vec3(0.0, 0.0, coil.motion.x), h, r);
         coilHistory[at] = h.slidingMax;
         coilHistory[at + push.particles] = h.rollingTorsion;
         force += f.force;

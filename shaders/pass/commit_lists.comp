@@ -1,19 +1,32 @@
 #version 450
-// commit_lists: ends a refresh of the contact lists: sizes the dispatches over them. One invocation writes.
+// commit_lists: ends a refresh of the contact lists: says how much they hold and sizes the dispatches over them for the
+// member that has most. One workgroup.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/buffers.glsl"
 
-uint groupsOf(uint count) { return (count + gl_WorkGroupSize.x - 1u) / gl_WorkGroupSize.x; }
+shared uvec3 most[gl_WorkGroupSize.x];
 
-void main() {
-    if (gl_GlobalInvocationID.x != 0u) return;
+void commit() {
     // A full table is reported; until the host hears of it nothing may reach outside.
-    uvec3 held = min(control.coming.xyz, uvec3(push.pairSlots, push.surfaceSlots, push.coilSlots));
-    control.listed = uvec4(held, 0u);
-    control.pairs.x = groupsOf(held.x);
-    control.surfaces.x = groupsOf(held.y);
-    control.coil.x = groupsOf(held.z);
+    control.listed = uvec4(min(control.coming.xyz, uvec3(push.pairSlots, push.surfaceSlots, push.coilSlots)), 0u);
     control.coming = uvec4(0u);
     control.drift = vec4(0.0);
     control.list.w += 1u;
+}
+
+void main() {
+    uint lane = gl_LocalInvocationID.x;
+    most[lane] = uvec3(0u);
+    for (uint row = lane; row < push.live; row += gl_WorkGroupSize.x) {
+        openRow(row);
+        if (control.wanted.y != 0u) commit();
+        most[lane] = max(most[lane], control.listed.xyz);
+    }
+    barrier();
+    if (lane != 0u) return;
+    for (uint other = 1u; other < gl_WorkGroupSize.x; ++other) most[0] = max(most[0], most[other]);
+    uvec3 groups = (most[0] + gl_WorkGroupSize.x - 1u) / gl_WorkGroupSize.x;
+    dispatches.pairs.x = groups.x;
+    dispatches.surfaces.x = groups.y;
+    dispatches.coil.x = groups.z;
 }

@@ -1,7 +1,8 @@
 #version 450
-// decide: ends a step: keeps the first error, says whether the next step starts with new rows or new contact lists.
-// One invocation works. Everything that particles ask for comes through one word (Control.call), because lavapipe makes
-// every atomic that a pass contains, needed or not: with a dozen of them `move` took two thirds longer.
+// decide: ends a step: keeps every member's first error, says which members start the next step with new rows or new
+// contact lists, and sizes the dispatches for that. One workgroup, each invocation for some of the members.
+// Everything that particles ask for comes through one word (Control.call), because lavapipe makes every atomic that a
+// pass contains, needed or not: with a dozen of them `move` took two thirds longer.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/buffers.glsl"
 #include "pass/slack.glsl"
@@ -9,25 +10,42 @@
 /// The wire of a turning coil is a helix on its way along the axis.
 bool coilDrifts() {
     if (member.coil.motion.z == 0.0) return false;
-    control.drift.x += abs(member.coil.motion.x / member.coil.pitch.w) * member.numerics.x;
+    control.drift.x += abs(member.coil.motion.x / member.coil.pitch.w) * numerics().x;
     return control.drift.x > coilSlack();
 }
 
-void main() {
-    if (gl_GlobalInvocationID.x != 0u) return;
+void decide(uint next) {
     uint kind = control.call.x >> kCallShift;
     if (kind < kErrors && control.error.x == kEmpty)
         control.error = uvec4(push.stepInBatch, kind, control.call.x & (kMostParticles - 1u), 0u);
     control.call.x = kEmpty;
 
-    if (control.cells.x != 0u) {  // rows were built in this step
+    if (control.wanted.x != 0u) {  // rows were built in this step
         control.list.x = 0u;
         control.list.y += 1u;
     }
     bool drifts = coilDrifts(), rebuild = kind == kCallRebuild, refresh = rebuild || drifts || kind == kCallRefresh;
-    uint groups = push.particles / gl_WorkGroupSize.x;
-    control.cells.x = rebuild ? (push.cellMask + gl_WorkGroupSize.x) / gl_WorkGroupSize.x : 0u;
-    control.particles.x = rebuild ? groups : 0u;
-    control.refresh.x = refresh ? groups : 0u;
-    control.settle.x = refresh ? 1u : 0u;
+    control.wanted = uvec4(rebuild ? 1u : 0u, refresh ? 1u : 0u, 0u, 0u);
+    uint groups = push.share / gl_WorkGroupSize.x;
+    if (rebuild) {
+        dispatches.step[next].cells.x = (push.cellMask + gl_WorkGroupSize.x) / gl_WorkGroupSize.x;
+        dispatches.step[next].particles.x = groups;
+    }
+    if (refresh) {
+        dispatches.step[next].refresh.x = groups;
+        dispatches.step[next].settle.x = 1u;
+    }
+}
+
+void main() {
+    uint now = push.source, next = 1u - now;
+    for (uint row = gl_LocalInvocationID.x; row < push.live; row += gl_WorkGroupSize.x) {
+        openRow(row);
+        decide(next);
+    }
+    if (gl_LocalInvocationID.x != 0u) return;
+    dispatches.step[now].cells.x = 0u;
+    dispatches.step[now].particles.x = 0u;
+    dispatches.step[now].refresh.x = 0u;
+    dispatches.step[now].settle.x = 0u;
 }

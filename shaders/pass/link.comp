@@ -37,7 +37,9 @@ uint slotOfOwner(uint j, uint i) {
 }
 
 void main() {
-    uint i = gl_GlobalInvocationID.x;
+    openMember();
+    if (control.wanted.y == 0u) return;
+    uint i = firstParticle() + gl_GlobalInvocationID.x;
     vec4 p = readState(push.source, kPosition, i);
     float slack = slackOfParticle(i);
     uvec4 range = readRange(rowRangeIndex(i)), own = readRange(slotRangeIndex(i));
@@ -69,8 +71,9 @@ void main() {
         report(kErrorTables, i);
         count = 0u;
     }
+    first += self * push.linkEntries;
     for (uint k = 0u; k < count; ++k) rows[linkIndex(first + k)] = links[k];
     ranges[rowRangeIndex(i)].zw = uvec2(first, count);
-    ranges[turnIndex(gl_WorkGroupID.x * gl_WorkGroupSize.x + rankByLinks(count))] = uvec4(i, first, count, 0u);
+    ranges[turnIndex(i - gl_LocalInvocationID.x + rankByLinks(count))] = uvec4(i, first, count, 0u);
     anchors[anchorIndex(kListAnchor, i)] = vec4(p.xyz, slack);
 }

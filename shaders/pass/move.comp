@@ -19,10 +19,11 @@ bool finite(vec3 v) { return !(any(isnan(v)) || any(isinf(v))); }
 bool beyond(vec3 way, float limit) { return dot(way, way) > limit * limit; }
 
 void main() {
-    uvec4 turn = readRange(turnIndex(gl_GlobalInvocationID.x));
+    openMember();
+    uvec4 turn = readRange(turnIndex(firstParticle() + gl_GlobalInvocationID.x));
     uint i = turn.x, firstLink = turn.y, links = turn.z;
-    vec4 gravity = member.gravity, numerics = member.numerics;
-    vec4 bottom = member.domainLow, top = member.domainHigh;
+    vec4 pull = gravity(), numbers = numerics();
+    vec4 bottom = domainLow(), top = domainHigh();
 
     vec4 position = readState(push.source, kPosition, i);
     vec4 residue = readState(push.source, kResidue, i);
@@ -54,10 +55,10 @@ void main() {
     }
 
     // Leapfrog. The loaded velocity belongs to t = 0, so the opening kick is half a step.
-    float dt = numerics.x, r = abs(position.w);
-    float mass = gravity.w * (4.0 / 3.0 * 3.14159265358979) * r * r * r;
-    float kick = push.opening == 1u ? 0.5 * dt : dt;
-    vec3 velocity = velocity4.xyz + kick * (force / mass + gravity.xyz);
+    float dt = numbers.x, r = abs(position.w);
+    float mass = pull.w * (4.0 / 3.0 * 3.14159265358979) * r * r * r;
+    float kick = opening() ? 0.5 * dt : dt;
+    vec3 velocity = velocity4.xyz + kick * (force / mass + pull.xyz);
     vec3 spin = spin4.xyz + kick / (0.4 * mass * r * r) * torque;
 
     vec3 advance = dt * velocity + residue.xyz;
@@ -74,7 +75,7 @@ void main() {
     bool rebuild = leaves || beyond(high - rowAnchor, (1.0 - kMostSlack) * slackUnit());
     bool refresh = beyond(high - listAnchor.xyz, listAnchor.w);
     uint call = !sound                   ? kErrorNan
-                : overlap > numerics.w   ? kErrorOverlap
+                : overlap > numbers.w   ? kErrorOverlap
                 : now == kLost           ? kErrorLost
                 : rebuild                ? kCallRebuild
                                          : kCallRefresh;

@@ -20,7 +20,7 @@ uint pairs, surfaces, firstPair, firstSurface;
 /// The coming slot of what the contact `slot` joins; kEmpty if the two are no longer near.
 uint comingSlot(uint slot, uint other) {
     uint to = kEmpty;
-    if (slot < push.pairSlots) {
+    if (ofPair(slot)) {
         for (uint k = 0u; k < pairs; ++k)
             if (partners[k] == other) to = firstPair + k;
     } else if ((surfaces & (1u << other)) != 0u) {
@@ -35,7 +35,9 @@ void prepare(uint slot, uint i, uint other) {
 }
 
 void main() {
-    uint i = gl_GlobalInvocationID.x;
+    openMember();
+    if (control.wanted.y == 0u) return;
+    uint i = firstParticle() + gl_GlobalInvocationID.x;
     vec4 p = readState(push.source, kPosition, i);
     Sphere me = Sphere(p.xyz, vec3(0.0), p.w);
     float slack = slackOfParticle(i);
@@ -63,8 +65,9 @@ void main() {
         surfaces = 0u;
         met = 0u;
     }
-    firstSurface += push.pairSlots;
-    firstCoil += springSlots();
+    firstPair += firstPairSlot();
+    firstSurface += firstSurfaceSlot();
+    firstCoil += firstCoilSlot();
 
     for (uint k = 0u; k < pairs; ++k) prepare(firstPair + k, i, partners[k]);
     uint at = firstSurface;

@@ -20,13 +20,13 @@ void insertSorted(uint j, uint count) {
 }
 
 uint collect(uint i, vec4 p) {
-    float skin = member.numerics.y, size = member.numerics.z;
+    float skin = numerics().y, size = numerics().z;
     ivec3 home = cellOf(p.xyz, size);
     uint count = 0u, found = 0u, visits = 0u;
     for (int n = 0; n < 27; ++n) {
         ivec3 cell = home + ivec3(n % 3, (n / 3) % 3, n / 9) - 1;
-        uint j = cells[cellSlot(cell)];
-        for (; j != kEmpty && visits <= kMostVisits; j = cells[push.cellMask + 1u + j]) {
+        uint j = cells[headIndex(cellSlot(cell))];
+        for (; j != kEmpty && visits <= kMostVisits; j = cells[nextIndex(j)]) {
             ++visits;
             if (j == i) continue;
             vec4 q = readState(push.source, kPosition, j);
@@ -48,7 +48,9 @@ uint collect(uint i, vec4 p) {
 }
 
 void main() {
-    uint i = gl_GlobalInvocationID.x;
+    openMember();
+    if (control.wanted.x == 0u) return;
+    uint i = firstParticle() + gl_GlobalInvocationID.x;
     vec4 p = readState(push.source, kPosition, i);
     uint count = 0u;
     if (p.w > 0.0) count = collect(i, p);
@@ -57,6 +59,7 @@ void main() {
         report(kErrorTables, i);
         count = 0u;
     }
+    first += self * push.rowEntries;
     for (uint s = 0u; s < count; ++s) rows[first + s] = row[s];
     ranges[rowRangeIndex(i)].xy = uvec2(first, count);
     anchors[anchorIndex(kRowAnchor, i)] = p;

@@ -13,11 +13,12 @@
 
 void main() {
     // What is the same for all comes before any branch: there lavapipe reads it once, behind it lane by lane.
-    ContactParams law = member.contact[kParticleParticle];
-    uvec4 choices = member.choices;
-    float springDt = push.opening == 1u ? 0.0 : member.numerics.x;
-    uint slot = gl_GlobalInvocationID.x;
-    if (slot >= control.listed.x) return;
+    openMember();
+    ContactParams law = lawOf(kParticleParticle);
+    uvec4 chosen = choices();
+    float springDt = springStep();
+    if (gl_GlobalInvocationID.x >= control.listed.x) return;
+    uint slot = firstPairSlot() + gl_GlobalInvocationID.x;
 
     uvec2 who = readEntry(slot);
     Body a = readBody(who.x), b = readBody(who.y);
@@ -31,7 +32,7 @@ void main() {
     float leverA = ra - 0.5 * o.depth, leverB = rb - 0.5 * o.depth;
     vec3 velocity = (a.velocity - b.velocity) - cross(leverA * a.spin + leverB * b.spin, o.normal);
     Meeting m = Meeting(o.normal, o.depth, 2.0 * ra * rb / (ra + rb), velocity, a.spin - b.spin);
-    Response r = contactResponse(law, choices, m, springDt, h);
+    Response r = contactResponse(law, chosen, m, springDt, h);
     vec3 turn = cross(o.normal, r.sliding);
 
     writeHistory(slot, touching ? h.slidingMax : vec4(0.0), touching ? h.rollingTorsion : vec4(0.0));

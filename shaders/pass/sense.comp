@@ -11,7 +11,8 @@ shared vec4 motion[gl_WorkGroupSize.x];
 shared float overlap[gl_WorkGroupSize.x];
 
 void main() {
-    uint i = gl_GlobalInvocationID.x, lane = gl_LocalInvocationID.x;
+    openMember();
+    uint i = firstParticle() + gl_GlobalInvocationID.x, lane = gl_LocalInvocationID.x;
     vec4 position = state[stateIndex(push.source, kPosition, i)];
     vec4 residue = state[stateIndex(push.source, kResidue, i)];
     vec4 velocity = state[stateIndex(push.source, kVelocity, i)];
@@ -46,5 +47,5 @@ void main() {
         }
     }
     if (lane == 0u)
-        sensors[gl_WorkGroupID.x] = SensorRecord(count[0], mass[0], motion[0], vec4(overlap[0], 0.0, 0.0, 0.0));
+        sensors[i / gl_WorkGroupSize.x] = SensorRecord(count[0], mass[0], motion[0], vec4(overlap[0], 0.0, 0.0, 0.0));
 }

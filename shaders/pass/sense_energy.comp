@@ -10,7 +10,8 @@
 shared EnergyRecord record[gl_WorkGroupSize.x];
 
 void main() {
-    uint i = gl_GlobalInvocationID.x, lane = gl_LocalInvocationID.x;
+    openMember();
+    uint i = firstParticle() + gl_GlobalInvocationID.x, lane = gl_LocalInvocationID.x;
     uint before = 1u - push.source;
     vec4 gravity = member.gravity;
     vec4 position = state[stateIndex(push.source, kPosition, i)];
@@ -56,5 +57,5 @@ void main() {
             record[lane].angular += other.angular;
         }
     }
-    if (lane == 0u) energies[gl_WorkGroupID.x] = record[0];
+    if (lane == 0u) energies[i / gl_WorkGroupSize.x] = record[0];
 }

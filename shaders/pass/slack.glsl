@@ -4,10 +4,10 @@
 #ifndef VKDOSE_PASS_SLACK_GLSL
 #define VKDOSE_PASS_SLACK_GLSL
 
-float slackUnit() { return 0.5 * member.numerics.y; }
+float slackUnit() { return 0.5 * numerics().y; }
 
 float slackOf(vec3 velocity) {
-    float some = kSlackSteps * member.numerics.x * length(velocity);
+    float some = kSlackSteps * numerics().x * length(velocity);
     return min(kLeastSlack * slackUnit() + some, kMostSlack * slackUnit());
 }
 

@@ -51,7 +51,7 @@ void bookPair(ContactParams law, float springDt, uint slot, Body a, Body b, Over
     Work x = halfStepWork(before, pairVelocity(before, a, b), a.spin - b.spin, springDt);
     Work y = halfStepWork(now, pairVelocity(now, a, b), a.spin - b.spin, springDt);
     Book booked = Book(vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
-    if (push.opening == 1u)
+    if (opening())
         booked = bookLoaded(stored);
     else if (known || touching)
         booked = bookContact(before, now, known, touching, storedBefore, stored, x, y, law.normal.z, r.slips);
@@ -74,7 +74,7 @@ Book bookWall(ContactParams law, float springDt, float rate, Body me, Exerted be
     vec3 came = me.sphere.high - springDt * me.velocity;  // where it was when `before` acted
     Work x = halfStepWork(before, wallVelocity(before, me, came, rate), spin, springDt);
     Work y = halfStepWork(now, wallVelocity(now, me, me.sphere.high, rate), spin, springDt);
-    if (push.opening == 1u) return bookLoaded(stored);
+    if (opening()) return bookLoaded(stored);
     return bookContact(before, now, known, touching, storedBefore, stored, x, y, law.normal.z, r.slips);
 }
 

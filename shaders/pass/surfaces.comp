@@ -11,11 +11,12 @@
 #endif
 
 void main() {
-    ContactParams law = member.contact[kParticleWall];  // before any branch, as in `pairs`
-    uvec4 choices = member.choices;
-    float springDt = push.opening == 1u ? 0.0 : member.numerics.x;
+    openMember();
+    ContactParams law = lawOf(kParticleWall);  // before any branch, as in `pairs`
+    uvec4 chosen = choices();
+    float springDt = springStep();
     if (gl_GlobalInvocationID.x >= control.listed.y) return;
-    uint slot = push.pairSlots + gl_GlobalInvocationID.x;
+    uint slot = firstSurfaceSlot() + gl_GlobalInvocationID.x;
 
     uvec2 who = readEntry(slot);
     Body me = readBody(who.x);
@@ -27,7 +28,7 @@ void main() {
     Overlap o = surfaceOverlap(KIND_SET, uint(p.pointHigh.w), p, me.sphere);
     bool touching = o.depth > 0.0;
     Response r;
-    WallForce f = meetWall(me, o, law, choices, springDt, vec3(0.0), vec3(0.0), h, r);
+    WallForce f = meetWall(me, o, law, chosen, springDt, vec3(0.0), vec3(0.0), h, r);
     writeHistory(slot, touching ? h.slidingMax : vec4(0.0), touching ? h.rollingTorsion : vec4(0.0));
     writeForce(slot, touching ? vec4(f.force, o.depth / me.sphere.radius) : vec4(0.0));
     writeTorque(slot, touching ? vec4(f.torque, 0.0) : vec4(0.0));

@@ -12,11 +12,12 @@ layout(local_size_x_id = 0) in;                      // workgroup size, chosen b
 layout(constant_id = 1) const uint SURFACES = 0u;    // fixed surfaces
 layout(constant_id = 2) const uint KINDS = 0u;       // kinds of the first surfaces, 4 bits each (kUnrolledSurfaces)
 layout(constant_id = 3) const uint KIND_SET = 0u;    // bit k: there is a surface of kind k
+layout(constant_id = 4) const uint MEMBERS = 1u;     // canisters that share the buffers, each with its part of every table
 
 layout(push_constant) uniform Push { StepPush push; };
 
 layout(std430, set = 0, binding = 0) buffer StateBuffer { vec4 state[]; };
-// Rows: of every particle the indices of those within reach and skin, ascending; then links: of every particle the
+// Rows: uint[members][rowEntries], then links: uint[members][linkEntries]. Rows: of every particle the indices of those within reach and skin, ascending; then links: of every particle the
 // contacts it takes part in, ascending by the other's index, then surfaces, then the coil: slot << 1 | 1 if it is the
 // contact's second body.
 layout(std430, set = 0, binding = 1) buffer RowBuffer { uint rows[]; };
@@ -28,9 +29,12 @@ layout(std430, set = 0, binding = 2) buffer RangeBuffer { uvec4 ranges[]; };
 layout(std430, set = 0, binding = 3) buffer HistoryBuffer { vec4 history[]; };
 // History with the coil: vec4[turns][parts][particles], then vec4[particles]: wire angle of each turn, kNoTurn if free.
 layout(std430, set = 0, binding = 4) buffer CoilHistoryBuffer { vec4 coilHistory[]; };
-layout(std430, set = 0, binding = 5) readonly buffer MemberBuffer { Member member; };
-layout(std430, set = 0, binding = 6) buffer ControlBuffer { Control control; };
-// Cells: uint head[cellMask + 1], then next[particles].
+layout(std430, set = 0, binding = 5) readonly buffer MemberBuffer { Member members[]; };
+layout(std430, set = 0, binding = 6) buffer ControlBuffer {
+    Dispatches dispatches;
+    Control controls[];
+};
+// Cells: uint head[members][cellMask + 1], then next[particles].
 layout(std430, set = 0, binding = 7) buffer CellBuffer { uint cells[]; };
 // Anchors: vec4[2][particles]: high part of the position when the rows were built, and when the contacts were listed.
 layout(std430, set = 0, binding = 8) buffer AnchorBuffer { vec4 anchors[]; };
@@ -53,7 +57,6 @@ layout(set = 0, binding = 17) uniform usamplerBuffer rowView;
 layout(set = 0, binding = 18) uniform usamplerBuffer rangeView;
 layout(set = 0, binding = 19) uniform samplerBuffer historyView;
 layout(set = 0, binding = 20) uniform samplerBuffer coilHistoryView;
-layout(set = 0, binding = 21) uniform samplerBuffer memberView;
 layout(set = 0, binding = 22) uniform samplerBuffer anchorView;
 layout(set = 0, binding = 23) uniform usamplerBuffer entryView;
 layout(set = 0, binding = 24) uniform samplerBuffer forceView;
@@ -68,13 +71,51 @@ const uint kParts = 2u;
 const uint kRowAnchor = 0u;
 const uint kListAnchor = 1u;
 
-uint springSlots() { return push.pairSlots + push.surfaceSlots; }
-uint slotCount() { return springSlots() + push.coilSlots; }
+/// The member that this workgroup works for: a dispatch has a row of workgroups for each that is live. A run on its own is
+/// an ensemble of one, for which all that follows from this folds away.
+uint self;
+#define member members[self]
+#define control controls[self]
+void openRow(uint row) { self = MEMBERS == 1u ? 0u : members[row].roster.x; }
+void openMember() { openRow(push.firstRow + gl_WorkGroupID.y); }
+
+// A member's parameters. What is read from the same place by all, lavapipe reads once, but only if the place is known when
+// the pipeline is made; else texel reads are faster.
+#ifdef TEXEL_READS
+layout(set = 0, binding = 21) uniform samplerBuffer memberView;
+#define OF_MEMBER(field, vector) \
+    (MEMBERS == 1u ? member.field : texelFetch(memberView, int(kMemberVectors * self + (vector))))
+#else
+#define OF_MEMBER(field, vector) member.field
+#endif
+ContactParams lawOf(uint kind) {
+    return ContactParams(OF_MEMBER(contact[kind].normal, 4u * kind), OF_MEMBER(contact[kind].sliding, 4u * kind + 1u),
+                         OF_MEMBER(contact[kind].rolling, 4u * kind + 2u), OF_MEMBER(contact[kind].torsion, 4u * kind + 3u));
+}
+vec4 gravity() { return OF_MEMBER(gravity, kVectorGravity); }
+vec4 domainLow() { return OF_MEMBER(domainLow, kVectorGravity + 1u); }
+vec4 domainHigh() { return OF_MEMBER(domainHigh, kVectorGravity + 2u); }
+vec4 numerics() { return OF_MEMBER(numerics, kVectorGravity + 3u); }
+uvec4 choices() { return uvec4(OF_MEMBER(choices, kVectorGravity + 4u)); }
+
+bool opening() { return push.opening == 1u && choices().w == 1u; }
+/// By how much springs grow in this step: not at all in a member's first.
+float springStep() { return opening() ? 0.0 : numerics().x; }
+
+uint firstParticle() { return self * push.share; }
+uint firstPairSlot() { return self * push.pairSlots; }
+uint firstSurfaceSlot() { return MEMBERS * push.pairSlots + self * push.surfaceSlots; }
+uint springSlots() { return MEMBERS * (push.pairSlots + push.surfaceSlots); }
+uint firstCoilSlot() { return springSlots() + self * push.coilSlots; }
+uint slotCount() { return springSlots() + MEMBERS * push.coilSlots; }
+bool ofPair(uint slot) { return slot < MEMBERS * push.pairSlots; }
 
 uint stateIndex(uint side, uint field, uint i) {
     return side * kFields * push.particles + stateOffset(field, i, push.particles);
 }
-uint linkIndex(uint at) { return push.rowEntries + at; }
+uint linkIndex(uint at) { return MEMBERS * push.rowEntries + at; }
+uint headIndex(uint cell) { return self * (push.cellMask + 1u) + cell; }
+uint nextIndex(uint i) { return MEMBERS * (push.cellMask + 1u) + i; }
 uint rowRangeIndex(uint i) { return i; }
 uint slotRangeIndex(uint i) { return push.particles + i; }
 uint turnIndex(uint invocation) { return 2u * push.particles + invocation; }
@@ -99,7 +140,7 @@ uvec2 readEntry(uint slot) { return texelFetch(entryView, int(slot)).xy; }
 vec4 readForce(uint slot) { return texelFetch(forceView, int(slot)); }
 vec4 readTorque(uint side, uint slot) { return texelFetch(torqueView, int(2u * slot + side)); }
 SurfaceParams readSurface(uint s) {
-    int at = int(12u + 4u * s);  // vectors before them in Member
+    int at = int(kMemberVectors * self + kVectorSurface + 4u * s);
     return SurfaceParams(texelFetch(memberView, at), texelFetch(memberView, at + 1), texelFetch(memberView, at + 2),
                          texelFetch(memberView, at + 3));
 }

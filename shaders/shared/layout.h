@@ -97,8 +97,14 @@ struct Member {
     vec4 domainLow;   // xyz [m]; w: throatZ [m]
     vec4 domainHigh;  // xyz [m]; w: outletZ [m]
     vec4 numerics;    // time step [s], skin [m], cell size [m], largest allowed overlap ratio
-    uvec4 choices;    // surfaces, coulomb limit (0 luding, 1 absolute), rolling lever (0 full, 1 half), -
+    vec4 choices;     // surfaces, coulomb limit (0 luding, 1 absolute), rolling lever (0 full, 1 half), 1 before any step
+    uvec4 roster;     // x: in block n, the member that row n of a dispatch works for
 };
+// Where in a member some of its vectors are.
+SHARED_CONST kVectorSurface = 12u;
+SHARED_CONST kVectorCoil = kVectorSurface + 4u * kMaxSurfaces;
+SHARED_CONST kVectorGravity = kVectorCoil + 5u;
+SHARED_CONST kMemberVectors = kVectorGravity + 6u;
 
 // --- control block: what the device decides and reports
 // ------------------------------------------------------------------
@@ -118,21 +124,28 @@ SHARED_CONST kCallRefresh = 9u;  // of the contact lists
 SHARED_CONST kCallShift = 27u;
 SHARED_CONST kMostParticles = 1u << kCallShift;
 
-struct Control {
-    // Indirect arguments, three words each.
+struct Dispatch {  // indirect arguments, three words each: workgroups, live members, 1
     uvec4 cells;      // workgroups that clear the cell table, 0 while no rebuild of the rows is wanted
     uvec4 particles;  // workgroups over the particles, ditto
     uvec4 refresh;    // workgroups over the particles, 0 while no refresh of the contact lists is wanted
     uvec4 settle;     // one workgroup, ditto
-    uvec4 pairs;      // workgroups over what the contact lists hold: pairs ...
-    uvec4 surfaces;   // ... contacts with surfaces ...
-    uvec4 coil;       // ... particles near the coil
-    uvec4 listed;     // entries of these in use: pairs, surfaces, coil
-    uvec4 coming;     // entries taken so far by the refresh at work: pairs, surfaces, coil, links
-    uvec4 list;  // x: entries of the rows in use; y: rebuilds since load; z: longest row ever; w: refreshes since load
-    vec4 drift;   // x: way of the coil's wire since the last refresh, along the axis [m]
-    uvec4 call;   // x: the most urgent call of this step; kEmpty: none
-    uvec4 error;  // the first: x: step of the batch, y: kind, z: particle; x is kEmpty while there is none
+};
+
+struct Dispatches {  // for all members together: as many workgroups as the one that wants most
+    Dispatch step[2];  // of even and odd steps: `decide` clears that of its step and fills the other
+    uvec4 pairs;       // workgroups over what the contact lists hold: pairs ...
+    uvec4 surfaces;    // ... contacts with surfaces ...
+    uvec4 coil;        // ... particles near the coil
+};
+
+struct Control {   // a member's
+    uvec4 wanted;  // x: 1 if this step starts with new rows, y: with new contact lists
+    uvec4 listed;  // entries of the contact lists in use: pairs, surfaces, coil
+    uvec4 coming;  // entries taken so far by the refresh at work: pairs, surfaces, coil, links
+    uvec4 list;    // x: entries of the rows in use; y: rebuilds since load; z: longest row ever; w: refreshes since load
+    vec4 drift;    // x: way of the coil's wire since the last refresh, along the axis [m]
+    uvec4 call;    // x: the most urgent call of this step; kEmpty: none
+    uvec4 error;   // the first: x: step of the batch, y: kind, z: particle; x is kEmpty while there is none
 };
 
 // --- sensing: one record per workgroup, summed by the host in double precision
@@ -167,13 +180,17 @@ struct EnergyRecord {  // one per workgroup
 // --------------------------------------------------------------------------------------------------------
 struct StepPush {
     uint stepInBatch;
-    uint source;        // which half of the state is read; the other is written
-    uint opening;       // 1 on the very first step of a load: half a kick, springs at rest
-    uint particles;     // slots, padding included (a multiple of the workgroup size)
+    uint source;     // which half of the state is read; the other is written
+    uint opening;    // 1 if this may be the first step of a member (Member.choices): half a kick, springs at rest
+    uint firstRow;   // block of the roster for the first row of the dispatch
+    uint live;       // members on the roster
+    uint particles;  // slots of all members, padding included
+    // Of each member:
+    uint share;         // slots for particles, a multiple of the workgroup size
     uint cellMask;      // size of the cell table - 1 (a power of two)
     uint rowEntries;    // room in the rows ...
-    uint linkEntries;   // ... and in the links behind them
-    uint pairSlots;     // contact slots: first the pairs, multiples of the workgroup size ...
+    uint linkEntries;   // ... and in the links behind the rows of all
+    uint pairSlots;     // contact slots, multiples of the workgroup size: first the pairs of all members ...
     uint surfaceSlots;  // ... then the surfaces ...
     uint coilSlots;     // ... then the coil
 };

@@ -30,11 +30,14 @@ TEST_CASE("GPU-assisted checks find an access outside a buffer") {
     const gpu::Member member = packMember(world, p);
     Passes passes(device, tableSizes(world, p, member, 64, device.limits().maxStorageBufferRange));
     passes.member.write(0, &member, sizeof member);
-    passes.state.writeAll(packState(p, 64));
+    std::vector<gpu::vec4> half(std::size_t(gpu::kFields) * 64);
+    packState(p, 64, 0, half);
+    passes.state.writeAll(half);
     passes.reset();
-    auto control = passes.control.readAll<gpu::Control>(1)[0];
-    control.particles.x = 4;  // reaches beyond the two ranges and anchors that the one workgroup of particles has
-    passes.control.write(0, &control, sizeof control);
+    auto dispatches = passes.control.readAll<gpu::Dispatches>(1)[0];
+    dispatches.step[0].particles.x =
+        4;  // reaches beyond the two ranges and anchors that the one workgroup of particles has
+    passes.control.write(0, &dispatches, sizeof dispatches);
     vk::Commands commands(device);
     commands.begin();
     passes.recordSteps(commands, 0, 1, 0, true);

@@ -20,11 +20,19 @@ inline std::unique_ptr<Backend> gpu(VulkanOptions options = {}) {
     return makeVulkanBackend(options);
 }
 
+inline std::vector<std::unique_ptr<Backend>> gpuEnsemble(std::size_t members) {
+    VulkanOptions options;
+    options.device = testDevice();
+    return makeVulkanEnsemble(options, members);
+}
+
 /// Fails the test if the validation layer is missing or complained.
-inline void requireClean(const Backend& backend) {
-    const ValidationReport report = validationReport(backend);
+inline void requireClean(const ValidationReport& report) {
     REQUIRE(report.validated);
     for (const std::string& message : report.messages) FAIL_CHECK(message);
+}
+inline void requireClean(const Backend& backend) {
+    requireClean(validationReport(backend));
 }
 
 /// The paper's contact parameters (k in N/m, settling adhesion), torsion switched on so that it is tested as well.

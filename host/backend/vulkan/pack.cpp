@@ -121,8 +121,8 @@ std::uint64_t turnsFixed(double angle) {
 
 void packLaw(const ContactLaw& law, gpu::Member& member) {
     for (int i = 0; i < kContactClasses; ++i) member.contact[i] = packContact(law.classes[i]);
-    member.choices.y = uint32_t(law.coulombLimit);
-    member.choices.z = uint32_t(law.rollingLever);
+    member.choices.y = float(law.coulombLimit);
+    member.choices.z = float(law.rollingLever);
 }
 
 gpu::Member packMember(const World& world, const Particles& particles) {
@@ -131,7 +131,8 @@ gpu::Member packMember(const World& world, const Particles& particles) {
                                    uint32_t(gpu::kMaxSurfaces)));
     gpu::Member m{};
     packLaw(world.law, m);
-    m.choices.x = uint32_t(world.surfaces.size());
+    m.choices.x = float(world.surfaces.size());
+    m.choices.w = 1.0f;
     for (std::size_t i = 0; i < world.surfaces.size(); ++i) m.surface[i] = std::visit(PackSurface{}, world.surfaces[i]);
     const double largest = largestRadius(particles);
     if (world.coil) m.coil = packCoil(*world.coil, largest);
@@ -148,12 +149,12 @@ void packPhase(uint64_t start, uint64_t perStep, gpu::Member& member) {
     member.coil.phase = uvec4(uint32_t(start >> 32), uint32_t(start), uint32_t(perStep >> 32), uint32_t(perStep));
 }
 
-std::vector<gpu::vec4> packState(const Particles& p, std::size_t slots) {
-    std::vector<vec4> half(gpu::kFields * slots, vec4(0.0f));
+void packState(const Particles& p, std::size_t share, std::size_t first, std::vector<gpu::vec4>& half) {
+    const auto all = std::uint32_t(half.size() / gpu::kFields);
     const auto at = [&](std::uint32_t field, std::size_t i) -> vec4& {
-        return half[gpu::stateOffset(field, std::uint32_t(i), std::uint32_t(slots))];
+        return half[gpu::stateOffset(field, std::uint32_t(first + i), all)];
     };
-    for (std::size_t i = 0; i < slots; ++i) {
+    for (std::size_t i = 0; i < share; ++i) {
         vec4& position = at(gpu::kPosition, i);
         vec4& spin = at(gpu::kSpin, i);
         if (i >= p.size()) {
@@ -167,7 +168,6 @@ std::vector<gpu::vec4> packState(const Particles& p, std::size_t slots) {
         at(gpu::kVelocity, i) = vec4(glm::vec3(p.velocity[i]), 0.0f);
         spin = vec4(glm::vec3(p.spin[i]), float(uint32_t(p.status[i])));
     }
-    return half;
 }
 
 Particles unpackState(const std::vector<gpu::vec4>& half, std::size_t slots, const Particles& loaded) {

@@ -16,14 +16,14 @@ constexpr VkDeviceSize kVec4 = 16;
 struct Elements {
     VkDeviceSize state, rows, ranges, history, coilHistory, anchors, entries, books, forces, torques;
     explicit Elements(const TableSizes& s)
-        : state(2ull * gpu::kFields * s.particles),
-          rows(1ull * s.rowEntries + s.linkEntries),
-          ranges(3ull * s.particles),
+        : state(2ull * gpu::kFields * s.particles()),
+          rows(1ull * s.members * (s.rowEntries + s.linkEntries)),
+          ranges(3ull * s.particles()),
           history(std::max<VkDeviceSize>(1, 1ull * s.historyParts() * s.springSlots())),
-          coilHistory(std::max<VkDeviceSize>(1, 1ull * s.coilHistoryRows() * s.particles)),
-          anchors(2ull * s.particles),
+          coilHistory(std::max<VkDeviceSize>(1, 1ull * s.coilHistoryRows() * s.particles())),
+          anchors(2ull * s.particles()),
           entries(2ull * s.slots()),
-          books(s.energyBook ? 1ull * gpu::kBookFields * (s.particles + s.slots()) : 1),
+          books(s.energyBook ? 1ull * gpu::kBookFields * (s.particles() + s.slots()) : 1),
           forces(s.slots()),
           torques(2ull * s.slots()) {}
 };
@@ -36,8 +36,8 @@ Access accessOn(const vk::Device& device, const TableSizes& s) {
     return {texel, texel && device.hasInt64()};
 }
 
-std::array<std::uint32_t, 4> constants(const TableSizes& s) {
-    return {s.workgroup, s.surfaces, s.surfaceKinds, s.kindSet};
+std::array<std::uint32_t, 5> constants(const TableSizes& s) {
+    return {s.workgroup, s.surfaces, s.surfaceKinds, s.kindSet, s.members};
 }
 
 /// The variants of one pass (shaders/passes.cmake), as far as it has them.
@@ -79,14 +79,14 @@ Passes::Passes(const vk::Device& device, const TableSizes& s, const Access& acce
       history(device, "the contact history", Elements(s).history * kVec4, access.view(VK_FORMAT_R32G32B32A32_SFLOAT)),
       coilHistory(device, "the coil's contact history", Elements(s).coilHistory * kVec4,
                   access.view(VK_FORMAT_R32G32B32A32_SFLOAT)),
-      member(device, "the parameters", sizeof(gpu::Member), access.view(VK_FORMAT_R32G32B32A32_SFLOAT)),
-      control(device, "the control block", sizeof(gpu::Control)),
-      cells(device, "the cell table", (VkDeviceSize(s.cells) + s.particles) * 4),
+      member(device, "the parameters", s.members * sizeof(gpu::Member), access.view(VK_FORMAT_R32G32B32A32_SFLOAT)),
+      control(device, "the control block", sizeof(gpu::Dispatches) + s.members * sizeof(gpu::Control)),
+      cells(device, "the cell table", (VkDeviceSize(s.members) * s.cells + s.particles()) * 4),
       anchors(device, "the anchors", Elements(s).anchors * kVec4, access.view(VK_FORMAT_R32G32B32A32_SFLOAT)),
-      sensors(device, "the sensors", s.groups() * sizeof(gpu::SensorRecord)),
+      sensors(device, "the sensors", s.members * s.groups() * sizeof(gpu::SensorRecord)),
       entries(device, "the contact lists", Elements(s).entries * 8, access.view(VK_FORMAT_R32G32_UINT)),
       books(device, "the energy book", Elements(s).books * kVec4),
-      energies(device, "the energy records", s.groups() * sizeof(gpu::EnergyRecord)),
+      energies(device, "the energy records", s.members * s.groups() * sizeof(gpu::EnergyRecord)),
       forces(device, "the contact forces", Elements(s).forces * kVec4, access.view(VK_FORMAT_R32G32B32A32_SFLOAT)),
       torques(device, "the contact torques", Elements(s).torques * kVec4, access.view(VK_FORMAT_R32G32B32A32_SFLOAT)),
       carried(device, "the carried history", Elements(s).history * kVec4),
@@ -114,19 +114,45 @@ Passes::Passes(const vk::Device& device, const TableSizes& s, const Access& acce
       senseEnergy_(device, bindings_, sense_energy_spv, constants(s)) {}
 
 void Passes::reset() {
-    const std::vector<gpu::uvec4> none(2ull * sizes.particles, gpu::uvec4(0U));
+    const std::vector<gpu::uvec4> none(2ull * sizes.particles(), gpu::uvec4(0U));
     ranges.writeAll(none);
     if (sizes.coilSlots > 0) {
-        const std::vector<gpu::vec4> angles(sizes.particles, gpu::vec4(gpu::kNoTurn));
-        coilHistory.writeAll(angles, kVec4 * (sizes.coilHistoryRows() - 1) * sizes.particles);
+        const std::vector<gpu::vec4> angles(sizes.particles(), gpu::vec4(gpu::kNoTurn));
+        coilHistory.writeAll(angles, kVec4 * (sizes.coilHistoryRows() - 1) * sizes.particles());
     }
-    gpu::Control c{};
-    c.call = c.error = gpu::uvec4(gpu::kEmpty);
-    c.cells = gpu::uvec4((sizes.cells + sizes.workgroup - 1) / sizes.workgroup, 1, 1, 0);
-    c.particles = c.refresh = gpu::uvec4(sizes.groups(), 1, 1, 0);
-    c.settle = gpu::uvec4(1, 1, 1, 0);
-    c.pairs = c.surfaces = c.coil = gpu::uvec4(0, 1, 1, 0);
-    control.write(0, &c, sizeof c);
+    gpu::Control fresh{};
+    fresh.call = fresh.error = gpu::uvec4(gpu::kEmpty);
+    fresh.wanted = gpu::uvec4(1, 1, 0, 0);
+    control.writeAll(std::vector<gpu::Control>(sizes.members, fresh), controlOffset(0));
+    setLive(sizes.members);
+}
+
+void Passes::setLive(std::uint32_t live) {
+    const auto groups = [&](std::uint32_t n) { return gpu::uvec4(n, live, 1, 0); };
+    // Every step may ask for everything once more; from then on it is as many as there is work for.
+    gpu::Dispatches d{};
+    for (gpu::Dispatch& step : d.step) {
+        step.cells = groups((sizes.cells + sizes.workgroup - 1) / sizes.workgroup);
+        step.particles = step.refresh = groups(sizes.groups());
+        step.settle = gpu::uvec4(1, 1, 1, 0);
+    }
+    d.pairs = groups(sizes.pairSlots / sizes.workgroup);
+    d.surfaces = groups(sizes.surfaceSlots / sizes.workgroup);
+    d.coil = groups(sizes.coilSlots / sizes.workgroup);
+    control.write(0, &d, sizeof d);
+    live_ = live;
+}
+
+std::vector<gpu::Control> Passes::controls() const {
+    return control.readAll<gpu::Control>(sizes.members, controlOffset(0));
+}
+
+gpu::Control Passes::controlOf(std::uint32_t m) const {
+    return control.readAll<gpu::Control>(1, controlOffset(m))[0];
+}
+
+void Passes::setControl(std::uint32_t m, const gpu::Control& c) {
+    control.write(controlOffset(m), &c, sizeof c);
 }
 
 VkDeviceSize Passes::bytes() const {
@@ -142,7 +168,9 @@ gpu::StepPush Passes::push(std::uint32_t step, std::uint32_t source, bool openin
     p.stepInBatch = step;
     p.source = source;
     p.opening = opening ? 1u : 0u;
-    p.particles = sizes.particles;
+    p.live = live_;
+    p.particles = sizes.particles();
+    p.share = sizes.share;
     p.cellMask = sizes.cells - 1;
     p.rowEntries = sizes.rowEntries;
     p.linkEntries = sizes.linkEntries;
@@ -161,14 +189,19 @@ void Passes::recordSteps(vk::Commands& commands, std::uint32_t first, std::uint3
         const gpu::StepPush p = push(n, source, opening);
         bindings_.push(c, &p);
         // How many workgroups, the device decides: none for a rebuild or a refresh that no particle asked for.
+        const VkDeviceSize step = offsetof(gpu::Dispatches, step) + source * sizeof(gpu::Dispatch);
         const struct {
             const vk::Pipeline& pass;
             VkDeviceSize arguments;
-        } decided[] = {{clear_, offsetof(gpu::Control, cells)},          {bin_, offsetof(gpu::Control, particles)},
-                       {neighbours_, offsetof(gpu::Control, particles)},
-                       {near_, offsetof(gpu::Control, refresh)},         {link_, offsetof(gpu::Control, refresh)},
-                       {commitLists_, offsetof(gpu::Control, settle)},   {pairs_, offsetof(gpu::Control, pairs)},
-                       {surfaces_, offsetof(gpu::Control, surfaces)},    {coil_, offsetof(gpu::Control, coil)}};
+        } decided[] = {{clear_, step + offsetof(gpu::Dispatch, cells)},
+                       {bin_, step + offsetof(gpu::Dispatch, particles)},
+                       {neighbours_, step + offsetof(gpu::Dispatch, particles)},
+                       {near_, step + offsetof(gpu::Dispatch, refresh)},
+                       {link_, step + offsetof(gpu::Dispatch, refresh)},
+                       {commitLists_, step + offsetof(gpu::Dispatch, settle)},
+                       {pairs_, offsetof(gpu::Dispatches, pairs)},
+                       {surfaces_, offsetof(gpu::Dispatches, surfaces)},
+                       {coil_, offsetof(gpu::Dispatches, coil)}};
         for (const auto& d : decided) {
             d.pass.bind(c);
             commands.dispatchIndirect(control.handle(), d.arguments);
@@ -177,31 +210,33 @@ void Passes::recordSteps(vk::Commands& commands, std::uint32_t first, std::uint3
         }
         const struct {
             const vk::Pipeline& pass;
-            std::uint32_t groups;
-        } fixed[] = {{move_, sizes.groups()}, {decide_, 1}};
+            std::uint32_t groups, rows;
+        } fixed[] = {{move_, sizes.groups(), live_}, {decide_, 1, 1}};
         for (const auto& f : fixed) {
             f.pass.bind(c);
-            commands.dispatch(f.groups);
+            commands.dispatch(f.groups, f.rows);
             commands.barrier();
             if (times != nullptr) times->mark(commands);
         }
     }
 }
 
-void Passes::recordSensing(vk::Commands& commands, std::uint32_t source) const {
+void Passes::recordSensing(vk::Commands& commands, std::uint32_t source, std::uint32_t row) const {
     const VkCommandBuffer c = commands.handle();
     bindings_.bind(c);
-    const gpu::StepPush p = push(0, source, false);
+    gpu::StepPush p = push(0, source, false);
+    p.firstRow = row;
     bindings_.push(c, &p);
     sense_.bind(c);
     commands.dispatch(sizes.groups());
     commands.barrier();
 }
 
-void Passes::recordEnergySensing(vk::Commands& commands, std::uint32_t source, bool opening) const {
+void Passes::recordEnergySensing(vk::Commands& commands, std::uint32_t source, bool opening, std::uint32_t row) const {
     const VkCommandBuffer c = commands.handle();
     bindings_.bind(c);
-    const gpu::StepPush p = push(0, source, opening);
+    gpu::StepPush p = push(0, source, opening);
+    p.firstRow = row;
     bindings_.push(c, &p);
     senseEnergy_.bind(c);
     commands.dispatch(sizes.groups());

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "host/backend/vulkan/tables.h"
 #include "host/vk/buffer.h"
@@ -31,12 +32,20 @@ class Passes {
     /// `times` gets a mark before the first step and one after each of the kTimed passes of every step.
     void recordSteps(vk::Commands& commands, std::uint32_t first, std::uint32_t count, std::uint32_t source,
                      bool opening, vk::Timestamps* times = nullptr) const;
-    void recordSensing(vk::Commands& commands, std::uint32_t source) const;
+    /// Of the member in this row of the roster (gpu::Member).
+    void recordSensing(vk::Commands& commands, std::uint32_t source, std::uint32_t row = 0) const;
     /// Needs an energy book and a step made; `opening` if it was the first.
-    void recordEnergySensing(vk::Commands& commands, std::uint32_t source, bool opening) const;
+    void recordEnergySensing(vk::Commands& commands, std::uint32_t source, bool opening, std::uint32_t row = 0) const;
 
     /// A load without history: nothing is listed, and the first step builds rows and contact lists.
     void reset();
+
+    /// From now on the first `live` rows of the roster take part in a step.
+    void setLive(std::uint32_t live);
+
+    std::vector<gpu::Control> controls() const;  ///< of every member
+    gpu::Control controlOf(std::uint32_t member) const;
+    void setControl(std::uint32_t member, const gpu::Control& c);
 
     vk::Buffer state, rows, ranges, history, coilHistory, member, control, cells, anchors, sensors, entries, books,
         energies, forces, torques, carried;
@@ -44,12 +53,18 @@ class Passes {
     bool texelReads() const { return access_.texelReads; }
     VkDeviceSize bytes() const;  ///< of all tables
 
-    static constexpr std::array<const char*, 11> kTimed{"clear", "bin", "neighbours", "near", "link", "commit_lists", "pairs", "surfaces", "coil", "move", "decide"};
+    static constexpr std::array<const char*, 11> kTimed{
+        "clear", "bin", "neighbours", "near", "link", "commit_lists", "pairs", "surfaces", "coil", "move", "decide"};
 
   private:
     Passes(const vk::Device& device, const TableSizes& sizes, const Access& access);
     gpu::StepPush push(std::uint32_t step, std::uint32_t source, bool opening) const;
 
+    static VkDeviceSize controlOffset(std::uint32_t member) {
+        return sizeof(gpu::Dispatches) + member * sizeof(gpu::Control);
+    }
+
+    std::uint32_t live_ = 0;
     Access access_;
     vk::BindingSet bindings_;
     vk::Pipeline clear_, bin_, neighbours_, near_, link_, commitLists_, pairs_, surfaces_, coil_, move_, decide_,

@@ -17,14 +17,16 @@ struct SlotContact {
     std::array<gpu::vec4, 5> history;  ///< TableSizes::historyParts() of them
 };
 
-/// In order of particle, pairs before surfaces, other. The device must be idle.
-std::vector<SlotContact> touchingSlots(const Passes& passes);
+/// In order of particle, pairs before surfaces, other; particles are counted from the member's first. The device must
+/// be idle.
+std::vector<SlotContact> touchingSlots(const Passes& passes, std::uint32_t member);
 
-/// State of the first `particles` slots, read from half `source`. The device must be idle, and sensed since its last
-/// step (the sensors' accumulators are not stored).
-void saveState(const Passes& passes, std::size_t particles, std::uint32_t source, Record& record);
+/// State of a member's first `particles` slots, read from half `source`. The device must be idle, and the member sensed
+/// since its last step (the sensors' accumulators are not stored).
+void saveState(const Passes& passes, std::uint32_t member, std::size_t particles, std::uint32_t source, Record& record);
 
-/// Writes it into half 0 of freshly loaded passes. Throws RecordError if it does not fit them.
-void restoreState(Passes& passes, std::size_t particles, const Record& record);
+/// Writes it into half `source` of freshly loaded passes. Throws RecordError if it does not fit them.
+void restoreState(Passes& passes, std::uint32_t member, std::size_t particles, std::uint32_t source,
+                  const Record& record);
 
 }  // namespace vkdose

@@ -25,6 +25,12 @@ inline std::unique_ptr<Backend> makeVulkanBackend(const vk::DeviceChoice& device
     return makeVulkanBackend(VulkanOptions{device});
 }
 
+/// Backends of canisters that share the device's tables and step together, each to be used from a thread of its own:
+/// all must load before any can, `advance` returns when all who are still there have asked for as many steps, and one
+/// that is destroyed is no longer waited for. Results are those of a backend of its own, to the bit; the coil may turn
+/// at another rate and the schedule be another one for each. The surfaces must be of the same kinds, in the same order.
+std::vector<std::unique_ptr<Backend>> makeVulkanEnsemble(const VulkanOptions& options, std::size_t members);
+
 /// Messages the validation layer gave to a backend made by makeVulkanBackend; `validated` tells whether it listened.
 struct ValidationReport {
     bool validated = false;

@@ -1,0 +1,316 @@
+#include "host/backend/vulkan/ensemble.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <numeric>
+
+#include "host/backend/vulkan/pack.h"
+#include "host/backend/vulkan/snapshot.h"
+#include "host/core/error.h"
+#include "host/vk/copy_bandwidth.h"
+
+namespace vkdose {
+
+namespace {
+
+const char* text(std::uint32_t error) {
+    switch (error) {
+        case gpu::kErrorRowFull:
+            return "has more neighbours than a row holds: use a smaller skin or a narrower size distribution";
+        case gpu::kErrorCrowded:
+            return "has thousands of others around it, within the size of the largest: use a narrower size "
+                   "distribution "
+                   "or a smaller skin";
+        case gpu::kErrorTables:
+            return "finds no room in the tables of neighbours and contacts, which are sized for a dense packing: use a "
+                   "smaller skin";
+        case gpu::kErrorNan:
+            return "has a position or velocity that is not a number: the time step is too large or two particles "
+                   "started in one place";
+        case gpu::kErrorOverlap:
+            return "is in an overlap deeper than the case allows (contact.max_overlap_ratio, of the smaller radius): "
+                   "use "
+                   "a smaller time step or a stiffer k; if it is pinched between coil and wall, allow more";
+        case gpu::kErrorLost:
+            return "left the domain: enlarge the domain, or look for a gap between the surfaces";
+        case gpu::kErrorTurns:
+            return "touches more turns of the coil than there are slots: use a larger pitch";
+        default:
+            return "met the coil where the search for its closest point did not converge: report this case";
+    }
+}
+
+}  // namespace
+
+Ensemble::Ensemble(const VulkanOptions& options) : options_(options), device_(options.device) {
+    const VkPhysicalDeviceLimits& limits = device_.limits();
+    const std::uint32_t most = std::min(limits.maxComputeWorkGroupInvocations, limits.maxComputeWorkGroupSize[0]);
+    if (options_.workgroup > most)
+        throw DeviceError(fmt::format("workgroups of {} exceed the {} invocations of {}", options_.workgroup, most,
+                                      device_.info().name));
+}
+
+void Ensemble::requireDispatch(std::uint32_t groups, std::uint32_t rows) const {
+    const std::uint32_t* most = device_.limits().maxComputeWorkGroupCount;
+    if (groups > most[0] || rows > most[1])
+        throw DeviceError(
+            fmt::format("the particles need dispatches of {} workgroups for each of {} canisters, but {} allows {} "
+                        "and {}: use fewer particles or another device",
+                        groups, rows, device_.info().name, most[0], most[1]));
+}
+
+void Ensemble::load(const std::vector<Canister>& canisters) {
+    members_.clear();
+    std::vector<TableSizes> rooms;
+    for (const Canister& c : canisters) {
+        if (c.particles.size() == 0) throw RunError("there are no particles to simulate");
+        MemberState m;
+        m.world = c.world;
+        m.loaded = c.particles;
+        m.block = packMember(c.world, c.particles);
+        rooms.push_back(tableSizes(c.world, c.particles, m.block, options_.workgroup,
+                                   device_.limits().maxStorageBufferRange, std::uint32_t(canisters.size())));
+        members_.push_back(std::move(m));
+    }
+    TableSizes sizes = roomForAll(rooms);
+    sizes.texelReads = options_.reads == VulkanOptions::Reads::Automatic;
+    const std::uint32_t widest = std::max({sizes.groups(), sizes.cells / sizes.workgroup + 1,
+                                           std::max(sizes.pairSlots, sizes.surfaceSlots) / sizes.workgroup});
+    requireDispatch(widest, sizes.members);
+    passes_.reset();  // the former tables make room for the new ones
+    passes_ = std::make_unique<Passes>(device_, sizes);
+    std::vector<gpu::vec4> half(std::size_t(gpu::kFields) * sizes.particles());
+    for (std::uint32_t m = 0; m < members_.size(); ++m)
+        packState(members_[m].loaded, sizes.share, m * sizes.share, half);
+    passes_->state.writeAll(half);
+    passes_->reset();
+    source_ = 0;
+    std::vector<std::uint32_t> all(members_.size());
+    std::iota(all.begin(), all.end(), 0U);
+    setLive(all);
+}
+
+void Ensemble::setLive(const std::vector<std::uint32_t>& members) {
+    live_ = members;
+    for (std::uint32_t row = 0; row < live_.size(); ++row) {
+        members_[live_[row]].row = row;
+        members_[row].block.roster.x = live_[row];
+    }
+    passes_->setLive(std::uint32_t(live_.size()));
+    writeBlocks();
+}
+
+void Ensemble::writeBlocks() {
+    std::vector<gpu::Member> blocks;
+    for (const MemberState& m : members_) blocks.push_back(m.block);
+    passes_->member.writeAll(blocks);
+}
+
+void Ensemble::setLaw(std::uint32_t member, const ContactLaw& law) {
+    packLaw(law, members_[member].block);
+    members_[member].world.law = law;
+}
+
+Record Ensemble::snapshot(std::uint32_t member) const {
+    const MemberState& m = members_[member];
+    Record record;
+    saveState(*passes_, member, m.loaded.size(), source_, record);
+    record.putOne("steps", m.step);
+    record.putOne("coil_phase", m.turned);
+    return record;
+}
+
+void Ensemble::restore(std::uint32_t member, const Record& record) {
+    MemberState& m = members_[member];
+    const auto step = record.one<std::uint64_t>("steps");
+    const auto turned = record.one<std::uint64_t>("coil_phase");
+    restoreState(*passes_, member, m.loaded.size(), source_, record);
+    m.step = step;
+    m.turned = turned;
+}
+
+void Ensemble::runBatch(std::uint32_t count, const std::vector<double>& coilRates, vk::Timestamps* times) {
+    std::vector<std::uint64_t> perStep;
+    bool opening = false;
+    for (const std::uint32_t index : live_) {
+        MemberState& m = members_[index];
+        perStep.push_back(turnsFixed(coilRates[index] * m.world.timeStep));
+        packPhase(turnsFixed(m.world.coil ? m.world.coil->startAngle : 0.0) + m.turned, perStep.back(), m.block);
+        m.block.coil.motion.x = float(coilRates[index]);
+        m.block.choices.w = m.step == 0 ? 1.0f : 0.0f;
+        opening = opening || m.step == 0;
+    }
+    writeBlocks();
+    vk::Commands commands(device_);
+    commands.begin();
+    if (times != nullptr) times->reset(commands);
+    passes_->recordSteps(commands, 0, count, source_, opening, times);
+    commands.hostBarrier();
+    commands.submit();
+    source_ = (source_ + count) % 2;
+    const std::vector<gpu::Control> controls = passes_->controls();
+    for (std::uint32_t row = 0; row < live_.size(); ++row) {
+        MemberState& m = members_[live_[row]];
+        m.turned += perStep[row] * count;
+        m.step += count;
+        const gpu::uvec4& error = controls[live_[row]].error;
+        if (error.x != gpu::kEmpty && !m.failure) keepError(live_[row], error, m.step - count);
+    }
+}
+
+void Ensemble::advance(std::uint32_t steps, const std::vector<double>& coilRates) {
+    using clock = std::chrono::steady_clock;
+    // Long submissions starve the display and trip watchdogs, short ones waste time on the fence: aim between.
+    constexpr double kShortest = 0.05, kLongest = 0.25;
+    constexpr std::uint32_t kMostSteps = 4096;
+    for (std::uint32_t done = 0; done < steps;) {
+        const std::uint32_t count = std::min(options_.batch > 0 ? options_.batch : batch_, steps - done);
+        const auto start = clock::now();
+        runBatch(count, coilRates);
+        done += count;
+        const bool stopped =
+            std::any_of(live_.begin(), live_.end(), [&](std::uint32_t m) { return members_[m].failure.has_value(); });
+        if (stopped && live_.size() == 1) return;
+        const double seconds = std::chrono::duration<double>(clock::now() - start).count();
+        if (count == batch_ && seconds < kShortest && batch_ < kMostSteps) batch_ *= 2;
+        if (seconds > kLongest && batch_ > 1) batch_ /= 2;
+    }
+}
+
+void Ensemble::keepError(std::uint32_t member, const gpu::uvec4& error, std::uint64_t firstStep) {
+    MemberState& m = members_[member];
+    const std::uint32_t i = error.z - member * passes_->sizes.share;
+    const Particles now = particles(member);
+    const Vec3& x = now.position[i];
+    const std::uint64_t step = firstStep + error.x;
+    m.failure = fmt::format("particle {} (radius {:.6g} m) at ({:.6g}, {:.6g}, {:.6g}) m {} (step {}, t = {:.6g} s)", i,
+                            now.radius[i], x.x, x.y, x.z, text(error.y), step, double(step) * m.world.timeStep);
+}
+
+VulkanProfile Ensemble::profile(std::uint32_t steps, double coilRate) {
+    constexpr std::uint32_t kBatch = 32;
+    const std::size_t kinds = Passes::kTimed.size();
+    VulkanProfile p;
+    std::unique_ptr<vk::Timestamps> times;
+    if (vk::Timestamps::available(device_)) {
+        times = std::make_unique<vk::Timestamps>(device_, std::uint32_t(kBatch * kinds + 1));
+        for (const char* name : Passes::kTimed) p.passes.push_back({name});
+    }
+    const gpu::uvec4 before = passes_->controlOf(0).list;
+    while (p.steps < steps) {
+        const std::uint32_t count = std::min(kBatch, steps - p.steps);
+        runBatch(count, {coilRate}, times.get());
+        if (failure(0)) throw RunError(*failure(0));
+        p.steps += count;
+        if (!times) continue;
+        const std::vector<double> seconds = times->durations();
+        for (std::size_t i = 0; i < seconds.size(); ++i) p.passes[i % kinds].seconds += seconds[i];
+    }
+    const gpu::uvec4 after = passes_->controlOf(0).list;
+    p.rebuilds = after.y - before.y;
+    p.refreshes = after.w - before.w;
+    const std::size_t n = members_[0].loaded.size();
+    for (const gpu::uvec4& range : passes_->ranges.readAll<gpu::uvec4>(n)) p.listed += range.y;
+    p.listed /= double(n);
+    p.tableBytes = double(passes_->bytes());
+    p.copyBandwidth = vk::copyBandwidth(device_);
+    p.texelReads = passes_->texelReads();
+    return p;
+}
+
+Sensors Ensemble::sense(std::uint32_t member, std::uint32_t steps) {
+    const MemberState& m = members_[member];
+    const std::uint32_t groups = passes_->sizes.groups();
+    vk::Commands commands(device_);
+    commands.begin();
+    passes_->recordSensing(commands, source_, m.row);
+    const bool energy = m.world.energyBook && m.step > 0;
+    if (energy) passes_->recordEnergySensing(commands, source_, m.step == 1, m.row);
+    commands.hostBarrier();
+    commands.submit();
+    Sensors s;
+    for (const gpu::SensorRecord& r :
+         passes_->sensors.readAll<gpu::SensorRecord>(groups, member * groups * sizeof(gpu::SensorRecord))) {
+        for (int region = 0; region < kRegions; ++region) {
+            s.count[region] += r.count[region];
+            s.mass[region] += double(r.mass[region]);
+        }
+        s.kineticEnergy += double(r.motion.x);
+        s.rotationalEnergy += double(r.motion.y);
+        s.throatMomentumZ += double(r.motion.z);
+        s.coilTorque += double(r.motion.w);
+        s.maxOverlapRatio = std::max(s.maxOverlapRatio, double(r.extremes.x));
+    }
+    s.coilTorque = steps > 0 ? s.coilTorque / steps : 0.0;
+    if (energy) s.energy = readEnergy(member);
+    s.rebuilds = passes_->controlOf(member).list.y;
+    return s;
+}
+
+EnergyBook Ensemble::readEnergy(std::uint32_t member) const {
+    const std::uint32_t groups = passes_->sizes.groups();
+    EnergyBook b;
+    for (const gpu::EnergyRecord& r :
+         passes_->energies.readAll<gpu::EnergyRecord>(groups, member * groups * sizeof(gpu::EnergyRecord))) {
+        b.plastic += double(r.normal.x);
+        b.adhesive += double(r.normal.y);
+        b.viscous += double(r.normal.z);
+        b.numerical += double(r.normal.w);
+        b.sliding += double(r.sliders.x);
+        b.rolling += double(r.sliders.y);
+        b.torsion += double(r.sliders.z);
+        b.coilWork += double(r.sliders.w);
+        b.loaded += double(r.flow.x);
+        b.left += double(r.flow.y);
+        b.kinetic += double(r.flow.z);
+        b.rotational += double(r.flow.w);
+        b.elasticNormal += double(r.elastic.x);
+        b.elasticSliding += double(r.elastic.y);
+        b.elasticRolling += double(r.elastic.z);
+        b.elasticTorsion += double(r.elastic.w);
+        b.momentum += Vec3(glm::vec3(r.momentum));
+        b.potential += double(r.momentum.w);
+        b.angularMomentum += Vec3(glm::vec3(r.angular));
+    }
+    return b;
+}
+
+Particles Ensemble::particles(std::uint32_t member) const {
+    const TableSizes& t = passes_->sizes;
+    std::vector<gpu::vec4> share;
+    for (std::uint32_t couple = 0; couple < gpu::kFields / 2; ++couple) {
+        const std::uint64_t row = source_ * (gpu::kFields / 2) + couple;
+        const auto part = passes_->state.readAll<gpu::vec4>(
+            2ULL * t.share, 2 * (row * t.particles() + std::uint64_t(member) * t.share) * sizeof(gpu::vec4));
+        share.insert(share.end(), part.begin(), part.end());
+    }
+    return unpackState(share, t.share, members_[member].loaded);
+}
+
+std::vector<Contact> Ensemble::contacts(std::uint32_t member) const {
+    const TableSizes& t = passes_->sizes;
+    std::vector<Contact> contacts;
+    const auto add = [&](ContactClass kind, std::uint32_t i, std::uint32_t other, const gpu::vec4& a,
+                         const gpu::vec4& b) {
+        contacts.push_back({kind, i, other, double(a.w), Vec3(glm::vec3(a)), Vec3(glm::vec3(b)), double(b.w)});
+    };
+    for (const SlotContact& c : touchingSlots(*passes_, member))
+        add(c.pair ? ContactClass::ParticleParticle : ContactClass::ParticleWall, c.particle, c.other, c.history[0],
+            c.history[1]);
+    if (t.coilSlots > 0) {
+        const std::size_t n = t.particles(), parts = t.historyParts(), first = std::size_t(member) * t.share;
+        const auto coil = passes_->coilHistory.readAll<gpu::vec4>(t.coilHistoryRows() * n);
+        for (std::uint32_t i = 0; i < members_[member].loaded.size(); ++i)
+            for (std::uint32_t turn = 0; turn < gpu::kMaxTurns; ++turn)
+                if (coil[gpu::kMaxTurns * parts * n + first + i][int(turn)] != gpu::kNoTurn)
+                    add(ContactClass::ParticleCoil, i, turn, coil[turn * parts * n + first + i],
+                        coil[(turn * parts + 1) * n + first + i]);
+    }
+    std::stable_sort(contacts.begin(), contacts.end(),
+                     [](const Contact& a, const Contact& b) { return a.particle < b.particle; });
+    return contacts;
+}
+
+}  // namespace vkdose

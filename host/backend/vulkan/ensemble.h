@@ -1,0 +1,82 @@
+#pragma once
+// Canisters that share one device: the same passes step all of them at once, each with its own part of every table, its
+// own parameters and coil. What a member computes does not depend on the others, to the bit. A single canister is an
+// ensemble of one. For one thread at a time.
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/backend/vulkan/passes.h"
+#include "host/backend/vulkan/vulkan.h"
+
+namespace vkdose {
+
+class Ensemble {
+  public:
+    explicit Ensemble(const VulkanOptions& options);
+
+    struct Canister {
+        World world;
+        Particles particles;
+    };
+
+    /// Start over with these; all are live. Throws RunError if they do not fit the tables, or cannot share them
+    /// (roomForAll).
+    void load(const std::vector<Canister>& canisters);
+
+    /// The members that step from now on, ascending. Those left out keep their state.
+    void setLive(const std::vector<std::uint32_t>& members);
+
+    void setLaw(std::uint32_t member, const ContactLaw& law);
+
+    /// All live members together; `coilRates`: of every member [rad/s about +z]. A member's run error is kept
+    /// (`failure`), and its state is of no use from then on.
+    void advance(std::uint32_t steps, const std::vector<double>& coilRates);
+
+    /// What stopped this member.
+    const std::optional<std::string>& failure(std::uint32_t member) const { return members_[member].failure; }
+
+    /// Of a live member; means over the last `steps`.
+    Sensors sense(std::uint32_t member, std::uint32_t steps);
+
+    /// As in Backend, of a live member.
+    Record snapshot(std::uint32_t member) const;
+    void restore(std::uint32_t member, const Record& record);
+    Particles particles(std::uint32_t member) const;
+    std::vector<Contact> contacts(std::uint32_t member) const;
+
+    /// Of an ensemble of one.
+    VulkanProfile profile(std::uint32_t steps, double coilRate);
+
+    const vk::Device& device() const { return device_; }
+
+  private:
+    struct MemberState {
+        World world;
+        Particles loaded;
+        gpu::Member block{};
+        std::uint64_t step = 0;
+        std::uint64_t turned = 0;  ///< of the coil since load [2^-64 turns]: however steps are cut into batches
+        std::uint32_t row = 0;     ///< on the roster
+        std::optional<std::string> failure;
+    };
+
+    void requireDispatch(std::uint32_t groups, std::uint32_t rows) const;
+    void writeBlocks();
+    void runBatch(std::uint32_t count, const std::vector<double>& coilRates, vk::Timestamps* times = nullptr);
+    void keepError(std::uint32_t member, const gpu::uvec4& error, std::uint64_t firstStep);
+    EnergyBook readEnergy(std::uint32_t member) const;
+
+    VulkanOptions options_;
+    vk::Device device_;
+    std::unique_ptr<Passes> passes_;
+    std::vector<MemberState> members_;
+    std::vector<std::uint32_t> live_;
+    std::uint32_t source_ = 0;  // half of the state that is current
+    std::uint32_t batch_ = 16;  // steps per submission, adapted to the device
+};
+
+}  // namespace vkdose

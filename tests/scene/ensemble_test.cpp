@@ -1,0 +1,164 @@
+// Canisters that share a device's tables: each computes what it would alone, to the last bit, whatever the others do.
+#include <catch2/catch.hpp>
+#include <thread>
+
+#include "tests/scene/beds.h"
+
+using namespace vkdose;
+using namespace vkdose::test;
+
+namespace {
+
+/// A canister and what is done with it: calls of their own lengths, another law half way.
+struct Script {
+    std::size_t particles;
+    double rate;      // of the coil [rad/s]
+    double timeStep;  // [s]
+    double friction;  // after the second call
+    bool energyBook = false;
+    std::vector<std::uint32_t> calls{1501, 997, 700};
+    Vec3 throwFirst{0};  // extra velocity of particle 0 [m/s]
+};
+
+struct Outcome {
+    std::vector<Sensors> sensors;
+    Particles particles;
+    std::vector<Contact> contacts;
+    double angle = 0;
+    std::string error;
+};
+
+Outcome play(Backend& backend, const Script& s, const Record* from = nullptr, Record* to = nullptr) {
+    World w = canisterWorld();
+    w.maxOverlapRatio = 1;
+    w.timeStep = s.timeStep;
+    w.energyBook = s.energyBook;
+    Particles p = thrownIn(s.particles);
+    p.velocity[0] += s.throwFirst;
+    Outcome o;
+    try {
+        backend.load(w, p);
+        if (from != nullptr) backend.restore(*from);
+        for (std::size_t call = 0; call < s.calls.size(); ++call) {
+            if (call == 2) {
+                for (ContactParameters& c : w.law.classes) c.mu = s.friction;
+                backend.setLaw(w.law);
+            }
+            o.sensors.push_back(backend.advance(s.calls[call], s.rate));
+        }
+        if (to != nullptr) *to = backend.snapshot();
+        o.particles = backend.particles();
+        o.contacts = backend.contacts();
+        o.angle = backend.coilAngle();
+    } catch (const RunError& e) {
+        o.error = e.what();
+    }
+    return o;
+}
+
+std::vector<Outcome> playTogether(const std::vector<Script>& scripts, const std::vector<const Record*>& from = {}) {
+    std::vector<std::unique_ptr<Backend>> backends = gpuEnsemble(scripts.size());
+    std::vector<Outcome> outcomes(scripts.size());
+    std::vector<ValidationReport> reports(scripts.size());
+    std::vector<std::thread> threads;
+    for (std::size_t k = 0; k < scripts.size(); ++k)
+        threads.emplace_back([&, k] {
+            outcomes[k] = play(*backends[k], scripts[k], from.empty() ? nullptr : from[k]);
+            reports[k] = validationReport(*backends[k]);
+            backends[k].reset();  // nobody waits for it any more
+        });
+    for (std::thread& t : threads) t.join();
+    for (const ValidationReport& report : reports) requireClean(report);
+    return outcomes;
+}
+
+void checkSame(const Outcome& alone, const Outcome& together) {
+    CHECK(alone.error == together.error);
+    REQUIRE(alone.sensors.size() == together.sensors.size());
+    for (std::size_t k = 0; k < alone.sensors.size(); ++k) {
+        const Sensors &a = alone.sensors[k], &b = together.sensors[k];
+        CHECK(a.count == b.count);
+        CHECK(a.mass == b.mass);
+        CHECK(a.kineticEnergy == b.kineticEnergy);
+        CHECK(a.coilTorque == b.coilTorque);
+        CHECK(a.maxOverlapRatio == b.maxOverlapRatio);
+        REQUIRE(a.energy.has_value() == b.energy.has_value());
+        if (a.energy) {
+            CHECK(a.energy->coilWork == b.energy->coilWork);
+            CHECK(a.energy->plastic == b.energy->plastic);
+            CHECK(a.energy->elasticNormal == b.energy->elasticNormal);
+        }
+    }
+    if (!alone.error.empty()) return;
+    CHECK(sameBits(alone.particles, together.particles));
+    CHECK(sameBits(alone.contacts, together.contacts));
+    CHECK(alone.angle == together.angle);
+}
+
+Outcome playAlone(const Script& s, const Record* from = nullptr, Record* to = nullptr) {
+    const auto backend = gpu();
+    return play(*backend, s, from, to);
+}
+
+}  // namespace
+
+TEST_CASE("a canister computes the same bits alone and in an ensemble") {
+    std::vector<Script> scripts{{203, -9.5, 2.26e-6, 0.3}, {61, 7.0, 3e-6, 0.5}, {140, 0.0, 2.26e-6, 0.1}};
+    scripts[1].calls = {300, 2500, 61};
+    scripts[2].calls = {64};  // over long before the others
+    SECTION("as it is") {}
+    SECTION("with the energy book") {
+        for (Script& s : scripts) s.energyBook = true;
+    }
+    const std::vector<Outcome> together = playTogether(scripts);
+    for (std::size_t k = 0; k < scripts.size(); ++k) {
+        INFO("canister " << k);
+        const Outcome alone = playAlone(scripts[k]);
+        REQUIRE(alone.error.empty());
+        if (k < 2) REQUIRE(alone.contacts.size() > 10);
+        checkSame(alone, together[k]);
+    }
+}
+
+TEST_CASE("a canister that fails names its own particle and leaves the others alone") {
+    std::vector<Script> scripts{{100, -9.5, 2.26e-6, 0.3}, {61, -9.5, 2.26e-6, 0.3}, {80, -9.5, 2.26e-6, 0.3}};
+    scripts[1].throwFirst = {0, 0, -2000};  // through the back
+    const std::vector<Outcome> together = playTogether(scripts);
+    for (std::size_t k = 0; k < scripts.size(); ++k) {
+        INFO("canister " << k);
+        checkSame(playAlone(scripts[k]), together[k]);
+    }
+    CHECK_THAT(together[1].error, Catch::StartsWith("particle 0 "));
+}
+
+TEST_CASE("a canister goes on in an ensemble from where it was alone, and the other way round") {
+    const Script first{120, -9.5, 2.26e-6, 0.3}, second{77, 5.0, 2.26e-6, 0.3};
+    Record a, b;
+    playAlone(first, nullptr, &a);
+    playAlone(second, nullptr, &b);
+    const std::vector<Outcome> together = playTogether({first, second}, {&a, &b});
+    checkSame(playAlone(first, &a), together[0]);
+    checkSame(playAlone(second, &b), together[1]);
+}
+
+TEST_CASE("canisters with surfaces of other kinds cannot share tables") {
+    std::vector<std::unique_ptr<Backend>> backends = gpuEnsemble(2);
+    World odd = canisterWorld();
+    odd.surfaces.pop_back();
+    std::vector<std::string> said(2);
+    std::thread other([&] {
+        try {
+            backends[1]->load(odd, thrownIn(20));
+        } catch (const RunError& e) {
+            said[1] = e.what();
+        }
+    });
+    try {
+        backends[0]->load(canisterWorld(), thrownIn(20));
+    } catch (const RunError& e) {
+        said[0] = e.what();
+    }
+    other.join();
+    CHECK_THAT(said[0], Catch::Contains("same kinds of surfaces"));
+    CHECK_THAT(said[1], Catch::Contains("same kinds of surfaces"));
+}
