@@ -55,8 +55,8 @@ void Commands::hostBarrier() {
                   VK_ACCESS_HOST_READ_BIT | VK_ACCESS_HOST_WRITE_BIT);
 }
 
-void Commands::dispatch(std::uint32_t groups, std::uint32_t rows) {
-    vkCmdDispatch(commands_, groups, rows, 1);
+void Commands::dispatch(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+    vkCmdDispatch(commands_, x, y, z);
 }
 
 void Commands::dispatchIndirect(VkBuffer buffer, VkDeviceSize offset) {

@@ -25,7 +25,8 @@ class Commands {
     void barrier();
     /// As `barrier`, towards reads and writes of the host.
     void hostBarrier();
-    void dispatch(std::uint32_t groups, std::uint32_t rows = 1);
+    /// Workgroups.
+    void dispatch(std::uint32_t x, std::uint32_t y, std::uint32_t z);
     /// Workgroup counts from three consecutive words of `buffer` at `offset`.
     void dispatchIndirect(VkBuffer buffer, VkDeviceSize offset);
     void copy(VkBuffer from, VkDeviceSize fromOffset, VkBuffer to, VkDeviceSize toOffset, VkDeviceSize size);

@@ -8,7 +8,7 @@
 void main() {
     openMember();
     if (control.wanted.x == 0u) return;
-    uint i = firstParticle() + gl_GlobalInvocationID.x;
+    uint i = firstParticle() + invocation();
     vec4 p = readState(push.source, kPosition, i);
     if (p.w <= 0.0) return;
     uint head = headIndex(cellSlot(cellOf(p.xyz, numerics().z)));

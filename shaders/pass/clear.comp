@@ -5,6 +5,6 @@
 
 void main() {
     openMember();
-    bool mine = control.wanted.x != 0u && gl_GlobalInvocationID.x <= push.cellMask;
-    if (mine) cells[headIndex(gl_GlobalInvocationID.x)] = kEmpty;
+    bool mine = control.wanted.x != 0u && invocation() <= push.cellMask;
+    if (mine) cells[headIndex(invocation())] = kEmpty;
 }

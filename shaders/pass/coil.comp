@@ -34,8 +34,8 @@ void main() {
     CoilParams coil = member.coil;
     uvec4 chosen = choices();
     float springDt = springStep();
-    if (gl_GlobalInvocationID.x >= control.listed.z) return;
-    uint slot = firstCoilSlot() + gl_GlobalInvocationID.x;
+    if (invocation() >= control.listed.z) return;
+    uint slot = firstCoilSlot() + invocation();
     uint i = readEntry(slot).x;
     Body me = readBody(i);
     vec4 angles = readCoilHistory(wireAngleIndex(i));

@@ -26,7 +26,7 @@ void main() {
     if (lane != 0u) return;
     for (uint other = 1u; other < gl_WorkGroupSize.x; ++other) most[0] = max(most[0], most[other]);
     uvec3 groups = (most[0] + gl_WorkGroupSize.x - 1u) / gl_WorkGroupSize.x;
-    dispatches.pairs.x = groups.x;
-    dispatches.surfaces.x = groups.y;
-    dispatches.coil.x = groups.z;
+    dispatches.pairs.xz = spread(groups.x);
+    dispatches.surfaces.xz = spread(groups.y);
+    dispatches.coil.xz = spread(groups.z);
 }

@@ -26,13 +26,13 @@ void decide(uint next) {
     }
     bool drifts = coilDrifts(), rebuild = kind == kCallRebuild, refresh = rebuild || drifts || kind == kCallRefresh;
     control.wanted = uvec4(rebuild ? 1u : 0u, refresh ? 1u : 0u, 0u, 0u);
-    uint groups = push.share / gl_WorkGroupSize.x;
+    uvec2 groups = spread(push.share / gl_WorkGroupSize.x);
     if (rebuild) {
-        dispatches.step[next].cells.x = (push.cellMask + gl_WorkGroupSize.x) / gl_WorkGroupSize.x;
-        dispatches.step[next].particles.x = groups;
+        dispatches.step[next].cells.xz = spread((push.cellMask + gl_WorkGroupSize.x) / gl_WorkGroupSize.x);
+        dispatches.step[next].particles.xz = groups;
     }
     if (refresh) {
-        dispatches.step[next].refresh.x = groups;
+        dispatches.step[next].refresh.xz = groups;
         dispatches.step[next].settle.x = 1u;
     }
 }

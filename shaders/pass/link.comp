@@ -39,7 +39,7 @@ uint slotOfOwner(uint j, uint i) {
 void main() {
     openMember();
     if (control.wanted.y == 0u) return;
-    uint i = firstParticle() + gl_GlobalInvocationID.x;
+    uint i = firstParticle() + invocation();
     vec4 p = readState(push.source, kPosition, i);
     float slack = slackOfParticle(i);
     uvec4 range = readRange(rowRangeIndex(i)), own = readRange(slotRangeIndex(i));

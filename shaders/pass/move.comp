@@ -20,7 +20,7 @@ bool beyond(vec3 way, float limit) { return dot(way, way) > limit * limit; }
 
 void main() {
     openMember();
-    uvec4 turn = readRange(turnIndex(firstParticle() + gl_GlobalInvocationID.x));
+    uvec4 turn = readRange(turnIndex(firstParticle() + invocation()));
     uint i = turn.x, firstLink = turn.y, links = turn.z;
     vec4 pull = gravity(), numbers = numerics();
     vec4 bottom = domainLow(), top = domainHigh();

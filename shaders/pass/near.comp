@@ -37,7 +37,7 @@ void prepare(uint slot, uint i, uint other) {
 void main() {
     openMember();
     if (control.wanted.y == 0u) return;
-    uint i = firstParticle() + gl_GlobalInvocationID.x;
+    uint i = firstParticle() + invocation();
     vec4 p = readState(push.source, kPosition, i);
     Sphere me = Sphere(p.xyz, vec3(0.0), p.w);
     float slack = slackOfParticle(i);

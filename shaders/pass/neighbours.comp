@@ -50,7 +50,7 @@ uint collect(uint i, vec4 p) {
 void main() {
     openMember();
     if (control.wanted.x == 0u) return;
-    uint i = firstParticle() + gl_GlobalInvocationID.x;
+    uint i = firstParticle() + invocation();
     vec4 p = readState(push.source, kPosition, i);
     uint count = 0u;
     if (p.w > 0.0) count = collect(i, p);

@@ -17,8 +17,8 @@ void main() {
     ContactParams law = lawOf(kParticleParticle);
     uvec4 chosen = choices();
     float springDt = springStep();
-    if (gl_GlobalInvocationID.x >= control.listed.x) return;
-    uint slot = firstPairSlot() + gl_GlobalInvocationID.x;
+    if (invocation() >= control.listed.x) return;
+    uint slot = firstPairSlot() + invocation();
 
     uvec2 who = readEntry(slot);
     Body a = readBody(who.x), b = readBody(who.y);

@@ -12,7 +12,7 @@ shared float overlap[gl_WorkGroupSize.x];
 
 void main() {
     openMember();
-    uint i = firstParticle() + gl_GlobalInvocationID.x, lane = gl_LocalInvocationID.x;
+    uint i = firstParticle() + invocation(), lane = gl_LocalInvocationID.x;
     vec4 position = state[stateIndex(push.source, kPosition, i)];
     vec4 residue = state[stateIndex(push.source, kResidue, i)];
     vec4 velocity = state[stateIndex(push.source, kVelocity, i)];

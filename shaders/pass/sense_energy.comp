@@ -11,7 +11,7 @@ shared EnergyRecord record[gl_WorkGroupSize.x];
 
 void main() {
     openMember();
-    uint i = firstParticle() + gl_GlobalInvocationID.x, lane = gl_LocalInvocationID.x;
+    uint i = firstParticle() + invocation(), lane = gl_LocalInvocationID.x;
     uint before = 1u - push.source;
     vec4 gravity = member.gravity;
     vec4 position = state[stateIndex(push.source, kPosition, i)];

@@ -15,8 +15,8 @@ void main() {
     ContactParams law = lawOf(kParticleWall);  // before any branch, as in `pairs`
     uvec4 chosen = choices();
     float springDt = springStep();
-    if (gl_GlobalInvocationID.x >= control.listed.y) return;
-    uint slot = firstSurfaceSlot() + gl_GlobalInvocationID.x;
+    if (invocation() >= control.listed.y) return;
+    uint slot = firstSurfaceSlot() + invocation();
 
     uvec2 who = readEntry(slot);
     Body me = readBody(who.x);

@@ -13,6 +13,7 @@ layout(constant_id = 1) const uint SURFACES = 0u;    // fixed surfaces
 layout(constant_id = 2) const uint KINDS = 0u;       // kinds of the first surfaces, 4 bits each (kUnrolledSurfaces)
 layout(constant_id = 3) const uint KIND_SET = 0u;    // bit k: there is a surface of kind k
 layout(constant_id = 4) const uint MEMBERS = 1u;     // canisters that share the buffers, each with its part of every table
+layout(constant_id = 5) const uint MOST_GROUPS = 65535u;  // workgroups in a row of a dispatch; more go in layers
 
 layout(push_constant) uniform Push { StepPush push; };
 
@@ -97,6 +98,16 @@ vec4 domainLow() { return OF_MEMBER(domainLow, kVectorGravity + 1u); }
 vec4 domainHigh() { return OF_MEMBER(domainHigh, kVectorGravity + 2u); }
 vec4 numerics() { return OF_MEMBER(numerics, kVectorGravity + 3u); }
 uvec4 choices() { return uvec4(OF_MEMBER(choices, kVectorGravity + 4u)); }
+
+/// Which of its member's invocations this is.
+uint invocation() {
+    return (gl_WorkGroupID.z * gl_NumWorkGroups.x + gl_WorkGroupID.x) * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+}
+/// Workgroups in a row, layers: together at least `groups`, and just as many for the particles (TableSizes::share).
+uvec2 spread(uint groups) {
+    uint layers = max(1u, (groups + MOST_GROUPS - 1u) / MOST_GROUPS);
+    return uvec2((groups + layers - 1u) / layers, layers);
+}
 
 bool opening() { return push.opening == 1u && choices().w == 1u; }
 /// By how much springs grow in this step: not at all in a member's first.

@@ -124,7 +124,7 @@ SHARED_CONST kCallRefresh = 9u;  // of the contact lists
 SHARED_CONST kCallShift = 27u;
 SHARED_CONST kMostParticles = 1u << kCallShift;
 
-struct Dispatch {  // indirect arguments, three words each: workgroups, live members, 1
+struct Dispatch {  // indirect arguments, three words each: workgroups in a row, a row for each live member, layers
     uvec4 cells;      // workgroups that clear the cell table, 0 while no rebuild of the rows is wanted
     uvec4 particles;  // workgroups over the particles, ditto
     uvec4 refresh;    // workgroups over the particles, 0 while no refresh of the contact lists is wanted

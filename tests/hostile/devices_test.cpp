@@ -58,7 +58,7 @@ TEST_CASE("a device that lacks something is refused with what it lacks") {
         {"vulkan-1.0", "needs Vulkan 1.1, has 1.0"},
         {"few-buffers", "needs 16 storage buffers per stage, has 4"},
         {"small-range", "allows storage buffers of 65536 bytes: use fewer particles or another device"},
-        {"few-groups", "allows 2: use fewer particles or another device"},
+        {"few-groups", "nothing failed"},  // but dispatches have more layers
     };
     CHECK(failure() == "nothing failed");
     for (const Row& row : rows) {

@@ -32,7 +32,7 @@ struct Rig {
 
     Rig(const World& world, const Particles& p) {
         const gpu::Member member = packMember(world, p);
-        sizes = tableSizes(world, p, member, 64, device.limits().maxStorageBufferRange);
+        sizes = tableSizes(world, Crowd(p), member, {64, 65535, device.limits().maxStorageBufferRange});
         sizes.cells = 32;  // far fewer than cells in use: many share a slot of the table
         passes = std::make_unique<Passes>(device, sizes);
         passes->member.write(0, &member, sizeof member);
@@ -211,4 +211,37 @@ TEST_CASE("positions survive packing to single precision twice over") {
     const Particles q = unpackState(half, 64, p);
     // Two floats hold 48 bits: 0.15 m to 1e-15 m.
     for (std::size_t i = 0; i < p.size(); ++i) CHECK(near(q.position[i], p.position[i], 0.15, 2e-14));
+}
+
+TEST_CASE("indices of 32 bits reach for a hundred million spheres") {
+    World world = emptyWorld();
+    world.skin = 0.75e-3;
+    world.coil = geometry::Coil{};
+    world.surfaces = {geometry::Plane{{0, 0, 0}, {0, 1, 0}}, geometry::Trough{0.0115},
+                      geometry::Plane{{0, 0, 0}, {0, 0, 1}}};
+    gpu::Member member{};
+    for (int i = 0; i < 3; ++i) member.surface[i].pointHigh.w = float(gpu::kPlane);
+    for (const bool book : {false, true}) {
+        world.energyBook = book;
+        const TableSizes t = tableSizes(world, Crowd(100'000'000, 1.25e-3), member, {64, 65535, 1ULL << 40});
+        CHECK(t.particles() >= 100'000'000);
+        CHECK(t.layers(t.groups()) * t.inRow(t.groups()) == t.groups());
+        CHECK(t.inRow(t.groups()) <= 65535);
+        CHECK(t.largestIndex() < (1ULL << 32));
+        CHECK(t.pairSlots >= 350'000'000);
+        CHECK(t.rowEntries >= 2'000'000'000);
+    }
+    CHECK_THROWS_WITH(tableSizes(world, Crowd(200'000'000, 1.25e-3), member, {64, 65535, 1ULL << 40}),
+                      Catch::Contains("134217728"));
+}
+
+TEST_CASE("where dispatches go in layers, every layer is full") {
+    const World world = emptyWorld();
+    for (const std::uint64_t n : {1u, 64u, 128u, 129u, 300u, 577u}) {
+        INFO(n << " particles");
+        const TableSizes t = tableSizes(world, Crowd(n, 1e-3), {}, {64, 2, 1ULL << 27});
+        CHECK(t.share >= n);
+        CHECK(t.inRow(t.groups()) <= 2);
+        CHECK(t.layers(t.groups()) * t.inRow(t.groups()) == t.groups());
+    }
 }

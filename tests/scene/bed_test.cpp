@@ -74,6 +74,9 @@ TEST_CASE("the same case gives the same bits, whatever the workgroup and the way
     SECTION("storage reads only") {
         other.reads = VulkanOptions::Reads::Storage;
     }
+    SECTION("dispatches in layers of two workgroups") {
+        other.mostGroups = 2;
+    }
     const auto second = played(w, p, other);
     CHECK(sameBits(first->particles(), second->particles()));
     CHECK(sameBits(first->contacts(), second->contacts()));

@@ -52,16 +52,13 @@ Ensemble::Ensemble(const VulkanOptions& options) : options_(options), device_(op
                                       device_.info().name));
 }
 
-void Ensemble::requireDispatch(std::uint32_t groups, std::uint32_t rows) const {
-    const std::uint32_t* most = device_.limits().maxComputeWorkGroupCount;
-    if (groups > most[0] || rows > most[1])
-        throw DeviceError(
-            fmt::format("the particles need dispatches of {} workgroups for each of {} canisters, but {} allows {} "
-                        "and {}: use fewer particles or another device",
-                        groups, rows, device_.info().name, most[0], most[1]));
-}
-
 void Ensemble::load(const std::vector<Canister>& canisters) {
+    const VkPhysicalDeviceLimits& limits = device_.limits();
+    if (canisters.size() > limits.maxComputeWorkGroupCount[1])
+        throw DeviceError(fmt::format("{} canisters at once; {} allows {}", canisters.size(), device_.info().name,
+                                      limits.maxComputeWorkGroupCount[1]));
+    const std::uint32_t mostGroups = std::min(options_.mostGroups, limits.maxComputeWorkGroupCount[0]);
+    const DeviceShape shape{options_.workgroup, mostGroups, limits.maxStorageBufferRange};
     members_.clear();
     std::vector<TableSizes> rooms;
     for (const Canister& c : canisters) {
@@ -70,15 +67,11 @@ void Ensemble::load(const std::vector<Canister>& canisters) {
         m.world = c.world;
         m.loaded = c.particles;
         m.block = packMember(c.world, c.particles);
-        rooms.push_back(tableSizes(c.world, c.particles, m.block, options_.workgroup,
-                                   device_.limits().maxStorageBufferRange, std::uint32_t(canisters.size())));
+        rooms.push_back(tableSizes(c.world, Crowd(c.particles), m.block, shape, std::uint32_t(canisters.size())));
         members_.push_back(std::move(m));
     }
     TableSizes sizes = roomForAll(rooms);
     sizes.texelReads = options_.reads == VulkanOptions::Reads::Automatic;
-    const std::uint32_t widest = std::max({sizes.groups(), sizes.cells / sizes.workgroup + 1,
-                                           std::max(sizes.pairSlots, sizes.surfaceSlots) / sizes.workgroup});
-    requireDispatch(widest, sizes.members);
     passes_.reset();  // the former tables make room for the new ones
     passes_ = std::make_unique<Passes>(device_, sizes);
     std::vector<gpu::vec4> half(std::size_t(gpu::kFields) * sizes.particles());

@@ -64,7 +64,6 @@ class Ensemble {
         std::optional<std::string> failure;
     };
 
-    void requireDispatch(std::uint32_t groups, std::uint32_t rows) const;
     void writeBlocks();
     void runBatch(std::uint32_t count, const std::vector<double>& coilRates, vk::Timestamps* times = nullptr);
     void keepError(std::uint32_t member, const gpu::uvec4& error, std::uint64_t firstStep);

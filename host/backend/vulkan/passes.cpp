@@ -36,8 +36,8 @@ Access accessOn(const vk::Device& device, const TableSizes& s) {
     return {texel, texel && device.hasInt64()};
 }
 
-std::array<std::uint32_t, 5> constants(const TableSizes& s) {
-    return {s.workgroup, s.surfaces, s.surfaceKinds, s.kindSet, s.members};
+std::array<std::uint32_t, 6> constants(const TableSizes& s) {
+    return {s.workgroup, s.surfaces, s.surfaceKinds, s.kindSet, s.members, s.mostGroups};
 }
 
 /// The variants of one pass (shaders/passes.cmake), as far as it has them.
@@ -128,7 +128,7 @@ void Passes::reset() {
 }
 
 void Passes::setLive(std::uint32_t live) {
-    const auto groups = [&](std::uint32_t n) { return gpu::uvec4(n, live, 1, 0); };
+    const auto groups = [&](std::uint32_t n) { return gpu::uvec4(sizes.inRow(n), live, sizes.layers(n), 0); };
     // Every step may ask for everything once more; from then on it is as many as there is work for.
     gpu::Dispatches d{};
     for (gpu::Dispatch& step : d.step) {
@@ -214,7 +214,7 @@ void Passes::recordSteps(vk::Commands& commands, std::uint32_t first, std::uint3
         } fixed[] = {{move_, sizes.groups(), live_}, {decide_, 1, 1}};
         for (const auto& f : fixed) {
             f.pass.bind(c);
-            commands.dispatch(f.groups, f.rows);
+            commands.dispatch(sizes.inRow(f.groups), f.rows, sizes.layers(f.groups));
             commands.barrier();
             if (times != nullptr) times->mark(commands);
         }
@@ -228,7 +228,7 @@ void Passes::recordSensing(vk::Commands& commands, std::uint32_t source, std::ui
     p.firstRow = row;
     bindings_.push(c, &p);
     sense_.bind(c);
-    commands.dispatch(sizes.groups());
+    commands.dispatch(sizes.inRow(sizes.groups()), 1, sizes.layers(sizes.groups()));
     commands.barrier();
 }
 
@@ -239,7 +239,7 @@ void Passes::recordEnergySensing(vk::Commands& commands, std::uint32_t source, b
     p.firstRow = row;
     bindings_.push(c, &p);
     senseEnergy_.bind(c);
-    commands.dispatch(sizes.groups());
+    commands.dispatch(sizes.inRow(sizes.groups()), 1, sizes.layers(sizes.groups()));
     commands.barrier();
 }
 

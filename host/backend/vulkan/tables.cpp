@@ -1,5 +1,7 @@
 #include "host/backend/vulkan/tables.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -10,29 +12,57 @@ namespace vkdose {
 
 namespace {
 
-std::uint32_t roundUp(std::uint64_t n, std::uint32_t unit) {
-    return std::uint32_t((n + unit - 1) / unit * unit);
+constexpr std::uint64_t kIndices = 1ULL << 32;
+
+std::uint64_t roundUp(std::uint64_t n, std::uint64_t unit) {
+    return (n + unit - 1) / unit * unit;
+}
+
+std::uint32_t narrow(std::uint64_t n) {
+    if (n >= kIndices)
+        throw RunError(
+            fmt::format("the tables need room for {} entries, of which 32 bits number no more than {}: use "
+                        "fewer particles",
+                        n, kIndices));
+    return std::uint32_t(n);
 }
 
 /// Neighbours of a particle within reach and skin, mean over a packing: a dense random one has ten within 1.2
 /// diameters, more with the cube of the reach. Twelve spheres of one size can touch one.
-std::uint64_t meanRow(const World& world, const Particles& particles) {
-    const double diameter =
-        2 * std::accumulate(particles.radius.begin(), particles.radius.end(), 0.0) / double(particles.size());
-    const double mean = std::ceil(10 * std::pow(1 + world.skin / diameter, 3) + 2);
+std::uint64_t meanRow(const World& world, const Crowd& crowd) {
+    const double mean = std::ceil(10 * std::pow(1 + world.skin / (2 * crowd.meanRadius), 3) + 2);
     return std::uint64_t(std::clamp(mean, 12.0, double(gpu::kMaxRow)));
 }
 
 }  // namespace
 
-TableSizes tableSizes(const World& world, const Particles& particles, const gpu::Member& member,
-                      std::uint32_t workgroup, std::uint64_t range, std::uint32_t members) {
-    const std::uint64_t n = particles.size();
+Crowd::Crowd(const Particles& p)
+    : count(p.size()), meanRadius(std::accumulate(p.radius.begin(), p.radius.end(), 0.0) / double(p.size())) {}
+
+std::uint64_t TableSizes::largestIndex() const {
+    const std::uint64_t n = std::uint64_t(members) * share, m = members;
+    const std::uint64_t springs = m * (std::uint64_t(pairSlots) + surfaceSlots), all = springs + m * coilSlots;
+    return std::max({2 * gpu::kFields * n,                             // state
+                     m * (std::uint64_t(rowEntries) + linkEntries),    // rows and links
+                     2 * all,                                          // links, entries, torques
+                     historyParts() * springs, coilHistoryRows() * n,  // histories
+                     gpu::kBookFields * (n + all),                     // energy book
+                     m * cells + n}) -
+           1;
+}
+
+TableSizes tableSizes(const World& world, const Crowd& crowd, const gpu::Member& member, const DeviceShape& device,
+                      std::uint32_t members) {
+    const std::uint64_t n = crowd.count, workgroup = device.workgroup;
+    if (n * members > gpu::kMostParticles)
+        throw RunError(fmt::format("{} particles; the Vulkan backend numbers {}", n * members,
+                                   std::uint32_t(gpu::kMostParticles)));
     constexpr std::uint64_t kFew = 1024;  // so few that the mean says nothing
     TableSizes s;
     s.members = members;
-    s.workgroup = workgroup;
-    s.share = roundUp(n, workgroup);
+    s.workgroup = device.workgroup;
+    s.mostGroups = device.mostGroups;
+    s.share = narrow(roundUp(n, workgroup * s.layers(narrow((n + workgroup - 1) / workgroup))));  // every layer full
     s.cells = 64;
     while (s.cells < 2 * n) s.cells *= 2;
     s.surfaces = std::uint32_t(world.surfaces.size());
@@ -44,16 +74,17 @@ TableSizes tableSizes(const World& world, const Particles& particles, const gpu:
     s.energyBook = world.energyBook;
 
     const std::uint64_t most =
-        range / (std::uint64_t(s.historyParts()) * sizeof(gpu::vec4) * members);  // slots in one buffer
+        device.range / (std::uint64_t(s.historyParts()) * sizeof(gpu::vec4) * members);  // slots in one buffer
     const std::uint64_t pairs = std::min(7 * n / 2 + kFew, n * (n - 1) / 2 + 1);
     const std::uint64_t surfaces = std::min(2 * n + kFew, n * s.surfaces);
-    s.pairSlots = roundUp(pairs, workgroup);
+    s.pairSlots = narrow(roundUp(pairs, workgroup));
     // Where two surfaces each do not fit the device, half a one will do: so large a bed is mostly bulk.
     const bool fits = s.pairSlots + surfaces + workgroup <= most;
-    s.surfaceSlots = roundUp(fits ? surfaces : std::min(surfaces, n / 2), workgroup);
+    s.surfaceSlots = narrow(roundUp(fits ? surfaces : std::min(surfaces, n / 2), workgroup));
     s.coilSlots = world.coil ? s.share : 0;
-    s.rowEntries = std::uint32_t(std::max<std::uint64_t>(1, std::min(n * meanRow(world, particles) + kFew, n * n)));
-    s.linkEntries = 2 * s.pairSlots + s.surfaceSlots + s.coilSlots;
+    s.rowEntries = narrow(std::max<std::uint64_t>(1, std::min(n * meanRow(world, crowd) + kFew, n * n)));
+    s.linkEntries = narrow(2ULL * s.pairSlots + s.surfaceSlots + s.coilSlots);
+    narrow(s.largestIndex());
     return s;
 }
 
@@ -71,6 +102,7 @@ TableSizes roomForAll(const std::vector<TableSizes>& members) {
               &TableSizes::pairSlots, &TableSizes::surfaceSlots, &TableSizes::coilSlots})
             all.*size = std::max(all.*size, s.*size);
     }
+    narrow(all.largestIndex());
     return all;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // How much room the device's tables need for worlds and their particles.
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -14,6 +15,7 @@ namespace vkdose {
 struct TableSizes {
     std::uint32_t members = 1;
     std::uint32_t workgroup = 64;
+    std::uint32_t mostGroups = 65535;  ///< in a row of a dispatch; 65535 is what every device can do
     std::uint32_t surfaces = 0;
     std::uint32_t surfaceKinds = 0;  ///< of the first kUnrolledSurfaces, 4 bits each
     std::uint32_t kindSet = 0;       ///< bit k: there is a surface of kind k
@@ -26,6 +28,9 @@ struct TableSizes {
     bool texelReads = true;  ///< wanted; used if every view fits the device's limit
 
     std::uint32_t groups() const { return share / workgroup; }
+    /// As `spread` in shaders/shared/buffers.glsl.
+    std::uint32_t layers(std::uint32_t groups) const { return std::max(1U, (groups + mostGroups - 1) / mostGroups); }
+    std::uint32_t inRow(std::uint32_t groups) const { return (groups + layers(groups) - 1) / layers(groups); }
     // Of all members, and where a member's begin (shaders/shared/buffers.glsl):
     std::uint32_t particles() const { return members * share; }
     std::uint32_t springSlots() const { return members * (pairSlots + surfaceSlots); }
@@ -38,14 +43,30 @@ struct TableSizes {
     std::size_t historyOffset(std::uint32_t part, std::uint32_t slot) const {
         return part < 2 ? 2ULL * slot + part : std::size_t(part) * springSlots() + slot;
     }
+    /// The largest index into a table, which must stay below 2^32: in vectors, or whatever the table is made of.
+    std::uint64_t largestIndex() const;
     std::uint32_t coilHistoryRows() const { return coilSlots > 0 ? gpu::kMaxTurns * historyParts() + 1 : 0; }
 };
 
-/// For one member, if `members` of its kind share the tables. `range` is the longest buffer the device can bind
-/// [bytes]. Rows and slots are shared by all particles of a member, so they are sized for the mean of a dense packing;
-/// a full table is reported by the device (kErrorTables).
-TableSizes tableSizes(const World& world, const Particles& particles, const gpu::Member& member,
-                      std::uint32_t workgroup, std::uint64_t range, std::uint32_t members = 1);
+/// How many spheres, and how large on average [m].
+struct Crowd {
+    std::uint64_t count = 0;
+    double meanRadius = 0;
+    Crowd(std::uint64_t n, double mean) : count(n), meanRadius(mean) {}
+    explicit Crowd(const Particles& particles);
+};
+
+struct DeviceShape {
+    std::uint32_t workgroup = 64;
+    std::uint32_t mostGroups = 65535;
+    std::uint64_t range = 1ULL << 27;  ///< longest buffer that can be bound [bytes]
+};
+
+/// For one member, if `members` of its kind share the tables. Rows and slots are shared by all particles of a member,
+/// so they are sized for the mean of a dense packing; a full table is reported by the device (kErrorTables). Throws
+/// RunError if indices of 32 bits do not reach.
+TableSizes tableSizes(const World& world, const Crowd& crowd, const gpu::Member& member, const DeviceShape& device,
+                      std::uint32_t members = 1);
 
 /// Room for all of them. Throws RunError if they cannot share tables: their surfaces are of other kinds or in another
 /// order, or only some keep an energy book.

@@ -15,8 +15,9 @@ struct VulkanOptions {
     /// How particle state is read: through texel-buffer views where the device's limit allows, or always from storage
     /// buffers.
     enum class Reads { Automatic, Storage } reads = Reads::Automatic;
-    std::uint32_t workgroup = 64;  ///< invocations; a power of two, at most 128
-    std::uint32_t batch = 0;       ///< steps per submission; 0: adapted to the device. Changes no bit of the result.
+    std::uint32_t workgroup = 64;      ///< invocations; a power of two, at most 128
+    std::uint32_t mostGroups = 65535;  ///< in one row of a dispatch, what every device can do; more go in layers
+    std::uint32_t batch = 0;  ///< steps per submission; 0: adapted to the device. Changes no bit of the result.
 };
 
 /// Throws DeviceError if there is no such device or it cannot compute.
