@@ -9,7 +9,7 @@ using namespace vkdose::test;
 namespace {
 
 /// Two calls of different length, the second with the coil turning.
-std::unique_ptr<Backend> played(const World& w, const Particles& p, VulkanOptions options = {}) {
+std::unique_ptr<Backend> played(const World& w, const Particles& p, const VulkanOptions& options = {}) {
     auto device = gpu(options);
     device->load(w, p);
     device->advance(1201, 0);

@@ -81,7 +81,8 @@ TEST_CASE("a full neighbour row is reported") {
 
 TEST_CASE("more neighbours and contacts than the tables are made for are reported") {
     // A lattice squeezed until every sphere overlaps three shells of others, far denser than any packing.
-    const double radius = 1e-3, spacing = 2 * radius / GENERATE(1.75, 1.45);  // 26 others overflow the rows, 18 the pairs
+    const double radius = 1e-3,
+                 spacing = 2 * radius / GENERATE(1.75, 1.45);  // 26 others overflow the rows, 18 the pairs
     Particles p;
     for (int i = 0; i < 12 * 12 * 12; ++i) p.add(spacing * Vec3(i % 12, i / 12 % 12, i / 144), radius);
     World w = emptyWorld();

@@ -87,21 +87,21 @@ TEST_CASE("a sphere meets every surface") {
         geometry::Surface surface;
         Vec3 target, direction;
     };
-    const double R = 0.0115;
-    const geometry::Front front{0.06, R, 0.01};
+    const double rho = 0.0115;
+    const geometry::Front front{0.06, rho, 0.01};
     const Shot shots[] = {
         {"plane", geometry::Plane{{0, -0.01, 0}, {0, 1, 0}}, {0.02, -0.01, 0.03}, {0, -1, 0}},
         {"oblique plane", geometry::Plane{{0.01, -0.01, 0}, {-s, s, 0}}, {0.01, -0.01, 0.03}, {s, -s, 0}},
-        {"trough bottom", geometry::Trough{R}, {R * 0.6, -R * 0.8, 0.02}, {0.6, -0.8, 0}},
-        {"trough wall", geometry::Trough{R}, {R, 0.02, 0.02}, {1, 0, 0}},
-        {"other trough wall", geometry::Trough{R}, {-R, 0.02, 0.02}, {-1, 0, 0}},
+        {"trough bottom", geometry::Trough{rho}, {rho * 0.6, -rho * 0.8, 0.02}, {0.6, -0.8, 0}},
+        {"trough wall", geometry::Trough{rho}, {rho, 0.02, 0.02}, {1, 0, 0}},
+        {"other trough wall", geometry::Trough{rho}, {-rho, 0.02, 0.02}, {-1, 0, 0}},
         {"front wall", front, {0, 0.02, 0.06}, {0, 0, 1}},
-        {"throat", front, {R * 0.8, R * 0.6, 0.065}, {0.8, 0.6, 0}},
-        {"rim of the hole", front, {0, R, 0.06}, {0, s, s}},
-        {"tube from inside", geometry::Tube{{0, 0, 0}, {0, 1, 0}, R, 0.05, true}, {R, 0.03, 0}, {1, 0, 0}},
-        {"tube from outside", geometry::Tube{{0, 0, 0}, {s, s, 0}, R, 0.05, false}, {0.02, 0.02, R}, {0, 0, -1}},
-        {"endless tube behind its base", geometry::Tube{{0, 0, 0}, {0, 1, 0}, R}, {R, -0.03, 0}, {1, 0, 0}},
-        {"edge of a tube", geometry::Tube{{0, 0, 0}, {0, 0, 1}, R, 0.05, true}, {R, 0, 0}, {s, 0, s}},
+        {"throat", front, {rho * 0.8, rho * 0.6, 0.065}, {0.8, 0.6, 0}},
+        {"rim of the hole", front, {0, rho, 0.06}, {0, s, s}},
+        {"tube from inside", geometry::Tube{{0, 0, 0}, {0, 1, 0}, rho, 0.05, true}, {rho, 0.03, 0}, {1, 0, 0}},
+        {"tube from outside", geometry::Tube{{0, 0, 0}, {s, s, 0}, rho, 0.05, false}, {0.02, 0.02, rho}, {0, 0, -1}},
+        {"endless tube behind its base", geometry::Tube{{0, 0, 0}, {0, 1, 0}, rho}, {rho, -0.03, 0}, {1, 0, 0}},
+        {"edge of a tube", geometry::Tube{{0, 0, 0}, {0, 0, 1}, rho, 0.05, true}, {rho, 0, 0}, {s, 0, s}},
     };
     for (const Shot& shot : shots) {
         DYNAMIC_SECTION(shot.name) {
@@ -112,8 +112,8 @@ TEST_CASE("a sphere meets every surface") {
     }
     SECTION("behind surfaces whose kind no constant holds") {
         for (int i = 0; i < 9; ++i) w.surfaces.push_back(geometry::Plane{{0, -0.5, 0}, {0, 1, 0}});
-        w.surfaces.push_back(geometry::Trough{R});
-        requireClose(run(w, thrown({R, 0.02, 0.02}, {1, 0, 0}, a, {0, 0.1, 0.2}), 100));
+        w.surfaces.push_back(geometry::Trough{rho});
+        requireClose(run(w, thrown({rho, 0.02, 0.02}, {1, 0, 0}, a, {0, 0.1, 0.2}), 100));
     }
 }
 

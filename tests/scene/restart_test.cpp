@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kRate = -2 * kPi * 1.5 * 1.0000001;  // no round number of 2^-64 turns a step
 
-std::unique_ptr<Backend> made(bool reference, VulkanOptions options = {}) {
+std::unique_ptr<Backend> made(bool reference, const VulkanOptions& options = {}) {
     return reference ? makeReferenceBackend() : gpu(options);
 }
 

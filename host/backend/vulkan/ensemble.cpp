@@ -76,7 +76,7 @@ void Ensemble::load(const std::vector<Canister>& canisters) {
     passes_ = std::make_unique<Passes>(device_, sizes);
     std::vector<gpu::vec4> half(std::size_t(gpu::kFields) * sizes.particles());
     for (std::uint32_t m = 0; m < members_.size(); ++m)
-        packState(members_[m].loaded, sizes.share, m * sizes.share, half);
+        packState(members_[m].loaded, sizes.share, std::size_t(m) * sizes.share, half);
     passes_->state.writeAll(half);
     passes_->reset();
     source_ = 0;
@@ -225,7 +225,7 @@ Sensors Ensemble::sense(std::uint32_t member, std::uint32_t steps) {
     commands.submit();
     Sensors s;
     for (const gpu::SensorRecord& r :
-         passes_->sensors.readAll<gpu::SensorRecord>(groups, member * groups * sizeof(gpu::SensorRecord))) {
+         passes_->sensors.readAll<gpu::SensorRecord>(groups, sizeof(gpu::SensorRecord) * member * groups)) {
         for (int region = 0; region < kRegions; ++region) {
             s.count[region] += r.count[region];
             s.mass[region] += double(r.mass[region]);
@@ -246,7 +246,7 @@ EnergyBook Ensemble::readEnergy(std::uint32_t member) const {
     const std::uint32_t groups = passes_->sizes.groups();
     EnergyBook b;
     for (const gpu::EnergyRecord& r :
-         passes_->energies.readAll<gpu::EnergyRecord>(groups, member * groups * sizeof(gpu::EnergyRecord))) {
+         passes_->energies.readAll<gpu::EnergyRecord>(groups, sizeof(gpu::EnergyRecord) * member * groups)) {
         b.plastic += double(r.normal.x);
         b.adhesive += double(r.normal.y);
         b.viscous += double(r.normal.z);

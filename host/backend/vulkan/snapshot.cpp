@@ -112,7 +112,7 @@ std::vector<SlotContact> touchingSlots(const Passes& passes, std::uint32_t membe
         history[0] = passes.history.readAll<vec4>(2ULL * count, t.historyOffset(0, first) * sizeof(vec4));
         for (std::uint32_t part = 2; part < t.historyParts(); ++part)
             history[part - 1] = passes.history.readAll<vec4>(count, t.historyOffset(part, first) * sizeof(vec4));
-        for (std::uint32_t k = 0; k < count; ++k) {
+        for (std::size_t k = 0; k < count; ++k) {
             if (history[0][2 * k].w <= 0) continue;
             SlotContact c{pair, entries[k].x - firstParticle, entries[k].y - (pair ? firstParticle : 0), {}};
             c.history[0] = history[0][2 * k];

@@ -42,7 +42,7 @@ Crowd::Crowd(const Particles& p)
 std::uint64_t TableSizes::largestIndex() const {
     const std::uint64_t n = std::uint64_t(members) * share, m = members;
     const std::uint64_t springs = m * (std::uint64_t(pairSlots) + surfaceSlots), all = springs + m * coilSlots;
-    return std::max({2 * gpu::kFields * n,                             // state
+    return std::max({2 * n * gpu::kFields,                             // state
                      m * (std::uint64_t(rowEntries) + linkEntries),    // rows and links
                      2 * all,                                          // links, entries, torques
                      historyParts() * springs, coilHistoryRows() * n,  // histories
