@@ -37,12 +37,18 @@ void addBackend(CLI::App& command, BackendChoice& backend) {
     addDevice(command, backend);
 }
 
+/// For the program itself, which runs the members of a sweep as processes of its own.
+void addParent(CLI::App& command, int& parent) {
+    command.add_option("--parent", parent, "end, as by Ctrl-C, when this process does")->group("");
+}
+
 void addRun(CLI::App& program, RunOptions& options) {
     CLI::App& command = *program.add_subcommand("run", "simulate a case and write its output folder");
     addCase(command, options.input);
     command.add_option("--out", options.out, "output folder (default: out/<case name>)")->type_name("DIR");
     command.add_flag("--force", options.force, "replace a former run in the output folder");
     command.add_flag("--quiet", options.quiet, "print errors only");
+    addParent(command, options.parent);
     addBackend(command, options.backend);
 }
 
@@ -50,6 +56,7 @@ void addResume(CLI::App& program, ResumeOptions& options) {
     CLI::App& command = *program.add_subcommand("resume", "go on with an interrupted run from its checkpoint");
     command.add_option("dir", options.folder, "output folder of the run")->required()->type_name("DIR");
     command.add_flag("--quiet", options.quiet, "print errors only");
+    addParent(command, options.parent);
     addDevice(command, options.backend);
 }
 
@@ -116,6 +123,19 @@ void addExportCoil(CLI::App& program, ExportCoilOptions& options) {
         ->capture_default_str();
 }
 
+void addSweep(CLI::App& program, const char* name, const char* what, SweepOptions& options) {
+    CLI::App& command = *program.add_subcommand(name, what);
+    command.add_option("study", options.study, "study file (TOML)")->required();
+    command.add_option("--out", options.out, "folder of the sweep (default: out/<name of the study's file>)")
+        ->type_name("DIR");
+    command.add_option("--jobs", options.jobs, "members at once (default: one for each core on a CPU, one on a GPU)")
+        ->check(CLI::Range(1, 1024));
+    command.add_flag("--retry-failed", options.retryFailed, "run the members that failed again");
+    command.add_flag("--dry-run", options.dryRun, "print the members and write nothing");
+    command.add_flag("--quiet", options.quiet, "print errors only");
+    addBackend(command, options.backend);
+}
+
 /// Runs `command`; every error becomes lines on stderr and an exit code.
 int guarded(const std::function<int()>& command) {
     const auto say = [](const char* what) { fmt::print(stderr, "vkdose: {}\n", what); };
@@ -160,6 +180,8 @@ int commandLine(int argc, const char* const* argv) {
     VerifyOptions verification;
     BenchOptions bench;
     ExportCoilOptions exportCoil;
+    SweepOptions sweep;
+    SweepOptions calibration;
     addRun(program, run);
     addResume(program, resume);
     addCheck(program, check);
@@ -168,6 +190,8 @@ int commandLine(int argc, const char* const* argv) {
     addVerify(program, verification);
     addBench(program, bench);
     addExportCoil(program, exportCoil);
+    addSweep(program, "sweep", "run every member of a study", sweep);
+    addSweep(program, "calibrate", "find the case of a study that doses what was measured", calibration);
     try {
         program.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
@@ -183,6 +207,8 @@ int commandLine(int argc, const char* const* argv) {
     if (program.got_subcommand("verify")) return guarded([&] { return verifyCommand(verification); });
     if (program.got_subcommand("bench")) return guarded([&] { return benchCommand(bench); });
     if (program.got_subcommand("export-coil")) return guarded([&] { return exportCoilCommand(exportCoil); });
+    if (program.got_subcommand("sweep")) return guarded([&] { return sweepCommand(sweep); });
+    if (program.got_subcommand("calibrate")) return guarded([&] { return calibrateCommand(calibration); });
     return guarded([] { return devicesCommand(); });
 }
 

@@ -21,12 +21,14 @@ struct RunOptions {
     std::filesystem::path out;  ///< empty: out/<case name>
     bool force = false;
     bool quiet = false;
+    int parent = 0;  ///< process with which this one ends, as by Ctrl-C; 0: none
 };
 
 struct ResumeOptions {
     std::filesystem::path folder;
     BackendChoice backend;  ///< its backend is the checkpoint's
     bool quiet = false;
+    int parent = 0;  ///< as above
 };
 
 struct CheckOptions {
@@ -69,6 +71,16 @@ struct ExportCoilOptions {
     int perTurn = 20;  ///< pieces of a turn
 };
 
+struct SweepOptions {
+    std::filesystem::path study;
+    BackendChoice backend;
+    std::filesystem::path out;  ///< empty: out/<name of the study's file>
+    int jobs = 0;               ///< members at once; 0: one for each core on a CPU, one on a GPU
+    bool retryFailed = false;
+    bool dryRun = false;
+    bool quiet = false;
+};
+
 int runCommand(const RunOptions& options);
 int resumeCommand(const ResumeOptions& options);
 int checkCommand(const CheckOptions& options);
@@ -77,5 +89,7 @@ int compareCommand(const CompareOptions& options);
 int verifyCommand(const VerifyOptions& options);
 int benchCommand(const BenchOptions& options);
 int exportCoilCommand(const ExportCoilOptions& options);
+int sweepCommand(const SweepOptions& options);
+int calibrateCommand(const SweepOptions& options);
 
 }  // namespace vkdose
