@@ -57,3 +57,19 @@ TEST_CASE("a hole smaller than two particles is no arch") {
         if (bed.position[i].y > 1e-3 && bed.position[i].y < 3e-3) bed.status[i] = Status::Dosed;
     CHECK_FALSE(archAbove(paperCoil(), paperCanister(), bed));
 }
+
+TEST_CASE("a tunnel over the coil is an arch although powder stands beside it") {
+    Particles bed = layers(-10e-3, 40e-3);
+    for (std::size_t i = 0; i < bed.size(); ++i) {
+        const Vec3& x = bed.position[i];
+        if (std::abs(x.x) < 6e-3 && x.y > 1e-3 && x.y < 13e-3) bed.status[i] = Status::Dosed;
+    }
+    CHECK(archAbove(paperCoil(), paperCanister(), bed));
+}
+
+TEST_CASE("a void that ends below the coil's axis is the coil's own, no arch") {
+    Particles bed = layers(-10e-3, 40e-3);
+    for (std::size_t i = 0; i < bed.size(); ++i)
+        if (bed.position[i].y < -1e-3) bed.status[i] = Status::Dosed;  // the next sphere begins at -1 mm
+    CHECK_FALSE(archAbove(paperCoil(), paperCanister(), bed));
+}
