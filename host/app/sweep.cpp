@@ -7,6 +7,7 @@
 #include "host/app/exit_code.h"
 #include "host/app/interrupt.h"
 #include "host/app/sweep_display.h"
+#include "host/app/sweep_setup.h"
 #include "host/app/text.h"
 #include "host/study/member.h"
 #include "host/study/study.h"
@@ -25,21 +26,26 @@ int jobsFor(const SweepOptions& options) {
     return int(std::max(1U, std::thread::hardware_concurrency()));
 }
 
+std::filesystem::path sweepFolder(const SweepOptions& options) {
+    return options.out.empty() ? std::filesystem::path("out") / options.study.stem() : options.out;
+}
+
 int sweepCommand(const SweepOptions& options) {
     // Everything that can be refused is refused before anything is written.
     const Study study = readStudy(options.study);
+    if (study.calibration && study.calibration->method == CalibrationAim::Method::Surrogate)
+        throw UsageError(fmt::format("{} is a search, not a sweep; use vkdose calibrate", options.study.string()));
     const std::vector<Member> members = membersOf(study);
     if (options.dryRun) {
         fmt::print("{}", membersText(study, members));
         return kOk;
     }
     const int jobs = jobsFor(options);
-    const std::filesystem::path out =
-        options.out.empty() ? std::filesystem::path("out") / options.study.stem() : options.out;
+    const std::filesystem::path out = sweepFolder(options);
     const std::atomic<bool>& stop = watchInterrupts();
     SweepFolder folder(out, study, members);
     ChildRunner runner(options.backend, jobs);
-    SweepDisplay display(study, options.quiet);
+    SweepDisplay display("sweep", study, options.quiet);
     display.begin(members, jobs);
     const SweepOutcome outcome = runMembers(folder, members, runner, display, stop, options.retryFailed);
     if (outcome.whole) folder.sort();

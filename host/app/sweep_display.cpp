@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "host/app/text.h"
 
@@ -49,8 +50,8 @@ std::string membersText(const Study& study, const std::vector<Member>& members) 
                               large(work));
 }
 
-SweepDisplay::SweepDisplay(const Study& study, bool quiet)
-    : study_(study), quiet_(quiet), terminal_(isatty(fileno(stderr)) == 1) {}
+SweepDisplay::SweepDisplay(std::string command, const Study& study, bool quiet)
+    : command_(std::move(command)), study_(study), quiet_(quiet), terminal_(isatty(fileno(stderr)) == 1) {}
 
 SweepDisplay::~SweepDisplay() {
     close();
@@ -100,7 +101,8 @@ void SweepDisplay::onBusy(const std::filesystem::path& folder) {
 
 void SweepDisplay::finish(const SweepFolder& folder, const SweepOutcome& outcome) {
     close();
-    const std::string again = fmt::format("vkdose sweep {} --out {}", study_.file.string(), folder.path().string());
+    const std::string again =
+        fmt::format("vkdose {} {} --out {}", command_, study_.file.string(), folder.path().string());
     if (!outcome.whole)
         fmt::print(stderr, "vkdose: interrupted; go on with `{}`\n", again);
     else if (outcome.failed > 0)

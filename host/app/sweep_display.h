@@ -11,8 +11,8 @@ namespace vkdose {
 
 class SweepDisplay : public SweepObserver {
   public:
-    /// `quiet`: only what went wrong.
-    SweepDisplay(const Study& study, bool quiet);
+    /// `command`: by what it goes on. `quiet`: only what went wrong.
+    SweepDisplay(std::string command, const Study& study, bool quiet);
     ~SweepDisplay() override;
     SweepDisplay(const SweepDisplay&) = delete;
     SweepDisplay& operator=(const SweepDisplay&) = delete;
@@ -28,6 +28,7 @@ class SweepDisplay : public SweepObserver {
     using Clock = std::chrono::steady_clock;
     void close();
 
+    std::string command_;
     const Study& study_;
     bool quiet_;
     bool terminal_;

@@ -22,7 +22,7 @@ struct CalibrationAim {
     enum class Method { Grid, Surrogate };
     Method method = Method::Grid;
     double target = 0;                      ///< mass per dose [kg]
-    double tolerance = 0;                   ///< of the target: what a match may be off by [kg]
+    double tolerance = 0;                   ///< what a match may be off by; as the target's standard error [kg]
     std::string along;                      ///< Grid: the key that is interpolated
     int maxRuns = 0;                        ///< Surrogate: points at most, each with every seed
     std::vector<FreeParameter> parameters;  ///< Surrogate

@@ -25,13 +25,22 @@ Node treeOf(const std::vector<Setting>& settings) {
     return tree;
 }
 
-Node seedNode(const Study& study, std::uint64_t seed) {
+/// A value that stands in no line of the study.
+Node ownNode(const Study& study, Node::Kind kind, std::string text) {
     Node node;
-    node.kind = Node::Kind::Integer;
-    node.integer = std::int64_t(seed);
-    node.number = double(seed);
+    node.kind = kind;
     node.file = study.file.string();
-    node.text = fmt::format("{}", seed);
+    if (kind == Node::Kind::String)
+        node.string = text;
+    else
+        node.number = std::stod(text);
+    node.text = std::move(text);
+    return node;
+}
+
+Node seedNode(const Study& study, std::uint64_t seed) {
+    Node node = ownNode(study, Node::Kind::Integer, fmt::format("{}", seed));
+    node.integer = std::int64_t(seed);
     return node;
 }
 
@@ -62,6 +71,19 @@ void forEachPoint(const std::vector<Axis>& axes, const Visit& visit) {
 
 std::string tableText(const Node& value) {
     return value.kind == Node::Kind::String ? value.string : valueText(value);
+}
+
+Setting settingOf(const Study& study, const std::string& key, double value) {
+    return {key, ownNode(study, Node::Kind::Float, fmt::format("{:.6g}", value))};
+}
+
+std::string caseAt(const Study& study, const std::vector<Setting>& point, const std::string& name,
+                   const std::string& reason) {
+    std::vector<Setting> own = point;
+    if (!study.seeds.empty()) own.push_back({"seed", seedNode(study, study.seeds.front())});
+    own.push_back({"name", ownNode(study, Node::Kind::String, name)});
+    own.push_back({"reason", ownNode(study, Node::Kind::String, reason)});
+    return loadVariant(study.base, {treeOf(study.set), treeOf(own)}).resolved;
 }
 
 Member memberAt(const Study& study, int number, std::optional<std::uint64_t> seed, const std::vector<Setting>& point) {

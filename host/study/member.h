@@ -27,6 +27,13 @@ std::vector<Member> membersOf(const Study& study);
 /// A member at a point of its own: a value for each of the keys, in their order. Throws CaseError.
 Member memberAt(const Study& study, int number, std::optional<std::uint64_t> seed, const std::vector<Setting>& point);
 
+/// The study at a point as the text of a case, ready to run, with the study's first seed. Throws CaseError.
+std::string caseAt(const Study& study, const std::vector<Setting>& point, const std::string& name,
+                   const std::string& reason);
+
+/// A key set to a number that no file holds; six digits.
+Setting settingOf(const Study& study, const std::string& key, double value);
+
 /// A value as it stands in a table: a string without its quotes.
 std::string tableText(const Node& value);
 

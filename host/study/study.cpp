@@ -150,6 +150,23 @@ void checkCount(CaseReader& reader, const Study& study) {
                      "leave out points, or make several studies of it");
 }
 
+/// A search finds its points itself; a grid interpolates along an axis of numbers.
+void checkCalibration(CaseReader& reader, const Study& study) {
+    const CalibrationAim& aim = *study.calibration;
+    if (aim.method == CalibrationAim::Method::Surrogate) {
+        if (!study.axes.empty())
+            reader.fault("calibrate.method", "a search has no axes", "give it [[calibrate.parameter]] instead");
+        return;
+    }
+    const auto axis = std::find_if(study.axes.begin(), study.axes.end(), [&](const Axis& a) {
+        return a.keys == std::vector<std::string>{aim.along} && a.points.size() > 1 &&
+               std::all_of(a.points.begin(), a.points.end(), [](const auto& p) { return p.front().isNumber(); });
+    });
+    if (axis == study.axes.end())
+        reader.fault("calibrate.along", fmt::format("no axis has {} alone, at two numbers or more", aim.along),
+                     "name the key of the axis to interpolate along");
+}
+
 std::string textOf(const std::filesystem::path& file) {
     std::ifstream stream(file, std::ios::binary);
     std::ostringstream text;
@@ -189,10 +206,12 @@ Study readStudy(const std::filesystem::path& file) {
         study.axes.push_back(readAxis(reader, *axes[i], fmt::format("axis[{}]", i), used));
     if (root.has("calibrate")) {
         study.calibration = readCalibrationAim(reader, root.table("calibrate"), file.parent_path());
-        for (const FreeParameter& p : study.calibration->parameters) checkKey(reader, "calibrate", p.key, used);
+        for (std::size_t i = 0; i < study.calibration->parameters.size(); ++i)
+            checkKey(reader, fmt::format("calibrate.parameter[{}].key", i), study.calibration->parameters[i].key, used);
     } else {
         root.know("calibrate");
     }
+    if (study.calibration) checkCalibration(reader, study);
     checkCount(reader, study);
     reader.finish();
     reader.throwIfFaulty();

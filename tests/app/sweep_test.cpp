@@ -135,3 +135,59 @@ TEST_CASE("a dry run prints the members, a faulty study is refused; neither writ
     }
     CHECK(box.files() == std::vector<std::string>{"study.toml"});
 }
+
+TEST_CASE("calibrate interpolates a finished sweep without running it again, and writes a case that runs") {
+    const Sandbox box;
+    const std::string study = "seeds = [1]\n" + kStudy;
+    box.write("study.toml", study);
+    REQUIRE(box.vkdose("sweep study.toml --backend reference --out out").code == 0);
+    const CsvTable table = readTable(box / "out/members.csv");
+    const auto beta = [&](int member) { return table.number(table.rows.at(member), "beta_kg_per_dose").value(); };
+    // Half way between the two cohesions of the first friction.
+    REQUIRE(beta(0) != beta(2));
+    const double target = (beta(0) + beta(2)) / 2;
+    box.write("study.toml",
+              study + "[calibrate]\ntarget_g_per_dose = " + std::to_string(target * 1e3) + "\ntolerance_g = 0.001\n");
+    const auto before = fs::last_write_time(box / "out/members/0000/summary.json");
+    const auto o = box.vkdose("calibrate study.toml --backend reference --out out");
+    CAPTURE(o.out, o.err);
+    CHECK(o.code == 0);
+    CHECK(fs::last_write_time(box / "out/members/0000/summary.json") == before);
+    CHECK_THAT(o.out, Catch::Contains("meets the target at contact.kc_over_k 0.35") && Catch::Contains("<- chosen"));
+    const auto check = box.vkdose("check out/calibrated.toml");
+    CAPTURE(check.err);
+    CHECK(check.code == 0);
+    CHECK_THAT(check.out, Catch::Contains("study-calibrated"));
+
+    box.write("study.toml", study + "[calibrate]\ntarget_g_per_dose = 1000\ntolerance_g = 0.001\n");
+    const auto far = box.vkdose("calibrate study.toml --backend reference --out out");
+    CHECK(far.code == 1);
+    CHECK_THAT(far.err, Catch::Contains("no curve meets the target"));
+    CHECK(box.vkdose("calibrate none.toml").code == 2);
+    box.write("plain.toml", kStudy);
+    const auto plain = box.vkdose("calibrate plain.toml");
+    CHECK(plain.code == 2);
+    CHECK_THAT(plain.err, Catch::Contains("[calibrate]"));
+}
+
+TEST_CASE("a search runs members until its target is met or its runs are used up, and goes on when killed") {
+    const Sandbox box;
+    const std::string study = kStudy.substr(0, kStudy.find("[[axis]]")) +
+                              "[calibrate]\nmethod = \"surrogate\"\ntarget_g_per_dose = 0.02\ntolerance_g = 1e-7\n"
+                              "max_runs = 5\n[[calibrate.parameter]]\nkey = \"contact.kc_over_k\"\nlow = 0.1\n"
+                              "high = 0.6\n";
+    box.write("study.toml", study);
+    const auto whole = box.vkdose("calibrate study.toml --backend reference --out whole");
+    CAPTURE(whole.out, whole.err);
+    CHECK(whole.code == 1);
+    CHECK_THAT(whole.out, Catch::Contains("NOT met") && Catch::Contains("after 5 points"));
+    CHECK(timeless(box / "whole").size() == 5);
+    const pid_t run = box.start({"calibrate", "study.toml", "--backend", "reference", "--out", "cut"});
+    REQUIRE(reached(run, box / "cut/members/0003"));
+    kill(run, SIGKILL);
+    waitpid(run, nullptr, 0);
+    CHECK(box.vkdose("calibrate study.toml --backend reference --out cut").code == 1);
+    CHECK(timeless(box / "cut") == timeless(box / "whole"));
+    CHECK(readText(box / "cut/calibrated.toml") == readText(box / "whole/calibrated.toml"));
+    CHECK(box.vkdose("sweep study.toml").code == 2);
+}

@@ -173,3 +173,17 @@ TEST_CASE("a table and a key in it are not set by the same study") {
     REQUIRE(faults.size() == 1);
     CHECK_THAT(faults[0].text(), Catch::Contains("study.toml:7: particles.size.radius_mm"));
 }
+
+TEST_CASE("every study that is shipped says why, and each of its members is a case") {
+    int studies = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(VKDOSE_SOURCE_DIR "/cases/paper")) {
+        CAPTURE(entry.path().string());
+        Study study = readStudy(entry.path());
+        CHECK_FALSE(study.reason.empty());
+        CHECK(study.name == entry.path().stem());
+        study.seeds = {1};
+        CHECK_NOTHROW(membersOf(study));
+        ++studies;
+    }
+    CHECK(studies >= 13);
+}
