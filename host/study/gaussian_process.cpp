@@ -19,10 +19,6 @@ struct Prior {
 };
 constexpr Prior kLength{-0.7, 1, -3, 3}, kNoise{-8, 4, -16, 2}, kVariance{0, 1, -6, 6};
 
-/// Variance of the level about which the process varies, which is hardly known beforehand: without it a process without
-/// variation would be sure of the mean of its observations, however noisy they are.
-constexpr double kLevel = 25;
-
 const Prior& priorOf(std::size_t i, std::size_t dimensions) {
     return i < dimensions ? kLength : i == dimensions ? kNoise : kVariance;
 }
@@ -66,8 +62,8 @@ Eigen::MatrixXd GaussianProcess::covariance(const std::vector<double>& logs) con
     Eigen::MatrixXd k(n, n);
     for (Eigen::Index i = 0; i < n; ++i) {
         for (Eigen::Index j = 0; j < i; ++j)
-            k(i, j) = k(j, i) = kLevel + variance * matern(points_[std::size_t(i)], points_[std::size_t(j)], lengths);
-        k(i, i) = kLevel + variance + noise + errors_(i) * errors_(i);
+            k(i, j) = k(j, i) = variance * matern(points_[std::size_t(i)], points_[std::size_t(j)], lengths);
+        k(i, i) = variance + noise + errors_(i) * errors_(i);
     }
     return k;
 }
@@ -127,9 +123,8 @@ std::vector<double> GaussianProcess::fitted() const {
 
 Belief GaussianProcess::at(const std::vector<double>& point) const {
     Eigen::VectorXd k(Eigen::Index(points_.size()));
-    for (Eigen::Index i = 0; i < k.size(); ++i)
-        k(i) = kLevel + variance_ * matern(point, points_[std::size_t(i)], lengths_);
-    const double left = kLevel + variance_ - k.dot(root_.solve(k));
+    for (Eigen::Index i = 0; i < k.size(); ++i) k(i) = variance_ * matern(point, points_[std::size_t(i)], lengths_);
+    const double left = variance_ - k.dot(root_.solve(k));
     return {mean_ + scale_ * k.dot(weights_), scale_ * std::sqrt(std::max(0.0, left))};
 }
 

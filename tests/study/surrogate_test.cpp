@@ -107,6 +107,16 @@ TEST_CASE("the mean of noise is known to its standard error, not better") {
     CHECK(process.at({0.5}).deviation < 0.6);
 }
 
+TEST_CASE("what looks like noise is not known better than a mean of noise would be") {
+    std::vector<std::vector<double>> points;
+    std::vector<Measured> values;
+    for (int i = 0; i < 8; ++i) {
+        points.push_back({i / 7.0});
+        values.push_back({i % 2 == 0 ? 1.0 : -1.0, 0});
+    }
+    CHECK(GaussianProcess(points, values).at({0.5}).deviation > 1 / std::sqrt(8.0));
+}
+
 TEST_CASE("a coordinate that plays no part gets a long length") {
     std::mt19937 random(2);
     std::uniform_real_distribution<double> uniform;
@@ -173,6 +183,9 @@ TEST_CASE("noise is not mistaken for the target") {
             search(aimAt(4.4e-3, 0.15e-3, 25, {kCohesion}),
                    each([&](const Parameters& p) { return massPerDose(p[0], 0.3) + noise(random); }, 0.3e-3));
         REQUIRE(result);
+        // The same point with the same seeds would only tell the same again.
+        for (std::size_t i = 0; i < result->points.size(); ++i)
+            for (std::size_t j = 0; j < i; ++j) CHECK(std::abs(result->points[i][0] - result->points[j][0]) > 0.5e-3);
         const double truth = massPerDose(result->points[result->best][0], 0.3);
         // A deviation of half the noise takes four observations that help each other, at the very least.
         if (result->met) CHECK(result->points.size() >= 4);
