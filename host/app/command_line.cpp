@@ -116,6 +116,19 @@ void addExportCoil(CLI::App& program, ExportCoilOptions& options) {
         ->capture_default_str();
 }
 
+void addReport(CLI::App& program, ReportOptions& options) {
+    CLI::App& command = *program.add_subcommand("report", "write an HTML report of a run or a sweep");
+    command.add_option("source", options.source, "output folder of a run or a sweep, or a study's file")
+        ->required()
+        ->type_name("DIR|STUDY");
+    command.add_option("--out", options.out, "file to write (default: report.html in the folder)")->type_name("FILE");
+    command
+        .add_option("--experiment", options.experiment, "readings of a balance, to stand beside a run's doses (CSV)")
+        ->type_name("FILE");
+    command.add_option("--expected", options.expected, "table of published results, to judge a sweep by (TOML)")
+        ->type_name("FILE");
+}
+
 /// Runs `command`; every error becomes lines on stderr and an exit code.
 int guarded(const std::function<int()>& command) {
     const auto say = [](const char* what) { fmt::print(stderr, "vkdose: {}\n", what); };
@@ -160,6 +173,7 @@ int commandLine(int argc, const char* const* argv) {
     VerifyOptions verification;
     BenchOptions bench;
     ExportCoilOptions exportCoil;
+    ReportOptions report;
     addRun(program, run);
     addResume(program, resume);
     addCheck(program, check);
@@ -168,6 +182,7 @@ int commandLine(int argc, const char* const* argv) {
     addVerify(program, verification);
     addBench(program, bench);
     addExportCoil(program, exportCoil);
+    addReport(program, report);
     try {
         program.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
@@ -183,6 +198,7 @@ int commandLine(int argc, const char* const* argv) {
     if (program.got_subcommand("verify")) return guarded([&] { return verifyCommand(verification); });
     if (program.got_subcommand("bench")) return guarded([&] { return benchCommand(bench); });
     if (program.got_subcommand("export-coil")) return guarded([&] { return exportCoilCommand(exportCoil); });
+    if (program.got_subcommand("report")) return guarded([&] { return reportCommand(report); });
     return guarded([] { return devicesCommand(); });
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -69,6 +70,13 @@ struct ExportCoilOptions {
     int perTurn = 20;  ///< pieces of a turn
 };
 
+struct ReportOptions {
+    std::filesystem::path source;                     ///< folder of a run or a sweep, or a study's file
+    std::filesystem::path out;                        ///< empty: report.html in the folder
+    std::optional<std::filesystem::path> experiment;  ///< a balance's readings
+    std::optional<std::filesystem::path> expected;    ///< published results
+};
+
 int runCommand(const RunOptions& options);
 int resumeCommand(const ResumeOptions& options);
 int checkCommand(const CheckOptions& options);
@@ -77,5 +85,6 @@ int compareCommand(const CompareOptions& options);
 int verifyCommand(const VerifyOptions& options);
 int benchCommand(const BenchOptions& options);
 int exportCoilCommand(const ExportCoilOptions& options);
+int reportCommand(const ReportOptions& options);
 
 }  // namespace vkdose
