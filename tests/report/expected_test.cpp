@@ -46,10 +46,10 @@ Expected trend(Kind kind, const std::string& along) {
 
 TEST_CASE("a value matches, is within some per cent, or contradicts") {
     CHECK(judge(value(3.7), {at({}, 3.8)}).kind == Verdict::Kind::Matches);
-    const Verdict within = judge(value(4), {at({}, 4.5)});
+    const Verdict within = judge(value(4), {at({}, 4.41)});
     CHECK(within.kind == Verdict::Kind::Within);
-    CHECK(within.text == "within 13 %");  // 12.5, never told as less than it is
-    CHECK(within.found == "4.5 g");
+    CHECK(within.text == "within 11 %");  // 10.25, never told as less than it is
+    CHECK(within.found == "4.41 g");
     const Verdict off = judge(value(4), {at({}, 5.2)});
     CHECK(off.kind == Verdict::Kind::Contradicts);
     CHECK(off.text == "contradicts (+30 %)");
@@ -94,6 +94,12 @@ TEST_CASE("a step against the trend is forgiven within its error, not beyond") {
     CHECK(judge(trend(Kind::Falls, "k"), bump(0.1)).kind == Verdict::Kind::TrendHolds);  // 0.2 against 2 x 0.14
     CHECK(judge(trend(Kind::Falls, "k"), bump(0.05)).kind == Verdict::Kind::Contradicts);
     CHECK(judge(trend(Kind::Falls, "k"), bump(kNone)).kind == Verdict::Kind::Contradicts);
+}
+
+TEST_CASE("what stays the same neither falls nor rises") {
+    const std::vector<Point> level{at({{"k", 1}}, 4), at({{"k", 2}}, 4)};
+    CHECK(judge(trend(Kind::Falls, "k"), level).kind == Verdict::Kind::Contradicts);
+    CHECK(judge(trend(Kind::Rises, "k"), level).kind == Verdict::Kind::Contradicts);
 }
 
 TEST_CASE("independent and linear, to what the table allows") {

@@ -72,6 +72,19 @@ TEST_CASE("beta is taken from the doses where the table has none") {
     CHECK(nearRelative(first.beta, 5e-3, 1e-12));  // both members: 5 g from the first to the second dose
 }
 
+TEST_CASE("doses of a point: complete ones, and the mean curve ends with the shortest member") {
+    const Sandbox box;
+    const auto folder = writeSweep(box);
+    std::string doses = readText(folder / "doses.csv");
+    doses += "0,1,0.2,0.3,3,7,0.004,0.013,300,0.01,0.0042,1\n1,2,0.2,0.3,3,7,0.001,0.012,300,0.01,0.0042,0\n";
+    box.write("sweep/doses.csv", doses);
+    const StudyPoint first = pointsIn(folder).at(0);
+    REQUIRE(first.doses.size() == 3);
+    CHECK(first.doses[2].count == 1);
+    CHECK(nearRelative(first.doses[2].mean, 4e-3, 1e-12));
+    CHECK(first.point.cumulative.size() == 2);
+}
+
 TEST_CASE("keys that move together are one axis") {
     const Sandbox box;
     std::filesystem::create_directories(box / "sweep");
