@@ -85,6 +85,19 @@ Json rotations(const Table& series) {
     return list;
 }
 
+/// The summary; null if there is none, or only that of an interruption after which the run went on.
+Json readSummary(const fs::path& folder, const Table& series) {
+    const fs::path file = folder / "summary.json";
+    if (!fs::exists(file)) return nullptr;
+    const Json summary = Json::parse(readText(file), nullptr, false);
+    if (!summary.is_object()) throw CaseError({{file.string(), 0, "", "", "is not a summary", "run the case again"}});
+    const Json& time = summary.value("simulated_time_s", Json());
+    constexpr double kRounding = 1e-8;  // the time series has nine digits
+    const bool later = time.is_number() && series.rows() > 0 &&
+                       series.number(series.rows() - 1, "time_s") > time.get<double>() * (1 + kRounding);
+    return later ? Json(nullptr) : summary;
+}
+
 Json dosesJson(const Table& table, const std::vector<Dose>& doses) {
     Json j;
     for (const std::string& name : table.names()) j[name] = numbers(table.column(name));
@@ -107,7 +120,7 @@ Json numbers(std::span<const double> values) {
 }
 
 Json experimentJson(const fs::path& file) {
-    const Table table = Table::read(file);
+    const Table table = Table::read(file, LastLine::Whole);
     const bool cumulative = table.has("cumulative_g");
     std::vector<double> masses = table.column(cumulative ? "cumulative_g" : "mass_g");
     for (double& m : masses) m *= 1e-3;
@@ -128,13 +141,9 @@ Json runJson(const fs::path& folder, const std::optional<fs::path>& experiment) 
     const Case c = loadResolvedCase(readText(folder / "case.toml"), folder / "case.toml");
     const Table series = Table::read(folder / "timeseries.csv");
     const Table doseTable = Table::read(folder / "doses.csv");
-    RunSources sources{c, series, readDoses(doseTable), Json(), {}};
-    if (fs::exists(folder / "summary.json")) {
-        sources.summary = Json::parse(readText(folder / "summary.json"), nullptr, false);
-        if (sources.summary.is_discarded())
-            throw CaseError({{(folder / "summary.json").string(), 0, "", "", "is not JSON", "run the case again"}});
-    }
-    if (fs::exists(folder / "particles.csv")) sources.particles = readEndState(folder / "particles.csv");
+    RunSources sources{c, series, readDoses(doseTable), readSummary(folder, series), {}};
+    if (sources.summary.is_object() && fs::exists(folder / "particles.csv"))
+        sources.particles = readEndState(folder / "particles.csv");
 
     Json j;
     j["kind"] = "run";

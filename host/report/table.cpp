@@ -46,12 +46,13 @@ double numberIn(const std::string& text) {
     return whole ? value : std::numeric_limits<double>::quiet_NaN();
 }
 
-Table Table::read(const std::filesystem::path& file) {
+Table Table::read(const std::filesystem::path& file, LastLine last) {
     std::ifstream stream(file, std::ios::binary);
     std::ostringstream content;
     content << stream.rdbuf();
     if (!stream) refuse(file.string(), 0, "cannot be read", "give a folder that vkdose wrote, or a CSV");
     std::string text = content.str();
+    if (last == LastLine::Whole && !text.empty() && text.back() != '\n') text += '\n';
     text.erase(text.rfind('\n') == std::string::npos ? 0 : text.rfind('\n') + 1);
     if (text.starts_with("\xef\xbb\xbf")) text.erase(0, 3);
 

@@ -7,11 +7,15 @@
 
 namespace vkdose::report {
 
+/// What to make of a last line without an end: in a file that a program still writes it may be half a line, in one
+/// that a person wrote it is whole.
+enum class LastLine { Growing, Whole };
+
 class Table {
   public:
-    /// Reads a file with a header. A last line that has no end yet is left out: whoever writes it is not done. Throws
-    /// CaseError, naming the line, if the file cannot be read, is not CSV, or has a row of another length.
-    static Table read(const std::filesystem::path& file);
+    /// Reads a file with a header. Throws CaseError, naming the line, if the file cannot be read, is not CSV, or has a
+    /// row of another length.
+    static Table read(const std::filesystem::path& file, LastLine last = LastLine::Growing);
 
     const std::vector<std::string>& names() const { return names_; }
     bool has(const std::string& name) const;

@@ -98,13 +98,19 @@ TEST_CASE("the end state adds densities and arches, the summary how it ended") {
     CHECK(fact(data, "ended") == "the 3 doses asked for are done");
     CHECK(fact(data, "error") == "it broke");
     CHECK_THAT(fact(data, "arch over the coil, at the end"), !Catch::Contains("no such fact"));
+    // An interrupted run that was resumed and goes on: neither its summary nor its end state hold any more.
+    box.write("run/summary.json", R"({"stop_sentence": "interrupted", "simulated_time_s": 0.6})");
+    CHECK_THAT(fact(runJson(folder, {}), "state"), Catch::Contains("still running"));
+    CHECK(fact(runJson(folder, {}), "arch over the coil, at the end") == "no such fact");
+    box.write("run/summary.json", R"({"stop_sentence": "interrupted", "simulated_time_s": 0.69999999995})");
+    CHECK(fact(runJson(folder, {}), "ended") == "interrupted");
     box.write("run/summary.json", "{");
     CHECK_THROWS_AS(runJson(folder, {}), CaseError);
 }
 
 TEST_CASE("a balance's readings, as masses of doses or added up") {
     const Sandbox box;
-    const Json single = experimentJson(box.write("b.csv", "dose,mass_g\n1,3\n2,4\n3,5\n"));
+    const Json single = experimentJson(box.write("b.csv", "dose,mass_g\n1,3\n2,4\n3,5"));
     CHECK(single["cumulative_mass_kg"] == Json({0.003, 0.007, 0.012}));
     const Json sums = experimentJson(box.write("c.csv", "dose,cumulative_g\n1,3\n2,7\n"));
     CHECK(sums["mass_kg"] == Json({0.003, 0.004}));

@@ -7,6 +7,7 @@
 #include "tests/app/sandbox.h"
 
 using namespace vkdose;
+using vkdose::report::LastLine;
 using vkdose::report::Table;
 using vkdose::test::Sandbox;
 
@@ -27,6 +28,13 @@ TEST_CASE("a line that is still being written is left out") {
     const Sandbox box;
     CHECK(Table::read(box.write("t.csv", "a,b\n1,2\n3,4")).rows() == 1);
     CHECK(Table::read(box.write("u.csv", "a,b\n1,2\n3")).rows() == 1);
+    CHECK(Table::read(box / "t.csv", LastLine::Whole).rows() == 2);
+    CHECK(Table::read(box.write("v.csv",
+                                "\xef\xbb\xbf"
+                                "a,b\r\n1,2\r\n"),
+                      LastLine::Whole)
+              .column("b")
+              .at(0) == 2);
 }
 
 TEST_CASE("what is wrong with a table is told with its line") {
