@@ -56,7 +56,7 @@ class Surface {
     double extent(int k, int i) const { return std::min(side_, high_[k] - low_[k] - i * side_); }
 
     double low_[2], high_[2], side_;
-    int cells_[2];
+    int cells_[2] = {0, 0};
     std::vector<double> top_;
 };
 

@@ -16,7 +16,7 @@ namespace {
 /// The folder to report on: the one named, or, for a study's file, the one that `vkdose sweep` writes by default.
 fs::path folderOf(const fs::path& source) {
     if (!fs::is_regular_file(source)) return source;
-    const fs::path folder = fs::path("out") / source.stem();
+    fs::path folder = fs::path("out") / source.stem();
     if (!fs::is_directory(folder))
         throw UsageError(fmt::format("report {}: there is no folder {}; name the sweep's output folder",
                                      source.string(), folder.string()));

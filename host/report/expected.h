@@ -2,6 +2,7 @@
 // A table of published results, and what a study says to each.
 
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -12,7 +13,7 @@ namespace vkdose::report {
 /// A value of a case: as text, and as a number if it is one.
 struct Setting {
     std::string text;
-    double number;  ///< NaN if it is none
+    double number = std::numeric_limits<double>::quiet_NaN();  ///< if it is one
 };
 
 /// One point of a study, over its seeds: the keys of its case that somebody may ask for, and its outputs in the units

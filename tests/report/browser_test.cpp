@@ -45,8 +45,8 @@ TEST_CASE("a browser draws the page of a run") {
     CHECK(dom.find("data-state=\"ready\"") != std::string::npos);
     const std::string shown = dom.substr(dom.find("<main>"), dom.find("<footer>") - dom.find("<main>"));
     CHECK(count(dom, "<figure>") == 6);
-    CHECK(count(dom, "class=\"band\"") == 3 * 2);                    // torque, power, velocity: two rotations each
-    CHECK(count(shown, "<circle") == 2 * (1 + 3) + 2 * (1 + 2));     // legend and points: doses, and the balance's
+    CHECK(count(dom, "class=\"band\"") == 6);  // torque, power, velocity: two rotations each
+    CHECK(count(shown, "<circle") == 14);      // two charts: a legend and 3 doses, a legend and 2 of the balance
     CHECK(dom.find("&lt;img src=x onerror=") != std::string::npos);  // as text
     CHECK(dom.find("<td class=\"number\">1.750</td>") != std::string::npos);
     CHECK(shown.find("NaN") == std::string::npos);  // none among the coordinates
@@ -70,7 +70,7 @@ TEST_CASE("a browser draws the page of a study") {
                   "quantity = \"beta_kg_per_dose\"\nalong = \"contact.kc_over_k\"\n");
     const std::string dom = drawn(box, studyJson(writeSweep(box), table));
     CHECK(dom.find("data-state=\"ready\"") != std::string::npos);
-    CHECK(count(dom, "<figure>") == 2 + 1 + 2 + 2);  // beta by axis, map, doses, emptying and RSD
+    CHECK(count(dom, "<figure>") == 7);  // beta by two axes, map, two of doses, emptying, RSD
     CHECK(count(dom, "class=\"cell\"") == 4);
     CHECK(count(dom, "class=\"contour\"") == 1);
     CHECK(dom.find("class=\"verdict holds\">trend holds") != std::string::npos);
