@@ -56,7 +56,7 @@ class Surface {
     double extent(int k, int i) const { return std::min(side_, high_[k] - low_[k] - i * side_); }
 
     double low_[2], high_[2], side_;
-    int cells_[2];
+    int cells_[2] = {0, 0};
     std::vector<double> top_;
 };
 
@@ -116,11 +116,11 @@ std::optional<BulkDensity> bedDensity(const Particles& particles, double particl
 }
 
 std::optional<BulkDensity> coilDensity(const Particles& particles, double particleDensity, const Canister& canister,
-                                       const geometry::Coil& coil) {
+                                       const geometry::Coil& coil, double from) {
     const double a = meanActiveRadius(particles), margin = 2 * a;
     if (!(a > 0)) return std::nullopt;
     const double outer = coil.radius + coil.wireRadius;
-    const double begin = std::max(coil.zStart, 0.0), end = std::min(coil.zStart + coil.length, canister.length);
+    const double begin = std::max({coil.zStart, 0.0, from}), end = std::min(coil.zStart + coil.length, canister.length);
     const Surface surface(particles, outer, begin, end, 2 * margin);
     std::vector<double> lowestTop(surface.slices(), std::numeric_limits<double>::infinity());
     for (int cell = 0; cell < surface.columns(); ++cell) {

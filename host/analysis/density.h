@@ -26,9 +26,10 @@ std::optional<BulkDensity> bedDensity(const Particles& particles, double particl
 
 /// Between the coil's turns: the cylinder of the coil's outer radius within the canister, less the wire, over those
 /// slices along the axis (two mean diameters thick) whose surface lies a mean diameter above it, so that they are full
-/// or could be. None if no slice is covered.
+/// or could be; voids under arches count as volume. Only the part of the coil beyond z = `from` [m]. None if no slice is
+/// covered.
 std::optional<BulkDensity> coilDensity(const Particles& particles, double particleDensity, const Canister& canister,
-                                       const geometry::Coil& coil);
+                                       const geometry::Coil& coil, double from = 0);
 
 /// The paper's closed form rho_b p pi r_c^2 n_t [kg] of a coil that turns `turns` times, for any bulk density [kg/m3].
 double closedFormMass(double bulkDensity, const geometry::Coil& coil, double turns);

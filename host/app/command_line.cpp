@@ -136,6 +136,19 @@ void addSweep(CLI::App& program, const char* name, const char* what, SweepOption
     addBackend(command, options.backend);
 }
 
+void addReport(CLI::App& program, ReportOptions& options) {
+    CLI::App& command = *program.add_subcommand("report", "write an HTML report of a run or a sweep");
+    command.add_option("source", options.source, "output folder of a run or a sweep, or a study's file")
+        ->required()
+        ->type_name("DIR|STUDY");
+    command.add_option("--out", options.out, "file to write (default: report.html in the folder)")->type_name("FILE");
+    command
+        .add_option("--experiment", options.experiment, "readings of a balance, to stand beside a run's doses (CSV)")
+        ->type_name("FILE");
+    command.add_option("--expected", options.expected, "table of published results, to judge a sweep by (TOML)")
+        ->type_name("FILE");
+}
+
 /// Runs `command`; every error becomes lines on stderr and an exit code.
 int guarded(const std::function<int()>& command) {
     const auto say = [](const char* what) { fmt::print(stderr, "vkdose: {}\n", what); };
@@ -182,6 +195,7 @@ int commandLine(int argc, const char* const* argv) {
     ExportCoilOptions exportCoil;
     SweepOptions sweep;
     SweepOptions calibration;
+    ReportOptions report;
     addRun(program, run);
     addResume(program, resume);
     addCheck(program, check);
@@ -192,6 +206,7 @@ int commandLine(int argc, const char* const* argv) {
     addExportCoil(program, exportCoil);
     addSweep(program, "sweep", "run every member of a study", sweep);
     addSweep(program, "calibrate", "find the case of a study that doses what was measured", calibration);
+    addReport(program, report);
     try {
         program.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
@@ -209,6 +224,7 @@ int commandLine(int argc, const char* const* argv) {
     if (program.got_subcommand("export-coil")) return guarded([&] { return exportCoilCommand(exportCoil); });
     if (program.got_subcommand("sweep")) return guarded([&] { return sweepCommand(sweep); });
     if (program.got_subcommand("calibrate")) return guarded([&] { return calibrateCommand(calibration); });
+    if (program.got_subcommand("report")) return guarded([&] { return reportCommand(report); });
     return guarded([] { return devicesCommand(); });
 }
 

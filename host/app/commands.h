@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -81,6 +82,13 @@ struct SweepOptions {
     bool quiet = false;
 };
 
+struct ReportOptions {
+    std::filesystem::path source;                     ///< folder of a run or a sweep, or a study's file
+    std::filesystem::path out;                        ///< empty: report.html in the folder
+    std::optional<std::filesystem::path> experiment;  ///< a balance's readings
+    std::optional<std::filesystem::path> expected;    ///< published results
+};
+
 int runCommand(const RunOptions& options);
 int resumeCommand(const ResumeOptions& options);
 int checkCommand(const CheckOptions& options);
@@ -91,5 +99,6 @@ int benchCommand(const BenchOptions& options);
 int exportCoilCommand(const ExportCoilOptions& options);
 int sweepCommand(const SweepOptions& options);
 int calibrateCommand(const SweepOptions& options);
+int reportCommand(const ReportOptions& options);
 
 }  // namespace vkdose

@@ -19,8 +19,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array kFiles{"case.toml",     "timeseries.csv", "doses.csv",
-                            "particles.csv", "summary.json",   kCheckpointName};
+constexpr std::array kFiles{"case.toml",    "timeseries.csv", "doses.csv",    "particles.csv",
+                            "summary.json", "report.html",    kCheckpointName};
 
 constexpr const char* kTimeSeriesHeader =
     "time_s,phase,dose,coil_angle_rad,dosed_mass_kg,canister_mass_kg,throat_mass_kg,lost_mass_kg,"

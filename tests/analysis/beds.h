@@ -1,6 +1,8 @@
 #pragma once
 // Beds whose density is known, in the paper's canister.
 
+#include <cmath>
+
 #include "geometry/coil.h"
 #include "host/model/case.h"
 
@@ -22,10 +24,11 @@ inline geometry::Coil paperCoil() {
 /// Spheres of 1 mm radius on a cubic lattice of 2 mm over the whole floor plan, in planes from `low` to `high` [m, y].
 inline Particles layers(double low, double high) {
     constexpr double a = 1e-3;
+    const int planes = static_cast<int>(std::lround((high - low) / (2 * a))) + 1;
     Particles bed;
-    for (double y = low; y < high + a / 2; y += 2 * a)
-        for (double x = -10e-3; x < 11e-3; x += 2 * a)
-            for (double z = 1e-3; z < 60e-3; z += 2 * a) bed.add({x, y, z}, a);
+    for (int i = 0; i < planes; ++i)
+        for (int j = -5; j <= 5; ++j)
+            for (int k = 0; k < 30; ++k) bed.add({2 * a * j, low + 2 * a * i, a + 2 * a * k}, a);
     return bed;
 }
 

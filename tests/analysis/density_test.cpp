@@ -77,6 +77,16 @@ TEST_CASE("density between the turns: slices without powder above are left out")
     CHECK(nearRelative(half->density, all->density, 0.03));
 }
 
+TEST_CASE("density between the turns: only beyond where it is asked for") {
+    const geometry::Coil coil = paperCoil();
+    const Particles bed = layers(-10e-3, 40e-3);
+    const auto all = coilDensity(bed, kSolid, paperCanister(), coil);
+    const auto end = coilDensity(bed, kSolid, paperCanister(), coil, 40e-3);
+    REQUIRE(end);
+    CHECK(nearRelative(end->volume / all->volume, 20.0 / 60, 1e-9));
+    CHECK(nearRelative(end->density, all->density, 0.03));  // the cut through spheres, as above
+}
+
 TEST_CASE("too little powder has no density") {
     const geometry::Coil coil = paperCoil();
     CHECK_FALSE(bedDensity(Particles(), kSolid, paperCanister(), &coil));

@@ -177,6 +177,7 @@ TEST_CASE("a table and a key in it are not set by the same study") {
 TEST_CASE("every study that is shipped says why, and each of its members is a case") {
     int studies = 0;
     for (const auto& entry : std::filesystem::directory_iterator(VKDOSE_SOURCE_DIR "/cases/paper")) {
+        if (entry.path().stem() == "expected") continue;  // what the paper reports, for `vkdose report`
         CAPTURE(entry.path().string());
         Study study = readStudy(entry.path());
         CHECK_FALSE(study.reason.empty());
