@@ -123,7 +123,7 @@ void addExportCoil(CLI::App& program, ExportCoilOptions& options) {
         ->capture_default_str();
 }
 
-void addSweep(CLI::App& program, const char* name, const char* what, SweepOptions& options) {
+CLI::App& addSweep(CLI::App& program, const char* name, const char* what, SweepOptions& options) {
     CLI::App& command = *program.add_subcommand(name, what);
     command.add_option("study", options.study, "study file (TOML)")->required();
     command.add_option("--out", options.out, "folder of the sweep (default: out/<name of the study's file>)")
@@ -134,6 +134,7 @@ void addSweep(CLI::App& program, const char* name, const char* what, SweepOption
     command.add_flag("--dry-run", options.dryRun, "print the members and write nothing");
     command.add_flag("--quiet", options.quiet, "print errors only");
     addBackend(command, options.backend);
+    return command;
 }
 
 void addReport(CLI::App& program, ReportOptions& options) {
@@ -204,7 +205,8 @@ int commandLine(int argc, const char* const* argv) {
     addVerify(program, verification);
     addBench(program, bench);
     addExportCoil(program, exportCoil);
-    addSweep(program, "sweep", "run every member of a study", sweep);
+    addSweep(program, "sweep", "run every member of a study", sweep)
+        .add_flag("--prepare", sweep.prepare, "only make the members' folders, for a queue (tools/slurm-array)");
     addSweep(program, "calibrate", "find the case of a study that doses what was measured", calibration);
     addReport(program, report);
     try {

@@ -78,6 +78,7 @@ struct SweepOptions {
     std::filesystem::path out;  ///< empty: out/<name of the study's file>
     int jobs = 0;               ///< members at once; 0: one for each core on a CPU, one on a GPU
     bool retryFailed = false;
+    bool prepare = false;  ///< only make the members' folders
     bool dryRun = false;
     bool quiet = false;
 };

@@ -40,6 +40,12 @@ int sweepCommand(const SweepOptions& options) {
         fmt::print("{}", membersText(study, members));
         return kOk;
     }
+    if (options.prepare) {
+        SweepFolder folder(sweepFolder(options), study, members);
+        for (const Member& member : members) folder.begin(member);
+        fmt::print("{} members to run in {}\n", members.size(), (folder.path() / "members").string());
+        return kOk;
+    }
     const int jobs = jobsFor(options);
     const std::filesystem::path out = sweepFolder(options);
     const std::atomic<bool>& stop = watchInterrupts();

@@ -191,3 +191,35 @@ TEST_CASE("a search runs members until its target is met or its runs are used up
     CHECK(readText(box / "cut/calibrated.toml") == readText(box / "whole/calibrated.toml"));
     CHECK(box.vkdose("sweep study.toml").code == 2);
 }
+
+TEST_CASE("members of a prepared sweep run as tasks of a job array, and are gathered") {
+    const Sandbox box;
+    box.write("study.toml", kStudy);
+    REQUIRE(box.vkdose("sweep study.toml --backend reference --out whole --quiet").code == 0);
+    const auto prepared = box.vkdose("sweep study.toml --prepare --out queue");
+    CHECK(prepared.code == 0);
+    CHECK_THAT(prepared.out, Catch::Contains("4 members to run in queue/members"));
+    const auto task = [&](int number) {
+        const std::string command = "cd '" + box.path().string() +
+                                    "' && SLURM_ARRAY_TASK_ID=" + std::to_string(number) +
+                                    " VKDOSE='" VKDOSE_BINARY_DIR "/vkdose' " +
+                                    "'" VKDOSE_SOURCE_DIR "/tools/slurm-array' queue --backend reference 2> error.txt";
+        const int status = std::system(command.c_str());
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    };
+    for (const int number : {2, 0}) CHECK(task(number) == 0);
+    const auto before = fs::last_write_time(box / "queue/members/0002/summary.json");
+    CHECK(task(2) == 0);  // over: nothing to do
+    CHECK(task(9) == 2);
+    CHECK_THAT(readText(box / "error.txt"), Catch::Contains("there is no member in queue/members/0009"));
+    // One that was cut short goes on from its checkpoint.
+    const pid_t run = box.start({"run", "queue/members/0003/case.toml", "--out", "queue/members/0003", "--force",
+                                 "--quiet", "--backend", "reference"});
+    REQUIRE(reached(run, box / "queue/members/0003"));
+    kill(run, SIGKILL);
+    waitpid(run, nullptr, 0);
+    CHECK(task(3) == 0);
+    CHECK(box.vkdose("sweep study.toml --backend reference --out queue").code == 0);
+    CHECK(fs::last_write_time(box / "queue/members/0002/summary.json") == before);
+    CHECK(timeless(box / "queue") == timeless(box / "whole"));
+}
