@@ -206,7 +206,9 @@ int commandLine(int argc, const char* const* argv) {
     addBench(program, bench);
     addExportCoil(program, exportCoil);
     addSweep(program, "sweep", "run every member of a study", sweep)
-        .add_flag("--prepare", sweep.prepare, "only make the members' folders, for a queue (tools/slurm-array)");
+        .add_flag("--mpi", sweep.mpi, "a member on each rank of an MPI job (needs a build with VKDOSE_MPI)");
+    program.get_subcommand("sweep")->add_flag("--prepare", sweep.prepare,
+                                              "only make the members' folders, for a queue (tools/slurm-array)");
     addSweep(program, "calibrate", "find the case of a study that doses what was measured", calibration);
     addReport(program, report);
     try {

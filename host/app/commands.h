@@ -76,6 +76,7 @@ struct SweepOptions {
     std::filesystem::path study;
     BackendChoice backend;
     std::filesystem::path out;  ///< empty: out/<name of the study's file>
+    bool mpi = false;           ///< a member on each rank of an MPI job instead
     int jobs = 0;               ///< members at once; 0: one for each core on a CPU, one on a GPU
     bool retryFailed = false;
     bool prepare = false;  ///< only make the members' folders

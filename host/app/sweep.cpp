@@ -6,6 +6,7 @@
 #include "host/app/commands.h"
 #include "host/app/exit_code.h"
 #include "host/app/interrupt.h"
+#include "host/app/mpi/mpi_runner.h"
 #include "host/app/sweep_display.h"
 #include "host/app/sweep_setup.h"
 #include "host/app/text.h"
@@ -31,6 +32,11 @@ std::filesystem::path sweepFolder(const SweepOptions& options) {
 }
 
 int sweepCommand(const SweepOptions& options) {
+    std::unique_ptr<MemberRunner> runner;
+    if (options.mpi) {
+        runner = makeMpiRunner(options.backend);
+        if (!runner) return kOk;  // this rank has served the first
+    }
     // Everything that can be refused is refused before anything is written.
     const Study study = readStudy(options.study);
     if (study.calibration && study.calibration->method == CalibrationAim::Method::Surrogate)
@@ -46,14 +52,13 @@ int sweepCommand(const SweepOptions& options) {
         fmt::print("{} members to run in {}\n", members.size(), (folder.path() / "members").string());
         return kOk;
     }
-    const int jobs = jobsFor(options);
+    if (!runner) runner = std::make_unique<ChildRunner>(options.backend, jobsFor(options));
     const std::filesystem::path out = sweepFolder(options);
     const std::atomic<bool>& stop = watchInterrupts();
     SweepFolder folder(out, study, members);
-    ChildRunner runner(options.backend, jobs);
     SweepDisplay display("sweep", study, options.quiet);
-    display.begin(members, jobs);
-    const SweepOutcome outcome = runMembers(folder, members, runner, display, stop, options.retryFailed);
+    display.begin(members, runner->slots());
+    const SweepOutcome outcome = runMembers(folder, members, *runner, display, stop, options.retryFailed);
     if (outcome.whole) folder.sort();
     display.finish(folder, outcome);
     if (!outcome.whole) return kInterrupted;
