@@ -37,12 +37,18 @@ void addBackend(CLI::App& command, BackendChoice& backend) {
     addDevice(command, backend);
 }
 
+/// For the program itself, which runs the members of a sweep as processes of its own.
+void addParent(CLI::App& command, int& parent) {
+    command.add_option("--parent", parent, "end, as by Ctrl-C, when this process does")->group("");
+}
+
 void addRun(CLI::App& program, RunOptions& options) {
     CLI::App& command = *program.add_subcommand("run", "simulate a case and write its output folder");
     addCase(command, options.input);
     command.add_option("--out", options.out, "output folder (default: out/<case name>)")->type_name("DIR");
     command.add_flag("--force", options.force, "replace a former run in the output folder");
     command.add_flag("--quiet", options.quiet, "print errors only");
+    addParent(command, options.parent);
     addBackend(command, options.backend);
 }
 
@@ -50,6 +56,7 @@ void addResume(CLI::App& program, ResumeOptions& options) {
     CLI::App& command = *program.add_subcommand("resume", "go on with an interrupted run from its checkpoint");
     command.add_option("dir", options.folder, "output folder of the run")->required()->type_name("DIR");
     command.add_flag("--quiet", options.quiet, "print errors only");
+    addParent(command, options.parent);
     addDevice(command, options.backend);
 }
 
@@ -120,6 +127,33 @@ void addExportCoil(CLI::App& program, ExportCoilOptions& options) {
         ->capture_default_str();
 }
 
+CLI::App& addSweep(CLI::App& program, const char* name, const char* what, SweepOptions& options) {
+    CLI::App& command = *program.add_subcommand(name, what);
+    command.add_option("study", options.study, "study file (TOML)")->required();
+    command.add_option("--out", options.out, "folder of the sweep (default: out/<name of the study's file>)")
+        ->type_name("DIR");
+    command.add_option("--jobs", options.jobs, "members at once (default: one for each core on a CPU, one on a GPU)")
+        ->check(CLI::Range(1, 1024));
+    command.add_flag("--retry-failed", options.retryFailed, "run the members that failed again");
+    command.add_flag("--dry-run", options.dryRun, "print the members and write nothing");
+    command.add_flag("--quiet", options.quiet, "print errors only");
+    addBackend(command, options.backend);
+    return command;
+}
+
+void addReport(CLI::App& program, ReportOptions& options) {
+    CLI::App& command = *program.add_subcommand("report", "write an HTML report of a run or a sweep");
+    command.add_option("source", options.source, "output folder of a run or a sweep, or a study's file")
+        ->required()
+        ->type_name("DIR|STUDY");
+    command.add_option("--out", options.out, "file to write (default: report.html in the folder)")->type_name("FILE");
+    command
+        .add_option("--experiment", options.experiment, "readings of a balance, to stand beside a run's doses (CSV)")
+        ->type_name("FILE");
+    command.add_option("--expected", options.expected, "table of published results, to judge a sweep by (TOML)")
+        ->type_name("FILE");
+}
+
 /// Runs `command`; every error becomes lines on stderr and an exit code.
 int guarded(const std::function<int()>& command) {
     const auto say = [](const char* what) { fmt::print(stderr, "vkdose: {}\n", what); };
@@ -164,6 +198,9 @@ int commandLine(int argc, const char* const* argv) {
     VerifyOptions verification;
     BenchOptions bench;
     ExportCoilOptions exportCoil;
+    SweepOptions sweep;
+    SweepOptions calibration;
+    ReportOptions report;
     addRun(program, run);
     addResume(program, resume);
     addCheck(program, check);
@@ -172,6 +209,12 @@ int commandLine(int argc, const char* const* argv) {
     addVerify(program, verification);
     addBench(program, bench);
     addExportCoil(program, exportCoil);
+    addSweep(program, "sweep", "run every member of a study", sweep)
+        .add_flag("--mpi", sweep.mpi, "a member on each rank of an MPI job (needs a build with VKDOSE_MPI)");
+    program.get_subcommand("sweep")->add_flag("--prepare", sweep.prepare,
+                                              "only make the members' folders, for a queue (tools/slurm-array)");
+    addSweep(program, "calibrate", "find the case of a study that doses what was measured", calibration);
+    addReport(program, report);
     try {
         program.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
@@ -187,6 +230,9 @@ int commandLine(int argc, const char* const* argv) {
     if (program.got_subcommand("verify")) return guarded([&] { return verifyCommand(verification); });
     if (program.got_subcommand("bench")) return guarded([&] { return benchCommand(bench); });
     if (program.got_subcommand("export-coil")) return guarded([&] { return exportCoilCommand(exportCoil); });
+    if (program.got_subcommand("sweep")) return guarded([&] { return sweepCommand(sweep); });
+    if (program.got_subcommand("calibrate")) return guarded([&] { return calibrateCommand(calibration); });
+    if (program.got_subcommand("report")) return guarded([&] { return reportCommand(report); });
     return guarded([] { return devicesCommand(); });
 }
 

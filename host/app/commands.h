@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,12 +22,14 @@ struct RunOptions {
     std::filesystem::path out;  ///< empty: out/<case name>
     bool force = false;
     bool quiet = false;
+    int parent = 0;  ///< process with which this one ends, as by Ctrl-C; 0: none
 };
 
 struct ResumeOptions {
     std::filesystem::path folder;
     BackendChoice backend;  ///< its backend is the checkpoint's
     bool quiet = false;
+    int parent = 0;  ///< as above
 };
 
 struct CheckOptions {
@@ -70,6 +73,25 @@ struct ExportCoilOptions {
     int perTurn = 20;  ///< pieces of a turn
 };
 
+struct SweepOptions {
+    std::filesystem::path study;
+    BackendChoice backend;
+    std::filesystem::path out;  ///< empty: out/<name of the study's file>
+    bool mpi = false;           ///< a member on each rank of an MPI job instead
+    int jobs = 0;               ///< members at once; 0: one for each core on a CPU, one on a GPU
+    bool retryFailed = false;
+    bool prepare = false;  ///< only make the members' folders
+    bool dryRun = false;
+    bool quiet = false;
+};
+
+struct ReportOptions {
+    std::filesystem::path source;                     ///< folder of a run or a sweep, or a study's file
+    std::filesystem::path out;                        ///< empty: report.html in the folder
+    std::optional<std::filesystem::path> experiment;  ///< a balance's readings
+    std::optional<std::filesystem::path> expected;    ///< published results
+};
+
 int runCommand(const RunOptions& options);
 int resumeCommand(const ResumeOptions& options);
 int checkCommand(const CheckOptions& options);
@@ -78,5 +100,8 @@ int compareCommand(const CompareOptions& options);
 int verifyCommand(const VerifyOptions& options);
 int benchCommand(const BenchOptions& options);
 int exportCoilCommand(const ExportCoilOptions& options);
+int sweepCommand(const SweepOptions& options);
+int calibrateCommand(const SweepOptions& options);
+int reportCommand(const ReportOptions& options);
 
 }  // namespace vkdose

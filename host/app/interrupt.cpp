@@ -1,5 +1,8 @@
 #include "host/app/interrupt.h"
 
+#include <sys/prctl.h>
+#include <unistd.h>
+
 #include <csignal>
 
 namespace vkdose {
@@ -24,6 +27,11 @@ const std::atomic<bool>& watchInterrupts() {
     sigaction(SIGTERM, &action, nullptr);
     std::signal(SIGXFSZ, SIG_IGN);
     return interrupted;
+}
+
+void endWithParent(int parent) {
+    prctl(PR_SET_PDEATHSIG, SIGINT);
+    if (getppid() != parent) interrupted = true;  // it had ended before we asked
 }
 
 }  // namespace vkdose

@@ -8,4 +8,8 @@ namespace vkdose {
 /// Ctrl-C ends the program at once. A limit on the size of files becomes an error of the write that meets it.
 const std::atomic<bool>& watchInterrupts();
 
+/// From now on this process is interrupted, as by Ctrl-C, when the process `parent` that started it ends. Call after
+/// watchInterrupts.
+void endWithParent(int parent);
+
 }  // namespace vkdose

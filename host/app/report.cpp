@@ -4,6 +4,7 @@
 
 #include <iterator>
 
+#include "host/analysis/figures.h"
 #include "host/app/text.h"
 
 namespace vkdose {
@@ -18,6 +19,22 @@ std::string doseTable(const std::vector<Dose>& doses) {
             fmt::format("{:>5} {:>10.3f} {:>14.3f} {:>16.3f} {:>15.3f}{}\n", d.index, d.mass * 1e3, d.cumulative * 1e3,
                         d.coilTorque * 1e3, d.closedForm * 1e3, d.complete ? "" : "  incomplete, not in the mean");
     }
+    return text;
+}
+
+/// What the paper judges a run by; what the doses are too few to tell is left out.
+std::string figureLines(const RunResult& r) {
+    const DosingFigures f = figuresOf(r.doses, r.ledger.filledMass());
+    std::string text;
+    if (f.beta.doses > 1) {
+        text += fmt::format("beta     {:.3f} g/dose", f.beta.beta * 1e3);
+        if (f.beta.doses > 2) text += fmt::format(" +- {:.3f}", f.beta.standardError * 1e3);
+        text += fmt::format(", the slope over {} doses with less than {:.3g} g out\n", f.beta.doses,
+                            f.window.cumulativeBelow * 1e3);
+    }
+    if (f.dosesTo99) text += fmt::format("emptied  99 % of the fill is out after dose {}\n", *f.dosesTo99);
+    if (f.blocked)
+        text += fmt::format("blocked  next to nothing comes from dose {} on, though powder is left\n", *f.blocked);
     return text;
 }
 
@@ -74,7 +91,7 @@ std::string reportText(const Case& c, const RunResult& r, const std::string& bac
     } else if (s.doses == 1) {
         text += fmt::format("mean {:.3f} g (one dose: no standard deviation, no RSD)\n", s.mean * 1e3);
     }
-    text += ledgerLine(r);
+    text += figureLines(r) + ledgerLine(r);
     if (r.last.energy) text += energyLine(*r.last.energy);
     text += overlapLine(r);
     text += fmt::format("stopped  {} at t = {:.4g} s\n", stopSentence(r.reason, c.schedule.stop), r.last.time);

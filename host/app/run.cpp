@@ -56,9 +56,10 @@ std::string wayOn(const RunFolder& folder) {
 
 /// Runs, from the start or from a checkpoint, and tells how it ended.
 int play(const Case& c, Insertion filled, Backend& backend, const BackendChoice& choice, RunFolder& folder, bool quiet,
-         const RunCheckpoint* from = nullptr) {
+         int parent, const RunCheckpoint* from = nullptr) {
     Derived derived = derive(c, filled);
     const std::atomic<bool>& stop = watchInterrupts();
+    if (parent != 0) endWithParent(parent);
     ProgressDisplay display;
     if (!quiet) {
         fmt::print("{}: {} particles, {:.3f} g, on {}\n", c.name, filled.particles.size(), filled.mass * 1e3,
@@ -93,7 +94,7 @@ int runCommand(const RunOptions& options) {
     const std::unique_ptr<Backend> backend = makeBackend(options.backend, filled.particles.size());
     RunFolder folder(options.out.empty() ? std::filesystem::path("out") / c.name : options.out, options.force, c,
                      backend->description());
-    return play(c, filled, *backend, options.backend, folder, options.quiet);
+    return play(c, filled, *backend, options.backend, folder, options.quiet, options.parent);
 }
 
 int resumeCommand(const ResumeOptions& options) {
@@ -113,7 +114,7 @@ int resumeCommand(const ResumeOptions& options) {
                    from.program, from.backend, VKDOSE_VERSION, backend->description());
     RunFolder folder(options.folder, from, c, backend->description());
     try {
-        return play(c, filled, *backend, choice, folder, options.quiet, &from.run);
+        return play(c, filled, *backend, choice, folder, options.quiet, options.parent, &from.run);
     } catch (const RecordError& e) {
         throw CheckpointError(fmt::format("{} cannot be used: {}", file.string(), e.what()));
     }

@@ -124,8 +124,12 @@ Case interpret(const std::filesystem::path& file, Node tree) {
 }  // namespace
 
 Case loadCase(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+    return loadVariant(file, {overrideTree(overrides)});
+}
+
+Case loadVariant(const std::filesystem::path& file, std::vector<Node> layers) {
     Node tree = readTree(file);
-    merge(tree, overrideTree(overrides));
+    for (Node& layer : layers) merge(tree, std::move(layer));
     return interpret(file, std::move(tree));
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "host/model/case_tree.h"
 #include "host/model/particles.h"
 #include "host/model/world.h"
 
@@ -80,12 +81,15 @@ struct Case {
     Schedule schedule;
     double sensorInterval = 0;  ///< [s], a whole number of steps after loading
     CheckpointInterval checkpoint;
-    double bulkDensity = 471;   ///< rho_b for the closed form [kg/m3]
-    std::string resolved;       ///< the case as TOML with every default and --set applied
+    double bulkDensity = 471;  ///< rho_b for the closed form [kg/m3]
+    std::string resolved;      ///< the case as TOML with every default and --set applied
 };
 
 /// Reads, resolves `overrides` ("key.path=value"), checks. Throws CaseError with every fault found.
 Case loadCase(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
+
+/// The same with layers of overrides, each over the one before, in which each value knows where it was written.
+Case loadVariant(const std::filesystem::path& file, std::vector<Node> layers);
 
 /// The same for the text of a resolved case (`Case::resolved`), as if it stood in `file`.
 Case loadResolvedCase(const std::string& text, const std::filesystem::path& file);

@@ -12,18 +12,6 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-std::string tomlString(const std::string& text) {
-    std::string out = "\"";
-    for (const char c : text) {
-        if (c == '"' || c == '\\') out += '\\';
-        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
-            out += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
-        else
-            out += c;
-    }
-    return out + '"';
-}
-
 /// Shortest text that reads back as the same double.
 std::string numeral(double value) {
     return fmt::format("{}", value);
@@ -288,6 +276,10 @@ std::vector<Section*> Section::tables(std::string_view key) {
         found.push_back(&item);
     }
     return found;
+}
+
+const Node* Section::node(std::string_view key) {
+    return take(key, false, "");
 }
 
 void Section::record(std::string_view key, double value) {

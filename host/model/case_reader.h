@@ -68,6 +68,9 @@ class Section {
     /// The tables of [[key]]; none when the key is absent.
     std::vector<Section*> tables(std::string_view key);
 
+    /// The value as it stands, for what no getter above reads; null if there is none.
+    const Node* node(std::string_view key);
+
     /// Notes a value worked out elsewhere (in the unit of the file) for the resolved case.
     void record(std::string_view key, double value);
     void record(std::string_view key, const Vec3& value);

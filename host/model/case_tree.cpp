@@ -233,9 +233,7 @@ Node overrideNode(const std::string& path, const std::string& value) {
         bad.problem = "is more than one line";
         throw CaseError({bad});
     }
-    if (path.empty() || path.front() == '.' || path.back() == '.' || path.find("..") != std::string::npos ||
-        path.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.") !=
-            std::string::npos) {
+    if (!isKeyPath(path)) {
         Diagnostic bad = fault;
         bad.problem = "is not the path of a key";
         throw CaseError({bad});
@@ -279,6 +277,10 @@ void Node::drop(std::string_view name) {
                    children.end());
 }
 
+Node readTreeAlone(const std::filesystem::path& file) {
+    return parseText(readText(file, {"", 0, "", "", "", "give the path of a file"}), file.string());
+}
+
 Node readTree(const std::filesystem::path& file) {
     std::vector<std::filesystem::path> above;
     return readWithBase(file, {"", 0, "", "", "", "give the path of a case file"}, above);
@@ -314,6 +316,64 @@ Node overrideTree(const std::vector<std::string>& overrides) {
     if (!faults.empty()) throw CaseError(faults);
     clearLines(all);
     return all;
+}
+
+bool isKeyPath(std::string_view path) {
+    return !path.empty() && path.front() != '.' && path.back() != '.' && path.find("..") == std::string_view::npos &&
+           path.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.") ==
+               std::string_view::npos;
+}
+
+bool plant(Node& tree, const std::string& path, Node value) {
+    const std::size_t dot = path.find('.');
+    const std::string key = path.substr(0, dot);
+    Node* below = tree.child(key);
+    if (dot == std::string::npos) {
+        if (below != nullptr) return false;
+        value.key = key;
+        tree.children.push_back(std::move(value));
+        return true;
+    }
+    if (below != nullptr)
+        return below->kind == Node::Kind::Table && plant(*below, path.substr(dot + 1), std::move(value));
+    Node table;
+    table.key = key;
+    table.file = value.file;
+    table.line = value.line;
+    plant(table, path.substr(dot + 1), std::move(value));
+    tree.children.push_back(std::move(table));
+    return true;
+}
+
+std::string tomlString(const std::string& text) {
+    std::string out = "\"";
+    for (const char c : text) {
+        if (c == '"' || c == '\\') out += '\\';
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
+            out += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
+        else
+            out += c;
+    }
+    return out + '"';
+}
+
+std::string valueText(const Node& value) {
+    std::string list;
+    switch (value.kind) {
+        case Node::Kind::Boolean:
+            return value.boolean ? "true" : "false";
+        case Node::Kind::String:
+            return tomlString(value.string);
+        case Node::Kind::Array:
+            for (const Node& item : value.children) list += (list.empty() ? "" : ", ") + valueText(item);
+            return "[" + list + "]";
+        case Node::Kind::Table:
+            for (const Node& item : value.children)
+                list += (list.empty() ? "" : ", ") + item.key + " = " + valueText(item);
+            return "{" + list + "}";
+        default:
+            return value.text;
+    }
 }
 
 void merge(Node& lower, Node upper) {

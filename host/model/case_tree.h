@@ -32,6 +32,9 @@ struct Node {
     void drop(std::string_view name);
 };
 
+/// Reads `file` as it stands; `base` is a key like any other. Throws CaseError when it cannot be read or is not TOML.
+Node readTreeAlone(const std::filesystem::path& file);
+
 /// Reads `file` and, below it, the file its key `base` names (relative to it). Throws CaseError when a file cannot be
 /// read or is not TOML, and when bases form a circle.
 Node readTree(const std::filesystem::path& file);
@@ -42,6 +45,17 @@ Node readTreeText(const std::string& text, const std::string& name);
 /// The overrides "key.path=value" as one tree. A value that is not TOML but a bare word is a string.
 /// Throws CaseError naming every override that cannot be read.
 Node overrideTree(const std::vector<std::string>& overrides);
+
+/// Whether `path` can name a key: words of letters, digits, _ and -, joined by dots.
+bool isKeyPath(std::string_view path);
+
+/// Puts `value` at `path` ("coil.speed_rpm"), making the tables on the way. False, and nothing changed, if something
+/// stands there already or on the way to it.
+bool plant(Node& tree, const std::string& path, Node value);
+
+/// A text as a TOML string, and a value as TOML on one line; numbers as they were written.
+std::string tomlString(const std::string& text);
+std::string valueText(const Node& value);
 
 /// Lays `upper` over `lower`, table by table. A key of `upper` also removes its rivals in `lower`: `pitch_mm` replaces
 /// `turns`, another `distribution` takes the old one's keys away.

@@ -17,15 +17,16 @@ std::string writeFault(const std::filesystem::path& file) {
     return fmt::format("cannot write {}: {}", file.string(), std::strerror(errno));
 }
 
+// "e": a child process has no part in the file, nor in its lock.
 CsvFile::CsvFile(std::filesystem::path path, std::string_view header)
-    : path_(std::move(path)), file_(std::fopen(path_.c_str(), "w")) {
+    : path_(std::move(path)), file_(std::fopen(path_.c_str(), "we")) {
     if (!file_) fail();
     line(std::string(header));
     flush();
 }
 
 CsvFile::CsvFile(std::filesystem::path path, std::uint64_t bytes)
-    : path_(std::move(path)), file_(std::fopen(path_.c_str(), "r+")) {
+    : path_(std::move(path)), file_(std::fopen(path_.c_str(), "r+e")) {
     if (!file_) fail();
     std::error_code error;
     const std::uint64_t size = std::filesystem::file_size(path_, error);

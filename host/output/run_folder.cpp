@@ -1,6 +1,9 @@
 #include "host/output/run_folder.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <array>
 #include <cmath>
@@ -16,8 +19,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array kFiles{"case.toml",     "timeseries.csv", "doses.csv",
-                            "particles.csv", "summary.json",   kCheckpointName};
+constexpr std::array kFiles{"case.toml",    "timeseries.csv", "doses.csv",    "particles.csv",
+                            "summary.json", "report.html",    kCheckpointName};
 
 constexpr const char* kTimeSeriesHeader =
     "time_s,phase,dose,coil_angle_rad,dosed_mass_kg,canister_mass_kg,throat_mass_kg,lost_mass_kg,"
@@ -30,9 +33,6 @@ constexpr const char* kEnergyHeader =
     "loss_rolling_J,loss_torsion_J,loss_numerical_J,residual_J,momentum_x_kg_m_s,momentum_y_kg_m_s,momentum_z_kg_m_s,"
     "angular_momentum_x_kg_m2_s,angular_momentum_y_kg_m2_s,angular_momentum_z_kg_m2_s";
 
-constexpr const char* kDosesHeader =
-    "dose,start_time_s,mass_kg,cumulative_mass_kg,particles,coil_torque_Nm,closed_form_mass_kg,complete";
-
 constexpr const char* kParticlesHeader =
     "id,x_m,y_m,z_m,vx_m_s,vy_m_s,vz_m_s,wx_rad_s,wy_rad_s,wz_rad_s,radius_m,status";
 
@@ -44,6 +44,15 @@ void refuseBusy(const fs::path& folder) {
     std::error_code error;
     const fs::path file = folder / "timeseries.csv";
     if (fs::exists(file, error) && !CsvFile(file, fs::file_size(file, error)).lock()) busy(folder);
+}
+
+/// A lock on the run's time series, given up by closing: true if it was to be had. `how`: see flock.
+bool tryLock(const fs::path& folder, int how) {
+    const int handle = ::open((folder / "timeseries.csv").c_str(), O_RDONLY | O_CLOEXEC);
+    if (handle < 0) return true;  // nobody has begun there
+    const bool had = ::flock(handle, how) == 0;
+    ::close(handle);
+    return had;
 }
 
 std::string energyFields(const EnergyLedger& ledger) {
@@ -169,6 +178,14 @@ void writeParticles(const fs::path& file, const Particles& p) {
                              p.radius[i], statusName(p.status[i])));
     }
     csv.flush();
+}
+
+bool isBusy(const fs::path& folder) {
+    return !tryLock(folder, LOCK_EX | LOCK_NB);
+}
+
+void awaitFree(const fs::path& folder) {
+    (void)tryLock(folder, LOCK_EX);
 }
 
 std::string statusName(Status status) {

@@ -18,6 +18,10 @@ class FolderError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// The columns of a run's doses.csv.
+inline constexpr const char* kDosesHeader =
+    "dose,start_time_s,mass_kg,cumulative_mass_kg,particles,coil_torque_Nm,closed_form_mass_kg,complete";
+
 class RunFolder : public RunObserver {
   public:
     /// Creates the folder and the files that stream. Throws FolderError if it holds anything and `force` is not set,
@@ -55,6 +59,12 @@ class RunFolder : public RunObserver {
 /// particles.csv: id, position [m], velocity [m/s], spin [rad/s], radius [m] and status of every particle, with enough
 /// digits to read the same numbers back. Throws OutputError if it cannot be written.
 void writeParticles(const std::filesystem::path& file, const Particles& particles);
+
+/// Whether another process is writing the run in `folder`.
+bool isBusy(const std::filesystem::path& folder);
+
+/// Waits until no other process does.
+void awaitFree(const std::filesystem::path& folder);
 
 /// "active", "dosed" or "lost".
 std::string statusName(Status status);

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "host/analysis/figures.h"
+
 namespace vkdose {
 
 namespace {
@@ -73,6 +75,22 @@ Json ledger(const RunResult& r) {
     return j;
 }
 
+Json doseCount(const std::optional<int>& dose) {
+    return dose ? Json(*dose) : Json(nullptr);
+}
+
+Json analysis(const RunResult& r) {
+    const DosingFigures f = figuresOf(r.doses, r.ledger.filledMass());
+    Json j;
+    j["beta_kg_per_dose"] = number(f.beta.beta);
+    j["beta_standard_error_kg_per_dose"] = number(f.beta.standardError);
+    j["beta_doses"] = f.beta.doses;
+    j["beta_cumulative_below_kg"] = number(f.window.cumulativeBelow);
+    j["doses_to_99_percent"] = doseCount(f.dosesTo99);
+    j["blocked_at_dose"] = doseCount(f.blocked);
+    return j;
+}
+
 Json energy(const EnergyLedger& ledger) {
     const EnergyBook& b = ledger.sum;
     Json j;
@@ -112,6 +130,7 @@ std::string summaryJson(const Case& c, const RunResult& r, const std::string& ba
                             {"mean_kg", s.doses > 0 ? number(s.mean) : Json(nullptr)},
                             {"standard_deviation_kg", s.doses > 1 ? number(s.deviation) : Json(nullptr)},
                             {"rsd", s.doses > 1 && s.mean > 0 ? number(s.relative) : Json(nullptr)}};
+    j["analysis"] = analysis(r);
     j["dosed_while_settling_kg"] = number(r.dosedWhileSettling);
     j["closed_form"] = closedForms(r.derived);
     j["ledger"] = ledger(r);

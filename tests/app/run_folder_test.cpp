@@ -96,6 +96,13 @@ TEST_CASE("the folder of a run parses back to what was computed") {
     CHECK(summary["doses"][1]["mass_kg"].get<double>() == Approx(3e-3));
     CHECK(summary["dose_statistics"]["mean_kg"].get<double>() == Approx(5e-3 / 3));
     CHECK(summary["dose_statistics"]["rsd"].get<double>() == Approx(r.statistics.relative));
+    // 2, 5 and 5 g are out after the doses: a slope of 1.5 g, from doses of 3 and 0 g with equal weights.
+    CHECK(summary["analysis"]["beta_kg_per_dose"].get<double>() == Approx(1.5e-3));
+    CHECK(summary["analysis"]["beta_standard_error_kg_per_dose"].get<double>() == Approx(1.5e-3));
+    CHECK(summary["analysis"]["beta_doses"] == 3);
+    CHECK(summary["analysis"]["doses_to_99_percent"].is_null());
+    CHECK(summary["analysis"]["blocked_at_dose"].is_null());
+    CHECK_THAT(reportText(c, r, "fake"), Catch::Contains("beta     1.500 g/dose +- 1.500, the slope over 3 doses"));
     CHECK(summary["ledger"]["dosed_count"] == 5);
     CHECK(summary["ledger"]["lost_count"] == 0);
     CHECK(summary["ledger"]["closings"] == r.ledger.closings());

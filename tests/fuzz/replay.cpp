@@ -16,7 +16,8 @@ int main(int argc, char** argv) {
         if (!fs::is_directory(argv[i]))
             files.emplace_back(argv[i]);
         else
-            for (const auto& entry : fs::directory_iterator(argv[i])) files.push_back(entry.path());
+            for (const auto& entry : fs::directory_iterator(argv[i]))
+                if (entry.is_regular_file()) files.push_back(entry.path());
     }
     std::sort(files.begin(), files.end());
     for (const fs::path& file : files) {

@@ -1,0 +1,39 @@
+#pragma once
+// Blocked outlets and arches: powder that is there and does not come.
+
+#include <optional>
+#include <span>
+
+#include "geometry/coil.h"
+#include "host/model/case.h"
+
+namespace vkdose {
+
+/// What counts as blocked: `doses` in a row that together give no more than `threshold`, while more than the part
+/// `remaining` of the fill is still inside. Threshold and doses are those of the paper's experiments.
+struct BlockageRule {
+    double threshold = 0.15e-3;  ///< [kg]
+    int doses = 3;
+    double remaining = 0.01;  ///< [-]
+};
+
+/// The first of the doses that gave nothing (counted from 1), even if an avalanche freed the outlet later; none if the
+/// flow never stopped, or too few doses were made to tell. `cumulative` [kg] after dose 1, 2, ...; `before` [kg] is
+/// what had come out before the first.
+std::optional<int> blockedAt(std::span<const double> cumulative, double filled, const BlockageRule& rule = {},
+                             double before = 0);
+
+/// A void under powder that spans it.
+struct Arch {
+    double height = 0;  ///< of the highest void [m]
+    double z = 0;       ///< where it is, along the coil [m]
+    double length = 0;  ///< of all slices with a void, along the coil [m]
+};
+
+/// Looks for arches over the coil in the canister: in slices two mean diameters thick along the coil, within half the
+/// coil's radius of its axis to either side, any height from the floor up at which there is no powder although there is
+/// some above. A void must be two mean diameters high and reach above the coil's axis. None if there is no such void;
+/// the greatest otherwise. `particles` are those of one instant; dosed ones are left out.
+std::optional<Arch> archAbove(const geometry::Coil& coil, const Canister& canister, const Particles& particles);
+
+}  // namespace vkdose

@@ -1,0 +1,148 @@
+#include "host/analysis/density.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace vkdose {
+
+namespace {
+
+constexpr double kNothing = -std::numeric_limits<double>::infinity();
+
+/// Fewer mean spheres than this in a region say more about its edge than about the powder.
+constexpr double kLeastSpheres = 100;
+
+/// Side of the lattice of points that stands for a sphere: a part of it is known to about 1/16 of its diameter.
+constexpr int kLattice = 16;
+
+double sphereVolume(double r) {
+    return 4.0 / 3.0 * kPi * r * r * r;
+}
+
+/// Squares of `side` over the floor plan x in [-halfWidth, halfWidth], z in [begin, end], each with the top of the
+/// highest sphere whose centre is over it. The last row and column are cut by the plan's edge.
+class Surface {
+  public:
+    Surface(const Particles& p, double halfWidth, double begin, double end, double side)
+        : low_{-halfWidth, begin}, high_{halfWidth, end}, side_(side) {
+        for (int k = 0; k < 2; ++k) cells_[k] = std::max(0, static_cast<int>(std::ceil((high_[k] - low_[k]) / side)));
+        top_.assign(static_cast<std::size_t>(cells_[0]) * cells_[1], kNothing);
+        for (std::size_t i = 0; i < p.size(); ++i) {
+            const int cell = p.status[i] == Status::Active ? cellOf(p.position[i]) : -1;
+            if (cell >= 0) top_[cell] = std::max(top_[cell], p.position[i].y + p.radius[i]);
+        }
+    }
+
+    /// Index of the column over which a point lies; -1 beside the plan.
+    int cellOf(const Vec3& x) const {
+        const double place[2] = {x.x, x.z};
+        int index[2];
+        for (int k = 0; k < 2; ++k) {
+            if (!(place[k] >= low_[k]) || !(place[k] < high_[k])) return -1;
+            index[k] = std::min(static_cast<int>((place[k] - low_[k]) / side_), cells_[k] - 1);
+        }
+        return index[0] * cells_[1] + index[1];
+    }
+    double top(int cell) const { return top_[cell]; }
+    int columns() const { return cells_[0] * cells_[1]; }
+    double area(int cell) const { return extent(0, cell / cells_[1]) * extent(1, cell % cells_[1]); }
+    int slices() const { return cells_[1]; }
+    int sliceOf(int cell) const { return cell % cells_[1]; }
+    double sliceLength(int slice) const { return extent(1, slice); }
+
+  private:
+    double extent(int k, int i) const { return std::min(side_, high_[k] - low_[k] - i * side_); }
+
+    double low_[2], high_[2], side_;
+    int cells_[2] = {0, 0};
+    std::vector<double> top_;
+};
+
+/// Mass [kg] of the parts of active spheres for which `inside(point)` holds: each sphere as a lattice of points that
+/// together weigh what it weighs.
+template <typename Inside>
+double massWithin(const Particles& p, double density, const Inside& inside) {
+    std::vector<Vec3> lattice;
+    for (int i = 0; i < kLattice; ++i)
+        for (int j = 0; j < kLattice; ++j)
+            for (int k = 0; k < kLattice; ++k) {
+                const Vec3 x = (Vec3(i, j, k) + 0.5) * (2.0 / kLattice) - 1.0;
+                if (glm::dot(x, x) < 1) lattice.push_back(x);
+            }
+    double mass = 0;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+        if (p.status[i] != Status::Active) continue;
+        int hits = 0;
+        for (const Vec3& x : lattice) hits += inside(p.position[i] + p.radius[i] * x) ? 1 : 0;
+        mass += density * sphereVolume(p.radius[i]) * hits / static_cast<double>(lattice.size());
+    }
+    return mass;
+}
+
+std::optional<BulkDensity> densityOf(double mass, double volume, double meanRadius) {
+    if (!(volume > kLeastSpheres * sphereVolume(meanRadius))) return std::nullopt;
+    return BulkDensity{mass / volume, mass, volume};
+}
+
+}  // namespace
+
+double meanActiveRadius(const Particles& particles) {
+    double sum = 0, count = 0;
+    for (std::size_t i = 0; i < particles.size(); ++i) {
+        if (particles.status[i] != Status::Active) continue;
+        sum += particles.radius[i];
+        ++count;
+    }
+    return count > 0 ? sum / count : 0;
+}
+
+std::optional<BulkDensity> bedDensity(const Particles& particles, double particleDensity, const Canister& canister,
+                                      const geometry::Coil* coil) {
+    const double a = meanActiveRadius(particles), margin = 2 * a;
+    if (!(a > 0)) return std::nullopt;
+    const Surface surface(particles, canister.width / 2 - margin, margin, canister.length - margin, 2 * margin);
+    const double low = (coil ? coil->radius + coil->wireRadius : 0.0) + margin;
+    double volume = 0;
+    for (int cell = 0; cell < surface.columns(); ++cell)
+        volume += surface.area(cell) * std::max(0.0, surface.top(cell) - margin - low);
+    const double mass = massWithin(particles, particleDensity, [&](const Vec3& x) {
+        if (x.y < low) return false;
+        const int cell = surface.cellOf(x);
+        return cell >= 0 && x.y < surface.top(cell) - margin;
+    });
+    return densityOf(mass, volume, a);
+}
+
+std::optional<BulkDensity> coilDensity(const Particles& particles, double particleDensity, const Canister& canister,
+                                       const geometry::Coil& coil, double from) {
+    const double a = meanActiveRadius(particles), margin = 2 * a;
+    if (!(a > 0)) return std::nullopt;
+    const double outer = coil.radius + coil.wireRadius;
+    const double begin = std::max({coil.zStart, 0.0, from}), end = std::min(coil.zStart + coil.length, canister.length);
+    const Surface surface(particles, outer, begin, end, 2 * margin);
+    std::vector<double> lowestTop(surface.slices(), std::numeric_limits<double>::infinity());
+    for (int cell = 0; cell < surface.columns(); ++cell) {
+        double& top = lowestTop[surface.sliceOf(cell)];
+        top = std::min(top, surface.top(cell));
+    }
+    const auto covered = [&](int slice) { return lowestTop[slice] > outer + margin; };
+    const double wire = kPi * coil.wireRadius * coil.wireRadius *
+                        std::hypot(1.0, 2 * kPi * coil.radius / coil.pitch);  // volume per length along the axis
+    double volume = 0;
+    for (int slice = 0; slice < surface.slices(); ++slice)
+        if (covered(slice)) volume += surface.sliceLength(slice) * (kPi * outer * outer - wire);
+    const double mass = massWithin(particles, particleDensity, [&](const Vec3& x) {
+        if (x.x * x.x + x.y * x.y >= outer * outer) return false;
+        const int cell = surface.cellOf(x);
+        return cell >= 0 && covered(surface.sliceOf(cell));
+    });
+    return densityOf(mass, volume, a);
+}
+
+double closedFormMass(double bulkDensity, const geometry::Coil& coil, double turns) {
+    return bulkDensity * coil.pitch * kPi * coil.radius * coil.radius * turns;
+}
+
+}  // namespace vkdose

@@ -1,0 +1,22 @@
+#include "host/analysis/figures.h"
+
+#include <algorithm>
+
+#include "host/analysis/blockage.h"
+#include "host/analysis/emptying.h"
+
+namespace vkdose {
+
+DosingFigures figuresOf(const std::vector<Dose>& doses, double filled) {
+    DosingFigures f;
+    // A canister of less than 19 g saturates within the paper's 15 g.
+    f.window.cumulativeBelow = std::min(f.window.cumulativeBelow, beforeSaturation(filled).cumulativeBelow);
+    const std::vector<double> cumulative = cumulativeMasses(doses);
+    f.beta = betaOf(cumulative, f.window);
+    f.dosesTo99 = dosesToFraction(cumulative, filled);
+    const double before = doses.empty() ? 0.0 : doses.front().cumulative - doses.front().mass;
+    f.blocked = blockedAt(cumulative, filled, {}, before);
+    return f;
+}
+
+}  // namespace vkdose

@@ -1,0 +1,225 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "host/analysis/beta.h"
+#include "host/app/child_runner.h"
+#include "host/app/commands.h"
+#include "host/app/exit_code.h"
+#include "host/app/interrupt.h"
+#include "host/app/sweep_display.h"
+#include "host/app/sweep_setup.h"
+#include "host/core/error.h"
+#include "host/study/grid_calibration.h"
+#include "host/study/surrogate.h"
+
+namespace vkdose {
+
+namespace {
+
+/// "0.872 +- 0.031"; a "?" where the error is not known.
+std::string withError(double value, double error, double scale = 1) {
+    const std::string by = std::isfinite(error) ? fmt::format("{:.2g}", error * scale) : "?";
+    return fmt::format("{:.4g} +- {}", value * scale, by);
+}
+
+std::string targetText(const CalibrationAim& aim) {
+    return fmt::format("target   {} g a dose", withError(aim.target, aim.tolerance, 1e3));
+}
+
+std::string pointText(const std::vector<std::string>& keys, const Row& values) {
+    std::string text;
+    for (std::size_t i = 0; i < keys.size(); ++i)
+        text += fmt::format("{}{} {}", i == 0 ? "" : ", ", keys[i], values[i]);
+    return text.empty() ? "all" : text;
+}
+
+std::string curveText(const std::string& name, const Curve& curve, const CalibrationAim& aim, bool chosen) {
+    std::string text = name + "\n";
+    for (const CurvePoint& p : curve.points)
+        text += fmt::format("    {} {:<8.4g} beta {:<18} g   RSD {:<16} %   {} seed{}\n", aim.along, p.along,
+                            withError(p.beta, p.betaError, 1e3), withError(p.rsd, p.rsdError, 100), p.seeds,
+                            p.seeds == 1 ? "" : "s");
+    for (const Crossing& c : curve.crossings)
+        text += fmt::format("  meets the target at {} {}, RSD {} %{}\n", aim.along, withError(c.along, c.alongError),
+                            withError(c.rsd, c.rsdError, 100),
+                            chosen && &c == &curve.crossings.front() ? "   <- chosen" : "");
+    if (curve.crossings.empty()) text += "  does not meet the target\n";
+    return text;
+}
+
+/// The values of a curve's keys as the study has them.
+std::vector<Setting> settingsOf(const Study& study, const std::vector<std::string>& keys, const Row& values) {
+    std::vector<Setting> settings;
+    for (const Axis& axis : study.axes)
+        for (std::size_t k = 0; k < axis.keys.size(); ++k)
+            for (std::size_t i = 0; i < keys.size(); ++i)
+                if (axis.keys[k] == keys[i]) {
+                    const auto point = std::find_if(axis.points.begin(), axis.points.end(),
+                                                    [&](const auto& p) { return tableText(p[k]) == values[i]; });
+                    if (point != axis.points.end()) settings.push_back({keys[i], (*point)[k]});
+                }
+    return settings;
+}
+
+void writeCase(const Study& study, const SweepFolder& folder, const std::vector<Setting>& point,
+               const std::string& how) {
+    const std::filesystem::path file = folder.path() / "calibrated.toml";
+    const std::string reason = fmt::format("Calibrated by {}: {}", study.name, how);
+    replaceFile(file, caseAt(study, point, study.file.stem().string() + "-calibrated", reason));
+    fmt::print("calibrated {}\n", file.string());
+}
+
+/// After the sweep: the table, and the case at the crossing that is chosen.
+int reportGrid(const Study& study, const SweepFolder& folder) {
+    const CalibrationAim& aim = *study.calibration;
+    const GridCalibration grid = calibrateGrid(folder.members(), study.keys(), aim);
+    fmt::print("{}\n", targetText(aim));
+    for (std::size_t i = 0; i < grid.curves.size(); ++i)
+        fmt::print("{}", curveText(pointText(grid.keys, grid.curves[i].values), grid.curves[i], aim, grid.choice == i));
+    if (grid.leftOut > 0) fmt::print("{} members without a mass per dose are left out\n", grid.leftOut);
+    if (!grid.choice) {
+        fmt::print(stderr, "vkdose: no curve meets the target; widen the axes\n");
+        return kDisagree;
+    }
+    const Curve& curve = grid.curves[*grid.choice];
+    const Crossing& crossing = curve.crossings.front();
+    std::vector<Setting> point = settingsOf(study, grid.keys, curve.values);
+    point.push_back(settingOf(study, aim.along, crossing.along));
+    writeCase(study, folder, point,
+              fmt::format("{} {} meets {:.4g} g a dose", aim.along, withError(crossing.along, crossing.alongError),
+                          aim.target * 1e3));
+    return kOk;
+}
+
+std::vector<Setting> settingsAt(const Study& study, const Parameters& p) {
+    std::vector<Setting> all;
+    for (std::size_t i = 0; i < p.size(); ++i)
+        all.push_back(settingOf(study, study.calibration->parameters[i].key, p[i]));
+    return all;
+}
+
+/// What of a search can be checked before it: the corners of its bounds. Throws CaseError if one is no case.
+void checkCorners(const Study& study) {
+    const std::vector<FreeParameter>& free = study.calibration->parameters;
+    for (unsigned corner = 0; corner < 1U << free.size(); ++corner) {
+        Parameters p;
+        for (std::size_t i = 0; i < free.size(); ++i) p.push_back((corner >> i & 1U) != 0 ? free[i].high : free[i].low);
+        (void)memberAt(study, 0, std::nullopt, settingsAt(study, p));
+    }
+}
+
+/// Runs the points that a search asks for as members of a sweep, every one with every seed.
+class SearchRuns {
+  public:
+    SearchRuns(const Study& study, SweepFolder& folder, MemberRunner& runner, SweepObserver& observer,
+               const std::atomic<bool>& stop, bool retryFailed)
+        : study_(study), folder_(folder), runner_(runner), observer_(observer), stop_(stop), retry_(retryFailed) {}
+
+    std::optional<std::vector<Trial>> operator()(const std::vector<Parameters>& points) {
+        std::vector<Member> members;
+        for (const Parameters& p : points)
+            for (const auto& seed : seeds()) members.push_back(memberAt(study_, next_++, seed, settingsAt(study_, p)));
+        for (const Member& m : members) folder_.requireSame(m);
+        if (!runMembers(folder_, members, runner_, observer_, stop_, retry_).whole) return std::nullopt;
+        std::vector<Trial> trials;
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const int first = members[i * seeds().size()].number;
+            trials.push_back(trialOf(first, first + int(seeds().size())));
+        }
+        return trials;
+    }
+
+  private:
+    std::vector<std::optional<std::uint64_t>> seeds() const {
+        if (study_.seeds.empty()) return {std::nullopt};
+        return {study_.seeds.begin(), study_.seeds.end()};
+    }
+
+    /// From the table, so that a search that goes on sees the same digits as one that was not interrupted.
+    Trial trialOf(int from, int to) const {
+        const CsvTable& table = folder_.members();
+        Trial trial;
+        for (int number = from; number < to; ++number) {
+            for (const Row& row : table.rows) {
+                const auto beta = table.number(row, "beta_kg_per_dose");
+                if (table.text(row, "member") != std::to_string(number) || table.text(row, "status") != "ok" || !beta)
+                    continue;
+                trial.values.push_back(*beta);
+                trial.error = table.number(row, "beta_standard_error_kg_per_dose").value_or(0);
+            }
+        }
+        return trial;
+    }
+
+    const Study& study_;
+    SweepFolder& folder_;
+    MemberRunner& runner_;
+    SweepObserver& observer_;
+    const std::atomic<bool>& stop_;
+    bool retry_;
+    int next_ = 0;
+};
+
+int reportSearch(const Study& study, const SweepFolder& folder, const SearchResult& result) {
+    const CalibrationAim& aim = *study.calibration;
+    fmt::print("{}\n", targetText(aim));
+    for (std::size_t i = 0; i < result.points.size(); ++i) {
+        for (std::size_t k = 0; k < aim.parameters.size(); ++k)
+            fmt::print("    {} {:<10.6g}", aim.parameters[k].key, result.points[i][k]);
+        fmt::print(" beta {} g{}\n", withError(result.values[i].value, result.values[i].error, 1e3),
+                   i == result.best ? "   <- chosen" : "");
+    }
+    fmt::print("believed there: beta {} g; {} after {} points\n", withError(result.mean, result.deviation, 1e3),
+               result.met ? "the target is met" : "the target is NOT met to its tolerance", result.points.size());
+    for (std::size_t k = 0; k < aim.parameters.size(); ++k) {
+        const auto& [low, high] = result.compatible[k];
+        if (low <= high)
+            fmt::print("{} from {:.4g} to {:.4g} may meet it\n", aim.parameters[k].key, low, high);
+        else
+            fmt::print("no {} within its bounds is believed to meet it\n", aim.parameters[k].key);
+    }
+    writeCase(study, folder, settingsAt(study, result.points[result.best]),
+              fmt::format("beta is believed to be {} g a dose, the target is {:.4g} g",
+                          withError(result.mean, result.deviation, 1e3), aim.target * 1e3));
+    return result.met ? kOk : kDisagree;
+}
+
+}  // namespace
+
+int calibrateCommand(const SweepOptions& options) {
+    const Study study = readStudy(options.study);
+    if (!study.calibration)
+        throw CaseError({{options.study.string(), 0, "calibrate", "", "the table is missing",
+                          "add [calibrate] with target_g_per_dose and tolerance_g, or with measured"}});
+    const bool isSearch = study.calibration->method == CalibrationAim::Method::Surrogate;
+    if (isSearch) checkCorners(study);
+    const std::vector<Member> members = isSearch ? std::vector<Member>{} : membersOf(study);
+    ChildRunner runner(options.backend, options.dryRun ? 1 : jobsFor(options));
+    const std::atomic<bool>& stop = watchInterrupts();
+    SweepDisplay display("calibrate", study, options.quiet);
+    if (options.dryRun) {
+        fmt::print("{}", membersText(study, members));
+        return kOk;
+    }
+    SweepFolder folder(sweepFolder(options), study, members);
+    if (isSearch) {
+        SearchRuns runs(study, folder, runner, display, stop, options.retryFailed);
+        const auto result = search(*study.calibration, std::ref(runs));
+        if (!result) {
+            display.finish(folder, {});
+            return kInterrupted;
+        }
+        folder.sort();
+        return reportSearch(study, folder, *result);
+    }
+    display.begin(members, runner.slots());
+    const SweepOutcome outcome = runMembers(folder, members, runner, display, stop, options.retryFailed);
+    if (outcome.whole) folder.sort();
+    display.finish(folder, outcome);
+    return outcome.whole ? reportGrid(study, folder) : kInterrupted;
+}
+
+}  // namespace vkdose

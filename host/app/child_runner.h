@@ -1,0 +1,42 @@
+#pragma once
+// Runs each member of a sweep as a process of this program, so that it is an ordinary run.
+
+#include <sys/types.h>
+
+#include <list>
+#include <string>
+
+#include "host/app/backends.h"
+#include "host/study/sweep.h"
+
+namespace vkdose {
+
+class ChildRunner : public MemberRunner {
+  public:
+    ChildRunner(BackendChoice choice, int slots) : choice_(std::move(choice)), slots_(slots) {}
+    ~ChildRunner() override;
+    ChildRunner(const ChildRunner&) = delete;
+    ChildRunner& operator=(const ChildRunner&) = delete;
+
+    int slots() const override { return slots_; }
+    /// Throws RunError if the system starts no more processes.
+    void start(const MemberTask& task) override;
+    std::optional<MemberEnd> wait() override;
+    void interrupt() override;
+
+  private:
+    struct Child {
+        int number;
+        pid_t process;
+        int said;  ///< reading end of its stderr
+        std::string text;
+    };
+    std::vector<std::string> arguments(const MemberTask& task) const;
+    MemberEnd reap(std::list<Child>::iterator child);
+
+    BackendChoice choice_;
+    int slots_;
+    std::list<Child> children_;
+};
+
+}  // namespace vkdose

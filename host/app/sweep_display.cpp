@@ -1,0 +1,120 @@
+#include "host/app/sweep_display.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "host/app/text.h"
+
+namespace vkdose {
+
+namespace {
+
+constexpr std::chrono::seconds kLine{60};
+
+/// "3 doses, mean 3.70 g, RSD 12.1 %"
+std::string dosesText(const MemberResult& result) {
+    const auto number = [&](const char* column) {
+        CsvTable table;
+        table.header = kOutputColumns;
+        return table.number(result.outputs, column);
+    };
+    const double doses = number("doses").value_or(0);
+    std::string text = fmt::format("{:.0f} dose{}", doses, doses == 1 ? "" : "s");
+    if (const auto mean = number("mean_dose_kg")) text += fmt::format(", mean {:.3f} g", *mean * 1e3);
+    if (const auto rsd = number("rsd")) text += fmt::format(", RSD {:.1f} %", *rsd * 100);
+    if (const auto wall = number("wall_time_s")) text += fmt::format(", {}", duration(*wall));
+    return text;
+}
+
+}  // namespace
+
+std::string memberText(const Study& study, const Member& member) {
+    std::string text;
+    const std::vector<std::string> keys = study.keys();
+    for (std::size_t i = 0; i < keys.size(); ++i) text += fmt::format("{} {}, ", keys[i], member.values[i]);
+    return text + fmt::format("seed {}", member.seed);
+}
+
+std::string membersText(const Study& study, const std::vector<Member>& members) {
+    std::string text;
+    double work = 0;
+    for (const Member& m : members) {
+        text += fmt::format("member {:04}  {:>7} particles  {:>9}particle-steps  {}\n", m.number, m.particles,
+                            large(m.expectedWork), memberText(study, m));
+        work += m.expectedWork;
+    }
+    return text + fmt::format("{}: {} members, {}particle-steps by the closed forms\n", study.name, members.size(),
+                              large(work));
+}
+
+SweepDisplay::SweepDisplay(std::string command, const Study& study, bool quiet)
+    : command_(std::move(command)), study_(study), quiet_(quiet), terminal_(isatty(fileno(stderr)) == 1) {}
+
+SweepDisplay::~SweepDisplay() {
+    close();
+}
+
+void SweepDisplay::begin(const std::vector<Member>& members, int jobs) {
+    if (quiet_) return;
+    fmt::print("{}: {} members, {} at a time\n", study_.name, members.size(), jobs);
+    std::fflush(stdout);
+}
+
+void SweepDisplay::onMember(const Member& member, const MemberResult& result) {
+    const bool failed = result.status == MemberStatus::Failed;
+    if (quiet_ && !failed) return;
+    close();
+    const std::string head = fmt::format("member {:04} ({})", member.number, memberText(study_, member));
+    if (failed) {
+        fmt::print(stderr, "{} failed: {}\n", head, result.error);
+    } else {
+        fmt::print("{} {}: {}\n", head, statusText(result.status), dosesText(result));
+        std::fflush(stdout);
+    }
+}
+
+void SweepDisplay::onProgress(const SweepProgress& p) {
+    const auto now = Clock::now();
+    if (quiet_ || (!terminal_ && now - last_ < kLine)) return;
+    last_ = now;
+    const double spent = std::chrono::duration<double>(now - start_).count();
+    const double left = p.fractionHere > 0 ? spent * (1 - p.fraction) / p.fractionHere : -1;
+    std::string text = fmt::format("{} of {} members done, {} running", p.ok + p.failed, p.members, p.running);
+    if (p.failed > 0) text += fmt::format(", {} failed", p.failed);
+    text += fmt::format("; {:.0f} %, ETA {}", 100 * p.fraction, duration(left));
+    // \033[K clears what a longer line before left behind.
+    if (terminal_)
+        fmt::print(stderr, "\r{}\033[K", text);
+    else
+        fmt::print(stderr, "{}\n", text);
+    std::fflush(stderr);
+    open_ = terminal_;
+}
+
+void SweepDisplay::onBusy(const std::filesystem::path& folder) {
+    close();
+    fmt::print(stderr, "vkdose: waiting for the process that writes into {}\n", folder.string());
+}
+
+void SweepDisplay::finish(const SweepFolder& folder, const SweepOutcome& outcome) {
+    close();
+    const std::string again =
+        fmt::format("vkdose {} {} --out {}", command_, study_.file.string(), folder.path().string());
+    if (!outcome.whole)
+        fmt::print(stderr, "vkdose: interrupted; go on with `{}`\n", again);
+    else if (outcome.failed > 0)
+        fmt::print(stderr, "vkdose: {} members failed; run them again with `{} --retry-failed`\n", outcome.failed,
+                   again);
+    if (quiet_) return;
+    fmt::print("{} done, {} failed\noutput   {}\n", outcome.ok, outcome.failed, folder.path().string());
+}
+
+void SweepDisplay::close() {
+    if (open_) fmt::print(stderr, "\n");
+    open_ = false;
+}
+
+}  // namespace vkdose

@@ -1,0 +1,46 @@
+#pragma once
+// What a sweep tells as it goes: a line for every member that ends, and how far the whole study is.
+
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include "host/study/sweep.h"
+
+namespace vkdose {
+
+class SweepDisplay : public SweepObserver {
+  public:
+    /// `command`: by what it goes on. `quiet`: only what went wrong.
+    SweepDisplay(std::string command, const Study& study, bool quiet);
+    ~SweepDisplay() override;
+    SweepDisplay(const SweepDisplay&) = delete;
+    SweepDisplay& operator=(const SweepDisplay&) = delete;
+
+    void begin(const std::vector<Member>& members, int jobs);
+    void onMember(const Member& member, const MemberResult& result) override;
+    void onProgress(const SweepProgress& progress) override;
+    void onBusy(const std::filesystem::path& folder) override;
+    /// How it ended, and how to go on.
+    void finish(const SweepFolder& folder, const SweepOutcome& outcome);
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    void close();
+
+    std::string command_;
+    const Study& study_;
+    bool quiet_;
+    bool terminal_;
+    bool open_ = false;  ///< the progress stands on the current line
+    Clock::time_point start_ = Clock::now();
+    Clock::time_point last_ = start_;
+};
+
+/// "contact.friction 0.5, seed 2"
+std::string memberText(const Study& study, const Member& member);
+
+/// A line for every member, and what they come to.
+std::string membersText(const Study& study, const std::vector<Member>& members);
+
+}  // namespace vkdose

@@ -1,0 +1,50 @@
+#include <fmt/format.h>
+
+#include "host/app/commands.h"
+#include "host/app/exit_code.h"
+#include "host/output/csv.h"
+#include "host/report/page.h"
+#include "host/report/run_report.h"
+#include "host/report/study_report.h"
+
+namespace vkdose {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// The folder to report on: the one named, or, for a study's file, the one that `vkdose sweep` writes by default.
+fs::path folderOf(const fs::path& source) {
+    if (!fs::is_regular_file(source)) return source;
+    fs::path folder = fs::path("out") / source.stem();
+    if (!fs::is_directory(folder))
+        throw UsageError(fmt::format("report {}: there is no folder {}; name the sweep's output folder",
+                                     source.string(), folder.string()));
+    return folder;
+}
+
+void requireFolder(const fs::path& folder) {
+    if (!fs::is_directory(folder)) throw UsageError(fmt::format("report: there is no folder {}", folder.string()));
+    if (!report::isSweep(folder) && !fs::exists(folder / "case.toml"))
+        throw UsageError(fmt::format("report: {} holds neither a run nor a sweep", folder.string()));
+}
+
+}  // namespace
+
+int reportCommand(const ReportOptions& options) {
+    const fs::path folder = folderOf(options.source);
+    requireFolder(folder);
+    const bool sweep = report::isSweep(folder);
+    if (sweep && options.experiment)
+        throw UsageError("report: --experiment belongs to the report of a run; this is a sweep");
+    if (!sweep && options.expected)
+        throw UsageError("report: --expected belongs to the report of a sweep; this is a run");
+    const report::Json data =
+        sweep ? report::studyJson(folder, options.expected) : report::runJson(folder, options.experiment);
+    const fs::path file = options.out.empty() ? folder / "report.html" : options.out;
+    replaceFile(file, report::page(data));
+    fmt::print("{}\n", file.string());
+    return kOk;
+}
+
+}  // namespace vkdose

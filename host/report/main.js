@@ -1,0 +1,25 @@
+// Draws the page from its data; a fault is told on the page, where a test or a reader finds it.
+
+try {
+  const report = JSON.parse(document.getElementById("data").textContent);
+  const main = document.querySelector("main");
+  add(main, "h1", report.name);
+  if (report.reason) add(main, "p", report.reason, "reason");
+  (report.kind === "run" ? runPage : studyPage)(main, report);
+  // The first charts were drawn before their neighbours took their part of the width.
+  const draw = width => drawings.forEach(again => again(width));
+  draw();
+  let waiting = 0;
+  window.addEventListener("resize", () => {
+    cancelAnimationFrame(waiting);
+    waiting = requestAnimationFrame(() => draw());
+  });
+  window.addEventListener("beforeprint", () => draw(kPaperWidth));
+  window.addEventListener("afterprint", () => draw());
+  document.documentElement.dataset.state = "ready";
+} catch (error) {
+  const fault = document.getElementById("fault");
+  fault.textContent = `The report could not be drawn: ${error}`;
+  fault.hidden = false;
+  document.documentElement.dataset.state = "failed";
+}

@@ -1,0 +1,15 @@
+# The parts of a report's page as C++ strings, report/parts.h in the build folder. D3 and its licence are Debian's.
+find_file(D3_SCRIPT d3.min.js PATHS /usr/share/javascript/d3 REQUIRED)
+find_file(D3_LICENCE copyright PATHS /usr/share/doc/libjs-d3 NO_DEFAULT_PATH REQUIRED)
+
+set(parts "")
+foreach(part Page:page.html Style:page.css Charts:charts.js Run:run.js Study:study.js Main:main.js
+        D3:${D3_SCRIPT} Licence:${D3_LICENCE})
+  string(REGEX MATCH "^([^:]*):(.*)$" unused ${part})
+  set(name ${CMAKE_MATCH_1})
+  get_filename_component(file ${CMAKE_MATCH_2} ABSOLUTE BASE_DIR ${CMAKE_CURRENT_LIST_DIR})
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
+  file(READ ${file} text)
+  string(APPEND parts "inline constexpr char k${name}[] = R\"_part_(${text})_part_\";\n")
+endforeach()
+file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/report/parts.h CONTENT "#pragma once\n\nnamespace vkdose::report::parts {\n\n\${parts}\n}\n")

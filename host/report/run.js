@@ -1,0 +1,88 @@
+// The page of a run.
+
+const gram = 1e3, milli = 1e3;
+const zip = (x, y, scale) => x.map((t, i) => [t, isNumber(y[i]) ? y[i] * scale : null]);
+
+function facts(main, list) {
+  const box = add(main, "dl", null, "facts");
+  list.forEach(fact => {
+    const row = add(box, "div");
+    add(row, "dt", fact.name);
+    const value = add(row, "dd", fact.value);
+    if (fact.note) add(value, "small", fact.note);
+  });
+}
+
+function doseCharts(parent, run) {
+  const d = run.doses, e = run.experiment;
+  const complete = d.dose.map((n, i) => i).filter(i => d.complete[i] === 1);
+  const at = values => complete.map(i => [d.dose[i], values[i] * gram]);
+  const closed = complete.filter(i => d.closed_form_mass_kg[i] > 0);
+  const measured = {name: "simulation", colour: "var(--s0)", dots: true};
+  const predicted = {name: "closed form", colour: "var(--s7)", dash: "6 4"};
+  const balance = e && {name: `experiment (${e.name})`, colour: "var(--s1)", dots: true, hollow: true};
+  const whole = {label: "dose", whole: true, from: 0.5, to: Math.max(d3.max(d.dose) || 1, e ? d3.max(e.dose) : 1) + 0.5};
+
+  const ideal = closed.map(i => [d.dose[i], Math.min(run.filled_mass_kg, d.closed_form_mass_kg[i] * d.dose[i]) * gram]);
+  chart(parent, {
+    title: "Cumulative dosed mass", x: whole, y: {label: "g"},
+    level: {value: run.beta_below_kg * gram, name: `β is taken below ${short(run.beta_below_kg * gram)} g`},
+    series: [Object.assign({points: at(d.cumulative_mass_kg)}, measured), Object.assign({points: ideal}, predicted)]
+      .concat(e ? [Object.assign({points: zip(e.dose, e.cumulative_mass_kg, gram)}, balance)] : []),
+  });
+  chart(parent, {
+    title: "Mass per dose", x: whole, y: {label: "g"},
+    series: [Object.assign({points: at(d.mass_kg)}, measured),
+             Object.assign({points: closed.map(i => [d.dose[i], d.closed_form_mass_kg[i] * gram])}, predicted)]
+      .concat(e ? [Object.assign({points: zip(e.dose, e.mass_kg, gram)}, balance)] : []),
+  });
+}
+
+function timeCharts(parent, run) {
+  const s = run.series, turning = "Shaded: the coil turns; numbered by dose.";
+  const time = {label: "time [s]", from: 0, to: d3.max(s.time_s)};
+  const curve = (title, unit, name, values, scale, colour, note) => chart(parent, {
+    title, x: time, y: {label: unit, scaledFrom: run.rotations.length > 0 ? run.rotations[0][0] : null}, bands: run.rotations, note: note || turning,
+    series: [{name, points: zip(s.time_s, values, scale), colour, thin: true}],
+  });
+  curve("Torque of the drive", "mN m", "mean between two lines of the time series", s.coil_torque_Nm, milli, "var(--s0)");
+  curve("Power of the drive", "mW", "torque times speed", s.coil_power_W, milli, "var(--s3)");
+  curve("Outlet velocity", "mm/s", "mean v_z of the mass in the throat", s.outlet_velocity_m_s, milli, "var(--s2)",
+        turning + " No curve where the throat is empty; what falls out while settling may leave the frame.");
+
+  let below = s.time_s.map(() => 0);
+  const layers = [["dosed", s.dosed_mass_kg, "var(--s0)"], ["throat", s.throat_mass_kg, "var(--s4)"],
+                  ["canister", s.canister_mass_kg, "var(--s2)"], ["lost", s.lost_mass_kg, "var(--s6)"]]
+    .filter(([name, values]) => name !== "lost" || d3.max(values) > 0)
+    .map(([name, values, colour]) => {
+      const points = s.time_s.map((t, i) => [t, below[i] + values[i] * gram, below[i]]);
+      below = points.map(p => p[1]);
+      return {name, points, colour, area: true};
+    });
+  chart(parent, {title: "Where the powder is", x: time, y: {label: "g"}, series: layers,
+                 note: "The ledger: together always what was filled."});
+}
+
+function doseTable(main, d) {
+  const g = x => (isNumber(x) ? (x * gram).toFixed(3) : "");
+  table(main, [["dose", true], ["begins at [s]", true], ["mass [g]", true], ["cumulative [g]", true], ["particles", true],
+               ["torque [mN m]", true], ["closed form [g]", true], ["", false]],
+        d.dose.map((n, i) => [n, short(d.start_time_s[i]), g(d.mass_kg[i]), g(d.cumulative_mass_kg[i]), d.particles[i],
+                              g(d.coil_torque_Nm[i]), g(d.closed_form_mass_kg[i]),
+                              d.complete[i] === 1 ? "" : "incomplete, in no statistics"]));
+}
+
+function runPage(main, run) {
+  facts(main, run.facts);
+  add(main, "h2", "Charts");
+  const charts = add(main, "div", null, "charts");
+  if (run.doses.dose.length > 0) doseCharts(charts, run);
+  if (run.series.time_s.length > 1) timeCharts(charts, run);
+  if (run.doses.dose.length > 0) {
+    add(main, "h2", "Doses");
+    doseTable(main, run.doses);
+  }
+  const details = add(main, "details");
+  add(details, "summary", "The case, with every default");
+  add(details, "pre", run.case);
+}

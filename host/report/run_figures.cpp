@@ -1,0 +1,171 @@
+#include "host/report/run_figures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/analysis/blockage.h"
+#include "host/analysis/density.h"
+#include "host/analysis/emptying.h"
+#include "host/analysis/work.h"
+
+namespace vkdose::report {
+
+namespace {
+
+class Facts {
+  public:
+    explicit Facts(const RunSources& run) : run_(run), filled_(filledMass(run)) {}
+
+    Json list() {
+        how();
+        masses();
+        emptying();
+        drive();
+        outlet();
+        bed();
+        return std::move(list_);
+    }
+
+  private:
+    void add(const std::string& name, const std::string& value, const std::string& note = "") {
+        list_.push_back({{"name", name}, {"value", value}, {"note", note}});
+    }
+
+    void how() {
+        const Json& s = run_.summary;
+        add("fill", fmt::format("{:.3f} g", filled_ * 1e3), fmt::format("seed {}", run_.c.seed));
+        if (!s.is_object()) {
+            add("state", "still running, or ended without a summary", "the figures are those so far");
+            return;
+        }
+        if (s.contains("stop_sentence")) add("ended", s.value("stop_sentence", std::string()));
+        if (s.contains("error") && s["error"].is_string()) add("error", s["error"].get<std::string>());
+        if (s.contains("backend")) add("computed on", s.value("backend", std::string()));
+    }
+
+    void masses() {
+        const DoseStatistics s = statistics(run_.doses);
+        if (s.doses > 0) add("complete doses", fmt::format("{}", s.doses));
+        if (s.doses > 1)
+            add("mass per dose", fmt::format("{:.3f} g, standard deviation {:.3f} g", s.mean * 1e3, s.deviation * 1e3),
+                fmt::format("RSD {:.1f} %", s.relative * 100));
+        else if (s.doses == 1)
+            add("mass per dose", fmt::format("{:.3f} g", s.mean * 1e3), "one dose: no standard deviation");
+        const DosingFigures f = figuresOf(run_.doses, filled_);
+        if (f.beta.doses > 1) {
+            const std::string error =
+                f.beta.doses > 2 ? fmt::format(" ± {:.3f}", f.beta.standardError * 1e3) : std::string();
+            add("β", fmt::format("{:.3f}{} g/dose", f.beta.beta * 1e3, error),
+                fmt::format("slope over {} doses with less than {:.3g} g out", f.beta.doses,
+                            f.window.cumulativeBelow * 1e3));
+        }
+        if (!run_.doses.empty() && run_.doses.front().closedForm > 0)
+            add("closed form", fmt::format("{:.3f} g/dose", run_.doses.front().closedForm * 1e3),
+                fmt::format("ρ_b p π r_c² n_t with ρ_b = {:.4g} kg/m³", run_.c.bulkDensity));
+    }
+
+    void emptying() {
+        std::vector<double> dosed;
+        for (const Dose& d : run_.doses)
+            if (d.complete) dosed.push_back(d.mass);
+        if (dosed.empty()) return;
+        const DosingFigures f = figuresOf(run_.doses, filled_);
+        const auto say = [&](const std::string& name, std::optional<int> dose, const std::string& note) {
+            add(name, dose ? fmt::format("after dose {}", *dose) : "not reached", note);
+        };
+        say("99 % of the fill out", f.dosesTo99, "");
+        StopRule rule;
+        say("experiment's stop rule", dosesToRule(dosed, filled_, rule), "three doses together give at most 0.15 g");
+        rule.kind = StopRule::Kind::Simulation;
+        say("simulation's stop rule", dosesToRule(dosed, filled_, rule), "three doses give nothing");
+        add("blocked", f.blocked ? fmt::format("from dose {} on", *f.blocked) : "no",
+            "three doses give at most 0.15 g, with more than 1 % of the fill inside");
+    }
+
+    void drive() {
+        const DriveWork w = driveWork(run_.series.column("coil_angle_rad"), run_.series.column("coil_torque_Nm"));
+        if (!(w.turns > 0)) return;
+        const double dosed = run_.series.number(run_.series.rows() - 1, "dosed_mass_kg");
+        add("mass per turn of the coil", fmt::format("{:.4g} g", w.massPerTurn(dosed) * 1e3),
+            fmt::format("{:.4g} turns", w.turns));
+        add("work of the drive", fmt::format("{:.4g} mJ", w.work * 1e3),
+            w.work > 0 ? fmt::format("{:.4g} g/J", w.massPerJoule(dosed) * 1e3) : "");
+    }
+
+    /// Means by time; what the throat's few particles do while it is nearly empty counts like the rest.
+    void outlet() {
+        double turning = 0, turns = 0, peak = 0, lowest = 0;
+        for (std::size_t i = 0; i < run_.series.rows(); ++i) {
+            const double v = run_.series.number(i, "outlet_velocity_m_s");
+            if (std::isnan(v) || run_.series.text(i, "phase") != "rotate") continue;
+            turning += v;
+            ++turns;
+            peak = std::max(peak, v);
+            lowest = std::min(lowest, v);
+        }
+        if (turns > 0)
+            add("outlet velocity, coil turning", fmt::format("{:.3g} mm/s", turning / turns * 1e3),
+                fmt::format("from {:.3g} to {:.3g} mm/s", lowest * 1e3, peak * 1e3));
+        const std::vector<double> overlap = run_.series.column("max_overlap_ratio");
+        if (!overlap.empty())
+            add("deepest overlap",
+                fmt::format("{:.3g} of the smaller radius", *std::max_element(overlap.begin(), overlap.end())));
+    }
+
+    void bed() {
+        if (!run_.particles || !run_.c.canister) return;
+        const World& w = run_.c.world;
+        const geometry::Coil* coil = w.coil ? &*w.coil : nullptr;
+        if (const auto d = bedDensity(*run_.particles, w.density, *run_.c.canister, coil))
+            add("bulk density of the bed, at the end", fmt::format("{:.4g} kg/m³", d->density),
+                fmt::format("over {:.3g} cm³, a mean diameter from walls, coil and surface", d->volume * 1e6));
+        if (!coil) return;
+        if (const auto d = coilDensity(*run_.particles, w.density, *run_.c.canister, *coil))
+            add("bulk density between the turns, at the end", fmt::format("{:.4g} kg/m³", d->density),
+                "wherever powder lies above; voids under arches included");
+        const double last = run_.c.canister->length - coil->pitch;
+        if (const auto d = coilDensity(*run_.particles, w.density, *run_.c.canister, *coil, last)) {
+            const double turns = run_.c.schedule.coilSpeed * run_.c.schedule.rotateTime / (2 * kPi);
+            add("the same, in the last turn before the outlet", fmt::format("{:.4g} kg/m³", d->density),
+                fmt::format("closed form with it: {:.3f} g/dose", closedFormMass(d->density, *coil, turns) * 1e3));
+        }
+        if (const auto arch = archAbove(*coil, *run_.c.canister, *run_.particles))
+            add("arch over the coil, at the end", fmt::format("{:.3g} mm high", arch->height * 1e3),
+                fmt::format("at z = {:.3g} mm; voids over {:.3g} mm of the coil", arch->z * 1e3, arch->length * 1e3));
+        else
+            add("arch over the coil, at the end", "none");
+    }
+
+    const RunSources& run_;
+    double filled_;
+    Json list_ = Json::array();
+};
+
+}  // namespace
+
+Particles readEndState(const std::filesystem::path& file) {
+    const Table table = Table::read(file);
+    Particles p;
+    for (std::size_t i = 0; i < table.rows(); ++i) {
+        p.add({table.number(i, "x_m"), table.number(i, "y_m"), table.number(i, "z_m")}, table.number(i, "radius_m"));
+        const std::string& status = table.text(i, "status");
+        if (status != "active") p.status.back() = status == "dosed" ? Status::Dosed : Status::Lost;
+    }
+    return p;
+}
+
+double filledMass(const RunSources& run) {
+    if (run.series.rows() == 0) return run.c.filling.mass;
+    double sum = 0;
+    for (const char* name : {"dosed_mass_kg", "canister_mass_kg", "throat_mass_kg", "lost_mass_kg"})
+        sum += run.series.number(0, name);
+    return sum;
+}
+
+Json runFacts(const RunSources& run) {
+    return Facts(run).list();
+}
+
+}  // namespace vkdose::report

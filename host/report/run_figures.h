@@ -1,0 +1,29 @@
+#pragma once
+// The table of figures at the head of a run's report.
+
+#include "host/analysis/figures.h"
+#include "host/model/case.h"
+#include "host/report/run_report.h"
+#include "host/report/table.h"
+
+namespace vkdose::report {
+
+struct RunSources {
+    const Case& c;
+    const Table& series;
+    std::vector<Dose> doses;
+    Json summary;                        ///< null while the run goes on
+    std::optional<Particles> particles;  ///< the end state
+};
+
+/// The particles of a run's particles.csv; dosed and lost ones with their status.
+Particles readEndState(const std::filesystem::path& file);
+
+/// What the canister held at the start [kg], from the first line of the time series.
+double filledMass(const RunSources& run);
+
+/// [{"name", "value", "note"}, ...]: what is shown, with unit and, where a rule decides, the rule. Figures that the run
+/// is too short for are left out.
+Json runFacts(const RunSources& run);
+
+}  // namespace vkdose::report

@@ -1,0 +1,163 @@
+#include "host/report/run_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <numeric>
+#include <sstream>
+
+#include "host/core/error.h"
+#include "host/model/case.h"
+#include "host/report/run_figures.h"
+#include "host/report/table.h"
+
+namespace vkdose::report {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::size_t kMostLines = 5000;
+
+std::string readText(const fs::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    std::ostringstream text;
+    text << stream.rdbuf();
+    if (!stream) throw CaseError({{file.string(), 0, "", "", "cannot be read", "give the output folder of a run"}});
+    return text.str();
+}
+
+std::vector<Dose> readDoses(const Table& table) {
+    std::vector<Dose> doses;
+    for (std::size_t i = 0; i < table.rows(); ++i) {
+        Dose d;
+        d.index = static_cast<int>(table.number(i, "dose"));
+        d.startTime = table.number(i, "start_time_s");
+        d.mass = table.number(i, "mass_kg");
+        d.cumulative = table.number(i, "cumulative_mass_kg");
+        d.particles = static_cast<std::uint64_t>(table.number(i, "particles"));
+        d.coilTorque = table.number(i, "coil_torque_Nm");
+        d.closedForm = table.number(i, "closed_form_mass_kg");
+        d.complete = table.number(i, "complete") != 0;
+        doses.push_back(d);
+    }
+    return doses;
+}
+
+/// Values in groups of `size`: the mean of those that are numbers, or the last.
+std::vector<double> thinned(const std::vector<double>& values, std::size_t size, bool mean) {
+    std::vector<double> few;
+    for (std::size_t i = 0; i < values.size(); i += size) {
+        const std::size_t end = std::min(i + size, values.size());
+        double sum = 0, count = 0;
+        for (std::size_t j = i; j < end; ++j)
+            if (!std::isnan(values[j])) sum += values[j], ++count;
+        few.push_back(mean ? sum / count : values[end - 1]);  // 0/0: NaN, as it should be
+    }
+    return few;
+}
+
+Json seriesJson(const Table& series) {
+    const std::size_t size = (series.rows() + kMostLines - 1) / kMostLines;
+    Json j;
+    for (const char* name : {"time_s", "dosed_mass_kg", "canister_mass_kg", "throat_mass_kg", "lost_mass_kg"})
+        j[name] = numbers(thinned(series.column(name), std::max<std::size_t>(size, 1), false));
+    for (const char* name : {"outlet_velocity_m_s", "coil_torque_Nm", "coil_power_W"})
+        j[name] = numbers(thinned(series.column(name), std::max<std::size_t>(size, 1), true));
+    return j;
+}
+
+/// When the coil turned: [begin, end] [s] for each dose. A line's phase is that of the time since the line before.
+Json rotations(const Table& series) {
+    Json list = Json::array();
+    double before = 0;
+    bool turning = false;
+    for (std::size_t i = 0; i < series.rows(); ++i) {
+        const double time = series.number(i, "time_s");
+        const bool turns = series.text(i, "phase") == "rotate";
+        if (turns && !turning) list.push_back({before, time});
+        if (turns) list.back()[1] = time;
+        turning = turns;
+        before = time;
+    }
+    return list;
+}
+
+/// The summary; null if there is none, or only that of an interruption after which the run went on.
+Json readSummary(const fs::path& folder, const Table& series) {
+    const fs::path file = folder / "summary.json";
+    if (!fs::exists(file)) return nullptr;
+    const Json summary = Json::parse(readText(file), nullptr, false);
+    if (!summary.is_object()) throw CaseError({{file.string(), 0, "", "", "is not a summary", "run the case again"}});
+    const Json& time = summary.value("simulated_time_s", Json());
+    constexpr double kRounding = 1e-8;  // the time series has nine digits
+    const bool later = time.is_number() && series.rows() > 0 &&
+                       series.number(series.rows() - 1, "time_s") > time.get<double>() * (1 + kRounding);
+    return later ? Json(nullptr) : summary;
+}
+
+Json dosesJson(const Table& table, const std::vector<Dose>& doses) {
+    Json j;
+    for (const std::string& name : table.names()) j[name] = numbers(table.column(name));
+    std::vector<int> complete;
+    for (const Dose& d : doses) complete.push_back(d.complete ? 1 : 0);
+    j["complete"] = complete;
+    return j;
+}
+
+}  // namespace
+
+Json number(double x) {
+    return std::isfinite(x) ? Json(x) : Json(nullptr);
+}
+
+Json numbers(std::span<const double> values) {
+    Json list = Json::array();
+    for (const double x : values) list.push_back(number(x));
+    return list;
+}
+
+Json experimentJson(const fs::path& file) {
+    const Table table = Table::read(file, LastLine::Whole);
+    const bool cumulative = table.has("cumulative_g");
+    std::vector<double> masses = table.column(cumulative ? "cumulative_g" : "mass_g");
+    for (double& m : masses) m *= 1e-3;
+    std::vector<double> other = masses;
+    if (cumulative)
+        std::adjacent_difference(masses.begin(), masses.end(), other.begin());
+    else
+        std::partial_sum(masses.begin(), masses.end(), other.begin());
+    Json j;
+    j["name"] = file.filename().string();
+    j["dose"] = numbers(table.column("dose"));
+    j["mass_kg"] = numbers(cumulative ? other : masses);
+    j["cumulative_mass_kg"] = numbers(cumulative ? masses : other);
+    return j;
+}
+
+Json runJson(const fs::path& folder, const std::optional<fs::path>& experiment) {
+    const Case c = loadResolvedCase(readText(folder / "case.toml"), folder / "case.toml");
+    const Table series = Table::read(folder / "timeseries.csv");
+    const Table doseTable = Table::read(folder / "doses.csv");
+    RunSources sources{c, series, readDoses(doseTable), readSummary(folder, series), {}};
+    if (sources.summary.is_object() && fs::exists(folder / "particles.csv"))
+        sources.particles = readEndState(folder / "particles.csv");
+
+    Json j;
+    j["kind"] = "run";
+    j["name"] = c.name;
+    j["reason"] = c.reason;
+    j["facts"] = runFacts(sources);
+    j["doses"] = dosesJson(doseTable, sources.doses);
+    j["series"] = seriesJson(series);
+    j["rotations"] = rotations(series);
+    j["beta_below_kg"] = number(figuresOf(sources.doses, filledMass(sources)).window.cumulativeBelow);
+    j["filled_mass_kg"] = number(filledMass(sources));
+    j["experiment"] = experiment ? experimentJson(*experiment) : Json(nullptr);
+    j["case"] = c.resolved;
+    return j;
+}
+
+}  // namespace vkdose::report

@@ -1,0 +1,26 @@
+#pragma once
+// What a report says of one run: the figures and curves in its output folder.
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
+
+namespace vkdose::report {
+
+using Json = nlohmann::ordered_json;
+
+/// The balance's readings of an experiment: a CSV with the column `dose` and one of `mass_g`, `cumulative_g`. As
+/// columns dose, mass_kg and cumulative_kg. Throws CaseError if it cannot be read.
+Json experimentJson(const std::filesystem::path& file);
+
+/// Everything that the page of a run shows, in SI, from the folder of a run that is over or still goes on. Arrays carry
+/// the names of the CSV columns they come from; a time series of more than 5000 lines is thinned out. Throws CaseError
+/// if the folder holds no run or one of its files is damaged.
+Json runJson(const std::filesystem::path& folder, const std::optional<std::filesystem::path>& experiment);
+
+/// JSON knows no NaN and no infinity: null.
+Json number(double x);
+Json numbers(std::span<const double> values);
+
+}  // namespace vkdose::report

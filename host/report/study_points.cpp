@@ -1,0 +1,204 @@
+#include "host/report/study_points.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/report/toml_values.h"
+
+namespace vkdose::report {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Columns of members.csv that are averaged over the seeds.
+constexpr const char* kOutputs[] = {"doses",       "dosed_mass_kg",          "mean_dose_kg",   "sd_dose_kg",
+                                    "rsd",         "beta_kg_per_dose",       "coil_torque_Nm", "doses_to_99_percent",
+                                    "wall_time_s", "closed_form_kg_per_dose"};
+
+std::vector<std::string> axisColumns(const Table& members) {
+    std::vector<std::string> names;
+    bool within = false;
+    for (const std::string& name : members.names()) {
+        if (name == "status") break;
+        if (within) names.push_back(name);
+        within = within || name == "seed";
+    }
+    return names;
+}
+
+/// Members that belong together, and what is gathered of them.
+struct Gathering {
+    StudyPoint result;
+    std::map<std::string, std::vector<double>> outputs;
+    std::vector<double> betaErrors;
+    std::vector<std::vector<double>> doses, cumulative;  ///< [dose][member]
+};
+
+struct MemberDoses {
+    std::vector<double> mass, cumulative;
+};
+
+std::map<int, MemberDoses> readDoses(const fs::path& file) {
+    std::map<int, MemberDoses> members;
+    if (!fs::exists(file)) return members;
+    const Table table = Table::read(file);
+    for (std::size_t i = 0; i < table.rows(); ++i) {
+        if (table.number(i, "complete") == 0) continue;
+        MemberDoses& m = members[static_cast<int>(table.number(i, "member"))];
+        m.mass.push_back(table.number(i, "mass_kg"));
+        m.cumulative.push_back(table.number(i, "cumulative_mass_kg"));
+    }
+    return members;
+}
+
+void addDoses(const std::vector<double>& values, std::vector<std::vector<double>>& lists) {
+    if (lists.size() < values.size()) lists.resize(values.size());
+    for (std::size_t i = 0; i < values.size(); ++i) lists[i].push_back(values[i]);
+}
+
+class PointReader {
+  public:
+    PointReader(const fs::path& folder, const StudyHead& head, const Table& members)
+        : folder_(folder), head_(head), members_(members), doses_(readDoses(folder / "doses.csv")) {
+        for (const char* name : {"base.toml", "study.toml"}) {
+            if (!fs::exists(folder / name)) continue;
+            const toml::table root = parseToml(folder / name);
+            const toml::table* set = std::string(name) == "study.toml" ? root["set"].as_table() : &root;
+            if (set) merge(settingsOf(*set));
+        }
+    }
+
+    std::vector<StudyPoint> read() {
+        for (std::size_t row = 0; row < members_.rows(); ++row) take(row, gatheringOf(row));
+        std::vector<StudyPoint> points;
+        for (Gathering& g : gatherings_) points.push_back(finish(g));
+        return points;
+    }
+
+  private:
+    void merge(const std::map<std::string, Setting>& settings) {
+        for (const auto& [key, value] : settings) common_[key] = value;
+    }
+
+    Gathering& gatheringOf(std::size_t row) {
+        std::string label;
+        std::vector<Point::Place> places;
+        for (const std::vector<std::string>& keys : head_.axes) {
+            Point::Place place{keys, ""};
+            for (const std::string& key : keys)
+                place.label += (place.label.empty() ? "" : ", ") + members_.text(row, key);
+            label += place.label + "\n";
+            places.push_back(place);
+        }
+        const auto found = byLabel_.find(label);
+        if (found != byLabel_.end()) return gatherings_[found->second];
+        byLabel_[label] = gatherings_.size();
+        Gathering& fresh = gatherings_.emplace_back();
+        fresh.result.point.places = places;
+        fresh.result.point.keys = keysOf(row);
+        return fresh;
+    }
+
+    std::map<std::string, Setting> keysOf(std::size_t row) const {
+        std::map<std::string, Setting> keys = common_;
+        const fs::path resolved =
+            folder_ / "members" / fmt::format("{:04}", static_cast<int>(members_.number(row, "member"))) / "case.toml";
+        if (fs::exists(resolved))
+            for (const auto& [key, value] : settingsOf(parseToml(resolved))) keys[key] = value;
+        for (const std::vector<std::string>& axis : head_.axes)
+            for (const std::string& key : axis) keys[key] = settingOf(members_.text(row, key));
+        return keys;
+    }
+
+    void take(std::size_t row, Gathering& g) {
+        const std::string status = members_.text(row, "status");
+        if (status == "failed") {
+            ++g.result.failed;
+            const std::string error = members_.text(row, "error");
+            std::vector<std::string>& errors = g.result.errors;
+            if (!error.empty() && std::find(errors.begin(), errors.end(), error) == errors.end())
+                errors.push_back(error);
+        }
+        if (status != "ok") return;
+        ++g.result.finished;
+        const auto doses = doses_.find(static_cast<int>(members_.number(row, "member")));
+        const MemberDoses none, &own = doses == doses_.end() ? none : doses->second;
+        addDoses(own.mass, g.doses);
+        addDoses(own.cumulative, g.cumulative);
+        for (const char* name : kOutputs)
+            if (members_.has(name)) g.outputs[name].push_back(members_.number(row, name));
+        const Slope slope = betaOf(own.cumulative);
+        std::vector<double>& betas = g.outputs["beta_kg_per_dose"];
+        if (!members_.has("beta_kg_per_dose")) betas.push_back(slope.beta);
+        if (std::isnan(betas.back())) betas.back() = slope.beta;
+        const bool known = members_.has("beta_standard_error_kg_per_dose");
+        const double error = known ? members_.number(row, "beta_standard_error_kg_per_dose") : std::nan("");
+        g.betaErrors.push_back(std::isnan(error) ? slope.standardError : error);
+    }
+
+    static StudyPoint finish(Gathering& g) {
+        StudyPoint p = std::move(g.result);
+        for (const auto& [name, values] : g.outputs) {
+            const Estimate e = estimateOf(values);
+            p.point.outputs[name] = {e.mean, e.standardError};
+        }
+        const Estimate beta = estimateOf(g.outputs["beta_kg_per_dose"]);
+        p.beta = beta.mean;
+        p.errorOverSeeds = beta.count > 1;
+        p.betaError = beta.count == 1 ? estimateOf(g.betaErrors).mean : beta.standardError;
+        p.point.outputs["beta_kg_per_dose"] = {p.beta, p.betaError};
+        p.closedForm = estimateOf(g.outputs["closed_form_kg_per_dose"]).mean;
+        for (const auto& masses : g.doses) p.doses.push_back(estimateOf(masses));
+        for (const auto& masses : g.cumulative)  // a mean over fewer members than began would be another curve
+            if (masses.size() == g.cumulative.front().size()) p.point.cumulative.push_back(estimateOf(masses).mean);
+        return p;
+    }
+
+    const fs::path folder_;
+    const StudyHead& head_;
+    const Table& members_;
+    std::map<int, MemberDoses> doses_;
+    std::map<std::string, Setting> common_;
+    std::vector<Gathering> gatherings_;
+    std::map<std::string, std::size_t> byLabel_;
+};
+
+}  // namespace
+
+StudyHead readHead(const fs::path& folder, const Table& members) {
+    StudyHead head{folder.filename().string(), "", {}, std::nan("")};
+    const std::vector<std::string> columns = axisColumns(members);
+    std::vector<std::string> left = columns;
+    if (fs::exists(folder / "study.toml")) {
+        const toml::table root = parseToml(folder / "study.toml");
+        head.name = root["name"].value_or(head.name);
+        head.reason = root["reason"].value_or(std::string());
+        head.target = root["calibrate"]["target_g_per_dose"].value_or(head.target) * 1e-3;
+        const toml::array* axes = root["axis"].as_array();
+        for (std::size_t i = 0; axes != nullptr && i < axes->size(); ++i) {
+            const toml::table* axis = axes->get(i)->as_table();
+            if (axis == nullptr) continue;
+            std::vector<std::string> keys;
+            if (const auto key = (*axis)["key"].value<std::string>()) keys.push_back(*key);
+            if (const toml::array* several = (*axis)["keys"].as_array())
+                for (const auto& key : *several) keys.push_back(key.value_or(std::string()));
+            const auto isColumn = [&](const std::string& key) {
+                return std::find(columns.begin(), columns.end(), key) != columns.end();
+            };
+            if (keys.empty() || !std::all_of(keys.begin(), keys.end(), isColumn)) continue;
+            for (const std::string& key : keys) left.erase(std::remove(left.begin(), left.end(), key), left.end());
+            head.axes.push_back(keys);
+        }
+    }
+    for (const std::string& key : left) head.axes.push_back({key});
+    return head;
+}
+
+std::vector<StudyPoint> readPoints(const fs::path& folder, const StudyHead& head, const Table& members) {
+    return PointReader(folder, head, members).read();
+}
+
+}  // namespace vkdose::report

@@ -1,0 +1,103 @@
+#include "host/report/study_report.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "host/report/study_points.h"
+#include "host/report/table.h"
+
+namespace vkdose::report {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+const char* verdictWord(Verdict::Kind kind) {
+    switch (kind) {
+        case Verdict::Kind::Matches:
+            return "matches";
+        case Verdict::Kind::Within:
+            return "within";
+        case Verdict::Kind::TrendHolds:
+            return "holds";
+        case Verdict::Kind::Contradicts:
+            return "contradicts";
+        case Verdict::Kind::NotRun:
+            return "not-run";
+        case Verdict::Kind::NotJudged:
+            return "not-judged";
+    }
+    return "not-judged";
+}
+
+Json valueJson(const Setting& s) {
+    return std::isnan(s.number) ? Json(s.text) : Json(s.number);
+}
+
+Json pointJson(const StudyPoint& p) {
+    Json at = Json::array();
+    for (const Point::Place& place : p.point.places)
+        at.push_back(place.keys.size() == 1 ? valueJson(p.point.keys.at(place.keys.front())) : Json(place.label));
+    Json doses = Json::array();
+    for (const Estimate& d : p.doses) doses.push_back({number(d.mean), number(d.standardError), d.count});
+    Json outputs;
+    for (const auto& [name, output] : p.point.outputs)
+        outputs[name] = {number(output.mean), number(output.standardError)};
+    Json j;
+    j["at"] = at;
+    j["finished"] = p.finished;
+    j["failed"] = p.failed;
+    j["errors"] = p.errors;
+    j["beta_kg_per_dose"] = number(p.beta);
+    j["beta_standard_error_kg_per_dose"] = number(p.betaError);
+    j["error_over_seeds"] = p.errorOverSeeds;
+    j["closed_form_kg_per_dose"] = number(p.closedForm);
+    j["outputs"] = outputs;
+    j["dose_mass_kg"] = doses;
+    j["cumulative_mass_kg"] = numbers(p.point.cumulative);
+    return j;
+}
+
+Json verdictsJson(const fs::path& file, const std::vector<StudyPoint>& studyPoints) {
+    std::vector<Point> points;
+    for (const StudyPoint& p : studyPoints)
+        if (p.finished > 0) points.push_back(p.point);
+    Json list = Json::array();
+    for (const Expected& e : readExpected(file)) {
+        const Verdict v = judge(e, points);
+        list.push_back({{"id", e.id},
+                        {"what", e.what},
+                        {"section", e.section},
+                        {"source", e.source},
+                        {"found", v.found},
+                        {"kind", verdictWord(v.kind)},
+                        {"verdict", v.text}});
+    }
+    return list;
+}
+
+}  // namespace
+
+bool isSweep(const fs::path& folder) {
+    return fs::exists(folder / "members.csv");
+}
+
+Json studyJson(const fs::path& folder, const std::optional<fs::path>& expected) {
+    const Table members = Table::read(folder / "members.csv");
+    const StudyHead head = readHead(folder, members);
+    const std::vector<StudyPoint> points = readPoints(folder, head, members);
+    Json j;
+    j["kind"] = "study";
+    j["name"] = head.name;
+    j["reason"] = head.reason;
+    j["axes"] = head.axes;
+    j["target_kg_per_dose"] = number(head.target);
+    j["points"] = Json::array();
+    for (const StudyPoint& p : points) j["points"].push_back(pointJson(p));
+    j["members"] = members.rows();
+    j["verdicts"] = expected ? verdictsJson(*expected, points) : Json(nullptr);
+    return j;
+}
+
+}  // namespace vkdose::report

@@ -1,0 +1,110 @@
+#include "host/study/calibration_aim.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <fstream>
+#include <optional>
+#include <stdexcept>
+
+#include "host/analysis/beta.h"
+#include "host/model/case_reader.h"
+#include "host/study/csv_table.h"
+
+namespace vkdose {
+
+namespace {
+
+/// A balance's file as someone may have written it: any order of columns, perhaps no end to the last line.
+std::vector<double> readCumulative(const std::filesystem::path& file) {
+    std::ifstream stream(file);
+    CsvTable table;
+    std::vector<double> cumulative;
+    int number = 0;
+    for (std::string line; std::getline(stream, line);) {
+        ++number;
+        if (!line.empty() && line.back() == '\r') line.pop_back();
+        if (line.empty()) continue;
+        const Row row = csvFields(line);
+        if (table.header.empty()) {
+            table.header = row;
+            if (!table.column("dose") || table.column("mass_g").has_value() == table.column("cumulative_g").has_value())
+                throw std::runtime_error("the header is not dose and either mass_g or cumulative_g");
+            continue;
+        }
+        const auto dose = table.number(row, "dose"), mass = table.number(row, "mass_g");
+        const auto sum = table.number(row, "cumulative_g");
+        const double before = cumulative.empty() ? 0 : cumulative.back();
+        if (dose != double(cumulative.size() + 1))
+            throw std::runtime_error(fmt::format("line {}: dose {} should come here", number, cumulative.size() + 1));
+        const double now = mass ? before + *mass * 1e-3 : sum ? *sum * 1e-3 : NAN;
+        if (!std::isfinite(now)) throw std::runtime_error(fmt::format("line {}: the mass is not a number", number));
+        cumulative.push_back(now);
+    }
+    return cumulative;
+}
+
+/// Target and, unless given, tolerance from what a balance measured.
+void readMeasured(CaseReader& reader, const std::filesystem::path& file, CalibrationAim& aim) {
+    constexpr const char* kPath = "calibrate.measured";
+    constexpr const char* kRemedy = "give a CSV with the columns dose and mass_g, or dose and cumulative_g";
+    if (!std::filesystem::is_regular_file(file)) {
+        reader.fault(kPath, fmt::format("there is no file {}", file.string()), kRemedy);
+        return;
+    }
+    try {
+        const std::vector<double> cumulative = readCumulative(file);
+        const Slope slope = betaOf(cumulative, beforeSaturation(cumulative.empty() ? 0 : cumulative.back()));
+        if (slope.doses < 3 || !(slope.beta > 0)) {
+            reader.fault(kPath, "there are too few doses before saturation for a slope", "measure at least three");
+            return;
+        }
+        aim.target = slope.beta;
+        if (aim.tolerance == 0) aim.tolerance = slope.standardError;
+    } catch (const std::runtime_error& error) {
+        reader.fault(kPath, error.what(), kRemedy);
+    }
+}
+
+FreeParameter readParameter(CaseReader& reader, Section& table, const std::string& path) {
+    FreeParameter p;
+    p.key = table.string("key");
+    p.low = table.number("low", Bound::Any, kPlain);
+    p.high = table.number("high", Bound::Any, kPlain);
+    if (p.low >= p.high) reader.fault(path + ".high", "is not above low", "give bounds with low < high");
+    return p;
+}
+
+}  // namespace
+
+CalibrationAim readCalibrationAim(CaseReader& reader, Section& table, const std::filesystem::path& folder) {
+    CalibrationAim aim;
+    const bool search = table.choice("method", {"grid", "surrogate"}, 0) == std::size_t{1};
+    aim.method = search ? CalibrationAim::Method::Surrogate : CalibrationAim::Method::Grid;
+    const bool measured = table.has("measured");
+    if (!measured || table.has("tolerance_g")) aim.tolerance = table.number("tolerance_g", Bound::Positive, kGram);
+    if (measured) {
+        if (table.has("target_g_per_dose"))
+            reader.fault("calibrate.target_g_per_dose", "the target is measured", "give this or measured, not both");
+        table.know("target_g_per_dose");
+        const std::string file = table.string("measured");
+        if (table.isString("measured")) readMeasured(reader, folder / file, aim);
+    } else {
+        aim.target = table.number("target_g_per_dose", Bound::Positive, kGram);
+        table.know("measured");
+    }
+    if (search) {
+        aim.maxRuns = int(table.integer("max_runs", 3, 30, 500));
+        const std::vector<Section*> parameters = table.tables("parameter");
+        for (std::size_t i = 0; i < parameters.size(); ++i)
+            aim.parameters.push_back(readParameter(reader, *parameters[i], fmt::format("calibrate.parameter[{}]", i)));
+        if (parameters.empty() || parameters.size() > 4)
+            reader.fault("calibrate.parameter", "a search has one to four free parameters",
+                         "add [[calibrate.parameter]] with key, low and high");
+    } else {
+        aim.along = table.string("along", "contact.kc_over_k");
+    }
+    return aim;
+}
+
+}  // namespace vkdose

@@ -1,0 +1,49 @@
+#pragma once
+// Interpolation with an uncertainty: a Gaussian process over a few dozen noisy observations.
+// Source: Rasmussen & Williams, Gaussian Processes for Machine Learning (2006), chapters 2, 4.2 and 5.4.
+
+#include <Eigen/Dense>
+#include <vector>
+
+namespace vkdose {
+
+/// What is believed of the value at a point.
+struct Belief {
+    double mean = 0;
+    double deviation = 0;  ///< of the underlying value, without the noise of another observation
+};
+
+/// A value that was measured, and its standard error; an error of 0 is one that is not known.
+struct Measured {
+    double value = 0;
+    double error = 0;
+};
+
+class GaussianProcess {
+  public:
+    /// At least two observations; coordinates in [0, 1]. Covariance: Matern 5/2, with a length for each coordinate. To
+    /// the known errors comes a noise that all observations share. Lengths, noise and the variance of the process are
+    /// the most probable ones, from the marginal likelihood and weak beliefs beforehand.
+    GaussianProcess(std::vector<std::vector<double>> points, const std::vector<Measured>& observations);
+
+    Belief at(const std::vector<double>& point) const;
+
+    const std::vector<double>& lengths() const { return lengths_; }
+
+  private:
+    Eigen::MatrixXd covariance(const std::vector<double>& logs) const;
+    double logPosterior(const std::vector<double>& logs) const;
+    std::vector<double> climbed(std::vector<double> logs) const;
+    std::vector<double> fitted() const;
+
+    std::vector<std::vector<double>> points_;
+    double mean_ = 0, scale_ = 1;  ///< of the values: below they are in units of it, from the mean
+    Eigen::VectorXd values_;
+    Eigen::VectorXd errors_;
+    std::vector<double> lengths_;
+    double variance_ = 0;  ///< of the process
+    Eigen::LLT<Eigen::MatrixXd> root_;
+    Eigen::VectorXd weights_;
+};
+
+}  // namespace vkdose

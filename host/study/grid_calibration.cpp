@@ -1,0 +1,125 @@
+#include "host/study/grid_calibration.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "host/analysis/beta.h"
+#include "host/study/seed_scatter.h"
+
+namespace vkdose {
+
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+/// What the members of a point found, a value for each seed.
+struct Found {
+    std::vector<double> beta, betaError, rsd, doses;
+};
+
+/// From seed to seed, over all points.
+struct Scatter {
+    double beta, rsd;
+};
+
+Scatter scatterOf(const std::map<Row, std::map<double, Found>>& curves) {
+    std::vector<std::vector<double>> beta, rsd;
+    for (const auto& [others, points] : curves) {
+        for (const auto& [along, found] : points) {
+            beta.push_back(found.beta);
+            rsd.push_back(found.rsd);
+        }
+    }
+    return {scatterOfSeeds(beta), scatterOfSeeds(rsd)};
+}
+
+CurvePoint pointOf(double along, const Found& found, const Scatter& scatter) {
+    CurvePoint point;
+    point.along = along;
+    const Estimate beta = estimateOf(found.beta), rsd = estimateOf(found.rsd);
+    point.beta = beta.mean;
+    point.seeds = beta.count;
+    point.rsd = rsd.mean;
+    const double root = std::sqrt(double(beta.count));
+    // Of n doses a standard deviation, and so the RSD, is known to one part in sqrt(2 (n - 1)).
+    const double single = rsd.mean / std::sqrt(2 * (found.doses.front() - 1));
+    point.betaError = std::isfinite(scatter.beta) ? scatter.beta / root : found.betaError.front();
+    point.rsdError = std::isfinite(scatter.rsd) ? scatter.rsd / root : single;
+    return point;
+}
+
+Crossing between(const CurvePoint& a, const CurvePoint& b, const CalibrationAim& aim) {
+    const double w = (aim.target - a.beta) / (b.beta - a.beta);
+    const auto blend = [w](double x, double y) { return (1 - w) * x + w * y; };
+    const auto blendErrors = [w](double x, double y) { return std::hypot((1 - w) * x, w * y); };
+    Crossing crossing;
+    crossing.along = blend(a.along, b.along);
+    const double perMass = std::abs((b.along - a.along) / (b.beta - a.beta));
+    crossing.alongError = perMass * std::hypot(blendErrors(a.betaError, b.betaError), aim.tolerance);
+    crossing.rsd = blend(a.rsd, b.rsd);
+    crossing.rsdError = blendErrors(a.rsdError, b.rsdError);
+    return crossing;
+}
+
+void findCrossings(Curve& curve, const CalibrationAim& aim) {
+    for (std::size_t i = 0; i + 1 < curve.points.size(); ++i) {
+        const CurvePoint &a = curve.points[i], &b = curve.points[i + 1];
+        // Half open, so that a point on the target counts once; the last one has nobody after it.
+        const bool endsOnIt = i + 2 == curve.points.size() && a.beta > aim.target && b.beta == aim.target;
+        if ((a.beta >= aim.target) != (b.beta >= aim.target) || endsOnIt) curve.crossings.push_back(between(a, b, aim));
+    }
+}
+
+std::optional<std::size_t> choose(const std::vector<Curve>& curves) {
+    std::optional<std::size_t> steadiest, choice;
+    const auto lowest = [&](std::size_t i) -> const Crossing& { return curves[i].crossings.front(); };
+    for (std::size_t i = 0; i < curves.size(); ++i)
+        if (!curves[i].crossings.empty() && (!steadiest || lowest(i).rsd < lowest(*steadiest).rsd)) steadiest = i;
+    for (std::size_t i = 0; steadiest && i < curves.size(); ++i) {
+        if (curves[i].crossings.empty()) continue;
+        const double more = lowest(i).rsd - lowest(*steadiest).rsd;
+        const bool asSteady = i == *steadiest || more <= std::hypot(lowest(i).rsdError, lowest(*steadiest).rsdError);
+        if (asSteady && (!choice || lowest(i).along < lowest(*choice).along)) choice = i;
+    }
+    return choice;
+}
+
+}  // namespace
+
+GridCalibration calibrateGrid(const CsvTable& members, const std::vector<std::string>& keys,
+                              const CalibrationAim& aim) {
+    GridCalibration result;
+    for (const std::string& key : keys)
+        if (key != aim.along) result.keys.push_back(key);
+    std::vector<Row> order;  // of the first member of each curve
+    std::map<Row, std::map<double, Found>> curves;
+    for (const Row& row : members.rows) {
+        Row others;
+        for (const std::string& key : result.keys) others.push_back(members.text(row, key));
+        if (curves.count(others) == 0) order.push_back(others);
+        auto& curve = curves[others];
+        const auto along = members.number(row, aim.along), beta = members.number(row, "beta_kg_per_dose");
+        if (members.text(row, "status") != "ok" || !along || !beta) {
+            ++result.leftOut;
+            continue;
+        }
+        Found& found = curve[*along];
+        found.beta.push_back(*beta);
+        found.betaError.push_back(members.number(row, "beta_standard_error_kg_per_dose").value_or(kNaN));
+        found.rsd.push_back(members.number(row, "rsd").value_or(kNaN));
+        found.doses.push_back(members.number(row, "doses").value_or(kNaN));
+    }
+    const Scatter scatter = scatterOf(curves);
+    for (const Row& others : order) {
+        Curve curve{others, {}, {}};
+        for (const auto& [along, found] : curves[others]) curve.points.push_back(pointOf(along, found, scatter));
+        findCrossings(curve, aim);
+        result.curves.push_back(std::move(curve));
+    }
+    result.choice = choose(result.curves);
+    return result;
+}
+
+}  // namespace vkdose

@@ -1,0 +1,53 @@
+#pragma once
+// The paper's calibration: mass per dose against one parameter, a curve for each value of the others, and where the
+// curves cross the measured mass per dose (section "calibration and sensitivity studies").
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/study/calibration_aim.h"
+#include "host/study/csv_table.h"
+
+namespace vkdose {
+
+/// A point of a curve: all seeds together. Its errors are the scatter from seed to seed, pooled over all points of the
+/// sweep, over the root of the number of seeds; with a single seed those of its slope and of its standard deviation
+/// (NaN if there are too few doses).
+struct CurvePoint {
+    double along = 0;      ///< value of the interpolated key
+    double beta = 0;       ///< mass per dose, mean over the seeds [kg]
+    double betaError = 0;  ///< standard error: see below [kg]
+    double rsd = 0;        ///< from dose to dose, mean over the seeds [-]
+    double rsdError = 0;   ///< likewise [-]
+    int seeds = 0;
+};
+
+/// Where a curve meets the target, by linear interpolation.
+struct Crossing {
+    double along = 0;
+    double alongError = 0;  ///< standard error: of the two points and the target; NaN if one is unknown
+    double rsd = 0;
+    double rsdError = 0;
+};
+
+struct Curve {
+    Row values;  ///< of the other keys
+    std::vector<CurvePoint> points;
+    std::vector<Crossing> crossings;  ///< by rising `along`
+};
+
+struct GridCalibration {
+    std::vector<std::string> keys;  ///< of Curve::values
+    std::vector<Curve> curves;
+    int leftOut = 0;  ///< members that failed or have no mass per dose
+    /// The curve whose lowest crossing is chosen. The paper chooses the parameters that match "and lead to the least
+    /// variability between successive doses", and of those the lowest k_c. Here: the crossings whose RSD is not above
+    /// the least one by more than the standard error of their difference, and of those the lowest.
+    std::optional<std::size_t> choice;
+};
+
+/// From the members of a sweep over `keys`, of which `aim.along` is one with numbers for values.
+GridCalibration calibrateGrid(const CsvTable& members, const std::vector<std::string>& keys, const CalibrationAim& aim);
+
+}  // namespace vkdose

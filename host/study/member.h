@@ -1,0 +1,40 @@
+#pragma once
+// The members of a study: each a case, validated before anything runs.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/study/study.h"
+
+namespace vkdose {
+
+struct Member {
+    int number = 0;  ///< from 0
+    std::uint64_t seed = 1;
+    std::vector<std::string> values;  ///< of Study::keys, as they stand in tables
+    std::string caseText;             ///< the resolved case
+    std::size_t particles = 0;
+    double expectedTime = 0;  ///< simulated time it will take by the closed forms [s]
+    double expectedWork = 0;  ///< particle-steps it will take likewise
+};
+
+/// Every combination of the axes for the first seed, the last axis fastest, then for the next seed: seeds that are
+/// appended later leave the numbers as they are. Throws CaseError with every fault of every member, each told once.
+std::vector<Member> membersOf(const Study& study);
+
+/// A member at a point of its own: a value for each of the keys, in their order. Throws CaseError.
+Member memberAt(const Study& study, int number, std::optional<std::uint64_t> seed, const std::vector<Setting>& point);
+
+/// The study at a point as the text of a case, ready to run, with the study's first seed. Throws CaseError.
+std::string caseAt(const Study& study, const std::vector<Setting>& point, const std::string& name,
+                   const std::string& reason);
+
+/// A key set to a number that no file holds; six digits.
+Setting settingOf(const Study& study, const std::string& key, double value);
+
+/// A value as it stands in a table: a string without its quotes.
+std::string tableText(const Node& value);
+
+}  // namespace vkdose

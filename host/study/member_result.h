@@ -1,0 +1,43 @@
+#pragma once
+// What became of a member, from the output folder of its run.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "host/study/csv_table.h"
+
+namespace vkdose {
+
+enum class MemberStatus { Ok, Failed, Interrupted };
+
+/// How a member's run ended: the exit code of `vkdose run` (128 + signal if it was killed), and what it said.
+struct MemberEnd {
+    int number = 0;
+    int code = 0;
+    std::string said;
+};
+
+struct MemberResult {
+    MemberStatus status = MemberStatus::Failed;
+    std::string error;
+    Row outputs;             ///< of kOutputColumns
+    std::vector<Row> doses;  ///< rows of the run's doses.csv
+};
+
+/// The columns of members.csv behind member, seed and the keys of the axes.
+extern const Row kOutputColumns;
+
+/// "ok", "failed", "interrupted".
+std::string statusText(MemberStatus status);
+
+/// What a run left in `folder`. A run that ended with 0 but left nothing readable has failed.
+MemberResult readResult(const std::filesystem::path& folder, const MemberEnd& end);
+
+/// Whether the folder holds a run that is over, so that it need not be repeated.
+bool isOver(const std::filesystem::path& folder);
+
+/// Simulated time of the last line of a run's time series [s]; 0 if there is none.
+double timeReached(const std::filesystem::path& folder);
+
+}  // namespace vkdose

@@ -1,0 +1,221 @@
+#include "host/study/study.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "host/model/case_reader.h"
+
+namespace vkdose {
+
+namespace {
+
+constexpr const char* kKeyRemedy = "give a key of the base case with its table, e.g. \"contact.friction\"";
+
+/// Faults of the key at `path` when it cannot be varied; `used` holds the keys so far.
+bool checkKey(CaseReader& reader, const std::string& path, const std::string& key, std::set<std::string>& used) {
+    if (!isKeyPath(key)) {
+        reader.fault(path, fmt::format("\"{}\" is not the path of a key", key), kKeyRemedy);
+    } else if (key == "seed") {
+        reader.fault(path, "the seed is not an axis", "give seeds = [1, 2, 3]");
+    } else if (key == "base" || key == "name" || key == "reason") {
+        reader.fault(path, fmt::format("{} cannot be varied", key), kKeyRemedy);
+    } else if (!used.insert(key).second) {
+        reader.fault(path, fmt::format("{} is given twice", key), "keep it in one place");
+    } else {
+        return true;
+    }
+    return false;
+}
+
+/// The settings in a table, with or without quotes around dotted keys.
+void readSettings(CaseReader& reader, const Node& table, const std::string& prefix, const std::string& path,
+                  std::vector<Setting>& into, std::set<std::string>& used) {
+    for (const Node& value : table.children) {
+        const std::string key = prefix.empty() ? value.key : prefix + "." + value.key;
+        if (value.kind == Node::Kind::Table) {
+            readSettings(reader, value, key, path, into, used);
+        } else if (checkKey(reader, path, key, used)) {
+            into.push_back({key, value});
+        }
+    }
+}
+
+void readSeeds(CaseReader& reader, Section& root, Study& study) {
+    constexpr const char* kRemedy = "give a list of different whole numbers >= 0, or how many: seeds = 3";
+    const Node* node = root.node("seeds");
+    if (node == nullptr) return;
+    if (node->kind == Node::Kind::Integer) {
+        if (node->integer < 1 || node->integer > std::int64_t(kMostMembers))
+            reader.fault("seeds", "is not a number of seeds", kRemedy);
+        else
+            for (std::int64_t seed = 1; seed <= node->integer; ++seed) study.seeds.push_back(std::uint64_t(seed));
+        return;
+    }
+    std::set<std::int64_t> seen;
+    bool good = node->kind == Node::Kind::Array && !node->children.empty();
+    for (const Node& seed : node->children) {
+        good = good && seed.kind == Node::Kind::Integer && seed.integer >= 0 && seen.insert(seed.integer).second;
+        study.seeds.push_back(std::uint64_t(seed.integer));
+    }
+    if (!good) reader.fault("seeds", "are not seeds", kRemedy);
+}
+
+/// The value of a range as it would have been written.
+Node rangeValue(const Node& place, double value, bool whole) {
+    Node node;
+    node.file = place.file;
+    node.line = place.line;
+    node.kind = whole ? Node::Kind::Integer : Node::Kind::Float;
+    // Twelve digits: 0.3, not 0.30000000000000004.
+    node.text = fmt::format("{:.12g}", value);
+    node.number = std::stod(node.text);
+    node.integer = whole ? std::llround(value) : 0;
+    return node;
+}
+
+void readRange(CaseReader& reader, Section& table, const std::string& path, Axis& axis) {
+    const double from = table.number("from", Bound::Any, kPlain);
+    const double to = table.number("to", Bound::Any, kPlain);
+    const std::int64_t steps = table.integer("steps", 2, std::nullopt, std::int64_t(kMostMembers));
+    const Node* first = table.node("from");
+    const Node* last = table.node("to");
+    if (axis.keys.size() > 1)
+        reader.fault(path + ".from", "a range is for a single key", "give values, a row for each point");
+    if (from == to) reader.fault(path + ".to", "the range is empty", "give another end than from");
+    if (first == nullptr || last == nullptr || !std::isfinite(from) || !std::isfinite(to)) return;
+    bool whole = first->kind == Node::Kind::Integer && last->kind == Node::Kind::Integer;
+    const auto at = [&](std::int64_t i) { return from + (to - from) * double(i) / double(steps - 1); };
+    for (std::int64_t i = 0; i < steps; ++i) whole = whole && at(i) == std::round(at(i));
+    for (std::int64_t i = 0; i < steps; ++i) axis.points.push_back({rangeValue(*first, at(i), whole)});
+}
+
+void readValues(CaseReader& reader, const Node& values, bool rows, const std::string& path, Axis& axis) {
+    if (values.kind != Node::Kind::Array || values.children.empty()) {
+        reader.fault(path, "is not a list of values", rows ? "give values = [[..., ...], ...]" : "give values = [...]");
+        return;
+    }
+    std::set<std::string> seen;
+    for (const Node& value : values.children) {
+        if (!rows) {
+            axis.points.push_back({value});
+        } else if (value.kind == Node::Kind::Array && value.children.size() == axis.keys.size()) {
+            axis.points.push_back(value.children);
+        } else {
+            reader.fault(path, fmt::format("{} is not a row of {} values", valueText(value), axis.keys.size()),
+                         "give each point a value for each of the keys, in their order");
+            return;
+        }
+        if (!seen.insert(valueText(value)).second)
+            reader.fault(path, fmt::format("{} is there twice", valueText(value)), "name every point once");
+    }
+}
+
+Axis readAxis(CaseReader& reader, Section& table, const std::string& path, std::set<std::string>& used) {
+    Axis axis;
+    const bool rows = table.has("keys");
+    if (rows && table.has("key")) reader.fault(path + ".keys", "key is there too", "give key or keys, not both");
+    const Node* keys = table.node("keys");
+    const bool single = table.has("key") || !rows;
+    if (single) axis.keys.push_back(table.string("key"));
+    if (!single && keys->kind == Node::Kind::Array)
+        for (const Node& key : keys->children) axis.keys.push_back(key.string);
+    if (axis.keys.empty()) reader.fault(path + ".keys", "is not a list of keys", kKeyRemedy);
+    if (!single || table.isString("key"))
+        for (const std::string& key : axis.keys) checkKey(reader, path + (single ? ".key" : ".keys"), key, used);
+
+    const bool range = table.has("from") || table.has("to") || table.has("steps");
+    const Node* values = table.node("values");
+    if (range && values != nullptr)
+        reader.fault(path + ".values", "there is a range too", "give values, or from, to and steps");
+    if (range)
+        readRange(reader, table, path, axis);
+    else if (values != nullptr)
+        readValues(reader, *values, !single, path + ".values", axis);
+    else
+        reader.fault(path, "has no values", "give values, or from, to and steps");
+    for (const char* key : {"from", "to", "steps"}) table.know(key);
+    return axis;
+}
+
+void checkCount(CaseReader& reader, const Study& study) {
+    double members = double(std::max<std::size_t>(1, study.seeds.size()));
+    for (const Axis& axis : study.axes) members *= double(axis.points.size());
+    if (members > double(kMostMembers))
+        reader.fault("axis", fmt::format("{:.0f} members are more than {}", members, kMostMembers),
+                     "leave out points, or make several studies of it");
+}
+
+/// A search finds its points itself; a grid interpolates along an axis of numbers.
+void checkCalibration(CaseReader& reader, const Study& study) {
+    const CalibrationAim& aim = *study.calibration;
+    if (aim.method == CalibrationAim::Method::Surrogate) {
+        if (!study.axes.empty())
+            reader.fault("calibrate.method", "a search has no axes", "give it [[calibrate.parameter]] instead");
+        return;
+    }
+    const auto axis = std::find_if(study.axes.begin(), study.axes.end(), [&](const Axis& a) {
+        return a.keys == std::vector<std::string>{aim.along} && a.points.size() > 1 &&
+               std::all_of(a.points.begin(), a.points.end(), [](const auto& p) { return p.front().isNumber(); });
+    });
+    if (axis == study.axes.end())
+        reader.fault("calibrate.along", fmt::format("no axis has {} alone, at two numbers or more", aim.along),
+                     "name the key of the axis to interpolate along");
+}
+
+std::string textOf(const std::filesystem::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    std::ostringstream text;
+    text << stream.rdbuf();
+    return text.str();
+}
+
+}  // namespace
+
+std::vector<std::string> Study::keys() const {
+    std::vector<std::string> all;
+    for (const Axis& axis : axes) all.insert(all.end(), axis.keys.begin(), axis.keys.end());
+    if (calibration)
+        for (const FreeParameter& p : calibration->parameters) all.push_back(p.key);
+    return all;
+}
+
+Study readStudy(const std::filesystem::path& file) {
+    CaseReader reader(file.string(), readTreeAlone(file));
+    Section& root = reader.root();
+    Study study;
+    study.file = file;
+    study.text = textOf(file);
+    study.name = root.string("name", file.stem().string());
+    study.reason = root.string("reason", "");
+    study.base = file.parent_path() / root.string("base");
+    readSeeds(reader, root, study);
+    std::set<std::string> used;
+    if (const Node* set = root.node("set")) {
+        if (set->kind == Node::Kind::Table)
+            readSettings(reader, *set, "", "set", study.set, used);
+        else
+            reader.fault("set", "is not a table", "write [set]");
+    }
+    const std::vector<Section*> axes = root.tables("axis");
+    for (std::size_t i = 0; i < axes.size(); ++i)
+        study.axes.push_back(readAxis(reader, *axes[i], fmt::format("axis[{}]", i), used));
+    if (root.has("calibrate")) {
+        study.calibration = readCalibrationAim(reader, root.table("calibrate"), file.parent_path());
+        for (std::size_t i = 0; i < study.calibration->parameters.size(); ++i)
+            checkKey(reader, fmt::format("calibrate.parameter[{}].key", i), study.calibration->parameters[i].key, used);
+    } else {
+        root.know("calibrate");
+    }
+    if (study.calibration) checkCalibration(reader, study);
+    checkCount(reader, study);
+    reader.finish();
+    reader.throwIfFaulty();
+    return study;
+}
+
+}  // namespace vkdose

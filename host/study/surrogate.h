@@ -1,0 +1,49 @@
+#pragma once
+// The search of a calibration: a few runs spread out, then one after the other where a Gaussian process through all of
+// them expects most.
+
+#include <functional>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "host/study/calibration_aim.h"
+#include "host/study/gaussian_process.h"
+
+namespace vkdose {
+
+using Parameters = std::vector<double>;  ///< a value for each free parameter, in the units of their keys
+
+/// What was found at a point.
+struct Trial {
+    std::vector<double> values;  ///< mass per dose, one for each seed; without those that gave none [kg]
+    double error = 0;            ///< standard error of a single seed's value [kg]; 0 if it is not known
+};
+
+/// Tries a few points; nothing if the search was interrupted.
+using TryPoints = std::function<std::optional<std::vector<Trial>>(const std::vector<Parameters>&)>;
+
+struct SearchResult {
+    std::vector<Parameters> points;  ///< all that were tried, in order
+    /// Their masses per dose, mean over the seeds [kg], NaN where there is none. The errors are the scatter from seed
+    /// to seed, pooled over all points, or with a single seed the trial's own.
+    std::vector<Measured> values;
+    std::size_t best = 0;  ///< of them, whose mass is believed nearest to the target
+    double mean = 0;       ///< believed there [kg]
+    double deviation = 0;  ///< standard deviation of this belief [kg]
+    bool met = false;      ///< both the distance to the target and the deviation are within the tolerance
+    /// For each parameter the range of those values that may meet the target: mean within two deviations and the
+    /// tolerance, whatever the other parameters. Wide where the parameters can make up for each other.
+    std::vector<std::pair<double, double>> compatible;
+};
+
+/// Looks for the point at which `tryPoints` gives the target, until it is met, `aim.maxRuns` points have been tried or
+/// there is nothing to gain. Repeatable: the same results, the same points. Nothing if it was interrupted.
+/// Throws RunError if fewer than two of the first points have a mass per dose.
+std::optional<SearchResult> search(const CalibrationAim& aim, const TryPoints& tryPoints);
+
+/// Expected improvement on the distance `best` to the target of a value that is believed to be `mean` +- `deviation`
+/// from it: the mean of max(0, best - |y|) over a normal distribution, in closed form.
+double expectedImprovement(double mean, double deviation, double best);
+
+}  // namespace vkdose

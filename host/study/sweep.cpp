@@ -1,0 +1,136 @@
+#include "host/study/sweep.h"
+
+#include <algorithm>
+#include <deque>
+#include <map>
+
+#include "host/output/checkpoint.h"
+#include "host/output/run_folder.h"
+
+namespace vkdose {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+class Sweep {
+  public:
+    Sweep(SweepFolder& folder, const std::vector<Member>& members, MemberRunner& runner, SweepObserver& observer)
+        : folder_(folder), members_(members), runner_(runner), observer_(observer) {}
+
+    SweepOutcome run(const std::atomic<bool>& stop, bool retryFailed) {
+        queue(retryFailed);
+        bool interrupted = false;
+        while (!waiting_.empty() || !running_.empty()) {
+            if (stop && !interrupted) {
+                interrupted = true;
+                waiting_.clear();
+                runner_.interrupt();
+            }
+            while (!waiting_.empty() && int(running_.size()) < runner_.slots()) startNext();
+            if (running_.empty()) continue;
+            if (const auto end = runner_.wait()) ended(*end);
+            observer_.onProgress(progress());
+        }
+        SweepOutcome outcome;
+        for (const Member& m : members_) {
+            const auto status = folder_.status(m.number);
+            outcome.ok += status == MemberStatus::Ok ? 1 : 0;
+            outcome.failed += status == MemberStatus::Failed ? 1 : 0;
+        }
+        outcome.whole = outcome.ok + outcome.failed == int(members_.size());
+        return outcome;
+    }
+
+  private:
+    struct Running {
+        const Member* member;
+        double before;  ///< what of it had been done when it was started [s]
+    };
+
+    double share(const Member& m, double time) const {
+        return m.expectedTime > 0 ? m.expectedWork * std::min(1.0, time / m.expectedTime) : 0;
+    }
+
+    void queue(bool retryFailed) {
+        for (const Member& m : members_) {
+            const auto status = folder_.status(m.number);
+            const bool again = status == MemberStatus::Failed && retryFailed;
+            if (again) folder_.forget(m.number);
+            if (again || !status || status == MemberStatus::Interrupted)
+                waiting_.push_back(&m);
+            else
+                doneBefore_ += m.expectedWork;
+            all_ += m.expectedWork;
+        }
+    }
+
+    void startNext() {
+        const Member& m = *waiting_.front();
+        waiting_.pop_front();
+        if (folder_.status(m.number)) folder_.forget(m.number);
+        folder_.begin(m);
+        const fs::path run = folder_.memberFolder(m.number);
+        if (isBusy(run)) {
+            observer_.onBusy(run);
+            awaitFree(run);
+        }
+        if (isOver(run)) {  // it ended, and we were killed before we could note it
+            note(m, readResult(run, {m.number, 0, ""}));
+            return;
+        }
+        const bool resume = fs::exists(run / kCheckpointName);
+        const double before = resume ? timeReached(run) : 0;
+        doneBefore_ += share(m, before);
+        running_[m.number] = {&m, before};
+        runner_.start({m.number, run, resume});
+    }
+
+    void ended(const MemberEnd& end) {
+        const Running& run = running_.at(end.number);
+        const Member& m = *run.member;
+        doneHere_ += m.expectedWork - share(m, run.before);
+        running_.erase(end.number);
+        note(m, readResult(folder_.memberFolder(m.number), end));
+    }
+
+    void note(const Member& m, const MemberResult& result) {
+        folder_.add(m, result);
+        observer_.onMember(m, result);
+    }
+
+    SweepProgress progress() const {
+        SweepProgress p;
+        p.members = int(members_.size());
+        p.running = int(running_.size());
+        for (const Member& m : members_) {
+            const auto status = folder_.status(m.number);
+            p.ok += status == MemberStatus::Ok ? 1 : 0;
+            p.failed += status == MemberStatus::Failed ? 1 : 0;
+        }
+        double here = doneHere_;
+        for (const auto& [number, run] : running_)
+            here += std::max(
+                0.0, share(*run.member, timeReached(folder_.memberFolder(number))) - share(*run.member, run.before));
+        p.fraction = all_ > 0 ? (doneBefore_ + here) / all_ : 0;
+        p.fractionHere = all_ > 0 ? here / all_ : 0;
+        return p;
+    }
+
+    SweepFolder& folder_;
+    const std::vector<Member>& members_;
+    MemberRunner& runner_;
+    SweepObserver& observer_;
+    std::deque<const Member*> waiting_;
+    std::map<int, Running> running_;
+    double all_ = 0, doneBefore_ = 0, doneHere_ = 0;  ///< expected particle-steps
+};
+
+}  // namespace
+
+SweepOutcome runMembers(SweepFolder& folder, const std::vector<Member>& members, MemberRunner& runner,
+                        SweepObserver& observer, const std::atomic<bool>& stop, bool retryFailed) {
+    return Sweep(folder, members, runner, observer).run(stop, retryFailed);
+}
+
+}  // namespace vkdose

@@ -1,0 +1,63 @@
+#pragma once
+// Runs the members of a study, several at a time, and notes their results as they come. Knows neither processes nor
+// devices: that is the runner's.
+
+#include <atomic>
+#include <filesystem>
+#include <vector>
+
+#include "host/study/sweep_folder.h"
+
+namespace vkdose {
+
+struct MemberTask {
+    int number = 0;
+    std::filesystem::path folder;  ///< of the run; holds its case.toml
+    bool resume = false;           ///< from the checkpoint in it
+};
+
+/// Runs members one beside the other.
+class MemberRunner {
+  public:
+    virtual ~MemberRunner() = default;
+    /// How many at once.
+    virtual int slots() const = 0;
+    /// Begins with a member and returns.
+    virtual void start(const MemberTask& task) = 0;
+    /// A member that has ended; nothing if within a moment (a second or so) none has.
+    virtual std::optional<MemberEnd> wait() = 0;
+    /// Asks those that run to end soon and to keep what they have. They still have to be waited for.
+    virtual void interrupt() = 0;
+};
+
+struct SweepProgress {
+    int members = 0;
+    int ok = 0;
+    int failed = 0;
+    int running = 0;
+    double fraction = 0;      ///< of the expected work of all members
+    double fractionHere = 0;  ///< of it, what this call has done
+};
+
+class SweepObserver {
+  public:
+    virtual ~SweepObserver() = default;
+    virtual void onMember(const Member&, const MemberResult&) {}
+    virtual void onProgress(const SweepProgress&) {}
+    /// Another process, perhaps of a sweep that was killed, still writes into the folder of a member's run.
+    virtual void onBusy(const std::filesystem::path&) {}
+};
+
+struct SweepOutcome {
+    int ok = 0;
+    int failed = 0;      ///< those of earlier calls included
+    bool whole = false;  ///< every member has ended
+};
+
+/// Runs those of `members` that have not ended yet; failed ones again if `retryFailed`. A member that fails does not
+/// keep the others from running. Setting `stop` ends the running ones so that they can be gone on with. Throws
+/// OutputError.
+SweepOutcome runMembers(SweepFolder& folder, const std::vector<Member>& members, MemberRunner& runner,
+                        SweepObserver& observer, const std::atomic<bool>& stop, bool retryFailed = false);
+
+}  // namespace vkdose

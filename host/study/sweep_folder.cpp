@@ -1,0 +1,194 @@
+#include "host/study/sweep_folder.h"
+
+#include <fmt/format.h>
+#include <sys/file.h>
+
+#include <algorithm>
+#include <fstream>
+#include <set>
+#include <sstream>
+#include <utility>
+
+#include "host/core/error.h"
+#include "host/model/case.h"
+#include "host/output/run_folder.h"
+
+namespace vkdose {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kAppendable =
+    "what can be added to a sweep are seeds at the end and, with a single seed, values at the end of the first axis";
+
+Row joined(Row a, const Row& b) {
+    a.insert(a.end(), b.begin(), b.end());
+    return a;
+}
+
+Row head(const Member& m) {
+    return joined({fmt::format("{}", m.number), fmt::format("{}", m.seed)}, m.values);
+}
+
+int numberOf(const Row& row) {
+    return row.empty() ? -1 : std::atoi(row[0].c_str());
+}
+
+std::string content(const CsvTable& table) {
+    std::string text = csvLine(table.header) + "\n";
+    for (const Row& row : table.rows) text += csvLine(row) + "\n";
+    return text;
+}
+
+void dropRows(CsvTable& table, const std::set<int>& kept) {
+    table.rows.erase(std::remove_if(table.rows.begin(), table.rows.end(),
+                                    [&](const Row& row) { return kept.count(numberOf(row)) == 0; }),
+                     table.rows.end());
+}
+
+[[noreturn]] void changed(const fs::path& study, const fs::path& folder, const std::string& how) {
+    throw FolderError(fmt::format("{} has changed since {} was begun: {}; give another folder with --out",
+                                  study.string(), folder.string(), how));
+}
+
+std::string readText(const fs::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    std::ostringstream text;
+    text << stream.rdbuf();
+    return text.str();
+}
+
+/// The case as today's vkdose would write it: a key added since with its default makes no other case.
+std::string today(const fs::path& file) {
+    try {
+        return loadResolvedCase(readText(file), file).resolved;
+    } catch (const CaseError&) {
+        return "";
+    }
+}
+
+}  // namespace
+
+SweepFolder::SweepFolder(fs::path folder, const Study& study, const std::vector<Member>& members)
+    : folder_(std::move(folder)), study_(study.file.string()) {
+    std::error_code error;
+    const bool former = fs::exists(folder_ / "study.toml", error);
+    if (fs::exists(folder_, error) && !fs::is_directory(folder_, error))
+        throw FolderError(fmt::format("{} is a file, not a folder; choose another with --out", folder_.string()));
+    if (!former && fs::is_directory(folder_, error) && !fs::is_empty(folder_, error))
+        throw FolderError(
+            fmt::format("{} holds something else than a sweep; choose another folder with --out", folder_.string()));
+    fs::create_directories(folder_, error);
+    if (error) throw FolderError(fmt::format("cannot create {}: {}", folder_.string(), error.message()));
+    lock();
+    read(study.keys());
+    // A search decides on its members as it goes; it asks requireSame when it comes to them.
+    const bool search = study.calibration && study.calibration->method == CalibrationAim::Method::Surrogate;
+    for (const Row& row : members_.rows)
+        if (!search && std::size_t(numberOf(row)) >= members.size())
+            changed(study_, folder_, fmt::format("member {} is no longer in it; {}", numberOf(row), kAppendable));
+    for (const Member& m : members) requireSame(m);
+    std::set<int> ended;
+    for (const auto& [number, status] : status_)
+        if (status != MemberStatus::Interrupted) ended.insert(number);
+    std::erase_if(status_, [](const auto& entry) { return entry.second == MemberStatus::Interrupted; });
+    dropRows(members_, ended);
+    dropRows(doses_, ended);
+    try {
+        replaceFile(folder_ / "study.toml", study.text);
+        replaceFile(folder_ / "base.toml", loadCase(study.base).resolved);
+        rewrite();
+    } catch (const OutputError& e) {
+        throw FolderError(e.what());
+    }
+}
+
+void SweepFolder::lock() {
+    // On the folder itself: the tables are replaced as files, which would shake a lock off.
+    lock_.reset(std::fopen(folder_.c_str(), "re"));
+    if (!lock_ || ::flock(fileno(lock_.get()), LOCK_EX | LOCK_NB) != 0)
+        throw FolderError(fmt::format("another vkdose is sweeping in {}; wait for it or stop it", folder_.string()));
+}
+
+void SweepFolder::read(const Row& keys) {
+    members_ = readTable(folder_ / "members.csv");
+    doses_ = readTable(folder_ / "doses.csv");
+    const Row membersHeader = joined(joined({"member", "seed"}, keys), kOutputColumns);
+    const Row dosesHeader = joined(joined({"member", "seed"}, keys), csvFields(kDosesHeader));
+    if ((!members_.header.empty() && members_.header != membersHeader) ||
+        (!doses_.header.empty() && doses_.header != dosesHeader))
+        changed(study_, folder_, "it varies other keys, or vkdose writes other columns");
+    members_.header = membersHeader;
+    doses_.header = dosesHeader;
+    for (const Row& row : members_.rows)
+        for (const MemberStatus s : {MemberStatus::Ok, MemberStatus::Failed, MemberStatus::Interrupted})
+            if (members_.text(row, "status") == statusText(s)) status_[numberOf(row)] = s;
+}
+
+void SweepFolder::requireSame(const Member& member) const {
+    const Row now = head(member);
+    for (const Row& row : members_.rows)
+        if (numberOf(row) == member.number && !std::equal(now.begin(), now.end(), row.begin()))
+            changed(study_, folder_, fmt::format("member {} was another point; {}", member.number, kAppendable));
+    const fs::path file = memberFolder(member.number) / "case.toml";
+    if (fs::exists(file) && readText(file) != member.caseText && today(file) != member.caseText)
+        changed(study_, folder_,
+                fmt::format("member {} was another case ({}); {}", member.number, file.string(), kAppendable));
+}
+
+void SweepFolder::rewrite() {
+    for (const auto& [table, name] : {std::pair{&members_, "members.csv"}, std::pair{&doses_, "doses.csv"}})
+        replaceFile(folder_ / name, content(*table));
+    membersFile_.emplace(folder_ / "members.csv", std::uint64_t(fs::file_size(folder_ / "members.csv")));
+    dosesFile_.emplace(folder_ / "doses.csv", std::uint64_t(fs::file_size(folder_ / "doses.csv")));
+}
+
+fs::path SweepFolder::memberFolder(int number) const {
+    return folder_ / "members" / fmt::format("{:04}", number);
+}
+
+std::optional<MemberStatus> SweepFolder::status(int number) const {
+    const auto found = status_.find(number);
+    if (found == status_.end()) return std::nullopt;
+    return found->second;
+}
+
+void SweepFolder::begin(const Member& member) {
+    const fs::path folder = memberFolder(member.number);
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error) throw OutputError(fmt::format("cannot create {}: {}", folder.string(), error.message()));
+    if (!fs::exists(folder / "case.toml", error)) replaceFile(folder / "case.toml", member.caseText);
+}
+
+void SweepFolder::forget(int number) {
+    for (CsvTable* table : {&members_, &doses_})
+        table->rows.erase(std::remove_if(table->rows.begin(), table->rows.end(),
+                                         [&](const Row& row) { return numberOf(row) == number; }),
+                          table->rows.end());
+    status_.erase(number);
+    rewrite();
+}
+
+void SweepFolder::add(const Member& member, const MemberResult& result) {
+    // The doses first: those of a member without a row are cut out when the sweep goes on.
+    for (const Row& dose : result.doses) {
+        doses_.rows.push_back(joined(head(member), dose));
+        dosesFile_->line(csvLine(doses_.rows.back()));
+    }
+    dosesFile_->store();
+    members_.rows.push_back(joined(head(member), result.outputs));
+    membersFile_->line(csvLine(members_.rows.back()));
+    membersFile_->store();
+    status_[member.number] = result.status;
+}
+
+void SweepFolder::sort() {
+    const auto earlier = [](const Row& a, const Row& b) { return numberOf(a) < numberOf(b); };
+    std::stable_sort(members_.rows.begin(), members_.rows.end(), earlier);
+    std::stable_sort(doses_.rows.begin(), doses_.rows.end(), earlier);
+    rewrite();
+}
+
+}  // namespace vkdose

@@ -1,0 +1,66 @@
+#pragma once
+// The folder of a sweep: study.toml and base.toml for the record, members.csv and doses.csv as members end, and the
+// members' own run folders. A sweep that was interrupted, by whatever, goes on in it.
+
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/output/csv.h"
+#include "host/study/member.h"
+#include "host/study/member_result.h"
+
+namespace vkdose {
+
+class SweepFolder {
+  public:
+    /// Creates the folder, or goes on in it. Rows that were torn, and doses of members without a row, are cut out of
+    /// the tables; so are the rows of interrupted members, who are yet to end. Throws FolderError if another process is
+    /// writing into it, if it holds something else, if it cannot be written, or if a member that has begun in it is
+    /// another case in `members`.
+    SweepFolder(std::filesystem::path folder, const Study& study, const std::vector<Member>& members);
+
+    const std::filesystem::path& path() const { return folder_; }
+    std::filesystem::path memberFolder(int number) const;
+
+    /// How a member ended; nothing if it has not.
+    std::optional<MemberStatus> status(int number) const;
+
+    /// The rows so far, in the order in which the members ended.
+    const CsvTable& members() const { return members_; }
+
+    /// Throws FolderError if this member has begun in the folder as another case.
+    void requireSame(const Member& member) const;
+
+    /// Makes the member's folder, with its case. Throws OutputError if it cannot.
+    void begin(const Member& member);
+
+    /// Takes the row and the doses of a member out of the tables, so that it can end anew.
+    void forget(int number);
+
+    /// Notes how a member ended. Throws OutputError if it cannot be written.
+    void add(const Member& member, const MemberResult& result);
+
+    /// Puts the tables into the order of the members.
+    void sort();
+
+  private:
+    void lock();
+    void read(const Row& keys);
+    void rewrite();
+
+    std::filesystem::path folder_;
+    std::string study_;  ///< its file, for messages
+    std::unique_ptr<std::FILE, int (*)(std::FILE*)> lock_{nullptr, std::fclose};
+    CsvTable members_;
+    CsvTable doses_;
+    std::map<int, MemberStatus> status_;
+    std::optional<CsvFile> membersFile_;
+    std::optional<CsvFile> dosesFile_;
+};
+
+}  // namespace vkdose

@@ -1,0 +1,73 @@
+#include <catch2/catch.hpp>
+
+#include "host/app/exit_code.h"
+#include "tests/report/folders.h"
+
+using namespace vkdose;
+using namespace vkdose::test;
+
+TEST_CASE("report: a run's page goes into its folder, or where it is told to") {
+    const Sandbox box;
+    writeRun(box, "why");
+    auto outcome = box.vkdose("report run");
+    CHECK(outcome.code == kOk);
+    CHECK(outcome.out == "run/report.html\n");
+    CHECK_THAT(readText(box / "run/report.html"), Catch::Contains("<title>mini</title>"));
+    outcome = box.vkdose("report run --out there.html");
+    CHECK(outcome.code == kOk);
+    CHECK(readText(box / "there.html") == readText(box / "run/report.html"));
+}
+
+TEST_CASE("report: a sweep by its folder or by its study") {
+    const Sandbox box;
+    writeSweep(box);
+    CHECK(box.vkdose("report sweep --out a.html").code == kOk);
+    CHECK_THAT(readText(box / "a.html"), Catch::Contains("k_c against friction"));
+    std::filesystem::create_directories(box / "out");
+    std::filesystem::rename(box / "sweep", box / "out/study");
+    box.write("study.toml", readText(box / "out/study/study.toml"));
+    CHECK(box.vkdose("report study.toml").out == "out/study/report.html\n");
+}
+
+TEST_CASE("report: what it is given beside the folder goes into the page") {
+    const Sandbox box;
+    writeRun(box, "why");
+    writeSweep(box);
+    box.write("balance.csv", "dose,mass_g\n1,1.25\n");
+    CHECK(box.vkdose("report run --experiment balance.csv").code == kOk);
+    CHECK_THAT(readText(box / "run/report.html"), Catch::Contains("\"mass_kg\":[0.00125]"));
+    CHECK(box.vkdose("report sweep --expected " VKDOSE_SOURCE_DIR "/cases/paper/expected.toml").code == kOk);
+    const std::string page = readText(box / "sweep/report.html");
+    // The sweep's members carry the paper's calibrated point and both trends; nothing of them has 80 g.
+    CHECK_THAT(page, Catch::Contains("\"id\":\"S1\"") && Catch::Contains("\"verdict\":\"matches\""));
+    CHECK_THAT(page, Catch::Contains("\"verdict\":\"trend holds\"") && Catch::Contains("\"verdict\":\"not run\""));
+}
+
+TEST_CASE("report: what cannot be reported on is refused, and nothing is written") {
+    const Sandbox box;
+    writeRun(box, "why");
+    writeSweep(box);
+    std::filesystem::create_directories(box / "empty");
+    box.write("lonely.toml", "");
+    const auto refused = [&](const std::string& arguments, const std::string& why) {
+        const auto outcome = box.vkdose("report " + arguments);
+        CHECK(outcome.code == kBadInput);
+        CHECK_THAT(outcome.err, Catch::Contains(why));
+    };
+    refused("nowhere", "there is no folder nowhere");
+    refused("empty", "holds neither a run nor a sweep");
+    refused("lonely.toml", "there is no folder out/lonely");
+    refused("sweep --experiment b.csv", "--experiment belongs to the report of a run");
+    refused("run --expected e.toml", "--expected belongs to the report of a sweep");
+    refused("run --experiment b.csv", "b.csv: cannot be read");
+    box.write("run/doses.csv", "dose,mass_kg\n1\n");
+    refused("run", "doses.csv:2");
+    CHECK_FALSE(std::filesystem::exists(box / "run/report.html"));
+    CHECK_FALSE(std::filesystem::exists(box / "sweep/report.html"));
+}
+
+TEST_CASE("report: a page that cannot be written is an error of the output") {
+    const Sandbox box;
+    writeRun(box, "why");
+    CHECK(box.vkdose("report run --out /nowhere/at/all.html").code == kOutputError);
+}

@@ -1,0 +1,225 @@
+// `vkdose sweep` as a user meets it: real members, killed, interrupted and failing ones.
+
+#include <sys/types.h>
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <csignal>
+#include <thread>
+
+#include "host/output/checkpoint.h"
+#include "host/study/csv_table.h"
+#include "tests/app/sandbox.h"
+
+using namespace vkdose;
+using namespace vkdose::test;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Two cohesions and two frictions of the mini canister, cut to a few thousand steps; many checkpoints.
+const std::string kStudy = R"(base = ")" VKDOSE_SOURCE_DIR R"(/cases/mini.toml"
+[set]
+"stop.max_doses" = 2
+settle.time_s = 0.03
+dose.rotate_s = 0.08
+dose.rest_s = 0.01
+checkpoint.time_s = 0.006
+[[axis]]
+key = "contact.kc_over_k"
+values = [0.2, 0.5]
+[[axis]]
+key = "contact.friction"
+values = [0.2, 0.4]
+)";
+
+const std::vector<std::string> kSweep{"sweep", "study.toml", "--backend", "reference", "--jobs", "2", "--out", "cut"};
+
+/// The rows of members.csv without the time on the clock.
+std::vector<Row> timeless(const fs::path& folder) {
+    CsvTable table = readTable(folder / "members.csv");
+    const std::size_t wall = table.column("wall_time_s").value();
+    for (Row& row : table.rows) row.erase(row.begin() + std::ptrdiff_t(wall));
+    return table.rows;
+}
+
+/// Waits until the member has a checkpoint or is over; false if the sweep ended first.
+bool reached(pid_t sweep, const fs::path& member) {
+    int status = 0;
+    while (!fs::exists(member / kCheckpointName) && !fs::exists(member / "summary.json")) {
+        if (waitpid(sweep, &status, WNOHANG) == sweep) return false;
+        std::this_thread::yield();
+    }
+    return true;
+}
+
+}  // namespace
+
+TEST_CASE("a sweep that is killed again and again ends with the rows of one that is not") {
+    const Sandbox box;
+    box.write("study.toml", kStudy);
+    const auto whole = box.vkdose("sweep study.toml --backend reference --jobs 2 --out whole");
+    CAPTURE(whole.err);
+    REQUIRE(whole.code == 0);
+    REQUIRE(timeless(box / "whole").size() == 4);
+    int kills = 0;
+    for (const char* member : {"cut/members/0000", "cut/members/0001", "cut/members/0003"}) {
+        const pid_t sweep = box.start(kSweep);
+        if (!reached(sweep, box / member)) continue;
+        kill(sweep, SIGKILL);
+        waitpid(sweep, nullptr, 0);
+        ++kills;
+    }
+    CHECK(kills == 3);
+    const auto on = box.vkdose("sweep study.toml --backend reference --jobs 2 --out cut");
+    CAPTURE(on.err);
+    CHECK(on.code == 0);
+    CHECK(timeless(box / "cut") == timeless(box / "whole"));
+    CHECK(readText(box / "cut/doses.csv") == readText(box / "whole/doses.csv"));
+    CHECK(readText(box / "cut/members/0002/timeseries.csv") == readText(box / "whole/members/0002/timeseries.csv"));
+}
+
+TEST_CASE("after Ctrl-C a sweep goes on to the same rows") {
+    const Sandbox box;
+    box.write("study.toml", kStudy);
+    REQUIRE(box.vkdose("sweep study.toml --backend reference --quiet --out whole").code == 0);
+    const pid_t sweep = box.start(kSweep);
+    REQUIRE(reached(sweep, box / "cut/members/0001"));
+    kill(sweep, SIGINT);
+    int status = 0;
+    waitpid(sweep, &status, 0);
+    CHECK(WEXITSTATUS(status) == 130);
+    const auto rows = timeless(box / "cut");
+    CHECK(std::any_of(rows.begin(), rows.end(), [](const Row& row) { return row[4] == "interrupted"; }));
+    const auto on = box.vkdose("sweep study.toml --backend reference --out cut");
+    CAPTURE(on.err);
+    CHECK(on.code == 0);
+    CHECK(timeless(box / "cut") == timeless(box / "whole"));
+    CHECK(readText(box / "cut/doses.csv") == readText(box / "whole/doses.csv"));
+}
+
+TEST_CASE("a member that fails is told, the rest go on, and the exit code says so") {
+    const Sandbox box;
+    std::string study = kStudy;
+    study.replace(study.find("contact.friction"), 16, "contact.max_overlap_ratio");
+    study.replace(study.find("[0.2, 0.4]"), 10, "[0.2, 1e-9]");
+    box.write("study.toml", study);
+    const auto o = box.vkdose("sweep study.toml");
+    CAPTURE(o.out, o.err);
+    CHECK(o.code == 1);
+    CHECK_THAT(o.err, Catch::Contains("member 0001") && Catch::Contains("member 0003") &&
+                          Catch::Contains("--retry-failed") && Catch::Contains("overlap"));
+    const CsvTable table = readTable(box / "out/study/members.csv");
+    REQUIRE(table.rows.size() == 4);
+    for (int i = 0; i < 4; ++i) {
+        CHECK(table.text(table.rows[i], "status") == (i % 2 == 0 ? "ok" : "failed"));
+        CHECK(table.text(table.rows[i], "error").empty() == (i % 2 == 0));
+    }
+    CHECK_THAT(o.out, Catch::Contains("2 done, 2 failed"));
+}
+
+TEST_CASE("a dry run prints the members, a faulty study is refused; neither writes anything") {
+    const Sandbox box;
+    box.write("study.toml", kStudy);
+    const auto dry = box.vkdose("sweep study.toml --dry-run");
+    CHECK(dry.code == 0);
+    CHECK_THAT(dry.out, Catch::Contains("member 0003") && Catch::Contains("contact.friction 0.4, seed 1") &&
+                            Catch::Contains("4 members"));
+    std::string faulty = kStudy;
+    faulty.replace(faulty.find("[0.2, 0.4]"), 10, "[0.2, -0.4]");
+    box.write("study.toml", faulty);
+    for (const char* option : {"", "--dry-run"}) {
+        const auto o = box.vkdose(std::string("sweep study.toml ") + option);
+        CHECK(o.code == 2);
+        CHECK_THAT(o.err, Catch::Contains("study.toml:13: contact.friction = -0.4: is negative"));
+    }
+    CHECK(box.files() == std::vector<std::string>{"study.toml"});
+}
+
+TEST_CASE("calibrate interpolates a finished sweep without running it again, and writes a case that runs") {
+    const Sandbox box;
+    const std::string study = "seeds = [1]\n" + kStudy;
+    box.write("study.toml", study);
+    REQUIRE(box.vkdose("sweep study.toml --backend reference --out out").code == 0);
+    const CsvTable table = readTable(box / "out/members.csv");
+    const auto beta = [&](int member) { return table.number(table.rows.at(member), "beta_kg_per_dose").value(); };
+    // Half way between the two cohesions of the first friction.
+    REQUIRE(beta(0) != beta(2));
+    const double target = (beta(0) + beta(2)) / 2;
+    box.write("study.toml",
+              study + "[calibrate]\ntarget_g_per_dose = " + std::to_string(target * 1e3) + "\ntolerance_g = 0.001\n");
+    const auto before = fs::last_write_time(box / "out/members/0000/summary.json");
+    const auto o = box.vkdose("calibrate study.toml --backend reference --out out");
+    CAPTURE(o.out, o.err);
+    CHECK(o.code == 0);
+    CHECK(fs::last_write_time(box / "out/members/0000/summary.json") == before);
+    CHECK_THAT(o.out, Catch::Contains("meets the target at contact.kc_over_k 0.35") && Catch::Contains("<- chosen"));
+    const auto check = box.vkdose("check out/calibrated.toml");
+    CAPTURE(check.err);
+    CHECK(check.code == 0);
+    CHECK_THAT(check.out, Catch::Contains("study-calibrated"));
+
+    box.write("study.toml", study + "[calibrate]\ntarget_g_per_dose = 1000\ntolerance_g = 0.001\n");
+    const auto far = box.vkdose("calibrate study.toml --backend reference --out out");
+    CHECK(far.code == 1);
+    CHECK_THAT(far.err, Catch::Contains("no curve meets the target"));
+    CHECK(box.vkdose("calibrate none.toml").code == 2);
+    box.write("plain.toml", kStudy);
+    const auto plain = box.vkdose("calibrate plain.toml");
+    CHECK(plain.code == 2);
+    CHECK_THAT(plain.err, Catch::Contains("[calibrate]"));
+}
+
+TEST_CASE("a search runs members until its target is met or its runs are used up, and goes on when killed") {
+    const Sandbox box;
+    const std::string study = kStudy.substr(0, kStudy.find("[[axis]]")) +
+                              "[calibrate]\nmethod = \"surrogate\"\ntarget_g_per_dose = 0.02\ntolerance_g = 1e-7\n"
+                              "max_runs = 5\n[[calibrate.parameter]]\nkey = \"contact.kc_over_k\"\nlow = 0.1\n"
+                              "high = 0.6\n";
+    box.write("study.toml", study);
+    const auto whole = box.vkdose("calibrate study.toml --backend reference --out whole");
+    CAPTURE(whole.out, whole.err);
+    CHECK(whole.code == 1);
+    CHECK_THAT(whole.out, Catch::Contains("NOT met") && Catch::Contains("after 5 points"));
+    CHECK(timeless(box / "whole").size() == 5);
+    const pid_t run = box.start({"calibrate", "study.toml", "--backend", "reference", "--out", "cut"});
+    REQUIRE(reached(run, box / "cut/members/0003"));
+    kill(run, SIGKILL);
+    waitpid(run, nullptr, 0);
+    CHECK(box.vkdose("calibrate study.toml --backend reference --out cut").code == 1);
+    CHECK(timeless(box / "cut") == timeless(box / "whole"));
+    CHECK(readText(box / "cut/calibrated.toml") == readText(box / "whole/calibrated.toml"));
+    CHECK(box.vkdose("sweep study.toml").code == 2);
+}
+
+TEST_CASE("members of a prepared sweep run as tasks of a job array, and are gathered") {
+    const Sandbox box;
+    box.write("study.toml", kStudy);
+    REQUIRE(box.vkdose("sweep study.toml --backend reference --out whole --quiet").code == 0);
+    const auto prepared = box.vkdose("sweep study.toml --prepare --out queue");
+    CHECK(prepared.code == 0);
+    CHECK_THAT(prepared.out, Catch::Contains("4 members to run in queue/members"));
+    const auto task = [&](int number) {
+        const std::string command = "cd '" + box.path().string() +
+                                    "' && SLURM_ARRAY_TASK_ID=" + std::to_string(number) +
+                                    " VKDOSE='" VKDOSE_BINARY_DIR "/vkdose' " +
+                                    "'" VKDOSE_SOURCE_DIR "/tools/slurm-array' queue --backend reference 2> error.txt";
+        const int status = std::system(command.c_str());
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    };
+    for (const int number : {2, 0}) CHECK(task(number) == 0);
+    const auto before = fs::last_write_time(box / "queue/members/0002/summary.json");
+    CHECK(task(2) == 0);  // over: nothing to do
+    CHECK(task(9) == 2);
+    CHECK_THAT(readText(box / "error.txt"), Catch::Contains("there is no member in queue/members/0009"));
+    // One that was cut short goes on from its checkpoint.
+    const pid_t run = box.start({"run", "queue/members/0003/case.toml", "--out", "queue/members/0003", "--force",
+                                 "--quiet", "--backend", "reference"});
+    REQUIRE(reached(run, box / "queue/members/0003"));
+    kill(run, SIGKILL);
+    waitpid(run, nullptr, 0);
+    CHECK(task(3) == 0);
+    CHECK(box.vkdose("sweep study.toml --backend reference --out queue").code == 0);
+    CHECK(fs::last_write_time(box / "queue/members/0002/summary.json") == before);
+    CHECK(timeless(box / "queue") == timeless(box / "whole"));
+}

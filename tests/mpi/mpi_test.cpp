@@ -1,0 +1,54 @@
+// A sweep over the ranks of an MPI job gives the tables of one without. Built with VKDOSE_MPI only.
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <csignal>
+#include <thread>
+
+#include "host/output/checkpoint.h"
+#include "host/study/csv_table.h"
+#include "tests/app/sandbox.h"
+
+using namespace vkdose;
+using namespace vkdose::test;
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::string kStudy = R"(base = ")" VKDOSE_SOURCE_DIR R"(/cases/mini.toml"
+[set]
+"stop.max_doses" = 1
+settle.time_s = 0.03
+dose.rotate_s = 0.08
+dose.rest_s = 0.01
+[[axis]]
+key = "contact.kc_over_k"
+values = [0.2, 0.3, 0.4, 0.5, 0.6]
+)";
+
+/// As an MPI launcher that may run as root and on fewer cores than ranks.
+const std::string kTwoRanks = "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 mpirun --oversubscribe -n 2 ";
+
+std::vector<Row> timeless(const fs::path& folder) {
+    CsvTable table = readTable(folder / "members.csv");
+    for (Row& row : table.rows) row.erase(row.begin() + std::ptrdiff_t(table.column("wall_time_s").value()));
+    return table.rows;
+}
+
+}  // namespace
+
+TEST_CASE("two ranks sweep to the same tables as one process, and a refusal ends both") {
+    const Sandbox box;
+    box.write("study.toml", kStudy);
+    REQUIRE(box.vkdose("sweep study.toml --backend reference --out one").code == 0);
+    const auto two = box.vkdose("sweep study.toml --backend reference --out two --mpi", kTwoRanks);
+    CAPTURE(two.out, two.err);
+    CHECK(two.code == 0);
+    CHECK_THAT(two.out, Catch::Contains("5 members, 2 at a time"));
+    CHECK(timeless(box / "two") == timeless(box / "one"));
+    CHECK(readText(box / "two/doses.csv") == readText(box / "one/doses.csv"));
+
+    box.write("study.toml", kStudy + "seeds = 0\n");
+    CHECK(box.vkdose("sweep study.toml --backend reference --out three --mpi", kTwoRanks).code == 2);
+    CHECK_FALSE(fs::exists(box / "three"));
+}

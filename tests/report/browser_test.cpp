@@ -1,0 +1,78 @@
+// The pages in a browser: they draw what they should, and without errors. Skipped, and said so, where there is none.
+#include <catch2/catch.hpp>
+#include <cstdlib>
+
+#include "host/report/page.h"
+#include "host/report/study_report.h"
+#include "tests/report/folders.h"
+
+using namespace vkdose;
+using namespace vkdose::report;
+using namespace vkdose::test;
+
+namespace {
+
+bool browserMissing() {
+    if (std::system("command -v chromium > /dev/null 2>&1") == 0) return false;
+    WARN("skipped: chromium is not installed (tools/packages-second-driver)");
+    return true;
+}
+
+/// The document as the browser leaves it once the scripts have run.
+std::string drawn(const Sandbox& box, const Json& data) {
+    const auto file = box.write("page.html", page(data));
+    const std::string command = "timeout 120 chromium --headless --no-sandbox --disable-gpu --user-data-dir='" +
+                                (box / "profile").string() + "' --dump-dom 'file://" + file.string() + "' > '" +
+                                (box / "dom.html").string() + "' 2> /dev/null";
+    REQUIRE(std::system(command.c_str()) == 0);
+    return readText(box / "dom.html");
+}
+
+std::size_t count(const std::string& text, const std::string& part) {
+    std::size_t n = 0;
+    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
+    return n;
+}
+
+}  // namespace
+
+TEST_CASE("a browser draws the page of a run") {
+    if (browserMissing()) return;
+    const Sandbox box;
+    const auto balance = box.write("balance.csv", "dose,mass_g\n1,1.4\n2,1.9\n");
+    const std::string dom = drawn(
+        box, runJson(writeRun(box, "\"<img src=x onerror='document.documentElement.dataset.state=1'>\""), balance));
+    CHECK(dom.find("data-state=\"ready\"") != std::string::npos);
+    const std::string shown = dom.substr(dom.find("<main>"), dom.find("<footer>") - dom.find("<main>"));
+    CHECK(count(dom, "<figure>") == 6);
+    CHECK(count(dom, "class=\"band\"") == 6);  // torque, power, velocity: two rotations each
+    CHECK(count(shown, "<circle") == 14);      // two charts: a legend and 3 doses, a legend and 2 of the balance
+    CHECK(dom.find("&lt;img src=x onerror=") != std::string::npos);  // as text
+    CHECK(dom.find("<td class=\"number\">1.750</td>") != std::string::npos);
+    CHECK(shown.find("NaN") == std::string::npos);  // none among the coordinates
+}
+
+TEST_CASE("a browser draws the page of a run without doses") {
+    if (browserMissing()) return;
+    const Sandbox box;
+    const auto folder = writeRun(box, "why");
+    box.write("run/doses.csv", kDosesHeader);
+    box.write("run/timeseries.csv", kSeriesHeader);
+    CHECK(drawn(box, runJson(folder, {})).find("data-state=\"ready\"") != std::string::npos);
+}
+
+TEST_CASE("a browser draws the page of a study") {
+    if (browserMissing()) return;
+    const Sandbox box;
+    const auto table =
+        box.write("expected.toml",
+                  "[[expected]]\nid = \"S3\"\nwhat = \"falls\"\nsection = \"calibration\"\nkind = \"falls\"\n"
+                  "quantity = \"beta_kg_per_dose\"\nalong = \"contact.kc_over_k\"\n");
+    const std::string dom = drawn(box, studyJson(writeSweep(box), table));
+    CHECK(dom.find("data-state=\"ready\"") != std::string::npos);
+    CHECK(count(dom, "<figure>") == 7);  // beta by two axes, map, two of doses, emptying, RSD
+    CHECK(count(dom, "class=\"cell\"") == 4);
+    CHECK(count(dom, "class=\"contour\"") == 1);
+    CHECK(dom.find("class=\"verdict holds\">trend holds") != std::string::npos);
+    CHECK(dom.find("1 failed: particle 3 at (0, 0, 1) \"left\" the domain") != std::string::npos);
+}

@@ -1,0 +1,141 @@
+#include "host/report/run_report.h"
+
+#include <catch2/catch.hpp>
+
+#include "host/core/error.h"
+#include "host/report/page.h"
+#include "host/report/run_figures.h"
+#include "tests/report/folders.h"
+
+using namespace vkdose;
+using namespace vkdose::report;
+using vkdose::test::readCsv;
+using vkdose::test::Sandbox;
+using vkdose::test::writeRun;
+
+namespace {
+
+/// The data that a page carries.
+Json embedded(const std::string& html) {
+    const std::string mark = "id=\"data\">";
+    const std::size_t begin = html.find(mark) + mark.size();
+    return Json::parse(html.substr(begin, html.find("</script>", begin) - begin));
+}
+
+std::string fact(const Json& run, const std::string& name, const char* part = "value") {
+    for (const Json& f : run["facts"])
+        if (f["name"] == name) return f[part];
+    return "no such fact";
+}
+
+}  // namespace
+
+TEST_CASE("the page of a run carries the numbers of its doses.csv, to the last digit") {
+    const Sandbox box;
+    const Json data = embedded(page(runJson(writeRun(box, "why"), {})));
+    const auto rows = readCsv(box / "run/doses.csv");
+    for (std::size_t column = 0; column < rows[0].size(); ++column) {
+        const Json& values = data["doses"][rows[0][column]];
+        REQUIRE(values.size() == rows.size() - 1);
+        for (std::size_t i = 1; i < rows.size(); ++i) CHECK(values[i - 1].get<double>() == std::stod(rows[i][column]));
+    }
+    CHECK(data["doses"]["mass_kg"][3] == 0.000123456789);
+    CHECK(data["reason"] == "why");
+}
+
+TEST_CASE("curves and turning times of a run") {
+    const Sandbox box;
+    const Json data = runJson(writeRun(box, "why"), {});
+    CHECK(data["series"]["coil_torque_Nm"] == Json({0.0, 0.002, 0.001, 0.002, 0.001}));
+    CHECK(data["series"]["outlet_velocity_m_s"][0].is_null());
+    CHECK(data["rotations"] == Json({{0.1, 0.3}, {0.4, 0.6}}));
+    CHECK(data["filled_mass_kg"] == 0.006);
+}
+
+TEST_CASE("a long time series is thinned: means of torques, last values of masses") {
+    const Sandbox box;
+    const auto folder = writeRun(box, "long");
+    std::string series = vkdose::test::kSeriesHeader;
+    for (int i = 1; i <= 10000; ++i)
+        series += fmt::format("{},rotate,1,{},{},{},0,0,0,0,0,0,0,0,{},{},0,0\n", i, i, i, 10000 - i,
+                              i % 2 == 0 ? "nan" : "0.5", i % 2 == 0 ? 3 : 1);
+    box.write("run/timeseries.csv", series);
+    const Json data = runJson(folder, {});
+    CHECK(data["series"]["time_s"].size() == 5000);
+    CHECK(data["series"]["time_s"][1] == 4);
+    CHECK(data["series"]["dosed_mass_kg"][1] == 4);
+    CHECK(data["series"]["coil_torque_Nm"][1] == 2);
+    CHECK(data["series"]["outlet_velocity_m_s"][1] == 0.5);  // of the one line that has any
+    CHECK(data["rotations"] == Json({{0, 10000}}));
+}
+
+TEST_CASE("the figures of a run, by hand") {
+    const Sandbox box;
+    const Json data = runJson(writeRun(box, "why"), {});
+    CHECK(fact(data, "complete doses") == "3");
+    // 1.5 and 3.5 g are below 80 % of 6 g (4.8 g): the slope of two points, which has no error.
+    CHECK(fact(data, "β") == "2.000 g/dose");
+    CHECK_THAT(fact(data, "β", "note"), Catch::Contains("2 doses with less than 4.8 g"));
+    CHECK(fact(data, "blocked") == "no");
+    CHECK(fact(data, "mass per turn of the coil") == "3.5 g");        // 3.5 g in one turn
+    CHECK(fact(data, "work of the drive") == "12.57 mJ");             // 2 mN m over 2 pi
+    CHECK(fact(data, "outlet velocity, coil turning") == "15 mm/s");  // of 12 and 18; that at rest left out
+    CHECK(fact(data, "state") == "still running, or ended without a summary");
+    CHECK(fact(data, "arch over the coil, at the end") == "no such fact");
+}
+
+TEST_CASE("the end state adds densities and arches, the summary how it ended") {
+    const Sandbox box;
+    const auto folder = writeRun(box, "why");
+    box.write("run/particles.csv",
+              "id,x_m,y_m,z_m,vx_m_s,vy_m_s,vz_m_s,wx_rad_s,wy_rad_s,wz_rad_s,radius_m,status\n"
+              "0,0,0,0.01,0,0,0,0,0,0,0.001,active\n1,0,0,0.01,0,0,0,0,0,0,0.001,dosed\n");
+    const Particles end = readEndState(folder / "particles.csv");
+    CHECK(end.status == std::vector<Status>{Status::Active, Status::Dosed});
+    CHECK(end.position[0] == Vec3(0, 0, 0.01));
+    box.write("run/summary.json", R"({"stop_sentence": "the 3 doses asked for are done", "error": "it broke"})");
+    const Json data = runJson(folder, {});
+    CHECK(fact(data, "ended") == "the 3 doses asked for are done");
+    CHECK(fact(data, "error") == "it broke");
+    CHECK_THAT(fact(data, "arch over the coil, at the end"), !Catch::Contains("no such fact"));
+    // An interrupted run that was resumed and goes on: neither its summary nor its end state hold any more.
+    box.write("run/summary.json", R"({"stop_sentence": "interrupted", "simulated_time_s": 0.6})");
+    CHECK_THAT(fact(runJson(folder, {}), "state"), Catch::Contains("still running"));
+    CHECK(fact(runJson(folder, {}), "arch over the coil, at the end") == "no such fact");
+    box.write("run/summary.json", R"({"stop_sentence": "interrupted", "simulated_time_s": 0.69999999995})");
+    CHECK(fact(runJson(folder, {}), "ended") == "interrupted");
+    box.write("run/summary.json", "{");
+    CHECK_THROWS_AS(runJson(folder, {}), CaseError);
+}
+
+TEST_CASE("a balance's readings, as masses of doses or added up") {
+    const Sandbox box;
+    const Json single = experimentJson(box.write("b.csv", "dose,mass_g\n1,3\n2,4\n3,5"));
+    CHECK(single["cumulative_mass_kg"] == Json({0.003, 0.007, 0.012}));
+    const Json sums = experimentJson(box.write("c.csv", "dose,cumulative_g\n1,3\n2,7\n"));
+    CHECK(sums["mass_kg"] == Json({0.003, 0.004}));
+    CHECK_THROWS_AS(experimentJson(box.write("d.csv", "dose,weight\n1,3\n")), CaseError);
+}
+
+TEST_CASE("whatever stands in a case is text on the page, not markup") {
+    const Sandbox box;
+    const std::string evil = "\"</script><script>alert(1)</script> & <b>bold</b> @@d3@@\"";
+    std::filesystem::create_directories(box / "run");
+    const std::string html = page(runJson(writeRun(box, evil), {}));
+    CHECK(html.find("<script>alert") == std::string::npos);
+    CHECK(html.find("<b>bold") == std::string::npos);
+    CHECK(embedded(html)["reason"] == "</script><script>alert(1)</script> & <b>bold</b> @@d3@@");
+    const std::string titled = page({{"name", "<i>&</i>"}});
+    CHECK(titled.find("<title>&lt;i&gt;&amp;&lt;/i&gt;</title>") != std::string::npos);
+    CHECK_NOTHROW(page({{"name", "\xff not UTF-8"}}));
+}
+
+TEST_CASE("the page asks for nothing from elsewhere, and may not") {
+    const Sandbox box;
+    const std::string html = page(runJson(writeRun(box, "why"), {}));
+    CHECK(html.find("default-src 'none'") < html.find("<style>"));
+    for (const char* reference : {" src=", " href=", "@import", "url(http", "XMLHttpRequest(\"", "fetch("})
+        CHECK(html.find(reference) == std::string::npos);
+    CHECK(html.find("@@") == html.rfind("@@") - 0);                           // no mark was left over
+    CHECK(html.find("Redistributions of source code") != std::string::npos);  // D3's licence goes along
+}

@@ -1,0 +1,122 @@
+#include "host/report/study_report.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "host/core/error.h"
+#include "host/report/study_points.h"
+#include "tests/report/folders.h"
+#include "tests/support/near.h"
+
+using namespace vkdose;
+using namespace vkdose::report;
+using namespace vkdose::test;
+
+namespace {
+
+std::vector<StudyPoint> pointsIn(const std::filesystem::path& folder) {
+    const Table members = Table::read(folder / "members.csv");
+    const StudyHead head = readHead(folder, members);
+    return readPoints(folder, head, members);
+}
+
+}  // namespace
+
+TEST_CASE("members that differ in the seed alone make a point") {
+    const Sandbox box;
+    const auto points = pointsIn(writeSweep(box));
+    REQUIRE(points.size() == 4);
+    CHECK(points[0].finished == 2);
+    CHECK(nearRelative(points[0].beta, 4.9e-3, 1e-12));
+    CHECK(nearRelative(points[0].betaError, 0.1e-3, 1e-9));  // 0.2/sqrt(2) over sqrt(2)
+    CHECK(points[0].errorOverSeeds);
+    CHECK(nearRelative(points[0].doses.at(0).mean, 5e-3, 1e-12));
+    CHECK(nearRelative(points[0].doses.at(0).standardError, 1e-3, 1e-9));
+    CHECK(nearRelative(points[0].point.cumulative.at(1), 10e-3, 1e-12));
+}
+
+TEST_CASE("with one seed the error is the slope's own, and failed members are counted, not averaged") {
+    const Sandbox box;
+    const auto last = pointsIn(writeSweep(box)).at(3);
+    CHECK(last.finished == 1);
+    CHECK(last.failed == 1);
+    CHECK(nearRelative(last.beta, 3.6e-3, 1e-12));
+    CHECK(nearRelative(last.betaError, 0.1e-3, 1e-12));
+    CHECK_FALSE(last.errorOverSeeds);
+    CHECK(last.errors == std::vector<std::string>{"particle 3 at (0, 0, 1) \"left\" the domain"});
+}
+
+TEST_CASE("conditions of a point: column, then resolved case, then what the study sets, then base") {
+    const Sandbox box;
+    const auto folder = writeSweep(box);
+    auto keys = pointsIn(folder).at(0).point.keys;
+    CHECK(keys.at("contact.kc_over_k").number == 0.2);
+    CHECK(keys.at("dose.rotate_s").number == 2);  // [set], not the base's 1
+    CHECK(keys.at("coil.turns").number == 8);
+    std::filesystem::create_directories(folder / "members/0000");
+    box.write("sweep/members/0000/case.toml", "[coil]\nturns = 6\nhand = \"left\"\n[contact]\nkc_over_k = 0.9\n");
+    keys = pointsIn(folder).at(0).point.keys;
+    CHECK(keys.at("coil.turns").number == 6);
+    CHECK(keys.at("coil.hand").text == "left");
+    CHECK(keys.at("contact.kc_over_k").number == 0.2);
+}
+
+TEST_CASE("beta is taken from the doses where the table has none") {
+    const Sandbox box;
+    const auto folder = writeSweep(box);
+    std::string rows = readText(folder / "members.csv");
+    for (const char* given : {",0.0048,0.0001,", ",0.005,0.0001,"})
+        rows.replace(rows.find(given), std::string(given).size(), ",,,");
+    box.write("sweep/members.csv", rows);
+    const StudyPoint first = pointsIn(folder).at(0);
+    CHECK(nearRelative(first.beta, 5e-3, 1e-12));  // both members: 5 g from the first to the second dose
+}
+
+TEST_CASE("doses of a point: complete ones, and the mean curve ends with the shortest member") {
+    const Sandbox box;
+    const auto folder = writeSweep(box);
+    std::string doses = readText(folder / "doses.csv");
+    doses += "0,1,0.2,0.3,3,7,0.004,0.013,300,0.01,0.0042,1\n1,2,0.2,0.3,3,7,0.001,0.012,300,0.01,0.0042,0\n";
+    box.write("sweep/doses.csv", doses);
+    const StudyPoint first = pointsIn(folder).at(0);
+    REQUIRE(first.doses.size() == 3);
+    CHECK(first.doses[2].count == 1);
+    CHECK(nearRelative(first.doses[2].mean, 4e-3, 1e-12));
+    CHECK(first.point.cumulative.size() == 2);
+}
+
+TEST_CASE("keys that move together are one axis") {
+    const Sandbox box;
+    std::filesystem::create_directories(box / "sweep");
+    box.write("sweep/study.toml",
+              "name = \"pairs\"\n[[axis]]\nkeys = [\"coil.turns\", \"coil.speed_rpm\"]\nvalues = [[8, 90], [4, 45]]\n");
+    box.write("sweep/members.csv",
+              "member,seed,coil.turns,coil.speed_rpm,status,error,beta_kg_per_dose\n"
+              "0,1,8,90,ok,,0.004\n1,1,4,45,ok,,0.005\n");
+    const Json study = studyJson(box / "sweep", {});
+    CHECK(study["axes"] == Json::parse(R"([["coil.turns", "coil.speed_rpm"]])"));
+    CHECK(study["points"][0]["at"] == Json::parse(R"(["8, 90"])"));
+    CHECK(study["points"][1]["beta_kg_per_dose"] == 0.005);
+    CHECK(study["verdicts"].is_null());
+}
+
+TEST_CASE("a sweep that has just begun, and one without study.toml") {
+    const Sandbox box;
+    std::filesystem::create_directories(box / "fresh");
+    box.write("fresh/members.csv", kMembersHeader);
+    CHECK(isSweep(box / "fresh"));
+    CHECK_FALSE(isSweep(box.path()));
+    const Json study = studyJson(box / "fresh", {});
+    CHECK(study["points"].empty());
+    CHECK(study["axes"] == Json::parse(R"([["contact.kc_over_k"], ["contact.friction"]])"));
+}
+
+TEST_CASE("name, reason, target and failures are in the data") {
+    const Sandbox box;
+    const Json study = studyJson(writeSweep(box), {});
+    CHECK(study["name"] == "k_c against friction");
+    CHECK(study["reason"] == "which of them decides?");
+    CHECK(nearRelative(study["target_kg_per_dose"].get<double>(), 3.7e-3, 1e-12));
+    CHECK(study["points"][3]["failed"] == 1);
+    CHECK(study["members"] == 8);
+}

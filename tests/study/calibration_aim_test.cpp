@@ -1,0 +1,101 @@
+// The table [calibrate]: targets, measured files, and what can be wrong with them.
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "tests/study/study_files.h"
+
+using namespace vkdose;
+using namespace vkdose::test;
+
+namespace {
+
+std::string withAim(const std::string& aim) {
+    return kGoodStudy + "[calibrate]\n" + aim;
+}
+
+}  // namespace
+
+TEST_CASE("a calibration's target is given, in grams a dose") {
+    const StudyFolder folder;
+    const Study study = folder.study(withAim("target_g_per_dose = 3.7\ntolerance_g = 0.05\n"));
+    REQUIRE(study.calibration);
+    CHECK(study.calibration->method == CalibrationAim::Method::Grid);
+    CHECK(study.calibration->target == Approx(3.7e-3).epsilon(1e-12));  // a unit's rounding
+    CHECK(study.calibration->tolerance == Approx(0.05e-3).epsilon(1e-12));
+    CHECK(study.calibration->along == "contact.kc_over_k");
+    CHECK(study.keys().size() == 3);
+}
+
+TEST_CASE("a balance's file gives the target: the slope before saturation, with its error for a tolerance") {
+    const StudyFolder folder;
+    // Five doses of 2 g, alternately 0.1 g more and less, then next to nothing: the slope is that of the first ones.
+    folder.write("mass.csv", "dose,mass_g\n1,2.1\n2,1.9\n3,2.1\n4,1.9\n5,2.0\n6,0.5\n7,0.1\n8,0.0");
+    folder.write("sum.csv", "cumulative_g,dose\n2.1,1\n4.0,2\n6.1,3\n8.0,4\n10.0,5\n10.5,6\n10.6,7\n10.6,8\n");
+    for (const std::string file : {"mass.csv", "sum.csv"}) {
+        const Study study = folder.study(withAim("measured = \"" + file + "\"\n"));
+        CAPTURE(file);
+        // Four doses are below 80 % of 10.6 g: 2.1, 4.0, 6.1, 8.0; their least-squares slope is 1.98 g.
+        CHECK(study.calibration->target == Approx(1.98e-3).epsilon(1e-9));  // rounding of the sums
+        CHECK(study.calibration->tolerance > 0);
+        CHECK(study.calibration->tolerance < 0.2e-3);
+    }
+    const Study study = folder.study(withAim("measured = \"mass.csv\"\ntolerance_g = 0.3\n"));
+    CHECK(study.calibration->tolerance == Approx(0.3e-3).epsilon(1e-12));
+}
+
+TEST_CASE("a search has free parameters for keys") {
+    const StudyFolder folder;
+    const Study study = folder.study(
+        "base = \"good.toml\"\n[calibrate]\nmethod = \"surrogate\"\ntarget_g_per_dose = 3.7\ntolerance_g = 0.05\n"
+        "max_runs = 12\n[[calibrate.parameter]]\nkey = \"contact.friction\"\nlow = 0.1\nhigh = 0.6\n");
+    CHECK(study.calibration->maxRuns == 12);
+    REQUIRE(study.calibration->parameters.size() == 1);
+    CHECK(study.calibration->parameters[0].high == 0.6);
+    CHECK(study.keys() == std::vector<std::string>{"contact.friction"});
+}
+
+TEST_CASE("every fault of a calibration names its key and a remedy") {
+    const StudyFolder folder;
+    folder.write("short.csv", "dose,mass_g\n1,2\n2,2\n");
+    folder.write("gap.csv", "dose,mass_g\n1,2\n3,2\n");
+    folder.write("word.csv", "dose,mass_g\n1,2\n2,two\n");
+    folder.write("head.csv", "n,m\n1,2\n");
+    const std::string search =
+        "method = \"surrogate\"\ntarget_g_per_dose = 3.7\ntolerance_g = 0.05\n[[calibrate.parameter]]\n";
+    struct Fault {
+        std::string aim, key, says;
+    };
+    for (const Fault& row : std::vector<Fault>{
+             {"tolerance_g = 0.05\n", "calibrate.target_g_per_dose", "is missing"},
+             {"target_g_per_dose = 3.7\n", "calibrate.tolerance_g", "is missing"},
+             {"target_g_per_dose = -1\ntolerance_g = 0.05\n", "calibrate.target_g_per_dose", "is negative"},
+             {"targt_g_per_dose = 3.7\ntolerance_g = 0.05\n", "calibrate.targt_g_per_dose",
+              "did you mean target_g_per_dose?"},
+             {"target_g_per_dose = 3.7\nmeasured = \"short.csv\"\n", "calibrate.target_g_per_dose", "not both"},
+             {"measured = \"none.csv\"\n", "calibrate.measured", "there is no file"},
+             {"measured = \"short.csv\"\n", "calibrate.measured", "too few doses"},
+             {"measured = \"gap.csv\"\n", "calibrate.measured", "line 3: dose 2 should come here"},
+             {"measured = \"word.csv\"\n", "calibrate.measured", "line 3: the mass is not a number"},
+             {"measured = \"head.csv\"\n", "calibrate.measured", "the header is not"},
+             {"method = \"random\"\ntarget_g_per_dose = 3.7\ntolerance_g = 0.05\n", "calibrate.method",
+              "grid, surrogate"},
+             {"target_g_per_dose = 3.7\ntolerance_g = 0.05\nalong = \"coil.turns\"\n", "calibrate.along",
+              "no axis has coil.turns alone"},
+             {search + "key = \"contact.damping\"\nlow = 0.1\nhigh = 0.2\n", "calibrate.method",
+              "a search has no axes"},
+             {search + "key = \"coil.turns\"\nlow = 2\nhigh = 3\n", "calibrate.parameter[0].key",
+              "coil.turns is given twice"},
+             {search + "key = \"contact.damping\"\nlow = 0.2\nhigh = 0.2\n", "calibrate.parameter[0].high",
+              "is not above low"},
+             {"method = \"surrogate\"\ntarget_g_per_dose = 3.7\ntolerance_g = 0.05\n", "calibrate.parameter",
+              "one to four"},
+         }) {
+        const auto faults = faultsOf(folder, withAim(row.aim));
+        CAPTURE(row.aim, row.says);
+        const auto told = std::find_if(faults.begin(), faults.end(), [&](const Diagnostic& d) {
+            return d.text().find(row.says) != std::string::npos;
+        });
+        REQUIRE(told != faults.end());
+        CHECK(told->key == row.key);
+    }
+}

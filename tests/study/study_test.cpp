@@ -1,0 +1,190 @@
+// Study files: what they say, and every way they can be wrong.
+#include "host/study/study.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "host/model/case.h"
+#include "tests/study/study_files.h"
+
+using namespace vkdose;
+using namespace vkdose::test;
+
+namespace {
+
+int lineOf(const std::string& text, const std::string& what) {
+    const std::size_t at = text.find(what);
+    REQUIRE(at != std::string::npos);
+    return 1 + int(std::count(text.begin(), text.begin() + std::ptrdiff_t(at), '\n'));
+}
+
+/// The case of a member as it would run.
+Case caseOf(const Member& m) {
+    return loadResolvedCase(m.caseText, "member.toml");
+}
+
+/// A study with a single axis.
+std::string withAxis(const std::string& axis) {
+    return "base = \"good.toml\"\n[[axis]]\n" + axis;
+}
+
+}  // namespace
+
+TEST_CASE("a study is every combination of its axes for every seed, seeds slowest, the last axis fastest") {
+    const StudyFolder folder;
+    const Study study = folder.study();
+    CHECK(study.name == "cohesion and friction");
+    CHECK(study.keys() == std::vector<std::string>{"contact.kc_over_k", "coil.turns", "coil.speed_rpm"});
+    const std::vector<Member> members = folder.members();
+    REQUIRE(members.size() == 12);
+    const std::vector<std::vector<std::string>> points{{"0.2", "3", "120"},  {"0.2", "2", "60"},
+                                                       {"0.2", "4", "60.5"}, {"0.50", "3", "120"},
+                                                       {"0.50", "2", "60"},  {"0.50", "4", "60.5"}};
+    for (int i = 0; i < 12; ++i) {
+        CAPTURE(i);
+        CHECK(members[i].number == i);
+        CHECK(members[i].seed == (i < 6 ? 4 : 9));
+        CHECK(members[i].values == points[i % 6]);
+    }
+    const Case c = caseOf(members[10]);
+    CHECK(c.seed == 9);
+    CHECK(c.world.law.of(ContactClass::ParticleParticle).kc == 0.5 * 2000.0);
+    CHECK(c.schedule.stop.maxDoses == 2);
+    CHECK(c.schedule.rotateTime == 0.2);
+    CHECK(c.schedule.coilSpeed == Approx(2 * kPi).epsilon(1e-12));  // 60 a minute, to rounding
+    REQUIRE(c.world.coil);
+    CHECK(c.world.coil->pitch == Approx(0.021 / 2).epsilon(1e-12));  // 2 turns on 21 mm, to rounding
+}
+
+TEST_CASE("without axes and seeds a study is the base case") {
+    const StudyFolder folder;
+    const std::vector<Member> members = folder.members("base = \"good.toml\"\n");
+    REQUIRE(members.size() == 1);
+    CHECK(members[0].seed == 3);
+    CHECK(members[0].values.empty());
+    CHECK(members[0].caseText == loadCase(folder.path() / "good.toml").resolved);
+    CHECK(folder.study("base = \"good.toml\"\n").name == "study");
+    CHECK(folder.members("base = \"good.toml\"\nseeds = 3\n").back().seed == 3);
+}
+
+TEST_CASE("a range has its ends, round numbers between, and whole numbers for keys that want them") {
+    const StudyFolder folder;
+    const auto valuesOf = [&](const std::string& axis) {
+        std::vector<std::string> values;
+        for (const Member& m : folder.members(withAxis(axis))) values.push_back(m.values.at(0));
+        return values;
+    };
+    CHECK(valuesOf("key = \"contact.friction\"\nfrom = 0.1\nto = 0.5\nsteps = 5\n") ==
+          std::vector<std::string>{"0.1", "0.2", "0.3", "0.4", "0.5"});
+    CHECK(valuesOf("key = \"stop.doses\"\nfrom = 1\nto = 7\nsteps = 3\n") == std::vector<std::string>{"1", "4", "7"});
+    CHECK(valuesOf("key = \"coil.speed_rpm\"\nfrom = 60\nto = 45\nsteps = 3\n") ==
+          std::vector<std::string>{"60", "52.5", "45"});
+}
+
+TEST_CASE("an axis may carry words, and keys that replace others of the base") {
+    const StudyFolder folder;
+    const auto floors = folder.members(withAxis("key = \"canister.floor\"\nvalues = [\"trough\", \"flat\"]\n"));
+    REQUIRE(floors.size() == 2);
+    CHECK(floors[1].values == std::vector<std::string>{"flat"});
+    CHECK(caseOf(floors[1]).canister->flatFloor);
+    const auto pitches = folder.members(withAxis("key = \"coil.pitch_mm\"\nvalues = [7, 10.5]\n"));
+    REQUIRE(pitches.size() == 2);
+    CHECK(caseOf(pitches[1]).world.coil->pitch == Approx(0.0105).epsilon(1e-12));  // to rounding
+    const auto sizes =
+        folder.members(withAxis("key = \"particles.size\"\nvalues = [{distribution = \"fixed\", radius_mm = 1.0}, "
+                                "{distribution = \"fixed\", radius_mm = 1.2}]\n"));
+    REQUIRE(sizes.size() == 2);
+    CHECK(sizes[0].particles > sizes[1].particles);
+}
+
+TEST_CASE("every fault of a study names its line, its key and a remedy") {
+    const StudyFolder folder;
+    struct Fault {
+        std::string from, to;  ///< of the good study
+        std::string where;     ///< in the line that must be blamed
+        std::string key;
+        std::string says;
+    };
+    const std::vector<Fault> all{
+        {"reason =", "raeson =", "raeson", "raeson", "did you mean reason?"},
+        {"[[axis]]\nkey =", "[[axes]]\nkey =", "[[axes]]", "axes", "did you mean axis?"},
+        {"base = \"good.toml\"\n", "", "", "base", "is missing"},
+        {"good.toml", "bad.toml", "", "", "there is no such file"},
+        {"[4, 9]", "[4, 4]", "seeds", "seeds", "different whole numbers"},
+        {"[4, 9]", "[4, -9]", "seeds", "seeds", "different whole numbers"},
+        {"[4, 9]", "[]", "seeds", "seeds", "different whole numbers"},
+        {"[4, 9]", "0", "seeds", "seeds", "not a number of seeds"},
+        {"[4, 9]", "\"many\"", "seeds", "seeds", "different whole numbers"},
+        {"values = [0.2", "vaules = [0.2", "vaules", "axis[0].vaules", "did you mean values?"},
+        {"[0.2, 0.50]", "[]", "values = []", "axis[0].values", "is not a list of values"},
+        {"[0.2, 0.50]", "0.2", "values = 0.2", "axis[0].values", "is not a list of values"},
+        {"[0.2, 0.50]", "[0.2, 0.2]", "values = [0.2", "axis[0].values", "0.2 is there twice"},
+        {"values = [0.2, 0.50]", "from = 0.2\nto = 0.2\nsteps = 4", "to = 0.2", "axis[0].to", "the range is empty"},
+        {"values = [0.2, 0.50]", "from = 0.2\nto = 0.5\nsteps = 1", "steps = 1", "axis[0].steps", ">= 2"},
+        {"values = [0.2, 0.50]", "values = [0.2]\nfrom = 0.1\nto = 0.2\nsteps = 3", "values = [0.2]", "axis[0].values",
+         "there is a range too"},
+        {"values = [0.2, 0.50]", "from = 0\nto = 1\nsteps = 9000", "[[axis]]", "axis", "more than 10000"},
+        {"[2, 60]", "[2]", "values = [[3", "axis[1].values", "[2] is not a row of 2 values"},
+        {"[2, 60]", "2", "values = [[3", "axis[1].values", "2 is not a row of 2 values"},
+        {"keys =", "key = \"seed\"\nkeys =", "keys = [", "axis[1].keys", "give key or keys, not both"},
+        {"\"contact.kc_over_k\"", "\"seed\"", "key = \"seed\"", "axis[0].key", "seeds = [1, 2, 3]"},
+        {"\"contact.kc_over_k\"", "\"contact..k\"", "key = \"contact..k\"", "axis[0].key", "not the path of a key"},
+        {"\"contact.kc_over_k\"", "\"coil.turns\"", "keys = [", "axis[1].keys", "coil.turns is given twice"},
+        {"\"stop.max_doses\"", "\"coil.turns\"", "keys = [", "axis[1].keys", "coil.turns is given twice"},
+        {"\"contact.kc_over_k\"", "\"contact.kc_over\"", "values = [0.2", "contact.kc_over", "did you mean kc_over_k?"},
+        {"[0.2, 0.50]", "[0.2, -0.5]", "values = [0.2", "contact.kc_over_k", "is negative"},
+        {"[2, 60]", "[2, true]", "values = [[3", "coil.speed_rpm", "not a number"},
+        {"\"stop.max_doses\" = 2", "\"stop.max_doses\" = 0", "stop.max_doses", "stop.max_doses", "too small"},
+    };
+    REQUIRE(faultsOf(folder, kGoodStudy).empty());
+    for (const Fault& row : all) {
+        const std::string text = replaced(kGoodStudy, row.from, row.to);
+        const std::vector<Diagnostic> faults = faultsOf(folder, text);
+        CAPTURE(row.to, row.says);
+        const auto told = std::find_if(faults.begin(), faults.end(), [&](const Diagnostic& d) {
+            return d.text().find(row.says) != std::string::npos;
+        });
+        REQUIRE(told != faults.end());
+        CAPTURE(told->text());
+        CHECK(told->key == row.key);
+        CHECK(told->file.find(row.says == "there is no such file" ? "bad.toml" : "study.toml") != std::string::npos);
+        // At the line, or at the axis that holds it.
+        if (!row.where.empty()) CHECK(told->line == lineOf(text, row.where));
+    }
+}
+
+TEST_CASE("a point that no key is guilty of alone is named") {
+    const StudyFolder folder;
+    // The wire reaches beyond the trough only where it is thick and wound wide.
+    const auto faults = faultsOf(folder,
+                                 "base = \"good.toml\"\n[[axis]]\nkey = \"coil.radius_mm\"\nvalues = [5.0, 6.0]\n"
+                                 "[[axis]]\nkey = \"coil.wire_diameter_mm\"\nvalues = [1.6, 2.4]\n");
+    REQUIRE(faults.size() == 1);
+    CHECK_THAT(faults[0].text(), Catch::Contains("study.toml:4: coil.radius_mm = 6.0") &&
+                                     Catch::Contains("member 3: coil.radius_mm = 6.0, coil.wire_diameter_mm = 2.4"));
+}
+
+TEST_CASE("a table and a key in it are not set by the same study") {
+    const StudyFolder folder;
+    const auto faults = faultsOf(folder,
+                                 "base = \"good.toml\"\n[[axis]]\nkey = \"particles.size\"\n"
+                                 "values = [{distribution = \"fixed\", radius_mm = 1.0}]\n"
+                                 "[[axis]]\nkey = \"particles.size.radius_mm\"\nvalues = [1.0]\n");
+    REQUIRE(faults.size() == 1);
+    CHECK_THAT(faults[0].text(), Catch::Contains("study.toml:7: particles.size.radius_mm"));
+}
+
+TEST_CASE("every study that is shipped says why, and each of its members is a case") {
+    int studies = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(VKDOSE_SOURCE_DIR "/cases/paper")) {
+        if (entry.path().stem() == "expected") continue;  // what the paper reports, for `vkdose report`
+        CAPTURE(entry.path().string());
+        Study study = readStudy(entry.path());
+        CHECK_FALSE(study.reason.empty());
+        CHECK(study.name == entry.path().stem());
+        study.seeds = {1};
+        CHECK_NOTHROW(membersOf(study));
+        ++studies;
+    }
+    CHECK(studies >= 13);
+}

@@ -1,0 +1,239 @@
+// A sweep over runs that are made up: which members run when, what is noted, and how it goes on.
+#include "host/study/sweep.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <deque>
+#include <fstream>
+#include <map>
+
+#include "host/output/checkpoint.h"
+#include "host/output/run_folder.h"
+#include "tests/study/study_files.h"
+
+using namespace vkdose;
+using namespace vkdose::test;
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string readText(const fs::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// Stands in for the processes: a member "runs" until it is waited for, the last started ends first.
+class MadeUpRuns : public MemberRunner {
+  public:
+    explicit MadeUpRuns(int slots) : slots_(slots) {}
+    int slots() const override { return slots_; }
+    void start(const MemberTask& task) override {
+        CHECK(fs::exists(task.folder / "case.toml"));
+        running.push_back(task);
+        started.push_back(task.number);
+        resumed.push_back(task.resume);
+        most = std::max(most, int(running.size()));
+    }
+    std::optional<MemberEnd> wait() override {
+        if (running.empty()) throw std::logic_error("nothing to wait for");
+        const MemberTask task = running.back();
+        running.pop_back();
+        const auto code = codes.find(task.number);
+        MemberEnd end{task.number, interrupted ? 130 : code == codes.end() ? 0 : code->second, ""};
+        if (end.code == 3) end.said = "particle 7, \"lost\"";
+        std::ofstream(task.folder / "doses.csv") << kDosesHeader << "\n1,0.1,0.002,0.002,3,0.5,0.0021,1\n"
+                                                 << "2,0.2,0.001,0.003,1,0.7,0.0021,0\n";
+        if (end.code == 0)
+            std::ofstream(task.folder / "summary.json")
+                << R"({"error": null, "interrupted": false, "stop_reason": "dose_count", "simulated_time_s": 1.5})";
+        else
+            std::ofstream(task.folder / kCheckpointName) << "state";
+        if (end.code == 0) fs::remove(task.folder / kCheckpointName);
+        if (onEnd) onEnd();
+        return end;
+    }
+    void interrupt() override { interrupted = true; }
+
+    int slots_;
+    std::map<int, int> codes;  ///< exit codes other than 0
+    std::vector<MemberTask> running;
+    std::vector<int> started;
+    std::vector<bool> resumed;
+    int most = 0;
+    bool interrupted = false;
+    std::function<void()> onEnd;
+};
+
+const std::atomic<bool> kNoStop{false};
+
+struct Sweeping {
+    StudyFolder place;
+    fs::path out = place.path() / "out";
+
+    SweepOutcome run(MadeUpRuns& runs, const std::string& text = kGoodStudy, bool retry = false,
+                     const std::atomic<bool>& stop = kNoStop) const {
+        const Study study = place.study(text);
+        const std::vector<Member> members = membersOf(study);
+        SweepFolder folder(out, study, members);
+        SweepObserver nobody;
+        const SweepOutcome outcome = runMembers(folder, members, runs, nobody, stop, retry);
+        if (outcome.whole) folder.sort();
+        return outcome;
+    }
+    CsvTable members() const { return readTable(out / "members.csv"); }
+    CsvTable doses() const { return readTable(out / "doses.csv"); }
+};
+
+}  // namespace
+
+TEST_CASE("every member runs once, no more at a time than there are slots, and is noted with its doses") {
+    const Sweeping sweep;
+    MadeUpRuns runs(3);
+    const SweepOutcome outcome = sweep.run(runs);
+    CHECK(outcome.whole);
+    CHECK(outcome.ok == 12);
+    CHECK(runs.most == 3);
+    std::sort(runs.started.begin(), runs.started.end());
+    CHECK(runs.started == std::vector<int>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11});
+    const CsvTable members = sweep.members();
+    REQUIRE(members.rows.size() == 12);
+    for (int i = 0; i < 12; ++i) CHECK(members.text(members.rows[i], "member") == std::to_string(i));
+    const Row& row = members.rows[8];
+    CHECK(members.text(row, "seed") == "9");
+    CHECK(members.text(row, "coil.speed_rpm") == "60.5");
+    CHECK(members.text(row, "status") == "ok");
+    CHECK(members.text(row, "stop_reason") == "dose_count");
+    CHECK(members.number(row, "simulated_time_s") == 1.5);
+    CHECK(members.number(row, "coil_torque_Nm") == 0.5);  // the dose that was cut short does not count
+    CHECK(members.text(row, "mean_dose_kg").empty());
+    const CsvTable doses = sweep.doses();
+    REQUIRE(doses.rows.size() == 24);
+    CHECK(doses.text(doses.rows[17], "member") == "8");
+    CHECK(doses.text(doses.rows[17], "contact.kc_over_k") == "0.2");
+    CHECK(doses.number(doses.rows[17], "cumulative_mass_kg") == 0.003);
+    CHECK(readText(sweep.out / "study.toml") == kGoodStudy);
+    CHECK(fs::exists(sweep.out / "base.toml"));
+
+    MadeUpRuns again(3);
+    CHECK(sweep.run(again).whole);
+    CHECK(again.started.empty());
+    CHECK(sweep.members().rows == members.rows);
+}
+
+TEST_CASE("a member that fails does not keep the others from running; it is run again only when asked for") {
+    const Sweeping sweep;
+    MadeUpRuns runs(2);
+    runs.codes = {{4, 3}, {7, 128 + 9}};
+    const SweepOutcome outcome = sweep.run(runs);
+    CHECK(outcome.ok == 10);
+    CHECK(outcome.failed == 2);
+    CHECK(outcome.whole);
+    const CsvTable members = sweep.members();
+    CHECK(members.text(members.rows[4], "status") == "failed");
+    CHECK(members.text(members.rows[4], "error") == "particle 7, \"lost\"");
+    CHECK(members.text(members.rows[7], "error") == "ended by signal 9");
+
+    MadeUpRuns nothing(2);
+    CHECK(sweep.run(nothing).failed == 2);
+    CHECK(nothing.started.empty());
+
+    MadeUpRuns retried(1);
+    CHECK(sweep.run(retried, kGoodStudy, true).failed == 0);
+    CHECK(retried.started == std::vector<int>{4, 7});
+    CHECK(retried.resumed == std::vector<bool>{true, true});
+    CHECK(sweep.members().rows.size() == 12);
+    CHECK(sweep.doses().rows.size() == 24);
+}
+
+TEST_CASE("an interrupted sweep goes on with the members that had begun, from their checkpoints") {
+    const Sweeping sweep;
+    MadeUpRuns runs(2);
+    std::atomic<bool> stop{false};
+    runs.onEnd = [&] { stop = runs.started.size() >= 5; };
+    const SweepOutcome outcome = sweep.run(runs, kGoodStudy, false, stop);
+    CHECK_FALSE(outcome.whole);
+    CHECK(outcome.ok == 4);
+    const std::vector<int> cut = sweep.members().rows.size() == 5 ? std::vector<int>{} : std::vector<int>{-1};
+    REQUIRE(cut.empty());
+    const CsvTable between = sweep.members();
+    CHECK(between.text(between.rows[4], "status") == "interrupted");
+    const int number = std::stoi(between.rows[4][0]);
+
+    MadeUpRuns rest(2);
+    CHECK(sweep.run(rest).ok == 12);
+    CHECK(rest.started.size() == 8);
+    const auto at = std::find(rest.started.begin(), rest.started.end(), number);
+    REQUIRE(at != rest.started.end());
+    CHECK(rest.resumed[std::size_t(at - rest.started.begin())]);
+    CHECK(std::count(rest.resumed.begin(), rest.resumed.end(), true) == 1);
+    CHECK(sweep.members().rows.size() == 12);
+    CHECK(sweep.doses().rows.size() == 24);
+}
+
+TEST_CASE("a torn row, and doses of a member without a row, are cut out and made again") {
+    const Sweeping sweep;
+    MadeUpRuns runs(1);
+    (void)sweep.run(runs);
+    const std::string members = readText(sweep.out / "members.csv"), doses = readText(sweep.out / "doses.csv");
+    // As if killed while writing the row of member 11, whose run is over: it is noted, not run again.
+    std::ofstream(sweep.out / "members.csv") << members.substr(0, members.size() - 9);
+    MadeUpRuns again(1);
+    CHECK(sweep.run(again).ok == 12);
+    CHECK(again.started.empty());
+    CHECK(readText(sweep.out / "members.csv") == members);
+    CHECK(readText(sweep.out / "doses.csv") == doses);
+}
+
+TEST_CASE("a study that has changed is refused, one that has only grown goes on") {
+    const Sweeping sweep;
+    MadeUpRuns runs(1);
+    (void)sweep.run(runs);
+    const std::string before = readText(sweep.out / "members.csv");
+    struct Change {
+        std::string from, to, says;
+    };
+    for (const Change& change : std::vector<Change>{
+             {"[4, 9]", "[9, 4]", "member 0 was another point"},
+             {"[4, 9]", "[4]", "member 6 is no longer in it"},
+             {"[0.2, 0.50]", "[0.2, 0.6]", "member 3 was another point"},
+             {"[0.2, 0.50]", "[0.2, 0.50, 0.6]", "member 6 was another point"},
+             {"\"contact.kc_over_k\"", "\"contact.friction\"", "varies other keys"},
+             {"\"stop.max_doses\" = 2", "\"stop.max_doses\" = 3", "member 0 was another case"},
+         }) {
+        MadeUpRuns none(1);
+        CAPTURE(change.to);
+        CHECK_THROWS_WITH(sweep.run(none, replaced(kGoodStudy, change.from, change.to)),
+                          Catch::Contains(change.says) && Catch::Contains("study.toml has changed"));
+        CHECK(none.started.empty());
+        CHECK(readText(sweep.out / "members.csv") == before);
+        CHECK(readText(sweep.out / "study.toml") == kGoodStudy);
+    }
+    MadeUpRuns more(1);
+    CHECK(sweep.run(more, replaced(kGoodStudy, "[4, 9]", "[4, 9, 11]")).ok == 18);
+    CHECK(more.started == std::vector<int>{12, 13, 14, 15, 16, 17});
+    CHECK(readText(sweep.out / "members.csv").substr(0, before.size()) == before);
+}
+
+TEST_CASE("with a single seed values may be added to the first axis") {
+    const Sweeping sweep;
+    const std::string single = replaced(kGoodStudy, "[4, 9]", "[4]");
+    MadeUpRuns runs(1);
+    (void)sweep.run(runs, single);
+    MadeUpRuns more(1);
+    CHECK(sweep.run(more, replaced(single, "[0.2, 0.50]", "[0.2, 0.50, 0.6]")).ok == 9);
+    CHECK(more.started == std::vector<int>{6, 7, 8});
+}
+
+TEST_CASE("a sweep does not write into a folder that holds something else, or that another sweep holds") {
+    const Sweeping sweep;
+    fs::create_directories(sweep.out);
+    std::ofstream(sweep.out / "thesis.tex") << "x";
+    MadeUpRuns runs(1);
+    CHECK_THROWS_WITH(sweep.run(runs), Catch::Contains("something else than a sweep"));
+    fs::remove(sweep.out / "thesis.tex");
+    const Study study = sweep.place.study();
+    const std::vector<Member> members = membersOf(study);
+    const SweepFolder held(sweep.out, study, members);
+    CHECK_THROWS_WITH(sweep.run(runs), Catch::Contains("another vkdose is sweeping"));
+    CHECK(runs.started.empty());
+}
