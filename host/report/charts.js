@@ -121,13 +121,13 @@ function errorBar(group, x, low, high, stroke) {
 }
 
 /// spec: title, note, x {label, whole, categories, pad, from, to}, y {label, zero, scaledFrom: x}, bands [[from, to]], level {value, name},
-/// series [{name, points [[x, y, error or lower edge]], colour, line, dots, hollow, dash, thin, area}]
+/// series [{name, unnamed, points [[x, y, error or lower edge]], colour, line, dots, hollow, dash, thin, area}]
 function chart(parent, spec) {
   const series = spec.series.filter(s => pieces(s.points).length > 0);
   if (series.length === 0) return;
   const level = spec.level && isNumber(spec.level.value) ? spec.level : null;
   const {legend, holder} = frame(parent, spec.title, spec.note);
-  series.forEach(s => legendEntry(legend, s));
+  series.filter(s => !s.unnamed).forEach(s => legendEntry(legend, s));
   if (level) legendEntry(legend, {name: level.name, colour: "var(--ink)", dash: "2 3"});
 
   const points = d3.merge(series.map(s => d3.merge(pieces(s.points))));

@@ -18,9 +18,10 @@ struct KindName {
     const char* name;
     Kind kind;
 };
-constexpr KindName kKinds[] = {{"value", Kind::Value},   {"falls", Kind::Falls},
-                               {"rises", Kind::Rises},   {"independent", Kind::Independent},
-                               {"linear", Kind::Linear}, {"not judged", Kind::NotJudged}};
+constexpr KindName kKinds[] = {{"value", Kind::Value},         {"at most", Kind::AtMost},
+                               {"falls", Kind::Falls},         {"rises", Kind::Rises},
+                               {"linear", Kind::Linear},       {"independent", Kind::Independent},
+                               {"not judged", Kind::NotJudged}};
 
 class ExpectedReader {
   public:
@@ -87,10 +88,10 @@ class ExpectedReader {
     void requireWhole(const toml::table& row, const Expected& e) {
         if (e.kind == Kind::NotJudged) return;
         if (e.quantity.empty()) fault(row, "quantity", "is missing", "name a column of members.csv");
-        if (e.kind == Kind::Value && !row.contains("value"))
-            fault(row, "value", "is missing", "give the published figure");
-        if (e.kind == Kind::Value && e.value == 0) fault(row, "value", "is zero", "differences are relative to it");
-        if (e.kind != Kind::Value && e.along.empty()) fault(row, "along", "is missing", "name the key that varies");
+        const bool figure = e.kind == Kind::Value || e.kind == Kind::AtMost;
+        if (figure && !row.contains("value")) fault(row, "value", "is missing", "give the published figure");
+        if (figure && e.value == 0) fault(row, "value", "is zero", "differences are relative to it");
+        if (!figure && e.along.empty()) fault(row, "along", "is missing", "name the key that varies");
         if (e.quantity == "cumulative_mass_kg" && e.dose < 1) fault(row, "dose", "is missing", "say after which dose");
     }
 
@@ -151,6 +152,7 @@ Verdict judgeValue(const Expected& e, const std::vector<Point::Output>& outputs)
     }
     const double error = std::sqrt(variance), off = std::abs(mean - e.value) / std::abs(e.value);
     const std::string found = shown(e, mean, error);
+    if (e.kind == Kind::AtMost && mean <= e.value) return {Verdict::Kind::Matches, "matches", found};
     if (off <= e.matches || std::abs(mean - e.value) <= 2 * error) return {Verdict::Kind::Matches, "matches", found};
     if (off <= e.near) return {Verdict::Kind::Within, fmt::format("within {:.0f} %", std::ceil(off * 100)), found};
     return {Verdict::Kind::Contradicts, fmt::format("contradicts ({:+.0f} %)", 100 * (mean - e.value) / e.value),
@@ -260,7 +262,7 @@ std::vector<Expected> readExpected(const std::filesystem::path& file) {
 
 Verdict judge(const Expected& e, const std::vector<Point>& points) {
     if (e.kind == Kind::NotJudged) return {Verdict::Kind::NotJudged, "not judged here", ""};
-    if (e.kind == Kind::Value) {
+    if (e.kind == Kind::Value || e.kind == Kind::AtMost) {
         std::vector<Point::Output> outputs;
         for (const Point& p : points) {
             const auto output = carries(p, e) ? outputOf(p, e) : std::nullopt;

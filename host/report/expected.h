@@ -35,6 +35,7 @@ struct Point {
 
 enum class Kind {
     Value,        ///< a figure
+    AtMost,       ///< a figure that is not exceeded
     Falls,        ///< with the key `along`
     Rises,        ///< ditto
     Independent,  ///< of the key `along`, to within `matches`

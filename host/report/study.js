@@ -36,13 +36,12 @@ function alongAxis(parent, study, a, spec, of) {
     points: line.points.map(p => [place(p)].concat(of(p))).sort((u, v) => u[0] - v[0]),
   }));
   if (spec.beside) {
-    const seen = new Set();
-    shown.forEach(line => {
-      const points = line.points.map(p => [place(p), spec.beside.of(p)]).sort((u, v) => u[0] - v[0]);
-      if (seen.has(JSON.stringify(points))) return;
-      seen.add(JSON.stringify(points));
-      series.push({name: spec.beside.name, colour: "var(--s7)", dash: "6 4", points});
-    });
+    const curves = shown.map(line => line.points.map(p => [place(p), spec.beside.of(p)]).sort((u, v) => u[0] - v[0]));
+    const same = curves.every(points => JSON.stringify(points) === JSON.stringify(curves[0]));
+    (same ? curves.slice(0, 1) : curves).forEach((points, i) => series.push({
+      name: spec.beside.name + (same ? "" : ", each in its colour"), unnamed: i > 0, dash: "6 4", points,
+      colour: same ? "var(--s7)" : colour(i, shown.length),
+    }));
   }
   const cut = lines.length > shown.length ? ` ${shown.length} of ${lines.length} lines are drawn.` : "";
   chart(parent, {
@@ -74,7 +73,7 @@ function calibrationMap(parent, study) {
   map(parent, {
     title: "β over both axes", x: {label: x.name, values: x.values.map(said)}, y: {label: y.name, values: y.values.map(said)},
     at, unit: "g/dose", target: isNumber(study.target_kg_per_dose) ? study.target_kg_per_dose * gram : null,
-    note: "g/dose. Between neighbours the target's contour is interpolated linearly.",
+    note: "g/dose." + (isNumber(study.target_kg_per_dose) ? " Between neighbours the target's contour is interpolated linearly." : ""),
   });
 }
 

@@ -1,6 +1,7 @@
 // The pages in a browser: they draw what they should, and without errors. Skipped, and said so, where there is none.
 #include <catch2/catch.hpp>
 #include <cstdlib>
+#include <set>
 
 #include "host/report/page.h"
 #include "host/report/study_report.h"
@@ -21,9 +22,10 @@ bool browserMissing() {
 /// The document as the browser leaves it once the scripts have run.
 std::string drawn(const Sandbox& box, const Json& data) {
     const auto file = box.write("page.html", page(data));
-    const std::string command = "timeout 120 chromium --headless --no-sandbox --disable-gpu --user-data-dir='" +
-                                (box / "profile").string() + "' --dump-dom 'file://" + file.string() + "' > '" +
-                                (box / "dom.html").string() + "' 2> /dev/null";
+    const std::string command =
+        "timeout 120 chromium --headless --no-sandbox --disable-gpu --window-size=1280,900 --user-data-dir='" +
+        (box / "profile").string() + "' --dump-dom 'file://" + file.string() + "' > '" + (box / "dom.html").string() +
+        "' 2> /dev/null";
     REQUIRE(std::system(command.c_str()) == 0);
     return readText(box / "dom.html");
 }
@@ -32,6 +34,18 @@ std::size_t count(const std::string& text, const std::string& part) {
     std::size_t n = 0;
     for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
     return n;
+}
+
+/// Widths of the charts, each once.
+std::set<std::string> widths(const std::string& text) {
+    const std::string mark = "viewBox=\"0 0 ";
+    std::set<std::string> found;
+    for (std::size_t at = text.find(mark); at != std::string::npos; at = text.find(mark, at + 1)) {
+        const std::size_t begin = at + mark.size();
+        found.insert(text.substr(begin, text.find(' ', begin) - begin));
+    }
+    found.erase("22");  // the legends' swatches
+    return found;
 }
 
 }  // namespace
@@ -47,6 +61,7 @@ TEST_CASE("a browser draws the page of a run") {
     CHECK(count(dom, "<figure>") == 6);
     CHECK(count(dom, "class=\"band\"") == 6);  // torque, power, velocity: two rotations each
     CHECK(count(shown, "<circle") == 14);      // two charts: a legend and 3 doses, a legend and 2 of the balance
+    CHECK(widths(shown).size() == 1);          // two columns, and the first charts were redrawn for them
     CHECK(dom.find("&lt;img src=x onerror=") != std::string::npos);  // as text
     CHECK(dom.find("<td class=\"number\">1.750</td>") != std::string::npos);
     CHECK(shown.find("NaN") == std::string::npos);  // none among the coordinates
@@ -59,6 +74,11 @@ TEST_CASE("a browser draws the page of a run without doses") {
     box.write("run/doses.csv", kDosesHeader);
     box.write("run/timeseries.csv", kSeriesHeader);
     CHECK(drawn(box, runJson(folder, {})).find("data-state=\"ready\"") != std::string::npos);
+
+    // While it settles nothing is in the throat: no velocity, and no empty chart for it.
+    const std::string rest = ",settle,0,0,0,0.006,0,0,0,36,0,0,0,0,nan,0,0,0.01\n";
+    box.write("run/timeseries.csv", kSeriesHeader + ("0.1" + rest) + "0.2" + rest);
+    CHECK(count(drawn(box, runJson(folder, {})), "<figure>") == 3);  // torque, power, where the powder is
 }
 
 TEST_CASE("a browser draws the page of a study") {

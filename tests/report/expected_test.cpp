@@ -57,6 +57,14 @@ TEST_CASE("a value matches, is within some per cent, or contradicts") {
     CHECK(judge(value(3.7), {at({}, kNone)}).kind == Verdict::Kind::NotRun);
 }
 
+TEST_CASE("a figure that is not to be exceeded") {
+    Expected e = value(4);
+    e.kind = Kind::AtMost;
+    CHECK(judge(e, {at({}, 0)}).kind == Verdict::Kind::Matches);
+    CHECK(judge(e, {at({}, 4.5)}).kind == Verdict::Kind::Within);
+    CHECK(judge(e, {at({}, 6)}).kind == Verdict::Kind::Contradicts);
+}
+
 TEST_CASE("two standard errors are no contradiction") {
     CHECK(judge(value(4), {at({}, 5.2, 0.7)}).kind == Verdict::Kind::Matches);
     CHECK(judge(value(4), {at({}, 5.2, 0.5)}).kind == Verdict::Kind::Contradicts);
@@ -141,7 +149,7 @@ TEST_CASE("faults of a table are told, all at once") {
         FAIL("accepted");
     } catch (const CaseError& e) {
         REQUIRE(e.faults().size() == 3);
-        CHECK_THAT(e.faults()[0].text(), Catch::Contains("kind") && Catch::Contains("known: value, falls"));
+        CHECK_THAT(e.faults()[0].text(), Catch::Contains("kind") && Catch::Contains("known: value, at most"));
         CHECK_THAT(e.faults()[1].text(), Catch::Contains("e.toml:12") && Catch::Contains("speed"));
         CHECK_THAT(e.faults()[2].text(), Catch::Contains("along"));
     }
