@@ -58,8 +58,8 @@ class Surroundings {
     Surroundings(const Surroundings&) = delete;
     Surroundings& operator=(const Surroundings&) = delete;
 
-    posix_spawn_file_actions_t files_;
-    posix_spawnattr_t attributes_;
+    posix_spawn_file_actions_t files_{};
+    posix_spawnattr_t attributes_{};
 };
 
 /// The last line, without the program's name in front of it.
@@ -74,7 +74,7 @@ std::string lastLine(std::string text) {
 
 ChildRunner::~ChildRunner() {
     // An error ends the sweep: what has been started is to end with it.
-    interrupt();
+    ChildRunner::interrupt();
     while (!children_.empty()) reap(children_.begin());
 }
 

@@ -98,7 +98,7 @@ GridCalibration calibrateGrid(const CsvTable& members, const std::vector<std::st
     for (const Row& row : members.rows) {
         Row others;
         for (const std::string& key : result.keys) others.push_back(members.text(row, key));
-        if (curves.count(others) == 0) order.push_back(others);
+        if (!curves.contains(others)) order.push_back(others);
         auto& curve = curves[others];
         const auto along = members.number(row, aim.along), beta = members.number(row, "beta_kg_per_dose");
         if (members.text(row, "status") != "ok" || !along || !beta) {

@@ -48,7 +48,7 @@ class Sweep {
         double before;  ///< what of it had been done when it was started [s]
     };
 
-    double share(const Member& m, double time) const {
+    static double share(const Member& m, double time) {
         return m.expectedTime > 0 ? m.expectedWork * std::min(1.0, time / m.expectedTime) : 0;
     }
 

@@ -43,7 +43,7 @@ std::string content(const CsvTable& table) {
 
 void dropRows(CsvTable& table, const std::set<int>& kept) {
     table.rows.erase(std::remove_if(table.rows.begin(), table.rows.end(),
-                                    [&](const Row& row) { return kept.count(numberOf(row)) == 0; }),
+                                    [&](const Row& row) { return !kept.contains(numberOf(row)); }),
                      table.rows.end());
 }
 
@@ -154,7 +154,7 @@ std::optional<MemberStatus> SweepFolder::status(int number) const {
     return found->second;
 }
 
-void SweepFolder::begin(const Member& member) {
+void SweepFolder::begin(const Member& member) const {
     const fs::path folder = memberFolder(member.number);
     std::error_code error;
     fs::create_directories(folder, error);

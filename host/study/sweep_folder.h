@@ -37,7 +37,7 @@ class SweepFolder {
     void requireSame(const Member& member) const;
 
     /// Makes the member's folder, with its case. Throws OutputError if it cannot.
-    void begin(const Member& member);
+    void begin(const Member& member) const;
 
     /// Takes the row and the doses of a member out of the tables, so that it can end anew.
     void forget(int number);

@@ -76,8 +76,8 @@ class MpiRunner : public MemberRunner {
     ~MpiRunner() override {
         // An error ends the sweep: a member that still runs is interrupted and waited for.
         try {
-            if (int(idle_.size()) < ranks_) interrupt();
-            while (int(idle_.size()) < ranks_) (void)wait();
+            if (int(idle_.size()) < ranks_) MpiRunner::interrupt();
+            while (int(idle_.size()) < ranks_) (void)MpiRunner::wait();
             for (int rank = 1; rank < ranks_; ++rank) say(rank, kQuit, {});
         } catch (const std::exception& e) {
             fmt::print(stderr, "vkdose: {}\n", e.what());
