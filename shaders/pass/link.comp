@@ -1,26 +1,12 @@
 #version 450
 // link: makes the lists that `near` prepared the current ones, and tells every particle the slots of the contacts it takes
 // part in, in an order that no timing changes. Built with and without TEXEL_READS and ENERGY_BOOK.
-// Reads state, rows, coming entries, carried history; writes entries, history, links and their ranges, the order of `move`, list
-// anchors.
+// Reads state, rows, coming entries, carried history; writes entries, history, links and their ranges, list anchors.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/buffers.glsl"
 #include "pass/margin.glsl"
 
 uint links[kMaxLinks];
-shared uint linkCounts[gl_WorkGroupSize.x];
-
-/// Particles with about as many links take their turn in `move` side by side, where one would wait for another.
-uint rankByLinks(uint count) {
-    uint me = gl_LocalInvocationID.x, rank = 0u;
-    linkCounts[me] = count;
-    barrier();
-    for (uint other = 0u; other < gl_WorkGroupSize.x; ++other) {
-        uint theirs = linkCounts[other];
-        if (theirs > count || theirs == count && other < me) ++rank;
-    }
-    return rank;
-}
 
 void adopt(uint slot) {
     entries[slot] = entries[comingEntryIndex(slot)];
@@ -74,6 +60,5 @@ void main() {
     first += self * push.linkEntries;
     for (uint k = 0u; k < count; ++k) rows[linkIndex(first + k)] = links[k];
     ranges[rowRangeIndex(i)].zw = uvec2(first, count);
-    ranges[turnIndex(i - gl_LocalInvocationID.x + rankByLinks(count))] = uvec4(i, first, count, 0u);
     anchors[anchorIndex(kListAnchor, i)] = vec4(p.xyz, slack);
 }

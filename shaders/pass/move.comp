@@ -4,8 +4,7 @@
 // Reads the source half of the state, links, forces and torques, anchors; writes the destination half; calls for a refresh
 // of the contact lists or a rebuild of the rows when the particle has moved as far as they allow for.
 //
-// `link` says which particle is whose: lavapipe's eight lanes take as many rounds as the one with most links, on average
-// eight where the mean is five. The sum runs in the order of the links: other particles by ascending index, surfaces, coil; wherever their slots are.
+// The sum runs in the order of the links: other particles by ascending index, surfaces, coil; wherever their slots are.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/buffers.glsl"
 #include "pass/slack.glsl"
@@ -20,8 +19,7 @@ bool beyond(vec3 way, float limit) { return dot(way, way) > limit * limit; }
 
 void main() {
     openMember();
-    uvec4 turn = readRange(turnIndex(firstParticle() + invocation()));
-    uint i = turn.x, firstLink = turn.y, links = turn.z;
+    uint i = firstParticle() + invocation();
     vec4 pull = gravity(), numbers = numerics();
     vec4 bottom = domainLow(), top = domainHigh();
 
@@ -31,6 +29,7 @@ void main() {
     vec4 spin4 = readState(push.source, kSpin, i);
     vec3 rowAnchor = readAnchor(kRowAnchor, i).xyz;
     vec4 listAnchor = readAnchor(kListAnchor, i);  // w: slack
+    uvec4 range = readRange(rowRangeIndex(i));
     bool moving = uint(spin4.w) == kActive;
 
     // A particle out of the motion has no links, so that all it does is copy itself.
@@ -39,8 +38,8 @@ void main() {
 #ifdef ENERGY_BOOK
     vec4 normal = vec4(0.0), sliders = vec4(0.0);
 #endif
-    for (uint k = 0u; k < links; ++k) {
-        uint link = readRow(linkIndex(firstLink + k));
+    for (uint k = 0u; k < range.w; ++k) {
+        uint link = readRow(linkIndex(range.z + k));
         vec4 f = readForce(link >> 1u), t = readTorque(link & 1u, link >> 1u);
         force += (link & 1u) == 0u ? f.xyz : -f.xyz;
         torque += t.xyz;

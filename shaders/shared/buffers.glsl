@@ -22,8 +22,7 @@ layout(std430, set = 0, binding = 0) buffer StateBuffer { vec4 state[]; };
 // contacts it takes part in, ascending by the other's index, then surfaces, then the coil: slot << 1 | 1 if it is the
 // contact's second body.
 layout(std430, set = 0, binding = 1) buffer RowBuffer { uint rows[]; };
-// Ranges: uvec4[3][particles]: row (first, count), links (first, count); own pair slots (first, count), own surface slots;
-// then, by falling number of links within a workgroup: particle, its links (first, count).
+// Ranges: uvec4[2][particles]: row (first, count), links (first, count); own pair slots (first, count), own surface slots.
 layout(std430, set = 0, binding = 2) buffer RangeBuffer { uvec4 ranges[]; };
 // History of pairs and surfaces: vec4[pair and surface slots][2]: (xi, delta_max), (rho, torsion), zero while they do not
 // touch; with the energy book vec4[3][slots] follow, law/energy.glsl's Exerted.
@@ -129,7 +128,6 @@ uint headIndex(uint cell) { return self * (push.cellMask + 1u) + cell; }
 uint nextIndex(uint i) { return MEMBERS * (push.cellMask + 1u) + i; }
 uint rowRangeIndex(uint i) { return i; }
 uint slotRangeIndex(uint i) { return push.particles + i; }
-uint turnIndex(uint invocation) { return 2u * push.particles + invocation; }
 uint historyIndex(uint part, uint slot) {
     return part < 2u ? 2u * slot + part : part * springSlots() + slot;
 }

@@ -18,7 +18,7 @@ struct Elements {
     explicit Elements(const TableSizes& s)
         : state(2ull * gpu::kFields * s.particles()),
           rows(1ull * s.members * (s.rowEntries + s.linkEntries)),
-          ranges(3ull * s.particles()),
+          ranges(2ull * s.particles()),
           history(std::max<VkDeviceSize>(1, 1ull * s.historyParts() * s.springSlots())),
           coilHistory(std::max<VkDeviceSize>(1, 1ull * s.coilHistoryRows() * s.particles())),
           anchors(2ull * s.particles()),
