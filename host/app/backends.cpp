@@ -33,22 +33,16 @@ std::unique_ptr<Backend> makeBackend(const BackendChoice& choice, std::size_t pa
             throw UsageError("--device is for the vulkan backend; the reference runs on the CPU");
         return makeReferenceBackend();
     }
-    chooseThreads(particles);
-    vk::DeviceChoice device;
-    device.name = choice.device;
-    device.validation = choice.validation;
-    return makeVulkanBackend(device);
+    return std::move(makeEnsemble(choice, 1, particles)[0]);
 }
 
 std::vector<std::unique_ptr<Backend>> makeEnsemble(const BackendChoice& choice, std::size_t members,
                                                    std::size_t particles) {
     if (choice.backend == "reference") throw UsageError("an ensemble needs a device; the reference runs one canister");
     chooseThreads(particles);
-    vk::DeviceChoice device;
-    device.name = choice.device;
-    device.validation = choice.validation;
     VulkanOptions options;
-    options.device = device;
+    options.device.name = choice.device;
+    options.device.validation = choice.validation;
     return makeVulkanEnsemble(options, members);
 }
 

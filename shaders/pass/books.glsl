@@ -47,7 +47,7 @@ void bookDepartureFromCoil(uint i) {
 void bookStep(uint i, vec4 normal, vec4 sliders, vec3 centre, float r, float mass, vec3 velocity, vec3 spin,
               vec3 newVelocity, vec3 newSpin, float coilTorque, bool leaves) {
     bool first = opening();
-    float springDt = first ? 0.0 : numerics().x;
+    float springDt = springStep();
     vec4 flow = books[bookIndex(kBookFlow, i)];
     float coilWork = -0.5 * springDt * member.coil.motion.x * (flow.z + coilTorque);
     vec3 v = first ? 2.0 * velocity - newVelocity : velocity, w = first ? 2.0 * spin - newSpin : spin;

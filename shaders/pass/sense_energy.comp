@@ -20,7 +20,7 @@ void main() {
     vec3 start = state[stateIndex(before, kPosition, i)].xyz;
     vec3 oldVelocity = state[stateIndex(before, kVelocity, i)].xyz;
     vec3 oldSpin = state[stateIndex(before, kSpin, i)].xyz;
-    if (push.opening == 1u) {  // half a kick: see pass/step_energy.glsl
+    if (push.opening == 1u) {  // half a kick: as in pass/books.glsl
         oldVelocity = 2.0 * oldVelocity - velocity;
         oldSpin = 2.0 * oldSpin - spin.xyz;
     }

@@ -19,7 +19,7 @@ using uint = glm::uint;
 #define SHARED_FUNCTION
 #endif
 
-// --- limits ----------------------------------------------------------------------------------------------------------
+// --- limits -------------------------------------------------------------------------------------------------------
 SHARED_CONST kMaxSurfaces = 28u;
 SHARED_CONST kMaxTurns = 4u;          // of the coil that one particle touches at once
 SHARED_CONST kUnrolledSurfaces = 8u;  // surfaces whose kind is a specialisation constant; more go through a slower loop
@@ -34,13 +34,13 @@ SHARED_REAL kMostSlack = 0.2f;
 SHARED_REAL kSlackSteps = 256.0f;  // steps at the present speed
 SHARED_REAL kCoilSlack = 0.03f;    // of the coil's wire
 
-// --- particle state: vec4 state[2 halves][2 couples][particles][2 fields]; the halves take turns as source and
-// destination Two fields side by side are 32 bytes, which a device with 64-bit integers can store in four pieces
-// instead of eight.
+// --- particle state: vec4 state[2 halves][2 couples][particles][2 fields] -------------------------------------------
+// The halves take turns as source and destination. Two fields side by side are 32 bytes, which a device with 64-bit
+// integers can store in four pieces instead of eight.
 SHARED_CONST kPosition = 0u;  // xyz: high part [m]; w: radius [m], negative once the particle is out of the motion
 SHARED_CONST kResidue = 1u;   // xyz: low part of the position [m]; w: sum over steps of the torque on the coil [N m]
-SHARED_CONST kVelocity =
-    2u;                   // xyz: half-step velocity [m/s]; w: largest overlap / smaller radius since the last sensing
+// xyz: half-step velocity [m/s]; w: largest overlap / smaller radius since the last sensing
+SHARED_CONST kVelocity = 2u;
 SHARED_CONST kSpin = 3u;  // xyz: half-step angular velocity [rad/s]; w: status as a float (kActive ...)
 SHARED_CONST kFields = 4u;
 
@@ -53,8 +53,7 @@ SHARED_CONST kDosed = 1u;
 SHARED_CONST kLost = 2u;
 SHARED_CONST kPadding = 3u;  // fills a member's last workgroup
 
-// --- contact classes and surface kinds
-// ---------------------------------------------------------------------------------
+// --- contact classes and surface kinds ----------------------------------------------------------------------------
 SHARED_CONST kParticleParticle = 0u;
 SHARED_CONST kParticleWall = 1u;
 SHARED_CONST kParticleCoil = 2u;
@@ -64,8 +63,7 @@ SHARED_CONST kTrough = 1u;
 SHARED_CONST kTube = 2u;
 SHARED_CONST kFront = 3u;
 
-// --- one canister's parameters
-// -----------------------------------------------------------------------------------------
+// --- one canister's parameters ------------------------------------------------------------------------------------
 struct ContactParams {
     vec4 normal;   // k1, k2Max, kc [N/m], gamma [kg/s]
     vec4 sliding;  // kt [N/m], gammaT [kg/s], mu, plasticity depth
@@ -97,8 +95,8 @@ struct Member {
     vec4 domainLow;   // xyz [m]; w: throatZ [m]
     vec4 domainHigh;  // xyz [m]; w: outletZ [m]
     vec4 numerics;    // time step [s], skin [m], cell size [m], largest allowed overlap ratio
-    vec4 choices;     // surfaces, coulomb limit (0 luding, 1 absolute), rolling lever (0 full, 1 half), 1 before any step
-    uvec4 roster;     // x: in block n, the member that row n of a dispatch works for
+    vec4 choices;  // surfaces, coulomb limit (0 luding, 1 absolute), rolling lever (0 full, 1 half), 1 before any step
+    uvec4 roster;  // x: in block n, the member that row n of a dispatch works for
 };
 // Where in a member some of its vectors are.
 SHARED_CONST kVectorSurface = 12u;
@@ -106,8 +104,7 @@ SHARED_CONST kVectorCoil = kVectorSurface + 4u * kMaxSurfaces;
 SHARED_CONST kVectorGravity = kVectorCoil + 5u;
 SHARED_CONST kMemberVectors = kVectorGravity + 6u;
 
-// --- control block: what the device decides and reports
-// ------------------------------------------------------------------
+// --- control block: what the device decides and reports -----------------------------------------------------------
 // What a particle calls for in a step, the most urgent of all of them first: errors, what may have caused others before
 // these. A call is one word, kind << kCallShift | particle, and the least wins, whatever order invocations run in.
 SHARED_CONST kErrorRowFull = 0u;
@@ -124,14 +121,14 @@ SHARED_CONST kCallRefresh = 9u;  // of the contact lists
 SHARED_CONST kCallShift = 27u;
 SHARED_CONST kMostParticles = 1u << kCallShift;
 
-struct Dispatch {  // indirect arguments, three words each: workgroups in a row, a row for each live member, layers
+struct Dispatch {     // indirect arguments, three words each: workgroups in a row, a row for each live member, layers
     uvec4 cells;      // workgroups that clear the cell table, 0 while no rebuild of the rows is wanted
     uvec4 particles;  // workgroups over the particles, ditto
     uvec4 refresh;    // workgroups over the particles, 0 while no refresh of the contact lists is wanted
     uvec4 settle;     // one workgroup, ditto
 };
 
-struct Dispatches {  // for all members together: as many workgroups as the one that wants most
+struct Dispatches {    // for all members together: as many workgroups as the one that wants most
     Dispatch step[2];  // of even and odd steps: `decide` clears that of its step and fills the other
     uvec4 pairs;       // workgroups over what the contact lists hold: pairs ...
     uvec4 surfaces;    // ... contacts with surfaces ...
@@ -142,14 +139,13 @@ struct Control {   // a member's
     uvec4 wanted;  // x: 1 if this step starts with new rows, y: with new contact lists
     uvec4 listed;  // entries of the contact lists in use: pairs, surfaces, coil
     uvec4 coming;  // entries taken so far by the refresh at work: pairs, surfaces, coil, links
-    uvec4 list;    // x: entries of the rows in use; y: rebuilds since load; z: longest row ever; w: refreshes since load
-    vec4 drift;    // x: way of the coil's wire since the last refresh, along the axis [m]
-    uvec4 call;    // x: the most urgent call of this step; kEmpty: none
-    uvec4 error;   // the first: x: step of the batch, y: kind, z: particle; x is kEmpty while there is none
+    uvec4 list;   // x: entries of the rows in use; y: rebuilds since load; z: longest row ever; w: refreshes since load
+    vec4 drift;   // x: way of the coil's wire since the last refresh, along the axis [m]
+    uvec4 call;   // x: the most urgent call of this step; kEmpty: none
+    uvec4 error;  // the first: x: step of the batch, y: kind, z: particle; x is kEmpty while there is none
 };
 
-// --- sensing: one record per workgroup, summed by the host in double precision
-// ----------------------------------------------
+// --- sensing: one record per workgroup, summed by the host in double precision ------------------------------------
 struct SensorRecord {
     uvec4 count;    // particles per region: canister, throat, dosed, lost
     vec4 mass;      // per region [kg]
@@ -157,13 +153,13 @@ struct SensorRecord {
     vec4 extremes;  // x: largest overlap ratio
 };
 
-// --- the energy book (host/backend/backend.h, EnergyBook), kept only where the world asks for it [J]
-// -------------------------- vec4 book[3 fields][particles], then vec4 book[3 fields][slots]: of the contacts, which
-// book to their first body. A particle's holds what came together since the last sensing, a contact's the last step.
+// --- the energy book (host/backend/backend.h, EnergyBook), kept only where the world asks for it [J] ---------------
+// vec4 book[3 fields][particles], then vec4 book[3 fields][slots]: of the contacts, which book to their first body. A
+// particle's holds what came together since the last sensing, a contact's the last step.
 SHARED_CONST kBookNormal = 0u;  // plastic, adhesive, viscous, numerical loss
-SHARED_CONST kBookSliders =
-    1u;                       // sliding, rolling, torsion loss; of a particle: work of the coil, of a contact: loaded
-SHARED_CONST kBookFlow = 2u;  // of a particle: loaded, left; z: torque on the coil in the last step [N m]
+// sliding, rolling, torsion loss; of a particle: work of the coil, of a contact: loaded
+SHARED_CONST kBookSliders = 1u;
+SHARED_CONST kBookFlow = 2u;     // of a particle: loaded, left; z: torque on the coil in the last step [N m]
 SHARED_CONST kBookElastic = 2u;  // of a contact: energy of its normal, sliding, rolling, torsion springs
 SHARED_CONST kBookFields = 3u;
 
@@ -176,8 +172,7 @@ struct EnergyRecord {  // one per workgroup
     vec4 angular;      // xyz: angular momentum about the origin [kg m2/s]
 };
 
-// --- per dispatch
-// --------------------------------------------------------------------------------------------------------
+// --- per dispatch -------------------------------------------------------------------------------------------------
 struct StepPush {
     uint stepInBatch;
     uint source;     // which half of the state is read; the other is written

@@ -10,6 +10,7 @@
 #include "host/output/checkpoint.h"
 #include "host/study/csv_table.h"
 #include "tests/app/sandbox.h"
+#include "tests/app/sweep_tables.h"
 
 using namespace vkdose;
 using namespace vkdose::test;
@@ -34,14 +35,6 @@ values = [0.2, 0.4]
 )";
 
 const std::vector<std::string> kSweep{"sweep", "study.toml", "--backend", "reference", "--jobs", "2", "--out", "cut"};
-
-/// The rows of members.csv without the time on the clock.
-std::vector<Row> timeless(const fs::path& folder) {
-    CsvTable table = readTable(folder / "members.csv");
-    const std::size_t wall = table.column("wall_time_s").value();
-    for (Row& row : table.rows) row.erase(row.begin() + std::ptrdiff_t(wall));
-    return table.rows;
-}
 
 /// Waits until the member has a checkpoint or is over; false if the sweep ended first.
 bool reached(pid_t sweep, const fs::path& member) {

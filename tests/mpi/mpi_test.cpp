@@ -8,6 +8,7 @@
 #include "host/output/checkpoint.h"
 #include "host/study/csv_table.h"
 #include "tests/app/sandbox.h"
+#include "tests/app/sweep_tables.h"
 
 using namespace vkdose;
 using namespace vkdose::test;
@@ -28,12 +29,6 @@ values = [0.2, 0.3, 0.4, 0.5, 0.6]
 
 /// As an MPI launcher that may run as root and on fewer cores than ranks.
 const std::string kTwoRanks = "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 mpirun --oversubscribe -n 2 ";
-
-std::vector<Row> timeless(const fs::path& folder) {
-    CsvTable table = readTable(folder / "members.csv");
-    for (Row& row : table.rows) row.erase(row.begin() + std::ptrdiff_t(table.column("wall_time_s").value()));
-    return table.rows;
-}
 
 }  // namespace
 

@@ -163,9 +163,7 @@ void Ensemble::advance(std::uint32_t steps, const std::vector<double>& coilRates
         const auto start = clock::now();
         runBatch(count, coilRates);
         done += count;
-        const bool stopped =
-            std::any_of(live_.begin(), live_.end(), [&](std::uint32_t m) { return members_[m].failure.has_value(); });
-        if (stopped && live_.size() == 1) return;
+        if (std::all_of(live_.begin(), live_.end(), [&](std::uint32_t m) { return failure(m).has_value(); })) return;
         const double seconds = std::chrono::duration<double>(clock::now() - start).count();
         if (count == batch_ && seconds < kShortest && batch_ < kMostSteps) batch_ *= 2;
         if (seconds > kLongest && batch_ > 1) batch_ /= 2;

@@ -38,7 +38,6 @@ class Rendezvous {
     struct Guest {
         bool present = true;
         std::uint32_t member = 0;  ///< of the ensemble, once loaded
-        bool loaded = false;
         Wish wish = Wish::None;
         Ensemble::Canister canister;
         std::uint32_t steps = 0;  ///< still to make
