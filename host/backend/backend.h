@@ -72,6 +72,7 @@ struct Contact {
     Vec3 sliding{0};        ///< spring xi [m], acting on `particle`
     Vec3 rolling{0};        ///< spring rho [m]
     double torsion = 0;     ///< [m]
+    Vec3 force{0};          ///< on `particle`, in the last step made [N]; zero before any
 };
 
 class Backend {

@@ -1,0 +1,42 @@
+#pragma once
+// The frames of a run, in frames/ of its output folder: the powder as it was at the intervals the case asks for.
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "host/sim/frame.h"
+
+namespace vkdose {
+
+/// A frame without its particles.
+struct FrameEntry {
+    int number = 0;  ///< from 0, in the order of time
+    std::uint64_t step = 0;
+    double time = 0;  ///< [s]
+    Phase phase = Phase::Settle;
+    int dose = 0;
+    double coilAngle = 0;  ///< as in Frame [rad]
+};
+
+/// Reads the frames of a run, one that still goes on included.
+class Frames {
+  public:
+    /// Of the run whose output folder this is; without any frames if it kept none. Throws OutputError if what is there
+    /// cannot be read.
+    explicit Frames(const std::filesystem::path& run);
+
+    const std::vector<FrameEntry>& entries() const { return entries_; }
+
+    /// The entry nearest to a time [s]; the later of two equally near. There must be one.
+    const FrameEntry& nearest(double time) const;
+
+    /// Particles, and contacts if the run kept them. Throws OutputError if the frame's file cannot be read.
+    Frame read(const FrameEntry& entry) const;
+
+  private:
+    std::filesystem::path folder_;
+    std::vector<FrameEntry> entries_;
+};
+
+}  // namespace vkdose
