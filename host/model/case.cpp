@@ -58,14 +58,19 @@ void completeTime(Section& time, Case& c, const SizeRange& sizes) {
     c.sensorInterval = steps * c.world.timeStep;
 }
 
+/// Height of the canister's top, or of the fill where that is higher [m, y].
+double canisterTop(const Canister& can, const Insertion& filled) {
+    return std::max(can.height - can.width / 2, filled.fillHeight);
+}
+
 /// The domain a case does not state: the canister up to the top of the grid, or the particles and ten diameters.
 Box defaultDomain(const Case& c, const SizeRange& sizes, const Insertion& filled) {
     const double diameter = 2 * sizes.largest;
     if (c.canister) {
         const Canister& can = *c.canister;
         const double half = can.width / 2;
-        const double top = std::max(can.height - half, filled.fillHeight);
-        return {Vec3(-half, -half, 0) - diameter, Vec3(half, top, can.length + can.throatLength) + diameter};
+        return {Vec3(-half, -half, 0) - diameter,
+                Vec3(half, canisterTop(can, filled), can.length + can.throatLength) + diameter};
     }
     Box box{Vec3(kInfinity), Vec3(-kInfinity)};
     for (std::size_t i = 0; i < filled.particles.size(); ++i) {
@@ -108,6 +113,8 @@ Case interpret(const std::filesystem::path& file, Node tree) {
     reader.throwIfFaulty();
 
     const Insertion filled = insertParticles(c);
+    if (c.canister && c.canister->lid)
+        c.world.surfaces.push_back(geometry::Plane{{0, canisterTop(*c.canister, filled), 0}, {0, -1, 0}});
     if (!domainGiven) {
         c.world.domain = defaultDomain(c, sizes, filled);
         root.table("domain").record("low", c.world.domain.low);

@@ -62,6 +62,7 @@ struct Canister {
     double outletDiameter = 0;
     double throatLength = 0;
     bool flatFloor = false;
+    bool lid = false;  ///< closed at the top, or above the fill where the loose grid reaches higher
 };
 
 /// How often a run stores what it needs to go on after an interruption; 0: not by this clock.

@@ -40,6 +40,7 @@ void readCanister(Section& root, Case& c) {
     can.flatFloor = section.choice("floor", {"trough", "flat"}, 0) == std::size_t{1};
     can.outletDiameter = section.number("outlet_diameter_mm", Bound::Positive, kMillimetre);
     can.throatLength = section.number("throat_length_mm", Bound::Positive, kMillimetre);
+    can.lid = section.boolean("lid", false);
     c.canister = can;
     addCanister(c);
 }

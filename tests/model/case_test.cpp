@@ -254,6 +254,23 @@ TEST_CASE("stop rules") {
     CHECK_THROWS_AS(loadCase(file, {"stop.rule=simulation", "stop.threshold_g=0.1"}), CaseError);
 }
 
+TEST_CASE("a lid closes the canister at its height, or above a fill that starts out higher") {
+    const Folder folder;
+    const auto file = folder.write("case.toml", kGoodCase);
+    const std::size_t open = loadCase(file).world.surfaces.size();
+    const Case low = loadCase(file, {"canister.lid=true"});
+    REQUIRE(low.world.surfaces.size() == open + 1);
+    const auto& lid = std::get<geometry::Plane>(low.world.surfaces.back());
+    CHECK(lid.point.y == low.canister->height - low.canister->width / 2);
+    CHECK(lid.normal == Vec3(0, -1, 0));
+    CHECK(low.world.domain.high.y > lid.point.y);
+
+    const Case high = loadCase(file, {"canister.lid=true", "canister.height_mm=16"});
+    const double top = std::get<geometry::Plane>(high.world.surfaces.back()).point.y;
+    CHECK(top == insertParticles(high).fillHeight);
+    CHECK(top > high.canister->height - high.canister->width / 2);
+}
+
 TEST_CASE("flat floor and free boundaries") {
     const Folder folder;
     const Case flat = loadCase(folder.write("case.toml", kGoodCase), {"canister.floor=flat"});

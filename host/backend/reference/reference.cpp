@@ -195,7 +195,9 @@ void ReferenceBackend::settleStatus(std::size_t i) {
             lost_ = fmt::format(
                 "particle {} {} in {}, at ({:.6g}, {:.6g}, {:.6g}) m: {}", i,
                 broken ? "is no longer finite" : "left the domain", when(), x.x, x.y, x.z,
-                broken ? "use a smaller time step" : "close the boundaries around it or use a smaller time step");
+                broken ? "use a smaller time step"
+                       : "close the boundaries around it (canister.lid = true if it flew out at the top) or use a "
+                         "smaller time step");
     }
 }
 

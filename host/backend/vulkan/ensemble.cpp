@@ -34,7 +34,8 @@ const char* text(std::uint32_t error) {
                    "use "
                    "a smaller time step or a stiffer k; if it is pinched between coil and wall, allow more";
         case gpu::kErrorLost:
-            return "left the domain: enlarge the domain, or look for a gap between the surfaces";
+            return "left the domain: close the boundaries around it (canister.lid = true if it flew out at the top) or "
+                   "use a smaller time step";
         case gpu::kErrorTurns:
             return "touches more turns of the coil than there are slots: use a larger pitch";
         default:
