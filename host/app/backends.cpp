@@ -55,13 +55,20 @@ BackendChoice sameBackend(const std::string& description, const BackendChoice& c
     return same;
 }
 
-bool validationClean(const BackendChoice& choice, const Backend& backend) {
-    if (!choice.validation) return true;
+std::vector<std::string> validationFindings(const BackendChoice& choice, const Backend& backend) {
+    if (!choice.validation) return {};
     const ValidationReport report = validationReport(backend);
-    for (const std::string& message : report.messages) fmt::print(stderr, "validation: {}\n", message);
+    std::vector<std::string> found;
+    for (const std::string& message : report.messages) found.push_back("validation: " + message);
     if (!report.validated)
-        fmt::print(stderr, "vkdose: the validation layer is not installed (vulkan-validationlayers)\n");
-    return report.validated && report.messages.empty();
+        found.emplace_back("vkdose: the validation layer is not installed (vulkan-validationlayers)");
+    return found;
+}
+
+bool validationClean(const BackendChoice& choice, const Backend& backend) {
+    const std::vector<std::string> found = validationFindings(choice, backend);
+    for (const std::string& line : found) fmt::print(stderr, "{}\n", line);
+    return found.empty();
 }
 
 }  // namespace vkdose

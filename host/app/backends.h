@@ -32,8 +32,10 @@ std::vector<std::unique_ptr<Backend>> makeEnsemble(const BackendChoice& choice, 
 /// The backend and device a description (Backend::description) stands for; `device` of `choice` wins, if given.
 BackendChoice sameBackend(const std::string& description, const BackendChoice& choice);
 
-/// Prints on stderr what the Vulkan validation layer found, if it was asked for; false if it found something or is
-/// not installed.
+/// What the Vulkan validation layer found, if it was asked for; its absence counts as a finding.
+std::vector<std::string> validationFindings(const BackendChoice& choice, const Backend& backend);
+
+/// Prints that on stderr; false if there is any.
 bool validationClean(const BackendChoice& choice, const Backend& backend);
 
 }  // namespace vkdose

@@ -5,7 +5,6 @@
 #include <cstdio>
 
 #include "host/analysis/beta.h"
-#include "host/app/child_runner.h"
 #include "host/app/commands.h"
 #include "host/app/exit_code.h"
 #include "host/app/interrupt.h"
@@ -197,16 +196,16 @@ int calibrateCommand(const SweepOptions& options) {
     const bool isSearch = study.calibration->method == CalibrationAim::Method::Surrogate;
     if (isSearch) checkCorners(study);
     const std::vector<Member> members = isSearch ? std::vector<Member>{} : membersOf(study);
-    ChildRunner runner(options.backend, options.dryRun ? 1 : jobsFor(options));
-    const std::atomic<bool>& stop = watchInterrupts();
-    SweepDisplay display("calibrate", study, options.quiet);
     if (options.dryRun) {
         fmt::print("{}", membersText(study, members));
         return kOk;
     }
+    const std::unique_ptr<MemberRunner> runner = makeRunner(options);
+    const std::atomic<bool>& stop = watchInterrupts();
+    SweepDisplay display("calibrate", study, options.quiet);
     SweepFolder folder(sweepFolder(options), study, members);
     if (isSearch) {
-        SearchRuns runs(study, folder, runner, display, stop, options.retryFailed);
+        SearchRuns runs(study, folder, *runner, display, stop, options.retryFailed);
         const auto result = search(*study.calibration, std::ref(runs));
         if (!result) {
             display.finish(folder, {});
@@ -215,8 +214,8 @@ int calibrateCommand(const SweepOptions& options) {
         folder.sort();
         return reportSearch(study, folder, *result);
     }
-    display.begin(members, runner.slots());
-    const SweepOutcome outcome = runMembers(folder, members, runner, display, stop, options.retryFailed);
+    display.begin(members, runner->manner());
+    const SweepOutcome outcome = runMembers(folder, members, *runner, display, stop, options.retryFailed);
     if (outcome.whole) folder.sort();
     display.finish(folder, outcome);
     return outcome.whole ? reportGrid(study, folder) : kInterrupted;

@@ -14,6 +14,7 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "host/app/exit_code.h"
 #include "host/core/error.h"
 
 namespace vkdose {
@@ -61,14 +62,6 @@ class Surroundings {
     posix_spawn_file_actions_t files_{};
     posix_spawnattr_t attributes_{};
 };
-
-/// The last line, without the program's name in front of it.
-std::string lastLine(std::string text) {
-    while (!text.empty() && text.back() == '\n') text.pop_back();
-    text.erase(0, text.rfind('\n') + 1);
-    const std::string name = "vkdose: ";
-    return text.rfind(name, 0) == 0 ? text.substr(name.size()) : text;
-}
 
 }  // namespace
 
@@ -132,7 +125,7 @@ MemberEnd ChildRunner::reap(std::list<Child>::iterator child) {
     }
     ::close(child->said);
     MemberEnd end{child->number, WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
-                  lastLine(child->text)};
+                  lastSaid(child->text)};
     children_.erase(child);
     return end;
 }

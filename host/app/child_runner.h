@@ -18,7 +18,8 @@ class ChildRunner : public MemberRunner {
     ChildRunner(const ChildRunner&) = delete;
     ChildRunner& operator=(const ChildRunner&) = delete;
 
-    int slots() const override { return slots_; }
+    std::string manner() const override { return std::to_string(slots_) + " at a time"; }
+    bool takes(const Member&) const override { return int(children_.size()) < slots_; }
     /// Throws RunError if the system starts no more processes.
     void start(const MemberTask& task) override;
     std::optional<MemberEnd> wait() override;

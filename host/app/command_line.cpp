@@ -9,8 +9,6 @@
 
 #include "host/app/commands.h"
 #include "host/app/exit_code.h"
-#include "host/core/error.h"
-#include "host/output/run_folder.h"
 
 namespace vkdose {
 
@@ -132,8 +130,15 @@ CLI::App& addSweep(CLI::App& program, const char* name, const char* what, SweepO
     command.add_option("study", options.study, "study file (TOML)")->required();
     command.add_option("--out", options.out, "folder of the sweep (default: out/<name of the study's file>)")
         ->type_name("DIR");
-    command.add_option("--jobs", options.jobs, "members at once (default: one for each core on a CPU, one on a GPU)")
+    command
+        .add_option("--jobs", options.jobs,
+                    "members at once, each a process of its own (default on a CPU: one for each core)")
         ->check(CLI::Range(1, 1024));
+    command
+        .add_option("--ensemble", options.ensemble,
+                    "members at once that share the device (default on a GPU: as many as its memory holds)")
+        ->check(CLI::Range(1, 1024))
+        ->excludes("--jobs");
     command.add_flag("--retry-failed", options.retryFailed, "run the members that failed again");
     command.add_flag("--dry-run", options.dryRun, "print the members and write nothing");
     command.add_flag("--quiet", options.quiet, "print errors only");
@@ -156,33 +161,12 @@ void addReport(CLI::App& program, ReportOptions& options) {
 
 /// Runs `command`; every error becomes lines on stderr and an exit code.
 int guarded(const std::function<int()>& command) {
-    const auto say = [](const char* what) { fmt::print(stderr, "vkdose: {}\n", what); };
     try {
         return command();
-    } catch (const CaseError& e) {
-        for (const Diagnostic& fault : e.faults()) fmt::print(stderr, "{}\n", fault.text());
-        return kBadInput;
-    } catch (const FolderError& e) {
-        say(e.what());
-        return kBadInput;
-    } catch (const CheckpointError& e) {
-        say(e.what());
-        return kBadInput;
-    } catch (const OutputError& e) {
-        say(e.what());
-        return kOutputError;
-    } catch (const UsageError& e) {
-        say(e.what());
-        return kBadInput;
-    } catch (const RunError& e) {
-        say(e.what());
-        return kRunError;
-    } catch (const DeviceError& e) {
-        say(e.what());
-        return kDeviceError;
-    } catch (const std::exception& e) {
-        fmt::print(stderr, "vkdose: internal error: {}\n", e.what());
-        return kRunError;
+    } catch (...) {
+        const Refusal refusal = refusalOf(std::current_exception());
+        fmt::print(stderr, "{}\n", refusal.text);
+        return refusal.code;
     }
 }
 
@@ -210,7 +194,8 @@ int commandLine(int argc, const char* const* argv) {
     addBench(program, bench);
     addExportCoil(program, exportCoil);
     addSweep(program, "sweep", "run every member of a study", sweep)
-        .add_flag("--mpi", sweep.mpi, "a member on each rank of an MPI job (needs a build with VKDOSE_MPI)");
+        .add_flag("--mpi", sweep.mpi, "a member on each rank of an MPI job (needs a build with VKDOSE_MPI)")
+        ->excludes("--ensemble");
     program.get_subcommand("sweep")->add_flag("--prepare", sweep.prepare,
                                               "only make the members' folders, for a queue (tools/slurm-array)");
     addSweep(program, "calibrate", "find the case of a study that doses what was measured", calibration);

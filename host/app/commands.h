@@ -78,7 +78,8 @@ struct SweepOptions {
     BackendChoice backend;
     std::filesystem::path out;  ///< empty: out/<name of the study's file>
     bool mpi = false;           ///< a member on each rank of an MPI job instead
-    int jobs = 0;               ///< members at once; 0: one for each core on a CPU, one on a GPU
+    int jobs = 0;               ///< members at once, in processes; 0: one for each core, if those are what it takes
+    int ensemble = 0;           ///< members at once that share the device; 0: on a GPU as many as fit
     bool retryFailed = false;
     bool prepare = false;  ///< only make the members' folders
     bool dryRun = false;

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <exception>
+#include <string>
+
 namespace vkdose {
 
 /// What the program returns to the shell.
@@ -12,5 +15,15 @@ enum ExitCode {
     kOutputError = 5,    ///< a result could not be written
     kInterrupted = 130,  ///< Ctrl-C; what was computed is kept
 };
+
+/// What an error means to whoever started the program.
+struct Refusal {
+    ExitCode code = kRunError;
+    std::string text;  ///< one line, of a case as many as it has faults
+};
+Refusal refusalOf(const std::exception_ptr& error);
+
+/// The last line of what the program said on stderr, without its name in front.
+std::string lastSaid(std::string text);
 
 }  // namespace vkdose

@@ -4,6 +4,7 @@
 
 #include "host/app/child_runner.h"
 #include "host/app/commands.h"
+#include "host/app/ensemble_runner.h"
 #include "host/app/exit_code.h"
 #include "host/app/interrupt.h"
 #include "host/app/mpi/mpi_runner.h"
@@ -17,14 +18,18 @@
 
 namespace vkdose {
 
-int jobsFor(const SweepOptions& options) {
+std::unique_ptr<MemberRunner> makeRunner(const SweepOptions& options) {
+    const int cores = int(std::max(1U, std::thread::hardware_concurrency()));
     if (options.backend.backend == "vulkan") {
         // Asked for even if the number is given: without a device no member could run.
         const vk::Device device(vk::DeviceChoice{options.backend.device, false});
-        if (options.jobs == 0 && device.info().type != "CPU") return 1;
+        const bool gpu = device.info().type.find("GPU") != std::string::npos;
+        if (options.ensemble > 0 || (gpu && options.jobs == 0))
+            return std::make_unique<EnsembleRunner>(options.backend, options.ensemble, roomOn(device));
+    } else if (options.ensemble > 0) {
+        throw UsageError("an ensemble needs a device; the reference runs one canister at a time");
     }
-    if (options.jobs > 0) return options.jobs;
-    return int(std::max(1U, std::thread::hardware_concurrency()));
+    return std::make_unique<ChildRunner>(options.backend, options.jobs > 0 ? options.jobs : cores);
 }
 
 std::filesystem::path sweepFolder(const SweepOptions& options) {
@@ -52,12 +57,12 @@ int sweepCommand(const SweepOptions& options) {
         fmt::print("{} members to run in {}\n", members.size(), (folder.path() / "members").string());
         return kOk;
     }
-    if (!runner) runner = std::make_unique<ChildRunner>(options.backend, jobsFor(options));
+    if (!runner) runner = makeRunner(options);
     const std::filesystem::path out = sweepFolder(options);
     const std::atomic<bool>& stop = watchInterrupts();
     SweepFolder folder(out, study, members);
     SweepDisplay display("sweep", study, options.quiet);
-    display.begin(members, runner->slots());
+    display.begin(members, runner->manner());
     const SweepOutcome outcome = runMembers(folder, members, *runner, display, stop, options.retryFailed);
     if (outcome.whole) folder.sort();
     display.finish(folder, outcome);

@@ -57,9 +57,9 @@ SweepDisplay::~SweepDisplay() {
     close();
 }
 
-void SweepDisplay::begin(const std::vector<Member>& members, int jobs) {
+void SweepDisplay::begin(const std::vector<Member>& members, const std::string& manner) {
     if (quiet_) return;
-    fmt::print("{}: {} members, {} at a time\n", study_.name, members.size(), jobs);
+    fmt::print("{}: {} members, {}\n", study_.name, members.size(), manner);
     std::fflush(stdout);
 }
 

@@ -17,7 +17,8 @@ class SweepDisplay : public SweepObserver {
     SweepDisplay(const SweepDisplay&) = delete;
     SweepDisplay& operator=(const SweepDisplay&) = delete;
 
-    void begin(const std::vector<Member>& members, int jobs);
+    /// `manner`: of the runner.
+    void begin(const std::vector<Member>& members, const std::string& manner);
     void onMember(const Member& member, const MemberResult& result) override;
     void onProgress(const SweepProgress& progress) override;
     void onBusy(const std::filesystem::path& folder) override;

@@ -2,13 +2,16 @@
 // What `vkdose sweep` and `vkdose calibrate` begin with.
 
 #include <filesystem>
+#include <memory>
 
 #include "host/app/commands.h"
+#include "host/study/sweep.h"
 
 namespace vkdose {
 
-/// Members at once. Throws DeviceError if there is no device to run them on.
-int jobsFor(const SweepOptions& options);
+/// What runs the members: on a GPU ensembles as large as its memory allows, on a CPU a process for each core, unless
+/// the options say how many. Throws DeviceError if there is no device to run them on.
+std::unique_ptr<MemberRunner> makeRunner(const SweepOptions& options);
 
 /// The folder of the sweep: --out, or out/<name of the study's file>.
 std::filesystem::path sweepFolder(const SweepOptions& options);

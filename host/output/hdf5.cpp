@@ -1,6 +1,7 @@
 #include "host/output/hdf5.h"
 
 #include <algorithm>
+#include <atomic>
 #include <utility>
 
 namespace vkdose::hdf5 {
@@ -39,15 +40,21 @@ Handle inMemory() {
     return access;
 }
 
+/// HDF5 takes two files of one name for the same file, even where there is none; several threads write at once.
+std::string freshName() {
+    static std::atomic<std::uint64_t> count{0};
+    return "memory" + std::to_string(count++);
+}
+
 Handle created() {
     const Handle access = inMemory();
-    return {H5Fcreate("memory", H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose, "creating a file"};
+    return {H5Fcreate(freshName().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose, "creating a file"};
 }
 
 Handle opened(std::string& image) {
     const Handle access = inMemory();
     check(H5Pset_file_image(access, image.data(), image.size()), "reading a file");
-    return {H5Fopen("memory", H5F_ACC_RDONLY, access), H5Fclose, "opening a file"};
+    return {H5Fopen(freshName().c_str(), H5F_ACC_RDONLY, access), H5Fclose, "opening a file"};
 }
 
 Handle openDataset(hid_t file, const std::string& path) {
@@ -69,6 +76,11 @@ void read(hid_t dataset, const std::string& path, const std::string& name, Recor
 }
 
 }  // namespace
+
+bool threadSafe() {
+    hbool_t safe = 0;
+    return H5is_library_threadsafe(&safe) >= 0 && safe != 0;
+}
 
 Handle::Handle(hid_t id, herr_t (*close)(hid_t), const std::string& what) : id_(id), close_(close) {
     if (id < 0) throw Error("HDF5 failed at " + what);

@@ -17,6 +17,9 @@ class Error : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// Whether several threads may write and read at once, each files of its own.
+bool threadSafe();
+
 /// An HDF5 handle with what closes it.
 class Handle {
   public:

@@ -27,7 +27,7 @@ class Sweep {
                 waiting_.clear();
                 runner_.interrupt();
             }
-            while (!waiting_.empty() && int(running_.size()) < runner_.slots()) startNext();
+            while (!waiting_.empty() && runner_.takes(*waiting_.front().member)) startNext();
             if (running_.empty()) continue;
             if (const auto end = runner_.wait()) ended(*end);
             observer_.onProgress(progress());
@@ -53,20 +53,29 @@ class Sweep {
     }
 
     void queue(bool retryFailed) {
+        std::vector<WaitingMember> waiting;
         for (const Member& m : members_) {
             const auto status = folder_.status(m.number);
             const bool again = status == MemberStatus::Failed && retryFailed;
             if (again) folder_.forget(m.number);
             if (again || !status || status == MemberStatus::Interrupted)
-                waiting_.push_back(&m);
+                waiting.push_back({&m, stepsLeft(m)});
             else
                 doneBefore_ += m.expectedWork;
             all_ += m.expectedWork;
         }
+        runner_.order(waiting);
+        waiting_.assign(waiting.begin(), waiting.end());
+    }
+
+    double stepsLeft(const Member& m) const {
+        const fs::path run = folder_.memberFolder(m.number);
+        const double work = m.expectedWork - (fs::exists(run / kCheckpointName) ? share(m, timeReached(run)) : 0);
+        return work / double(std::max<std::size_t>(m.particles, 1));
     }
 
     void startNext() {
-        const Member& m = *waiting_.front();
+        const Member& m = *waiting_.front().member;
         waiting_.pop_front();
         if (folder_.status(m.number)) folder_.forget(m.number);
         folder_.begin(m);
@@ -121,7 +130,7 @@ class Sweep {
     const std::vector<Member>& members_;
     MemberRunner& runner_;
     SweepObserver& observer_;
-    std::deque<const Member*> waiting_;
+    std::deque<WaitingMember> waiting_;
     std::map<int, Running> running_;
     double all_ = 0, doneBefore_ = 0, doneHere_ = 0;  ///< expected particle-steps
 };

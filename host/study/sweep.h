@@ -4,6 +4,8 @@
 
 #include <atomic>
 #include <filesystem>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "host/study/sweep_folder.h"
@@ -16,12 +18,22 @@ struct MemberTask {
     bool resume = false;           ///< from the checkpoint in it
 };
 
+/// A member that has not ended yet.
+struct WaitingMember {
+    const Member* member = nullptr;
+    double steps = 0;  ///< it still has to make by the closed forms
+};
+
 /// Runs members one beside the other.
 class MemberRunner {
   public:
     virtual ~MemberRunner() = default;
-    /// How many at once.
-    virtual int slots() const = 0;
+    /// How many at once, for people: "2 at a time".
+    virtual std::string manner() const = 0;
+    /// Puts the members into the order in which it wants to start them; otherwise in that of their numbers.
+    virtual void order(std::vector<WaitingMember>& members) { (void)members; }
+    /// Whether it can start this member now, beside those that run. Always, if none does.
+    virtual bool takes(const Member& member) const = 0;
     /// Begins with a member and returns.
     virtual void start(const MemberTask& task) = 0;
     /// A member that has ended; nothing if within a moment (a second or so) none has.

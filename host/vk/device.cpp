@@ -288,6 +288,31 @@ Device::~Device() {
     if (instance_ != VK_NULL_HANDLE) vkDestroyInstance(instance_, nullptr);
 }
 
+std::uint64_t Device::freeMemory() const {
+    std::uint32_t n = 0;
+    check(vkEnumerateDeviceExtensionProperties(physical_, nullptr, &n, nullptr),
+          "vkEnumerateDeviceExtensionProperties");
+    std::vector<VkExtensionProperties> has(n);
+    check(vkEnumerateDeviceExtensionProperties(physical_, nullptr, &n, has.data()),
+          "vkEnumerateDeviceExtensionProperties");
+    const bool told = std::any_of(has.begin(), has.end(), [](const VkExtensionProperties& e) {
+        return std::strcmp(e.extensionName, VK_EXT_MEMORY_BUDGET_EXTENSION_NAME) == 0;
+    });
+    VkPhysicalDeviceMemoryBudgetPropertiesEXT budget{};
+    budget.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MEMORY_BUDGET_PROPERTIES_EXT;
+    VkPhysicalDeviceMemoryProperties2 all{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MEMORY_PROPERTIES_2, nullptr, {}};
+    if (told) all.pNext = &budget;
+    vkGetPhysicalDeviceMemoryProperties2(physical_, &all);
+    std::uint64_t most = 0;
+    for (std::uint32_t h = 0; h < all.memoryProperties.memoryHeapCount; ++h) {
+        if ((all.memoryProperties.memoryHeaps[h].flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT) == 0) continue;
+        const std::uint64_t size = all.memoryProperties.memoryHeaps[h].size;
+        const std::uint64_t left = budget.heapBudget[h] - std::min(budget.heapBudget[h], budget.heapUsage[h]);
+        most = std::max(most, told ? std::min(size, left) : size);
+    }
+    return most;
+}
+
 int Device::memoryType(std::uint32_t typeBits, VkMemoryPropertyFlags wanted) const {
     for (std::uint32_t i = 0; i < memory_.memoryTypeCount; ++i)
         if ((typeBits & (1u << i)) && (memory_.memoryTypes[i].propertyFlags & wanted) == wanted) return int(i);

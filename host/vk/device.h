@@ -58,6 +58,10 @@ class Device {
     /// Whether shaders may use 64-bit integers; enabled where the device has them.
     bool hasInt64() const { return int64_; }
 
+    /// Memory of the device that is still to be had [bytes], of the largest heap: what the driver says other programs
+    /// leave (VK_EXT_memory_budget), or all of it where it does not say.
+    std::uint64_t freeMemory() const;
+
     /// Index of a memory type allowed by `typeBits` with all of `wanted`; -1 if none.
     int memoryType(std::uint32_t typeBits, VkMemoryPropertyFlags wanted) const;
 

@@ -55,6 +55,16 @@ struct Rig {
 
 }  // namespace
 
+TEST_CASE("tables take as much of the device as is told beforehand") {
+    for (const bool book : {false, true}) {
+        World world = canisterWorld();
+        world.energyBook = book;
+        const Rig rig(world, cloud(301, 0.02, 5));
+        CHECK(rig.passes->bytes() == tableBytes(rig.sizes).all);
+        CHECK(rig.passes->history.size() <= tableBytes(rig.sizes).longest);
+    }
+}
+
 TEST_CASE("the rows hold every neighbour within reach and the skin, ascending, and no other") {
     World world = emptyWorld();
     world.timeStep = 1e-9;  // the one step that follows the rebuild moves nothing

@@ -26,7 +26,12 @@ std::string readText(const fs::path& file) {
 class MadeUpRuns : public MemberRunner {
   public:
     explicit MadeUpRuns(int slots) : slots_(slots) {}
-    int slots() const override { return slots_; }
+    std::string manner() const override { return ""; }
+    void order(std::vector<WaitingMember>& members) override {
+        for (const WaitingMember& w : members) steps[w.member->number] = w.steps;
+        if (backwards) std::reverse(members.begin(), members.end());
+    }
+    bool takes(const Member&) const override { return int(running.size()) < slots_; }
     void start(const MemberTask& task) override {
         CHECK(fs::exists(task.folder / "case.toml"));
         running.push_back(task);
@@ -59,6 +64,8 @@ class MadeUpRuns : public MemberRunner {
     std::vector<MemberTask> running;
     std::vector<int> started;
     std::vector<bool> resumed;
+    std::map<int, double> steps;  ///< left, as told before the first was started
+    bool backwards = false;
     int most = 0;
     bool interrupted = false;
     std::function<void()> onEnd;
@@ -168,6 +175,28 @@ TEST_CASE("an interrupted sweep goes on with the members that had begun, from th
     CHECK(std::count(rest.resumed.begin(), rest.resumed.end(), true) == 1);
     CHECK(sweep.members().rows.size() == 12);
     CHECK(sweep.doses().rows.size() == 24);
+}
+
+TEST_CASE("a runner may put the members into another order, knowing what is left of each") {
+    const Sweeping sweep;
+    const Study study = sweep.place.study();
+    const std::vector<Member> members = membersOf(study);
+    // Of member 3 a third is done.
+    const fs::path begun = SweepFolder(sweep.out, study, members).memberFolder(3);
+    fs::create_directories(begun);
+    std::ofstream(begun / kCheckpointName) << "state";
+    std::ofstream(begun / "timeseries.csv") << "time_s\n" << members[3].expectedTime / 3 << "\n";
+    MadeUpRuns runs(2);
+    runs.backwards = true;
+    CHECK(sweep.run(runs).ok == 12);
+    CHECK(runs.started == std::vector<int>{11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0});
+    REQUIRE(runs.steps.size() == 12);
+    for (const Member& m : members) {
+        const double whole = m.expectedWork / double(m.particles);
+        // The time stands in the table with six digits.
+        CHECK(runs.steps[m.number] == Approx(m.number == 3 ? whole * 2 / 3 : whole).epsilon(1e-5));
+    }
+    for (int i = 0; i < 12; ++i) CHECK(sweep.members().rows[std::size_t(i)][0] == std::to_string(i));
 }
 
 TEST_CASE("a torn row, and doses of a member without a row, are cut out and made again") {

@@ -88,7 +88,8 @@ class MpiRunner : public MemberRunner {
     MpiRunner(const MpiRunner&) = delete;
     MpiRunner& operator=(const MpiRunner&) = delete;
 
-    int slots() const override { return ranks_; }
+    std::string manner() const override { return fmt::format("{} at a time", ranks_); }
+    bool takes(const Member&) const override { return !idle_.empty(); }
 
     void start(const MemberTask& task) override {
         const int rank = *idle_.begin();

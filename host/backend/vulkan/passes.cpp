@@ -70,6 +70,22 @@ const Variants kMove{move_spv,        move_texel_spv,        move_packed_spv,
 
 }  // namespace
 
+TableBytes tableBytes(const TableSizes& s) {
+    const Elements e(s);
+    const std::uint64_t records = 1ull * s.members * s.groups();
+    TableBytes bytes;
+    for (const std::uint64_t table :
+         {e.state * kVec4, e.rows * 4, e.ranges * kVec4, e.history * kVec4, e.coilHistory * kVec4,
+          s.members * sizeof(gpu::Member), sizeof(gpu::Dispatches) + s.members * sizeof(gpu::Control),
+          (VkDeviceSize(s.members) * s.cells + s.particles()) * 4, e.anchors * kVec4,
+          records * sizeof(gpu::SensorRecord), e.entries * 8, e.books * kVec4, records * sizeof(gpu::EnergyRecord),
+          e.forces * kVec4, e.torques * kVec4, e.history * kVec4}) {
+        bytes.all += table;
+        bytes.longest = std::max(bytes.longest, table);
+    }
+    return bytes;
+}
+
 Passes::Passes(const vk::Device& device, const TableSizes& s) : Passes(device, s, accessOn(device, s)) {}
 
 Passes::Passes(const vk::Device& device, const TableSizes& s, const Access& access)

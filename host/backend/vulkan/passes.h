@@ -24,6 +24,13 @@ struct Access {
     VkFormat view(VkFormat format) const { return texelReads ? format : VK_FORMAT_UNDEFINED; }
 };
 
+/// What tables of these sizes take on the device.
+struct TableBytes {
+    std::uint64_t all = 0;
+    std::uint64_t longest = 0;  ///< of any one
+};
+TableBytes tableBytes(const TableSizes& sizes);
+
 class Passes {
   public:
     Passes(const vk::Device& device, const TableSizes& sizes);

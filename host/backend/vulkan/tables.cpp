@@ -39,6 +39,17 @@ std::uint64_t meanRow(const World& world, const Crowd& crowd) {
 Crowd::Crowd(const Particles& p)
     : count(p.size()), meanRadius(std::accumulate(p.radius.begin(), p.radius.end(), 0.0) / double(p.size())) {}
 
+bool TableSizes::shares(const TableSizes& other) const {
+    return surfaces == other.surfaces && surfaceKinds == other.surfaceKinds && kindSet == other.kindSet &&
+           energyBook == other.energyBook;
+}
+
+void TableSizes::growTo(const TableSizes& other) {
+    for (const auto size : {&TableSizes::share, &TableSizes::cells, &TableSizes::rowEntries, &TableSizes::linkEntries,
+                            &TableSizes::pairSlots, &TableSizes::surfaceSlots, &TableSizes::coilSlots})
+        this->*size = std::max(this->*size, other.*size);
+}
+
 std::uint64_t TableSizes::largestIndex() const {
     const std::uint64_t n = std::uint64_t(members) * share, m = members;
     const std::uint64_t springs = m * (std::uint64_t(pairSlots) + surfaceSlots), all = springs + m * coilSlots;
@@ -92,15 +103,11 @@ TableSizes roomForAll(const std::vector<TableSizes>& members) {
     TableSizes all = members.at(0);
     all.members = std::uint32_t(members.size());
     for (const TableSizes& s : members) {
-        if (s.surfaces != all.surfaces || s.surfaceKinds != all.surfaceKinds || s.kindSet != all.kindSet ||
-            s.energyBook != all.energyBook)
+        if (!s.shares(all))
             throw RunError(
                 "canisters can share a device's tables only if they have the same kinds of surfaces in the "
                 "same order, and all or none keep an energy book");
-        for (const auto size :
-             {&TableSizes::share, &TableSizes::cells, &TableSizes::rowEntries, &TableSizes::linkEntries,
-              &TableSizes::pairSlots, &TableSizes::surfaceSlots, &TableSizes::coilSlots})
-            all.*size = std::max(all.*size, s.*size);
+        all.growTo(s);
     }
     narrow(all.largestIndex());
     return all;

@@ -27,6 +27,12 @@ struct TableSizes {
     bool energyBook = false;
     bool texelReads = true;  ///< wanted; used if every view fits the device's limit
 
+    /// Whether canisters of these sizes can share tables: surfaces of the same kinds in the same order, an energy book
+    /// for all or for none.
+    bool shares(const TableSizes& other) const;
+    /// At least as much room for each member as `other` has.
+    void growTo(const TableSizes& other);
+
     std::uint32_t groups() const { return share / workgroup; }
     /// As `spread` in shaders/shared/buffers.glsl.
     std::uint32_t layers(std::uint32_t groups) const { return std::max(1U, (groups + mostGroups - 1) / mostGroups); }

@@ -59,7 +59,11 @@ class VulkanBackend final : public Backend {
     double coilAngle() const override { return angle_; }
     std::string description() const override { return "vulkan: " + ensemble_->device().info().name; }
 
-    const vk::Device& device() const { return ensemble_->device(); }
+    ValidationReport validation() const {
+        return alone([](Ensemble& e, std::uint32_t) {
+            return ValidationReport{e.device().validated(), e.device().validationMessages()};
+        });
+    }
     VulkanProfile profile(std::uint32_t steps, double coilRate) {
         VulkanProfile p = alone([&](Ensemble& e, std::uint32_t) { return e.profile(steps, coilRate); });
         angle_ += coilRate * timeStep_ * p.steps;
@@ -107,7 +111,7 @@ double stepBytes(double touching, double touchingWalls) {
 ValidationReport validationReport(const Backend& backend) {
     const auto* vulkan = dynamic_cast<const VulkanBackend*>(&backend);
     if (vulkan == nullptr) return {};
-    return {vulkan->device().validated(), vulkan->device().validationMessages()};
+    return vulkan->validation();
 }
 
 }  // namespace vkdose

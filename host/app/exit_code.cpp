@@ -1,0 +1,44 @@
+#include "host/app/exit_code.h"
+
+#include "host/app/backends.h"
+#include "host/core/error.h"
+#include "host/model/case.h"
+#include "host/output/run_folder.h"
+
+namespace vkdose {
+
+Refusal refusalOf(const std::exception_ptr& error) {
+    const auto because = [](ExitCode code, const std::exception& e) {
+        return Refusal{code, std::string("vkdose: ") + e.what()};
+    };
+    try {
+        std::rethrow_exception(error);
+    } catch (const CaseError& e) {
+        std::string faults;
+        for (const Diagnostic& fault : e.faults()) faults += (faults.empty() ? "" : "\n") + fault.text();
+        return {kBadInput, faults};
+    } catch (const FolderError& e) {
+        return because(kBadInput, e);
+    } catch (const CheckpointError& e) {
+        return because(kBadInput, e);
+    } catch (const OutputError& e) {
+        return because(kOutputError, e);
+    } catch (const UsageError& e) {
+        return because(kBadInput, e);
+    } catch (const RunError& e) {
+        return because(kRunError, e);
+    } catch (const DeviceError& e) {
+        return because(kDeviceError, e);
+    } catch (const std::exception& e) {
+        return {kRunError, std::string("vkdose: internal error: ") + e.what()};
+    }
+}
+
+std::string lastSaid(std::string text) {
+    while (!text.empty() && text.back() == '\n') text.pop_back();
+    text.erase(0, text.rfind('\n') + 1);
+    const std::string name = "vkdose: ";
+    return text.rfind(name, 0) == 0 ? text.substr(name.size()) : text;
+}
+
+}  // namespace vkdose

@@ -1,0 +1,99 @@
+#include "host/app/play.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "host/core/error.h"
+
+namespace vkdose {
+
+namespace {
+
+/// Passes everything on to the output folder and, if there is one, to the display.
+class Fanout : public RunObserver {
+  public:
+    Fanout(RunObserver& folder, RunObserver* display) : folder_(folder), display_(display) {}
+    void onProgress(const Progress& p) override {
+        if (display_) display_->onProgress(p);
+    }
+    void onSample(const Sample& s) override { folder_.onSample(s); }
+    void onDose(const Dose& d) override {
+        folder_.onDose(d);
+        if (display_) display_->onDose(d);
+    }
+    void onCheckpoint(const RunCheckpoint& c, double time) override { folder_.onCheckpoint(c, time); }
+    bool storesCheckpoints() const override { return folder_.storesCheckpoints(); }
+
+  private:
+    RunObserver& folder_;
+    RunObserver* display_;
+};
+
+ExitCode exitCode(StopReason reason) {
+    switch (reason) {
+        case StopReason::Interrupted:
+            return kInterrupted;
+        case StopReason::RunError:
+            return kRunError;
+        case StopReason::DeviceError:
+            return kDeviceError;
+        case StopReason::OutputError:
+            return kOutputError;
+        default:
+            return kOk;
+    }
+}
+
+}  // namespace
+
+ReadyRun readyRun(const CaseOptions& input) {
+    ReadyRun run{loadCase(input.file, input.overrides), {}, std::nullopt};
+    (void)Timeline(run.c);
+    run.filled = insertParticles(run.c);
+    return run;
+}
+
+ReadyRun readyToResume(const std::filesystem::path& folder) {
+    const std::filesystem::path file = folder / kCheckpointName;
+    if (!std::filesystem::exists(file) && std::filesystem::exists(folder / "summary.json"))
+        throw CheckpointError(fmt::format("the run in {} is over; there is nothing to resume", folder.string()));
+    Checkpoint from = readCheckpoint(file);
+    ReadyRun run{loadResolvedCase(from.caseText, folder / "case.toml"), {}, std::nullopt};
+    run.filled = insertParticles(run.c);
+    run.from = std::move(from);
+    return run;
+}
+
+RunFolder folderOf(const ReadyRun& run, const std::filesystem::path& folder, bool force, const Backend& backend) {
+    if (run.from) return RunFolder(folder, *run.from, run.c, backend.description());
+    return RunFolder(folder, force, run.c, backend.description());
+}
+
+Played play(ReadyRun run, Backend& backend, RunFolder& folder, RunObserver* display, const std::atomic<bool>& stop) {
+    Derived derived = derive(run.c, run.filled);
+    Fanout observers(folder, display);
+    Played played;
+    try {
+        played.result = runFilled(run.c, std::move(run.filled), std::move(derived), backend, observers, stop,
+                                  run.from ? &run.from->run : nullptr);
+    } catch (const RecordError& e) {
+        throw CheckpointError(
+            fmt::format("{} cannot be used: {}", (folder.path() / kCheckpointName).string(), e.what()));
+    }
+    played.code = exitCode(played.result.reason);
+    played.error = played.result.error;
+    if (played.result.reason == StopReason::OutputError)
+        played.error += fmt::format("; make room, then {}", wayOn(folder));
+    else
+        folder.finish(run.c, played.result);
+    return played;
+}
+
+std::string wayOn(const RunFolder& folder) {
+    if (!folder.checkpointTime()) return "no checkpoint had been written; start again";
+    return fmt::format("go on from t = {:.6g} s with `vkdose resume {}`", *folder.checkpointTime(),
+                       folder.path().string());
+}
+
+}  // namespace vkdose

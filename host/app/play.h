@@ -1,0 +1,44 @@
+#pragma once
+// Plays a run into its output folder, without a word: as a command, or as a member of an ensemble.
+
+#include <atomic>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "host/app/commands.h"
+#include "host/app/exit_code.h"
+#include "host/output/run_folder.h"
+
+namespace vkdose {
+
+/// All that a run needs beside a backend.
+struct ReadyRun {
+    Case c;
+    Insertion filled;
+    std::optional<Checkpoint> from;  ///< to go on from
+};
+
+/// From its start. Throws CaseError.
+ReadyRun readyRun(const CaseOptions& input);
+
+/// From the checkpoint in `folder`. Throws CheckpointError if there is none, or if the run is over, and CaseError.
+ReadyRun readyToResume(const std::filesystem::path& folder);
+
+/// Goes on in the folder, or starts over in it as `force` allows (RunFolder).
+RunFolder folderOf(const ReadyRun& run, const std::filesystem::path& folder, bool force, const Backend& backend);
+
+struct Played {
+    RunResult result;
+    ExitCode code = kOk;
+    std::string error;  ///< what stopped it; empty if nothing did
+};
+
+/// Plays `run` and finishes its folder; of a result that could not be stored, `error` tells the way on. `display` is
+/// told of progress and doses, if there is one. Throws CheckpointError if the checkpoint does not fit its case.
+Played play(ReadyRun run, Backend& backend, RunFolder& folder, RunObserver* display, const std::atomic<bool>& stop);
+
+/// How to go on with a run that ended before it was over.
+std::string wayOn(const RunFolder& folder);
+
+}  // namespace vkdose

@@ -1,0 +1,33 @@
+#include "host/backend/vulkan/capacity.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "host/backend/vulkan/pack.h"
+#include "host/backend/vulkan/passes.h"
+
+namespace vkdose {
+
+DeviceRoom roomOn(const vk::Device& device) {
+    const VkPhysicalDeviceLimits& limits = device.limits();
+    return {device.freeMemory() / 5 * 4, limits.maxStorageBufferRange, limits.maxComputeWorkGroupCount[1]};
+}
+
+TableSizes roomOf(const World& world, const Particles& particles) {
+    DeviceShape unlimited;
+    unlimited.range = std::numeric_limits<std::uint64_t>::max();
+    return tableSizes(world, Crowd(particles), packMember(world, particles), unlimited);
+}
+
+bool fit(const std::vector<TableSizes>& canisters, const DeviceRoom& room) {
+    if (canisters.size() > room.members) return false;
+    TableSizes all = canisters.at(0);
+    for (const TableSizes& s : canisters) all.growTo(s);
+    all.members = std::uint32_t(canisters.size());
+    const bool numbered = std::uint64_t(all.members) * all.share <= gpu::kMostParticles;
+    if (!numbered || all.largestIndex() > std::numeric_limits<std::uint32_t>::max()) return false;
+    const TableBytes bytes = tableBytes(all);
+    return bytes.all <= room.memory && bytes.longest <= room.range;
+}
+
+}  // namespace vkdose

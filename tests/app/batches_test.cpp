@@ -1,0 +1,70 @@
+// Which members of a sweep share the device at the same time.
+#include "host/app/batches.h"
+
+#include <catch2/catch.hpp>
+#include <limits>
+
+#include "host/backend/vulkan/passes.h"
+
+using namespace vkdose;
+
+namespace {
+
+constexpr std::uint64_t kPlenty = std::numeric_limits<std::uint64_t>::max();
+const DeviceRoom kWide{kPlenty, kPlenty, 65535};
+
+TableSizes tablesOf(std::size_t particles, std::size_t surfaces = 1) {
+    World world;
+    world.skin = 0.1e-3;
+    for (std::size_t i = 0; i < surfaces; ++i) world.surfaces.emplace_back(geometry::Plane{{0, 0, 0}, {0, 0, 1}});
+    Particles p;
+    for (std::size_t i = 0; i < particles; ++i) p.add({}, 1e-3);
+    return roomOf(world, p);
+}
+
+using Batches = std::vector<std::vector<int>>;
+
+}  // namespace
+
+TEST_CASE("a batch holds no more members than asked for, and those with about as many steps end together") {
+    const TableSizes t = tablesOf(100);
+    const std::vector<BatchMember> members{{0, 10, t}, {1, 900, t}, {2, 11, t}, {3, 1000, t}, {4, 12, t}};
+    CHECK(batchesOf(members, kWide, 2) == Batches{{3, 1}, {4, 2}, {0}});
+    CHECK(batchesOf(members, kWide, 99) == Batches{{3, 1, 4, 2, 0}});
+    CHECK(batchesOf({{4, 7, t}, {2, 7, t}, {3, 7, t}}, kWide, 2) == Batches{{2, 3}, {4}});
+    CHECK(batchesOf({}, kWide, 2).empty());
+}
+
+TEST_CASE("only members of a kind share a batch") {
+    const TableSizes one = tablesOf(100), two = tablesOf(100, 2);
+    CHECK(batchesOf({{0, 5, one}, {1, 5, two}, {2, 5, one}, {3, 5, two}}, kWide, 9) == Batches{{0, 2}, {1, 3}});
+    TableSizes book = one;
+    book.energyBook = true;
+    CHECK(batchesOf({{0, 5, one}, {1, 5, book}}, kWide, 9) == Batches{{0}, {1}});
+}
+
+TEST_CASE("a batch fits the device's memory, its longest buffer and its dispatches") {
+    const TableSizes small = tablesOf(100), large = tablesOf(1000);
+    const std::vector<BatchMember> four{{0, 4, small}, {1, 3, small}, {2, 2, small}, {3, 1, small}};
+    TableSizes three = small;
+    three.members = 3;
+    DeviceRoom room = kWide;
+    room.memory = tableBytes(three).all;
+    CHECK(batchesOf(four, room, 99) == Batches{{0, 1, 2}, {3}});
+    room.memory -= 1;
+    CHECK(batchesOf(four, room, 99) == Batches{{0, 1}, {2, 3}});
+    room = kWide;
+    room.range = tableBytes(three).longest;
+    CHECK(batchesOf(four, room, 99) == Batches{{0, 1, 2}, {3}});
+    room = kWide;
+    room.members = 2;
+    CHECK(batchesOf(four, room, 99) == Batches{{0, 1}, {2, 3}});
+
+    // Every member of a batch takes as much as the largest: a small one beside it does not fit where two small ones do.
+    room = kWide;
+    room.memory = tableBytes(large).all;
+    CHECK(tableBytes(three).all <= room.memory);
+    CHECK(batchesOf({{0, 4, large}, {1, 3, small}, {2, 2, small}, {3, 1, small}}, room, 99) == Batches{{0}, {1, 2, 3}});
+    room.memory = 1;
+    CHECK(batchesOf({{0, 4, large}, {1, 3, small}}, room, 99) == Batches{{0}, {1}});
+}

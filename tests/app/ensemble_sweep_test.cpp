@@ -1,0 +1,132 @@
+// `vkdose sweep --ensemble`: members that share the device leave behind what members in processes do.
+
+#include <sys/types.h>
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <csignal>
+#include <thread>
+
+#include "host/output/checkpoint.h"
+#include "tests/app/sandbox.h"
+#include "tests/app/sweep_tables.h"
+
+using namespace vkdose;
+using namespace vkdose::test;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Of the mini canister: members of different lengths, one that fails, and one whose floor is of another kind.
+const std::string kStudy = R"(base = ")" VKDOSE_SOURCE_DIR R"(/cases/mini.toml"
+[set]
+settle.time_s = 0.01
+dose.rotate_s = 0.05
+dose.rest_s = 0.01
+sensors.interval_s = 0.003
+checkpoint.time_s = 0.006
+[[axis]]
+keys = ["contact.friction", "stop.max_doses", "contact.max_overlap_ratio", "canister.floor"]
+values = [[0.2, 1, 0.2, "trough"], [0.3, 2, 0.2, "trough"], [0.3, 1, 1e-9, "trough"], [0.4, 2, 0.2, "flat"],
+          [0.4, 1, 0.2, "trough"]]
+)";
+
+constexpr std::size_t kStatus = 6, kError = 7;  // columns of members.csv
+const std::string kFails = "2";                 // the member
+
+/// Device and threads as everywhere in the tests; a sweep in processes of the same study, against which all is held.
+struct Place {
+    Sandbox box;
+    Place() {
+        box.write("study.toml", kStudy);
+        const auto whole = box.vkdose("sweep study.toml --jobs 2 --out whole");
+        CAPTURE(whole.out, whole.err);
+        REQUIRE(whole.code == 1);
+        REQUIRE(timeless(box / "whole").size() == 5);
+    }
+
+    /// The rows of all members; of the one that fails without the place where the particle was, which is that at the
+    /// end of a submission, not at the end of the step.
+    std::vector<Row> rows(const std::string& folder) const {
+        std::vector<Row> all = timeless(box / folder);
+        for (Row& row : all)
+            if (row[0] == kFails) row[kError] = row[kError].substr(row[kError].rfind("(step"));
+        return all;
+    }
+
+    void checkSame(const std::string& folder) const {
+        CHECK(rows(folder) == rows("whole"));
+        CHECK(readText(box / folder / "doses.csv") == readText(box / "whole/doses.csv"));
+        for (const Row& row : timeless(box / folder)) {
+            for (const char* name : {"case.toml", "timeseries.csv", "doses.csv", "particles.csv"}) {
+                if (row[0] == kFails && std::string(name) == "particles.csv") continue;  // as the place
+                const std::string file = "members/000" + row[0] + "/" + name;
+                INFO(file);
+                REQUIRE(fs::exists(box / "whole" / file));
+                CHECK(readText(box / folder / file) == readText(box / "whole" / file));
+            }
+        }
+        CHECK_FALSE(fs::exists(box / folder / "members/0000" / kCheckpointName));
+    }
+};
+
+/// Starts a sweep on an ensemble and waits until member 1, one of the longest, has stored a checkpoint in it; fails if
+/// the sweep ends first.
+pid_t startedSweep(const Sandbox& box) {
+    const fs::path checkpoint = box / "cut/members/0001" / kCheckpointName;
+    std::error_code none;
+    const auto before = fs::last_write_time(checkpoint, none);
+    const pid_t sweep = box.start({"sweep", "study.toml", "--ensemble", "4", "--out", "cut"});
+    while (!fs::exists(checkpoint) || fs::last_write_time(checkpoint, none) == before) {
+        if (waitpid(sweep, nullptr, WNOHANG) != 0) FAIL("the sweep ended before it could be cut short");
+        std::this_thread::yield();
+    }
+    return sweep;
+}
+
+}  // namespace
+
+TEST_CASE("members of an ensemble leave the same files as members in processes, also beside one that fails") {
+    const Place place;
+    const auto o = place.box.vkdose("sweep study.toml --ensemble 3 --validation --out together");
+    CAPTURE(o.out, o.err);
+    CHECK(o.code == 1);
+    CHECK_THAT(o.out, Catch::Contains("5 members, 3 at a time on one device") && Catch::Contains("4 done, 1 failed"));
+    CHECK_THAT(o.err, Catch::Contains("member 0002") && Catch::Contains("overlap"));
+    place.checkSame("together");
+}
+
+TEST_CASE("a sweep on an ensemble that is killed, and interrupted, goes on to the same files") {
+    const Place place;
+    const pid_t killed = startedSweep(place.box);
+    kill(killed, SIGKILL);
+    waitpid(killed, nullptr, 0);
+
+    const pid_t interrupted = startedSweep(place.box);
+    kill(interrupted, SIGINT);
+    int status = 0;
+    waitpid(interrupted, &status, 0);
+    CHECK(WEXITSTATUS(status) == 130);
+    // Who had not ended has been stored, all at once; so was the one that failed, before it did.
+    const auto rows = timeless(place.box / "cut");
+    CHECK(std::count_if(rows.begin(), rows.end(), [](const Row& row) { return row[kStatus] == "interrupted"; }) > 0);
+    for (const Row& row : rows)
+        CHECK(fs::exists(place.box / ("cut/members/000" + row[0]) / kCheckpointName) == (row[kStatus] != "ok"));
+
+    const auto on = place.box.vkdose("sweep study.toml --ensemble 4 --out cut");
+    CAPTURE(on.out, on.err);
+    CHECK(on.code == 1);
+    place.checkSame("cut");
+}
+
+TEST_CASE("an ensemble excludes what it cannot be") {
+    const Sandbox box;
+    box.write("study.toml", kStudy);
+    CHECK(box.vkdose("sweep study.toml --ensemble 2 --jobs 2").code == 2);
+    CHECK(box.vkdose("sweep study.toml --ensemble 2 --mpi").code == 2);
+    CHECK(box.vkdose("sweep study.toml --ensemble 0").code == 2);
+    const auto o = box.vkdose("sweep study.toml --ensemble 2 --backend reference");
+    CHECK(o.code == 2);
+    CHECK_THAT(o.err, Catch::Contains("an ensemble needs a device"));
+    CHECK(box.files() == std::vector<std::string>{"study.toml"});
+}
