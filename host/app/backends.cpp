@@ -55,6 +55,15 @@ BackendChoice sameBackend(const std::string& description, const BackendChoice& c
     return same;
 }
 
+BackendChoice choiceOfRank(const BackendChoice& choice, const std::vector<vk::DeviceInfo>& devices, int localRank) {
+    BackendChoice own = choice;
+    if (choice.backend == "reference" || !choice.device.empty()) return own;
+    const std::vector<vk::DeviceInfo> best = vk::bestOf(devices);
+    if (!best.empty() && best.front().isGpu())
+        own.device = std::to_string(best[std::size_t(localRank) % best.size()].index);
+    return own;
+}
+
 std::vector<std::string> validationFindings(const BackendChoice& choice, const Backend& backend) {
     if (!choice.validation) return {};
     const ValidationReport report = validationReport(backend);

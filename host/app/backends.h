@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/backend/backend.h"
+#include "host/vk/device.h"
 
 namespace vkdose {
 
@@ -31,6 +32,10 @@ std::vector<std::unique_ptr<Backend>> makeEnsemble(const BackendChoice& choice, 
 
 /// The backend and device a description (Backend::description) stands for; `device` of `choice` wins, if given.
 BackendChoice sameBackend(const std::string& description, const BackendChoice& choice);
+
+/// The choice for one of several processes that share a machine, counted from 0. Where nothing says which device, they
+/// take turns at the GPUs of the kind that is taken by itself; the processor is one device, whatever drivers it has.
+BackendChoice choiceOfRank(const BackendChoice& choice, const std::vector<vk::DeviceInfo>& devices, int localRank);
 
 /// What the Vulkan validation layer found, if it was asked for; its absence counts as a finding.
 std::vector<std::string> validationFindings(const BackendChoice& choice, const Backend& backend);

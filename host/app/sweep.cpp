@@ -23,7 +23,7 @@ std::unique_ptr<MemberRunner> makeRunner(const SweepOptions& options) {
     if (options.backend.backend == "vulkan") {
         // Asked for even if the number is given: without a device no member could run.
         const vk::Device device(vk::DeviceChoice{options.backend.device, false});
-        const bool gpu = device.info().type.find("GPU") != std::string::npos;
+        const bool gpu = device.info().isGpu();
         if (options.ensemble > 0 || (gpu && options.jobs == 0))
             return std::make_unique<EnsembleRunner>(options.backend, options.ensemble, roomOn(device));
     } else if (options.ensemble > 0) {

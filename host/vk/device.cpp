@@ -186,21 +186,20 @@ std::string choices(const std::vector<DeviceInfo>& infos) {
     return text;
 }
 
-const DeviceInfo& choose(const std::vector<DeviceInfo>& infos, const std::string& wanted) {
-    const DeviceInfo* best = nullptr;
-    bool number =
-        !wanted.empty() && std::all_of(wanted.begin(), wanted.end(), [](unsigned char c) { return std::isdigit(c); });
-    for (const DeviceInfo& d : infos) {
-        bool match = wanted.empty() ? d.usable
-                     : number       ? std::to_string(d.index) == wanted
-                                    : lower(d.name).find(lower(wanted)) != std::string::npos;
-        if (match && (best == nullptr || (wanted.empty() && preference(d.type) < preference(best->type)))) best = &d;
+DeviceInfo choose(const std::vector<DeviceInfo>& infos, const std::string& wanted) {
+    if (wanted.empty()) {
+        const std::vector<DeviceInfo> best = bestOf(infos);
+        if (best.empty()) throw DeviceError(fmt::format("none of the Vulkan devices can be used: {}", choices(infos)));
+        return best.front();
     }
-    if (best == nullptr)
-        throw DeviceError(wanted.empty() ? fmt::format("none of the Vulkan devices can be used: {}", choices(infos))
-                                         : fmt::format("no Vulkan device '{}'; there are: {}", wanted, choices(infos)));
-    if (!best->usable) throw DeviceError(fmt::format("device {} ({}) {}", best->index, best->name, best->reason));
-    return *best;
+    const bool number = std::all_of(wanted.begin(), wanted.end(), [](unsigned char c) { return std::isdigit(c); });
+    const auto found = std::find_if(infos.begin(), infos.end(), [&](const DeviceInfo& d) {
+        return number ? std::to_string(d.index) == wanted : lower(d.name).find(lower(wanted)) != std::string::npos;
+    });
+    if (found == infos.end())
+        throw DeviceError(fmt::format("no Vulkan device '{}'; there are: {}", wanted, choices(infos)));
+    if (!found->usable) throw DeviceError(fmt::format("device {} ({}) {}", found->index, found->name, found->reason));
+    return *found;
 }
 
 }  // namespace
@@ -208,6 +207,16 @@ const DeviceInfo& choose(const std::vector<DeviceInfo>& infos, const std::string
 void check(VkResult result, const char* call) {
     if (result != VK_SUCCESS)
         throw DeviceError(fmt::format("{} failed: {} (VkResult {})", call, resultName(result), int(result)));
+}
+
+std::vector<DeviceInfo> bestOf(const std::vector<DeviceInfo>& devices) {
+    std::vector<DeviceInfo> best;
+    for (const DeviceInfo& d : devices) {
+        if (!d.usable) continue;
+        if (!best.empty() && preference(d.type) < preference(best.front().type)) best.clear();
+        if (best.empty() || d.type == best.front().type) best.push_back(d);
+    }
+    return best;
 }
 
 std::vector<DeviceInfo> listDevices() {

@@ -37,10 +37,15 @@ struct DeviceInfo {
     unsigned timestampBits = 0;               ///< of the compute queue's clock; 0: it keeps none
     bool usable = false;
     std::string reason;  ///< why not usable
+
+    bool isGpu() const { return type.find("GPU") != std::string::npos; }
 };
 
 /// Every device the Vulkan loader shows. Throws DeviceError if there is no loader or no driver.
 std::vector<DeviceInfo> listDevices();
+
+/// Those of `devices` that can be used and are of the best kind there is; the automatic choice takes the first.
+std::vector<DeviceInfo> bestOf(const std::vector<DeviceInfo>& devices);
 
 class Device {
   public:

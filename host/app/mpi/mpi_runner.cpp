@@ -49,6 +49,16 @@ std::optional<Heard> hear() {
     return Heard{status.MPI_SOURCE, status.MPI_TAG, Json::parse(text)};
 }
 
+/// Of this rank among those on its machine.
+int localRank() {
+    MPI_Comm machine = MPI_COMM_NULL;
+    check(MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine), "MPI_Comm_split_type");
+    int rank = 0;
+    MPI_Comm_rank(machine, &rank);
+    MPI_Comm_free(&machine);
+    return rank;
+}
+
 /// The life of a rank but the first: what rank 0 says, and what becomes of the member it runs.
 void serve(const BackendChoice& choice) {
     ChildRunner own(choice, 1);
@@ -142,8 +152,10 @@ std::unique_ptr<MemberRunner> makeMpiRunner(const BackendChoice& choice) {
     MPI_Comm_size(MPI_COMM_WORLD, &ranks);
     // Side by side on a machine, members share its cores best with one thread each.
     setenv("LP_NUM_THREADS", "0", 0);
-    if (rank == 0) return std::make_unique<MpiRunner>(choice, ranks);
-    serve(choice);
+    const bool onDevice = choice.backend != "reference" && choice.device.empty();
+    const BackendChoice own = onDevice ? choiceOfRank(choice, vk::listDevices(), localRank()) : choice;
+    if (rank == 0) return std::make_unique<MpiRunner>(own, ranks);
+    serve(own);
     MPI_Finalize();
     return nullptr;
 }
