@@ -24,6 +24,8 @@ class Fanout : public RunObserver {
     }
     void onCheckpoint(const RunCheckpoint& c, double time) override { folder_.onCheckpoint(c, time); }
     bool storesCheckpoints() const override { return folder_.storesCheckpoints(); }
+    void onFrame(const Frame& f) override { folder_.onFrame(f); }
+    bool storesFrames() const override { return folder_.storesFrames(); }
 
   private:
     RunObserver& folder_;

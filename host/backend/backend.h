@@ -72,7 +72,7 @@ struct Contact {
     Vec3 sliding{0};        ///< spring xi [m], acting on `particle`
     Vec3 rolling{0};        ///< spring rho [m]
     double torsion = 0;     ///< [m]
-    Vec3 force{0};          ///< on `particle`, in the last step made [N]; zero before any
+    Vec3 force{0};          ///< on `particle`, in the last step made since `load` or `restore` [N]; zero before any
 };
 
 class Backend {
@@ -90,12 +90,12 @@ class Backend {
     /// NaN, a full table or an overlap above the world's limit, naming the particle and the step.
     virtual Sensors advance(std::uint32_t steps, double coilRate) = 0;
 
-    /// Everything the next `advance` depends on, beside the world and the radii: restored, the run goes on with the same
-    /// bits as if it had not been interrupted. Take it between calls of `advance`.
+    /// Everything the next `advance` depends on, beside the world and the radii: restored, the run goes on with the
+    /// same bits as if it had not been interrupted. Take it between calls of `advance`.
     virtual Record snapshot() const = 0;
 
-    /// Puts back what `snapshot` gave, on top of a `load` of the same world and radii (and a `setLaw` if there was one).
-    /// Throws RecordError if the record is not of this kind of backend or does not fit what was loaded.
+    /// Puts back what `snapshot` gave, on top of a `load` of the same world and radii (and a `setLaw` if there was
+    /// one). Throws RecordError if the record is not of this kind of backend or does not fit what was loaded.
     virtual void restore(const Record& record) = 0;
 
     virtual Particles particles() const = 0;

@@ -56,6 +56,8 @@ void completeTime(Section& time, Case& c, const SizeRange& sizes) {
     if (c.world.skin == 0) c.world.skin = time.number("skin_mm", Bound::Positive, kMillimetre, 0.6 * sizes.mean * 1e3);
     const double steps = std::max(1.0, std::round(c.sensorInterval / c.world.timeStep));
     c.sensorInterval = steps * c.world.timeStep;
+    if (c.frames.interval > 0)
+        c.frames.interval = std::max(1.0, std::round(c.frames.interval / c.sensorInterval)) * c.sensorInterval;
 }
 
 /// Height of the canister's top, or of the fill where that is higher [m, y].

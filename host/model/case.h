@@ -71,6 +71,12 @@ struct CheckpointInterval {
     double simulated = 0;  ///< of simulated time [s]
 };
 
+/// Which frames of a run are stored.
+struct FrameStorage {
+    double interval = 0;    ///< [s], a whole number of sensor intervals after loading; 0: none
+    bool contacts = false;  ///< the contacts as well, not only what they do to each particle
+};
+
 struct Case {
     std::string name;
     std::string reason;
@@ -82,6 +88,7 @@ struct Case {
     Schedule schedule;
     double sensorInterval = 0;  ///< [s], a whole number of steps after loading
     CheckpointInterval checkpoint;
+    FrameStorage frames;
     double bulkDensity = 471;  ///< rho_b for the closed form [kg/m3]
     std::string resolved;      ///< the case as TOML with every default and --set applied
 };

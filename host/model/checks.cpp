@@ -118,6 +118,9 @@ void checkSchedule(CaseReader& reader, const Case& c) {
         reader.fault("stop.rule", "the run would never end", "give max_doses or end_time_s, or another rule");
     if (s.rotateTime == 0 && s.stop.kind != StopRule::Kind::None)
         reader.fault("stop.rule", "there are no doses to judge", "give dose.rotate_s > 0, or rule = \"none\"");
+    if (c.frames.interval > 0 && c.frames.interval < c.sensorInterval)
+        reader.fault("frames.interval_s", "is shorter than sensors.interval_s; frames are taken where sensors are read",
+                     fmt::format("give 0, at least {:.6g}, or a shorter sensors.interval_s", c.sensorInterval));
 }
 
 void checkBox(CaseReader& reader, const char* path, const Box& box) {

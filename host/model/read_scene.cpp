@@ -1,4 +1,5 @@
-// The boundaries, the coil, and the tables of time: [settle] (its time), [dose], [stop], [sensors], [time], [domain].
+// The boundaries, the coil, and the tables of time: [settle] (its time), [dose], [stop], [sensors], [frames], [time],
+// [domain].
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -185,6 +186,9 @@ void readSchedule(Section& root, Case& c) {
     Section& sensors = root.table("sensors");
     c.sensorInterval = sensors.number("interval_s", Bound::Positive, kSecond, 0.01);
     c.world.energyBook = sensors.boolean("energy", false);
+    Section& frames = root.table("frames");
+    c.frames.interval = frames.number("interval_s", Bound::NonNegative, kSecond, 0.0);
+    c.frames.contacts = frames.boolean("contacts", false);
     Section& checkpoint = root.table("checkpoint");
     c.checkpoint.wall = checkpoint.number("wall_s", Bound::NonNegative, kSecond, c.checkpoint.wall);
     c.checkpoint.simulated = checkpoint.number("time_s", Bound::NonNegative, kSecond, c.checkpoint.simulated);

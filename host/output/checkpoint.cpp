@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kUserBlock = 512;
 constexpr std::string_view kMagic = "vkdose checkpoint";
-constexpr int kVersion = 2;
+constexpr int kVersion = 3;
 
 /// FNV-1a, 64 bits: it has to catch accidents, not forgers.
 std::uint64_t checksum(std::string_view bytes) {
@@ -61,6 +61,7 @@ void writeCheckpoint(const std::filesystem::path& file, const Checkpoint& c) {
     when.putOne("time", c.time);
     when.putOne("timeseries", c.timeSeriesBytes);
     when.putOne("doses", c.dosesBytes);
+    when.putOne("frames", c.framesBytes);
     writer.record("/when", when);
     const std::string image = writer.image();
     replaceFile(file, head(image) + image);
@@ -84,6 +85,7 @@ Checkpoint readCheckpoint(const std::filesystem::path& file) {
         c.time = when.one<double>("time");
         c.timeSeriesBytes = when.one<std::uint64_t>("timeseries");
         c.dosesBytes = when.one<std::uint64_t>("doses");
+        c.framesBytes = when.one<std::uint64_t>("frames");
         return c;
     } catch (const hdf5::Error& e) {
         throw CheckpointError(fmt::format("{} cannot be read: {}", file.string(), e.what()));

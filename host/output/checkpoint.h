@@ -7,6 +7,7 @@
 //   /state/*                          the backend's snapshot      (RunCheckpoint::backend)
 //   /when/time                        simulated time [s]
 //   /when/timeseries, /when/doses     bytes of the CSV files at that time
+//   /when/frames                      bytes of frames.csv; 0: the run keeps no frames
 
 #include <cstdint>
 #include <filesystem>
@@ -32,6 +33,7 @@ struct Checkpoint {
     RunCheckpoint run;
     std::uint64_t timeSeriesBytes = 0;
     std::uint64_t dosesBytes = 0;
+    std::uint64_t framesBytes = 0;
 };
 
 /// Replaces `file` in one move. Throws OutputError if it cannot be written; the checkpoint before is then still there.

@@ -1,13 +1,26 @@
 #pragma once
-// The frames of a run, in frames/ of its output folder: the powder as it was at the intervals the case asks for.
+// The frames of a run, in frames/ of its output folder: the powder as it was at the intervals the case asks for. Each
+// is a VTKHDF file of the particles and, if asked for, one of the contacts (frame_files.h); frames.csv lists them.
+// FrameWriter makes them.
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "host/sim/frame.h"
 
 namespace vkdose {
+
+inline constexpr const char* kFramesFolder = "frames";
+inline constexpr const char* kFramesIndex = "frames.csv";
+inline constexpr const char* kFramesHeader = "frame,step,time_s,phase,dose,coil_angle_rad";
+inline constexpr const char* kFrameExtension = ".vtkhdf";
+inline constexpr const char* kParticlesFrame = "particles";
+inline constexpr const char* kContactsFrame = "contacts";
+
+/// "particles_000012.vtkhdf": so named, the files of a kind are a series to ParaView.
+std::string frameFile(const char* kind, int number);
 
 /// A frame without its particles.
 struct FrameEntry {

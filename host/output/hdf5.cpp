@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <functional>
+#include <numeric>
 #include <utility>
 
 namespace vkdose::hdf5 {
@@ -25,6 +27,14 @@ hid_t typeOf<float>() {
     return H5T_NATIVE_FLOAT;
 }
 template <>
+hid_t typeOf<std::int64_t>() {
+    return H5T_NATIVE_INT64;
+}
+template <>
+hid_t typeOf<std::uint8_t>() {
+    return H5T_NATIVE_UINT8;
+}
+template <>
 hid_t typeOf<std::uint64_t>() {
     return H5T_NATIVE_UINT64;
 }
@@ -46,9 +56,18 @@ std::string freshName() {
     return "memory" + std::to_string(count++);
 }
 
+/// Properties for creating something, of class `kind`: without the time of day, so that the same data make the same
+/// bytes.
+Handle timeless(hid_t kind) {
+    Handle how(H5Pcreate(kind), H5Pclose, "creation properties");
+    check(H5Pset_obj_track_times(how, false), "creation properties");
+    return how;
+}
+
 Handle created() {
-    const Handle access = inMemory();
-    return {H5Fcreate(freshName().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose, "creating a file"};
+    const Handle access = inMemory(), how = timeless(H5P_FILE_CREATE);
+    check(H5Pset_istore_k(how, 1), "file creation");  // a short index for each data set, which has few chunks
+    return {H5Fcreate(freshName().c_str(), H5F_ACC_TRUNC, how, access), H5Fclose, "creating a file"};
 }
 
 Handle opened(std::string& image) {
@@ -69,10 +88,22 @@ std::size_t length(hid_t dataset, const std::string& path) {
 }
 
 template <class T>
-void read(hid_t dataset, const std::string& path, const std::string& name, Record& record) {
+std::vector<T> read(hid_t dataset, const std::string& path) {
     std::vector<T> values(length(dataset, path));
     if (!values.empty()) check(H5Dread(dataset, typeOf<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), path);
-    record.put(name, std::move(values));
+    return values;
+}
+
+/// Of a text of fixed length.
+Handle textType(std::size_t length, const std::string& path) {
+    Handle type(H5Tcopy(H5T_C_S1), H5Tclose, path);
+    check(H5Tset_size(type, std::max<std::size_t>(length, 1)), path);
+    check(H5Tset_strpad(type, H5T_STR_NULLPAD), path);
+    return type;
+}
+
+std::string atLeastOne(std::string_view value) {
+    return value.empty() ? std::string(1, '\0') : std::string(value);
 }
 
 }  // namespace
@@ -95,27 +126,29 @@ Handle::Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), clo
 Writer::Writer() : file_(created()) {}
 
 void Writer::group(const std::string& path) {
-    const Handle group(H5Gcreate2(file_, path.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, path);
+    const Handle how = timeless(H5P_GROUP_CREATE);
+    const Handle group(H5Gcreate2(file_, path.c_str(), H5P_DEFAULT, how, H5P_DEFAULT), H5Gclose, path);
 }
 
 void Writer::text(const std::string& path, std::string_view value) {
-    const Handle type(H5Tcopy(H5T_C_S1), H5Tclose, path);
-    check(H5Tset_size(type, std::max<std::size_t>(value.size(), 1)), path);
-    check(H5Tset_strpad(type, H5T_STR_NULLPAD), path);
+    const Handle type = textType(value.size(), path);
     const Handle space(H5Screate(H5S_SCALAR), H5Sclose, path);
-    const Handle set(H5Dcreate2(file_, path.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose,
-                     path);
-    const std::string padded = value.empty() ? std::string(1, '\0') : std::string(value);
-    check(H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, padded.data()), path);
+    const Handle how = timeless(H5P_DATASET_CREATE);
+    const Handle set(H5Dcreate2(file_, path.c_str(), type, space, H5P_DEFAULT, how, H5P_DEFAULT), H5Dclose, path);
+    check(H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, atLeastOne(value).data()), path);
 }
 
-void Writer::dataset(const std::string& path, hid_t type, std::size_t count, const void* data) {
-    const hsize_t size = count;
-    const Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose, path);
-    const Handle how(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, path);
+void Writer::dataset(const std::string& path, hid_t type, const std::vector<std::size_t>& shape, const void* data) {
+    std::vector<hsize_t> size(shape.begin(), shape.end());
+    const int rank = static_cast<int>(size.size());
+    const Handle space(H5Screate_simple(rank, size.data(), nullptr), H5Sclose, path);
+    const Handle how = timeless(H5P_DATASET_CREATE);
+    const std::size_t count = std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>());
     if (count > 0) {
-        const hsize_t chunk = std::min<hsize_t>(size, 1 << 18);
-        check(H5Pset_chunk(how, 1, &chunk), path);
+        // Whole rows of the other dimensions, as many as make a chunk of about this many numbers.
+        constexpr std::size_t kChunk = 1 << 18;
+        size[0] = std::clamp<std::size_t>(kChunk * shape[0] / count, 1, shape[0]);
+        check(H5Pset_chunk(how, rank, size.data()), path);
         check(H5Pset_shuffle(how), path);
         check(H5Pset_deflate(how, 1), path);
     }
@@ -130,11 +163,42 @@ void Writer::record(const std::string& path, const Record& record) {
         std::visit(
             [&](const auto& values) {
                 using T = typename std::decay_t<decltype(values)>::value_type;
-                dataset(full, typeOf<T>(), values.size(), values.data());
+                dataset(full, typeOf<T>(), {values.size()}, values.data());
             },
             array);
     }
 }
+
+template <class T>
+void Writer::array(const std::string& path, const std::vector<T>& values, const std::vector<std::size_t>& shape) {
+    dataset(path, typeOf<T>(), shape, values.data());
+}
+template void Writer::array(const std::string&, const std::vector<double>&, const std::vector<std::size_t>&);
+template void Writer::array(const std::string&, const std::vector<float>&, const std::vector<std::size_t>&);
+template void Writer::array(const std::string&, const std::vector<std::int64_t>&, const std::vector<std::size_t>&);
+template void Writer::array(const std::string&, const std::vector<std::uint32_t>&, const std::vector<std::size_t>&);
+template void Writer::array(const std::string&, const std::vector<std::uint8_t>&, const std::vector<std::size_t>&);
+
+void Writer::attribute(const std::string& path, const std::string& name, hid_t type, hid_t space, const void* data) {
+    const Handle owner(H5Oopen(file_, path.c_str(), H5P_DEFAULT), H5Oclose, path);
+    const Handle attribute(H5Acreate2(owner, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose, name);
+    check(H5Awrite(attribute, type, data), name);
+}
+
+void Writer::attribute(const std::string& path, const std::string& name, std::string_view value) {
+    const Handle type = textType(value.size(), name);
+    const Handle space(H5Screate(H5S_SCALAR), H5Sclose, name);
+    attribute(path, name, type, space, atLeastOne(value).data());
+}
+
+template <class T>
+void Writer::attribute(const std::string& path, const std::string& name, const std::vector<T>& values) {
+    const hsize_t size = values.size();
+    const Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose, name);
+    attribute(path, name, typeOf<T>(), space, values.data());
+}
+template void Writer::attribute(const std::string&, const std::string&, const std::vector<double>&);
+template void Writer::attribute(const std::string&, const std::string&, const std::vector<std::int64_t>&);
 
 std::string Writer::image() {
     check(H5Fflush(file_, H5F_SCOPE_GLOBAL), "flushing");
@@ -178,15 +242,25 @@ Record Reader::record(const std::string& path) const {
         const bool real = H5Tget_class(type) == H5T_FLOAT, wide = H5Tget_size(type) == 8;
         if (!real && H5Tget_class(type) != H5T_INTEGER) throw Error(full + " is not an array of numbers");
         if (real && wide)
-            read<double>(set, full, name, record);
+            record.put(name, read<double>(set, full));
         else if (real)
-            read<float>(set, full, name, record);
+            record.put(name, read<float>(set, full));
         else if (wide)
-            read<std::uint64_t>(set, full, name, record);
+            record.put(name, read<std::uint64_t>(set, full));
         else
-            read<std::uint32_t>(set, full, name, record);
+            record.put(name, read<std::uint32_t>(set, full));
     }
     return record;
 }
+
+template <class T>
+std::vector<T> Reader::array(const std::string& path) const {
+    const Handle set = openDataset(file_, path);
+    return read<T>(set, path);
+}
+template std::vector<double> Reader::array(const std::string&) const;
+template std::vector<float> Reader::array(const std::string&) const;
+template std::vector<std::uint64_t> Reader::array(const std::string&) const;
+template std::vector<std::uint32_t> Reader::array(const std::string&) const;
 
 }  // namespace vkdose::hdf5

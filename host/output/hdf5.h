@@ -45,11 +45,20 @@ class Writer {
     void text(const std::string& path, std::string_view value);
     /// Every array of the record as a compressed data set `path`/name.
     void record(const std::string& path, const Record& record);
+    /// A compressed data set of any number of dimensions, the last one fastest. T: double, float, std::int64_t, or
+    /// an unsigned integer of 8, 32 or 64 bits.
+    template <class T>
+    void array(const std::string& path, const std::vector<T>& values, const std::vector<std::size_t>& shape);
+    /// An attribute of a group or data set: a text, or a row of numbers (T as above).
+    void attribute(const std::string& path, const std::string& name, std::string_view value);
+    template <class T>
+    void attribute(const std::string& path, const std::string& name, const std::vector<T>& values);
     /// The file's bytes. Nothing may be added afterwards.
     std::string image();
 
   private:
-    void dataset(const std::string& path, hid_t type, std::size_t count, const void* data);
+    void dataset(const std::string& path, hid_t type, const std::vector<std::size_t>& shape, const void* data);
+    void attribute(const std::string& path, const std::string& name, hid_t type, hid_t space, const void* data);
 
     Handle file_;
 };
@@ -60,6 +69,9 @@ class Reader {
     explicit Reader(std::string image);
     std::string text(const std::string& path) const;
     Record record(const std::string& path) const;
+    /// A data set of any shape, converted to T: double, float, or an unsigned integer of 32 or 64 bits.
+    template <class T>
+    std::vector<T> array(const std::string& path) const;
 
   private:
     std::string image_;

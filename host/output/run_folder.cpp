@@ -94,6 +94,7 @@ void prepareFolder(const fs::path& folder, bool force) {
     if (error) throw FolderError(fmt::format("cannot create {}: {}", folder.string(), error.message()));
     // A stale summary beside a new time series would lie if this run is killed.
     for (const char* name : kFiles) fs::remove(folder / name, error);
+    FrameWriter::remove(folder);
     if (error) throw FolderError(fmt::format("cannot write in {}: {}", folder.string(), error.message()));
 }
 
@@ -114,6 +115,7 @@ RunFolder::RunFolder(fs::path folder, bool force, const Case& c, std::string bac
         const std::string energy = c.world.energyBook ? kEnergyHeader : "";
         timeSeries_.emplace(folder_ / "timeseries.csv", kTimeSeriesHeader + energy);
         doses_.emplace(folder_ / "doses.csv", kDosesHeader);
+        if (c.frames.interval > 0) frames_.emplace(folder_, c, 0);
     } catch (const OutputError& e) {
         throw FolderError(e.what());
     }
@@ -126,6 +128,7 @@ RunFolder::RunFolder(fs::path folder, const Checkpoint& from, const Case& c, std
         refuseBusy(folder_);
         timeSeries_.emplace(folder_ / "timeseries.csv", from.timeSeriesBytes);
         doses_.emplace(folder_ / "doses.csv", from.dosesBytes);
+        if (c.frames.interval > 0) frames_.emplace(folder_, c, 0, from.framesBytes);
     } catch (const OutputError& e) {
         throw FolderError(e.what());
     }
@@ -154,12 +157,14 @@ void RunFolder::onDose(const Dose& d) {
 void RunFolder::onCheckpoint(const RunCheckpoint& checkpoint, double time) {
     // The lines first, then the checkpoint that counts on them.
     const std::uint64_t timeSeriesBytes = timeSeries_->store(), dosesBytes = doses_->store();
+    const std::uint64_t framesBytes = frames_ ? frames_->store() : 0;
     writeCheckpoint(folder_ / kCheckpointName,
-                    {VKDOSE_VERSION, backend_, caseText_, time, checkpoint, timeSeriesBytes, dosesBytes});
+                    {VKDOSE_VERSION, backend_, caseText_, time, checkpoint, timeSeriesBytes, dosesBytes, framesBytes});
     checkpointTime_ = time;
 }
 
 void RunFolder::finish(const Case& c, const RunResult& result) {
+    if (frames_) frames_->store();
     if (result.endState) writeParticles(folder_ / "particles.csv", result.particles);
     replaceFile(folder_ / "summary.json", summaryJson(c, result, backend_) + "\n");
     if (result.reason == StopReason::Interrupted || !result.error.empty()) return;

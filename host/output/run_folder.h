@@ -1,6 +1,6 @@
 #pragma once
-// The output folder of a run: case.toml, timeseries.csv and doses.csv as they come, checkpoint.h5 while it lasts,
-// particles.csv and summary.json at the end.
+// The output folder of a run: case.toml, timeseries.csv, doses.csv and frames/ as they come, checkpoint.h5 while it
+// lasts, particles.csv and summary.json at the end.
 
 #include <filesystem>
 #include <optional>
@@ -9,6 +9,7 @@
 
 #include "host/output/checkpoint.h"
 #include "host/output/csv.h"
+#include "host/output/frame_writer.h"
 #include "host/sim/runner.h"
 
 namespace vkdose {
@@ -37,6 +38,8 @@ class RunFolder : public RunObserver {
     void onDose(const Dose& dose) override;
     void onCheckpoint(const RunCheckpoint& checkpoint, double time) override;
     bool storesCheckpoints() const override { return true; }
+    void onFrame(const Frame& frame) override { frames_->put(frame); }
+    bool storesFrames() const override { return frames_.has_value(); }
 
     /// Writes the end state and the summary. A run that is over needs no checkpoint any more: it is removed. Throws
     /// OutputError if something cannot be written.
@@ -53,6 +56,7 @@ class RunFolder : public RunObserver {
     std::string caseText_;
     std::optional<CsvFile> timeSeries_;
     std::optional<CsvFile> doses_;
+    std::optional<FrameWriter> frames_;  ///< if the case asks for frames
     std::optional<double> checkpointTime_;
 };
 

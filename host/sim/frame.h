@@ -17,7 +17,7 @@ struct Frame {
     int dose = 0;          ///< 0 while settling
     double coilAngle = 0;  ///< of Backend::coilAngle: rotation about +z since load [rad]
     Particles particles;
-    std::vector<Contact> contacts;  ///< if they were asked for
+    std::vector<Contact> contacts;  ///< none if they were not stored
 };
 
 }  // namespace vkdose

@@ -57,7 +57,10 @@ class Run {
     void playThrough(const RunCheckpoint* from) {
         try {
             load();
-            if (from != nullptr) goOn(*from);
+            if (from != nullptr)
+                goOn(*from);
+            else if (timeline_.frameDue(0))
+                frame();
             checkpointed_ = Clock::now();
             checkpointTime_ = timeline_.time(step_);
             result_.reason = steps();
@@ -158,7 +161,9 @@ class Run {
             if (stretch_.phase == Phase::Rotate && dose_.index != stretch_.dose) openDose();
             advance(timeline_.nextSample(step_));
             if (step_ == sampleStep_) sample();
+            if (step_ == sampleStep_ && timeline_.frameDue(step_)) frame();
             if (step_ == stretch_.end && phaseEnded()) {
+                if (timeline_.keepsFrames() && !timeline_.frameDue(step_)) frame();
                 keepEndState();
                 return judge_.reason();
             }
@@ -227,6 +232,12 @@ class Run {
         observer_.onSample(s);
         result_.ledger.close(s.sensors, s.time);  // after the observer: a ledger that does not close is on record
         result_.last = s;
+    }
+
+    void frame() {
+        if (!observer_.storesFrames()) return;
+        observer_.onFrame({step_, timeline_.time(step_), stretch_.phase, stretch_.dose, backend_.coilAngle(),
+                           backend_.particles(), backend_.contacts()});
     }
 
     /// What the drive must supply to convey against the powder's torque on the coil.

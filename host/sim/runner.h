@@ -10,6 +10,7 @@
 #include "host/core/record.h"
 #include "host/model/case.h"
 #include "host/sim/energy_ledger.h"
+#include "host/sim/frame.h"
 #include "host/sim/ledger.h"
 #include "host/sim/stop_rule.h"
 #include "host/sim/timeline.h"
@@ -78,6 +79,10 @@ class RunObserver {
     /// At the intervals of the case and when the run is interrupted, if `storesCheckpoints`.
     virtual void onCheckpoint(const RunCheckpoint&, double time) { (void)time; }
     virtual bool storesCheckpoints() const { return false; }
+    /// Where the case wants frames (Timeline::frameDue) and at the end of the run, if `storesFrames`. Of a run that
+    /// goes on from a checkpoint, those after it.
+    virtual void onFrame(const Frame&) {}
+    virtual bool storesFrames() const { return false; }
 };
 
 struct RunResult {

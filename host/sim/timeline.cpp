@@ -50,6 +50,9 @@ Timeline::Timeline(const Case& c) : timeStep_(c.world.timeStep) {
     if (c.schedule.stop.endTime < std::numeric_limits<double>::infinity()) {
         endTime_ = wholeSteps("end_time", c.schedule.stop.endTime, timeStep_);
     }
+    if (c.frames.interval > 0)
+        frame_ = sensor_ * std::max<std::uint64_t>(1, wholeSteps("frame_interval", c.frames.interval,
+                                                                 static_cast<double>(sensor_) * timeStep_));
     end_ = hasDoses() ? endTime_ : std::min(endTime_, settle_);
     if (c.world.coil) {
         rate_ = geometry::conveyingRate(*c.world.coil, c.schedule.coilSpeed);
@@ -69,6 +72,10 @@ Timeline::Stretch Timeline::at(std::uint64_t step) const {
 
 std::uint64_t Timeline::nextSample(std::uint64_t step) const {
     return std::min((step / sensor_ + 1) * sensor_, at(step).end);
+}
+
+bool Timeline::frameDue(std::uint64_t step) const {
+    return keepsFrames() && (step % frame_ == 0 || step == settle_ || over(step));
 }
 
 std::uint64_t Timeline::stepsUntilDose(double doses) const {

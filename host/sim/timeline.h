@@ -32,6 +32,12 @@ class Timeline {
     /// The next step after `step` at which sensors are read: a multiple of the sensor interval or the end of a phase.
     std::uint64_t nextSample(std::uint64_t step) const;
 
+    /// Whether a frame of the run is to be stored after `step` finished steps: at the start, at multiples of the frame
+    /// interval, when the powder has settled and where `over`. All of these are ends of a sample, so that storing
+    /// frames cuts no call of the backend. Never if the case asks for none.
+    bool frameDue(std::uint64_t step) const;
+    bool keepsFrames() const { return frame_ > 0; }
+
     /// True once the end time is reached, or the settling is done and the case asks for no doses.
     bool over(std::uint64_t step) const { return step >= end_; }
 
@@ -58,6 +64,7 @@ class Timeline {
 
     double timeStep_;
     std::uint64_t settle_, rotate_, rest_, sensor_;
+    std::uint64_t frame_ = 0;         ///< steps from one frame to the next, a multiple of sensor_; 0: none
     std::uint64_t endTime_ = kNever;  ///< step of the stop rule's end time
     std::uint64_t end_ = kNever;
     double sense_ = 0;

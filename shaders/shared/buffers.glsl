@@ -44,8 +44,9 @@ layout(std430, set = 0, binding = 10) buffer EntryBuffer { uvec2 entries[]; };
 // The energy book, and its sums.
 layout(std430, set = 0, binding = 11) buffer BookBuffer { vec4 books[]; };
 layout(std430, set = 0, binding = 12) buffer EnergyBuffer { EnergyRecord energies[]; };
-// What a slot's contact exerts: force on its first body [N], w: overlap over the smaller radius; vec4[slots][2]: torque on
-// the first body [N m], w: on the coil about +z; torque on the second body.
+// What a slot's contact exerts: force on its first body [N], w: overlap over the smaller radius; then of each turn of the
+// coil that a coil slot's particle touches: vec4[turns][coil slots]. Torques: vec4[slots][2]: on the first body [N m], w: on
+// the coil about +z; on the second body.
 layout(std430, set = 0, binding = 13) buffer ForceBuffer { vec4 forces[]; };
 layout(std430, set = 0, binding = 14) buffer TorqueBuffer { vec4 torques[]; };
 // History on its way to the slots that a refresh prepares.
@@ -135,6 +136,9 @@ uint coilHistoryIndex(uint turn, uint part, uint i) { return (turn * kParts + pa
 uint wireAngleIndex(uint i) { return coilHistoryIndex(kMaxTurns, 0u, i); }
 uint anchorIndex(uint which, uint i) { return which * push.particles + i; }
 uint comingEntryIndex(uint slot) { return slotCount() + slot; }
+uint turnForceIndex(uint turn, uint slot) {
+    return slotCount() + turn * MEMBERS * push.coilSlots + slot - springSlots();
+}
 uint bookIndex(uint field, uint i) { return field * push.particles + i; }
 uint slotBookIndex(uint field, uint slot) { return kBookFields * push.particles + field * slotCount() + slot; }
 

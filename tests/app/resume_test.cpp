@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "host/output/checkpoint.h"
+#include "host/output/frames.h"
 #include "tests/app/sandbox.h"
 
 using namespace vkdose;
@@ -34,7 +35,11 @@ const std::vector<std::string> kDoses{VKDOSE_SOURCE_DIR "/cases/mini.toml",
                                       "--set",
                                       "checkpoint.time_s=0.006",
                                       "--set",
-                                      "sensors.energy=true"};
+                                      "sensors.energy=true",
+                                      "--set",
+                                      "frames.interval_s=0.02",
+                                      "--set",
+                                      "frames.contacts=true"};
 
 std::string words(const std::vector<std::string>& list) {
     std::string text;
@@ -61,6 +66,17 @@ void checkSame(const fs::path& a, const fs::path& b) {
         CHECK(!readText(a / name).empty());
         CHECK(readText(a / name) == readText(b / name));
     }
+    const std::vector<FrameEntry> frames = Frames(a).entries();
+    CHECK(frames.size() > 5);
+    CHECK(readText(a / "frames/frames.csv") == readText(b / "frames/frames.csv"));
+    for (const FrameEntry& e : frames)
+        for (const char* kind : {kParticlesFrame, kContactsFrame}) {
+            const fs::path file = fs::path("frames") / frameFile(kind, e.number);
+            CAPTURE(file);
+            CHECK(!readText(a / file).empty());
+            CHECK(readText(a / file) == readText(b / file));
+        }
+    CHECK_FALSE(fs::exists(b / "frames" / frameFile(kParticlesFrame, int(frames.size()))));
     CHECK(timeless(a / "summary.json") == timeless(b / "summary.json"));
     CHECK_FALSE(fs::exists(b / kCheckpointName));
 }
@@ -168,11 +184,18 @@ TEST_CASE("a full disk ends the run with a message and leaves the last good chec
     CHECK(on.code == 0);
     checkSame(box / "whole", box / "cut");
 
-    const auto none = box.vkdose("run " + words(kDoses) + "--backend reference --out none", "ulimit -f 20; ");
+    const std::string unseen = "--set frames.interval_s=0 --backend reference --out ";
+    const auto none = box.vkdose("run " + words(kDoses) + unseen + "none", "ulimit -f 20; ");
     CHECK(none.code == 5);
     CHECK_THAT(none.err, Catch::Contains("checkpoint.h5: File too large") && Catch::Contains("no checkpoint"));
     CHECK(fs::exists(box / "none/timeseries.csv"));
     CHECK_FALSE(fs::exists(box / "none/checkpoint.h5.new"));
+
+    // Frames are written while the run goes on, but what happens to them is told all the same.
+    const auto frame = box.vkdose("run " + words(kDoses) + "--backend reference --out frame", "ulimit -f 20; ");
+    CHECK(frame.code == 5);
+    CHECK_THAT(frame.err, Catch::Contains("frames/particles_000000.vtkhdf: File too large"));
+    CHECK_FALSE(fs::exists(box / "frame/frames/particles_000000.vtkhdf.new"));
 }
 
 TEST_CASE("a checkpoint that cannot be used is refused by name") {
@@ -192,7 +215,7 @@ TEST_CASE("a checkpoint that cannot be used is refused by name") {
     refused(good.substr(0, good.size() / 2), "cut off");
     refused(good + "x", "damaged");
     std::string later = good;
-    later.replace(good.find("version 2"), 9, "version 7");
+    later.replace(good.find("version 3"), 9, "version 7");
     refused(later, "format version 7");
     const auto missing = box.vkdose("resume nowhere");
     CHECK(missing.code == 2);

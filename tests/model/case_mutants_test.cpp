@@ -54,6 +54,9 @@ radius_mm = 30.0
 inside = true
 [settle]
 time_s = 0.1
+[frames]
+interval_s = 0.02
+contacts = true
 [domain]
 low = [-0.1, -0.1, -0.1]
 high = [0.1, 0.1, 0.1]
@@ -62,6 +65,7 @@ high = [0.1, 0.1, 0.1]
 /// A line `key = value # comment` taken apart.
 struct Entry {
     std::size_t line;
+    std::string header;
     std::string key;
     std::string value;
     bool zero() const { return number() && std::stod(value) == 0; }
@@ -72,13 +76,15 @@ struct Entry {
 
 std::vector<Entry> entriesOf(const std::vector<std::string>& lines) {
     std::vector<Entry> entries;
+    std::string header;
     for (std::size_t i = 0; i < lines.size(); ++i) {
+        if (lines[i][0] == '[') header = lines[i].substr(0, lines[i].find(']') + 1);
         const std::size_t equals = lines[i].find(" = ");
         if (equals == std::string::npos || std::isalpha(static_cast<unsigned char>(lines[i][0])) == 0) continue;
         std::string value = lines[i].substr(equals + 3);
         value = value[0] == '"' ? value.substr(0, value.find('"', 1) + 1) : value.substr(0, value.find('#'));
         value.erase(value.find_last_not_of(' ') + 1);
-        entries.push_back({i, lines[i].substr(0, equals), value});
+        entries.push_back({i, header, lines[i].substr(0, equals), value});
     }
     return entries;
 }
@@ -94,6 +100,8 @@ const std::set<std::string> kMayBeZero{"z_start_mm", "start_angle_deg",  "kc_ove
                                        "damping",    "friction",         "rolling_friction", "speed_rpm",
                                        "time_s",     "rotate_s",         "rest_s",           "threshold_g",
                                        "seed",       "torsion_friction", "damping_t_ratio",  "damping_r_ratio"};
+/// Tables in which zero is right for every number.
+const std::set<std::string> kZeroTables{"[frames]"};
 /// Keys that choose among words.
 const std::set<std::string> kWords{"boundaries", "distribution", "coulomb_limit", "floor", "rule", "hand"};
 /// Keys without which no case of theirs is complete.
@@ -178,8 +186,9 @@ class Breaker {
             value(e, "a number that is not finite", choice_.of(notFinite));
             value(e, "a number no unit makes sense of", choice_.of(beyond));
             if (!among(e.key, kSigned) && !e.zero()) value(e, "a negative size", "-" + e.value);
-            if (!among(e.key, kMayBeZero)) value(e, "a size of zero", "0");
-            if (!among(e.key, kMayBeZero)) value(e, "a size below every unit", "5e-324");
+            if (among(e.key, kMayBeZero) || among(e.header, kZeroTables)) return;
+            value(e, "a size of zero", "0");
+            value(e, "a size below every unit", "5e-324");
         } else {
             value(e, "another type where a boolean belongs", "\"yes\"");
         }

@@ -152,6 +152,8 @@ TEST_CASE("faults between keys") {
          "settle.time_s", "nothing to run"},
         {"[stop]", "[domain]\nlow = [1, 0, 0]\nhigh = [0, 1, 1]\n[stop]", "[domain]", "domain",
          "low is not below high"},
+        {"[stop]", "[frames]\ninterval_s = 0.001\n[stop]", "interval_s = 0.001", "frames.interval_s",
+         "give 0, at least 0.01, or a shorter sensors.interval_s"},
         {"[stop]", "[[plane]]\npoint = [0, 0, 0]\nnormal = [0, 1, 0]\n[stop]", "[[plane]]", "plane", "has no use"},
     };
     for (const Fault& row : rows) checkFault(row);

@@ -1,6 +1,7 @@
 #pragma once
 // Both backends on the same scene, compared particle by particle and contact by contact.
 
+#include <algorithm>
 #include <map>
 #include <tuple>
 
@@ -16,10 +17,25 @@ struct Differences {
     double spin = 0;            ///< surface speed, of the speed scale
     double maxOverlap = 0;      ///< of the smaller particle's radius
     double spring = 0;          ///< ditto
+    double force = 0;           ///< of what 1e-3 of the smaller radius exerts on k
     std::size_t unmatched = 0;  ///< contacts only one of them has
 };
 
+/// Which slot a turn of the coil gets is the backend's own affair: here they are numbered by where they push to.
+inline std::vector<Contact> comparable(std::vector<Contact> contacts) {
+    const auto rank = [](const Contact& c) { return std::tuple(c.kind, c.particle, c.force.z); };
+    std::sort(contacts.begin(), contacts.end(), [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+        if (contacts[i].kind != ContactClass::ParticleCoil) continue;
+        const bool another = i > 0 && contacts[i - 1].kind == ContactClass::ParticleCoil &&
+                             contacts[i - 1].particle == contacts[i].particle;
+        contacts[i].other = another ? contacts[i - 1].other + 1 : 0;
+    }
+    return contacts;
+}
+
 inline Differences differences(const Backend& a, const Backend& b, double speed) {
+    constexpr double kStiffness = 24067;  // k of paperLaw [N/m]
     const Particles p = a.particles(), q = b.particles();
     REQUIRE(p.size() == q.size());
     Differences d;
@@ -34,8 +50,8 @@ inline Differences differences(const Backend& a, const Backend& b, double speed)
     }
     using Key = std::tuple<ContactClass, std::uint32_t, std::uint32_t>;
     std::map<Key, Contact> known;
-    for (const Contact& c : b.contacts()) known[{c.kind, c.particle, c.other}] = c;
-    for (const Contact& c : a.contacts()) {
+    for (const Contact& c : comparable(b.contacts())) known[{c.kind, c.particle, c.other}] = c;
+    for (const Contact& c : comparable(a.contacts())) {
         const auto twin = known.find({c.kind, c.particle, c.other});
         if (twin == known.end()) {
             ++d.unmatched;
@@ -48,6 +64,7 @@ inline Differences differences(const Backend& a, const Backend& b, double speed)
         raise(d.spring, glm::length(c.sliding - t.sliding) / r);
         raise(d.spring, glm::length(c.rolling - t.rolling) / r);
         raise(d.spring, std::abs(c.torsion - t.torsion) / r);
+        raise(d.force, glm::length(c.force - t.force) / (kStiffness * 1e-3 * r));
         known.erase(twin);
     }
     d.unmatched += known.size();

@@ -36,6 +36,7 @@ void requireClose(const Differences& d) {
     CHECK(d.spin < 2e-5);
     CHECK(d.maxOverlap < 1e-6);
     CHECK(d.spring < 2e-6);
+    CHECK(d.force < 5e-6);  // of k times 1e-3 of a radius: what an overlap that is off by 5e-9 of a radius does
 }
 
 /// Spheres aimed at `target` along `direction` (towards the surface) from just out of contact.
@@ -170,6 +171,10 @@ TEST_CASE("spheres pressed against the coil wherever it is") {
             CHECK(d.velocity < 5e-3);
             CHECK(d.maxOverlap < 5e-4);
             CHECK(d.spring < 1e-4);
+            // While all are in touch: overlaps good to 3e-9 m, on k2, against k times 1e-3 of a radius. What a sphere
+            // between two turns gets from one and from the other differs by 0.07 of that.
+            const Differences early = run(w, p, 5, -hand * 9.42);
+            CHECK(early.force < 4e-3);
             auto reference = makeReferenceBackend();
             reference->load(w, p);
             reference->advance(1, 0);

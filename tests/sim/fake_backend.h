@@ -71,7 +71,11 @@ class FakeBackend : public Backend {
     }
 
     Particles particles() const override { return particles_; }
-    std::vector<Contact> contacts() const override { return {}; }
+    std::vector<Contact> contacts() const override {
+        Contact one;  // tells when it was asked for
+        one.maxOverlap = static_cast<double>(step);
+        return {one};
+    }
     double coilAngle() const override { return angle_; }
     std::string description() const override { return "fake"; }
 
@@ -86,9 +90,13 @@ struct Notebook : RunObserver {
     std::vector<Sample> samples;
     std::vector<Dose> doses;
     std::vector<Progress> progress;
+    std::vector<Frame> frames;
+    bool wantsFrames = true;
     void onSample(const Sample& s) override { samples.push_back(s); }
     void onDose(const Dose& d) override { doses.push_back(d); }
     void onProgress(const Progress& p) override { progress.push_back(p); }
+    void onFrame(const Frame& f) override { frames.push_back(f); }
+    bool storesFrames() const override { return wantsFrames; }
 };
 
 /// Settle 100 steps, then rotate 50 / rest 20; sensors every 30 steps; a left-handed coil unless told otherwise.

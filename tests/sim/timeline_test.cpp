@@ -69,6 +69,29 @@ TEST_CASE("sensors are read at multiples of the interval and at phase ends") {
     CHECK(at == std::vector<std::uint64_t>{30, 60, 90, 100, 120, 150, 170});
 }
 
+TEST_CASE("frames are due at the start, at whole sensor intervals, when settled and at the end") {
+    Case c = smallCase();
+    CHECK_FALSE(Timeline(c).frameDue(0));
+    const auto due = [&c] {
+        const Timeline t(c);
+        std::vector<std::uint64_t> at;
+        for (std::uint64_t s = 0; s <= 240; ++s)
+            if (t.frameDue(s)) at.push_back(s);
+        return at;
+    };
+    c.frames.interval = 0.06;
+    CHECK(due() == std::vector<std::uint64_t>{0, 60, 100, 120, 180, 240});
+    c.frames.interval = 0.07;  // of two sensor intervals of 0.03
+    CHECK(due() == std::vector<std::uint64_t>{0, 60, 100, 120, 180, 240});
+    c.schedule.stop.endTime = 0.125;
+    CHECK(Timeline(c).frameDue(125));
+    CHECK_FALSE(Timeline(c).frameDue(124));
+    // Each is where a sample ends, so that nothing is cut on its account.
+    const Timeline t(c);
+    for (std::uint64_t s = 0; s < 125; s = t.nextSample(s))
+        for (std::uint64_t between = s + 1; between < t.nextSample(s); ++between) CHECK_FALSE(t.frameDue(between));
+}
+
 TEST_CASE("the end time cuts a phase, and a case without doses ends after settling") {
     Case c = smallCase();
     c.schedule.stop.endTime = 0.125;

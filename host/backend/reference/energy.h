@@ -16,7 +16,8 @@ struct Elastic {
 /// Energy stored by a contact that exerts `hysteretic` [N] with this history.
 Elastic elasticEnergy(const ContactParameters& p, double hysteretic, double reduced, const History& history);
 
-/// What a contact exerted in a step and where, kept until the next. None of it if it did not touch.
+/// What a contact exerted in a step and where, kept until the next. None of it if it did not touch, and without an
+/// energy book only the force.
 struct Exerted {
     bool touching = false;
     Vec3 normal{0};
@@ -25,6 +26,7 @@ struct Exerted {
     Parts parts{};
     Elastic elastic;
     double coilTorque = 0;  ///< on the coil about +z [N m]
+    Vec3 force{0};          ///< on i [N]
 };
 
 /// Books the step of a contact that exerted `before` at the step's start (does not touch: a new contact) and exerts

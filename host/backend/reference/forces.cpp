@@ -53,9 +53,11 @@ Body Forces::wallBody(ContactClass kind) const {
 
 Exerted Forces::exertedBy(ContactClass kind, const Touch& touch, const Response& response,
                           const History& history) const {
-    if (!world_->energyBook) return {};
+    Exerted exerted;
+    exerted.force = response.force;
+    if (!world_->energyBook) return exerted;
     const Elastic elastic = elasticEnergy(world_->law.of(kind), response.parts.hysteretic, touch.reduced, history);
-    return {true, touch.normal, touch.overlap, touch.leverI, touch.leverJ, response.parts, elastic, 0};
+    return {true, touch.normal, touch.overlap, touch.leverI, touch.leverJ, response.parts, elastic, 0, response.force};
 }
 
 /// Books a contact that goes on, begins or ends, or that was loaded touching.
@@ -213,17 +215,20 @@ void Forces::touchTurns(std::size_t i, const Turns& before, Turns& now) {
 
 std::vector<Contact> Forces::contacts() const {
     std::vector<Contact> list;
-    const auto add = [&](ContactClass kind, std::size_t i, std::size_t other, const History& h) {
+    const auto add = [&](ContactClass kind, std::size_t i, std::size_t other, const History& h, const Exerted& e) {
         list.push_back({kind, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(other), h.maxOverlap, h.sliding,
-                        h.rolling, h.torsion});
+                        h.rolling, h.torsion, e.force});
     };
     for (std::size_t i = 0; i < pairs_.size(); ++i)
-        for (const Known& known : pairs_[i]) add(ContactClass::ParticleParticle, i, known.other, known.history);
+        for (const Known& known : pairs_[i])
+            add(ContactClass::ParticleParticle, i, known.other, known.history, known.exerted);
     for (std::size_t i = 0; i < surfaces_.size(); ++i)
-        for (const Known& known : surfaces_[i]) add(ContactClass::ParticleWall, i, known.other, known.history);
+        for (const Known& known : surfaces_[i])
+            add(ContactClass::ParticleWall, i, known.other, known.history, known.exerted);
     for (std::size_t i = 0; i < turns_.size(); ++i)
         for (std::size_t slot = 0; slot < turns_[i].size(); ++slot)
-            if (turns_[i][slot].touching) add(ContactClass::ParticleCoil, i, slot, turns_[i][slot].history);
+            if (turns_[i][slot].touching)
+                add(ContactClass::ParticleCoil, i, slot, turns_[i][slot].history, turns_[i][slot].exerted);
     return list;
 }
 

@@ -24,7 +24,7 @@ struct Elements {
           anchors(2ull * s.particles()),
           entries(2ull * s.slots()),
           books(s.energyBook ? 1ull * gpu::kBookFields * (s.particles() + s.slots()) : 1),
-          forces(s.slots()),
+          forces(s.forceEntries()),
           torques(2ull * s.slots()) {}
 };
 

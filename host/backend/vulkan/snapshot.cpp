@@ -108,13 +108,14 @@ std::vector<SlotContact> touchingSlots(const Passes& passes, std::uint32_t membe
     std::vector<SlotContact> found;
     const auto collect = [&](bool pair, std::uint32_t first, std::uint32_t count) {
         const auto entries = passes.entries.readAll<glm::uvec2>(count, first * sizeof(glm::uvec2));
+        const auto forces = passes.forces.readAll<vec4>(count, first * sizeof(vec4));
         std::array<std::vector<vec4>, 4> history;
         history[0] = passes.history.readAll<vec4>(2ULL * count, t.historyOffset(0, first) * sizeof(vec4));
         for (std::uint32_t part = 2; part < t.historyParts(); ++part)
             history[part - 1] = passes.history.readAll<vec4>(count, t.historyOffset(part, first) * sizeof(vec4));
         for (std::size_t k = 0; k < count; ++k) {
             if (history[0][2 * k].w <= 0) continue;
-            SlotContact c{pair, entries[k].x - firstParticle, entries[k].y - (pair ? firstParticle : 0), {}};
+            SlotContact c{pair, entries[k].x - firstParticle, entries[k].y - (pair ? firstParticle : 0), forces[k], {}};
             c.history[0] = history[0][2 * k];
             c.history[1] = history[0][2 * k + 1];
             for (std::uint32_t part = 2; part < t.historyParts(); ++part) c.history[part] = history[part - 1][k];
@@ -126,6 +127,19 @@ std::vector<SlotContact> touchingSlots(const Passes& passes, std::uint32_t membe
     std::sort(found.begin(), found.end(), [](const SlotContact& a, const SlotContact& b) {
         return std::tuple(a.particle, !a.pair, a.other) < std::tuple(b.particle, !b.pair, b.other);
     });
+    return found;
+}
+
+std::vector<TurnForces> turnForces(const Passes& passes, std::uint32_t member, std::size_t particles) {
+    const TableSizes& t = passes.sizes;
+    const std::uint32_t count = passes.controlOf(member).listed.z, first = member * t.coilSlots;
+    const auto entries =
+        passes.entries.readAll<glm::uvec2>(count, (t.springSlots() + std::size_t(first)) * sizeof(glm::uvec2));
+    std::vector<TurnForces> found(particles, TurnForces{});
+    for (std::uint32_t turn = 0; turn < gpu::kMaxTurns; ++turn) {
+        const auto forces = passes.forces.readAll<vec4>(count, t.turnForceOffset(turn, first) * sizeof(vec4));
+        for (std::size_t k = 0; k < count; ++k) found[entries[k].x - member * t.share][turn] = forces[k];
+    }
     return found;
 }
 

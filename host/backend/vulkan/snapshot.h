@@ -14,12 +14,20 @@ namespace vkdose {
 struct SlotContact {
     bool pair;
     std::uint32_t particle, other;
+    gpu::vec4 force;                   ///< as `forces` in shaders/shared/buffers.glsl holds it
     std::array<gpu::vec4, 5> history;  ///< TableSizes::historyParts() of them
 };
 
 /// In order of particle, pairs before surfaces, other; particles are counted from the member's first. The device must
 /// be idle.
 std::vector<SlotContact> touchingSlots(const Passes& passes, std::uint32_t member);
+
+/// What each turn of the coil that a particle touches exerts on it, by turn slot; zero for one that is not near the
+/// coil.
+using TurnForces = std::array<gpu::vec4, gpu::kMaxTurns>;
+
+/// Of a member's first `particles` in the last step. The device must be idle.
+std::vector<TurnForces> turnForces(const Passes& passes, std::uint32_t member, std::size_t particles);
 
 /// State of a member's first `particles` slots, read from half `source`. The device must be idle, and the member sensed
 /// since its last step (the sensors' accumulators are not stored).

@@ -56,6 +56,7 @@ std::uint64_t TableSizes::largestIndex() const {
     return std::max({2 * n * gpu::kFields,                             // state
                      m * (std::uint64_t(rowEntries) + linkEntries),    // rows and links
                      2 * all,                                          // links, entries, torques
+                     all + gpu::kMaxTurns * m * coilSlots,             // forces
                      historyParts() * springs, coilHistoryRows() * n,  // histories
                      gpu::kBookFields * (n + all),                     // energy book
                      m * cells + n}) -

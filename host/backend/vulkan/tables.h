@@ -41,6 +41,12 @@ struct TableSizes {
     std::uint32_t particles() const { return members * share; }
     std::uint32_t springSlots() const { return members * (pairSlots + surfaceSlots); }
     std::uint32_t slots() const { return springSlots() + members * coilSlots; }
+    /// Entries of the force table: one for each slot, then one for each turn that each coil slot can touch.
+    std::uint32_t forceEntries() const { return slots() + gpu::kMaxTurns * members * coilSlots; }
+    /// Entry of what turn `turn` exerts in coil slot `slot` of all members (turnForceIndex in shared/buffers.glsl).
+    std::size_t turnForceOffset(std::uint32_t turn, std::uint32_t slot) const {
+        return slots() + std::size_t(turn) * members * coilSlots + slot;
+    }
     std::uint32_t firstPairSlot(std::uint32_t member) const { return member * pairSlots; }
     std::uint32_t firstSurfaceSlot(std::uint32_t member) const { return members * pairSlots + member * surfaceSlots; }
     /// Vectors of a contact's history (kParts in shared/buffers.glsl).

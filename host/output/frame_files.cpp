@@ -1,0 +1,247 @@
+#include "host/output/frame_files.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+#include "host/output/hdf5.h"
+#include "host/output/vtkhdf.h"
+
+namespace vkdose {
+
+namespace {
+
+using vtkhdf::Array;
+
+std::vector<double> flat(const std::vector<Vec3>& vectors) {
+    std::vector<double> values;
+    values.reserve(3 * vectors.size());
+    for (const Vec3& v : vectors) values.insert(values.end(), {v.x, v.y, v.z});
+    return values;
+}
+
+std::vector<Vec3> vectors(const std::vector<double>& values) {
+    std::vector<Vec3> result(values.size() / 3);
+    for (std::size_t i = 0; i < result.size(); ++i)
+        result[i] = Vec3(values[3 * i], values[3 * i + 1], values[3 * i + 2]);
+    return result;
+}
+
+std::vector<Array> instant(const Frame& f) {
+    const auto number = [](auto x) { return std::vector<std::uint32_t>{static_cast<std::uint32_t>(x)}; };
+    return {{"TimeValue", "s", 1, std::vector<double>{f.time}},
+            {"step", "", 1, std::vector<double>{static_cast<double>(f.step)}},  // exact: a run has fewer than 2^53
+            {"phase", "", 1, number(f.phase)},
+            {"dose", "", 1, number(f.dose)},
+            {"coil_angle", "rad", 1, std::vector<double>{f.coilAngle}}};
+}
+
+double kineticEnergy(const Particles& p, std::size_t i, double density) {
+    const double mass = density * (4.0 / 3.0) * kPi * p.radius[i] * p.radius[i] * p.radius[i];
+    return 0.5 * mass * glm::dot(p.velocity[i], p.velocity[i]);
+}
+
+/// How a contact lies at the instant of the frame, a drift after its force acted.
+struct Geometry {
+    Vec3 end;        ///< the other's centre, or the point of the wall [m]
+    Vec3 normal;     ///< towards the particle
+    double overlap;  ///< negative if the two have just parted [m]
+};
+
+/// Contacts of one particle with several turns of the coil do not say which: each is given the turn, of those still
+/// free, along whose normal its force is strongest.
+class ContactGeometry {
+  public:
+    ContactGeometry(const Frame& frame, const World& world) : frame_(frame), world_(world) {}
+
+    /// Of the frame's contacts in their order.
+    Geometry of(const Contact& c) {
+        const Particles& p = frame_.particles;
+        const Vec3& x = p.position[c.particle];
+        const double r = p.radius[c.particle];
+        if (c.kind == ContactClass::ParticleParticle) {
+            const Vec3 apart = x - p.position[c.other];
+            const double distance = glm::length(apart);
+            return {p.position[c.other], apart / distance, r + p.radius[c.other] - distance};
+        }
+        const geometry::Closest closest =
+            c.kind == ContactClass::ParticleWall ? geometry::closestPoint(world_.surfaces.at(c.other), x) : turn(c);
+        return {closest.point, closest.normal, r - closest.distance};
+    }
+
+  private:
+    geometry::Closest turn(const Contact& c) {
+        const Vec3& x = frame_.particles.position[c.particle];
+        const double r = frame_.particles.radius[c.particle];
+        if (particle_ != c.particle) {
+            particle_ = c.particle;
+            // A contact that has parted since is still within reach.
+            turns_ = geometry::touches(*world_.coil, frame_.coilAngle, x, 1.1 * r);
+        }
+        if (turns_.empty()) return geometry::closestPoint(*world_.coil, frame_.coilAngle, x);
+        const auto along = [&](const geometry::Closest& t) { return std::abs(glm::dot(c.force, t.normal)); };
+        const auto found = std::max_element(turns_.begin(), turns_.end(),
+                                            [&](const auto& a, const auto& b) { return along(a) < along(b); });
+        const geometry::Closest closest = *found;
+        turns_.erase(found);
+        return closest;
+    }
+
+    const Frame& frame_;
+    const World& world_;
+    std::optional<std::uint32_t> particle_;  ///< whose turns these are
+    std::vector<geometry::CoilTouch> turns_;
+};
+
+}  // namespace
+
+std::string particlesFile(const Frame& frame, const World& world, std::uint32_t member) {
+    const Particles& p = frame.particles;
+    const std::size_t n = p.size();
+    std::vector<Vec3> force(n, Vec3(0));
+    std::vector<float> overlap(n, 0), energy(n);
+    ContactGeometry geometry(frame, world);
+    for (const Contact& c : frame.contacts) {
+        const auto deepest = [&, depth = static_cast<float>(geometry.of(c).overlap)](std::uint32_t i) {
+            overlap[i] = std::max(overlap[i], depth);
+        };
+        force[c.particle] += c.force;
+        deepest(c.particle);
+        if (c.kind != ContactClass::ParticleParticle) continue;
+        force[c.other] -= c.force;
+        deepest(c.other);
+    }
+    std::vector<std::uint32_t> id(n);
+    std::iota(id.begin(), id.end(), 0U);
+    std::vector<std::uint8_t> status;
+    for (std::size_t i = 0; i < n; ++i) {
+        energy[i] = static_cast<float>(kineticEnergy(p, i, world.density));
+        status.push_back(static_cast<std::uint8_t>(p.status[i]));
+    }
+    const std::vector<double> sums = flat(force);
+    vtkhdf::Grid grid;
+    grid.cell = vtkhdf::Cell::Vertex;
+    grid.points.values = flat(p.position);
+    grid.connectivity.resize(n);
+    std::iota(grid.connectivity.begin(), grid.connectivity.end(), 0);
+    grid.pointData = {{"id", "", 1, id},
+                      {"radius", "m", 1, p.radius},
+                      {"velocity", "m/s", 3, flat(p.velocity)},
+                      {"spin", "rad/s", 3, flat(p.spin)},
+                      {"force", "N", 3, std::vector<float>(sums.begin(), sums.end())},
+                      {"overlap", "m", 1, std::move(overlap)},
+                      {"kinetic_energy", "J", 1, std::move(energy)},
+                      {"status", "", 1, std::move(status)},
+                      {"member", "", 1, std::vector<std::uint32_t>(n, member)}};
+    grid.fieldData = instant(frame);
+    return vtkhdf::file(grid);
+}
+
+std::string contactsFile(const Frame& frame, const World& world) {
+    std::vector<float> ends, normal, tangential, overlap;
+    std::vector<double> maxOverlap, torsion;
+    std::vector<Vec3> force, sliding, rolling;
+    std::vector<std::uint32_t> particle, other;
+    std::vector<std::uint8_t> kind;
+    ContactGeometry geometry(frame, world);
+    for (const Contact& c : frame.contacts) {
+        const Geometry g = geometry.of(c);
+        for (const Vec3& end : {frame.particles.position[c.particle], g.end})
+            for (int d = 0; d < 3; ++d) ends.push_back(static_cast<float>(end[d]));
+        const double along = glm::dot(c.force, g.normal);
+        normal.push_back(static_cast<float>(along));
+        tangential.push_back(static_cast<float>(glm::length(c.force - along * g.normal)));
+        overlap.push_back(static_cast<float>(g.overlap));
+        maxOverlap.push_back(c.maxOverlap);
+        torsion.push_back(c.torsion);
+        force.push_back(c.force);
+        sliding.push_back(c.sliding);
+        rolling.push_back(c.rolling);
+        particle.push_back(c.particle);
+        other.push_back(c.other);
+        kind.push_back(static_cast<std::uint8_t>(c.kind));
+    }
+    vtkhdf::Grid grid;
+    grid.cell = vtkhdf::Cell::Line;
+    grid.connectivity.resize(ends.size() / 3);
+    std::iota(grid.connectivity.begin(), grid.connectivity.end(), 0);
+    grid.points.values = std::move(ends);
+    grid.cellData = {{"kind", "", 1, std::move(kind)},
+                     {"particle", "", 1, std::move(particle)},
+                     {"other", "", 1, std::move(other)},
+                     {"force", "N", 3, flat(force)},
+                     {"normal_force", "N", 1, std::move(normal)},
+                     {"tangential_force", "N", 1, std::move(tangential)},
+                     {"overlap", "m", 1, std::move(overlap)},
+                     {"max_overlap", "m", 1, std::move(maxOverlap)},
+                     {"sliding", "m", 3, flat(sliding)},
+                     {"rolling", "m", 3, flat(rolling)},
+                     {"torsion", "m", 1, std::move(torsion)}};
+    grid.fieldData = instant(frame);
+    return vtkhdf::file(grid);
+}
+
+namespace {
+
+/// Reads arrays of a known length.
+class Columns {
+  public:
+    Columns(const hdf5::Reader& reader, std::string group, std::size_t count)
+        : reader_(reader), group_(std::move(group)), count_(count) {}
+
+    template <class T>
+    std::vector<T> get(const std::string& name, std::size_t components = 1) const {
+        std::vector<T> values = reader_.array<T>(group_ + "/" + name);
+        if (values.size() != components * count_) throw hdf5::Error(group_ + "/" + name + " has another length");
+        return values;
+    }
+    std::vector<Vec3> vector(const std::string& name) const { return vectors(get<double>(name, 3)); }
+
+  private:
+    const hdf5::Reader& reader_;
+    std::string group_;
+    std::size_t count_;
+};
+
+std::size_t one(const hdf5::Reader& reader, const std::string& name) {
+    const Columns group(reader, "/VTKHDF", 1);
+    return static_cast<std::size_t>(group.get<std::uint64_t>(name)[0]);
+}
+
+}  // namespace
+
+void readParticlesFile(std::string bytes, Frame& frame) {
+    const hdf5::Reader reader(std::move(bytes));
+    const Columns field(reader, "/VTKHDF/FieldData", 1);
+    frame.step = static_cast<std::uint64_t>(field.get<double>("step")[0]);
+    frame.time = field.get<double>("TimeValue")[0];
+    frame.phase = static_cast<Phase>(field.get<std::uint32_t>("phase")[0]);
+    frame.dose = static_cast<int>(field.get<std::uint32_t>("dose")[0]);
+    frame.coilAngle = field.get<double>("coil_angle")[0];
+    const std::size_t n = one(reader, "NumberOfPoints");
+    const Columns data(reader, "/VTKHDF/PointData", n);
+    Particles& p = frame.particles;
+    p.position = Columns(reader, "/VTKHDF", n).vector("Points");
+    p.velocity = data.vector("velocity");
+    p.spin = data.vector("spin");
+    p.radius = data.get<double>("radius");
+    p.status.clear();
+    for (const std::uint32_t s : data.get<std::uint32_t>("status")) p.status.push_back(static_cast<Status>(s));
+}
+
+void readContactsFile(std::string bytes, Frame& frame) {
+    const hdf5::Reader reader(std::move(bytes));
+    const std::size_t n = one(reader, "NumberOfCells");
+    const Columns data(reader, "/VTKHDF/CellData", n);
+    const auto kind = data.get<std::uint32_t>("kind"), particle = data.get<std::uint32_t>("particle"),
+               other = data.get<std::uint32_t>("other");
+    const auto maxOverlap = data.get<double>("max_overlap"), torsion = data.get<double>("torsion");
+    const auto sliding = data.vector("sliding"), rolling = data.vector("rolling"), force = data.vector("force");
+    frame.contacts.clear();
+    for (std::size_t c = 0; c < n; ++c)
+        frame.contacts.push_back({static_cast<ContactClass>(kind[c]), particle[c], other[c], maxOverlap[c], sliding[c],
+                                  rolling[c], torsion[c], force[c]});
+}
+
+}  // namespace vkdose

@@ -1,0 +1,24 @@
+#pragma once
+// What the files of a frame hold: VTKHDF files that ParaView shows and that give the frame back, bit for bit.
+//
+//   particles: a vertex for each particle, dosed ones included, in the order of their numbers
+//   contacts:  a line for each contact, from the particle's centre to the other's, or to the point of the wall
+
+#include <cstdint>
+#include <string>
+
+#include "host/model/world.h"
+#include "host/sim/frame.h"
+
+namespace vkdose {
+
+/// `member` tells the canisters of a study apart.
+std::string particlesFile(const Frame& frame, const World& world, std::uint32_t member);
+std::string contactsFile(const Frame& frame, const World& world);
+
+/// Put back into `frame` what the two files hold, step, time, phase, dose and angle included. Throw hdf5::Error if they
+/// hold something else.
+void readParticlesFile(std::string bytes, Frame& frame);
+void readContactsFile(std::string bytes, Frame& frame);
+
+}  // namespace vkdose

@@ -1,0 +1,53 @@
+#pragma once
+// Writes the frames of a run as they come (frames.h reads them), from a thread of its own, so that the device goes on
+// meanwhile. Every file appears whole, and a frame is named in frames.csv once its files are there.
+
+#include <cstdint>
+#include <filesystem>
+#include <future>
+
+#include "host/model/case.h"
+#include "host/output/csv.h"
+#include "host/sim/frame.h"
+
+namespace vkdose {
+
+class FrameWriter {
+  public:
+    /// Of a new run with this output folder; frames of a former run in it are removed. Throws OutputError if the folder
+    /// cannot be written.
+    FrameWriter(const std::filesystem::path& run, const Case& c, std::uint32_t member);
+
+    /// Of a run that goes on from a checkpoint written when frames.csv had `bytes`; what came later is replaced when
+    /// the first frame is put. Throws OutputError likewise, or if frames are missing.
+    FrameWriter(const std::filesystem::path& run, const Case& c, std::uint32_t member, std::uint64_t bytes);
+
+    FrameWriter(const FrameWriter&) = delete;
+    FrameWriter& operator=(const FrameWriter&) = delete;
+
+    /// Returns at once, unless the frame before is still being written: then it waits for that. Throws OutputError if
+    /// writing the frame before failed.
+    void put(const Frame& frame);
+
+    /// Waits until all is written and survives a crash of the machine; the length of frames.csv. Throws OutputError if
+    /// writing failed.
+    std::uint64_t store();
+
+    /// Removes the frames in a run's output folder, and the folder they are in if nothing else is there.
+    static void remove(const std::filesystem::path& run);
+
+  private:
+    void await();
+    void write(const Frame& frame);
+
+    std::filesystem::path folder_;
+    World world_;
+    bool contacts_;
+    std::uint32_t member_;
+    int number_ = 0;      ///< of the next frame
+    bool later_ = false;  ///< there may be frames of that number and beyond
+    CsvFile index_;
+    std::future<void> writing_;  ///< last, so that it has ended before the rest is gone
+};
+
+}  // namespace vkdose

@@ -1,0 +1,48 @@
+#pragma once
+// The VTKHDF format, version 1.0, as far as it is needed: a file holds one unstructured grid or one image (a regular
+// grid) that vtkHDFReader of VTK 9.1 and ParaView 5.10 or later open. Everything lies in the group /VTKHDF; a data set
+// that has a unit has it as the attribute `unit`. The same data make the same bytes.
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "host/core/vec.h"
+
+namespace vkdose::vtkhdf {
+
+/// A named array with `components` numbers for each point or cell, one after the other.
+struct Array {
+    std::string name;
+    std::string unit;  ///< empty: none
+    std::size_t components = 1;
+    std::variant<std::vector<double>, std::vector<float>, std::vector<std::uint32_t>, std::vector<std::uint8_t>> values;
+};
+
+enum class Cell : std::uint8_t { Vertex = 1, Line = 3, Triangle = 5 };
+
+/// Cells of one kind.
+struct Grid {
+    Cell cell = Cell::Vertex;
+    Array points{"Points", "m", 3, {}};      ///< three coordinates each
+    std::vector<std::int64_t> connectivity;  ///< as many points for each cell as its kind has corners
+    std::vector<Array> pointData, cellData;  ///< an entry for each point, each cell
+    std::vector<Array> fieldData;            ///< of the whole
+};
+
+/// A regular grid along the axes.
+struct Image {
+    std::array<std::uint32_t, 3> points{};   ///< along x, y, z; cells are one less
+    Vec3 origin{0};                          ///< of the first point [m]
+    Vec3 spacing{1};                         ///< [m]
+    std::vector<Array> pointData, cellData;  ///< x fastest
+    std::vector<Array> fieldData;            ///< of the whole
+};
+
+/// The bytes of a file that holds it. Throws std::invalid_argument if an array has another length than it must.
+std::string file(const Grid& grid);
+std::string file(const Image& image);
+
+}  // namespace vkdose::vtkhdf

@@ -1,0 +1,228 @@
+#include "host/output/frames.h"
+
+#include <catch2/catch.hpp>
+#include <fstream>
+
+#include "host/core/error.h"
+#include "host/output/frame_writer.h"
+#include "tests/app/sandbox.h"
+
+using namespace vkdose;
+using namespace vkdose::test;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A floor and a coil, and a sphere of a millimetre on each other, the floor and the wire.
+Case smallWorld(bool contacts = true) {
+    Case c;
+    c.world.density = 1000;
+    c.world.surfaces = {geometry::Plane{{0, -0.01, 0}, {0, 1, 0}}};
+    c.world.coil = geometry::Coil{0.01, 0.01, 0.001, 0.05};
+    c.frames = {0.01, contacts};
+    return c;
+}
+
+/// No two numbers alike, and none that a shorter type would hold.
+Frame someFrame(int k) {
+    Frame f;
+    f.step = 1000000000000ULL + std::uint64_t(k);
+    f.time = 0.1 * k + 1.0 / 3;
+    f.phase = Phase(k % 3);
+    f.dose = k;
+    f.coilAngle = -0.7 * k;
+    for (int i = 0; i < 5; ++i) {
+        const double x = 1e-3 * std::sqrt(2.0 + i + k);
+        f.particles.add({x, x / 3, x / 7}, 1e-3 + x / 11, {x / 13, -x, 0}, {1 / x, x / 17, -1 / x});
+    }
+    f.particles.status[1] = Status::Dosed;
+    f.particles.status[2] = Status::Lost;
+    const double s = 1e-6 / 3 + k;
+    f.contacts = {{ContactClass::ParticleParticle, 0, 3, s / 7, {s, 2 * s, 3 * s}, {-s, s, 0}, s / 5, {1, s, 0}},
+                  {ContactClass::ParticleWall, 3, 0, s / 3, {s, 0, 0}, {0, 0, s}, 0, {0, 1.0 / 3, 0}},
+                  {ContactClass::ParticleCoil, 4, 2, s / 9, {0, s, 0}, {0, s, 0}, -s, {0, 0, -1.0 / 7}}};
+    return f;
+}
+
+void checkSame(const Frame& a, const Frame& b) {
+    CHECK(a.step == b.step);
+    CHECK(a.time == b.time);
+    CHECK(a.phase == b.phase);
+    CHECK(a.dose == b.dose);
+    CHECK(a.coilAngle == b.coilAngle);
+    CHECK(a.particles.position == b.particles.position);
+    CHECK(a.particles.velocity == b.particles.velocity);
+    CHECK(a.particles.spin == b.particles.spin);
+    CHECK(a.particles.radius == b.particles.radius);
+    CHECK(a.particles.status == b.particles.status);
+    REQUIRE(a.contacts.size() == b.contacts.size());
+    for (std::size_t i = 0; i < a.contacts.size(); ++i) {
+        const Contact &p = a.contacts[i], &q = b.contacts[i];
+        CHECK(p.kind == q.kind);
+        CHECK(p.particle == q.particle);
+        CHECK(p.other == q.other);
+        CHECK(p.maxOverlap == q.maxOverlap);
+        CHECK(p.sliding == q.sliding);
+        CHECK(p.rolling == q.rolling);
+        CHECK(p.torsion == q.torsion);
+        CHECK(p.force == q.force);
+    }
+}
+
+std::vector<std::string> names(const fs::path& folder) {
+    std::vector<std::string> found;
+    for (const auto& entry : fs::directory_iterator(folder)) found.push_back(entry.path().filename().string());
+    std::sort(found.begin(), found.end());
+    return found;
+}
+
+}  // namespace
+
+TEST_CASE("frames come back as they were put, to the last bit") {
+    const Sandbox box;
+    {
+        FrameWriter writer(box.path(), smallWorld(), 3);
+        for (int k = 0; k < 4; ++k) writer.put(someFrame(k));
+        writer.store();
+    }
+    const Frames frames(box.path());
+    REQUIRE(frames.entries().size() == 4);
+    for (int k = 0; k < 4; ++k) {
+        const FrameEntry& e = frames.entries()[std::size_t(k)];
+        const Frame expected = someFrame(k);
+        CHECK(e.number == k);
+        CHECK(e.step == expected.step);
+        CHECK(e.time == expected.time);
+        CHECK(e.phase == expected.phase);
+        CHECK(e.dose == expected.dose);
+        CHECK(e.coilAngle == expected.coilAngle);
+        checkSame(frames.read(e), expected);
+    }
+    CHECK(names(box / "frames").size() == 2 * 4 + 1);
+}
+
+TEST_CASE("a frame without contacts is a frame, and so is one without any particle in touch") {
+    const Sandbox box;
+    Frame alone = someFrame(1);
+    alone.contacts.clear();
+    SECTION("not stored") {
+        FrameWriter writer(box.path(), smallWorld(false), 0);
+        writer.put(someFrame(1));
+        writer.store();
+        CHECK_FALSE(fs::exists(box / "frames/contacts_000000.vtkhdf"));
+    }
+    SECTION("none there") {
+        FrameWriter writer(box.path(), smallWorld(), 0);
+        writer.put(alone);
+        writer.store();
+        CHECK(fs::exists(box / "frames/contacts_000000.vtkhdf"));
+    }
+    const Frames frames(box.path());
+    checkSame(frames.read(frames.entries().at(0)), alone);
+}
+
+TEST_CASE("the nearest frame, and of two the later") {
+    const Sandbox box;
+    FrameWriter writer(box.path(), smallWorld(), 0);
+    for (int k = 0; k < 4; ++k) {
+        Frame f = someFrame(0);
+        f.time = k;
+        writer.put(f);
+    }
+    writer.store();
+    const Frames frames(box.path());
+    CHECK(frames.nearest(-1).number == 0);
+    CHECK(frames.nearest(1.4).number == 1);
+    CHECK(frames.nearest(1.5).number == 2);
+    CHECK(frames.nearest(1.6).number == 2);
+    CHECK(frames.nearest(99).number == 3);
+}
+
+TEST_CASE("a run that goes on drops the frames after its checkpoint and writes the same ones again") {
+    const Sandbox whole, cut;
+    {
+        FrameWriter writer(whole.path(), smallWorld(), 0);
+        for (int k = 0; k < 5; ++k) writer.put(someFrame(k));
+        writer.store();
+    }
+    std::uint64_t bytes = 0;
+    {
+        FrameWriter writer(cut.path(), smallWorld(), 0);
+        for (int k = 0; k < 3; ++k) writer.put(someFrame(k));
+        bytes = writer.store();
+        for (int k = 7; k < 13; ++k) writer.put(someFrame(k));  // another future
+        writer.store();
+    }
+    {
+        FrameWriter writer(cut.path(), smallWorld(), 0, bytes);
+        CHECK(Frames(cut.path()).entries().size() == 9);  // until there is something to replace them
+        for (int k = 3; k < 5; ++k) writer.put(someFrame(k));
+        writer.store();
+    }
+    CHECK(names(cut / "frames") == names(whole / "frames"));
+    for (const std::string& name : names(whole / "frames")) {
+        CAPTURE(name);
+        CHECK(readText(cut / ("frames/" + name)) == readText(whole / ("frames/" + name)));
+    }
+    fs::resize_file(cut / "frames/frames.csv", bytes - 1);
+    CHECK_THROWS_AS(FrameWriter(cut.path(), smallWorld(), 0, bytes), OutputError);
+}
+
+TEST_CASE("a frame that cannot be written is told at the next one or at the end") {
+    const Sandbox box;
+    FrameWriter writer(box.path(), smallWorld(), 0);
+    writer.put(someFrame(0));
+    writer.store();
+    fs::remove_all(box / "frames");
+    CHECK_NOTHROW(writer.put(someFrame(1)));
+    SECTION("next") {
+        CHECK_THROWS_WITH(writer.put(someFrame(2)), Catch::Contains("particles_000001.vtkhdf"));
+    }
+    SECTION("end") {
+        CHECK_THROWS_AS(writer.store(), OutputError);
+    }
+}
+
+TEST_CASE("a new run removes the frames of a former one and nothing else") {
+    const Sandbox box;
+    {
+        FrameWriter writer(box.path(), smallWorld(), 0);
+        writer.put(someFrame(0));
+    }
+    box.write("frames/view.pvsm", "mine");
+    FrameWriter::remove(box.path());
+    CHECK(names(box / "frames") == std::vector<std::string>{"view.pvsm"});
+    CHECK(Frames(box.path()).entries().empty());
+    fs::remove(box / "frames/view.pvsm");
+    FrameWriter::remove(box.path());
+    CHECK_FALSE(fs::exists(box / "frames"));
+}
+
+TEST_CASE("frames of a run under way are those whose lines are whole; what is no frame is refused by name") {
+    const Sandbox box;
+    {
+        FrameWriter writer(box.path(), smallWorld(), 0);
+        for (int k = 0; k < 3; ++k) writer.put(someFrame(k));
+    }
+    const fs::path index = box / "frames/frames.csv", file = box / "frames/particles_000002.vtkhdf";
+    const std::string lines = readText(index), bytes = readText(file);
+    box.write("frames/frames.csv", lines.substr(0, lines.size() - 5));
+    CHECK(Frames(box.path()).entries().size() == 2);
+    box.write("frames/frames.csv", lines + "3,7,later,rest,1,0\n");
+    CHECK_THROWS_WITH(Frames(box.path()), Catch::Contains("3,7,later,rest,1,0"));
+    box.write("frames/frames.csv", "a,b\n");
+    CHECK_THROWS_WITH(Frames(box.path()), Catch::Contains("frames.csv"));
+    box.write("frames/frames.csv", lines);
+
+    const Frames frames(box.path());
+    const auto refused = [&](const std::string& content) {
+        std::ofstream(file, std::ios::binary) << content;
+        CHECK_THROWS_WITH(frames.read(frames.entries()[2]), Catch::Contains("particles_000002.vtkhdf"));
+    };
+    refused("");
+    refused(bytes.substr(0, bytes.size() / 2));
+    refused(readText(box / "frames/contacts_000002.vtkhdf"));
+    fs::remove(file);
+    CHECK_THROWS_AS(frames.read(frames.entries()[2]), OutputError);
+    CHECK(Frames(box / "nowhere").entries().empty());
+}
