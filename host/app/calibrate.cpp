@@ -139,15 +139,17 @@ class SearchRuns {
 
     /// From the table, so that a search that goes on sees the same digits as one that was not interrupted.
     Trial trialOf(int from, int to) const {
-        const CsvTable& table = folder_.members();
+        const Table& table = folder_.members();
         Trial trial;
         for (int number = from; number < to; ++number) {
-            for (const Row& row : table.rows) {
-                const auto beta = table.number(row, "beta_kg_per_dose");
-                if (table.text(row, "member") != std::to_string(number) || table.text(row, "status") != "ok" || !beta)
+            for (std::size_t row = 0; row < table.rows(); ++row) {
+                const double beta = table.number(row, "beta_kg_per_dose");
+                if (table.text(row, "member") != std::to_string(number) || table.text(row, "status") != "ok" ||
+                    std::isnan(beta))
                     continue;
-                trial.values.push_back(*beta);
-                trial.error = table.number(row, "beta_standard_error_kg_per_dose").value_or(0);
+                trial.values.push_back(beta);
+                const double error = table.number(row, "beta_standard_error_kg_per_dose");
+                trial.error = std::isnan(error) ? 0 : error;
             }
         }
         return trial;

@@ -4,6 +4,8 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 #include <utility>
 
 #include "host/app/text.h"
@@ -16,10 +18,11 @@ constexpr std::chrono::seconds kLine{60};
 
 /// "3 doses, mean 3.70 g, RSD 12.1 %"
 std::string dosesText(const MemberResult& result) {
-    const auto number = [&](const char* column) {
-        CsvTable table;
-        table.header = kOutputColumns;
-        return table.number(result.outputs, column);
+    Table table(kOutputColumns);
+    table.add(result.outputs);
+    const auto number = [&](const char* column) -> std::optional<double> {
+        const double value = numberIn(table.text(0, column));
+        return std::isnan(value) ? std::nullopt : std::optional(value);
     };
     const double doses = number("doses").value_or(0);
     std::string text = fmt::format("{:.0f} dose{}", doses, doses == 1 ? "" : "s");

@@ -1,6 +1,5 @@
 #include "host/model/particle_list.h"
 
-#include <csv.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,6 +10,7 @@
 #include <limits>
 #include <string>
 
+#include "host/core/csv_lines.h"
 #include "host/model/case_reader.h"
 
 namespace vkdose {
@@ -23,34 +23,6 @@ const std::vector<std::string> kRunColumns{"x_m",    "y_m",    "z_m",      "radi
                                            "vy_m_s", "vz_m_s", "wx_rad_s", "wy_rad_s", "wz_rad_s"};
 constexpr std::size_t kAbsent = std::numeric_limits<std::size_t>::max();
 
-/// One line split by libcsv. Lines are fed one by one because the parser skips empty ones without counting them.
-class Splitter {
-  public:
-    Splitter() { csv_init(&parser_, CSV_STRICT | CSV_STRICT_FINI); }
-    ~Splitter() { csv_free(&parser_); }
-    Splitter(const Splitter&) = delete;
-    Splitter& operator=(const Splitter&) = delete;
-
-    /// False when the line is not CSV (a stray quote).
-    bool split(const std::string& line, std::vector<std::string>& fields) {
-        fields.clear();
-        const auto onField = [](void* text, std::size_t size, void* out) {
-            static_cast<std::vector<std::string>*>(out)->emplace_back(static_cast<const char*>(text), size);
-        };
-        const auto onRow = [](int, void*) {};
-        const bool good = csv_parse(&parser_, line.data(), line.size(), onField, onRow, &fields) == line.size() &&
-                          csv_fini(&parser_, onField, onRow, &fields) == 0;
-        if (!good) {  // the parser keeps its state after an error
-            csv_free(&parser_);
-            csv_init(&parser_, CSV_STRICT | CSV_STRICT_FINI);
-        }
-        return good;
-    }
-
-  private:
-    csv_parser parser_{};
-};
-
 class ListReader {
   public:
     ListReader(std::string file, std::vector<Diagnostic>& faults) : file_(std::move(file)), faults_(faults) {
@@ -58,20 +30,16 @@ class ListReader {
     }
 
     Particles read(std::istream& stream) {
-        Splitter splitter;
-        std::vector<std::string> fields;
-        for (std::string text; std::getline(stream, text);) {
-            // Spreadsheets put a byte order mark before the header.
-            if (++line_ == 1 && text.starts_with("\xef\xbb\xbf")) text.erase(0, 3);
-            if (!text.empty() && text.back() == '\r') text.pop_back();
-            if (text.find_first_not_of(" \t") == std::string::npos) continue;
-            if (!splitter.split(text, fields)) {
-                fault("", text, "is not CSV", "separate plain numbers by commas");
+        for (CsvLines lines(stream); lines.next();) {
+            line_ = lines.number();
+            const std::optional<Row> fields = lines.fields();
+            if (!fields) {
+                fault("", lines.text(), "is not CSV", "separate plain numbers by commas");
                 if (columns_ == 0) return {};
             } else if (columns_ == 0) {
-                if (!readHeader(fields)) return {};
+                if (!readHeader(*fields)) return {};
             } else {
-                readRow(fields);
+                readRow(*fields);
             }
         }
         line_ = 0;

@@ -2,9 +2,9 @@
 // The table of figures at the head of a run's report.
 
 #include "host/analysis/figures.h"
+#include "host/core/csv_table.h"
 #include "host/model/case.h"
 #include "host/report/run_report.h"
-#include "host/report/table.h"
 
 namespace vkdose::report {
 

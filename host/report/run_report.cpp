@@ -8,10 +8,11 @@
 #include <numeric>
 #include <sstream>
 
+#include "host/analysis/balance.h"
+#include "host/core/csv_table.h"
 #include "host/core/error.h"
 #include "host/model/case.h"
 #include "host/report/run_figures.h"
-#include "host/report/table.h"
 
 namespace vkdose::report {
 
@@ -120,20 +121,14 @@ Json numbers(std::span<const double> values) {
 }
 
 Json experimentJson(const fs::path& file) {
-    const Table table = Table::read(file, LastLine::Whole);
-    const bool cumulative = table.has("cumulative_g");
-    std::vector<double> masses = table.column(cumulative ? "cumulative_g" : "mass_g");
-    for (double& m : masses) m *= 1e-3;
-    std::vector<double> other = masses;
-    if (cumulative)
-        std::adjacent_difference(masses.begin(), masses.end(), other.begin());
-    else
-        std::partial_sum(masses.begin(), masses.end(), other.begin());
+    const BalanceReadings balance = readBalance(file);
+    std::vector<double> doses(balance.mass.size());
+    std::iota(doses.begin(), doses.end(), 1.0);
     Json j;
     j["name"] = file.filename().string();
-    j["dose"] = numbers(table.column("dose"));
-    j["mass_kg"] = numbers(cumulative ? other : masses);
-    j["cumulative_mass_kg"] = numbers(cumulative ? masses : other);
+    j["dose"] = numbers(doses);
+    j["mass_kg"] = numbers(balance.mass);
+    j["cumulative_mass_kg"] = numbers(balance.cumulative);
     return j;
 }
 

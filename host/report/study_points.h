@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "host/analysis/beta.h"
+#include "host/core/csv_table.h"
 #include "host/report/expected.h"
-#include "host/report/table.h"
 
 namespace vkdose::report {
 

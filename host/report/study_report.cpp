@@ -4,8 +4,8 @@
 
 #include <cmath>
 
+#include "host/core/csv_table.h"
 #include "host/report/study_points.h"
-#include "host/report/table.h"
 
 namespace vkdose::report {
 

@@ -6,8 +6,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "host/core/csv_table.h"
 #include "host/core/error.h"
-#include "host/report/table.h"
 
 namespace vkdose::report {
 

@@ -2,47 +2,16 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <fstream>
-#include <optional>
-#include <stdexcept>
+#include <utility>
 
+#include "host/analysis/balance.h"
 #include "host/analysis/beta.h"
+#include "host/core/error.h"
 #include "host/model/case_reader.h"
-#include "host/study/csv_table.h"
 
 namespace vkdose {
 
 namespace {
-
-/// A balance's file as someone may have written it: any order of columns, perhaps no end to the last line.
-std::vector<double> readCumulative(const std::filesystem::path& file) {
-    std::ifstream stream(file);
-    CsvTable table;
-    std::vector<double> cumulative;
-    int number = 0;
-    for (std::string line; std::getline(stream, line);) {
-        ++number;
-        if (!line.empty() && line.back() == '\r') line.pop_back();
-        if (line.empty()) continue;
-        const Row row = csvFields(line);
-        if (table.header.empty()) {
-            table.header = row;
-            if (!table.column("dose") || table.column("mass_g").has_value() == table.column("cumulative_g").has_value())
-                throw std::runtime_error("the header is not dose and either mass_g or cumulative_g");
-            continue;
-        }
-        const auto dose = table.number(row, "dose"), mass = table.number(row, "mass_g");
-        const auto sum = table.number(row, "cumulative_g");
-        const double before = cumulative.empty() ? 0 : cumulative.back();
-        if (dose != double(cumulative.size() + 1))
-            throw std::runtime_error(fmt::format("line {}: dose {} should come here", number, cumulative.size() + 1));
-        const double now = mass ? before + *mass * 1e-3 : sum ? *sum * 1e-3 : NAN;
-        if (!std::isfinite(now)) throw std::runtime_error(fmt::format("line {}: the mass is not a number", number));
-        cumulative.push_back(now);
-    }
-    return cumulative;
-}
 
 /// Target and, unless given, tolerance from what a balance measured.
 void readMeasured(CaseReader& reader, const std::filesystem::path& file, CalibrationAim& aim) {
@@ -53,7 +22,7 @@ void readMeasured(CaseReader& reader, const std::filesystem::path& file, Calibra
         return;
     }
     try {
-        const std::vector<double> cumulative = readCumulative(file);
+        const std::vector<double> cumulative = readBalance(file).cumulative;
         const Slope slope = betaOf(cumulative, beforeSaturation(cumulative.empty() ? 0 : cumulative.back()));
         if (slope.doses < 3 || !(slope.beta > 0)) {
             reader.fault(kPath, "there are too few doses before saturation for a slope", "measure at least three");
@@ -61,8 +30,10 @@ void readMeasured(CaseReader& reader, const std::filesystem::path& file, Calibra
         }
         aim.target = slope.beta;
         if (aim.tolerance == 0) aim.tolerance = slope.standardError;
-    } catch (const std::runtime_error& error) {
-        reader.fault(kPath, error.what(), kRemedy);
+    } catch (const CaseError& error) {
+        Diagnostic fault = error.faults().at(0);
+        const std::string remedy = std::exchange(fault.remedy, "");
+        reader.fault(kPath, fault.text(), remedy);
     }
 }
 

@@ -12,8 +12,6 @@ namespace vkdose {
 
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
 /// What the members of a point found, a value for each seed.
 struct Found {
     std::vector<double> beta, betaError, rsd, doses;
@@ -88,28 +86,28 @@ std::optional<std::size_t> choose(const std::vector<Curve>& curves) {
 
 }  // namespace
 
-GridCalibration calibrateGrid(const CsvTable& members, const std::vector<std::string>& keys,
-                              const CalibrationAim& aim) {
+GridCalibration calibrateGrid(const Table& members, const std::vector<std::string>& keys, const CalibrationAim& aim) {
     GridCalibration result;
     for (const std::string& key : keys)
         if (key != aim.along) result.keys.push_back(key);
     std::vector<Row> order;  // of the first member of each curve
     std::map<Row, std::map<double, Found>> curves;
-    for (const Row& row : members.rows) {
+    for (std::size_t row = 0; row < members.rows(); ++row) {
         Row others;
         for (const std::string& key : result.keys) others.push_back(members.text(row, key));
         if (!curves.contains(others)) order.push_back(others);
         auto& curve = curves[others];
-        const auto along = members.number(row, aim.along), beta = members.number(row, "beta_kg_per_dose");
-        if (members.text(row, "status") != "ok" || !along || !beta) {
+        const auto number = [&](const std::string& column) { return numberIn(members.text(row, column)); };
+        const double along = number(aim.along), beta = number("beta_kg_per_dose");
+        if (members.text(row, "status") != "ok" || std::isnan(along) || std::isnan(beta)) {
             ++result.leftOut;
             continue;
         }
-        Found& found = curve[*along];
-        found.beta.push_back(*beta);
-        found.betaError.push_back(members.number(row, "beta_standard_error_kg_per_dose").value_or(kNaN));
-        found.rsd.push_back(members.number(row, "rsd").value_or(kNaN));
-        found.doses.push_back(members.number(row, "doses").value_or(kNaN));
+        Found& found = curve[along];
+        found.beta.push_back(beta);
+        found.betaError.push_back(number("beta_standard_error_kg_per_dose"));
+        found.rsd.push_back(number("rsd"));
+        found.doses.push_back(number("doses"));
     }
     const Scatter scatter = scatterOf(curves);
     for (const Row& others : order) {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "host/study/calibration_aim.h"
-#include "host/study/csv_table.h"
+#include "host/core/csv_table.h"
 
 namespace vkdose {
 
@@ -48,6 +48,6 @@ struct GridCalibration {
 };
 
 /// From the members of a sweep over `keys`, of which `aim.along` is one with numbers for values.
-GridCalibration calibrateGrid(const CsvTable& members, const std::vector<std::string>& keys, const CalibrationAim& aim);
+GridCalibration calibrateGrid(const Table& members, const std::vector<std::string>& keys, const CalibrationAim& aim);
 
 }  // namespace vkdose

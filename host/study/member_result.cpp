@@ -40,12 +40,12 @@ struct Doses {
     double torque = 0;               ///< mean [N m]
 };
 
-Doses completeDoses(const CsvTable& table) {
+Doses completeDoses(const Table& table) {
     Doses doses;
-    for (const Row& row : table.rows) {
-        if (table.text(row, "complete") != "1") continue;
-        doses.cumulative.push_back(table.number(row, "cumulative_mass_kg").value_or(NAN));
-        doses.torque += table.number(row, "coil_torque_Nm").value_or(NAN);
+    for (std::size_t i = 0; i < table.rows(); ++i) {
+        if (table.text(i, "complete") != "1") continue;
+        doses.cumulative.push_back(numberIn(table.text(i, "cumulative_mass_kg")));
+        doses.torque += numberIn(table.text(i, "coil_torque_Nm"));
     }
     if (!doses.cumulative.empty()) doses.torque /= double(doses.cumulative.size());
     return doses;
@@ -95,14 +95,16 @@ std::string statusText(MemberStatus status) {
 
 MemberResult readResult(const fs::path& folder, const MemberEnd& end) {
     const Json summary = readSummary(folder);
-    const CsvTable table = readTable(folder / "doses.csv");
+    Table table = Table::salvage(folder / "doses.csv");
+    const bool ours = table.names() == *csvFields(kDosesHeader);
+    if (!ours) table = Table();
     MemberResult result;
-    result.doses = table.rows;
+    for (std::size_t i = 0; i < table.rows(); ++i) result.doses.push_back(table.row(i));
     if (end.code == kInterruptedCode) {
         result.status = MemberStatus::Interrupted;
     } else if (end.code != 0) {
         result.error = errorText(end, summary);
-    } else if (summary.empty() || table.header != csvFields(kDosesHeader)) {
+    } else if (summary.empty() || !ours) {
         result.error = fmt::format("the run left no whole result in {}", folder.string());
     } else {
         result.status = MemberStatus::Ok;

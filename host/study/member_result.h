@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "host/study/csv_table.h"
+#include "host/core/csv_table.h"
 
 namespace vkdose {
 

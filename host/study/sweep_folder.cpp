@@ -35,16 +35,14 @@ int numberOf(const Row& row) {
     return row.empty() ? -1 : std::atoi(row[0].c_str());
 }
 
-std::string content(const CsvTable& table) {
-    std::string text = csvLine(table.header) + "\n";
-    for (const Row& row : table.rows) text += csvLine(row) + "\n";
+std::string content(const Table& table) {
+    std::string text = csvLine(table.names()) + "\n";
+    for (std::size_t i = 0; i < table.rows(); ++i) text += csvLine(table.row(i)) + "\n";
     return text;
 }
 
-void dropRows(CsvTable& table, const std::set<int>& kept) {
-    table.rows.erase(std::remove_if(table.rows.begin(), table.rows.end(),
-                                    [&](const Row& row) { return !kept.contains(numberOf(row)); }),
-                     table.rows.end());
+void dropRows(Table& table, const std::set<int>& kept) {
+    table.removeIf([&](const Row& row) { return !kept.contains(numberOf(row)); });
 }
 
 [[noreturn]] void changed(const fs::path& study, const fs::path& folder, const std::string& how) {
@@ -85,9 +83,10 @@ SweepFolder::SweepFolder(fs::path folder, const Study& study, const std::vector<
     read(study.keys());
     // A search decides on its members as it goes; it asks requireSame when it comes to them.
     const bool search = study.calibration && study.calibration->method == CalibrationAim::Method::Surrogate;
-    for (const Row& row : members_.rows)
-        if (!search && std::size_t(numberOf(row)) >= members.size())
-            changed(study_, folder_, fmt::format("member {} is no longer in it; {}", numberOf(row), kAppendable));
+    for (std::size_t i = 0; i < members_.rows(); ++i)
+        if (!search && std::size_t(numberOf(members_.row(i))) >= members.size())
+            changed(study_, folder_,
+                    fmt::format("member {} is no longer in it; {}", numberOf(members_.row(i)), kAppendable));
     for (const Member& m : members) requireSame(m);
     std::set<int> ended;
     for (const auto& [number, status] : status_)
@@ -112,25 +111,27 @@ void SweepFolder::lock() {
 }
 
 void SweepFolder::read(const Row& keys) {
-    members_ = readTable(folder_ / "members.csv");
-    doses_ = readTable(folder_ / "doses.csv");
+    members_ = Table::salvage(folder_ / "members.csv");
+    doses_ = Table::salvage(folder_ / "doses.csv");
     const Row membersHeader = joined(joined({"member", "seed"}, keys), kOutputColumns);
-    const Row dosesHeader = joined(joined({"member", "seed"}, keys), csvFields(kDosesHeader));
-    if ((!members_.header.empty() && members_.header != membersHeader) ||
-        (!doses_.header.empty() && doses_.header != dosesHeader))
+    const Row dosesHeader = joined(joined({"member", "seed"}, keys), *csvFields(kDosesHeader));
+    if ((!members_.names().empty() && members_.names() != membersHeader) ||
+        (!doses_.names().empty() && doses_.names() != dosesHeader))
         changed(study_, folder_, "it varies other keys, or vkdose writes other columns");
-    members_.header = membersHeader;
-    doses_.header = dosesHeader;
-    for (const Row& row : members_.rows)
+    if (members_.names().empty()) members_ = Table(membersHeader);
+    if (doses_.names().empty()) doses_ = Table(dosesHeader);
+    for (std::size_t i = 0; i < members_.rows(); ++i)
         for (const MemberStatus s : {MemberStatus::Ok, MemberStatus::Failed, MemberStatus::Interrupted})
-            if (members_.text(row, "status") == statusText(s)) status_[numberOf(row)] = s;
+            if (members_.text(i, "status") == statusText(s)) status_[numberOf(members_.row(i))] = s;
 }
 
 void SweepFolder::requireSame(const Member& member) const {
     const Row now = head(member);
-    for (const Row& row : members_.rows)
+    for (std::size_t i = 0; i < members_.rows(); ++i) {
+        const Row& row = members_.row(i);
         if (numberOf(row) == member.number && !std::equal(now.begin(), now.end(), row.begin()))
             changed(study_, folder_, fmt::format("member {} was another point; {}", member.number, kAppendable));
+    }
     const fs::path file = memberFolder(member.number) / "case.toml";
     if (fs::exists(file) && readText(file) != member.caseText && today(file) != member.caseText)
         changed(study_, folder_,
@@ -163,10 +164,7 @@ void SweepFolder::begin(const Member& member) const {
 }
 
 void SweepFolder::forget(int number) {
-    for (CsvTable* table : {&members_, &doses_})
-        table->rows.erase(std::remove_if(table->rows.begin(), table->rows.end(),
-                                         [&](const Row& row) { return numberOf(row) == number; }),
-                          table->rows.end());
+    for (Table* table : {&members_, &doses_}) table->removeIf([&](const Row& row) { return numberOf(row) == number; });
     status_.erase(number);
     rewrite();
 }
@@ -174,20 +172,22 @@ void SweepFolder::forget(int number) {
 void SweepFolder::add(const Member& member, const MemberResult& result) {
     // The doses first: those of a member without a row are cut out when the sweep goes on.
     for (const Row& dose : result.doses) {
-        doses_.rows.push_back(joined(head(member), dose));
-        dosesFile_->line(csvLine(doses_.rows.back()));
+        const Row row = joined(head(member), dose);
+        dosesFile_->line(csvLine(row));
+        doses_.add(row);
     }
     dosesFile_->store();
-    members_.rows.push_back(joined(head(member), result.outputs));
-    membersFile_->line(csvLine(members_.rows.back()));
+    const Row row = joined(head(member), result.outputs);
+    membersFile_->line(csvLine(row));
+    members_.add(row);
     membersFile_->store();
     status_[member.number] = result.status;
 }
 
 void SweepFolder::sort() {
     const auto earlier = [](const Row& a, const Row& b) { return numberOf(a) < numberOf(b); };
-    std::stable_sort(members_.rows.begin(), members_.rows.end(), earlier);
-    std::stable_sort(doses_.rows.begin(), doses_.rows.end(), earlier);
+    members_.sort(earlier);
+    doses_.sort(earlier);
     rewrite();
 }
 

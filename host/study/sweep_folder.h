@@ -31,7 +31,7 @@ class SweepFolder {
     std::optional<MemberStatus> status(int number) const;
 
     /// The rows so far, in the order in which the members ended.
-    const CsvTable& members() const { return members_; }
+    const Table& members() const { return members_; }
 
     /// Throws FolderError if this member has begun in the folder as another case.
     void requireSame(const Member& member) const;
@@ -56,8 +56,8 @@ class SweepFolder {
     std::filesystem::path folder_;
     std::string study_;  ///< its file, for messages
     std::unique_ptr<std::FILE, int (*)(std::FILE*)> lock_{nullptr, std::fclose};
-    CsvTable members_;
-    CsvTable doses_;
+    Table members_;
+    Table doses_;
     std::map<int, MemberStatus> status_;
     std::optional<CsvFile> membersFile_;
     std::optional<CsvFile> dosesFile_;

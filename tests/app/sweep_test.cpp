@@ -7,8 +7,8 @@
 #include <csignal>
 #include <thread>
 
+#include "host/core/csv_table.h"
 #include "host/output/checkpoint.h"
-#include "host/study/csv_table.h"
 #include "tests/app/sandbox.h"
 #include "tests/app/sweep_tables.h"
 
@@ -102,11 +102,11 @@ TEST_CASE("a member that fails is told, the rest go on, and the exit code says s
     CHECK(o.code == 1);
     CHECK_THAT(o.err, Catch::Contains("member 0001") && Catch::Contains("member 0003") &&
                           Catch::Contains("--retry-failed") && Catch::Contains("overlap"));
-    const CsvTable table = readTable(box / "out/study/members.csv");
-    REQUIRE(table.rows.size() == 4);
+    const Table table = Table::salvage(box / "out/study/members.csv");
+    REQUIRE(table.rows() == 4);
     for (int i = 0; i < 4; ++i) {
-        CHECK(table.text(table.rows[i], "status") == (i % 2 == 0 ? "ok" : "failed"));
-        CHECK(table.text(table.rows[i], "error").empty() == (i % 2 == 0));
+        CHECK(table.text(i, "status") == (i % 2 == 0 ? "ok" : "failed"));
+        CHECK(table.text(i, "error").empty() == (i % 2 == 0));
     }
     CHECK_THAT(o.out, Catch::Contains("2 done, 2 failed"));
 }
@@ -134,8 +134,8 @@ TEST_CASE("calibrate interpolates a finished sweep without running it again, and
     const std::string study = "seeds = [1]\n" + kStudy;
     box.write("study.toml", study);
     REQUIRE(box.vkdose("sweep study.toml --backend reference --out out").code == 0);
-    const CsvTable table = readTable(box / "out/members.csv");
-    const auto beta = [&](int member) { return table.number(table.rows.at(member), "beta_kg_per_dose").value(); };
+    const Table table = Table::salvage(box / "out/members.csv");
+    const auto beta = [&](int member) { return table.number(std::size_t(member), "beta_kg_per_dose"); };
     // Half way between the two cohesions of the first friction.
     REQUIRE(beta(0) != beta(2));
     const double target = (beta(0) + beta(2)) / 2;

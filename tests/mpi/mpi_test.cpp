@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "host/output/checkpoint.h"
-#include "host/study/csv_table.h"
+#include "host/core/csv_table.h"
 #include "tests/app/sandbox.h"
 #include "tests/app/sweep_tables.h"
 

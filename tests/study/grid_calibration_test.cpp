@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
@@ -25,15 +26,19 @@ CalibrationAim aimAt(double target, double tolerance = 0) {
 
 /// A table of members, filled row by row.
 struct Members {
-    CsvTable table;
+    Table table;
     Members() {
-        table.header = {"member", "seed", kKeys[0], kKeys[1]};
-        table.header.insert(table.header.end(), kOutputColumns.begin(), kOutputColumns.end());
+        Row names{"member", "seed", kKeys[0], kKeys[1]};
+        names.insert(names.end(), kOutputColumns.begin(), kOutputColumns.end());
+        table = Table(names);
     }
     void add(const char* friction, double kc, double beta, double rsd = 0.2, const char* status = "ok",
              double betaError = 1e-4) {
-        Row row(table.header.size());
-        const auto set = [&](const char* column, const std::string& text) { row[table.column(column).value()] = text; };
+        Row row(table.names().size());
+        const auto set = [&](const char* column, const std::string& text) {
+            row.at(std::size_t(std::find(table.names().begin(), table.names().end(), column) - table.names().begin())) =
+                text;
+        };
         set("contact.friction", friction);
         set("contact.kc_over_k", fmt::format("{}", kc));
         set("status", status);
@@ -41,7 +46,7 @@ struct Members {
         set("beta_standard_error_kg_per_dose", fmt::format("{:.17g}", betaError));
         set("rsd", fmt::format("{:.17g}", rsd));
         set("doses", "9");
-        table.rows.push_back(row);
+        table.add(row);
     }
 };
 

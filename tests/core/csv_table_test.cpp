@@ -1,4 +1,4 @@
-#include "host/report/table.h"
+#include "host/core/csv_table.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -7,8 +7,6 @@
 #include "tests/app/sandbox.h"
 
 using namespace vkdose;
-using vkdose::report::LastLine;
-using vkdose::report::Table;
 using vkdose::test::Sandbox;
 
 TEST_CASE("a table by its column names, quoted fields whole, missing numbers NaN") {
@@ -50,7 +48,30 @@ TEST_CASE("what is wrong with a table is told with its line") {
     CHECK_THAT(fault("a,b\n1,2\n3\n"), Catch::Contains("t.csv:3") && Catch::Contains("1 fields, the header 2"));
     CHECK_THAT(fault("a,b\n1,two\n"), Catch::Contains("t.csv:2") && Catch::Contains("two"));
     CHECK_THAT(fault("a,c\n1,2\n"), Catch::Contains("lacks the column b"));
-    CHECK_THAT(fault("a,b\n\"1,2\n"), Catch::Contains("is not CSV"));
+    CHECK_THAT(fault("a,b\n\n1,2\n\n3,two\n"), Catch::Contains("t.csv:5: b = two"));
+    CHECK_THAT(fault("a,b\n\"1,2\n"), Catch::Contains("t.csv:2: is not CSV"));
     CHECK_THAT(fault(""), Catch::Contains("is empty"));
     CHECK_THROWS_AS(Table::read(box / "none.csv"), CaseError);
+    CHECK_THROWS_AS(Table::read(box.path()), CaseError);
+}
+
+TEST_CASE("of a table whose writer was killed, what is whole is kept") {
+    const Sandbox box;
+    const Table table = Table::salvage(box.write("t.csv", "a,b\n1,2\n3\n4,\"x,y\"\n\"5,6\n7,8\n9,10"));
+    CHECK(table.names() == Row{"a", "b"});
+    REQUIRE(table.rows() == 3);
+    CHECK(table.text(1, "b") == "x,y");
+    CHECK(table.number(2, "b") == 8);
+    CHECK(Table::salvage(box / "none.csv").names().empty());
+}
+
+TEST_CASE("rows are added, removed and sorted; a fault still names the line they came from") {
+    const Sandbox box;
+    Table table = Table::read(box.write("t.csv", "a,b\n3,x\n1,y\n2,z\n"));
+    table.add({"1", "w"});
+    table.removeIf([](const Row& row) { return row[0] == "3"; });
+    table.sort([](const Row& a, const Row& b) { return a[0] < b[0]; });
+    CHECK(table.text(0, "b") == "y");
+    CHECK(table.text(1, "b") == "w");
+    CHECK_THROWS_WITH(table.number(2, "b"), Catch::Contains("t.csv:4: b = z: is not a number"));
 }

@@ -1,0 +1,18 @@
+#pragma once
+// What a balance read, dose after dose.
+
+#include <filesystem>
+#include <vector>
+
+namespace vkdose {
+
+struct BalanceReadings {
+    std::vector<double> mass;        ///< of each dose [kg]
+    std::vector<double> cumulative;  ///< up to and with it [kg]
+};
+
+/// Reads a CSV with the columns dose (1, 2, ...) and mass_g or cumulative_g, as someone may have written it: columns in
+/// any order and others beside them, perhaps no end to the last line. Throws CaseError, naming line and column.
+BalanceReadings readBalance(const std::filesystem::path& file);
+
+}  // namespace vkdose
