@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <exception>
 #include <functional>
+#include <string>
+#include <vector>
 
 #include "host/app/commands.h"
 #include "host/app/exit_code.h"
@@ -159,6 +161,56 @@ void addReport(CLI::App& program, ReportOptions& options) {
         ->type_name("FILE");
 }
 
+void addProfile(CLI::App& program, ProfileOptions& options) {
+    CLI::App& command = *program.add_subcommand("profile", "trace the surface of the powder in a photograph");
+    photo::Reading& reading = options.reading;
+    command.add_option("photo", options.photo, "PNG, JPEG or TIFF")->required();
+    command
+        .add_option_function<std::vector<int>>(
+            "--roi",
+            [&reading](const std::vector<int>& r) {
+                reading.region = photo::Region{r[0], r[1], r[2], r[3]};
+            },
+            "region in pixels: left, top, width, height (default: the whole picture)")
+        ->delimiter(',')
+        ->expected(4)
+        ->type_name("X,Y,W,H");
+    auto* scale = command.add_option("--mm-per-pixel", reading.mmPerPixel, "size of a pixel [mm]");
+    command.add_option("--length-mm", reading.lengthMm, "what the region's width stands for [mm]")->excludes(scale);
+    command.add_option("--threshold", reading.threshold, "grey between powder and background (default: found)")
+        ->check(CLI::Range(1, 255));
+    command
+        .add_option_function<std::string>(
+            "--powder",
+            [&reading](const std::string& kind) {
+                reading.powder = kind == "dark" ? photo::Powder::Dark : photo::Powder::Light;
+            },
+            "dark or light (default: what lies lower)")
+        ->check(CLI::IsMember({"dark", "light"}));
+    command
+        .add_option_function<std::string>(
+            "--rear", [&reading](const std::string& side) { reading.rearLeft = side == "left"; },
+            "side of the rear wall in the picture (default: left)")
+        ->check(CLI::IsMember({"left", "right"}));
+    command
+        .add_option_function<std::vector<double>>(
+            "--corner-mm",
+            [&reading](const std::vector<double>& corner) {
+                reading.cornerZMm = corner[0];
+                reading.cornerHeightMm = corner[1];
+            },
+            "z and height of the region's lower corner at the rear [mm] (default: 0,0)")
+        ->delimiter(',')
+        ->expected(2)
+        ->type_name("Z,H");
+    command.add_option("--speck-mm", reading.speckMm, "patches smaller than a square of this edge are dirt [mm]")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
+    command.add_option("--out", options.out, "file to write")->type_name("FILE")->capture_default_str();
+    command.add_option("--check", options.check, "picture to write, with the surface drawn over the photograph")
+        ->type_name("FILE");
+}
+
 /// Runs `command`; every error becomes lines on stderr and an exit code.
 int guarded(const std::function<int()>& command) {
     try {
@@ -185,6 +237,7 @@ int commandLine(int argc, const char* const* argv) {
     SweepOptions sweep;
     SweepOptions calibration;
     ReportOptions report;
+    ProfileOptions profile;
     addRun(program, run);
     addResume(program, resume);
     addCheck(program, check);
@@ -200,6 +253,7 @@ int commandLine(int argc, const char* const* argv) {
                                               "only make the members' folders, for a queue (tools/slurm-array)");
     addSweep(program, "calibrate", "find the case of a study that doses what was measured", calibration);
     addReport(program, report);
+    addProfile(program, profile);
     try {
         program.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
@@ -218,6 +272,7 @@ int commandLine(int argc, const char* const* argv) {
     if (program.got_subcommand("sweep")) return guarded([&] { return sweepCommand(sweep); });
     if (program.got_subcommand("calibrate")) return guarded([&] { return calibrateCommand(calibration); });
     if (program.got_subcommand("report")) return guarded([&] { return reportCommand(report); });
+    if (program.got_subcommand("profile")) return guarded([&] { return profileCommand(profile); });
     return guarded([] { return devicesCommand(); });
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "host/app/backends.h"
+#include "host/photo/profile.h"
 
 namespace vkdose {
 
@@ -93,6 +94,13 @@ struct ReportOptions {
     std::optional<std::filesystem::path> expected;    ///< published results
 };
 
+struct ProfileOptions {
+    std::filesystem::path photo;
+    photo::Reading reading;
+    std::filesystem::path out = "profile.csv";
+    std::filesystem::path check;  ///< empty: no picture to judge by
+};
+
 int runCommand(const RunOptions& options);
 int resumeCommand(const ResumeOptions& options);
 int checkCommand(const CheckOptions& options);
@@ -104,5 +112,6 @@ int exportCoilCommand(const ExportCoilOptions& options);
 int sweepCommand(const SweepOptions& options);
 int calibrateCommand(const SweepOptions& options);
 int reportCommand(const ReportOptions& options);
+int profileCommand(const ProfileOptions& options);
 
 }  // namespace vkdose

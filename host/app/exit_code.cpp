@@ -4,6 +4,7 @@
 #include "host/core/error.h"
 #include "host/model/case.h"
 #include "host/output/run_folder.h"
+#include "host/photo/picture.h"
 
 namespace vkdose {
 
@@ -24,6 +25,8 @@ Refusal refusalOf(const std::exception_ptr& error) {
     } catch (const OutputError& e) {
         return because(kOutputError, e);
     } catch (const UsageError& e) {
+        return because(kBadInput, e);
+    } catch (const photo::PhotoError& e) {
         return because(kBadInput, e);
     } catch (const RunError& e) {
         return because(kRunError, e);

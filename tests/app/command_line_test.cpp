@@ -59,7 +59,7 @@ TEST_CASE("help and usage") {
     const Sandbox box;
     const auto help = box.vkdose("--help");
     CHECK(help.code == 0);
-    for (const char* word : {"run", "resume", "sweep", "calibrate", "check", "devices", "compare"})
+    for (const char* word : {"run", "resume", "sweep", "calibrate", "check", "devices", "compare", "profile"})
         CHECK_THAT(help.out, Catch::Contains(word));
     CHECK(box.vkdose("run --help").code == 0);
     for (const char* bad : {"", "fly", "run", "run x.toml --backend cuda", "run x.toml --nonsense",
