@@ -42,12 +42,17 @@ void addParent(CLI::App& command, int& parent) {
     command.add_option("--parent", parent, "end, as by Ctrl-C, when this process does")->group("");
 }
 
+void addShow(CLI::App& command, bool& quiet, bool& live) {
+    auto* silent = command.add_flag("--quiet", quiet, "print errors only");
+    command.add_flag("--live", live, "show the bed and the doses on the terminal")->excludes(silent);
+}
+
 void addRun(CLI::App& program, RunOptions& options) {
     CLI::App& command = *program.add_subcommand("run", "simulate a case and write its output folder");
     addCase(command, options.input);
     command.add_option("--out", options.out, "output folder (default: out/<case name>)")->type_name("DIR");
     command.add_flag("--force", options.force, "replace a former run in the output folder");
-    command.add_flag("--quiet", options.quiet, "print errors only");
+    addShow(command, options.quiet, options.live);
     addParent(command, options.parent);
     addBackend(command, options.backend);
 }
@@ -55,7 +60,7 @@ void addRun(CLI::App& program, RunOptions& options) {
 void addResume(CLI::App& program, ResumeOptions& options) {
     CLI::App& command = *program.add_subcommand("resume", "go on with an interrupted run from its checkpoint");
     command.add_option("dir", options.folder, "output folder of the run")->required()->type_name("DIR");
-    command.add_flag("--quiet", options.quiet, "print errors only");
+    addShow(command, options.quiet, options.live);
     addParent(command, options.parent);
     addDevice(command, options.backend);
 }

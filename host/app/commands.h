@@ -23,14 +23,16 @@ struct RunOptions {
     std::filesystem::path out;  ///< empty: out/<case name>
     bool force = false;
     bool quiet = false;
-    int parent = 0;  ///< process with which this one ends, as by Ctrl-C; 0: none
+    bool live = false;  ///< the bed on the terminal
+    int parent = 0;     ///< process with which this one ends, as by Ctrl-C; 0: none
 };
 
 struct ResumeOptions {
     std::filesystem::path folder;
     BackendChoice backend;  ///< its backend is the checkpoint's
     bool quiet = false;
-    int parent = 0;  ///< as above
+    bool live = false;  ///< as above
+    int parent = 0;     ///< as above
 };
 
 struct CheckOptions {

@@ -8,7 +8,14 @@
 
 namespace vkdose {
 
-class ProgressDisplay : public RunObserver {
+/// Shows a run while it goes on.
+class RunDisplay : public RunObserver {
+  public:
+    /// Ends what is on the terminal, so that other text can follow.
+    virtual void close() = 0;
+};
+
+class ProgressDisplay : public RunDisplay {
   public:
     explicit ProgressDisplay(std::FILE* stream = stderr);
     ~ProgressDisplay() override;
@@ -18,8 +25,7 @@ class ProgressDisplay : public RunObserver {
     void onProgress(const Progress& progress) override;
     void onDose(const Dose& dose) override;
 
-    /// Ends the bar's line, so that other text can follow.
-    void close();
+    void close() override;
 
   private:
     using Clock = std::chrono::steady_clock;

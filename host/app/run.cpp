@@ -3,9 +3,11 @@
 #include "host/app/commands.h"
 #include "host/app/exit_code.h"
 #include "host/app/interrupt.h"
+#include "host/app/live_display.h"
 #include "host/app/play.h"
 #include "host/app/progress.h"
 #include "host/app/report.h"
+#include "host/sim/run_record.h"
 
 namespace vkdose {
 
@@ -15,22 +17,36 @@ namespace {
 struct Manner {
     const BackendChoice& choice;
     bool quiet = false;
+    bool live = false;  ///< the bed on the terminal
     int parent = 0;
 };
+
+/// The display that was asked for, or the plain one where the live one cannot be; none of a quiet run.
+std::unique_ptr<RunDisplay> makeDisplay(const Manner& manner, const ReadyRun& run, const Backend& backend) {
+    if (manner.quiet) return nullptr;
+    std::string why;
+    if (manner.live && LiveDisplay::possible(stdout, why)) {
+        std::vector<Dose> before;
+        if (run.from) get(run.from->run.run, "doses", before);
+        return std::make_unique<LiveDisplay>(run.c, derive(run.c, run.filled), backend, std::move(before));
+    }
+    if (manner.live) fmt::print(stderr, "vkdose: no --live, because {}; going on with plain progress\n", why);
+    return std::make_unique<ProgressDisplay>();
+}
 
 /// Runs, from the start or from a checkpoint, and tells how it ended.
 int playAloud(ReadyRun run, Backend& backend, RunFolder& folder, const Manner& manner) {
     const std::atomic<bool>& stop = watchInterrupts();
     if (manner.parent != 0) endWithParent(manner.parent);
-    ProgressDisplay display;
     const Case c = run.c;
     if (!manner.quiet) {
         fmt::print("{}: {} particles, {:.3f} g, on {}\n", c.name, run.filled.particles.size(), run.filled.mass * 1e3,
                    backend.description());
         std::fflush(stdout);
     }
-    const Played played = play(std::move(run), backend, folder, manner.quiet ? nullptr : &display, stop);
-    display.close();
+    const std::unique_ptr<RunDisplay> display = makeDisplay(manner, run, backend);
+    const Played played = play(std::move(run), backend, folder, display.get(), stop);
+    if (display) display->close();
     if (!played.error.empty()) fmt::print(stderr, "vkdose: {}\n", played.error);
     if (played.code == kOutputError) return kOutputError;
     if (!manner.quiet) {
@@ -49,7 +65,7 @@ int runCommand(const RunOptions& options) {
     const std::unique_ptr<Backend> backend = makeBackend(options.backend, run.filled.particles.size());
     RunFolder folder = folderOf(run, options.out.empty() ? std::filesystem::path("out") / run.c.name : options.out,
                                 options.force, *backend);
-    return playAloud(std::move(run), *backend, folder, {options.backend, options.quiet, options.parent});
+    return playAloud(std::move(run), *backend, folder, {options.backend, options.quiet, options.live, options.parent});
 }
 
 int resumeCommand(const ResumeOptions& options) {
@@ -62,7 +78,7 @@ int resumeCommand(const ResumeOptions& options) {
                    "the same bits\n",
                    run.from->program, run.from->backend, VKDOSE_VERSION, backend->description());
     RunFolder folder = folderOf(run, options.folder, true, *backend);
-    return playAloud(std::move(run), *backend, folder, {choice, options.quiet, options.parent});
+    return playAloud(std::move(run), *backend, folder, {choice, options.quiet, options.live, options.parent});
 }
 
 }  // namespace vkdose

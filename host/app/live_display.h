@@ -1,0 +1,51 @@
+#pragma once
+// The picture of a run that goes on, on a terminal: drawn again in place, some times a second.
+
+#include <chrono>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "host/app/progress.h"
+#include "host/backend/backend.h"
+#include "host/terminal/pace.h"
+#include "host/terminal/screen.h"
+
+namespace vkdose {
+
+class LiveDisplay : public RunDisplay {
+  public:
+    /// Reads particles from `backend`, which must outlive it, while the run is between two of its calls: that changes
+    /// nothing for the run. `before` are the doses of a run that is resumed.
+    LiveDisplay(const Case& c, const Derived& derived, const Backend& backend, std::vector<Dose> before,
+                std::FILE* stream = stdout);
+
+    /// Whether `stream` is a terminal that can be drawn on; if not, why.
+    static bool possible(std::FILE* stream, std::string& why);
+
+    void onProgress(const Progress& progress) override;
+    void onDose(const Dose& dose) override;
+
+    /// Draws once more what is known, without asking the backend, and leaves the cursor below.
+    void close() override;
+
+  private:
+    double now() const;
+    void read(const Progress& progress);
+    void draw();
+
+    const Backend& backend_;
+    double density_;
+    terminal::Scene scene_;
+    terminal::LiveState state_;
+    Progress progress_;
+    double dosedBefore_ = 0;  ///< while settling [kg]
+    terminal::Style style_;
+    std::FILE* stream_;
+    terminal::Pace pace_;
+    std::chrono::steady_clock::time_point start_;
+    int columns_ = 0, rows_ = 0;  ///< of the terminal when it was drawn on
+    std::size_t lines_ = 0;       ///< that stand above the cursor
+};
+
+}  // namespace vkdose

@@ -1,0 +1,94 @@
+#include "host/terminal/screen.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace vkdose::terminal {
+
+namespace {
+
+constexpr int kLeastColumns = 40;
+constexpr int kBesideColumns = 90;  ///< from here on the doses stand beside the bed, else below
+constexpr int kPanel = 46;          ///< columns of the doses beside the bed
+constexpr int kRowsBelow = 7;       ///< rows of the doses below it
+constexpr int kLeastViewRows = 5;
+constexpr int kLabel = 9, kFigure = 13;
+
+/// The last doses, the one under way included, in so many rows; nothing for a run without doses.
+std::vector<std::string> doseRows(const LiveState& s, int columns, int rows) {
+    if (!(s.closedForm > 0) || rows < 2) return {};
+    std::vector<Dose> shown = s.doses;
+    const bool open = s.frame.dose > 0 && (s.doses.empty() || s.doses.back().index < s.frame.dose);
+    if (open) {
+        Dose now;
+        now.index = s.frame.dose;
+        now.mass = s.underWay;
+        shown.push_back(now);
+    }
+    const auto skipped = std::max<std::ptrdiff_t>(0, std::ptrdiff_t(shown.size()) - (rows - 1));
+    shown.erase(shown.begin(), shown.begin() + skipped);
+
+    double most = s.closedForm;
+    for (const Dose& d : shown) most = std::max(most, d.mass);
+    std::vector<std::string> lines{fmt::format("{:<{}}│ closed form {:.3f} g", "", kLabel, s.closedForm * 1e3)};
+    for (const Dose& d : shown) {
+        const bool now = open && &d == &shown.back();
+        lines.push_back(fmt::format("dose {:<3} {} {:.3f} g{}", d.index,
+                                    bar(d.mass, s.closedForm, most, columns - kLabel - kFigure), d.mass * 1e3,
+                                    now ? " ..." : ""));
+    }
+    return lines;
+}
+
+/// What the colours of the spheres mean.
+std::string legend(double fast) {
+    std::string text = "speed 0 ";
+    for (int i = 0; i <= 8; ++i) {
+        const Colour c = speedColour(fast * i / 8, fast);
+        text += fmt::format("\033[38;2;{};{};{}m█", c.red, c.green, c.blue);
+    }
+    return text + fmt::format("\033[0m {:.3g} mm/s", fast * 1e3);
+}
+
+}  // namespace
+
+std::string bar(double value, double mark, double most, int cells) {
+    const double full = most > 0 ? std::clamp(value / most, 0.0, 1.0) * cells : 0;
+    const int markCell = mark > 0 && most > 0 ? std::min(int(mark / most * cells), cells - 1) : -1;
+    std::string text;
+    for (int i = 0; i < cells; ++i) {
+        const int eighths = int(std::lround(std::clamp(full - i, 0.0, 1.0) * 8));
+        if (i == markCell)
+            text += "│";
+        else
+            text += eighths == 0 ? std::string(" ") : utf8(0x2590U - unsigned(eighths));  // U+2588 full ... U+258F 1/8
+    }
+    return text;
+}
+
+std::vector<std::string> screenLines(const Scene& scene, const LiveState& s, int columns, int rows, Style style) {
+    const std::string progress = s.progress.substr(0, std::size_t(std::max(columns, 0)));
+    if (columns < kLeastColumns || rows < 3) return {progress};
+    const bool beside = columns >= kBesideColumns;
+    const int last = style == Style::Colour ? 2 : 1;
+    const int doseColumns = beside ? kPanel : columns;
+    const int viewColumns = beside ? columns - kPanel - 2 : columns;
+    // Below the bed, room for doses to come is kept from the start, so that the bed keeps its size.
+    const int viewRows = rows - last - (beside || !(s.closedForm > 0) ? 0 : kRowsBelow);
+
+    std::vector<std::string> lines;
+    if (viewRows >= kLeastViewRows) lines = sideView(scene, s.frame, viewColumns, viewRows, style).lines();
+    const std::vector<std::string> doses =
+        doseRows(s, doseColumns, beside ? int(lines.size()) : rows - last - int(lines.size()));
+    if (beside)
+        for (std::size_t i = 0; i < doses.size(); ++i) lines[i] += "  " + doses[i];
+    else
+        lines.insert(lines.end(), doses.begin(), doses.end());
+    if (style == Style::Colour) lines.push_back(legend(scene.fast));
+    lines.push_back(progress);
+    return lines;
+}
+
+}  // namespace vkdose::terminal

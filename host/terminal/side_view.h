@@ -1,0 +1,30 @@
+#pragma once
+// The bed from the side: z to the right, y up, seen through the wall at -x. Front spheres hide those behind; of the
+// coil the half in front is drawn over the powder, which would hide it.
+
+#include <optional>
+
+#include "host/model/case.h"
+#include "host/sim/frame.h"
+#include "host/terminal/canvas.h"
+
+namespace vkdose::terminal {
+
+/// What does not change while a run goes on.
+struct Scene {
+    std::optional<Canister> canister;
+    std::optional<geometry::Coil> coil;
+    double fast = 0.1;  ///< speed that has the colour of what moves [m/s]
+};
+
+/// The scene of a case; `tipVelocity` is the coil's (Derived::tipVelocity), 0 for none [m/s].
+Scene sceneOf(const Case& c, double tipVelocity);
+
+/// Draws a frame into at most so many cells, no smaller than it has to be: canister and coil in length, in height up to
+/// the highest sphere, to the next centimetre.
+Canvas sideView(const Scene& scene, const Frame& frame, int columns, int rows, Style style);
+
+/// Blue at rest, pale in between, orange from `fast` on; by the root of the speed, so that creeping shows [m/s].
+Colour speedColour(double speed, double fast);
+
+}  // namespace vkdose::terminal
