@@ -36,27 +36,37 @@ struct Light {
     }
 };
 
-std::vector<double> underEvenLight(const Grey& grey, const Light& light) {
-    std::vector<double> value;
-    value.reserve(grey.value.size());
-    for (int y = 0; y < grey.height; ++y)
-        for (int x = 0; x < grey.width; ++x) value.push_back(grey.at(x, y) / light.at(termsAt(x, y, grey)));
-    return value;
+double underEvenLight(const Grey& grey, int x, int y, const Light& light) {
+    return grey.at(x, y) / light.at(termsAt(x, y, grey));
 }
 
-Grey stretched(const Grey& grey, const Light& light) {
-    const std::vector<double> value = underEvenLight(grey, light);
-    std::vector<double> sorted = value;
-    const auto quantile = [&sorted](double share) {
-        const auto place = sorted.begin() + std::ptrdiff_t(share * double(sorted.size() - 1));
-        std::nth_element(sorted.begin(), place, sorted.end());
+/// Values that become black and white.
+struct Range {
+    double low, high;
+};
+
+Range rangeOf(const Grey& grey, const Light& light) {
+    std::vector<double> value;
+    for (int y = 0; y < grey.height; ++y)
+        for (int x = 0; x < grey.width; ++x) value.push_back(underEvenLight(grey, x, y, light));
+    const auto quantile = [&value](double share) {
+        const auto place = value.begin() + std::ptrdiff_t(share * double(value.size() - 1));
+        std::nth_element(value.begin(), place, value.end());
         return *place;
     };
-    const double low = quantile(kClipped), high = quantile(1 - kClipped);
-    if (!(high > low)) return grey;
+    const double low = quantile(kClipped);
+    return {low, quantile(1 - kClipped)};
+}
+
+Grey stretched(const Grey& grey, const Light& light, const Range& range) {
+    if (!(range.high > range.low)) return grey;
     Grey out(grey.width, grey.height);
-    for (std::size_t i = 0; i < value.size(); ++i)
-        out.value[i] = std::uint8_t(std::lround(std::clamp((value[i] - low) / (high - low), 0.0, 1.0) * 255));
+    for (int y = 0; y < grey.height; ++y) {
+        for (int x = 0; x < grey.width; ++x) {
+            const double share = (underEvenLight(grey, x, y, light) - range.low) / (range.high - range.low);
+            out.at(x, y) = std::uint8_t(std::lround(std::clamp(share, 0.0, 1.0) * 255));
+        }
+    }
     return out;
 }
 
@@ -126,8 +136,8 @@ int otsu(const Grey& grey) {
 Grey evenLight(const Grey& grey) {
     const Grey few = thinned(grey);
     Light light;
-    for (int pass = 0; pass < kPasses; ++pass) light = fitted(few, stretched(few, light));
-    return stretched(grey, light);
+    for (int pass = 0; pass < kPasses; ++pass) light = fitted(few, stretched(few, light, rangeOf(few, light)));
+    return stretched(grey, light, rangeOf(few, light));
 }
 
 }  // namespace vkdose::photo
