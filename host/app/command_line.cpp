@@ -46,6 +46,7 @@ void addRun(CLI::App& program, RunOptions& options) {
     command.add_option("--out", options.out, "output folder (default: out/<case name>)")->type_name("DIR");
     command.add_flag("--force", options.force, "replace a former run in the output folder");
     command.add_flag("--quiet", options.quiet, "print errors only");
+    command.add_option("--member", options.member, "number of the run in a study")->group("");
     addParent(command, options.parent);
     addBackend(command, options.backend);
 }

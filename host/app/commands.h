@@ -22,7 +22,8 @@ struct RunOptions {
     std::filesystem::path out;  ///< empty: out/<case name>
     bool force = false;
     bool quiet = false;
-    int parent = 0;  ///< process with which this one ends, as by Ctrl-C; 0: none
+    int parent = 0;            ///< process with which this one ends, as by Ctrl-C; 0: none
+    std::uint32_t member = 0;  ///< number in a study
 };
 
 struct ResumeOptions {
