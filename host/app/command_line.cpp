@@ -53,6 +53,7 @@ void addRun(CLI::App& program, RunOptions& options) {
     command.add_option("--out", options.out, "output folder (default: out/<case name>)")->type_name("DIR");
     command.add_flag("--force", options.force, "replace a former run in the output folder");
     addShow(command, options.quiet, options.live);
+    command.add_option("--member", options.member, "number of the run in a study")->group("");
     addParent(command, options.parent);
     addBackend(command, options.backend);
 }

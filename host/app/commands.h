@@ -23,8 +23,9 @@ struct RunOptions {
     std::filesystem::path out;  ///< empty: out/<case name>
     bool force = false;
     bool quiet = false;
-    bool live = false;  ///< the bed on the terminal
-    int parent = 0;     ///< process with which this one ends, as by Ctrl-C; 0: none
+    bool live = false;         ///< the bed on the terminal
+    int parent = 0;            ///< process with which this one ends, as by Ctrl-C; 0: none
+    std::uint32_t member = 0;  ///< number in a study
 };
 
 struct ResumeOptions {

@@ -69,7 +69,7 @@ ReadyRun readyToResume(const std::filesystem::path& folder) {
 
 RunFolder folderOf(const ReadyRun& run, const std::filesystem::path& folder, bool force, const Backend& backend) {
     if (run.from) return RunFolder(folder, *run.from, run.c, backend.description());
-    return RunFolder(folder, force, run.c, backend.description());
+    return RunFolder(folder, force, run.c, backend.description(), run.member);
 }
 
 Played play(ReadyRun run, Backend& backend, RunFolder& folder, RunObserver* display, const std::atomic<bool>& stop) {

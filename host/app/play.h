@@ -17,6 +17,7 @@ struct ReadyRun {
     Case c;
     Insertion filled;
     std::optional<Checkpoint> from;  ///< to go on from
+    std::uint32_t member = 0;        ///< its number in a study, if it starts
 };
 
 /// From its start. Throws CaseError.

@@ -62,6 +62,7 @@ int playAloud(ReadyRun run, Backend& backend, RunFolder& folder, const Manner& m
 int runCommand(const RunOptions& options) {
     // Everything that can be refused is refused before the folder is touched.
     ReadyRun run = readyRun(options.input);
+    run.member = options.member;
     const std::unique_ptr<Backend> backend = makeBackend(options.backend, run.filled.particles.size());
     RunFolder folder = folderOf(run, options.out.empty() ? std::filesystem::path("out") / run.c.name : options.out,
                                 options.force, *backend);

@@ -62,6 +62,7 @@ void writeCheckpoint(const std::filesystem::path& file, const Checkpoint& c) {
     when.putOne("timeseries", c.timeSeriesBytes);
     when.putOne("doses", c.dosesBytes);
     when.putOne("frames", c.framesBytes);
+    when.putOne("member", c.member);
     writer.record("/when", when);
     const std::string image = writer.image();
     replaceFile(file, head(image) + image);
@@ -86,6 +87,7 @@ Checkpoint readCheckpoint(const std::filesystem::path& file) {
         c.timeSeriesBytes = when.one<std::uint64_t>("timeseries");
         c.dosesBytes = when.one<std::uint64_t>("doses");
         c.framesBytes = when.one<std::uint64_t>("frames");
+        c.member = when.one<std::uint32_t>("member");
         return c;
     } catch (const hdf5::Error& e) {
         throw CheckpointError(fmt::format("{} cannot be read: {}", file.string(), e.what()));

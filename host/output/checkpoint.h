@@ -8,6 +8,7 @@
 //   /when/time                        simulated time [s]
 //   /when/timeseries, /when/doses     bytes of the CSV files at that time
 //   /when/frames                      bytes of frames.csv; 0: the run keeps no frames
+//   /when/member                      number of the run in its study; 0: it is in none
 
 #include <cstdint>
 #include <filesystem>
@@ -34,6 +35,7 @@ struct Checkpoint {
     std::uint64_t timeSeriesBytes = 0;
     std::uint64_t dosesBytes = 0;
     std::uint64_t framesBytes = 0;
+    std::uint32_t member = 0;  ///< number of the run in its study
 };
 
 /// Replaces `file` in one move. Throws OutputError if it cannot be written; the checkpoint before is then still there.

@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "host/output/hdf5.h"
-#include "host/output/vtkhdf.h"
 
 namespace vkdose {
 
@@ -26,15 +25,6 @@ std::vector<Vec3> vectors(const std::vector<double>& values) {
     for (std::size_t i = 0; i < result.size(); ++i)
         result[i] = Vec3(values[3 * i], values[3 * i + 1], values[3 * i + 2]);
     return result;
-}
-
-std::vector<Array> instant(const Frame& f) {
-    const auto number = [](auto x) { return std::vector<std::uint32_t>{static_cast<std::uint32_t>(x)}; };
-    return {{"TimeValue", "s", 1, std::vector<double>{f.time}},
-            {"step", "", 1, std::vector<double>{static_cast<double>(f.step)}},  // exact: a run has fewer than 2^53
-            {"phase", "", 1, number(f.phase)},
-            {"dose", "", 1, number(f.dose)},
-            {"coil_angle", "rad", 1, std::vector<double>{f.coilAngle}}};
 }
 
 double kineticEnergy(const Particles& p, std::size_t i, double density) {
@@ -96,6 +86,15 @@ class ContactGeometry {
 
 }  // namespace
 
+std::vector<vtkhdf::Array> fieldsOf(const Frame& f) {
+    const auto number = [](auto x) { return std::vector<std::uint32_t>{static_cast<std::uint32_t>(x)}; };
+    return {{"TimeValue", "s", 1, std::vector<double>{f.time}},
+            {"step", "", 1, std::vector<double>{static_cast<double>(f.step)}},  // exact: a run has fewer than 2^53
+            {"phase", "", 1, number(f.phase)},
+            {"dose", "", 1, number(f.dose)},
+            {"coil_angle", "rad", 1, std::vector<double>{f.coilAngle}}};
+}
+
 std::string particlesFile(const Frame& frame, const World& world, std::uint32_t member) {
     const Particles& p = frame.particles;
     const std::size_t n = p.size();
@@ -134,7 +133,7 @@ std::string particlesFile(const Frame& frame, const World& world, std::uint32_t 
                       {"kinetic_energy", "J", 1, std::move(energy)},
                       {"status", "", 1, std::move(status)},
                       {"member", "", 1, std::vector<std::uint32_t>(n, member)}};
-    grid.fieldData = instant(frame);
+    grid.fieldData = fieldsOf(frame);
     return vtkhdf::file(grid);
 }
 
@@ -178,7 +177,7 @@ std::string contactsFile(const Frame& frame, const World& world) {
                      {"sliding", "m", 3, flat(sliding)},
                      {"rolling", "m", 3, flat(rolling)},
                      {"torsion", "m", 1, std::move(torsion)}};
-    grid.fieldData = instant(frame);
+    grid.fieldData = fieldsOf(frame);
     return vtkhdf::file(grid);
 }
 

@@ -6,8 +6,10 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "host/model/world.h"
+#include "host/output/vtkhdf.h"
 #include "host/sim/frame.h"
 
 namespace vkdose {
@@ -15,6 +17,9 @@ namespace vkdose {
 /// `member` tells the canisters of a study apart.
 std::string particlesFile(const Frame& frame, const World& world, std::uint32_t member);
 std::string contactsFile(const Frame& frame, const World& world);
+
+/// When a frame was, as the field data of its files.
+std::vector<vtkhdf::Array> fieldsOf(const Frame& frame);
 
 /// Put back into `frame` what the two files hold, step, time, phase, dose and angle included. Throw hdf5::Error if they
 /// hold something else.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <system_error>
 
@@ -10,6 +11,7 @@
 #include "host/output/frame_files.h"
 #include "host/output/frames.h"
 #include "host/output/hdf5.h"
+#include "host/output/surface_files.h"
 
 namespace vkdose {
 
@@ -30,18 +32,32 @@ fs::path emptied(const fs::path& run) {
     return madeFolder(run);
 }
 
-/// Frames named in the first `bytes` of an index.
-int framesIn(const fs::path& index, std::uint64_t bytes) {
-    std::ifstream stream(index, std::ios::binary);
-    int lines = 0;
-    for (char c = 0; bytes > 0 && stream.get(c); --bytes) lines += c == '\n' ? 1 : 0;
-    return lines - 1;
+/// Times of the frames named in the first `bytes` of an index.
+std::vector<double> timesIn(const fs::path& index, std::uint64_t bytes) {
+    std::string text(bytes, '\0');
+    std::ifstream(index, std::ios::binary).read(text.data(), static_cast<std::streamsize>(bytes));
+    std::vector<double> times;
+    for (const FrameEntry& e : framesListed(text, index)) times.push_back(e.time);
+    return times;
+}
+
+std::vector<const char*> kindsOf(const Case& c) {
+    std::vector<const char*> kinds{kParticlesFrame};
+    if (c.frames.contacts) kinds.push_back(kContactsFrame);
+    if (c.world.coil) kinds.push_back(kCoilFrame);
+    return kinds;
+}
+
+std::string content(const char* kind, const Frame& frame, const World& world, std::uint32_t member) {
+    const std::string_view name = kind;
+    if (name == kParticlesFrame) return particlesFile(frame, world, member);
+    return name == kContactsFrame ? contactsFile(frame, world) : coilFile(frame, *world.coil);
 }
 
 /// Removes the files of frames from `number` on.
 void removeFrom(const fs::path& folder, int number) {
     std::error_code ignored;
-    for (const char* kind : {kParticlesFrame, kContactsFrame})
+    for (const char* kind : {kParticlesFrame, kContactsFrame, kCoilFrame})
         for (int n = number; fs::remove(folder / frameFile(kind, n), ignored); ++n) {
         }
 }
@@ -51,20 +67,21 @@ void removeFrom(const fs::path& folder, int number) {
 FrameWriter::FrameWriter(const fs::path& run, const Case& c, std::uint32_t member)
     : folder_(emptied(run)),
       world_(c.world),
-      contacts_(c.frames.contacts),
+      kinds_(kindsOf(c)),
       member_(member),
-      index_(folder_ / kFramesIndex, kFramesHeader) {}
+      index_(folder_ / kFramesIndex, kFramesHeader) {
+    const std::string walls = wallsFile(c);
+    if (!walls.empty()) replaceFile(folder_ / kWallsFile, walls);
+}
 
 FrameWriter::FrameWriter(const fs::path& run, const Case& c, std::uint32_t member, std::uint64_t bytes)
     : folder_(run / kFramesFolder),
       world_(c.world),
-      contacts_(c.frames.contacts),
+      kinds_(kindsOf(c)),
       member_(member),
-      number_(framesIn(folder_ / kFramesIndex, bytes)),
+      times_(timesIn(folder_ / kFramesIndex, bytes)),
       later_(true),
-      index_(folder_ / kFramesIndex, bytes) {
-    if (number_ < 0) throw OutputError(fmt::format("{} lacks its header", (folder_ / kFramesIndex).string()));
-}
+      index_(folder_ / kFramesIndex, bytes) {}
 
 void FrameWriter::put(const Frame& frame) {
     await();
@@ -73,6 +90,7 @@ void FrameWriter::put(const Frame& frame) {
 
 std::uint64_t FrameWriter::store() {
     await();
+    writeSeries();
     return index_.store();
 }
 
@@ -81,17 +99,28 @@ void FrameWriter::await() {
 }
 
 void FrameWriter::write(const Frame& frame) {
-    if (std::exchange(later_, false)) removeFrom(folder_, number_);
+    const int number = static_cast<int>(times_.size());
+    if (std::exchange(later_, false)) removeFrom(folder_, number);
     try {
-        replaceFile(folder_ / frameFile(kParticlesFrame, number_), particlesFile(frame, world_, member_));
-        if (contacts_) replaceFile(folder_ / frameFile(kContactsFrame, number_), contactsFile(frame, world_));
+        for (const char* kind : kinds_)
+            replaceFile(folder_ / frameFile(kind, number), content(kind, frame, world_, member_));
     } catch (const hdf5::Error& e) {
-        throw OutputError(fmt::format("cannot make frame {} of {}: {}", number_, folder_.string(), e.what()));
+        throw OutputError(fmt::format("cannot make frame {} of {}: {}", number, folder_.string(), e.what()));
     }
-    index_.line(fmt::format("{},{},{},{},{},{}", number_, frame.step, frame.time, phaseName(frame.phase), frame.dose,
+    index_.line(fmt::format("{},{},{},{},{},{}", number, frame.step, frame.time, phaseName(frame.phase), frame.dose,
                             frame.coilAngle));
     index_.flush();
-    ++number_;
+    times_.push_back(frame.time);
+}
+
+void FrameWriter::writeSeries() const {
+    for (const char* kind : kinds_) {
+        auto files = nlohmann::ordered_json::array();
+        for (std::size_t i = 0; i < times_.size(); ++i)
+            files.push_back({{"name", frameFile(kind, static_cast<int>(i))}, {"time", times_[i]}});
+        const nlohmann::ordered_json series{{"file-series-version", "1.0"}, {"files", std::move(files)}};
+        replaceFile(folder_ / (std::string(kind) + kFrameExtension + kSeriesExtension), series.dump(1) + "\n");
+    }
 }
 
 void FrameWriter::remove(const fs::path& run) {
@@ -100,7 +129,10 @@ void FrameWriter::remove(const fs::path& run) {
     std::vector<fs::path> ours;
     for (const auto& entry : fs::directory_iterator(folder, error)) {
         const std::string name = entry.path().filename().string();
-        if (name == kFramesIndex || entry.path().extension() == kFrameExtension) ours.push_back(entry.path());
+        const fs::path kind = entry.path().extension();
+        const bool torn = kind == ".new";  // left by a run that was killed
+        if (name == kFramesIndex || kind == kFrameExtension || kind == kSeriesExtension || torn)
+            ours.push_back(entry.path());
     }
     for (const fs::path& file : ours) fs::remove(file, error);
     fs::remove(folder, error);  // stays if something else is in it

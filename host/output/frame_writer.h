@@ -29,8 +29,8 @@ class FrameWriter {
     /// writing the frame before failed.
     void put(const Frame& frame);
 
-    /// Waits until all is written and survives a crash of the machine; the length of frames.csv. Throws OutputError if
-    /// writing failed.
+    /// Waits until all is written and survives a crash of the machine, and brings the series files up to date; the
+    /// length of frames.csv. Throws OutputError if writing failed.
     std::uint64_t store();
 
     /// Removes the frames in a run's output folder, and the folder they are in if nothing else is there.
@@ -38,14 +38,15 @@ class FrameWriter {
 
   private:
     void await();
+    void writeSeries() const;
     void write(const Frame& frame);
 
     std::filesystem::path folder_;
     World world_;
-    bool contacts_;
+    std::vector<const char*> kinds_;  ///< of files that each frame has
     std::uint32_t member_;
-    int number_ = 0;      ///< of the next frame
-    bool later_ = false;  ///< there may be frames of that number and beyond
+    std::vector<double> times_;  ///< of the frames so far [s]
+    bool later_ = false;         ///< there may be frames beyond these
     CsvFile index_;
     std::future<void> writing_;  ///< last, so that it has ended before the rest is gone
 };

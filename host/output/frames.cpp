@@ -53,19 +53,24 @@ std::string frameFile(const char* kind, int number) {
     return fmt::format("{}_{:06}{}", kind, number, kFrameExtension);
 }
 
-Frames::Frames(const fs::path& run) : folder_(run / kFramesFolder) {
-    const fs::path index = folder_ / kFramesIndex;
-    if (!fs::exists(index)) return;
-    std::istringstream lines(content(index));
+std::vector<FrameEntry> framesListed(const std::string& text, const fs::path& file) {
+    std::istringstream lines(text);
     std::string line;
     std::getline(lines, line);
-    if (line != kFramesHeader) throw OutputError(fmt::format("{} is no list of frames", index.string()));
+    if (line != kFramesHeader) throw OutputError(fmt::format("{} is no list of frames", file.string()));
+    std::vector<FrameEntry> entries;
     while (std::getline(lines, line)) {
-        if (lines.eof()) break;  // a line that is still being written
+        if (lines.eof()) break;  // still being written
         const std::optional<FrameEntry> entry = entryIn(line);
-        if (!entry) throw OutputError(fmt::format("{} has a line that is no frame: {}", index.string(), line));
-        entries_.push_back(*entry);
+        if (!entry) throw OutputError(fmt::format("{} has a line that is no frame: {}", file.string(), line));
+        entries.push_back(*entry);
     }
+    return entries;
+}
+
+Frames::Frames(const fs::path& run) : folder_(run / kFramesFolder) {
+    const fs::path index = folder_ / kFramesIndex;
+    if (fs::exists(index)) entries_ = framesListed(content(index), index);
 }
 
 const FrameEntry& Frames::nearest(double time) const {

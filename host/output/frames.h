@@ -1,7 +1,7 @@
 #pragma once
 // The frames of a run, in frames/ of its output folder: the powder as it was at the intervals the case asks for. Each
-// is a VTKHDF file of the particles and, if asked for, one of the contacts (frame_files.h); frames.csv lists them.
-// FrameWriter makes them.
+// is a VTKHDF file of the particles, one of the coil and, if asked for, one of the contacts (frame_files.h);
+// frames.csv lists them, and a series file for each kind tells ParaView their times. FrameWriter makes them.
 
 #include <cstdint>
 #include <filesystem>
@@ -15,11 +15,14 @@ namespace vkdose {
 inline constexpr const char* kFramesFolder = "frames";
 inline constexpr const char* kFramesIndex = "frames.csv";
 inline constexpr const char* kFramesHeader = "frame,step,time_s,phase,dose,coil_angle_rad";
-inline constexpr const char* kFrameExtension = ".vtkhdf";
+inline constexpr const char* kFrameExtension = ".hdf";  ///< the one by which ParaView 5.11 knows VTKHDF files
+inline constexpr const char* kSeriesExtension = ".series";
 inline constexpr const char* kParticlesFrame = "particles";
 inline constexpr const char* kContactsFrame = "contacts";
+inline constexpr const char* kCoilFrame = "coil";
+inline constexpr const char* kWallsFile = "walls.hdf";
 
-/// "particles_000012.vtkhdf": so named, the files of a kind are a series to ParaView.
+/// "particles_000012.hdf": so named, the files of a kind are a series to ParaView.
 std::string frameFile(const char* kind, int number);
 
 /// A frame without its particles.
@@ -31,6 +34,10 @@ struct FrameEntry {
     int dose = 0;
     double coilAngle = 0;  ///< as in Frame [rad]
 };
+
+/// The frames that the text of a frames.csv lists; a line still being written does not count. Throws OutputError, which
+/// names `file`, if it is something else.
+std::vector<FrameEntry> framesListed(const std::string& text, const std::filesystem::path& file);
 
 /// Reads the frames of a run, one that still goes on included.
 class Frames {

@@ -107,15 +107,15 @@ std::uint64_t count(const Sensors& s, Region r) {
 
 }  // namespace
 
-RunFolder::RunFolder(fs::path folder, bool force, const Case& c, std::string backend)
-    : folder_(std::move(folder)), backend_(std::move(backend)), caseText_(c.resolved) {
+RunFolder::RunFolder(fs::path folder, bool force, const Case& c, std::string backend, std::uint32_t member)
+    : folder_(std::move(folder)), backend_(std::move(backend)), caseText_(c.resolved), member_(member) {
     try {
         prepareFolder(folder_, force);
         replaceFile(folder_ / "case.toml", c.resolved);
         const std::string energy = c.world.energyBook ? kEnergyHeader : "";
         timeSeries_.emplace(folder_ / "timeseries.csv", kTimeSeriesHeader + energy);
         doses_.emplace(folder_ / "doses.csv", kDosesHeader);
-        if (c.frames.interval > 0) frames_.emplace(folder_, c, 0);
+        if (c.frames.interval > 0) frames_.emplace(folder_, c, member_);
     } catch (const OutputError& e) {
         throw FolderError(e.what());
     }
@@ -123,12 +123,16 @@ RunFolder::RunFolder(fs::path folder, bool force, const Case& c, std::string bac
 }
 
 RunFolder::RunFolder(fs::path folder, const Checkpoint& from, const Case& c, std::string backend)
-    : folder_(std::move(folder)), backend_(std::move(backend)), caseText_(c.resolved), checkpointTime_(from.time) {
+    : folder_(std::move(folder)),
+      backend_(std::move(backend)),
+      caseText_(c.resolved),
+      member_(from.member),
+      checkpointTime_(from.time) {
     try {
         refuseBusy(folder_);
         timeSeries_.emplace(folder_ / "timeseries.csv", from.timeSeriesBytes);
         doses_.emplace(folder_ / "doses.csv", from.dosesBytes);
-        if (c.frames.interval > 0) frames_.emplace(folder_, c, 0, from.framesBytes);
+        if (c.frames.interval > 0) frames_.emplace(folder_, c, member_, from.framesBytes);
     } catch (const OutputError& e) {
         throw FolderError(e.what());
     }
@@ -158,8 +162,8 @@ void RunFolder::onCheckpoint(const RunCheckpoint& checkpoint, double time) {
     // The lines first, then the checkpoint that counts on them.
     const std::uint64_t timeSeriesBytes = timeSeries_->store(), dosesBytes = doses_->store();
     const std::uint64_t framesBytes = frames_ ? frames_->store() : 0;
-    writeCheckpoint(folder_ / kCheckpointName,
-                    {VKDOSE_VERSION, backend_, caseText_, time, checkpoint, timeSeriesBytes, dosesBytes, framesBytes});
+    writeCheckpoint(folder_ / kCheckpointName, {VKDOSE_VERSION, backend_, caseText_, time, checkpoint, timeSeriesBytes,
+                                                dosesBytes, framesBytes, member_});
     checkpointTime_ = time;
 }
 

@@ -27,8 +27,9 @@ class RunFolder : public RunObserver {
   public:
     /// Creates the folder and the files that stream. Throws FolderError if it holds anything and `force` is not set,
     /// if another process is writing into it, or if it cannot be created. With `force` the files of a former run in it
-    /// are removed, others left alone. `backend` is the description of what computes.
-    RunFolder(std::filesystem::path folder, bool force, const Case& c, std::string backend);
+    /// are removed, others left alone. `backend` is the description of what computes, `member` the number of the run in
+    /// its study.
+    RunFolder(std::filesystem::path folder, bool force, const Case& c, std::string backend, std::uint32_t member = 0);
 
     /// Goes on in a folder as it was when `from` was written: lines that came later are cut off. Throws FolderError if
     /// another process is writing into it, or if a file has been shortened since.
@@ -54,6 +55,7 @@ class RunFolder : public RunObserver {
     std::filesystem::path folder_;
     std::string backend_;
     std::string caseText_;
+    std::uint32_t member_;
     std::optional<CsvFile> timeSeries_;
     std::optional<CsvFile> doses_;
     std::optional<FrameWriter> frames_;  ///< if the case asks for frames

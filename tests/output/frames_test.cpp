@@ -98,7 +98,8 @@ TEST_CASE("frames come back as they were put, to the last bit") {
         CHECK(e.coilAngle == expected.coilAngle);
         checkSame(frames.read(e), expected);
     }
-    CHECK(names(box / "frames").size() == 2 * 4 + 1);
+    // Of each frame three files, of each kind the series, the walls and the index.
+    CHECK(names(box / "frames").size() == 3 * 4 + 3 + 2);
 }
 
 TEST_CASE("a frame without contacts is a frame, and so is one without any particle in touch") {
@@ -109,13 +110,13 @@ TEST_CASE("a frame without contacts is a frame, and so is one without any partic
         FrameWriter writer(box.path(), smallWorld(false), 0);
         writer.put(someFrame(1));
         writer.store();
-        CHECK_FALSE(fs::exists(box / "frames/contacts_000000.vtkhdf"));
+        CHECK_FALSE(fs::exists(box / "frames/contacts_000000.hdf"));
     }
     SECTION("none there") {
         FrameWriter writer(box.path(), smallWorld(), 0);
         writer.put(alone);
         writer.store();
-        CHECK(fs::exists(box / "frames/contacts_000000.vtkhdf"));
+        CHECK(fs::exists(box / "frames/contacts_000000.hdf"));
     }
     const Frames frames(box.path());
     checkSame(frames.read(frames.entries().at(0)), alone);
@@ -176,7 +177,7 @@ TEST_CASE("a frame that cannot be written is told at the next one or at the end"
     fs::remove_all(box / "frames");
     CHECK_NOTHROW(writer.put(someFrame(1)));
     SECTION("next") {
-        CHECK_THROWS_WITH(writer.put(someFrame(2)), Catch::Contains("particles_000001.vtkhdf"));
+        CHECK_THROWS_WITH(writer.put(someFrame(2)), Catch::Contains("particles_000001.hdf"));
     }
     SECTION("end") {
         CHECK_THROWS_AS(writer.store(), OutputError);
@@ -204,7 +205,7 @@ TEST_CASE("frames of a run under way are those whose lines are whole; what is no
         FrameWriter writer(box.path(), smallWorld(), 0);
         for (int k = 0; k < 3; ++k) writer.put(someFrame(k));
     }
-    const fs::path index = box / "frames/frames.csv", file = box / "frames/particles_000002.vtkhdf";
+    const fs::path index = box / "frames/frames.csv", file = box / "frames/particles_000002.hdf";
     const std::string lines = readText(index), bytes = readText(file);
     box.write("frames/frames.csv", lines.substr(0, lines.size() - 5));
     CHECK(Frames(box.path()).entries().size() == 2);
@@ -217,11 +218,11 @@ TEST_CASE("frames of a run under way are those whose lines are whole; what is no
     const Frames frames(box.path());
     const auto refused = [&](const std::string& content) {
         std::ofstream(file, std::ios::binary) << content;
-        CHECK_THROWS_WITH(frames.read(frames.entries()[2]), Catch::Contains("particles_000002.vtkhdf"));
+        CHECK_THROWS_WITH(frames.read(frames.entries()[2]), Catch::Contains("particles_000002.hdf"));
     };
     refused("");
     refused(bytes.substr(0, bytes.size() / 2));
-    refused(readText(box / "frames/contacts_000002.vtkhdf"));
+    refused(readText(box / "frames/contacts_000002.hdf"));
     fs::remove(file);
     CHECK_THROWS_AS(frames.read(frames.entries()[2]), OutputError);
     CHECK(Frames(box / "nowhere").entries().empty());

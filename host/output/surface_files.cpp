@@ -1,0 +1,58 @@
+#include "host/output/surface_files.h"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+#include "geometry/surface_mesh.h"
+#include "host/output/frame_files.h"
+#include "host/output/vtkhdf.h"
+
+namespace vkdose {
+
+namespace {
+
+/// Corners that triangles share are written once.
+vtkhdf::Grid triangles(const std::vector<geometry::Triangle>& mesh) {
+    vtkhdf::Grid grid;
+    grid.cell = vtkhdf::Cell::Triangle;
+    std::vector<float> points;
+    std::map<std::tuple<float, float, float>, std::int64_t> known;
+    for (const geometry::Triangle& t : mesh)
+        for (const Vec3& corner : t) {
+            const std::tuple at(static_cast<float>(corner.x), static_cast<float>(corner.y),
+                                static_cast<float>(corner.z));
+            const auto [found, fresh] = known.emplace(at, static_cast<std::int64_t>(known.size()));
+            if (fresh) points.insert(points.end(), {std::get<0>(at), std::get<1>(at), std::get<2>(at)});
+            grid.connectivity.push_back(found->second);
+        }
+    grid.points.values = std::move(points);
+    return grid;
+}
+
+}  // namespace
+
+std::string wallsFile(const Case& c) {
+    const World& w = c.world;
+    if (w.surfaces.empty()) return "";
+    Vec3 low = w.domain.low, high = w.domain.high;
+    if (c.canister) {
+        const double half = c.canister->width / 2;
+        low = Vec3(-half, -half, 0);
+        high = Vec3(half, c.canister->height - half, c.canister->length);
+        for (const geometry::Surface& s : w.surfaces)  // a lid may lie higher
+            if (const auto* plane = std::get_if<geometry::Plane>(&s)) high.y = std::max(high.y, plane->point.y);
+    }
+    return vtkhdf::file(triangles(geometry::surfaceMesh(w.surfaces, low, high)));
+}
+
+std::string coilFile(const Frame& frame, const geometry::Coil& coil) {
+    constexpr int kAround = 10, kPerTurn = 36;
+    geometry::Coil turned = coil;
+    turned.startAngle += frame.coilAngle;
+    vtkhdf::Grid grid = triangles(geometry::coilMesh(turned, kAround, kPerTurn));
+    grid.fieldData = fieldsOf(frame);
+    return vtkhdf::file(grid);
+}
+
+}  // namespace vkdose
