@@ -5,10 +5,10 @@
 //
 //   density rho(r) = sum_i m_i W_i(r),  W_i(r) = w(|r - x_i|) / (sum over points r' of w(|r' - x_i|) dV).
 //
-// Each kernel is normalised over the points there are, so that the integral over the grid (the sum of rho dV) is the mass
-// of the particles in it, to rounding, however coarse the grid and wherever a face of it cuts the kernel: nothing is
-// smeared through a wall that is a face. A particle counts where its centre is: in the grid wholly, outside not at all.
-// In a direction with a single cell nothing is resolved, and the field is the mean over the grid's extent.
+// Each kernel is normalised over the points there are, so that the integral over the grid (the sum of rho dV) is the
+// mass of the particles in it, to rounding, however coarse the grid and wherever a face of it cuts the kernel: nothing
+// is smeared through a wall that is a face. A particle counts where its centre is: in the grid wholly, outside not at
+// all. In a direction with a single cell nothing is resolved, and the field is the mean over the grid's extent.
 //
 // Source: I. Goldhirsch, Stress, stress asymmetry and couple stress: from discrete particles to continuous fields,
 // Granular Matter 12 (2010) 239-252; with the paper's Gaussian kernel or Lucy's polynomial.
@@ -62,8 +62,8 @@ inline constexpr double kMostPointsInReach = 60'000;
 /// What is wrong with a request, and what would be right; nothing if it can be met.
 std::optional<std::string> faultOf(const FieldRequest& request);
 
-/// The fields at one point. All are densities that add up, so that they can be averaged over time as they are; what is not
-/// (velocity, temperature, coordination) is a quotient of them.
+/// The fields at one point. All are densities that add up, so that they can be averaged over time as they are; what is
+/// not (velocity, temperature, coordination) is a quotient of them.
 struct FieldPoint {
     double density = 0;  ///< of mass [kg/m3]
     Vec3 momentum{0};    ///< [kg/m2 s]; half-step velocities
@@ -71,13 +71,13 @@ struct FieldPoint {
     double touches = 0;  ///< of touching neighbours, each counted by both [1/m3]
     /// sum_i m_i v'_i v'_i W_i with v' = v_i - V(r): xx, yy, zz, yz, zx, xy [Pa]. Pressure is positive.
     std::array<double, 6> kineticStress{};
-    /// sum over contacts of f_a l_b times the mean of W along l, row a, column b [Pa]; f acts on the particle to which the
-    /// branch l leads: from the other's centre, or from the wall. Pressure is positive. Without it: zero.
+    /// sum over contacts of f_a l_b times the mean of W along l, row a, column b [Pa]; f acts on the particle to which
+    /// the branch l leads: from the other's centre, or from the wall. Pressure is positive. Without it: zero.
     std::array<Vec3, 3> contactStress{Vec3(0), Vec3(0), Vec3(0)};
 
-    Vec3 velocity() const;       ///< V = momentum / density [m/s]; NaN where there is no mass
-    double temperature() const;  ///< granular: a third of v'.v' weighed with the mass [m2/s2]; NaN likewise
-    double coordination() const; ///< neighbours that touch a particle, mean [-]; NaN likewise
+    Vec3 velocity() const;        ///< V = momentum / density [m/s]; NaN where there is no mass
+    double temperature() const;   ///< granular: a third of v'.v' weighed with the mass [m2/s2]; NaN likewise
+    double coordination() const;  ///< neighbours that touch a particle, mean [-]; NaN likewise
 
     /// Numbers of a point, one after the other: for sums, records, files.
     static constexpr std::size_t kNumbers = 21;
@@ -87,8 +87,9 @@ struct FieldPoint {
 
 using FieldPoints = std::vector<FieldPoint>;  ///< as FieldGrid counts points
 
-/// Nodes and weights of the quadrature along a branch, Gauss-Legendre on [0, 1]. The kernel's mean along a branch l is off
-/// by less than 2e-5 of its peak for Gaussians up to l = 2 w, by less than 1e-2 up to 4 w (a test holds it to this).
+/// Nodes and weights of the quadrature along a branch, Gauss-Legendre on [0, 1]. The kernel's mean along a branch l is
+/// off by less than 2e-5 of its peak for Gaussians up to l = 2 w, by less than 1e-2 up to 4 w (a test holds it to
+/// this).
 inline constexpr std::array<double, 4> kBranchNodes{0.06943184420297371, 0.33000947820757187, 0.66999052179242813,
                                                     0.93056815579702629};
 inline constexpr std::array<double, 4> kBranchShares{0.17392742256872693, 0.32607257743127307, 0.32607257743127307,
@@ -100,7 +101,7 @@ struct FieldSensor {
     std::string name;  ///< of its file
     Preset preset = Preset::None;
     FieldRequest request;
-    double interval = 0;  ///< between two that are kept, rounded to whole sensor intervals [s]
+    double interval = 0;   ///< between two that are kept, rounded to whole sensor intervals [s]
     bool average = false;  ///< the mean of all sensor intervals since the one before, instead of the instant
     bool stress = false;   ///< stresses, temperature and coordination are kept as well
     /// Of the bed when dosing begins, for HeightProfile [m]; 0: as its density tells.

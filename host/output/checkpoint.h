@@ -6,13 +6,14 @@
 //   /run/*                            the runner's state          (RunCheckpoint::run)
 //   /state/*                          the backend's snapshot      (RunCheckpoint::backend)
 //   /when/time                        simulated time [s]
-//   /when/timeseries, /when/doses     bytes of the CSV files at that time
+//   /when/timeseries, doses, fields   bytes of the CSV files at that time
 //   /when/frames                      bytes of frames.csv; 0: the run keeps no frames
 
 #include <cstdint>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "host/sim/runner.h"
 
@@ -34,6 +35,7 @@ struct Checkpoint {
     std::uint64_t timeSeriesBytes = 0;
     std::uint64_t dosesBytes = 0;
     std::uint64_t framesBytes = 0;
+    std::vector<std::uint64_t> fieldBytes;  ///< of every field of the case
 };
 
 /// Replaces `file` in one move. Throws OutputError if it cannot be written; the checkpoint before is then still there.

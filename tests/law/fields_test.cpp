@@ -44,9 +44,8 @@ FieldPoint sumOf(const FieldRequest& r, const FieldPoints& points) {
 
 /// The kernel's value in the middle over its integral, without a grid: what a sphere alone must show [1/m^directions].
 double peak(Kernel kernel, int directions, double w) {
-    if (kernel == Kernel::Lucy) return directions == 1   ? 5 / (4 * w)
-                                       : directions == 2 ? 5 / (kPi * w * w)
-                                                         : 105 / (16 * kPi * w * w * w);
+    if (kernel == Kernel::Lucy)
+        return directions == 1 ? 5 / (4 * w) : directions == 2 ? 5 / (kPi * w * w) : 105 / (16 * kPi * w * w * w);
     const double cut = 3, tail = std::exp(-cut * cut / 2);  // of the Gaussian, cut at three widths
     const double kept = directions == 1   ? std::erf(cut / std::sqrt(2.0))
                         : directions == 2 ? 1 - tail
@@ -92,8 +91,8 @@ TEST_CASE("fields: a sphere far from every face shows the kernel with its closed
     const int directions = r.grid.resolvedDirections();
     const double m = massOf(kRadius) / std::pow(depth, 3 - directions);
     const double top = m * peak(kernel, directions, w);
-    // A sum over points a quarter of a Gaussian's width apart is exact to 1e-4 of it but for its edge, where 1.1 % of the
-    // peak are cut off along a sphere; Lucy's polynomial ends smoothly.
+    // A sum over points a quarter of a Gaussian's width apart is exact to 1e-4 of it but for its edge, where 1.1 % of
+    // the peak are cut off along a sphere; Lucy's polynomial ends smoothly.
     const double tolerance = kernel == Kernel::Gaussian ? 1e-2 : 2e-4;
     CHECK(nearRelative(points[points.size() / 2].density, top, tolerance));
     for (std::size_t k = 0; k < points.size(); k += 7) {
@@ -136,7 +135,7 @@ TEST_CASE("fields: a rigid rotation of a lattice is seen as such within it") {
     const double speed = glm::length(spin) * 5e-3;
     for (std::size_t k = 0; k < points.size(); ++k) {
         const Vec3 at = r.grid.point(k);
-        if (glm::any(glm::greaterThan(glm::abs(at), Vec3(3.1e-3)))) continue;  // whole kernels only
+        if (glm::any(glm::greaterThan(glm::abs(at), Vec3(3.1e-3)))) continue;   // whole kernels only
         CHECK(near(points[k].velocity(), glm::cross(spin, at), speed, 1e-12));  // by the symmetry of the lattice
     }
 }

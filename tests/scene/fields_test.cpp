@@ -78,8 +78,8 @@ TEST_CASE("fields: the device's are the reference's, of a packing on walls and c
     for (const auto& r : {request({1, 1, 37}, 2.5e-3), request({1, 29, 41}, 2e-3),
                           request({7, 13, 19}, 6e-3, Kernel::Lucy), request({1, 1, 1}, 1e-3)}) {
         const FieldPoints expected = reference->fields(r), got = device->fields(r);
-        // Single precision: a kernel's value at its edge is good to 1e-5, a force to 1e-7 of k times the radius, which is
-        // 1e-4 of the largest here.
+        // Single precision: a kernel's value at its edge is good to 1e-5, a force to 1e-7 of k times the radius, which
+        // is 1e-4 of the largest here.
         CHECK(difference(got, expected) < 4e-4);
         double mass = 0;
         for (const FieldPoint& at : got) mass += at.density * r.grid.cellVolume();

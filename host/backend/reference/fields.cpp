@@ -71,7 +71,9 @@ FieldPoints coarseGrain(const FieldRequest& request, double density, const Parti
     FieldPoints points(request.grid.points());
     Smear smear(request);
     const std::vector<double> touches = touchesOf(p, branches);
-    const auto mass = [&](std::size_t i) { return density * 4.0 / 3.0 * kPi * p.radius[i] * p.radius[i] * p.radius[i]; };
+    const auto mass = [&](std::size_t i) {
+        return density * 4.0 / 3.0 * kPi * p.radius[i] * p.radius[i] * p.radius[i];
+    };
     for (std::size_t i = 0; i < p.size(); ++i) {
         if (p.status[i] != Status::Active) continue;
         for (const Weight& w : smear.around(p.position[i])) {
@@ -88,7 +90,8 @@ FieldPoints coarseGrain(const FieldRequest& request, double density, const Parti
             FieldPoint& at = points[w.point];
             const Vec3 stray = p.velocity[i] - at.velocity();
             const double m = mass(i) * w.value;
-            const Vec3 square = m * stray * stray, mixed = m * Vec3(stray.y * stray.z, stray.z * stray.x, stray.x * stray.y);
+            const Vec3 square = m * stray * stray,
+                       mixed = m * Vec3(stray.y * stray.z, stray.z * stray.x, stray.x * stray.y);
             for (int d = 0; d < 3; ++d) {
                 at.kineticStress[std::size_t(d)] += square[d];
                 at.kineticStress[std::size_t(3 + d)] += mixed[d];

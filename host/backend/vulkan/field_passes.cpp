@@ -10,8 +10,8 @@ namespace vkdose {
 
 namespace {
 
-/// Particles that one dispatch adds up, a multiple of every workgroup. Even with kMaxLinks contacts each, and the nodes of
-/// these, an invocation's loops stay below the 65,535 trips after which lavapipe ends them.
+/// Particles that one dispatch adds up, a multiple of every workgroup. Even with kMaxLinks contacts each, and the nodes
+/// of these, an invocation's loops stay below the 65,535 trips after which lavapipe ends them.
 constexpr std::uint32_t kSlice = 128;
 static_assert(kSlice * (gpu::kMaxLinks * (gpu::kFieldNodes + 1) + 2) < 65535);
 
@@ -42,8 +42,8 @@ gpu::FieldParams pack(const FieldRequest& r, std::uint32_t workgroup, double lar
     p.cell = gpu::vec4(glm::vec3(cell), float(g.cellVolume()));
     // A branch is at most two radii long; a little more, because the particle has moved since the force acted.
     p.along = gpu::vec4(g.resolved(0), g.resolved(1), g.resolved(2), float(2.1 * largestRadius));
-    p.cells = gpu::uvec4(g.cells[0], g.cells[1], g.cells[2],
-                         r.kernel == Kernel::Gaussian ? gpu::kGaussian : gpu::kLucy);
+    p.cells =
+        gpu::uvec4(g.cells[0], g.cells[1], g.cells[2], r.kernel == Kernel::Gaussian ? gpu::kGaussian : gpu::kLucy);
     p.tile = gpu::uvec4(tile[0], tile[1], tile[2], r.contactStress ? 1 : 0);
     for (int d = 0; d < 3; ++d) p.tiles[d] = (p.cells[d] + p.tile[d] - 1) / p.tile[d];
     p.tiles.w = kSlice;

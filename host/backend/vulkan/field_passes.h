@@ -17,10 +17,10 @@ class FieldPasses {
     bool holds(const FieldRequest& request) const { return request.grid.points() <= points_; }
 
     struct Moment {
-        std::uint32_t row;        ///< of the member on the roster
-        std::uint32_t source;     ///< the half of the state that is current
-        std::uint32_t lastStep;   ///< of the last batch: the step made last, which the coil's phase is counted from
-        double largestRadius;     ///< [m]
+        std::uint32_t row;       ///< of the member on the roster
+        std::uint32_t source;    ///< the half of the state that is current
+        std::uint32_t lastStep;  ///< of the last batch: the step made last, which the coil's phase is counted from
+        double largestRadius;    ///< [m]
     };
     /// Fields of a member; the request must be sound (faultOf). The device must be idle.
     FieldPoints compute(const FieldRequest& request, const Moment& moment);
