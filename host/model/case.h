@@ -91,8 +91,8 @@ struct Case {
     CheckpointInterval checkpoint;
     FrameStorage frames;
     std::vector<FieldSensor> fields;  ///< taken while the run goes on
-    double bulkDensity = 471;  ///< rho_b for the closed form [kg/m3]
-    std::string resolved;      ///< the case as TOML with every default and --set applied
+    double bulkDensity = 471;         ///< rho_b for the closed form [kg/m3]
+    std::string resolved;             ///< the case as TOML with every default and --set applied
 };
 
 /// Reads, resolves `overrides` ("key.path=value"), checks. Throws CaseError with every fault found.

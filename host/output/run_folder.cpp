@@ -161,8 +161,8 @@ void RunFolder::onCheckpoint(const RunCheckpoint& checkpoint, double time) {
     // The lines first, then the checkpoint that counts on them.
     const std::uint64_t timeSeriesBytes = timeSeries_->store(), dosesBytes = doses_->store();
     const std::uint64_t framesBytes = frames_ ? frames_->store() : 0;
-    writeCheckpoint(folder_ / kCheckpointName,
-                    {VKDOSE_VERSION, backend_, caseText_, time, checkpoint, timeSeriesBytes, dosesBytes, framesBytes, fields_->store()});
+    writeCheckpoint(folder_ / kCheckpointName, {VKDOSE_VERSION, backend_, caseText_, time, checkpoint, timeSeriesBytes,
+                                                dosesBytes, framesBytes, fields_->store()});
     checkpointTime_ = time;
 }
 

@@ -32,7 +32,13 @@ class Run {
   public:
     Run(const Case& c, Insertion filled, Derived derived, Backend& backend, RunObserver& observer,
         const std::atomic<bool>& stop)
-        : case_(c), backend_(backend), observer_(observer), stop_(stop), timeline_(c), judge_(c.schedule.stop), fields_(c, timeline_) {
+        : case_(c),
+          backend_(backend),
+          observer_(observer),
+          stop_(stop),
+          timeline_(c),
+          judge_(c.schedule.stop),
+          fields_(c, timeline_) {
         result_.filled = std::move(filled);
         result_.derived = std::move(derived);
         result_.particles = result_.filled.particles;

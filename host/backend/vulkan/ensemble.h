@@ -79,9 +79,9 @@ class Ensemble {
     std::unique_ptr<FieldPasses> fieldPasses_;  ///< made when fields are asked for; after the tables they read
     std::vector<MemberState> members_;
     std::vector<std::uint32_t> live_;
-    std::uint32_t source_ = 0;  // half of the state that is current
+    std::uint32_t source_ = 0;    // half of the state that is current
     std::uint32_t lastStep_ = 0;  // the last step of the last batch, counted within it
-    std::uint32_t batch_ = 16;  // steps per submission, adapted to the device
+    std::uint32_t batch_ = 16;    // steps per submission, adapted to the device
 };
 
 }  // namespace vkdose
