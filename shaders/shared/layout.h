@@ -172,7 +172,7 @@ struct EnergyRecord {  // one per workgroup
     vec4 angular;      // xyz: angular momentum about the origin [kg m2/s]
 };
 
-// --- coarse-grained fields (host/model/field.h) -------------------------------------------------------------------------
+// --- coarse-grained fields (host/model/field.h) --------------------------------------------------------------------
 SHARED_CONST kGaussian = 0u;
 SHARED_CONST kLucy = 1u;
 SHARED_CONST kFieldNodes = 4u;  // of the quadrature along a branch
