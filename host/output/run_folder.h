@@ -9,8 +9,8 @@
 
 #include "host/output/checkpoint.h"
 #include "host/output/csv.h"
-#include "host/output/frame_writer.h"
 #include "host/output/field_files.h"
+#include "host/output/frame_writer.h"
 #include "host/sim/runner.h"
 
 namespace vkdose {
