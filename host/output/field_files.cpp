@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <system_error>
 #include <utility>
 
 #include "host/core/error.h"
+#include "host/output/vtkhdf.h"
 
 namespace vkdose {
 
@@ -94,8 +96,12 @@ void FieldFiles::write(const FieldSample& f) {
     CsvFile& csv = files_[f.field];
     const std::string when = fmt::format("{:.9g},{},{}", f.time, phaseName(f.phase), f.dose);
     if (isMap(s)) {
-        const std::string name = fmt::format("{}_{:06}.csv", s.name, f.number);
-        writeMap(s, f, name);  // before the line that names it
+        const bool volume = s.request.grid.resolvedDirections() == 3;
+        const std::string name = fmt::format("{}_{:06}.{}", s.name, f.number, volume ? "vtkhdf" : "csv");
+        if (volume)  // before the line that names it
+            replaceFile(folder_ / name, image(s, f));
+        else
+            writeMap(s, f, name);
         csv.line(when + "," + name);
     } else if (isProfile(s)) {
         std::string line = when;
@@ -115,6 +121,42 @@ void FieldFiles::writeMap(const FieldSensor& s, const FieldSample& f, const std:
     map.flush();
 }
 
+/// The bytes of a VTKHDF file.
+std::string FieldFiles::image(const FieldSensor& s, const FieldSample& f) const {
+    const FieldGrid& g = s.request.grid;
+    vtkhdf::Image image{g.cells, g.point(0), g.cell(), {}, {}, {}};
+    const auto add = [&](const char* name, const char* unit, std::size_t components, auto value) {
+        std::vector<double> values;
+        values.reserve(components * f.points.size());
+        for (const FieldPoint& p : f.points) {
+            const auto numbers = value(p);
+            values.insert(values.end(), numbers.begin(), numbers.end());
+        }
+        image.pointData.push_back({name, unit, components, std::move(values)});
+    };
+    using One = std::array<double, 1>;
+    const auto three = [](const Vec3& v) { return std::array<double, 3>{v.x, v.y, v.z}; };
+    add("density", "kg/m3", 1, [](const FieldPoint& p) { return One{p.density}; });
+    add("volume_fraction", "", 1, [&](const FieldPoint& p) { return One{p.density / density_}; });
+    add("momentum", "kg/m2/s", 3, [&](const FieldPoint& p) { return three(p.momentum); });
+    add("velocity", "m/s", 3, [&](const FieldPoint& p) { return three(p.velocity()); });
+    if (s.stress) {
+        add("coordination", "", 1, [](const FieldPoint& p) { return One{p.coordination()}; });
+        add("granular_temperature", "m2/s2", 1, [](const FieldPoint& p) { return One{p.temperature()}; });
+        add("kinetic_stress", "Pa", 6, [](const FieldPoint& p) {  // VTK's order: xx yy zz xy yz xz
+            const std::array<double, 6>& k = p.kineticStress;
+            return std::array<double, 6>{k[0], k[1], k[2], k[5], k[3], k[4]};
+        });
+        add("contact_stress", "Pa", 9, [](const FieldPoint& p) {
+            std::array<double, 9> rows;
+            for (std::size_t n = 0; n < 9; ++n) rows[n] = p.contactStress[n / 3][int(n % 3)];
+            return rows;
+        });
+    }
+    image.fieldData.push_back({"time", "s", 1, std::vector<double>{f.time}});
+    return vtkhdf::file(image);
+}
+
 std::vector<std::uint64_t> FieldFiles::store() {
     std::vector<std::uint64_t> bytes;
     for (CsvFile& file : files_) bytes.push_back(file.store());
@@ -125,7 +167,7 @@ void FieldFiles::remove(const fs::path& run) {
     std::error_code ignored;
     std::vector<fs::path> files;
     for (const auto& entry : fs::directory_iterator(run / kFolder, ignored))
-        if (entry.path().extension() == ".csv") files.push_back(entry.path());
+        if (entry.path().extension() == ".csv" || entry.path().extension() == ".vtkhdf") files.push_back(entry.path());
     for (const fs::path& file : files) fs::remove(file, ignored);
     fs::remove(run / kFolder, ignored);  // unless something else is in it
 }

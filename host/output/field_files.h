@@ -1,6 +1,6 @@
 #pragma once
-// The fields of a run, in fields/ of its output folder: for every field NAME.csv, and for maps (two or three resolved
-// directions) a file NAME_000000.csv, ... for each that was kept, which NAME.csv lists.
+// The fields of a run, in fields/ of its output folder: for every field NAME.csv, and for maps a file for each that was
+// kept, which NAME.csv lists: NAME_000000.csv, ... in two resolved directions, NAME_000000.vtkhdf, ... in three.
 
 #include <cstdint>
 #include <filesystem>
@@ -34,6 +34,7 @@ class FieldFiles {
     std::string quantityNames(const FieldSensor& sensor) const;
     std::string quantities(const FieldSensor& sensor, const FieldPoint& p) const;
     void writeMap(const FieldSensor& sensor, const FieldSample& sample, const std::string& name) const;
+    std::string image(const FieldSensor& sensor, const FieldSample& sample) const;
 
     std::filesystem::path folder_;
     std::vector<FieldSensor> sensors_;

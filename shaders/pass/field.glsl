@@ -5,7 +5,8 @@
 
 // The fields: vec4[points][kFieldVectors].
 layout(std430, set = 0, binding = 9) buffer GridBuffer { vec4 grid[]; };
-// One over the integral of a kernel over the grid, zero outside: float[particles], then float[slots][kFieldNodes].
+// One over the integral of a kernel over the grid, zero outside: float[particles], then float[slots][kFieldNodes]; then
+// float[particles]: how many others touch each.
 layout(std430, set = 0, binding = 11) buffer WeightBuffer { float weights[]; };
 layout(std430, set = 0, binding = 12) readonly buffer FieldBuffer { FieldParams field; };
 
@@ -14,6 +15,8 @@ const vec4 kNodes = vec4(0.06943184420297371, 0.33000947820757187, 0.66999052179
 const vec4 kShares = vec4(0.17392742256872693, 0.32607257743127307, 0.32607257743127307, 0.17392742256872693);
 
 uint weightIndex(uint slot, uint node) { return push.particles + kFieldNodes * slot + node; }
+
+uint touchesIndex(uint i) { return push.particles + kFieldNodes * slotCount() + i; }
 
 /// The branch of a slot: from the other's centre or the wall to the particle, when the force acted; w: 1 if it touched.
 /// It takes the place of the torque on the second body, which the next step makes anew.

@@ -29,7 +29,7 @@ void main() {
     mean = mass.x > 0.0 ? mass.yzw / mass.x : vec3(0.0);
     squares = vec3(number.zw, rest.x);
     mixed = rest.yzw;
-    addSlice(low, high, field.low.w);
+    addSlice(low, high, 0.0);
     if (!onGrid) return;
     grid[at + kFieldNumber] = vec4(number.xy, squares.xy);
     grid[at + kFieldKinetic] = vec4(squares.z, mixed);

@@ -18,23 +18,26 @@ void addBranch(uint slot, vec3 from, vec3 force) {
     stress += outerProduct(branch * w, force);
 }
 
-void add(uint i) {
-    vec4 position = state[stateIndex(push.source, kPosition, i)];
-    vec3 velocity = state[stateIndex(push.source, kVelocity, i)].xyz;
-    float r = position.w, m = gravity().w * (4.0 / 3.0 * 3.14159265358979) * r * r * r;
-    float w = weights[i] * kernel(here - offsetOf(push.source, i));
+/// Of the contacts whose first body particle i is, in the order of its links.
+void addBranches(uint i) {
     vec3 from = offsetOf(1u - push.source, i);
     uvec4 range = ranges[rowRangeIndex(i)];
-    float touches = 0.0;
     for (uint k = 0u; k < range.w; ++k) {
         uint link = rows[linkIndex(range.z + k)], slot = link >> 1u;
+        if ((link & 1u) == 1u) continue;
         vec4 force = forces[slot];
-        if (force.w <= 0.0) continue;
-        if (ofPair(slot)) touches += 1.0;
-        if (field.tile.w == 1u && (link & 1u) == 0u) addBranch(slot, from, force.xyz);
+        if (force.w > 0.0) addBranch(slot, from, force.xyz);
     }
+}
+
+void add(uint i) {
+    float r = state[stateIndex(push.source, kPosition, i)].w;
+    float m = gravity().w * (4.0 / 3.0 * 3.14159265358979) * r * r * r;
+    vec3 velocity = state[stateIndex(push.source, kVelocity, i)].xyz;
+    float w = weights[i] * kernel(here - offsetOf(push.source, i));
     carriedMass += w * m * vec4(1.0, velocity);
-    number += w * vec2(1.0, touches);
+    number += w * vec2(1.0, weights[touchesIndex(i)]);
+    if (field.tile.w == 1u) addBranches(i);
 }
 
 void main() {
@@ -46,7 +49,7 @@ void main() {
     carriedMass = onwards ? grid[at + kFieldMass] : vec4(0.0);
     number = onwards ? grid[at + kFieldNumber].xy : vec2(0.0);
     for (uint a = 0u; a < 3u; ++a) stress[a] = onwards ? grid[at + kFieldContact + a].xyz : vec3(0.0);
-    addSlice(low, high, field.low.w + (field.tile.w == 1u ? field.along.w : 0.0));
+    addSlice(low, high, field.tile.w == 1u ? field.along.w : 0.0);
     if (!onGrid) return;
     grid[at + kFieldMass] = carriedMass;
     grid[at + kFieldNumber] = vec4(number, 0.0, 0.0);

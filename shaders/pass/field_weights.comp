@@ -1,7 +1,7 @@
 #version 450
 // field_weights: what the kernel around a place adds up to over the grid, one place per invocation: the particles of the
-// member, then, if contact stress is wanted, the nodes of the branches of its slots.
-// Reads the source half of the state (of a branch the other), entries, branches; writes weights.
+// member, whose touching neighbours are counted as well, then, if contact stress is wanted, the nodes of the branches of its
+// slots. Reads the source half of the state (of a branch the other), entries, links, forces, branches; writes weights.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/buffers.glsl"
 #include "pass/field.glsl"
@@ -25,6 +25,17 @@ float weightAt(vec3 offset) {
     return sum > 0.0 ? 1.0 / (sum * field.cell.w) : 0.0;
 }
 
+/// Others that touched particle i in the last step.
+float touching(uint i) {
+    uvec4 range = ranges[rowRangeIndex(i)];
+    float count = 0.0;
+    for (uint k = 0u; k < range.w; ++k) {
+        uint slot = rows[linkIndex(range.z + k)] >> 1u;
+        if (ofPair(slot) && forces[slot].w > 0.0) count += 1.0;
+    }
+    return count;
+}
+
 void main() {
     openMember();
     uint k = invocation();
@@ -32,6 +43,7 @@ void main() {
         uint i = firstParticle() + k;
         bool active_ = uint(state[stateIndex(push.source, kSpin, i)].w) == kActive;
         weights[i] = active_ ? weightAt(offsetOf(push.source, i)) : 0.0;
+        weights[touchesIndex(i)] = active_ ? touching(i) : 0.0;
         return;
     }
     k -= push.share;

@@ -6,7 +6,7 @@
 
 #include "pass/field.glsl"
 
-shared uint inReach[4];  // a bit for each invocation of the workgroup, at most 128
+shared uint inReach[4];  // a bit for each particle of the slice
 
 vec3 here;     // the point of this invocation, as an offset from the lower corner
 uint pointIndex;
@@ -30,25 +30,28 @@ bool openTile(out vec3 low, out vec3 high) {
     return n < tiles.x * tiles.y * tiles.z;
 }
 
-bool reaches(uint i, vec3 low, vec3 high, float reach) {
+/// Whether what is smeared out no further than `margin` from particle i, and in the grid, may reach the tile.
+bool reaches(uint i, vec3 low, vec3 high, float margin) {
     vec3 offset = offsetOf(push.source, i);
+    vec3 outside = max(-offset, offset - field.size.xyz);
     vec3 away = field.along.xyz * max(max(low - offset, offset - high), vec3(0.0));
-    return uint(state[stateIndex(push.source, kSpin, i)].w) == kActive && dot(away, away) < reach * reach;
+    float reach = field.low.w + margin;
+    return uint(state[stateIndex(push.source, kSpin, i)].w) == kActive && all(lessThanEqual(outside, vec3(margin))) &&
+           dot(away, away) < reach * reach;
 }
 
-void addSlice(vec3 low, vec3 high, float reach) {
-    uint lane = gl_LocalInvocationID.x, end = min(push.slice + field.tiles.w, push.share);
-    for (uint first = push.slice; first < end; first += gl_WorkGroupSize.x) {
-        barrier();
-        if (lane < 4u) inReach[lane] = 0u;
-        barrier();
-        uint i = firstParticle() + first + lane;
-        if (first + lane < end && reaches(i, low, high, reach)) atomicOr(inReach[lane / 32u], 1u << (lane % 32u));
-        barrier();
-        for (uint word = 0u; word < (gl_WorkGroupSize.x + 31u) / 32u; ++word)
-            for (uint bits = inReach[word]; bits != 0u; bits &= bits - 1u)
-                add(firstParticle() + first + 32u * word + uint(findLSB(bits)));
-    }
+/// Adds those of the slice (at most 128) that can reach the tile.
+void addSlice(vec3 low, vec3 high, float margin) {
+    uint lane = gl_LocalInvocationID.x, count = min(field.tiles.w, push.share - push.slice);
+    uint first = firstParticle() + push.slice;
+    if (lane < 4u) inReach[lane] = 0u;
+    barrier();
+    for (uint k = lane; k < count; k += gl_WorkGroupSize.x)
+        if (reaches(first + k, low, high, margin)) atomicOr(inReach[k / 32u], 1u << (k % 32u));
+    barrier();
+    for (uint word = 0u; word < 4u; ++word)
+        for (uint bits = inReach[word]; bits != 0u; bits &= bits - 1u)
+            add(first + 32u * word + uint(findLSB(bits)));
 }
 
 #endif

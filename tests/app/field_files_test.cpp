@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "host/output/hdf5.h"
 #include "host/output/run_folder.h"
 #include "tests/app/sandbox.h"
 #include "tests/sim/fake_backend.h"
@@ -100,6 +101,17 @@ TEST_CASE("a map is a file for each time, which the field's own file lists; a ne
     CHECK(value(map, 6, "z_m") == Approx(0.025));
     CHECK(value(map, 6, "density_kg_m3") == 120);
     CHECK(fs::exists(box / "out/fields/f_000004.csv"));
+
+    const Rows volumes = runInto(box / "out", caseWith({2, 2, 3}, FieldSensor::Preset::None, true));
+    CHECK(volumes[2].at(column(volumes, "file")) == "f_000001.vtkhdf");
+    CHECK_FALSE(fs::exists(box / "out/fields/f_000001.csv"));
+    const hdf5::Reader volume{readText(box / "out/fields/f_000001.vtkhdf")};
+    const auto momentum = volume.array<double>("/VTKHDF/PointData/momentum");
+    REQUIRE(momentum.size() == 3 * 12);
+    CHECK(momentum[4] == 3 * 120);
+    const auto stress = volume.array<double>("/VTKHDF/PointData/contact_stress");
+    REQUIRE(stress.size() == 9 * 12);
+    CHECK(stress[9 + 7] == 20 * 120);  // zy
 
     Case without = smallCase();
     without.resolved = "name = \"fake\"\n";

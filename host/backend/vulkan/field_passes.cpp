@@ -10,8 +10,8 @@ namespace vkdose {
 
 namespace {
 
-/// Particles that one dispatch adds up, a multiple of every workgroup. Even with kMaxLinks contacts each, and the nodes
-/// of these, an invocation's loops stay below the 65,535 trips after which lavapipe ends them.
+/// Particles that one dispatch adds up: the bits of inReach in shaders/pass/tile.glsl. Even with kMaxLinks contacts
+/// each, and the nodes of these, an invocation's loops stay below the 65,535 trips after which lavapipe ends them.
 constexpr std::uint32_t kSlice = 128;
 static_assert(kSlice * (gpu::kMaxLinks * (gpu::kFieldNodes + 1) + 2) < 65535);
 
@@ -71,7 +71,7 @@ FieldPasses::FieldPasses(const vk::Device& device, const Passes& p, std::size_t 
       points_(points),
       grid_(device, "the fields", points * gpu::kFieldVectors * sizeof(gpu::vec4)),
       weights_(device, "the weights of the fields",
-               (p.sizes.particles() + VkDeviceSize(gpu::kFieldNodes) * p.sizes.slots()) * sizeof(float)),
+               (2ULL * p.sizes.particles() + VkDeviceSize(gpu::kFieldNodes) * p.sizes.slots()) * sizeof(float)),
       params_(device, "the parameters of the fields", sizeof(gpu::FieldParams)),
       bindings_(device,
                 {&p.state, &p.rows, &p.ranges, &p.history, &p.coilHistory, &p.member, &p.control, &p.cells, &p.anchors,
