@@ -22,6 +22,7 @@ class Fanout : public RunObserver {
         folder_.onDose(d);
         if (display_) display_->onDose(d);
     }
+    void onField(const FieldSample& f) override { folder_.onField(f); }
     void onCheckpoint(const RunCheckpoint& c, double time) override { folder_.onCheckpoint(c, time); }
     bool storesCheckpoints() const override { return folder_.storesCheckpoints(); }
     void onFrame(const Frame& f) override { folder_.onFrame(f); }

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "host/core/record.h"
+#include "host/model/field.h"
 #include "host/model/particles.h"
 #include "host/model/world.h"
 
@@ -100,6 +101,11 @@ class Backend {
 
     virtual Particles particles() const = 0;
     virtual std::vector<Contact> contacts() const = 0;
+
+    /// Coarse-grained fields of what is active now, at the points of the grid; only these come back from a device.
+    /// Forces are those of the last step made since load or restore, none before any. Throws RunError if the request
+    /// cannot be met (faultOf).
+    virtual FieldPoints fields(const FieldRequest& request) = 0;
 
     /// Rotation of the coil about +z since load [rad].
     virtual double coilAngle() const = 0;

@@ -101,6 +101,7 @@ Case interpret(const std::filesystem::path& file, Node tree) {
     readRegion(root, kind, c);
     readSchedule(root, c);
     readTime(root, c);
+    readFields(reader, root, reader.faulty() ? std::numeric_limits<double>::quiet_NaN() : 2 * sizeRange(c).mean, c);
     const bool domainGiven = readDomain(root, c);
     reader.finish();
     checkFields(reader, c);

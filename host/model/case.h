@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "host/model/case_tree.h"
+#include "host/model/field.h"
 #include "host/model/particles.h"
 #include "host/model/world.h"
 
@@ -89,8 +90,9 @@ struct Case {
     double sensorInterval = 0;  ///< [s], a whole number of steps after loading
     CheckpointInterval checkpoint;
     FrameStorage frames;
-    double bulkDensity = 471;  ///< rho_b for the closed form [kg/m3]
-    std::string resolved;      ///< the case as TOML with every default and --set applied
+    std::vector<FieldSensor> fields;  ///< taken while the run goes on
+    double bulkDensity = 471;         ///< rho_b for the closed form [kg/m3]
+    std::string resolved;             ///< the case as TOML with every default and --set applied
 };
 
 /// Reads, resolves `overrides` ("key.path=value"), checks. Throws CaseError with every fault found.

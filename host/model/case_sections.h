@@ -1,5 +1,6 @@
 #pragma once
-// The tables of a case file, read into a Case. Every key and its default stands in read_powder.cpp or read_scene.cpp.
+// The tables of a case file, read into a Case. Every key and its default stands in read_powder.cpp, read_scene.cpp
+// or read_field.cpp.
 
 #include <optional>
 
@@ -25,5 +26,9 @@ void readSchedule(Section& root, Case& c);
 void readTime(Section& root, Case& c);
 /// True when the file states a domain.
 bool readDomain(Section& root, Case& c);
+
+// read_field.cpp
+/// After boundaries and sensors. The mean diameter [m] is the kernels' default width; NaN if it is not known.
+void readFields(CaseReader& reader, Section& root, double meanDiameter, Case& c);
 
 }  // namespace vkdose

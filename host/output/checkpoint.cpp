@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kUserBlock = 512;
 constexpr std::string_view kMagic = "vkdose checkpoint";
-constexpr int kVersion = 3;
+constexpr int kVersion = 4;
 
 /// FNV-1a, 64 bits: it has to catch accidents, not forgers.
 std::uint64_t checksum(std::string_view bytes) {
@@ -62,6 +62,7 @@ void writeCheckpoint(const std::filesystem::path& file, const Checkpoint& c) {
     when.putOne("timeseries", c.timeSeriesBytes);
     when.putOne("doses", c.dosesBytes);
     when.putOne("frames", c.framesBytes);
+    when.put("fields", c.fieldBytes);
     when.putOne("member", c.member);
     writer.record("/when", when);
     const std::string image = writer.image();
@@ -87,6 +88,7 @@ Checkpoint readCheckpoint(const std::filesystem::path& file) {
         c.timeSeriesBytes = when.one<std::uint64_t>("timeseries");
         c.dosesBytes = when.one<std::uint64_t>("doses");
         c.framesBytes = when.one<std::uint64_t>("frames");
+        c.fieldBytes = when.get<std::uint64_t>("fields");
         c.member = when.one<std::uint32_t>("member");
         return c;
     } catch (const hdf5::Error& e) {

@@ -6,7 +6,7 @@
 //   /run/*                            the runner's state          (RunCheckpoint::run)
 //   /state/*                          the backend's snapshot      (RunCheckpoint::backend)
 //   /when/time                        simulated time [s]
-//   /when/timeseries, /when/doses     bytes of the CSV files at that time
+//   /when/timeseries, doses, fields   bytes of the CSV files at that time
 //   /when/frames                      bytes of frames.csv; 0: the run keeps no frames
 //   /when/member                      number of the run in its study; 0: it is in none
 
@@ -14,6 +14,7 @@
 #include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "host/sim/runner.h"
 
@@ -35,7 +36,8 @@ struct Checkpoint {
     std::uint64_t timeSeriesBytes = 0;
     std::uint64_t dosesBytes = 0;
     std::uint64_t framesBytes = 0;
-    std::uint32_t member = 0;  ///< number of the run in its study
+    std::vector<std::uint64_t> fieldBytes;  ///< of every field of the case
+    std::uint32_t member = 0;               ///< number of the run in its study
 };
 
 /// Replaces `file` in one move. Throws OutputError if it cannot be written; the checkpoint before is then still there.

@@ -96,6 +96,7 @@ void prepareFolder(const fs::path& folder, bool force) {
     for (const char* name : kFiles) fs::remove(folder / name, error);
     FrameWriter::remove(folder);
     if (error) throw FolderError(fmt::format("cannot write in {}: {}", folder.string(), error.message()));
+    FieldFiles::remove(folder);
 }
 
 double mass(const Sensors& s, Region r) {
@@ -116,6 +117,7 @@ RunFolder::RunFolder(fs::path folder, bool force, const Case& c, std::string bac
         timeSeries_.emplace(folder_ / "timeseries.csv", kTimeSeriesHeader + energy);
         doses_.emplace(folder_ / "doses.csv", kDosesHeader);
         if (c.frames.interval > 0) frames_.emplace(folder_, c, member_);
+        fields_.emplace(folder_, c);
     } catch (const OutputError& e) {
         throw FolderError(e.what());
     }
@@ -133,6 +135,7 @@ RunFolder::RunFolder(fs::path folder, const Checkpoint& from, const Case& c, std
         timeSeries_.emplace(folder_ / "timeseries.csv", from.timeSeriesBytes);
         doses_.emplace(folder_ / "doses.csv", from.dosesBytes);
         if (c.frames.interval > 0) frames_.emplace(folder_, c, member_, from.framesBytes);
+        fields_.emplace(folder_, c, from.fieldBytes);
     } catch (const OutputError& e) {
         throw FolderError(e.what());
     }
@@ -163,7 +166,7 @@ void RunFolder::onCheckpoint(const RunCheckpoint& checkpoint, double time) {
     const std::uint64_t timeSeriesBytes = timeSeries_->store(), dosesBytes = doses_->store();
     const std::uint64_t framesBytes = frames_ ? frames_->store() : 0;
     writeCheckpoint(folder_ / kCheckpointName, {VKDOSE_VERSION, backend_, caseText_, time, checkpoint, timeSeriesBytes,
-                                                dosesBytes, framesBytes, member_});
+                                                dosesBytes, framesBytes, fields_->store(), member_});
     checkpointTime_ = time;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// The output folder of a run: case.toml, timeseries.csv, doses.csv and frames/ as they come, checkpoint.h5 while it
-// lasts, particles.csv and summary.json at the end.
+// The output folder of a run: case.toml, timeseries.csv, doses.csv, frames/ and fields/ as they come,
+// checkpoint.h5 while it lasts, particles.csv and summary.json at the end.
 
 #include <filesystem>
 #include <optional>
@@ -9,6 +9,7 @@
 
 #include "host/output/checkpoint.h"
 #include "host/output/csv.h"
+#include "host/output/field_files.h"
 #include "host/output/frame_writer.h"
 #include "host/sim/runner.h"
 
@@ -37,6 +38,7 @@ class RunFolder : public RunObserver {
 
     void onSample(const Sample& sample) override;
     void onDose(const Dose& dose) override;
+    void onField(const FieldSample& sample) override { fields_->write(sample); }
     void onCheckpoint(const RunCheckpoint& checkpoint, double time) override;
     bool storesCheckpoints() const override { return true; }
     void onFrame(const Frame& frame) override { frames_->put(frame); }
@@ -59,6 +61,7 @@ class RunFolder : public RunObserver {
     std::optional<CsvFile> timeSeries_;
     std::optional<CsvFile> doses_;
     std::optional<FrameWriter> frames_;  ///< if the case asks for frames
+    std::optional<FieldFiles> fields_;
     std::optional<double> checkpointTime_;
 };
 

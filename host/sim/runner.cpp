@@ -32,7 +32,13 @@ class Run {
   public:
     Run(const Case& c, Insertion filled, Derived derived, Backend& backend, RunObserver& observer,
         const std::atomic<bool>& stop)
-        : case_(c), backend_(backend), observer_(observer), stop_(stop), timeline_(c), judge_(c.schedule.stop) {
+        : case_(c),
+          backend_(backend),
+          observer_(observer),
+          stop_(stop),
+          timeline_(c),
+          judge_(c.schedule.stop),
+          fields_(c, timeline_) {
         result_.filled = std::move(filled);
         result_.derived = std::move(derived);
         result_.particles = result_.filled.particles;
@@ -96,6 +102,7 @@ class Run {
         put(r, "doses", result_.doses);
         put(r, "last", result_.last);
         r.put("radius", result_.filled.particles.radius);
+        fields_.save(r);
         result_.ledger.save(r);
         judge_.save(r);
         return r;
@@ -126,6 +133,7 @@ class Run {
         get(r, "dosed_before", dosedBefore_);
         get(r, "doses", result_.doses);
         get(r, "last", result_.last);
+        fields_.restore(r);
         result_.ledger.restore(r);
         judge_.restore(r);
         if (!timeline_.over(step_)) stretch_ = timeline_.at(step_);
@@ -160,8 +168,12 @@ class Run {
             if (stretch_.phase != Phase::Settle && !dosing_) beginDosing();
             if (stretch_.phase == Phase::Rotate && dose_.index != stretch_.dose) openDose();
             advance(timeline_.nextSample(step_));
-            if (step_ == sampleStep_) sample();
-            if (step_ == sampleStep_ && timeline_.frameDue(step_)) frame();
+            if (step_ == sampleStep_) {
+                sample();
+                if (timeline_.frameDue(step_)) frame();
+                for (const FieldSample& f : fields_.look(backend_, step_, stretch_.phase, stretch_.dose))
+                    observer_.onField(f);
+            }
             if (step_ == stretch_.end && phaseEnded()) {
                 if (timeline_.keepsFrames() && !timeline_.frameDue(step_)) frame();
                 keepEndState();
@@ -337,6 +349,7 @@ class Run {
     const std::atomic<bool>& stop_;
     Timeline timeline_;
     DoseJudge judge_;
+    FieldWatch fields_;
     RunResult result_;
 
     std::uint64_t step_ = 0;

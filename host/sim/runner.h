@@ -11,6 +11,7 @@
 #include "host/model/case.h"
 #include "host/sim/energy_ledger.h"
 #include "host/sim/frame.h"
+#include "host/sim/field_watch.h"
 #include "host/sim/ledger.h"
 #include "host/sim/stop_rule.h"
 #include "host/sim/timeline.h"
@@ -76,6 +77,7 @@ class RunObserver {
     virtual void onProgress(const Progress&) {}
     virtual void onSample(const Sample&) {}
     virtual void onDose(const Dose&) {}
+    virtual void onField(const FieldSample&) {}
     /// At the intervals of the case and when the run is interrupted, if `storesCheckpoints`.
     virtual void onCheckpoint(const RunCheckpoint&, double time) { (void)time; }
     virtual bool storesCheckpoints() const { return false; }

@@ -172,6 +172,27 @@ struct EnergyRecord {  // one per workgroup
     vec4 angular;      // xyz: angular momentum about the origin [kg m2/s]
 };
 
+// --- coarse-grained fields (host/model/field.h) --------------------------------------------------------------------
+SHARED_CONST kGaussian = 0u;
+SHARED_CONST kLucy = 1u;
+SHARED_CONST kFieldNodes = 4u;  // of the quadrature along a branch
+// A point of the grid: vec4 grid[points][6].
+SHARED_CONST kFieldMass = 0u;     // x: density; yzw: momentum
+SHARED_CONST kFieldNumber = 1u;   // x: number; y: touching neighbours; zw: kinetic stress xx, yy
+SHARED_CONST kFieldKinetic = 2u;  // zz, yz, zx, xy
+SHARED_CONST kFieldContact = 3u;  // and two more: rows of the contact stress
+SHARED_CONST kFieldVectors = 6u;
+
+struct FieldParams {
+    vec4 low;     // xyz: corner of the grid [m]; w: reach of the kernel [m]
+    vec4 size;    // xyz: of the grid [m]; w: width of the kernel [m]
+    vec4 cell;    // xyz: size of a cell [m]; w: its volume [m3]
+    vec4 along;   // xyz: 1 in directions that are resolved, else 0; w: a contact's branch is no longer than this [m]
+    uvec4 cells;  // xyz: number; w: kernel
+    uvec4 tile;   // xyz: points of a workgroup; w: 1 if contact stress is wanted
+    uvec4 tiles;  // xyz: workgroups; w: particles of a slice
+};
+
 // --- per dispatch -------------------------------------------------------------------------------------------------
 struct StepPush {
     uint stepInBatch;
@@ -188,6 +209,7 @@ struct StepPush {
     uint pairSlots;     // contact slots, multiples of the workgroup size: first the pairs of all members ...
     uint surfaceSlots;  // ... then the surfaces ...
     uint coilSlots;     // ... then the coil
+    uint slice;         // first particle of the member that a field pass adds up
 };
 
 #ifdef __cplusplus

@@ -66,11 +66,15 @@ const std::map<std::string, Layout>& hostLayouts() {
          {{FIELD(EnergyRecord, normal), FIELD(EnergyRecord, sliders), FIELD(EnergyRecord, flow),
            FIELD(EnergyRecord, elastic), FIELD(EnergyRecord, momentum), FIELD(EnergyRecord, angular)},
           sizeof(EnergyRecord)}},
+        {"FieldParams",
+         {{FIELD(FieldParams, low), FIELD(FieldParams, size), FIELD(FieldParams, cell), FIELD(FieldParams, along),
+           FIELD(FieldParams, cells), FIELD(FieldParams, tile), FIELD(FieldParams, tiles)},
+          sizeof(FieldParams)}},
         {"StepPush",
          {{FIELD(StepPush, stepInBatch), FIELD(StepPush, source), FIELD(StepPush, opening), FIELD(StepPush, firstRow),
            FIELD(StepPush, live), FIELD(StepPush, particles), FIELD(StepPush, share), FIELD(StepPush, cellMask),
            FIELD(StepPush, rowEntries), FIELD(StepPush, linkEntries), FIELD(StepPush, pairSlots),
-           FIELD(StepPush, surfaceSlots), FIELD(StepPush, coilSlots)},
+           FIELD(StepPush, surfaceSlots), FIELD(StepPush, coilSlots), FIELD(StepPush, slice)},
           sizeof(StepPush)}},
     };
     return layouts;

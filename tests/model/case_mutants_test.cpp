@@ -57,6 +57,14 @@ time_s = 0.1
 [frames]
 interval_s = 0.02
 contacts = true
+[[field]]
+name = "map"
+kernel = "lucy"
+cells = [1, 20, 8]
+interval_s = 0.05
+average = false
+low = [-0.01, 0.0, -0.01]
+high = [0.01, 0.05, 0.01]
 [domain]
 low = [-0.1, -0.1, -0.1]
 high = [0.1, 0.1, 0.1]
@@ -103,7 +111,7 @@ const std::set<std::string> kMayBeZero{"z_start_mm", "start_angle_deg",  "kc_ove
 /// Tables in which zero is right for every number.
 const std::set<std::string> kZeroTables{"[frames]"};
 /// Keys that choose among words.
-const std::set<std::string> kWords{"boundaries", "distribution", "coulomb_limit", "floor", "rule", "hand"};
+const std::set<std::string> kWords{"boundaries", "distribution", "coulomb_limit", "floor", "rule", "hand", "kernel"};
 /// Keys without which no case of theirs is complete.
 const std::set<std::string> kRequired{"density",
                                       "distribution",

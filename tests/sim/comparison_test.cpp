@@ -30,6 +30,7 @@ class Wrong : public Backend {
     void restore(const Record& record) override { inner_->restore(record); }
     Particles particles() const override { return inner_->particles(); }
     std::vector<Contact> contacts() const override { return inner_->contacts(); }
+    FieldPoints fields(const FieldRequest& request) override { return inner_->fields(request); }
     double coilAngle() const override { return inner_->coilAngle(); }
     std::string description() const override { return "wrong"; }
 

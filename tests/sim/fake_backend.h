@@ -31,7 +31,11 @@ class FakeBackend : public Backend {
     std::optional<std::uint64_t> deviceErrorAt;
     double particleMass = 1e-3;
 
+    /// What every point of a field holds after so many steps.
+    std::function<FieldPoint(std::uint64_t step)> field = [](std::uint64_t) { return FieldPoint{}; };
+
     std::vector<Call> calls;
+    int fieldCalls = 0;
     int loads = 0;
     std::uint64_t step = 0;
 
@@ -75,6 +79,10 @@ class FakeBackend : public Backend {
         Contact one;  // tells when it was asked for
         one.maxOverlap = static_cast<double>(step);
         return {one};
+    }
+    FieldPoints fields(const FieldRequest& request) override {
+        ++fieldCalls;
+        return FieldPoints(request.grid.points(), field(step));
     }
     double coilAngle() const override { return angle_; }
     std::string description() const override { return "fake"; }

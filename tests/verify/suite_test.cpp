@@ -31,6 +31,7 @@ class Skewed final : public Backend {
     void restore(const Record& record) override { sound_->restore(record); }
     Particles particles() const override { return sound_->particles(); }
     std::vector<Contact> contacts() const override { return sound_->contacts(); }
+    FieldPoints fields(const FieldRequest& request) override { return sound_->fields(request); }
     double coilAngle() const override { return sound_->coilAngle(); }
     std::string description() const override { return "skewed"; }
 

@@ -29,6 +29,7 @@ void Forces::evaluate(const World& world, const Particles& particles, const Neig
     loads.coilTorque = 0;
     loads.deepest = {};
     loads.energy = {};
+    loads.branches.clear();
     for (std::size_t i = 0; i < particles.size(); ++i) {
         pairs(i);
         surfaces(i);
@@ -115,6 +116,8 @@ void Forces::pairs(std::size_t i) {
         loads_->force[j] -= response.force;
         loads_->torque[i] += response.torqueI;
         loads_->torque[j] += response.torqueJ;
+        loads_->branches.push_back({static_cast<std::uint32_t>(i), j, true, particles_->position[i],
+                                    particles_->position[i] - particles_->position[j], response.force});
         const Exerted now = exertedBy(ContactClass::ParticleParticle, *touch, response, history);
         book(before.exerted, now, body(i), body(j));
         pairs_[i].push_back({j, history, now});
@@ -128,6 +131,9 @@ Exerted Forces::wall(std::size_t i, ContactClass kind, std::uint32_t other, cons
     const Response response = contactResponse(world_->law, kind, touch, springDt_, history);
     loads_->force[i] += response.force;
     loads_->torque[i] += response.torqueI;
+    const Vec3 toWall = (particles_->radius[i] - touch.overlap) * touch.normal;
+    loads_->branches.push_back(
+        {static_cast<std::uint32_t>(i), other, false, particles_->position[i], toWall, response.force});
     note(touch, kind, i, other);
     Exerted exerted = exertedBy(kind, touch, response, history);
     const Vec3 point = particles_->position[i] + touch.leverI;

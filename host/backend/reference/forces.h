@@ -8,6 +8,7 @@
 #include "host/backend/backend.h"
 #include "host/backend/reference/contact.h"
 #include "host/backend/reference/energy.h"
+#include "host/backend/reference/fields.h"
 #include "host/backend/reference/neighbours.h"
 
 namespace vkdose::reference {
@@ -27,6 +28,7 @@ struct Loads {
     double coilTorque = 0;     ///< about +z, on the coil [N m]
     EnergyBook energy;         ///< what the contacts book in this step, and what they store; if the world asks for it
     Deepest deepest;
+    std::vector<Branch> branches;  ///< of every contact
 };
 
 /// Where the coil is at that instant.

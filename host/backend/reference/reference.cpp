@@ -46,6 +46,7 @@ class ReferenceBackend final : public Backend {
         world_ = world;
         particles_ = particles;
         forces_.reset(particles.size());
+        loads_ = {};
         neighbours_.reset(world.skin);
         steps_ = 0;
         angle_ = 0;
@@ -61,6 +62,10 @@ class ReferenceBackend final : public Backend {
 
     Particles particles() const override { return particles_; }
     std::vector<Contact> contacts() const override { return forces_.contacts(); }
+    FieldPoints fields(const FieldRequest& request) override {
+        if (const std::optional<std::string> fault = faultOf(request)) throw RunError(*fault);
+        return reference::coarseGrain(request, world_.density, particles_, loads_.branches);
+    }
     double coilAngle() const override { return angle_; }
     std::string description() const override { return "reference"; }
 
@@ -134,6 +139,7 @@ void ReferenceBackend::restore(const Record& record) {
     angle_ = record.one<double>("coil_angle");
     neighbours_.reset(world_.skin, record.one<std::uint64_t>("rebuilds"));
     book_ = {};
+    loads_ = {};
     forces_.reset(n);
     forces_.restore(record);
 }

@@ -73,6 +73,7 @@ void Ensemble::load(const std::vector<Canister>& canisters) {
     }
     TableSizes sizes = roomForAll(rooms);
     sizes.texelReads = options_.reads == VulkanOptions::Reads::Automatic;
+    fieldPasses_.reset();
     passes_.reset();  // the former tables make room for the new ones
     passes_ = std::make_unique<Passes>(device_, sizes);
     std::vector<gpu::vec4> half(std::size_t(gpu::kFields) * sizes.particles());
@@ -144,6 +145,7 @@ void Ensemble::runBatch(std::uint32_t count, const std::vector<double>& coilRate
     commands.hostBarrier();
     commands.submit();
     source_ = (source_ + count) % 2;
+    lastStep_ = count - 1;
     const std::vector<gpu::Control> controls = passes_->controls();
     for (std::uint32_t row = 0; row < live_.size(); ++row) {
         MemberState& m = members_[live_[row]];
@@ -239,6 +241,15 @@ Sensors Ensemble::sense(std::uint32_t member, std::uint32_t steps) {
     if (energy) s.energy = readEnergy(member);
     s.rebuilds = passes_->controlOf(member).list.y;
     return s;
+}
+
+FieldPoints Ensemble::fields(std::uint32_t member, const FieldRequest& request) {
+    if (const std::optional<std::string> fault = faultOf(request)) throw RunError(*fault);
+    if (!fieldPasses_ || !fieldPasses_->holds(request))
+        fieldPasses_ = std::make_unique<FieldPasses>(device_, *passes_, request.grid.points());
+    const MemberState& m = members_[member];
+    const std::vector<double>& radii = m.loaded.radius;
+    return fieldPasses_->compute(request, {m.row, source_, lastStep_, *std::max_element(radii.begin(), radii.end())});
 }
 
 EnergyBook Ensemble::readEnergy(std::uint32_t member) const {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "host/backend/vulkan/field_passes.h"
 #include "host/backend/vulkan/passes.h"
 #include "host/backend/vulkan/vulkan.h"
 
@@ -48,6 +49,9 @@ class Ensemble {
     Particles particles(std::uint32_t member) const;
     std::vector<Contact> contacts(std::uint32_t member) const;
 
+    /// As in Backend, of a live member.
+    FieldPoints fields(std::uint32_t member, const FieldRequest& request);
+
     /// Of an ensemble of one.
     VulkanProfile profile(std::uint32_t steps, double coilRate);
 
@@ -72,10 +76,12 @@ class Ensemble {
     VulkanOptions options_;
     vk::Device device_;
     std::unique_ptr<Passes> passes_;
+    std::unique_ptr<FieldPasses> fieldPasses_;  ///< made when fields are asked for; after the tables they read
     std::vector<MemberState> members_;
     std::vector<std::uint32_t> live_;
-    std::uint32_t source_ = 0;  // half of the state that is current
-    std::uint32_t batch_ = 16;  // steps per submission, adapted to the device
+    std::uint32_t source_ = 0;    // half of the state that is current
+    std::uint32_t lastStep_ = 0;  // the last step of the last batch, counted within it
+    std::uint32_t batch_ = 16;    // steps per submission, adapted to the device
 };
 
 }  // namespace vkdose

@@ -36,10 +36,6 @@ Access accessOn(const vk::Device& device, const TableSizes& s) {
     return {texel, texel && device.hasInt64()};
 }
 
-std::array<std::uint32_t, 6> constants(const TableSizes& s) {
-    return {s.workgroup, s.surfaces, s.surfaceKinds, s.kindSet, s.members, s.mostGroups};
-}
-
 /// The variants of one pass (shaders/passes.cmake), as far as it has them.
 struct Variants {
     using Code = std::span<const std::uint32_t>;
@@ -128,6 +124,10 @@ Passes::Passes(const vk::Device& device, const TableSizes& s, const Access& acce
       decide_(device, bindings_, decide_spv, constants(s)),
       sense_(device, bindings_, sense_spv, constants(s)),
       senseEnergy_(device, bindings_, sense_energy_spv, constants(s)) {}
+
+std::array<std::uint32_t, 6> Passes::constants(const TableSizes& s) {
+    return {s.workgroup, s.surfaces, s.surfaceKinds, s.kindSet, s.members, s.mostGroups};
+}
 
 void Passes::reset() {
     const std::vector<gpu::uvec4> none(2ull * sizes.particles(), gpu::uvec4(0U));

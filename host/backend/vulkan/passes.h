@@ -60,12 +60,16 @@ class Passes {
     bool texelReads() const { return access_.texelReads; }
     VkDeviceSize bytes() const;  ///< of all tables
 
+    /// What every dispatch is told; the roster's first row.
+    gpu::StepPush push(std::uint32_t step, std::uint32_t source, bool opening) const;
+    /// Specialisation constants of every pass over tables of this size.
+    static std::array<std::uint32_t, 6> constants(const TableSizes& sizes);
+
     static constexpr std::array<const char*, 11> kTimed{
         "clear", "bin", "neighbours", "near", "link", "commit_lists", "pairs", "surfaces", "coil", "move", "decide"};
 
   private:
     Passes(const vk::Device& device, const TableSizes& sizes, const Access& access);
-    gpu::StepPush push(std::uint32_t step, std::uint32_t source, bool opening) const;
 
     static VkDeviceSize controlOffset(std::uint32_t member) {
         return sizeof(gpu::Dispatches) + member * sizeof(gpu::Control);

@@ -56,6 +56,9 @@ class VulkanBackend final : public Backend {
     std::vector<Contact> contacts() const override {
         return alone([](Ensemble& e, std::uint32_t member) { return e.contacts(member); });
     }
+    FieldPoints fields(const FieldRequest& request) override {
+        return alone([&](Ensemble& e, std::uint32_t member) { return e.fields(member, request); });
+    }
     double coilAngle() const override { return angle_; }
     std::string description() const override { return "vulkan: " + ensemble_->device().info().name; }
 

@@ -1,0 +1,113 @@
+#include "host/backend/reference/fields.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vkdose::reference {
+
+namespace {
+
+/// A point of the grid and a kernel's value there [1/m3].
+struct Weight {
+    std::size_t point;
+    double value;
+};
+
+class Smear {
+  public:
+    explicit Smear(const FieldRequest& request)
+        : request_(request), cell_(request.grid.cell()), volume_(request.grid.cellVolume()) {}
+
+    /// The kernel around `x`, normalised over the grid; nothing if `x` is not in it. Valid until the next call.
+    const std::vector<Weight>& around(const Vec3& x) {
+        weights_.clear();
+        const FieldGrid& g = request_.grid;
+        if (!glm::all(glm::greaterThanEqual(x, g.low)) || !glm::all(glm::lessThanEqual(x, g.high))) return weights_;
+        std::size_t first[3], last[3];
+        for (int d = 0; d < 3; ++d) {
+            const double most = double(g.cells[std::size_t(d)]) - 1, at = (x[d] - g.low[d]) / cell_[d] - 0.5;
+            const double span = g.resolved(d) ? request_.reach() / cell_[d] : 1;
+            first[d] = std::size_t(std::clamp(std::floor(at - span), 0.0, most));
+            last[d] = std::size_t(std::clamp(std::ceil(at + span), 0.0, most));
+        }
+        double sum = 0;
+        for (std::size_t z = first[2]; z <= last[2]; ++z)
+            for (std::size_t y = first[1]; y <= last[1]; ++y)
+                for (std::size_t xx = first[0]; xx <= last[0]; ++xx) {
+                    const std::size_t point = (z * g.cells[1] + y) * g.cells[0] + xx;
+                    Vec3 away = g.point(point) - x;
+                    for (int d = 0; d < 3; ++d)
+                        if (!g.resolved(d)) away[d] = 0;
+                    const double w = request_.shape(glm::length(away));
+                    if (w <= 0) continue;
+                    sum += w;
+                    weights_.push_back({point, w});
+                }
+        for (Weight& w : weights_) w.value /= sum * volume_;
+        return weights_;
+    }
+
+  private:
+    const FieldRequest& request_;
+    Vec3 cell_;
+    double volume_;
+    std::vector<Weight> weights_;
+};
+
+std::vector<double> touchesOf(const Particles& particles, const std::vector<Branch>& branches) {
+    std::vector<double> touches(particles.size(), 0);
+    for (const Branch& b : branches) {
+        if (!b.pair) continue;
+        touches[b.particle] += 1;
+        touches[b.other] += 1;
+    }
+    return touches;
+}
+
+}  // namespace
+
+FieldPoints coarseGrain(const FieldRequest& request, double density, const Particles& p,
+                        const std::vector<Branch>& branches) {
+    FieldPoints points(request.grid.points());
+    Smear smear(request);
+    const std::vector<double> touches = touchesOf(p, branches);
+    const auto mass = [&](std::size_t i) {
+        return density * 4.0 / 3.0 * kPi * p.radius[i] * p.radius[i] * p.radius[i];
+    };
+    for (std::size_t i = 0; i < p.size(); ++i) {
+        if (p.status[i] != Status::Active) continue;
+        for (const Weight& w : smear.around(p.position[i])) {
+            FieldPoint& at = points[w.point];
+            at.density += mass(i) * w.value;
+            at.momentum += mass(i) * w.value * p.velocity[i];
+            at.number += w.value;
+            at.touches += touches[i] * w.value;
+        }
+    }
+    for (std::size_t i = 0; i < p.size(); ++i) {  // once the velocity from which they stray is known
+        if (p.status[i] != Status::Active) continue;
+        for (const Weight& w : smear.around(p.position[i])) {
+            FieldPoint& at = points[w.point];
+            const Vec3 stray = p.velocity[i] - at.velocity();
+            const double m = mass(i) * w.value;
+            const Vec3 square = m * stray * stray,
+                       mixed = m * Vec3(stray.y * stray.z, stray.z * stray.x, stray.x * stray.y);
+            for (int d = 0; d < 3; ++d) {
+                at.kineticStress[std::size_t(d)] += square[d];
+                at.kineticStress[std::size_t(3 + d)] += mixed[d];
+            }
+        }
+    }
+    if (!request.contactStress) return points;
+    for (const Branch& b : branches) {
+        if (p.status[b.particle] != Status::Active) continue;
+        for (std::size_t node = 0; node < kBranchNodes.size(); ++node)
+            for (const Weight& w : smear.around(b.centre - kBranchNodes[node] * b.along))
+                for (int a = 0; a < 3; ++a)
+                    points[w.point].contactStress[std::size_t(a)] +=
+                        kBranchShares[node] * w.value * b.force[a] * b.along;
+    }
+    return points;
+}
+
+}  // namespace vkdose::reference

@@ -1,0 +1,122 @@
+#include "host/backend/vulkan/field_passes.h"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "spirv/passes.h"
+
+namespace vkdose {
+
+namespace {
+
+/// Particles that one dispatch adds up: the bits of inReach in shaders/pass/tile.glsl. Even with kMaxLinks contacts
+/// each, and the nodes of these, an invocation's loops stay below the 65,535 trips after which lavapipe ends them.
+constexpr std::uint32_t kSlice = 128;
+static_assert(kSlice * (gpu::kMaxLinks * (gpu::kFieldNodes + 1) + 2) < 65535);
+
+/// Points of a workgroup: a block as near to a cube as a power of two allows, no longer than the grid.
+std::array<std::uint32_t, 3> tileOf(const FieldGrid& grid, std::uint32_t workgroup) {
+    std::array<std::uint32_t, 3> tile{1, 1, 1};
+    for (std::uint32_t points = 1; points < workgroup; points *= 2) {
+        int shortest = -1;
+        for (int d = 0; d < 3; ++d) {
+            const auto at = std::size_t(d);
+            if (tile[at] >= grid.cells[at]) continue;
+            if (shortest < 0 || tile[at] * grid.cell()[d] < tile[std::size_t(shortest)] * grid.cell()[shortest])
+                shortest = d;
+        }
+        if (shortest < 0) break;
+        tile[std::size_t(shortest)] *= 2;
+    }
+    return tile;
+}
+
+gpu::FieldParams pack(const FieldRequest& r, std::uint32_t workgroup, double largestRadius) {
+    const FieldGrid& g = r.grid;
+    const Vec3 cell = g.cell(), size = g.high - g.low;
+    const std::array<std::uint32_t, 3> tile = tileOf(g, workgroup);
+    gpu::FieldParams p{};
+    p.low = gpu::vec4(glm::vec3(g.low), float(r.reach()));
+    p.size = gpu::vec4(glm::vec3(size), float(r.width));
+    p.cell = gpu::vec4(glm::vec3(cell), float(g.cellVolume()));
+    // A branch is at most two radii long; a little more, because the particle has moved since the force acted.
+    p.along = gpu::vec4(g.resolved(0), g.resolved(1), g.resolved(2), float(2.1 * largestRadius));
+    p.cells =
+        gpu::uvec4(g.cells[0], g.cells[1], g.cells[2], r.kernel == Kernel::Gaussian ? gpu::kGaussian : gpu::kLucy);
+    p.tile = gpu::uvec4(tile[0], tile[1], tile[2], r.contactStress ? 1 : 0);
+    for (int d = 0; d < 3; ++d) p.tiles[d] = (p.cells[d] + p.tile[d] - 1) / p.tile[d];
+    p.tiles.w = kSlice;
+    return p;
+}
+
+FieldPoint unpack(const gpu::vec4* v) {
+    FieldPoint p;
+    const gpu::vec4 &mass = v[gpu::kFieldMass], &number = v[gpu::kFieldNumber], &kinetic = v[gpu::kFieldKinetic];
+    p.density = double(mass.x);
+    p.momentum = Vec3(mass.y, mass.z, mass.w);
+    p.number = double(number.x);
+    p.touches = double(number.y);
+    p.kineticStress = {double(number.z),  double(number.w),  double(kinetic.x),
+                       double(kinetic.y), double(kinetic.z), double(kinetic.w)};
+    for (std::size_t row = 0; row < 3; ++row) p.contactStress[row] = Vec3(glm::vec3(v[gpu::kFieldContact + row]));
+    return p;
+}
+
+}  // namespace
+
+FieldPasses::FieldPasses(const vk::Device& device, const Passes& p, std::size_t points)
+    : device_(device),
+      passes_(p),
+      points_(points),
+      grid_(device, "the fields", points * gpu::kFieldVectors * sizeof(gpu::vec4)),
+      weights_(device, "the weights of the fields",
+               (2ULL * p.sizes.particles() + VkDeviceSize(gpu::kFieldNodes) * p.sizes.slots()) * sizeof(float)),
+      params_(device, "the parameters of the fields", sizeof(gpu::FieldParams)),
+      bindings_(device,
+                {&p.state, &p.rows, &p.ranges, &p.history, &p.coilHistory, &p.member, &p.control, &p.cells, &p.anchors,
+                 &grid_, &p.entries, &weights_, &params_, &p.forces, &p.torques, &p.carried},
+                {}, sizeof(gpu::StepPush)),
+      branches_(device, bindings_, field_branches_spv, Passes::constants(p.sizes)),
+      weigh_(device, bindings_, field_weights_spv, Passes::constants(p.sizes)),
+      sums_(device, bindings_, field_sums_spv, Passes::constants(p.sizes)),
+      kinetic_(device, bindings_, field_kinetic_spv, Passes::constants(p.sizes)) {}
+
+void FieldPasses::dispatch(vk::Commands& commands, const vk::Pipeline& pass, std::uint32_t groups) const {
+    pass.bind(commands.handle());
+    commands.dispatch(passes_.sizes.inRow(groups), 1, passes_.sizes.layers(groups));
+    commands.barrier();
+}
+
+FieldPoints FieldPasses::compute(const FieldRequest& request, const Moment& moment) {
+    const TableSizes& s = passes_.sizes;
+    const gpu::FieldParams params = pack(request, s.workgroup, moment.largestRadius);
+    params_.write(0, &params, sizeof params);
+    const std::uint32_t slots = s.pairSlots + s.surfaceSlots + s.coilSlots;
+    const std::uint32_t tiles = params.tiles.x * params.tiles.y * params.tiles.z;
+
+    vk::Commands commands(device_);
+    commands.begin();
+    bindings_.bind(commands.handle());
+    gpu::StepPush push = passes_.push(moment.lastStep, moment.source, false);
+    push.firstRow = moment.row;
+    bindings_.push(commands.handle(), &push);
+    if (request.contactStress) dispatch(commands, branches_, slots / s.workgroup);
+    const std::uint32_t places = s.share + (request.contactStress ? gpu::kFieldNodes * slots : 0);
+    dispatch(commands, weigh_, places / s.workgroup);
+    for (const vk::Pipeline* pass : {&sums_, &kinetic_})
+        for (push.slice = 0; push.slice < s.share; push.slice += params.tiles.w) {
+            bindings_.push(commands.handle(), &push);
+            dispatch(commands, *pass, tiles);
+        }
+    commands.hostBarrier();
+    commands.submit();
+
+    const auto vectors = grid_.readAll<gpu::vec4>(gpu::kFieldVectors * request.grid.points());
+    FieldPoints points;
+    points.reserve(request.grid.points());
+    for (std::size_t k = 0; k < request.grid.points(); ++k) points.push_back(unpack(&vectors[gpu::kFieldVectors * k]));
+    return points;
+}
+
+}  // namespace vkdose

@@ -1,0 +1,39 @@
+#pragma once
+// The device side of coarse-grained fields: the passes shaders/pass/field_*.comp over the tables of a load.
+
+#include <cstdint>
+
+#include "host/backend/vulkan/passes.h"
+#include "host/model/field.h"
+
+namespace vkdose {
+
+class FieldPasses {
+  public:
+    /// For grids of up to `points`. `passes` must outlive it.
+    FieldPasses(const vk::Device& device, const Passes& passes, std::size_t points);
+
+    /// Whether a grid fits its tables.
+    bool holds(const FieldRequest& request) const { return request.grid.points() <= points_; }
+
+    struct Moment {
+        std::uint32_t row;       ///< of the member on the roster
+        std::uint32_t source;    ///< the half of the state that is current
+        std::uint32_t lastStep;  ///< of the last batch: the step made last, which the coil's phase is counted from
+        double largestRadius;    ///< [m]
+    };
+    /// Fields of a member; the request must be sound (faultOf). The device must be idle.
+    FieldPoints compute(const FieldRequest& request, const Moment& moment);
+
+  private:
+    void dispatch(vk::Commands& commands, const vk::Pipeline& pass, std::uint32_t groups) const;
+
+    const vk::Device& device_;
+    const Passes& passes_;
+    std::size_t points_;
+    vk::Buffer grid_, weights_, params_;
+    vk::BindingSet bindings_;
+    vk::Pipeline branches_, weigh_, sums_, kinetic_;
+};
+
+}  // namespace vkdose

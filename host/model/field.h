@@ -1,0 +1,111 @@
+#pragma once
+// Coarse-grained fields: what may be asked of a backend, and what it gives.
+//
+// A particle is smeared out over the points of a grid (the centres of its cells) by a kernel W of the distance:
+//
+//   density rho(r) = sum_i m_i W_i(r),  W_i(r) = w(|r - x_i|) / (sum over points r' of w(|r' - x_i|) dV).
+//
+// Each kernel is normalised over the points there are, so that the integral over the grid (the sum of rho dV) is the
+// mass of the particles in it, to rounding, however coarse the grid and wherever a face of it cuts the kernel: nothing
+// is smeared through a wall that is a face. A particle counts where its centre is: in the grid wholly, outside not at
+// all. In a direction with a single cell nothing is resolved, and the field is the mean over the grid's extent.
+//
+// Source: I. Goldhirsch, Stress, stress asymmetry and couple stress: from discrete particles to continuous fields,
+// Granular Matter 12 (2010) 239-252; with the paper's Gaussian kernel or Lucy's polynomial.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/core/vec.h"
+
+namespace vkdose {
+
+/// Cells of a box; a point stands in the middle of each. Points count along x first, then y, then z.
+struct FieldGrid {
+    Vec3 low{0}, high{0};  ///< corners [m]
+    std::array<std::uint32_t, 3> cells{1, 1, 1};
+
+    std::size_t points() const { return std::size_t(cells[0]) * cells[1] * cells[2]; }
+    Vec3 cell() const { return (high - low) / Vec3(cells[0], cells[1], cells[2]); }  ///< size [m]
+    double cellVolume() const { return cell().x * cell().y * cell().z; }             ///< [m3]
+    bool resolved(int direction) const { return cells[std::size_t(direction)] > 1; }
+    int resolvedDirections() const { return int(resolved(0)) + int(resolved(1)) + int(resolved(2)); }
+    Vec3 point(std::size_t index) const;  ///< [m]
+};
+
+enum class Kernel {
+    Gaussian,  ///< exp(-r2/2w2), cut at three widths, where it has fallen to 1.1 %
+    Lucy       ///< (1 + 3 r/w) (1 - r/w)^3 within the width, which is its support; smooth to its second derivative
+};
+
+struct FieldRequest {
+    FieldGrid grid;
+    Kernel kernel = Kernel::Gaussian;
+    double width = 0;            ///< w [m]
+    bool contactStress = false;  ///< of all fields the one that costs most
+
+    double reach() const { return kernel == Kernel::Gaussian ? 3 * width : width; }  ///< of the kernel [m]
+    /// The kernel without its norm, at a distance [m]; 1 at none.
+    double shape(double distance) const;
+    /// Points that one kernel may reach.
+    double pointsInReach() const;
+};
+
+inline constexpr std::size_t kMostFieldPoints = 1'000'000;
+/// Points in reach of one kernel: more would end a loop on software devices, and no width needs so fine a grid.
+inline constexpr double kMostPointsInReach = 60'000;
+
+/// What is wrong with a request, and what would be right; nothing if it can be met.
+std::optional<std::string> faultOf(const FieldRequest& request);
+
+/// The fields at one point. All are densities that add up, so that they can be averaged over time as they are; what is
+/// not (velocity, temperature, coordination) is a quotient of them.
+struct FieldPoint {
+    double density = 0;  ///< of mass [kg/m3]
+    Vec3 momentum{0};    ///< [kg/m2 s]; half-step velocities
+    double number = 0;   ///< of particles [1/m3]
+    double touches = 0;  ///< of touching neighbours, each counted by both [1/m3]
+    /// sum_i m_i v'_i v'_i W_i with v' = v_i - V(r): xx, yy, zz, yz, zx, xy [Pa]. Pressure is positive.
+    std::array<double, 6> kineticStress{};
+    /// sum over contacts of f_a l_b times the mean of W along l, row a, column b [Pa]; f acts on the particle to which
+    /// the branch l leads: from the other's centre, or from the wall. Pressure is positive. Without it: zero.
+    std::array<Vec3, 3> contactStress{Vec3(0), Vec3(0), Vec3(0)};
+
+    Vec3 velocity() const;        ///< V = momentum / density [m/s]; NaN where there is no mass
+    double temperature() const;   ///< granular: a third of v'.v' weighed with the mass [m2/s2]; NaN likewise
+    double coordination() const;  ///< neighbours that touch a particle, mean [-]; NaN likewise
+
+    /// Numbers of a point, one after the other: for sums, records, files.
+    static constexpr std::size_t kNumbers = 21;
+    std::array<double, kNumbers> numbers() const;
+    static FieldPoint of(const double* numbers);
+};
+
+using FieldPoints = std::vector<FieldPoint>;  ///< as FieldGrid counts points
+
+/// Nodes and weights of the quadrature along a branch, Gauss-Legendre on [0, 1]. The kernel's mean along a branch l is
+/// off by less than 2e-5 of its peak for Gaussians up to l = 2 w, by less than 1e-2 up to 4 w (a test holds it to
+/// this).
+inline constexpr std::array<double, 4> kBranchNodes{0.06943184420297371, 0.33000947820757187, 0.66999052179242813,
+                                                    0.93056815579702629};
+inline constexpr std::array<double, 4> kBranchShares{0.17392742256872693, 0.32607257743127307, 0.32607257743127307,
+                                                     0.17392742256872693};
+
+/// A field that a run takes while it goes on.
+struct FieldSensor {
+    enum class Preset { None, HeightProfile, MidPlane, Outlet };
+    std::string name;  ///< of its file
+    Preset preset = Preset::None;
+    FieldRequest request;
+    double interval = 0;   ///< between two that are kept, rounded to whole sensor intervals [s]
+    bool average = false;  ///< the mean of all sensor intervals since the one before, instead of the instant
+    bool stress = false;   ///< stresses, temperature and coordination are kept as well
+    /// Of the bed when dosing begins, for HeightProfile [m]; 0: as its density tells.
+    double initialHeight = 0;
+};
+
+}  // namespace vkdose

@@ -1,0 +1,175 @@
+#include "host/output/field_files.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <system_error>
+#include <utility>
+
+#include "host/core/error.h"
+#include "host/output/vtkhdf.h"
+
+namespace vkdose {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kAxes[] = {"x", "y", "z"};
+constexpr const char* kFolder = "fields";
+
+bool isMap(const FieldSensor& s) {
+    return s.request.grid.resolvedDirections() > 1;
+}
+bool isProfile(const FieldSensor& s) {
+    return s.preset == FieldSensor::Preset::HeightProfile && !isMap(s);
+}
+
+/// ",0.001,0.002": the point's coordinates in the directions that are resolved.
+std::string place(const FieldGrid& grid, std::size_t point) {
+    std::string text;
+    for (int d = 0; d < 3; ++d)
+        if (grid.resolved(d)) text += fmt::format(",{:.9g}", grid.point(point)[d]);
+    return text;
+}
+
+std::string placeNames(const FieldGrid& grid) {
+    std::string text;
+    for (int d = 0; d < 3; ++d)
+        if (grid.resolved(d)) text += fmt::format(",{}_m", kAxes[d]);
+    return text;
+}
+
+}  // namespace
+
+FieldFiles::FieldFiles(fs::path run, const Case& c)
+    : folder_(std::move(run) / kFolder), sensors_(c.fields), density_(c.world.density) {
+    if (sensors_.empty()) return;
+    std::error_code error;
+    fs::create_directories(folder_, error);
+    if (error) throw OutputError(fmt::format("cannot create {}: {}", folder_.string(), error.message()));
+    for (const FieldSensor& s : sensors_) files_.emplace_back(folder_ / (s.name + ".csv"), header(s));
+}
+
+FieldFiles::FieldFiles(fs::path run, const Case& c, const std::vector<std::uint64_t>& bytes)
+    : folder_(std::move(run) / kFolder), sensors_(c.fields), density_(c.world.density) {
+    if (bytes.size() != sensors_.size()) throw OutputError("the checkpoint has another number of fields than the case");
+    for (std::size_t k = 0; k < sensors_.size(); ++k)
+        files_.emplace_back(folder_ / (sensors_[k].name + ".csv"), bytes[k]);
+}
+
+std::string FieldFiles::quantityNames(const FieldSensor& s) const {
+    std::string names = ",density_kg_m3,volume_fraction";
+    for (const char* a : kAxes) names += fmt::format(",momentum_{}_kg_m2_s", a);
+    for (const char* a : kAxes) names += fmt::format(",velocity_{}_m_s", a);
+    if (!s.stress) return names;
+    names += ",coordination,granular_temperature_m2_s2";
+    for (const char* ab : {"xx", "yy", "zz", "yz", "zx", "xy"}) names += fmt::format(",kinetic_stress_{}_Pa", ab);
+    for (const char* a : kAxes)
+        for (const char* b : kAxes) names += fmt::format(",contact_stress_{}{}_Pa", a, b);
+    return names;
+}
+
+std::string FieldFiles::quantities(const FieldSensor& s, const FieldPoint& p) const {
+    const Vec3 v = p.velocity();
+    std::string text = fmt::format(",{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}", p.density,
+                                   p.density / density_, p.momentum.x, p.momentum.y, p.momentum.z, v.x, v.y, v.z);
+    if (!s.stress) return text;
+    text += fmt::format(",{:.9g},{:.9g}", p.coordination(), p.temperature());
+    for (const double k : p.kineticStress) text += fmt::format(",{:.9g}", k);
+    for (const Vec3& row : p.contactStress) text += fmt::format(",{:.9g},{:.9g},{:.9g}", row.x, row.y, row.z);
+    return text;
+}
+
+std::string FieldFiles::header(const FieldSensor& s) const {
+    const std::string when = "time_s,phase,dose";
+    if (isMap(s)) return when + ",file";
+    if (!isProfile(s)) return when + placeNames(s.request.grid) + quantityNames(s);
+    std::string heights = when;
+    for (std::size_t n = 0; n < s.request.grid.points(); ++n)
+        heights += fmt::format(",height_m_at_z_{:.6g}_m", s.request.grid.point(n).z);
+    return heights;
+}
+
+void FieldFiles::write(const FieldSample& f) {
+    const FieldSensor& s = sensors_[f.field];
+    CsvFile& csv = files_[f.field];
+    const std::string when = fmt::format("{:.9g},{},{}", f.time, phaseName(f.phase), f.dose);
+    if (isMap(s)) {
+        const bool volume = s.request.grid.resolvedDirections() == 3;
+        const std::string name = fmt::format("{}_{:06}.{}", s.name, f.number, volume ? "vtkhdf" : "csv");
+        if (volume)  // before the line that names it
+            replaceFile(folder_ / name, image(s, f));
+        else
+            writeMap(s, f, name);
+        csv.line(when + "," + name);
+    } else if (isProfile(s)) {
+        std::string line = when;
+        for (const double h : f.heights) line += fmt::format(",{:.9g}", h);
+        csv.line(line);
+    } else {
+        for (std::size_t n = 0; n < f.points.size(); ++n)
+            csv.line(when + place(s.request.grid, n) + quantities(s, f.points[n]));
+    }
+    csv.flush();
+}
+
+void FieldFiles::writeMap(const FieldSensor& s, const FieldSample& f, const std::string& name) const {
+    CsvFile map(folder_ / name, (placeNames(s.request.grid) + quantityNames(s)).substr(1));
+    for (std::size_t n = 0; n < f.points.size(); ++n)
+        map.line((place(s.request.grid, n) + quantities(s, f.points[n])).substr(1));
+    map.flush();
+}
+
+/// The bytes of a VTKHDF file.
+std::string FieldFiles::image(const FieldSensor& s, const FieldSample& f) const {
+    const FieldGrid& g = s.request.grid;
+    vtkhdf::Image image{g.cells, g.point(0), g.cell(), {}, {}, {}};
+    const auto add = [&](const char* name, const char* unit, std::size_t components, auto value) {
+        std::vector<double> values;
+        values.reserve(components * f.points.size());
+        for (const FieldPoint& p : f.points) {
+            const auto numbers = value(p);
+            values.insert(values.end(), numbers.begin(), numbers.end());
+        }
+        image.pointData.push_back({name, unit, components, std::move(values)});
+    };
+    using One = std::array<double, 1>;
+    const auto three = [](const Vec3& v) { return std::array<double, 3>{v.x, v.y, v.z}; };
+    add("density", "kg/m3", 1, [](const FieldPoint& p) { return One{p.density}; });
+    add("volume_fraction", "", 1, [&](const FieldPoint& p) { return One{p.density / density_}; });
+    add("momentum", "kg/m2/s", 3, [&](const FieldPoint& p) { return three(p.momentum); });
+    add("velocity", "m/s", 3, [&](const FieldPoint& p) { return three(p.velocity()); });
+    if (s.stress) {
+        add("coordination", "", 1, [](const FieldPoint& p) { return One{p.coordination()}; });
+        add("granular_temperature", "m2/s2", 1, [](const FieldPoint& p) { return One{p.temperature()}; });
+        add("kinetic_stress", "Pa", 6, [](const FieldPoint& p) {  // VTK's order: xx yy zz xy yz xz
+            const std::array<double, 6>& k = p.kineticStress;
+            return std::array<double, 6>{k[0], k[1], k[2], k[5], k[3], k[4]};
+        });
+        add("contact_stress", "Pa", 9, [](const FieldPoint& p) {
+            std::array<double, 9> rows;
+            for (std::size_t n = 0; n < 9; ++n) rows[n] = p.contactStress[n / 3][int(n % 3)];
+            return rows;
+        });
+    }
+    image.fieldData.push_back({"time", "s", 1, std::vector<double>{f.time}});
+    return vtkhdf::file(image);
+}
+
+std::vector<std::uint64_t> FieldFiles::store() {
+    std::vector<std::uint64_t> bytes;
+    for (CsvFile& file : files_) bytes.push_back(file.store());
+    return bytes;
+}
+
+void FieldFiles::remove(const fs::path& run) {
+    std::error_code ignored;
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(run / kFolder, ignored))
+        if (entry.path().extension() == ".csv" || entry.path().extension() == ".vtkhdf") files.push_back(entry.path());
+    for (const fs::path& file : files) fs::remove(file, ignored);
+    fs::remove(run / kFolder, ignored);  // unless something else is in it
+}
+
+}  // namespace vkdose

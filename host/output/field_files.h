@@ -1,0 +1,45 @@
+#pragma once
+// The fields of a run, in fields/ of its output folder: for every field NAME.csv, and for maps a file for each that was
+// kept, which NAME.csv lists: NAME_000000.csv, ... in two resolved directions, NAME_000000.vtkhdf, ... in three.
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "host/model/case.h"
+#include "host/output/csv.h"
+#include "host/sim/field_watch.h"
+
+namespace vkdose {
+
+class FieldFiles {
+  public:
+    /// Creates the folder and the files, if the case has fields. Throws OutputError.
+    FieldFiles(std::filesystem::path run, const Case& c);
+
+    /// Goes on with files of so many bytes, as `store` told.
+    FieldFiles(std::filesystem::path run, const Case& c, const std::vector<std::uint64_t>& bytes);
+
+    void write(const FieldSample& sample);
+
+    /// Makes everything written survive a crash; the length of every NAME.csv.
+    std::vector<std::uint64_t> store();
+
+    /// Removes what a former run left there.
+    static void remove(const std::filesystem::path& run);
+
+  private:
+    std::string header(const FieldSensor& sensor) const;
+    std::string quantityNames(const FieldSensor& sensor) const;
+    std::string quantities(const FieldSensor& sensor, const FieldPoint& p) const;
+    void writeMap(const FieldSensor& sensor, const FieldSample& sample, const std::string& name) const;
+    std::string image(const FieldSensor& sensor, const FieldSample& sample) const;
+
+    std::filesystem::path folder_;
+    std::vector<FieldSensor> sensors_;
+    double density_;  ///< of the particles [kg/m3]
+    std::vector<CsvFile> files_;
+};
+
+}  // namespace vkdose

@@ -1,0 +1,50 @@
+// What the field passes share: their buffers, the kernel, and which slots there are. They bind tables of their own in the
+// places of three that they have no use for. Positions are offsets from the grid's lower corner.
+#ifndef VKDOSE_PASS_FIELD_GLSL
+#define VKDOSE_PASS_FIELD_GLSL
+
+// The fields: vec4[points][kFieldVectors].
+layout(std430, set = 0, binding = 9) buffer GridBuffer { vec4 grid[]; };
+// One over the integral of a kernel over the grid, zero outside: float[particles], then float[slots][kFieldNodes]; then
+// float[particles]: how many others touch each.
+layout(std430, set = 0, binding = 11) buffer WeightBuffer { float weights[]; };
+layout(std430, set = 0, binding = 12) readonly buffer FieldBuffer { FieldParams field; };
+
+// Gauss-Legendre on [0, 1] (host/model/field.h).
+const vec4 kNodes = vec4(0.06943184420297371, 0.33000947820757187, 0.66999052179242813, 0.93056815579702629);
+const vec4 kShares = vec4(0.17392742256872693, 0.32607257743127307, 0.32607257743127307, 0.17392742256872693);
+
+uint weightIndex(uint slot, uint node) { return push.particles + kFieldNodes * slot + node; }
+
+uint touchesIndex(uint i) { return push.particles + kFieldNodes * slotCount() + i; }
+
+/// The branch of a slot: from the other's centre or the wall to the particle, when the force acted; w: 1 if it touched.
+/// It takes the place of the torque on the second body, which the next step makes anew.
+uint branchIndex(uint slot) { return 2u * slot + 1u; }
+
+/// A member's k-th slot, pairs first, then surfaces, then the coil; kEmpty if it is not in use.
+uint memberSlot(uint k) {
+    if (k < push.pairSlots) return k < control.listed.x ? firstPairSlot() + k : kEmpty;
+    k -= push.pairSlots;
+    if (k < push.surfaceSlots) return k < control.listed.y ? firstSurfaceSlot() + k : kEmpty;
+    k -= push.surfaceSlots;
+    return k < control.listed.z ? firstCoilSlot() + k : kEmpty;
+}
+
+vec3 offsetOf(uint side, uint i) {
+    return (state[stateIndex(side, kPosition, i)].xyz - field.low.xyz) + state[stateIndex(side, kResidue, i)].xyz;
+}
+
+vec3 pointAt(uvec3 cell) { return (vec3(cell) + 0.5) * field.cell.xyz; }
+
+/// The kernel without its norm.
+float kernel(vec3 away) {
+    vec3 d = field.along.xyz * away;
+    float square = dot(d, d), reach = field.low.w, width = field.size.w;
+    if (square >= reach * reach) return 0.0;
+    if (field.cells.w == kGaussian) return exp(-0.5 * square / (width * width));
+    float q = sqrt(square) / width, rest = 1.0 - q;
+    return (1.0 + 3.0 * q) * rest * rest * rest;
+}
+
+#endif

@@ -1,0 +1,57 @@
+#version 450
+// field_sums: adds a slice of particles to the fields that are plain sums: density, momentum, number, touching neighbours
+// and contact stress. One point of the grid per invocation; the slices follow each other.
+// Reads the source half of the state, links, entries, forces, branches, weights; writes the grid.
+#extension GL_GOOGLE_include_directive : require
+#include "shared/buffers.glsl"
+#include "pass/tile.glsl"
+
+vec4 carriedMass;  // density, momentum
+vec2 number;       // particles, touching neighbours
+mat3 stress;       // column a: row a of the stress
+
+void addBranch(uint slot, vec3 from, vec3 force) {
+    vec3 branch = torques[branchIndex(slot)].xyz;
+    float w = 0.0;
+    for (uint node = 0u; node < kFieldNodes; ++node)
+        w += kShares[node] * weights[weightIndex(slot, node)] * kernel(here - (from - kNodes[node] * branch));
+    stress += outerProduct(branch * w, force);
+}
+
+/// Of the contacts whose first body particle i is, in the order of its links.
+void addBranches(uint i) {
+    vec3 from = offsetOf(1u - push.source, i);
+    uvec4 range = ranges[rowRangeIndex(i)];
+    for (uint k = 0u; k < range.w; ++k) {
+        uint link = rows[linkIndex(range.z + k)], slot = link >> 1u;
+        if ((link & 1u) == 1u) continue;
+        vec4 force = forces[slot];
+        if (force.w > 0.0) addBranch(slot, from, force.xyz);
+    }
+}
+
+void add(uint i) {
+    float r = state[stateIndex(push.source, kPosition, i)].w;
+    float m = gravity().w * (4.0 / 3.0 * 3.14159265358979) * r * r * r;
+    vec3 velocity = state[stateIndex(push.source, kVelocity, i)].xyz;
+    float w = weights[i] * kernel(here - offsetOf(push.source, i));
+    carriedMass += w * m * vec4(1.0, velocity);
+    number += w * vec2(1.0, weights[touchesIndex(i)]);
+    if (field.tile.w == 1u) addBranches(i);
+}
+
+void main() {
+    openMember();
+    vec3 low, high;
+    if (!openTile(low, high)) return;
+    uint at = pointIndex * kFieldVectors;
+    bool onwards = onGrid && push.slice > 0u;
+    carriedMass = onwards ? grid[at + kFieldMass] : vec4(0.0);
+    number = onwards ? grid[at + kFieldNumber].xy : vec2(0.0);
+    for (uint a = 0u; a < 3u; ++a) stress[a] = onwards ? grid[at + kFieldContact + a].xyz : vec3(0.0);
+    addSlice(low, high, field.tile.w == 1u ? field.along.w : 0.0);
+    if (!onGrid) return;
+    grid[at + kFieldMass] = carriedMass;
+    grid[at + kFieldNumber] = vec4(number, 0.0, 0.0);
+    for (uint a = 0u; a < 3u; ++a) grid[at + kFieldContact + a] = vec4(stress[a], 0.0);
+}

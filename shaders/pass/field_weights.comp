@@ -1,0 +1,58 @@
+#version 450
+// field_weights: what the kernel around a place adds up to over the grid, one place per invocation: the particles of the
+// member, whose touching neighbours are counted as well, then, if contact stress is wanted, the nodes of the branches of its
+// slots. Reads the source half of the state (of a branch the other), entries, links, forces, branches; writes weights.
+#extension GL_GOOGLE_include_directive : require
+#include "shared/buffers.glsl"
+#include "pass/field.glsl"
+
+float weightAt(vec3 offset) {
+    if (any(lessThan(offset, vec3(0.0))) || any(greaterThan(offset, field.size.xyz))) return 0.0;
+    vec3 most = vec3(field.cells.xyz) - 1.0, middle = offset / field.cell.xyz - 0.5;
+    vec3 span = field.low.w / field.cell.xyz * field.along.xyz + (1.0 - field.along.xyz);
+    uvec3 first = uvec3(clamp(floor(middle - span), vec3(0.0), most));
+    uvec3 last = uvec3(clamp(ceil(middle + span), vec3(0.0), most));
+    float sum = 0.0;  // of planes, of rows: fewer roundings than in one long sum
+    for (uint z = first.z; z <= last.z; ++z) {
+        float plane = 0.0;
+        for (uint y = first.y; y <= last.y; ++y) {
+            float row = 0.0;
+            for (uint x = first.x; x <= last.x; ++x) row += kernel(pointAt(uvec3(x, y, z)) - offset);
+            plane += row;
+        }
+        sum += plane;
+    }
+    return sum > 0.0 ? 1.0 / (sum * field.cell.w) : 0.0;
+}
+
+/// Others that touched particle i in the last step.
+float touching(uint i) {
+    uvec4 range = ranges[rowRangeIndex(i)];
+    float count = 0.0;
+    for (uint k = 0u; k < range.w; ++k) {
+        uint slot = rows[linkIndex(range.z + k)] >> 1u;
+        if (ofPair(slot) && forces[slot].w > 0.0) count += 1.0;
+    }
+    return count;
+}
+
+void main() {
+    openMember();
+    uint k = invocation();
+    if (k < push.share) {
+        uint i = firstParticle() + k;
+        bool active_ = uint(state[stateIndex(push.source, kSpin, i)].w) == kActive;
+        weights[i] = active_ ? weightAt(offsetOf(push.source, i)) : 0.0;
+        weights[touchesIndex(i)] = active_ ? touching(i) : 0.0;
+        return;
+    }
+    k -= push.share;
+    uint node = k % kFieldNodes;
+    k /= kFieldNodes;
+    if (field.tile.w == 0u || k >= push.pairSlots + push.surfaceSlots + push.coilSlots) return;
+    uint slot = memberSlot(k);
+    if (slot == kEmpty) return;
+    vec4 branch = torques[branchIndex(slot)];
+    vec3 from = offsetOf(1u - push.source, entries[slot].x);
+    weights[weightIndex(slot, node)] = branch.w > 0.0 ? weightAt(from - kNodes[node] * branch.xyz) : 0.0;
+}
