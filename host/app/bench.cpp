@@ -162,6 +162,7 @@ Row measuredEnsemble(const std::string& name, const Workload& w, const BenchOpti
         together([&](Backend& b) { b.load(w.world, w.particles); });
         const auto advance = [&](std::uint32_t n) { together([&](Backend& b) { b.advance(n, w.coilRate); }); };
         row.speed = bench::time(advance, row.particles, w.warmSteps, effort);
+        row.tableBytes = tableBytes(*backends[0]) / double(row.particles);
     } catch (const DeviceError& e) {
         row.refused = e.what();
     }

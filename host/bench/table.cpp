@@ -19,6 +19,7 @@ Json figuresOf(const Row& r) {
            {"particle_steps_per_s", r.speed.particleSteps.median},
            {"particle_steps_per_s_low", r.speed.particleSteps.low},
            {"particle_steps_per_s_high", r.speed.particleSteps.high}};
+    if (r.members > 1) j["table_bytes_per_particle"] = r.tableBytes;
     if (r.onlySpeed()) return j;
     j["steps"] = r.speed.steps;
     j["cores_busy"] = r.speed.coresBusy.median;

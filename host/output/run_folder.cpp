@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "host/core/error.h"
+#include "host/output/run_history.h"
 #include "host/output/summary.h"
 
 namespace vkdose {
@@ -173,7 +174,7 @@ void RunFolder::onCheckpoint(const RunCheckpoint& checkpoint, double time) {
 void RunFolder::finish(const Case& c, const RunResult& result) {
     if (frames_) frames_->store();
     if (result.endState) writeParticles(folder_ / "particles.csv", result.particles);
-    replaceFile(folder_ / "summary.json", summaryJson(c, result, backend_) + "\n");
+    replaceFile(folder_ / "summary.json", summaryJson(c, result, backend_, historyOf(folder_, c, result)) + "\n");
     if (result.reason == StopReason::Interrupted || !result.error.empty()) return;
     std::error_code ignored;
     fs::remove(folder_ / kCheckpointName, ignored);

@@ -91,6 +91,32 @@ Json analysis(const RunResult& r) {
     return j;
 }
 
+Json outlet(const OutletFlow& flow) {
+    const OutletFlow::Stop& stop = flow.longest;
+    Json j;
+    j["first_mass_after_rotation_s"] = flow.lead ? number(*flow.lead) : Json(nullptr);
+    j["longest_stop_s"] = number(stop.time);
+    j["longest_stop_turns"] = number(stop.turns);
+    j["longest_stop_from_s"] = stop.dose > 0 ? number(stop.start) : Json(nullptr);
+    j["longest_stop_from_dose"] = doseCount(stop.dose > 0 ? std::optional(stop.dose) : std::nullopt);
+    j["stopped_at_dose"] = doseCount(flow.stoppedAt);
+    return j;
+}
+
+Json arches(const std::vector<DoseArch>& list) {
+    Json j = Json::array();
+    for (const DoseArch& a : list) {
+        Json one;
+        one["dose"] = a.dose;
+        one["time_s"] = number(a.time);
+        one["height_m"] = number(a.arch ? a.arch->height : 0);
+        one["z_m"] = a.arch ? number(a.arch->z) : Json(nullptr);
+        one["length_m"] = number(a.arch ? a.arch->length : 0);
+        j.push_back(std::move(one));
+    }
+    return j;
+}
+
 Json energy(const EnergyLedger& ledger) {
     const EnergyBook& b = ledger.sum;
     Json j;
@@ -113,7 +139,7 @@ Json energy(const EnergyLedger& ledger) {
 
 }  // namespace
 
-std::string summaryJson(const Case& c, const RunResult& r, const std::string& backend) {
+std::string summaryJson(const Case& c, const RunResult& r, const std::string& backend, const RunHistory& history) {
     const DoseStatistics& s = r.statistics;
     Json j;
     j["inputs"] = inputs(c, r);
@@ -131,6 +157,8 @@ std::string summaryJson(const Case& c, const RunResult& r, const std::string& ba
                             {"standard_deviation_kg", s.doses > 1 ? number(s.deviation) : Json(nullptr)},
                             {"rsd", s.doses > 1 && s.mean > 0 ? number(s.relative) : Json(nullptr)}};
     j["analysis"] = analysis(r);
+    j["outlet"] = outlet(history.outlet);
+    j["arches"] = arches(history.arches);
     j["dosed_while_settling_kg"] = number(r.dosedWhileSettling);
     j["closed_form"] = closedForms(r.derived);
     j["ledger"] = ledger(r);

@@ -66,9 +66,10 @@ function timeCharts(parent, run) {
 function doseTable(main, d) {
   const g = x => (isNumber(x) ? (x * gram).toFixed(3) : "");
   table(main, [["dose", true], ["begins at [s]", true], ["mass [g]", true], ["cumulative [g]", true], ["particles", true],
-               ["torque [mN m]", true], ["closed form [g]", true], ["", false]],
+               ["torque [mN m]", true], ["closed form [g]", true], ["longest stop [s]", true], ["arch [mm]", true], ["", false]],
         d.dose.map((n, i) => [n, short(d.start_time_s[i]), g(d.mass_kg[i]), g(d.cumulative_mass_kg[i]), d.particles[i],
                               g(d.coil_torque_Nm[i]), g(d.closed_form_mass_kg[i]),
+                              short(d.longest_stop_s[i]), isNumber(d.arch_m[i]) ? short(d.arch_m[i] * milli) : "",
                               d.complete[i] === 1 ? "" : "incomplete, in no statistics"]));
 }
 

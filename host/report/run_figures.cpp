@@ -8,6 +8,7 @@
 #include "host/analysis/blockage.h"
 #include "host/analysis/density.h"
 #include "host/analysis/emptying.h"
+#include "host/analysis/outlet.h"
 #include "host/analysis/work.h"
 
 namespace vkdose::report {
@@ -24,6 +25,8 @@ class Facts {
         emptying();
         drive();
         outlet();
+        stops();
+        arches();
         bed();
         return std::move(list_);
     }
@@ -112,6 +115,36 @@ class Facts {
         if (!overlap.empty())
             add("deepest overlap",
                 fmt::format("{:.3g} of the smaller radius", *std::max_element(overlap.begin(), overlap.end())));
+    }
+
+    void stops() {
+        if (run_.series.rows() == 0) return;
+        const OutletFlow flow = outletFlow(flowSamples(run_.series), filled_);
+        const OutletFlow::Stop& stop = flow.longest;
+        add("longest stop of the outlet, coil turning",
+            stop.dose > 0 ? fmt::format("{:.3g} s, {:.3g} turns", stop.time, stop.turns) : "none",
+            stop.dose > 0 ? fmt::format("from t = {:.4g} s, in dose {}", stop.start, stop.dose) : "");
+        add("outlet stopped for more than a turn",
+            flow.stoppedAt ? fmt::format("first in dose {}", *flow.stoppedAt) : "never",
+            flow.lead ? fmt::format("the coil had turned {:.3g} s until something came", *flow.lead)
+                      : "nothing came at all");
+    }
+
+    /// From frames at the doses' ends, which the summary of a run that kept some tells.
+    void arches() {
+        if (!run_.summary.is_object() || !run_.summary.contains("arches")) return;
+        double highest = 0;
+        int looked = 0, found = 0;
+        for (const Json& arch : run_.summary["arches"]) {
+            if (!arch.is_object()) continue;
+            const double height = arch.value("height_m", 0.0);
+            highest = std::max(highest, height);
+            ++looked;
+            found += height > 0 ? 1 : 0;
+        }
+        if (looked > 0)
+            add("arches over the coil, at the doses' ends", fmt::format("{} of {}", found, looked),
+                found > 0 ? fmt::format("the highest {:.3g} mm", highest * 1e3) : "");
     }
 
     void bed() {

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <numeric>
 #include <sstream>
 
 #include "host/analysis/balance.h"
+#include "host/analysis/outlet.h"
 #include "host/core/csv_table.h"
 #include "host/core/error.h"
 #include "host/model/case.h"
@@ -99,12 +101,24 @@ Json readSummary(const fs::path& folder, const Table& series) {
     return later ? Json(nullptr) : summary;
 }
 
-Json dosesJson(const Table& table, const std::vector<Dose>& doses) {
+Json dosesJson(const Table& table, const RunSources& run) {
+    const std::vector<Dose>& doses = run.doses;
     Json j;
     for (const std::string& name : table.names()) j[name] = numbers(table.column(name));
     std::vector<int> complete;
     for (const Dose& d : doses) complete.push_back(d.complete ? 1 : 0);
     j["complete"] = complete;
+    j["longest_stop_s"] = j["arch_m"] = Json::array();
+    const std::map<int, double> stops = outletFlow(flowSamples(run.series), filledMass(run)).longestIn;
+    std::map<int, Json> arches;
+    if (run.summary.is_object() && run.summary.contains("arches"))
+        for (const Json& a : run.summary["arches"])
+            if (a.is_object()) arches[a.value("dose", 0)] = a.value("height_m", Json());
+    for (const Dose& d : doses) {
+        const auto stop = stops.find(d.index);
+        j["longest_stop_s"].push_back(stop == stops.end() ? 0.0 : stop->second);
+        j["arch_m"].push_back(arches[d.index]);
+    }
     return j;
 }
 
@@ -145,7 +159,7 @@ Json runJson(const fs::path& folder, const std::optional<fs::path>& experiment) 
     j["name"] = c.name;
     j["reason"] = c.reason;
     j["facts"] = runFacts(sources);
-    j["doses"] = dosesJson(doseTable, sources.doses);
+    j["doses"] = dosesJson(doseTable, sources);
     j["series"] = seriesJson(series);
     j["rotations"] = rotations(series);
     j["beta_below_kg"] = number(figuresOf(sources.doses, filledMass(sources)).window.cumulativeBelow);

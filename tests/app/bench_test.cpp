@@ -61,6 +61,21 @@ TEST_CASE("bench sums processes that run side by side") {
     requirePositive(results[0], "particle_steps_per_s");
 }
 
+TEST_CASE("bench runs canisters in one ensemble, and tells what their tables take") {
+    const Sandbox box;
+    const auto outcome = box.vkdose("bench --quick --repeats 2 --members 3 --only free-fall --out found" + device());
+    INFO(outcome.out << outcome.err);
+    REQUIRE(outcome.code == 0);
+    const auto results = nlohmann::json::parse(readText(box / "found/bench.json"))["results"];
+    REQUIRE(results.size() == 1);
+    CHECK(results[0]["members"] == 3);
+    CHECK(results[0]["particles"] == 3 * 3375);
+    requirePositive(results[0], "particle_steps_per_s");
+    // A particle's own state alone, twice, is more than a hundred bytes; the tables are some ten times that.
+    CHECK(results[0]["table_bytes_per_particle"] > 100);
+    CHECK(results[0]["table_bytes_per_particle"] < 10000);
+}
+
 TEST_CASE("bench says what it does not know and what is not there") {
     const Sandbox box;
     const auto unknown = box.vkdose("bench --only feather");

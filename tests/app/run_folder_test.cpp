@@ -93,6 +93,15 @@ TEST_CASE("the folder of a run parses back to what was computed") {
     CHECK(summary["stop_reason"] == "dose_count");
     CHECK(summary["error"].is_null());
     CHECK(summary["doses"].size() == 3);
+    // Lines at 0.12, 0.15 (the first grain is out), 0.18, 0.21 (the last), 0.22 s while the coil turns, and from 0.24
+    // to 0.29 s in dose 3, in which nothing comes.
+    CHECK(summary["outlet"]["first_mass_after_rotation_s"].get<double>() == Approx(0.05));
+    CHECK(summary["outlet"]["longest_stop_s"].get<double>() == Approx(0.06));
+    CHECK(summary["outlet"]["longest_stop_turns"].get<double>() == Approx(0.06 * 4 / (2 * kPi)));
+    CHECK(summary["outlet"]["longest_stop_from_s"].get<double>() == Approx(0.21));
+    CHECK(summary["outlet"]["longest_stop_from_dose"] == 2);
+    CHECK(summary["outlet"]["stopped_at_dose"].is_null());
+    CHECK(summary["arches"].empty());  // no frames
     CHECK(summary["doses"][1]["mass_kg"].get<double>() == Approx(3e-3));
     CHECK(summary["dose_statistics"]["mean_kg"].get<double>() == Approx(5e-3 / 3));
     CHECK(summary["dose_statistics"]["rsd"].get<double>() == Approx(r.statistics.relative));

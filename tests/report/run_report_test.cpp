@@ -80,6 +80,12 @@ TEST_CASE("the figures of a run, by hand") {
     CHECK(fact(data, "mass per turn of the coil") == "3.5 g");        // 3.5 g in one turn
     CHECK(fact(data, "work of the drive") == "12.57 mJ");             // 2 mN m over 2 pi
     CHECK(fact(data, "outlet velocity, coil turning") == "15 mm/s");  // of 12 and 18; that at rest left out
+    // Something came out in every line in which the coil turned; the first of them ends 0.2 s after it began to.
+    CHECK(fact(data, "longest stop of the outlet, coil turning") == "none");
+    CHECK(fact(data, "outlet stopped for more than a turn") == "never");
+    CHECK_THAT(fact(data, "outlet stopped for more than a turn", "note"), Catch::Contains("0.2 s"));
+    CHECK(data["doses"]["longest_stop_s"] == Json({0, 0, 0, 0}));
+    CHECK(data["doses"]["arch_m"] == Json({nullptr, nullptr, nullptr, nullptr}));
     CHECK(fact(data, "state") == "still running, or ended without a summary");
     CHECK(fact(data, "arch over the coil, at the end") == "no such fact");
 }
@@ -98,6 +104,11 @@ TEST_CASE("the end state adds densities and arches, the summary how it ended") {
     CHECK(fact(data, "ended") == "the 3 doses asked for are done");
     CHECK(fact(data, "error") == "it broke");
     CHECK_THAT(fact(data, "arch over the coil, at the end"), !Catch::Contains("no such fact"));
+    box.write("run/summary.json", R"({"arches": [{"dose": 1, "height_m": 0.0}, {"dose": 2, "height_m": 0.012}]})");
+    const Json arched = runJson(folder, {});
+    CHECK(fact(arched, "arches over the coil, at the doses' ends") == "1 of 2");
+    CHECK(fact(arched, "arches over the coil, at the doses' ends", "note") == "the highest 12 mm");
+    CHECK(arched["doses"]["arch_m"] == Json({0.0, 0.012, nullptr, nullptr}));
     // An interrupted run that was resumed and goes on: neither its summary nor its end state hold any more.
     box.write("run/summary.json", R"({"stop_sentence": "interrupted", "simulated_time_s": 0.6})");
     CHECK_THAT(fact(runJson(folder, {}), "state"), Catch::Contains("still running"));

@@ -55,6 +55,9 @@ class Ensemble {
     /// Of an ensemble of one.
     VulkanProfile profile(std::uint32_t steps, double coilRate);
 
+    /// Of all tables together [bytes]; once loaded.
+    std::uint64_t tableBytes() const { return passes_->bytes(); }
+
     const vk::Device& device() const { return device_; }
 
   private:

@@ -62,6 +62,9 @@ class VulkanBackend final : public Backend {
     double coilAngle() const override { return angle_; }
     std::string description() const override { return "vulkan: " + ensemble_->device().info().name; }
 
+    double tableBytes() const {
+        return alone([](Ensemble& e, std::uint32_t) { return double(e.tableBytes()); });
+    }
     ValidationReport validation() const {
         return alone([](Ensemble& e, std::uint32_t) {
             return ValidationReport{e.device().validated(), e.device().validationMessages()};
@@ -98,6 +101,12 @@ VulkanProfile profile(Backend& backend, std::uint32_t steps, double coilRate) {
     auto* vulkan = dynamic_cast<VulkanBackend*>(&backend);
     if (vulkan == nullptr) throw std::invalid_argument("only a Vulkan backend has a profile");
     return vulkan->profile(steps, coilRate);
+}
+
+double tableBytes(const Backend& backend) {
+    const auto* vulkan = dynamic_cast<const VulkanBackend*>(&backend);
+    if (vulkan == nullptr) throw std::invalid_argument("only a Vulkan backend has tables on a device");
+    return vulkan->tableBytes();
 }
 
 double stepBytes(double touching, double touchingWalls) {

@@ -60,6 +60,10 @@ struct VulkanProfile {
 /// what `advance` throws; std::invalid_argument if the backend is another one.
 VulkanProfile profile(Backend& backend, std::uint32_t steps, double coilRate);
 
+/// Bytes on the device of all tables of a loaded Vulkan backend and of those it shares them with.
+/// std::invalid_argument if the backend is another one.
+double tableBytes(const Backend& backend);
+
 /// Bytes that one particle's step moves between kernels and tables if no cache holds anything, from the layout and the
 /// reads and writes of shaders/pass/pairs.comp, surfaces.comp and move.comp without energy book: an estimate. Arguments
 /// are means over particles.

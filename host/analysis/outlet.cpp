@@ -1,0 +1,72 @@
+#include "host/analysis/outlet.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace vkdose {
+
+namespace {
+
+/// Gathers stretches without flow.
+class Stops {
+  public:
+    void extend(const FlowSample& from, const FlowSample& to) {
+        if (now_.dose == 0) now_ = {to.dose, from.time, 0, 0};
+        if (to.dose != within_.first) within_ = {to.dose, 0};
+        const double time = to.time - from.time;
+        now_.time += time;
+        now_.turns += std::abs(to.angle - from.angle) / (2 * std::numbers::pi);
+        within_.second += time;
+        flow_.longestIn[to.dose] = std::max(flow_.longestIn[to.dose], within_.second);
+        if (now_.time > flow_.longest.time) flow_.longest = now_;
+        // The rounding of the angle in the table is no part of a turn.
+        if (now_.turns > 1 + 1e-6 && !flow_.stoppedAt) flow_.stoppedAt = now_.dose;
+    }
+    void end() {
+        now_ = {};
+        within_ = {};
+    }
+    const OutletFlow& flow() const { return flow_; }
+
+  private:
+    OutletFlow flow_;
+    OutletFlow::Stop now_;             ///< dose 0: it flows
+    std::pair<int, double> within_{};  ///< what of it lies in a dose [s]
+};
+
+}  // namespace
+
+std::vector<FlowSample> flowSamples(const Table& series) {
+    std::vector<FlowSample> samples;
+    for (std::size_t i = 0; i < series.rows(); ++i)
+        samples.push_back({series.number(i, "time_s"), series.text(i, "phase") == "rotate",
+                           static_cast<int>(series.number(i, "dose")), series.number(i, "coil_angle_rad"),
+                           series.number(i, "dosed_mass_kg"),
+                           series.number(i, "canister_mass_kg") + series.number(i, "throat_mass_kg")});
+    return samples;
+}
+
+OutletFlow outletFlow(const std::vector<FlowSample>& samples, double filled, double remaining) {
+    Stops lead, stops;
+    double turned = 0;  // [s]
+    bool begun = false;
+    FlowSample before;
+    before.inside = filled;
+    for (const FlowSample& s : samples) {
+        const bool flowed = s.dosed > before.dosed;
+        if (s.turning && !begun) turned += s.time - before.time;
+        if (flowed) {
+            begun = true;
+            stops.end();
+        } else if (s.turning && before.inside > remaining * filled) {
+            (begun ? stops : lead).extend(before, s);
+        }
+        before = s;
+    }
+    OutletFlow flow = begun ? stops.flow() : lead.flow();
+    if (begun) flow.lead = turned;
+    return flow;
+}
+
+}  // namespace vkdose

@@ -1,0 +1,28 @@
+#include "host/output/run_history.h"
+
+#include <cmath>
+
+namespace vkdose {
+
+std::vector<DoseArch> archesAtDoseEnds(const Frames& frames, const Case& c, const std::vector<Dose>& doses) {
+    std::vector<DoseArch> arches;
+    if (!c.world.coil || !c.canister || frames.entries().empty()) return arches;
+    const double reach = c.frames.interval / 2 * (1 + 1e-9);  // half way between two frames counts
+    for (const Dose& d : doses) {
+        const double end = d.startTime + c.schedule.rotateTime + c.schedule.restTime;
+        const FrameEntry& entry = frames.nearest(end);
+        if (!d.complete || std::abs(entry.time - end) > reach) continue;
+        arches.push_back({d.index, entry.time, archAbove(*c.world.coil, *c.canister, frames.read(entry).particles)});
+    }
+    return arches;
+}
+
+RunHistory historyOf(const std::filesystem::path& folder, const Case& c, const RunResult& result) {
+    RunHistory history;
+    const Table series = Table::salvage(folder / "timeseries.csv");
+    if (series.rows() > 0) history.outlet = outletFlow(flowSamples(series), result.ledger.filledMass());
+    history.arches = archesAtDoseEnds(Frames(folder), c, result.doses);
+    return history;
+}
+
+}  // namespace vkdose

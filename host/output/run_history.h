@@ -1,0 +1,34 @@
+#pragma once
+// What the files of a run tell of it beyond its doses: how the powder flowed, and where it arched.
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "host/analysis/blockage.h"
+#include "host/analysis/outlet.h"
+#include "host/output/frames.h"
+#include "host/sim/runner.h"
+
+namespace vkdose {
+
+/// The void over the coil in the frame nearest to the end of a dose.
+struct DoseArch {
+    int dose = 0;
+    double time = 0;  ///< of the frame [s]
+    std::optional<Arch> arch;
+};
+
+/// Of the complete ones of `doses` that have a frame within half a frame interval of their end. None without a coil in
+/// a canister. Throws OutputError if a frame cannot be read.
+std::vector<DoseArch> archesAtDoseEnds(const Frames& frames, const Case& c, const std::vector<Dose>& doses);
+
+struct RunHistory {
+    OutletFlow outlet;
+    std::vector<DoseArch> arches;
+};
+
+/// From the time series and the frames in a run's output folder. Throws OutputError as above.
+RunHistory historyOf(const std::filesystem::path& folder, const Case& c, const RunResult& result);
+
+}  // namespace vkdose
