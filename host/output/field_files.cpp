@@ -124,7 +124,7 @@ void FieldFiles::writeMap(const FieldSensor& s, const FieldSample& f, const std:
 /// The bytes of a VTKHDF file.
 std::string FieldFiles::image(const FieldSensor& s, const FieldSample& f) const {
     const FieldGrid& g = s.request.grid;
-    vtkhdf::Image image{g.cells, g.point(0), g.cell(), {}, {}, {}};
+    vtkhdf::Image image{g.cells, g.point(0), g.cell(), {}, {}};
     const auto add = [&](const char* name, const char* unit, std::size_t components, auto value) {
         std::vector<double> values;
         values.reserve(components * f.points.size());
