@@ -97,7 +97,7 @@ void FieldFiles::write(const FieldSample& f) {
     const std::string when = fmt::format("{:.9g},{},{}", f.time, phaseName(f.phase), f.dose);
     if (isMap(s)) {
         const bool volume = s.request.grid.resolvedDirections() == 3;
-        const std::string name = fmt::format("{}_{:06}.{}", s.name, f.number, volume ? "vtkhdf" : "csv");
+        const std::string name = fmt::format("{}_{:06}.{}", s.name, f.number, volume ? "hdf" : "csv");
         if (volume)  // before the line that names it
             replaceFile(folder_ / name, image(s, f));
         else
@@ -124,7 +124,7 @@ void FieldFiles::writeMap(const FieldSensor& s, const FieldSample& f, const std:
 /// The bytes of a VTKHDF file.
 std::string FieldFiles::image(const FieldSensor& s, const FieldSample& f) const {
     const FieldGrid& g = s.request.grid;
-    vtkhdf::Image image{g.cells, g.point(0), g.cell(), {}, {}, {}};
+    vtkhdf::Image image{g.cells, g.point(0), g.cell(), {}, {}};
     const auto add = [&](const char* name, const char* unit, std::size_t components, auto value) {
         std::vector<double> values;
         values.reserve(components * f.points.size());
@@ -167,7 +167,7 @@ void FieldFiles::remove(const fs::path& run) {
     std::error_code ignored;
     std::vector<fs::path> files;
     for (const auto& entry : fs::directory_iterator(run / kFolder, ignored))
-        if (entry.path().extension() == ".csv" || entry.path().extension() == ".vtkhdf") files.push_back(entry.path());
+        if (entry.path().extension() == ".csv" || entry.path().extension() == ".hdf") files.push_back(entry.path());
     for (const fs::path& file : files) fs::remove(file, ignored);
     fs::remove(run / kFolder, ignored);  // unless something else is in it
 }

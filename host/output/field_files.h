@@ -1,6 +1,6 @@
 #pragma once
 // The fields of a run, in fields/ of its output folder: for every field NAME.csv, and for maps a file for each that was
-// kept, which NAME.csv lists: NAME_000000.csv, ... in two resolved directions, NAME_000000.vtkhdf, ... in three.
+// kept, which NAME.csv lists: NAME_000000.csv, ... in two resolved directions, NAME_000000.hdf, ... in three.
 
 #include <cstdint>
 #include <filesystem>

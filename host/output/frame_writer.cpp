@@ -69,10 +69,8 @@ FrameWriter::FrameWriter(const fs::path& run, const Case& c, std::uint32_t membe
       world_(c.world),
       kinds_(kindsOf(c)),
       member_(member),
-      index_(folder_ / kFramesIndex, kFramesHeader) {
-    const std::string walls = wallsFile(c);
-    if (!walls.empty()) replaceFile(folder_ / kWallsFile, walls);
-}
+      walls_(wallsFile(c)),
+      index_(folder_ / kFramesIndex, kFramesHeader) {}
 
 FrameWriter::FrameWriter(const fs::path& run, const Case& c, std::uint32_t member, std::uint64_t bytes)
     : folder_(run / kFramesFolder),
@@ -101,6 +99,7 @@ void FrameWriter::await() {
 void FrameWriter::write(const Frame& frame) {
     const int number = static_cast<int>(times_.size());
     if (std::exchange(later_, false)) removeFrom(folder_, number);
+    if (!walls_.empty()) replaceFile(folder_ / kWallsFile, std::exchange(walls_, ""));
     try {
         for (const char* kind : kinds_)
             replaceFile(folder_ / frameFile(kind, number), content(kind, frame, world_, member_));

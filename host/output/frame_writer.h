@@ -46,6 +46,7 @@ class FrameWriter {
     std::vector<const char*> kinds_;  ///< of files that each frame has
     std::uint32_t member_;
     std::vector<double> times_;  ///< of the frames so far [s]
+    std::string walls_;          ///< a file that comes with the first frame
     bool later_ = false;         ///< there may be frames beyond these
     CsvFile index_;
     std::future<void> writing_;  ///< last, so that it has ended before the rest is gone

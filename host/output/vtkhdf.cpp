@@ -43,10 +43,10 @@ void putAll(hdf5::Writer& writer, const std::string& group, const std::vector<Ar
     for (const Array& a : arrays) put(writer, group, a, shape);
 }
 
-void putFields(hdf5::Writer& writer, const std::vector<Array>& arrays) {
+void putFields(hdf5::Writer& writer, const std::string& group, const std::vector<Array>& arrays) {
     if (arrays.empty()) return;
-    writer.group("/VTKHDF/FieldData");
-    for (const Array& a : arrays) put(writer, "/VTKHDF/FieldData", a, {length(a) / a.components});
+    writer.group(group);
+    for (const Array& a : arrays) put(writer, group, a, {length(a) / a.components});
 }
 
 void putOne(hdf5::Writer& writer, const char* name, std::size_t value) {
@@ -72,7 +72,7 @@ std::string file(const Grid& grid) {
     writer.array("/VTKHDF/Types", std::vector<std::uint8_t>(cells, static_cast<std::uint8_t>(grid.cell)), {cells});
     putAll(writer, "/VTKHDF/PointData", grid.pointData, {points});
     putAll(writer, "/VTKHDF/CellData", grid.cellData, {cells});
-    putFields(writer, grid.fieldData);
+    putFields(writer, "/VTKHDF/FieldData", grid.fieldData);
     return writer.image();
 }
 
@@ -87,8 +87,7 @@ std::string file(const Image& image) {
     writer.attribute("/VTKHDF", "Direction", std::vector<double>{1, 0, 0, 0, 1, 0, 0, 0, 1});
     // HDF5 names the slowest axis first.
     putAll(writer, "/VTKHDF/PointData", image.pointData, {n[2], n[1], n[0]});
-    putAll(writer, "/VTKHDF/CellData", image.cellData, {n[2] - 1, n[1] - 1, n[0] - 1});
-    putFields(writer, image.fieldData);
+    putFields(writer, "/FieldData", image.fieldData);
     return writer.image();
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 // The VTKHDF format, version 1.0, as far as it is needed: a file holds one unstructured grid or one image (a regular
-// grid) that vtkHDFReader of VTK 9.1 and ParaView 5.10 or later open. Everything lies in the group /VTKHDF; a data set
+// grid) that vtkHDFReader of VTK 9.1 and later opens. What VTK reads lies in the group /VTKHDF; a data set
 // that has a unit has it as the attribute `unit`. The same data make the same bytes.
 
 #include <array>
@@ -32,13 +32,14 @@ struct Grid {
     std::vector<Array> fieldData;            ///< of the whole
 };
 
-/// A regular grid along the axes.
+/// A regular grid along the axes. VTK 9.1 can read neither cell data of an image nor field data: there are none of the
+/// former, and the latter lie in a group /FieldData of their own.
 struct Image {
-    std::array<std::uint32_t, 3> points{};   ///< along x, y, z; cells are one less
-    Vec3 origin{0};                          ///< of the first point [m]
-    Vec3 spacing{1};                         ///< [m]
-    std::vector<Array> pointData, cellData;  ///< x fastest
-    std::vector<Array> fieldData;            ///< of the whole
+    std::array<std::uint32_t, 3> points{};  ///< along x, y, z
+    Vec3 origin{0};                         ///< of the first point [m]
+    Vec3 spacing{1};                        ///< [m]
+    std::vector<Array> pointData;           ///< x fastest
+    std::vector<Array> fieldData;           ///< of the whole
 };
 
 /// The bytes of a file that holds it. Throws std::invalid_argument if an array has another length than it must.

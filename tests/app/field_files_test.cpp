@@ -103,9 +103,9 @@ TEST_CASE("a map is a file for each time, which the field's own file lists; a ne
     CHECK(fs::exists(box / "out/fields/f_000004.csv"));
 
     const Rows volumes = runInto(box / "out", caseWith({2, 2, 3}, FieldSensor::Preset::None, true));
-    CHECK(volumes[2].at(column(volumes, "file")) == "f_000001.vtkhdf");
+    CHECK(volumes[2].at(column(volumes, "file")) == "f_000001.hdf");
     CHECK_FALSE(fs::exists(box / "out/fields/f_000001.csv"));
-    const hdf5::Reader volume{readText(box / "out/fields/f_000001.vtkhdf")};
+    const hdf5::Reader volume{readText(box / "out/fields/f_000001.hdf")};
     const auto momentum = volume.array<double>("/VTKHDF/PointData/momentum");
     REQUIRE(momentum.size() == 3 * 12);
     CHECK(momentum[4] == 3 * 120);

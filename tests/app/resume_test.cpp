@@ -204,8 +204,8 @@ TEST_CASE("a full disk ends the run with a message and leaves the last good chec
     // Frames are written while the run goes on, but what happens to them is told all the same.
     const auto frame = box.vkdose("run " + words(kDoses) + "--backend reference --out frame", "ulimit -f 20; ");
     CHECK(frame.code == 5);
-    CHECK_THAT(frame.err, Catch::Contains("frames/particles_000000.hdf: File too large"));
-    CHECK_FALSE(fs::exists(box / "frame/frames/particles_000000.hdf.new"));
+    CHECK_THAT(frame.err, Catch::Contains("frames/walls.hdf: File too large"));
+    CHECK_FALSE(fs::exists(box / "frame/frames/walls.hdf.new"));
 }
 
 TEST_CASE("a checkpoint that cannot be used is refused by name") {

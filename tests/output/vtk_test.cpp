@@ -5,6 +5,7 @@
 
 #include "host/backend/reference/reference.h"
 #include "host/output/run_folder.h"
+#include "host/output/vtkhdf.h"
 #include "tests/app/sandbox.h"
 
 using namespace vkdose;
@@ -24,6 +25,32 @@ bool packagesMissing() {
 }
 
 }  // namespace
+
+TEST_CASE("VTK opens an image with every value at its place") {
+    if (packagesMissing()) return;
+    const Sandbox box;
+    vtkhdf::Image image;
+    image.points = {3, 4, 5};
+    image.origin = Vec3(0.1, 0.2, 0.3);
+    image.spacing = Vec3(1, 0.5, 0.25);
+    std::vector<double> where, number;
+    for (int z = 0; z < 5; ++z)
+        for (int y = 0; y < 4; ++y)
+            for (int x = 0; x < 3; ++x) {
+                where.insert(where.end(), {double(x), double(y), double(z)});
+                number.push_back(x + 10 * y + 100 * z);
+            }
+    image.pointData = {{"where", "m", 3, where}, {"number", "", 1, std::vector<float>(number.begin(), number.end())}};
+    image.fieldData = {{"TimeValue", "s", 1, std::vector<double>{0.75}}};
+    const std::string file = box.write("image.hdf", vtkhdf::file(image)), said = box / "said.txt";
+    const std::string script = kPython + " " VKDOSE_SOURCE_DIR "/tests/output/image_check.py ";
+    const int status = std::system((script + file + " > " + said + " 2>&1").c_str());
+    CAPTURE(readText(said));
+    CHECK(status == 0);
+
+    image.pointData[1].components = 3;
+    CHECK_THROWS_AS(vtkhdf::file(image), std::invalid_argument);
+}
 
 TEST_CASE("VTK and h5py open the frames of a run, and a picture shows them") {
     if (packagesMissing()) return;
