@@ -153,7 +153,7 @@ TEST_CASE("C++ and GLSL see the same structs") {
          {structsOf(pairs_spv), structsOf(pairs_texel_spv), structsOf(coil_energy_spv),
           structsOf(surfaces_packed_energy_spv), structsOf(move_spv), structsOf(move_texel_energy_spv),
           structsOf(near_spv), structsOf(near_texel_energy_spv), structsOf(commit_lists_spv), structsOf(sense_spv),
-          structsOf(sense_energy_spv), structsOf(neighbours_spv)})
+          structsOf(sense_energy_spv), structsOf(neighbours_spv), structsOf(field_sums_spv)})
         seen.insert(structs.begin(), structs.end());
     for (const auto& [name, layout] : hostLayouts()) {
         INFO("struct " << name << " is in no pass: nothing was compared");
