@@ -36,17 +36,15 @@ const kSphereFragment = `
     if (rest < 0.0) discard;
     vec3 hit = ray * (along - sqrt(rest));
     vec3 normal = (hit - eyeCentre) / radius;
-    float shade = 1.0;
+    float light = 0.45 + 0.55 * max(0.0, dot(normal, normalize(vec3(-0.3, 0.6, 1.0))));
     if (dot(eyeCut.xyz, hit) > eyeCut.w) {
       hit = ray * (eyeCut.w / dot(eyeCut.xyz, ray));
       if (distance(hit, eyeCentre) > radius || dot(hit, ray) < 0.0) discard;
-      normal = eyeCut.xyz;
-      shade = 0.9;
+      light = 0.95;  // flat, so that a section is told from a sphere
     }
     vec4 clip = projectionMatrix * vec4(hit, 1.0);
     gl_FragDepthEXT = 0.5 * clip.z / clip.w + 0.5;
-    float light = 0.45 + 0.55 * max(0.0, dot(normal, normalize(vec3(-0.3, 0.6, 1.0))));
-    gl_FragColor = vec4(colour * light * shade, 1.0);
+    gl_FragColor = vec4(colour * light, 1.0);
   }`;
 
 /// The line in the middle of the wire (geometry/coil.h), turned by nothing.
