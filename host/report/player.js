@@ -162,7 +162,7 @@ function playerControls(box, player, frames, scene) {
     cutPlace.disabled = axis === null;
     place.textContent = "";
     if (axis === null) scene.cutOff();
-    else place.textContent = `${"xyz"[axis]} = ${scene.cutAt(axis, cutPlace.value / 200).toFixed(1)} mm`;
+    else place.textContent = `${"xyz"[axis]} = ${(Math.round(10 * scene.cutAt(axis, cutPlace.value / 200)) / 10 + 0).toFixed(1)} mm`;
     scene.draw();
   };
 
@@ -195,9 +195,11 @@ function playerNote(player) {
   const error = d3.max([0, 1, 2].map(k => player.high[k] - player.low[k])) / 131070 * 1e6;
   const fewer = player.frames.time_s.length < player.stored
     ? `${player.frames.time_s.length} of the ${player.stored} frames stored are in this file, to keep it below 25 MB. ` : "";
-  return `${fewer}Positions are rounded by up to ${short(Number(error.toPrecision(2)))} µm, speeds by 3 %. Drag or use the arrow keys to turn; ` +
-    "click the picture, then the wheel zooms; Space plays, Page Up and Page Down go to another dose. A click in a chart leads here.";
+  return `${fewer}Positions are rounded by up to ${short(Number(error.toPrecision(2)))} µm, speeds by 3 %.`;
 }
+
+const kPlayerHelp = "Drag or use the arrow keys to turn; click the picture, then the wheel zooms; Space plays, Page Up and " +
+  "Page Down go to another dose, Home to the first view. A click in a chart leads here.";
 
 /// The figure, at once; its picture as soon as the frames are unpacked. What cannot be shown is said in its place.
 function playerFigure(parent, player) {
@@ -219,6 +221,7 @@ function playerFigure(parent, player) {
     fit();
     playerControls(box, player, frames, scene);
     add(box, "figcaption", playerNote(player));
+    add(box, "p", kPlayerHelp, "help");
     fit();
     new ResizeObserver(fit).observe(stage);
     player.unpacked = frames;

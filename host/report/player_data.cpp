@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "host/analysis/overlap.h"
 #include "host/analysis/surface.h"
@@ -203,6 +204,11 @@ Json framesJson(const std::vector<FrameEntry>& entries) {
 }
 
 }  // namespace
+
+FrameSource framesOf(const std::filesystem::path& run) {
+    const auto frames = std::make_shared<Frames>(run);
+    return {frames->entries(), [frames](const FrameEntry& entry) { return frames->read(entry); }};
+}
 
 Json playerJson(const Case& c, const FrameSource& frames, std::size_t columns, std::size_t mostCharacters) {
     if (frames.entries.empty()) return nullptr;

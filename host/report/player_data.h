@@ -26,6 +26,9 @@ struct FrameSource {
     std::function<Frame(const FrameEntry&)> read;
 };
 
+/// Those in a run's output folder; none if it kept none. Throws OutputError if what is there cannot be read.
+FrameSource framesOf(const std::filesystem::path& run);
+
 /// What the player may take of a page [characters], so that page and player stay below 25 MB.
 inline constexpr std::size_t kMostCharacters = 22'000'000;
 

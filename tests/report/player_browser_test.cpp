@@ -24,15 +24,17 @@ std::vector<Frame> scene() {
     p.add({0, kRadius - 7e-3, 2e-3}, 0.9 * kRadius);
     std::vector<Frame> frames{frameOf(0.05, 0, 0, p)};
     p.position[1].z = 19e-3;
-    frames.push_back(frameOf(0.3, 1, -1, p));
+    frames.push_back(frameOf(0.3, 1, -kPi, p));
     p.status[0] = Status::Dosed;
-    frames.push_back(frameOf(0.5, 2, -2, p));
+    frames.push_back(frameOf(0.5, 2, -kPi, p));
     return frames;
 }
 
 Json dataOf(const Sandbox& box) {
     Json data = runJson(writeRun(box, "why"), {}, sourceOf(scene()), {});
-    data["player"]["coil"] = nullptr;  // it would stand in front
+    // A short piece of wire where it hides nothing: over the axis at first, under it once it has turned by half.
+    data["player"]["coil"] = {{"radius", 2.5e-3}, {"pitch", 7e-3},          {"wire", 0.8e-3}, {"length", 0.35e-3},
+                              {"z_start", 15e-3}, {"start_angle", kPi / 2}, {"hand", 1}};
     return data;
 }
 
@@ -70,6 +72,9 @@ TEST_CASE("a browser plays the frames of a run") {
     CHECK(seen["moved"]["text"] == "t = 0.300 s, dose 1, the coil turns; frame 2 of 3");
     CHECK(seen["moved"]["blue"]["x"] > 0.65);
     CHECK(area(seen["moved"], "yellow") == area(first, "yellow"));
+    // The wire goes down by 5 mm where the picture shows 25 mm from left to right; the canister's grey lines stay.
+    CHECK(area(first, "steel") > 100);
+    CHECK(first["steel"]["y"].get<double>() - seen["moved"]["steel"]["y"].get<double>() > 0.1);
     CHECK(area(seen["gone"], "yellow") == 0);
     CHECK(area(seen["gone"], "blue") == area(seen["moved"], "blue"));
 

@@ -17,14 +17,14 @@ const figureOf = title => Array.from(document.querySelectorAll("figure")).find(f
 /// Pixels of a colour: their number, and their middle in parts of the picture, from the left and from below.
 function colours(canvas) {
   const gl = canvas.getContext("webgl2"), [w, h] = [gl.drawingBufferWidth, gl.drawingBufferHeight];
-  const pixels = new Uint8Array(4 * w * h), found = {yellow: [0, 0, 0], blue: [0, 0, 0], any: [0, 0, 0]};
+  const pixels = new Uint8Array(4 * w * h), found = {yellow: [0, 0, 0], blue: [0, 0, 0], steel: [0, 0, 0]};
   gl.readPixels(0, 0, w, h, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
   for (let i = 0; i < w * h; ++i) {
     const [r, g, b, a] = pixels.subarray(4 * i, 4 * i + 4);
     const add = name => found[name].forEach((_, k) => { found[name][k] += [1, (i % w + 0.5) / w, (Math.floor(i / w) + 0.5) / h][k]; });
     if (r > 1.3 * b && g > 1.3 * b) add("yellow");
     if (b > 1.6 * r && b > 1.1 * g) add("blue");
-    if (a > 0) add("any");
+    if (a === 255 && r > 165 && b - r < 40 && b >= r) add("steel");
   }
   Object.keys(found).forEach(name => {
     const [n, x, y] = found[name];
