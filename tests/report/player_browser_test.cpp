@@ -87,6 +87,8 @@ TEST_CASE("a browser plays the frames of a run") {
     // Cut along its middle from the side, yellow shows a section as wide as itself, seen at an angle.
     CHECK(area(seen["section"], "yellow") > 0.7 * area(first, "yellow"));
     CHECK(area(seen["section"], "yellow") < area(first, "yellow"));
+    CHECK(area(seen["hiddenFromSide"], "yellow") == 0);  // the plane is behind it now
+    CHECK(area(seen["hiddenFromAbove"], "yellow") == 0);
 
     // The view: nearer by 1.2, turned, and back again.
     CHECK(near(area(seen["nearer"], "yellow") / area(first, "yellow"), 1.44, 1.44, 0.05));  // whole pixels; perspective

@@ -75,6 +75,9 @@ async function probe() {
   set(cut, "value", 100, "input");
   set(axis, "selectedIndex", 1, "change");
   found.section = now();
+  found.hiddenFromSide = set(cut, "value", 120, "input");
+  set(axis, "selectedIndex", 2, "change");
+  found.hiddenFromAbove = set(cut, "value", 200, "input");
   set(axis, "selectedIndex", 0, "change");
   found.nearer = key("+");
   found.turned = key("ArrowLeft");
