@@ -37,7 +37,7 @@ double floorAt(const Canister& canister, double x) {
 
 }  // namespace
 
-SurfaceProfile surfaceProfile(const Particles& particles, const Canister& canister, std::size_t columns,
+SurfaceProfile surfaceProfile(const Particles& particles, const Canister& canister, std::size_t columns, Across width,
                               const Strip& strip) {
     const double half = canister.width / 2;
     const double from = std::max(strip.from, -half), to = std::min(strip.to, half);
@@ -46,8 +46,8 @@ SurfaceProfile surfaceProfile(const Particles& particles, const Canister& canist
 
     const Axis along = axisOf(0, canister.length, columns * kFineness);
     const Axis across = axisOf(from, to, static_cast<std::size_t>(std::ceil((to - from) / along.step)));
-    std::vector<double> top(along.count * across.count);
-    for (std::size_t i = 0; i < along.count; ++i)
+    std::vector<double> top(along.count * across.count, 0.0);
+    for (std::size_t i = 0; i < along.count && width == Across::Mean; ++i)
         for (std::size_t j = 0; j < across.count; ++j) top[i * across.count + j] = floorAt(canister, across.at(j));
 
     for (std::size_t k = 0; k < particles.size(); ++k) {
@@ -63,12 +63,15 @@ SurfaceProfile surfaceProfile(const Particles& particles, const Canister& canist
     }
 
     SurfaceProfile profile;
-    const std::size_t spots = kFineness * across.count;  // of one column, next to each other
-    for (std::size_t c = 0; c < columns; ++c) {
-        const auto begin = top.begin() + static_cast<std::ptrdiff_t>(c * spots);
-        profile.z.push_back(axisOf(0, canister.length, columns).at(c));
-        profile.height.push_back(std::accumulate(begin, begin + static_cast<std::ptrdiff_t>(spots), 0.0) /
-                                 static_cast<double>(spots));
+    profile.height.assign(columns, 0.0);
+    for (std::size_t c = 0; c < columns; ++c) profile.z.push_back(axisOf(0, canister.length, columns).at(c));
+    for (std::size_t i = 0; i < along.count; ++i) {
+        const auto begin = top.begin() + static_cast<std::ptrdiff_t>(i * across.count);
+        const auto end = begin + static_cast<std::ptrdiff_t>(across.count);
+        const double height = width == Across::Highest
+                                  ? *std::max_element(begin, end)
+                                  : std::accumulate(begin, end, 0.0) / static_cast<double>(across.count);
+        profile.height[i / kFineness] += height / kFineness;
     }
     return profile;
 }

@@ -20,11 +20,15 @@ struct Strip {
     double to = std::numeric_limits<double>::infinity();
 };
 
-/// Over a spot of the floor plan the surface is the highest point of any sphere above it that is neither dosed nor
-/// lost, or the floor if there is none (powder in flight counts; the coil is no powder). The profile is its mean over
-/// each column and over the part of the canister's width within the strip, taken on a lattice of an eighth of a column
-/// or finer. Throws std::invalid_argument without columns, or with a strip beside the canister.
-SurfaceProfile surfaceProfile(const Particles& particles, const Canister& canister, std::size_t columns,
+/// What stands for the width: the mean over it, or its highest point, as seen from the side.
+enum class Across { Mean, Highest };
+
+/// Over a spot of the floor plan the surface is the highest point of any sphere above it that is neither dosed nor lost
+/// (powder in flight counts; the coil is no powder). Where there is none it is the floor, for Highest its lowest point.
+/// The profile is the mean over each column of the mean or highest point over the part of the canister's width within
+/// the strip, taken on a lattice of an eighth of a column or finer. Throws std::invalid_argument without columns, or
+/// with a strip beside the canister.
+SurfaceProfile surfaceProfile(const Particles& particles, const Canister& canister, std::size_t columns, Across width,
                               const Strip& strip = {});
 
 }  // namespace vkdose

@@ -131,7 +131,7 @@ class Encoder {
 
     void addSurface(const Particles& p) {
         if (columns_ == 0) return;
-        const SurfaceProfile profile = surfaceProfile(p, *case_.canister, columns_);
+        const SurfaceProfile profile = surfaceProfile(p, *case_.canister, columns_, Across::Highest);
         const double height = case_.world.domain.high.y - case_.world.domain.low.y;
         for (std::size_t i = 0; i < columns_; ++i) surface_.set(i, sixteenBits(profile.height[i], 0, height));
         surface_.add(stream_);

@@ -93,7 +93,7 @@ function surfaceChart(parent, run) {
   if (place.length > 0) now.points = series[0].points.slice();
   const again = chart(parent, {
     title: "Surface of the powder", x: {label: "z [mm]", from: 0, to: s.length_m * milli}, y: {label: "mm"}, series: series.concat(place),
-    note: "Height over the floor's lowest point, mean over the canister's width, at the end of each dose; the outlet is on the right."
+    note: "As seen from the side, over the floor's lowest point, at the end of each dose; the outlet is on the right."
       + (s.photographs.length > 0 ? " Dashed: measured on photographs." : ""),
   });
   if (place.length === 0) return;

@@ -30,7 +30,7 @@ std::vector<FrameEntry> lastOfEachDose(const std::vector<FrameEntry>& entries) {
 Json stateJson(const Case& c, const Particles& particles, std::size_t columns, int dose, double time) {
     return {{"dose", dose},
             {"time_s", number(time)},
-            {"height_m", numbers(surfaceProfile(particles, *c.canister, columns).height)}};
+            {"height_m", numbers(surfaceProfile(particles, *c.canister, columns, Across::Highest).height)}};
 }
 
 std::string known(const Json& states) {

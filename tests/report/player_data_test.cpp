@@ -158,7 +158,7 @@ TEST_CASE("frames come out of the page's stream as exact as it says") {
             const double most = c.world.maxOverlapRatio;
             CHECK(near(overlap[i] / 255.0, std::sqrt(std::min(ratio[i] / most, 1.0)), 1, 0.5001 / 255));
         }
-        const auto profile = surfaceProfile(p, *c.canister, kColumns);
+        const auto profile = surfaceProfile(p, *c.canister, kColumns, Across::Highest);
         const double height = c.world.domain.high.y - c.world.domain.low.y;
         for (std::size_t i = 0; i < kColumns; ++i)
             CHECK(near(surface[i] / 65535.0, profile.height[i] / height, 1, 0.5001 / 65535));

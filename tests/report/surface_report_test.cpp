@@ -52,9 +52,10 @@ TEST_CASE("the surface of a run: settled, and at the last frame of each dose") {
     for (int i = 0; i < 3; ++i) {
         CHECK(j["states"][i]["dose"] == i);
         CHECK(j["states"][i]["time_s"] == times[i]);
-        CHECK(j["states"][i]["height_m"] == numbers(surfaceProfile(at(heights[i]), *c.canister, 8).height));
+        CHECK(j["states"][i]["height_m"] ==
+              numbers(surfaceProfile(at(heights[i]), *c.canister, 8, Across::Highest).height));
     }
-    CHECK(j["z_m"] == numbers(surfaceProfile(at(0), *c.canister, 8).z));
+    CHECK(j["z_m"] == numbers(surfaceProfile(at(0), *c.canister, 8, Across::Highest).z));
 }
 
 TEST_CASE("the surface of a run without frames is that of its end, and of nothing there is none") {
@@ -62,7 +63,7 @@ TEST_CASE("the surface of a run without frames is that of its end, and of nothin
     const Json j = surfaceJson(c, {}, at(2e-3), 7, {});
     REQUIRE(j["states"].size() == 1);
     CHECK(j["states"][0]["dose"] == 7);
-    CHECK(j["states"][0]["height_m"] == numbers(surfaceProfile(at(2e-3), *c.canister, 8).height));
+    CHECK(j["states"][0]["height_m"] == numbers(surfaceProfile(at(2e-3), *c.canister, 8, Across::Highest).height));
     CHECK(surfaceJson(c, {}, {}, 0, {}).is_null());
     CHECK(surfaceJson(c, {}, Particles{}, 0, {}).is_null());
     c.canister.reset();
