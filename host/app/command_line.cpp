@@ -165,6 +165,11 @@ void addReport(CLI::App& program, ReportOptions& options) {
         ->type_name("FILE");
     command.add_option("--expected", options.expected, "table of published results, to judge a sweep by (TOML)")
         ->type_name("FILE");
+    command
+        .add_option("--profile", options.profiles,
+                    "surface measured on a photograph (CSV), to stand beside a run's after a dose; may be repeated")
+        ->type_name("FILE[@DOSE]")
+        ->allow_extra_args(false);
 }
 
 void addProfile(CLI::App& program, ProfileOptions& options) {

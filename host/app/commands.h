@@ -95,6 +95,7 @@ struct ReportOptions {
     std::filesystem::path out;                        ///< empty: report.html in the folder
     std::optional<std::filesystem::path> experiment;  ///< a balance's readings
     std::optional<std::filesystem::path> expected;    ///< published results
+    std::vector<std::string> profiles;                ///< surfaces measured on photographs, "FILE" or "FILE@DOSE"
 };
 
 struct ProfileOptions {

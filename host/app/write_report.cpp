@@ -4,8 +4,10 @@
 #include "host/app/exit_code.h"
 #include "host/output/csv.h"
 #include "host/report/page.h"
+#include "host/report/player_data.h"
 #include "host/report/run_report.h"
 #include "host/report/study_report.h"
+#include "host/report/surface_report.h"
 
 namespace vkdose {
 
@@ -37,10 +39,15 @@ int reportCommand(const ReportOptions& options) {
     const bool sweep = report::isSweep(folder);
     if (sweep && options.experiment)
         throw UsageError("report: --experiment belongs to the report of a run; this is a sweep");
+    if (sweep && !options.profiles.empty())
+        throw UsageError("report: --profile belongs to the report of a run; this is a sweep");
     if (!sweep && options.expected)
         throw UsageError("report: --expected belongs to the report of a sweep; this is a run");
-    const report::Json data =
-        sweep ? report::studyJson(folder, options.expected) : report::runJson(folder, options.experiment);
+    std::vector<report::Photograph> photographs;
+    for (const std::string& profile : options.profiles) photographs.push_back(report::photographOf(profile));
+    const report::Json data = sweep
+                                  ? report::studyJson(folder, options.expected)
+                                  : report::runJson(folder, options.experiment, report::framesOf(folder), photographs);
     const fs::path file = options.out.empty() ? folder / "report.html" : options.out;
     replaceFile(file, report::page(data));
     fmt::print("{}\n", file.string());

@@ -54,6 +54,7 @@ function drawn(holder, draw) {
   };
   drawings.push(again);
   again();
+  return again;
 }
 
 /// Room for the plot in a fresh SVG: {svg, plot, width, height} inside the margins.
@@ -120,11 +121,27 @@ function errorBar(group, x, low, high, stroke) {
     group.append("line").attr({x1, x2, y1, y2}).style({stroke, "stroke-width": 1.4}));
 }
 
-/// spec: title, note, x {label, whole, categories, pad, from, to}, y {label, zero, scaledFrom: x}, bands [[from, to]], level {value, name},
+/// A rule where `link.place()` says, and a jump there by clicking or dragging. Returns what moves the rule.
+function follow(c, link, x) {
+  const rule = c.plot.append("line").attr({class: "now", y1: 0, y2: c.height});
+  const move = () => {
+    const place = link.place(), [low, high] = x.domain();
+    rule.style("display", isNumber(place) && place >= low && place <= high ? null : "none");
+    if (isNumber(place)) rule.attr({x1: x(place), x2: x(place)});
+  };
+  const jump = () => link.jump(Math.max(x.domain()[0], Math.min(x.domain()[1], x.invert(d3.mouse(c.plot.node())[0]))));
+  const svg = d3.select(c.plot.node().ownerSVGElement).classed("linked", true);
+  svg.on("pointerdown", jump).on("pointermove", () => { if (d3.event.buttons & 1) jump(); });
+  move();
+  return move;
+}
+
+/// Returns what draws the chart again. link {place(): where on x, jump(x), listen(f)}: what the chart follows.
+/// spec: title, note, link, x {label, whole, categories, pad, from, to}, y {label, zero, scaledFrom: x}, bands [[from, to]], level {value, name},
 /// series [{name, unnamed, points [[x, y, error or lower edge]], colour, line, dots, hollow, dash, thin, area}]
 function chart(parent, spec) {
   const series = spec.series.filter(s => pieces(s.points).length > 0);
-  if (series.length === 0) return;
+  if (series.length === 0) return () => {};
   const level = spec.level && isNumber(spec.level.value) ? spec.level : null;
   const {legend, holder} = frame(parent, spec.title, spec.note);
   series.filter(s => !s.unnamed).forEach(s => legendEntry(legend, s));
@@ -144,7 +161,9 @@ function chart(parent, spec) {
   if (spec.x.categories) [extent[0], extent[1]] = [-0.5, spec.x.categories.length - 0.5];
   const pad = spec.x.pad ? (extent[1] - extent[0] || 1) * 0.04 : extent[1] > extent[0] ? 0 : 1;
 
-  drawn(holder, width => {
+  let moveRule = () => {};
+  if (spec.link) spec.link.listen(() => moveRule());
+  return drawn(holder, width => {
     const c = canvas(holder, width, Math.min(340, Math.max(230, width * 0.52)), {top: 24, right: 12, bottom: 40, left: 52}, spec.title);
     const x = d3.scale.linear().domain([extent[0] - pad, extent[1] + pad]).range([0, c.width]);
     const y = d3.scale.linear().domain([low, high]).nice().range([c.height, 0]);
@@ -158,6 +177,7 @@ function chart(parent, spec) {
     if (level)
       c.plot.append("line").attr({x1: 0, x2: c.width, y1: y(level.value), y2: y(level.value), "stroke-dasharray": "2 3"})
         .style({stroke: "var(--ink)", "stroke-width": 1.5});
+    if (spec.link) moveRule = follow(c, spec.link, x);
   });
 }
 

@@ -38,16 +38,33 @@ std::string scriptData(const Json& data) {
     return text;
 }
 
+/// The player's library and scripts, for pages with frames: they are many times the rest of the page.
+std::string playerScripts() {
+    std::string html = std::string("<script>\n") + parts::kThree + "\n</script>\n<script>\n";
+    for (const char* part : {parts::kPlayerFrames, parts::kPlayerColours, parts::kPlayerScene, parts::kPlayer})
+        html += part;
+    return html + "</script>";
+}
+
+std::string threeLicence() {
+    return "<p>Particles drawn with three.js, which is part of this file.</p>\n"
+           "<details><summary>Licence of three.js</summary><pre>" +
+           escaped(parts::kThreeLicence) + "</pre></details>";
+}
+
 }  // namespace
 
 std::string page(const Json& data) {
-    const std::array<std::pair<std::string_view, std::string>, 10> parts{{
+    const bool player = data.contains("player") && !data["player"].is_null();
+    const std::array<std::pair<std::string_view, std::string>, 12> parts{{
         {"title", escaped(data.value("name", std::string("report")))},
         {"style", parts::kStyle},
         {"version", VKDOSE_VERSION},
         {"licence", escaped(parts::kLicence)},
         {"data", scriptData(data)},
+        {"three-licence", player ? threeLicence() : std::string()},
         {"d3", parts::kD3},
+        {"player", player ? playerScripts() : std::string()},
         {"charts", parts::kCharts},
         {"run", parts::kRun},
         {"study", parts::kStudy},

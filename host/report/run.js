@@ -13,6 +13,16 @@ function facts(main, list) {
   });
 }
 
+/// What ties a chart to the player, if there is one: over time, or over doses.
+const overTime = run => run.player && {place: () => clock.time, jump: t => clock.jump(t), listen: f => clock.follow(f)};
+const overDoses = run => run.player && {
+  place: () => (clock.time === null ? null : clock.dose()), listen: f => clock.follow(f),
+  jump: n => {
+    const start = clock.time === null ? null : clock.doseStart(Math.round(n));
+    if (isNumber(start)) clock.jump(start);
+  },
+};
+
 function doseCharts(parent, run) {
   const d = run.doses, e = run.experiment;
   const complete = d.dose.map((n, i) => i).filter(i => d.complete[i] === 1);
@@ -25,13 +35,13 @@ function doseCharts(parent, run) {
 
   const ideal = closed.map(i => [d.dose[i], Math.min(run.filled_mass_kg, d.closed_form_mass_kg[i] * d.dose[i]) * gram]);
   chart(parent, {
-    title: "Cumulative dosed mass", x: whole, y: {label: "g"},
+    title: "Cumulative dosed mass", link: overDoses(run), x: whole, y: {label: "g"},
     level: {value: run.beta_below_kg * gram, name: `β is taken below ${short(run.beta_below_kg * gram)} g`},
     series: [Object.assign({points: at(d.cumulative_mass_kg)}, measured), Object.assign({points: ideal}, predicted)]
       .concat(e ? [Object.assign({points: zip(e.dose, e.cumulative_mass_kg, gram)}, balance)] : []),
   });
   chart(parent, {
-    title: "Mass per dose", x: whole, y: {label: "g"},
+    title: "Mass per dose", link: overDoses(run), x: whole, y: {label: "g"},
     series: [Object.assign({points: at(d.mass_kg)}, measured),
              Object.assign({points: closed.map(i => [d.dose[i], d.closed_form_mass_kg[i] * gram])}, predicted)]
       .concat(e ? [Object.assign({points: zip(e.dose, e.mass_kg, gram)}, balance)] : []),
@@ -42,7 +52,7 @@ function timeCharts(parent, run) {
   const s = run.series, turning = "Shaded: the coil turns; numbered by dose.";
   const time = {label: "time [s]", from: 0, to: d3.max(s.time_s)};
   const curve = (title, unit, name, values, scale, colour, note) => chart(parent, {
-    title, x: time, y: {label: unit, scaledFrom: run.rotations.length > 0 ? run.rotations[0][0] : null}, bands: run.rotations, note: note || turning,
+    title, link: overTime(run), x: time, y: {label: unit, scaledFrom: run.rotations.length > 0 ? run.rotations[0][0] : null}, bands: run.rotations, note: note || turning,
     series: [{name, points: zip(s.time_s, values, scale), colour, thin: true}],
   });
   curve("Torque of the drive", "mN m", "mean between two lines of the time series", s.coil_torque_Nm, milli, "var(--s0)");
@@ -59,8 +69,41 @@ function timeCharts(parent, run) {
       below = points.map(p => p[1]);
       return {name, points, colour, area: true};
     });
-  chart(parent, {title: "Where the powder is", x: time, y: {label: "g"}, series: layers,
+  chart(parent, {title: "Where the powder is", link: overTime(run), x: time, y: {label: "g"}, series: layers,
                  note: "The ledger: together always what was filled."});
+}
+
+/// At most so many states of the surface: the settled bed, every n-th dose, the last, and those with a photograph.
+const kMostStates = 8;
+
+function surfaceChart(parent, run) {
+  const s = run.surface, inMillimetres = list => list.map(x => x * milli);
+  const every = Math.ceil(s.states.length / kMostStates);
+  const photographed = new Set(s.photographs.map(p => p.dose));
+  const states = s.states.filter((state, i) => i % every === 0 || i === s.states.length - 1 || photographed.has(state.dose));
+  const shade = new Map(states.map((state, i) => [state.dose, colour(i, states.length)]));
+  const named = dose => (dose === 0 ? "settled" : `dose ${dose}`);
+  const now = {name: "in the player", points: [], colour: "var(--ink)"};
+  const series = states.map(state => ({
+    name: named(state.dose), points: zip(inMillimetres(s.z_m), state.height_m, milli), colour: shade.get(state.dose), thin: true,
+  })).concat(s.photographs.map(p => ({
+    name: `${p.name}, ${named(p.dose)}`, points: zip(inMillimetres(p.z_m), p.height_m, milli), colour: shade.get(p.dose), dash: "7 4",
+  })));
+  const place = run.player && run.player.columns > 0 ? [now] : [];
+  if (place.length > 0) now.points = series[0].points.slice();
+  const again = chart(parent, {
+    title: "Surface of the powder", x: {label: "z [mm]", from: 0, to: s.length_m * milli}, y: {label: "mm"}, series: series.concat(place),
+    note: "As seen from the side, over the floor's lowest point, at the end of each dose; the outlet is on the right."
+      + (s.photographs.length > 0 ? " Dashed: measured on photographs." : ""),
+  });
+  if (place.length === 0) return;
+  clock.follow(() => {
+    const frames = run.player.unpacked, k = run.player.columns;
+    if (!frames) return;
+    const size = (run.player.high[1] - run.player.low[1]) / 65535;
+    now.points = s.z_m.map((z, i) => [z * milli, frames.surface[clock.frame * k + i] * size * milli]);
+    again();
+  });
 }
 
 function doseTable(main, d) {
@@ -77,7 +120,9 @@ function runPage(main, run) {
   facts(main, run.facts);
   add(main, "h2", "Charts");
   const charts = add(main, "div", null, "charts");
+  if (run.player) playerFigure(charts, run.player);
   if (run.doses.dose.length > 0) doseCharts(charts, run);
+  if (run.surface) surfaceChart(charts, run);
   if (run.series.time_s.length > 1) timeCharts(charts, run);
   if (run.doses.dose.length > 0) {
     add(main, "h2", "Doses");

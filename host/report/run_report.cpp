@@ -14,7 +14,9 @@
 #include "host/core/csv_table.h"
 #include "host/core/error.h"
 #include "host/model/case.h"
+#include "host/report/player_data.h"
 #include "host/report/run_figures.h"
+#include "host/report/surface_report.h"
 
 namespace vkdose::report {
 
@@ -147,6 +149,11 @@ Json experimentJson(const fs::path& file) {
 }
 
 Json runJson(const fs::path& folder, const std::optional<fs::path>& experiment) {
+    return runJson(folder, experiment, {}, {});
+}
+
+Json runJson(const fs::path& folder, const std::optional<fs::path>& experiment, const FrameSource& frames,
+             const std::vector<Photograph>& photographs) {
     const Case c = loadResolvedCase(readText(folder / "case.toml"), folder / "case.toml");
     const Table series = Table::read(folder / "timeseries.csv");
     const Table doseTable = Table::read(folder / "doses.csv");
@@ -165,6 +172,10 @@ Json runJson(const fs::path& folder, const std::optional<fs::path>& experiment) 
     j["beta_below_kg"] = number(figuresOf(sources.doses, filledMass(sources)).window.cumulativeBelow);
     j["filled_mass_kg"] = number(filledMass(sources));
     j["experiment"] = experiment ? experimentJson(*experiment) : Json(nullptr);
+    const int lastDose = sources.doses.empty() ? 0 : sources.doses.back().index;
+    j["surface"] = surfaceJson(c, frames, sources.particles, lastDose, photographs);
+    const Json& surface = j["surface"];
+    j["player"] = playerJson(c, frames, surface.is_null() ? 0 : surface["z_m"].size());
     j["case"] = c.resolved;
     return j;
 }

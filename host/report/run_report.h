@@ -5,19 +5,26 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace vkdose::report {
 
 using Json = nlohmann::ordered_json;
 
+struct FrameSource;
+struct Photograph;
+
 /// The balance's readings of an experiment: a CSV with the column `dose` and one of `mass_g`, `cumulative_g`. As
 /// columns dose, mass_kg and cumulative_kg. Throws CaseError if it cannot be read.
 Json experimentJson(const std::filesystem::path& file);
 
-/// Everything that the page of a run shows, in SI, from the folder of a run that is over or still goes on. Arrays carry
-/// the names of the CSV columns they come from; a time series of more than 5000 lines is thinned out. Throws CaseError
-/// if the folder holds no run or one of its files is damaged.
+/// Everything that the page of a run shows, in SI, from the folder of a run that is over or still goes on; without
+/// further ado neither player nor photographs. Arrays carry the names of the CSV columns they come from; a time series
+/// of more than 5000 lines is thinned out. Throws CaseError if the folder holds no run, one of its files is damaged, or
+/// a photograph does not fit the run.
 Json runJson(const std::filesystem::path& folder, const std::optional<std::filesystem::path>& experiment);
+Json runJson(const std::filesystem::path& folder, const std::optional<std::filesystem::path>& experiment,
+             const FrameSource& frames, const std::vector<Photograph>& photographs);
 
 /// JSON knows no NaN and no infinity: null.
 Json number(double x);

@@ -43,6 +43,28 @@ TEST_CASE("report: what it is given beside the folder goes into the page") {
     CHECK_THAT(page, Catch::Contains("\"verdict\":\"trend holds\"") && Catch::Contains("\"verdict\":\"not run\""));
 }
 
+TEST_CASE("report: of a run with frames the page has the player, and the surface beside a photograph") {
+    const Sandbox box;
+    const std::string run = "run " VKDOSE_SOURCE_DIR "/cases/mini.toml --backend reference --quiet --out run";
+    REQUIRE(box.vkdose(run + " --set frames.interval_s=0.05 --set stop.end_time_s=0.2").code == kOk);
+    box.write("photo.csv", "z_mm,height_mm\n0.5,10\n15.5,12\n");
+    REQUIRE(box.vkdose("report run --profile photo.csv@0 --profile photo.csv@1").code == kOk);
+    const std::string page = readText(box / "run/report.html");
+    const std::size_t frames = readCsv(box / "run/frames/frames.csv").size() - 1;
+    CHECK(frames >= 5);
+    CHECK_THAT(page, Catch::Contains(fmt::format("\"stored\":{},\"every\":1", frames)));
+    CHECK_THAT(page, Catch::Contains("THREE={}") && Catch::Contains("Particles drawn with three.js"));
+    CHECK_THAT(page, Catch::Contains("The above copyright notice and this permission notice"));  // three's licence
+    CHECK_THAT(page, Catch::Contains("{\"name\":\"photo.csv\",\"dose\":0,\"z_m\":[0.0005,0.0155]"));
+    const auto refused = box.vkdose("report run --profile photo.csv@2");
+    CHECK(refused.code == kBadInput);
+    CHECK_THAT(refused.err, Catch::Contains("the run kept no state of this dose; give one of 0, 1"));
+
+    writeRun(box, "without", "bare");
+    REQUIRE(box.vkdose("report bare").code == kOk);
+    CHECK_THAT(readText(box / "bare/report.html"), !Catch::Contains("three.js"));
+}
+
 TEST_CASE("report: what cannot be reported on is refused, and nothing is written") {
     const Sandbox box;
     writeRun(box, "why");
@@ -58,6 +80,8 @@ TEST_CASE("report: what cannot be reported on is refused, and nothing is written
     refused("empty", "holds neither a run nor a sweep");
     refused("lonely.toml", "there is no folder out/lonely");
     refused("sweep --experiment b.csv", "--experiment belongs to the report of a run");
+    refused("sweep --profile p.csv", "--profile belongs to the report of a run");
+    refused("run --profile p.csv@x", "give FILE.csv or FILE.csv@DOSE");
     refused("run --expected e.toml", "--expected belongs to the report of a sweep");
     refused("run --experiment b.csv", "b.csv: cannot be read");
     box.write("run/doses.csv", "dose,mass_kg\n1\n");

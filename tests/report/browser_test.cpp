@@ -1,10 +1,8 @@
 // The pages in a browser: they draw what they should, and without errors. Skipped, and said so, where there is none.
-#include <catch2/catch.hpp>
-#include <cstdlib>
 #include <set>
 
-#include "host/report/page.h"
 #include "host/report/study_report.h"
+#include "tests/report/browser.h"
 #include "tests/report/folders.h"
 
 using namespace vkdose;
@@ -12,29 +10,6 @@ using namespace vkdose::report;
 using namespace vkdose::test;
 
 namespace {
-
-bool browserMissing() {
-    if (std::system("command -v chromium > /dev/null 2>&1") == 0) return false;
-    WARN("skipped: chromium is not installed (tools/packages-second-driver)");
-    return true;
-}
-
-/// The document as the browser leaves it once the scripts have run.
-std::string drawn(const Sandbox& box, const Json& data) {
-    const auto file = box.write("page.html", page(data));
-    const std::string command =
-        "timeout 120 chromium --headless --no-sandbox --disable-gpu --window-size=1280,900 --user-data-dir='" +
-        (box / "profile").string() + "' --dump-dom 'file://" + file.string() + "' > '" + (box / "dom.html").string() +
-        "' 2> /dev/null";
-    REQUIRE(std::system(command.c_str()) == 0);
-    return readText(box / "dom.html");
-}
-
-std::size_t count(const std::string& text, const std::string& part) {
-    std::size_t n = 0;
-    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
-    return n;
-}
 
 /// Widths of the charts, each once.
 std::set<std::string> widths(const std::string& text) {

@@ -1,0 +1,243 @@
+#include "host/report/player_data.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "host/analysis/overlap.h"
+#include "host/analysis/surface.h"
+#include "host/core/error.h"
+#include "host/report/deflate.h"
+
+namespace vkdose::report {
+
+namespace {
+
+constexpr double kSlowest = 1e-5, kFastest = 10;  // [m/s]
+constexpr std::size_t kMostMemory = 150'000'000;  // bytes of particles in the browser
+constexpr std::size_t kMostFrames = 65'535;       // the number of the last frame stands for "never gone"
+constexpr std::uint16_t kNever = 65'535;
+
+std::uint16_t sixteenBits(double value, double low, double high) {
+    const double part = high > low ? (value - low) / (high - low) : 0;
+    return static_cast<std::uint16_t>(std::lround(std::clamp(part, 0.0, 1.0) * 65'535));
+}
+
+std::uint8_t speedLevel(double speed) {
+    if (!(speed >= kSlowest)) return 0;
+    const double part = std::log(speed / kSlowest) / std::log(kFastest / kSlowest);
+    return static_cast<std::uint8_t>(1 + std::lround(std::min(part, 1.0) * 254));
+}
+
+std::uint8_t overlapLevel(double ratio, double most) {
+    return static_cast<std::uint8_t>(std::lround(std::sqrt(std::clamp(ratio / most, 0.0, 1.0)) * 255));
+}
+
+void addPlanes(Deflate& stream, const std::vector<std::uint16_t>& values) {
+    std::vector<std::uint8_t> bytes;
+    for (const std::uint16_t v : values) bytes.push_back(static_cast<std::uint8_t>(v & 255));
+    for (const std::uint16_t v : values) bytes.push_back(static_cast<std::uint8_t>(v >> 8));
+    stream.add(bytes);
+}
+
+/// Values of one kind, frame after frame, as differences. What is not set stays as it was, and costs next to nothing.
+template <typename Value>
+class Row {
+  public:
+    explicit Row(std::size_t size) : before_(size, 0), now_(size, 0) {}
+
+    void set(std::size_t i, Value value) { now_[i] = value; }
+
+    void add(Deflate& stream) {
+        std::vector<Value> change(now_.size());
+        for (std::size_t i = 0; i < now_.size(); ++i) {
+            const auto c = static_cast<Value>(now_[i] - before_[i]);
+            if constexpr (sizeof(Value) == 1)
+                change[i] = c;
+            else
+                change[i] = static_cast<Value>(c & 0x8000 ? ~(c << 1) : c << 1);
+        }
+        before_ = now_;
+        if constexpr (sizeof(Value) == 1)
+            stream.add(change);
+        else
+            addPlanes(stream, change);
+    }
+
+  private:
+    std::vector<Value> before_, now_;
+};
+
+/// The stream of one choice of frames.
+class Encoder {
+  public:
+    Encoder(const Case& c, std::size_t particles, std::size_t columns)
+        : case_(c),
+          gone_(particles, kNever),
+          place_(3, Row<std::uint16_t>(particles)),
+          speed_(particles),
+          overlap_(particles),
+          surface_(columns),
+          columns_(columns) {}
+
+    void add(const Frame& frame) {
+        const Particles& p = frame.particles;
+        if (p.size() != gone_.size())
+            throw CaseError({{"frames", 0, "", fmt::format("{}", p.size()),
+                              fmt::format("particles in the frame at {} s, {} in the first", frame.time, gone_.size()),
+                              "give the frames of one run"}});
+        if (frames_ == 0) addRadii(p);
+        addParticles(p, overlapRatios(p, case_.world, frame.coilAngle));
+        addSurface(p);
+        ++frames_;
+    }
+
+    std::size_t characters() const { return stream_.size() / 3 * 4; }
+    const std::vector<double>& radiusRange() const { return radiusRange_; }
+
+    std::string finish() {
+        addPlanes(stream_, gone_);
+        return base64(stream_.finish());
+    }
+
+  private:
+    void addRadii(const Particles& p) {
+        if (p.size() > 0) {
+            const auto [low, high] = std::minmax_element(p.radius.begin(), p.radius.end());
+            radiusRange_ = {*low, *high};
+        }
+        std::vector<std::uint16_t> radii;
+        for (const double r : p.radius) radii.push_back(sixteenBits(r, radiusRange_[0], radiusRange_[1]));
+        addPlanes(stream_, radii);
+    }
+
+    void addParticles(const Particles& p, const std::vector<double>& overlap) {
+        const Box& box = case_.world.domain;
+        for (std::size_t i = 0; i < p.size(); ++i) {
+            const bool here = p.status[i] == Status::Active;
+            speed_.set(i, here ? speedLevel(glm::length(p.velocity[i])) : 0);
+            overlap_.set(i, here ? overlapLevel(overlap[i], case_.world.maxOverlapRatio) : 0);
+            if (here)
+                for (int k = 0; k < 3; ++k) place_[k].set(i, sixteenBits(p.position[i][k], box.low[k], box.high[k]));
+            else
+                gone_[i] = std::min(gone_[i], static_cast<std::uint16_t>(frames_));
+        }
+        for (auto& row : place_) row.add(stream_);
+        speed_.add(stream_);
+        overlap_.add(stream_);
+    }
+
+    void addSurface(const Particles& p) {
+        if (columns_ == 0) return;
+        const SurfaceProfile profile = surfaceProfile(p, *case_.canister, columns_, Across::Highest);
+        const double height = case_.world.domain.high.y - case_.world.domain.low.y;
+        for (std::size_t i = 0; i < columns_; ++i) surface_.set(i, sixteenBits(profile.height[i], 0, height));
+        surface_.add(stream_);
+    }
+
+    const Case& case_;
+    Deflate stream_;
+    std::vector<double> radiusRange_{0, 0};
+    std::vector<std::uint16_t> gone_;
+    std::vector<Row<std::uint16_t>> place_;
+    Row<std::uint8_t> speed_, overlap_;
+    Row<std::uint16_t> surface_;
+    std::size_t columns_, frames_ = 0;
+};
+
+/// Every n-th entry and the last.
+std::vector<FrameEntry> thinned(const std::vector<FrameEntry>& all, std::size_t stride) {
+    std::vector<FrameEntry> few;
+    for (std::size_t i = 0; i < all.size(); i += stride) few.push_back(all[i]);
+    if ((all.size() - 1) % stride != 0) few.push_back(all.back());
+    return few;
+}
+
+Json vectorJson(const Vec3& v) {
+    return {number(v.x), number(v.y), number(v.z)};
+}
+
+Json sceneJson(const Case& c) {
+    Json j;
+    j["low"] = vectorJson(c.world.domain.low);
+    j["high"] = vectorJson(c.world.domain.high);
+    j["density"] = number(c.world.density);
+    j["slowest_m_s"] = kSlowest;
+    j["fastest_m_s"] = kFastest;
+    j["most_overlap"] = number(c.world.maxOverlapRatio);
+    j["canister"] = nullptr;
+    if (c.canister) {
+        const Canister& can = *c.canister;
+        j["canister"] = {{"length", can.length},         {"width", can.width},         {"height", can.height},
+                         {"outlet", can.outletDiameter}, {"throat", can.throatLength}, {"flat", can.flatFloor}};
+    }
+    j["coil"] = nullptr;
+    if (c.world.coil) {
+        const geometry::Coil& coil = *c.world.coil;
+        j["coil"] = {{"radius", coil.radius}, {"pitch", coil.pitch},    {"wire", coil.wireRadius},
+                     {"length", coil.length}, {"z_start", coil.zStart}, {"start_angle", coil.startAngle},
+                     {"hand", coil.hand}};
+    }
+    return j;
+}
+
+Json framesJson(const std::vector<FrameEntry>& entries) {
+    std::vector<double> times, angles;
+    std::vector<int> phases, doses;
+    std::size_t settled = 0;
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+        times.push_back(entries[i].time);
+        angles.push_back(entries[i].coilAngle);
+        phases.push_back(static_cast<int>(entries[i].phase));
+        doses.push_back(entries[i].dose);
+        if (entries[i].dose == 0) settled = i;
+    }
+    Json j;
+    j["time_s"] = numbers(times);
+    j["coil_angle_rad"] = numbers(angles);
+    j["phase"] = phases;
+    j["dose"] = doses;
+    j["settled"] = settled;
+    return j;
+}
+
+}  // namespace
+
+FrameSource framesOf(const std::filesystem::path& run) {
+    const auto frames = std::make_shared<Frames>(run);
+    return {frames->entries(), [frames](const FrameEntry& entry) { return frames->read(entry); }};
+}
+
+Json playerJson(const Case& c, const FrameSource& frames, std::size_t columns, std::size_t mostCharacters) {
+    if (frames.entries.empty()) return nullptr;
+    if (!c.canister) columns = 0;
+    const std::size_t particles = frames.read(frames.entries.front()).particles.size();
+    const std::size_t most = std::min(kMostFrames, std::max<std::size_t>(2, kMostMemory / (8 * particles + 1)));
+    std::size_t stride = 1 + (frames.entries.size() - 1) / (most - 1);
+    while (true) {
+        const std::vector<FrameEntry> entries = thinned(frames.entries, stride);
+        const bool least = entries.size() <= 2;
+        Encoder encoder(c, particles, columns);
+        std::size_t done = 0;
+        for (; done < entries.size() && (least || encoder.characters() <= mostCharacters); ++done)
+            encoder.add(frames.read(entries[done]));
+        std::string stream = encoder.finish();
+        if (least || (done == entries.size() && stream.size() <= mostCharacters)) {
+            Json j = sceneJson(c);
+            j["particles"] = particles;
+            j["columns"] = columns;
+            j["radius_m"] = numbers(encoder.radiusRange());
+            j["frames"] = framesJson(entries);
+            j["stored"] = frames.entries.size();
+            j["every"] = stride;
+            j["stream"] = std::move(stream);
+            return j;
+        }
+        // As many times fewer as did not fit, and at least one less in a row.
+        stride = std::max(stride + 1, stride * entries.size() / done);
+    }
+}
+
+}  // namespace vkdose::report

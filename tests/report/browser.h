@@ -1,0 +1,44 @@
+#pragma once
+// Pages in a headless Chromium.
+
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <set>
+
+#include "host/report/page.h"
+#include "tests/app/sandbox.h"
+
+namespace vkdose::test {
+
+inline bool browserMissing() {
+    if (std::system("command -v chromium > /dev/null 2>&1") == 0) return false;
+    WARN("skipped: chromium is not installed (tools/packages-second-driver)");
+    return true;
+}
+
+/// Flags under which it draws pictures in WebGL on the processor, and under which it has no WebGL at all.
+inline constexpr const char* kWebGl = "--use-angle=swiftshader --enable-unsafe-swiftshader";
+inline constexpr const char* kNoWebGl = "--disable-gpu --disable-3d-apis";
+
+/// The document as the browser leaves it once the scripts have run, a further one at the page's end included. What they
+/// wait for comes at once: the page's clock runs ahead to the next event.
+inline std::string drawn(const Sandbox& box, const report::Json& data, const std::string& flags = kNoWebGl,
+                         const std::string& script = "") {
+    std::string html = report::page(data);
+    html.insert(html.rfind("</body>"), "<script>\n" + script + "\n</script>\n");
+    const auto file = box.write("page.html", html);
+    const std::string command = "timeout 120 chromium --headless --no-sandbox " + flags +
+                                " --window-size=1280,900 --virtual-time-budget=60000 --user-data-dir='" +
+                                (box / "profile").string() + "' --dump-dom 'file://" + file.string() + "' > '" +
+                                (box / "dom.html").string() + "' 2> /dev/null";
+    REQUIRE(std::system(command.c_str()) == 0);
+    return readText(box / "dom.html");
+}
+
+inline std::size_t count(const std::string& text, const std::string& part) {
+    std::size_t n = 0;
+    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
+    return n;
+}
+
+}  // namespace vkdose::test

@@ -1,0 +1,211 @@
+#include "host/report/player_data.h"
+
+#include <zlib.h>
+
+#include <catch2/catch.hpp>
+
+#include "host/analysis/overlap.h"
+#include "host/analysis/surface.h"
+#include "host/core/error.h"
+#include "host/core/random.h"
+#include "host/report/deflate.h"
+#include "host/report/page.h"
+#include "tests/report/folders.h"
+#include "tests/report/frames.h"
+#include "tests/support/near.h"
+
+using namespace vkdose;
+using namespace vkdose::report;
+using namespace vkdose::test;
+
+namespace {
+
+std::string fromBase64(const std::string& text) {
+    const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string bytes;
+    std::uint32_t word = 0;
+    int bits = 0;
+    for (const char c : text) {
+        if (c == '=') break;
+        word = word << 6 | static_cast<std::uint32_t>(digits.find(c));
+        bits += 6;
+        if (bits >= 8) bytes += static_cast<char>(word >> (bits -= 8) & 255);
+    }
+    return bytes;
+}
+
+/// The stream's bytes, to be taken from front to back.
+class Bytes {
+  public:
+    explicit Bytes(const std::string& stream) {
+        const std::string packed = fromBase64(stream);
+        plain_.resize(40'000'000);
+        uLongf size = plain_.size();
+        REQUIRE(uncompress(plain_.data(), &size, reinterpret_cast<const Bytef*>(packed.data()), packed.size()) == Z_OK);
+        plain_.resize(size);
+    }
+    std::vector<int> levels(std::size_t n) {
+        std::vector<int> list(plain_.begin() + at_, plain_.begin() + at_ + n);
+        at_ += n;
+        return list;
+    }
+    std::vector<int> words(std::size_t n) {
+        std::vector<int> low = levels(n), high = levels(n);
+        for (std::size_t i = 0; i < n; ++i) low[i] += 256 * high[i];
+        return low;
+    }
+    /// Adds differences to `values`.
+    void wordsOnTop(std::vector<int>& values) {
+        const std::vector<int> change = words(values.size());
+        for (std::size_t i = 0; i < values.size(); ++i)
+            values[i] = (values[i] + (change[i] % 2 == 0 ? change[i] / 2 : -(change[i] + 1) / 2)) & 65535;
+    }
+    void levelsOnTop(std::vector<int>& values) {
+        const std::vector<int> change = levels(values.size());
+        for (std::size_t i = 0; i < values.size(); ++i) values[i] = (values[i] + change[i]) & 255;
+    }
+    bool over() const { return at_ == plain_.size(); }
+
+  private:
+    std::vector<std::uint8_t> plain_;
+    std::size_t at_ = 0;
+};
+
+Case mini() {
+    return loadCase(VKDOSE_SOURCE_DIR "/cases/mini.toml");
+}
+
+double random01(std::uint64_t i) {
+    return uniforms(3, Stream::Jitter, i)[0];
+}
+
+Vec3 somewhere(const Box& box, std::uint64_t i) {
+    return box.low + Vec3(random01(3 * i), random01(3 * i + 1), random01(3 * i + 2)) * (box.high - box.low);
+}
+
+/// Particles all over the domain, with speeds of every magnitude; other ones for another `salt`.
+Particles anywhere(const Case& c, std::size_t n, std::uint64_t salt) {
+    Particles p;
+    for (std::size_t i = 0; i < n; ++i) {
+        const double speed = std::pow(10.0, -6 + 8 * random01(1000 * salt + 7 * i));
+        p.add(somewhere(c.world.domain, 1'000'000 * salt + i), (0.9 + 0.4 * random01(i)) * 1e-3, {0, 0, speed});
+    }
+    return p;
+}
+
+}  // namespace
+
+TEST_CASE("base64") {
+    CHECK(base64("") == "");
+    CHECK(base64("f") == "Zg==");  // the examples of RFC 4648
+    CHECK(base64("fo") == "Zm8=");
+    CHECK(base64("foobar") == "Zm9vYmFy");
+    CHECK(fromBase64(base64("\xff\x00\x80!")) == std::string("\xff"));  // the literal ends at its zero
+}
+
+TEST_CASE("frames come out of the page's stream as exact as it says") {
+    const Case c = mini();
+    constexpr std::size_t kParticles = 211, kColumns = 13;
+    std::vector<Frame> frames;
+    for (int f = 0; f < 4; ++f) frames.push_back(frameOf(0.1 * f, f / 2, -0.5 * f, anywhere(c, kParticles, f)));
+    frames[0].particles.position[0] = c.world.domain.low;
+    frames[1].particles.position[0] = c.world.domain.high;
+    for (Frame& f : frames) f.particles.radius = frames[0].particles.radius;
+    for (int f = 2; f < 4; ++f) frames[f].particles.status[5] = Status::Dosed;
+    frames[3].particles.status[6] = Status::Lost;
+
+    const Json j = playerJson(c, sourceOf(frames), kColumns);
+    CHECK(j["particles"] == kParticles);
+    CHECK(j["stored"] == 4);
+    CHECK(j["every"] == 1);
+    CHECK(j["frames"]["time_s"] == Json({0.0, 0.1, 0.2, 0.1 * 3}));
+    CHECK(j["frames"]["dose"] == Json({0, 0, 1, 1}));
+    CHECK(j["frames"]["phase"] == Json({0, 0, 1, 1}));
+    CHECK(j["frames"]["coil_angle_rad"] == Json({0.0, -0.5, -1.0, -1.5}));
+    CHECK(j["frames"]["settled"] == 1);
+
+    Bytes bytes(j["stream"].get<std::string>());
+    const auto radii = bytes.words(kParticles);
+    const double least = j["radius_m"][0], largest = j["radius_m"][1];
+    for (std::size_t i = 0; i < kParticles; ++i)
+        CHECK(near(least + (largest - least) * radii[i] / 65535, frames[0].particles.radius[i], largest - least,
+                   0.5001 / 65535));
+    std::vector<int> place[3], speed(kParticles, 0), overlap(kParticles, 0), surface(kColumns, 0);
+    for (auto& axis : place) axis.assign(kParticles, 0);
+    for (const Frame& frame : frames) {
+        const Particles& p = frame.particles;
+        const std::vector<double> ratio = overlapRatios(p, c.world, frame.coilAngle);
+        for (auto& axis : place) bytes.wordsOnTop(axis);
+        bytes.levelsOnTop(speed);
+        bytes.levelsOnTop(overlap);
+        bytes.wordsOnTop(surface);
+        for (std::size_t i = 0; i < kParticles; ++i) {
+            if (p.status[i] != Status::Active) {
+                CHECK(speed[i] == 0);
+                continue;
+            }
+            const Vec3 size = c.world.domain.high - c.world.domain.low;
+            for (int k = 0; k < 3; ++k)  // half a step; rounding in double precision on top
+                CHECK(near(c.world.domain.low[k] + size[k] * place[k][i] / 65535, p.position[i][k], size[k],
+                           0.5001 / 65535));
+            const double v = glm::length(p.velocity[i]);
+            if (v < 1e-5)
+                CHECK(speed[i] == 0);
+            else if (v < 10)  // half a level: 10^(6/508)
+                CHECK(nearRelative(1e-5 * std::pow(1e6, (speed[i] - 1) / 254.0), v, 0.028));
+            else
+                CHECK(speed[i] == 255);
+            const double most = c.world.maxOverlapRatio;
+            CHECK(near(overlap[i] / 255.0, std::sqrt(std::min(ratio[i] / most, 1.0)), 1, 0.5001 / 255));
+        }
+        const auto profile = surfaceProfile(p, *c.canister, kColumns, Across::Highest);
+        const double height = c.world.domain.high.y - c.world.domain.low.y;
+        for (std::size_t i = 0; i < kColumns; ++i)
+            CHECK(near(surface[i] / 65535.0, profile.height[i] / height, 1, 0.5001 / 65535));
+    }
+    const auto gone = bytes.words(kParticles);
+    CHECK(gone[5] == 2);
+    CHECK(gone[6] == 3);
+    CHECK(std::count(gone.begin(), gone.end(), 65535) == kParticles - 2);
+    CHECK(bytes.over());
+}
+
+TEST_CASE("frames that do not fit are thinned out evenly, and the last one stays") {
+    const Case c = mini();
+    std::vector<Frame> frames;
+    for (int f = 0; f < 48; ++f) frames.push_back(frameOf(0.1 * f, 0, 0, anywhere(c, 97, f)));
+    const FrameSource source = sourceOf(frames);
+    const std::size_t whole = playerJson(c, source, 0)["stream"].get<std::string>().size();
+    for (const double part : {0.9, 0.4, 0.1}) {
+        const auto allowed = static_cast<std::size_t>(part * static_cast<double>(whole));
+        const Json j = playerJson(c, source, 0, allowed);
+        const int every = j["every"];
+        const auto times = j["frames"]["time_s"].get<std::vector<double>>();
+        CHECK(j["stream"].get<std::string>().size() <= allowed);
+        CHECK(j["stored"] == 48);
+        const auto kept = [](int n) { return 1 + 47 / n + (47 % n == 0 ? 0 : 1); };
+        int least = 1;  // so many in a row go, if all frames take the same
+        while (kept(least) > part * 48) ++least;
+        CHECK(every >= least);
+        CHECK(every <= least + 1);
+        for (std::size_t i = 0; i + 1 < times.size(); ++i) CHECK(times[i] == frames[i * every].time);
+        CHECK(times.back() == frames.back().time);
+    }
+    CHECK(playerJson(c, source, 0, 10)["frames"]["time_s"].size() == 2);  // no fewer, whatever they take
+    CHECK(playerJson(c, {}, 0).is_null());
+    frames[2].particles = anywhere(c, 96, 2);
+    CHECK_THROWS_AS(playerJson(c, sourceOf(frames), 0), CaseError);
+}
+
+TEST_CASE("the page of 48 g over 30 s stays below 25 MB even if nothing about the particles can be foretold") {
+    const Case c = loadCase(VKDOSE_SOURCE_DIR "/cases/paper-48g.toml");
+    // 3234 particles every 0.04 s, anywhere in each frame: no order that could be packed.
+    FrameSource source;
+    for (int f = 0; f <= 750; ++f) source.entries.push_back({f, 0, 0.04 * f, Phase::Rotate, 1, 0});
+    source.read = [&c](const FrameEntry& e) { return frameOf(e.time, 1, 0, anywhere(c, 3234, e.number)); };
+    const Sandbox box;
+    Json data = runJson(writeRun(box, "large"), {});
+    data["player"] = playerJson(c, source, 48);
+    CHECK(data["player"]["every"] == 2);  // all of them would be 26 MB
+    CHECK(page(data).size() < 25'000'000);
+}
