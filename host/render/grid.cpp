@@ -13,9 +13,9 @@ using glm::uvec3;
 using glm::vec3;
 using glm::vec4;
 
-/// Cells for each sphere: fewer make a ray try more spheres, more make it pass more cells.
-constexpr double kCellsPerSphere = 2;
-constexpr float kMostCells = 256;  // in one direction
+/// However far apart things lie. A ray passes at most so many cells in one direction.
+constexpr double kMostCells = 1 << 20;
+constexpr float kMostInRow = 1000;
 
 struct Bounds {
     vec3 low{std::numeric_limits<float>::infinity()}, high{-std::numeric_limits<float>::infinity()};
@@ -45,6 +45,14 @@ void forCells(const Grid& grid, const vec3& a, const vec3& b, float reach, const
             }
 }
 
+/// Of the spheres; without any, of the wire.
+float meanDiameter(const std::vector<vec4>& spheres, float wireRadius) {
+    if (spheres.empty()) return 2 * wireRadius;
+    double sum = 0;
+    for (const vec4& s : spheres) sum += s.w;
+    return float(2 * sum / double(spheres.size()));
+}
+
 }  // namespace
 
 Grid gridOf(const std::vector<vec4>& spheres, const std::vector<vec4>& joints, float wireRadius) {
@@ -57,8 +65,9 @@ Grid gridOf(const std::vector<vec4>& spheres, const std::vector<vec4>& joints, f
 
     const vec3 size = all.high - all.low;
     const double volume = double(size.x) * size.y * size.z;
-    const float even = float(std::cbrt(volume / (kCellsPerSphere * double(spheres.size() + joints.size()))));
-    grid.edge = std::max(even, std::max({size.x, size.y, size.z}) / (kMostCells - 2));
+    const double most = std::max(kMostCells, 2.0 * double(spheres.size()));
+    grid.edge = std::max({meanDiameter(spheres, wireRadius), float(std::cbrt(volume / most)),
+                          std::max({size.x, size.y, size.z}) / kMostInRow});
     // A ray that grazes the outermost sphere must not miss the grid by rounding.
     const float margin = 1e-3f * grid.edge;
     grid.low = all.low - margin;

@@ -20,8 +20,8 @@ struct Grid {
     std::vector<std::uint32_t> entries;
 };
 
-/// Of spheres (centre, radius) and the joints of a wire, about as fine as the spheres lie apart. Whatever is in
-/// them is inside the grid.
+/// Of spheres (centre, radius) and the joints of a wire, with cells of a mean diameter unless that made too many.
+/// Whatever is in them is inside the grid.
 Grid gridOf(const std::vector<glm::vec4>& spheres, const std::vector<glm::vec4>& joints, float wireRadius);
 
 }  // namespace vkdose::render

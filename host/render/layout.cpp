@@ -54,7 +54,7 @@ Layout layoutOf(const PictureSpec& spec, const Box& content, std::size_t panels)
     Layout l;
     l.width = automatic ? (panels > 1 ? kAutoWider : kAutoWidth) : spec.width;
     l.height = automatic ? kAutoHeight : spec.height;
-    l.text = std::clamp(std::min(l.width * 0.7, double(l.height)) / 42, 8.0, 64.0);
+    l.text = std::clamp(std::min(l.width * 0.7, double(l.height)) / 42, 10.0, 64.0);
     const double margin = kMargin * l.text, across = l.width - 2 * margin - kBarBlock * l.text,
                  down = l.height - 2 * margin - kFooter * l.text;
     const Arrangement a = arranged(spec, content, panels, across, down, l.text);

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
 
 #include "host/render/colour.h"
 #include "host/render/outline.h"
@@ -20,6 +22,18 @@ constexpr double kOn = 1.5;
 void include(Box& box, const Vec3& low, const Vec3& high) {
     box.low = glm::min(box.low, low);
     box.high = glm::max(box.high, high);
+}
+
+/// Up to here lies all of the powder but a hundredth: single spheres are flung about, and stick to a lid. All that was
+/// dosed counts as powder, so that the last of it is not stray [m].
+double powderTop(const Particles& p) {
+    std::vector<double> tops;
+    for (std::size_t i = 0; i < p.size(); ++i)
+        if (p.status[i] == Status::Active) tops.push_back(p.position[i].y + p.radius[i]);
+    const std::size_t stray = p.size() / 100;
+    if (stray >= tops.size()) return -std::numeric_limits<double>::infinity();
+    std::nth_element(tops.begin(), tops.begin() + std::ptrdiff_t(stray), tops.end(), std::greater<>());
+    return tops[stray];
 }
 
 Scene sceneOf(const Case& c, const PictureSpec& spec, const Panel& panel) {
@@ -107,19 +121,20 @@ Box united(const Box& a, const Box& b) {
 }
 
 Box contentOf(const Case& c, const Frame& frame) {
-    const double infinite = std::numeric_limits<double>::infinity();
-    Box box{Vec3(infinite), Vec3(-infinite)};
+    constexpr double kInfinite = std::numeric_limits<double>::infinity();
+    Box coil{Vec3(kInfinite), Vec3(-kInfinite)};
+    if (const auto& k = c.world.coil) {
+        const double reach = k->radius + k->wireRadius;
+        coil = {{-reach, -reach, k->zStart - k->wireRadius}, {reach, reach, k->zStart + k->length + k->wireRadius}};
+    }
+    Box box = coil;
     const Particles& p = frame.particles;
     for (std::size_t i = 0; i < p.size(); ++i)
         if (p.status[i] == Status::Active) include(box, p.position[i] - p.radius[i], p.position[i] + p.radius[i]);
-    if (const auto& coil = c.world.coil) {
-        const double reach = coil->radius + coil->wireRadius;
-        include(box, {-reach, -reach, coil->zStart - coil->wireRadius},
-                {reach, reach, coil->zStart + coil->length + coil->wireRadius});
-    }
-    if (c.canister) {  // its width and length, whatever lies beyond
-        const double half = c.canister->width / 2, top = std::max(box.high.y, half);
-        box = {{-half, -half, 0}, {half, top, c.canister->length + c.canister->throatLength}};
+    if (c.canister) {  // with its coil, whatever of the powder lies beyond
+        const double half = c.canister->width / 2, top = std::max(powderTop(p), half);
+        box = coil;
+        include(box, {-half, -half, 0}, {half, top, c.canister->length + c.canister->throatLength});
     }
     if (!(box.low.x <= box.high.x)) box = {Vec3(-1e-3), Vec3(1e-3)};
     const Vec3 margin(0.02 * glm::length(box.high - box.low));

@@ -24,8 +24,8 @@ struct Panel {
     std::string title;
 };
 
-/// What has to be seen of these frames: the canister as high as powder reaches, or particles and coil where there
-/// is none, with a margin.
+/// What has to be seen of these frames: the canister and its coil, as high as all powder but a stray hundredth reaches,
+/// or particles and coil where there is none, with a margin.
 Box contentOf(const Case& c, const std::vector<const Frame*>& frames);
 /// The same of a single one, to be put together by `united`.
 Box contentOf(const Case& c, const Frame& frame);

@@ -20,7 +20,7 @@ using gpu::vec4;
 
 constexpr std::uint32_t kGroup = 8;   // invocations in both directions of a workgroup, as cast.comp says
 constexpr std::uint32_t kRays = 3;    // per pixel and direction
-constexpr int kJointsPerTurn = 64;    // chords then leave the wire's centre line by 0.0012 of its radius
+constexpr int kJointsPerTurn = 128;   // chords then leave the wire's centre line by 0.0003 of its radius
 const Vec3 kLight(-0.45, 0.6, 0.66);  // from the left, above and the viewer: right, up, towards
 
 /// Amid the spheres and the coil, so that floats are as fine as they can be.

@@ -190,8 +190,8 @@ TEST_CASE("the coil is drawn where its wire is, at any angle") {
                     const Vec3 point = ray.origin + far * ray.way;
                     nearest = std::min(nearest, std::abs(geometry::closestPoint(*scene.coil, angle, point).distance));
                 }
-                // The chords between its joints leave the centre line by 0.0012 of the coil's radius.
-                wrong += !near(nearest, 0, scene.coil->wireRadius, 0.015);
+                // The chords between its joints leave the centre line by 0.0003 of the coil's radius.
+                wrong += !near(nearest, 0, scene.coil->wireRadius, 0.004);
             }
         // Seen from the side, half turns of wire that cross: some 16 x 23 mm x 2 mm, less where they overlap.
         CHECK(covered * camera.pixel * camera.pixel > 300e-6);

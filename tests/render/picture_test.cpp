@@ -273,6 +273,18 @@ TEST_CASE("the camera fills the picture with what is to be seen") {
     CHECK_FALSE(render::viewNamed("top"));
 }
 
+TEST_CASE("a stray sphere does not decide how high a picture reaches") {
+    const Case c = mini();
+    Frame f;
+    for (int i = 0; i < 199; ++i) f.particles.add({0, 1e-4 * i, 5e-3}, 1e-3);
+    const double high = render::contentOf(c, f).high.y;
+    CHECK(high > 20.8e-3);
+    f.particles.add({0, 55e-3, 5e-3}, 1e-3);
+    CHECK(near(render::contentOf(c, f).high.y, high, 1e-3, 0.2));  // the second highest, 0.1 mm lower, and its margin
+    for (int i = 0; i < 3; ++i) f.particles.add({0, 55e-3, 5e-3}, 1e-3);
+    CHECK(render::contentOf(c, f).high.y > 55e-3);
+}
+
 TEST_CASE("the outline lies on the surfaces") {
     for (const char* floor : {"trough", "flat"}) {
         const Case c = loadCase(VKDOSE_SOURCE_DIR "/cases/mini.toml", {std::string("canister.floor=") + floor});
