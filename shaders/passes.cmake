@@ -22,7 +22,7 @@ function(vkdose_compile source name)
   set(spirv_outputs ${spirv_outputs} PARENT_SCOPE)
 endfunction()
 
-file(GLOB passes CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/shaders/pass/*.comp)
+file(GLOB passes CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/shaders/pass/*.comp ${CMAKE_SOURCE_DIR}/shaders/render/*.comp)
 foreach(pass ${passes})
   get_filename_component(stem ${pass} NAME_WE)
   file(STRINGS ${pass} texel REGEX "TEXEL_READS")

@@ -222,6 +222,39 @@ void addProfile(CLI::App& program, ProfileOptions& options) {
         ->type_name("FILE");
 }
 
+void addRender(CLI::App& program, RenderOptions& options) {
+    CLI::App& command = *program.add_subcommand("render", "draw a run: a picture, several in one, or a film");
+    command.add_option("dir", options.folder, "output folder of the run")->required()->type_name("DIR");
+    command.add_option("--out", options.out, "file to write (default: picture.png in the folder)")->type_name("FILE");
+    auto* times = command
+                      .add_option("--time", options.times,
+                                  "simulated time [s], or several, side by side; the nearest frames (default: the end)")
+                      ->expected(1, 26);
+    auto* panels =
+        command.add_flag("--panels", options.panels, "four times side by side: settled, first dose, half out, late")
+            ->excludes(times);
+    auto* movie = command.add_option("--movie", options.movie, "all frames: a film (ffmpeg), or a folder of pictures")
+                      ->type_name("FILE|DIR")
+                      ->excludes(times)
+                      ->excludes(panels)
+                      ->excludes("--out");
+    command.add_option("--rate", options.rate, "frames per second of the film")
+        ->check(CLI::Range(0.1, 240.0))
+        ->capture_default_str()
+        ->needs(movie);
+    command.add_option("--color", options.color, "what the colour tells")
+        ->check(CLI::IsMember({"kinetic-energy", "speed", "overlap", "radius", "fill-layer"}))
+        ->capture_default_str();
+    command.add_option("--from", options.from, "where the colours begin, in the unit of the colour bar");
+    command.add_option("--to", options.to, "where they end");
+    command.add_option("--view", options.view, "from where")
+        ->check(CLI::IsMember({"side", "end", "iso", "cut"}))
+        ->capture_default_str();
+    command.add_option("--size", options.size, "width and height [pixels], e.g. 1280x720")->type_name("WxH");
+    command.add_flag("--no-coil", options.noCoil, "leave the coil out");
+    addDevice(command, options.backend);
+}
+
 /// Runs `command`; every error becomes lines on stderr and an exit code.
 int guarded(const std::function<int()>& command) {
     try {
@@ -249,6 +282,7 @@ int commandLine(int argc, const char* const* argv) {
     SweepOptions calibration;
     ReportOptions report;
     ProfileOptions profile;
+    RenderOptions render;
     addRun(program, run);
     addResume(program, resume);
     addCheck(program, check);
@@ -265,6 +299,7 @@ int commandLine(int argc, const char* const* argv) {
     addSweep(program, "calibrate", "find the case of a study that doses what was measured", calibration);
     addReport(program, report);
     addProfile(program, profile);
+    addRender(program, render);
     try {
         program.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
@@ -284,6 +319,7 @@ int commandLine(int argc, const char* const* argv) {
     if (program.got_subcommand("calibrate")) return guarded([&] { return calibrateCommand(calibration); });
     if (program.got_subcommand("report")) return guarded([&] { return reportCommand(report); });
     if (program.got_subcommand("profile")) return guarded([&] { return profileCommand(profile); });
+    if (program.got_subcommand("render")) return guarded([&] { return renderCommand(render); });
     return guarded([] { return devicesCommand(); });
 }
 

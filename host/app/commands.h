@@ -105,6 +105,21 @@ struct ProfileOptions {
     std::filesystem::path check;  ///< empty: no picture to judge by
 };
 
+struct RenderOptions {
+    std::filesystem::path folder;  ///< output folder of a run
+    BackendChoice backend;         ///< its device
+    std::filesystem::path out;     ///< empty: picture.png in the folder
+    std::vector<double> times;     ///< [s]; none: the end
+    bool panels = false;           ///< instead four times that tell the run's story
+    std::filesystem::path movie;   ///< a film, or without a suffix a folder; empty: none
+    double rate = 25;              ///< pictures of a film in a second
+    std::string color = "kinetic-energy";
+    std::string view = "side";
+    std::string size;  ///< "1280x720"; empty: as large as what is to be seen takes
+    bool noCoil = false;
+    std::optional<double> from, to;  ///< ends of the colour bar, in its unit
+};
+
 int runCommand(const RunOptions& options);
 int resumeCommand(const ResumeOptions& options);
 int checkCommand(const CheckOptions& options);
@@ -117,5 +132,6 @@ int sweepCommand(const SweepOptions& options);
 int calibrateCommand(const SweepOptions& options);
 int reportCommand(const ReportOptions& options);
 int profileCommand(const ProfileOptions& options);
+int renderCommand(const RenderOptions& options);
 
 }  // namespace vkdose

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "shaders/shared/layout.h"
+#include "shaders/shared/picture.h"
 #include "spirv/passes.h"
 
 namespace {
@@ -76,6 +77,12 @@ const std::map<std::string, Layout>& hostLayouts() {
            FIELD(StepPush, rowEntries), FIELD(StepPush, linkEntries), FIELD(StepPush, pairSlots),
            FIELD(StepPush, surfaceSlots), FIELD(StepPush, coilSlots), FIELD(StepPush, slice)},
           sizeof(StepPush)}},
+        {"PictureParams",
+         {{FIELD(PictureParams, right), FIELD(PictureParams, up), FIELD(PictureParams, towards),
+           FIELD(PictureParams, target), FIELD(PictureParams, centre), FIELD(PictureParams, light),
+           FIELD(PictureParams, cut), FIELD(PictureParams, box), FIELD(PictureParams, wire), FIELD(PictureParams, cells),
+           FIELD(PictureParams, size)},
+          sizeof(PictureParams)}},
     };
     return layouts;
 }
@@ -153,7 +160,7 @@ TEST_CASE("C++ and GLSL see the same structs") {
          {structsOf(pairs_spv), structsOf(pairs_texel_spv), structsOf(coil_energy_spv),
           structsOf(surfaces_packed_energy_spv), structsOf(move_spv), structsOf(move_texel_energy_spv),
           structsOf(near_spv), structsOf(near_texel_energy_spv), structsOf(commit_lists_spv), structsOf(sense_spv),
-          structsOf(sense_energy_spv), structsOf(neighbours_spv), structsOf(field_sums_spv)})
+          structsOf(sense_energy_spv), structsOf(neighbours_spv), structsOf(field_sums_spv), structsOf(cast_spv)})
         seen.insert(structs.begin(), structs.end());
     for (const auto& [name, layout] : hostLayouts()) {
         INFO("struct " << name << " is in no pass: nothing was compared");

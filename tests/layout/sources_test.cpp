@@ -31,7 +31,7 @@ bool hasEndlessLoop(const std::string& code) {
 // lavapipe of Mesa 22.3 miscompiles a do-while whose invocations leave at different trips, and ends any loop silently
 // after 65535 trips of one invocation's loops together. So: for and while only, each with a condition that bounds it.
 // The bounds: rows of at most 64, at most 27 cells around a particle and kMostVisits particles in them, 8 Newton steps
-// for each of a handful of turns, 28 surfaces.
+// for each of a handful of turns, 28 surfaces; a picture: 9 rays through some hundred cells of some ten spheres each.
 TEST_CASE("no shader holds a do-while loop or a loop without a condition") {
     CHECK(hasDo(withoutComments("do {\n} while (x);")));
     CHECK(hasDo(withoutComments("  do\n  {")));

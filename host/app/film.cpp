@@ -1,0 +1,116 @@
+#include "host/app/film.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <string>
+
+#include "host/app/backends.h"
+#include "host/core/error.h"
+
+namespace vkdose {
+
+namespace {
+
+std::string contentOf(int file) {
+    std::string text(4096, '\0');
+    const ssize_t n = ::pread(file, text.data(), text.size(), 0);
+    text.resize(n > 0 ? std::size_t(n) : 0);
+    while (!text.empty() && text.back() == '\n') text.pop_back();
+    return text;
+}
+
+/// An encoder that ends early must be told as such, not end us by a signal.
+class NoPipeSignal {
+  public:
+    NoPipeSignal() : before_(std::signal(SIGPIPE, SIG_IGN)) {}
+    ~NoPipeSignal() { std::signal(SIGPIPE, before_); }
+    NoPipeSignal(const NoPipeSignal&) = delete;
+    NoPipeSignal& operator=(const NoPipeSignal&) = delete;
+
+  private:
+    void (*before_)(int);
+};
+
+}  // namespace
+
+Film::Film(std::filesystem::path file, int width, int height, double rate) : file_(std::move(file)) {
+    std::vector<std::string> words{"ffmpeg", "-nostdin", "-loglevel", "error", "-y", "-f", "rawvideo", "-pix_fmt",
+                                   "bgr0", "-s", fmt::format("{}x{}", width, height), "-framerate",
+                                   fmt::format("{:.6g}", rate), "-i", "pipe:0",
+                                   // What every player takes; a slash in front, lest a name be taken for an option.
+                                   "-pix_fmt", "yuv420p", std::filesystem::absolute(file_).string()};
+    std::vector<char*> arguments;
+    for (std::string& word : words) arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+
+    std::array<int, 2> ends{};
+    said_ = memfd_create("ffmpeg", MFD_CLOEXEC);
+    if (said_ < 0 || pipe2(ends.data(), O_CLOEXEC) != 0)
+        throw OutputError(fmt::format("no pipe to ffmpeg: {}", std::strerror(errno)));
+    posix_spawn_file_actions_t files;
+    posix_spawn_file_actions_init(&files);
+    posix_spawn_file_actions_adddup2(&files, ends[0], STDIN_FILENO);
+    posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+    posix_spawn_file_actions_adddup2(&files, said_, STDERR_FILENO);
+    const int fault = posix_spawnp(&process_, "ffmpeg", &files, nullptr, arguments.data(), environ);
+    posix_spawn_file_actions_destroy(&files);
+    ::close(ends[0]);
+    pictures_ = ends[1];
+    if (fault == 0) return;
+    process_ = -1;
+    close();
+    throw UsageError(
+        fmt::format("a film takes the program ffmpeg ({}): install it (Debian: ffmpeg), or name a folder for "
+                    "single pictures",
+                    std::strerror(fault)));
+}
+
+int Film::close() {
+    int status = 0;
+    if (pictures_ >= 0) ::close(pictures_);
+    pictures_ = -1;
+    if (process_ > 0)
+        while (waitpid(process_, &status, 0) < 0 && errno == EINTR) {
+        }
+    process_ = -1;
+    return status;
+}
+
+Film::~Film() {
+    if (process_ > 0) kill(process_, SIGTERM);
+    close();
+    if (said_ >= 0) ::close(said_);
+}
+
+void Film::fail() {
+    close();
+    const std::string said = contentOf(said_);
+    throw OutputError(
+        fmt::format("ffmpeg could not write {}: {}", file_.string(), said.empty() ? "it ended without a word" : said));
+}
+
+void Film::add(const std::vector<std::uint8_t>& picture) {
+    const NoPipeSignal quiet;
+    for (std::size_t done = 0; done < picture.size();) {
+        const ssize_t n = ::write(pictures_, picture.data() + done, picture.size() - done);
+        if (n < 0 && errno == EINTR) continue;
+        if (n <= 0) fail();
+        done += std::size_t(n);
+    }
+}
+
+void Film::finish() {
+    const int status = close();
+    if (status != 0) fail();
+}
+
+}  // namespace vkdose

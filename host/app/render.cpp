@@ -1,0 +1,166 @@
+#include <fmt/format.h>
+
+#include <charconv>
+#include <functional>
+#include <optional>
+#include <stdexcept>
+
+#include "host/app/commands.h"
+#include "host/app/exit_code.h"
+#include "host/app/film.h"
+#include "host/app/run_states.h"
+#include "host/output/csv.h"
+#include "host/render/picture.h"
+#include "host/vk/device.h"
+
+namespace vkdose {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int kSmallest = 64, kLargest = 16384;
+
+/// "1280x720" to pixels; zero, zero for nothing.
+std::pair<int, int> sizeOf(const std::string& text) {
+    if (text.empty()) return {0, 0};
+    int width = 0, height = 0;
+    const char* end = text.data() + text.size();
+    const auto [cross, fault] = std::from_chars(text.data(), end, width);
+    const bool crossed = fault == std::errc() && cross != end && *cross == 'x';
+    const auto [stop, fault2] = std::from_chars(crossed ? cross + 1 : end, end, height);
+    if (!crossed || fault2 != std::errc() || stop != end || width < kSmallest || width > kLargest ||
+        height < kSmallest || height > kLargest)
+        throw UsageError(fmt::format("--size {}: give width x height in pixels, {} to {} each: --size 1280x720", text,
+                                     kSmallest, kLargest));
+    return {width, height};
+}
+
+/// Draws the states of a run, all with the same scale, camera and size.
+class Renderer {
+  public:
+    Renderer(const RenderOptions& options, const RunStates& states, const std::vector<std::size_t>& chosen)
+        : states_(states),
+          quantity_(*render::quantityNamed(options.color)),
+          device_(vk::DeviceChoice{options.backend.device, options.backend.validation}),
+          caster_(device_) {
+        spec_.view = *render::viewNamed(options.view);
+        spec_.coil = !options.noCoil;
+        std::tie(spec_.width, spec_.height) = sizeOf(options.size);
+        if (quantity_ == render::Quantity::FillLayer) {
+            if (!states.hasFrames())
+                throw UsageError(
+                    "--color fill-layer: the run kept no frames ([frames] in its case does), so nobody knows "
+                    "where its particles lay when the powder had settled");
+            fill_ = states.read(states.settled()).particles;
+        }
+        // One pass over all that will be drawn, so that nothing jumps from one to the next.
+        std::vector<double> values =
+            fill_ ? render::valuesOf(quantity_, states.setup(), fillFrame(), fillPointer()) : std::vector<double>();
+        for (const std::size_t entry : chosen) {
+            const Frame frame = states.read(entry);
+            const Box box = render::contentOf(states.setup(), frame);
+            content_ = content_ ? render::united(*content_, box) : box;
+            if (!fill_) {
+                const std::vector<double> more = valuesOf(frame);
+                values.insert(values.end(), more.begin(), more.end());
+            }
+        }
+        try {
+            spec_.scale = render::scaleFor(quantity_, states.setup(), values, {options.from, options.to});
+        } catch (const std::invalid_argument& e) {
+            throw UsageError(e.what());
+        }
+    }
+
+    render::Canvas draw(const std::vector<std::size_t>& chosen) {
+        std::vector<Frame> frames;
+        for (const std::size_t entry : chosen) frames.push_back(states_.read(entry));
+        std::vector<render::Panel> panels;
+        for (std::size_t i = 0; i < frames.size(); ++i) {
+            const std::string mark = frames.size() > 1 ? fmt::format("({}) ", char('a' + i % 26)) : std::string();
+            panels.push_back({&frames[i], valuesOf(frames[i]), mark + render::stateText(frames[i])});
+        }
+        return render::drawPicture(caster_, states_.setup(), spec_, *content_, panels);
+    }
+
+    const vk::Device& device() const { return device_; }
+
+  private:
+    Frame fillFrame() const { return {0, 0, Phase::Settle, 0, 0, *fill_, {}}; }
+    const Particles* fillPointer() const { return fill_ ? &*fill_ : nullptr; }
+    std::vector<double> valuesOf(const Frame& frame) const {
+        return render::valuesOf(quantity_, states_.setup(), frame, fillPointer());
+    }
+
+    const RunStates& states_;
+    render::Quantity quantity_;
+    vk::Device device_;
+    render::RayCaster caster_;
+    render::PictureSpec spec_;
+    std::optional<Particles> fill_;
+    std::optional<Box> content_;
+};
+
+void writePicture(const fs::path& file, const render::Canvas& canvas) {
+    replaceFile(file, canvas.png());
+    fmt::print("{}\n", file.string());
+}
+
+void writeMovie(Renderer& renderer, const RenderOptions& options, std::size_t count) {
+    const fs::path& to = options.movie;
+    std::optional<Film> film;
+    if (!to.has_extension()) fs::create_directories(to);
+    for (std::size_t i = 0; i < count; ++i) {
+        const render::Canvas canvas = renderer.draw({i});
+        if (!to.has_extension()) {
+            replaceFile(to / fmt::format("frame_{:06}.png", i), canvas.png());
+            continue;
+        }
+        if (canvas.width() % 2 != 0 || canvas.height() % 2 != 0)
+            throw UsageError(fmt::format("--size {}: a film has even width and height", options.size));
+        if (!film) film.emplace(to, canvas.width(), canvas.height(), options.rate);
+        film->add(canvas.bytes());
+    }
+    if (film) film->finish();
+    fmt::print("{} pictures in {}\n", count, to.string());
+}
+
+/// As `validationClean` of a backend.
+int validated(const RenderOptions& options, const vk::Device& device) {
+    if (!options.backend.validation) return kOk;
+    for (const std::string& message : device.validationMessages()) fmt::print(stderr, "validation: {}\n", message);
+    if (!device.validated())
+        fmt::print(stderr, "vkdose: the validation layer is not installed (vulkan-validationlayers)\n");
+    return device.validated() && device.validationMessages().empty() ? kOk : kDeviceError;
+}
+
+std::vector<std::size_t> chosenOf(const RenderOptions& options, const RunStates& states) {
+    std::vector<std::size_t> chosen;
+    if (!options.movie.empty())
+        for (std::size_t i = 0; i < states.entries().size(); ++i) chosen.push_back(i);
+    else if (options.panels)
+        chosen = states.story();
+    else if (options.times.empty())
+        chosen.push_back(states.entries().size() - 1);
+    for (const double time : options.times) chosen.push_back(states.at(time));
+    return chosen;
+}
+
+}  // namespace
+
+int renderCommand(const RenderOptions& options) {
+    const RunStates states(options.folder);
+    if ((options.panels || !options.movie.empty()) && !states.hasFrames())
+        throw UsageError(fmt::format("{} kept no frames ([frames] in its case does), only its end can be drawn",
+                                     options.folder.string()));
+    const std::vector<std::size_t> chosen = chosenOf(options, states);
+    Renderer renderer(options, states, chosen);
+    if (!options.movie.empty())
+        writeMovie(renderer, options, chosen.size());
+    else
+        writePicture(options.out.empty() ? options.folder / "picture.png" : options.out, renderer.draw(chosen));
+    return validated(options, renderer.device());
+}
+
+}  // namespace vkdose

@@ -1,0 +1,101 @@
+#include "host/app/run_states.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+
+#include "host/app/backends.h"
+#include "host/output/end_state.h"
+
+namespace vkdose {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+Case caseOf(const fs::path& folder) {
+    const fs::path file = folder / "case.toml";
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream)
+        throw UsageError(fmt::format("{} is no output folder of a run: it holds no case.toml", folder.string()));
+    const std::string text{std::istreambuf_iterator<char>(stream), {}};
+    return loadResolvedCase(text, file);
+}
+
+}  // namespace
+
+RunStates::RunStates(const fs::path& folder) : case_(caseOf(folder)), frames_(folder), entries_(frames_.entries()) {
+    if (hasFrames()) return;
+    if (!fs::exists(folder / "summary.json"))
+        throw UsageError(
+            fmt::format("{} holds neither frames nor an end: the run has to come to one first", folder.string()));
+    end_ = readEndState(folder, case_);
+    entries_.push_back({0, end_->step, end_->time, end_->phase, end_->dose, end_->coilAngle});
+}
+
+Frame RunStates::read(std::size_t entry) const {
+    return end_ ? *end_ : frames_.read(entries_.at(entry));
+}
+
+std::size_t RunStates::at(double time) const {
+    const double first = entries_.front().time, last = entries_.back().time;
+    const double between = entries_.size() > 1 ? (last - first) / double(entries_.size() - 1) : 1e-6 * last;
+    if (!(time >= first - between) || !(time <= last + between))
+        throw UsageError(
+            hasFrames()
+                ? fmt::format("there is no frame at {:.4g} s; {} frames reach from {:.4g} to {:.4g} s", time,
+                              entries_.size(), first, last)
+                : fmt::format("there is no frame at {:.4g} s: the run kept none ([frames] in its case does), only "
+                              "its end at {:.4g} s",
+                              time, last));
+    std::size_t nearest = 0;
+    for (std::size_t i = 0; i < entries_.size(); ++i)
+        if (std::abs(entries_[i].time - time) <= std::abs(entries_[nearest].time - time)) nearest = i;
+    return nearest;
+}
+
+std::size_t RunStates::settled() const {
+    std::size_t found = 0;
+    for (std::size_t i = 0; i < entries_.size(); ++i)
+        if (entries_[i].phase == Phase::Settle) found = i;
+    return found;
+}
+
+double RunStates::massLeft(std::size_t entry) const {
+    const Particles p = read(entry).particles;
+    double volume = 0;
+    for (std::size_t i = 0; i < p.size(); ++i)
+        if (p.status[i] == Status::Active) volume += 4.0 / 3.0 * kPi * p.radius[i] * p.radius[i] * p.radius[i];
+    return volume * case_.world.density;
+}
+
+std::vector<std::size_t> RunStates::story() const {
+    const std::size_t first = settled(), last = entries_.size() - 1;
+    std::size_t turned = first;
+    for (std::size_t i = first; i <= last; ++i)
+        if (entries_[i].dose == 1 && entries_[i].phase == Phase::Rotate) turned = i;
+    const double filled = massLeft(first), left = massLeft(last);
+    // What is in the canister only gets less: halve the search, to read few frames.
+    const auto firstWith = [&](double mass) {  // no more than this left
+        std::size_t low = first, high = last;
+        while (low < high) {
+            const std::size_t middle = (low + high) / 2;
+            if (massLeft(middle) <= mass)
+                high = middle;
+            else
+                low = middle + 1;
+        }
+        return low;
+    };
+    const std::size_t half = firstWith(0.5 * (filled + left));
+    const std::size_t late = left >= 0.1 * filled ? last : std::max(first, firstWith(0.1 * filled) - 1);
+    std::vector<std::size_t> story{first, turned, half, late};
+    std::sort(story.begin(), story.end());
+    story.erase(std::unique(story.begin(), story.end()), story.end());
+    return story;
+}
+
+}  // namespace vkdose

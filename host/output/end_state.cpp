@@ -1,0 +1,49 @@
+#include "host/output/end_state.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "host/core/error.h"
+#include "host/model/particle_list.h"
+
+namespace vkdose {
+
+namespace {
+
+using Json = nlohmann::json;
+
+double numberIn(const Json& summary, const char* key, const std::filesystem::path& file) {
+    const auto found = summary.find(key);
+    if (found == summary.end() || !found->is_number())
+        throw OutputError(fmt::format("{}: no number \"{}\" in it", file.string(), key));
+    return found->get<double>();
+}
+
+}  // namespace
+
+Frame readEndState(const std::filesystem::path& folder, const Case& c) {
+    const std::filesystem::path file = folder / "summary.json", list = folder / "particles.csv";
+    std::ifstream stream(file);
+    if (!stream) throw OutputError(fmt::format("cannot read {}", file.string()));
+    const Json summary = Json::parse(stream, nullptr, false);
+    if (!summary.is_object()) throw OutputError(fmt::format("{}: no summary", file.string()));
+    Frame frame;
+    frame.time = numberIn(summary, "simulated_time_s", file);
+    frame.step = std::uint64_t(numberIn(summary, "steps", file));
+    // In the summary positive when conveying, in a frame about +z.
+    frame.coilAngle = numberIn(summary, "coil_angle_rad", file) * Timeline(c).conveyingSense();
+    const Json doses = summary.value("doses", Json::array());
+    frame.dose = int(doses.size());
+    frame.phase = frame.dose == 0 ? Phase::Settle : Phase::Rest;
+    const Json ledger = summary.value("ledger", Json::object());
+    if (ledger.value("canister_count", 1) + ledger.value("throat_count", 1) == 0)
+        return frame;  // a list of none is none
+    std::vector<Diagnostic> faults;
+    frame.particles = readParticleList(list, faults);
+    if (!faults.empty()) throw OutputError(faults.front().text());
+    return frame;
+}
+
+}  // namespace vkdose

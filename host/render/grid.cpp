@@ -1,0 +1,109 @@
+#include "host/render/grid.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace vkdose::render {
+
+namespace {
+
+using glm::uvec3;
+using glm::vec3;
+using glm::vec4;
+
+/// However far apart things lie. A ray passes at most so many cells in one direction.
+constexpr double kMostCells = 1 << 20;
+constexpr float kMostInRow = 1000;
+
+struct Bounds {
+    vec3 low{std::numeric_limits<float>::infinity()}, high{-std::numeric_limits<float>::infinity()};
+    void include(const vec3& centre, float radius) {
+        low = glm::min(low, centre - radius);
+        high = glm::max(high, centre + radius);
+    }
+};
+
+float distance(const vec3& point, const vec3& low, const vec3& high) {
+    return glm::length(point - glm::clamp(point, low, high));
+}
+
+/// Calls `visit(cell)` for every cell whose box is nearer than `reach` to the piece a ... b.
+template <typename Visit>
+void forCells(const Grid& grid, const vec3& a, const vec3& b, float reach, const Visit& visit) {
+    const vec3 top = vec3(grid.cells) - 1.0f;
+    const uvec3 first(glm::clamp(glm::floor((glm::min(a, b) - reach - grid.low) / grid.edge), vec3(0), top));
+    const uvec3 last(glm::clamp(glm::floor((glm::max(a, b) + reach - grid.low) / grid.edge), vec3(0), top));
+    for (unsigned z = first.z; z <= last.z; ++z)
+        for (unsigned y = first.y; y <= last.y; ++y)
+            for (unsigned x = first.x; x <= last.x; ++x) {
+                const vec3 low = grid.low + grid.edge * vec3(x, y, z), high = low + grid.edge;
+                // A piece is short: within its box is near enough. Of a sphere this is exact.
+                if (a == b && distance(a, low, high) >= reach) continue;
+                visit((std::size_t(z) * grid.cells.y + y) * grid.cells.x + x);
+            }
+}
+
+/// Of the spheres; without any, of the wire.
+float meanDiameter(const std::vector<vec4>& spheres, float wireRadius) {
+    if (spheres.empty()) return 2 * wireRadius;
+    double sum = 0;
+    for (const vec4& s : spheres) sum += s.w;
+    return float(2 * sum / double(spheres.size()));
+}
+
+}  // namespace
+
+Grid gridOf(const std::vector<vec4>& spheres, const std::vector<vec4>& joints, float wireRadius) {
+    Bounds all;
+    for (const vec4& s : spheres) all.include(vec3(s), s.w);
+    for (const vec4& j : joints) all.include(vec3(j), wireRadius);
+    Grid grid;
+    grid.parts.resize(1);
+    if (spheres.empty() && joints.empty()) return grid;
+
+    const vec3 size = all.high - all.low;
+    const double volume = double(size.x) * size.y * size.z;
+    const double most = std::max(kMostCells, 2.0 * double(spheres.size()));
+    grid.edge = std::max({meanDiameter(spheres, wireRadius), float(std::cbrt(volume / most)),
+                          std::max({size.x, size.y, size.z}) / kMostInRow});
+    // A ray that grazes the outermost sphere must not miss the grid by rounding.
+    const float margin = 1e-3f * grid.edge;
+    grid.low = all.low - margin;
+    grid.cells = uvec3(glm::ceil((size + 2 * margin) / grid.edge));
+    grid.cells = glm::max(grid.cells, uvec3(1));
+
+    const auto forAll = [&](const auto& visit) {  // visit(part, entry, cell)
+        for (std::size_t i = 0; i < spheres.size(); ++i) {
+            const vec3 c(spheres[i]);
+            forCells(grid, c, c, spheres[i].w + margin, [&](std::size_t cell) { visit(0, i, cell); });
+            forCells(grid, c, c, kShadeReach * spheres[i].w, [&](std::size_t cell) { visit(2, i, cell); });
+        }
+        for (std::size_t i = 0; i + 1 < joints.size(); ++i)
+            forCells(grid, vec3(joints[i]), vec3(joints[i + 1]), wireRadius + margin,
+                     [&](std::size_t cell) { visit(1, i, cell); });
+    };
+    std::vector<std::array<std::uint32_t, 3>> counts(std::size_t(grid.cells.x) * grid.cells.y * grid.cells.z,
+                                                     {0, 0, 0});
+    forAll([&](int part, std::size_t, std::size_t cell) { ++counts[cell][part]; });
+    grid.parts.resize(counts.size());
+    std::vector<std::array<std::uint32_t, 3>>& next = counts;
+    std::uint32_t total = 0;
+    for (std::size_t cell = 0; cell < counts.size(); ++cell) {
+        grid.parts[cell].x = total;
+        for (int part = 0; part < 3; ++part) {
+            const std::uint32_t begin = total;
+            total += counts[cell][part];
+            next[cell][part] = begin;
+            grid.parts[cell][part + 1] = total;
+        }
+    }
+    grid.entries.resize(total);
+    forAll([&](int part, std::size_t entry, std::size_t cell) {
+        grid.entries[next[cell][part]++] = std::uint32_t(entry);
+    });
+    return grid;
+}
+
+}  // namespace vkdose::render

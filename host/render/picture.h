@@ -1,0 +1,54 @@
+#pragma once
+// A whole picture: powder, coil and canister, once or in several panels, with colour bar, scale bar and time.
+
+#include <string>
+#include <vector>
+
+#include "host/render/canvas.h"
+#include "host/render/quantity.h"
+#include "host/render/ray_caster.h"
+
+namespace vkdose::render {
+
+struct PictureSpec {
+    View view = View::Side;
+    Scale scale;
+    bool coil = true;
+    int width = 0, height = 0;  ///< [pixels]; 0: as large as what is to be seen takes, even numbers
+};
+
+/// One state of the powder.
+struct Panel {
+    const Frame* frame;
+    std::vector<double> values;  ///< of every particle, to be coloured on the picture's scale
+    std::string title;
+};
+
+/// What has to be seen of these frames: the canister and its coil, as high as all powder but a stray hundredth reaches,
+/// or particles and coil where there is none, with a margin.
+Box contentOf(const Case& c, const std::vector<const Frame*>& frames);
+/// The same of a single one, to be put together by `united`.
+Box contentOf(const Case& c, const Frame& frame);
+Box united(const Box& a, const Box& b);
+
+/// "1.20 s, dose 1, turning".
+std::string stateText(const Frame& frame);
+
+/// Where the parts of a picture stand, all in pixels. Each panel has the same camera.
+struct Layout {
+    int width = 0, height = 0;
+    double text = 0;  ///< height of a line
+    Camera camera;
+    std::vector<Canvas::Point> panels;  ///< top left corners of their images
+    Canvas::Point bar{};                ///< top left corner of the colour bar
+    double barWidth = 0, barHeight = 0;
+    double scaleLength = 0;  ///< what the scale bar stands for [m]
+    Canvas::Point scaleFrom{}, scaleTo{};
+};
+Layout layoutOf(const PictureSpec& spec, const Box& content, std::size_t panels);
+
+/// The picture. `content` as given by contentOf; that of all frames of a film, so that nothing jumps.
+Canvas drawPicture(RayCaster& caster, const Case& c, const PictureSpec& spec, const Box& content,
+                   const std::vector<Panel>& panels);
+
+}  // namespace vkdose::render

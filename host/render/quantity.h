@@ -1,0 +1,55 @@
+#pragma once
+// What the colour of a particle may tell, and the scale beside the picture that says so.
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "host/model/case.h"
+#include "host/sim/frame.h"
+
+namespace vkdose::render {
+
+enum class Quantity { KineticEnergy, Speed, Overlap, Radius, FillLayer };
+
+/// As on the command line, in the order of Quantity.
+inline constexpr const char* kQuantityNames[] = {"kinetic-energy", "speed", "overlap", "radius", "fill-layer"};
+std::optional<Quantity> quantityNamed(std::string_view name);
+
+/// Of every particle, in SI: m v^2/2 of the centre, |v|, the largest overlap over the smaller radius, the radius, or
+/// its height in `fill` (y), the state when the powder had settled; NaN without one.
+std::vector<double> valuesOf(Quantity quantity, const Case& c, const Frame& frame, const Particles* fill);
+
+/// Values to places on the colour map.
+struct Scale {
+    std::string title;         ///< what is told, with the unit of the ticks
+    double unit = 1;           ///< of the ticks, in SI
+    double low = 0, high = 1;  ///< in SI, low < high
+    bool logarithmic = false;
+    int bands = 0;  ///< equal bands of one colour each; 0: no bands
+
+    /// 0 at `low`, 1 at `high`, beyond them outside of that.
+    double place(double value) const;
+    /// The colour of a value (sRGB).
+    Vec3 colour(double value) const;
+
+    struct Tick {
+        double place;
+        std::string text;
+    };
+    std::vector<Tick> ticks() const;
+};
+
+/// What a user asks of the range, in the unit of the ticks.
+struct Range {
+    std::optional<double> from, to;
+};
+
+/// A scale that all pictures of a run share wherever possible. Speed and kinetic energy reach to what the wire of the
+/// turning coil has, the latter for a sphere of mean mass, over three decades down; overlap 0.001 to 1; radius and
+/// layer to what is there. What cannot be said so (no coil that turns) reaches to the largest of `values`. Throws
+/// std::invalid_argument, saying why, if the range asked for is empty or, on a logarithmic scale, not positive.
+Scale scaleFor(Quantity quantity, const Case& c, const std::vector<double>& values, const Range& range = {});
+
+}  // namespace vkdose::render

@@ -1,0 +1,223 @@
+#version 450
+// cast: a picture of spheres and of a coil, one pixel per invocation, by rays through a uniform grid.
+// Reads the picture's parameters, spheres with their colours, the joints of the coil's wire and the grid; writes for every
+// pixel its colour, how much of it is covered, and how near to the viewer.
+//
+// A cell of the grid is a range of `entries` in three parts: spheres and pieces of wire that a ray through the cell can
+// meet, and spheres near enough to take light from a point in it. No loop is longer than a row of cells or such a part.
+#extension GL_GOOGLE_include_directive : require
+#include "shared/picture.h"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(std430, set = 0, binding = 0) readonly buffer ParamsBuffer { PictureParams params; };
+layout(std430, set = 0, binding = 1) readonly buffer SphereBuffer { vec4 spheres[]; };  // centre, radius
+layout(std430, set = 0, binding = 2) readonly buffer PaintBuffer { vec4 paint[]; };     // of a sphere: linear RGB
+layout(std430, set = 0, binding = 3) readonly buffer JointBuffer { vec4 joints[]; };    // centre line; w: angle [rad]
+layout(std430, set = 0, binding = 4) readonly buffer CellBuffer { uvec4 cells[]; };     // begin, ends of the three parts
+layout(std430, set = 0, binding = 5) readonly buffer EntryBuffer { uint entries[]; };
+layout(std430, set = 0, binding = 6) writeonly buffer PictureBuffer { uvec2 picture[]; };  // RGBA8 (sRGB), depth bits
+
+const float kNever = 1e30;
+const uint kNothing = 0xffffffffu;
+const float kReach = 2.5;                    // of a sphere's shade, in radii; host/render/grid.h has the same
+const float kSky = 0.55;                     // light that comes from everywhere, over that of the colour map
+const float kSun = 0.75;                     // and from one side
+const vec3 kSteel = vec3(0.36, 0.38, 0.41);  // linear
+
+struct Ray {
+    vec3 origin;
+    vec3 way;  // unit
+};
+
+struct Hit {
+    float far;
+    uint what;   // a sphere, or after these a piece of wire
+    bool face;   // cut open
+};
+
+/// Ray through a place in the picture, in pixels from its top left corner.
+Ray rayThrough(vec2 place) {
+    vec2 offset = (place - params.centre.xy) * params.right.w;
+    vec3 point = params.target.xyz + params.right.xyz * offset.x - params.up.xyz * offset.y;
+    float eye = params.up.w;
+    if (eye == 0.0) return Ray(point, -params.towards.xyz);
+    vec3 from = params.target.xyz + params.towards.xyz * eye;
+    return Ray(from, normalize(point - from));
+}
+
+/// Where a ray enters a sphere. The distance of its centre from the ray, not from the ray's origin, is what is
+/// squared, so that an origin far away costs no digits.
+float enterSphere(Ray ray, vec3 centre, float radius) {
+    vec3 to = centre - ray.origin;
+    float along = dot(to, ray.way);
+    vec3 off = to - along * ray.way;
+    float rest = radius * radius - dot(off, off);
+    return rest > 0.0 ? along - sqrt(rest) : kNever;
+}
+
+/// Where a ray enters a straight piece of wire with round ends.
+float enterWire(Ray ray, vec3 a, vec3 b, float radius) {
+    float way = length(b - a);
+    vec3 axis = (b - a) / way;
+    float nearest = dot(a - ray.origin, ray.way);  // start there: small numbers
+    vec3 from = ray.origin + nearest * ray.way - a;
+    float fromAlong = dot(from, axis), wayAlong = dot(ray.way, axis);
+    vec3 across = from - fromAlong * axis, wayAcross = ray.way - wayAlong * axis;
+    float A = dot(wayAcross, wayAcross), B = dot(across, wayAcross), C = dot(across, across) - radius * radius;
+    float rest = B * B - A * C;
+    float ends = min(enterSphere(ray, a, radius), enterSphere(ray, b, radius));
+    if (rest <= 0.0 || A < 1e-6) return ends;
+    float far = (-B - sqrt(rest)) / A;
+    float place = fromAlong + far * wayAlong;
+    return place >= 0.0 && place <= way ? nearest + far : ends;
+}
+
+vec3 onWire(vec3 p, vec3 a, vec3 b) {
+    vec3 way = b - a;
+    return a + clamp(dot(p - a, way) / dot(way, way), 0.0, 1.0) * way;
+}
+
+uint cellAt(ivec3 c) { return (uint(c.z) * params.cells.y + uint(c.y)) * params.cells.x + uint(c.x); }
+ivec3 cellOf(vec3 p) {
+    return clamp(ivec3(floor((p - params.box.xyz) / params.box.w)), ivec3(0), ivec3(params.cells.xyz) - 1);
+}
+
+bool isCut() { return dot(params.cut.xyz, params.cut.xyz) > 0.0; }
+
+/// What the cut at `point` lies in, if anything. Of two spheres that overlap, on this side of where they meet.
+Hit openedAt(vec3 point, float far) {
+    Hit hit = Hit(kNever, kNothing, false);
+    float deepest = 0.0;
+    uvec4 part = cells[cellAt(cellOf(point))];
+    for (uint e = part.x; e < part.y; ++e) {
+        vec4 s = spheres[entries[e]];
+        float depth = dot(point - s.xyz, point - s.xyz) - s.w * s.w;
+        if (depth < deepest) {
+            deepest = depth;
+            hit = Hit(far, entries[e], true);
+        }
+    }
+    for (uint e = part.y; e < part.z; ++e) {
+        vec3 off = point - onWire(point, joints[entries[e]].xyz, joints[entries[e] + 1u].xyz);
+        if (dot(off, off) < params.wire.w * params.wire.w) hit = Hit(far, params.size.z + entries[e], true);
+    }
+    return hit;
+}
+
+/// The first thing on a ray's way, cell by cell.
+Hit firstHit(Ray ray) {
+    Hit hit = Hit(kNever, kNothing, false);
+    vec3 high = params.box.xyz + params.box.w * vec3(params.cells.xyz);
+    vec3 way = mix(ray.way, vec3(1e-12), lessThan(abs(ray.way), vec3(1e-12)));
+    vec3 a = (params.box.xyz - ray.origin) / way, b = (high - ray.origin) / way;
+    vec3 first = min(a, b), last = max(a, b);
+    float enter = max(max(first.x, first.y), first.z), leave = min(min(last.x, last.y), last.z);
+    bool opened = false;
+    if (isCut()) {
+        float cut = (params.cut.w - dot(params.cut.xyz, ray.origin)) / dot(params.cut.xyz, ray.way);
+        opened = cut > enter;
+        enter = max(enter, cut);
+    }
+    if (enter >= leave) return hit;
+    if (opened) hit = openedAt(ray.origin + enter * ray.way, enter);
+
+    ivec3 cell = cellOf(ray.origin + enter * ray.way);
+    ivec3 turn = ivec3(sign(way));
+    vec3 stride = params.box.w / abs(way);
+    vec3 next = (params.box.xyz + params.box.w * vec3(cell + max(turn, 0)) - ray.origin) / way;
+    bool under = hit.what == kNothing;
+    uint most = params.cells.x + params.cells.y + params.cells.z;
+    for (uint n = 0u; n < most && under; ++n) {
+        uvec4 part = cells[cellAt(cell)];
+        for (uint e = part.x; e < part.y; ++e) {
+            vec4 s = spheres[entries[e]];
+            float far = enterSphere(ray, s.xyz, s.w);
+            if (far >= enter && far < hit.far) hit = Hit(far, entries[e], false);
+        }
+        for (uint e = part.y; e < part.z; ++e) {
+            float far = enterWire(ray, joints[entries[e]].xyz, joints[entries[e] + 1u].xyz, params.wire.w);
+            if (far >= enter && far < hit.far) hit = Hit(far, params.size.z + entries[e], false);
+        }
+        float edge = min(min(next.x, next.y), next.z);
+        bvec3 axis = next.x <= edge ? bvec3(true, false, false)
+                                    : next.y <= edge ? bvec3(false, true, false) : bvec3(false, false, true);
+        cell += mix(ivec3(0), turn, axis);
+        next += mix(vec3(0.0), stride, axis);
+        bool within = all(greaterThanEqual(cell, ivec3(0))) && all(lessThan(cell, ivec3(params.cells.xyz)));
+        under = within && hit.far > edge;
+    }
+    return hit;
+}
+
+/// How much of the sky a point sees past the spheres around it: each takes cos (r/d)^2, as a sphere of that size would
+/// from a point with nothing else around, and less towards the end of its reach.
+float openness(vec3 p, vec3 normal) {
+    uvec4 part = cells[cellAt(cellOf(p))];
+    float open = 1.0;
+    for (uint e = part.z; e < part.w; ++e) {
+        vec4 s = spheres[entries[e]];
+        vec3 to = s.xyz - p;
+        float square = dot(to, to), size = s.w * s.w;
+        float taken = max(dot(to, normal) * inversesqrt(square), 0.0) * size / square;
+        float fade = max(1.0 - square / (kReach * kReach * size), 0.0);
+        bool gone = isCut() && dot(params.cut.xyz, s.xyz) > params.cut.w;
+        open *= gone ? 1.0 : 1.0 - min(taken, 1.0) * fade;
+    }
+    return open;
+}
+
+vec3 wireNormal(vec3 p, uint piece) {
+    // The joint's angle goes on between the joints, and with it the centre line: no facets.
+    vec4 a = joints[piece], b = joints[piece + 1u];
+    vec3 way = b.xyz - a.xyz;
+    float share = clamp(dot(p - a.xyz, way) / dot(way, way), 0.0, 1.0), angle = mix(a.w, b.w, share);
+    vec3 centre = vec3(params.wire.xy + params.wire.z * vec2(cos(angle), sin(angle)), mix(a.z, b.z, share));
+    return normalize(p - centre);
+}
+
+/// A cut surface is flat and bright, with a dark rim.
+vec3 shadeFace(vec3 p, Hit hit) {
+    bool wire = hit.what >= params.size.z;
+    if (wire) return 1.35 * kSteel;
+    vec4 s = spheres[hit.what];
+    float h = dot(params.cut.xyz, s.xyz) - params.cut.w;
+    float disc = sqrt(max(s.w * s.w - h * h, 0.0)), off = length(p - (s.xyz - h * params.cut.xyz));
+    return paint[hit.what].rgb * (disc - off < 0.1 * s.w ? 0.45 : 1.0);
+}
+
+vec3 shade(Ray ray, Hit hit) {
+    vec3 p = ray.origin + hit.far * ray.way;
+    if (hit.face) return shadeFace(p, hit);
+    bool wire = hit.what >= params.size.z;
+    vec3 normal = wire ? wireNormal(p, hit.what - params.size.z) : (p - spheres[hit.what].xyz) / spheres[hit.what].w;
+    vec3 colour = wire ? kSteel : paint[hit.what].rgb;
+    float open = openness(p, normal), sun = max(dot(normal, params.light.xyz), 0.0);
+    vec3 seen = colour * (kSky * open + kSun * sun * (0.5 + 0.5 * open));
+    float gleam = pow(max(dot(normal, normalize(params.light.xyz - ray.way)), 0.0), 40.0);
+    return seen + (wire ? 0.35 * gleam * open : 0.0);
+}
+
+vec3 encoded(vec3 c) {  // sRGB, IEC 61966-2-1
+    c = clamp(c, 0.0, 1.0);
+    return mix(1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, 12.92 * c, lessThanEqual(c, vec3(0.0031308)));
+}
+
+void main() {
+    uvec2 at = gl_GlobalInvocationID.xy;
+    if (at.x >= params.size.x || at.y >= params.size.y) return;
+    uint side = params.size.w;
+    vec3 sum = vec3(0.0);
+    float hits = 0.0, depth = -kNever;
+    for (uint k = 0u; k < side * side; ++k) {
+        Ray ray = rayThrough(vec2(at) + (vec2(k % side, k / side) + 0.5) / float(side));
+        Hit hit = firstHit(ray);
+        if (hit.what != kNothing) {
+            sum += shade(ray, hit);
+            hits += 1.0;
+            depth = max(depth, dot(ray.origin + hit.far * ray.way - params.target.xyz, params.towards.xyz));
+        }
+    }
+    vec4 colour = vec4(encoded(sum / max(hits, 1.0)), hits / float(side * side));
+    picture[at.y * params.size.x + at.x] = uvec2(packUnorm4x8(colour), floatBitsToUint(depth));
+}
