@@ -3,14 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cinttypes>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <optional>
 #include <sstream>
 
+#include "host/core/csv_lines.h"
 #include "host/core/error.h"
 #include "host/output/frame_files.h"
 #include "host/output/hdf5.h"
@@ -27,16 +25,19 @@ std::optional<Phase> phaseOf(std::string_view name) {
     return std::nullopt;
 }
 
-std::optional<FrameEntry> entryIn(const std::string& line) {
-    FrameEntry e;
-    std::array<char, 16> phase{};
-    int end = 0;
-    const int fields = std::sscanf(line.c_str(), "%d,%" SCNu64 ",%lf,%15[a-z],%d,%lf%n", &e.number, &e.step, &e.time,
-                                   phase.data(), &e.dose, &e.coilAngle, &end);
-    const std::optional<Phase> found = phaseOf(phase.data());
-    if (fields != 6 || static_cast<std::size_t>(end) != line.size() || !found) return std::nullopt;
-    e.phase = *found;
-    return e;
+std::optional<FrameEntry> entryIn(const std::optional<Row>& fields) {
+    if (!fields || fields->size() != 6) return std::nullopt;
+    const auto number = [&](std::size_t at) { return numberIn((*fields)[at]); };
+    const std::optional<Phase> phase = phaseOf((*fields)[3]);
+    for (const std::size_t at : {0, 1, 2, 4, 5})
+        if (!std::isfinite(number(at))) return std::nullopt;
+    if (!phase || number(0) < 0 || number(1) < 0) return std::nullopt;
+    return FrameEntry{static_cast<int>(number(0)),
+                      static_cast<std::uint64_t>(number(1)),
+                      number(2),
+                      *phase,
+                      static_cast<int>(number(4)),
+                      number(5)};
 }
 
 std::string content(const fs::path& file) {
@@ -54,15 +55,16 @@ std::string frameFile(const char* kind, int number) {
 }
 
 std::vector<FrameEntry> framesListed(const std::string& text, const fs::path& file) {
-    std::istringstream lines(text);
-    std::string line;
-    std::getline(lines, line);
-    if (line != kFramesHeader) throw OutputError(fmt::format("{} is no list of frames", file.string()));
+    std::istringstream stream(text);
+    CsvLines lines(stream);
+    if (!lines.next() || lines.text() != kFramesHeader)
+        throw OutputError(fmt::format("{} is no list of frames", file.string()));
     std::vector<FrameEntry> entries;
-    while (std::getline(lines, line)) {
-        if (lines.eof()) break;  // still being written
-        const std::optional<FrameEntry> entry = entryIn(line);
-        if (!entry) throw OutputError(fmt::format("{} has a line that is no frame: {}", file.string(), line));
+    while (lines.next() && lines.ended()) {  // a line without its end is still being written
+        const std::optional<FrameEntry> entry = entryIn(lines.fields());
+        if (!entry)
+            throw OutputError(
+                fmt::format("{}:{}: {}: is no frame of a run", file.string(), lines.number(), lines.text()));
         entries.push_back(*entry);
     }
     return entries;

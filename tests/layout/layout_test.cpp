@@ -80,8 +80,8 @@ const std::map<std::string, Layout>& hostLayouts() {
         {"PictureParams",
          {{FIELD(PictureParams, right), FIELD(PictureParams, up), FIELD(PictureParams, towards),
            FIELD(PictureParams, target), FIELD(PictureParams, centre), FIELD(PictureParams, light),
-           FIELD(PictureParams, cut), FIELD(PictureParams, box), FIELD(PictureParams, wire), FIELD(PictureParams, cells),
-           FIELD(PictureParams, size)},
+           FIELD(PictureParams, cut), FIELD(PictureParams, box), FIELD(PictureParams, wire),
+           FIELD(PictureParams, cells), FIELD(PictureParams, size)},
           sizeof(PictureParams)}},
     };
     return layouts;
