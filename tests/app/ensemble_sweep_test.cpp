@@ -60,7 +60,7 @@ struct Place {
         CHECK(readText(box / folder / "doses.csv") == readText(box / "whole/doses.csv"));
         for (const Row& row : timeless(box / folder)) {
             for (const char* name : {"case.toml", "timeseries.csv", "doses.csv", "particles.csv", "frames/frames.csv",
-                                     "frames/particles_000001.vtkhdf"}) {
+                                     "frames/particles_000001.hdf"}) {
                 // The end of the one that fails: as the place.
                 if (row[0] == kFails && std::string(name).find("particles") != std::string::npos) continue;
                 const std::string file = "members/000" + row[0] + "/" + name;
