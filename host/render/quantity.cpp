@@ -7,8 +7,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "host/analysis/overlap.h"
 #include "host/render/colour.h"
-#include "host/render/overlap.h"
 
 namespace vkdose::render {
 
@@ -102,7 +102,7 @@ std::optional<Quantity> quantityNamed(std::string_view name) {
 
 std::vector<double> valuesOf(Quantity quantity, const Case& c, const Frame& frame, const Particles* fill) {
     const Particles& p = frame.particles;
-    if (quantity == Quantity::Overlap) return largestOverlaps(c.world, p, frame.coilAngle);
+    if (quantity == Quantity::Overlap) return overlapRatios(p, c.world, frame.coilAngle);
     if (quantity == Quantity::Radius) return p.radius;
     std::vector<double> values(p.size(), std::numeric_limits<double>::quiet_NaN());
     for (std::size_t i = 0; i < p.size(); ++i) {

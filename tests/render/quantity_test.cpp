@@ -6,7 +6,6 @@
 #include <stdexcept>
 
 #include "host/render/colour.h"
-#include "host/render/overlap.h"
 #include "host/render/quantity.h"
 #include "tests/support/near.h"
 
@@ -69,30 +68,6 @@ TEST_CASE("values of particles") {
     // A particle that was not there then: a list of other length.
     frame.particles.add({0, 0.02, 0}, 1e-3);
     CHECK(std::isnan(render::valuesOf(Quantity::FillLayer, c, frame, &fill)[2]));
-}
-
-TEST_CASE("overlaps with particles, walls and the coil, over the smaller radius") {
-    World world;
-    world.surfaces = {geometry::Plane{{0, -0.05, 0}, {0, 1, 0}}};
-    world.coil = geometry::Coil{0.0104, 0.00875, 0.001, 0.07};
-    Particles p;
-    p.add({0, 0.03, 0}, 1e-3);            // 0: deep in 1
-    p.add({0, 0.03, 2.9e-3}, 2e-3);       // 1
-    p.add({0, 0.03, 4.88e-3}, 1e-3);      // 2: 1.02 of a mm into 1
-    p.add({0.03, -0.04875, 0}, 1.3e-3);   // 3: in the plane
-    p.add({0.05, 0.05, 0.02}, 1e-3);      // 4: alone
-    p.add({0.0104, 0, 0.00875}, 0.5e-3);  // 5: on the wire, after one turn
-    p.add({0.05, 0.05, 0.0215}, 1e-3);    // 6: would touch 4, but is dosed
-    p.status[6] = Status::Dosed;
-    const std::vector<double> overlaps = render::largestOverlaps(world, p, 0);
-    CHECK(near(overlaps[0], 0.1, 1, 1e-9));
-    CHECK(near(overlaps[1], 1.02, 1, 1e-9));
-    CHECK(near(overlaps[2], 1.02, 1, 1e-9));
-    CHECK(near(overlaps[3], 0.05 / 1.3, 1, 1e-9));
-    CHECK(overlaps[4] == 0);
-    CHECK(near(overlaps[5], 3, 1, 1e-6));  // its radius and the wire's
-    CHECK(overlaps[6] == 0);
-    CHECK(render::largestOverlaps(world, p, kPi)[5] == 0);  // half a turn on, the wire is on the other side
 }
 
 TEST_CASE("scales follow the coil where it turns, and what is there where it does not") {
