@@ -6,7 +6,9 @@
 #include <system_error>
 #include <utility>
 
+#include "host/core/csv_table.h"
 #include "host/core/error.h"
+#include "host/output/series.h"
 #include "host/output/vtkhdf.h"
 
 namespace vkdose {
@@ -17,9 +19,13 @@ namespace {
 
 constexpr const char* kAxes[] = {"x", "y", "z"};
 constexpr const char* kFolder = "fields";
+constexpr const char* kVolumeExtension = ".hdf";
 
 bool isMap(const FieldSensor& s) {
     return s.request.grid.resolvedDirections() > 1;
+}
+bool isVolume(const FieldSensor& s) {
+    return s.request.grid.resolvedDirections() == 3;
 }
 bool isProfile(const FieldSensor& s) {
     return s.preset == FieldSensor::Preset::HeightProfile && !isMap(s);
@@ -96,9 +102,8 @@ void FieldFiles::write(const FieldSample& f) {
     CsvFile& csv = files_[f.field];
     const std::string when = fmt::format("{:.9g},{},{}", f.time, phaseName(f.phase), f.dose);
     if (isMap(s)) {
-        const bool volume = s.request.grid.resolvedDirections() == 3;
-        const std::string name = fmt::format("{}_{:06}.{}", s.name, f.number, volume ? "hdf" : "csv");
-        if (volume)  // before the line that names it
+        const std::string name = fmt::format("{}_{:06}{}", s.name, f.number, isVolume(s) ? kVolumeExtension : ".csv");
+        if (isVolume(s))  // before the line that names it
             replaceFile(folder_ / name, image(s, f));
         else
             writeMap(s, f, name);
@@ -159,15 +164,32 @@ std::string FieldFiles::image(const FieldSensor& s, const FieldSample& f) const 
 
 std::vector<std::uint64_t> FieldFiles::store() {
     std::vector<std::uint64_t> bytes;
-    for (CsvFile& file : files_) bytes.push_back(file.store());
+    for (std::size_t k = 0; k < files_.size(); ++k) {
+        bytes.push_back(files_[k].store());
+        if (isVolume(sensors_[k])) writeSeriesOf(sensors_[k]);
+    }
     return bytes;
+}
+
+/// From the list of what was kept, however many runs it took.
+void FieldFiles::writeSeriesOf(const FieldSensor& s) const {
+    std::vector<SeriesFile> files;
+    try {
+        const Table list = Table::read(folder_ / (s.name + ".csv"));
+        for (std::size_t row = 0; row < list.rows(); ++row)
+            files.push_back({list.text(row, "file"), list.number(row, "time_s")});
+    } catch (const CaseError& e) {  // somebody else has been at it
+        throw OutputError(e.what());
+    }
+    writeSeries(folder_ / (s.name + kVolumeExtension + kSeriesExtension), files);
 }
 
 void FieldFiles::remove(const fs::path& run) {
     std::error_code ignored;
     std::vector<fs::path> files;
     for (const auto& entry : fs::directory_iterator(run / kFolder, ignored))
-        if (entry.path().extension() == ".csv" || entry.path().extension() == ".hdf") files.push_back(entry.path());
+        for (const char* ours : {".csv", kVolumeExtension, kSeriesExtension})
+            if (entry.path().extension() == ours) files.push_back(entry.path());
     for (const fs::path& file : files) fs::remove(file, ignored);
     fs::remove(run / kFolder, ignored);  // unless something else is in it
 }

@@ -1,6 +1,7 @@
 #pragma once
 // The fields of a run, in fields/ of its output folder: for every field NAME.csv, and for maps a file for each that was
-// kept, which NAME.csv lists: NAME_000000.csv, ... in two resolved directions, NAME_000000.hdf, ... in three.
+// kept, which NAME.csv lists: NAME_000000.csv, ... in two resolved directions, NAME_000000.hdf, ... in three, with
+// their times in NAME.hdf.series.
 
 #include <cstdint>
 #include <filesystem>
@@ -23,7 +24,7 @@ class FieldFiles {
 
     void write(const FieldSample& sample);
 
-    /// Makes everything written survive a crash; the length of every NAME.csv.
+    /// Makes everything written survive a crash, and brings the series up to date; the length of every NAME.csv.
     std::vector<std::uint64_t> store();
 
     /// Removes what a former run left there.
@@ -34,6 +35,7 @@ class FieldFiles {
     std::string quantityNames(const FieldSensor& sensor) const;
     std::string quantities(const FieldSensor& sensor, const FieldPoint& p) const;
     void writeMap(const FieldSensor& sensor, const FieldSample& sample, const std::string& name) const;
+    void writeSeriesOf(const FieldSensor& sensor) const;
     std::string image(const FieldSensor& sensor, const FieldSample& sample) const;
 
     std::filesystem::path folder_;

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <system_error>
 
@@ -11,6 +10,7 @@
 #include "host/output/frame_files.h"
 #include "host/output/frames.h"
 #include "host/output/hdf5.h"
+#include "host/output/series.h"
 #include "host/output/surface_files.h"
 
 namespace vkdose {
@@ -114,11 +114,10 @@ void FrameWriter::write(const Frame& frame) {
 
 void FrameWriter::writeSeries() const {
     for (const char* kind : kinds_) {
-        auto files = nlohmann::ordered_json::array();
+        std::vector<SeriesFile> files;
         for (std::size_t i = 0; i < times_.size(); ++i)
-            files.push_back({{"name", frameFile(kind, static_cast<int>(i))}, {"time", times_[i]}});
-        const nlohmann::ordered_json series{{"file-series-version", "1.0"}, {"files", std::move(files)}};
-        replaceFile(folder_ / (std::string(kind) + kFrameExtension + kSeriesExtension), series.dump(1) + "\n");
+            files.push_back({frameFile(kind, static_cast<int>(i)), times_[i]});
+        vkdose::writeSeries(folder_ / (std::string(kind) + kFrameExtension + kSeriesExtension), files);
     }
 }
 

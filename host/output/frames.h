@@ -16,7 +16,6 @@ inline constexpr const char* kFramesFolder = "frames";
 inline constexpr const char* kFramesIndex = "frames.csv";
 inline constexpr const char* kFramesHeader = "frame,step,time_s,phase,dose,coil_angle_rad";
 inline constexpr const char* kFrameExtension = ".hdf";  ///< the one by which ParaView 5.11 knows VTKHDF files
-inline constexpr const char* kSeriesExtension = ".series";
 inline constexpr const char* kParticlesFrame = "particles";
 inline constexpr const char* kContactsFrame = "contacts";
 inline constexpr const char* kCoilFrame = "coil";

@@ -173,6 +173,7 @@ void RunFolder::onCheckpoint(const RunCheckpoint& checkpoint, double time) {
 
 void RunFolder::finish(const Case& c, const RunResult& result) {
     if (frames_) frames_->store();
+    fields_->store();
     if (result.endState) writeParticles(folder_ / "particles.csv", result.particles);
     replaceFile(folder_ / "summary.json", summaryJson(c, result, backend_, historyOf(folder_, c, result)) + "\n");
     if (result.reason == StopReason::Interrupted || !result.error.empty()) return;

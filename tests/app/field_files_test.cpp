@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "host/output/hdf5.h"
 #include "host/output/run_folder.h"
@@ -112,6 +113,10 @@ TEST_CASE("a map is a file for each time, which the field's own file lists; a ne
     const auto stress = volume.array<double>("/VTKHDF/PointData/contact_stress");
     REQUIRE(stress.size() == 9 * 12);
     CHECK(stress[9 + 7] == 20 * 120);  // zy
+    const auto series = nlohmann::json::parse(readText(box / "out/fields/f.hdf.series")).at("files");
+    REQUIRE(series.size() == 5);
+    CHECK(series[1].at("name") == "f_000001.hdf");
+    CHECK(series[1].at("time").get<double>() == value(volumes, 2, "time_s"));
 
     Case without = smallCase();
     without.resolved = "name = \"fake\"\n";
