@@ -2,12 +2,14 @@
 
 #include <dlfcn.h>
 
-// Leaks that are not ours: what the Vulkan loader, the drivers and their libraries keep until the process ends.
+// Leaks that are not ours: what the Vulkan loader, the drivers and their libraries keep until the process ends, and the
+// fonts that cairo has looked up.
 extern "C" const char* __lsan_default_suppressions() {
     return "leak:libvulkan\n"
            "leak:libvk_swiftshader\n"
            "leak:libVkLayer\n"
-           "leak:libLLVM\n";
+           "leak:libLLVM\n"
+           "leak:libfontconfig\n";
 }
 
 extern "C" const char* __lsan_default_options() {
