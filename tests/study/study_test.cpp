@@ -177,8 +177,8 @@ TEST_CASE("a table and a key in it are not set by the same study") {
 TEST_CASE("every study that is shipped says why, and each of its members is a case") {
     int studies = 0;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(VKDOSE_SOURCE_DIR "/cases/paper")) {
-        // "expected" is what the paper reports, for `vkdose report`.
-        if (entry.is_directory() || entry.path().stem() == "expected") continue;
+        // "expected" is what the paper reports, for `vkdose report`; beside the studies lie their results.
+        if (entry.path().extension() != ".toml" || entry.path().stem() == "expected") continue;
         CAPTURE(entry.path().string());
         Study study = readStudy(entry.path());
         CHECK_FALSE(study.reason.empty());
