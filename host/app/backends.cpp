@@ -25,6 +25,20 @@ void chooseThreads(std::size_t particles) {
         unsetenv(kVariable);
 }
 
+std::vector<std::string> findingsOf(const ValidationReport& report) {
+    std::vector<std::string> found;
+    for (const std::string& message : report.messages) found.push_back("validation: " + message);
+    if (!report.validated)
+        found.emplace_back("vkdose: the validation layer is not installed (vulkan-validationlayers)");
+    return found;
+}
+
+/// Prints what was found on stderr; whether that was nothing.
+bool saidNone(const std::vector<std::string>& findings) {
+    for (const std::string& line : findings) fmt::print(stderr, "{}\n", line);
+    return findings.empty();
+}
+
 }  // namespace
 
 std::unique_ptr<Backend> makeBackend(const BackendChoice& choice, std::size_t particles) {
@@ -66,18 +80,16 @@ BackendChoice choiceOfRank(const BackendChoice& choice, const std::vector<vk::De
 
 std::vector<std::string> validationFindings(const BackendChoice& choice, const Backend& backend) {
     if (!choice.validation) return {};
-    const ValidationReport report = validationReport(backend);
-    std::vector<std::string> found;
-    for (const std::string& message : report.messages) found.push_back("validation: " + message);
-    if (!report.validated)
-        found.emplace_back("vkdose: the validation layer is not installed (vulkan-validationlayers)");
-    return found;
+    return findingsOf(validationReport(backend));
 }
 
 bool validationClean(const BackendChoice& choice, const Backend& backend) {
-    const std::vector<std::string> found = validationFindings(choice, backend);
-    for (const std::string& line : found) fmt::print(stderr, "{}\n", line);
-    return found.empty();
+    return saidNone(validationFindings(choice, backend));
+}
+
+bool validationClean(const BackendChoice& choice, const vk::Device& device) {
+    if (!choice.validation) return true;
+    return saidNone(findingsOf({device.validated(), device.validationMessages()}));
 }
 
 }  // namespace vkdose

@@ -42,5 +42,6 @@ std::vector<std::string> validationFindings(const BackendChoice& choice, const B
 
 /// Prints that on stderr; false if there is any.
 bool validationClean(const BackendChoice& choice, const Backend& backend);
+bool validationClean(const BackendChoice& choice, const vk::Device& device);
 
 }  // namespace vkdose

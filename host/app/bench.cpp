@@ -15,6 +15,7 @@
 #include "host/bench/copies.h"
 #include "host/bench/table.h"
 #include "host/core/error.h"
+#include "host/core/file.h"
 #include "host/output/run_folder.h"
 
 namespace vkdose {
@@ -187,9 +188,7 @@ void print(const Row& row) {
 
 int benchCommand(const BenchOptions& options) {
     const std::vector<bench::Plan> plans = chosenPlans(options);
-    std::error_code error;
-    std::filesystem::create_directories(options.out, error);
-    if (error) throw UsageError("cannot create " + options.out.string() + ": " + error.message());
+    createFolder(options.out);
     bench::Effort effort;
     effort.repeats = options.repeats;
     if (options.quick) {

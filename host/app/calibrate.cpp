@@ -11,6 +11,7 @@
 #include "host/app/sweep_display.h"
 #include "host/app/sweep_setup.h"
 #include "host/core/error.h"
+#include "host/core/file.h"
 #include "host/study/grid_calibration.h"
 #include "host/study/surrogate.h"
 

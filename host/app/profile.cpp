@@ -1,4 +1,5 @@
 #include "host/photo/profile.h"
+#include "host/core/file.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +7,6 @@
 
 #include "host/app/commands.h"
 #include "host/app/exit_code.h"
-#include "host/output/csv.h"
 
 namespace vkdose {
 

@@ -9,7 +9,7 @@
 #include "host/app/exit_code.h"
 #include "host/app/film.h"
 #include "host/app/run_states.h"
-#include "host/output/csv.h"
+#include "host/core/file.h"
 #include "host/render/picture.h"
 #include "host/vk/device.h"
 
@@ -110,7 +110,7 @@ void writePicture(const fs::path& file, const render::Canvas& canvas) {
 void writeMovie(Renderer& renderer, const RenderOptions& options, std::size_t count) {
     const fs::path& to = options.movie;
     std::optional<Film> film;
-    if (!to.has_extension()) fs::create_directories(to);
+    if (!to.has_extension()) createFolder(to);
     for (std::size_t i = 0; i < count; ++i) {
         const render::Canvas canvas = renderer.draw({i});
         if (!to.has_extension()) {
@@ -124,15 +124,6 @@ void writeMovie(Renderer& renderer, const RenderOptions& options, std::size_t co
     }
     if (film) film->finish();
     fmt::print("{} pictures in {}\n", count, to.string());
-}
-
-/// As `validationClean` of a backend.
-int validated(const RenderOptions& options, const vk::Device& device) {
-    if (!options.backend.validation) return kOk;
-    for (const std::string& message : device.validationMessages()) fmt::print(stderr, "validation: {}\n", message);
-    if (!device.validated())
-        fmt::print(stderr, "vkdose: the validation layer is not installed (vulkan-validationlayers)\n");
-    return device.validated() && device.validationMessages().empty() ? kOk : kDeviceError;
 }
 
 std::vector<std::size_t> chosenOf(const RenderOptions& options, const RunStates& states) {
@@ -160,7 +151,7 @@ int renderCommand(const RenderOptions& options) {
         writeMovie(renderer, options, chosen.size());
     else
         writePicture(options.out.empty() ? options.folder / "picture.png" : options.out, renderer.draw(chosen));
-    return validated(options, renderer.device());
+    return validationClean(options.backend, renderer.device()) ? kOk : kDeviceError;
 }
 
 }  // namespace vkdose

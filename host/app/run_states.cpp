@@ -3,11 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <fstream>
-#include <iterator>
 
 #include "host/app/backends.h"
+#include "host/core/file.h"
 #include "host/output/end_state.h"
 
 namespace vkdose {
@@ -18,11 +16,9 @@ namespace {
 
 Case caseOf(const fs::path& folder) {
     const fs::path file = folder / "case.toml";
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream)
-        throw UsageError(fmt::format("{} is no output folder of a run: it holds no case.toml", folder.string()));
-    const std::string text{std::istreambuf_iterator<char>(stream), {}};
-    return loadResolvedCase(text, file);
+    const std::optional<std::string> text = fileContent(file);
+    if (!text) throw UsageError(fmt::format("{} is no output folder of a run: it holds no case.toml", folder.string()));
+    return loadResolvedCase(*text, file);
 }
 
 }  // namespace
@@ -51,25 +47,15 @@ std::size_t RunStates::at(double time) const {
                 : fmt::format("there is no frame at {:.4g} s: the run kept none ([frames] in its case does), only "
                               "its end at {:.4g} s",
                               time, last));
-    std::size_t nearest = 0;
-    for (std::size_t i = 0; i < entries_.size(); ++i)
-        if (std::abs(entries_[i].time - time) <= std::abs(entries_[nearest].time - time)) nearest = i;
-    return nearest;
-}
-
-std::size_t RunStates::settled() const {
-    std::size_t found = 0;
-    for (std::size_t i = 0; i < entries_.size(); ++i)
-        if (entries_[i].phase == Phase::Settle) found = i;
-    return found;
+    return nearestOf(entries_, time);
 }
 
 double RunStates::massLeft(std::size_t entry) const {
     const Particles p = read(entry).particles;
-    double volume = 0;
+    double mass = 0;
     for (std::size_t i = 0; i < p.size(); ++i)
-        if (p.status[i] == Status::Active) volume += 4.0 / 3.0 * kPi * p.radius[i] * p.radius[i] * p.radius[i];
-    return volume * case_.world.density;
+        if (p.status[i] == Status::Active) mass += sphereMass(case_.world.density, p.radius[i]);
+    return mass;
 }
 
 std::vector<std::size_t> RunStates::story() const {

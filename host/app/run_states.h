@@ -27,8 +27,7 @@ class RunStates {
     /// last by more than the time between two.
     std::size_t at(double time) const;
 
-    /// The last entry of the settling, or the first of all: the powder as it lay when the coil began to turn.
-    std::size_t settled() const;
+    std::size_t settled() const { return settledOf(entries_); }
 
     /// Four that tell a run's story: settled, the end of the first dose's turning, half of what came out is out, and
     /// the last with a tenth of the fill left. Fewer where two are the same.

@@ -6,7 +6,7 @@
 #include "host/app/commands.h"
 #include "host/app/exit_code.h"
 #include "host/app/interrupt.h"
-#include "host/output/csv.h"
+#include "host/core/file.h"
 #include "host/verify/suite.h"
 #include "host/verify/table.h"
 
@@ -27,9 +27,7 @@ std::vector<verify::Scene> chosenScenes(const std::string& only) {
 int verifyCommand(const VerifyOptions& options) {
     const std::vector<verify::Scene> scenes = chosenScenes(options.only);
     const std::unique_ptr<Backend> backend = makeBackend(options.backend, 1);
-    std::error_code error;
-    std::filesystem::create_directories(options.out, error);
-    if (error) throw UsageError("cannot create " + options.out.string() + ": " + error.message());
+    createFolder(options.out);
 
     using clock = std::chrono::steady_clock;
     const std::atomic<bool>& stop = watchInterrupts();

@@ -2,7 +2,7 @@
 
 #include "host/app/commands.h"
 #include "host/app/exit_code.h"
-#include "host/output/csv.h"
+#include "host/core/file.h"
 #include "host/report/page.h"
 #include "host/report/player_data.h"
 #include "host/report/run_report.h"

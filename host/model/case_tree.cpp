@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <fstream>
+#include <optional>
 #include <sstream>
+
+#include "host/core/file.h"
 
 namespace vkdose {
 namespace {
@@ -91,20 +93,20 @@ Node convert(const toml::node& from, const Source& source, std::string key) {
 
 std::string readText(const std::filesystem::path& file, const Diagnostic& whoAsks) {
     std::error_code code;
-    std::ifstream stream(file, std::ios::binary);
     Diagnostic fault = whoAsks;
     if (!std::filesystem::exists(file, code)) {
         fault.problem = fmt::format("there is no file {}", file.string());
         if (fault.file.empty()) fault = {file.string(), 0, "", "", "there is no such file", fault.remedy};
         throw CaseError({fault});
     }
-    if (!std::filesystem::is_regular_file(file, code) || !stream) {
+    // Not from a pipe, which may have no end.
+    std::optional<std::string> text;
+    if (std::filesystem::is_regular_file(file, code)) text = fileContent(file);
+    if (!text) {
         fault.problem = fmt::format("{} cannot be read", file.string());
         throw CaseError({fault});
     }
-    std::ostringstream text;
-    text << stream.rdbuf();
-    return text.str();
+    return *text;
 }
 
 /// The parser takes apart what it has read by recursion, a level for every part of a dotted key and every bracket. It

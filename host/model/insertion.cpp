@@ -11,10 +11,6 @@
 namespace vkdose {
 namespace {
 
-double sphereMass(double density, double r) {
-    return density * 4.0 / 3.0 * kPi * r * r * r;
-}
-
 double listedMass(const Particles& list, double density) {
     double mass = 0;
     for (const double r : list.radius) mass += sphereMass(density, r);

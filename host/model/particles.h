@@ -29,4 +29,9 @@ struct Particles {
     }
 };
 
+/// Of a solid sphere [kg].
+inline double sphereMass(double density, double radius) {
+    return density * 4.0 / 3.0 * kPi * radius * radius * radius;
+}
+
 }  // namespace vkdose

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "host/core/vec.h"
+#include "host/model/particles.h"
 
 namespace vkdose {
 namespace {
@@ -36,7 +37,7 @@ std::vector<ContactClass> contactClasses(const World& world) {
 
 std::vector<ContactMode> contactModes(const ContactLaw& law, double density, double smallest,
                                       const std::vector<ContactClass>& used) {
-    const double mass = density * 4.0 / 3.0 * kPi * smallest * smallest * smallest;
+    const double mass = sphereMass(density, smallest);
     std::vector<ContactMode> modes;
     const auto add = [&](const std::string& name, double k, double gamma, double effectiveMass) {
         if (k <= 0) return;

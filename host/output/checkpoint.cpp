@@ -3,10 +3,9 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
-#include <fstream>
-#include <sstream>
+#include <optional>
 
-#include "host/output/csv.h"
+#include "host/core/file.h"
 #include "host/output/hdf5.h"
 
 namespace vkdose {
@@ -70,12 +69,9 @@ void writeCheckpoint(const std::filesystem::path& file, const Checkpoint& c) {
 }
 
 Checkpoint readCheckpoint(const std::filesystem::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream) throw CheckpointError(fmt::format("there is no checkpoint {}", file.string()));
-    std::ostringstream content;
-    content << stream.rdbuf();
-    const std::string bytes = content.str();
-    const std::string_view rest = body(bytes, file.string());
+    const std::optional<std::string> bytes = fileContent(file);
+    if (!bytes) throw CheckpointError(fmt::format("there is no checkpoint {}", file.string()));
+    const std::string_view rest = body(*bytes, file.string());
     try {
         const hdf5::Reader reader{std::string(rest)};
         Checkpoint c;

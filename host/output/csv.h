@@ -42,11 +42,4 @@ class CsvFile {
     bool cut_ = false;  ///< what follows the present place has to go
 };
 
-/// Replaces `file` by `content` in one move: whatever happens, the file holds either the old or the new content, whole.
-/// Throws OutputError if it cannot be written; the old content is then still there.
-void replaceFile(const std::filesystem::path& file, std::string_view content);
-
-/// "cannot write FILE: No space left on device", from errno.
-std::string writeFault(const std::filesystem::path& file);
-
 }  // namespace vkdose

@@ -8,6 +8,7 @@
 
 #include "host/core/csv_table.h"
 #include "host/core/error.h"
+#include "host/core/file.h"
 #include "host/output/series.h"
 #include "host/output/vtkhdf.h"
 
@@ -48,23 +49,21 @@ std::string placeNames(const FieldGrid& grid) {
 
 }  // namespace
 
-FieldFiles::FieldFiles(fs::path run, const Case& c)
-    : folder_(std::move(run) / kFolder), sensors_(c.fields), density_(c.world.density) {
+FieldFiles::FieldFiles(const fs::path& run, const Case& c)
+    : folder_(run / kFolder), sensors_(c.fields), density_(c.world.density) {
     if (sensors_.empty()) return;
-    std::error_code error;
-    fs::create_directories(folder_, error);
-    if (error) throw OutputError(fmt::format("cannot create {}: {}", folder_.string(), error.message()));
+    createFolder(folder_);
     for (const FieldSensor& s : sensors_) files_.emplace_back(folder_ / (s.name + ".csv"), header(s));
 }
 
-FieldFiles::FieldFiles(fs::path run, const Case& c, const std::vector<std::uint64_t>& bytes)
-    : folder_(std::move(run) / kFolder), sensors_(c.fields), density_(c.world.density) {
+FieldFiles::FieldFiles(const fs::path& run, const Case& c, const std::vector<std::uint64_t>& bytes)
+    : folder_(run / kFolder), sensors_(c.fields), density_(c.world.density) {
     if (bytes.size() != sensors_.size()) throw OutputError("the checkpoint has another number of fields than the case");
     for (std::size_t k = 0; k < sensors_.size(); ++k)
         files_.emplace_back(folder_ / (sensors_[k].name + ".csv"), bytes[k]);
 }
 
-std::string FieldFiles::quantityNames(const FieldSensor& s) const {
+std::string FieldFiles::quantityNames(const FieldSensor& s) {
     std::string names = ",density_kg_m3,volume_fraction";
     for (const char* a : kAxes) names += fmt::format(",momentum_{}_kg_m2_s", a);
     for (const char* a : kAxes) names += fmt::format(",velocity_{}_m_s", a);
@@ -87,7 +86,7 @@ std::string FieldFiles::quantities(const FieldSensor& s, const FieldPoint& p) co
     return text;
 }
 
-std::string FieldFiles::header(const FieldSensor& s) const {
+std::string FieldFiles::header(const FieldSensor& s) {
     const std::string when = "time_s,phase,dose";
     if (isMap(s)) return when + ",file";
     if (!isProfile(s)) return when + placeNames(s.request.grid) + quantityNames(s);
@@ -153,7 +152,7 @@ std::string FieldFiles::image(const FieldSensor& s, const FieldSample& f) const 
             return std::array<double, 6>{k[0], k[1], k[2], k[5], k[3], k[4]};
         });
         add("contact_stress", "Pa", 9, [](const FieldPoint& p) {
-            std::array<double, 9> rows;
+            std::array<double, 9> rows{};
             for (std::size_t n = 0; n < 9; ++n) rows[n] = p.contactStress[n / 3][int(n % 3)];
             return rows;
         });

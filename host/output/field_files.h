@@ -17,12 +17,12 @@ namespace vkdose {
 class FieldFiles {
   public:
     /// Creates the folder and the files, if the case has fields. Throws OutputError.
-    FieldFiles(std::filesystem::path run, const Case& c);
+    FieldFiles(const std::filesystem::path& run, const Case& c);
 
     /// Goes on with files of so many bytes, as `store` told.
-    FieldFiles(std::filesystem::path run, const Case& c, const std::vector<std::uint64_t>& bytes);
+    FieldFiles(const std::filesystem::path& run, const Case& c, const std::vector<std::uint64_t>& bytes);
 
-    void write(const FieldSample& sample);
+    void write(const FieldSample& f);
 
     /// Makes everything written survive a crash, and brings the series up to date; the length of every NAME.csv.
     std::vector<std::uint64_t> store();
@@ -31,12 +31,12 @@ class FieldFiles {
     static void remove(const std::filesystem::path& run);
 
   private:
-    std::string header(const FieldSensor& sensor) const;
-    std::string quantityNames(const FieldSensor& sensor) const;
-    std::string quantities(const FieldSensor& sensor, const FieldPoint& p) const;
-    void writeMap(const FieldSensor& sensor, const FieldSample& sample, const std::string& name) const;
-    void writeSeriesOf(const FieldSensor& sensor) const;
-    std::string image(const FieldSensor& sensor, const FieldSample& sample) const;
+    static std::string header(const FieldSensor& s);
+    static std::string quantityNames(const FieldSensor& s);
+    std::string quantities(const FieldSensor& s, const FieldPoint& p) const;
+    void writeMap(const FieldSensor& s, const FieldSample& f, const std::string& name) const;
+    void writeSeriesOf(const FieldSensor& s) const;
+    std::string image(const FieldSensor& s, const FieldSample& f) const;
 
     std::filesystem::path folder_;
     std::vector<FieldSensor> sensors_;

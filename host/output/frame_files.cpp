@@ -28,8 +28,7 @@ std::vector<Vec3> vectors(const std::vector<double>& values) {
 }
 
 double kineticEnergy(const Particles& p, std::size_t i, double density) {
-    const double mass = density * (4.0 / 3.0) * kPi * p.radius[i] * p.radius[i] * p.radius[i];
-    return 0.5 * mass * glm::dot(p.velocity[i], p.velocity[i]);
+    return 0.5 * sphereMass(density, p.radius[i]) * glm::dot(p.velocity[i], p.velocity[i]);
 }
 
 /// How a contact lies at the instant of the frame, a drift after its force acted.
@@ -55,13 +54,17 @@ class ContactGeometry {
             const double distance = glm::length(apart);
             return {p.position[c.other], apart / distance, r + p.radius[c.other] - distance};
         }
-        const geometry::Closest closest =
-            c.kind == ContactClass::ParticleWall ? geometry::closestPoint(world_.surfaces.at(c.other), x) : turn(c);
-        return {closest.point, closest.normal, r - closest.distance};
+        if (c.kind == ContactClass::ParticleWall)
+            return against(geometry::closestPoint(world_.surfaces.at(c.other), x), r);
+        return against(turn(c), r);
     }
 
   private:
-    geometry::Closest turn(const Contact& c) {
+    static Geometry against(const geometry::Closest& surface, double radius) {
+        return {surface.point, surface.normal, radius - surface.distance};
+    }
+
+    geometry::CoilTouch turn(const Contact& c) {
         const Vec3& x = frame_.particles.position[c.particle];
         const double r = frame_.particles.radius[c.particle];
         if (particle_ != c.particle) {
@@ -70,12 +73,12 @@ class ContactGeometry {
             turns_ = geometry::touches(*world_.coil, frame_.coilAngle, x, 1.1 * r);
         }
         if (turns_.empty()) return geometry::closestPoint(*world_.coil, frame_.coilAngle, x);
-        const auto along = [&](const geometry::Closest& t) { return std::abs(glm::dot(c.force, t.normal)); };
+        const auto along = [&](const geometry::CoilTouch& t) { return std::abs(glm::dot(c.force, t.normal)); };
         const auto found = std::max_element(turns_.begin(), turns_.end(),
                                             [&](const auto& a, const auto& b) { return along(a) < along(b); });
-        const geometry::Closest closest = *found;
+        const geometry::CoilTouch turn = *found;
         turns_.erase(found);
-        return closest;
+        return turn;
     }
 
     const Frame& frame_;

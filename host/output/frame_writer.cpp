@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "host/core/error.h"
+#include "host/core/file.h"
 #include "host/output/frame_files.h"
 #include "host/output/frames.h"
 #include "host/output/hdf5.h"
@@ -21,9 +22,7 @@ namespace {
 
 fs::path madeFolder(const fs::path& run) {
     fs::path folder = run / kFramesFolder;
-    std::error_code error;
-    fs::create_directories(folder, error);
-    if (error) throw OutputError(fmt::format("cannot create {}: {}", folder.string(), error.message()));
+    createFolder(folder);
     return folder;
 }
 

@@ -24,6 +24,7 @@ class FrameWriter {
 
     FrameWriter(const FrameWriter&) = delete;
     FrameWriter& operator=(const FrameWriter&) = delete;
+    ~FrameWriter() = default;
 
     /// Returns at once, unless the frame before is still being written: then it waits for that. Throws OutputError if
     /// writing the frame before failed.

@@ -4,12 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <optional>
 #include <sstream>
+#include <utility>
 
 #include "host/core/csv_lines.h"
 #include "host/core/error.h"
+#include "host/core/file.h"
 #include "host/output/frame_files.h"
 #include "host/output/hdf5.h"
 
@@ -41,11 +42,9 @@ std::optional<FrameEntry> entryIn(const std::optional<Row>& fields) {
 }
 
 std::string content(const fs::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream) throw OutputError(fmt::format("cannot read {}", file.string()));
-    std::ostringstream text;
-    text << stream.rdbuf();
-    return text.str();
+    std::optional<std::string> bytes = fileContent(file);
+    if (!bytes) throw OutputError(fmt::format("cannot read {}", file.string()));
+    return *std::move(bytes);
 }
 
 }  // namespace
@@ -70,15 +69,23 @@ std::vector<FrameEntry> framesListed(const std::string& text, const fs::path& fi
     return entries;
 }
 
+std::size_t nearestOf(const std::vector<FrameEntry>& entries, double time) {
+    std::size_t nearest = 0;
+    for (std::size_t i = 0; i < entries.size(); ++i)
+        if (std::abs(entries[i].time - time) <= std::abs(entries[nearest].time - time)) nearest = i;
+    return nearest;
+}
+
+std::size_t settledOf(const std::vector<FrameEntry>& entries) {
+    std::size_t settled = 0;
+    for (std::size_t i = 0; i < entries.size(); ++i)
+        if (entries[i].dose == 0) settled = i;
+    return settled;
+}
+
 Frames::Frames(const fs::path& run) : folder_(run / kFramesFolder) {
     const fs::path index = folder_ / kFramesIndex;
     if (fs::exists(index)) entries_ = framesListed(content(index), index);
-}
-
-const FrameEntry& Frames::nearest(double time) const {
-    return *std::min_element(entries_.rbegin(), entries_.rend(), [time](const FrameEntry& a, const FrameEntry& b) {
-        return std::abs(a.time - time) < std::abs(b.time - time);
-    });
 }
 
 Frame Frames::read(const FrameEntry& entry) const {

@@ -3,6 +3,7 @@
 // is a VTKHDF file of the particles, one of the coil and, if asked for, one of the contacts (frame_files.h);
 // frames.csv lists them, and a series file for each kind tells ParaView their times. FrameWriter makes them.
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -38,6 +39,13 @@ struct FrameEntry {
 /// names `file`, if it is something else.
 std::vector<FrameEntry> framesListed(const std::string& text, const std::filesystem::path& file);
 
+/// Index of the entry nearest to a time [s]; of the later of two equally near. There must be one.
+std::size_t nearestOf(const std::vector<FrameEntry>& entries, double time);
+
+/// Index of the last entry before the first dose, or of the first of all: the powder as it lay when the coil began to
+/// turn.
+std::size_t settledOf(const std::vector<FrameEntry>& entries);
+
 /// Reads the frames of a run, one that still goes on included.
 class Frames {
   public:
@@ -46,9 +54,6 @@ class Frames {
     explicit Frames(const std::filesystem::path& run);
 
     const std::vector<FrameEntry>& entries() const { return entries_; }
-
-    /// The entry nearest to a time [s]; the later of two equally near. There must be one.
-    const FrameEntry& nearest(double time) const;
 
     /// Particles, and contacts if the run kept them. Throws OutputError if the frame's file cannot be read.
     Frame read(const FrameEntry& entry) const;

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "host/core/error.h"
+#include "host/core/file.h"
 #include "host/output/run_history.h"
 #include "host/output/summary.h"
 

@@ -10,7 +10,7 @@ std::vector<DoseArch> archesAtDoseEnds(const Frames& frames, const Case& c, cons
     const double reach = c.frames.interval / 2 * (1 + 1e-9);  // half way between two frames counts
     for (const Dose& d : doses) {
         const double end = d.startTime + c.schedule.rotateTime + c.schedule.restTime;
-        const FrameEntry& entry = frames.nearest(end);
+        const FrameEntry& entry = frames.entries()[nearestOf(frames.entries(), end)];
         if (!d.complete || std::abs(entry.time - end) > reach) continue;
         arches.push_back({d.index, entry.time, archAbove(*c.world.coil, *c.canister, frames.read(entry).particles)});
     }

@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "host/output/csv.h"
+#include "host/core/file.h"
 
 namespace vkdose {
 

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 #include <leptonica/allheaders.h>
 
-#include <fstream>
-#include <iterator>
 #include <new>
+#include <optional>
+#include <utility>
+
+#include "host/core/file.h"
 
 namespace vkdose::photo {
 
@@ -18,11 +20,10 @@ constexpr std::size_t kLeastBytes = 12;
 std::string bytesOf(const std::filesystem::path& file) {
     std::error_code fault;
     if (std::filesystem::is_directory(file, fault)) throw PhotoError(file.string() + " is a folder; name a picture");
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream) throw PhotoError("cannot read " + file.string() + "; is the name right?");
-    std::string bytes((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
-    if (bytes.empty()) throw PhotoError(file.string() + " is empty; give a PNG, JPEG or TIFF");
-    return bytes;
+    std::optional<std::string> bytes = fileContent(file);
+    if (!bytes) throw PhotoError("cannot read " + file.string() + "; is the name right?");
+    if (bytes->empty()) throw PhotoError(file.string() + " is empty; give a PNG, JPEG or TIFF");
+    return *std::move(bytes);
 }
 
 /// Name of a format that is taken; null for any other.

@@ -24,8 +24,8 @@ struct CutPlane {
 std::optional<CutPlane> cutOf(View view);
 
 struct Camera {
-    Vec3 right, up, towards;          ///< unit vectors; `towards` the viewer
-    Vec3 target;                      ///< the point that stands at (centreX, centreY) [m]
+    Vec3 right{}, up{}, towards{};    ///< unit vectors; `towards` the viewer
+    Vec3 target{};                    ///< the point that stands at (centreX, centreY) [m]
     double pixel = 0;                 ///< size of one in the plane through the target [m]
     double eye = 0;                   ///< distance of the eye from that plane; 0: parallel rays [m]
     double centreX = 0, centreY = 0;  ///< in pixels from the top left corner

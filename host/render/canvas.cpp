@@ -57,7 +57,7 @@ void Canvas::image(const Image& image, int left, int top) {
         for (int x = 0; x < image.width; ++x) {
             if (x + left < 0 || x + left >= width_ || y + top < 0 || y + top >= height_) continue;
             unsigned char* at = data + std::ptrdiff_t(y + top) * stride + std::ptrdiff_t(x + left) * 4;
-            std::uint32_t word;
+            std::uint32_t word = 0;
             std::memcpy(&word, at, sizeof word);
             word = blended(image.at(x, y), word);
             std::memcpy(at, &word, sizeof word);
@@ -117,7 +117,7 @@ Vec3 Canvas::colourAt(int x, int y) const {
     const unsigned char* at = cairo_image_surface_get_data(surface_.get()) +
                               std::ptrdiff_t(y) * cairo_image_surface_get_stride(surface_.get()) +
                               std::ptrdiff_t(x) * 4;
-    std::uint32_t word;
+    std::uint32_t word = 0;
     std::memcpy(&word, at, sizeof word);
     return Vec3(word >> 16 & 255u, word >> 8 & 255u, word & 255u) / 255.0;
 }

@@ -141,12 +141,6 @@ Box contentOf(const Case& c, const Frame& frame) {
     return {box.low - margin, box.high + margin};
 }
 
-Box contentOf(const Case& c, const std::vector<const Frame*>& frames) {
-    Box box = contentOf(c, *frames.at(0));
-    for (const Frame* frame : frames) box = united(box, contentOf(c, *frame));
-    return box;
-}
-
 std::string stateText(const Frame& frame) {
     const char* doing = frame.phase == Phase::Rotate ? ", turning" : frame.phase == Phase::Rest ? ", resting" : "";
     if (frame.dose == 0) return fmt::format("{:.2f} s", frame.time);

@@ -24,11 +24,10 @@ struct Panel {
     std::string title;
 };
 
-/// What has to be seen of these frames: the canister and its coil, as high as all powder but a stray hundredth reaches,
-/// or particles and coil where there is none, with a margin.
-Box contentOf(const Case& c, const std::vector<const Frame*>& frames);
-/// The same of a single one, to be put together by `united`.
+/// What has to be seen of a frame: the canister and its coil, as high as all powder but a stray hundredth reaches, or
+/// particles and coil where there is none, with a margin.
 Box contentOf(const Case& c, const Frame& frame);
+/// Of several frames.
 Box united(const Box& a, const Box& b);
 
 /// "1.20 s, dose 1, turning".

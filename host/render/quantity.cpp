@@ -18,10 +18,6 @@ constexpr double kDecades = 3;  // of kinetic energy, 1.5 of speed
 constexpr int kLayers = 8;
 constexpr double kMostTicks = 7;
 
-double mass(double density, double radius) {
-    return density * 4.0 / 3.0 * kPi * radius * radius * radius;
-}
-
 /// The least of 1, 2, 5, 10 ... that is not below x.
 double roundedUp(double x) {
     const double decade = std::pow(10.0, std::floor(std::log10(x)));
@@ -107,15 +103,19 @@ std::vector<double> valuesOf(Quantity quantity, const Case& c, const Frame& fram
     std::vector<double> values(p.size(), std::numeric_limits<double>::quiet_NaN());
     for (std::size_t i = 0; i < p.size(); ++i) {
         const double square = glm::dot(p.velocity[i], p.velocity[i]);
-        if (quantity == Quantity::KineticEnergy) values[i] = 0.5 * mass(c.world.density, p.radius[i]) * square;
+        if (quantity == Quantity::KineticEnergy) values[i] = 0.5 * sphereMass(c.world.density, p.radius[i]) * square;
         if (quantity == Quantity::Speed) values[i] = std::sqrt(square);
         if (quantity == Quantity::FillLayer && fill != nullptr && i < fill->size()) values[i] = fill->position[i].y;
     }
     return values;
 }
 
+double Scale::along(double value) const {
+    return logarithmic ? std::log(value / low) / std::log(high / low) : (value - low) / (high - low);
+}
+
 double Scale::place(double value) const {
-    const double t = logarithmic ? std::log(value / low) / std::log(high / low) : (value - low) / (high - low);
+    const double t = along(value);
     if (bands == 0 || !(t >= 0) || !(t <= 1)) return t;
     return (std::min(std::floor(t * bands), bands - 1.0) + 0.5) / bands;
 }
@@ -127,8 +127,7 @@ Vec3 Scale::colour(double value) const {
 std::vector<Scale::Tick> Scale::ticks() const {
     std::vector<Tick> ticks;
     const auto add = [&](double shown) {
-        const double value = shown * unit;
-        const double t = logarithmic ? std::log(value / low) / std::log(high / low) : (value - low) / (high - low);
+        const double t = along(shown * unit);
         if (t > -1e-6 && t < 1 + 1e-6)
             ticks.push_back({t, fmt::format("{:.4g}", std::abs(shown) < 1e-12 ? 0.0 : shown)});
     };
@@ -138,7 +137,9 @@ std::vector<Scale::Tick> Scale::ticks() const {
         for (int decade = first; decade <= last; decade += stride) add(std::pow(10.0, decade));
     } else {
         const double step = roundedUp((high - low) / unit / kMostTicks);
-        for (double at = std::ceil(low / unit / step - 1e-6); at <= high / unit / step + 1e-6; ++at) add(at * step);
+        const double first = std::ceil(low / unit / step - 1e-6);
+        const int count = int(std::floor(high / unit / step + 1e-6 - first)) + 1;
+        for (int k = 0; k < count; ++k) add((first + k) * step);
     }
     return ticks;
 }

@@ -30,6 +30,8 @@ struct Scale {
     int bands = 0;  ///< equal bands of one colour each; 0: no bands
 
     /// 0 at `low`, 1 at `high`, beyond them outside of that.
+    double along(double value) const;
+    /// The same, of a band the place of its middle.
     double place(double value) const;
     /// The colour of a value (sRGB).
     Vec3 colour(double value) const;

@@ -186,20 +186,18 @@ Json sceneJson(const Case& c) {
 Json framesJson(const std::vector<FrameEntry>& entries) {
     std::vector<double> times, angles;
     std::vector<int> phases, doses;
-    std::size_t settled = 0;
-    for (std::size_t i = 0; i < entries.size(); ++i) {
-        times.push_back(entries[i].time);
-        angles.push_back(entries[i].coilAngle);
-        phases.push_back(static_cast<int>(entries[i].phase));
-        doses.push_back(entries[i].dose);
-        if (entries[i].dose == 0) settled = i;
+    for (const FrameEntry& entry : entries) {
+        times.push_back(entry.time);
+        angles.push_back(entry.coilAngle);
+        phases.push_back(static_cast<int>(entry.phase));
+        doses.push_back(entry.dose);
     }
     Json j;
     j["time_s"] = numbers(times);
     j["coil_angle_rad"] = numbers(angles);
     j["phase"] = phases;
     j["dose"] = doses;
-    j["settled"] = settled;
+    j["settled"] = settledOf(entries);
     return j;
 }
 

@@ -4,15 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <numeric>
-#include <sstream>
+#include <optional>
 
 #include "host/analysis/balance.h"
 #include "host/analysis/outlet.h"
 #include "host/core/csv_table.h"
 #include "host/core/error.h"
+#include "host/core/file.h"
 #include "host/model/case.h"
 #include "host/report/player_data.h"
 #include "host/report/run_figures.h"
@@ -27,11 +27,9 @@ namespace {
 constexpr std::size_t kMostLines = 5000;
 
 std::string readText(const fs::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    std::ostringstream text;
-    text << stream.rdbuf();
-    if (!stream) throw CaseError({{file.string(), 0, "", "", "cannot be read", "give the output folder of a run"}});
-    return text.str();
+    const std::optional<std::string> text = fileContent(file);
+    if (!text) throw CaseError({{file.string(), 0, "", "", "cannot be read", "give the output folder of a run"}});
+    return *text;
 }
 
 std::vector<Dose> readDoses(const Table& table) {

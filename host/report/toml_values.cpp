@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
-#include <sstream>
+#include <optional>
 
 #include "host/core/csv_table.h"
 #include "host/core/error.h"
+#include "host/core/file.h"
 
 namespace vkdose::report {
 
@@ -32,12 +32,10 @@ void collect(const toml::table& table, const std::string& prefix, std::map<std::
 }  // namespace
 
 toml::table parseToml(const std::filesystem::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    std::ostringstream text;
-    text << stream.rdbuf();
-    if (!stream) throw CaseError({{file.string(), 0, "", "", "cannot be read", "give the path of a TOML file"}});
+    const std::optional<std::string> text = fileContent(file);
+    if (!text) throw CaseError({{file.string(), 0, "", "", "cannot be read", "give the path of a TOML file"}});
     try {
-        return toml::parse(text.str(), file.string());
+        return toml::parse(*text, file.string());
     } catch (const toml::parse_error& e) {
         throw CaseError({{file.string(), static_cast<int>(e.source().begin.line), "", "",
                           "is not TOML: " + std::string(e.description()), "mend it"}});

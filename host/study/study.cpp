@@ -4,10 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <set>
-#include <sstream>
 
+#include "host/core/file.h"
 #include "host/model/case_reader.h"
 
 namespace vkdose {
@@ -167,13 +166,6 @@ void checkCalibration(CaseReader& reader, const Study& study) {
                      "name the key of the axis to interpolate along");
 }
 
-std::string textOf(const std::filesystem::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    std::ostringstream text;
-    text << stream.rdbuf();
-    return text.str();
-}
-
 }  // namespace
 
 std::vector<std::string> Study::keys() const {
@@ -189,7 +181,7 @@ Study readStudy(const std::filesystem::path& file) {
     Section& root = reader.root();
     Study study;
     study.file = file;
-    study.text = textOf(file);
+    study.text = fileContent(file).value_or("");
     study.name = root.string("name", file.stem().string());
     study.reason = root.string("reason", "");
     study.base = file.parent_path() / root.string("base");

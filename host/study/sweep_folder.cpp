@@ -4,12 +4,11 @@
 #include <sys/file.h>
 
 #include <algorithm>
-#include <fstream>
 #include <set>
-#include <sstream>
 #include <utility>
 
 #include "host/core/error.h"
+#include "host/core/file.h"
 #include "host/model/case.h"
 #include "host/output/run_folder.h"
 
@@ -50,17 +49,10 @@ void dropRows(Table& table, const std::set<int>& kept) {
                                   study.string(), folder.string(), how));
 }
 
-std::string readText(const fs::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    std::ostringstream text;
-    text << stream.rdbuf();
-    return text.str();
-}
-
 /// The case as today's vkdose would write it: a key added since with its default makes no other case.
 std::string today(const fs::path& file) {
     try {
-        return loadResolvedCase(readText(file), file).resolved;
+        return loadResolvedCase(fileContent(file).value_or(""), file).resolved;
     } catch (const CaseError&) {
         return "";
     }
@@ -133,7 +125,7 @@ void SweepFolder::requireSame(const Member& member) const {
             changed(study_, folder_, fmt::format("member {} was another point; {}", member.number, kAppendable));
     }
     const fs::path file = memberFolder(member.number) / "case.toml";
-    if (fs::exists(file) && readText(file) != member.caseText && today(file) != member.caseText)
+    if (fs::exists(file) && fileContent(file).value_or("") != member.caseText && today(file) != member.caseText)
         changed(study_, folder_,
                 fmt::format("member {} was another case ({}); {}", member.number, file.string(), kAppendable));
 }
@@ -157,10 +149,8 @@ std::optional<MemberStatus> SweepFolder::status(int number) const {
 
 void SweepFolder::begin(const Member& member) const {
     const fs::path folder = memberFolder(member.number);
-    std::error_code error;
-    fs::create_directories(folder, error);
-    if (error) throw OutputError(fmt::format("cannot create {}: {}", folder.string(), error.message()));
-    if (!fs::exists(folder / "case.toml", error)) replaceFile(folder / "case.toml", member.caseText);
+    createFolder(folder);
+    if (!fs::exists(folder / "case.toml")) replaceFile(folder / "case.toml", member.caseText);
 }
 
 void SweepFolder::forget(int number) {

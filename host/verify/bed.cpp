@@ -1,6 +1,7 @@
 // Many spheres at rest. The law is one linear spring, so that the normal force of a contact is k times its overlap.
 
 #include <algorithm>
+#include <cmath>
 
 #include "host/core/random.h"
 #include "host/verify/cases.h"
@@ -91,10 +92,42 @@ std::vector<Vec3> reactions(const World& world, Trial& trial) {
     return force;
 }
 
+/// How much of Lucy's kernel of width `width` around `y` lies above `level`.
+double shareAbove(double y, double level, double width) {
+    const double s = std::clamp((y - level) / width, -1.0, 1.0), a = std::abs(s);
+    return 0.5 + s * (1 - 2 * a * a + 2 * a * a * a - 0.6 * a * a * a * a) / 0.8;
+}
+
+/// What the powder bears at height `level` [N]: the coarse-grained contact stress, and the weight above less what the
+/// walls carry of it, both smeared out alike.
+struct Borne {
+    double stress, weight;
+};
+Borne borneAt(Bench& bench, const World& world, Trial& trial, double half, double level) {
+    FieldRequest request;
+    request.kernel = Kernel::Lucy;
+    request.width = 4 * kRadius;
+    request.contactStress = true;
+    // A single cell from wall to wall, and room for every kernel below and above; `level` in the middle of a cell.
+    const double h = request.width / 20, margin = half + kRadius;
+    request.grid = {Vec3(-margin, level - 100.5 * h, -margin), Vec3(margin, level + 300.5 * h, margin), {1, 401, 1}};
+    Borne borne{bench.backend().fields(request)[100].contactStress[1].y * 4 * margin * margin, 0};
+    const Particles& p = trial.now();
+    for (std::size_t i = 0; i < p.size(); ++i)
+        borne.weight += massOf(p.radius[i]) * kGravity * shareAbove(p.position[i].y, level, request.width);
+    for (const Contact& c : trial.contacts()) {
+        if (c.kind != ContactClass::ParticleWall) continue;
+        const double y = geometry::closestPoint(world.surfaces[c.other], p.position[c.particle]).point.y;
+        borne.weight -= c.force.y * shareAbove(y, level, request.width);
+    }
+    return borne;
+}
+
 }  // namespace
 
 // Floor and walls together bear the weight, and opposite walls push alike. Without friction the floor bears it all;
-// with friction the walls carry a part (Janssen), so that it bears less.
+// with friction the walls carry a part (Janssen), so that it bears less. The stress at half height bears what is above,
+// less what the walls carry of that.
 void bedWeight(Bench& bench) {
     const double half = 2.6 * kRadius;
     for (const double mu : {0.0, 0.5}) {
@@ -112,6 +145,10 @@ void bedWeight(Bench& bench) {
         bench.check("borne by floor and walls" + kind, "N", weight, total.y, atRest);
         bench.check("left to right" + kind, "N", 0, total.x, atRest);
         bench.check("front to back" + kind, "N", 0, total.z, atRest);
+        double top = 0;
+        for (const Vec3& x : trial.now().position) top = std::max(top, x.y);
+        const Borne middle = borneAt(bench, world, trial, half, 0.5 * top);
+        bench.check("borne at half height, as the stress says" + kind, "N", middle.weight, middle.stress, atRest);
         if (mu == 0)
             bench.check("share of the floor, smooth", "-", 1, force[0].y / weight, {1e-3, "remaining motion", 1});
         else

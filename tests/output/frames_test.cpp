@@ -132,11 +132,11 @@ TEST_CASE("the nearest frame, and of two the later") {
     }
     writer.store();
     const Frames frames(box.path());
-    CHECK(frames.nearest(-1).number == 0);
-    CHECK(frames.nearest(1.4).number == 1);
-    CHECK(frames.nearest(1.5).number == 2);
-    CHECK(frames.nearest(1.6).number == 2);
-    CHECK(frames.nearest(99).number == 3);
+    CHECK(nearestOf(frames.entries(), -1) == 0);
+    CHECK(nearestOf(frames.entries(), 1.4) == 1);
+    CHECK(nearestOf(frames.entries(), 1.5) == 2);
+    CHECK(nearestOf(frames.entries(), 1.6) == 2);
+    CHECK(nearestOf(frames.entries(), 99) == 3);
 }
 
 TEST_CASE("a run that goes on drops the frames after its checkpoint and writes the same ones again") {

@@ -50,13 +50,12 @@ struct Drawn {
 Drawn drawn(Studio& studio, PictureSpec spec, const std::vector<Frame>& frames) {
     const Case c = mini();
     std::vector<Panel> panels;
-    std::vector<const Frame*> pointers;
+    Box content = render::contentOf(c, frames.at(0));
     for (const Frame& f : frames) {
         panels.push_back({&f, valuesOf(Quantity::Speed, c, f, nullptr), render::stateText(f)});
-        pointers.push_back(&f);
+        content = render::united(content, render::contentOf(c, f));
     }
     spec.scale = scaleFor(Quantity::Speed, c, {});
-    const Box content = render::contentOf(c, pointers);
     const Layout layout = layoutOf(spec, content, panels.size());
     return {c, spec, content, layout, drawPicture(studio.caster(), c, spec, content, panels)};
 }

@@ -71,9 +71,7 @@ FieldPoints coarseGrain(const FieldRequest& request, double density, const Parti
     FieldPoints points(request.grid.points());
     Smear smear(request);
     const std::vector<double> touches = touchesOf(p, branches);
-    const auto mass = [&](std::size_t i) {
-        return density * 4.0 / 3.0 * kPi * p.radius[i] * p.radius[i] * p.radius[i];
-    };
+    const auto mass = [&](std::size_t i) { return sphereMass(density, p.radius[i]); };
     for (std::size_t i = 0; i < p.size(); ++i) {
         if (p.status[i] != Status::Active) continue;
         for (const Weight& w : smear.around(p.position[i])) {
@@ -92,9 +90,9 @@ FieldPoints coarseGrain(const FieldRequest& request, double density, const Parti
             const double m = mass(i) * w.value;
             const Vec3 square = m * stray * stray,
                        mixed = m * Vec3(stray.y * stray.z, stray.z * stray.x, stray.x * stray.y);
-            for (int d = 0; d < 3; ++d) {
-                at.kineticStress[std::size_t(d)] += square[d];
-                at.kineticStress[std::size_t(3 + d)] += mixed[d];
+            for (std::size_t d = 0; d < 3; ++d) {
+                at.kineticStress[d] += square[int(d)];
+                at.kineticStress[3 + d] += mixed[int(d)];
             }
         }
     }
