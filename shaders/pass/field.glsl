@@ -1,34 +1,50 @@
-// What the field passes share: their buffers, the kernel, and which slots there are. They bind tables of their own in the
-// places of three that they have no use for. Positions are offsets from the grid's lower corner.
+// What the field passes share: their buffers, the kernel, and which contacts there are. They bind tables of their own in
+// the places of four that they have no use for. Positions are offsets from the grid's lower corner. A contact is numbered
+// as its force is (shared/buffers.glsl): by its slot, one with the coil by the slot's turn.
 #ifndef VKDOSE_PASS_FIELD_GLSL
 #define VKDOSE_PASS_FIELD_GLSL
 
 // The fields: vec4[points][kFieldVectors].
 layout(std430, set = 0, binding = 9) buffer GridBuffer { vec4 grid[]; };
-// One over the integral of a kernel over the grid, zero outside: float[particles], then float[slots][kFieldNodes]; then
-// float[particles]: how many others touch each.
+// One over the integral of a kernel over the grid, zero outside: float[particles], then float[contacts][kFieldNodes];
+// then float[particles]: how many others touch each.
 layout(std430, set = 0, binding = 11) buffer WeightBuffer { float weights[]; };
 layout(std430, set = 0, binding = 12) readonly buffer FieldBuffer { FieldParams field; };
+// Of each contact: its branch, from the other's centre or the wall to the particle, when the force acted; w: 1 if it
+// touched.
+layout(std430, set = 0, binding = 15) buffer BranchBuffer { vec4 branches[]; };
 
 // Gauss-Legendre on [0, 1] (host/model/field.h).
 const vec4 kNodes = vec4(0.06943184420297371, 0.33000947820757187, 0.66999052179242813, 0.93056815579702629);
 const vec4 kShares = vec4(0.17392742256872693, 0.32607257743127307, 0.32607257743127307, 0.17392742256872693);
 
-uint weightIndex(uint slot, uint node) { return push.particles + kFieldNodes * slot + node; }
+uint weightIndex(uint contact, uint node) { return push.particles + kFieldNodes * contact + node; }
 
-uint touchesIndex(uint i) { return push.particles + kFieldNodes * slotCount() + i; }
+uint touchesIndex(uint i) { return push.particles + kFieldNodes * turnForceIndex(kMaxTurns, springSlots()) + i; }
 
-/// The branch of a slot: from the other's centre or the wall to the particle, when the force acted; w: 1 if it touched.
-/// It takes the place of the torque on the second body, which the next step makes anew.
-uint branchIndex(uint slot) { return 2u * slot + 1u; }
+/// Where a contact is found.
+struct Place {
+    uint contact;  // kEmpty: it is not in use
+    uint slot;
+    uint turn;  // of the coil, if it is one with the coil
+};
 
-/// A member's k-th slot, pairs first, then surfaces, then the coil; kEmpty if it is not in use.
-uint memberSlot(uint k) {
-    if (k < push.pairSlots) return k < control.listed.x ? firstPairSlot() + k : kEmpty;
+/// A member's k-th contact: pairs first, then surfaces, then the turns of the coil.
+Place memberContact(uint k) {
+    Place none = Place(kEmpty, 0u, 0u);
+    if (k < push.pairSlots) {
+        uint slot = firstPairSlot() + k;
+        return k < control.listed.x ? Place(slot, slot, 0u) : none;
+    }
     k -= push.pairSlots;
-    if (k < push.surfaceSlots) return k < control.listed.y ? firstSurfaceSlot() + k : kEmpty;
+    if (k < push.surfaceSlots) {
+        uint slot = firstSurfaceSlot() + k;
+        return k < control.listed.y ? Place(slot, slot, 0u) : none;
+    }
     k -= push.surfaceSlots;
-    return k < control.listed.z ? firstCoilSlot() + k : kEmpty;
+    if (k >= kMaxTurns * push.coilSlots) return none;
+    uint turn = k / push.coilSlots, slot = firstCoilSlot() + k % push.coilSlots;
+    return slot - firstCoilSlot() < control.listed.z ? Place(turnForceIndex(turn, slot), slot, turn) : none;
 }
 
 vec3 offsetOf(uint side, uint i) {

@@ -1,8 +1,7 @@
 #version 450
-// field_branches: the branch of every contact that touched in the last step, one slot per invocation.
-// Reads the state of before that step (the half that is not the source), entries, forces, the coil as it stood in step
-// stepInBatch of the last batch; writes the branches (pass/field.glsl). A sphere that touches the coil twice has one slot
-// for both contacts: its branch is that of the deeper one.
+// field_branches: the branch of every contact that touched in the last step, one contact per invocation.
+// Reads the state of before that step (the half that is not the source), entries, forces, which turns of the coil are
+// touched, the coil as it stood in step stepInBatch of the last batch; writes the branches (pass/field.glsl).
 #extension GL_GOOGLE_include_directive : require
 #include "shared/buffers.glsl"
 #include "law/coil.glsl"
@@ -14,17 +13,16 @@ Sphere sphereBefore(uint i) {
     return Sphere(position.xyz, state[stateIndex(side, kResidue, i)].xyz, position.w);
 }
 
-vec3 fromCoil(Sphere a) {
+/// From the turn that is touched at `angle`; w: 1 if there is one.
+vec4 fromCoil(Sphere a, float angle) {
     CoilParams coil = member.coil;
     CoilView view = coilView(coil, coilTurn(coil.phase, push.stepInBatch), a);
     uint trips = coilCandidates(coil, view);
-    float deepest = 0.0;
-    vec3 branch = vec3(0.0);
+    vec4 branch = vec4(0.0);
     for (uint k = 0u; k < trips; ++k) {
         CoilTouch touch = coilCandidate(coil, view, k);
-        if (touch.depth <= deepest) continue;
-        deepest = touch.depth;
-        branch = (a.radius - touch.depth) * touch.normal;
+        if (touch.depth > 0.0 && abs(touch.wireAngle - angle) < 0.5 * kTwoPi)
+            branch = vec4((a.radius - touch.depth) * touch.normal, 1.0);
     }
     return branch;
 }
@@ -32,21 +30,22 @@ vec3 fromCoil(Sphere a) {
 void main() {
     openMember();
     uint k = invocation();
-    if (k >= push.pairSlots + push.surfaceSlots + push.coilSlots) return;
-    uint slot = memberSlot(k);
-    if (slot == kEmpty) return;
-    uvec2 who = entries[slot];
+    Place at = memberContact(k);
+    if (at.contact == kEmpty) return;
+    uvec2 who = entries[at.slot];
     Sphere a = sphereBefore(who.x);
-    vec3 branch = vec3(0.0);
-    if (ofPair(slot)) {
+    vec4 branch = vec4(vec3(0.0), 1.0);
+    if (forces[at.slot].w <= 0.0) {
+        branch.w = 0.0;
+    } else if (ofPair(at.slot)) {
         Sphere b = sphereBefore(who.y);
-        branch = (a.high - b.high) + (a.low - b.low);
-    } else if (slot < springSlots()) {
+        branch.xyz = (a.high - b.high) + (a.low - b.low);
+    } else if (at.slot < springSlots()) {
         SurfaceParams p = readSurface(who.y);
         Overlap o = surfaceOverlap(KIND_SET, uint(p.pointHigh.w), p, a);
-        branch = (a.radius - o.depth) * o.normal;
+        branch.xyz = (a.radius - o.depth) * o.normal;
     } else {
-        branch = fromCoil(a);
+        branch = fromCoil(a, coilHistory[wireAngleIndex(who.x)][at.turn]);
     }
-    torques[branchIndex(slot)] = vec4(branch, forces[slot].w > 0.0 ? 1.0 : 0.0);
+    branches[at.contact] = branch;
 }

@@ -10,12 +10,13 @@ vec4 carriedMass;  // density, momentum
 vec2 number;       // particles, touching neighbours
 mat3 stress;       // column a: row a of the stress
 
-void addBranch(uint slot, vec3 from, vec3 force) {
-    vec3 branch = torques[branchIndex(slot)].xyz;
+void addBranch(uint contact, vec3 from) {
+    vec4 branch = branches[contact];
+    if (branch.w == 0.0) return;
     float w = 0.0;
     for (uint node = 0u; node < kFieldNodes; ++node)
-        w += kShares[node] * weights[weightIndex(slot, node)] * kernel(here - (from - kNodes[node] * branch));
-    stress += outerProduct(branch * w, force);
+        w += kShares[node] * weights[weightIndex(contact, node)] * kernel(here - (from - kNodes[node] * branch.xyz));
+    stress += outerProduct(branch.xyz * w, forces[contact].xyz);
 }
 
 /// Of the contacts whose first body particle i is, in the order of its links.
@@ -25,8 +26,10 @@ void addBranches(uint i) {
     for (uint k = 0u; k < range.w; ++k) {
         uint link = rows[linkIndex(range.z + k)], slot = link >> 1u;
         if ((link & 1u) == 1u) continue;
-        vec4 force = forces[slot];
-        if (force.w > 0.0) addBranch(slot, from, force.xyz);
+        if (slot < springSlots())
+            addBranch(slot, from);
+        else
+            for (uint turn = 0u; turn < kMaxTurns; ++turn) addBranch(turnForceIndex(turn, slot), from);
     }
 }
 

@@ -1,7 +1,7 @@
 #version 450
 // field_weights: what the kernel around a place adds up to over the grid, one place per invocation: the particles of the
 // member, whose touching neighbours are counted as well, then, if contact stress is wanted, the nodes of the branches of its
-// slots. Reads the source half of the state (of a branch the other), entries, links, forces, branches; writes weights.
+// contacts. Reads the source half of the state (of a branch the other), entries, links, forces, branches; writes weights.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/buffers.glsl"
 #include "pass/field.glsl"
@@ -49,10 +49,10 @@ void main() {
     k -= push.share;
     uint node = k % kFieldNodes;
     k /= kFieldNodes;
-    if (field.tile.w == 0u || k >= push.pairSlots + push.surfaceSlots + push.coilSlots) return;
-    uint slot = memberSlot(k);
-    if (slot == kEmpty) return;
-    vec4 branch = torques[branchIndex(slot)];
-    vec3 from = offsetOf(1u - push.source, entries[slot].x);
-    weights[weightIndex(slot, node)] = branch.w > 0.0 ? weightAt(from - kNodes[node] * branch.xyz) : 0.0;
+    if (field.tile.w == 0u) return;
+    Place at = memberContact(k);
+    if (at.contact == kEmpty) return;
+    vec4 branch = branches[at.contact];
+    vec3 from = offsetOf(1u - push.source, entries[at.slot].x);
+    weights[weightIndex(at.contact, node)] = branch.w > 0.0 ? weightAt(from - kNodes[node] * branch.xyz) : 0.0;
 }

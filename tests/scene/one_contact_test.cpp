@@ -2,9 +2,8 @@
 // spin, friction, rolling and torsion all at work.
 
 #include <algorithm>
-#include <random>
 
-#include "tests/scene/agreement.h"
+#include "tests/scene/beds.h"
 
 using namespace vkdose;
 using namespace vkdose::test;
@@ -116,37 +115,6 @@ TEST_CASE("a sphere meets every surface") {
         w.surfaces.push_back(geometry::Trough{rho});
         requireClose(run(w, thrown({rho, 0.02, 0.02}, {1, 0, 0}, a, {0, 0.1, 0.2}), 100));
     }
-}
-
-/// Spheres pressed 2 um into the wire from all sides, some at its ends, none touching another or a second turn; and,
-/// where the pitch is narrow enough, some wedged between two turns from inside.
-Particles aroundTheWire(const geometry::Coil& coil, double a) {
-    const double reach = a + coil.wireRadius, pressed = 2e-6;
-    Particles p;
-    std::mt19937 random(7);
-    std::uniform_real_distribution<double> unit(0, 1);
-    const auto apart = [&](const Vec3& at) {
-        for (const Vec3& q : p.position)
-            if (glm::length(q - at) < 2 * a) return false;
-        return true;
-    };
-    const auto onePressed = [&](const Vec3& at) {
-        for (const geometry::CoilTouch& t : geometry::touches(coil, 0, at, a))
-            if (t.distance < a - 1.5 * pressed) return false;
-        return true;
-    };
-    const double half = coil.pitch / 2 * std::cos(std::atan(coil.pitch / (2 * kPi * coil.radius)));
-    for (int trial = 0; trial < 2000 && p.size() < 37; ++trial) {
-        const double s = coil.length * std::clamp(1.25 * unit(random) - 0.125, 0.0, 1.0);
-        const double psi = coil.hand * 2 * kPi * s / coil.pitch, around = 2 * kPi * unit(random);
-        const Vec3 radial(std::cos(psi), std::sin(psi), 0), up(0, 0, 1);
-        const bool wedged = half < reach && trial % 4 == 0;
-        const Vec3 offset = wedged ? -std::sqrt(reach * reach - half * half) * radial + coil.pitch / 2 * up
-                                   : (reach - pressed) * (std::cos(around) * radial + std::sin(around) * up);
-        const Vec3 at = coil.radius * radial + s * up + offset;
-        if (apart(at) && (onePressed(at) || wedged)) p.add(at, a);
-    }
-    return p;
 }
 
 TEST_CASE("spheres pressed against the coil wherever it is") {

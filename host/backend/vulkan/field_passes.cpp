@@ -13,7 +13,7 @@ namespace {
 /// Particles that one dispatch adds up: the bits of inReach in shaders/pass/tile.glsl. Even with kMaxLinks contacts
 /// each, and the nodes of these, an invocation's loops stay below the 65,535 trips after which lavapipe ends them.
 constexpr std::uint32_t kSlice = 128;
-static_assert(kSlice * (gpu::kMaxLinks * (gpu::kFieldNodes + 1) + 2) < 65535);
+static_assert(kSlice * ((gpu::kMaxLinks + gpu::kMaxTurns) * (gpu::kFieldNodes + 1) + 2) < 65535);
 
 /// Points of a workgroup: a block as near to a cube as a power of two allows, no longer than the grid.
 std::array<std::uint32_t, 3> tileOf(const FieldGrid& grid, std::uint32_t workgroup) {
@@ -71,11 +71,12 @@ FieldPasses::FieldPasses(const vk::Device& device, const Passes& p, std::size_t 
       points_(points),
       grid_(device, "the fields", points * gpu::kFieldVectors * sizeof(gpu::vec4)),
       weights_(device, "the weights of the fields",
-               (2ULL * p.sizes.particles() + VkDeviceSize(gpu::kFieldNodes) * p.sizes.slots()) * sizeof(float)),
+               (2ULL * p.sizes.particles() + VkDeviceSize(gpu::kFieldNodes) * p.sizes.forceEntries()) * sizeof(float)),
       params_(device, "the parameters of the fields", sizeof(gpu::FieldParams)),
+      along_(device, "the branches of the contacts", VkDeviceSize(p.sizes.forceEntries()) * sizeof(gpu::vec4)),
       bindings_(device,
                 {&p.state, &p.rows, &p.ranges, &p.history, &p.coilHistory, &p.member, &p.control, &p.cells, &p.anchors,
-                 &grid_, &p.entries, &weights_, &params_, &p.forces, &p.torques, &p.carried},
+                 &grid_, &p.entries, &weights_, &params_, &p.forces, &p.torques, &along_},
                 {}, sizeof(gpu::StepPush)),
       branches_(device, bindings_, field_branches_spv, Passes::constants(p.sizes)),
       weigh_(device, bindings_, field_weights_spv, Passes::constants(p.sizes)),
@@ -92,7 +93,7 @@ FieldPoints FieldPasses::compute(const FieldRequest& request, const Moment& mome
     const TableSizes& s = passes_.sizes;
     const gpu::FieldParams params = pack(request, s.workgroup, moment.largestRadius);
     params_.write(0, &params, sizeof params);
-    const std::uint32_t slots = s.pairSlots + s.surfaceSlots + s.coilSlots;
+    const std::uint32_t contacts = s.pairSlots + s.surfaceSlots + gpu::kMaxTurns * s.coilSlots;
     const std::uint32_t tiles = params.tiles.x * params.tiles.y * params.tiles.z;
 
     vk::Commands commands(device_);
@@ -101,8 +102,8 @@ FieldPoints FieldPasses::compute(const FieldRequest& request, const Moment& mome
     gpu::StepPush push = passes_.push(moment.lastStep, moment.source, false);
     push.firstRow = moment.row;
     bindings_.push(commands.handle(), &push);
-    if (request.contactStress) dispatch(commands, branches_, slots / s.workgroup);
-    const std::uint32_t places = s.share + (request.contactStress ? gpu::kFieldNodes * slots : 0);
+    if (request.contactStress) dispatch(commands, branches_, contacts / s.workgroup);
+    const std::uint32_t places = s.share + (request.contactStress ? gpu::kFieldNodes * contacts : 0);
     dispatch(commands, weigh_, places / s.workgroup);
     for (const vk::Pipeline* pass : {&sums_, &kinetic_})
         for (push.slice = 0; push.slice < s.share; push.slice += params.tiles.w) {

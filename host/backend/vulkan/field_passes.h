@@ -31,7 +31,7 @@ class FieldPasses {
     const vk::Device& device_;
     const Passes& passes_;
     std::size_t points_;
-    vk::Buffer grid_, weights_, params_;
+    vk::Buffer grid_, weights_, params_, along_;
     vk::BindingSet bindings_;
     vk::Pipeline branches_, weigh_, sums_, kinetic_;
 };
