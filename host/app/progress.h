@@ -25,7 +25,7 @@ class ProgressDisplay : public RunDisplay {
     void onProgress(const Progress& progress) override;
     void onDose(const Dose& dose) override;
 
-    void close() override;
+    void close() final;
 
   private:
     using Clock = std::chrono::steady_clock;

@@ -95,7 +95,7 @@ struct Slider {
 /// The law between two spheres, without torsion (formulas: README, Physics).
 struct Law {
     float k1, k2Max, kc, depth, gamma, lever;
-    Slider sliding, rolling;
+    Slider sliding{}, rolling{};
     bool shifted;  ///< CoulombLimit::Luding
 
     explicit Law(const ContactLaw& law) {

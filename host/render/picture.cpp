@@ -14,7 +14,7 @@ namespace vkdose::render {
 
 namespace {
 
-const Vec3 kInk(0.13), kEdge(0.42), kPale(0.75);
+const Vec3 kInk(0.13), kEdge(0.42);
 
 /// Nearer to what is drawn than this, a line is on its surface [pixels].
 constexpr double kOn = 1.5;

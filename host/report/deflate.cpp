@@ -33,7 +33,7 @@ void Deflate::run(std::span<const std::uint8_t> bytes, int flush) {
     z_stream& z = stream_->z;
     z.next_in = const_cast<Bytef*>(bytes.data());  // zlib does not write there
     z.avail_in = static_cast<uInt>(bytes.size());
-    std::array<std::uint8_t, 65536> room;
+    std::array<std::uint8_t, 65536> room{};
     do {
         z.next_out = room.data();
         z.avail_out = static_cast<uInt>(room.size());

@@ -13,6 +13,8 @@ class Deflate {
   public:
     Deflate();
     ~Deflate();
+    Deflate(const Deflate&) = delete;
+    Deflate& operator=(const Deflate&) = delete;
     Deflate(Deflate&&) noexcept = default;
     Deflate& operator=(Deflate&&) noexcept = default;
 

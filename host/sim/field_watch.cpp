@@ -63,7 +63,7 @@ std::uint64_t FieldWatch::every(const FieldSensor& sensor) const {
     return timeline_.sensorSteps() * std::uint64_t(std::max(1.0, std::round(sensor.interval / sensorInterval_)));
 }
 
-FieldPoints FieldWatch::mean(State& state) const {
+FieldPoints FieldWatch::mean(State& state) {
     for (FieldPoint& p : state.sum) {
         auto numbers = p.numbers();
         for (double& x : numbers) x /= double(state.summed);
@@ -73,7 +73,7 @@ FieldPoints FieldWatch::mean(State& state) const {
     return std::exchange(state.sum, {});
 }
 
-void FieldWatch::begin(const FieldSensor& sensor, State& state, const FieldPoints& now, Backend& backend) const {
+void FieldWatch::begin(const FieldSensor& sensor, State& state, const FieldPoints& now, Backend& backend) {
     for (const FieldPoint& p : now) state.initialDensity.push_back(p.density);
     state.initialHeight = sensor.initialHeight;
     if (state.initialHeight > 0) return;

@@ -46,8 +46,8 @@ class FieldWatch {
         double initialHeight = 0;            ///< [m]
     };
     std::uint64_t every(const FieldSensor& sensor) const;
-    FieldPoints mean(State& state) const;
-    void begin(const FieldSensor& sensor, State& state, const FieldPoints& now, Backend& backend) const;
+    static FieldPoints mean(State& state);
+    static void begin(const FieldSensor& sensor, State& state, const FieldPoints& now, Backend& backend);
 
     const std::vector<FieldSensor>& sensors_;
     const Timeline& timeline_;

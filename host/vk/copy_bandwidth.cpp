@@ -11,7 +11,7 @@ namespace vkdose::vk {
 double copyBandwidth(const Device& device) {
     constexpr VkDeviceSize kBytes = 128ull << 20;
     constexpr int kCopies = 4, kTries = 3;
-    const VkDeviceSize bytes = std::min<VkDeviceSize>(kBytes, device.limits().maxStorageBufferRange / 4 * 4);
+    const VkDeviceSize bytes = std::min(kBytes, VkDeviceSize(device.limits().maxStorageBufferRange) / 4 * 4);
     const Buffer from(device, "the copy's source", bytes), to(device, "the copy's target", bytes);
     double best = 0;
     for (int i = 0; i < kTries; ++i) {

@@ -6,6 +6,7 @@
 #include <cctype>
 #include <cstring>
 #include <string_view>
+#include <type_traits>
 
 namespace vkdose::vk {
 
@@ -221,12 +222,9 @@ std::vector<DeviceInfo> bestOf(const std::vector<DeviceInfo>& devices) {
 
 std::vector<DeviceInfo> listDevices() {
     requireLoader();
-    VkInstance instance = makeInstance(false);
-    struct Guard {
-        VkInstance instance;
-        ~Guard() { vkDestroyInstance(instance, nullptr); }
-    } guard{instance};
-    return describeAll(physicalDevices(instance));
+    const auto destroy = [](VkInstance instance) { vkDestroyInstance(instance, nullptr); };
+    const std::unique_ptr<std::remove_pointer_t<VkInstance>, decltype(destroy)> instance(makeInstance(false), destroy);
+    return describeAll(physicalDevices(instance.get()));
 }
 
 void Device::createInstance(bool validation) {

@@ -43,7 +43,7 @@ Shown onTerminal(const Sandbox& box, const std::string& arguments, const std::st
     Shown shown{0, ""};
     char buffer[4096];
     bool typed = key == 0;
-    for (ssize_t n; (n = read(terminal, buffer, sizeof buffer)) > 0;) {
+    for (ssize_t n = 0; (n = read(terminal, buffer, sizeof buffer)) > 0;) {
         shown.text.append(buffer, std::size_t(n));
         if (!typed && shown.text.find(until) != std::string::npos) typed = write(terminal, &key, 1) == 1;
     }
@@ -56,7 +56,7 @@ Shown onTerminal(const Sandbox& box, const std::string& arguments, const std::st
 
 std::size_t count(const std::string& text, const std::string& part) {
     std::size_t n = 0;
-    for (std::size_t at = text.find(part); at != text.npos; at = text.find(part, at + 1)) ++n;
+    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
     return n;
 }
 

@@ -34,7 +34,8 @@ struct Png {
         for (int y = 0; y < height; ++y)
             for (int x = 0; x < right * width; ++x) {
                 const unsigned char* p = cairo_image_surface_get_data(surface.get()) +
-                                         std::ptrdiff_t(y) * cairo_image_surface_get_stride(surface.get()) + x * 4;
+                                         std::ptrdiff_t(y) * cairo_image_surface_get_stride(surface.get()) +
+                                         std::ptrdiff_t(x) * 4;
                 const auto [low, high] = std::minmax({p[0], p[1], p[2]});
                 count += high - low > 40;
             }
@@ -214,15 +215,16 @@ TEST_CASE("render: a film is handed to ffmpeg picture by picture") {
     const std::string told = readText(box / "told.txt"), given = readText(box / "given.raw");
     CHECK_THAT(told, Catch::Contains("-s 160x120") && Catch::Contains("-framerate 12.5") &&
                          Catch::Contains((box / "film.mp4").string()));
-    CHECK(given.size() == 9u * 160 * 120 * 4);
+    constexpr std::size_t kBytes = 160UL * 120 * 4;  // of a picture
+    CHECK(given.size() == 9 * kBytes);
     // The same states as single pictures.
     CHECK(box.vkdose("render run --movie film --size 160x120").code == kOk);
     for (const int k : {0, 8}) {
         const Png png(box / ("film/frame_00000" + std::to_string(k) + ".png"));
         const unsigned char* data = cairo_image_surface_get_data(png.surface.get());
         int differ = 0;
-        for (std::size_t i = 0; i < 160u * 120 * 4; ++i)
-            differ += i % 4 != 3 && data[i] != static_cast<unsigned char>(given[k * 160u * 120 * 4 + i]);
+        for (std::size_t i = 0; i < kBytes; ++i)
+            differ += i % 4 != 3 && data[i] != static_cast<unsigned char>(given[k * kBytes + i]);
         CHECK(differ == 0);
     }
 

@@ -201,9 +201,9 @@ TEST_CASE("the coil is drawn where its wire is, at any angle") {
     scene.coilAngle = kPi / 2;  // at z = s the angle is pi/2 + 2 pi s/p: -x at a quarter of the pitch
     const Camera camera = sideCamera(0.25e-3);
     const Image image = studio.draw(scene, camera);
-    const Camera::Place near_ = camera.project({-0.0104, 0, 3.25 * 0.00875});
+    const Camera::Place wire = camera.project({-0.0104, 0, 3.25 * 0.00875});
     const Camera::Place gap = camera.project({-0.0104, 0, 3.5 * 0.00875});
-    CHECK(near(image.depthAt(int(near_.x), int(near_.y)), 0.0114, 0.001, 0.1));
+    CHECK(near(image.depthAt(int(wire.x), int(wire.y)), 0.0114, 0.001, 0.1));
     CHECK(image.depthAt(int(gap.x), int(gap.y)) < 0.005);
 }
 

@@ -244,7 +244,7 @@ TEST_CASE("any size is kept, and the parts stay inside") {
     const Drawn d = drawn(studio, odd, {f});
     CHECK(d.canvas.width() == 317);
     CHECK(d.canvas.height() == 211);
-    CHECK(d.canvas.bytes().size() == 4u * 317 * 211);
+    CHECK(d.canvas.bytes().size() == 4UL * 317 * 211);
     CHECK(d.canvas.png().substr(1, 3) == "PNG");
 }
 

@@ -18,6 +18,9 @@ inline constexpr int kRays = 3;
 /// Draws on the suite's device; fails the test if the validation layer has anything to say.
 class Studio {
   public:
+    Studio() = default;
+    Studio(const Studio&) = delete;
+    Studio& operator=(const Studio&) = delete;
     ~Studio() {
         CHECK(device_.validated());
         for (const std::string& message : device_.validationMessages()) FAIL_CHECK(message);

@@ -1,6 +1,6 @@
 // Coarse-grained fields on the device, against the reference and against themselves.
 
-#include <cstring>
+#include <bit>
 #include <thread>
 
 #include "tests/scene/beds.h"
@@ -49,7 +49,9 @@ bool sameBits(const FieldPoints& a, const FieldPoints& b) {
     return a.size() == b.size() &&
            std::equal(a.begin(), a.end(), b.begin(), [](const FieldPoint& x, const FieldPoint& y) {
                const auto p = x.numbers(), q = y.numbers();
-               return std::memcmp(p.data(), q.data(), sizeof p) == 0;
+               return std::equal(p.begin(), p.end(), q.begin(), [](double s, double t) {
+                   return std::bit_cast<std::uint64_t>(s) == std::bit_cast<std::uint64_t>(t);
+               });
            });
 }
 
@@ -152,7 +154,7 @@ TEST_CASE("fields: asking for them changes nothing, and gives the same bits howe
     for (int n = 0; n < 4; ++n) {
         a->advance(100, kRate);
         CHECK(a->fields(small).size() == 5);
-        CHECK(a->fields(r).size() == 23 * 31);
+        CHECK(a->fields(r).size() == 23UL * 31);
         b->advance(30, kRate);
         b->advance(70, kRate);
     }

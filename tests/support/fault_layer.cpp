@@ -283,10 +283,10 @@ const Functions& intercepted() {
 
 }  // namespace
 
-extern "C" VK_LAYER_EXPORT VkResult vkNegotiateLoaderLayerInterfaceVersion(VkNegotiateLayerInterface* version) {
-    version->loaderLayerInterfaceVersion = 2;
-    version->pfnGetInstanceProcAddr = getInstanceProcAddr;
-    version->pfnGetDeviceProcAddr = getDeviceProcAddr;
-    version->pfnGetPhysicalDeviceProcAddr = nullptr;
+extern "C" VK_LAYER_EXPORT VkResult vkNegotiateLoaderLayerInterfaceVersion(VkNegotiateLayerInterface* pVersionStruct) {
+    pVersionStruct->loaderLayerInterfaceVersion = 2;
+    pVersionStruct->pfnGetInstanceProcAddr = getInstanceProcAddr;
+    pVersionStruct->pfnGetDeviceProcAddr = getDeviceProcAddr;
+    pVersionStruct->pfnGetPhysicalDeviceProcAddr = nullptr;
     return VK_SUCCESS;
 }
