@@ -1,5 +1,4 @@
 #include "host/photo/profile.h"
-#include "host/core/file.h"
 
 #include <fmt/format.h>
 
@@ -7,6 +6,7 @@
 
 #include "host/app/commands.h"
 #include "host/app/exit_code.h"
+#include "host/core/file.h"
 
 namespace vkdose {
 
