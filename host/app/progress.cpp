@@ -35,7 +35,7 @@ std::string progressText(const Progress& p) {
     std::string text = fmt::format("{:<14} t = {:.3f} s", phase, p.time);
     if (p.expectedSteps > 0) {
         const double left = static_cast<double>(p.expectedSteps - p.step);
-        const double eta = p.step > 0 ? left * p.wallTime / static_cast<double>(p.step) : -1;
+        const double eta = p.steps > 0 ? left * p.wallTime / static_cast<double>(p.steps) : -1;
         text += fmt::format(", {:.0f} %, {}particle-steps/s, ETA {}", 100 * fraction(p), large(rate), duration(eta));
     } else {
         text += fmt::format(", {}particle-steps/s", large(rate));

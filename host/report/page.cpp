@@ -56,7 +56,7 @@ std::string threeLicence() {
 
 std::string page(const Json& data) {
     const bool player = data.contains("player") && !data["player"].is_null();
-    const std::array<std::pair<std::string_view, std::string>, 12> parts{{
+    const std::array<std::pair<std::string_view, std::string>, 16> parts{{
         {"title", escaped(data.value("name", std::string("report")))},
         {"style", parts::kStyle},
         {"version", VKDOSE_VERSION},
@@ -66,6 +66,10 @@ std::string page(const Json& data) {
         {"d3", parts::kD3},
         {"player", player ? playerScripts() : std::string()},
         {"charts", parts::kCharts},
+        {"ramp", parts::kRamp},
+        {"controls", parts::kControls},
+        {"stream", parts::kStream},
+        {"fields", parts::kFields},
         {"run", parts::kRun},
         {"study", parts::kStudy},
         {"main", parts::kMain},

@@ -11,38 +11,6 @@ const clock = {
   },
 };
 
-function control(parent, label, element) {
-  const box = add(parent, "label", null, "control");
-  add(box, "span", label);
-  box.appendChild(element);
-  return element;
-}
-
-function choice(parent, label, names, changed) {
-  const select = control(parent, label, document.createElement("select"));
-  names.forEach(name => add(select, "option", name));
-  select.addEventListener("change", () => changed(select.selectedIndex));
-  return select;
-}
-
-function button(parent, text, label, pressed) {
-  const element = add(parent, "button", text);
-  element.type = "button";
-  element.setAttribute("aria-label", label);
-  element.title = label;
-  element.addEventListener("click", pressed);
-  return element;
-}
-
-function slider(parent, label, most, changed) {
-  const element = document.createElement("input");
-  Object.assign(element, {type: "range", min: 0, max: most, step: 1, value: 0});
-  element.setAttribute("aria-label", label);
-  element.addEventListener("input", () => changed(Number(element.value)));
-  parent.appendChild(element);
-  return element;
-}
-
 /// Turned by dragging and arrow keys; zoomed by + and -, and by the wheel once the picture has the focus, so that it does
 /// not catch those who scroll past.
 function steer(canvas, scene, keys) {
@@ -182,7 +150,7 @@ function playerControls(box, player, frames, scene) {
     rampLegend(legend, quantity);
     if (shown >= 0) scene.show(shown, quantity);
   };
-  clock.jump = t => jump(nearestFrame(times, t));
+  clock.jump = t => jump(nearestTime(times, t));
   clock.doseStart = n => (firstOfDose(n) >= 0 ? times[firstOfDose(n)] : null);
   clock.dose = () => (shown >= 0 ? f.dose[shown] : 0);
   paint();
@@ -203,7 +171,7 @@ const kPlayerHelp = "Drag or use the arrow keys to turn; click the picture, then
 
 /// The figure, at once; its picture as soon as the frames are unpacked. What cannot be shown is said in its place.
 function playerFigure(parent, player) {
-  const box = add(parent, "figure", null, "player");
+  const box = add(parent, "figure", null, "viewer player");
   box.dataset.state = "loading";
   add(box, "h3", "The powder");
   const state = add(box, "p", "unpacking the frames", "state");

@@ -10,6 +10,7 @@
 #include "host/analysis/surface.h"
 #include "host/core/error.h"
 #include "host/report/deflate.h"
+#include "host/report/thinning.h"
 
 namespace vkdose::report {
 
@@ -146,14 +147,6 @@ class Encoder {
     Row<std::uint16_t> surface_;
     std::size_t columns_, frames_ = 0;
 };
-
-/// Every n-th entry and the last.
-std::vector<FrameEntry> thinned(const std::vector<FrameEntry>& all, std::size_t stride) {
-    std::vector<FrameEntry> few;
-    for (std::size_t i = 0; i < all.size(); i += stride) few.push_back(all[i]);
-    if ((all.size() - 1) % stride != 0) few.push_back(all.back());
-    return few;
-}
 
 Json vectorJson(const Vec3& v) {
     return {number(v.x), number(v.y), number(v.z)};

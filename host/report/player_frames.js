@@ -3,11 +3,9 @@
 /// Resolves to {count, particles, radius [m], gone (first frame without the particle), position (three of 65535 parts of
 /// the box for each particle and frame), speed, overlap (levels), surface (of 65535 parts of the box's height)}.
 async function readFrames(player) {
-  const text = atob(player.stream), packed = new Uint8Array(text.length);
-  for (let i = 0; i < packed.length; ++i) packed[i] = text.charCodeAt(i);
+  const bytes = await inflated(player.stream);
   player.stream = null;
-  const plain = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
-  return unpackFrames(player, new Uint8Array(await new Response(plain).arrayBuffer()));
+  return unpackFrames(player, bytes);
 }
 
 function unpackFrames(player, bytes) {
@@ -43,10 +41,4 @@ function unpackFrames(player, bytes) {
   frames.gone = words(n);
   if (at !== bytes.length) throw new Error(`${bytes.length} bytes of frames, ${at} expected`);
   return frames;
-}
-
-/// The number of the frame nearest to a time [s].
-function nearestFrame(times, time) {
-  const i = d3.bisectLeft(times, time);
-  return i > 0 && (i === times.length || time - times[i - 1] < times[i] - time) ? i - 1 : i;
 }

@@ -73,21 +73,24 @@ function timeCharts(parent, run) {
                  note: "The ledger: together always what was filled."});
 }
 
-/// At most so many states of the surface: the settled bed, every n-th dose, the last, and those with a photograph.
+/// At most so many states of the bed: settled, after every n-th dose, the last, and those of `wanted` doses.
 const kMostStates = 8;
+function everyFewDoses(states, wanted) {
+  const every = Math.ceil(states.length / kMostStates);
+  return states.filter((state, i) => i % every === 0 || i === states.length - 1 || wanted.has(state.dose));
+}
+
+const doseName = dose => (dose === 0 ? "settled" : `dose ${dose}`);
 
 function surfaceChart(parent, run) {
   const s = run.surface, inMillimetres = list => list.map(x => x * milli);
-  const every = Math.ceil(s.states.length / kMostStates);
-  const photographed = new Set(s.photographs.map(p => p.dose));
-  const states = s.states.filter((state, i) => i % every === 0 || i === s.states.length - 1 || photographed.has(state.dose));
+  const states = everyFewDoses(s.states, new Set(s.photographs.map(p => p.dose)));
   const shade = new Map(states.map((state, i) => [state.dose, colour(i, states.length)]));
-  const named = dose => (dose === 0 ? "settled" : `dose ${dose}`);
   const now = {name: "in the player", points: [], colour: "var(--ink)"};
   const series = states.map(state => ({
-    name: named(state.dose), points: zip(inMillimetres(s.z_m), state.height_m, milli), colour: shade.get(state.dose), thin: true,
+    name: doseName(state.dose), points: zip(inMillimetres(s.z_m), state.height_m, milli), colour: shade.get(state.dose), thin: true,
   })).concat(s.photographs.map(p => ({
-    name: `${p.name}, ${named(p.dose)}`, points: zip(inMillimetres(p.z_m), p.height_m, milli), colour: shade.get(p.dose), dash: "7 4",
+    name: `${p.name}, ${doseName(p.dose)}`, points: zip(inMillimetres(p.z_m), p.height_m, milli), colour: shade.get(p.dose), dash: "7 4",
   })));
   const place = run.player && run.player.columns > 0 ? [now] : [];
   if (place.length > 0) now.points = series[0].points.slice();
@@ -123,6 +126,7 @@ function runPage(main, run) {
   if (run.player) playerFigure(charts, run.player);
   if (run.doses.dose.length > 0) doseCharts(charts, run);
   if (run.surface) surfaceChart(charts, run);
+  fieldFigures(charts, run);
   if (run.series.time_s.length > 1) timeCharts(charts, run);
   if (run.doses.dose.length > 0) {
     add(main, "h2", "Doses");

@@ -14,6 +14,7 @@
 #include "host/core/error.h"
 #include "host/core/file.h"
 #include "host/model/case.h"
+#include "host/report/fields_report.h"
 #include "host/report/player_data.h"
 #include "host/report/run_figures.h"
 #include "host/report/surface_report.h"
@@ -173,7 +174,9 @@ Json runJson(const fs::path& folder, const std::optional<fs::path>& experiment, 
     const int lastDose = sources.doses.empty() ? 0 : sources.doses.back().index;
     j["surface"] = surfaceJson(c, frames, sources.particles, lastDose, photographs);
     const Json& surface = j["surface"];
-    j["player"] = playerJson(c, frames, surface.is_null() ? 0 : surface["z_m"].size());
+    j["fields"] = fieldsJson(folder, c);
+    j["player"] = playerJson(c, frames, surface.is_null() ? 0 : surface["z_m"].size(),
+                             kMostCharacters - streamCharacters(j["fields"]));
     j["case"] = c.resolved;
     return j;
 }

@@ -88,6 +88,7 @@ class Run {
         restore(from.run);
         if (dosing_) backend_.setLaw(case_.world.law);
         backend_.restore(from.backend);
+        before_ = {step_, result_.particleSteps, result_.wallTime};
     }
 
     Record save() const {
@@ -316,9 +317,10 @@ class Run {
         p.time = timeline_.time(step_);
         p.step = step_;
         p.expectedSteps = expectedSteps();
-        p.particleSteps = result_.particleSteps;
-        p.wallTime = result_.wallTime;
         p.phaseEnd = step_ == stretch_.end;
+        p.steps = step_ - before_.steps;
+        p.particleSteps = result_.particleSteps - before_.particleSteps;
+        p.wallTime = result_.wallTime - before_.wallTime;
         observer_.onProgress(p);
     }
 
@@ -351,6 +353,12 @@ class Run {
     DoseJudge judge_;
     FieldWatch fields_;
     RunResult result_;
+
+    /// Where it was gone on with.
+    struct {
+        std::uint64_t steps = 0;
+        double particleSteps = 0, wallTime = 0;
+    } before_;
 
     std::uint64_t step_ = 0;
     std::uint64_t sampleStep_ = 0;

@@ -10,8 +10,8 @@
 #include "host/core/record.h"
 #include "host/model/case.h"
 #include "host/sim/energy_ledger.h"
-#include "host/sim/frame.h"
 #include "host/sim/field_watch.h"
+#include "host/sim/frame.h"
 #include "host/sim/ledger.h"
 #include "host/sim/stop_rule.h"
 #include "host/sim/timeline.h"
@@ -59,9 +59,11 @@ struct Progress {
     double time = 0;  ///< simulated [s]
     std::uint64_t step = 0;
     std::uint64_t expectedSteps = 0;  ///< of the whole run, from the doses so far; 0 when nothing can be said
-    double particleSteps = 0;         ///< active particles times steps, so far
-    double wallTime = 0;              ///< spent stepping [s]
     bool phaseEnd = false;
+    // Since the run began or was gone on with: what was before says nothing of the machine it is on now.
+    std::uint64_t steps = 0;
+    double particleSteps = 0;  ///< active particles times steps
+    double wallTime = 0;       ///< spent stepping [s]
 };
 
 /// What a run can go on from: the runner's own state and the backend's snapshot.

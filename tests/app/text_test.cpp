@@ -39,11 +39,12 @@ TEST_CASE("a progress line says phase, dose, time, speed and what is left") {
     p.time = 6.2;
     p.step = 250;
     p.expectedSteps = 1000;
+    p.steps = 50;  // gone on with at 200
     p.particleSteps = 1e9;
     p.wallTime = 100;
     CHECK_THAT(progressText(p), Catch::Contains("dose 3 rotate") && Catch::Contains("t = 6.200 s") &&
                                     Catch::Contains("25 %") && Catch::Contains("10 M particle-steps/s") &&
-                                    Catch::Contains("ETA 5 min 00 s"));
+                                    Catch::Contains("ETA 25 min 00 s"));
     p.expectedSteps = 0;
     CHECK_THAT(progressText(p), !Catch::Contains("ETA"));
 }

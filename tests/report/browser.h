@@ -35,6 +35,20 @@ inline std::string drawn(const Sandbox& box, const report::Json& data, const std
     return readText(box / "dom.html");
 }
 
+/// A script of this folder that says what to look for, with what runs it.
+inline std::string readProbe(const std::string& name) {
+    const std::string folder = VKDOSE_SOURCE_DIR "/tests/report/";
+    return readText(folder + "probe.js") + readText(folder + name);
+}
+
+/// What it found.
+inline report::Json probed(const std::string& dom) {
+    const std::string mark = "<pre id=\"probe\">";
+    const std::size_t begin = dom.find(mark) + mark.size();
+    REQUIRE(begin > mark.size());
+    return report::Json::parse(dom.substr(begin, dom.find("</pre>", begin) - begin));
+}
+
 inline std::size_t count(const std::string& text, const std::string& part) {
     std::size_t n = 0;
     for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;

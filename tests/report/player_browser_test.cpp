@@ -38,14 +38,6 @@ Json dataOf(const Sandbox& box) {
     return data;
 }
 
-/// What the script player_probe.js found.
-Json probed(const std::string& dom) {
-    const std::string mark = "<pre id=\"probe\">";
-    const std::size_t begin = dom.find(mark) + mark.size();
-    REQUIRE(begin > mark.size());
-    return Json::parse(dom.substr(begin, dom.find("</pre>", begin) - begin));
-}
-
 double area(const Json& seen, const char* colour) {
     return seen[colour]["n"];
 }
@@ -56,7 +48,7 @@ TEST_CASE("a browser plays the frames of a run") {
     if (browserMissing()) return;
     const Sandbox box;
     const Json data = dataOf(box);
-    const std::string probe = readText(VKDOSE_SOURCE_DIR "/tests/report/player_probe.js");
+    const std::string probe = readProbe("player_probe.js");
     const Json seen = probed(drawn(box, data, kWebGl, probe));
     REQUIRE(seen["state"] == "ready");
 
@@ -135,7 +127,7 @@ TEST_CASE("a browser plays the frames of a run") {
 TEST_CASE("without WebGL the page says so and shows the rest") {
     if (browserMissing()) return;
     const Sandbox box;
-    const std::string probe = readText(VKDOSE_SOURCE_DIR "/tests/report/player_probe.js");
+    const std::string probe = readProbe("player_probe.js");
     const std::string dom = drawn(box, dataOf(box), kNoWebGl, probe);
     const Json seen = probed(dom);
     CHECK(seen["state"] == "failed");

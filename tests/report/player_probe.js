@@ -1,5 +1,4 @@
-// Run at the end of a page with the scene of player_browser_test.cpp: works the player as a reader would and writes what
-// is to be seen then into the document.
+// For the scene of player_browser_test.cpp: works the player as a reader would and tells what is to be seen then.
 
 // A display that shows a picture every 10 ms of a clock of its own, however long they take.
 let ticks = 0;
@@ -10,9 +9,6 @@ window.requestAnimationFrame = draw => setTimeout(() => {
   if (pictures.length === 0 || pictures[pictures.length - 1][1] !== text) pictures.push([ticks, text]);
 }, 0);
 window.cancelAnimationFrame = clearTimeout;
-
-const sleep = () => new Promise(resolve => setTimeout(resolve, 50));
-const figureOf = title => Array.from(document.querySelectorAll("figure")).find(f => f.querySelector("h3").textContent === title);
 
 /// Pixels of a colour: their number, and their middle in parts of the picture, from the left and from below.
 function colours(canvas) {
@@ -49,8 +45,7 @@ async function probe() {
   const [rate, colour, axis] = player.querySelectorAll("select");
   const now = () => Object.assign(colours(canvas), {text: player.querySelector(".state").textContent});
   const set = (element, key, value, event) => {
-    element[key] = value;
-    element.dispatchEvent(new Event(event));
+    setControl(element, key, value, event);
     return now();
   };
   const key = name => {
@@ -103,10 +98,3 @@ async function probe() {
   found.heights = Array.from(frames.surface);
   return found;
 }
-
-probe().catch(error => ({state: `probe: ${error}`})).then(found => {
-  const box = document.createElement("pre");
-  box.id = "probe";
-  box.textContent = JSON.stringify(found);
-  document.body.appendChild(box);
-});

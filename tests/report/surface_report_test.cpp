@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "host/analysis/surface.h"
-#include "host/core/error.h"
+#include "tests/report/faults.h"
 #include "tests/report/folders.h"
 #include "tests/report/frames.h"
 #include "tests/support/near.h"
@@ -29,15 +29,6 @@ Particles at(double y) {
 FrameSource run() {
     return sourceOf({frameOf(0.1, 0, 0, at(9e-3)), frameOf(0.2, 1, 0, at(7e-3)), frameOf(0.3, 1, 0, at(5e-3)),
                      frameOf(0.4, 2, 0, at(3e-3))});
-}
-
-std::string fault(const std::function<void()>& what) {
-    try {
-        what();
-    } catch (const CaseError& e) {
-        return e.faults().front().text();
-    }
-    return "none";
 }
 
 }  // namespace
@@ -89,7 +80,7 @@ TEST_CASE("a photograph that does not fit is refused with what would be right") 
     const Sandbox box;
     const auto csv = box.write("photo.csv", "z_mm,height_mm\n1,12\n");
     const auto report = [&](const FrameSource& frames, const Photograph& photograph) {
-        return fault([&] { surfaceJson(mini(), frames, {}, 0, {photograph}); });
+        return faultOf([&] { surfaceJson(mini(), frames, {}, 0, {photograph}); });
     };
     CHECK_THAT(report(run(), {csv, 3}),
                Catch::Contains("photo.csv: --profile = @3: the run kept no state of this dose; "
@@ -108,7 +99,7 @@ TEST_CASE("a photograph's dose stands after an @") {
     CHECK(photographOf("a/photo.csv@12").dose == 12);
     CHECK(photographOf("me@home/photo.csv@0").file == "me@home/photo.csv");
     for (const char* wrong : {"photo.csv@", "photo.csv@two", "photo.csv@-1", "photo.csv@1.5", "photo.csv@nan"})
-        CHECK_THAT(fault([&] { photographOf(wrong); }), Catch::Contains("give FILE.csv or FILE.csv@DOSE"));
+        CHECK_THAT(faultOf([&] { photographOf(wrong); }), Catch::Contains("give FILE.csv or FILE.csv@DOSE"));
     const Sandbox box;  // a file so named is a file
     const std::string odd = box.write("photo@3", "").string();
     CHECK(photographOf(odd).file == odd);

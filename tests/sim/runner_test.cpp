@@ -383,3 +383,28 @@ TEST_CASE("a run that goes on from any checkpoint takes the frames after it, onc
         CHECK(framed(after) == expected);
     }
 }
+
+TEST_CASE("a run that goes on tells its pace by what it did itself") {
+    Case c = smallCase();
+    c.checkpoint.wall = 0;
+    c.checkpoint.simulated = 0.001;
+    FakeBackend backend;
+    Keeper notes;
+    play(c, backend, notes);
+    REQUIRE(notes.kept.size() > 10);
+    const RunCheckpoint& from = notes.kept[10];
+    const std::uint64_t begin = from.backend.one<std::uint64_t>("step");
+    REQUIRE(begin > 0);
+    FakeBackend second;
+    Notebook after;
+    const std::atomic<bool> stop{false};
+    runFilled(c, smallFilling(), {}, second, after, stop, &from);
+    const double whole = notes.progress.back().particleSteps;
+    double done = 0;
+    for (const Progress& p : notes.progress)
+        if (p.step == begin) done = p.particleSteps;
+    for (const Progress& p : after.progress) CHECK(p.steps == p.step - begin);
+    REQUIRE(done > 0);
+    CHECK(after.progress.back().particleSteps == whole - done);
+    CHECK(notes.progress.back().steps == notes.progress.back().step);
+}

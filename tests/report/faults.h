@@ -1,0 +1,21 @@
+#pragma once
+// What is said of bad input.
+
+#include <functional>
+#include <string>
+
+#include "host/core/error.h"
+
+namespace vkdose::test {
+
+/// The first fault with which `what` refuses; "none" if it does not.
+inline std::string faultOf(const std::function<void()>& what) {
+    try {
+        what();
+    } catch (const CaseError& e) {
+        return e.faults().front().text();
+    }
+    return "none";
+}
+
+}  // namespace vkdose::test
