@@ -93,6 +93,13 @@ function doseCurves(parent, study) {
     title: "Cumulative dosed mass", x: {label: "dose", whole: true, pad: true}, y: {label: "g"}, note: "Mean over the seeds. " + note,
     series: series(p => p.cumulative_mass_kg.map((m, n) => [n + 1, m * gram])),
   });
+  const turns = known.map(p => p.turns_per_dose);
+  if (!turns.every(isNumber) || turns.every(n => n === turns[0])) return;
+  chart(parent, {
+    title: "Dosed mass over turns of the coil", x: {label: "turns", pad: true}, y: {label: "g"},
+    note: "Mean over the seeds. Where doses differ in time or speed alone, one curve says that only turns count. " + note,
+    series: series(p => [[0, 0]].concat(p.cumulative_mass_kg.map((m, n) => [(n + 1) * p.turns_per_dose, m * gram]))),
+  });
 }
 
 function output(p, name, scale) {

@@ -35,6 +35,15 @@ Json valueJson(const Setting& s) {
     return std::isnan(s.number) ? Json(s.text) : Json(s.number);
 }
 
+/// NaN unless the point's case says how fast and how long the coil turns.
+double turnsPerDose(const Point& p) {
+    const auto value = [&](const char* key) {
+        const auto found = p.keys.find(key);
+        return found == p.keys.end() ? NAN : found->second.number;
+    };
+    return value("coil.speed_rpm") / 60 * value("dose.rotate_s");
+}
+
 Json pointJson(const StudyPoint& p) {
     Json at = Json::array();
     for (const Point::Place& place : p.point.places)
@@ -53,6 +62,7 @@ Json pointJson(const StudyPoint& p) {
     j["beta_standard_error_kg_per_dose"] = number(p.betaError);
     j["error_over_seeds"] = p.errorOverSeeds;
     j["closed_form_kg_per_dose"] = number(p.closedForm);
+    j["turns_per_dose"] = number(turnsPerDose(p.point));
     j["outputs"] = outputs;
     j["dose_mass_kg"] = doses;
     j["cumulative_mass_kg"] = numbers(p.point.cumulative);

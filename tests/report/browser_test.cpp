@@ -71,3 +71,24 @@ TEST_CASE("a browser draws the page of a study") {
     CHECK(dom.find("class=\"verdict holds\">trend holds") != std::string::npos);
     CHECK(dom.find("1 failed: particle 3 at (0, 0, 1) \"left\" the domain") != std::string::npos);
 }
+
+TEST_CASE("where points differ in the coil's turns a dose, a browser draws what is out over the turns") {
+    if (browserMissing()) return;
+    const Sandbox box;
+    Json data = studyJson(writeSweep(box), {});
+    for (Json& p : data["points"]) p["turns_per_dose"] = 3;
+    const std::string title = "<h3>Dosed mass over turns of the coil";
+    CHECK(drawn(box, data).find(title) == std::string::npos);
+    data["points"][0]["dose_mass_kg"] = Json::parse("[[0.002, null, 1], [0.002, null, 1]]");
+    data["points"][0]["cumulative_mass_kg"] = Json({0.002, 0.004});
+    data["points"][0]["turns_per_dose"] = 1.5;
+    data["points"][1]["dose_mass_kg"] = Json::parse("[[0.004, null, 1]]");
+    data["points"][1]["cumulative_mass_kg"] = Json({0.004});
+    const std::string dom = drawn(box, data);
+    const std::size_t at = dom.find(title);
+    REQUIRE(at != std::string::npos);
+    const std::string figure = dom.substr(at, dom.find("</figure>", at) - at);
+    // Two doses of 2 g in a turn and a half each, and one of 4 g in three: the same place.
+    for (const char* tip : {"4 at 3", "2 at 1.5", "0 at 0"}) CHECK(figure.find(tip) != std::string::npos);
+    CHECK(count(figure, "4 at 3") == 2);
+}

@@ -120,3 +120,19 @@ TEST_CASE("name, reason, target and failures are in the data") {
     CHECK(study["points"][3]["failed"] == 1);
     CHECK(study["members"] == 8);
 }
+
+TEST_CASE("turns of the coil in a dose follow from speed and time") {
+    const Sandbox box;
+    const auto folder = writeSweep(box);
+    CHECK(
+        nearRelative(studyJson(folder, {})["points"][0]["turns_per_dose"].get<double>(), 3.0, 1e-12));  // 2 s at 90 rpm
+    // An axis of speeds, and one that says nothing of the time.
+    const std::string head = "member,seed,coil.speed_rpm,status,error,beta_kg_per_dose\n";
+    box.write("sweep/members.csv", head + "0,1,60,ok,,0.001\n1,1,15,ok,,0.002\n");
+    box.write("sweep/study.toml", "name = \"s\"\n[[axis]]\nkey = \"coil.speed_rpm\"\nvalues = [60, 15]\n");
+    const Json points = studyJson(folder, {})["points"];
+    CHECK(nearRelative(points[0]["turns_per_dose"].get<double>(), 1.0, 1e-12));  // the base's 1 s
+    CHECK(nearRelative(points[1]["turns_per_dose"].get<double>(), 0.25, 1e-12));
+    box.write("sweep/base.toml", "[coil]\nturns = 8\n");
+    CHECK(studyJson(folder, {})["points"][0]["turns_per_dose"].is_null());
+}
