@@ -17,7 +17,7 @@ from vtkmodules.vtkFiltersCore import vtkGlyph3D
 from vtkmodules.vtkFiltersGeometry import vtkGeometryFilter
 from vtkmodules.vtkFiltersSources import vtkSphereSource
 from vtkmodules.vtkIOHDF import vtkHDFReader
-from vtkmodules.vtkIOImage import vtkPNGWriter
+from vtkmodules.vtkIOImage import vtkPNGReader, vtkPNGWriter
 from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer, vtkWindowToImageFilter
 from vtkmodules.vtkRenderingOpenGL2 import vtkXOpenGLRenderWindow
 
@@ -219,6 +219,23 @@ def check_picture(particles, coil):
     check((ring & green).sum() > 0.05 * ring.sum(), "the coil is nowhere to be seen")
 
 
+def check_force_network(number):
+    """The tool draws coil and contacts, and says what the largest force is."""
+    tool = os.path.join(os.path.dirname(os.path.abspath(readme)), "tools", "force-network")
+    drawn = picture + ".forces.png"
+    said = subprocess.run([tool, run, number, drawn], capture_output=True, text=True, check=True).stdout
+    largest = array(load(f"contacts_{number:0>6}.hdf").GetCellData(), "normal_force").max()
+    check(said.startswith(f"pushes up to {largest:.3g} N"), f"tools/force-network says {said}")
+    reader = vtkPNGReader()
+    reader.SetFileName(drawn)
+    reader.Update()
+    red, green, blue = vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars()).astype(int).T[:3]
+    check((abs(red - blue) + abs(red - green) < 30).mean() < 0.999, "no contacts in its picture")
+    check(((red < 220) & (abs(red - blue) < 20)).mean() > 0.02, "no coil in its picture")
+    refused = subprocess.run([tool, run, "999999", drawn], capture_output=True, text=True)
+    check(refused.returncode != 0 and "there is no such file" in refused.stderr, "a frame that is not there is not refused")
+
+
 index = table(os.path.join("frames", "frames.csv"))
 check(len(index) > 3, "few frames")
 last = index[-1]["frame"]
@@ -236,6 +253,7 @@ try:
     check(display != "", "Xvfb does not start")
     os.environ["DISPLAY"] = ":" + display
     check_picture(particles, load(f"coil_{last:0>6}.hdf"))
+    check_force_network(last)
 finally:
     server.terminate()
     server.wait()
