@@ -246,21 +246,21 @@ Json profileJson(const fs::path& folder, const FieldSensor& s) {
 
 }  // namespace
 
-Json fieldsJson(const fs::path& run, const Case& c, std::size_t mostBytes) {
-    const fs::path folder = run / "fields";
+Json fieldsJson(const fs::path& folder, const Case& c, std::size_t mostBytes) {
+    const fs::path fields = folder / "fields";
     std::vector<const FieldSensor*> maps, profiles;
     for (const FieldSensor& s : c.fields) {
         const int directions = s.request.grid.resolvedDirections();
-        if (!fs::exists(folder / (s.name + ".csv"))) continue;
+        if (!fs::exists(fields / (s.name + ".csv"))) continue;
         if (directions == 2) maps.push_back(&s);
         if (directions == 1 && s.preset == FieldSensor::Preset::HeightProfile) profiles.push_back(&s);
     }
     Json j{{"maps", Json::array()}, {"profiles", Json::array()}};
     for (const FieldSensor* s : maps)
-        if (Json map = mapJson(folder, *s, mostBytes / maps.size()); !map.is_null())
+        if (Json map = mapJson(fields, *s, mostBytes / maps.size()); !map.is_null())
             j["maps"].push_back(std::move(map));
     for (const FieldSensor* s : profiles)
-        if (Json profile = profileJson(folder, *s); !profile.is_null()) j["profiles"].push_back(std::move(profile));
+        if (Json profile = profileJson(fields, *s); !profile.is_null()) j["profiles"].push_back(std::move(profile));
     return j["maps"].empty() && j["profiles"].empty() ? Json(nullptr) : j;
 }
 

@@ -14,7 +14,7 @@ namespace {
 
 /// The folder of a run whose maps are at 0.1, 0.2 and 0.3 s.
 std::filesystem::path writeRunWithFields(const Sandbox& box) {
-    const auto folder = writeRun(box, "why");
+    auto folder = writeRun(box, "why");
     const Case c = caseWithFields(false);
     box.write("run/case.toml",
               readText(folder / "case.toml") +

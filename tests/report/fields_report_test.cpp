@@ -90,7 +90,7 @@ TEST_CASE("of more maps than there is room for every n-th and the last are in th
     const Sandbox box;
     const Case c = caseWithFields(false);
     constexpr int kMaps = 11;
-    constexpr std::size_t kBytes = 12 * 3;  // of one
+    constexpr std::size_t kBytes = 36;  // of one
     writeMaps(box, c, kMaps);
     for (std::size_t room = 2; room < kMaps; ++room) {
         const Json map = fieldsJson(box / "run", c, room * kBytes)["maps"][0];
