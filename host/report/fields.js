@@ -107,7 +107,7 @@ function mapControls(box, run, map, levels) {
   const row = add(box, "div", null, "row");
   const time = slider(row, "time of the field", times.length - 1, i => {
     show(i);
-    leading = true;  // the frame nearest to this map need not be nearest to this map alone
+    leading = true;  // the frame nearest to this map may be nearer to another
     if (run.player) clock.jump(times[i]);
     leading = false;
   });
