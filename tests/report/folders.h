@@ -68,7 +68,9 @@ values = [0.2, 0.873]
 key = "contact.friction"
 values = [0.3, 0.5]
 )");
-    box.write("sweep/base.toml", "[particles]\nmass_g = 48\n[coil]\nturns = 8\nspeed_rpm = 90\n[dose]\nrotate_s = 1\n");
+    box.write("sweep/base.toml",
+              "[particles]\nmass_g = 48\n[contact]\nkr_over_k = 0.286\n[contact.wall]\nfriction = 0.2\n"
+              "[coil]\nturns = 8\nspeed_rpm = 90\n[dose]\nrotate_s = 1\n");
     std::string rows = kMembersHeader;
     rows += member(0, 1, 0.2, 0.3, 4.8e-3) + member(1, 2, 0.2, 0.3, 5.0e-3);
     rows += member(2, 1, 0.2, 0.5, 4.0e-3) + member(3, 2, 0.2, 0.5, 4.2e-3);
