@@ -1,4 +1,4 @@
-// What a reader works a figure with.
+// What a reader works a figure with, and is told of the moment it shows.
 
 function control(parent, label, element) {
   const box = add(parent, "label", null, "control");
@@ -31,3 +31,8 @@ function slider(parent, label, most, changed) {
   parent.appendChild(element);
   return element;
 }
+
+const kPhases = ["settling", "the coil turns", "at rest"];
+
+/// When something shown was so: time [s], dose (0: none so far) and number of the phase.
+const momentText = (time, dose, phase) => `t = ${time.toFixed(3)} s${dose > 0 ? `, dose ${dose}` : ""}, ${kPhases[phase]}`;

@@ -15,14 +15,13 @@ async function readMaps(map) {
   return levels;
 }
 
-/// In parts of the scale's largest value.
-const partOf = {linear: level => level / 255, root: level => (level / 255) ** 2,
-                signed: level => Math.sign(level - 128) * ((level - 128) / 127) ** 2};
+/// Of a level of a signed scale, in parts of the largest value.
+const signedPart = level => Math.sign(level - 128) * ((level - 128) / 127) ** 2;
 
 /// List of {name, unit, scale (of D3, from values to 0..1), entry(cell of all maps) of the ramp}, and `velocity`, which
 /// tells the two parts in the plane [largest speed] of a cell.
 function fieldQuantities(map, levels) {
-  const [density, across, up] = levels, velocity = i => [partOf.signed(across[i]), partOf.signed(up[i])];
+  const [density, across, up] = levels, velocity = i => [signedPart(across[i]), signedPart(up[i])];
   const speed = d3.scale.log().domain([1e-3, 1]), fastest = map.quantities[1].most;
   const plain = q => {
     const {name, unit, scale, most} = map.quantities[q];
@@ -83,8 +82,9 @@ function plane(holder, map, quantities, top) {
           const here = quantities.dense(from + i), at = 3 * quantity.entry(from + i);
           for (let k = 0; k < 3; ++k) pixels.data[4 * i + k] = kRamp[at + k];
           pixels.data[4 * i + 3] = here ? 255 : 0;
+          if (!here || row % step !== first || column % step !== first) continue;
           const velocity = quantities.velocity(from + i);
-          if (here && row % step === first && column % step === first && Math.hypot(...velocity) >= 1e-3)
+          if (Math.hypot(...velocity) >= 1e-3)
             paths += arrow((column + 0.5) * cell, (row + 0.5) * height / rows, velocity, kArrowSpacing * 1.8);
         }
       context.putImageData(pixels, 0, 0);
@@ -98,7 +98,7 @@ function plane(holder, map, quantities, top) {
   };
 }
 
-const kPhaseNames = {settle: "settling", rotate: "the coil turns", rest: "at rest"};
+const kPhaseNames = ["settle", "rotate", "rest"];
 
 function mapControls(box, run, map, levels) {
   const times = map.time_s, quantities = fieldQuantities(map, levels), state = box.querySelector(".state");
@@ -118,14 +118,13 @@ function mapControls(box, run, map, levels) {
   const show = i => {
     shown = i;
     time.value = i;
-    const where = `t = ${times[i].toFixed(3)} s${map.dose[i] > 0 ? `, dose ${map.dose[i]}` : ""}, ${kPhaseNames[map.phase[i]]}`;
+    const where = momentText(times[i], map.dose[i], kPhaseNames.indexOf(map.phase[i]));
     time.setAttribute("aria-valuetext", where);
     state.textContent = `${where}; map ${i + 1} of ${times.length}`;
     draw(i, quantity);
   };
   const paint = () => {
-    box.querySelector(".quantity").textContent = `${quantity.name}${quantity.unit ? ` [${quantity.unit}]` : ""}`;
-    rampLegend(box.querySelector(".ramp"), quantity);
+    rampLegend(box, quantity);
     draw(shown, quantity);
   };
   const follow = () => {
@@ -150,9 +149,7 @@ function mapFigure(parent, run, map) {
   const box = add(parent, "figure", null, "viewer field");
   box.dataset.state = "loading";
   add(box, "h3", `Field: ${map.name}`);
-  const state = add(box, "p", "unpacking the maps", "state"), stage = add(box, "div", null, "plane"), legend = add(box, "div", null, "scale");
-  add(legend, "span", "", "quantity");
-  add(legend, "div", null, "ramp");
+  const state = add(box, "p", "unpacking the maps", "state"), stage = add(box, "div", null, "plane"), legend = addLegend(box);
   const load = async () => {
     if (map.stream === null) throw new Error("its maps are too fine for a page; tools/field-map draws them");
     mapControls(box, run, map, await readMaps(map));

@@ -80,7 +80,6 @@ function playback(times, shown, show, changed) {
   };
 }
 
-const kPhases = ["settling", "the coil turns", "at rest"];
 const kRates = [0.1, 0.25, 0.5, 1, 2, 5];
 const kCuts = ["none", "from the side", "from above", "from the outlet"];
 const kCutAxes = [null, 0, 1, 2];
@@ -88,13 +87,13 @@ const kCutAxes = [null, 0, 1, 2];
 function playerControls(box, player, frames, scene) {
   const f = player.frames, times = f.time_s, list = quantities(player, frames);
   let shown = -1, quantity = list[0];
-  const row = add(box, "div", null, "row"), state = box.querySelector(".state"), legend = box.querySelector(".ramp");
+  const row = add(box, "div", null, "row"), state = box.querySelector(".state");
   const play = button(row, "▶", "play", () => running.toggle());
   const time = slider(row, "time", times.length - 1, i => jump(i));
   const show = i => {
     shown = i;
     time.value = i;
-    const where = `t = ${times[i].toFixed(3)} s${f.dose[i] > 0 ? `, dose ${f.dose[i]}` : ""}, ${kPhases[f.phase[i]]}`;
+    const where = momentText(times[i], f.dose[i], f.phase[i]);
     time.setAttribute("aria-valuetext", where);
     state.textContent = `${where}; frame ${i + 1} of ${times.length}`;
     scene.show(i, quantity);
@@ -146,8 +145,7 @@ function playerControls(box, player, frames, scene) {
   button(view, "⟲", "reset view", reset);
 
   const paint = () => {
-    box.querySelector(".quantity").textContent = `${quantity.name}${quantity.unit ? ` [${quantity.unit}]` : ""}`;
-    rampLegend(legend, quantity);
+    rampLegend(box, quantity);
     if (shown >= 0) scene.show(shown, quantity);
   };
   clock.jump = t => jump(nearestTime(times, t));
@@ -179,9 +177,7 @@ function playerFigure(parent, player) {
   canvas.tabIndex = 0;
   canvas.setAttribute("role", "application");
   canvas.setAttribute("aria-label", "powder and coil; arrow keys turn, plus and minus zoom, space plays");
-  const legend = add(box, "div", null, "scale");
-  add(legend, "span", "", "quantity");
-  add(legend, "div", null, "ramp");
+  const legend = addLegend(box);
   const load = async () => {
     const frames = await readFrames(player);
     const scene = new PowderScene(canvas, player, frames);

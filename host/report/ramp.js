@@ -11,8 +11,18 @@ const kRamp = Uint8Array.from(d3.merge(d3.range(kRampSize).map(i => {
 /// The entry of a part from 0 to 1.
 const rampEntry = part => Math.max(0, Math.min(kRampSize - 1, Math.round(part * (kRampSize - 1))));
 
-/// The ramp with its values under it.
-function rampLegend(holder, quantity) {
+/// Room for a legend in a figure.
+function addLegend(parent) {
+  const box = add(parent, "div", null, "scale");
+  add(box, "span", "", "quantity");
+  add(box, "div", null, "ramp");
+  return box;
+}
+
+/// Fills a figure's legend: what the colours tell, and the ramp with its values under it.
+function rampLegend(figure, quantity) {
+  const holder = figure.querySelector(".ramp");
+  figure.querySelector(".quantity").textContent = `${quantity.name}${quantity.unit ? ` [${quantity.unit}]` : ""}`;
   holder.textContent = "";
   const width = 300, svg = d3.select(holder).append("svg")
     .attr({viewBox: `0 0 ${width + 40} 32`, role: "img", "aria-label": `colours: ${quantity.name}`});
