@@ -23,16 +23,22 @@ Closest edge(const Vec3& point, const Vec3& q, const Vec3& fallback) {
     return {point, direction(q - point, fallback), glm::length(q - point)};
 }
 
+/// The closest point of a wall along z that ends at `end`, from that of the endless wall.
+Closest upTo(double end, const Closest& endless, const Vec3& q) {
+    if (q.z <= end) return endless;
+    return edge(Vec3(endless.point.x, endless.point.y, end), q, Vec3(0, 0, 1));
+}
+
 Closest closest(const Plane& plane, const Vec3& q) {
     const double distance = glm::dot(q - plane.point, plane.normal);
-    return {q - distance * plane.normal, plane.normal, distance};
+    return upTo(plane.end, {q - distance * plane.normal, plane.normal, distance}, q);
 }
 
 Closest closest(const Trough& trough, const Vec3& q) {
     // Above the axis the side walls, below it the half cylinder: both look outwards along a unit vector.
     const Vec3 outward = q.y >= 0 ? Vec3(q.x >= 0 ? 1 : -1, 0, 0) : glm::normalize(Vec3(q.x, q.y, 0));
     const double distance = trough.halfWidth - glm::dot(q, outward);
-    return {q + distance * outward, -outward, distance};
+    return upTo(trough.end, {q + distance * outward, -outward, distance}, q);
 }
 
 Closest closest(const Tube& tube, const Vec3& q) {
@@ -70,6 +76,25 @@ Closest closest(const Front& front, const Vec3& q) {
 
 Closest closestPoint(const Surface& surface, const Vec3& q) {
     return std::visit([&](const auto& s) { return closest(s, q); }, surface);
+}
+
+bool endsAtFront(const Surface& surface) {
+    if (const auto* plane = std::get_if<Plane>(&surface)) return plane->end < kEndless;
+    if (const auto* trough = std::get_if<Trough>(&surface)) return trough->end < kEndless;
+    return false;
+}
+
+Joint jointContact(const Closest& wall, const Closest& front, double radius) {
+    constexpr double kSameDirection = 0.9397;  // cos 20 degrees
+    const bool wallDeeper = wall.distance <= front.distance;
+    const double deeper = wallDeeper ? wall.distance : front.distance;
+    const double shallower = wallDeeper ? front.distance : wall.distance;
+    const double cosine = glm::dot(wall.normal, front.normal);
+    // Seen along the deeper's normal the sphere's centre is `deeper` above that contact's plane, the other's closest
+    // point shallower * cosine below the centre.
+    const double height = deeper - shallower * cosine;
+    if (cosine < kSameDirection && height >= radius - deeper) return Joint::Apart;
+    return wallDeeper ? Joint::Wall : Joint::Front;
 }
 
 }  // namespace vkdose::geometry

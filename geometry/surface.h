@@ -16,26 +16,30 @@ struct Closest {
     double distance;  ///< signed: negative when the query point lies behind the surface [m]
 };
 
-/// Infinite half space; particles live where dot(q - point, normal) > 0.
+constexpr double kEndless = std::numeric_limits<double>::infinity();
+
+/// Half space; particles live where dot(q - point, normal) > 0. A plane that is parallel to z may end at z = `end`.
 struct Plane {
     Vec3 point;
     Vec3 normal;  ///< unit, into the free side
+    double end = kEndless;
 };
 
 /// U-shaped profile along z: below the axis (y < 0) the inside of a cylinder of radius `halfWidth`, above it the
 /// planes x = -+halfWidth, joined tangentially. A sphere smaller than the profile has one contact with it, which
-/// keeps its history while it slides from the trough up the wall.
+/// keeps its history while it slides from the trough up the wall. The profile may end at z = `end`.
 struct Trough {
     double halfWidth;
+    double end = kEndless;
 };
 
 /// Cylinder wall of finite or infinite length, touched from inside or outside. Beyond an end the closest point
 /// lies on that end's circular edge.
 struct Tube {
-    Vec3 base{0};  ///< centre of the first end (any point of the axis when infinite)
+    Vec3 base{0};        ///< centre of the first end (any point of the axis when infinite)
     Vec3 axis{0, 0, 1};  ///< unit
     double radius = 0;
-    double length = std::numeric_limits<double>::infinity();
+    double length = kEndless;
     bool inside = true;  ///< particles live inside
 };
 
@@ -51,5 +55,20 @@ using Surface = std::variant<Plane, Trough, Tube, Front>;
 
 /// Closest point of `surface` to `q`. The distance is finite for every finite q.
 Closest closestPoint(const Surface& surface, const Vec3& q);
+
+/// Whether `surface` is a plane or trough that ends at a front wall, where it meets the rim of the hole.
+bool endsAtFront(const Surface& surface);
+
+/// What a wall that ends at the front wall and the front wall itself are to a sphere that overlaps both.
+enum class Joint {
+    Apart,  ///< two contacts, as in the corner between a side and the front wall
+    Wall,   ///< one contact: that with the wall, which overlaps at least as deeply
+    Front   ///< one contact: that with the front wall, its rim or its throat
+};
+
+/// Two surfaces that go on into each other are one to a sphere, and so is a ledge that the contact's flat covers: only
+/// the deeper contact counts. That is so if their normals are within 20 degrees, or if the shallower's closest point
+/// lies no higher above the deeper's tangent plane than the overlap. `radius` of the sphere [m]; both must touch it.
+Joint jointContact(const Closest& wall, const Closest& front, double radius);
 
 }  // namespace vkdose::geometry

@@ -33,7 +33,11 @@ class Mesher {
             if (const auto* trough = std::get_if<Trough>(&s)) confine(*trough);
     }
 
-    void add(const Plane& plane) { fan(polygon(plane)); }
+    void add(const Plane& plane) {
+        room_.push_back({{0, 0, 1}, std::min(plane.end, high_.z)});
+        fan(polygon(plane));
+        room_.pop_back();
+    }
 
     void add(const Trough& trough) {
         const double h = trough.halfWidth;
@@ -43,7 +47,7 @@ class Mesher {
             profile.push_back({h * std::cos(angle), h * std::sin(angle), 0});
         }
         profile.push_back({h, high_.y, 0});
-        extrude(profile, Vec3(0, 0, low_.z), Vec3(0, 0, high_.z));
+        extrude(profile, Vec3(0, 0, low_.z), Vec3(0, 0, std::min(trough.end, high_.z)));
     }
 
     void add(const Tube& tube) {

@@ -116,8 +116,10 @@ Case interpret(const std::filesystem::path& file, Node tree) {
     reader.throwIfFaulty();
 
     const Insertion filled = insertParticles(c);
-    if (c.canister && c.canister->lid)
-        c.world.surfaces.push_back(geometry::Plane{{0, canisterTop(*c.canister, filled), 0}, {0, -1, 0}});
+    if (c.canister && c.canister->lid) {
+        const geometry::Plane lid{{0, canisterTop(*c.canister, filled), 0}, {0, -1, 0}};
+        c.world.surfaces.insert(c.world.surfaces.end() - 1, lid);  // the front wall stays the last (world.h)
+    }
     if (!domainGiven) {
         c.world.domain = defaultDomain(c, sizes, filled);
         root.table("domain").record("low", c.world.domain.low);
@@ -125,6 +127,7 @@ Case interpret(const std::filesystem::path& file, Node tree) {
     }
     checkExtent(reader, c, sizes.smallest, domainGiven || !c.filling.list ? "domain" : "particles.list");
     reader.throwIfFaulty();
+    checkSurfaces(reader, c, sizes.smallest);
     checkPlacement(reader, c, filled.particles);
     reader.throwIfFaulty();
     c.resolved = reader.resolved();

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "geometry/coincidence.h"
 #include "host/model/grid.h"
 #include "host/model/size_distribution.h"
 #include "host/model/stability.h"
@@ -280,6 +281,16 @@ void checkPairs(CaseReader& reader, const Particles& p, const std::string& path)
     }
 }
 
+/// The key that makes a surface. Those of a list come in the order of the file, planes first.
+std::string surfaceKey(const Case& c, std::size_t surface) {
+    if (c.canister) return "canister";
+    const auto isPlane = [](const geometry::Surface& s) { return std::holds_alternative<geometry::Plane>(s); };
+    const auto& all = c.world.surfaces;
+    const auto planes = static_cast<std::size_t>(std::count_if(all.begin(), all.end(), isPlane));
+    return surface < planes ? fmt::format("plane[{}].point", surface)
+                            : fmt::format("cylinder[{}].base", surface - planes);
+}
+
 }  // namespace
 
 void checkFields(CaseReader& reader, const Case& c) {
@@ -291,6 +302,19 @@ void checkFields(CaseReader& reader, const Case& c) {
     checkSchedule(reader, c);
     checkBox(reader, "domain", c.world.domain);
     if (!c.filling.list) checkBox(reader, "particles.region", c.filling.region);
+}
+
+void checkSurfaces(CaseReader& reader, const Case& c, double radius) {
+    const Box& room = c.world.domain;
+    const auto found = geometry::findCoincidence(c.world.surfaces, radius, room.low, room.high);
+    if (!found) return;
+    const std::string first = surfaceKey(c, found->first), second = surfaceKey(c, found->second);
+    const Vec3 at = found->centre * 1e3;
+    reader.fault(second,
+                 fmt::format("coincides with {} for a sphere at ({:.4g}, {:.4g}, {:.4g}) mm, which would have two "
+                             "contacts with one wall",
+                             first, at.x, at.y, at.z),
+                 "remove one of the two, or move it by more than a fiftieth of the smallest radius");
 }
 
 void checkTimeStep(CaseReader& reader, const Case& c, double smallestRadius) {

@@ -33,6 +33,9 @@ void checkScales(CaseReader& reader, const Case& c, const SizeRange& radii);
 /// Whether positions in the whole domain are exact enough for the smallest sphere; `path` is to blame.
 void checkExtent(CaseReader& reader, const Case& c, double smallestRadius, const std::string& path);
 
+/// Whether two surfaces coincide, or nearly so, where a sphere of this radius [m] can be.
+void checkSurfaces(CaseReader& reader, const Case& c, double radius);
+
 /// Particles against the domain, the surfaces, the coil and one another; their motion against the time step.
 void checkPlacement(CaseReader& reader, const Case& c, const Particles& particles);
 

@@ -19,12 +19,13 @@ void addCanister(Case& c) {
     const Canister& can = *c.canister;
     const double half = can.width / 2;
     auto& surfaces = c.world.surfaces;
+    // The walls end at the front wall: beyond it the throat is all that a sphere touches.
     if (can.flatFloor) {
-        surfaces.push_back(geometry::Plane{{-half, 0, 0}, {1, 0, 0}});
-        surfaces.push_back(geometry::Plane{{half, 0, 0}, {-1, 0, 0}});
-        surfaces.push_back(geometry::Plane{{0, -half, 0}, {0, 1, 0}});
+        surfaces.push_back(geometry::Plane{{-half, 0, 0}, {1, 0, 0}, can.length});
+        surfaces.push_back(geometry::Plane{{half, 0, 0}, {-1, 0, 0}, can.length});
+        surfaces.push_back(geometry::Plane{{0, -half, 0}, {0, 1, 0}, can.length});
     } else {
-        surfaces.push_back(geometry::Trough{half});
+        surfaces.push_back(geometry::Trough{half, can.length});
     }
     surfaces.push_back(geometry::Plane{{0, 0, 0}, {0, 0, 1}});
     surfaces.push_back(geometry::Front{can.length, can.outletDiameter / 2, can.throatLength});

@@ -25,7 +25,9 @@ inline constexpr double kMaxOverlapRatio = 0.2;
 
 /// One member: a canister (or any set of surfaces) and its powder.
 struct World {
-    std::vector<geometry::Surface> surfaces;  ///< contact history is kept per (particle, surface)
+    /// Contact history is kept per (particle, surface). Walls that end at a front wall come before it, which is the
+    /// last: it takes over their contacts, and they its.
+    std::vector<geometry::Surface> surfaces;
     std::optional<geometry::Coil> coil;
     ContactLaw law;
     Vec3 gravity{0, -9.81, 0};

@@ -72,6 +72,16 @@ Overlap tubeOverlap(SurfaceParams p, Sphere a) {
     return cylinderOverlap(p.radius.xy, d, p.pointLow.w, a.radius);
 }
 
+/// A wall along z that ends where `p.pointHigh.z` is: beyond, its closest point lies on that end's edge. `endless` is
+/// what there is to the wall without an end.
+Overlap upToEnd(SurfaceParams p, Sphere a, Overlap endless) {
+    precise float past = (a.high.z - p.pointHigh.z) + (a.low.z - p.pointLow.z);
+    if (p.pointLow.w == 0.0 || past <= 0.0) return endless;
+    vec3 e = (a.radius - endless.depth) * endless.normal + vec3(0.0, 0.0, past);
+    float distance = length(e);
+    return Overlap(a.radius - distance, e / distance);
+}
+
 Overlap frontOverlap(SurfaceParams p, Sphere a) {
     Two3 d = Two3(vec3(a.high.xy, 0.0), vec3(a.low.xy, 0.0));
     precise float before = (p.pointHigh.z - a.high.z) + (p.pointLow.z - a.low.z);  // > 0: inside the canister
@@ -83,7 +93,25 @@ Overlap frontOverlap(SurfaceParams p, Sphere a) {
     }
     float beyond = -before - p.axis.w;
     if (beyond > 0.0) return edgeOverlap(p.radius.xy, d, z, beyond, a.radius);
-    return cylinderOverlap(p.radius.xy, d, 1.0, a.radius);
+    Overlap throat = cylinderOverlap(p.radius.xy, d, 1.0, a.radius);
+    // A centre inside the wall leaves by the nearer face.
+    if (rho > p.radius.x && a.radius - before < throat.depth) return Overlap(a.radius - before, -z);
+    return throat;
+}
+
+const uint kApart = 0u;       // two contacts
+const uint kWallCounts = 1u;  // one, that with the wall
+const uint kFrontCounts = 2u; // one, that with the front wall, its rim or its throat
+
+/// What a wall that ends at the front wall and the front wall are to a sphere that overlaps both: geometry/surface.h,
+/// jointContact.
+uint jointContact(Overlap wall, Overlap front, float radius) {
+    bool wallDeeper = wall.depth >= front.depth;
+    float most = max(wall.depth, front.depth), least = min(wall.depth, front.depth);
+    float cosine = dot(wall.normal, front.normal);
+    float height = (radius - most) - (radius - least) * cosine;
+    if (cosine < 0.9397 && height >= most) return kApart;
+    return wallDeeper ? kWallCounts : kFrontCounts;
 }
 
 /// Distance from the sphere's surface to the wall to plain float accuracy (about 1e-8 m), for ruling contacts out.
@@ -95,13 +123,18 @@ float surfaceGap(uint kind, SurfaceParams p, Sphere a) {
     float before = p.pointHigh.z - a.high.z;
     float off = p.radius.x - rho;
     float front = before > 0.0 ? (off > 0.0 ? sqrt(off * off + before * before) : before) : off;
-    return (kind == kPlane ? plane : kind == kTrough ? trough : front) - a.radius;
+    float gap = (kind == kPlane ? plane : kind == kTrough ? trough : front) - a.radius;
+    // Past its end a wall is at least as far away as that end.
+    return (kind == kPlane || kind == kTrough) && p.pointLow.w != 0.0 ? max(gap, -before - a.radius) : gap;
 }
 
 /// `kinds`: those that there are, a bit each. A constant when the pipeline is made, so that the others cost nothing.
 Overlap surfaceOverlap(uint kinds, uint kind, SurfaceParams p, Sphere a) {
-    if ((kinds & (1u << kPlane)) != 0u && kind == kPlane) return planeOverlap(p, a);
-    if ((kinds & (1u << kTrough)) != 0u && kind == kTrough) return troughOverlap(p, a);
+    bool ends = (kinds & kEndingWalls) != 0u;
+    if ((kinds & (1u << kPlane)) != 0u && kind == kPlane)
+        return ends ? upToEnd(p, a, planeOverlap(p, a)) : planeOverlap(p, a);
+    if ((kinds & (1u << kTrough)) != 0u && kind == kTrough)
+        return ends ? upToEnd(p, a, troughOverlap(p, a)) : troughOverlap(p, a);
     if ((kinds & (1u << kTube)) != 0u && kind == kTube) return tubeOverlap(p, a);
     if ((kinds & (1u << kFront)) != 0u) return frontOverlap(p, a);
     return Overlap(-1.0, vec3(0.0));

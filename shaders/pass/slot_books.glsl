@@ -78,9 +78,11 @@ Book bookWall(ContactParams law, float springDt, float rate, Body me, Exerted be
     return bookContact(before, now, known, touching, storedBefore, stored, x, y, law.normal.z, r.slips);
 }
 
-void bookSurface(ContactParams law, float springDt, uint slot, Body me, Overlap o, Response r, bool touching, History old, History h) {
+/// `before` is what the contact exerted in the last step, `old` and `h` its history before and after this one.
+void bookSurface(ContactParams law, float springDt, uint slot, Body me, Overlap o, Response r, bool touching, Exerted before,
+                 History old, History h) {
     bool known = old.slidingMax.w > 0.0;
-    Exerted before = exertedBefore(slot, known), now = kNothing;
+    Exerted now = kNothing;
     vec4 stored = vec4(0.0);
     if (touching) {
         stored = elasticEnergy(law, r.hysteretic, 2.0 * me.sphere.radius, h);

@@ -1,14 +1,48 @@
 #version 450
 // surfaces: what the fixed surfaces exert in this step, one listed contact per invocation.
 // Built with and without TEXEL_READS, PACKED_STORES (shared/buffers.glsl) and ENERGY_BOOK.
-// Reads the source half of the state, entries, history; writes history, forces and torques, which `move` gathers. A
-// contact that does not touch exerts nothing and remembers nothing.
+// Reads the source half of the state, ranges, entries, history; writes history, forces and torques, which `move` gathers.
+// A contact that does not touch exerts nothing and remembers nothing.
+//
+// Where walls go on into the throat, two surfaces may overlap a sphere in what is one contact, and the history passes from
+// one to the other. So all surfaces of a sphere that is near the front wall and another one are the work of one invocation.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/buffers.glsl"
 #include "pass/wall.glsl"
 #ifdef ENERGY_BOOK
 #include "pass/slot_books.glsl"
 #endif
+
+/// What a slot keeps of a contact from the last step; all zero if it did not touch.
+struct Memory {
+    History history;
+#ifdef ENERGY_BOOK
+    Exerted exerted;
+#endif
+};
+
+Memory nothing() {
+    Memory m;
+    m.history = History(vec4(0.0), vec4(0.0));
+#ifdef ENERGY_BOOK
+    m.exerted = kNothing;
+#endif
+    return m;
+}
+
+bool known(Memory m) { return m.history.slidingMax.w > 0.0; }
+
+Memory recall(uint slot) {
+    Memory m;
+    m.history = History(readHistory(0u, slot), readHistory(1u, slot));
+#ifdef ENERGY_BOOK
+    m.exerted = exertedBefore(slot, known(m));
+#endif
+    return m;
+}
+
+const uint kFrontSurface = SURFACES - 1u;  // if there is one (host/model/world.h)
+const bool kJoints = (KIND_SET & kEndingWalls) != 0u && (KIND_SET & (1u << kFront)) != 0u;
 
 void main() {
     openMember();
@@ -17,22 +51,60 @@ void main() {
     float springDt = springStep();
     if (invocation() >= control.listed.y) return;
     uint slot = firstSurfaceSlot() + invocation();
+    uint i = readEntry(slot).x;
+    Body me = readBody(i);
 
-    uvec2 who = readEntry(slot);
-    Body me = readBody(who.x);
-    SurfaceParams p = readSurface(who.y);
-    History h = History(readHistory(0u, slot), readHistory(1u, slot));
+    uint end = slot + 1u;
+    bool joined = false;
+    Overlap front;
+    Memory frontMemory;
+    if (kJoints) {
+        uvec4 own = readRange(slotRangeIndex(i));
+        uint last = own.z + own.w - 1u;
+        joined = own.w > 1u && readEntry(last).y == kFrontSurface;
+        if (joined && slot != own.z) return;
+        if (joined) end = last + 1u;
+        front = frontOverlap(readSurface(kFrontSurface), me.sphere);
+        frontMemory = recall(last);
+    }
+
+    for (; slot < end; ++slot) {
+        uint s = readEntry(slot).y;
+        SurfaceParams p = readSurface(s);
+        uint kind = uint(p.pointHigh.w);
+        Overlap o = surfaceOverlap(KIND_SET, kind, p, me.sphere);
+        Memory memory = recall(slot);
+        if (kJoints && joined) {
+            if (kind == kFront) {
+                o = front;
+                memory = frontMemory;
+            } else if (kind != kTube && p.pointLow.w != 0.0 && o.depth > 0.0 && front.depth > 0.0) {
+                uint joint = jointContact(o, front, me.sphere.radius);
+                // The contact that counts goes on with the other's history unless it has its own.
+                if (joint == kWallCounts) {
+                    front.depth = 0.0;
+                    if (!known(memory)) {
+                        memory = frontMemory;
+                        frontMemory = nothing();
+                    }
+                } else if (joint == kFrontCounts) {
+                    o.depth = 0.0;
+                    if (!known(frontMemory)) {
+                        frontMemory = memory;
+                        memory = nothing();
+                    }
+                }
+            }
+        }
+        bool touching = o.depth > 0.0;
+        History h = memory.history;
+        Response r;
+        WallForce f = meetWall(me, o, law, chosen, springDt, vec3(0.0), vec3(0.0), h, r);
+        writeHistory(slot, touching ? h.slidingMax : vec4(0.0), touching ? h.rollingTorsion : vec4(0.0));
+        writeForce(slot, touching ? vec4(f.force, o.depth / me.sphere.radius) : vec4(0.0));
+        writeTorque(slot, touching ? vec4(f.torque, 0.0) : vec4(0.0));
 #ifdef ENERGY_BOOK
-    History old = h;
+        bookSurface(law, springDt, slot, me, o, r, touching, memory.exerted, memory.history, h);
 #endif
-    Overlap o = surfaceOverlap(KIND_SET, uint(p.pointHigh.w), p, me.sphere);
-    bool touching = o.depth > 0.0;
-    Response r;
-    WallForce f = meetWall(me, o, law, chosen, springDt, vec3(0.0), vec3(0.0), h, r);
-    writeHistory(slot, touching ? h.slidingMax : vec4(0.0), touching ? h.rollingTorsion : vec4(0.0));
-    writeForce(slot, touching ? vec4(f.force, o.depth / me.sphere.radius) : vec4(0.0));
-    writeTorque(slot, touching ? vec4(f.torque, 0.0) : vec4(0.0));
-#ifdef ENERGY_BOOK
-    bookSurface(law, springDt, slot, me, o, r, touching, old, h);
-#endif
+    }
 }

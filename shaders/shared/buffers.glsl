@@ -11,7 +11,7 @@
 layout(local_size_x_id = 0) in;                      // workgroup size, chosen by the host
 layout(constant_id = 1) const uint SURFACES = 0u;    // fixed surfaces
 layout(constant_id = 2) const uint KINDS = 0u;       // kinds of the first surfaces, 4 bits each (kUnrolledSurfaces)
-layout(constant_id = 3) const uint KIND_SET = 0u;    // bit k: there is a surface of kind k
+layout(constant_id = 3) const uint KIND_SET = 0u;    // bit k: there is a surface of kind k; and kEndingWalls
 layout(constant_id = 4) const uint MEMBERS = 1u;     // canisters that share the buffers, each with its part of every table
 layout(constant_id = 5) const uint MOST_GROUPS = 65535u;  // workgroups in a row of a dispatch; more go in layers
 

@@ -62,6 +62,7 @@ SHARED_CONST kPlane = 0u;
 SHARED_CONST kTrough = 1u;
 SHARED_CONST kTube = 2u;
 SHARED_CONST kFront = 3u;
+SHARED_CONST kEndingWalls = 16u;  // a bit beside those of the kinds: planes or the trough end at the front wall
 
 // --- one canister's parameters ------------------------------------------------------------------------------------
 struct ContactParams {
@@ -72,8 +73,9 @@ struct ContactParams {
 };
 
 struct SurfaceParams {
-    vec4 pointHigh;  // xyz: plane point or tube base, high part (front: z in z) [m]; w: kind
-    vec4 pointLow;   // xyz: low part; w: +1 touched from inside, -1 from outside (tube)
+    // xyz: plane point or tube base, high part (front: z in z; walls that end: z of the end in z) [m]; w: kind
+    vec4 pointHigh;
+    vec4 pointLow;   // xyz: low part; w: tube: +1 touched from inside, -1 from outside; plane, trough: 1 if it ends
     vec4 axis;       // plane normal or tube axis, unit; w: length of tube or throat [m]
     vec4 radius;     // x, y: radius high, low (trough: half width; front: hole) [m]
 };

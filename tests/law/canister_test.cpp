@@ -40,7 +40,7 @@ World smallCanister() {
     World world = freeWorld(softParameters(), 1e-5);
     world.gravity = Vec3(0, -kGravity, 0);
     world.skin = 0.2e-3;
-    world.surfaces = {geometry::Trough{kTroughRadius}, geometry::Plane{Vec3(0), Vec3(0, 0, 1)},
+    world.surfaces = {geometry::Trough{kTroughRadius, 24e-3}, geometry::Plane{Vec3(0), Vec3(0, 0, 1)},
                       geometry::Front{24e-3, kTroughRadius, 6e-3}};
     world.coil = coilOf(30e-3, 1);
     world.throatZ = 24e-3;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <variant>
 
 #include "host/core/error.h"
 
@@ -146,27 +147,60 @@ Exerted Forces::wall(std::size_t i, ContactClass kind, std::uint32_t other, cons
     return exerted;
 }
 
-void Forces::surfaces(std::size_t i) {
-    before_.swap(surfaces_[i]);
-    surfaces_[i].clear();
+/// Every fixed surface, in order: where particle i is to it, and what it remembers of the last step.
+void Forces::meetSurfaces(std::size_t i) {
+    met_.clear();
     auto known = before_.cbegin();
     for (std::uint32_t s = 0; s < world_->surfaces.size(); ++s) {
         const bool continues = known != before_.cend() && known->other == s;
-        const Known before = continues ? *known++ : Known{s, {}, {}};
-        if (particles_->status[i] != Status::Active) {
-            if (continues) partWall(i, ContactClass::ParticleWall, before.exerted);
-            continue;
+        Met met{continues, continues ? *known++ : Known{s, {}, {}}};
+        if (particles_->status[i] == Status::Active) {
+            met.closest = geometry::closestPoint(world_->surfaces[s], particles_->position[i]);
+            met.touches = met.closest.distance < particles_->radius[i];
         }
-        const geometry::Closest closest = geometry::closestPoint(world_->surfaces[s], particles_->position[i]);
-        const std::optional<Touch> touch = touchWall(body(i), closest.normal, closest.distance, 0);
+        met_.push_back(met);
+    }
+}
+
+/// Where walls go on into the throat, two of them may overlap the sphere in what is one contact. The deeper one counts
+/// and goes on with the other's history unless it has its own.
+void Forces::joinAtFront(std::size_t i) {
+    const auto isFront = [&](const Met& m) {
+        return std::holds_alternative<geometry::Front>(world_->surfaces[m.known.other]);
+    };
+    const auto front = std::find_if(met_.begin(), met_.end(), isFront);
+    if (front == met_.end()) return;
+    for (Met& wall : met_) {
+        if (!wall.touches || !front->touches || !geometry::endsAtFront(world_->surfaces[wall.known.other])) continue;
+        const geometry::Joint joint = geometry::jointContact(wall.closest, front->closest, particles_->radius[i]);
+        if (joint == geometry::Joint::Apart) continue;
+        Met& counts = joint == geometry::Joint::Wall ? wall : *front;
+        Met& other = joint == geometry::Joint::Wall ? *front : wall;
+        other.touches = false;
+        if (!other.continues || counts.continues) continue;
+        counts.continues = true;
+        counts.known.history = other.known.history;
+        counts.known.exerted = other.known.exerted;
+        other.continues = false;
+    }
+}
+
+void Forces::surfaces(std::size_t i) {
+    before_.swap(surfaces_[i]);
+    surfaces_[i].clear();
+    meetSurfaces(i);
+    joinAtFront(i);
+    for (const Met& met : met_) {
+        std::optional<Touch> touch;
+        if (met.touches) touch = touchWall(body(i), met.closest.normal, met.closest.distance, 0);
         if (!touch) {
-            if (continues) partWall(i, ContactClass::ParticleWall, before.exerted);
+            if (met.continues) partWall(i, ContactClass::ParticleWall, met.known.exerted);
             continue;
         }
-        History history = before.history;
-        const Exerted now = wall(i, ContactClass::ParticleWall, s, *touch, history);
-        book(before.exerted, now, body(i), wallBody(ContactClass::ParticleWall));
-        surfaces_[i].push_back({s, history, now});
+        History history = met.known.history;
+        const Exerted now = wall(i, ContactClass::ParticleWall, met.known.other, *touch, history);
+        book(met.known.exerted, now, body(i), wallBody(ContactClass::ParticleWall));
+        surfaces_[i].push_back({met.known.other, history, now});
     }
 }
 

@@ -61,6 +61,13 @@ class Forces {
         History history;
         Exerted exerted;
     };
+    /// A fixed surface in the step at work.
+    struct Met {
+        bool continues = false;  ///< it touched at the last step, and `known` is what it remembers
+        Known known;
+        geometry::Closest closest{};
+        bool touches = false;
+    };
     struct Turn {
         bool touching = false;
         double wireAngle = 0;  ///< where on the wire; tells the turns apart [rad]
@@ -71,6 +78,8 @@ class Forces {
 
     void pairs(std::size_t i);
     void surfaces(std::size_t i);
+    void meetSurfaces(std::size_t i);
+    void joinAtFront(std::size_t i);
     void coil(std::size_t i);
     void touchTurns(std::size_t i, const Turns& before, Turns& now);
     Exerted wall(std::size_t i, ContactClass kind, std::uint32_t other, const Touch& touch, History& history);
@@ -86,6 +95,7 @@ class Forces {
     std::vector<std::vector<Known>> pairs_, surfaces_;  ///< per particle, ascending in `other`
     std::vector<Turns> turns_;                          ///< per particle
     std::vector<Known> before_;                         ///< scratch: a row as it was at the last step
+    std::vector<Met> met_;                              ///< scratch: the surfaces of one particle
 
     // The arguments of the `evaluate` in progress.
     const World* world_ = nullptr;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <stdexcept>
 
 #include "host/core/error.h"
 
@@ -68,10 +69,14 @@ gpu::SurfaceParams packed(uint32_t kind, const Vec3& point, double side, const V
 
 struct PackSurface {
     gpu::SurfaceParams operator()(const geometry::Plane& g) const {
-        return packed(gpu::kPlane, g.point, 1, g.normal, 0, 0);
+        // A plane that ends is parallel to z, so that any of its points will do.
+        if (g.end < geometry::kEndless)
+            return packed(gpu::kPlane, Vec3(g.point.x, g.point.y, g.end), 1, g.normal, 0, 0);
+        return packed(gpu::kPlane, g.point, 0, g.normal, 0, 0);
     }
     gpu::SurfaceParams operator()(const geometry::Trough& g) const {
-        return packed(gpu::kTrough, Vec3(0), 1, Vec3(0), 0, g.halfWidth);
+        const bool ends = g.end < geometry::kEndless;
+        return packed(gpu::kTrough, Vec3(0, 0, ends ? g.end : 0), ends ? 1 : 0, Vec3(0), 0, g.halfWidth);
     }
     gpu::SurfaceParams operator()(const geometry::Tube& g) const {
         return packed(gpu::kTube, g.base, g.inside ? 1 : -1, g.axis, g.length, g.radius);
@@ -133,7 +138,11 @@ gpu::Member packMember(const World& world, const Particles& particles) {
     packLaw(world.law, m);
     m.choices.x = float(world.surfaces.size());
     m.choices.w = 1.0f;
-    for (std::size_t i = 0; i < world.surfaces.size(); ++i) m.surface[i] = std::visit(PackSurface{}, world.surfaces[i]);
+    for (std::size_t i = 0; i < world.surfaces.size(); ++i) {
+        if (std::holds_alternative<geometry::Front>(world.surfaces[i]) && i + 1 < world.surfaces.size())
+            throw std::logic_error("the front wall must be the last surface");
+        m.surface[i] = std::visit(PackSurface{}, world.surfaces[i]);
+    }
     const double largest = largestRadius(particles);
     if (world.coil) m.coil = packCoil(*world.coil, largest);
     const auto finite = [](double x) { return float(std::clamp(x, -1e30, 1e30)); };

@@ -18,7 +18,7 @@ struct TableSizes {
     std::uint32_t mostGroups = 65535;  ///< in a row of a dispatch; 65535 is what every device can do
     std::uint32_t surfaces = 0;
     std::uint32_t surfaceKinds = 0;  ///< of the first kUnrolledSurfaces, 4 bits each
-    std::uint32_t kindSet = 0;       ///< bit k: there is a surface of kind k
+    std::uint32_t kindSet = 0;       ///< bit k: there is a surface of kind k; and kEndingWalls
     // Of each member:
     std::uint32_t share = 0;  ///< slots for particles, a multiple of the workgroup
     std::uint32_t cells = 0;  ///< a power of two
