@@ -10,6 +10,9 @@
 
 namespace vkdose {
 
+/// Skin of a case that states none, in mean radii.
+inline constexpr double kUsualSkin = 0.6;
+
 /// Radii of the particles to come [m].
 struct SizeRange {
     double smallest = std::numeric_limits<double>::infinity();
@@ -32,6 +35,10 @@ void checkFilling(CaseReader& reader, const Case& c, double largestRadius);
 void checkScales(CaseReader& reader, const Case& c, const SizeRange& radii);
 /// Whether positions in the whole domain are exact enough for the smallest sphere; `path` is to blame.
 void checkExtent(CaseReader& reader, const Case& c, double smallestRadius, const std::string& path);
+
+// rows.cpp
+/// Whether everybody's neighbours at the start, within reach and skin, fit a row of the neighbour list.
+void checkRows(CaseReader& reader, const Case& c, const Particles& particles, const SizeRange& radii);
 
 /// Particles against the domain, the surfaces, the coil and one another; their motion against the time step.
 void checkPlacement(CaseReader& reader, const Case& c, const Particles& particles);
