@@ -35,6 +35,19 @@ const char* verdictText(Verdict verdict) {
     return "?";
 }
 
+const char* outcomeText(Verdict verdict) {
+    switch (verdict) {
+        case Verdict::Agrees:
+            return "the backends agree";
+        case Verdict::Differs:
+            return "the backends DIFFER";
+        case Verdict::Undecided:
+            return "UNDECIDED: nothing shows that the backends differ, nor that they agree; compare fewer steps or a "
+                   "larger, calmer case";
+    }
+    return "?";
+}
+
 void printParticles(const std::vector<ParticleRow>& rows) {
     fmt::print(
         "Particle by particle (largest difference; positions in mean radii, velocities in the velocity scale)\n");
@@ -106,9 +119,9 @@ int compareCommand(const CompareOptions& options) {
         fmt::print("{} of {} quantities are too chaotic for {} twins to decide\n", result.undecided(),
                    result.quantities.size(), options.twins);
     }
-    fmt::print("{}\n", result.agrees() ? "the backends agree" : "the backends DIFFER");
+    fmt::print("{}\n", outcomeText(result.verdict()));
     if (!validationClean(options.backend, *candidate)) return kDeviceError;
-    return result.agrees() ? kOk : kDisagree;
+    return result.verdict() == Verdict::Agrees ? kOk : kDisagree;
 }
 
 }  // namespace vkdose

@@ -2,15 +2,35 @@
 
 #include <csv.h>
 
+#include <algorithm>
 #include <charconv>
 #include <limits>
 
 namespace vkdose {
 
+namespace {
+
+std::optional<double> readNumber(std::string_view text) {
+    double value = 0;
+    const auto [stop, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (code != std::errc() || stop != text.data() + text.size()) return std::nullopt;
+    return value;
+}
+
+/// A text that a spreadsheet takes for a formula when it stands in a cell, behind any number of apostrophes. A number
+/// is none, whatever its sign.
+bool isFormula(std::string_view field) {
+    field.remove_prefix(std::min(field.find_first_not_of('\''), field.size()));
+    return !field.empty() && std::string_view("=+-@\t").find(field.front()) != std::string_view::npos &&
+           !readNumber(field);
+}
+
+}  // namespace
+
 std::string csvLine(const Row& fields) {
     std::string line;
     for (std::size_t i = 0; i < fields.size(); ++i) {
-        std::string field = fields[i];
+        std::string field = (isFormula(fields[i]) ? "'" : "") + fields[i];
         for (char& c : field)
             if (c == '\n' || c == '\r') c = ' ';
         const bool edged = !field.empty() && (field.front() == ' ' || field.back() == ' ' || field.front() == '\t' ||
@@ -30,7 +50,9 @@ std::optional<Row> csvFields(std::string_view line) {
     csv_init(&parser, CSV_STRICT | CSV_STRICT_FINI);
     Row fields;
     const auto onField = [](void* text, std::size_t size, void* out) {
-        static_cast<Row*>(out)->emplace_back(static_cast<const char*>(text), size);
+        std::string_view field(static_cast<const char*>(text), size);
+        if (!field.empty() && field.front() == '\'' && isFormula(field)) field.remove_prefix(1);
+        static_cast<Row*>(out)->emplace_back(field);
     };
     const auto onRow = [](int, void*) {};
     const bool good = csv_parse(&parser, line.data(), line.size(), onField, onRow, &fields) == line.size() &&
@@ -52,10 +74,7 @@ bool CsvLines::next() {
 }
 
 double numberIn(const std::string& text) {
-    double value = 0;
-    const auto [stop, code] = std::from_chars(text.data(), text.data() + text.size(), value);
-    const bool whole = code == std::errc() && stop == text.data() + text.size();
-    return whole ? value : std::numeric_limits<double>::quiet_NaN();
+    return readNumber(text).value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
 }  // namespace vkdose

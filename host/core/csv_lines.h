@@ -12,10 +12,12 @@ namespace vkdose {
 using Row = std::vector<std::string>;
 
 /// One line, without its end: fields in quotes where they need them. A line break in a field becomes a blank: a row
-/// stays on a line.
+/// stays on a line. A text that a spreadsheet would compute (it begins with = + - @ or a tab, and is no number) gets an
+/// apostrophe in front, as is the custom.
 std::string csvLine(const Row& fields);
 
-/// Takes a line apart; nothing if it is not CSV (a stray quote). Blanks around a field without quotes do not count.
+/// Takes a line apart; nothing if it is not CSV (a stray quote). Blanks around a field without quotes do not count, nor
+/// does the apostrophe that keeps a text from being a formula.
 std::optional<Row> csvFields(std::string_view line);
 
 /// Goes through a CSV line by line, so that every fault has its line.

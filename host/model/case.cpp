@@ -53,7 +53,8 @@ void completeTime(Section& time, Case& c, const SizeRange& sizes) {
         c.world.timeStep = std::stod(fmt::format("{:.2e}", std::floor(exact / unit) * unit));
         time.record("step_s", c.world.timeStep);
     }
-    if (c.world.skin == 0) c.world.skin = time.number("skin_mm", Bound::Positive, kMillimetre, 0.6 * sizes.mean * 1e3);
+    if (c.world.skin == 0)
+        c.world.skin = time.number("skin_mm", Bound::Positive, kMillimetre, kUsualSkin * sizes.mean * 1e3);
     const double steps = std::max(1.0, std::round(c.sensorInterval / c.world.timeStep));
     c.sensorInterval = steps * c.world.timeStep;
     if (c.frames.interval > 0)
@@ -129,6 +130,7 @@ Case interpret(const std::filesystem::path& file, Node tree) {
     reader.throwIfFaulty();
     checkSurfaces(reader, c, sizes.smallest);
     checkPlacement(reader, c, filled.particles);
+    checkRows(reader, c, filled.particles, sizes);
     reader.throwIfFaulty();
     c.resolved = reader.resolved();
     return c;

@@ -113,7 +113,7 @@ struct Insertion {
     std::uint64_t redrawn = 0;  ///< draws outside the truncation bounds (Normal, Lognormal)
     double cutBelow = 0;        ///< Quantiles: mass fraction of the powder finer than the lower bound [-]
     double cutAbove = 0;        ///< Quantiles: mass fraction coarser than the upper bound [-]
-    double fillHeight = 0;      ///< top of the grid [m, y]
+    double fillHeight = 0;      ///< top of the grid, or of a list's highest sphere [m, y]
 };
 Insertion insertParticles(const Case& c);
 /// How many particles the mass of a case without a list takes, exactly.

@@ -81,24 +81,39 @@ const char* radiusKey(CaseReader& reader) {
     return reader.root().table("coil").has("clearance_mm") ? "coil.clearance_mm" : "coil.radius_mm";
 }
 
-void checkCoil(CaseReader& reader, const Case& c) {
+/// The coil's radius against the wire within and the walls around.
+void checkCoilRadius(CaseReader& reader, const Case& c) {
     const geometry::Coil& coil = *c.world.coil;
-    const double outer = coil.radius + coil.wireRadius;
+    const bool byClearance = c.canister && reader.root().table("coil").has("clearance_mm");
+    double room = std::numeric_limits<double>::infinity();
+    const char* around = "";
     if (c.canister) {
         const Canister& can = *c.canister;
-        // A coil that ends before the front wall need not pass the hole.
-        const bool inHole = coil.zStart + coil.length > can.length && can.outletDiameter < can.width;
-        const double room = (inHole ? can.outletDiameter : can.width) / 2;
-        if (outer > room)
-            reader.fault(radiusKey(reader),
-                         fmt::format("the coil reaches {:.6g} mm from its axis, the {} only {:.6g} mm", mm(outer),
-                                     inHole ? "outlet" : "trough", mm(room)),
-                         fmt::format("give a radius_mm of at most {:.6g}", mm(room - coil.wireRadius)));
+        // A coil that ends before the front wall need not pass the hole, but a clearance is measured from it too.
+        const bool inHole = (byClearance || coil.zStart + coil.length > can.length) && can.outletDiameter < can.width;
+        around = inHole ? "outlet" : "trough";
+        room = (inHole ? can.outletDiameter : can.width) / 2;
     }
-    if (coil.radius <= coil.wireRadius)
+    const double outer = coil.radius + coil.wireRadius;
+    if (2 * coil.wireRadius >= room)
+        reader.fault("coil.wire_diameter_mm",
+                     fmt::format("so thick a wire cannot be wound in the {}, {:.6g} mm wide", around, mm(2 * room)),
+                     fmt::format("give less than {:.6g}", mm(room)));
+    else if (outer > room)
+        reader.fault(
+            radiusKey(reader),
+            fmt::format("the coil reaches {:.6g} mm from its axis, the {} only {:.6g} mm", mm(outer), around, mm(room)),
+            fmt::format("give a radius_mm of at most {:.6g}", mm(room - coil.wireRadius)));
+    else if (coil.radius <= coil.wireRadius)
         reader.fault(radiusKey(reader),
                      fmt::format("the wire ({:.6g} mm thick) fills the coil", mm(2 * coil.wireRadius)),
-                     fmt::format("give a radius_mm above {:.6g}", mm(coil.wireRadius)));
+                     byClearance ? fmt::format("give a clearance_mm below {:.6g}", mm(room - 2 * coil.wireRadius))
+                                 : fmt::format("give a radius_mm above {:.6g}", mm(coil.wireRadius)));
+}
+
+void checkCoil(CaseReader& reader, const Case& c) {
+    const geometry::Coil& coil = *c.world.coil;
+    checkCoilRadius(reader, c);
     if (coil.pitch <= 2 * coil.wireRadius)
         reader.fault(
             reader.root().table("coil").has("pitch_mm") ? "coil.pitch_mm" : "coil.turns",

@@ -10,6 +10,9 @@
 
 namespace vkdose {
 
+/// Skin of a case that states none, in mean radii.
+inline constexpr double kUsualSkin = 0.6;
+
 /// Radii of the particles to come [m].
 struct SizeRange {
     double smallest = std::numeric_limits<double>::infinity();
@@ -35,6 +38,10 @@ void checkExtent(CaseReader& reader, const Case& c, double smallestRadius, const
 
 /// Whether two surfaces coincide, or nearly so, where a sphere of this radius [m] can be.
 void checkSurfaces(CaseReader& reader, const Case& c, double radius);
+
+// rows.cpp
+/// Whether everybody's neighbours at the start, within reach and skin, fit a row of the neighbour list.
+void checkRows(CaseReader& reader, const Case& c, const Particles& particles, const SizeRange& radii);
 
 /// Particles against the domain, the surfaces, the coil and one another; their motion against the time step.
 void checkPlacement(CaseReader& reader, const Case& c, const Particles& particles);

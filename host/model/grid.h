@@ -20,6 +20,10 @@ class InsertionGrid {
     double capacity() const;               ///< number of sites, 0 if the region is too narrow
     double jitterAmplitude() const;        ///< per coordinate [m]
 
+    /// As far above the highest of the first `count` sites as the sides are from theirs: a lid there touches nothing,
+    /// whatever the rounding [m, y].
+    double top(std::uint64_t count) const;
+
   private:
     double pitch_;
     Vec3 low_;

@@ -75,6 +75,10 @@ double InsertionGrid::jitterAmplitude() const {
     return 0.25 * pitch_ * kGridGap / (1 + kGridGap);
 }
 
+double InsertionGrid::top(std::uint64_t count) const {
+    return (count == 0 ? low_.y : site(count - 1).y) + 0.5 * pitch_;
+}
+
 std::size_t drawnParticles(const Case& c) {
     Insertion unused;
     return drawRadii(c, unused).size();
@@ -101,11 +105,9 @@ Insertion insertParticles(const Case& c) {
     const std::vector<double> radii = drawRadii(c, result);
     if (static_cast<double>(radii.size()) > grid.capacity())
         throw std::logic_error("the grid is too small for the filling");  // loadCase refuses such a case
-    result.fillHeight = c.filling.region.low.y;
+    result.fillHeight = grid.top(radii.size());
     for (std::size_t i = 0; i < radii.size(); ++i) {
-        const Vec3 x = grid.site(i) + jitter(c.seed, i, grid.jitterAmplitude());
-        result.particles.add(x, radii[i]);
-        result.fillHeight = std::max(result.fillHeight, x.y + radii[i]);
+        result.particles.add(grid.site(i) + jitter(c.seed, i, grid.jitterAmplitude()), radii[i]);
     }
     return result;
 }

@@ -106,7 +106,7 @@ void FieldFiles::write(const FieldSample& f) {
             replaceFile(folder_ / name, image(s, f));
         else
             writeMap(s, f, name);
-        csv.line(when + "," + name);
+        csv.line(when + "," + csvLine({name}));
     } else if (isProfile(s)) {
         std::string line = when;
         for (const double h : f.heights) line += fmt::format(",{:.9g}", h);
@@ -175,8 +175,11 @@ void FieldFiles::writeSeriesOf(const FieldSensor& s) const {
     std::vector<SeriesFile> files;
     try {
         const Table list = Table::read(folder_ / (s.name + ".csv"));
-        for (std::size_t row = 0; row < list.rows(); ++row)
+        for (std::size_t row = 0; row < list.rows(); ++row) {
+            if (!isUtf8(list.text(row, "file")))
+                list.refuse(row, "file", "is no text in UTF-8", "put the file back as vkdose wrote it, or run anew");
             files.push_back({list.text(row, "file"), list.number(row, "time_s")});
+        }
     } catch (const CaseError& e) {  // somebody else has been at it
         throw OutputError(e.what());
     }

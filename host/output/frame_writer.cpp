@@ -82,7 +82,11 @@ FrameWriter::FrameWriter(const fs::path& run, const Case& c, std::uint32_t membe
 
 void FrameWriter::put(const Frame& frame) {
     await();
-    writing_ = std::async(std::launch::async, [this, frame] { write(frame); });
+    try {
+        writing_ = std::async(std::launch::async, [this, frame] { write(frame); });
+    } catch (const std::system_error&) {  // there is no thread to be had: the device waits
+        write(frame);
+    }
 }
 
 std::uint64_t FrameWriter::store() {

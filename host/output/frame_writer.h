@@ -26,8 +26,8 @@ class FrameWriter {
     FrameWriter& operator=(const FrameWriter&) = delete;
     ~FrameWriter() = default;
 
-    /// Returns at once, unless the frame before is still being written: then it waits for that. Throws OutputError if
-    /// writing the frame before failed.
+    /// Returns at once, unless the frame before is still being written: then it waits for that. Without a thread to
+    /// be had it writes the frame itself. Throws OutputError if writing failed, of the frame before as a rule.
     void put(const Frame& frame);
 
     /// Waits until all is written and survives a crash of the machine, and brings the series files up to date; the

@@ -80,10 +80,21 @@ Handle openDataset(hid_t file, const std::string& path) {
     return {H5Dopen2(file, path.c_str(), H5P_DEFAULT), H5Dclose, path};
 }
 
+/// How many elements a data set has. Throws where it claims more than its part of the file can hold, before anybody
+/// takes memory for them.
 std::size_t length(hid_t dataset, const std::string& path) {
     const Handle space(H5Dget_space(dataset), H5Sclose, path);
     const hssize_t count = H5Sget_simple_extent_npoints(space);
     if (count < 0) throw Error("HDF5 failed at " + path);
+    constexpr double kMostPacked = 1032;  // deflate makes no more bytes of one
+    const Handle type(H5Dget_type(dataset), H5Tclose, path), file(H5Iget_file_id(dataset), H5Fclose, path);
+    hsize_t whole = 0;
+    check(H5Fget_filesize(file, &whole), path);
+    const auto claimed = static_cast<double>(count) * static_cast<double>(H5Tget_size(type));
+    const hsize_t held = H5Dget_storage_size(dataset);
+    if (held > whole || claimed > kMostPacked * static_cast<double>(held))
+        throw Error(path + " claims " + std::to_string(count) + " elements of " + std::to_string(H5Tget_size(type)) +
+                    " bytes, more than the file can hold");
     return static_cast<std::size_t>(count);
 }
 

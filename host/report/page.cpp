@@ -3,7 +3,9 @@
 #include <array>
 #include <string_view>
 #include <utility>
+#include <vector>
 
+#include "host/report/source_hash.h"
 #include "report/parts.h"
 
 namespace vkdose::report {
@@ -38,12 +40,33 @@ std::string scriptData(const Json& data) {
     return text;
 }
 
-/// The player's library and scripts, for pages with frames: they are many times the rest of the page.
-std::string playerScripts() {
-    std::string html = std::string("<script>\n") + parts::kThree + "\n</script>\n<script>\n";
-    for (const char* part : {parts::kPlayerFrames, parts::kPlayerColours, parts::kPlayerScene, parts::kPlayer})
-        html += part;
-    return html + "</script>";
+/// The scripts of the page, each the text of an element. Those of the player, which are many times the rest, only for
+/// pages with frames.
+std::vector<std::string> scriptsOf(bool player) {
+    std::vector<std::string> scripts{parts::kD3};
+    if (player) {
+        scripts.emplace_back(parts::kThree);
+        scripts.push_back(std::string(parts::kPlayerFrames) + parts::kPlayerColours + parts::kPlayerScene +
+                          parts::kPlayer);
+    }
+    scripts.push_back(std::string(parts::kCharts) + parts::kRamp + parts::kControls + parts::kStream + parts::kFields +
+                      parts::kRun + parts::kStudy + parts::kMain);
+    return scripts;
+}
+
+/// Only the page's own scripts and style take effect, and nothing is asked of a network or sent to it: what somebody
+/// gets into the page in spite of the escapes does nothing. Styles that scripts set by way of the DOM need no leave.
+std::string policy(const std::vector<std::string>& scripts) {
+    std::string hashes;
+    for (const std::string& script : scripts) hashes += " " + sourceHash(script);
+    return "default-src 'none'; script-src" + hashes + "; style-src " + sourceHash(parts::kStyle) +
+           "; base-uri 'none'; form-action 'none'";
+}
+
+std::string elements(const std::vector<std::string>& scripts) {
+    std::string html;
+    for (const std::string& script : scripts) html += "<script>" + script + "</script>\n";
+    return html;
 }
 
 std::string threeLicence() {
@@ -56,23 +79,16 @@ std::string threeLicence() {
 
 std::string page(const Json& data) {
     const bool player = data.contains("player") && !data["player"].is_null();
-    const std::array<std::pair<std::string_view, std::string>, 16> parts{{
+    const std::vector<std::string> scripts = scriptsOf(player);
+    const std::array<std::pair<std::string_view, std::string>, 8> parts{{
+        {"policy", policy(scripts)},
         {"title", escaped(data.value("name", std::string("report")))},
         {"style", parts::kStyle},
         {"version", VKDOSE_VERSION},
         {"licence", escaped(parts::kLicence)},
         {"data", scriptData(data)},
         {"three-licence", player ? threeLicence() : std::string()},
-        {"d3", parts::kD3},
-        {"player", player ? playerScripts() : std::string()},
-        {"charts", parts::kCharts},
-        {"ramp", parts::kRamp},
-        {"controls", parts::kControls},
-        {"stream", parts::kStream},
-        {"fields", parts::kFields},
-        {"run", parts::kRun},
-        {"study", parts::kStudy},
-        {"main", parts::kMain},
+        {"scripts", elements(scripts)},
     }};
     // One pass from front to back, so that nothing put in is looked through for marks again.
     std::string html;

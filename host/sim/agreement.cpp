@@ -163,11 +163,17 @@ ParticleRow ParticleJudge::row(std::uint64_t step, double time, std::size_t cont
 
 std::vector<QuantityRow> judgeQuantities(const History& reference, const std::vector<const History*>& twins,
                                          const History& candidate, const Scales& scales) {
+    std::vector<const History*> all{&reference, &candidate};
+    all.insert(all.end(), twins.begin(), twins.end());
+    const auto happened = [&](const Quantity& q) {
+        const double least = q.floor * scaleOf(q, reference);
+        const auto shows = [&](const Moment& m) { return q.counts(m) && !(std::abs(q.value(m)) <= least); };  // or NaN
+        return std::any_of(all.begin(), all.end(),
+                           [&](const History* h) { return std::any_of(h->begin(), h->end(), shows); });
+    };
     std::vector<QuantityRow> rows;
     for (const Quantity& q : quantities(scales)) {
-        if (std::any_of(reference.begin(), reference.end(), q.counts)) {
-            rows.push_back(judge(q, reference, twins, candidate));
-        }
+        if (happened(q)) rows.push_back(judge(q, reference, twins, candidate));
     }
     return rows;
 }

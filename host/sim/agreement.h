@@ -69,7 +69,8 @@ using History = std::vector<Moment>;
 
 /// Compares histories made at the same times. A quantity may differ by a floor (see the table in agreement.cpp) plus
 /// three times the largest spread of the rough twins. If that is more than the quantity's cap, agreement would mean
-/// nothing and the verdict is Undecided (unless the candidate differs by even more).
+/// nothing and the verdict is Undecided (unless the candidate differs by even more). A quantity that never exceeds
+/// its floor in any of them (hardly anything was dosed) has no row: every right and many a wrong program would agree.
 std::vector<QuantityRow> judgeQuantities(const History& reference, const std::vector<const History*>& twins,
                                          const History& candidate, const Scales& scales);
 

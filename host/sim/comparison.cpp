@@ -135,12 +135,13 @@ class Walker {
 
 }  // namespace
 
-bool Comparison::agrees() const {
-    const auto differs = [](const auto& row) { return row.verdict == Verdict::Differs; };
-    const auto judged = [](const auto& row) { return row.verdict == Verdict::Agrees; };
-    return std::none_of(particles.begin(), particles.end(), differs) &&
-           std::none_of(quantities.begin(), quantities.end(), differs) &&
-           std::any_of(particles.begin(), particles.end(), judged);
+Verdict Comparison::verdict() const {
+    const auto any = [](const auto& rows, Verdict verdict) {
+        return std::any_of(rows.begin(), rows.end(), [&](const auto& row) { return row.verdict == verdict; });
+    };
+    if (any(particles, Verdict::Differs) || any(quantities, Verdict::Differs)) return Verdict::Differs;
+    const bool judged = any(particles, Verdict::Agrees) && any(quantities, Verdict::Agrees);
+    return judged ? Verdict::Agrees : Verdict::Undecided;
 }
 
 int Comparison::undecided() const {

@@ -59,9 +59,10 @@ struct Comparison {
     std::uint64_t steps = 0;
     bool interrupted = false;
 
-    /// Nothing differs by more than it may, and at least one state was judged particle by particle.
-    bool agrees() const;
-    int undecided() const;
+    /// Differs if anything does. Agrees only on evidence of both kinds: a state judged particle by particle, and a
+    /// quantity of the packing that chaos left to judge. Undecided otherwise.
+    Verdict verdict() const;
+    int undecided() const;  ///< quantities
 };
 
 /// References to make the twins of.

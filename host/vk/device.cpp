@@ -37,7 +37,9 @@ const char* resultName(VkResult r) {
         case VK_ERROR_FEATURE_NOT_PRESENT:
             return "a feature is not supported";
         case VK_ERROR_INCOMPATIBLE_DRIVER:
-            return "no Vulkan driver found: install one (Debian: mesa-vulkan-drivers)";
+            return "no Vulkan driver that works: install one (Debian: mesa-vulkan-drivers); VK_LOADER_DEBUG=error "
+                   "tells why "
+                   "one was passed over";
         default:
             return "error";
     }
@@ -157,7 +159,14 @@ VkInstance makeInstance(bool validation) {
         create.pNext = &features;
     }
     VkInstance instance = VK_NULL_HANDLE;
-    check(vkCreateInstance(&create, nullptr, &instance), "vkCreateInstance");
+    const VkResult result = vkCreateInstance(&create, nullptr, &instance);
+    // The loader says so of a driver's file that it cannot make sense of.
+    if (result == VK_ERROR_OUT_OF_HOST_MEMORY)
+        throw DeviceError(
+            "vkCreateInstance failed: a driver's description cannot be read, or there is no memory left: look at the "
+            "files in VK_ICD_FILENAMES or /usr/share/vulkan/icd.d (VK_LOADER_DEBUG=error names the one), or use "
+            "--backend reference (VkResult -1)");
+    check(result, "vkCreateInstance");
     volkLoadInstance(instance);
     return instance;
 }

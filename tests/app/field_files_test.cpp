@@ -7,6 +7,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "host/core/csv_table.h"
+#include "host/core/error.h"
 #include "host/output/hdf5.h"
 #include "host/output/run_folder.h"
 #include "tests/app/sandbox.h"
@@ -122,6 +124,31 @@ TEST_CASE("a map is a file for each time, which the field's own file lists; a ne
     without.resolved = "name = \"fake\"\n";
     RunFolder folder(box / "out", true, without, "fake");
     CHECK_FALSE(fs::exists(box / "out/fields"));
+}
+
+TEST_CASE("a name of a map is no formula to a spreadsheet") {
+    const Sandbox box;
+    Case c = caseWith({1, 2, 3}, FieldSensor::Preset::None, false);
+    c.fields[0].name = "-f";
+    FakeBackend backend;
+    backend.field = [](std::uint64_t) { return FieldPoint(); };
+    RunFolder folder(box / "out", true, c, "fake");
+    const std::atomic<bool> stop{false};
+    folder.finish(c, runFilled(c, smallFilling(), {}, backend, folder, stop));
+    CHECK_THAT(readText(box / "out/fields/-f.csv"), Catch::Contains(",'-f_000000.csv\n"));
+    CHECK(Table::read(box / "out/fields/-f.csv").text(0, "file") == "-f_000000.csv");
+}
+
+TEST_CASE("a list of maps that somebody has damaged is told with its line") {
+    const Sandbox box;
+    const Case c = caseWith({2, 2, 3}, FieldSensor::Preset::None, false);
+    runInto(box / "out", c);
+    std::string list = readText(box / "out/fields/f.csv");
+    list.at(list.find("f_000001.hdf")) = '\xff';
+    box.write("out/fields/f.csv", list);
+    FieldFiles files(box / "out", c, {list.size()});
+    CHECK_THROWS_AS(files.store(), OutputError);
+    CHECK_THROWS_WITH(files.store(), Catch::Contains("f.csv:3: file = \xff_000001.hdf: is no text in UTF-8"));
 }
 
 TEST_CASE("the outlet's field has the outlet velocity and the throat's mass of the time series") {

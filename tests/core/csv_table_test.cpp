@@ -22,6 +22,32 @@ TEST_CASE("a table by its column names, quoted fields whole, missing numbers NaN
     CHECK_FALSE(t.has("notes"));
 }
 
+TEST_CASE("no cell is a formula to a spreadsheet, and what is read back is what was written") {
+    struct Cell {
+        std::string text, written;
+    };
+    for (const auto& [text, written] : std::vector<Cell>{{"=1+1", "'=1+1"},
+                                                         {"+x", "'+x"},
+                                                         {"-x", "'-x"},
+                                                         {"--1", "'--1"},
+                                                         {"@SUM(A1)", "'@SUM(A1)"},
+                                                         {"\t=1", "'\t=1"},
+                                                         {"=HYPERLINK(\"a\",1)", "\"'=HYPERLINK(\"\"a\"\",1)\""},
+                                                         {"'=1", "''=1"},
+                                                         {"''@", "'''@"},
+                                                         {"-1.5e-3", "-1.5e-3"},
+                                                         {"-inf", "-inf"},
+                                                         {"'-1", "'-1"},
+                                                         {"'", "'"},
+                                                         {"it's", "it's"},
+                                                         {"a=b", "a=b"},
+                                                         {"", ""}}) {
+        CAPTURE(text);
+        CHECK(csvLine({"a", text, "b"}) == "a," + written + ",b");
+        CHECK(csvFields("a," + written + ",b") == Row{"a", text, "b"});
+    }
+}
+
 TEST_CASE("a line that is still being written is left out") {
     const Sandbox box;
     CHECK(Table::read(box.write("t.csv", "a,b\n1,2\n3,4")).rows() == 1);

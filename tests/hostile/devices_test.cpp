@@ -47,6 +47,16 @@ const std::string kRun = "run '" VKDOSE_SOURCE_DIR
 
 }  // namespace
 
+TEST_CASE("a driver's file that is broken is told as that, not as too little memory") {
+    const Sandbox box;
+    box.write("broken.json", "no JSON");
+    const auto o = box.vkdose("devices", "env -u VK_DRIVER_FILES -u VK_ADD_DRIVER_FILES VK_ICD_FILENAMES=broken.json ");
+    CAPTURE(o.out, o.err);
+    CHECK(o.code == 4);
+    CHECK_THAT(o.err, Contains("a driver's description cannot be read") && Contains("VK_LOADER_DEBUG=error") &&
+                          !Contains("fewer particles"));
+}
+
 TEST_CASE("a device that lacks something is refused with what it lacks") {
     struct Row {
         std::string fault;

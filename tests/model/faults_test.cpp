@@ -292,3 +292,25 @@ TEST_CASE("overrides: their faults name them") {
     CHECK_THAT(text({"coil.turns=3", "coil.pitch_mm=7"}), Catch::Contains("turns is given too"));
     CHECK_THAT(text({"coil=3"}), Catch::StartsWith("--set coil = 3: is a whole number, not a table"));
 }
+
+TEST_CASE("a coil that cannot be wound is told by what would be right") {
+    const Folder folder;
+    const auto file = folder.write("case.toml", kGoodCase);  // a wire of 1.6 mm in a trough and hole of 14 mm
+    const auto told = [&](const std::vector<std::string>& overrides) {
+        std::string text;
+        for (const Diagnostic& fault : faultsOf(file, overrides)) text += fault.text() + "\n";
+        CAPTURE(text);
+        CHECK_THAT(text, !Catch::Contains("-6") && !Catch::Contains("at most -") && !Catch::Contains("below -"));
+        return text;
+    };
+    // No radius is right for so thick a wire.
+    CHECK_THAT(
+        told({"coil.wire_diameter_mm=26"}),
+        Catch::StartsWith("--set coil.wire_diameter_mm = 26: so thick a wire cannot be wound in the trough, 14 mm "
+                          "wide; give less than 7\n") &&
+            !Catch::Contains("coil.radius_mm"));
+    CHECK_THAT(told({"coil.clearance_mm=9"}), Catch::Contains("give a clearance_mm below 5.4"));
+    CHECK(faultsOf(file, {"coil.clearance_mm=5.3"}).empty());
+    CHECK_THAT(told({"coil.radius_mm=0.7"}), Catch::Contains("give a radius_mm above 0.8"));
+    CHECK_THAT(told({"coil.radius_mm=6.3"}), Catch::Contains("give a radius_mm of at most 6.2"));
+}

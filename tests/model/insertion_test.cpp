@@ -1,6 +1,9 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <limits>
 
 #include "host/core/error.h"
 #include "host/model/case.h"
@@ -80,6 +83,30 @@ TEST_CASE("a higher fill raises the domain, not an error") {
     CHECK(filled.fillHeight > c.canister->height - c.canister->width / 2);
     CHECK(c.world.domain.high.y > filled.fillHeight);
     CHECK(static_cast<double>(filled.particles.size()) == Approx(6854).margin(3 * 62));
+}
+
+TEST_CASE("a fill of any mass and seed that reaches up to the lid fits under it") {
+    const Folder folder;
+    const auto small = folder.write("case.toml", kGoodCase);
+    const auto accepted = [](const std::filesystem::path& file, std::vector<std::string> overrides) {
+        overrides.emplace_back("canister.lid=true");
+        CAPTURE(overrides);
+        CHECK_NOTHROW(loadCase(file, overrides));
+    };
+    // From fills below the canister's height to fills above it.
+    for (int tenths = 200; tenths <= 340; ++tenths)
+        accepted(shippedCase("quickstart.toml"), {"particles.mass_g=" + std::to_string(tenths / 10.0)});
+    for (int seed = 0; seed < 60; ++seed) accepted(small, {"canister.height_mm=16", "seed=" + std::to_string(seed)});
+    // A lid at the very height of the fill.
+    const Insertion filled = insertParticles(loadCase(small));
+    const double half = loadCase(small).canister->width / 2;
+    double highest = 0;
+    for (std::size_t i = 0; i < filled.particles.size(); ++i)
+        highest = std::max(highest, filled.particles.position[i].y + filled.particles.radius[i]);
+    for (int ulps = -20; ulps <= 20; ++ulps) {
+        const double height = (highest + half) * (1 + ulps * std::numeric_limits<double>::epsilon()) * 1e3;
+        accepted(small, {fmt::format("canister.height_mm={}", height)});
+    }
 }
 
 TEST_CASE("quantiles: what was cut is reported") {

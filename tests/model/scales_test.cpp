@@ -38,6 +38,8 @@ TEST_CASE("numbers that do not go together are refused by name") {
         {{"dose.rest_s=1e14"}, "dose.rest_s = 1e14: is more than"},
         {{"stop.end_time_s=1e14"}, "stop.end_time_s = 1e14: is more than"},
         {{"time.skin_mm=1000"}, "time.skin_mm = 1000: makes every particle a neighbour"},
+        {{"time.skin_mm=21"}, "time.skin_mm = 21: gives particle 0 at ("},
+        {{"time.skin_mm=21"}, "give about 0.66, 0.6 of the mean radius"},
         {{"stop.doses=4294967297"}, "stop.doses = 4294967297: is too large"},
         {{"stop.max_doses=4294967297"}, "stop.max_doses = 4294967297: is too large"},
         {{"domain.low=[-1e9, -1e9, -1e9]", "domain.high=[1e9, 1e9, 1e9]"}, "domain: reaches 1e+09 m from the origin"},

@@ -1,7 +1,11 @@
 #include "host/output/frames.h"
 
+#include <pthread.h>
+
 #include <catch2/catch.hpp>
 #include <fstream>
+#include <system_error>
+#include <thread>
 
 #include "host/core/error.h"
 #include "host/output/frame_writer.h"
@@ -182,6 +186,44 @@ TEST_CASE("a frame that cannot be written is told at the next one or at the end"
     SECTION("end") {
         CHECK_THROWS_AS(writer.store(), OutputError);
     }
+}
+
+namespace {
+
+/// While it lives no thread begins: stacks are larger by default than all memory there is to address.
+class NoThreads {
+  public:
+    NoThreads() {
+        pthread_getattr_default_np(&before_);
+        pthread_attr_t huge;
+        pthread_attr_init(&huge);
+        pthread_attr_setstacksize(&huge, std::size_t{1} << 60);
+        pthread_setattr_default_np(&huge);
+        pthread_attr_destroy(&huge);
+    }
+    ~NoThreads() { pthread_setattr_default_np(&before_); }
+    NoThreads(const NoThreads&) = delete;
+    NoThreads& operator=(const NoThreads&) = delete;
+
+  private:
+    pthread_attr_t before_{};
+};
+
+}  // namespace
+
+TEST_CASE("where no thread is to be had frames are written all the same") {
+    const Sandbox box;
+    const Case c = smallWorld();
+    {
+        const NoThreads none;
+        CHECK_THROWS_AS(std::thread([] {}), std::system_error);
+        FrameWriter writer(box.path(), c, 0);
+        for (int k = 0; k < 3; ++k) writer.put(someFrame(k));
+        writer.store();
+    }
+    const Frames frames(box.path());
+    REQUIRE(frames.entries().size() == 3);
+    for (int k = 0; k < 3; ++k) checkSame(frames.read(frames.entries()[std::size_t(k)]), someFrame(k));
 }
 
 TEST_CASE("a new run removes the frames of a former one and nothing else") {

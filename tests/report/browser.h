@@ -6,6 +6,7 @@
 #include <set>
 
 #include "host/report/page.h"
+#include "host/report/source_hash.h"
 #include "tests/app/sandbox.h"
 
 namespace vkdose::test {
@@ -20,12 +21,21 @@ inline bool browserMissing() {
 inline constexpr const char* kWebGl = "--use-angle=swiftshader --enable-unsafe-swiftshader";
 inline constexpr const char* kNoWebGl = "--disable-gpu --disable-3d-apis";
 
-/// The document as the browser leaves it once the scripts have run, a further one at the page's end included. What they
-/// wait for comes at once: the page's clock runs ahead to the next event.
-inline std::string drawn(const Sandbox& box, const report::Json& data, const std::string& flags = kNoWebGl,
-                         const std::string& script = "") {
-    std::string html = report::page(data);
-    html.insert(html.rfind("</body>"), "<script>\n" + script + "\n</script>\n");
+/// Leave for a further script of this text to run in the page.
+inline void allow(std::string& html, const std::string& script) {
+    const std::string mark = "script-src ";
+    html.insert(html.find(mark) + mark.size(), report::sourceHash(script) + " ");
+}
+
+/// The document as the browser leaves it once the scripts have run. What they wait for comes at once: the page's clock
+/// runs ahead to the next event. What the page's policy refused is counted in `data-refused` of the root element.
+inline std::string opened(const Sandbox& box, std::string html, const std::string& flags = kNoWebGl) {
+    const std::string watch =
+        "document.addEventListener('securitypolicyviolation', e => {"
+        "document.documentElement.dataset.refused = (document.documentElement.dataset.refused || '') + "
+        "e.effectiveDirective + ' '; });";
+    allow(html, watch);
+    html.insert(html.find("<title>"), "<script>" + watch + "</script>\n");
     const auto file = box.write("page.html", html);
     const std::string command = "timeout 120 chromium --headless --no-sandbox " + flags +
                                 " --window-size=1280,900 --virtual-time-budget=60000 --user-data-dir='" +
@@ -33,6 +43,17 @@ inline std::string drawn(const Sandbox& box, const report::Json& data, const std
                                 (box / "dom.html").string() + "' 2> /dev/null";
     REQUIRE(std::system(command.c_str()) == 0);
     return readText(box / "dom.html");
+}
+
+/// The page of these data, of which the policy refused nothing; `script` is a further one at its end.
+inline std::string drawn(const Sandbox& box, const report::Json& data, const std::string& flags = kNoWebGl,
+                         const std::string& script = "") {
+    std::string html = report::page(data);
+    allow(html, script);
+    html.insert(html.rfind("</body>"), "<script>" + script + "</script>\n");
+    const std::string dom = opened(box, html, flags);
+    CHECK(dom.find("data-refused") == std::string::npos);
+    return dom;
 }
 
 /// A script of this folder that says what to look for, with what runs it.

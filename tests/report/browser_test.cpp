@@ -1,5 +1,7 @@
 // The pages in a browser: they draw what they should, and without errors. Skipped, and said so, where there is none.
+#include <iterator>
 #include <set>
+#include <sstream>
 
 #include "host/report/study_report.h"
 #include "tests/report/browser.h"
@@ -40,6 +42,24 @@ TEST_CASE("a browser draws the page of a run") {
     CHECK(dom.find("&lt;img src=x onerror=") != std::string::npos);  // as text
     CHECK(dom.find("<td class=\"number\">1.750</td>") != std::string::npos);
     CHECK(shown.find("NaN") == std::string::npos);  // none among the coordinates
+}
+
+TEST_CASE("a browser runs the page's own scripts and styles, and none that got into it") {
+    if (browserMissing()) return;
+    const Sandbox box;
+    std::string html = page(runJson(writeRun(box, "why"), {}));
+    const std::string evil = "document.documentElement.dataset.evil = 1";
+    html.insert(html.rfind("</body>"), "<script>" + evil + "</script><p style='color: red' onclick='" + evil +
+                                           "'></p><style>main { display: none }</style><base href='https://a.b/'>");
+    const std::string dom = opened(box, html);
+    CHECK(dom.find("data-state=\"ready\"") != std::string::npos);
+    CHECK(dom.find("data-evil") == std::string::npos);
+    const std::size_t at = dom.find("data-refused=\"");
+    REQUIRE(at != std::string::npos);
+    std::istringstream list(dom.substr(at + 14, dom.find('"', at + 14) - at - 14));
+    const std::set<std::string> refused{std::istream_iterator<std::string>(list), {}};
+    CHECK(refused ==
+          std::set<std::string>{"base-uri", "script-src-attr", "script-src-elem", "style-src-attr", "style-src-elem"});
 }
 
 TEST_CASE("a browser draws the page of a run without doses") {

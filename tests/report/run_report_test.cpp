@@ -5,6 +5,7 @@
 #include "host/core/error.h"
 #include "host/report/page.h"
 #include "host/report/run_figures.h"
+#include "host/report/source_hash.h"
 #include "tests/report/folders.h"
 
 using namespace vkdose;
@@ -130,15 +131,42 @@ TEST_CASE("a balance's readings, as masses of doses or added up") {
 
 TEST_CASE("whatever stands in a case is text on the page, not markup") {
     const Sandbox box;
-    const std::string evil = "\"</script><script>alert(1)</script> & <b>bold</b> @@d3@@\"";
+    const std::string evil = "\"</script><script>alert(1)</script> & <b>bold</b> @@scripts@@\"";
     std::filesystem::create_directories(box / "run");
     const std::string html = page(runJson(writeRun(box, evil), {}));
     CHECK(html.find("<script>alert") == std::string::npos);
     CHECK(html.find("<b>bold") == std::string::npos);
-    CHECK(embedded(html)["reason"] == "</script><script>alert(1)</script> & <b>bold</b> @@d3@@");
+    CHECK(embedded(html)["reason"] == "</script><script>alert(1)</script> & <b>bold</b> @@scripts@@");
     const std::string titled = page({{"name", "<i>&</i>"}});
     CHECK(titled.find("<title>&lt;i&gt;&amp;&lt;/i&gt;</title>") != std::string::npos);
     CHECK_NOTHROW(page({{"name", "\xff not UTF-8"}}));
+}
+
+TEST_CASE("the page's policy knows its own scripts and style, and lets nothing else take effect") {
+    // The example of FIPS 180-2.
+    CHECK(sourceHash("abc") == "'sha256-ungWv48Bz+pBQUDeXa4iI7ADYaOWF3qctBD/YfIAFa0='");
+    const Sandbox box;
+    Json data = runJson(writeRun(box, "why"), {});
+    for (const bool player : {false, true}) {
+        data["player"] = player ? Json::object() : Json(nullptr);
+        const std::string html = page(data);
+        const std::string mark = "Content-Security-Policy\" content=\"";
+        const std::size_t begin = html.find(mark) + mark.size();
+        REQUIRE(begin > mark.size());
+        const std::string policy = html.substr(begin, html.find('"', begin) - begin);
+        CHECK_THAT(policy, Catch::StartsWith("default-src 'none'; ") && !Catch::Contains("unsafe") &&
+                               Catch::EndsWith("; base-uri 'none'; form-action 'none'"));
+        std::size_t found = 0;
+        for (const std::string element : {"script", "style"})
+            for (std::size_t at = html.find("<" + element + ">"); at != std::string::npos;
+                 at = html.find("<" + element + ">", at + 1)) {
+                const std::size_t from = at + element.size() + 2;
+                const std::string text = html.substr(from, html.find("</" + element + ">", from) - from);
+                CHECK_THAT(policy, Catch::Contains(sourceHash(text)));
+                ++found;
+            }
+        CHECK(found == (player ? 5 : 3));
+    }
 }
 
 TEST_CASE("the page asks for nothing from elsewhere, and may not") {

@@ -1,5 +1,8 @@
 // What the user must see: particles lost, overlaps no law covers, tables that are full.
 
+#include <fmt/format.h>
+
+#include "host/model/case.h"
 #include "tests/support/gpu.h"
 
 using namespace vkdose;
@@ -77,6 +80,33 @@ TEST_CASE("a full neighbour row is reported") {
     w.timeStep = 1e-8;
     w.skin = 0.15e-3;
     requireRunError(w, p, 1, "more neighbours than a row holds");
+}
+
+TEST_CASE("a skin that fills a row at the first step, and no other, is refused with the case") {
+    const auto file = std::filesystem::path(VKDOSE_SOURCE_DIR) / "cases" / "mini.toml";
+    const Case c = loadCase(file);
+    const Insertion filled = insertParticles(c);
+    int refused = 0, runs = 0;
+    for (const double skin : {0.6, 1.5, 2.0, 2.2, 2.4, 2.6, 2.8, 3.0, 3.2, 3.5, 4.0, 6.0, 21.0}) {
+        CAPTURE(skin);
+        World world = c.world;
+        world.skin = skin * 1e-3;
+        auto device = gpu();
+        device->load(world, filled.particles);
+        try {
+            device->advance(1, 0);
+            CHECK_NOTHROW(loadCase(file, {fmt::format("time.skin_mm={}", skin)}));
+            ++runs;
+        } catch (const RunError& error) {
+            CHECK_THAT(error.what(), Contains("more neighbours than a row holds"));
+            CHECK_THROWS_WITH(loadCase(file, {fmt::format("time.skin_mm={}", skin)}),
+                              Contains("time.skin_mm") && Contains("give about 0.66"));
+            ++refused;
+        }
+        requireClean(*device);
+    }
+    CHECK(refused > 1);
+    CHECK(runs > 1);
 }
 
 TEST_CASE("more neighbours and contacts than the tables are made for are reported") {

@@ -28,7 +28,7 @@ History flat(double value) {
         m.lateInPhase = i >= 5;
         m.kineticEnergy = m.meanKineticEnergy = m.meanTorque = m.maxOverlap = m.contactsEach = value;
         m.meanHeight = value * 1e-3;
-        m.dosedMass = value * 1e-5;
+        m.dosedMass = value * 3e-5;
         h.push_back(m);
     }
     return h;
@@ -117,15 +117,40 @@ TEST_CASE("the twins' spread widens the tolerance, up to where agreement means n
     CHECK(named(judgeQuantities(h, {&nan}, nan, kScales), energy).verdict == Verdict::Differs);
 }
 
-TEST_CASE("a comparison in which nothing was judged particle by particle does not agree") {
+TEST_CASE("a quantity in which hardly anything happens proves nothing, and has no row") {
+    History h = flat(1), more = flat(1);
+    for (Moment& m : h) m.dosedMass = 1.9e-5;  // less than two particles, the floor
+    CHECK(judgeQuantities(h, {&h}, h, kScales).size() == 8);
+    for (Moment& m : h) m.dosedMass = m.meanTorque = 0;
+    CHECK(judgeQuantities(h, {&h}, h, kScales).size() == 7);
+    // It has its row as soon as one of them shows something.
+    CHECK(named(judgeQuantities(h, {&h}, more, kScales), "dosed mass").verdict == Verdict::Differs);
+    CHECK(named(judgeQuantities(h, {&h}, flat(kNan), kScales), "dosed mass").verdict == Verdict::Differs);
+    CHECK(named(judgeQuantities(h, {&more}, h, kScales), "dosed mass").verdict == Verdict::Undecided);
+}
+
+TEST_CASE("a comparison agrees only if something was judged, particle by particle and in the whole packing") {
+    const auto row = [](auto kind, Verdict verdict) {
+        kind.verdict = verdict;
+        return kind;
+    };
+    const auto agrees = Verdict::Agrees, differs = Verdict::Differs, undecided = Verdict::Undecided;
+    const ParticleRow p;
+    const QuantityRow q;
     Comparison c;
-    CHECK_FALSE(c.agrees());
-    c.particles.push_back({});
-    CHECK(c.agrees());
-    c.quantities.push_back({});
-    c.quantities.back().verdict = Verdict::Undecided;
-    CHECK(c.agrees());
-    CHECK(c.undecided() == 1);
-    c.quantities.back().verdict = Verdict::Differs;
-    CHECK_FALSE(c.agrees());
+    CHECK(c.verdict() == undecided);
+    c.particles = {row(p, agrees), row(p, undecided)};
+    CHECK(c.verdict() == undecided);
+    c.quantities = {row(q, undecided), row(q, undecided)};
+    CHECK(c.verdict() == undecided);
+    CHECK(c.undecided() == 2);
+    c.quantities.push_back(row(q, agrees));
+    CHECK(c.verdict() == agrees);
+    c.particles = {row(p, undecided)};
+    CHECK(c.verdict() == undecided);
+    c.quantities.push_back(row(q, differs));
+    CHECK(c.verdict() == differs);
+    c.quantities = {row(q, agrees)};
+    c.particles = {row(p, agrees), row(p, differs)};
+    CHECK(c.verdict() == differs);
 }

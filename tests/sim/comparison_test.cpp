@@ -87,7 +87,7 @@ Comparison against(Backend& candidate, std::uint64_t steps = 4000) {
 TEST_CASE("the reference agrees with itself to the last bit") {
     const auto same = makeReferenceBackend();
     const Comparison c = against(*same);
-    CHECK(c.agrees());
+    CHECK(c.verdict() == Verdict::Agrees);
     CHECK(c.steps == 4000);
     CHECK(c.particles.size() > 40);
     bool touched = false;
@@ -101,25 +101,25 @@ TEST_CASE("the reference agrees with itself to the last bit") {
 TEST_CASE("a backend that is a little wrong is found out") {
     SECTION("gravity 0.1 % too strong") {
         Wrong wrong([](World& w) { w.gravity *= 1.001; });
-        CHECK_FALSE(against(wrong).agrees());
+        CHECK(against(wrong).verdict() == Verdict::Differs);
     }
     SECTION("5 % more stiffness") {
         Wrong wrong([](World& w) {
             for (ContactParameters& p : w.law.classes) p.k1 *= 1.05;
         });
-        CHECK_FALSE(against(wrong).agrees());
+        CHECK(against(wrong).verdict() == Verdict::Differs);
     }
     SECTION("5 % less damping") {
         Wrong wrong([](World& w) {
             for (ContactParameters& p : w.law.classes) p.gamma *= 0.95;
         });
-        CHECK_FALSE(against(wrong).agrees());
+        CHECK(against(wrong).verdict() == Verdict::Differs);
     }
     SECTION("no rolling resistance") {
         Wrong wrong([](World& w) {
             for (ContactParameters& p : w.law.classes) p.muR = 0;
         });
-        CHECK_FALSE(against(wrong).agrees());
+        CHECK(against(wrong).verdict() == Verdict::Differs);
     }
 }
 
@@ -131,5 +131,5 @@ TEST_CASE("a comparison stops when asked to") {
         c, insertParticles(c), *a, {fine.get(), {}}, *b, 100, [](std::uint64_t) {}, stop);
     CHECK(result.interrupted);
     CHECK(result.steps == 0);
-    CHECK_FALSE(result.agrees());
+    CHECK(result.verdict() == Verdict::Undecided);
 }

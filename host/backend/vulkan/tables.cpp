@@ -7,12 +7,15 @@
 #include <numeric>
 
 #include "host/core/error.h"
+#include "host/model/rows.h"
 
 namespace vkdose {
 
 namespace {
 
 constexpr std::uint64_t kIndices = 1ULL << 32;
+
+static_assert(gpu::kMaxRow == kMaxNeighbours);  // what a case is checked against
 
 std::uint64_t roundUp(std::uint64_t n, std::uint64_t unit) {
     return (n + unit - 1) / unit * unit;

@@ -1,0 +1,86 @@
+// Whether the neighbours that each particle has at the start fit a row of the neighbour list.
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "host/model/checks.h"
+#include "host/model/rows.h"
+
+namespace vkdose {
+namespace {
+
+/// The particles in cells of an edge, so that whoever is no further away than it lies in the 27 cells around.
+class Cells {
+  public:
+    Cells(const Particles& particles, double edge) : edge_(edge) {
+        for (std::size_t i = 0; i < particles.size(); ++i) cells_[cellOf(particles.position[i])].push_back(i);
+    }
+
+    /// Calls `visit(j)` for every particle in the cells around `x`, until it returns false.
+    template <class Visit>
+    void around(const Vec3& x, Visit visit) const {
+        const Cell home = cellOf(x);
+        for (int n = 0; n < 27; ++n) {
+            const auto found = cells_.find({home[0] + n % 3 - 1, home[1] + n / 3 % 3 - 1, home[2] + n / 9 - 1});
+            if (found == cells_.end()) continue;
+            for (const std::size_t j : found->second)
+                if (!visit(j)) return;
+        }
+    }
+
+  private:
+    using Cell = std::array<double, 3>;  // whole numbers, of any size
+    Cell cellOf(const Vec3& x) const {
+        return {std::floor(x.x / edge_), std::floor(x.y / edge_), std::floor(x.z / edge_)};
+    }
+    double edge_;
+    std::map<Cell, std::vector<std::size_t>> cells_;
+};
+
+/// A particle with more neighbours than a row holds, if there is one.
+std::optional<std::size_t> crowdedParticle(const Particles& p, double largest, double skin) {
+    // The device decides in single precision; who is so near the edge may count.
+    constexpr double kRounding = 1 + 1e-5;
+    const Cells cells(p, (2 * largest + skin) * kRounding);
+    for (std::size_t i = 0; i < p.size(); ++i) {
+        int neighbours = -1;  // itself does not count
+        cells.around(p.position[i], [&](std::size_t j) {
+            const double reach = (p.radius[i] + p.radius[j] + skin) * kRounding;
+            if (glm::distance(p.position[i], p.position[j]) < reach) ++neighbours;
+            return neighbours <= kMaxNeighbours;
+        });
+        if (neighbours > kMaxNeighbours) return i;
+    }
+    return std::nullopt;
+}
+
+/// How many of the grid's particles can be within reach of one, whatever their sizes: their sites keep spheres of the
+/// largest radius apart, of which no packing fills more than 0.7405 of the space they lie in.
+double mostInGrid(double largest, double skin) {
+    return 0.7405 * std::pow((3 * largest + skin) / largest, 3) - 1;
+}
+
+}  // namespace
+
+void checkRows(CaseReader& reader, const Case& c, const Particles& particles, const SizeRange& radii) {
+    if (particles.size() <= kMaxNeighbours) return;
+    if (!c.filling.list && mostInGrid(radii.largest, c.world.skin) <= kMaxNeighbours) return;
+    const std::optional<std::size_t> crowded = crowdedParticle(particles, radii.largest, c.world.skin);
+    if (!crowded) return;
+    const Vec3 x = particles.position[*crowded] * 1e3;
+    const double usual = kUsualSkin * radii.mean;
+    const bool helps = usual < c.world.skin && !crowdedParticle(particles, radii.largest, usual);
+    reader.fault(
+        "time.skin_mm",
+        fmt::format("gives particle {} at ({:.4g}, {:.4g}, {:.4g}) mm more neighbours at the start than the {} "
+                    "that a row of the list holds",
+                    *crowded, x.x, x.y, x.z, kMaxNeighbours),
+        helps ? fmt::format("give about {:.3g}, {} of the mean radius, or leave the key out", usual * 1e3, kUsualSkin)
+              : "use a narrower range of sizes, and particles that do not overlap");
+}
+
+}  // namespace vkdose
