@@ -134,7 +134,7 @@ struct Play {
         world.law = c.settlingLaw;
         backend->load(world, filled.particles);
     }
-    Sensors advance(std::uint64_t steps, double rate) {
+    Sensors advance(std::uint64_t steps, double rate) const {
         return backend->advance(static_cast<std::uint32_t>(steps), rate);
     }
 };
