@@ -4,9 +4,9 @@
 //
 // Double precision without contraction (-ffp-contract=off) gives the same bits on every compiler and machine, but for
 // the functions of libm, which are not rounded exactly: sin, cos, atan2, acos and hypot, by which the closest points on
-// coil and trough are found. The libm of Debian 12 (glibc 2.36) and 13 (2.41) agree on a processor with FMA; without
-// FMA, or elsewhere, their last bits differ, and the packing multiplies such a difference by 1e11 until it has settled.
-// There the state after the first contacts is compared in rounded numbers instead.
+// coil and trough are found. Debian 12 (GCC 12, glibc 2.36) and 13 (GCC 14, glibc 2.41) agree on a processor with FMA;
+// without FMA, or elsewhere, their last bits differ, and the packing multiplies such a difference by 1e11 until it has
+// settled. There the state after the first contacts is compared in rounded numbers instead.
 
 #include <bit>
 #include <catch2/catch.hpp>
