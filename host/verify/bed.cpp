@@ -152,8 +152,8 @@ void bedWeight(Bench& bench) {
         if (mu == 0)
             bench.check("share of the floor, smooth", "-", 1, force[0].y / weight, {1e-3, "remaining motion", 1});
         else
-            bench.check("share of the floor, rough", "-", 0.5, force[0].y / weight,
-                        {0.4, "Janssen: less than all, more than nothing; which depends on the packing", 1});
+            bench.plausible("share of the floor, rough", "-", 0.5, force[0].y / weight,
+                            {0.4, "Janssen: less than all, more than nothing; which depends on the packing", 1});
     }
 }
 
@@ -177,8 +177,8 @@ void heap(Bench& bench) {
         if (mu == 0)
             bench.check("slope without friction", "deg", 0, slope, {0.5, "a single layer, sunk in a little", 1});
         else
-            bench.check("slope with friction", "deg", 22, slope,
-                        {10, "heaps of rough spheres stand at 15 to 30 degrees; this one is small", 1});
+            bench.plausible("slope with friction", "deg", 22, slope,
+                            {10, "heaps of rough spheres stand at 15 to 30 degrees; this one is small", 1});
     }
 }
 

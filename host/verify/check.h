@@ -13,6 +13,10 @@ struct Tolerance {
     double scale = 0;
 };
 
+/// What the expected value is worth: derived (in closed form, by geometry, by another program), or merely of the right
+/// size, so that it tells a wild result from a sane one and no more.
+enum class Kind { Known, Plausible };
+
 struct Check {
     std::string where;  ///< the case, "collisions/head-on"
     std::string quantity;
@@ -20,6 +24,7 @@ struct Check {
     double expected;
     double got;
     Tolerance tolerance;
+    Kind kind = Kind::Known;
 
     /// |got - expected| in units of the scale; NaN if any of the three is not finite or the scale is not positive.
     double error() const;

@@ -73,9 +73,9 @@ void isolatedCluster(Bench& bench) {
     }
     const Momentum after(trial.now());
     // Without this the rest would be about spheres that fly past each other.
-    bench.check("most contacts at once, for each sphere", "-", 1,
-                static_cast<double>(most) / static_cast<double>(cluster.size()),
-                {0.5, "how many there are depends on the tumble; so many that it is one"});
+    bench.plausible("most contacts at once, for each sphere", "-", 1,
+                    static_cast<double>(most) / static_cast<double>(cluster.size()),
+                    {0.5, "how many there are depends on the tumble; so many that it is one"});
     const Tolerance tolerance{5e-7, "rounding in single precision over 20000 steps, in units of the sum of |m v|",
                               before.linearSize};
     bench.check("drift of the momentum", "kg m/s", 0, glm::length(after.linear - before.linear), tolerance);

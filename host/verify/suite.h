@@ -20,7 +20,12 @@ class Bench {
     Backend& backend() { return *backend_; }
     void check(const std::string& quantity, const std::string& unit, double expected, double got,
                const Tolerance& tolerance) {
-        checks_.push_back({where_, quantity, unit, expected, got, tolerance});
+        checks_.push_back({where_, quantity, unit, expected, got, tolerance, Kind::Known});
+    }
+    /// A figure whose exact value nobody can know beforehand; it is counted apart.
+    void plausible(const std::string& quantity, const std::string& unit, double expected, double got,
+                   const Tolerance& tolerance) {
+        checks_.push_back({where_, quantity, unit, expected, got, tolerance, Kind::Plausible});
     }
     const std::vector<Check>& checks() const { return checks_; }
 

@@ -11,12 +11,27 @@ namespace vkdose::verify {
 namespace {
 
 const char* verdict(const Check& check) {
-    return check.passes() ? "pass" : "FAIL";
+    if (!check.passes()) return "FAIL";
+    return check.kind == Kind::Known ? "pass" : "plausible";
 }
 
 /// JSON knows no infinity and no NaN.
 nlohmann::ordered_json number(double x) {
     return std::isfinite(x) ? nlohmann::ordered_json(x) : nlohmann::ordered_json(nullptr);
+}
+
+struct Count {
+    std::size_t all = 0, passed = 0;
+};
+
+Count countOf(const std::vector<Check>& checks, Kind kind) {
+    Count count;
+    for (const Check& check : checks) {
+        if (check.kind != kind) continue;
+        ++count.all;
+        if (check.passes()) ++count.passed;
+    }
+    return count;
 }
 
 /// A vertical bar would end the cell.
@@ -28,18 +43,18 @@ std::string cell(std::string text) {
 }  // namespace
 
 std::string headLine() {
-    return fmt::format("{:<27} {:<50} {:>13} {:>13} {:<7} {:>8} {:>8}  {:<4}  {}", "case", "quantity", "expected",
+    return fmt::format("{:<27} {:<50} {:>13} {:>13} {:<7} {:>8} {:>8}  {:<9}  {}", "case", "quantity", "expected",
                        "got", "unit", "error", "allowed", "", "why so much is allowed");
 }
 
 std::string tableLine(const Check& c) {
-    return fmt::format("{:<27} {:<50} {:>13.6g} {:>13.6g} {:<7} {:>8.1e} {:>8.1e}  {:<4}  {}", c.where, c.quantity,
+    return fmt::format("{:<27} {:<50} {:>13.6g} {:>13.6g} {:<7} {:>8.1e} {:>8.1e}  {:<9}  {}", c.where, c.quantity,
                        c.expected, c.got, c.unit, c.error(), c.tolerance.share, verdict(c), c.tolerance.reason);
 }
 
 std::string markdownTable(const std::vector<Check>& checks, const Setting& setting) {
-    std::string text = fmt::format("# Verification\n\n{} of {} checks passed on {}, in {:.0f} s.\n\n",
-                                   checks.size() - failures(checks), checks.size(), setting.backend, setting.seconds);
+    std::string text =
+        fmt::format("# Verification\n\n{} on {}, in {:.0f} s.\n\n", tally(checks), setting.backend, setting.seconds);
     text +=
         "`error` and `allowed` are in units of the expected value, or of the scale that the last column names.\n\n"
         "| case | quantity | expected | got | unit | error | allowed | | why so much is allowed |\n"
@@ -56,12 +71,15 @@ std::string jsonTable(const std::vector<Check>& checks, const Setting& setting) 
     j["backend"] = setting.backend;
     j["wall_time_s"] = number(setting.seconds);
     j["checks"] = checks.size();
+    j["known_answers"] = countOf(checks, Kind::Known).all;
+    j["plausible_figures"] = countOf(checks, Kind::Plausible).all;
     j["failures"] = failures(checks);
     j["results"] = nlohmann::ordered_json::array();
     for (const Check& c : checks)
         j["results"].push_back({{"case", c.where},
                                 {"quantity", c.quantity},
                                 {"unit", c.unit},
+                                {"kind", c.kind == Kind::Known ? "known answer" : "plausible"},
                                 {"expected", number(c.expected)},
                                 {"got", number(c.got)},
                                 {"error", number(c.error())},
@@ -74,6 +92,13 @@ std::string jsonTable(const std::vector<Check>& checks, const Setting& setting) 
 std::size_t failures(const std::vector<Check>& checks) {
     return static_cast<std::size_t>(
         std::count_if(checks.begin(), checks.end(), [](const Check& c) { return !c.passes(); }));
+}
+
+std::string tally(const std::vector<Check>& checks) {
+    const Count known = countOf(checks, Kind::Known), others = countOf(checks, Kind::Plausible);
+    std::string text = fmt::format("{} of {} known answers met", known.passed, known.all);
+    if (others.all > 0) text += fmt::format(", {} of {} other figures plausible", others.passed, others.all);
+    return text;
 }
 
 }  // namespace vkdose::verify

@@ -23,4 +23,7 @@ std::string jsonTable(const std::vector<Check>& checks, const Setting& setting);
 
 std::size_t failures(const std::vector<Check>& checks);
 
+/// "117 of 117 known answers met, 3 of 3 other figures plausible"
+std::string tally(const std::vector<Check>& checks);
+
 }  // namespace vkdose::verify

@@ -63,8 +63,8 @@ TEST_CASE("verify writes what it prints") {
     const Sandbox box;
     const auto outcome = box.vkdose("verify --backend reference --only integrator/free-fall");
     CHECK(outcome.code == 0);
-    CHECK(outcome.out.find("3 of 3 checks passed") != std::string::npos);
-    CHECK(readText(box / "out/verify/verify.md").find("3 of 3 checks passed on reference") != std::string::npos);
+    CHECK(outcome.out.find("3 of 3 known answers met") != std::string::npos);
+    CHECK(readText(box / "out/verify/verify.md").find("3 of 3 known answers met on reference") != std::string::npos);
     const auto json = nlohmann::json::parse(readText(box / "out/verify/verify.json"));
     CHECK(json["results"].size() == 3);
     CHECK(json["results"][0]["case"] == "integrator/free-fall");

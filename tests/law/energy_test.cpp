@@ -123,22 +123,26 @@ TEST_CASE("energy: a sphere that spins on a plane loses its spin to torsion, one
     world.gravity = Vec3(0, -kGravity, 0);
     const double weight = massOf(kRadius) * kGravity, inertia = 0.4 * massOf(kRadius) * kRadius * kRadius;
     const double rate = 40, incoming = inertia * rate * rate / 2;
+    // Slipping takes all but what the spring holds at its limit in the end; of that it takes what the spring slips
+    // while it swings to rest, and the dashpot the remainder.
+    const double friction = 0.1, held = friction * weight * friction * weight / (2 * p.kTo);
+    REQUIRE(held < 1e-4 * incoming);
     Particles one;
     const Vec3 place(0, kRadius - weight / p.k1, 0);
     SECTION("torsion") {
-        for (ContactParameters& c : world.law.classes) c.muTo = 0.1;
+        for (ContactParameters& c : world.law.classes) c.muTo = friction;
         one.add(place, kRadius, Vec3(0), Vec3(0, rate, 0));
         const EnergyLedger ledger = played(world, one, 40000, 100);
-        CHECK(near(ledger.sum.torsion, incoming, incoming, 1e-2));
+        CHECK(near(ledger.sum.torsion, incoming - held / 2, held / 2, 1));
         CHECK(near(ledger.sum.torsion + ledger.sum.viscous + ledger.elastic() + motionOf(ledger),
                    incoming + weight * weight / p.k1 / 2, incoming, 1e-6));
         CHECK(ledger.sum.rolling == 0);
     }
     SECTION("rolling resistance, without friction to turn it into motion") {
-        for (ContactParameters& c : world.law.classes) c.muR = 0.1;
+        for (ContactParameters& c : world.law.classes) c.muR = friction;
         one.add(place, kRadius, Vec3(0), Vec3(rate, 0, 0));
         const EnergyLedger ledger = played(world, one, 40000, 100);
-        CHECK(near(ledger.sum.rolling, incoming, incoming, 1e-2));
+        CHECK(near(ledger.sum.rolling, incoming - held / 2, held / 2, 1));
         CHECK(ledger.sum.torsion == 0);
         CHECK(ledger.sum.sliding == 0);
     }
@@ -219,8 +223,12 @@ TEST_CASE("energy: a bed under a turning coil that doses closes to rounding, and
             CHECK(loss > 1e-4 * ledger.losses());
         CHECK(b.coilWork > 0.1 * b.loaded);
         CHECK(b.left != 0);  // of either sign: the outlet reaches below the origin
-        CAPTURE(b.numerical / b.coilWork);
-        CHECK(near(b.numerical, 0, b.coilWork, 1e-2));
+        // What meets along a normal ends up, by and large, in the three losses of that direction; the time step
+        // mistakes (pi dt/t_c)^2/12 of it, at most that of the two smallest spheres on k1.
+        const double smallest = 0.75 * kRadius, met = b.plastic + b.adhesive + b.viscous;
+        const double share = world.timeStep * world.timeStep * kK1 / (massOf(smallest) / 2) / 12;
+        REQUIRE(share < 1e-3);
+        CHECK(near(b.numerical, 0, met, share));
     }
 }
 

@@ -91,9 +91,16 @@ TEST_CASE("fields: a sphere far from every face shows the kernel with its closed
     const int directions = r.grid.resolvedDirections();
     const double m = massOf(kRadius) / std::pow(depth, 3 - directions);
     const double top = m * peak(kernel, directions, w);
-    // A sum over points a quarter of a Gaussian's width apart is exact to 1e-4 of it but for its edge, where 1.1 % of
-    // the peak are cut off along a sphere; Lucy's polynomial ends smoothly.
-    const double tolerance = kernel == Kernel::Gaussian ? 1e-2 : 2e-4;
+    // The norm is a sum over points. For the Gaussian all that this leaves is its edge, three widths out, where it
+    // falls from 1.1 % of its peak to zero: two points, a circle or a sphere, along which the sum counts up to half a
+    // cell too much or too little. Lucy's kernel ends smoothly; its third derivative jumps by 96/w^3 in the middle and
+    // by 24/w^3 at its ends, which by Euler and Maclaurin is worth h^4/720 of that in one direction, over an integral
+    // of 4 w/5, and less in more directions, where the middle is a smaller part.
+    const double h = r.grid.cell().z;
+    const double edge = directions == 1 ? 2 : directions == 2 ? 2 * kPi * 3 * w : 4 * kPi * 9 * w * w;
+    const double tolerance = kernel == Kernel::Gaussian ? edge * h / 2 * std::exp(-4.5) * peak(kernel, directions, w)
+                                                        : std::pow(h / w, 4) * (96 + 2 * 24) / 720 / 0.8;
+    CAPTURE(directions, tolerance);
     CHECK(nearRelative(points[points.size() / 2].density, top, tolerance));
     for (std::size_t k = 0; k < points.size(); k += 7) {
         Vec3 away = r.grid.point(k);

@@ -87,8 +87,30 @@ TEST_CASE("the tables count failures and say null for what is not a number") {
     CHECK(json["results"][1]["got"].is_null());
     CHECK(json["results"][1]["passes"] == false);
     const std::string text = markdownTable(checks, {"a device", 1.5});
-    CHECK(text.find("1 of 3 checks passed on a device") != std::string::npos);
+    CHECK(text.find("1 of 3 known answers met on a device") != std::string::npos);
     CHECK(text.find("FAIL") != std::string::npos);
     CHECK(tableLine(checks[2]).find("FAIL") != std::string::npos);
     CHECK(tableLine(checks[0]).find("a reason") != std::string::npos);
+}
+
+TEST_CASE("what is only plausible is counted apart from known answers, and fails like them") {
+    test::FakeBackend backend;
+    const std::vector<Check> checks = play({"a/b", "",
+                                            [](Bench& bench) {
+                                                bench.check("known", "-", 1, 1, {0, "same"});
+                                                bench.plausible("fair", "-", 1, 1.4, {0.5, "about one"});
+                                                bench.plausible("wild", "-", 1, 1.6, {0.5, "about one"});
+                                            }},
+                                           backend);
+    REQUIRE(checks.size() == 3);
+    CHECK(failures(checks) == 1);
+    CHECK(tally(checks) == "1 of 1 known answers met, 1 of 2 other figures plausible");
+    CHECK(tally({checks[0]}) == "1 of 1 known answers met");
+    CHECK(tableLine(checks[0]).find(" pass ") != std::string::npos);
+    CHECK(tableLine(checks[1]).find(" plausible ") != std::string::npos);
+    CHECK(tableLine(checks[2]).find(" FAIL ") != std::string::npos);
+    const auto json = nlohmann::json::parse(jsonTable(checks, {"a device", 1.5}));
+    CHECK(json["known_answers"] == 1);
+    CHECK(json["plausible_figures"] == 2);
+    CHECK(json["results"][1]["kind"] == "plausible");
 }
