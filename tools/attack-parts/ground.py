@@ -21,7 +21,9 @@ LONG = {"settle.time_s": 0.03, "dose.rotate_s": 0.06, "dose.rest_s": 0.01, "stop
 SHORT = {**LONG, "particles.mass_g": 0.4, "settle.time_s": 0.01, "dose.rotate_s": 0.02, "frames.interval_s": 0.01,
          "checkpoint.time_s": 0.004,
          "field": '[{preset="outlet"},{preset="mid-plane",interval_s=0.01,average=true}]'}
-CASES = {"long": LONG, "short": SHORT}
+# What is written only at the start and at the end.
+PLAIN = {key: value for key, value in LONG.items() if not key.startswith(("frames", "checkpoint", "field"))}
+CASES = {"long": LONG, "short": SHORT, "plain": PLAIN}
 CHECKPOINT = "checkpoint.h5"
 
 STUDY = """name = "attacked"
