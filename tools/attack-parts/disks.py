@@ -1,6 +1,6 @@
-"""Full disks: the output lies on a file system of some hundred KiB that fills up at any point. The command says so with exit
-code 5 and leaves a good checkpoint; after room was made the run goes on to the same bits. Where no file system can be
-mounted, a limit on the size of files takes its place."""
+"""Full disks: the output lies on a file system of some hundred KiB that fills up at any point. The command says so with
+exit code 5 and leaves a good checkpoint; after room was made the run goes on to the same bits. Where no file system can
+be mounted, a limit on the size of files takes its place."""
 
 import os
 import shutil
@@ -169,7 +169,8 @@ def report(t, disk):
         return
     after = {name: folders.state(os.path.join(folder, name)) for name in folders.files_in(folder)}
     if after != before:
-        t.found("a report that found no room changed the folder: " + ", ".join(sorted(set(after) ^ set(before)) or ["report.html"]))
+        names = sorted(set(after) ^ set(before)) or ["report.html"]
+        t.found("a report that found no room changed the folder: " + ", ".join(names))
 
 
 def sweep(t, disk):

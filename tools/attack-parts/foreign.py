@@ -1,6 +1,7 @@
-"""Foreign files: folders hold files of the user's own, many with the names that a run or a sweep uses. Whatever a command does
-there, --force included, what vkdose did not write itself is as it was; a link and a device stay what they are. Where a run
-has begun, what bears a name of that run's is the run's; all else there is the user's, and so is all in any other folder."""
+"""Foreign files: folders hold files of the user's own, many with the names that a run or a sweep uses. Whatever a
+command does there, --force included, what vkdose did not write itself is as it was; a link and a device stay what they
+are. Where a run has begun, what bears a name of that run's is the run's; all else there is the user's, and so is all in
+any other folder."""
 
 import os
 import stat
@@ -12,13 +13,15 @@ NAME, TRIES = "foreign", 80
 
 STRANGE = ("notes.txt", "picture.png", "report.html", "frames/notes.txt", "frames/holiday.jpg", "fields/measured.csv",
            "fields/map.hdf", "frames.csv", "old/case.toml")
-RUN_LIKE = ("case.toml", "timeseries.csv", "doses.csv", "particles.csv", "summary.json", CHECKPOINT, "frames/frames.csv",
-            "frames/particles_000000.hdf", "frames/coil_000001.hdf", "frames/walls.hdf", "frames/particles.hdf.series",
-            "fields/outlet.csv", "fields/mid-plane.csv", "fields/mid-plane_000000.csv", "frames", "fields") + STRANGE
-STRANGE_IN_SWEEP = ("notes.txt", "report.html", "members/notes.txt", "members/0001/notes.txt", "members/0000/frames/notes.txt",
-                    "members/0000/report.html", "members/0007/case.toml")
-SWEEP_LIKE = ("study.toml", "base.toml", "members.csv", "doses.csv", "members/0000/case.toml", "members/0000/timeseries.csv",
-              "members/0001/frames/frames.csv", "members/0000/particles.csv", "calibrated.toml", "members") + STRANGE_IN_SWEEP
+RUN_LIKE = ("case.toml", "timeseries.csv", "doses.csv", "particles.csv", "summary.json", CHECKPOINT,
+            "frames/frames.csv", "frames/particles_000000.hdf", "frames/coil_000001.hdf", "frames/walls.hdf",
+            "frames/particles.hdf.series", "fields/outlet.csv", "fields/mid-plane.csv", "fields/mid-plane_000000.csv",
+            "frames", "fields") + STRANGE
+STRANGE_IN_SWEEP = ("notes.txt", "report.html", "members/notes.txt", "members/0001/notes.txt",
+                    "members/0000/frames/notes.txt", "members/0000/report.html", "members/0007/case.toml")
+SWEEP_LIKE = ("study.toml", "base.toml", "members.csv", "doses.csv", "members/0000/case.toml",
+              "members/0000/timeseries.csv", "members/0001/frames/frames.csv", "members/0000/particles.csv",
+              "calibrated.toml", "members") + STRANGE_IN_SWEEP
 
 
 class Own:
@@ -58,7 +61,8 @@ def run_into(t, own):
     folder, force = t.path("out"), t.rng.random() < 0.7
     former = t.rng.choice((None, None, "good", "broken"))
     if former:
-        folders.copy(t.ground.good("short", "reference")[0] if former == "good" else t.ground.broken("short", "reference"), folder)
+        run = t.ground.good("short", "reference")[0] if former == "good" else t.ground.broken("short", "reference")
+        folders.copy(run, folder)
     scatter(t, own, folder, STRANGE if former else RUN_LIKE, 5)
     end = t.vkdose(*t.ground.run_words("short", "reference", folder), *(["--force"] if force else []))
     own.judge("`run --force`" if force else "`run`")
@@ -81,7 +85,8 @@ def inputs_there(t, own):
     kind = rng.choice(("case", "list", "base"))
     if kind == "list":
         head, rest = case.split("[particles]", 1)
-        case = head + '[particles]\ndensity = 1427\nlist = "particles.csv"\n\n[contact]' + rest.split("[contact]", 1)[1]
+        case = head + '[particles]\ndensity = 1427\nlist = "particles.csv"\n\n[contact]'
+        case += rest.split("[contact]", 1)[1]
         own.write(t.path("particles.csv"), "x,y,z,r\n0,0.0062,0.004,0.001\n0,0.0062,0.008,0.001\n")
     if kind == "base":
         own.write(t.path("summary.json"), case)
@@ -89,15 +94,18 @@ def inputs_there(t, own):
     name = rng.choice(("case.toml", "case.toml", "mine.toml"))
     own.write(t.path(name), case)
     out = rng.choice((".", t.folder, "../" + os.path.basename(t.folder)))
-    t.vkdose("run", name, "--out", out, "--backend", "reference", "--quiet", *rng.choice(([], ["--force"], ["--force"])))
+    force = rng.choice(([], ["--force"], ["--force"]))
+    t.vkdose("run", name, "--out", out, "--backend", "reference", "--quiet", *force)
     own.judge("`run` over its own inputs")
 
 
 def sweep_into(t, own):
     """A sweep into the folder of its study, or into one with files that are none of a sweep's."""
     command = t.rng.choice(("sweep", "sweep", "sweep", "calibrate", "prepare"))
-    names = {"study.toml": t.rng.choice(("study.toml", "mine.toml")), "base-case.toml": t.rng.choice(("base.toml", "base-case.toml"))}
-    text = (t.ground.study(t.folder), folders.bytes_of(t.path("study.toml")).decode())[1]
+    names = {"study.toml": t.rng.choice(("study.toml", "mine.toml")),
+             "base-case.toml": t.rng.choice(("base.toml", "base-case.toml"))}
+    t.ground.study(t.folder)
+    text = folders.bytes_of(t.path("study.toml")).decode()
     text = text.replace("base-case.toml", names["base-case.toml"])
     if command == "calibrate":
         text += '[calibrate]\ntarget_g_per_dose = 0.01\ntolerance_g = 0.01\nalong = "contact.friction"\n'
@@ -112,8 +120,8 @@ def sweep_into(t, own):
     if former:
         folders.copy(t.ground.broken_sweep(), t.path("out"))
     scatter(t, own, t.path(out), STRANGE_IN_SWEEP if former else SWEEP_LIKE, 3)
-    words = ["calibrate" if command == "calibrate" else "sweep", names["study.toml"], "--out", out, "--quiet", "--jobs", "1",
-             "--backend", "reference"]
+    words = ["calibrate" if command == "calibrate" else "sweep", names["study.toml"], "--out", out, "--quiet",
+             "--jobs", "1", "--backend", "reference"]
     words += {"prepare": ["--prepare"], "sweep": t.rng.choice(([], ["--retry-failed"])), "calibrate": []}[command]
     t.vkdose(*words)
     own.judge(f"`{' '.join(words[:1] + words[-1:])}`")
@@ -156,7 +164,8 @@ def links_in_folder(t, own):
     """Of the run's folder something that no user makes a link is one, to the user's files elsewhere."""
     folder, force = t.path("out"), t.rng.random() < 0.6
     resume = t.rng.random() < 0.4
-    folders.copy(t.ground.broken("short", "reference") if resume else t.ground.good("short", "reference")[0], folder)
+    run = t.ground.broken("short", "reference") if resume else t.ground.good("short", "reference")[0]
+    folders.copy(run, folder)
     name = t.rng.choice(("frames", "fields", "case.toml.new", "summary.json.new", CHECKPOINT + ".new"))
     path = os.path.join(folder, name)
     if os.path.isdir(path):

@@ -14,8 +14,8 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 MINI = os.path.join(ROOT, "cases", "mini.toml")
 
 # Runs of a second or two, a checkpoint every 500 steps, everything a run can keep.
-LONG = {"settle.time_s": 0.03, "dose.rotate_s": 0.06, "dose.rest_s": 0.01, "stop.max_doses": 2, "frames.interval_s": 0.04,
-        "frames.contacts": "true", "checkpoint.time_s": 0.006,
+LONG = {"settle.time_s": 0.03, "dose.rotate_s": 0.06, "dose.rest_s": 0.01, "stop.max_doses": 2,
+        "frames.interval_s": 0.04, "frames.contacts": "true", "checkpoint.time_s": 0.006,
         "field": '[{preset="outlet"},{preset="mid-plane",interval_s=0.04,average=true}]'}
 # A fraction of a second.
 SHORT = {**LONG, "particles.mass_g": 0.4, "settle.time_s": 0.01, "dose.rotate_s": 0.02, "frames.interval_s": 0.01,
@@ -63,9 +63,9 @@ class Try:
         self.log.append(shlex.join(line))
         return program.Running(line, self.folder, self.ground.environment, **limits)
 
-    def ended(self, running, sent=(), patience=None):
+    def ended(self, running, sent=()):
         """Waits for it and finds what no command may do. `sent`: the signals that it was sent."""
-        end = running.wait(patience or self.ground.patience)
+        end = running.wait(self.ground.patience)
         self.note(f"{end.how()} after {end.seconds:.2f} s: {end.said()}")
         fault = end.fault(sent)
         if fault:
@@ -74,8 +74,8 @@ class Try:
             self.found("processes outlive the program")
         return end
 
-    def vkdose(self, *words, patience=None, **limits):
-        return self.ended(self.start(*words, **limits), patience=patience)
+    def vkdose(self, *words, **limits):
+        return self.ended(self.start(*words, **limits))
 
     def expect_same(self, good, folder, what, but=()):
         different = folders.differences(good, folder, but)

@@ -1,5 +1,5 @@
-"""Kills: runs, resumed runs, sweeps and reports are ended by signals at any moment, and gone on with until done. What they
-leave is that of an undisturbed run, to the last byte."""
+"""Kills: runs, resumed runs, sweeps and reports are ended by signals at any moment, and gone on with until done. What
+they leave is that of an undisturbed run, to the last byte."""
 
 import os
 import signal
@@ -26,7 +26,8 @@ def listens(pid):
 
 def moment(rng, seconds, early):
     """When to strike: a text, and a function that waits for it. `early`: rather at the start."""
-    kind = rng.choice(("start", "listening", "listening", "any") if early else ("any", "start", "checkpoint", "writing"))
+    kinds = ("start", "listening", "listening", "any") if early else ("any", "start", "checkpoint", "writing")
+    kind = rng.choice(kinds)
     after = rng.uniform(0, START if kind == "start" else seconds * 1.05)
     count, spin = rng.randint(1, 12), rng.choice((0, rng.uniform(0, 0.03)))
 

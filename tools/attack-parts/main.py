@@ -29,12 +29,12 @@ def options_of(words):
     add("--seconds", type=float, default=7200, help="no try begins later than this (default: %(default)s)")
     add("--seed", type=int, default=1, help="of the dice; all but timing follows from it (default: %(default)s)")
     add("--only", choices=KINDS, action="append", metavar="KIND", help=f"one of {', '.join(KINDS)}; may be repeated")
-    add("--try", type=int, action="append", dest="numbers", metavar="N", help="this try of a kind only, and keep its files")
+    add("--try", type=int, action="append", dest="numbers", metavar="N", help="this try of the kind; keeps its files")
     for name, kind in KINDS.items():
         add(f"--{name}", type=int, default=kind.TRIES, metavar="N", help="tries (default: %(default)s)")
     add("--jobs", type=int, default=2, help="tries at once (default: %(default)s)")
     add("--program", default=os.path.join(ROOT, "build", "release", "vkdose"), help="default: build/release/vkdose")
-    add("--patience", type=float, default=60, help="seconds until a command hangs (default: %(default)s)")
+    add("--patience", type=float, default=60, help="seconds of processor time a command may take (default: %(default)s)")
     add("--memory", type=int, default=3072, help="MiB a command may take (default: %(default)s)")
     return parser.parse_args(words)
 

@@ -1,5 +1,5 @@
-"""Moves: the output folder is moved, removed, replaced or emptied while a run writes into it. The program then fails and says
-so, or leaves a whole run; what was moved can be gone on with."""
+"""Moves: the output folder is moved, removed, replaced or emptied while a run writes into it. The program then fails
+and says so, or leaves a whole run; what was moved can be gone on with."""
 
 import os
 import shutil
@@ -76,9 +76,9 @@ def attempt(t):
         os.chmod(folder, 0o700)
     elsewhere = t.path("elsewhere")
     if end.code == 0:
-        places = [place for place in (folder, elsewhere) if os.path.isdir(place)]
-        if not any(not folders.differences(good, place) for place in places):
-            t.found(f"{way.__name__}: exit 0, but " + (folders.brief(folders.differences(good, places[-1])) if places else "no run"))
+        judged = [folders.differences(good, place) for place in (folder, elsewhere) if os.path.isdir(place)]
+        if [] not in judged:
+            t.found(f"{way.__name__}: exit 0, but " + (folders.brief(judged[-1]) if judged else "there is no run"))
         return
     if end.code is not None and end.code not in (2, 5):
         t.found(f"{way.__name__} ends it with {end.how()}: {end.said()}")

@@ -1,5 +1,5 @@
-"""Pairs: two commands at once in one folder. One wins and the other is refused, or they go one after the other; the folder then
-holds what one of them alone would have made, never a mixture, and nothing of an unfinished run is lost."""
+"""Pairs: two commands at once in one folder. One wins and the other is refused, or they go one after the other; the
+folder then holds what one of them alone would have made, never a mixture, and nothing of an unfinished run is lost."""
 
 import os
 import time
@@ -50,7 +50,9 @@ def runs(t, force):
     former = force and t.rng.random() < 0.5
     if former:
         folders.copy(goods[0][0], folder)
-    first, second = (t.ground.run_words("short", "reference", folder, seed) + (["--force"] if force else []) for seed in (1, 2))
+    first, second = (t.ground.run_words("short", "reference", folder, seed) for seed in (1, 2))
+    if force:
+        first, second = first + ["--force"], second + ["--force"]
     ends = both(t, first, second, goods[0][1])
     if not outcome(t, ends, [good for good, _ in goods], folder) and all(end.code == 2 for end in ends):
         t.found("both of two runs are refused")

@@ -9,15 +9,17 @@ import time
 
 TAIL = 8000  # characters of its output that are looked at
 CODES = (0, 1, 2, 3, 4, 5, 130)  # what the README documents
+IDLE = 8  # seconds of sleep, without any work, after which a program waits for what will not come
 SANITIZERS = ("Sanitizer", "runtime error:")
 
 _sessions = set()  # of the children that may still live
 _guard = threading.Lock()
 
 
-def in_session(session):
-    """The processes of a session that have not ended: a child of ours, its children, and theirs."""
-    alive = []
+def stats_of(session):
+    """Of the processes of a session that have not ended (a child of ours, its children, and theirs): number and what
+    /proc says from the state on."""
+    alive = {}
     for name in os.listdir("/proc"):
         if not name.isdigit():
             continue
@@ -27,8 +29,19 @@ def in_session(session):
         except OSError:
             continue
         if int(fields[3]) == session and fields[0] != "Z":
-            alive.append(int(name))
+            alive[int(name)] = fields
     return alive
+
+
+def in_session(session):
+    return list(stats_of(session))
+
+
+def work_of(session):
+    """The processor time [s] that a session has taken, and whether all in it sleep."""
+    stats = stats_of(session).values()
+    ticks = sum(int(fields[i]) for fields in stats for i in (11, 12, 13, 14))
+    return ticks / os.sysconf("SC_CLK_TCK"), all(fields[0] == "S" for fields in stats)
 
 
 def send(pid, number):
@@ -66,7 +79,7 @@ class Ended:
     def fault(self, sent=()):
         """What no command may do whatever happens; empty if it did not. `sent`: signals that we sent."""
         if self.code is None:
-            return f"hangs: no end within {self.seconds:.0f} s"
+            return "hangs"
         if any(word in self.err + self.out for word in SANITIZERS):
             return "a sanitizer's report: " + self.said()
         if "internal error" in self.err:
@@ -92,11 +105,15 @@ class Running:
         self._child = subprocess.Popen(limits + ["--"] + words, cwd=folder, env=environment, stdin=subprocess.DEVNULL,
                                        stdout=self._out, stderr=self._err, start_new_session=True)
         self.pid = self._child.pid
+        self._looked, self._work, self._idle_since = self.began, -1, self.began
         with _guard:
             _sessions.add(self.pid)
 
     def over(self):
         return self._child.poll() is not None
+
+    def work(self):
+        return work_of(self.pid)[0]
 
     def family(self):
         """The program's children, theirs included."""
@@ -106,20 +123,30 @@ class Running:
         if not self.over():
             send(self.pid, number)
 
+    def hangs(self, seconds):
+        """Whether it has taken so much processor time, or waits idly: on a busy machine the clock says nothing."""
+        now = time.monotonic()
+        if now < self._looked + 0.25:
+            return False
+        self._looked = now
+        work, asleep = work_of(self.pid)
+        if work != self._work or not asleep:
+            self._work, self._idle_since = work, now
+        return work > seconds or now > self._idle_since + IDLE
+
     def wait(self, seconds):
-        """Waits for its end; if there is none, ends it."""
-        try:
-            code = self._child.wait(seconds)
-        except subprocess.TimeoutExpired:
-            code = None
+        """Waits for its end; if it hangs, ends it. `seconds`: of processor time that it may take."""
+        while not self.over() and not self.hangs(seconds):
+            time.sleep(0.002)
+        code = self._child.poll()
         if code is None:
             self.end()
         return Ended(code, self._text(self._out), self._text(self._err), time.monotonic() - self.began)
 
     def wait_family(self, seconds):
         """Waits for whatever outlived it; False if something did not end and had to be ended."""
-        last = time.monotonic() + seconds
-        while in_session(self.pid) and time.monotonic() < last:
+        self._idle_since = time.monotonic()
+        while in_session(self.pid) and not self.hangs(seconds):
             time.sleep(0.01)
         good = not in_session(self.pid)
         self.end()

@@ -1,12 +1,12 @@
-"""Ways to spoil a file. Each is a text that tells what was done; the bytes are always an attacker's choice by the dice."""
+"""Ways to spoil a file, by the dice."""
 
 import os
 import re
 
 import folders
 
-NUMBERS = (b"1e308", b"-1e308", b"1e-320", b"99999999999999999999", b"-1", b"0", b"nan", b"inf", b"-nan", b"1e400", b"0x7f",
-           b"4294967296", b"9223372036854775808", b"1e15", b"''", b"")
+NUMBERS = (b"1e308", b"-1e308", b"1e-320", b"99999999999999999999", b"-1", b"0", b"nan", b"inf", b"-nan", b"1e400",
+           b"0x7f", b"4294967296", b"9223372036854775808", b"1e15", b"''", b"")
 NUMBER = re.compile(rb"[-+]?\d+(\.\d*)?([eE][-+]?\d+)?")
 
 
@@ -43,12 +43,14 @@ def other_number(rng, data):
 
 def long_line(rng, data):
     at = rng.randrange(len(data))
-    return data[:at] + rng.choice((b"x", b"9", b",", b"[", b'"', b" ", b".")) * rng.choice((10_000, 2_000_000)) + data[at:]
+    letter = rng.choice((b"x", b"9", b",", b"[", b'"', b" ", b"."))
+    return data[:at] + letter * rng.choice((10_000, 2_000_000)) + data[at:]
 
 
 def inserted(rng, data):
     at = rng.randrange(len(data))
-    extra = rng.choice((b"\0", b"\xff\xfe", b"\xc3", b"\xed\xa0\x80", b"\r", b"\n", b"\n\n\n", b"junk", b"1,2,3\n", rng.randbytes(100)))
+    extra = rng.choice((b"\0", b"\xff\xfe", b"\xc3", b"\xed\xa0\x80", b"\r", b"\n", b"\n\n\n", b"junk", b"1,2,3\n",
+                        rng.randbytes(100)))
     return data[:at] + extra + data[at:]
 
 
@@ -71,8 +73,8 @@ def zeros(_, data):
     return b"\0" * len(data)
 
 
-CONTENTS = (bit_flips, bit_flips, bit_flips, truncation, doubled_line, deleted_line, other_number, other_number, other_number,
-            other_number, long_line, inserted, inserted, garbage, swapped, empty, zeros)
+CONTENTS = (bit_flips, bit_flips, bit_flips, truncation, doubled_line, deleted_line, other_number, other_number,
+            other_number, other_number, long_line, inserted, inserted, garbage, swapped, empty, zeros)
 
 
 def folder(path):
@@ -97,7 +99,7 @@ def endless(path):
 
 def huge(path):
     with open(path, "wb") as file:
-        file.truncate(8 << 30)  # takes no room: it is one hole
+        file.truncate(4 << 30)  # takes no room: it is one hole
 
 
 # What cannot be read as a file at all.
