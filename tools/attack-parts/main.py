@@ -24,7 +24,7 @@ KINDS = {kind.NAME: kind for kind in (kills, mutations, disks, moves, pairs, for
 
 
 def options_of(words):
-    parser = argparse.ArgumentParser(prog="tools/attack", description=__doc__.split("\n")[0])
+    parser = argparse.ArgumentParser(prog="tools/attack", description="Attacks vkdose; prints what it tried and found.")
     add = parser.add_argument
     add("--seconds", type=float, default=7200, help="no try begins later than this (default: %(default)s)")
     add("--seed", type=int, default=1, help="of the dice; all but timing follows from it (default: %(default)s)")
@@ -34,7 +34,7 @@ def options_of(words):
         add(f"--{name}", type=int, default=kind.TRIES, metavar="N", help="tries (default: %(default)s)")
     add("--jobs", type=int, default=2, help="tries at once (default: %(default)s)")
     add("--program", default=os.path.join(ROOT, "build", "release", "vkdose"), help="default: build/release/vkdose")
-    add("--patience", type=float, default=60, help="seconds of processor time a command may take (default: %(default)s)")
+    add("--patience", type=float, default=60, help="processor seconds a command may take (default: %(default)s)")
     add("--memory", type=int, default=3072, help="MiB a command may take (default: %(default)s)")
     return parser.parse_args(words)
 
@@ -95,6 +95,8 @@ def attempt(ground, tally, keep, name, number, last):
         if ground.over.is_set():
             return
         t.found("the attack itself failed: " + traceback.format_exc())
+    if ground.over.is_set():
+        return  # we ended its programs ourselves
     tally.add(t)
     t.close(keep)
 
@@ -114,12 +116,14 @@ def main():
     began = time.monotonic()
     ground, tally = Ground(options), Tally(options)
     pool = concurrent.futures.ThreadPoolExecutor(options.jobs)
+    interrupted = False
     try:
         work = [pool.submit(attempt, ground, tally, bool(options.numbers), name, number, began + options.seconds)
                 for name, number in order(options)]
         for one in concurrent.futures.as_completed(work):
             one.result()
     except KeyboardInterrupt:
+        interrupted = True
         print("tools/attack: interrupted", file=sys.stderr)
     finally:
         ground.over.set()
@@ -127,7 +131,8 @@ def main():
         pool.shutdown(cancel_futures=True)
         disks.unmount_all()
     folders.remove(ground.foundation)
-    sys.exit(tally.close(options.only or list(KINDS), time.monotonic() - began))
+    found = tally.close(options.only or list(KINDS), time.monotonic() - began)
+    sys.exit(130 if interrupted else found)
 
 
 if __name__ == "__main__":
