@@ -16,20 +16,30 @@ _sessions = set()  # of the children that may still live
 _guard = threading.Lock()
 
 
+def stat(path):
+    """What /proc says of a process or thread from its state on; None if it is gone."""
+    try:
+        with open(f"{path}/stat", encoding="utf-8", errors="replace") as file:
+            return file.read().rpartition(")")[2].split()
+    except OSError:
+        return None
+
+
 def stats_of(session):
-    """Of the processes of a session that have not ended (a child of ours, its children, and theirs): number and what
-    /proc says from the state on."""
+    """Of the processes of a session that have not ended (a child of ours, its children, and theirs): what /proc says of
+    each, and the states of its threads."""
     alive = {}
     for name in os.listdir("/proc"):
-        if not name.isdigit():
+        fields = stat(f"/proc/{name}") if name.isdigit() else None
+        if fields is None or int(fields[3]) != session:
             continue
         try:
-            with open(f"/proc/{name}/stat", encoding="utf-8", errors="replace") as file:
-                fields = file.read().rpartition(")")[2].split()
+            threads = [stat(f"/proc/{name}/task/{thread}") for thread in os.listdir(f"/proc/{name}/task")]
         except OSError:
             continue
-        if int(fields[3]) == session and fields[0] != "Z":
-            alive[int(name)] = fields
+        states = [thread[0] for thread in threads if thread and thread[0] not in "ZX"]
+        if states:
+            alive[int(name)] = (fields, states)
     return alive
 
 
@@ -38,10 +48,10 @@ def in_session(session):
 
 
 def work_of(session):
-    """The processor time [s] that a session has taken, and whether all in it sleep."""
-    stats = stats_of(session).values()
-    ticks = sum(int(fields[i]) for fields in stats for i in (11, 12, 13, 14))
-    return ticks / os.sysconf("SC_CLK_TCK"), all(fields[0] == "S" for fields in stats)
+    """The processor time [s] that a session has taken, and whether every thread in it sleeps (a disk lets none sleep)."""
+    alive = stats_of(session).values()
+    ticks = sum(int(fields[i]) for fields, _ in alive for i in (11, 12, 13, 14))
+    return ticks / os.sysconf("SC_CLK_TCK"), bool(alive) and all(set(states) == {"S"} for _, states in alive)
 
 
 def send(pid, number):
