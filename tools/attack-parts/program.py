@@ -48,7 +48,7 @@ def in_session(session):
 
 
 def work_of(session):
-    """The processor time [s] that a session has taken, and whether every thread in it sleeps (a disk lets none sleep)."""
+    """The processor time [s] that a session has taken, and whether all its threads sleep, none waiting for a disk."""
     alive = stats_of(session).values()
     ticks = sum(int(fields[i]) for fields, _ in alive for i in (11, 12, 13, 14))
     return ticks / os.sysconf("SC_CLK_TCK"), bool(alive) and all(set(states) == {"S"} for _, states in alive)
@@ -112,8 +112,10 @@ class Running:
             limits.append(f"--fsize={file_size}")
         self._out, self._err = tempfile.TemporaryFile(), tempfile.TemporaryFile()
         self.began = time.monotonic()
+        # A limit on files stands for a full disk, which sends no signal: SIGXFSZ stays ignored, as Python has it.
         self._child = subprocess.Popen(limits + ["--"] + words, cwd=folder, env=environment, stdin=subprocess.DEVNULL,
-                                       stdout=self._out, stderr=self._err, start_new_session=True)
+                                       stdout=self._out, stderr=self._err, start_new_session=True,
+                                       restore_signals=not file_size)
         self.pid = self._child.pid
         self._looked, self._work, self._idle_since = self.began, -1, self.began
         with _guard:
