@@ -1,0 +1,94 @@
+"""Moves: the output folder is moved, removed, replaced or emptied while a run writes into it. The program then fails
+and says so, or leaves a whole run; what was moved can be gone on with."""
+
+import os
+import shutil
+import time
+
+import folders
+from ground import CHECKPOINT
+
+NAME, TRIES = "moves", 40
+
+
+def moved(t, folder):
+    os.rename(folder, t.path("elsewhere"))
+
+
+def removed(_, folder):
+    shutil.rmtree(folder, ignore_errors=True)
+
+
+def replaced(t, folder):
+    os.rename(folder, t.path("elsewhere"))
+    os.mkdir(folder)
+
+
+def file_instead(t, folder):
+    os.rename(folder, t.path("elsewhere"))
+    folders.write(folder, "a file of the user's\n")
+
+
+def frames_removed(_, folder):
+    shutil.rmtree(os.path.join(folder, "frames"), ignore_errors=True)
+
+
+def series_removed(_, folder):
+    os.unlink(os.path.join(folder, "timeseries.csv"))
+
+
+def checkpoint_removed(_, folder):
+    os.unlink(os.path.join(folder, CHECKPOINT))
+
+
+def read_only(_, folder):
+    os.chmod(folder, 0o500)
+
+
+WAYS = (moved, removed, replaced, file_instead, frames_removed, series_removed, checkpoint_removed, moved)
+
+
+def attempt(t):
+    backend = t.rng.choice(("reference", "reference", "vulkan"))
+    case = t.rng.choice(("long", "plain"))
+    good, seconds = t.ground.good(case, backend)
+    folder, words = t.path("run"), t.ground.run_words(case, backend, t.path("run"))
+    way = WAYS[t.number % len(WAYS)]
+    if way is moved and t.number % 2 and os.geteuid() != 0:  # root writes into it all the same
+        way = read_only
+    if case == "long" and t.rng.random() < 0.3:
+        folders.copy(t.ground.broken("long", backend), folder)
+        words = ["resume", folder, "--quiet"]
+    running = t.start(*words)
+    after = t.rng.uniform(0.1, seconds)
+    time.sleep(after)
+    if running.over() or not os.path.exists(folder):
+        t.note("nothing to be moved")
+        t.ended(running)
+        return
+    try:
+        way(t, folder)
+    except FileNotFoundError:
+        t.note("not there yet")
+    t.note(f"{way.__name__} after {after:.3f} s")
+    end = t.ended(running)
+    if way is read_only:
+        os.chmod(folder, 0o700)
+    elsewhere = t.path("elsewhere")
+    if end.code == 0:
+        judged = [folders.differences(good, place) for place in (folder, elsewhere) if os.path.isdir(place)]
+        if [] not in judged:
+            t.found(f"{way.__name__}: exit 0, but " + (folders.brief(judged[-1]) if judged else "there is no run"))
+        return
+    if end.code is not None and end.code not in (2, 5):
+        t.found(f"{way.__name__} ends it with {end.how()}: {end.said()}")
+    if end.code is not None and not end.err.strip():
+        t.found(f"{way.__name__}: {end.how()} without a word")
+    if way is file_instead and folders.state(folder) != ("file", b"a file of the user's\n"):
+        t.found("it replaced the user's file")
+    if os.path.exists(os.path.join(elsewhere, CHECKPOINT)):
+        end = t.vkdose("resume", elsewhere, "--quiet")
+        if end.code == 0:
+            t.expect_same(good, elsewhere, "the moved run was gone on with, exit 0, but")
+        else:
+            t.found(f"the moved run cannot be gone on with: {end.how()}: {end.said()}")

@@ -1,0 +1,191 @@
+"""Mutations: every file that a command reads is spoilt in some way. The command then refuses, by the file's name, or
+does what it should: no signal, no hang, no internal error, no result that is none."""
+
+import glob
+import json
+import math
+import os
+import shutil
+import signal
+import struct
+import time
+import zlib
+
+import folders
+from ground import CHECKPOINT, MINI
+from spoil import spoil
+
+NAME, TRIES = "mutations", 500
+LONG = 5  # seconds of processor time after which a run that was not spoilt is long over
+
+OF_A_RUN = ["case.toml", "timeseries.csv", "doses.csv", "frames/frames.csv", "frames/particles_000001.hdf",
+            "fields/mid-plane.csv", "fields/mid-plane_000000.csv"]
+# Commands, and what is spoilt for them; what stands twice is spoilt twice as often.
+TARGETS = (
+    ("run", ["case.toml"] * 6 + ["list.csv"] * 3 + ["case-list.toml"]),
+    ("check", ["case.toml"] * 2 + ["list.csv"]),
+    ("compare", ["case.toml"]),
+    ("export-coil", ["case.toml"]),
+    ("resume", [CHECKPOINT] * 6 + OF_A_RUN + OF_A_RUN[:3] + ["fields/outlet.csv"]),
+    ("report", OF_A_RUN + OF_A_RUN[1:3] + ["summary.json"] * 2 + ["particles.csv", "frames/contacts_000001.hdf"]),
+    ("report", ["experiment.csv", "profile.csv"] * 2),
+    ("report-sweep", ["members.csv", "doses.csv", "study.toml", "base.toml", "members/0000/case.toml"]),
+    ("report-sweep", ["expected.toml"] * 2),
+    ("render", ["case.toml", "frames/frames.csv", "frames/particles_000001.hdf", "particles.csv"]),
+    ("profile", ["photo.png"] * 3),
+    ("sweep", ["study.toml"] * 2 + ["base-case.toml"]),
+    ("sweep-on", ["members.csv", "doses.csv", "study.toml", "base.toml"]),
+    ("sweep-on", ["members/0000/case.toml", "members/0001/case.toml", "members/*/" + CHECKPOINT]),
+    ("calibrate", ["study.toml", "measured.csv"]),
+)
+DECK = [(command, name) for command, names in TARGETS for name in names]
+# These may be spoilt and a resumed run not see it: it has no need of them, and does not write them again.
+UNREAD = ("frames/particles_", "fields/mid-plane_")
+
+
+def photo():
+    """A PNG of dark powder with a wavy surface before a bright wall."""
+    width, height = 96, 64
+    surface = [30 + 8 * math.sin(x / 15) for x in range(width)]
+    rows = b"".join(b"\0" + bytes(60 if y > s else 200 for s in surface) for y in range(height))
+
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 0, 0, 0, 0)) +
+            chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+
+
+def list_case(t):
+    """A case whose particles are the end of an undisturbed run."""
+    end = os.path.join(t.ground.good("short", "reference")[0], "particles.csv")
+    rows = [line.split(",") for line in folders.bytes_of(end).decode().splitlines()[1:]]
+    text = "".join(",".join(row[1:4] + row[10:11]) + "\n" for row in rows if row[11] == "active")
+    folders.write(t.path("list.csv"), "x,y,z,r\n" + text)
+    case = t.ground.case_text("short").decode()
+    head, rest = case.split("[particles]", 1)
+    after = rest.split("[contact]", 1)[1]
+    head += '[particles]\ndensity = 1427\nlist = "list.csv"\n\n[contact]'
+    folders.write(t.path("case-list.toml"), head + after)
+
+
+def prepare(t, command, name):
+    """Makes the folder as the command is to find it. The words of the command and the path of the file to be spoilt."""
+    ground = t.ground
+    device = ["--backend", "vulkan" if t.rng.random() < 0.1 else "reference"]
+    if command in ("run", "check", "compare", "export-coil"):
+        folders.write(t.path("case.toml"), ground.case_text("short"))
+        list_case(t)
+        case = "case.toml" if name == "case.toml" else "case-list.toml"
+        words = {"run": ["run", case, "--out", "out", "--quiet", *device], "check": ["check", case, *device],
+                 "compare": ["compare", case, "--steps", "50", "--twins", "1"],
+                 "export-coil": ["export-coil", case, "--out", "coil.stl"]}[command]
+        return words, t.path(name)
+    if command == "profile":
+        folders.write(t.path(name), photo())
+        return ["profile", name, "--mm-per-pixel", "0.2", "--check", "check.png"], t.path(name)
+    if command in ("sweep", "calibrate"):
+        study = ground.study(t.folder)
+        if command == "sweep":
+            return ground.sweep_words("out", "reference"), t.path(name)
+        readings = "".join(f"{i},{0.5 + 0.01 * (i % 3)}\n" for i in range(1, 8))
+        folders.write(t.path("measured.csv"), "dose,mass_g\n" + readings)
+        text = '[calibrate]\nmeasured = "measured.csv"\nalong = "contact.friction"\n'
+        folders.write(t.path(study), folders.bytes_of(t.path(study)) + text.encode())
+        return ["calibrate", study, "--dry-run", "--jobs", "1", "--backend", "reference"], t.path(name)
+    if command == "sweep-on":
+        ground.study(t.folder)
+        folders.copy(ground.broken_sweep(), t.path("out"))
+        return ground.sweep_words("out", "reference"), t.path("out", name)
+    if command == "report-sweep":
+        folders.copy(ground.good_sweep("reference")[0], t.path("out"))
+        shutil.copy(os.path.join(os.path.dirname(MINI), "paper", "expected.toml"), t.path("expected.toml"))
+        at = t.path(name) if name == "expected.toml" else t.path("out", name)
+        return ["report", "out", "--expected", "expected.toml"], at
+    if command == "resume":
+        folders.copy(ground.broken("short", "reference"), t.path("out"))
+        return ["resume", "out", "--quiet"], t.path("out", name)
+    folders.copy(ground.good("short", "reference")[0], t.path("out"))
+    if name in ("experiment.csv", "profile.csv"):
+        folders.write(t.path("experiment.csv"), "dose,mass_g\n1,0.01\n2,0.02\n")
+        folders.write(t.path("profile.csv"), "z_mm,height_mm\n" + "".join(f"{i},{5 + i % 3}\n" for i in range(16)))
+        return ["report", "out", "--experiment", "experiment.csv", "--profile", "profile.csv@0"], t.path(name)
+    if command == "report":
+        return ["report", "out"], t.path("out", name)
+    if name == "particles.csv":  # drawn only of a run without frames
+        folders.remove(t.path("out", "frames"))
+        text = folders.bytes_of(t.path("out", "case.toml"))
+        folders.write(t.path("out", "case.toml"), text.replace(b"0.01\ncontacts", b"0\ncontacts"))
+    return ["render", "out", "--size", "64x64"], t.path("out", name)
+
+
+def whole_summary(text):
+    """Whether a summary is JSON of numbers that are numbers."""
+    def refuse(word):
+        raise ValueError(word)
+    try:
+        return bool(json.loads(text, parse_constant=refuse)["steps"])
+    except (ValueError, KeyError, TypeError):
+        return False
+
+
+def judge_success(t, command, name, readable):
+    """What exit 0 promises, after a spoilt file."""
+    if command == "run":
+        if not folders.complete(t.path("out")) or not whole_summary(folders.bytes_of(t.path("out", "summary.json"))):
+            t.found("exit 0 without a whole summary")
+    elif command == "resume":
+        but = [name] if name.startswith(UNREAD) else []
+        t.expect_same(t.ground.good("short", "reference")[0], t.path("out"), "resumed, exit 0, but", but)
+    elif command == "sweep-on":
+        t.expect_same(t.ground.good_sweep("reference")[0], t.path("out"), "swept on, exit 0, but")
+    else:
+        made = {"report": "out/report.html", "report-sweep": "out/report.html", "render": "out/picture.png",
+                "profile": "profile.csv", "export-coil": "coil.stl"}.get(command)
+        content = folders.bytes_of(t.path(made)).rstrip() if made and os.path.exists(t.path(made)) else b""
+        if made and (not content or made.endswith("html") and not content.endswith(b"</html>")):
+            t.found(f"exit 0 without a whole {made}")
+    if not readable and not (command == "resume" and name != CHECKPOINT) and command != "sweep-on":
+        t.found("exit 0 though the file cannot be read")
+
+
+def judge_refusal(t, end, command, name):
+    """A refusal names the file; where a case became another case, what it cannot do is told otherwise."""
+    said = end.err + end.out
+    allowed = {"run": (2, 3), "compare": (1, 2, 3), "sweep": (1, 2), "sweep-on": (1, 2)}
+    if end.code not in allowed.get(command, (2, 5)):
+        t.found(f"{end.how()} for a spoilt {name}: {end.said()}")
+    elif end.code in (2, 5) and os.path.basename(name) not in said:
+        t.found(f"the refusal does not name {name}: {end.said()}")
+
+
+def wait_or_interrupt(t, running, command, readable):
+    """A spoilt case may be one that takes long: it does not hang if it has begun and ends when asked to."""
+    while not running.over() and not running.hangs(LONG):
+        time.sleep(0.005)
+    begun = command == "compare" or any(os.path.exists(t.path("out", name)) for name in ("timeseries.csv", "members"))
+    if running.over() or running.work() < LONG or not readable or not begun:
+        return False
+    t.note("it is a long one: SIGINT")
+    running.send(signal.SIGINT)
+    return True
+
+
+def attempt(t):
+    command, name = DECK[t.number % len(DECK)]
+    words, path = prepare(t, command, name)
+    if "*" in path:
+        path = t.rng.choice(sorted(glob.glob(path)))
+    way, readable = spoil(t.rng, path)
+    if way == "dangling" and command in ("report", "report-sweep", "render"):
+        readable = True  # as good as a file that is not there, which may be: the run still goes on
+    t.note(f"{name} of {command}: {way}")
+    running = t.start(*words, memory=t.ground.memory)
+    long = wait_or_interrupt(t, running, command, readable)
+    before = len(t.finds)
+    end = t.ended(running, sent=(signal.SIGINT,) if long else ())
+    if len(t.finds) == before and not long:
+        if end.code == 0:
+            judge_success(t, command, name, readable)
+        else:
+            judge_refusal(t, end, command, name)
+    t.finds = [f"{name} of {command}, {way}: {text}" for text in t.finds]
