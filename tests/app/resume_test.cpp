@@ -15,6 +15,7 @@
 #include "host/output/checkpoint.h"
 #include "host/output/frames.h"
 #include "tests/app/sandbox.h"
+#include "tests/support/records.h"
 
 using namespace vkdose;
 using namespace vkdose::test;
@@ -165,6 +166,26 @@ TEST_CASE("after Ctrl-C a run can be resumed, to the same bits") {
     const auto over = box.vkdose("resume cut");
     CHECK(over.code == 2);
     CHECK_THAT(over.err, Catch::Contains("over"));
+}
+
+TEST_CASE("interrupted before it makes a step, a resumed run still ends with the same bits") {
+    const std::string backend = GENERATE(std::string("reference"), std::string("vulkan"));
+    const Sandbox box;
+    REQUIRE(box.vkdose("run " + words(kDoses) + "--out whole --backend " + backend).code == 0);
+    const pid_t child = box.start(joined({"run", "--backend", backend, "--out", "cut"}, kDoses));
+    REQUIRE(WIFSIGNALED(endAfter(child, box / "cut" / kCheckpointName, 8, 0, SIGKILL)));
+    const Checkpoint before = readCheckpoint(box / "cut" / kCheckpointName);
+    // A parent that is gone interrupts as Ctrl-C would, before anything is computed.
+    REQUIRE(box.vkdose("resume cut --quiet --parent 999999").code == 130);
+    const Checkpoint after = readCheckpoint(box / "cut" / kCheckpointName);
+    CAPTURE(backend);
+    CHECK(after.time == before.time);
+    checkSameArrays(before.run.run, after.run.run);
+    checkSameArrays(before.run.backend, after.run.backend);
+    const auto on = box.vkdose("resume cut");
+    CAPTURE(on.err);
+    CHECK(on.code == 0);
+    checkSame(box / "whole", box / "cut");
 }
 
 TEST_CASE("the bits do not depend on the number of driver threads") {

@@ -63,8 +63,9 @@ struct SlotRun {
     }
 };
 
-/// Lists what touched, as a refresh would have: the next one carries the histories on.
-void restoreContacts(Passes& passes, std::uint32_t member, std::size_t particles, const Record& record) {
+/// Lists what touched, as a refresh would have: the next one carries the histories on. Returns what Control::listed
+/// says of it: nothing of the coil, whose histories are the particles' own.
+uvec4 restoreContacts(Passes& passes, std::uint32_t member, std::size_t particles, const Record& record) {
     const TableSizes& t = passes.sizes;
     const auto& owner = record.get<std::uint32_t>("contact_particle");
     const std::size_t count = owner.size(), parts = t.historyParts();
@@ -97,6 +98,7 @@ void restoreContacts(Passes& passes, std::uint32_t member, std::size_t particles
     surfaces.write(passes);
     passes.rows.writeAll(links, (std::uint64_t(t.members) * t.rowEntries + firstLink) * sizeof(std::uint32_t));
     passes.ranges.writeAll(ranges, firstParticle * sizeof(uvec4));
+    return {std::uint32_t(pairs.entries.size()), std::uint32_t(surfaces.entries.size()), 0U, 0U};
 }
 
 }  // namespace
@@ -166,12 +168,13 @@ void restoreState(Passes& passes, std::uint32_t member, std::size_t particles, s
     static const std::vector<float> none;
     const auto& book = books > 0 ? record.get<float>("energy_book", 4 * particles * books) : none;
     const auto rebuilds = record.one<std::uint32_t>("rebuilds");
-    restoreContacts(passes, member, particles, record);
+    const uvec4 listed = restoreContacts(passes, member, particles, record);
     const std::size_t couples = gpu::kFields / 2;
     unpack(state, couples, 2 * stride, source * couples * 2 * stride + 2 * first, 2 * particles, passes.state);
     unpack(coil, coilRows, stride, first, particles, passes.coilHistory);
     unpack(book, books, stride, first, particles, passes.books);
     gpu::Control control = passes.controlOf(member);
+    control.listed = listed;  // a snapshot may be taken again before any step
     control.list = uvec4(0U, rebuilds, 0U, 0U);
     passes.setControl(member, control);
 }
