@@ -150,11 +150,13 @@ TEST_CASE("killed again and again at random moments, a run ends with the same bi
     checkSame(box / "whole", box / "cut");
 }
 
-TEST_CASE("after Ctrl-C a run can be resumed, to the same bits") {
+TEST_CASE("after Ctrl-C or the closing of its terminal a run can be resumed, to the same bits") {
+    const int signal = GENERATE(SIGINT, SIGHUP);
+    CAPTURE(signal);
     const Sandbox box;
     REQUIRE(box.vkdose("run " + words(kDoses) + "--out whole --backend reference").code == 0);
     const pid_t child = box.start(joined({"run", "--backend", "reference", "--out", "cut"}, kDoses));
-    const int status = endAfter(child, box / "cut" / kCheckpointName, 20, 0, SIGINT);
+    const int status = endAfter(child, box / "cut" / kCheckpointName, 20, 0, signal);
     REQUIRE(WEXITSTATUS(status) == 130);
     const auto early = box.vkdose("run " + words(kDoses) + "--out cut --backend reference");
     CHECK(early.code == 2);

@@ -72,13 +72,15 @@ TEST_CASE("a sweep that is killed again and again ends with the rows of one that
     CHECK(readText(box / "cut/members/0002/timeseries.csv") == readText(box / "whole/members/0002/timeseries.csv"));
 }
 
-TEST_CASE("after Ctrl-C a sweep goes on to the same rows") {
+TEST_CASE("after Ctrl-C or the closing of its terminal a sweep goes on to the same rows") {
+    const int signal = GENERATE(SIGINT, SIGHUP);
+    CAPTURE(signal);
     const Sandbox box;
     box.write("study.toml", kStudy);
     REQUIRE(box.vkdose("sweep study.toml --backend reference --quiet --out whole").code == 0);
     const pid_t sweep = box.start(kSweep);
     REQUIRE(reached(sweep, box / "cut/members/0001"));
-    kill(sweep, SIGINT);
+    kill(sweep, signal);
     int status = 0;
     waitpid(sweep, &status, 0);
     CHECK(WEXITSTATUS(status) == 130);
