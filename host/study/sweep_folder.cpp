@@ -133,8 +133,8 @@ void SweepFolder::requireSame(const Member& member) const {
 void SweepFolder::rewrite() {
     for (const auto& [table, name] : {std::pair{&members_, "members.csv"}, std::pair{&doses_, "doses.csv"}})
         replaceFile(folder_ / name, content(*table));
-    membersFile_.emplace(folder_ / "members.csv", std::uint64_t(fs::file_size(folder_ / "members.csv")));
-    dosesFile_.emplace(folder_ / "doses.csv", std::uint64_t(fs::file_size(folder_ / "doses.csv")));
+    membersFile_.emplace(folder_ / "members.csv", CsvMark{fs::file_size(folder_ / "members.csv")});
+    dosesFile_.emplace(folder_ / "doses.csv", CsvMark{fs::file_size(folder_ / "doses.csv")});
 }
 
 fs::path SweepFolder::memberFolder(int number) const {

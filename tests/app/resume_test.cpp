@@ -8,6 +8,7 @@
 #include <atomic>
 #include <catch2/catch.hpp>
 #include <csignal>
+#include <future>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <thread>
@@ -285,6 +286,89 @@ TEST_CASE("no cut and no flipped bit of a checkpoint goes unnoticed") {
         CAPTURE(at);
         CHECK_THROWS_AS(readCheckpoint(file), CheckpointError);
     }
+}
+
+TEST_CASE("what has been changed before the checkpoint's mark is refused by name, and left as it is") {
+    const Sandbox box;
+    interrupted(box);
+    for (const std::string name : {"timeseries.csv", "doses.csv", "frames/frames.csv", "fields/outlet.csv"}) {
+        const std::string good = readText(box / "out" / name);
+        const std::size_t line = good.find('\n') + 1;
+        std::string bad = good;
+        SECTION(name + ": a byte more") {
+            bad.insert(line - 1, "0");
+        }
+        SECTION(name + ": another byte") {
+            bad[line - 2] ^= 1;
+        }
+        if (bad == good) continue;
+        box.write("out/" + name, bad);
+        const auto o = box.vkdose("resume out");
+        CAPTURE(o.err);
+        CHECK(o.code == 2);
+        CHECK_THAT(o.err, Catch::Contains("out/" + name));
+        CHECK(readText(box / "out" / name) == bad);
+    }
+}
+
+TEST_CASE("a run goes on with the case it began with, and its case.toml says no other") {
+    const Sandbox box;
+    const fs::path file = interrupted(box);
+    const std::string good = readText(box / "out/case.toml"), checkpoint = readText(file);
+    std::string bad = good;
+    SECTION("another value") {
+        bad.replace(bad.find("max_doses = 2"), 13, "max_doses = 1");
+    }
+    SECTION("no case") {
+        bad = "max_doses";
+    }
+    SECTION("the same in other words") {
+        bad = "# mine\n" + good;
+    }
+    SECTION("gone") {
+        bad = "";
+    }
+    box.write("out/case.toml", bad);
+    if (bad.empty()) fs::remove(box / "out/case.toml");
+    const auto o = box.vkdose("resume out --quiet --parent 999999");
+    CAPTURE(o.err);
+    if (bad.empty() || bad[0] == '#') {
+        CHECK(o.code == 130);
+        CHECK(readText(box / "out/case.toml") == (bad.empty() ? good : bad));
+    } else {
+        CHECK(o.code == 2);
+        CHECK_THAT(o.err, Catch::Contains("out/case.toml has been changed"));
+        CHECK(readText(box / "out/case.toml") == bad);
+        CHECK(readText(file) == checkpoint);
+    }
+}
+
+TEST_CASE("a run whose folder or file is taken away ends, and says what is missing") {
+    const Sandbox box;
+    auto run = std::async(std::launch::async, [&] {
+        return box.vkdose("run '" VKDOSE_SOURCE_DIR
+                          "/cases/mini.toml' --backend reference --out out --quiet --set "
+                          "settle.time_s=0.1 --set dose.rotate_s=0.1 --set stop.max_doses=1");
+    });
+    const auto ended = [&] { return run.wait_for(std::chrono::seconds(0)) == std::future_status::ready; };
+    while (!ended() && readCsv(box / "out/timeseries.csv").size() < 2) std::this_thread::yield();
+    SECTION("moved") {
+        fs::rename(box / "out", box / "elsewhere");
+    }
+    SECTION("removed") {
+        fs::remove_all(box / "out");
+    }
+    SECTION("replaced") {
+        fs::rename(box / "out", box / "elsewhere");
+        fs::copy(box / "elsewhere", box / "out", fs::copy_options::recursive);
+    }
+    SECTION("without its time series") {
+        fs::remove(box / "out/timeseries.csv");
+    }
+    const auto o = run.get();
+    CAPTURE(o.err);
+    CHECK(o.code == 5);
+    CHECK_THAT(o.err, Catch::Contains("cannot write out/"));
 }
 
 TEST_CASE("two runs do not write into one folder") {
