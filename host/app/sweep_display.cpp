@@ -100,6 +100,11 @@ void SweepDisplay::onBusy(const std::filesystem::path& folder) {
     fmt::print(stderr, "vkdose: waiting for the process that writes into {}\n", folder.string());
 }
 
+void SweepDisplay::onAnew(const Member& member, const std::string& why) {
+    close();
+    fmt::print(stderr, "vkdose: member {:04} starts anew, because {}\n", member.number, why);
+}
+
 void SweepDisplay::finish(const SweepFolder& folder, const SweepOutcome& outcome) {
     close();
     const std::string again =
