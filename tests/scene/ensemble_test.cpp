@@ -1,4 +1,5 @@
 // Canisters that share a device's tables: each computes what it would alone, to the last bit, whatever the others do.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <thread>
 
@@ -100,6 +101,11 @@ void checkSame(const Outcome& alone, const Outcome& together) {
     CHECK(alone.angle == together.angle);
 }
 
+std::ptrdiff_t coilContacts(const Outcome& o) {
+    return std::count_if(o.contacts.begin(), o.contacts.end(),
+                         [](const Contact& c) { return c.kind == ContactClass::ParticleCoil; });
+}
+
 Outcome playAlone(const Script& s, const Record* from = nullptr, Record* to = nullptr) {
     const auto backend = gpu();
     return play(*backend, s, from, to);
@@ -121,6 +127,7 @@ TEST_CASE("a canister computes the same bits alone and in an ensemble") {
         const Outcome alone = playAlone(scripts[k]);
         REQUIRE(alone.error.empty());
         if (k < 2) REQUIRE(alone.contacts.size() > 10);
+        if (k < 2) REQUIRE(coilContacts(alone) > 0);
         checkSame(alone, together[k]);
     }
 }
