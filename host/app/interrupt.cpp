@@ -1,8 +1,10 @@
 #include "host/app/interrupt.h"
 
+#include <fcntl.h>
 #include <sys/prctl.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <csignal>
 
 namespace vkdose {
@@ -10,9 +12,20 @@ namespace vkdose {
 namespace {
 
 std::atomic<bool> interrupted{false};
+bool outputIsTerminal = false, errorIsTerminal = false;  // as it is when the watch begins
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may touch lock-free atomics only");
 
 extern "C" void onSignal(int) {
+    interrupted = true;
+}
+
+/// The terminal is closed: what would be written to it goes nowhere.
+extern "C" void onHangup(int) {
+    const int before = errno, nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+    if (outputIsTerminal) dup2(nowhere, STDOUT_FILENO);
+    if (errorIsTerminal) dup2(nowhere, STDERR_FILENO);
+    close(nowhere);
+    errno = before;
     interrupted = true;
 }
 
@@ -25,6 +38,17 @@ const std::atomic<bool>& watchInterrupts() {
     sigemptyset(&action.sa_mask);
     sigaction(SIGINT, &action, nullptr);
     sigaction(SIGTERM, &action, nullptr);
+    // Closing a terminal sends this signal more than once, so that it never ends the program at once. Under nohup it
+    // stays ignored.
+    struct sigaction before {};
+    sigaction(SIGHUP, nullptr, &before);
+    if (before.sa_handler != SIG_IGN) {
+        outputIsTerminal = isatty(STDOUT_FILENO) == 1;
+        errorIsTerminal = isatty(STDERR_FILENO) == 1;
+        action.sa_handler = onHangup;
+        action.sa_flags = SA_RESTART;
+        sigaction(SIGHUP, &action, nullptr);
+    }
     std::signal(SIGXFSZ, SIG_IGN);
     return interrupted;
 }

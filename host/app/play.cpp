@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "host/core/error.h"
+#include "host/core/file.h"
 
 namespace vkdose {
 
@@ -48,6 +49,27 @@ ExitCode exitCode(StopReason reason) {
     }
 }
 
+/// A case as this vkdose writes it, whatever version wrote the text; empty if it is none.
+std::string resolvedIn(const std::string& text, const std::filesystem::path& file) {
+    try {
+        return loadResolvedCase(text, file).resolved;
+    } catch (const CaseError&) {
+        return "";
+    }
+}
+
+/// Refuses a case.toml that no longer says what is run. Rewriting it would lose what somebody wrote there.
+void requireSameCase(const std::filesystem::path& file, const std::string& before, const Case& c) {
+    if (!std::filesystem::exists(file)) return;  // it is written again
+    const std::string text = fileContent(file).value_or("");
+    if (text == before || resolvedIn(text, file) == c.resolved) return;
+    throw CheckpointError(
+        fmt::format("{} has been changed since the run began, but a run goes on with the case it began with: put the "
+                    "file back as it "
+                    "was, or remove it to have it written again; a changed case is a new run",
+                    file.string()));
+}
+
 }  // namespace
 
 ReadyRun readyRun(const CaseOptions& input) {
@@ -63,6 +85,7 @@ ReadyRun readyToResume(const std::filesystem::path& folder) {
         throw CheckpointError(fmt::format("the run in {} is over; there is nothing to resume", folder.string()));
     Checkpoint from = readCheckpoint(file);
     ReadyRun run{loadResolvedCase(from.caseText, folder / "case.toml"), {}, std::nullopt};
+    requireSameCase(folder / "case.toml", from.caseText, run.c);
     run.filled = insertParticles(run.c);
     run.from = std::move(from);
     return run;
@@ -95,6 +118,9 @@ Played play(ReadyRun run, Backend& backend, RunFolder& folder, RunObserver* disp
 
 std::string wayOn(const RunFolder& folder) {
     if (!folder.checkpointTime()) return "no checkpoint had been written; start again";
+    if (!std::filesystem::exists(folder.path() / kCheckpointName))
+        return fmt::format("its checkpoint is gone with it; put {} back and go on with `vkdose resume`, or start again",
+                           folder.path().string());
     return fmt::format("go on from t = {:.6g} s with `vkdose resume {}`", *folder.checkpointTime(),
                        folder.path().string());
 }

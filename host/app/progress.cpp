@@ -55,11 +55,11 @@ void ProgressDisplay::onProgress(const Progress& p) {
     if (terminal_) {
         if (now - last_ < kRedraw && !p.phaseEnd) return;
         // \033[K clears what a longer line before left behind.
-        fmt::print(stream_, "\r{} {}\033[K", bar(p), progressText(p));
+        say(fmt::format("\r{} {}\033[K", bar(p), progressText(p)));
         open_ = true;
     } else {
         if (now - last_ < kLine && !p.phaseEnd) return;
-        fmt::print(stream_, "{}\n", progressText(p));
+        say(progressText(p) + "\n");
     }
     std::fflush(stream_);
     last_ = now;
@@ -67,12 +67,17 @@ void ProgressDisplay::onProgress(const Progress& p) {
 
 void ProgressDisplay::onDose(const Dose& d) {
     close();
-    fmt::print(stream_, "dose {}: {:.3f} g{}, cumulative {:.3f} g\n", d.index, d.mass * 1e3,
-               d.complete ? "" : " (incomplete)", d.cumulative * 1e3);
+    say(fmt::format("dose {}: {:.3f} g{}, cumulative {:.3f} g\n", d.index, d.mass * 1e3,
+                    d.complete ? "" : " (incomplete)", d.cumulative * 1e3));
+}
+
+/// That a terminal is gone is no reason to end a run: its closing interrupts it.
+void ProgressDisplay::say(const std::string& text) {
+    (void)std::fputs(text.c_str(), stream_);
 }
 
 void ProgressDisplay::close() {
-    if (open_) fmt::print(stream_, "\n");
+    if (open_) say("\n");
     open_ = false;
 }
 

@@ -29,6 +29,7 @@ class ProgressDisplay : public RunDisplay {
 
   private:
     using Clock = std::chrono::steady_clock;
+    void say(const std::string& text);
 
     std::FILE* stream_;
     bool terminal_;

@@ -88,11 +88,9 @@ void SweepDisplay::onProgress(const SweepProgress& p) {
     std::string text = fmt::format("{} of {} members done, {} running", p.ok + p.failed, p.members, p.running);
     if (p.failed > 0) text += fmt::format(", {} failed", p.failed);
     text += fmt::format("; {:.0f} %, ETA {}", 100 * p.fraction, duration(left));
-    // \033[K clears what a longer line before left behind.
-    if (terminal_)
-        fmt::print(stderr, "\r{}\033[K", text);
-    else
-        fmt::print(stderr, "{}\n", text);
+    // \033[K clears what a longer line before left behind. That a terminal is gone is no reason to end a sweep: its
+    // closing interrupts it.
+    (void)std::fputs((terminal_ ? "\r" + text + "\033[K" : text + "\n").c_str(), stderr);
     std::fflush(stderr);
     open_ = terminal_;
 }
@@ -100,6 +98,11 @@ void SweepDisplay::onProgress(const SweepProgress& p) {
 void SweepDisplay::onBusy(const std::filesystem::path& folder) {
     close();
     fmt::print(stderr, "vkdose: waiting for the process that writes into {}\n", folder.string());
+}
+
+void SweepDisplay::onAnew(const Member& member, const std::string& why) {
+    close();
+    fmt::print(stderr, "vkdose: member {:04} starts anew, because {}\n", member.number, why);
 }
 
 void SweepDisplay::finish(const SweepFolder& folder, const SweepOutcome& outcome) {
@@ -116,7 +119,7 @@ void SweepDisplay::finish(const SweepFolder& folder, const SweepOutcome& outcome
 }
 
 void SweepDisplay::close() {
-    if (open_) fmt::print(stderr, "\n");
+    if (open_) (void)std::fputs("\n", stderr);
     open_ = false;
 }
 

@@ -22,6 +22,7 @@ class SweepDisplay : public SweepObserver {
     void onMember(const Member& member, const MemberResult& result) override;
     void onProgress(const SweepProgress& progress) override;
     void onBusy(const std::filesystem::path& folder) override;
+    void onAnew(const Member& member, const std::string& why) override;
     /// How it ended, and how to go on.
     void finish(const SweepFolder& folder, const SweepOutcome& outcome);
 

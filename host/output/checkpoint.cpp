@@ -47,6 +47,34 @@ std::string_view body(const std::string& bytes, const std::string& name) {
     return rest;
 }
 
+void saveMarks(const Checkpoint& c, Record& when) {
+    std::vector<std::uint64_t> fields;
+    std::vector<std::uint32_t> checksums;
+    for (const CsvMark* mark : {&c.timeSeries, &c.doses, &c.frames}) checksums.push_back(mark->checksum.value_or(0));
+    for (const CsvMark& mark : c.fields) {
+        fields.push_back(mark.bytes);
+        checksums.push_back(mark.checksum.value_or(0));
+    }
+    when.putOne("timeseries", c.timeSeries.bytes);
+    when.putOne("doses", c.doses.bytes);
+    when.putOne("frames", c.frames.bytes);
+    when.put("fields", std::move(fields));
+    when.put("checksums", std::move(checksums));
+}
+
+void restoreMarks(const Record& when, Checkpoint& c) {
+    c.timeSeries.bytes = when.one<std::uint64_t>("timeseries");
+    c.doses.bytes = when.one<std::uint64_t>("doses");
+    c.frames.bytes = when.one<std::uint64_t>("frames");
+    for (const std::uint64_t bytes : when.get<std::uint64_t>("fields")) c.fields.push_back({bytes});
+    if (!when.arrays().contains("checksums")) return;  // written by a vkdose that noted lengths only
+    const auto& checksums = when.get<std::uint32_t>("checksums", 3 + c.fields.size());
+    c.timeSeries.checksum = checksums[0];
+    c.doses.checksum = checksums[1];
+    c.frames.checksum = checksums[2];
+    for (std::size_t k = 0; k < c.fields.size(); ++k) c.fields[k].checksum = checksums[3 + k];
+}
+
 }  // namespace
 
 void writeCheckpoint(const std::filesystem::path& file, const Checkpoint& c) {
@@ -58,10 +86,7 @@ void writeCheckpoint(const std::filesystem::path& file, const Checkpoint& c) {
     writer.record("/state", c.run.backend);
     Record when;
     when.putOne("time", c.time);
-    when.putOne("timeseries", c.timeSeriesBytes);
-    when.putOne("doses", c.dosesBytes);
-    when.putOne("frames", c.framesBytes);
-    when.put("fields", c.fieldBytes);
+    saveMarks(c, when);
     when.putOne("member", c.member);
     writer.record("/when", when);
     const std::string image = writer.image();
@@ -81,10 +106,7 @@ Checkpoint readCheckpoint(const std::filesystem::path& file) {
         c.run = {reader.record("/run"), reader.record("/state")};
         const Record when = reader.record("/when");
         c.time = when.one<double>("time");
-        c.timeSeriesBytes = when.one<std::uint64_t>("timeseries");
-        c.dosesBytes = when.one<std::uint64_t>("doses");
-        c.framesBytes = when.one<std::uint64_t>("frames");
-        c.fieldBytes = when.get<std::uint64_t>("fields");
+        restoreMarks(when, c);
         c.member = when.one<std::uint32_t>("member");
         return c;
     } catch (const hdf5::Error& e) {

@@ -8,7 +8,8 @@
 //   /when/time                        simulated time [s]
 //   /when/timeseries, doses, fields   bytes of the CSV files at that time
 //   /when/frames                      bytes of frames.csv; 0: the run keeps no frames
-//   /when/member                      number of the run in its study; 0: it is in none
+//   /when/checksums                   CRC-32 of these bytes: time series, doses, frames, every field; older ones lack
+//   it /when/member                      number of the run in its study; 0: it is in none
 
 #include <cstdint>
 #include <filesystem>
@@ -16,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "host/output/csv.h"
 #include "host/sim/runner.h"
 
 namespace vkdose {
@@ -33,11 +35,9 @@ struct Checkpoint {
     std::string caseText;
     double time = 0;  ///< simulated [s]
     RunCheckpoint run;
-    std::uint64_t timeSeriesBytes = 0;
-    std::uint64_t dosesBytes = 0;
-    std::uint64_t framesBytes = 0;
-    std::vector<std::uint64_t> fieldBytes;  ///< of every field of the case
-    std::uint32_t member = 0;               ///< number of the run in its study
+    CsvMark timeSeries, doses, frames;
+    std::vector<CsvMark> fields;  ///< of every field of the case
+    std::uint32_t member = 0;     ///< number of the run in its study
 };
 
 /// Replaces `file` in one move. Throws OutputError if it cannot be written; the checkpoint before is then still there.

@@ -5,28 +5,36 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
 namespace vkdose {
+
+/// What a file held when it was stored.
+struct CsvMark {
+    std::uint64_t bytes = 0;
+    std::optional<std::uint32_t> checksum = std::nullopt;  ///< CRC-32 of them; none if nobody noted it
+};
 
 class CsvFile {
   public:
     /// Creates or replaces the file and writes its header. Throws OutputError if that fails.
     CsvFile(std::filesystem::path path, std::string_view header);
 
-    /// Goes on with an existing file after its first `bytes`; what follows is cut off when the first line is written.
-    /// Throws OutputError if the file is shorter or cannot be written.
-    CsvFile(std::filesystem::path path, std::uint64_t bytes);
+    /// Goes on with an existing file after what it held at `mark`; what follows is cut off when the first line is
+    /// written. Throws OutputError if the file is shorter, has been changed before that place or cannot be written.
+    CsvFile(std::filesystem::path path, const CsvMark& mark);
 
     /// Appends one line. Throws OutputError if it cannot be written (a full disk).
     void line(const std::string& fields);
 
-    /// Makes everything written so far visible to readers. Throws OutputError likewise.
+    /// Makes everything written so far visible to readers. Throws OutputError likewise, or if the file is no longer
+    /// where it was: what nobody will find is not written.
     void flush();
 
-    /// Makes everything written so far survive a crash of the machine, and tells how much that is.
-    std::uint64_t store();
+    /// Makes everything written so far survive a crash of the machine, and tells what that is.
+    CsvMark store();
 
     /// Takes the file for this process; false if another vkdose holds it. Given up when the file is closed.
     bool lock();
@@ -36,10 +44,13 @@ class CsvFile {
         void operator()(std::FILE* file) const { std::fclose(file); }
     };
     [[noreturn]] void fail() const;
+    void requireSame(const CsvMark& mark);
+    bool isWhereItWas() const;
 
     std::filesystem::path path_;
     std::unique_ptr<std::FILE, Close> file_;
-    bool cut_ = false;  ///< what follows the present place has to go
+    std::uint32_t checksum_ = 0;  ///< of what stands before the present place
+    bool cut_ = false;            ///< what follows the present place has to go
 };
 
 }  // namespace vkdose

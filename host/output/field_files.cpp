@@ -56,11 +56,11 @@ FieldFiles::FieldFiles(const fs::path& run, const Case& c)
     for (const FieldSensor& s : sensors_) files_.emplace_back(folder_ / (s.name + ".csv"), header(s));
 }
 
-FieldFiles::FieldFiles(const fs::path& run, const Case& c, const std::vector<std::uint64_t>& bytes)
+FieldFiles::FieldFiles(const fs::path& run, const Case& c, const std::vector<CsvMark>& marks)
     : folder_(run / kFolder), sensors_(c.fields), density_(c.world.density) {
-    if (bytes.size() != sensors_.size()) throw OutputError("the checkpoint has another number of fields than the case");
+    if (marks.size() != sensors_.size()) throw OutputError("the checkpoint has another number of fields than the case");
     for (std::size_t k = 0; k < sensors_.size(); ++k)
-        files_.emplace_back(folder_ / (sensors_[k].name + ".csv"), bytes[k]);
+        files_.emplace_back(folder_ / (sensors_[k].name + ".csv"), marks[k]);
 }
 
 std::string FieldFiles::quantityNames(const FieldSensor& s) {
@@ -161,13 +161,13 @@ std::string FieldFiles::image(const FieldSensor& s, const FieldSample& f) const 
     return vtkhdf::file(image);
 }
 
-std::vector<std::uint64_t> FieldFiles::store() {
-    std::vector<std::uint64_t> bytes;
+std::vector<CsvMark> FieldFiles::store() {
+    std::vector<CsvMark> marks;
     for (std::size_t k = 0; k < files_.size(); ++k) {
-        bytes.push_back(files_[k].store());
+        marks.push_back(files_[k].store());
         if (isVolume(sensors_[k])) writeSeriesOf(sensors_[k]);
     }
-    return bytes;
+    return marks;
 }
 
 /// From the list of what was kept, however many runs it took.

@@ -19,13 +19,13 @@ class FieldFiles {
     /// Creates the folder and the files, if the case has fields. Throws OutputError.
     FieldFiles(const std::filesystem::path& run, const Case& c);
 
-    /// Goes on with files of so many bytes, as `store` told.
-    FieldFiles(const std::filesystem::path& run, const Case& c, const std::vector<std::uint64_t>& bytes);
+    /// Goes on with files as they were when `store` told of them.
+    FieldFiles(const std::filesystem::path& run, const Case& c, const std::vector<CsvMark>& marks);
 
     void write(const FieldSample& f);
 
-    /// Makes everything written survive a crash, and brings the series up to date; the length of every NAME.csv.
-    std::vector<std::uint64_t> store();
+    /// Makes everything written survive a crash, and brings the series up to date; the state of every NAME.csv.
+    std::vector<CsvMark> store();
 
     /// Removes what a former run left there.
     static void remove(const std::filesystem::path& run);

@@ -71,14 +71,14 @@ FrameWriter::FrameWriter(const fs::path& run, const Case& c, std::uint32_t membe
       walls_(wallsFile(c)),
       index_(folder_ / kFramesIndex, kFramesHeader) {}
 
-FrameWriter::FrameWriter(const fs::path& run, const Case& c, std::uint32_t member, std::uint64_t bytes)
+FrameWriter::FrameWriter(const fs::path& run, const Case& c, std::uint32_t member, const CsvMark& mark)
     : folder_(run / kFramesFolder),
       world_(c.world),
       kinds_(kindsOf(c)),
       member_(member),
-      times_(timesIn(folder_ / kFramesIndex, bytes)),
+      times_(timesIn(folder_ / kFramesIndex, mark.bytes)),
       later_(true),
-      index_(folder_ / kFramesIndex, bytes) {}
+      index_(folder_ / kFramesIndex, mark) {}
 
 void FrameWriter::put(const Frame& frame) {
     await();
@@ -89,7 +89,7 @@ void FrameWriter::put(const Frame& frame) {
     }
 }
 
-std::uint64_t FrameWriter::store() {
+CsvMark FrameWriter::store() {
     await();
     writeSeries();
     return index_.store();

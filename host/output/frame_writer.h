@@ -18,9 +18,9 @@ class FrameWriter {
     /// cannot be written.
     FrameWriter(const std::filesystem::path& run, const Case& c, std::uint32_t member);
 
-    /// Of a run that goes on from a checkpoint written when frames.csv had `bytes`; what came later is replaced when
-    /// the first frame is put. Throws OutputError likewise, or if frames are missing.
-    FrameWriter(const std::filesystem::path& run, const Case& c, std::uint32_t member, std::uint64_t bytes);
+    /// Of a run that goes on from a checkpoint written when frames.csv was as `mark` says; what came later is replaced
+    /// when the first frame is put. Throws OutputError likewise, or if frames are missing.
+    FrameWriter(const std::filesystem::path& run, const Case& c, std::uint32_t member, const CsvMark& mark);
 
     FrameWriter(const FrameWriter&) = delete;
     FrameWriter& operator=(const FrameWriter&) = delete;
@@ -31,8 +31,8 @@ class FrameWriter {
     void put(const Frame& frame);
 
     /// Waits until all is written and survives a crash of the machine, and brings the series files up to date; the
-    /// length of frames.csv. Throws OutputError if writing failed.
-    std::uint64_t store();
+    /// state of frames.csv. Throws OutputError if writing failed.
+    CsvMark store();
 
     /// Removes the frames in a run's output folder, and the folder they are in if nothing else is there.
     static void remove(const std::filesystem::path& run);

@@ -45,7 +45,7 @@ constexpr const char* kParticlesHeader =
 void refuseBusy(const fs::path& folder) {
     std::error_code error;
     const fs::path file = folder / "timeseries.csv";
-    if (fs::exists(file, error) && !CsvFile(file, fs::file_size(file, error)).lock()) busy(folder);
+    if (fs::exists(file, error) && !CsvFile(file, {fs::file_size(file, error)}).lock()) busy(folder);
 }
 
 /// A lock on the run's time series, given up by closing: true if it was to be had. `how`: see flock.
@@ -134,10 +134,11 @@ RunFolder::RunFolder(fs::path folder, const Checkpoint& from, const Case& c, std
       checkpointTime_(from.time) {
     try {
         refuseBusy(folder_);
-        timeSeries_.emplace(folder_ / "timeseries.csv", from.timeSeriesBytes);
-        doses_.emplace(folder_ / "doses.csv", from.dosesBytes);
-        if (c.frames.interval > 0) frames_.emplace(folder_, c, member_, from.framesBytes);
-        fields_.emplace(folder_, c, from.fieldBytes);
+        if (!fs::exists(folder_ / "case.toml")) replaceFile(folder_ / "case.toml", c.resolved);
+        timeSeries_.emplace(folder_ / "timeseries.csv", from.timeSeries);
+        doses_.emplace(folder_ / "doses.csv", from.doses);
+        if (c.frames.interval > 0) frames_.emplace(folder_, c, member_, from.frames);
+        fields_.emplace(folder_, c, from.fields);
     } catch (const OutputError& e) {
         throw FolderError(e.what());
     }
@@ -165,14 +166,16 @@ void RunFolder::onDose(const Dose& d) {
 
 void RunFolder::onCheckpoint(const RunCheckpoint& checkpoint, double time) {
     // The lines first, then the checkpoint that counts on them.
-    const std::uint64_t timeSeriesBytes = timeSeries_->store(), dosesBytes = doses_->store();
-    const std::uint64_t framesBytes = frames_ ? frames_->store() : 0;
-    writeCheckpoint(folder_ / kCheckpointName, {VKDOSE_VERSION, backend_, caseText_, time, checkpoint, timeSeriesBytes,
-                                                dosesBytes, framesBytes, fields_->store(), member_});
+    const CsvMark timeSeries = timeSeries_->store(), doses = doses_->store();
+    const CsvMark frames = frames_ ? frames_->store() : CsvMark();
+    writeCheckpoint(folder_ / kCheckpointName, {VKDOSE_VERSION, backend_, caseText_, time, checkpoint, timeSeries,
+                                                doses, frames, fields_->store(), member_});
     checkpointTime_ = time;
 }
 
 void RunFolder::finish(const Case& c, const RunResult& result) {
+    timeSeries_->store();
+    doses_->store();
     if (frames_) frames_->store();
     fields_->store();
     if (result.endState) writeParticles(folder_ / "particles.csv", result.particles);

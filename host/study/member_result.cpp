@@ -95,16 +95,14 @@ std::string statusText(MemberStatus status) {
 
 MemberResult readResult(const fs::path& folder, const MemberEnd& end) {
     const Json summary = readSummary(folder);
-    Table table = Table::salvage(folder / "doses.csv");
-    const bool ours = table.names() == *csvFields(kDosesHeader);
-    if (!ours) table = Table();
+    const Table table = dosesIn(folder);
     MemberResult result;
     for (std::size_t i = 0; i < table.rows(); ++i) result.doses.push_back(table.row(i));
     if (end.code == kInterruptedCode) {
         result.status = MemberStatus::Interrupted;
     } else if (end.code != 0) {
         result.error = errorText(end, summary);
-    } else if (summary.empty() || !ours) {
+    } else if (summary.empty() || table.names().empty()) {
         result.error = fmt::format("the run left no whole result in {}", folder.string());
     } else {
         result.status = MemberStatus::Ok;
@@ -134,6 +132,11 @@ MemberResult readResult(const fs::path& folder, const MemberEnd& end) {
     if (!doses.cumulative.empty()) out["coil_torque_Nm"] = fmt::format("{:.9g}", doses.torque);
     for (const std::string& column : kOutputColumns) result.outputs.push_back(out[column]);
     return result;
+}
+
+Table dosesIn(const fs::path& folder) {
+    Table table = Table::salvage(folder / "doses.csv");
+    return table.names() == *csvFields(kDosesHeader) ? table : Table();
 }
 
 bool isOver(const fs::path& folder) {

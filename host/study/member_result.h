@@ -34,6 +34,9 @@ std::string statusText(MemberStatus status);
 /// What a run left in `folder`. A run that ended with 0 but left nothing readable has failed.
 MemberResult readResult(const std::filesystem::path& folder, const MemberEnd& end);
 
+/// The doses that a run noted in `folder`; an empty table if there are none, or they are not a run's.
+Table dosesIn(const std::filesystem::path& folder);
+
 /// Whether the folder holds a run that is over, so that it need not be repeated.
 bool isOver(const std::filesystem::path& folder);
 

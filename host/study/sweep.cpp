@@ -19,7 +19,8 @@ class Sweep {
         : folder_(folder), members_(members), runner_(runner), observer_(observer) {}
 
     SweepOutcome run(const std::atomic<bool>& stop, bool retryFailed) {
-        queue(retryFailed);
+        retryFailed_ = retryFailed;
+        queue();
         bool interrupted = false;
         while (!waiting_.empty() || !running_.empty()) {
             if (stop && !interrupted) {
@@ -52,11 +53,11 @@ class Sweep {
         return m.expectedTime > 0 ? m.expectedWork * std::min(1.0, time / m.expectedTime) : 0;
     }
 
-    void queue(bool retryFailed) {
+    void queue() {
         std::vector<WaitingMember> waiting;
         for (const Member& m : members_) {
             const auto status = folder_.status(m.number);
-            const bool again = status == MemberStatus::Failed && retryFailed;
+            const bool again = status == MemberStatus::Failed && retryFailed_;
             if (again) folder_.forget(m.number);
             if (again || !status || status == MemberStatus::Interrupted)
                 waiting.push_back({&m, stepsLeft(m)});
@@ -74,6 +75,20 @@ class Sweep {
         return work / double(std::max<std::size_t>(m.particles, 1));
     }
 
+    /// A checkpoint that cannot be read is given up when failed members are to run again, no sooner: the version that
+    /// wrote it may still go on from it.
+    bool canResume(const Member& m) const {
+        const fs::path file = folder_.memberFolder(m.number) / kCheckpointName;
+        if (!fs::exists(file)) return false;
+        try {
+            if (retryFailed_) (void)readCheckpoint(file);
+            return true;
+        } catch (const CheckpointError& e) {
+            observer_.onAnew(m, e.what());
+            return false;
+        }
+    }
+
     void startNext() {
         const Member& m = *waiting_.front().member;
         waiting_.pop_front();
@@ -88,7 +103,7 @@ class Sweep {
             note(m, readResult(run, {m.number, 0, ""}));
             return;
         }
-        const bool resume = fs::exists(run / kCheckpointName);
+        const bool resume = canResume(m);
         const double before = resume ? timeReached(run) : 0;
         doneBefore_ += share(m, before);
         running_[m.number] = {&m, before};
@@ -130,6 +145,7 @@ class Sweep {
     const std::vector<Member>& members_;
     MemberRunner& runner_;
     SweepObserver& observer_;
+    bool retryFailed_ = false;
     std::deque<WaitingMember> waiting_;
     std::map<int, Running> running_;
     double all_ = 0, doneBefore_ = 0, doneHere_ = 0;  ///< expected particle-steps

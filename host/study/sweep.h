@@ -58,6 +58,8 @@ class SweepObserver {
     virtual void onProgress(const SweepProgress&) {}
     /// Another process, perhaps of a sweep that was killed, still writes into the folder of a member's run.
     virtual void onBusy(const std::filesystem::path&) {}
+    /// A member is started anew, because its checkpoint cannot be used: why.
+    virtual void onAnew(const Member&, const std::string& why) { (void)why; }
 };
 
 struct SweepOutcome {
@@ -66,7 +68,8 @@ struct SweepOutcome {
     bool whole = false;  ///< every member has ended
 };
 
-/// Runs those of `members` that have not ended yet; failed ones again if `retryFailed`. A member that fails does not
+/// Runs those of `members` that have not ended yet; failed ones again if `retryFailed`, and then
+/// anew where a checkpoint cannot be used. A member that fails does not
 /// keep the others from running. Setting `stop` ends the running ones so that they can be gone on with. Throws
 /// OutputError.
 SweepOutcome runMembers(SweepFolder& folder, const std::vector<Member>& members, MemberRunner& runner,

@@ -85,7 +85,7 @@ SweepFolder::SweepFolder(fs::path folder, const Study& study, const std::vector<
         if (status != MemberStatus::Interrupted) ended.insert(number);
     std::erase_if(status_, [](const auto& entry) { return entry.second == MemberStatus::Interrupted; });
     dropRows(members_, ended);
-    dropRows(doses_, ended);
+    gatherDoses();
     try {
         replaceFile(folder_ / "study.toml", study.text);
         replaceFile(folder_ / "base.toml", loadCase(study.base).resolved);
@@ -117,6 +117,22 @@ void SweepFolder::read(const Row& keys) {
             if (members_.text(i, "status") == statusText(s)) status_[numberOf(members_.row(i))] = s;
 }
 
+/// The doses of the members that have ended: what the table has lost is still in their folders.
+void SweepFolder::gatherDoses() {
+    Table all(doses_.names());
+    for (std::size_t i = 0; i < members_.rows(); ++i) {
+        const Row& member = members_.row(i);
+        std::vector<Row> noted, kept;
+        for (std::size_t k = 0; k < doses_.rows(); ++k)
+            if (numberOf(doses_.row(k)) == numberOf(member)) noted.push_back(doses_.row(k));
+        const Table doses = dosesIn(memberFolder(numberOf(member)));
+        const Row head(member.begin(), member.end() - std::ptrdiff_t(kOutputColumns.size()));
+        for (std::size_t k = 0; k < doses.rows(); ++k) kept.push_back(joined(head, doses.row(k)));
+        for (const Row& row : kept.size() > noted.size() ? kept : noted) all.add(row);
+    }
+    doses_ = std::move(all);
+}
+
 void SweepFolder::requireSame(const Member& member) const {
     const Row now = head(member);
     for (std::size_t i = 0; i < members_.rows(); ++i) {
@@ -133,8 +149,8 @@ void SweepFolder::requireSame(const Member& member) const {
 void SweepFolder::rewrite() {
     for (const auto& [table, name] : {std::pair{&members_, "members.csv"}, std::pair{&doses_, "doses.csv"}})
         replaceFile(folder_ / name, content(*table));
-    membersFile_.emplace(folder_ / "members.csv", std::uint64_t(fs::file_size(folder_ / "members.csv")));
-    dosesFile_.emplace(folder_ / "doses.csv", std::uint64_t(fs::file_size(folder_ / "doses.csv")));
+    membersFile_.emplace(folder_ / "members.csv", CsvMark{fs::file_size(folder_ / "members.csv")});
+    dosesFile_.emplace(folder_ / "doses.csv", CsvMark{fs::file_size(folder_ / "doses.csv")});
 }
 
 fs::path SweepFolder::memberFolder(int number) const {

@@ -19,7 +19,8 @@ namespace vkdose {
 class SweepFolder {
   public:
     /// Creates the folder, or goes on in it. Rows that were torn, and doses of members without a row, are cut out of
-    /// the tables; so are the rows of interrupted members, who are yet to end. Throws FolderError if another process is
+    /// the tables; so are the rows of interrupted members, who are yet to end. Doses that the table has lost are taken
+    /// from the folders of their members. Throws FolderError if another process is
     /// writing into it, if it holds something else, if it cannot be written, or if a member that has begun in it is
     /// another case in `members`.
     SweepFolder(std::filesystem::path folder, const Study& study, const std::vector<Member>& members);
@@ -51,6 +52,7 @@ class SweepFolder {
   private:
     void lock();
     void read(const Row& keys);
+    void gatherDoses();
     void rewrite();
 
     std::filesystem::path folder_;

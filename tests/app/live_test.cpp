@@ -54,6 +54,27 @@ Shown onTerminal(const Sandbox& box, const std::string& arguments, const std::st
     return shown;
 }
 
+/// Runs the program on a terminal that is closed once something stands on it. The exit code, or minus the signal.
+int onClosedTerminal(const Sandbox& box, const std::string& arguments, const std::string& before = "") {
+    int terminal = -1;
+    const pid_t child = forkpty(&terminal, nullptr, nullptr, nullptr);
+    REQUIRE(child >= 0);
+    if (child == 0) {
+        const std::string command =
+            before + "cd '" + box.path().string() + "' && TERM=xterm exec '" VKDOSE_BINARY_DIR "/vkdose' " + arguments;
+        execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
+        _exit(127);
+    }
+    std::string text;
+    char buffer[4096];
+    for (ssize_t n = 0; text.find("t = ") == std::string::npos && (n = read(terminal, buffer, sizeof buffer)) > 0;)
+        text.append(buffer, std::size_t(n));
+    close(terminal);
+    int status = 0;
+    waitpid(child, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+}
+
 std::size_t count(const std::string& text, const std::string& part) {
     std::size_t n = 0;
     for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
@@ -105,6 +126,23 @@ TEST_CASE("Ctrl-C while a run is looked at leaves the terminal in order, and a r
     CHECK(rest.code == 130);
     requireCursorBack(rest.text);
     CHECK_THAT(rest.text.substr(0, rest.text.find("\033[?25h")), Catch::Contains("dose 1 "));
+}
+
+TEST_CASE("a run whose terminal is closed stores a checkpoint and ends") {
+    const std::string manner = GENERATE(as<std::string>(), "", "--live ");
+    CAPTURE(manner);
+    const Sandbox box;
+    const int code =
+        onClosedTerminal(box, "run " + kCase + "--backend reference --set settle.time_s=1000 --out out " + manner);
+    CHECK(code == 130);
+    CHECK(nlohmann::json::parse(readText(box / "out/summary.json"))["stop_reason"] == "interrupted");
+    CHECK(std::filesystem::exists(box / "out/checkpoint.h5"));
+}
+
+TEST_CASE("under nohup a run outlives its terminal") {
+    const Sandbox box;
+    CHECK(onClosedTerminal(box, "run " + kShort + "--out out", "trap '' HUP; ") == 0);
+    CHECK(nlohmann::json::parse(readText(box / "out/summary.json"))["stop_reason"] != "interrupted");
 }
 
 TEST_CASE("without a terminal --live says so and goes on with plain progress") {

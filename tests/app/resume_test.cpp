@@ -8,6 +8,7 @@
 #include <atomic>
 #include <catch2/catch.hpp>
 #include <csignal>
+#include <future>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <thread>
@@ -15,6 +16,7 @@
 #include "host/output/checkpoint.h"
 #include "host/output/frames.h"
 #include "tests/app/sandbox.h"
+#include "tests/support/records.h"
 
 using namespace vkdose;
 using namespace vkdose::test;
@@ -149,11 +151,13 @@ TEST_CASE("killed again and again at random moments, a run ends with the same bi
     checkSame(box / "whole", box / "cut");
 }
 
-TEST_CASE("after Ctrl-C a run can be resumed, to the same bits") {
+TEST_CASE("after Ctrl-C or the closing of its terminal a run can be resumed, to the same bits") {
+    const int signal = GENERATE(SIGINT, SIGHUP);
+    CAPTURE(signal);
     const Sandbox box;
     REQUIRE(box.vkdose("run " + words(kDoses) + "--out whole --backend reference").code == 0);
     const pid_t child = box.start(joined({"run", "--backend", "reference", "--out", "cut"}, kDoses));
-    const int status = endAfter(child, box / "cut" / kCheckpointName, 20, 0, SIGINT);
+    const int status = endAfter(child, box / "cut" / kCheckpointName, 20, 0, signal);
     REQUIRE(WEXITSTATUS(status) == 130);
     const auto early = box.vkdose("run " + words(kDoses) + "--out cut --backend reference");
     CHECK(early.code == 2);
@@ -165,6 +169,26 @@ TEST_CASE("after Ctrl-C a run can be resumed, to the same bits") {
     const auto over = box.vkdose("resume cut");
     CHECK(over.code == 2);
     CHECK_THAT(over.err, Catch::Contains("over"));
+}
+
+TEST_CASE("interrupted before it makes a step, a resumed run still ends with the same bits") {
+    const std::string backend = GENERATE(std::string("reference"), std::string("vulkan"));
+    const Sandbox box;
+    REQUIRE(box.vkdose("run " + words(kDoses) + "--out whole --backend " + backend).code == 0);
+    const pid_t child = box.start(joined({"run", "--backend", backend, "--out", "cut"}, kDoses));
+    REQUIRE(WIFSIGNALED(endAfter(child, box / "cut" / kCheckpointName, 8, 0, SIGKILL)));
+    const Checkpoint before = readCheckpoint(box / "cut" / kCheckpointName);
+    // A parent that is gone interrupts as Ctrl-C would, before anything is computed.
+    REQUIRE(box.vkdose("resume cut --quiet --parent 999999").code == 130);
+    const Checkpoint after = readCheckpoint(box / "cut" / kCheckpointName);
+    CAPTURE(backend);
+    CHECK(after.time == before.time);
+    checkSameArrays(before.run.run, after.run.run);
+    checkSameArrays(before.run.backend, after.run.backend);
+    const auto on = box.vkdose("resume cut");
+    CAPTURE(on.err);
+    CHECK(on.code == 0);
+    checkSame(box / "whole", box / "cut");
 }
 
 TEST_CASE("the bits do not depend on the number of driver threads") {
@@ -262,6 +286,89 @@ TEST_CASE("no cut and no flipped bit of a checkpoint goes unnoticed") {
         CAPTURE(at);
         CHECK_THROWS_AS(readCheckpoint(file), CheckpointError);
     }
+}
+
+TEST_CASE("what has been changed before the checkpoint's mark is refused by name, and left as it is") {
+    const Sandbox box;
+    interrupted(box);
+    for (const std::string name : {"timeseries.csv", "doses.csv", "frames/frames.csv", "fields/outlet.csv"}) {
+        const std::string good = readText(box / "out" / name);
+        const std::size_t line = good.find('\n') + 1;
+        std::string bad = good;
+        SECTION(name + ": a byte more") {
+            bad.insert(line - 1, "0");
+        }
+        SECTION(name + ": another byte") {
+            bad[line - 2] ^= 1;
+        }
+        if (bad == good) continue;
+        box.write("out/" + name, bad);
+        const auto o = box.vkdose("resume out");
+        CAPTURE(o.err);
+        CHECK(o.code == 2);
+        CHECK_THAT(o.err, Catch::Contains("out/" + name));
+        CHECK(readText(box / "out" / name) == bad);
+    }
+}
+
+TEST_CASE("a run goes on with the case it began with, and its case.toml says no other") {
+    const Sandbox box;
+    const fs::path file = interrupted(box);
+    const std::string good = readText(box / "out/case.toml"), checkpoint = readText(file);
+    std::string bad = good;
+    SECTION("another value") {
+        bad.replace(bad.find("max_doses = 2"), 13, "max_doses = 1");
+    }
+    SECTION("no case") {
+        bad = "max_doses";
+    }
+    SECTION("the same in other words") {
+        bad = "# mine\n" + good;
+    }
+    SECTION("gone") {
+        bad = "";
+    }
+    box.write("out/case.toml", bad);
+    if (bad.empty()) fs::remove(box / "out/case.toml");
+    const auto o = box.vkdose("resume out --quiet --parent 999999");
+    CAPTURE(o.err);
+    if (bad.empty() || bad[0] == '#') {
+        CHECK(o.code == 130);
+        CHECK(readText(box / "out/case.toml") == (bad.empty() ? good : bad));
+    } else {
+        CHECK(o.code == 2);
+        CHECK_THAT(o.err, Catch::Contains("out/case.toml has been changed"));
+        CHECK(readText(box / "out/case.toml") == bad);
+        CHECK(readText(file) == checkpoint);
+    }
+}
+
+TEST_CASE("a run whose folder or file is taken away ends, and says what is missing") {
+    const Sandbox box;
+    auto run = std::async(std::launch::async, [&] {
+        return box.vkdose("run '" VKDOSE_SOURCE_DIR
+                          "/cases/mini.toml' --backend reference --out out --quiet --set "
+                          "settle.time_s=0.1 --set dose.rotate_s=0.1 --set stop.max_doses=1");
+    });
+    const auto ended = [&] { return run.wait_for(std::chrono::seconds(0)) == std::future_status::ready; };
+    while (!ended() && readCsv(box / "out/timeseries.csv").size() < 2) std::this_thread::yield();
+    SECTION("moved") {
+        fs::rename(box / "out", box / "elsewhere");
+    }
+    SECTION("removed") {
+        fs::remove_all(box / "out");
+    }
+    SECTION("replaced") {
+        fs::rename(box / "out", box / "elsewhere");
+        fs::copy(box / "elsewhere", box / "out", fs::copy_options::recursive);
+    }
+    SECTION("without its time series") {
+        fs::remove(box / "out/timeseries.csv");
+    }
+    const auto o = run.get();
+    CAPTURE(o.err);
+    CHECK(o.code == 5);
+    CHECK_THAT(o.err, Catch::Contains("cannot write out/"));
 }
 
 TEST_CASE("two runs do not write into one folder") {

@@ -72,13 +72,15 @@ TEST_CASE("a sweep that is killed again and again ends with the rows of one that
     CHECK(readText(box / "cut/members/0002/timeseries.csv") == readText(box / "whole/members/0002/timeseries.csv"));
 }
 
-TEST_CASE("after Ctrl-C a sweep goes on to the same rows") {
+TEST_CASE("after Ctrl-C or the closing of its terminal a sweep goes on to the same rows") {
+    const int signal = GENERATE(SIGINT, SIGHUP);
+    CAPTURE(signal);
     const Sandbox box;
     box.write("study.toml", kStudy);
     REQUIRE(box.vkdose("sweep study.toml --backend reference --quiet --out whole").code == 0);
     const pid_t sweep = box.start(kSweep);
     REQUIRE(reached(sweep, box / "cut/members/0001"));
-    kill(sweep, SIGINT);
+    kill(sweep, signal);
     int status = 0;
     waitpid(sweep, &status, 0);
     CHECK(WEXITSTATUS(status) == 130);
@@ -87,6 +89,30 @@ TEST_CASE("after Ctrl-C a sweep goes on to the same rows") {
     const auto on = box.vkdose("sweep study.toml --backend reference --out cut");
     CAPTURE(on.err);
     CHECK(on.code == 0);
+    CHECK(timeless(box / "cut") == timeless(box / "whole"));
+    CHECK(readText(box / "cut/doses.csv") == readText(box / "whole/doses.csv"));
+}
+
+TEST_CASE("a member whose checkpoint is of another version is started anew when failed members are run again") {
+    const Sandbox box;
+    box.write("study.toml", kStudy);
+    REQUIRE(box.vkdose("sweep study.toml --backend reference --quiet --out whole").code == 0);
+    const pid_t sweep = box.start(kSweep);
+    const std::string file = "cut/members/0001/checkpoint.h5";
+    REQUIRE(reached(sweep, box / "cut/members/0001"));
+    kill(sweep, SIGINT);
+    waitpid(sweep, nullptr, 0);
+    std::string older = readText(box / file);
+    REQUIRE(older.find("version 4") != std::string::npos);
+    box.write(file, older.replace(older.find("version 4"), 9, "version 3"));
+    const auto refused = box.vkdose("sweep study.toml --backend reference --out cut");
+    CHECK(refused.code == 1);
+    CHECK_THAT(refused.err, Catch::Contains("version 3") && Catch::Contains("--retry-failed"));
+    CHECK(readText(box / file) == older);  // the version that wrote it may go on with it
+    const auto anew = box.vkdose("sweep study.toml --backend reference --retry-failed --out cut");
+    CAPTURE(anew.err);
+    CHECK(anew.code == 0);
+    CHECK_THAT(anew.err, Catch::Contains("member 0001 starts anew") && Catch::Contains("version 3"));
     CHECK(timeless(box / "cut") == timeless(box / "whole"));
     CHECK(readText(box / "cut/doses.csv") == readText(box / "whole/doses.csv"));
 }

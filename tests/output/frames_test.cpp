@@ -150,16 +150,16 @@ TEST_CASE("a run that goes on drops the frames after its checkpoint and writes t
         for (int k = 0; k < 5; ++k) writer.put(someFrame(k));
         writer.store();
     }
-    std::uint64_t bytes = 0;
+    CsvMark mark;
     {
         FrameWriter writer(cut.path(), smallWorld(), 0);
         for (int k = 0; k < 3; ++k) writer.put(someFrame(k));
-        bytes = writer.store();
+        mark = writer.store();
         for (int k = 7; k < 13; ++k) writer.put(someFrame(k));  // another future
         writer.store();
     }
     {
-        FrameWriter writer(cut.path(), smallWorld(), 0, bytes);
+        FrameWriter writer(cut.path(), smallWorld(), 0, mark);
         CHECK(Frames(cut.path()).entries().size() == 9);  // until there is something to replace them
         for (int k = 3; k < 5; ++k) writer.put(someFrame(k));
         writer.store();
@@ -169,8 +169,8 @@ TEST_CASE("a run that goes on drops the frames after its checkpoint and writes t
         CAPTURE(name);
         CHECK(readText(cut / ("frames/" + name)) == readText(whole / ("frames/" + name)));
     }
-    fs::resize_file(cut / "frames/frames.csv", bytes - 1);
-    CHECK_THROWS_AS(FrameWriter(cut.path(), smallWorld(), 0, bytes), OutputError);
+    fs::resize_file(cut / "frames/frames.csv", mark.bytes - 1);
+    CHECK_THROWS_AS(FrameWriter(cut.path(), smallWorld(), 0, mark), OutputError);
 }
 
 TEST_CASE("a frame that cannot be written is told at the next one or at the end") {

@@ -65,9 +65,9 @@ inline bool sameBits(const Particles& a, const Particles& b) {
 inline bool sameBits(const std::vector<Contact>& a, const std::vector<Contact>& b) {
     if (a.size() != b.size()) return false;
     for (std::size_t i = 0; i < a.size(); ++i)
-        if (a[i].particle != b[i].particle || a[i].other != b[i].other || a[i].maxOverlap != b[i].maxOverlap ||
-            a[i].sliding != b[i].sliding || a[i].rolling != b[i].rolling || a[i].torsion != b[i].torsion ||
-            a[i].force != b[i].force)
+        if (a[i].kind != b[i].kind || a[i].particle != b[i].particle || a[i].other != b[i].other ||
+            a[i].maxOverlap != b[i].maxOverlap || a[i].sliding != b[i].sliding || a[i].rolling != b[i].rolling ||
+            a[i].torsion != b[i].torsion || a[i].force != b[i].force)
             return false;
     return true;
 }

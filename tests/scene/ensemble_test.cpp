@@ -1,8 +1,10 @@
 // Canisters that share a device's tables: each computes what it would alone, to the last bit, whatever the others do.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <thread>
 
 #include "tests/scene/beds.h"
+#include "tests/support/records.h"
 
 using namespace vkdose;
 using namespace vkdose::test;
@@ -26,6 +28,7 @@ struct Outcome {
     std::vector<Contact> contacts;
     double angle = 0;
     std::string error;
+    Record restored;  ///< taken as soon as it was restored
 };
 
 Outcome play(Backend& backend, const Script& s, const Record* from = nullptr, Record* to = nullptr) {
@@ -38,7 +41,10 @@ Outcome play(Backend& backend, const Script& s, const Record* from = nullptr, Re
     Outcome o;
     try {
         backend.load(w, p);
-        if (from != nullptr) backend.restore(*from);
+        if (from != nullptr) {
+            backend.restore(*from);
+            o.restored = backend.snapshot();
+        }
         for (std::size_t call = 0; call < s.calls.size(); ++call) {
             if (call == 2) {
                 for (ContactParameters& c : w.law.classes) c.mu = s.friction;
@@ -95,6 +101,11 @@ void checkSame(const Outcome& alone, const Outcome& together) {
     CHECK(alone.angle == together.angle);
 }
 
+std::ptrdiff_t coilContacts(const Outcome& o) {
+    return std::count_if(o.contacts.begin(), o.contacts.end(),
+                         [](const Contact& c) { return c.kind == ContactClass::ParticleCoil; });
+}
+
 Outcome playAlone(const Script& s, const Record* from = nullptr, Record* to = nullptr) {
     const auto backend = gpu();
     return play(*backend, s, from, to);
@@ -116,6 +127,7 @@ TEST_CASE("a canister computes the same bits alone and in an ensemble") {
         const Outcome alone = playAlone(scripts[k]);
         REQUIRE(alone.error.empty());
         if (k < 2) REQUIRE(alone.contacts.size() > 10);
+        if (k < 2) REQUIRE(coilContacts(alone) > 0);
         checkSame(alone, together[k]);
     }
 }
@@ -132,13 +144,21 @@ TEST_CASE("a canister that fails names its own particle and leaves the others al
 }
 
 TEST_CASE("a canister goes on in an ensemble from where it was alone, and the other way round") {
-    const Script first{120, -9.5, 2.26e-6, 0.3}, second{77, 5.0, 2.26e-6, 0.3};
-    Record a, b;
-    playAlone(first, nullptr, &a);
-    playAlone(second, nullptr, &b);
-    const std::vector<Outcome> together = playTogether({first, second}, {&a, &b});
-    checkSame(playAlone(first, &a), together[0]);
-    checkSame(playAlone(second, &b), together[1]);
+    std::vector<Script> scripts{{120, -9.5, 2.26e-6, 0.3}, {77, 5.0, 2.26e-6, 0.3}, {203, -9.5, 2.26e-6, 0.3}};
+    const bool energyBook = GENERATE(false, true);
+    for (Script& s : scripts) s.energyBook = energyBook;
+    std::vector<Record> taken(scripts.size());
+    std::vector<const Record*> from;
+    for (std::size_t k = 0; k < scripts.size(); ++k) {
+        REQUIRE(playAlone(scripts[k], nullptr, &taken[k]).contacts.size() > 10);
+        from.push_back(&taken[k]);
+    }
+    const std::vector<Outcome> together = playTogether(scripts, from);
+    for (std::size_t k = 0; k < scripts.size(); ++k) {
+        INFO("canister " << k);
+        checkSame(playAlone(scripts[k], from[k]), together[k]);
+        checkSameArrays(taken[k], together[k].restored);
+    }
 }
 
 TEST_CASE("canisters with surfaces of other kinds cannot share tables") {

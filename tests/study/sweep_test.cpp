@@ -52,7 +52,7 @@ class MadeUpRuns : public MemberRunner {
             std::ofstream(task.folder / "summary.json")
                 << R"({"error": null, "interrupted": false, "stop_reason": "dose_count", "simulated_time_s": 1.5})";
         else
-            std::ofstream(task.folder / kCheckpointName) << "state";
+            writeCheckpoint(task.folder / kCheckpointName, Checkpoint{});
         if (end.code == 0) fs::remove(task.folder / kCheckpointName);
         if (onEnd) onEnd();
         return end;
@@ -151,6 +151,43 @@ TEST_CASE("a member that fails does not keep the others from running; it is run 
     CHECK(retried.resumed == std::vector<bool>{true, true});
     CHECK(sweep.members().rows() == 12);
     CHECK(sweep.doses().rows() == 24);
+}
+
+TEST_CASE("a checkpoint that cannot be read is given up only when failed members are to run again") {
+    const Sweeping sweep;
+    MadeUpRuns runs(2);
+    runs.codes = {{4, 3}};
+    (void)sweep.run(runs);
+    std::ofstream(sweep.out / "members/0004/checkpoint.h5") << "of another age";
+    MadeUpRuns nothing(2);
+    CHECK(sweep.run(nothing).failed == 1);
+    MadeUpRuns retried(2);
+    CHECK(sweep.run(retried, kGoodStudy, true).failed == 0);
+    CHECK(retried.resumed == std::vector<bool>{false});
+}
+
+TEST_CASE("doses that the table has lost come back from the members' folders") {
+    const Sweeping sweep;
+    MadeUpRuns runs(1);
+    (void)sweep.run(runs);
+    const fs::path table = sweep.out / "doses.csv";
+    const std::string good = readText(table);
+    SECTION("deleted") {
+        fs::remove(table);
+    }
+    SECTION("emptied") {
+        fs::resize_file(table, 0);
+    }
+    SECTION("cut off") {
+        fs::resize_file(table, good.size() / 2);
+    }
+    SECTION("a member's folder gone, the table whole") {
+        fs::remove_all(sweep.out / "members/0003");
+    }
+    MadeUpRuns nothing(1);
+    CHECK(sweep.run(nothing).ok == 12);
+    CHECK(nothing.started.empty());
+    CHECK(readText(table) == good);
 }
 
 TEST_CASE("an interrupted sweep goes on with the members that had begun, from their checkpoints") {

@@ -293,7 +293,6 @@ Particles Ensemble::particles(std::uint32_t member) const {
 }
 
 std::vector<Contact> Ensemble::contacts(std::uint32_t member) const {
-    const TableSizes& t = passes_->sizes;
     std::vector<Contact> contacts;
     const auto add = [&](ContactClass kind, std::uint32_t i, std::uint32_t other, const gpu::vec4& a,
                          const gpu::vec4& b, const gpu::vec4& force) {
@@ -303,16 +302,8 @@ std::vector<Contact> Ensemble::contacts(std::uint32_t member) const {
     for (const SlotContact& c : touchingSlots(*passes_, member))
         add(c.pair ? ContactClass::ParticleParticle : ContactClass::ParticleWall, c.particle, c.other, c.history[0],
             c.history[1], c.force);
-    if (t.coilSlots > 0) {
-        const std::size_t n = t.particles(), parts = t.historyParts(), first = std::size_t(member) * t.share;
-        const auto coil = passes_->coilHistory.readAll<gpu::vec4>(t.coilHistoryRows() * n);
-        const std::vector<TurnForces> forces = turnForces(*passes_, member, members_[member].loaded.size());
-        for (std::uint32_t i = 0; i < members_[member].loaded.size(); ++i)
-            for (std::uint32_t turn = 0; turn < gpu::kMaxTurns; ++turn)
-                if (coil[gpu::kMaxTurns * parts * n + first + i][int(turn)] != gpu::kNoTurn)
-                    add(ContactClass::ParticleCoil, i, turn, coil[turn * parts * n + first + i],
-                        coil[(turn * parts + 1) * n + first + i], forces[i][turn]);
-    }
+    for (const TurnContact& c : touchingTurns(*passes_, member, members_[member].loaded.size()))
+        add(ContactClass::ParticleCoil, c.particle, c.turn, c.history[0], c.history[1], c.force);
     std::stable_sort(contacts.begin(), contacts.end(),
                      [](const Contact& a, const Contact& b) { return a.particle < b.particle; });
     return contacts;

@@ -63,8 +63,9 @@ struct SlotRun {
     }
 };
 
-/// Lists what touched, as a refresh would have: the next one carries the histories on.
-void restoreContacts(Passes& passes, std::uint32_t member, std::size_t particles, const Record& record) {
+/// Lists what touched, as a refresh would have: the next one carries the histories on. Returns what Control::listed
+/// says of it: nothing of the coil, whose histories are the particles' own.
+uvec4 restoreContacts(Passes& passes, std::uint32_t member, std::size_t particles, const Record& record) {
     const TableSizes& t = passes.sizes;
     const auto& owner = record.get<std::uint32_t>("contact_particle");
     const std::size_t count = owner.size(), parts = t.historyParts();
@@ -97,6 +98,7 @@ void restoreContacts(Passes& passes, std::uint32_t member, std::size_t particles
     surfaces.write(passes);
     passes.rows.writeAll(links, (std::uint64_t(t.members) * t.rowEntries + firstLink) * sizeof(std::uint32_t));
     passes.ranges.writeAll(ranges, firstParticle * sizeof(uvec4));
+    return {std::uint32_t(pairs.entries.size()), std::uint32_t(surfaces.entries.size()), 0U, 0U};
 }
 
 }  // namespace
@@ -130,6 +132,11 @@ std::vector<SlotContact> touchingSlots(const Passes& passes, std::uint32_t membe
     return found;
 }
 
+namespace {
+
+/// What each turn exerts on each particle in the last step, by turn slot; zero for one that is not near the coil.
+using TurnForces = std::array<vec4, gpu::kMaxTurns>;
+
 std::vector<TurnForces> turnForces(const Passes& passes, std::uint32_t member, std::size_t particles) {
     const TableSizes& t = passes.sizes;
     const std::uint32_t count = passes.controlOf(member).listed.z, first = member * t.coilSlots;
@@ -140,6 +147,28 @@ std::vector<TurnForces> turnForces(const Passes& passes, std::uint32_t member, s
         const auto forces = passes.forces.readAll<vec4>(count, t.turnForceOffset(turn, first) * sizeof(vec4));
         for (std::size_t k = 0; k < count; ++k) found[entries[k].x - member * t.share][turn] = forces[k];
     }
+    return found;
+}
+
+}  // namespace
+
+std::vector<TurnContact> touchingTurns(const Passes& passes, std::uint32_t member, std::size_t particles) {
+    const TableSizes& t = passes.sizes;
+    std::vector<TurnContact> found;
+    if (t.coilSlots == 0) return found;
+    const auto row = [&](std::uint32_t at) {
+        const std::uint64_t first = std::uint64_t(at) * t.particles() + std::uint64_t(member) * t.share;
+        return passes.coilHistory.readAll<vec4>(particles, first * sizeof(vec4));
+    };
+    const std::vector<vec4> angles = row(t.coilHistoryRows() - 1);
+    const std::vector<TurnForces> forces = turnForces(passes, member, particles);
+    std::array<std::array<std::vector<vec4>, 2>, gpu::kMaxTurns> history;
+    for (std::uint32_t turn = 0; turn < gpu::kMaxTurns; ++turn)
+        for (std::uint32_t part = 0; part < 2; ++part) history[turn][part] = row(turn * t.historyParts() + part);
+    for (std::uint32_t i = 0; i < particles; ++i)
+        for (std::uint32_t turn = 0; turn < gpu::kMaxTurns; ++turn)
+            if (angles[i][int(turn)] != gpu::kNoTurn)
+                found.push_back({i, turn, forces[i][turn], {history[turn][0][i], history[turn][1][i]}});
     return found;
 }
 
@@ -166,12 +195,13 @@ void restoreState(Passes& passes, std::uint32_t member, std::size_t particles, s
     static const std::vector<float> none;
     const auto& book = books > 0 ? record.get<float>("energy_book", 4 * particles * books) : none;
     const auto rebuilds = record.one<std::uint32_t>("rebuilds");
-    restoreContacts(passes, member, particles, record);
+    const uvec4 listed = restoreContacts(passes, member, particles, record);
     const std::size_t couples = gpu::kFields / 2;
     unpack(state, couples, 2 * stride, source * couples * 2 * stride + 2 * first, 2 * particles, passes.state);
     unpack(coil, coilRows, stride, first, particles, passes.coilHistory);
     unpack(book, books, stride, first, particles, passes.books);
     gpu::Control control = passes.controlOf(member);
+    control.listed = listed;  // a snapshot may be taken again before any step
     control.list = uvec4(0U, rebuilds, 0U, 0U);
     passes.setControl(member, control);
 }

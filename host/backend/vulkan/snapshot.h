@@ -22,12 +22,16 @@ struct SlotContact {
 /// be idle.
 std::vector<SlotContact> touchingSlots(const Passes& passes, std::uint32_t member);
 
-/// What each turn of the coil that a particle touches exerts on it, by turn slot; zero for one that is not near the
-/// coil.
-using TurnForces = std::array<gpu::vec4, gpu::kMaxTurns>;
+/// A contact with a turn of the coil.
+struct TurnContact {
+    std::uint32_t particle, turn;
+    gpu::vec4 force;                   ///< zero before any step
+    std::array<gpu::vec4, 2> history;  ///< as `coilHistory` in shaders/shared/buffers.glsl begins
+};
 
-/// Of a member's first `particles` in the last step. The device must be idle.
-std::vector<TurnForces> turnForces(const Passes& passes, std::uint32_t member, std::size_t particles);
+/// Of a member's first `particles`, in order of particle, turn. The device must be idle. Reads what is the member's, so
+/// that looking at every member of an ensemble costs no more than looking at as many runs.
+std::vector<TurnContact> touchingTurns(const Passes& passes, std::uint32_t member, std::size_t particles);
 
 /// State of a member's first `particles` slots, read from half `source`. The device must be idle, and the member sensed
 /// since its last step (the sensors' accumulators are not stored).
