@@ -25,7 +25,6 @@ const std::atomic<bool>& watchInterrupts() {
     sigemptyset(&action.sa_mask);
     sigaction(SIGINT, &action, nullptr);
     sigaction(SIGTERM, &action, nullptr);
-    std::signal(SIGXFSZ, SIG_IGN);
     return interrupted;
 }
 

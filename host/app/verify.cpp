@@ -7,6 +7,7 @@
 #include "host/app/exit_code.h"
 #include "host/app/interrupt.h"
 #include "host/core/file.h"
+#include "host/core/printable.h"
 #include "host/verify/suite.h"
 #include "host/verify/table.h"
 
@@ -47,7 +48,7 @@ int verifyCommand(const VerifyOptions& options) {
     replaceFile(options.out / "verify.md", verify::markdownTable(checks, setting));
     const std::size_t failed = verify::failures(checks);
     fmt::print("\n{} of {} checks passed in {:.0f} s; {} and verify.json say the same\n", checks.size() - failed,
-               checks.size(), setting.seconds, (options.out / "verify.md").string());
+               checks.size(), setting.seconds, printable((options.out / "verify.md").string()));
     if (stop) return kInterrupted;
     if (!validationClean(options.backend, *backend)) return kDeviceError;
     return failed == 0 ? kOk : kDisagree;

@@ -4,6 +4,7 @@
 #include <string_view>
 #include <utility>
 
+#include "host/core/printable.h"
 #include "report/parts.h"
 
 namespace vkdose::report {
@@ -26,10 +27,18 @@ std::string escaped(std::string_view text) {
     return html;
 }
 
+/// What its texts say, with every character in sight.
+Json shown(Json data) {
+    if (data.is_string()) return printableLines(data.get_ref<const std::string&>());
+    if (data.is_structured())
+        for (auto& [key, value] : data.items()) value = shown(std::move(value));
+    return data;
+}
+
 /// The data inside a <script>. A "<" occurs in JSON only within texts; written as an escape it can end no element.
 std::string scriptData(const Json& data) {
     std::string text;
-    for (const char c : data.dump(-1, ' ', false, Json::error_handler_t::replace)) {
+    for (const char c : shown(data).dump(-1, ' ', false, Json::error_handler_t::replace)) {
         if (c == '<')
             text += "\\u003c";
         else
@@ -57,7 +66,7 @@ std::string threeLicence() {
 std::string page(const Json& data) {
     const bool player = data.contains("player") && !data["player"].is_null();
     const std::array<std::pair<std::string_view, std::string>, 16> parts{{
-        {"title", escaped(data.value("name", std::string("report")))},
+        {"title", escaped(printable(data.value("name", std::string("report"))))},
         {"style", parts::kStyle},
         {"version", VKDOSE_VERSION},
         {"licence", escaped(parts::kLicence)},
