@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <fstream>
 #include <future>
 #include <new>
 #include <thread>
@@ -16,6 +15,7 @@
 #include "host/bench/table.h"
 #include "host/core/error.h"
 #include "host/core/file.h"
+#include "host/core/printable.h"
 #include "host/output/run_folder.h"
 
 namespace vkdose {
@@ -170,13 +170,6 @@ Row measuredEnsemble(const std::string& name, const Workload& w, const BenchOpti
     return row;
 }
 
-void write(const std::filesystem::path& file, const std::string& text) {
-    std::ofstream stream(file, std::ios::binary);
-    stream << text;
-    stream.close();
-    if (!stream) throw OutputError("cannot write " + file.string());
-}
-
 void print(const Row& row) {
     fmt::print("{}\n", bench::tableLine(row));
     const std::string details = bench::detailLines(row);
@@ -214,12 +207,13 @@ int benchCommand(const BenchOptions& options) {
             rows.push_back(bench::plainRow(plan.name, workload, processors(), effort));
             print(rows.back());
         }
-        write(options.out / "bench.json", bench::jsonTable(rows));
-        write(options.out / "bench.csv", bench::csvTable(rows));
+        replaceFile(options.out / "bench.json", bench::jsonTable(rows));
+        replaceFile(options.out / "bench.csv", bench::csvTable(rows));
     }
     if (!rows.empty() && std::all_of(rows.begin(), rows.end(), [](const Row& r) { return !r.refused.empty(); }))
         throw DeviceError("nothing could be measured");
-    if (!rows.empty()) fmt::print("\non {}; all figures: {}\n", rows.front().on, (options.out / "bench.csv").string());
+    if (!rows.empty())
+        fmt::print("\non {}; all figures: {}\n", rows.front().on, printable((options.out / "bench.csv").string()));
     return stop ? kInterrupted : kOk;
 }
 

@@ -12,6 +12,7 @@
 #include "host/app/sweep_setup.h"
 #include "host/core/error.h"
 #include "host/core/file.h"
+#include "host/core/printable.h"
 #include "host/study/grid_calibration.h"
 #include "host/study/surrogate.h"
 
@@ -69,7 +70,7 @@ void writeCase(const Study& study, const SweepFolder& folder, const std::vector<
     const std::filesystem::path file = folder.path() / "calibrated.toml";
     const std::string reason = fmt::format("Calibrated by {}: {}", study.name, how);
     replaceFile(file, caseAt(study, point, study.file.stem().string() + "-calibrated", reason));
-    fmt::print("calibrated {}\n", file.string());
+    fmt::print("calibrated {}\n", printable(file.string()));
 }
 
 /// After the sweep: the table, and the case at the crossing that is chosen.

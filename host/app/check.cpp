@@ -6,6 +6,7 @@
 #include "host/app/commands.h"
 #include "host/app/exit_code.h"
 #include "host/app/text.h"
+#include "host/core/printable.h"
 #include "host/sim/runner.h"
 
 namespace vkdose {
@@ -67,7 +68,7 @@ int checkCommand(const CheckOptions& options) {
     const Insertion filled = insertParticles(c);
     const Derived d = derive(c, filled);
     const Timeline timeline(c);
-    fmt::print("case       {}: {}\n", c.name, c.reason);
+    fmt::print("case       {}: {}\n", c.name, printableLines(c.reason));
     printFilling(filled);
     printTimeScales(d);
     if (c.world.coil) printPredictions(d);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <functional>
@@ -11,6 +12,7 @@
 
 #include "host/app/commands.h"
 #include "host/app/exit_code.h"
+#include "host/core/printable.h"
 
 namespace vkdose {
 
@@ -269,6 +271,7 @@ int guarded(const std::function<int()>& command) {
 }  // namespace
 
 int commandLine(int argc, const char* const* argv) {
+    std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files becomes an error of the write that meets it
     CLI::App program("Simulates the dosing of cohesive powder by a turning coil (discrete element method).", "vkdose");
     program.require_subcommand(1);
     RunOptions run;
@@ -305,7 +308,7 @@ int commandLine(int argc, const char* const* argv) {
     } catch (const CLI::ParseError& e) {
         // --help is a ParseError too, with code 0 and its text on stdout.
         if (e.get_exit_code() == 0) return program.exit(e);
-        fmt::print(stderr, "vkdose: {}\nRun `vkdose --help` or `vkdose COMMAND --help`.\n", e.what());
+        fmt::print(stderr, "vkdose: {}\nRun `vkdose --help` or `vkdose COMMAND --help`.\n", printableLines(e.what()));
         return kBadInput;
     }
     if (program.got_subcommand("run")) return guarded([&] { return runCommand(run); });

@@ -2,6 +2,7 @@
 
 #include "host/app/backends.h"
 #include "host/core/error.h"
+#include "host/core/printable.h"
 #include "host/model/case.h"
 #include "host/output/run_folder.h"
 #include "host/photo/picture.h"
@@ -10,7 +11,7 @@ namespace vkdose {
 
 Refusal refusalOf(const std::exception_ptr& error) {
     const auto because = [](ExitCode code, const std::exception& e) {
-        return Refusal{code, std::string("vkdose: ") + e.what()};
+        return Refusal{code, "vkdose: " + printableLines(e.what())};
     };
     try {
         std::rethrow_exception(error);
@@ -33,7 +34,7 @@ Refusal refusalOf(const std::exception_ptr& error) {
     } catch (const DeviceError& e) {
         return because(kDeviceError, e);
     } catch (const std::exception& e) {
-        return {kRunError, std::string("vkdose: internal error: ") + e.what()};
+        return {kRunError, "vkdose: internal error: " + printableLines(e.what())};
     }
 }
 

@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 
-#include <fstream>
-
 #include "geometry/coil_mesh.h"
 #include "host/app/commands.h"
 #include "host/app/exit_code.h"
-#include "host/core/error.h"
+#include "host/app/inputs.h"
+#include "host/core/file.h"
+#include "host/core/printable.h"
 #include "host/model/case.h"
 #include "host/output/run_folder.h"
 
@@ -13,13 +13,11 @@ namespace vkdose {
 
 int exportCoilCommand(const ExportCoilOptions& options) {
     const Case c = loadCase(options.input.file, options.input.overrides);
+    keepInputs(c.files, {options.out});
     if (!c.world.coil) throw UsageError("export-coil: the case has no coil");
     const std::vector<geometry::Triangle> mesh = geometry::coilMesh(*c.world.coil, options.around, options.perTurn);
-    std::ofstream stream(options.out, std::ios::binary);
-    stream << geometry::stlText(mesh);
-    stream.close();
-    if (!stream) throw OutputError("cannot write " + options.out.string());
-    fmt::print("{} triangles in {}\n", mesh.size(), options.out.string());
+    replaceFile(options.out, geometry::stlText(mesh));
+    fmt::print("{} triangles in {}\n", mesh.size(), printable(options.out.string()));
     return kOk;
 }
 

@@ -15,6 +15,7 @@
 
 #include "host/app/backends.h"
 #include "host/core/error.h"
+#include "host/core/file.h"
 
 namespace vkdose {
 
@@ -52,6 +53,7 @@ Film::Film(std::filesystem::path file, int width, int height, double rate) : fil
     for (std::string& word : words) arguments.push_back(word.data());
     arguments.push_back(nullptr);
 
+    requireReplaceable(file_);  // the encoder would wait for a pipe, and goes to and fro in its file
     std::array<int, 2> ends{};
     said_ = memfd_create("ffmpeg", MFD_CLOEXEC);
     if (said_ < 0 || pipe2(ends.data(), O_CLOEXEC) != 0)

@@ -49,7 +49,6 @@ const std::atomic<bool>& watchInterrupts() {
         action.sa_flags = SA_RESTART;
         sigaction(SIGHUP, &action, nullptr);
     }
-    std::signal(SIGXFSZ, SIG_IGN);
     return interrupted;
 }
 

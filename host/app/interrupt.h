@@ -5,8 +5,7 @@
 namespace vkdose {
 
 /// Turns Ctrl-C, a polite termination and the closing of the terminal into a flag that the run looks at between calls
-/// of the backend. A second Ctrl-C ends the program at once. A limit on the size of files becomes an error of the write
-/// that meets it.
+/// of the backend. A second Ctrl-C ends the program at once.
 const std::atomic<bool>& watchInterrupts();
 
 /// From now on this process is interrupted, as by Ctrl-C, when the process `parent` that started it ends. Call after

@@ -6,6 +6,7 @@
 
 #include "host/core/error.h"
 #include "host/core/file.h"
+#include "host/core/printable.h"
 
 namespace vkdose {
 
@@ -73,26 +74,29 @@ void requireSameCase(const std::filesystem::path& file, const std::string& befor
 }  // namespace
 
 ReadyRun readyRun(const CaseOptions& input) {
-    ReadyRun run{loadCase(input.file, input.overrides), {}, std::nullopt};
+    ReadyRun run;
+    run.c = loadCase(input.file, input.overrides);
     (void)Timeline(run.c);
     run.filled = insertParticles(run.c);
     return run;
 }
 
 ReadyRun readyToResume(const std::filesystem::path& folder) {
+    ReadyRun run;
+    if (std::filesystem::is_directory(folder)) run.lock.emplace(lockRun(folder));
     const std::filesystem::path file = folder / kCheckpointName;
     if (!std::filesystem::exists(file) && std::filesystem::exists(folder / "summary.json"))
         throw CheckpointError(fmt::format("the run in {} is over; there is nothing to resume", folder.string()));
     Checkpoint from = readCheckpoint(file);
-    ReadyRun run{loadResolvedCase(from.caseText, folder / "case.toml"), {}, std::nullopt};
+    run.c = loadResolvedCase(from.caseText, folder / "case.toml");
     requireSameCase(folder / "case.toml", from.caseText, run.c);
     run.filled = insertParticles(run.c);
     run.from = std::move(from);
     return run;
 }
 
-RunFolder folderOf(const ReadyRun& run, const std::filesystem::path& folder, bool force, const Backend& backend) {
-    if (run.from) return RunFolder(folder, *run.from, run.c, backend.description());
+RunFolder folderOf(ReadyRun& run, const std::filesystem::path& folder, bool force, const Backend& backend) {
+    if (run.from) return RunFolder(folder, std::move(run.lock).value(), *run.from, run.c, backend.description());
     return RunFolder(folder, force, run.c, backend.description(), run.member);
 }
 
@@ -110,7 +114,7 @@ Played play(ReadyRun run, Backend& backend, RunFolder& folder, RunObserver* disp
     played.code = exitCode(played.result.reason);
     played.error = played.result.error;
     if (played.result.reason == StopReason::OutputError)
-        played.error += fmt::format("; make room, then {}", wayOn(folder));
+        played.error += "; " + wayOn(folder);
     else
         folder.finish(run.c, played.result);
     return played;
@@ -122,7 +126,7 @@ std::string wayOn(const RunFolder& folder) {
         return fmt::format("its checkpoint is gone with it; put {} back and go on with `vkdose resume`, or start again",
                            folder.path().string());
     return fmt::format("go on from t = {:.6g} s with `vkdose resume {}`", *folder.checkpointTime(),
-                       folder.path().string());
+                       shellWord(folder.path().string()));
 }
 
 }  // namespace vkdose

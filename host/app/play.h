@@ -18,16 +18,19 @@ struct ReadyRun {
     Insertion filled;
     std::optional<Checkpoint> from;  ///< to go on from
     std::uint32_t member = 0;        ///< its number in a study, if it starts
+    std::optional<FolderLock> lock;  ///< of the folder it goes on in
 };
 
 /// From its start. Throws CaseError.
 ReadyRun readyRun(const CaseOptions& input);
 
-/// From the checkpoint in `folder`. Throws CheckpointError if there is none, or if the run is over, and CaseError.
+/// From the checkpoint in `folder`, which it takes for this process: from now on no other run changes it. Throws
+/// FolderError if another process has it, CheckpointError if there is no checkpoint, or if the run is over, and
+/// CaseError.
 ReadyRun readyToResume(const std::filesystem::path& folder);
 
 /// Goes on in the folder, or starts over in it as `force` allows (RunFolder).
-RunFolder folderOf(const ReadyRun& run, const std::filesystem::path& folder, bool force, const Backend& backend);
+RunFolder folderOf(ReadyRun& run, const std::filesystem::path& folder, bool force, const Backend& backend);
 
 struct Played {
     RunResult result;

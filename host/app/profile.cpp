@@ -6,7 +6,9 @@
 
 #include "host/app/commands.h"
 #include "host/app/exit_code.h"
+#include "host/app/inputs.h"
 #include "host/core/file.h"
+#include "host/core/printable.h"
 
 namespace vkdose {
 
@@ -36,12 +38,14 @@ std::string summary(const photo::Surface& s) {
 }  // namespace
 
 int profileCommand(const ProfileOptions& options) {
+    keepInputs({options.photo}, {options.out, options.check});
+    if (options.out == options.check) throw UsageError("profile: --out and --check name the same file; give two");
     const photo::Picture picture = photo::readPicture(options.photo);
     const photo::Surface surface = photo::surfaceOf(picture, options.reading);
     replaceFile(options.out, photo::csvText(surface));
     if (!options.check.empty()) replaceFile(options.check, photo::pngBytes(photo::checkPicture(picture, surface)));
-    fmt::print("{}{}\n", summary(surface), options.out.string());
-    if (!options.check.empty()) fmt::print("{}\n", options.check.string());
+    fmt::print("{}{}\n", summary(surface), printable(options.out.string()));
+    if (!options.check.empty()) fmt::print("{}\n", printable(options.check.string()));
     return kOk;
 }
 

@@ -8,8 +8,11 @@
 #include "host/app/commands.h"
 #include "host/app/exit_code.h"
 #include "host/app/film.h"
+#include "host/app/inputs.h"
 #include "host/app/run_states.h"
 #include "host/core/file.h"
+#include "host/core/printable.h"
+#include "host/output/run_files.h"
 #include "host/render/picture.h"
 #include "host/vk/device.h"
 
@@ -104,7 +107,7 @@ class Renderer {
 
 void writePicture(const fs::path& file, const render::Canvas& canvas) {
     replaceFile(file, canvas.png());
-    fmt::print("{}\n", file.string());
+    fmt::print("{}\n", printable(file.string()));
 }
 
 void writeMovie(Renderer& renderer, const RenderOptions& options, std::size_t count) {
@@ -123,7 +126,7 @@ void writeMovie(Renderer& renderer, const RenderOptions& options, std::size_t co
         film->add(canvas.bytes());
     }
     if (film) film->finish();
-    fmt::print("{} pictures in {}\n", count, to.string());
+    fmt::print("{} pictures in {}\n", count, printable(to.string()));
 }
 
 std::vector<std::size_t> chosenOf(const RenderOptions& options, const RunStates& states) {
@@ -141,6 +144,8 @@ std::vector<std::size_t> chosenOf(const RenderOptions& options, const RunStates&
 }  // namespace
 
 int renderCommand(const RenderOptions& options) {
+    const fs::path picture = options.out.empty() ? options.folder / "picture.png" : options.out;
+    keepInputs(filesOfRun(options.folder), {picture, options.movie});
     const RunStates states(options.folder);
     if ((options.panels || !options.movie.empty()) && !states.hasFrames())
         throw UsageError(fmt::format("{} kept no frames ([frames] in its case does), only its end can be drawn",
@@ -150,7 +155,7 @@ int renderCommand(const RenderOptions& options) {
     if (!options.movie.empty())
         writeMovie(renderer, options, chosen.size());
     else
-        writePicture(options.out.empty() ? options.folder / "picture.png" : options.out, renderer.draw(chosen));
+        writePicture(picture, renderer.draw(chosen));
     return validationClean(options.backend, renderer.device()) ? kOk : kDeviceError;
 }
 

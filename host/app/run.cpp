@@ -7,6 +7,7 @@
 #include "host/app/play.h"
 #include "host/app/progress.h"
 #include "host/app/report.h"
+#include "host/core/printable.h"
 #include "host/sim/run_record.h"
 
 namespace vkdose {
@@ -47,10 +48,11 @@ int playAloud(ReadyRun run, Backend& backend, RunFolder& folder, const Manner& m
     const std::unique_ptr<RunDisplay> display = makeDisplay(manner, run, backend);
     const Played played = play(std::move(run), backend, folder, display.get(), stop);
     if (display) display->close();
-    if (!played.error.empty()) fmt::print(stderr, "vkdose: {}\n", played.error);
+    if (!played.error.empty()) fmt::print(stderr, "vkdose: {}\n", printable(played.error));
     if (played.code == kOutputError) return kOutputError;
     if (!manner.quiet) {
-        fmt::print("{}output   {}\n", reportText(c, played.result, backend.description()), folder.path().string());
+        fmt::print("{}output   {}\n", reportText(c, played.result, backend.description()),
+                   printable(folder.path().string()));
         if (played.code == kInterrupted) fmt::print("resume   {}\n", wayOn(folder));
     }
     const bool clean = validationClean(manner.choice, backend);

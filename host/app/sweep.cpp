@@ -11,6 +11,7 @@
 #include "host/app/sweep_display.h"
 #include "host/app/sweep_setup.h"
 #include "host/app/text.h"
+#include "host/core/printable.h"
 #include "host/study/member.h"
 #include "host/study/study.h"
 #include "host/study/sweep.h"
@@ -54,7 +55,7 @@ int sweepCommand(const SweepOptions& options) {
     if (options.prepare) {
         SweepFolder folder(sweepFolder(options), study, members);
         for (const Member& member : members) folder.begin(member);
-        fmt::print("{} members to run in {}\n", members.size(), (folder.path() / "members").string());
+        fmt::print("{} members to run in {}\n", members.size(), printable((folder.path() / "members").string()));
         return kOk;
     }
     if (!runner) runner = makeRunner(options);

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "host/app/text.h"
+#include "host/core/printable.h"
 
 namespace vkdose {
 
@@ -37,7 +38,7 @@ std::string dosesText(const MemberResult& result) {
 std::string memberText(const Study& study, const Member& member) {
     std::string text;
     const std::vector<std::string> keys = study.keys();
-    for (std::size_t i = 0; i < keys.size(); ++i) text += fmt::format("{} {}, ", keys[i], member.values[i]);
+    for (std::size_t i = 0; i < keys.size(); ++i) text += fmt::format("{} {}, ", keys[i], printable(member.values[i]));
     return text + fmt::format("seed {}", member.seed);
 }
 
@@ -49,8 +50,8 @@ std::string membersText(const Study& study, const std::vector<Member>& members) 
                             large(m.expectedWork), memberText(study, m));
         work += m.expectedWork;
     }
-    return text + fmt::format("{}: {} members, {}particle-steps by the closed forms\n", study.name, members.size(),
-                              large(work));
+    return text + fmt::format("{}: {} members, {}particle-steps by the closed forms\n", printable(study.name),
+                              members.size(), large(work));
 }
 
 SweepDisplay::SweepDisplay(std::string command, const Study& study, bool quiet)
@@ -62,7 +63,7 @@ SweepDisplay::~SweepDisplay() {
 
 void SweepDisplay::begin(const std::vector<Member>& members, const std::string& manner) {
     if (quiet_) return;
-    fmt::print("{}: {} members, {}\n", study_.name, members.size(), manner);
+    fmt::print("{}: {} members, {}\n", printable(study_.name), members.size(), manner);
     std::fflush(stdout);
 }
 
@@ -72,7 +73,7 @@ void SweepDisplay::onMember(const Member& member, const MemberResult& result) {
     close();
     const std::string head = fmt::format("member {:04} ({})", member.number, memberText(study_, member));
     if (failed) {
-        fmt::print(stderr, "{} failed: {}\n", head, result.error);
+        fmt::print(stderr, "{} failed: {}\n", head, printable(result.error));
     } else {
         fmt::print("{} {}: {}\n", head, statusText(result.status), dosesText(result));
         std::fflush(stdout);
@@ -97,7 +98,7 @@ void SweepDisplay::onProgress(const SweepProgress& p) {
 
 void SweepDisplay::onBusy(const std::filesystem::path& folder) {
     close();
-    fmt::print(stderr, "vkdose: waiting for the process that writes into {}\n", folder.string());
+    fmt::print(stderr, "vkdose: waiting for the process that writes into {}\n", printable(folder.string()));
 }
 
 void SweepDisplay::onAnew(const Member& member, const std::string& why) {
@@ -107,15 +108,15 @@ void SweepDisplay::onAnew(const Member& member, const std::string& why) {
 
 void SweepDisplay::finish(const SweepFolder& folder, const SweepOutcome& outcome) {
     close();
-    const std::string again =
-        fmt::format("vkdose {} {} --out {}", command_, study_.file.string(), folder.path().string());
+    const std::string again = fmt::format("vkdose {} {} --out {}", command_, shellWord(study_.file.string()),
+                                          shellWord(folder.path().string()));
     if (!outcome.whole)
         fmt::print(stderr, "vkdose: interrupted; go on with `{}`\n", again);
     else if (outcome.failed > 0)
         fmt::print(stderr, "vkdose: {} members failed; run them again with `{} --retry-failed`\n", outcome.failed,
                    again);
     if (quiet_) return;
-    fmt::print("{} done, {} failed\noutput   {}\n", outcome.ok, outcome.failed, folder.path().string());
+    fmt::print("{} done, {} failed\noutput   {}\n", outcome.ok, outcome.failed, printable(folder.path().string()));
 }
 
 void SweepDisplay::close() {

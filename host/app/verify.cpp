@@ -7,6 +7,7 @@
 #include "host/app/exit_code.h"
 #include "host/app/interrupt.h"
 #include "host/core/file.h"
+#include "host/core/printable.h"
 #include "host/verify/suite.h"
 #include "host/verify/table.h"
 
@@ -46,7 +47,7 @@ int verifyCommand(const VerifyOptions& options) {
     replaceFile(options.out / "verify.json", verify::jsonTable(checks, setting));
     replaceFile(options.out / "verify.md", verify::markdownTable(checks, setting));
     fmt::print("\n{}, in {:.0f} s; {} and verify.json say the same\n", verify::tally(checks), setting.seconds,
-               (options.out / "verify.md").string());
+               printable((options.out / "verify.md").string()));
     if (stop) return kInterrupted;
     if (!validationClean(options.backend, *backend)) return kDeviceError;
     return verify::failures(checks) == 0 ? kOk : kDisagree;

@@ -2,12 +2,16 @@
 
 #include "host/app/commands.h"
 #include "host/app/exit_code.h"
+#include "host/app/inputs.h"
 #include "host/core/file.h"
+#include "host/core/printable.h"
+#include "host/output/run_files.h"
 #include "host/report/page.h"
 #include "host/report/player_data.h"
 #include "host/report/run_report.h"
 #include "host/report/study_report.h"
 #include "host/report/surface_report.h"
+#include "host/study/sweep_folder.h"
 
 namespace vkdose {
 
@@ -45,12 +49,19 @@ int reportCommand(const ReportOptions& options) {
         throw UsageError("report: --expected belongs to the report of a sweep; this is a run");
     std::vector<report::Photograph> photographs;
     for (const std::string& profile : options.profiles) photographs.push_back(report::photographOf(profile));
+    const fs::path file = options.out.empty() ? folder / "report.html" : options.out;
+    std::vector<fs::path> read = sweep ? SweepFolder::files(folder) : filesOfRun(folder);
+    std::erase(read, folder / "report.html");
+    read.push_back(options.source);
+    if (options.experiment) read.push_back(*options.experiment);
+    if (options.expected) read.push_back(*options.expected);
+    for (const report::Photograph& p : photographs) read.push_back(p.file);
+    keepInputs(read, {file});
     const report::Json data = sweep
                                   ? report::studyJson(folder, options.expected)
                                   : report::runJson(folder, options.experiment, report::framesOf(folder), photographs);
-    const fs::path file = options.out.empty() ? folder / "report.html" : options.out;
     replaceFile(file, report::page(data));
-    fmt::print("{}\n", file.string());
+    fmt::print("{}\n", printable(file.string()));
     return kOk;
 }
 

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "host/core/error.h"
+#include "host/core/file.h"
 
 namespace vkdose {
 
@@ -19,9 +20,8 @@ namespace {
 }  // namespace
 
 Table Table::read(const std::filesystem::path& file, LastLine last) {
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream || std::filesystem::is_directory(file))
-        refuseLine(file.string(), 0, "cannot be read", "give a folder that vkdose wrote, or a CSV");
+    std::ifstream stream = inputFile(file);
+    if (!stream) refuseLine(file.string(), 0, readFault(file), "give a folder that vkdose wrote, or a CSV");
     Table table;
     table.file_ = file.string();
     for (CsvLines lines(stream); lines.next();) {
@@ -45,7 +45,7 @@ Table Table::read(const std::filesystem::path& file, LastLine last) {
 }
 
 Table Table::salvage(const std::filesystem::path& file) {
-    std::ifstream stream(file, std::ios::binary);
+    std::ifstream stream = inputFile(file);
     Table table;
     table.file_ = file.string();
     for (CsvLines lines(stream); lines.next() && lines.ended();) {

@@ -2,19 +2,11 @@
 
 #include <fmt/format.h>
 
+#include "host/core/printable.h"
+
 namespace vkdose {
 
 namespace {
-
-/// What a file says may be anything; a message is one line that no terminal takes for a command.
-std::string printable(const std::string& text) {
-    std::string out;
-    for (const char c : text) {
-        const auto byte = static_cast<unsigned char>(c);
-        out += byte < 0x20 || byte == 0x7f ? fmt::format("\\x{:02x}", byte) : std::string(1, c);
-    }
-    return out;
-}
 
 /// Long enough to recognise what was written, cut where a character of UTF-8 begins.
 std::string shortened(const std::string& text) {

@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "host/core/printable.h"
 #include "host/model/case_reader.h"
 #include "host/model/case_sections.h"
 #include "host/model/checks.h"
@@ -37,11 +38,16 @@ SizeRange sizeRange(const Case& c) {
 /// anything.
 void checkName(CaseReader& reader, const std::string& name) {
     constexpr std::size_t kLongestName = 200;
-    const auto bad = [](char c) { return c == '/' || static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
-    if (name.empty() || name == "." || name == ".." || name.size() > kLongestName || !isUtf8(name) ||
-        std::any_of(name.begin(), name.end(), bad))
-        reader.fault("name", fmt::format("\"{}\" is no name for a folder", name.substr(0, kLongestName)),
-                     "give a short name without slashes");
+    const std::string shown = name.substr(0, kLongestName);
+    if (printable(name) != name)
+        reader.fault("name", fmt::format("\"{}\" is no name for a folder: it holds what cannot be seen", shown),
+                     "give a name of characters that show");
+    else if (name.empty() || name == "." || name == ".." || name.size() > kLongestName ||
+             name.find('/') != std::string::npos)
+        reader.fault("name", fmt::format("\"{}\" is no name for a folder", shown), "give a short name without slashes");
+    else if (name.front() == ' ' || name.back() == ' ')
+        reader.fault("name", fmt::format("\"{}\" is no name for a folder: it begins or ends with a blank", shown),
+                     "leave the blank out");
 }
 
 void completeTime(Section& time, Case& c, const SizeRange& sizes) {
@@ -85,10 +91,11 @@ Box defaultDomain(const Case& c, const SizeRange& sizes, const Insertion& filled
     return {box.low - margin, box.high + margin};
 }
 
-Case interpret(const std::filesystem::path& file, Node tree) {
+Case interpret(const std::filesystem::path& file, Node tree, std::vector<std::filesystem::path> files) {
     CaseReader reader(file.string(), std::move(tree));
     Section& root = reader.root();
     Case c;
+    c.files = std::move(files);
     c.name = root.string("name", file.stem().string());
     if (!root.has("name") || root.isString("name")) checkName(reader, c.name);
     c.reason = root.string("reason", "");
@@ -143,13 +150,14 @@ Case loadCase(const std::filesystem::path& file, const std::vector<std::string>&
 }
 
 Case loadVariant(const std::filesystem::path& file, std::vector<Node> layers) {
-    Node tree = readTree(file);
+    std::vector<std::filesystem::path> files;
+    Node tree = readTree(file, files);
     for (Node& layer : layers) merge(tree, std::move(layer));
-    return interpret(file, std::move(tree));
+    return interpret(file, std::move(tree), std::move(files));
 }
 
 Case loadResolvedCase(const std::string& text, const std::filesystem::path& file) {
-    return interpret(file, readTreeText(text, file.string()));
+    return interpret(file, readTreeText(text, file.string()), {file});
 }
 
 }  // namespace vkdose

@@ -90,9 +90,10 @@ struct Case {
     double sensorInterval = 0;  ///< [s], a whole number of steps after loading
     CheckpointInterval checkpoint;
     FrameStorage frames;
-    std::vector<FieldSensor> fields;  ///< taken while the run goes on
-    double bulkDensity = 471;         ///< rho_b for the closed form [kg/m3]
-    std::string resolved;             ///< the case as TOML with every default and --set applied
+    std::vector<FieldSensor> fields;           ///< taken while the run goes on
+    double bulkDensity = 471;                  ///< rho_b for the closed form [kg/m3]
+    std::string resolved;                      ///< the case as TOML with every default and --set applied
+    std::vector<std::filesystem::path> files;  ///< it was read from: the case file, its bases, the list of particles
 };
 
 /// Reads, resolves `overrides` ("key.path=value"), checks. Throws CaseError with every fault found.

@@ -92,21 +92,12 @@ Node convert(const toml::node& from, const Source& source, std::string key) {
 }
 
 std::string readText(const std::filesystem::path& file, const Diagnostic& whoAsks) {
-    std::error_code code;
+    std::optional<std::string> text = fileContent(file);
+    if (text) return *std::move(text);
     Diagnostic fault = whoAsks;
-    if (!std::filesystem::exists(file, code)) {
-        fault.problem = fmt::format("there is no file {}", file.string());
-        if (fault.file.empty()) fault = {file.string(), 0, "", "", "there is no such file", fault.remedy};
-        throw CaseError({fault});
-    }
-    // Not from a pipe, which may have no end.
-    std::optional<std::string> text;
-    if (std::filesystem::is_regular_file(file, code)) text = fileContent(file);
-    if (!text) {
-        fault.problem = fmt::format("{} cannot be read", file.string());
-        throw CaseError({fault});
-    }
-    return *text;
+    fault.problem = unreadable(file);
+    if (fault.file.empty()) fault = {file.string(), 0, "", "", readFault(file), fault.remedy};
+    throw CaseError({fault});
 }
 
 /// The parser takes apart what it has read by recursion, a level for every part of a dotted key and every bracket. It
@@ -283,9 +274,8 @@ Node readTreeAlone(const std::filesystem::path& file) {
     return parseText(readText(file, {"", 0, "", "", "", "give the path of a file"}), file.string());
 }
 
-Node readTree(const std::filesystem::path& file) {
-    std::vector<std::filesystem::path> above;
-    return readWithBase(file, {"", 0, "", "", "", "give the path of a case file"}, above);
+Node readTree(const std::filesystem::path& file, std::vector<std::filesystem::path>& files) {
+    return readWithBase(file, {"", 0, "", "", "", "give the path of a case file"}, files);
 }
 
 Node readTreeText(const std::string& text, const std::string& name) {

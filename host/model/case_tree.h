@@ -36,8 +36,8 @@ struct Node {
 Node readTreeAlone(const std::filesystem::path& file);
 
 /// Reads `file` and, below it, the file its key `base` names (relative to it). Throws CaseError when a file cannot be
-/// read or is not TOML, and when bases form a circle.
-Node readTree(const std::filesystem::path& file);
+/// read or is not TOML, and when bases form a circle. `files` is given what was read, as canonical paths.
+Node readTree(const std::filesystem::path& file, std::vector<std::filesystem::path>& files);
 
 /// The same for a text; `name` stands for the file in messages. Throws CaseError when it is not TOML or has a base.
 Node readTreeText(const std::string& text, const std::string& name);

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "host/core/csv_lines.h"
+#include "host/core/file.h"
 #include "host/model/case_reader.h"
 
 namespace vkdose {
@@ -165,11 +166,10 @@ class ListReader {
 }  // namespace
 
 Particles readParticleList(const std::filesystem::path& file, std::vector<Diagnostic>& faults) {
-    std::ifstream stream(file, std::ios::binary);
-    std::error_code code;
-    if (!std::filesystem::is_regular_file(file, code) || !stream) {
+    std::ifstream stream = inputFile(file);
+    if (!stream) {
         faults.push_back(
-            {file.string(), 0, "", "", "cannot be read", "give the path of a CSV, relative to the case file"});
+            {file.string(), 0, "", "", readFault(file), "give the path of a CSV, relative to the case file"});
         return {};
     }
     return ListReader(file.string(), faults).read(stream);

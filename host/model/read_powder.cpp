@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "host/core/file.h"
 #include "host/model/case_sections.h"
 #include "host/model/particle_list.h"
 #include "host/model/size_distribution.h"
@@ -74,15 +75,14 @@ void readParticles(CaseReader& reader, Section& root, Case& c) {
         section.know("mass_g");
         std::vector<Diagnostic> faults;
         const std::filesystem::path file = reader.folderOf("particles.list") / path;
-        std::error_code code;
         c.filling.list.emplace();
         if (!section.isString("list")) return;  // told by now
-        if (!std::filesystem::is_regular_file(file, code)) {
-            reader.fault("particles.list", fmt::format("there is no file {}", file.string()),
-                         "give the path of a CSV, relative to the case file");
+        if (!inputFile(file)) {
+            reader.fault("particles.list", unreadable(file), "give the path of a CSV, relative to the case file");
             return;
         }
         c.filling.list = readParticleList(file, faults);
+        c.files.push_back(file);
         section.record("list", std::filesystem::absolute(file).lexically_normal().string());
         for (Diagnostic& fault : faults) reader.add(std::move(fault));
         return;

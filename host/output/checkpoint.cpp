@@ -95,7 +95,7 @@ void writeCheckpoint(const std::filesystem::path& file, const Checkpoint& c) {
 
 Checkpoint readCheckpoint(const std::filesystem::path& file) {
     const std::optional<std::string> bytes = fileContent(file);
-    if (!bytes) throw CheckpointError(fmt::format("there is no checkpoint {}", file.string()));
+    if (!bytes) throw CheckpointError(fmt::format("no checkpoint: {}", unreadable(file)));
     const std::string_view rest = body(*bytes, file.string());
     try {
         const hdf5::Reader reader{std::string(rest)};

@@ -1,7 +1,7 @@
 #include "host/output/csv.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <zlib.h>
@@ -23,16 +23,15 @@ std::uint32_t crcOf(std::uint32_t before, std::string_view text) {
 
 }  // namespace
 
-// "e": a child process has no part in the file, nor in its lock.
 CsvFile::CsvFile(std::filesystem::path path, std::string_view header)
-    : path_(std::move(path)), file_(std::fopen(path_.c_str(), "we")) {
+    : path_(std::move(path)), file_(::fdopen(openOutput(path_, O_WRONLY | O_CREAT | O_TRUNC), "w")) {
     if (!file_) fail();
     line(std::string(header));
     flush();
 }
 
 CsvFile::CsvFile(std::filesystem::path path, const CsvMark& mark)
-    : path_(std::move(path)), file_(std::fopen(path_.c_str(), "r+e")) {
+    : path_(std::move(path)), file_(::fdopen(openOutput(path_, O_RDWR), "r+")) {
     if (!file_) fail();
     std::error_code error;
     const std::uint64_t size = std::filesystem::file_size(path_, error);
@@ -87,10 +86,6 @@ CsvMark CsvFile::store() {
     const long at = std::ftell(file_.get());
     if (at < 0) fail();
     return {static_cast<std::uint64_t>(at), checksum_};
-}
-
-bool CsvFile::lock() {
-    return ::flock(fileno(file_.get()), LOCK_EX | LOCK_NB) == 0;
 }
 
 void CsvFile::fail() const {

@@ -36,9 +36,6 @@ class CsvFile {
     /// Makes everything written so far survive a crash of the machine, and tells what that is.
     CsvMark store();
 
-    /// Takes the file for this process; false if another vkdose holds it. Given up when the file is closed.
-    bool lock();
-
   private:
     struct Close {
         void operator()(std::FILE* file) const { std::fclose(file); }

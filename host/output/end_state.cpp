@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host/core/error.h"
+#include "host/core/file.h"
 #include "host/model/particle_list.h"
 
 namespace vkdose {
@@ -25,8 +26,8 @@ double numberIn(const Json& summary, const char* key, const std::filesystem::pat
 
 Frame readEndState(const std::filesystem::path& folder, const Case& c) {
     const std::filesystem::path file = folder / "summary.json", list = folder / "particles.csv";
-    std::ifstream stream(file);
-    if (!stream) throw OutputError(fmt::format("cannot read {}", file.string()));
+    std::ifstream stream = inputFile(file);
+    if (!stream) throw OutputError(unreadable(file));
     const Json summary = Json::parse(stream, nullptr, false);
     if (!summary.is_object()) throw OutputError(fmt::format("{}: no summary", file.string()));
     Frame frame;

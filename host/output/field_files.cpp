@@ -19,8 +19,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kAxes[] = {"x", "y", "z"};
-constexpr const char* kFolder = "fields";
-constexpr const char* kVolumeExtension = ".hdf";
 
 bool isMap(const FieldSensor& s) {
     return s.request.grid.resolvedDirections() > 1;
@@ -50,14 +48,14 @@ std::string placeNames(const FieldGrid& grid) {
 }  // namespace
 
 FieldFiles::FieldFiles(const fs::path& run, const Case& c)
-    : folder_(run / kFolder), sensors_(c.fields), density_(c.world.density) {
+    : folder_(run / kFieldsFolder), sensors_(c.fields), density_(c.world.density) {
     if (sensors_.empty()) return;
     createFolder(folder_);
     for (const FieldSensor& s : sensors_) files_.emplace_back(folder_ / (s.name + ".csv"), header(s));
 }
 
 FieldFiles::FieldFiles(const fs::path& run, const Case& c, const std::vector<CsvMark>& marks)
-    : folder_(run / kFolder), sensors_(c.fields), density_(c.world.density) {
+    : folder_(run / kFieldsFolder), sensors_(c.fields), density_(c.world.density) {
     if (marks.size() != sensors_.size()) throw OutputError("the checkpoint has another number of fields than the case");
     for (std::size_t k = 0; k < sensors_.size(); ++k)
         files_.emplace_back(folder_ / (sensors_[k].name + ".csv"), marks[k]);
@@ -184,16 +182,6 @@ void FieldFiles::writeSeriesOf(const FieldSensor& s) const {
         throw OutputError(e.what());
     }
     writeSeries(folder_ / (s.name + kVolumeExtension + kSeriesExtension), files);
-}
-
-void FieldFiles::remove(const fs::path& run) {
-    std::error_code ignored;
-    std::vector<fs::path> files;
-    for (const auto& entry : fs::directory_iterator(run / kFolder, ignored))
-        for (const char* ours : {".csv", kVolumeExtension, kSeriesExtension})
-            if (entry.path().extension() == ours) files.push_back(entry.path());
-    for (const fs::path& file : files) fs::remove(file, ignored);
-    fs::remove(run / kFolder, ignored);  // unless something else is in it
 }
 
 }  // namespace vkdose

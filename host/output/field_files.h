@@ -14,6 +14,9 @@
 
 namespace vkdose {
 
+inline constexpr const char* kFieldsFolder = "fields";
+inline constexpr const char* kVolumeExtension = ".hdf";  ///< of a map in three directions
+
 class FieldFiles {
   public:
     /// Creates the folder and the files, if the case has fields. Throws OutputError.
@@ -26,9 +29,6 @@ class FieldFiles {
 
     /// Makes everything written survive a crash, and brings the series up to date; the state of every NAME.csv.
     std::vector<CsvMark> store();
-
-    /// Removes what a former run left there.
-    static void remove(const std::filesystem::path& run);
 
   private:
     static std::string header(const FieldSensor& s);

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <string>
 #include <system_error>
 
@@ -26,15 +25,10 @@ fs::path madeFolder(const fs::path& run) {
     return folder;
 }
 
-fs::path emptied(const fs::path& run) {
-    FrameWriter::remove(run);
-    return madeFolder(run);
-}
-
 /// Times of the frames named in the first `bytes` of an index.
 std::vector<double> timesIn(const fs::path& index, std::uint64_t bytes) {
     std::string text(bytes, '\0');
-    std::ifstream(index, std::ios::binary).read(text.data(), static_cast<std::streamsize>(bytes));
+    inputFile(index).read(text.data(), static_cast<std::streamsize>(bytes));
     std::vector<double> times;
     for (const FrameEntry& e : framesListed(text, index)) times.push_back(e.time);
     return times;
@@ -64,7 +58,7 @@ void removeFrom(const fs::path& folder, int number) {
 }  // namespace
 
 FrameWriter::FrameWriter(const fs::path& run, const Case& c, std::uint32_t member)
-    : folder_(emptied(run)),
+    : folder_(madeFolder(run)),
       world_(c.world),
       kinds_(kindsOf(c)),
       member_(member),
@@ -122,21 +116,6 @@ void FrameWriter::writeSeries() const {
             files.push_back({frameFile(kind, static_cast<int>(i)), times_[i]});
         vkdose::writeSeries(folder_ / (std::string(kind) + kFrameExtension + kSeriesExtension), files);
     }
-}
-
-void FrameWriter::remove(const fs::path& run) {
-    const fs::path folder = run / kFramesFolder;
-    std::error_code error;
-    std::vector<fs::path> ours;
-    for (const auto& entry : fs::directory_iterator(folder, error)) {
-        const std::string name = entry.path().filename().string();
-        const fs::path kind = entry.path().extension();
-        const bool torn = kind == ".new";  // left by a run that was killed
-        if (name == kFramesIndex || kind == kFrameExtension || kind == kSeriesExtension || torn)
-            ours.push_back(entry.path());
-    }
-    for (const fs::path& file : ours) fs::remove(file, error);
-    fs::remove(folder, error);  // stays if something else is in it
 }
 
 }  // namespace vkdose

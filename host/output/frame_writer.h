@@ -14,8 +14,7 @@ namespace vkdose {
 
 class FrameWriter {
   public:
-    /// Of a new run with this output folder; frames of a former run in it are removed. Throws OutputError if the folder
-    /// cannot be written.
+    /// Of a new run with this output folder, which holds no frames. Throws OutputError if it cannot be written.
     FrameWriter(const std::filesystem::path& run, const Case& c, std::uint32_t member);
 
     /// Of a run that goes on from a checkpoint written when frames.csv was as `mark` says; what came later is replaced
@@ -33,9 +32,6 @@ class FrameWriter {
     /// Waits until all is written and survives a crash of the machine, and brings the series files up to date; the
     /// state of frames.csv. Throws OutputError if writing failed.
     CsvMark store();
-
-    /// Removes the frames in a run's output folder, and the folder they are in if nothing else is there.
-    static void remove(const std::filesystem::path& run);
 
   private:
     void await();

@@ -43,7 +43,7 @@ std::optional<FrameEntry> entryIn(const std::optional<Row>& fields) {
 
 std::string content(const fs::path& file) {
     std::optional<std::string> bytes = fileContent(file);
-    if (!bytes) throw OutputError(fmt::format("cannot read {}", file.string()));
+    if (!bytes) throw OutputError(unreadable(file));
     return *std::move(bytes);
 }
 

@@ -1,17 +1,15 @@
 #include "host/output/run_folder.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <unistd.h>
 
-#include <array>
 #include <cmath>
 #include <system_error>
 #include <utility>
 
 #include "host/core/error.h"
 #include "host/core/file.h"
+#include "host/core/printable.h"
+#include "host/output/run_files.h"
 #include "host/output/run_history.h"
 #include "host/output/summary.h"
 
@@ -21,11 +19,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array kFiles{"case.toml",    "timeseries.csv", "doses.csv",    "particles.csv",
-                            "summary.json", "report.html",    kCheckpointName};
-
-constexpr const char* kTimeSeriesHeader =
-    "time_s,phase,dose,coil_angle_rad,dosed_mass_kg,canister_mass_kg,throat_mass_kg,lost_mass_kg,"
+constexpr const char* kTimeSeriesHeader =  // after kTimeSeriesStart
+    ",dosed_mass_kg,canister_mass_kg,throat_mass_kg,lost_mass_kg,"
     "dosed_count,canister_count,throat_count,lost_count,kinetic_energy_J,rotational_energy_J,outlet_velocity_m_s,"
     "coil_torque_Nm,coil_power_W,max_overlap_ratio";
 
@@ -37,25 +32,6 @@ constexpr const char* kEnergyHeader =
 
 constexpr const char* kParticlesHeader =
     "id,x_m,y_m,z_m,vx_m_s,vy_m_s,vz_m_s,wx_rad_s,wy_rad_s,wz_rad_s,radius_m,status";
-
-[[noreturn]] void busy(const fs::path& folder) {
-    throw FolderError(fmt::format("another vkdose is writing into {}; wait for it or stop it", folder.string()));
-}
-
-void refuseBusy(const fs::path& folder) {
-    std::error_code error;
-    const fs::path file = folder / "timeseries.csv";
-    if (fs::exists(file, error) && !CsvFile(file, {fs::file_size(file, error)}).lock()) busy(folder);
-}
-
-/// A lock on the run's time series, given up by closing: true if it was to be had. `how`: see flock.
-bool tryLock(const fs::path& folder, int how) {
-    const int handle = ::open((folder / "timeseries.csv").c_str(), O_RDONLY | O_CLOEXEC);
-    if (handle < 0) return true;  // nobody has begun there
-    const bool had = ::flock(handle, how) == 0;
-    ::close(handle);
-    return had;
-}
 
 std::string energyFields(const EnergyLedger& ledger) {
     const EnergyBook& b = ledger.sum;
@@ -76,29 +52,59 @@ std::string energyFields(const EnergyLedger& ledger) {
     return fields;
 }
 
-void prepareFolder(const fs::path& folder, bool force) {
+/// Why a folder that is not empty is not written into.
+std::string occupied(const fs::path& folder) {
+    const bool unfinished = fs::exists(folder / kCheckpointName), run = holdsRun(folder);
+    return fmt::format("{} {}; {}choose another folder with --out{}", folder.string(),
+                       unfinished ? "holds an unfinished run"
+                       : run      ? "holds a former run"
+                                  : "is not empty and holds no run of vkdose",
+                       unfinished ? fmt::format("go on with `vkdose resume {}`, ", shellWord(folder.string())) : "",
+                       run ? ", or --force to replace that run" : "");
+}
+
+/// Whether the folder holds nothing but this case: a sweep leaves it where a member is to run.
+bool isPrepared(const fs::path& folder, const Case& c) {
+    for (const auto& entry : fs::directory_iterator(folder))
+        if (entry.path().stem() != "case" && entry.path().stem() != "case.toml") return false;
+    return fileContent(folder / "case.toml") == c.resolved;
+}
+
+/// What a new run removes. A case that is there already stays: it may be what the run is read from.
+std::vector<fs::path> replacedIn(const fs::path& folder, const Case& c) {
+    std::vector<fs::path> files = filesOfRun(folder);
+    if (fileContent(folder / "case.toml") == c.resolved) std::erase(files, folder / "case.toml");
+    return files;
+}
+
+/// Refuses what would lose a file that is no run's, or that the case is read from.
+void requireNothingLost(const fs::path& folder, bool force, const Case& c) {
+    std::error_code code;
+    if (fs::is_empty(folder, code)) return;
+    if (!force || !(holdsRun(folder) || isPrepared(folder, c))) throw FolderError(occupied(folder));
+    if (const auto file = readAndWritten(c.files, replacedIn(folder, c)))
+        throw FolderError(
+            fmt::format("the case is read from {}, which the run would replace; choose another folder "
+                        "with --out",
+                        file->string()));
+}
+
+/// The folders that have to be made for `folder`, itself first.
+std::vector<fs::path> missingFolders(fs::path folder) {
+    std::error_code code;
+    std::vector<fs::path> missing;
+    for (; !folder.empty() && !fs::exists(folder, code); folder = folder.parent_path()) missing.push_back(folder);
+    return missing;
+}
+
+void makeFolder(const fs::path& folder) {
     std::error_code error;
-    if (fs::exists(folder, error) && !fs::is_directory(folder, error)) {
+    if (fs::exists(folder, error) && !fs::is_directory(folder, error))
         throw FolderError(fmt::format("{} is a file, not a folder; choose another with --out", folder.string()));
-    }
-    if (fs::is_directory(folder, error) && !fs::is_empty(folder, error) && !force) {
-        const bool former = fs::exists(folder / "summary.json") || fs::exists(folder / "case.toml");
-        const bool unfinished = fs::exists(folder / kCheckpointName);
-        throw FolderError(fmt::format("{} {}; {}choose another folder with --out, or --force to {}", folder.string(),
-                                      unfinished ? "holds an unfinished run"
-                                      : former   ? "holds a former run"
-                                                 : "is not empty",
-                                      unfinished ? fmt::format("go on with `vkdose resume {}`, ", folder.string()) : "",
-                                      former ? "replace that run" : "write into it"));
-    }
-    refuseBusy(folder);
     fs::create_directories(folder, error);
-    if (error) throw FolderError(fmt::format("cannot create {}: {}", folder.string(), error.message()));
-    // A stale summary beside a new time series would lie if this run is killed.
-    for (const char* name : kFiles) fs::remove(folder / name, error);
-    FrameWriter::remove(folder);
-    if (error) throw FolderError(fmt::format("cannot write in {}: {}", folder.string(), error.message()));
-    FieldFiles::remove(folder);
+    const std::string fault = fmt::format("cannot create {}: {}", folder.string(), error.message());
+    if (error == std::errc::no_space_on_device) throw OutputError(fault);
+    if (error) throw FolderError(fault);
 }
 
 double mass(const Sensors& s, Region r) {
@@ -112,28 +118,35 @@ std::uint64_t count(const Sensors& s, Region r) {
 
 RunFolder::RunFolder(fs::path folder, bool force, const Case& c, std::string backend, std::uint32_t member)
     : folder_(std::move(folder)), backend_(std::move(backend)), caseText_(c.resolved), member_(member) {
+    const std::vector<fs::path> made = missingFolders(folder_);
+    makeFolder(folder_);
+    lock_.emplace(lockRun(folder_));
+    requireNothingLost(folder_, force, c);
+    const bool hadCase = fileContent(folder_ / "case.toml") == c.resolved;
     try {
-        prepareFolder(folder_, force);
-        replaceFile(folder_ / "case.toml", c.resolved);
+        removeRun(folder_, replacedIn(folder_, c));  // a stale summary would lie if this run is killed
         const std::string energy = c.world.energyBook ? kEnergyHeader : "";
-        timeSeries_.emplace(folder_ / "timeseries.csv", kTimeSeriesHeader + energy);
+        timeSeries_.emplace(folder_ / "timeseries.csv", std::string(kTimeSeriesStart) + kTimeSeriesHeader + energy);
+        if (!hadCase) replaceFile(folder_ / "case.toml", c.resolved);
         doses_.emplace(folder_ / "doses.csv", kDosesHeader);
         if (c.frames.interval > 0) frames_.emplace(folder_, c, member_);
         fields_.emplace(folder_, c);
-    } catch (const OutputError& e) {
-        throw FolderError(e.what());
+    } catch (const OutputError&) {
+        removeRun(folder_, hadCase ? replacedIn(folder_, c) : filesOfRun(folder_));
+        std::error_code ignored;
+        for (const fs::path& ours : made) fs::remove(ours, ignored);
+        throw;
     }
-    if (!timeSeries_->lock()) busy(folder_);
 }
 
-RunFolder::RunFolder(fs::path folder, const Checkpoint& from, const Case& c, std::string backend)
+RunFolder::RunFolder(fs::path folder, FolderLock lock, const Checkpoint& from, const Case& c, std::string backend)
     : folder_(std::move(folder)),
+      lock_(std::move(lock)),
       backend_(std::move(backend)),
       caseText_(c.resolved),
       member_(from.member),
       checkpointTime_(from.time) {
     try {
-        refuseBusy(folder_);
         if (!fs::exists(folder_ / "case.toml")) replaceFile(folder_ / "case.toml", c.resolved);
         timeSeries_.emplace(folder_ / "timeseries.csv", from.timeSeries);
         doses_.emplace(folder_ / "doses.csv", from.doses);
@@ -142,7 +155,6 @@ RunFolder::RunFolder(fs::path folder, const Checkpoint& from, const Case& c, std
     } catch (const OutputError& e) {
         throw FolderError(e.what());
     }
-    if (!timeSeries_->lock()) busy(folder_);
 }
 
 void RunFolder::onSample(const Sample& s) {
@@ -198,12 +210,13 @@ void writeParticles(const fs::path& file, const Particles& p) {
     csv.flush();
 }
 
-bool isBusy(const fs::path& folder) {
-    return !tryLock(folder, LOCK_EX | LOCK_NB);
-}
-
-void awaitFree(const fs::path& folder) {
-    (void)tryLock(folder, LOCK_EX);
+FolderLock lockRun(const fs::path& folder) {
+    try {
+        if (std::optional<FolderLock> lock = FolderLock::take(folder)) return *std::move(lock);
+    } catch (const OutputError& e) {
+        throw FolderError(e.what());
+    }
+    throw FolderError(fmt::format("another vkdose is writing into {}; wait for it or stop it", folder.string()));
 }
 
 std::string statusName(Status status) {

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "host/core/folder_lock.h"
 #include "host/output/checkpoint.h"
 #include "host/output/csv.h"
 #include "host/output/field_files.h"
@@ -28,13 +29,15 @@ class RunFolder : public RunObserver {
   public:
     /// Creates the folder and the files that stream. Throws FolderError if it holds anything and `force` is not set,
     /// if another process is writing into it, or if it cannot be created. With `force` the files of a former run in it
-    /// are removed, others left alone. `backend` is the description of what computes, `member` the number of the run in
-    /// its study.
+    /// are removed, others left alone; throws FolderError if there is no run, or if a file of the case is among them.
+    /// Throws OutputError if the files cannot be written; what had been made is then gone again. `backend` is the
+    /// description of what computes, `member` the number of the run in its study.
     RunFolder(std::filesystem::path folder, bool force, const Case& c, std::string backend, std::uint32_t member = 0);
 
-    /// Goes on in a folder as it was when `from` was written: lines that came later are cut off. Throws FolderError if
-    /// another process is writing into it, or if a file has been shortened since.
-    RunFolder(std::filesystem::path folder, const Checkpoint& from, const Case& c, std::string backend);
+    /// Goes on in a folder, held since before `from` was read, as it was when that was written: lines that came later
+    /// are cut off. Throws FolderError if a file has been shortened since.
+    RunFolder(std::filesystem::path folder, FolderLock lock, const Checkpoint& from, const Case& c,
+              std::string backend);
 
     void onSample(const Sample& sample) override;
     void onDose(const Dose& dose) override;
@@ -55,6 +58,7 @@ class RunFolder : public RunObserver {
 
   private:
     std::filesystem::path folder_;
+    std::optional<FolderLock> lock_;
     std::string backend_;
     std::string caseText_;
     std::uint32_t member_;
@@ -69,11 +73,8 @@ class RunFolder : public RunObserver {
 /// digits to read the same numbers back. Throws OutputError if it cannot be written.
 void writeParticles(const std::filesystem::path& file, const Particles& particles);
 
-/// Whether another process is writing the run in `folder`.
-bool isBusy(const std::filesystem::path& folder);
-
-/// Waits until no other process does.
-void awaitFree(const std::filesystem::path& folder);
+/// Takes the folder of a run for this process. Throws FolderError if another one holds it or it cannot be opened.
+FolderLock lockRun(const std::filesystem::path& folder);
 
 /// "active", "dosed" or "lost".
 std::string statusName(Status status);

@@ -18,10 +18,8 @@ constexpr int kLeastRegion = 8;
 constexpr std::size_t kLeastBytes = 12;
 
 std::string bytesOf(const std::filesystem::path& file) {
-    std::error_code fault;
-    if (std::filesystem::is_directory(file, fault)) throw PhotoError(file.string() + " is a folder; name a picture");
     std::optional<std::string> bytes = fileContent(file);
-    if (!bytes) throw PhotoError("cannot read " + file.string() + "; is the name right?");
+    if (!bytes) throw PhotoError(unreadable(file) + "; name a picture");
     if (bytes->empty()) throw PhotoError(file.string() + " is empty; give a PNG, JPEG or TIFF");
     return *std::move(bytes);
 }

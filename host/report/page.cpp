@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "host/core/printable.h"
 #include "host/report/source_hash.h"
 #include "report/parts.h"
 
@@ -28,10 +29,18 @@ std::string escaped(std::string_view text) {
     return html;
 }
 
+/// What its texts say, with every character in sight.
+Json shown(Json data) {
+    if (data.is_string()) return printableLines(data.get_ref<const std::string&>());
+    if (data.is_structured())
+        for (auto& [key, value] : data.items()) value = shown(std::move(value));
+    return data;
+}
+
 /// The data inside a <script>. A "<" occurs in JSON only within texts; written as an escape it can end no element.
 std::string scriptData(const Json& data) {
     std::string text;
-    for (const char c : data.dump(-1, ' ', false, Json::error_handler_t::replace)) {
+    for (const char c : shown(data).dump(-1, ' ', false, Json::error_handler_t::replace)) {
         if (c == '<')
             text += "\\u003c";
         else
@@ -82,7 +91,7 @@ std::string page(const Json& data) {
     const std::vector<std::string> scripts = scriptsOf(player);
     const std::array<std::pair<std::string_view, std::string>, 8> parts{{
         {"policy", policy(scripts)},
-        {"title", escaped(data.value("name", std::string("report")))},
+        {"title", escaped(printable(data.value("name", std::string("report"))))},
         {"style", parts::kStyle},
         {"version", VKDOSE_VERSION},
         {"licence", escaped(parts::kLicence)},

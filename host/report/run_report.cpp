@@ -29,7 +29,7 @@ constexpr std::size_t kMostLines = 5000;
 
 std::string readText(const fs::path& file) {
     const std::optional<std::string> text = fileContent(file);
-    if (!text) throw CaseError({{file.string(), 0, "", "", "cannot be read", "give the output folder of a run"}});
+    if (!text) throw CaseError({{file.string(), 0, "", "", readFault(file), "give the output folder of a run"}});
     return *text;
 }
 

@@ -33,7 +33,7 @@ void collect(const toml::table& table, const std::string& prefix, std::map<std::
 
 toml::table parseToml(const std::filesystem::path& file) {
     const std::optional<std::string> text = fileContent(file);
-    if (!text) throw CaseError({{file.string(), 0, "", "", "cannot be read", "give the path of a TOML file"}});
+    if (!text) throw CaseError({{file.string(), 0, "", "", readFault(file), "give the path of a TOML file"}});
     try {
         return toml::parse(*text, file.string());
     } catch (const toml::parse_error& e) {

@@ -7,6 +7,7 @@
 #include "host/analysis/balance.h"
 #include "host/analysis/beta.h"
 #include "host/core/error.h"
+#include "host/core/file.h"
 #include "host/model/case_reader.h"
 
 namespace vkdose {
@@ -17,8 +18,8 @@ namespace {
 void readMeasured(CaseReader& reader, const std::filesystem::path& file, CalibrationAim& aim) {
     constexpr const char* kPath = "calibrate.measured";
     constexpr const char* kRemedy = "give a CSV with the columns dose and mass_g, or dose and cumulative_g";
-    if (!std::filesystem::is_regular_file(file)) {
-        reader.fault(kPath, fmt::format("there is no file {}", file.string()), kRemedy);
+    if (!inputFile(file)) {
+        reader.fault(kPath, unreadable(file), kRemedy);
         return;
     }
     try {
@@ -59,7 +60,10 @@ CalibrationAim readCalibrationAim(CaseReader& reader, Section& table, const std:
             reader.fault("calibrate.target_g_per_dose", "the target is measured", "give this or measured, not both");
         table.know("target_g_per_dose");
         const std::string file = table.string("measured");
-        if (table.isString("measured")) readMeasured(reader, folder / file, aim);
+        if (table.isString("measured")) {
+            aim.measured = folder / file;
+            readMeasured(reader, aim.measured, aim);
+        }
     } else {
         aim.target = table.number("target_g_per_dose", Bound::Positive, kGram);
         table.know("measured");

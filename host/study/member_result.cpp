@@ -8,6 +8,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "host/core/file.h"
 #include "host/output/checkpoint.h"
 #include "host/output/run_folder.h"
 
@@ -21,7 +22,7 @@ namespace {
 constexpr int kInterruptedCode = 130;
 
 Json readSummary(const fs::path& folder) {
-    std::ifstream stream(folder / "summary.json");
+    std::ifstream stream = inputFile(folder / "summary.json");
     Json summary = stream ? Json::parse(stream, nullptr, false) : Json();
     return summary.is_object() ? summary : Json::object();
 }
@@ -146,7 +147,8 @@ bool isOver(const fs::path& folder) {
 }
 
 double timeReached(const fs::path& folder) {
-    std::ifstream stream(folder / "timeseries.csv", std::ios::binary | std::ios::ate);
+    std::ifstream stream = inputFile(folder / "timeseries.csv");
+    stream.seekg(0, std::ios::end);
     const std::streamoff size = stream ? std::streamoff(stream.tellg()) : 0;
     constexpr std::streamoff kTail = 4096;  // several lines
     std::string tail(std::size_t(std::min(size, kTail)), '\0');

@@ -4,8 +4,8 @@
 #include <deque>
 #include <map>
 
+#include "host/core/folder_lock.h"
 #include "host/output/checkpoint.h"
-#include "host/output/run_folder.h"
 
 namespace vkdose {
 
@@ -95,9 +95,9 @@ class Sweep {
         if (folder_.status(m.number)) folder_.forget(m.number);
         folder_.begin(m);
         const fs::path run = folder_.memberFolder(m.number);
-        if (isBusy(run)) {
+        if (FolderLock::isTaken(run)) {
             observer_.onBusy(run);
-            awaitFree(run);
+            FolderLock::await(run);
         }
         if (isOver(run)) {  // it ended, and we were killed before we could note it
             note(m, readResult(run, {m.number, 0, ""}));

@@ -1,7 +1,6 @@
 #include "host/study/sweep_folder.h"
 
 #include <fmt/format.h>
-#include <sys/file.h>
 
 #include <algorithm>
 #include <set>
@@ -10,6 +9,7 @@
 #include "host/core/error.h"
 #include "host/core/file.h"
 #include "host/model/case.h"
+#include "host/output/checkpoint.h"
 #include "host/output/run_folder.h"
 
 namespace vkdose {
@@ -58,18 +58,47 @@ std::string today(const fs::path& file) {
     }
 }
 
+/// Whether a sweep has begun in the folder: its table is there, or at least its study and members.
+bool isSweep(const fs::path& folder) {
+    std::error_code code;
+    return Table::salvage(folder / "members.csv").has("member") ||
+           (fs::exists(folder / "study.toml", code) && fs::is_directory(folder / "members", code));
+}
+
+/// Whether nothing is in the folder but halves of files, of a sweep that was killed in its first moment.
+bool holdsNothing(const fs::path& folder) {
+    std::error_code code;
+    for (const auto& entry : fs::directory_iterator(folder, code))
+        if (entry.path().extension() != ".new") return false;
+    return true;
+}
+
+/// Refuses to replace what the study is read from, unless by the same.
+void requireNothingLost(const fs::path& folder, const Study& study, const Case& base) {
+    std::vector<fs::path> read = base.files, written = SweepFolder::files(folder);
+    read.push_back(study.file);
+    if (study.calibration) read.push_back(study.calibration->measured);
+    if (fileContent(folder / "study.toml") == study.text) std::erase(written, folder / "study.toml");
+    if (fileContent(folder / "base.toml") == base.resolved) std::erase(written, folder / "base.toml");
+    if (const auto file = readAndWritten(read, written))
+        throw FolderError(
+            fmt::format("the study is read from {}, which the sweep would replace; choose another folder "
+                        "with --out",
+                        file->string()));
+}
+
 }  // namespace
 
 SweepFolder::SweepFolder(fs::path folder, const Study& study, const std::vector<Member>& members)
     : folder_(std::move(folder)), study_(study.file.string()) {
     std::error_code error;
-    const bool former = fs::exists(folder_ / "study.toml", error);
+    const bool former = isSweep(folder_);
     if (fs::exists(folder_, error) && !fs::is_directory(folder_, error))
         throw FolderError(fmt::format("{} is a file, not a folder; choose another with --out", folder_.string()));
-    if (!former && fs::is_directory(folder_, error) && !fs::is_empty(folder_, error))
+    if (!former && !holdsNothing(folder_))
         throw FolderError(
             fmt::format("{} holds something else than a sweep; choose another folder with --out", folder_.string()));
-    fs::create_directories(folder_, error);
+    const bool made = fs::create_directories(folder_, error);
     if (error) throw FolderError(fmt::format("cannot create {}: {}", folder_.string(), error.message()));
     lock();
     read(study.keys());
@@ -86,19 +115,30 @@ SweepFolder::SweepFolder(fs::path folder, const Study& study, const std::vector<
     std::erase_if(status_, [](const auto& entry) { return entry.second == MemberStatus::Interrupted; });
     dropRows(members_, ended);
     gatherDoses();
+    const Case base = loadCase(study.base);
+    requireNothingLost(folder_, study, base);
     try {
+        rewrite();  // first: they tell that a sweep is here
         replaceFile(folder_ / "study.toml", study.text);
-        replaceFile(folder_ / "base.toml", loadCase(study.base).resolved);
-        rewrite();
-    } catch (const OutputError& e) {
-        throw FolderError(e.what());
+        replaceFile(folder_ / "base.toml", base.resolved);
+    } catch (const OutputError&) {
+        for (const fs::path& file : former ? std::vector<fs::path>() : files(folder_)) fs::remove(file, error);
+        if (made) fs::remove(folder_, error);
+        throw;
     }
 }
 
+std::vector<fs::path> SweepFolder::files(const fs::path& folder) {
+    std::error_code code;
+    std::vector<fs::path> files;
+    for (const char* name : {"study.toml", "base.toml", "doses.csv", "calibrated.toml", "members.csv"})
+        if (fs::exists(folder / name, code)) files.push_back(folder / name);
+    return files;
+}
+
 void SweepFolder::lock() {
-    // On the folder itself: the tables are replaced as files, which would shake a lock off.
-    lock_.reset(std::fopen(folder_.c_str(), "re"));
-    if (!lock_ || ::flock(fileno(lock_.get()), LOCK_EX | LOCK_NB) != 0)
+    lock_ = FolderLock::take(folder_);
+    if (!lock_)
         throw FolderError(fmt::format("another vkdose is sweeping in {}; wait for it or stop it", folder_.string()));
 }
 
@@ -166,7 +206,10 @@ std::optional<MemberStatus> SweepFolder::status(int number) const {
 void SweepFolder::begin(const Member& member) const {
     const fs::path folder = memberFolder(member.number);
     createFolder(folder);
-    if (!fs::exists(folder / "case.toml")) replaceFile(folder / "case.toml", member.caseText);
+    // One that an older vkdose left says the same (requireSame); what has begun with it goes on with it.
+    const fs::path file = folder / "case.toml";
+    if (fs::exists(folder / kCheckpointName) ? !fs::exists(file) : fileContent(file) != member.caseText)
+        replaceFile(file, member.caseText);
 }
 
 void SweepFolder::forget(int number) {

@@ -2,14 +2,13 @@
 // The folder of a sweep: study.toml and base.toml for the record, members.csv and doses.csv as members end, and the
 // members' own run folders. A sweep that was interrupted, by whatever, goes on in it.
 
-#include <cstdio>
 #include <filesystem>
 #include <map>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "host/core/folder_lock.h"
 #include "host/output/csv.h"
 #include "host/study/member.h"
 #include "host/study/member_result.h"
@@ -20,10 +19,13 @@ class SweepFolder {
   public:
     /// Creates the folder, or goes on in it. Rows that were torn, and doses of members without a row, are cut out of
     /// the tables; so are the rows of interrupted members, who are yet to end. Doses that the table has lost are taken
-    /// from the folders of their members. Throws FolderError if another process is
-    /// writing into it, if it holds something else, if it cannot be written, or if a member that has begun in it is
-    /// another case in `members`.
+    /// from the folders of their members. Throws FolderError if another process is writing into it, if it holds
+    /// something else, if a file of the study is among those to be replaced, or if a member that has begun in it is
+    /// another case in `members`; OutputError if it cannot be written, and what had been made is then gone again.
     SweepFolder(std::filesystem::path folder, const Study& study, const std::vector<Member>& members);
+
+    /// The files of a sweep, beside its members' folders, that are in a folder.
+    static std::vector<std::filesystem::path> files(const std::filesystem::path& folder);
 
     const std::filesystem::path& path() const { return folder_; }
     std::filesystem::path memberFolder(int number) const;
@@ -57,7 +59,7 @@ class SweepFolder {
 
     std::filesystem::path folder_;
     std::string study_;  ///< its file, for messages
-    std::unique_ptr<std::FILE, int (*)(std::FILE*)> lock_{nullptr, std::fclose};
+    std::optional<FolderLock> lock_;
     Table members_;
     Table doses_;
     std::map<int, MemberStatus> status_;

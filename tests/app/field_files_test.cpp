@@ -45,6 +45,7 @@ Case caseWith(std::array<std::uint32_t, 3> cells, FieldSensor::Preset preset, bo
     s.stress = stress;
     s.initialHeight = 0.05;
     c.fields.push_back(s);
+    c.resolved = "[[field]]\nname = \"f\"\n";
     return c;
 }
 

@@ -83,7 +83,7 @@ TEST_CASE("report: what cannot be reported on is refused, and nothing is written
     refused("sweep --profile p.csv", "--profile belongs to the report of a run");
     refused("run --profile p.csv@x", "give FILE.csv or FILE.csv@DOSE");
     refused("run --expected e.toml", "--expected belongs to the report of a sweep");
-    refused("run --experiment b.csv", "b.csv: cannot be read");
+    refused("run --experiment b.csv", "b.csv: there is no such file");
     box.write("run/doses.csv", "dose,mass_kg\n1\n");
     refused("run", "doses.csv:2");
     CHECK_FALSE(std::filesystem::exists(box / "run/report.html"));

@@ -1,12 +1,19 @@
 #include "host/core/file.h"
 
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <sys/sysmacros.h>
+#include <unistd.h>
+
 #include <catch2/catch.hpp>
 
 #include "host/core/error.h"
+#include "host/core/folder_lock.h"
 #include "tests/app/sandbox.h"
 
 using namespace vkdose;
 using vkdose::test::Sandbox;
+namespace fs = std::filesystem;
 
 TEST_CASE("the bytes of a file come whole, of an empty one none, of what is no file nothing") {
     const Sandbox box;
@@ -15,6 +22,24 @@ TEST_CASE("the bytes of a file come whole, of an empty one none, of what is no f
     CHECK(fileContent(box.write("none", "")) == "");
     CHECK_FALSE(fileContent(box / "missing"));
     CHECK_FALSE(fileContent(box.path()));
+    CHECK(readFault(box / "missing") == "there is no such file");
+    CHECK(readFault(box.path()) == "cannot be read: it is a folder, not a file");
+    CHECK(unreadable(box / "missing") == "there is no file " + (box / "missing").string());
+}
+
+TEST_CASE("a pipe is neither waited for nor read, even if somebody writes into it") {
+    const Sandbox box;
+    const fs::path pipe = box / "pipe";
+    REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+    CHECK_FALSE(fileContent(pipe));
+    CHECK(unreadable(pipe) == pipe.string() + " cannot be read: it is a pipe, not a file");
+    fs::create_symlink("pipe", box / "link");
+    CHECK_FALSE(inputFile(box / "link"));
+    CHECK_THROWS_WITH(replaceFile(pipe, "x"), Catch::Contains("a pipe") && Catch::Contains("nobody reads"));
+    CHECK_THROWS_WITH(openOutput(pipe, O_WRONLY | O_CREAT | O_TRUNC), Catch::Contains("nobody reads"));
+    CHECK_THROWS_WITH(requireReplaceable(pipe), Catch::Contains("it is a pipe; name a file"));
+    CHECK(fs::is_fifo(pipe));
+    CHECK(box.files().size() == 2);
 }
 
 TEST_CASE("a file is replaced whole or not at all") {
@@ -24,19 +49,92 @@ TEST_CASE("a file is replaced whole or not at all") {
     CHECK(fileContent(file) == "new");
     CHECK(box.files() == std::vector<std::string>{"f"});  // and nothing is left beside it
 
-    std::filesystem::create_directory(box / "folder");
+    fs::create_directory(box / "folder");
     CHECK_THROWS_AS(replaceFile(box / "folder", "new"), OutputError);
-    CHECK_THROWS_WITH(replaceFile(box / "nowhere" / "f", "new"),
-                      Catch::Contains("nowhere/f: No such file or directory"));
-    CHECK(std::filesystem::is_directory(box / "folder"));
+    CHECK_THROWS_WITH(
+        replaceFile(box / "nowhere" / "f", "new"),
+        Catch::Contains("nowhere/f: No such file or directory; there is no folder") && Catch::EndsWith("nowhere"));
+    CHECK(fs::is_directory(box / "folder"));
     CHECK(box.files().size() == 2);
+}
+
+TEST_CASE("a pipe that is read and a device are written into and stay what they are") {
+    const Sandbox box;
+    const fs::path pipe = box / "pipe";
+    REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+    const int reader = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    REQUIRE(reader >= 0);
+    replaceFile(pipe, "through");
+    std::string got(20, '\0');
+    got.resize(std::size_t(std::max<ssize_t>(0, ::read(reader, got.data(), got.size()))));
+    ::close(reader);
+    CHECK(got == "through");
+    CHECK(fs::is_fifo(pipe));
+
+    // A device that is always full, our own. Making one takes a privilege; without it the pipe has to do.
+    const fs::path full = box / "full";
+    if (mknod(full.c_str(), S_IFCHR | 0666, makedev(1, 7)) == 0) {
+        CHECK_THROWS_AS(replaceFile(full, "x"), OutputError);
+        CHECK(fs::is_character_file(full));
+    }
+    CHECK_FALSE(fs::exists(box / "full.new"));
+    CHECK_FALSE(fs::exists(box / "pipe.new"));
+}
+
+TEST_CASE("of a link the file it leads to is replaced, and the link stays") {
+    const Sandbox box;
+    fs::create_directory(box / "far");
+    box.write("far/file", "old");
+    fs::create_symlink("far/file", box / "near");
+    fs::create_symlink(box / "near", box / "nearer");
+    replaceFile(box / "nearer", "new");
+    CHECK(fs::is_symlink(box / "nearer"));
+    CHECK(fs::is_symlink(box / "near"));
+    CHECK(fileContent(box / "far/file") == "new");
+
+    fs::create_symlink("far/fresh", box / "ahead");  // leads to what is not there yet
+    replaceFile(box / "ahead", "made");
+    CHECK(fs::is_symlink(box / "ahead"));
+    CHECK(fileContent(box / "far/fresh") == "made");
+
+    fs::create_symlink("round", box / "round");
+    CHECK_THROWS_WITH(replaceFile(box / "round", "x"), Catch::Contains("round: Too many levels"));
+    CHECK(fs::is_symlink(box / "round"));
+}
+
+TEST_CASE("a file that is read and to be written is found under any name") {
+    const Sandbox box;
+    const fs::path a = box.write("a", "");
+    const fs::path b = box.write("b", "");
+    fs::create_symlink("a", box / "link");
+    fs::create_directory(box / "sub");
+    CHECK_FALSE(readAndWritten({a}, {b, box / "none", ""}));
+    CHECK(readAndWritten({b, a}, {box / "link"}) == box / "link");
+    CHECK(readAndWritten({a}, {box / "sub" / ".." / "a"}));
+    CHECK_FALSE(readAndWritten({box / "none"}, {box / "none"}));
 }
 
 TEST_CASE("a folder is made with those it is in, and where it is already nothing happens") {
     const Sandbox box;
     for (int time = 0; time < 2; ++time) {
         createFolder(box / "a" / "b");
-        CHECK(std::filesystem::is_directory(box / "a" / "b"));
+        CHECK(fs::is_directory(box / "a" / "b"));
     }
     CHECK_THROWS_WITH(createFolder(box.write("f", "") / "c"), Catch::Contains("f/c: Not a directory"));
+}
+
+TEST_CASE("a folder is one process's, whatever becomes of the files in it, until its lock is gone") {
+    const Sandbox box;
+    {
+        const auto lock = FolderLock::take(box.path());
+        REQUIRE(lock);
+        fs::remove(box.write("f", ""));
+        CHECK_FALSE(FolderLock::take(box.path()));
+        CHECK(FolderLock::isTaken(box.path()));
+    }
+    CHECK_FALSE(FolderLock::isTaken(box.path()));
+    FolderLock::await(box.path());
+    CHECK(FolderLock::take(box.path()));
+    CHECK_FALSE(FolderLock::isTaken(box / "none"));
+    CHECK_THROWS_AS(FolderLock::take(box / "none"), OutputError);
 }

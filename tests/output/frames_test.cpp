@@ -9,6 +9,7 @@
 
 #include "host/core/error.h"
 #include "host/output/frame_writer.h"
+#include "host/output/run_files.h"
 #include "tests/app/sandbox.h"
 
 using namespace vkdose;
@@ -233,11 +234,11 @@ TEST_CASE("a new run removes the frames of a former one and nothing else") {
         writer.put(someFrame(0));
     }
     box.write("frames/view.pvsm", "mine");
-    FrameWriter::remove(box.path());
+    removeRun(box.path(), filesOfRun(box.path()));
     CHECK(names(box / "frames") == std::vector<std::string>{"view.pvsm"});
     CHECK(Frames(box.path()).entries().empty());
     fs::remove(box / "frames/view.pvsm");
-    FrameWriter::remove(box.path());
+    removeRun(box.path(), filesOfRun(box.path()));
     CHECK_FALSE(fs::exists(box / "frames"));
 }
 

@@ -1,0 +1,121 @@
+#include "host/output/run_files.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <fstream>
+#include <set>
+#include <string_view>
+#include <system_error>
+
+#include "host/core/error.h"
+#include "host/core/file.h"
+#include "host/model/case_tree.h"
+#include "host/output/checkpoint.h"
+#include "host/output/field_files.h"
+#include "host/output/frames.h"
+#include "host/output/series.h"
+
+namespace vkdose {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// In the order in which they are removed: a removal that is cut short leaves what tells that a run is there, and
+/// which.
+constexpr std::array kFiles{kCheckpointName, "summary.json", "particles.csv",
+                            "doses.csv",     "case.toml",    "timeseries.csv"};
+
+/// The first `most` bytes of a file.
+std::string startOf(const fs::path& file, std::size_t most) {
+    std::ifstream stream = inputFile(file);
+    std::string text(most, '\0');
+    if (!stream) return "";
+    stream.read(text.data(), std::streamsize(most));
+    text.resize(std::size_t(stream.gcount()));
+    return text;
+}
+
+/// "NAME_000012.hdf"
+bool isNumbered(std::string_view file, std::string_view name, std::string_view extension) {
+    if (!file.starts_with(std::string(name) + "_") || !file.ends_with(extension)) return false;
+    file.remove_prefix(name.size() + 1);
+    file.remove_suffix(std::min(file.size(), extension.size()));
+    return file.size() >= 6 &&
+           std::all_of(file.begin(), file.end(), [](char c) { return std::isdigit(static_cast<unsigned char>(c)); });
+}
+
+bool isFrame(const std::string& file) {
+    if (file == kFramesIndex || file == kWallsFile) return true;
+    for (const char* kind : {kParticlesFrame, kContactsFrame, kCoilFrame})
+        if (isNumbered(file, kind, kFrameExtension) || file == std::string(kind) + kFrameExtension + kSeriesExtension)
+            return true;
+    return false;
+}
+
+bool isField(const std::string& file, const std::set<std::string>& fields) {
+    for (const std::string& name : fields)
+        if (file == name + ".csv" || file == name + kVolumeExtension + kSeriesExtension ||
+            isNumbered(file, name, ".csv") || isNumbered(file, name, kVolumeExtension))
+            return true;
+    return false;
+}
+
+/// Names of the fields in the folder's case; none if that cannot be read.
+std::set<std::string> fieldsIn(const fs::path& folder) {
+    std::set<std::string> names;
+    try {
+        const Node tree = readTreeText(fileContent(folder / "case.toml").value_or(""), "case.toml");
+        const Node* fields = tree.child("field");
+        if (fields == nullptr) return names;
+        for (const Node& field : fields->children)
+            if (const Node* name = field.child("name")) names.insert(name->string);
+    } catch (const CaseError&) {  // somebody else has been at it: then its fields are not ours to remove
+    }
+    return names;
+}
+
+}  // namespace
+
+bool holdsRun(const fs::path& folder) {
+    std::error_code code;
+    const fs::path file = folder / "timeseries.csv";
+    if (!fs::is_regular_file(file, code)) return false;
+    const std::string start = startOf(file, std::string_view(kTimeSeriesStart).size());
+    return start.empty() || start == kTimeSeriesStart;  // empty: killed in its first moment
+}
+
+std::vector<fs::path> filesOfRun(const fs::path& folder) {
+    std::error_code code;
+    std::vector<fs::path> files;
+    const auto add = [&](const fs::path& file) {
+        if (fs::exists(fs::symlink_status(file, code))) files.push_back(file);
+    };
+    if (startOf(folder / "report.html", 1024).find(kReportMark) != std::string::npos) add(folder / "report.html");
+    const std::set<std::string> fields = fieldsIn(folder);
+    for (const char* name : {kFramesFolder, kFieldsFolder})
+        for (const auto& entry : fs::directory_iterator(folder / name, code)) {
+            std::string file = entry.path().filename().string();
+            if (file.ends_with(".new")) file.resize(file.size() - 4);
+            if (std::string_view(name) == kFramesFolder ? isFrame(file) : isField(file, fields))
+                files.push_back(entry.path());
+        }
+    for (const char* name : kFiles) {
+        add(folder / (std::string(name) + ".new"));
+        add(folder / name);
+    }
+    return files;
+}
+
+void removeRun(const fs::path& folder, const std::vector<fs::path>& files) {
+    std::error_code error;
+    for (const fs::path& file : files) {
+        fs::remove(file, error);
+        if (error) throw OutputError("cannot remove " + file.string() + ": " + error.message());
+    }
+    for (const char* name : {kFramesFolder, kFieldsFolder})
+        fs::remove(folder / name, error);  // stays if something else is in it
+}
+
+}  // namespace vkdose
