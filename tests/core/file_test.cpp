@@ -1,9 +1,8 @@
 #include "host/core/file.h"
 
-#include <catch2/catch.hpp>
-
 #include "host/core/error.h"
 #include "tests/app/sandbox.h"
+#include "tests/support/catch.h"
 
 using namespace vkdose;
 using vkdose::test::Sandbox;

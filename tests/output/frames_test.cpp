@@ -1,11 +1,11 @@
 #include "host/output/frames.h"
 
-#include <catch2/catch.hpp>
 #include <fstream>
 
 #include "host/core/error.h"
 #include "host/output/frame_writer.h"
 #include "tests/app/sandbox.h"
+#include "tests/support/catch.h"
 
 using namespace vkdose;
 using namespace vkdose::test;

@@ -1,8 +1,8 @@
 // Canisters that share a device's tables: each computes what it would alone, to the last bit, whatever the others do.
-#include <catch2/catch.hpp>
 #include <thread>
 
 #include "tests/scene/beds.h"
+#include "tests/support/catch.h"
 
 using namespace vkdose;
 using namespace vkdose::test;

@@ -1,11 +1,11 @@
 #pragma once
 // Vulkan backends for tests: with validation on, and a check that it had nothing to say.
 
-#include <catch2/catch.hpp>
 #include <cstdlib>
 
 #include "host/backend/reference/reference.h"
 #include "host/backend/vulkan/vulkan.h"
+#include "tests/support/catch.h"
 
 namespace vkdose::test {
 

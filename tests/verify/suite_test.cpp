@@ -2,12 +2,12 @@
 
 #include "host/verify/suite.h"
 
-#include <catch2/catch.hpp>
 #include <functional>
 #include <set>
 
 #include "host/backend/reference/reference.h"
 #include "host/verify/table.h"
+#include "tests/support/catch.h"
 
 using namespace vkdose;
 using namespace vkdose::verify;
