@@ -3,6 +3,7 @@
 #define VKDOSE_SHARED_BUFFERS_GLSL
 
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require  // SPIR-V calls a samplerBuffer invalid from 1.6 on
 #ifdef PACKED_STORES
 #extension GL_ARB_gpu_shader_int64 : require
 #endif
@@ -53,15 +54,15 @@ layout(std430, set = 0, binding = 14) buffer TorqueBuffer { vec4 torques[]; };
 layout(std430, set = 0, binding = 15) buffer CarriedBuffer { vec4 carried[]; };
 
 #ifdef TEXEL_READS
-layout(set = 0, binding = 16) uniform samplerBuffer stateView;
-layout(set = 0, binding = 17) uniform usamplerBuffer rowView;
-layout(set = 0, binding = 18) uniform usamplerBuffer rangeView;
-layout(set = 0, binding = 19) uniform samplerBuffer historyView;
-layout(set = 0, binding = 20) uniform samplerBuffer coilHistoryView;
-layout(set = 0, binding = 22) uniform samplerBuffer anchorView;
-layout(set = 0, binding = 23) uniform usamplerBuffer entryView;
-layout(set = 0, binding = 24) uniform samplerBuffer forceView;
-layout(set = 0, binding = 25) uniform samplerBuffer torqueView;
+layout(set = 0, binding = 16) uniform textureBuffer stateView;
+layout(set = 0, binding = 17) uniform utextureBuffer rowView;
+layout(set = 0, binding = 18) uniform utextureBuffer rangeView;
+layout(set = 0, binding = 19) uniform textureBuffer historyView;
+layout(set = 0, binding = 20) uniform textureBuffer coilHistoryView;
+layout(set = 0, binding = 22) uniform textureBuffer anchorView;
+layout(set = 0, binding = 23) uniform utextureBuffer entryView;
+layout(set = 0, binding = 24) uniform textureBuffer forceView;
+layout(set = 0, binding = 25) uniform textureBuffer torqueView;
 #endif
 
 #ifdef ENERGY_BOOK
@@ -83,7 +84,7 @@ void openMember() { openRow(push.firstRow + gl_WorkGroupID.y); }
 // A member's parameters. What is read from the same place by all, lavapipe reads once, but only if the place is known when
 // the pipeline is made; else texel reads are faster.
 #ifdef TEXEL_READS
-layout(set = 0, binding = 21) uniform samplerBuffer memberView;
+layout(set = 0, binding = 21) uniform textureBuffer memberView;
 #define OF_MEMBER(field, vector) \
     (MEMBERS == 1u ? member.field : texelFetch(memberView, int(kMemberVectors * self + (vector))))
 #else

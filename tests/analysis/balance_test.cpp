@@ -1,10 +1,9 @@
 // What a balance read, as people write it down, and what can be wrong with it.
 #include "host/analysis/balance.h"
 
-#include <catch2/catch.hpp>
-
 #include "host/core/error.h"
 #include "tests/app/sandbox.h"
+#include "tests/support/catch.h"
 
 using namespace vkdose;
 using vkdose::test::Sandbox;

@@ -1,8 +1,8 @@
 #include "host/analysis/beta.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 
+#include "tests/support/catch.h"
 #include "tests/support/near.h"
 
 using namespace vkdose;

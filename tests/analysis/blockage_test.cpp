@@ -1,8 +1,7 @@
 #include "host/analysis/blockage.h"
 
-#include <catch2/catch.hpp>
-
 #include "tests/analysis/beds.h"
+#include "tests/support/catch.h"
 #include "tests/support/near.h"
 
 using namespace vkdose;

@@ -1,9 +1,8 @@
 #include "host/analysis/density.h"
 
-#include <catch2/catch.hpp>
-
 #include "host/core/random.h"
 #include "tests/analysis/beds.h"
+#include "tests/support/catch.h"
 #include "tests/support/near.h"
 
 using namespace vkdose;

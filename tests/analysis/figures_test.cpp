@@ -1,7 +1,6 @@
 #include "host/analysis/figures.h"
 
-#include <catch2/catch.hpp>
-
+#include "tests/support/catch.h"
 #include "tests/support/near.h"
 
 using namespace vkdose;

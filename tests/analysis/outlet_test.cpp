@@ -1,10 +1,10 @@
 // Stops of the outlet, from time series in which they are easy to see.
 #include "host/analysis/outlet.h"
 
-#include <catch2/catch.hpp>
 #include <numbers>
 #include <string>
 
+#include "tests/support/catch.h"
 #include "tests/support/near.h"
 
 using namespace vkdose;

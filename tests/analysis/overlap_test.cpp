@@ -1,8 +1,7 @@
 #include "host/analysis/overlap.h"
 
-#include <catch2/catch.hpp>
-
 #include "host/core/random.h"
+#include "tests/support/catch.h"
 #include "tests/support/near.h"
 
 using namespace vkdose;

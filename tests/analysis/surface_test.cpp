@@ -1,8 +1,8 @@
 #include "host/analysis/surface.h"
 
-#include <catch2/catch.hpp>
 #include <stdexcept>
 
+#include "tests/support/catch.h"
 #include "tests/support/near.h"
 
 using namespace vkdose;

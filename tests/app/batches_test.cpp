@@ -1,10 +1,10 @@
 // Which members of a sweep share the device at the same time.
 #include "host/app/batches.h"
 
-#include <catch2/catch.hpp>
 #include <limits>
 
 #include "host/backend/vulkan/passes.h"
+#include "tests/support/catch.h"
 
 using namespace vkdose;
 

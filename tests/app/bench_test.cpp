@@ -1,10 +1,10 @@
 // `vkdose bench` as a user meets it. Nothing is judged by the clock: the figures must be there and be figures.
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "tests/app/sandbox.h"
+#include "tests/support/catch.h"
 
 using namespace vkdose::test;
 

@@ -4,12 +4,12 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <csignal>
 #include <nlohmann/json.hpp>
 #include <thread>
 
 #include "tests/app/sandbox.h"
+#include "tests/support/catch.h"
 
 using namespace vkdose::test;
 namespace fs = std::filesystem;

@@ -3,13 +3,13 @@
 #include <sys/types.h>
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <csignal>
 #include <thread>
 
 #include "host/output/checkpoint.h"
 #include "tests/app/sandbox.h"
 #include "tests/app/sweep_tables.h"
+#include "tests/support/catch.h"
 
 using namespace vkdose;
 using namespace vkdose::test;

@@ -3,7 +3,6 @@
 #include "host/output/field_files.h"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -13,6 +12,7 @@
 #include "host/output/run_folder.h"
 #include "tests/app/sandbox.h"
 #include "tests/sim/fake_backend.h"
+#include "tests/support/catch.h"
 #include "tests/support/near.h"
 
 using namespace vkdose;

@@ -5,10 +5,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <catch2/catch.hpp>
 #include <map>
 
 #include "tests/app/sandbox.h"
+#include "tests/support/catch.h"
 
 using namespace vkdose::test;
 namespace fs = std::filesystem;

@@ -5,11 +5,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <catch2/catch.hpp>
 #include <csignal>
 #include <nlohmann/json.hpp>
 
 #include "tests/app/sandbox.h"
+#include "tests/support/catch.h"
 
 using namespace vkdose::test;
 

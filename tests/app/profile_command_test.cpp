@@ -1,10 +1,9 @@
 // `vkdose profile` as a user meets it.
 
-#include <catch2/catch.hpp>
-
 #include "host/photo/profile.h"
 #include "tests/app/sandbox.h"
 #include "tests/photo/drawing.h"
+#include "tests/support/catch.h"
 #include "tests/support/near.h"
 
 using namespace vkdose;

@@ -1,7 +1,7 @@
 // Which device each of several ranks on a machine takes.
-#include <catch2/catch.hpp>
 
 #include "host/app/backends.h"
+#include "tests/support/catch.h"
 
 using namespace vkdose;
 

@@ -3,7 +3,6 @@
 
 #include <cairo/cairo.h>
 
-#include <catch2/catch.hpp>
 #include <memory>
 
 #include "host/app/exit_code.h"
@@ -12,6 +11,7 @@
 #include "host/output/frame_writer.h"
 #include "host/output/run_folder.h"
 #include "tests/app/sandbox.h"
+#include "tests/support/catch.h"
 
 using namespace vkdose;
 using namespace vkdose::test;

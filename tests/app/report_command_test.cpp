@@ -1,7 +1,7 @@
-#include <catch2/catch.hpp>
 
 #include "host/app/exit_code.h"
 #include "tests/report/folders.h"
+#include "tests/support/catch.h"
 
 using namespace vkdose;
 using namespace vkdose::test;

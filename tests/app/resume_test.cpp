@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <catch2/catch.hpp>
 #include <csignal>
 #include <future>
 #include <nlohmann/json.hpp>
@@ -16,6 +15,7 @@
 #include "host/output/checkpoint.h"
 #include "host/output/frames.h"
 #include "tests/app/sandbox.h"
+#include "tests/support/catch.h"
 #include "tests/support/records.h"
 
 using namespace vkdose;

@@ -1,7 +1,6 @@
 #include "host/output/run_folder.h"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -9,6 +8,7 @@
 #include "host/output/summary.h"
 #include "tests/app/sandbox.h"
 #include "tests/sim/fake_backend.h"
+#include "tests/support/catch.h"
 
 using namespace vkdose;
 using namespace vkdose::test;

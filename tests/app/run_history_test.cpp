@@ -1,11 +1,10 @@
 // What a run's own files tell of it: arches in the frames at the doses' ends.
 #include "host/output/run_history.h"
 
-#include <catch2/catch.hpp>
-
 #include "host/output/frame_writer.h"
 #include "tests/analysis/beds.h"
 #include "tests/app/sandbox.h"
+#include "tests/support/catch.h"
 #include "tests/support/near.h"
 
 using namespace vkdose;

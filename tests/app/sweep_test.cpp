@@ -3,7 +3,6 @@
 #include <sys/types.h>
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <csignal>
 #include <thread>
 
@@ -11,6 +10,7 @@
 #include "host/output/checkpoint.h"
 #include "tests/app/sandbox.h"
 #include "tests/app/sweep_tables.h"
+#include "tests/support/catch.h"
 
 using namespace vkdose;
 using namespace vkdose::test;

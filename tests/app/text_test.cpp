@@ -1,13 +1,13 @@
 #include "host/app/text.h"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <limits>
 
 #include "host/app/progress.h"
 #include "host/app/report.h"
 #include "tests/app/sandbox.h"
 #include "tests/sim/fake_backend.h"
+#include "tests/support/catch.h"
 
 using namespace vkdose;
 using namespace vkdose::test;

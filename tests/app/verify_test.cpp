@@ -1,9 +1,9 @@
 // `vkdose verify` as a user meets it, family by family on the device, so that the suite runs wherever the app tests do.
 
-#include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
 #include "tests/app/sandbox.h"
+#include "tests/support/catch.h"
 
 using namespace vkdose::test;
 

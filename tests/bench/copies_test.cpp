@@ -4,13 +4,13 @@
 
 #include <sys/wait.h>
 
-#include <catch2/catch.hpp>
 #include <cerrno>
 #include <cstdlib>
 #include <stdexcept>
 
 #include "host/core/error.h"
 #include "tests/app/sandbox.h"
+#include "tests/support/catch.h"
 
 using namespace vkdose::bench;
 using vkdose::test::Sandbox;

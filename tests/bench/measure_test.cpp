@@ -1,8 +1,7 @@
 // How the benchmark counts: on figures made up here, never on a clock.
 
 #include "host/bench/measure.h"
-
-#include <catch2/catch.hpp>
+#include "tests/support/catch.h"
 
 using namespace vkdose;
 using namespace vkdose::bench;

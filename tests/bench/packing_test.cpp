@@ -3,7 +3,8 @@
 #include "host/bench/packing.h"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
+
+#include "tests/support/catch.h"
 
 using namespace vkdose;
 using namespace vkdose::bench;

@@ -2,10 +2,9 @@
 
 #include "host/bench/plain_loop.h"
 
-#include <catch2/catch.hpp>
-
 #include "host/backend/reference/reference.h"
 #include "host/bench/workloads.h"
+#include "tests/support/catch.h"
 #include "tests/support/near.h"
 
 using namespace vkdose;

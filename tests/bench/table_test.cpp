@@ -2,8 +2,9 @@
 
 #include "host/bench/table.h"
 
-#include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
+
+#include "tests/support/catch.h"
 
 using namespace vkdose::bench;
 

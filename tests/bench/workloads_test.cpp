@@ -2,10 +2,10 @@
 
 #include "host/bench/workloads.h"
 
-#include <catch2/catch.hpp>
 #include <set>
 
 #include "host/backend/reference/reference.h"
+#include "tests/support/catch.h"
 
 using namespace vkdose;
 using namespace vkdose::bench;

@@ -2,8 +2,9 @@
 
 #include "tests/support/near.h"
 
-#include <catch2/catch.hpp>
 #include <limits>
+
+#include "tests/support/catch.h"
 
 using vkdose::Vec3;
 using vkdose::test::near;

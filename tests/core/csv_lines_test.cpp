@@ -1,9 +1,10 @@
 // CSV line by line: what is written is read again, and each line keeps its number.
 #include "host/core/csv_lines.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <sstream>
+
+#include "tests/support/catch.h"
 
 using namespace vkdose;
 

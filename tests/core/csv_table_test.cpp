@@ -1,10 +1,10 @@
 #include "host/core/csv_table.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 
 #include "host/core/error.h"
 #include "tests/app/sandbox.h"
+#include "tests/support/catch.h"
 
 using namespace vkdose;
 using vkdose::test::Sandbox;

@@ -5,11 +5,10 @@
 #include <sys/sysmacros.h>
 #include <unistd.h>
 
-#include <catch2/catch.hpp>
-
 #include "host/core/error.h"
 #include "host/core/folder_lock.h"
 #include "tests/app/sandbox.h"
+#include "tests/support/catch.h"
 
 using namespace vkdose;
 using vkdose::test::Sandbox;

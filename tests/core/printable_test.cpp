@@ -1,10 +1,10 @@
 #include "host/core/printable.h"
 
-#include <catch2/catch.hpp>
 #include <cstdlib>
 
 #include "host/core/error.h"
 #include "tests/app/sandbox.h"
+#include "tests/support/catch.h"
 
 using namespace vkdose;
 using namespace vkdose::test;

@@ -2,11 +2,11 @@
 
 #include "geometry/coil_mesh.h"
 
-#include <catch2/catch.hpp>
 #include <map>
 #include <sstream>
 #include <tuple>
 
+#include "tests/support/catch.h"
 #include "tests/support/near.h"
 
 using namespace vkdose;

@@ -3,10 +3,10 @@
 
 #include "geometry/coil.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
 
+#include "tests/support/catch.h"
 #include "tests/support/near.h"
 #include "tests/support/table.h"
 

@@ -2,8 +2,7 @@
 
 #include "geometry/coincidence.h"
 
-#include <catch2/catch.hpp>
-
+#include "tests/support/catch.h"
 #include "tests/support/near.h"
 
 using namespace vkdose;

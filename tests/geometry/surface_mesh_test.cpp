@@ -3,8 +3,8 @@
 #include "geometry/surface_mesh.h"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 
+#include "tests/support/catch.h"
 #include "tests/support/near.h"
 
 using namespace vkdose;

@@ -3,10 +3,10 @@
 
 #include "geometry/surface.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
 
+#include "tests/support/catch.h"
 #include "tests/support/near.h"
 
 using namespace vkdose;

@@ -9,12 +9,12 @@
 // settled. There the state after the first contacts is compared in rounded numbers instead.
 
 #include <bit>
-#include <catch2/catch.hpp>
 #include <cmath>
 
 #include "host/backend/reference/reference.h"
 #include "host/model/case.h"
 #include "host/sim/timeline.h"
+#include "tests/support/catch.h"
 
 using namespace vkdose;
 

@@ -1,11 +1,11 @@
 // The reference backend with a coil and a whole small canister.
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <random>
 
 #include "host/core/error.h"
 #include "tests/law/setups.h"
+#include "tests/support/catch.h"
 #include "tests/support/near.h"
 
 using namespace vkdose;
@@ -176,7 +176,7 @@ TEST_CASE("canister: a sphere that touches more turns than have slots is an erro
     REQUIRE(geometry::touches(coil, 0, one.position[0], a).size() > kMaxCoilTouches);
     auto backend = makeReferenceBackend();
     backend->load(world, one);
-    CHECK_THROWS_WITH(backend->advance(1, 0), Catch::Matchers::Contains("particle 0 touches more than 4 turns"));
+    CHECK_THROWS_WITH(backend->advance(1, 0), Catch::Contains("particle 0 touches more than 4 turns"));
 }
 
 TEST_CASE("canister: two turns touched at once are two contacts, each with its own history while the coil turns") {

@@ -1,12 +1,12 @@
 // The energy book of the reference backend: single collisions and slides against closed forms, and the balance of
 // everything at once.
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
 
 #include "host/sim/energy_ledger.h"
 #include "tests/law/setups.h"
+#include "tests/support/catch.h"
 #include "tests/support/near.h"
 
 using namespace vkdose;

@@ -2,10 +2,10 @@
 
 #include "host/backend/reference/fields.h"
 
-#include <catch2/catch.hpp>
 #include <random>
 
 #include "tests/law/setups.h"
+#include "tests/support/catch.h"
 #include "tests/support/near.h"
 
 using namespace vkdose;

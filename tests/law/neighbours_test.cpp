@@ -2,8 +2,9 @@
 
 #include "host/backend/reference/neighbours.h"
 
-#include <catch2/catch.hpp>
 #include <random>
+
+#include "tests/support/catch.h"
 
 using namespace vkdose;
 using reference::Neighbours;

@@ -2,10 +2,9 @@
 // other people. Both work in double precision and the tables carry ten digits, so that agreement is close: differences
 // grow from 1e-10 only where a contact slips or parts.
 
-#include <catch2/catch.hpp>
-
 #include "host/backend/reference/contact.h"
 #include "tests/law/setups.h"
+#include "tests/support/catch.h"
 #include "tests/support/near.h"
 #include "tests/support/table.h"
 

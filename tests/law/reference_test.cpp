@@ -2,16 +2,16 @@
 
 #include "host/backend/reference/reference.h"
 
-#include <catch2/catch.hpp>
 #include <random>
 
 #include "host/core/error.h"
 #include "tests/law/setups.h"
+#include "tests/support/catch.h"
 #include "tests/support/near.h"
 
 using namespace vkdose;
 using namespace vkdose::test;
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 namespace {
 

@@ -2,9 +2,8 @@
 
 #include "host/backend/reference/rolling.h"
 
-#include <catch2/catch.hpp>
-
 #include "tests/law/setups.h"
+#include "tests/support/catch.h"
 #include "tests/support/near.h"
 
 using namespace vkdose;

@@ -2,7 +2,6 @@
 
 #include <spirv_cross/spirv_cross_c.h>
 
-#include <catch2/catch.hpp>
 #include <cstddef>
 #include <map>
 #include <set>
@@ -12,6 +11,7 @@
 #include "shaders/shared/layout.h"
 #include "shaders/shared/picture.h"
 #include "spirv/passes.h"
+#include "tests/support/catch.h"
 
 namespace {
 

@@ -2,7 +2,6 @@
 // with a message that names the culprit; those that may still be valid must be refused clearly or load, and what loads
 // must load again from its own resolved form.
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -10,6 +9,7 @@
 
 #include "tests/model/case_files.h"
 #include "tests/model/mutants.h"
+#include "tests/support/catch.h"
 
 using namespace vkdose;
 using namespace vkdose::test;

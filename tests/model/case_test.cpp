@@ -1,10 +1,10 @@
 #include "host/model/case.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 
 #include "host/core/error.h"
 #include "tests/model/case_files.h"
+#include "tests/support/catch.h"
 
 using namespace vkdose;
 using test::Folder;

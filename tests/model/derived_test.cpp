@@ -1,10 +1,10 @@
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 
 #include "host/model/case.h"
 #include "host/model/stability.h"
 #include "tests/model/case_files.h"
+#include "tests/support/catch.h"
 
 using namespace vkdose;
 using test::Folder;

@@ -1,11 +1,11 @@
 // Every way a case can be wrong, one at a time: the fault must name the line, the key, the value and a remedy, and
 // must come alone.
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 
 #include "host/core/error.h"
 #include "tests/model/case_files.h"
+#include "tests/support/catch.h"
 
 using namespace vkdose;
 using test::Folder;

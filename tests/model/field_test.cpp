@@ -1,8 +1,8 @@
 // The tables [[field]]: defaults, presets and faults.
-#include <catch2/catch.hpp>
 
 #include "host/core/error.h"
 #include "tests/model/case_files.h"
+#include "tests/support/catch.h"
 #include "tests/support/near.h"
 
 using namespace vkdose;

@@ -1,12 +1,12 @@
 // Hundreds of broken particle lists, made from three small good ones with a fixed seed: each must be refused with a
 // message that names its line or column.
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <set>
 
 #include "host/model/particle_list.h"
 #include "tests/model/case_files.h"
 #include "tests/model/mutants.h"
+#include "tests/support/catch.h"
 
 using namespace vkdose;
 using namespace vkdose::test;

@@ -1,8 +1,7 @@
 #include "host/model/particle_list.h"
 
-#include <catch2/catch.hpp>
-
 #include "tests/model/case_files.h"
+#include "tests/support/catch.h"
 
 using namespace vkdose;
 using test::Folder;

@@ -1,6 +1,5 @@
 #include "host/core/random.h"
-
-#include <catch2/catch.hpp>
+#include "tests/support/catch.h"
 
 using namespace vkdose;
 

@@ -1,10 +1,10 @@
 // Numbers that are fine one by one and nonsense together, and texts that would mislead whoever reads the message.
-#include <catch2/catch.hpp>
 #include <cmath>
 
 #include "host/core/error.h"
 #include "host/model/size_distribution.h"
 #include "tests/model/case_files.h"
+#include "tests/support/catch.h"
 
 using namespace vkdose;
 using test::Folder;

@@ -1,9 +1,10 @@
 #include "host/model/size_distribution.h"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <vector>
+
+#include "tests/support/catch.h"
 
 using namespace vkdose;
 using Kind = SizeDistribution::Kind;

@@ -1,14 +1,14 @@
 // A sweep over the ranks of an MPI job gives the tables of one without. Built with VKDOSE_MPI only.
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <csignal>
 #include <thread>
 
-#include "host/output/checkpoint.h"
 #include "host/core/csv_table.h"
+#include "host/output/checkpoint.h"
 #include "tests/app/sandbox.h"
 #include "tests/app/sweep_tables.h"
+#include "tests/support/catch.h"
 
 using namespace vkdose;
 using namespace vkdose::test;

@@ -2,7 +2,6 @@
 
 #include <pthread.h>
 
-#include <catch2/catch.hpp>
 #include <fstream>
 #include <system_error>
 #include <thread>
@@ -11,6 +10,7 @@
 #include "host/output/frame_writer.h"
 #include "host/output/run_files.h"
 #include "tests/app/sandbox.h"
+#include "tests/support/catch.h"
 
 using namespace vkdose;
 using namespace vkdose::test;

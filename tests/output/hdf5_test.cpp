@@ -1,11 +1,10 @@
 #include "host/output/hdf5.h"
 
-#include <catch2/catch.hpp>
-
 #include "host/core/error.h"
 #include "host/output/frame_writer.h"
 #include "host/output/frames.h"
 #include "tests/app/sandbox.h"
+#include "tests/support/catch.h"
 
 using namespace vkdose;
 using namespace vkdose::test;

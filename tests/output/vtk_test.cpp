@@ -1,12 +1,12 @@
 // What users do with frames: VTK's own reader (that of ParaView), h5py by the README's lines, and a picture.
 #include <atomic>
-#include <catch2/catch.hpp>
 #include <cstdlib>
 
 #include "host/backend/reference/reference.h"
 #include "host/output/run_folder.h"
 #include "host/output/vtkhdf.h"
 #include "tests/app/sandbox.h"
+#include "tests/support/catch.h"
 
 using namespace vkdose;
 using namespace vkdose::test;

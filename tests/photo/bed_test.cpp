@@ -1,10 +1,10 @@
 #include "host/photo/bed.h"
 
-#include <catch2/catch.hpp>
 #include <string>
 #include <vector>
 
 #include "host/photo/profile.h"
+#include "tests/support/catch.h"
 
 using namespace vkdose::photo;
 

@@ -6,13 +6,13 @@
 #include <unistd.h>
 
 #include <array>
-#include <catch2/catch.hpp>
 #include <fstream>
 
 #include "host/photo/light.h"
 #include "host/photo/profile.h"
 #include "tests/app/sandbox.h"
 #include "tests/photo/drawing.h"
+#include "tests/support/catch.h"
 #include "tests/support/near.h"
 
 using namespace vkdose;

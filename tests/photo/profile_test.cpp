@@ -4,9 +4,8 @@
 
 #include <leptonica/allheaders.h>
 
-#include <catch2/catch.hpp>
-
 #include "tests/photo/drawing.h"
+#include "tests/support/catch.h"
 #include "tests/support/near.h"
 
 using namespace vkdose;

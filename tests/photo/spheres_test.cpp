@@ -1,13 +1,13 @@
 // A bed of spheres drawn with light and shade: its profile is the upper outline of the spheres, known to rounding.
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 #include <vector>
 
 #include "host/photo/profile.h"
 #include "tests/photo/drawing.h"
+#include "tests/support/catch.h"
 #include "tests/support/near.h"
 
 using namespace vkdose;

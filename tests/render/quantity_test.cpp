@@ -1,12 +1,12 @@
 // What colours tell: values of particles, scales and their ticks, the colour map.
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 
 #include "host/render/colour.h"
 #include "host/render/quantity.h"
+#include "tests/support/catch.h"
 #include "tests/support/near.h"
 
 using namespace vkdose;

@@ -1,13 +1,13 @@
 #pragma once
 // Pages in a headless Chromium.
 
-#include <catch2/catch.hpp>
 #include <cstdlib>
 #include <set>
 
 #include "host/report/page.h"
 #include "host/report/source_hash.h"
 #include "tests/app/sandbox.h"
+#include "tests/support/catch.h"
 
 namespace vkdose::test {
 

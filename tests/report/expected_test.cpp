@@ -1,12 +1,12 @@
 #include "host/report/expected.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 
 #include "host/core/error.h"
 #include "host/report/toml_values.h"
 #include "tests/app/sandbox.h"
+#include "tests/support/catch.h"
 
 using namespace vkdose;
 using namespace vkdose::report;

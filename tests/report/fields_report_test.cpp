@@ -1,12 +1,12 @@
 #include "host/report/fields_report.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 
 #include "tests/report/faults.h"
 #include "tests/report/fields.h"
 #include "tests/report/folders.h"
 #include "tests/report/stream.h"
+#include "tests/support/catch.h"
 #include "tests/support/near.h"
 
 using namespace vkdose;

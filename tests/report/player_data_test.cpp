@@ -1,7 +1,5 @@
 #include "host/report/player_data.h"
 
-#include <catch2/catch.hpp>
-
 #include "host/analysis/overlap.h"
 #include "host/analysis/surface.h"
 #include "host/core/error.h"
@@ -11,6 +9,7 @@
 #include "tests/report/folders.h"
 #include "tests/report/frames.h"
 #include "tests/report/stream.h"
+#include "tests/support/catch.h"
 #include "tests/support/near.h"
 
 using namespace vkdose;

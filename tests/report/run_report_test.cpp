@@ -1,12 +1,11 @@
 #include "host/report/run_report.h"
 
-#include <catch2/catch.hpp>
-
 #include "host/core/error.h"
 #include "host/report/page.h"
 #include "host/report/run_figures.h"
 #include "host/report/source_hash.h"
 #include "tests/report/folders.h"
+#include "tests/support/catch.h"
 
 using namespace vkdose;
 using namespace vkdose::report;

@@ -3,10 +3,11 @@
 
 #include <zlib.h>
 
-#include <catch2/catch.hpp>
 #include <cstdint>
 #include <string>
 #include <vector>
+
+#include "tests/support/catch.h"
 
 namespace vkdose::test {
 

@@ -1,11 +1,11 @@
 #include "host/report/study_report.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 
 #include "host/core/error.h"
 #include "host/report/study_points.h"
 #include "tests/report/folders.h"
+#include "tests/support/catch.h"
 #include "tests/support/near.h"
 
 using namespace vkdose;

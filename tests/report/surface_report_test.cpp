@@ -1,11 +1,10 @@
 #include "host/report/surface_report.h"
 
-#include <catch2/catch.hpp>
-
 #include "host/analysis/surface.h"
 #include "tests/report/faults.h"
 #include "tests/report/folders.h"
 #include "tests/report/frames.h"
+#include "tests/support/catch.h"
 #include "tests/support/near.h"
 
 using namespace vkdose;

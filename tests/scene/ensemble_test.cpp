@@ -1,10 +1,11 @@
 // Canisters that share a device's tables: each computes what it would alone, to the last bit, whatever the others do.
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <thread>
 
 #include "tests/scene/beds.h"
 #include "tests/support/records.h"
+
+#include "tests/support/catch.h"
 
 using namespace vkdose;
 using namespace vkdose::test;

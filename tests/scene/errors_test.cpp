@@ -7,7 +7,7 @@
 
 using namespace vkdose;
 using namespace vkdose::test;
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 namespace {
 

@@ -1,8 +1,8 @@
 // A snapshot carries everything: a backend that restores it goes on with the same bits as the one it was taken from.
 #include <algorithm>
-#include <catch2/catch.hpp>
 
 #include "tests/scene/beds.h"
+#include "tests/support/catch.h"
 #include "tests/support/records.h"
 
 using namespace vkdose;

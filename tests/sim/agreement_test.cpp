@@ -1,9 +1,9 @@
 #include "host/sim/agreement.h"
 
-#include <catch2/catch.hpp>
 #include <limits>
 
 #include "tests/sim/fake_backend.h"
+#include "tests/support/catch.h"
 
 using namespace vkdose;
 

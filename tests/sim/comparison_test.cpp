@@ -2,9 +2,8 @@
 
 #include "host/sim/comparison.h"
 
-#include <catch2/catch.hpp>
-
 #include "host/backend/reference/reference.h"
+#include "tests/support/catch.h"
 
 using namespace vkdose;
 

@@ -1,10 +1,10 @@
 #include "host/sim/energy_ledger.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 
 #include "host/backend/reference/reference.h"
 #include "tests/sim/fake_backend.h"
+#include "tests/support/catch.h"
 #include "tests/support/near.h"
 
 using namespace vkdose;

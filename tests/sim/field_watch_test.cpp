@@ -1,10 +1,10 @@
 // Fields that a run takes: when, averaged over what, and across an interruption.
 #include "host/sim/field_watch.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 
 #include "tests/sim/fake_backend.h"
+#include "tests/support/catch.h"
 #include "tests/support/near.h"
 
 using namespace vkdose;

@@ -1,9 +1,9 @@
 #include "host/sim/ledger.h"
 
-#include <catch2/catch.hpp>
 #include <limits>
 
 #include "host/core/error.h"
+#include "tests/support/catch.h"
 
 using namespace vkdose;
 

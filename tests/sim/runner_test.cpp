@@ -1,9 +1,9 @@
 #include "host/sim/runner.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 
 #include "tests/sim/fake_backend.h"
+#include "tests/support/catch.h"
 
 using namespace vkdose;
 using namespace vkdose::test;

@@ -1,9 +1,8 @@
 #include "host/sim/timeline.h"
 
-#include <catch2/catch.hpp>
-
 #include "host/core/error.h"
 #include "tests/sim/fake_backend.h"
+#include "tests/support/catch.h"
 
 using namespace vkdose;
 using vkdose::test::smallCase;

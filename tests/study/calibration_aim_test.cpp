@@ -1,8 +1,8 @@
 // The table [calibrate]: targets, measured files, and what can be wrong with them.
 #include <algorithm>
-#include <catch2/catch.hpp>
 
 #include "tests/study/study_files.h"
+#include "tests/support/catch.h"
 
 using namespace vkdose;
 using namespace vkdose::test;

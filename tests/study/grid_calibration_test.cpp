@@ -4,11 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
 
 #include "host/study/member_result.h"
+#include "tests/support/catch.h"
 
 using namespace vkdose;
 

@@ -2,10 +2,10 @@
 #include "host/study/study.h"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 
 #include "host/model/case.h"
 #include "tests/study/study_files.h"
+#include "tests/support/catch.h"
 
 using namespace vkdose;
 using namespace vkdose::test;

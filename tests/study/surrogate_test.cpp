@@ -1,13 +1,13 @@
 // The search of a calibration, on functions that stand in for simulations.
 #include "host/study/surrogate.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
 
 #include "host/core/error.h"
 #include "host/core/vec.h"
 #include "host/study/seed_scatter.h"
+#include "tests/support/catch.h"
 
 using namespace vkdose;
 

@@ -2,7 +2,6 @@
 #include "host/study/sweep.h"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <deque>
 #include <fstream>
 #include <map>
@@ -10,6 +9,7 @@
 #include "host/output/checkpoint.h"
 #include "host/output/run_folder.h"
 #include "tests/study/study_files.h"
+#include "tests/support/catch.h"
 
 using namespace vkdose;
 using namespace vkdose::test;

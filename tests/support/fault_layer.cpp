@@ -283,7 +283,8 @@ const Functions& intercepted() {
 
 }  // namespace
 
-extern "C" VK_LAYER_EXPORT VkResult vkNegotiateLoaderLayerInterfaceVersion(VkNegotiateLayerInterface* pVersionStruct) {
+extern "C" [[gnu::visibility("default")]] VkResult vkNegotiateLoaderLayerInterfaceVersion(
+    VkNegotiateLayerInterface* pVersionStruct) {
     pVersionStruct->loaderLayerInterfaceVersion = 2;
     pVersionStruct->pfnGetInstanceProcAddr = getInstanceProcAddr;
     pVersionStruct->pfnGetDeviceProcAddr = getDeviceProcAddr;

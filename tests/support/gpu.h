@@ -1,11 +1,11 @@
 #pragma once
 // Vulkan backends for tests: with validation on, and a check that it had nothing to say.
 
-#include <catch2/catch.hpp>
 #include <cstdlib>
 
 #include "host/backend/reference/reference.h"
 #include "host/backend/vulkan/vulkan.h"
+#include "tests/support/catch.h"
 
 namespace vkdose::test {
 
@@ -70,7 +70,8 @@ inline World emptyWorld() {
 /// The paper's canister, narrow coil.
 inline World canisterWorld() {
     World w = emptyWorld();
-    w.surfaces = {geometry::Trough{0.0115, 0.06}, geometry::Plane{{0, 0, 0}, {0, 0, 1}}, geometry::Front{0.06, 0.0115, 0.01}};
+    w.surfaces = {geometry::Trough{0.0115, 0.06}, geometry::Plane{{0, 0, 0}, {0, 0, 1}},
+                  geometry::Front{0.06, 0.0115, 0.01}};
     w.coil = geometry::Coil{0.0104, 0.00875, 0.001, 0.07};
     w.domain = {{-0.02, -0.02, -0.01}, {0.02, 1.0, 0.08}};
     w.throatZ = 0.06;

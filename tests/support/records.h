@@ -1,11 +1,11 @@
 #pragma once
 // Equality of records to the byte: zeros have signs, and what is not a number may stand in a state.
 
-#include <catch2/catch.hpp>
 #include <string>
 #include <variant>
 
 #include "host/core/record.h"
+#include "tests/support/catch.h"
 
 namespace vkdose::test {
 

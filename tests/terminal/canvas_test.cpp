@@ -1,6 +1,5 @@
 #include "host/terminal/canvas.h"
-
-#include <catch2/catch.hpp>
+#include "tests/support/catch.h"
 
 using namespace vkdose::terminal;
 

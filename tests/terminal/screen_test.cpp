@@ -2,10 +2,10 @@
 
 #include "host/terminal/screen.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 
 #include "host/terminal/pace.h"
+#include "tests/support/catch.h"
 #include "tests/support/near.h"
 
 using namespace vkdose;

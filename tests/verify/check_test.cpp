@@ -2,7 +2,6 @@
 
 #include "host/verify/check.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -12,6 +11,7 @@
 #include "host/verify/suite.h"
 #include "host/verify/table.h"
 #include "tests/sim/fake_backend.h"
+#include "tests/support/catch.h"
 
 using namespace vkdose;
 using namespace vkdose::verify;

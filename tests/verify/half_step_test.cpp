@@ -1,11 +1,10 @@
 // What velocity Verlet with half-step velocities does to a small sphere at the neck between two large ones: the limits
 // the README states, so that they stay true. A change that removes the error must change the README too.
 
-#include <catch2/catch.hpp>
-
 #include "host/backend/reference/reference.h"
 #include "host/core/vec.h"
 #include "host/verify/cases.h"
+#include "tests/support/catch.h"
 
 using namespace vkdose;
 using namespace vkdose::verify;

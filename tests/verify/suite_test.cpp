@@ -3,7 +3,6 @@
 #include "host/verify/suite.h"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <functional>
 #include <set>
@@ -11,6 +10,7 @@
 #include "host/backend/reference/reference.h"
 #include "host/verify/setups.h"
 #include "host/verify/table.h"
+#include "tests/support/catch.h"
 
 using namespace vkdose;
 using namespace vkdose::verify;
