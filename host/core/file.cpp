@@ -131,7 +131,10 @@ void replaceFile(const fs::path& file, std::string_view content) {
     fs::path fresh = target;
     fresh += ".new";
     requireReplaceable(fresh);
-    const int handle = ::open(fresh.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    if (fs::is_symlink(fresh))
+        throw OutputError(fmt::format("cannot write {}: it is first written as {}, which is a link; remove that",
+                                      file.string(), fresh.string()));
+    const int handle = ::open(fresh.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0666);
     if (handle < 0) throw OutputError(writeFault(file));
     if (!writeAll(handle, content, true) || std::rename(fresh.c_str(), target.c_str()) != 0) {
         const std::string fault = writeFault(file);

@@ -101,6 +101,15 @@ TEST_CASE("of a link the file it leads to is replaced, and the link stays") {
     CHECK(fs::is_symlink(box / "round"));
 }
 
+TEST_CASE("a link in the place where a file is first written is not followed") {
+    const Sandbox box;
+    box.write("mine", "precious");
+    fs::create_symlink("mine", box / "file.new");
+    CHECK_THROWS_WITH(replaceFile(box / "file", "x"), Catch::Contains("file.new, which is a link; remove that"));
+    CHECK(fileContent(box / "mine") == "precious");
+    CHECK_FALSE(fs::exists(box / "file"));
+}
+
 TEST_CASE("a file that is read and to be written is found under any name") {
     const Sandbox box;
     const fs::path a = box.write("a", "");

@@ -275,6 +275,25 @@ TEST_CASE("boundaries that are not there or have no direction") {
     CHECK_THAT(unknown[0].text(), Catch::Contains("cylinder[0].lenght_mm = 3: unknown key; did you mean length_mm?"));
 }
 
+TEST_CASE("surfaces that coincide where a sphere can be are refused by name, at their line") {
+    const Folder folder;
+    folder.write("two.csv", "x,y,z,r\n0,1e-3,0,1e-3\n");
+    const std::string list = replaced(kFreeCase, "boundaries = \"none\"", "boundaries = \"list\"") +
+                             "[[plane]]\npoint = [0,0,0]\nnormal = [0,1,0]\n";
+    const std::string again = "[[plane]]\npoint = [0.01,1e-6,0]\nnormal = [0,1,0]\n";
+    const auto twice = faultsOf(folder.write("a.toml", list + again));
+    REQUIRE(twice.size() == 1);
+    CHECK(twice[0].key == "plane[1].point");
+    CHECK(twice[0].line == lineOf(list + again, "point = [0.01"));
+    CHECK_THAT(twice[0].text(), Catch::Contains("coincides with plane[0].point") && Catch::Contains("remove one"));
+    // A pipe that lies on the floor.
+    const auto pipe =
+        faultsOf(folder.write("b.toml", list + "[[cylinder]]\nbase = [0,0.004,0]\naxis = [0,0,1]\nradius_mm = 4\n"));
+    REQUIRE(pipe.size() == 1);
+    CHECK(pipe[0].key == "cylinder[0].base");
+    CHECK(faultsOf(folder.write("c.toml", list + "[[plane]]\npoint = [-0.02,0,0]\nnormal = [1,0,0]\n")).empty());
+}
+
 TEST_CASE("overrides: their faults name them") {
     const Folder folder;
     const auto file = folder.write("case.toml", kGoodCase);

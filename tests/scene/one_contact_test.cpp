@@ -101,6 +101,9 @@ TEST_CASE("a sphere meets every surface") {
         {"tube from inside", geometry::Tube{{0, 0, 0}, {0, 1, 0}, rho, 0.05, true}, {rho, 0.03, 0}, {1, 0, 0}},
         {"tube from outside", geometry::Tube{{0, 0, 0}, {s, s, 0}, rho, 0.05, false}, {0.02, 0.02, rho}, {0, 0, -1}},
         {"endless tube behind its base", geometry::Tube{{0, 0, 0}, {0, 1, 0}, rho}, {rho, -0.03, 0}, {1, 0, 0}},
+        {"end of a plane", geometry::Plane{{0, -0.01, 0}, {0, 1, 0}, 0.03}, {0.004, -0.01, 0.03}, {0, -s, -s}},
+        {"end of the trough", geometry::Trough{rho, 0.03}, {rho * 0.6, -rho * 0.8, 0.03}, {s * 0.6, s * -0.8, -s}},
+        {"end of the trough's side", geometry::Trough{rho, 0.03}, {rho, 0.02, 0.03}, {s, 0, -s}},
         {"edge of a tube", geometry::Tube{{0, 0, 0}, {0, 0, 1}, rho, 0.05, true}, {rho, 0, 0}, {s, 0, s}},
     };
     for (const Shot& shot : shots) {
