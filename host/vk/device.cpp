@@ -5,10 +5,17 @@
 #include <algorithm>
 #include <cctype>
 #include <cstring>
+#include <mutex>
 #include <string_view>
 #include <type_traits>
 
 namespace vkdose::vk {
+
+/// What the validation layer said; it may speak from a thread of its own.
+struct ValidationMessages {
+    std::mutex mutex;
+    std::vector<std::string> list;
+};
 
 namespace {
 
@@ -139,7 +146,9 @@ bool layerInstalled() {
 
 VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
                                          const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
-    static_cast<std::vector<std::string>*>(user)->emplace_back(data->pMessage);
+    auto& messages = *static_cast<ValidationMessages*>(user);
+    const std::lock_guard lock(messages.mutex);
+    messages.list.emplace_back(data->pMessage);
     return VK_FALSE;
 }
 
@@ -238,7 +247,7 @@ std::vector<DeviceInfo> listDevices() {
 
 void Device::createInstance(bool validation) {
     requireLoader();
-    messages_ = std::make_unique<std::vector<std::string>>();
+    messages_ = std::make_unique<ValidationMessages>();
     bool validate = validation && layerInstalled();
     instance_ = makeInstance(validate);
     if (!validate) return;
@@ -276,6 +285,11 @@ void Device::createDevice(std::uint32_t family) {
 // Each class here that owns Vulkan objects delegates to a constructor that owns nothing yet, so that its destructor
 // cleans up when the rest throws.
 Device::Device() = default;
+
+std::vector<std::string> Device::validationMessages() const {
+    const std::lock_guard lock(messages_->mutex);
+    return messages_->list;
+}
 
 Device::Device(const DeviceChoice& choice) : Device() {
     createInstance(choice.validation);

@@ -47,6 +47,8 @@ std::vector<DeviceInfo> listDevices();
 /// Those of `devices` that can be used and are of the best kind there is; the automatic choice takes the first.
 std::vector<DeviceInfo> bestOf(const std::vector<DeviceInfo>& devices);
 
+struct ValidationMessages;
+
 class Device {
   public:
     explicit Device(const DeviceChoice& choice);
@@ -71,7 +73,7 @@ class Device {
     int memoryType(std::uint32_t typeBits, VkMemoryPropertyFlags wanted) const;
 
     /// Messages of the validation layer since creation (warnings and errors).
-    const std::vector<std::string>& validationMessages() const { return *messages_; }
+    std::vector<std::string> validationMessages() const;
     /// True if validation was asked for and the layer is there.
     bool validated() const { return messenger_ != VK_NULL_HANDLE; }
 
@@ -90,7 +92,7 @@ class Device {
     VkPhysicalDeviceMemoryProperties memory_{};
     DeviceInfo info_;
     bool int64_ = false;
-    std::unique_ptr<std::vector<std::string>> messages_;
+    std::unique_ptr<ValidationMessages> messages_;
 };
 
 }  // namespace vkdose::vk

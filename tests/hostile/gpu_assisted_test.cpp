@@ -18,6 +18,12 @@ class Assisted {
     Assisted& operator=(const Assisted&) = delete;
 };
 
+/// What it says of the device, not of the features that it switches on for itself.
+std::vector<std::string> withoutItsOwn(std::vector<std::string> messages) {
+    std::erase_if(messages, [](const std::string& m) { return m.find("Internal Warning: ") != std::string::npos; });
+    return messages;
+}
+
 }  // namespace
 
 TEST_CASE("GPU-assisted checks find an access outside a buffer") {
@@ -43,8 +49,9 @@ TEST_CASE("GPU-assisted checks find an access outside a buffer") {
     passes.recordSteps(commands, 0, 1, 0, true);
     commands.hostBarrier();
     commands.submit();
-    REQUIRE_FALSE(device.validationMessages().empty());
-    CHECK_THAT(device.validationMessages().front(), Catch::Contains("out of bounds"));
+    const std::vector<std::string> messages = withoutItsOwn(device.validationMessages());
+    REQUIRE_FALSE(messages.empty());
+    CHECK_THAT(messages.front(), Catch::Contains("out of bounds"));
 }
 
 TEST_CASE("no pass reaches outside its buffers while a heap falls on the turning coil") {
@@ -60,6 +67,8 @@ TEST_CASE("no pass reaches outside its buffers while a heap falls on the turning
         const Sensors end = backend->advance(500, -9.0);
         CHECK(end.maxOverlapRatio > 0);  // something was touched
         CHECK(end.rebuilds > 1);
-        requireClean(*backend);
+        ValidationReport report = validationReport(*backend);
+        report.messages = withoutItsOwn(report.messages);
+        requireClean(report);
     }
 }
