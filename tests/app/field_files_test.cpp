@@ -147,7 +147,7 @@ TEST_CASE("a list of maps that somebody has damaged is told with its line") {
     std::string list = readText(box / "out/fields/f.csv");
     list.at(list.find("f_000001.hdf")) = '\xff';
     box.write("out/fields/f.csv", list);
-    FieldFiles files(box / "out", c, {list.size()});
+    FieldFiles files(box / "out", c, std::vector<CsvMark>{{list.size()}});
     CHECK_THROWS_AS(files.store(), OutputError);
     CHECK_THROWS_WITH(files.store(), Catch::Contains("f.csv:3: file = \xff_000001.hdf: is no text in UTF-8"));
 }
