@@ -41,7 +41,7 @@ void main() {
         Sphere b = sphereBefore(who.y);
         branch.xyz = (a.high - b.high) + (a.low - b.low);
     } else if (at.slot < springSlots()) {
-        SurfaceParams p = readSurface(who.y);
+        SurfaceParams p = readSurface(surfaceOf(who.y));
         Overlap o = surfaceOverlap(KIND_SET, uint(p.pointHigh.w), p, a);
         branch.xyz = (a.radius - o.depth) * o.normal;
     } else {

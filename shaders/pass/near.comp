@@ -23,8 +23,8 @@ uint comingSlot(uint slot, uint other) {
     if (ofPair(slot)) {
         for (uint k = 0u; k < pairs; ++k)
             if (partners[k] == other) to = firstPair + k;
-    } else if ((surfaces & (1u << other)) != 0u) {
-        to = firstSurface + bitCount(surfaces & ((1u << other) - 1u));
+    } else if ((surfaces & (1u << surfaceOf(other))) != 0u) {
+        to = firstSurface + bitCount(surfaces & ((1u << surfaceOf(other)) - 1u));
     }
     return to;
 }
@@ -32,6 +32,13 @@ uint comingSlot(uint slot, uint other) {
 void prepare(uint slot, uint i, uint other) {
     entries[comingEntryIndex(slot)] = uvec2(i, other);
     for (uint part = 0u; part < kParts; ++part) carried[historyIndex(part, slot)] = vec4(0.0);
+}
+
+/// Whether a wall that ends at the front wall and the rim or throat may become one contact, or part, before the next
+/// refresh: in front of the wall itself they cannot.
+bool joinsAtFront(Sphere me, float slack) {
+    bool both = (surfaces & (1u << FRONT)) != 0u && bitCount(surfaces) > 1u;
+    return joints() && both && length(me.high.xy) < frontSurface().radius.x + slack + 1e-7;
 }
 
 void main() {
@@ -71,7 +78,11 @@ void main() {
 
     for (uint k = 0u; k < pairs; ++k) prepare(firstPair + k, i, partners[k]);
     uint at = firstSurface;
-    for (uint left = surfaces; left != 0u; left &= left - 1u, ++at) prepare(at, i, findLSB(left));
+    bool joined = joinsAtFront(me, slack);
+    for (uint left = surfaces; left != 0u; left &= left - 1u, ++at) {
+        uint works = !joined ? 1u : at == firstSurface ? met : 0u;
+        prepare(at, i, findLSB(left) | works << kSurfaceBits);
+    }
     for (uint once = coil; once > 0u; --once) entries[comingEntryIndex(firstCoil)] = uvec2(i, 0u);
 
     for (uint k = 0u; k < range.w; ++k) {

@@ -5,7 +5,7 @@
 // A contact that does not touch exerts nothing and remembers nothing.
 //
 // Where walls go on into the throat, two surfaces may overlap a sphere in what is one contact, and the history passes from
-// one to the other. So all surfaces of a sphere that is near the front wall and another one are the work of one invocation.
+// one to the other. So all surfaces of a sphere at the rim are the work of the first one's invocation; `near` says where.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/buffers.glsl"
 #include "pass/wall.glsl"
@@ -41,40 +41,34 @@ Memory recall(uint slot) {
     return m;
 }
 
-const uint kFrontSurface = SURFACES - 1u;  // if there is one (host/model/world.h)
-const bool kJoints = (KIND_SET & kEndingWalls) != 0u && (KIND_SET & (1u << kFront)) != 0u;
-
 void main() {
     openMember();
     ContactParams law = lawOf(kParticleWall);  // before any branch, as in `pairs`
+    SurfaceParams frontWall = frontSurface();
     uvec4 chosen = choices();
     float springDt = springStep();
     if (invocation() >= control.listed.y) return;
     uint slot = firstSurfaceSlot() + invocation();
-    uint i = readEntry(slot).x;
-    Body me = readBody(i);
+    uvec2 who = readEntry(slot);
+    uint works = who.y >> kSurfaceBits;
+    if (works == 0u) return;
+    Body me = readBody(who.x);
 
-    uint end = slot + 1u;
-    bool joined = false;
+    bool joined = joints() && works > 1u;
+    uint end = slot + works;
     Overlap front;
     Memory frontMemory;
-    if (kJoints) {
-        uvec4 own = readRange(slotRangeIndex(i));
-        uint last = own.z + own.w - 1u;
-        joined = own.w > 1u && readEntry(last).y == kFrontSurface;
-        if (joined && slot != own.z) return;
-        if (joined) end = last + 1u;
-        front = frontOverlap(readSurface(kFrontSurface), me.sphere);
-        frontMemory = recall(last);
+    if (joints()) {
+        front = frontOverlap(frontWall, me.sphere);
+        frontMemory = recall(end - 1u);
     }
 
     for (; slot < end; ++slot) {
-        uint s = readEntry(slot).y;
-        SurfaceParams p = readSurface(s);
+        SurfaceParams p = readSurface(surfaceOf(readEntry(slot).y));
         uint kind = uint(p.pointHigh.w);
         Overlap o = surfaceOverlap(KIND_SET, kind, p, me.sphere);
         Memory memory = recall(slot);
-        if (kJoints && joined) {
+        if (joined) {
             if (kind == kFront) {
                 o = front;
                 memory = frontMemory;

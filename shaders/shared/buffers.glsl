@@ -15,6 +15,7 @@ layout(constant_id = 2) const uint KINDS = 0u;       // kinds of the first surfa
 layout(constant_id = 3) const uint KIND_SET = 0u;    // bit k: there is a surface of kind k; and kEndingWalls
 layout(constant_id = 4) const uint MEMBERS = 1u;     // canisters that share the buffers, each with its part of every table
 layout(constant_id = 5) const uint MOST_GROUPS = 65535u;  // workgroups in a row of a dispatch; more go in layers
+layout(constant_id = 6) const uint FRONT = 0u;       // the front wall among the surfaces, if there is one
 
 layout(push_constant) uniform Push { StepPush push; };
 
@@ -40,7 +41,8 @@ layout(std430, set = 0, binding = 7) buffer CellBuffer { uint cells[]; };
 // Anchors: vec4[2][particles]: high part of the position when the rows were built, and when the contacts were listed.
 layout(std430, set = 0, binding = 8) buffer AnchorBuffer { vec4 anchors[]; };
 layout(std430, set = 0, binding = 9) buffer SensorBuffer { SensorRecord sensors[]; };
-// Who meets in a slot: uvec2[2][slots]: particle, the other particle or the surface; then those that a refresh prepares.
+// Who meets in a slot: uvec2[2][slots]: particle, the other particle or the surface (and kSurfaceBits); then those that a
+// refresh prepares.
 layout(std430, set = 0, binding = 10) buffer EntryBuffer { uvec2 entries[]; };
 // The energy book, and its sums.
 layout(std430, set = 0, binding = 11) buffer BookBuffer { vec4 books[]; };
@@ -170,6 +172,16 @@ vec4 readForce(uint slot) { return forces[slot]; }
 vec4 readTorque(uint side, uint slot) { return torques[2u * slot + side]; }
 SurfaceParams readSurface(uint s) { return member.surface[s]; }
 #endif
+uint surfaceOf(uint other) { return other & ((1u << kSurfaceBits) - 1u); }
+
+// Where walls go on into the throat (law/surface.glsl, jointContact).
+/// A function: of a boolean constant made from others, in a pass that does not use it, lavapipe of Mesa 22.3 makes no pipeline.
+bool joints() { return (KIND_SET & kEndingWalls) != 0u && (KIND_SET & (1u << kFront)) != 0u; }
+SurfaceParams frontSurface() {
+    uint at = kVectorSurface + 4u * FRONT;
+    return SurfaceParams(OF_MEMBER(surface[FRONT].pointHigh, at), OF_MEMBER(surface[FRONT].pointLow, at + 1u),
+                         OF_MEMBER(surface[FRONT].axis, at + 2u), OF_MEMBER(surface[FRONT].radius, at + 3u));
+}
 
 // What every step stores. PACKED_STORES writes 64 bits at a time, for devices that store component by component.
 #ifdef PACKED_STORES

@@ -22,6 +22,8 @@ using uint = glm::uint;
 // --- limits -------------------------------------------------------------------------------------------------------
 SHARED_CONST kMaxSurfaces = 28u;
 SHARED_CONST kMaxTurns = 4u;          // of the coil that one particle touches at once
+// Of a contact with a surface an entry holds the surface, and above these bits how many slots its invocation works on.
+SHARED_CONST kSurfaceBits = 5u;
 SHARED_CONST kUnrolledSurfaces = 8u;  // surfaces whose kind is a specialisation constant; more go through a slower loop
 SHARED_CONST kMaxRow = 64u;           // neighbours per particle
 SHARED_CONST kMaxLinks = 96u;         // contacts per particle: a row, every surface, the coil

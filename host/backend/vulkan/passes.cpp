@@ -125,8 +125,8 @@ Passes::Passes(const vk::Device& device, const TableSizes& s, const Access& acce
       sense_(device, bindings_, sense_spv, constants(s)),
       senseEnergy_(device, bindings_, sense_energy_spv, constants(s)) {}
 
-std::array<std::uint32_t, 6> Passes::constants(const TableSizes& s) {
-    return {s.workgroup, s.surfaces, s.surfaceKinds, s.kindSet, s.members, s.mostGroups};
+std::array<std::uint32_t, 7> Passes::constants(const TableSizes& s) {
+    return {s.workgroup, s.surfaces, s.surfaceKinds, s.kindSet, s.members, s.mostGroups, s.front};
 }
 
 void Passes::reset() {

@@ -63,7 +63,7 @@ class Passes {
     /// What every dispatch is told; the roster's first row.
     gpu::StepPush push(std::uint32_t step, std::uint32_t source, bool opening) const;
     /// Specialisation constants of every pass over tables of this size.
-    static std::array<std::uint32_t, 6> constants(const TableSizes& sizes);
+    static std::array<std::uint32_t, 7> constants(const TableSizes& sizes);
 
     static constexpr std::array<const char*, 11> kTimed{
         "clear", "bin", "neighbours", "near", "link", "commit_lists", "pairs", "surfaces", "coil", "move", "decide"};

@@ -117,7 +117,9 @@ std::vector<SlotContact> touchingSlots(const Passes& passes, std::uint32_t membe
             history[part - 1] = passes.history.readAll<vec4>(count, t.historyOffset(part, first) * sizeof(vec4));
         for (std::size_t k = 0; k < count; ++k) {
             if (history[0][2 * k].w <= 0) continue;
-            SlotContact c{pair, entries[k].x - firstParticle, entries[k].y - (pair ? firstParticle : 0), forces[k], {}};
+            const std::uint32_t other =
+                pair ? entries[k].y - firstParticle : entries[k].y & ((1U << gpu::kSurfaceBits) - 1);
+            SlotContact c{pair, entries[k].x - firstParticle, other, forces[k], {}};
             c.history[0] = history[0][2 * k];
             c.history[1] = history[0][2 * k + 1];
             for (std::uint32_t part = 2; part < t.historyParts(); ++part) c.history[part] = history[part - 1][k];

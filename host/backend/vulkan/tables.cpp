@@ -84,6 +84,7 @@ TableSizes tableSizes(const World& world, const Crowd& crowd, const gpu::Member&
     for (std::uint32_t i = 0; i < s.surfaces; ++i) {
         const auto kind = std::uint32_t(member.surface[i].pointHigh.w);
         s.kindSet |= 1U << kind;
+        if (kind == gpu::kFront) s.front = i;
         const bool wall = kind == gpu::kPlane || kind == gpu::kTrough;
         if (wall && member.surface[i].pointLow.w != 0) s.kindSet |= gpu::kEndingWalls;
         if (i < gpu::kUnrolledSurfaces) s.surfaceKinds |= kind << (4 * i);

@@ -19,6 +19,7 @@ struct TableSizes {
     std::uint32_t surfaces = 0;
     std::uint32_t surfaceKinds = 0;  ///< of the first kUnrolledSurfaces, 4 bits each
     std::uint32_t kindSet = 0;       ///< bit k: there is a surface of kind k; and kEndingWalls
+    std::uint32_t front = 0;         ///< the front wall among the surfaces, if there is one
     // Of each member:
     std::uint32_t share = 0;  ///< slots for particles, a multiple of the workgroup
     std::uint32_t cells = 0;  ///< a power of two
