@@ -149,7 +149,7 @@ TEST_CASE("a list of maps that somebody has damaged is told with its line") {
     box.write("out/fields/f.csv", list);
     FieldFiles files(box / "out", c, std::vector<CsvMark>{{list.size()}});
     CHECK_THROWS_AS(files.store(), OutputError);
-    CHECK_THROWS_WITH(files.store(), Catch::Contains("f.csv:3: file = \xff_000001.hdf: is no text in UTF-8"));
+    CHECK_THROWS_WITH(files.store(), Catch::Contains("f.csv:3: file = \\xff_000001.hdf: is no text in UTF-8"));
 }
 
 TEST_CASE("the outlet's field has the outlet velocity and the throat's mass of the time series") {

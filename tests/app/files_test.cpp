@@ -97,7 +97,7 @@ TEST_CASE("of two runs that are started into one folder at once, what is there i
     }
 }
 
-TEST_CASE("--force removes what the former run wrote and nothing else") {
+TEST_CASE("run --force removes what the former run wrote and nothing else") {
     const Sandbox box;
     const std::string fields =
         "--set 'field=[{name=\"f\",preset=\"outlet\"}]' --set sensors.interval_s=0.001 --set frames.interval_s=0.001 ";
@@ -125,7 +125,7 @@ TEST_CASE("--force removes what the former run wrote and nothing else") {
     CHECK(readText(box / "out/report.html") == "<html>my own</html>");
 }
 
-TEST_CASE("--force is for a folder that holds a run") {
+TEST_CASE("run --force is for a folder that holds a run") {
     const Sandbox box;
     for (const char* folder : {"mine", "mine/frames", "mine/fields"}) fs::create_directories(box / folder);
     for (const char* file : {"mine/frames/particles_000000.hdf", "mine/fields/a.csv", "mine/report.html",

@@ -260,13 +260,13 @@ TEST_CASE("a lid closes the canister at its height, or above a fill that starts 
     const std::size_t open = loadCase(file).world.surfaces.size();
     const Case low = loadCase(file, {"canister.lid=true"});
     REQUIRE(low.world.surfaces.size() == open + 1);
-    const auto& lid = std::get<geometry::Plane>(low.world.surfaces.back());
+    const auto& lid = std::get<geometry::Plane>(low.world.surfaces.at(open - 1));  // before the front wall
     CHECK(lid.point.y == low.canister->height - low.canister->width / 2);
     CHECK(lid.normal == Vec3(0, -1, 0));
     CHECK(low.world.domain.high.y > lid.point.y);
 
     const Case high = loadCase(file, {"canister.lid=true", "canister.height_mm=16"});
-    const double top = std::get<geometry::Plane>(high.world.surfaces.back()).point.y;
+    const double top = std::get<geometry::Plane>(high.world.surfaces.at(open - 1)).point.y;
     CHECK(top == insertParticles(high).fillHeight);
     CHECK(top > high.canister->height - high.canister->width / 2);
 }

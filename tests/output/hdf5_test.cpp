@@ -8,7 +8,7 @@
 
 using namespace vkdose;
 using namespace vkdose::test;
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 namespace {
 

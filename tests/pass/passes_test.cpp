@@ -150,12 +150,17 @@ TEST_CASE("the lists hold every contact within the slack once, and the links nam
     std::size_t wrong = 0;
     for (std::uint32_t i = 0; i < n; ++i) {
         std::vector<Link> found;
+        std::uint32_t walls = 0, works = 0;
         for (std::uint32_t k = 0; k < ranges[i].w; ++k) {
             const std::uint32_t link = rows[t.rowEntries + ranges[i].z + k], slot = link >> 1;
             const bool pair = slot < t.pairSlots, second = (link & 1U) != 0;
-            found.push_back({entries[slot].x, entries[slot].y, pair});
+            const bool wall = !pair && slot < t.springSlots();
+            const std::uint32_t other = wall ? entries[slot].y & ((1U << gpu::kSurfaceBits) - 1) : entries[slot].y;
+            found.push_back({entries[slot].x, other, pair});
             wrong += (second ? entries[slot].y : entries[slot].x) != i;
+            if (wall) walls += 1, works += entries[slot].y >> gpu::kSurfaceBits;
         }
+        wrong += works != walls;  // each of its contacts with surfaces is the work of one invocation
         wrong += found != expected[i];
     }
     CHECK(wrong == 0);
