@@ -1,5 +1,9 @@
 #include "host/app/exit_code.h"
 
+#include <fmt/format.h>
+
+#include <filesystem>
+
 #include "host/app/backends.h"
 #include "host/core/error.h"
 #include "host/core/printable.h"
@@ -33,6 +37,10 @@ Refusal refusalOf(const std::exception_ptr& error) {
         return because(kRunError, e);
     } catch (const DeviceError& e) {
         return because(kDeviceError, e);
+    } catch (const std::filesystem::filesystem_error& e) {
+        // A path that cannot even be looked at: links in a circle, a folder without leave to enter.
+        return {kBadInput,
+                fmt::format("vkdose: {} cannot be read: {}", printable(e.path1().string()), e.code().message())};
     } catch (const std::exception& e) {
         return {kRunError, "vkdose: internal error: " + printableLines(e.what())};
     }

@@ -157,7 +157,7 @@ void SweepFolder::read(const Row& keys) {
             if (members_.text(i, "status") == statusText(s)) status_[numberOf(members_.row(i))] = s;
 }
 
-/// The doses of the members that have ended: what the table has lost is still in their folders.
+/// The doses of the members that have ended, from their folders: the table may have lost some, or been edited.
 void SweepFolder::gatherDoses() {
     Table all(doses_.names());
     for (std::size_t i = 0; i < members_.rows(); ++i) {
@@ -168,7 +168,7 @@ void SweepFolder::gatherDoses() {
         const Table doses = dosesIn(memberFolder(numberOf(member)));
         const Row head(member.begin(), member.end() - std::ptrdiff_t(kOutputColumns.size()));
         for (std::size_t k = 0; k < doses.rows(); ++k) kept.push_back(joined(head, doses.row(k)));
-        for (const Row& row : kept.size() > noted.size() ? kept : noted) all.add(row);
+        for (const Row& row : kept.size() >= noted.size() ? kept : noted) all.add(row);
     }
     doses_ = std::move(all);
 }

@@ -171,6 +171,25 @@ TEST_CASE("what a command reads it does not replace") {
     CHECK(readText(box / "run/particles.csv") == before);
 }
 
+TEST_CASE("links that lead in a circle are told by name, wherever a command meets them") {
+    const Sandbox box;
+    REQUIRE(box.vkdose("run " + kMini + kShort + "--out run").code == 0);
+    const auto circle = [&](const std::string& name, const std::string& arguments) {
+        fs::remove(box / name);
+        fs::create_symlink(fs::path(name).filename(), box / name);
+        const auto o = box.vkdose(arguments);
+        CAPTURE(name, arguments, o.err);
+        CHECK(o.code == 2);
+        CHECK_THAT(o.err, Catch::Contains(name) && Catch::Contains("cannot be read"));
+        CHECK_FALSE(o.err.find("internal error") != std::string::npos);
+        fs::remove(box / name);
+    };
+    circle("run/checkpoint.h5", "resume run");
+    circle("run/case.toml", "report run");
+    circle("loop.toml", "run loop.toml");
+    circle("study.toml", "sweep study.toml");
+}
+
 TEST_CASE("a pipe is not waited for, whatever it is given for") {
     const Sandbox box;
     REQUIRE(

@@ -181,6 +181,13 @@ TEST_CASE("doses that the table has lost come back from the members' folders") {
     SECTION("cut off") {
         fs::resize_file(table, good.size() / 2);
     }
+    SECTION("another number in it") {
+        std::string other = good;
+        const std::size_t digit = other.find_last_of("123456789");
+        REQUIRE(digit != std::string::npos);
+        other[digit] = other[digit] == '1' ? '2' : '1';
+        std::ofstream(table) << other;
+    }
     SECTION("a member's folder gone, the table whole") {
         fs::remove_all(sweep.out / "members/0003");
     }
