@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include "host/core/error.h"
@@ -106,8 +107,9 @@ SweepFolder::SweepFolder(fs::path folder, const Study& study, const std::vector<
     const bool search = study.calibration && study.calibration->method == CalibrationAim::Method::Surrogate;
     for (std::size_t i = 0; i < members_.rows(); ++i)
         if (!search && std::size_t(numberOf(members_.row(i))) >= members.size())
-            changed(study_, folder_,
-                    fmt::format("member {} is no longer in it; {}", numberOf(members_.row(i)), kAppendable));
+            changed(
+                study_, folder_,
+                fmt::format("member {} of members.csv is no longer in it; {}", numberOf(members_.row(i)), kAppendable));
     for (const Member& m : members) requireSame(m);
     std::set<int> ended;
     for (const auto& [number, status] : status_)
@@ -147,9 +149,11 @@ void SweepFolder::read(const Row& keys) {
     doses_ = Table::salvage(folder_ / "doses.csv");
     const Row membersHeader = joined(joined({"member", "seed"}, keys), kOutputColumns);
     const Row dosesHeader = joined(joined({"member", "seed"}, keys), *csvFields(kDosesHeader));
-    if ((!members_.names().empty() && members_.names() != membersHeader) ||
-        (!doses_.names().empty() && doses_.names() != dosesHeader))
-        changed(study_, folder_, "it varies other keys, or vkdose writes other columns");
+    for (const auto& [name, table, header] :
+         {std::tuple("members.csv", &members_, &membersHeader), std::tuple("doses.csv", &doses_, &dosesHeader)})
+        if (!table->names().empty() && table->names() != *header)
+            changed(study_, folder_,
+                    fmt::format("it varies other keys than the columns of {} say, or that file was edited", name));
     if (members_.names().empty()) members_ = Table(membersHeader);
     if (doses_.names().empty()) doses_ = Table(dosesHeader);
     for (std::size_t i = 0; i < members_.rows(); ++i)
@@ -178,7 +182,8 @@ void SweepFolder::requireSame(const Member& member) const {
     for (std::size_t i = 0; i < members_.rows(); ++i) {
         const Row& row = members_.row(i);
         if (numberOf(row) == member.number && !std::equal(now.begin(), now.end(), row.begin()))
-            changed(study_, folder_, fmt::format("member {} was another point; {}", member.number, kAppendable));
+            changed(study_, folder_,
+                    fmt::format("member {} was another point in members.csv; {}", member.number, kAppendable));
     }
     const fs::path file = memberFolder(member.number) / "case.toml";
     if (fs::exists(file) && fileContent(file).value_or("") != member.caseText && today(file) != member.caseText)

@@ -268,7 +268,7 @@ TEST_CASE("a study that has changed is refused, one that has only grown goes on"
     };
     for (const Change& change : std::vector<Change>{
              {"[4, 9]", "[9, 4]", "member 0 was another point"},
-             {"[4, 9]", "[4]", "member 6 is no longer in it"},
+             {"[4, 9]", "[4]", "member 6 of members.csv is no longer in it"},
              {"[0.2, 0.50]", "[0.2, 0.6]", "member 3 was another point"},
              {"[0.2, 0.50]", "[0.2, 0.50, 0.6]", "member 6 was another point"},
              {"\"contact.kc_over_k\"", "\"contact.friction\"", "varies other keys"},
