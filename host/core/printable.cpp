@@ -91,7 +91,7 @@ std::string printableMessage(std::string_view text) {
 }
 
 std::string shellWord(const std::string& path) {
-    const std::string word = path.starts_with('-') ? "./" + path : path;
+    std::string word = path.starts_with('-') ? "./" + path : path;
     const std::string shown = printable(word);
     const bool plain = !word.empty() && std::all_of(word.begin(), word.end(), [](char c) {
         return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
