@@ -10,7 +10,7 @@ namespace {
 constexpr int kSeeds = 7;         // points to start from, along each edge of the box
 constexpr int kRounds = 60;       // of projection onto the two surfaces in turn
 constexpr double kNear = 0.02;    // of the radius
-constexpr double kAlike = 0.999;  // cosine of 2 degrees and a half
+constexpr double kAlike = 0.999;  // cosine of 2.5 degrees
 
 bool inBox(const Vec3& q, const Vec3& low, const Vec3& high) {
     return glm::all(glm::greaterThanEqual(q, low)) && glm::all(glm::lessThanEqual(q, high));

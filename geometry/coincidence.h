@@ -16,7 +16,7 @@ struct Coincidence {
 };
 
 /// Looks for two of `surfaces` that a sphere of `radius` [m] with its centre in the box from `low` to `high` [m]
-/// touches from the same side, their normals within 2 degrees and their distances within a fiftieth of the radius,
+/// touches from the same side, their normals within 2.5 degrees and their distances within a fiftieth of the radius,
 /// while no other surface is in its way. A wall that ends at a front wall and that front wall are no such pair: there a
 /// backend counts one contact (jointContact).
 std::optional<Coincidence> findCoincidence(const std::vector<Surface>& surfaces, double radius, const Vec3& low,

@@ -15,14 +15,14 @@ namespace vkdose {
 
 Refusal refusalOf(const std::exception_ptr& error) {
     const auto because = [](ExitCode code, const std::exception& e) {
-        return Refusal{code, "vkdose: " + printableMessage(e.what())};
+        return Refusal{code, "vkdose: " + printableLines(e.what())};
     };
     try {
         std::rethrow_exception(error);
     } catch (const CaseError& e) {
         std::string faults;
         for (const Diagnostic& fault : e.faults()) faults += (faults.empty() ? "" : "\n") + fault.text();
-        return {kBadInput, printableMessage(faults)};
+        return {kBadInput, faults};
     } catch (const FolderError& e) {
         return because(kBadInput, e);
     } catch (const CheckpointError& e) {
@@ -42,7 +42,7 @@ Refusal refusalOf(const std::exception_ptr& error) {
         return {kBadInput,
                 fmt::format("vkdose: {} cannot be read: {}", printable(e.path1().string()), e.code().message())};
     } catch (const std::exception& e) {
-        return {kRunError, "vkdose: internal error: " + printableMessage(e.what())};
+        return {kRunError, "vkdose: internal error: " + printableLines(e.what())};
     }
 }
 

@@ -66,8 +66,7 @@ void requireSameCase(const std::filesystem::path& file, const std::string& befor
     if (text == before || resolvedIn(text, file) == c.resolved) return;
     throw CheckpointError(
         fmt::format("{} has been changed since the run began, but a run goes on with the case it began with: put the "
-                    "file back as it "
-                    "was, or remove it to have it written again; a changed case is a new run",
+                    "file back as it was, or remove it to have it written again; a changed case is a new run",
                     file.string()));
 }
 

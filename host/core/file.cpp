@@ -131,7 +131,7 @@ void replaceFile(const fs::path& file, std::string_view content) {
     fs::path fresh = target;
     fresh += ".new";
     requireReplaceable(fresh);
-    if (fs::is_symlink(fresh))
+    if (fs::is_symlink(fresh, code))
         throw OutputError(fmt::format("cannot write {}: it is first written as {}, which is a link; remove that",
                                       file.string(), fresh.string()));
     const int handle = ::open(fresh.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0666);

@@ -69,27 +69,6 @@ std::string printableLines(std::string_view text) {
     }
 }
 
-std::string printableMessage(std::string_view text) {
-    constexpr std::size_t kBegin = 600, kEnd = 300;  // bytes that stay
-    const auto inside = [](std::string_view line, std::size_t at) { return (line[at] & 0xc0) == 0x80; };  // a character
-    std::string out;
-    for (;;) {
-        const std::size_t end = text.find('\n');
-        const std::string line = printable(text.substr(0, end));
-        if (line.size() > kBegin + kEnd) {
-            std::size_t first = kBegin, last = line.size() - kEnd;
-            while (inside(line, first)) --first;
-            while (inside(line, last)) ++last;
-            out += line.substr(0, first) + " ... " + line.substr(last);
-        } else {
-            out += line;
-        }
-        if (end == std::string_view::npos) return out;
-        out += '\n';
-        text.remove_prefix(end + 1);
-    }
-}
-
 std::string shellWord(const std::string& path) {
     std::string word = path.starts_with('-') ? "./" + path : path;
     const std::string shown = printable(word);

@@ -13,10 +13,6 @@ std::string printable(std::string_view text);
 /// The same of a text whose line breaks are meant.
 std::string printableLines(std::string_view text);
 
-/// The same of an error, whose lines can quote others at any length: of a line that is too long the middle is left out,
-/// so that the file it begins with and the advice it ends with stay in sight.
-std::string printableMessage(std::string_view text);
-
 /// A path as a word of a command that can be typed: quoted if a shell would take it apart, never like an option.
 std::string shellWord(const std::string& path);
 

@@ -63,7 +63,7 @@ std::vector<FrameEntry> framesListed(const std::string& text, const fs::path& fi
         const std::optional<FrameEntry> entry = entryIn(lines.fields());
         if (!entry)
             throw OutputError(
-                fmt::format("{}:{}: {}: is no frame of a run", file.string(), lines.number(), lines.text()));
+                Diagnostic{file.string(), lines.number(), lines.text(), "", "is no frame of a run", ""}.text());
         entries.push_back(*entry);
     }
     return entries;

@@ -18,10 +18,11 @@ namespace vkdose {
 class SweepFolder {
   public:
     /// Creates the folder, or goes on in it. Rows that were torn, and doses of members without a row, are cut out of
-    /// the tables; so are the rows of interrupted members, who are yet to end. Doses that the table has lost are taken
-    /// from the folders of their members. Throws FolderError if another process is writing into it, if it holds
-    /// something else, if a file of the study is among those to be replaced, or if a member that has begun in it is
-    /// another case in `members`; OutputError if it cannot be written, and what had been made is then gone again.
+    /// the tables; so are the rows of interrupted members, who are yet to end. Doses are taken from the folders of
+    /// their members, whatever the table has lost or holds otherwise. Throws FolderError if another process is writing
+    /// into it, if it holds something else, if a file of the study is among those to be replaced, or if a member that
+    /// has begun in it is another case in `members`; OutputError if it cannot be written, and what had been made is
+    /// then gone again.
     SweepFolder(std::filesystem::path folder, const Study& study, const std::vector<Member>& members);
 
     /// The files of a sweep, beside its members' folders, that are in a folder.

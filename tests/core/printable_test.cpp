@@ -20,19 +20,6 @@ TEST_CASE("what commands a terminal, turns the direction or cannot be seen is sh
     CHECK(Diagnostic{"a\u202eb", 3, "k", "", "is bad", ""}.text() == "a\\u202eb:3: k: is bad");
 }
 
-TEST_CASE("a message that quotes a line of any length keeps its beginning and its end") {
-    CHECK(printableMessage("short\n\x1b") == "short\n\\x1b");
-    std::string grains;
-    for (int i = 0; i < 500; ++i) grains += "ü";  // two bytes each, cut between them at some length
-    for (const std::string pad : {"", "x"}) {
-        const std::string text = printableMessage("file.csv:4: " + pad + grains + grains + "; run anew\nnext");
-        CHECK(text.size() < 950);
-        CHECK(isUtf8(text));
-        CHECK_THAT(text, Catch::StartsWith("file.csv:4: ") && Catch::EndsWith("; run anew\nnext"));
-        CHECK_THAT(text, Catch::Contains("ü ... ü"));
-    }
-}
-
 TEST_CASE("a path in a command that is told can be typed as it stands") {
     CHECK(shellWord("out/mini-1.5") == "out/mini-1.5");
     CHECK(shellWord("-rf") == "./-rf");

@@ -270,3 +270,18 @@ TEST_CASE("frames of a run under way are those whose lines are whole; what is no
     CHECK_THROWS_AS(frames.read(frames.entries()[2]), OutputError);
     CHECK(Frames(box / "nowhere").entries().empty());
 }
+
+TEST_CASE("a list of frames with a line of any length is told with its place, and with the beginning of the line") {
+    const Sandbox box;
+    fs::create_directories(box / "run/frames");
+    const fs::path list = box / "run/frames/frames.csv";
+    box.write("run/frames/frames.csv", std::string(kFramesHeader) + "\n" + std::string(10000, 'x') + "\n");
+    try {
+        (void)Frames(box / "run").entries();
+        FAIL("it was taken");
+    } catch (const OutputError& e) {
+        const std::string said = e.what();
+        CHECK_THAT(said, Catch::StartsWith(list.string() + ":2: xxx") && Catch::EndsWith(": is no frame of a run"));
+        CHECK(said.size() < list.string().size() + 200);
+    }
+}
