@@ -49,6 +49,16 @@ TEST_CASE("bench measures the small workloads on the device") {
     CHECK(readCsv(box / "found/bench.csv").size() == 9);
 }
 
+TEST_CASE("bench does not replace the bed that it measures") {
+    const Sandbox box;
+    const std::string bed = readText(VKDOSE_SOURCE_DIR "/cases/mini.toml");
+    box.write("found/bench.csv", bed);
+    const auto outcome = box.vkdose("bench --quick --bed found/bench.csv --only free-fall --out found" + device());
+    CHECK(outcome.code == kBadInput);
+    CHECK(outcome.err.find("found/bench.csv is read by this command") != std::string::npos);
+    CHECK(readText(box / "found/bench.csv") == bed);
+}
+
 TEST_CASE("bench sums processes that run side by side") {
     const Sandbox box;
     const auto outcome = box.vkdose("bench --quick --repeats 2 --copies 2 --only free-fall --out found" + device());
