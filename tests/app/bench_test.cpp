@@ -3,9 +3,11 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "host/app/exit_code.h"
 #include "tests/app/sandbox.h"
 #include "tests/support/catch.h"
 
+using namespace vkdose;
 using namespace vkdose::test;
 
 namespace {
