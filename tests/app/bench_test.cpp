@@ -54,11 +54,11 @@ TEST_CASE("bench measures the small workloads on the device") {
 TEST_CASE("bench does not replace the bed that it measures") {
     const Sandbox box;
     const std::string bed = readText(VKDOSE_SOURCE_DIR "/cases/mini.toml");
-    box.write("found/bench.csv", bed);
-    const auto outcome = box.vkdose("bench --quick --bed found/bench.csv --only free-fall --out found" + device());
+    box.write("bench.csv", bed);
+    const auto outcome = box.vkdose("bench --quick --bed bench.csv --only free-fall --out ." + device());
     CHECK(outcome.code == kBadInput);
-    CHECK(outcome.err.find("found/bench.csv is read by this command") != std::string::npos);
-    CHECK(readText(box / "found/bench.csv") == bed);
+    CHECK(outcome.err.find("bench.csv is read by this command") != std::string::npos);
+    CHECK(readText(box / "bench.csv") == bed);
 }
 
 TEST_CASE("bench sums processes that run side by side") {
