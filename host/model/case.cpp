@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "host/core/printable.h"
+#include "host/model/case_keys.h"
 #include "host/model/case_reader.h"
 #include "host/model/case_sections.h"
 #include "host/model/checks.h"
@@ -59,8 +60,7 @@ void completeTime(Section& time, Case& c, const SizeRange& sizes) {
         c.world.timeStep = std::stod(fmt::format("{:.2e}", std::floor(exact / unit) * unit));
         time.record("step_s", c.world.timeStep);
     }
-    if (c.world.skin == 0)
-        c.world.skin = time.number("skin_mm", Bound::Positive, kMillimetre, kUsualSkin * sizes.mean * 1e3);
+    if (c.world.skin == 0) c.world.skin = time.number("skin_mm", kUsualSkin * sizes.mean * 1e3);
     const double steps = std::max(1.0, std::round(c.sensorInterval / c.world.timeStep));
     c.sensorInterval = steps * c.world.timeStep;
     if (c.frames.interval > 0)
@@ -92,16 +92,16 @@ Box defaultDomain(const Case& c, const SizeRange& sizes, const Insertion& filled
 }
 
 Case interpret(const std::filesystem::path& file, Node tree, std::vector<std::filesystem::path> files) {
-    CaseReader reader(file.string(), std::move(tree));
+    CaseReader reader(file.string(), std::move(tree), caseKeys());
     Section& root = reader.root();
     Case c;
     c.files = std::move(files);
     c.name = root.string("name", file.stem().string());
     if (!root.has("name") || root.isString("name")) checkName(reader, c.name);
-    c.reason = root.string("reason", "");
-    c.seed = static_cast<std::uint64_t>(root.integer("seed", 0, 1));
-    c.world.gravity = root.vector("gravity", Vec3(0, -9.81, 0));
-    c.bulkDensity = root.number("bulk_density", Bound::Positive, {1, "kg/m3"}, 471.0);
+    c.reason = root.string("reason");
+    c.seed = static_cast<std::uint64_t>(root.integer("seed"));
+    c.world.gravity = root.vector("gravity");
+    c.bulkDensity = root.number("bulk_density");
     readParticles(reader, root, c);
     readContact(root, c);
     const std::optional<Boundaries> kind = readBoundaries(reader, root, c);

@@ -4,12 +4,12 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <optional>
 #include <sstream>
 
 #include "host/core/file.h"
+#include "host/model/case_keys.h"
 
 namespace vkdose {
 namespace {
@@ -163,40 +163,20 @@ Node readWithBase(const std::filesystem::path& file, const Diagnostic& whoAsks,
     return lower;
 }
 
-/// Keys that exclude one another, so that the upper of two layers wins. "*": every other key of the table.
-struct Rival {
-    std::string_view table;
-    std::string_view key;
-    std::string_view loser;
-    bool onlyIfDifferent;  ///< the key chooses a variant; the losers belong to the old one
-};
-constexpr std::array<Rival, 14> kRivals{{
-    {"coil", "turns", "pitch_mm", false},
-    {"coil", "pitch_mm", "turns", false},
-    {"coil", "radius_mm", "clearance_mm", false},
-    {"coil", "clearance_mm", "radius_mm", false},
-    {"particles", "mass_g", "list", false},
-    {"particles", "list", "mass_g", false},
-    {"particles", "list", "size", false},
-    {"particles", "list", "region", false},
-    {"particles.size", "distribution", "*", true},
-    {"stop", "rule", "threshold_g", true},
-    {"stop", "rule", "doses", true},
-    {"", "boundaries", "canister", true},
-    {"", "boundaries", "plane", true},
-    {"", "boundaries", "cylinder", true},
-}};
-
+/// Removes from `lower` what keys of `upper` replace: keys that exclude one another, so that the upper layer wins.
 void dropRivals(Node& lower, const Node& upper, std::string_view path) {
-    for (const Rival& rival : kRivals) {
-        const Node* winner = upper.child(rival.key);
-        if (rival.table != path || winner == nullptr) continue;
-        const Node* before = lower.child(rival.key);
-        if (rival.onlyIfDifferent && (before == nullptr || before->string == winner->string)) continue;
-        if (rival.loser == "*")
-            lower.children.clear();
-        else
-            lower.drop(rival.loser);
+    for (const Key* key : keysOf(caseKeys(), path)) {
+        const Node* winner = upper.child(key->name);
+        if (key->losers.empty() || winner == nullptr) continue;
+        const Node* before = lower.child(key->name);
+        const bool choice = key->type == Key::Type::Word;
+        if (choice && (before == nullptr || before->string == winner->string)) continue;
+        for (const std::string& loser : wordsOf(key->losers)) {
+            if (loser == "*")
+                lower.children.clear();
+            else
+                lower.drop(loser);
+        }
     }
 }
 

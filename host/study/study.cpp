@@ -8,6 +8,7 @@
 
 #include "host/core/file.h"
 #include "host/model/case_reader.h"
+#include "host/study/study_keys.h"
 
 namespace vkdose {
 
@@ -78,9 +79,9 @@ Node rangeValue(const Node& place, double value, bool whole) {
 }
 
 void readRange(CaseReader& reader, Section& table, const std::string& path, Axis& axis) {
-    const double from = table.number("from", Bound::Any, kPlain);
-    const double to = table.number("to", Bound::Any, kPlain);
-    const std::int64_t steps = table.integer("steps", 2, std::nullopt, std::int64_t(kMostMembers));
+    const double from = table.number("from");
+    const double to = table.number("to");
+    const std::int64_t steps = table.integer("steps");
     const Node* first = table.node("from");
     const Node* last = table.node("to");
     if (axis.keys.size() > 1)
@@ -177,13 +178,13 @@ std::vector<std::string> Study::keys() const {
 }
 
 Study readStudy(const std::filesystem::path& file) {
-    CaseReader reader(file.string(), readTreeAlone(file));
+    CaseReader reader(file.string(), readTreeAlone(file), studyKeys());
     Section& root = reader.root();
     Study study;
     study.file = file;
     study.text = fileContent(file).value_or("");
     study.name = root.string("name", file.stem().string());
-    study.reason = root.string("reason", "");
+    study.reason = root.string("reason");
     study.base = file.parent_path() / root.string("base");
     readSeeds(reader, root, study);
     std::set<std::string> used;
