@@ -92,7 +92,7 @@ struct Slider {
     }
 };
 
-/// The law between two spheres, without torsion (formulas: README, Physics).
+/// The law between two spheres, without torsion (formulas: physics.md).
 struct Law {
     float k1, k2Max, kc, depth, gamma, lever;
     Slider sliding{}, rolling{};

@@ -14,7 +14,7 @@ constexpr double kFallSpeed = 0.1;     // about that of the coil's rim [m/s]
 /// it: sound crosses the bed some ten times.
 constexpr std::uint32_t kReliefSteps = 4000;
 
-/// The paper's parameters (physics: README), friction limited as in cases/paper-48g.toml.
+/// The paper's parameters (physics.md), friction limited as in cases/paper-48g.toml.
 World paperWorld() {
     ContactParameters p;
     const double k = 24067;

@@ -247,7 +247,7 @@ double partingFromNeck(Bench& bench, double ratio, double timeStep) {
 // This is where the error gathers: v, half a step behind, points a little inwards, both contacts take that for sliding,
 // and their springs come to hold the small sphere at the neck. Rolling without slipping, v^2 = 2 g rho/(1 + 2/5
 // (a/b)^2) (cos t0 - cos t), with b from the centre to the line through both contacts; then it slips, and parts where
-// Neck::parting says. Larger ratios: README, "Verification".
+// Neck::parting says. Larger ratios: README.md here, "Errors of the time step".
 void neck(Bench& bench) {
     const std::vector<double> ratios{1, 3, 5};
     const std::vector<Descent> descents = descend(bench, ratios, kStart, 2e-6, 0.05e-3);

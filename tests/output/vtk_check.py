@@ -1,6 +1,6 @@
 """Opens the frames of a run with VTK's own reader and with h5py, as their users do, and looks at a picture of one.
 
-vtk_check.py RUN README PICTURE: the output folder of a run, the README with the lines for h5py, where to leave the picture.
+vtk_check.py RUN PAGE PICTURE: the output folder of a run, the page of the manual with the lines for h5py, where to leave the picture.
 """
 import csv
 import io
