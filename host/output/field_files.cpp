@@ -9,6 +9,7 @@
 #include "host/core/csv_table.h"
 #include "host/core/error.h"
 #include "host/core/file.h"
+#include "host/output/field_row.h"
 #include "host/output/series.h"
 #include "host/output/vtkhdf.h"
 
@@ -17,8 +18,6 @@ namespace vkdose {
 namespace fs = std::filesystem;
 
 namespace {
-
-constexpr const char* kAxes[] = {"x", "y", "z"};
 
 bool isMap(const FieldSensor& s) {
     return s.request.grid.resolvedDirections() > 1;
@@ -30,19 +29,31 @@ bool isProfile(const FieldSensor& s) {
     return s.preset == FieldSensor::Preset::HeightProfile && !isMap(s);
 }
 
+/// Calls `visit` with the columns of the directions that are resolved.
+template <class Visit>
+void forEachPlace(const FieldGrid& grid, const Visit& visit) {
+    int direction = 0;
+    forEachColumn(kPlaceColumns, [&](const auto& c) {
+        if (grid.resolved(direction++)) visit(c);
+    });
+}
+
 /// ",0.001,0.002": the point's coordinates in the directions that are resolved.
 std::string place(const FieldGrid& grid, std::size_t point) {
+    const FieldRow row{grid.point(point), {}, 1};
     std::string text;
-    for (int d = 0; d < 3; ++d)
-        if (grid.resolved(d)) text += fmt::format(",{:.9g}", grid.point(point)[d]);
+    forEachPlace(grid, [&](const auto& c) { text += "," + cellText(c.of(row), c.digits); });
     return text;
 }
 
 std::string placeNames(const FieldGrid& grid) {
     std::string text;
-    for (int d = 0; d < 3; ++d)
-        if (grid.resolved(d)) text += fmt::format(",{}_m", kAxes[d]);
+    forEachPlace(grid, [&](const auto& c) { text += std::string(",") + c.name; });
     return text;
+}
+
+std::string quantityNames(const FieldSensor& s) {
+    return "," + csvHeader(kQuantityColumns) + (s.stress ? "," + csvHeader(kStressColumns) : "");
 }
 
 }  // namespace
@@ -61,31 +72,13 @@ FieldFiles::FieldFiles(const fs::path& run, const Case& c, const std::vector<Csv
         files_.emplace_back(folder_ / (sensors_[k].name + ".csv"), marks[k]);
 }
 
-std::string FieldFiles::quantityNames(const FieldSensor& s) {
-    std::string names = ",density_kg_m3,volume_fraction";
-    for (const char* a : kAxes) names += fmt::format(",momentum_{}_kg_m2_s", a);
-    for (const char* a : kAxes) names += fmt::format(",velocity_{}_m_s", a);
-    if (!s.stress) return names;
-    names += ",coordination,granular_temperature_m2_s2";
-    for (const char* ab : {"xx", "yy", "zz", "yz", "zx", "xy"}) names += fmt::format(",kinetic_stress_{}_Pa", ab);
-    for (const char* a : kAxes)
-        for (const char* b : kAxes) names += fmt::format(",contact_stress_{}{}_Pa", a, b);
-    return names;
-}
-
 std::string FieldFiles::quantities(const FieldSensor& s, const FieldPoint& p) const {
-    const Vec3 v = p.velocity();
-    std::string text = fmt::format(",{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}", p.density,
-                                   p.density / density_, p.momentum.x, p.momentum.y, p.momentum.z, v.x, v.y, v.z);
-    if (!s.stress) return text;
-    text += fmt::format(",{:.9g},{:.9g}", p.coordination(), p.temperature());
-    for (const double k : p.kineticStress) text += fmt::format(",{:.9g}", k);
-    for (const Vec3& row : p.contactStress) text += fmt::format(",{:.9g},{:.9g},{:.9g}", row.x, row.y, row.z);
-    return text;
+    const FieldRow row{Vec3(0), p, density_};
+    return "," + csvRow(kQuantityColumns, row) + (s.stress ? "," + csvRow(kStressColumns, row) : "");
 }
 
 std::string FieldFiles::header(const FieldSensor& s) {
-    const std::string when = "time_s,phase,dose";
+    const std::string when = csvHeader(kFieldWhenColumns);
     if (isMap(s)) return when + ",file";
     if (!isProfile(s)) return when + placeNames(s.request.grid) + quantityNames(s);
     std::string heights = when;
@@ -97,7 +90,7 @@ std::string FieldFiles::header(const FieldSensor& s) {
 void FieldFiles::write(const FieldSample& f) {
     const FieldSensor& s = sensors_[f.field];
     CsvFile& csv = files_[f.field];
-    const std::string when = fmt::format("{:.9g},{},{}", f.time, phaseName(f.phase), f.dose);
+    const std::string when = csvRow(kFieldWhenColumns, f);
     if (isMap(s)) {
         const std::string name = fmt::format("{}_{:06}{}", s.name, f.number, isVolume(s) ? kVolumeExtension : ".csv");
         if (isVolume(s))  // before the line that names it

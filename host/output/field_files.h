@@ -32,7 +32,6 @@ class FieldFiles {
 
   private:
     static std::string header(const FieldSensor& s);
-    static std::string quantityNames(const FieldSensor& s);
     std::string quantities(const FieldSensor& s, const FieldPoint& p) const;
     void writeMap(const FieldSensor& s, const FieldSample& f, const std::string& name) const;
     void writeSeriesOf(const FieldSensor& s) const;

@@ -63,7 +63,7 @@ FrameWriter::FrameWriter(const fs::path& run, const Case& c, std::uint32_t membe
       kinds_(kindsOf(c)),
       member_(member),
       walls_(wallsFile(c)),
-      index_(folder_ / kFramesIndex, kFramesHeader) {}
+      index_(folder_ / kFramesIndex, csvHeader(kFrameColumns)) {}
 
 FrameWriter::FrameWriter(const fs::path& run, const Case& c, std::uint32_t member, const CsvMark& mark)
     : folder_(run / kFramesFolder),
@@ -103,8 +103,8 @@ void FrameWriter::write(const Frame& frame) {
     } catch (const hdf5::Error& e) {
         throw OutputError(fmt::format("cannot make frame {} of {}: {}", number, folder_.string(), e.what()));
     }
-    index_.line(fmt::format("{},{},{},{},{},{}", number, frame.step, frame.time, phaseName(frame.phase), frame.dose,
-                            frame.coilAngle));
+    index_.line(
+        csvRow(kFrameColumns, FrameEntry{number, frame.step, frame.time, frame.phase, frame.dose, frame.coilAngle}));
     index_.flush();
     times_.push_back(frame.time);
 }

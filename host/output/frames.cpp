@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 #include <sstream>
+#include <tuple>
 #include <utility>
 
 #include "host/core/csv_lines.h"
@@ -20,25 +21,15 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::optional<Phase> phaseOf(std::string_view name) {
-    for (const Phase phase : {Phase::Settle, Phase::Rotate, Phase::Rest})
-        if (phaseName(phase) == name) return phase;
-    return std::nullopt;
-}
-
 std::optional<FrameEntry> entryIn(const std::optional<Row>& fields) {
-    if (!fields || fields->size() != 6) return std::nullopt;
-    const auto number = [&](std::size_t at) { return numberIn((*fields)[at]); };
-    const std::optional<Phase> phase = phaseOf((*fields)[3]);
-    for (const std::size_t at : {0, 1, 2, 4, 5})
-        if (!std::isfinite(number(at))) return std::nullopt;
-    if (!phase || number(0) < 0 || number(1) < 0) return std::nullopt;
-    return FrameEntry{static_cast<int>(number(0)),
-                      static_cast<std::uint64_t>(number(1)),
-                      number(2),
-                      *phase,
-                      static_cast<int>(number(4)),
-                      number(5)};
+    if (!fields || fields->size() != std::tuple_size_v<decltype(kFrameColumns)>) return std::nullopt;
+    FrameEntry entry;
+    bool good = true;
+    auto next = fields->begin();
+    readRow(
+        kFrameColumns, entry, [&](const char*) { return *next++; }, [&](const char*) { good = false; });
+    if (!std::isfinite(entry.time) || !std::isfinite(entry.coilAngle)) good = false;
+    return good ? std::optional(entry) : std::nullopt;
 }
 
 std::string content(const fs::path& file) {
@@ -56,7 +47,7 @@ std::string frameFile(const char* kind, int number) {
 std::vector<FrameEntry> framesListed(const std::string& text, const fs::path& file) {
     std::istringstream stream(text);
     CsvLines lines(stream);
-    if (!lines.next() || lines.text() != kFramesHeader)
+    if (!lines.next() || lines.text() != csvHeader(kFrameColumns))
         throw OutputError(fmt::format("{} is no list of frames", file.string()));
     std::vector<FrameEntry> entries;
     while (lines.next() && lines.ended()) {  // a line without its end is still being written

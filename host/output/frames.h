@@ -9,13 +9,13 @@
 #include <string>
 #include <vector>
 
+#include "host/core/columns.h"
 #include "host/sim/frame.h"
 
 namespace vkdose {
 
 inline constexpr const char* kFramesFolder = "frames";
 inline constexpr const char* kFramesIndex = "frames.csv";
-inline constexpr const char* kFramesHeader = "frame,step,time_s,phase,dose,coil_angle_rad";
 inline constexpr const char* kFrameExtension = ".hdf";  ///< the one by which ParaView 5.11 knows VTKHDF files
 inline constexpr const char* kParticlesFrame = "particles";
 inline constexpr const char* kContactsFrame = "contacts";
@@ -34,6 +34,16 @@ struct FrameEntry {
     int dose = 0;
     double coilAngle = 0;  ///< as in Frame [rad]
 };
+
+/// frames.csv.
+inline constexpr auto kFrameColumns = columns(
+    column<&FrameEntry::number>("frame", "1", "Number of the frame, from 0: that in the names of its files."),
+    column<&FrameEntry::step>("step", "1", "Number of time steps made."),
+    column<&FrameEntry::time>("time_s", "s", "Simulated time.", kAllDigits),
+    column<&FrameEntry::phase>("phase", "",
+                               "What the schedule asks for in the time before the frame: settle, rotate or rest."),
+    column<&FrameEntry::dose>("dose", "1", "Number of the dose, from 1; 0 while settling."),
+    column<&FrameEntry::coilAngle>("coil_angle_rad", "rad", "Angle that the coil has turned about +z.", kAllDigits));
 
 /// The frames that the text of a frames.csv lists; a line still being written does not count. Throws OutputError, which
 /// names `file`, if it is something else.

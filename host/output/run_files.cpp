@@ -15,6 +15,7 @@
 #include "host/output/field_files.h"
 #include "host/output/frames.h"
 #include "host/output/series.h"
+#include "host/sim/sample.h"
 
 namespace vkdose {
 
@@ -82,8 +83,8 @@ bool holdsRun(const fs::path& folder) {
     std::error_code code;
     const fs::path file = folder / "timeseries.csv";
     if (!fs::is_regular_file(file, code)) return false;
-    const std::string start = startOf(file, std::string_view(kTimeSeriesStart).size());
-    return start.empty() || start == kTimeSeriesStart;  // empty: killed in its first moment
+    const std::string header = csvHeader(kWhenColumns), start = startOf(file, header.size());
+    return start.empty() || start == header;  // empty: killed in its first moment
 }
 
 std::vector<fs::path> filesOfRun(const fs::path& folder) {

@@ -7,8 +7,6 @@
 
 namespace vkdose {
 
-/// How timeseries.csv begins.
-inline constexpr const char* kTimeSeriesStart = "time_s,phase,dose,coil_angle_rad";
 /// Stands at the head of every report.
 inline constexpr const char* kReportMark = "<meta name=\"generator\" content=\"vkdose\">";
 

@@ -9,6 +9,7 @@
 #include "host/core/error.h"
 #include "host/core/file.h"
 #include "host/core/printable.h"
+#include "host/output/particle_row.h"
 #include "host/output/run_files.h"
 #include "host/output/run_history.h"
 #include "host/output/summary.h"
@@ -18,39 +19,6 @@ namespace vkdose {
 namespace fs = std::filesystem;
 
 namespace {
-
-constexpr const char* kTimeSeriesHeader =  // after kTimeSeriesStart
-    ",dosed_mass_kg,canister_mass_kg,throat_mass_kg,lost_mass_kg,"
-    "dosed_count,canister_count,throat_count,lost_count,kinetic_energy_J,rotational_energy_J,outlet_velocity_m_s,"
-    "coil_torque_Nm,coil_power_W,max_overlap_ratio";
-
-constexpr const char* kEnergyHeader =
-    ",full_step_kinetic_J,full_step_rotational_J,potential_J,elastic_normal_J,elastic_sliding_J,elastic_rolling_J,"
-    "elastic_torsion_J,loaded_J,coil_work_J,left_J,loss_plastic_J,loss_adhesive_J,loss_viscous_J,loss_sliding_J,"
-    "loss_rolling_J,loss_torsion_J,loss_numerical_J,residual_J,momentum_x_kg_m_s,momentum_y_kg_m_s,momentum_z_kg_m_s,"
-    "angular_momentum_x_kg_m2_s,angular_momentum_y_kg_m2_s,angular_momentum_z_kg_m2_s";
-
-constexpr const char* kParticlesHeader =
-    "id,x_m,y_m,z_m,vx_m_s,vy_m_s,vz_m_s,wx_rad_s,wy_rad_s,wz_rad_s,radius_m,status";
-
-std::string energyFields(const EnergyLedger& ledger) {
-    const EnergyBook& b = ledger.sum;
-    std::string fields;
-    for (const double x : {b.kinetic,           b.rotational,
-                           b.potential,         b.elasticNormal,
-                           b.elasticSliding,    b.elasticRolling,
-                           b.elasticTorsion,    b.loaded,
-                           b.coilWork,          b.left,
-                           b.plastic,           b.adhesive,
-                           b.viscous,           b.sliding,
-                           b.rolling,           b.torsion,
-                           b.numerical,         ledger.residual(),
-                           b.momentum.x,        b.momentum.y,
-                           b.momentum.z,        b.angularMomentum.x,
-                           b.angularMomentum.y, b.angularMomentum.z})
-        fields += fmt::format(",{:.9g}", x);
-    return fields;
-}
 
 /// Why a folder that is not empty is not written into.
 std::string occupied(const fs::path& folder) {
@@ -107,13 +75,6 @@ void makeFolder(const fs::path& folder) {
     if (error) throw FolderError(fault);
 }
 
-double mass(const Sensors& s, Region r) {
-    return s.mass[static_cast<std::size_t>(r)];
-}
-std::uint64_t count(const Sensors& s, Region r) {
-    return s.count[static_cast<std::size_t>(r)];
-}
-
 }  // namespace
 
 RunFolder::RunFolder(fs::path folder, bool force, const Case& c, std::string backend, std::uint32_t member)
@@ -125,10 +86,10 @@ RunFolder::RunFolder(fs::path folder, bool force, const Case& c, std::string bac
     const bool hadCase = fileContent(folder_ / "case.toml") == c.resolved;
     try {
         removeRun(folder_, replacedIn(folder_, c));  // a stale summary would lie if this run is killed
-        const std::string energy = c.world.energyBook ? kEnergyHeader : "";
-        timeSeries_.emplace(folder_ / "timeseries.csv", std::string(kTimeSeriesStart) + kTimeSeriesHeader + energy);
+        const std::string energy = c.world.energyBook ? "," + csvHeader(kEnergyColumns) : "";
+        timeSeries_.emplace(folder_ / "timeseries.csv", csvHeader(kSampleColumns) + energy);
         if (!hadCase) replaceFile(folder_ / "case.toml", c.resolved);
-        doses_.emplace(folder_ / "doses.csv", kDosesHeader);
+        doses_.emplace(folder_ / "doses.csv", csvHeader(kDoseColumns));
         if (c.frames.interval > 0) frames_.emplace(folder_, c, member_);
         fields_.emplace(folder_, c);
     } catch (const OutputError&) {
@@ -158,21 +119,12 @@ RunFolder::RunFolder(fs::path folder, FolderLock lock, const Checkpoint& from, c
 }
 
 void RunFolder::onSample(const Sample& s) {
-    const Sensors& v = s.sensors;
-    std::string line = fmt::format(
-        "{:.9g},{},{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{},{},{},{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.6g}", s.time,
-        phaseName(s.phase), s.dose, s.coilAngle, mass(v, Region::Dosed), mass(v, Region::Canister),
-        mass(v, Region::Throat), mass(v, Region::Lost), count(v, Region::Dosed), count(v, Region::Canister),
-        count(v, Region::Throat), count(v, Region::Lost), v.kineticEnergy, v.rotationalEnergy, s.outletVelocity,
-        s.coilTorque, s.coilPower, v.maxOverlapRatio);
-    if (s.energy) line += energyFields(*s.energy);
-    timeSeries_->line(line);
+    timeSeries_->line(csvRow(kSampleColumns, s) + (s.energy ? "," + csvRow(kEnergyColumns, *s.energy) : ""));
     timeSeries_->flush();
 }
 
 void RunFolder::onDose(const Dose& d) {
-    doses_->line(fmt::format("{},{:.9g},{:.9g},{:.9g},{},{:.9g},{:.9g},{}", d.index, d.startTime, d.mass, d.cumulative,
-                             d.particles, d.coilTorque, d.closedForm, d.complete ? 1 : 0));
+    doses_->line(csvRow(kDoseColumns, d));
     doses_->flush();
 }
 
@@ -199,14 +151,10 @@ void RunFolder::finish(const Case& c, const RunResult& result) {
 }
 
 void writeParticles(const fs::path& file, const Particles& p) {
-    CsvFile csv(file, kParticlesHeader);
-    for (std::size_t i = 0; i < p.size(); ++i) {
-        const Vec3& x = p.position[i];
-        const Vec3& v = p.velocity[i];
-        const Vec3& w = p.spin[i];
-        csv.line(fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}", i, x.x, x.y, x.z, v.x, v.y, v.z, w.x, w.y, w.z,
-                             p.radius[i], statusName(p.status[i])));
-    }
+    CsvFile csv(file, csvHeader(kParticleColumns));
+    for (std::size_t i = 0; i < p.size(); ++i)
+        csv.line(csvRow(kParticleColumns,
+                        ParticleRow{i, p.position[i], p.velocity[i], p.spin[i], p.radius[i], p.status[i]}));
     csv.flush();
 }
 
@@ -217,18 +165,6 @@ FolderLock lockRun(const fs::path& folder) {
         throw FolderError(e.what());
     }
     throw FolderError(fmt::format("another vkdose is writing into {}; wait for it or stop it", folder.string()));
-}
-
-std::string statusName(Status status) {
-    switch (status) {
-        case Status::Active:
-            return "active";
-        case Status::Dosed:
-            return "dosed";
-        case Status::Lost:
-            return "lost";
-    }
-    return "unknown";
 }
 
 }  // namespace vkdose

@@ -21,10 +21,6 @@ class FolderError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// The columns of a run's doses.csv.
-inline constexpr const char* kDosesHeader =
-    "dose,start_time_s,mass_kg,cumulative_mass_kg,particles,coil_torque_Nm,closed_form_mass_kg,complete";
-
 class RunFolder : public RunObserver {
   public:
     /// Creates the folder and the files that stream. Throws FolderError if it holds anything and `force` is not set,
@@ -75,8 +71,5 @@ void writeParticles(const std::filesystem::path& file, const Particles& particle
 
 /// Takes the folder of a run for this process. Throws FolderError if another one holds it or it cannot be opened.
 FolderLock lockRun(const std::filesystem::path& folder);
-
-/// "active", "dosed" or "lost".
-std::string statusName(Status status);
 
 }  // namespace vkdose

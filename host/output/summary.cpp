@@ -2,6 +2,9 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <tuple>
+#include <type_traits>
+#include <utility>
 
 #include "host/analysis/figures.h"
 
@@ -44,32 +47,40 @@ Json closedForms(const Derived& d) {
     return j;
 }
 
+/// A value of a row: a number, a word, true or false.
+template <class T>
+Json value(const T& x) {
+    if constexpr (std::is_enum_v<T>)
+        return cellText(x, kAllDigits);
+    else if constexpr (std::is_floating_point_v<T>)
+        return number(x);
+    else
+        return x;
+}
+
+/// The columns of a row as members of an object, by their names.
+template <class... C, class R>
+void putColumns(const std::tuple<C...>& table, const R& row, Json& object) {
+    forEachColumn(table, [&](const auto& c) { object[c.name] = value(c.of(row)); });
+}
+
 Json doseList(const std::vector<Dose>& doses) {
     Json list = Json::array();
-    for (const Dose& d : doses) {
-        Json j;
-        j["dose"] = d.index;
-        j["mass_kg"] = number(d.mass);
-        j["cumulative_mass_kg"] = number(d.cumulative);
-        j["particles"] = d.particles;
-        j["coil_torque_Nm"] = number(d.coilTorque);
-        j["closed_form_mass_kg"] = number(d.closedForm);
-        j["complete"] = d.complete;
-        list.push_back(std::move(j));
-    }
+    for (const Dose& d : doses) putColumns(kDoseColumns, d, list.emplace_back(Json::object()));
     return list;
 }
 
+/// Count and mass of each region in turn.
+template <std::size_t... Region>
+constexpr auto regionColumns(std::index_sequence<Region...>) {
+    return std::tuple_cat(columns(std::get<Region>(kCountColumns), std::get<Region>(kMassColumns))...);
+}
+
 Json ledger(const RunResult& r) {
-    const Sensors& s = r.last.sensors;
     Json j;
     j["filled_count"] = r.ledger.filledCount();
     j["filled_mass_kg"] = number(r.ledger.filledMass());
-    const char* names[kRegions] = {"canister", "throat", "dosed", "lost"};
-    for (std::size_t i = 0; i < kRegions; ++i) {
-        j[std::string(names[i]) + "_count"] = s.count[i];
-        j[std::string(names[i]) + "_mass_kg"] = number(s.mass[i]);
-    }
+    putColumns(regionColumns(std::make_index_sequence<kRegions>()), r.last.sensors, j);
     j["worst_relative_mass_error"] = number(r.ledger.worstMassError());
     j["closings"] = r.ledger.closings();
     return j;
@@ -118,22 +129,14 @@ Json arches(const std::vector<DoseArch>& list) {
 }
 
 Json energy(const EnergyLedger& ledger) {
-    const EnergyBook& b = ledger.sum;
     Json j;
-    j["loaded_J"] = number(b.loaded);
-    j["coil_work_J"] = number(b.coilWork);
-    j["left_J"] = number(b.left);
+    putColumns(kLoadedColumns, ledger.sum, j);
+    putColumns(kOutsideColumns, ledger.sum, j);
     j["present_J"] = number(ledger.present());
     j["elastic_J"] = number(ledger.elastic());
-    j["loss_plastic_J"] = number(b.plastic);
-    j["loss_adhesive_J"] = number(b.adhesive);
-    j["loss_viscous_J"] = number(b.viscous);
-    j["loss_sliding_J"] = number(b.sliding);
-    j["loss_rolling_J"] = number(b.rolling);
-    j["loss_torsion_J"] = number(b.torsion);
-    j["loss_numerical_J"] = number(b.numerical);
-    j["residual_J"] = number(ledger.residual());
-    j["residual_of_coil_work"] = number(ledger.residual() / b.coilWork);
+    putColumns(kLossColumns, ledger.sum, j);
+    putColumns(kResidualColumns, ledger, j);
+    j["residual_of_coil_work"] = number(ledger.residual() / ledger.sum.coilWork);
     return j;
 }
 

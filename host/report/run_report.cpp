@@ -14,6 +14,7 @@
 #include "host/core/error.h"
 #include "host/core/file.h"
 #include "host/model/case.h"
+#include "host/output/dose_table.h"
 #include "host/report/fields_report.h"
 #include "host/report/player_data.h"
 #include "host/report/run_figures.h"
@@ -31,23 +32,6 @@ std::string readText(const fs::path& file) {
     const std::optional<std::string> text = fileContent(file);
     if (!text) throw CaseError({{file.string(), 0, "", "", readFault(file), "give the output folder of a run"}});
     return *text;
-}
-
-std::vector<Dose> readDoses(const Table& table) {
-    std::vector<Dose> doses;
-    for (std::size_t i = 0; i < table.rows(); ++i) {
-        Dose d;
-        d.index = static_cast<int>(table.number(i, "dose"));
-        d.startTime = table.number(i, "start_time_s");
-        d.mass = table.number(i, "mass_kg");
-        d.cumulative = table.number(i, "cumulative_mass_kg");
-        d.particles = static_cast<std::uint64_t>(table.number(i, "particles"));
-        d.coilTorque = table.number(i, "coil_torque_Nm");
-        d.closedForm = table.number(i, "closed_form_mass_kg");
-        d.complete = table.number(i, "complete") != 0;
-        doses.push_back(d);
-    }
-    return doses;
 }
 
 /// Values in groups of `size`: the mean of those that are numbers, or the last.
@@ -156,7 +140,7 @@ Json runJson(const fs::path& folder, const std::optional<fs::path>& experiment, 
     const Case c = loadResolvedCase(readText(folder / "case.toml"), folder / "case.toml");
     const Table series = Table::read(folder / "timeseries.csv");
     const Table doseTable = Table::read(folder / "doses.csv");
-    RunSources sources{c, series, readDoses(doseTable), readSummary(folder, series), {}};
+    RunSources sources{c, series, dosesOf(doseTable), readSummary(folder, series), {}};
     if (sources.summary.is_object() && fs::exists(folder / "particles.csv"))
         sources.particles = readEndState(folder / "particles.csv");
 

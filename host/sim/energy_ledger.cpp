@@ -5,14 +5,11 @@ namespace vkdose {
 void EnergyLedger::add(const EnergyBook& call) {
     const EnergyBook before = sum;
     sum = call;
-    for (double EnergyBook::*flow :
-         {&EnergyBook::plastic, &EnergyBook::adhesive, &EnergyBook::viscous, &EnergyBook::sliding, &EnergyBook::rolling,
-          &EnergyBook::torsion, &EnergyBook::numerical, &EnergyBook::coilWork, &EnergyBook::left, &EnergyBook::loaded})
-        sum.*flow += before.*flow;
+    forEachColumn(kFlowColumns, [&](const auto& c) { c.of(sum) += c.of(before); });
 }
 
 double EnergyLedger::elastic() const {
-    return sum.elasticNormal + sum.elasticSliding + sum.elasticRolling + sum.elasticTorsion;
+    return sumOf(kElasticColumns, sum);
 }
 
 double EnergyLedger::present() const {
@@ -20,7 +17,7 @@ double EnergyLedger::present() const {
 }
 
 double EnergyLedger::losses() const {
-    return sum.plastic + sum.adhesive + sum.viscous + sum.sliding + sum.rolling + sum.torsion + sum.numerical;
+    return sumOf(kLossColumns, sum);
 }
 
 double EnergyLedger::residual() const {

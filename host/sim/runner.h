@@ -9,48 +9,15 @@
 #include "host/backend/backend.h"
 #include "host/core/record.h"
 #include "host/model/case.h"
-#include "host/sim/energy_ledger.h"
+#include "host/sim/dose.h"
 #include "host/sim/field_watch.h"
 #include "host/sim/frame.h"
 #include "host/sim/ledger.h"
+#include "host/sim/sample.h"
 #include "host/sim/stop_rule.h"
 #include "host/sim/timeline.h"
 
 namespace vkdose {
-
-/// One line of the time series, at a multiple of the sensor interval or at the end of a phase. Torque and power are
-/// means, the overlap is the largest since the sample before; everything else is the value at `time`.
-struct Sample {
-    std::uint64_t step = 0;
-    double time = 0;  ///< [s]
-    Phase phase = Phase::Settle;
-    int dose = 0;                        ///< 0 while settling
-    double coilAngle = 0;                ///< turned since the start, positive when conveying [rad]
-    Sensors sensors;                     ///< coilTorque: about +z, on the coil, mean since the last sample [N m]
-    double outletVelocity = 0;           ///< mean v_z of the mass in the throat [m/s]; NaN while it is empty
-    double coilTorque = 0;               ///< the drive's: positive when the powder resists conveying [N m]
-    double coilPower = 0;                ///< drive torque times speed [W]
-    std::optional<EnergyLedger> energy;  ///< if the case asks for it
-};
-
-struct Dose {
-    int index = 0;         ///< 1 for the first
-    double startTime = 0;  ///< [s]
-    double mass = 0;       ///< dosed from the start of its rotation to the end of its rest [kg]
-    std::uint64_t particles = 0;
-    double cumulative = 0;  ///< dosed since the start of the run [kg]
-    double coilTorque = 0;  ///< drive torque, mean over its rotation [N m]
-    double closedForm = 0;  ///< rho_b p pi r_c^2 n_t [kg]; 0 without a coil
-    bool complete = false;  ///< false if the run ended within it: then it is in no statistics
-};
-
-struct DoseStatistics {
-    int doses = 0;         ///< complete ones
-    double mean = 0;       ///< [kg]
-    double deviation = 0;  ///< sample standard deviation (n - 1) [kg]; 0 for fewer than two doses
-    double relative = 0;   ///< deviation / mean [-]; 0 if nothing was dosed
-};
-DoseStatistics statistics(const std::vector<Dose>& doses);
 
 /// How far a run is; for the progress bar.
 struct Progress {

@@ -28,18 +28,6 @@ std::uint64_t wholeSteps(const char* key, double duration, double timeStep) {
 
 }  // namespace
 
-std::string_view phaseName(Phase phase) {
-    switch (phase) {
-        case Phase::Settle:
-            return "settle";
-        case Phase::Rotate:
-            return "rotate";
-        case Phase::Rest:
-            return "rest";
-    }
-    return "?";
-}
-
 Timeline::Timeline(const Case& c) : timeStep_(c.world.timeStep) {
     if (!(timeStep_ > 0)) refuse("time_step", timeStep_, "is not positive", "give a time step > 0 in seconds");
     if (!(c.sensorInterval > 0)) refuse("sensor_interval", c.sensorInterval, "is not positive", "give a time > 0");

@@ -1,16 +1,24 @@
 #pragma once
 // The schedule of a case in whole steps: settle, then doses of rotating and resting, one after the other.
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <string_view>
 
+#include "host/core/columns.h"
 #include "host/model/case.h"
 
 namespace vkdose {
 
 enum class Phase { Settle, Rotate, Rest };
-std::string_view phaseName(Phase phase);
+template <>
+struct Words<Phase> {
+    static constexpr std::array<const char*, 3> names{"settle", "rotate", "rest"};
+};
+inline std::string_view phaseName(Phase phase) {
+    return Words<Phase>::names.at(std::size_t(phase));
+}
 
 class Timeline {
   public:

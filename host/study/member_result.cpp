@@ -5,12 +5,11 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
-#include <map>
 #include <nlohmann/json.hpp>
 
 #include "host/core/file.h"
 #include "host/output/checkpoint.h"
-#include "host/output/run_folder.h"
+#include "host/sim/dose.h"
 
 namespace vkdose {
 
@@ -35,21 +34,20 @@ std::string field(const Json& summary, const char* pointer) {
     return value.is_number() ? value.dump() : "";
 }
 
-/// Complete doses only: one that was cut short is in no statistics.
-struct Doses {
-    std::vector<double> cumulative;  ///< [kg]
-    double torque = 0;               ///< mean [N m]
-};
-
-Doses completeDoses(const Table& table) {
-    Doses doses;
-    for (std::size_t i = 0; i < table.rows(); ++i) {
-        if (table.text(i, "complete") != "1") continue;
-        doses.cumulative.push_back(numberIn(table.text(i, "cumulative_mass_kg")));
-        doses.torque += numberIn(table.text(i, "coil_torque_Nm"));
+/// Mean torque of the drive over the complete doses [N m]: one that was cut short is in no statistics. Empty if there
+/// is none.
+std::string meanTorque(const Table& doses) {
+    double sum = 0;
+    int count = 0;
+    for (std::size_t i = 0; i < doses.rows(); ++i) {
+        Dose dose;
+        readRow(
+            kDoseColumns, dose, [&](const char* name) { return doses.text(i, name); }, [](const char*) {});
+        if (!dose.complete) continue;
+        sum += dose.coilTorque;
+        ++count;
     }
-    if (!doses.cumulative.empty()) doses.torque /= double(doses.cumulative.size());
-    return doses;
+    return count > 0 ? cellText(sum / count, 9) : "";
 }
 
 std::string errorText(const MemberEnd& end, const Json& summary) {
@@ -62,26 +60,57 @@ std::string errorText(const MemberEnd& end, const Json& summary) {
 
 }  // namespace
 
-const Row kOutputColumns{"status",
-                         "error",
-                         "stop_reason",
-                         "particles",
-                         "filled_mass_kg",
-                         "doses",
-                         "dosed_mass_kg",
-                         "mean_dose_kg",
-                         "sd_dose_kg",
-                         "rsd",
-                         "beta_kg_per_dose",
-                         "beta_standard_error_kg_per_dose",
-                         "beta_doses",
-                         "closed_form_kg_per_dose",
-                         "doses_to_99_percent",
-                         "coil_torque_Nm",
-                         "blocked_at_dose",
-                         "simulated_time_s",
-                         "particle_steps",
-                         "wall_time_s"};
+struct MemberRemains {
+    MemberStatus status;
+    std::string error;
+    Table doses;
+};
+
+namespace {
+
+constexpr MemberColumn kColumns[] = {
+    {"status", "", "ok, failed or interrupted.", nullptr, [](const MemberRemains& m) { return statusText(m.status); }},
+    {"error", "", "What went wrong; empty if nothing did.", nullptr, [](const MemberRemains& m) { return m.error; }},
+    {"stop_reason", "", "Why the run ended, as in summary.json.", "/stop_reason"},
+    {"particles", "1", "Number of particles that were filled in.", "/inputs/particles"},
+    {"filled_mass_kg", "kg", "Mass that was filled in.", "/inputs/filled_mass_kg"},
+    {"doses", "1", "Number of complete doses.", "/dose_statistics/complete_doses"},
+    {"dosed_mass_kg", "kg", "All the mass that came out.", "/ledger/dosed_mass_kg"},
+    {"mean_dose_kg", "kg", "Mean mass of the complete doses.", "/dose_statistics/mean_kg"},
+    {"sd_dose_kg", "kg", "Standard deviation of the mass of the complete doses.",
+     "/dose_statistics/standard_deviation_kg"},
+    {"rsd", "1", "Standard deviation over mean of the mass of the complete doses.", "/dose_statistics/rsd"},
+    {"beta_kg_per_dose", "kg", "Mass per dose: the slope of the cumulative mass over the number of the dose.",
+     "/analysis/beta_kg_per_dose"},
+    {"beta_standard_error_kg_per_dose", "kg", "Standard error of this slope.",
+     "/analysis/beta_standard_error_kg_per_dose"},
+    {"beta_doses", "1", "Number of doses that the slope was taken from.", "/analysis/beta_doses"},
+    {"closed_form_kg_per_dose", "kg",
+     "Mass per dose by the closed form: bulk density times the volume that the coil sweeps.",
+     "/closed_form/mass_per_dose_kg"},
+    {"doses_to_99_percent", "1",
+     "Number of doses until 99 % of the filled mass was out; empty if it did not come to "
+     "that.",
+     "/analysis/doses_to_99_percent"},
+    {"coil_torque_Nm", "N m", "Torque of the drive, mean over the complete doses.", nullptr,
+     [](const MemberRemains& m) { return meanTorque(m.doses); }},
+    {"blocked_at_dose", "1", "Number of the dose at which the canister blocked; empty if it did not.",
+     "/analysis/blocked_at_dose"},
+    {"simulated_time_s", "s", "Simulated time at the end of the run.", "/simulated_time_s"},
+    {"particle_steps", "1", "Moving particles times time steps, summed over the run.", "/particle_steps"},
+    {"wall_time_s", "s", "Wall time spent on time steps.", "/stepping_wall_time_s"},
+};
+
+Row namesOf(std::span<const MemberColumn> columns) {
+    Row names;
+    for (const MemberColumn& c : columns) names.emplace_back(c.name);
+    return names;
+}
+
+}  // namespace
+
+const std::span<const MemberColumn> kMemberColumns = kColumns;
+const Row kOutputColumns = namesOf(kColumns);
 
 std::string statusText(MemberStatus status) {
     switch (status) {
@@ -108,36 +137,15 @@ MemberResult readResult(const fs::path& folder, const MemberEnd& end) {
     } else {
         result.status = MemberStatus::Ok;
     }
-    const Doses doses = completeDoses(table);
-    std::map<std::string, std::string> out{
-        {"status", statusText(result.status)},
-        {"error", result.error},
-        {"stop_reason", field(summary, "/stop_reason")},
-        {"particles", field(summary, "/inputs/particles")},
-        {"filled_mass_kg", field(summary, "/inputs/filled_mass_kg")},
-        {"doses", field(summary, "/dose_statistics/complete_doses")},
-        {"dosed_mass_kg", field(summary, "/ledger/dosed_mass_kg")},
-        {"mean_dose_kg", field(summary, "/dose_statistics/mean_kg")},
-        {"sd_dose_kg", field(summary, "/dose_statistics/standard_deviation_kg")},
-        {"rsd", field(summary, "/dose_statistics/rsd")},
-        {"beta_kg_per_dose", field(summary, "/analysis/beta_kg_per_dose")},
-        {"beta_standard_error_kg_per_dose", field(summary, "/analysis/beta_standard_error_kg_per_dose")},
-        {"beta_doses", field(summary, "/analysis/beta_doses")},
-        {"doses_to_99_percent", field(summary, "/analysis/doses_to_99_percent")},
-        {"blocked_at_dose", field(summary, "/analysis/blocked_at_dose")},
-        {"closed_form_kg_per_dose", field(summary, "/closed_form/mass_per_dose_kg")},
-        {"simulated_time_s", field(summary, "/simulated_time_s")},
-        {"particle_steps", field(summary, "/particle_steps")},
-        {"wall_time_s", field(summary, "/stepping_wall_time_s")},
-    };
-    if (!doses.cumulative.empty()) out["coil_torque_Nm"] = fmt::format("{:.9g}", doses.torque);
-    for (const std::string& column : kOutputColumns) result.outputs.push_back(out[column]);
+    const MemberRemains remains{result.status, result.error, table};
+    for (const MemberColumn& c : kMemberColumns)
+        result.outputs.push_back(c.inSummary != nullptr ? field(summary, c.inSummary) : c.own(remains));
     return result;
 }
 
 Table dosesIn(const fs::path& folder) {
     Table table = Table::salvage(folder / "doses.csv");
-    return table.names() == *csvFields(kDosesHeader) ? table : Table();
+    return table.names() == columnNames(kDoseColumns) ? table : Table();
 }
 
 bool isOver(const fs::path& folder) {

@@ -2,6 +2,7 @@
 // What became of a member, from the output folder of its run.
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -25,7 +26,20 @@ struct MemberResult {
     std::vector<Row> doses;  ///< rows of the run's doses.csv
 };
 
-/// The columns of members.csv behind member, seed and the keys of the axes.
+/// What a member's run has left, from which its row in members.csv is made.
+struct MemberRemains;
+
+/// A column of members.csv behind member, seed and the keys of the axes.
+struct MemberColumn {
+    const char* name;
+    const char* unit;  ///< as in ColumnText
+    const char* meaning;
+    const char* inSummary;  ///< where its value stands in summary.json, "/a/b"; or null, and
+    std::string (*own)(const MemberRemains&) = nullptr;  ///< what gives it
+};
+extern const std::span<const MemberColumn> kMemberColumns;
+
+/// Their names.
 extern const Row kOutputColumns;
 
 /// "ok", "failed", "interrupted".

@@ -12,6 +12,7 @@
 #include "host/model/case.h"
 #include "host/output/checkpoint.h"
 #include "host/output/run_folder.h"
+#include "host/sim/dose.h"
 
 namespace vkdose {
 
@@ -148,7 +149,7 @@ void SweepFolder::read(const Row& keys) {
     members_ = Table::salvage(folder_ / "members.csv");
     doses_ = Table::salvage(folder_ / "doses.csv");
     const Row membersHeader = joined(joined({"member", "seed"}, keys), kOutputColumns);
-    const Row dosesHeader = joined(joined({"member", "seed"}, keys), *csvFields(kDosesHeader));
+    const Row dosesHeader = joined(joined({"member", "seed"}, keys), columnNames(kDoseColumns));
     for (const auto& [name, table, header] :
          {std::tuple("members.csv", &members_, &membersHeader), std::tuple("doses.csv", &doses_, &dosesHeader)})
         if (!table->names().empty() && table->names() != *header)

@@ -275,7 +275,7 @@ TEST_CASE("a list of frames with a line of any length is told with its place, an
     const Sandbox box;
     fs::create_directories(box / "run/frames");
     const fs::path list = box / "run/frames/frames.csv";
-    box.write("run/frames/frames.csv", std::string(kFramesHeader) + "\n" + std::string(10000, 'x') + "\n");
+    box.write("run/frames/frames.csv", csvHeader(kFrameColumns) + "\n" + std::string(10000, 'x') + "\n");
     try {
         (void)Frames(box / "run").entries();
         FAIL("it was taken");

@@ -46,7 +46,7 @@ class MadeUpRuns : public MemberRunner {
         const auto code = codes.find(task.number);
         MemberEnd end{task.number, interrupted ? 130 : code == codes.end() ? 0 : code->second, ""};
         if (end.code == 3) end.said = "particle 7, \"lost\"";
-        std::ofstream(task.folder / "doses.csv") << kDosesHeader << "\n1,0.1,0.002,0.002,3,0.5,0.0021,1\n"
+        std::ofstream(task.folder / "doses.csv") << csvHeader(kDoseColumns) << "\n1,0.1,0.002,0.002,3,0.5,0.0021,1\n"
                                                  << "2,0.2,0.001,0.003,1,0.7,0.0021,0\n";
         if (end.code == 0)
             std::ofstream(task.folder / "summary.json")

@@ -1,0 +1,222 @@
+#pragma once
+// Tables of columns. A type whose values are rows of a file has one constexpr table: for every column its name, its
+// unit, its meaning and the member it shows. Header, CSV row, JSON, checkpoint record, reader and manual walk that
+// table, so that a new column is one line in it.
+//
+//   inline constexpr auto kDoseColumns = columns(column<&Dose::index>("dose", "1", "Number of the dose, from 1."),
+//   ...);
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <type_traits>
+#include <vector>
+
+#include "host/core/csv_lines.h"
+
+namespace vkdose {
+
+/// A column as people are told of it.
+struct ColumnText {
+    std::string name;
+    std::string unit;  ///< "s", "kg"; "1" for a number without a unit, "" for a word
+    std::string meaning;
+};
+
+/// An enumeration that stands in tables as a word: a specialisation gives `names`, in the order of its values.
+template <class E>
+struct Words;
+
+inline constexpr int kAllDigits = 0;  ///< as many as it takes to read the same number back
+
+/// Goes from a row to what a column shows: each step is a member, a member function or the index of an element.
+template <auto Step, auto... Rest, class R>
+constexpr decltype(auto) follow(R&& row) {
+    using S = decltype(Step);
+    const auto next = [](auto&& part) -> decltype(auto) {
+        if constexpr (std::is_member_function_pointer_v<S>)
+            return (part.*Step)();
+        else if constexpr (std::is_member_object_pointer_v<S>)
+            return (part.*Step);
+        else
+            return (part[Step]);
+    };
+    if constexpr (sizeof...(Rest) == 0) {
+        return next(row);
+    } else if constexpr (std::is_lvalue_reference_v<decltype(next(row))>) {
+        return follow<Rest...>(next(row));
+    } else {  // part of a value that a function returned: by value
+        const auto value = next(row);
+        return std::decay_t<decltype(follow<Rest...>(value))>(follow<Rest...>(value));
+    }
+}
+
+template <auto... Path>
+struct Column {
+    const char* name;
+    const char* unit;     ///< as in ColumnText
+    const char* meaning;  ///< one sentence
+    int digits = 9;       ///< significant ones of a number that is not whole, or kAllDigits
+
+    /// Computed from other members: written, but neither stored nor read.
+    static constexpr bool kComputed = (std::is_member_function_pointer_v<decltype(Path)> || ...);
+
+    template <class R>
+    static constexpr decltype(auto) of(R& row) {
+        return follow<Path...>(row);
+    }
+};
+
+/// The column of a member: column<&Sample::sensors, &Sensors::mass, 2>(name, unit, meaning).
+template <auto... Path>
+constexpr Column<Path...> column(const char* name, const char* unit, const char* meaning, int digits = 9) {
+    return {name, unit, meaning, digits};
+}
+
+template <class... C>
+constexpr std::tuple<C...> columns(C... list) {
+    return std::tuple<C...>(list...);
+}
+
+/// The columns of a type as those of one that holds it as its member `Member`.
+template <auto Member, auto... Path>
+constexpr Column<Member, Path...> within(const Column<Path...>& c) {
+    return {c.name, c.unit, c.meaning, c.digits};
+}
+template <auto Member, class... C>
+constexpr auto within(const std::tuple<C...>& table) {
+    return std::apply([](const auto&... c) { return columns(within<Member>(c)...); }, table);
+}
+
+/// These columns of a table, in this order.
+template <std::size_t... At, class... C>
+constexpr auto picked(const std::tuple<C...>& table) {
+    return columns(std::get<At>(table)...);
+}
+
+template <class... C, class Visit>
+constexpr void forEachColumn(const std::tuple<C...>& table, Visit visit) {
+    std::apply([&](const auto&... c) { (visit(c), ...); }, table);
+}
+
+template <class... C>
+std::vector<ColumnText> columnTexts(const std::tuple<C...>& table) {
+    std::vector<ColumnText> texts;
+    forEachColumn(table, [&](const auto& c) { texts.push_back({c.name, c.unit, c.meaning}); });
+    return texts;
+}
+
+template <class... C>
+Row columnNames(const std::tuple<C...>& table) {
+    Row names;
+    forEachColumn(table, [&](const auto& c) { names.emplace_back(c.name); });
+    return names;
+}
+
+/// "time_s,phase,dose"
+template <class... C>
+std::string csvHeader(const std::tuple<C...>& table) {
+    return csvLine(columnNames(table));
+}
+
+/// A value as it stands in a table.
+template <class T>
+std::string cellText(const T& value, int digits) {
+    if constexpr (std::is_enum_v<T>)
+        return Words<T>::names.at(std::size_t(value));
+    else if constexpr (std::is_same_v<T, bool>)
+        return value ? "1" : "0";
+    else if constexpr (std::is_floating_point_v<T>)
+        return digits == kAllDigits ? fmt::format("{}", value) : fmt::format("{:.{}g}", value, digits);
+    else
+        return fmt::format("{}", value);
+}
+
+/// "0.25,rest,3"
+template <class... C, class R>
+std::string csvRow(const std::tuple<C...>& table, const R& row) {
+    std::string line;
+    forEachColumn(table, [&](const auto& c) { line += "," + cellText(c.of(row), c.digits); });
+    return line.substr(1);
+}
+
+/// Sets a value from the text in a table; false if that is none of its kind (a number is then NaN or 0).
+template <class T>
+bool readCell(const std::string& text, T& value) {
+    if constexpr (std::is_enum_v<T>) {
+        const auto& names = Words<T>::names;
+        for (std::size_t i = 0; i < names.size(); ++i) {
+            if (names[i] != text) continue;
+            value = T(i);
+            return true;
+        }
+        return false;
+    } else {
+        const double number = numberIn(text);
+        const bool whole = std::isfinite(number) && number >= 0;
+        if constexpr (std::is_same_v<T, bool>)
+            value = whole && number != 0;
+        else if constexpr (std::is_floating_point_v<T>)
+            value = number;
+        else
+            value = whole ? T(number) : T(0);
+        return std::is_floating_point_v<T> ? !std::isnan(number) : whole;
+    }
+}
+
+/// Sets a row from its texts, which `text(name)` gives; those of a wrong kind are told to `wrong(name)`.
+template <class... C, class R, class Text, class Wrong>
+void readRow(const std::tuple<C...>& table, R& row, const Text& text, const Wrong& wrong) {
+    forEachColumn(table, [&](const auto& c) {
+        if constexpr (!std::decay_t<decltype(c)>::kComputed)
+            if (!readCell(text(c.name), c.of(row))) wrong(c.name);
+    });
+}
+
+/// A row as numbers to store: whole ones, words and truths in one list, the others in another, in the table's order.
+struct StoredRow {
+    std::vector<std::uint64_t> counts;
+    std::vector<double> figures;
+};
+
+template <class... C, class R>
+void store(const std::tuple<C...>& table, const R& row, StoredRow& into) {
+    forEachColumn(table, [&](const auto& c) {
+        if constexpr (!std::decay_t<decltype(c)>::kComputed) {
+            if constexpr (std::is_floating_point_v<std::decay_t<decltype(c.of(row))>>)
+                into.figures.push_back(c.of(row));
+            else
+                into.counts.push_back(static_cast<std::uint64_t>(c.of(row)));
+        }
+    });
+}
+
+/// How many of each a row has.
+template <class R, class... C>
+StoredRow storedShape(const std::tuple<C...>& table) {
+    StoredRow shape;
+    store(table, R{}, shape);
+    return shape;
+}
+
+/// The row that was stored from these places on, which are moved behind it.
+template <class... C, class R>
+void load(const std::tuple<C...>& table, R& row, const std::uint64_t*& counts, const double*& figures) {
+    forEachColumn(table, [&](const auto& c) {
+        if constexpr (!std::decay_t<decltype(c)>::kComputed) {
+            auto& value = c.of(row);
+            using T = std::decay_t<decltype(value)>;
+            if constexpr (std::is_floating_point_v<T>)
+                value = *figures++;
+            else
+                value = static_cast<T>(*counts++);
+        }
+    });
+}
+
+}  // namespace vkdose

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <vector>
+
+#include "host/core/csv_table.h"
+#include "host/sim/dose.h"
+
+namespace vkdose {
+
+/// The doses in a table with the columns of doses.csv. Throws CaseError, which names the place, if a column is missing
+/// or a field is of the wrong kind.
+std::vector<Dose> dosesOf(const Table& table);
+
+}  // namespace vkdose

@@ -1,0 +1,37 @@
+#include "host/output/run_tables.h"
+
+#include <tuple>
+
+#include "host/output/field_row.h"
+#include "host/output/frames.h"
+#include "host/output/particle_row.h"
+#include "host/sim/dose.h"
+#include "host/sim/sample.h"
+
+namespace vkdose {
+
+std::vector<OutputTable> runTables() {
+    const auto when = columnTexts(kFieldWhenColumns);
+    std::vector<ColumnText> heights = when, maps = when;
+    heights.push_back({"height_m_at_z_Z_m", "m",
+                       "Height of the powder at z = Z; a column for each point of the grid along z, named by its z."});
+    maps.push_back({"file", "", "Name of the file that holds the map, in the same folder."});
+    return {
+        {"timeseries.csv", "A line for every sensor interval and for the end of every phase.",
+         columnTexts(kSampleColumns)},
+        {"timeseries.csv, with sensors.energy", "These columns follow in the same line.", columnTexts(kEnergyColumns)},
+        {"doses.csv", "A line for every dose.", columnTexts(kDoseColumns)},
+        {"particles.csv", "A line for every particle, at the end of the run.", columnTexts(kParticleColumns)},
+        {"frames/frames.csv", "A line for every frame.", columnTexts(kFrameColumns)},
+        {"fields/NAME.csv", "Of a field in one direction or none: a line for every point of the grid at every time.",
+         columnTexts(std::tuple_cat(kFieldWhenColumns, kPlaceColumns, kQuantityColumns))},
+        {"fields/NAME.csv, with stress", "These columns follow in the same line.", columnTexts(kStressColumns)},
+        {"fields/NAME.csv, of a height profile", "A line for every time.", heights},
+        {"fields/NAME.csv, of a map", "Of a field in two or three directions: a line for every map.", maps},
+        {"fields/NAME_000000.csv", "A map in two directions: a line for every point of the grid.",
+         columnTexts(std::tuple_cat(kPlaceColumns, kQuantityColumns))},
+        {"fields/NAME_000000.csv, with stress", "These columns follow in the same line.", columnTexts(kStressColumns)},
+    };
+}
+
+}  // namespace vkdose

@@ -1,0 +1,22 @@
+#include "host/study/output_tables.h"
+
+#include "host/sim/dose.h"
+#include "host/study/member_result.h"
+
+namespace vkdose {
+
+std::vector<OutputTable> outputTables() {
+    std::vector<ColumnText> members{
+        {"member", "1", "Number of the member, from 0."},
+        {"seed", "1", "Seed of the member's case."},
+        {"KEY", "", "Value of the key in the member's case; a column for each key of the study, named by it."}};
+    std::vector<ColumnText> doses = members;
+    for (const MemberColumn& c : kMemberColumns) members.push_back({c.name, c.unit, c.meaning});
+    for (const ColumnText& c : columnTexts(kDoseColumns)) doses.push_back(c);
+    std::vector<OutputTable> tables = runTables();
+    tables.push_back({"members.csv, of a sweep", "A line for every member that has ended.", members});
+    tables.push_back({"doses.csv, of a sweep", "A line for every dose of every member that has ended.", doses});
+    return tables;
+}
+
+}  // namespace vkdose
