@@ -13,7 +13,6 @@
 #include "host/app/commands.h"
 #include "host/app/exit_code.h"
 #include "host/app/manual.h"
-#include "host/core/printable.h"
 
 namespace vkdose {
 
@@ -36,7 +35,7 @@ void addDevice(CLI::App& command, BackendChoice& backend) {
 }
 
 void addBackend(CLI::App& command, BackendChoice& backend) {
-    command.add_option("--backend", backend.backend, "what computes the steps")
+    command.add_option("--backend", backend.backend, "the backend that computes the steps")
         ->type_name("NAME")
         ->check(CLI::IsMember({"vulkan", "reference"}))
         ->capture_default_str();
@@ -298,15 +297,18 @@ void addRender(CLI::App& program, RenderOptions& options) {
     addDevice(command, options.backend);
 }
 
-/// The commands that print what the manual's pages take from the program.
+/// The commands that print parts of the manual.
 struct ManualOptions {
     bool study = false;
+    bool sweep = false;
     bool brief = false;
 };
 
 void addManual(CLI::App& program, ManualOptions& options) {
     CLI::App& keys = *program.add_subcommand("keys", "list every key of a case file: unit, default, bounds, meaning");
     keys.add_flag("--study", options.study, "list the keys of a study file instead");
+    CLI::App& columns = *program.add_subcommand("columns", "list every column of the files that a run leaves");
+    columns.add_flag("--sweep", options.sweep, "list the columns of a sweep's tables instead");
     CLI::App& all = *program.add_subcommand("options", "list every command with its options");
     all.add_flag("--brief", options.brief, "list the commands alone, a line each");
 }
@@ -332,6 +334,7 @@ int printed(const std::string& page) {
 int commandLine(int argc, const char* const* argv) {
     std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files becomes an error of the write that meets it
     CLI::App program("Simulates the dosing of cohesive powder by a turning coil (discrete element method).", "vkdose");
+    program.set_version_flag("--version", "vkdose " VKDOSE_VERSION);
     program.require_subcommand(1);
     RunOptions run;
     ResumeOptions resume;
@@ -369,7 +372,7 @@ int commandLine(int argc, const char* const* argv) {
     } catch (const CLI::ParseError& e) {
         // --help is a ParseError too, with code 0 and its text on stdout.
         if (e.get_exit_code() == 0) return program.exit(e);
-        fmt::print(stderr, "vkdose: {}\nRun `vkdose --help` or `vkdose COMMAND --help`.\n", printableLines(e.what()));
+        fmt::print(stderr, "{}", usageFault(program, e.what(), argc > 1 ? argv[1] : ""));
         return kBadInput;
     }
     if (program.got_subcommand("run")) return guarded([&] { return runCommand(run); });
@@ -385,6 +388,7 @@ int commandLine(int argc, const char* const* argv) {
     if (program.got_subcommand("profile")) return guarded([&] { return profileCommand(profile); });
     if (program.got_subcommand("render")) return guarded([&] { return renderCommand(render); });
     if (program.got_subcommand("keys")) return guarded([&] { return printed(keysPage(manual.study)); });
+    if (program.got_subcommand("columns")) return guarded([&] { return printed(columnsPage(manual.sweep)); });
     if (program.got_subcommand("options")) return guarded([&] { return printed(optionsPage(program, manual.brief)); });
     return guarded([] { return devicesCommand(); });
 }

@@ -3,10 +3,14 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cctype>
 #include <vector>
 
+#include "host/core/printable.h"
 #include "host/model/case_keys.h"
+#include "host/model/case_reader.h"
+#include "host/study/output_tables.h"
 #include "host/study/study_keys.h"
 
 namespace vkdose {
@@ -103,6 +107,37 @@ std::string optionsPage(const CLI::App& program, bool brief) {
         if (!rows.empty()) text += "\n| option | meaning | allowed | default |\n| --- | --- | --- | --- |\n" + rows;
     }
     return text;
+}
+
+std::string columnsPage(bool sweep) {
+    const std::vector<OutputTable> all = outputTables();
+    const auto ofRun = static_cast<std::ptrdiff_t>(runTables().size());
+    const std::vector<OutputTable> tables(sweep ? all.begin() + ofRun : all.begin(),
+                                          sweep ? all.end() : all.begin() + ofRun);
+    std::string text;
+    for (const OutputTable& table : tables) {
+        const std::size_t comma = table.file.find(',');  // "doses.csv, of a sweep"
+        text += fmt::format("{}### `{}`{}\n\n{}\n\n", text.empty() ? "" : "\n", table.file.substr(0, comma),
+                            comma == std::string::npos ? "" : table.file.substr(comma), table.about);
+        text += "| column | unit | meaning |\n| --- | --- | --- |\n";
+        for (const ColumnText& c : table.columns)
+            text += fmt::format("| `{}` | {} | {} |\n", c.name, c.unit == "1" ? "" : c.unit, c.meaning);
+    }
+    return text;
+}
+
+std::string usageFault(const CLI::App& program, const std::string& problem, const std::string& first) {
+    if (first.empty()) return "vkdose: give a command\n\n" + program.help();
+    std::vector<std::string> names;
+    for (const CLI::App* command : commandsOf(program)) names.push_back(command->get_name());
+    const bool known = std::find(names.begin(), names.end(), first) != names.end();
+    if (!known && first.front() != '-') {
+        const std::string meant = closestWord(first, names);
+        return fmt::format("vkdose: there is no command {}; {}\nRun `vkdose --help` for the commands.\n",
+                           printable(first), meant.empty() ? "see the list" : fmt::format("did you mean {}?", meant));
+    }
+    const std::string name = known ? "vkdose " + first : "vkdose";
+    return fmt::format("{}: {}\nRun `{} --help`.\n", name, printableLines(problem), name);
 }
 
 }  // namespace vkdose

@@ -91,7 +91,18 @@ Box defaultDomain(const Case& c, const SizeRange& sizes, const Insertion& filled
     return {box.low - margin, box.high + margin};
 }
 
+/// A study has the shape of a case, and would be a list of unknown keys.
+void refuseStudy(const Node& tree) {
+    for (const char* name : {"axis", "calibrate", "set"}) {
+        const Node* node = tree.child(name);
+        if (node == nullptr || (node->kind != Node::Kind::Array && node->kind != Node::Kind::Table)) continue;
+        throw CaseError({{node->file, node->line, "", "", "this is a study, not a case",
+                          "give it to `vkdose sweep`, or name its base case here"}});
+    }
+}
+
 Case interpret(const std::filesystem::path& file, Node tree, std::vector<std::filesystem::path> files) {
+    refuseStudy(tree);
     CaseReader reader(file.string(), std::move(tree), caseKeys());
     Section& root = reader.root();
     Case c;
@@ -115,12 +126,15 @@ Case interpret(const std::filesystem::path& file, Node tree, std::vector<std::fi
     checkFields(reader, c);
     reader.throwIfFaulty();
 
+    // The powder before the times: a size or a density in a wrong unit makes absurd steps, which are not to blame.
     const SizeRange sizes = sizeRange(c);
+    checkFilling(reader, c, sizes.largest);
+    reader.throwIfFaulty();
     completeTime(root.table("time"), c, sizes);
     checkTimeStep(reader, c, sizes.smallest);
     checkScales(reader, c, sizes);
     reader.throwIfFaulty();
-    checkFilling(reader, c, sizes.largest);
+    checkTouches(reader, c, sizes.largest);
     reader.throwIfFaulty();
 
     const Insertion filled = insertParticles(c);

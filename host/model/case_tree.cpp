@@ -123,6 +123,30 @@ void requirePlain(const std::string& text, const std::string& name) {
     }
 }
 
+/// The parser's complaint in the words of a case. It knows the grammar; what people mean by a slip it does not.
+Diagnostic syntaxFault(const toml::parse_error& error, const std::string& text, const std::string& name) {
+    const std::string said(error.description());
+    const auto at = static_cast<std::size_t>(error.source().begin.line);
+    Diagnostic fault{name, static_cast<int>(at), "", "", "not TOML: " + said, "see https://toml.io for the syntax"};
+    const Source source = makeSource(name, text);
+    const std::string line = at >= 1 && at <= source.lines.size() ? source.lines[at - 1] : "";
+    const auto says = [&](const char* words) { return said.find(words) != std::string::npos; };
+    if (says("cannot redefine existing")) {
+        fault.problem = fmt::format("not TOML: {} is there twice", said.substr(said.find("existing") + 9));
+        fault.remedy = "keep one of the two";
+    } else if (says("utf-8") || says("UTF-8")) {
+        fault.problem = "not TOML: the text is not UTF-8";
+        fault.remedy = "save the file as UTF-8";
+    } else if (says("expected a comment or whitespace, saw ','")) {
+        fault.problem = fmt::format("not TOML: a comma in a number: {}", line);
+        fault.remedy = "write decimals with a point";
+    } else if (says("expected a comment or whitespace, saw")) {
+        fault.problem = fmt::format("not TOML: more than a value: {}", line);
+        fault.remedy = "give the value alone, without its unit; a text stands between quotes";
+    }
+    return fault;
+}
+
 Node parseText(const std::string& text, const std::string& name) {
     requirePlain(text, name);
     try {
@@ -131,8 +155,7 @@ Node parseText(const std::string& text, const std::string& name) {
         node.line = 0;
         return node;
     } catch (const toml::parse_error& error) {
-        throw CaseError({{name, static_cast<int>(error.source().begin.line), "", "",
-                          fmt::format("not TOML: {}", error.description()), "see https://toml.io for the syntax"}});
+        throw CaseError({syntaxFault(error, text, name)});
     }
 }
 

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "host/core/file.h"
+#include "host/model/case_keys.h"
 #include "host/model/case_reader.h"
 #include "host/study/study_keys.h"
 
@@ -167,6 +168,18 @@ void checkCalibration(CaseReader& reader, const Study& study) {
                      "name the key of the axis to interpolate along");
 }
 
+/// A case has none of a study's tables, and would be a list of unknown keys.
+void refuseCase(const std::filesystem::path& file, const Node& tree) {
+    for (const char* name : {"axis", "seeds", "set", "calibrate"})
+        if (tree.child(name) != nullptr) return;
+    for (const KeyTable& table : caseKeys()) {
+        const Node* node = table.paths.empty() ? nullptr : tree.child(wordsOf(table.paths).front());
+        if (node == nullptr || node->kind != Node::Kind::Table) continue;
+        throw CaseError({{file.string(), node->line, "", "", "this is a case, not a study",
+                          "give it to `vkdose run`, or write a study with it as base"}});
+    }
+}
+
 }  // namespace
 
 std::vector<std::string> Study::keys() const {
@@ -178,7 +191,9 @@ std::vector<std::string> Study::keys() const {
 }
 
 Study readStudy(const std::filesystem::path& file) {
-    CaseReader reader(file.string(), readTreeAlone(file), studyKeys());
+    Node tree = readTreeAlone(file);
+    refuseCase(file, tree);
+    CaseReader reader(file.string(), std::move(tree), studyKeys());
     Section& root = reader.root();
     Study study;
     study.file = file;

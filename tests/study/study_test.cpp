@@ -153,6 +153,16 @@ TEST_CASE("every fault of a study names its line, its key and a remedy") {
     }
 }
 
+TEST_CASE("a case given as a study is told so") {
+    try {
+        readStudy(VKDOSE_SOURCE_DIR "/cases/mini.toml");
+        FAIL("was read as a study");
+    } catch (const CaseError& error) {
+        REQUIRE(error.faults().size() == 1);
+        CHECK_THAT(error.what(), Catch::Contains("this is a case, not a study") && Catch::Contains("vkdose run"));
+    }
+}
+
 TEST_CASE("a point that no key is guilty of alone is named") {
     const StudyFolder folder;
     // The wire reaches beyond the trough only where it is thick and wound wide.
