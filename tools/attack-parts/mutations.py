@@ -130,7 +130,8 @@ def whole_summary(text):
 
 def judge_success(t, command, name, way, readable):
     """What exit 0 promises, after a spoilt file."""
-    behind = ["nowhere"] if way == "dangling" else []  # where a file's link leads, and the file now lies
+    # Where a file's link leads, and the file now lies.
+    behind = [os.path.join(os.path.dirname(name), "nowhere")] if way == "dangling" else []
     if command == "run":
         if not folders.complete(t.path("out")) or not whole_summary(folders.bytes_of(t.path("out", "summary.json"))):
             t.found("exit 0 without a whole summary")
