@@ -21,7 +21,7 @@ std::string upper(std::string text) {
     return text;
 }
 
-/// "FLOAT:POSITIVE" is a type and what a check allows.
+/// The type alone: "FLOAT:POSITIVE" is a type and the name of a check.
 std::string typeName(const CLI::Option& option) {
     const std::string all = option.get_type_name();
     return all.substr(0, all.find(':'));

@@ -232,7 +232,7 @@ constexpr KeyTable kTables[] = {
     {"particles.size", kQuantiles, "Measured quantiles of the volume, `\"quantiles\"`:"},
     {"particles.region", kRegion, "The box to fill, where `boundaries` is `\"list\"` or `\"none\"`."},
     {"contact contact.wall contact.coil", kContactClass,
-     "`[contact]` holds the parameters between particles. `[contact.wall]` replaces single ones for the walls, "
+     "`[contact]` holds the parameters between particles. `[contact.wall]` replaces single ones for the walls,\n"
      "`[contact.coil]` for the coil. The coil takes what it does not state from the wall, and the wall from "
      "`[contact]`."},
     {"contact", kContactAlone, "These three hold for all contacts."},

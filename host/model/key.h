@@ -55,7 +55,7 @@ struct Key {
     std::int64_t low = 0;                                          ///< of a whole number
     std::int64_t high = std::numeric_limits<std::int64_t>::max();  ///< of a whole number
     std::string_view words{};                                      ///< the words to choose from, separated by blanks
-    Default standard{};                                            ///< what stands for a key that is not given
+    Default standard{};                                            ///< the value of a key that is not given
     std::string_view meaning{};                                    ///< for the manual, in Markdown
     /// Keys and tables of a lower layer that this one removes, separated by blanks; "*": all of its table.
     std::string_view losers{};
