@@ -61,7 +61,7 @@ class ListReader {
     bool readHeader(const std::vector<std::string>& names) {
         const std::size_t before = count_;
         if (names.size() == 1 && names[0].find(';') != std::string::npos) {
-            fault("", names[0], "has semicolons between its columns",
+            fault("", "", fmt::format("has semicolons between its columns: {}", names[0]),
                   "separate columns by commas, and write decimals with a point");
             return false;
         }
