@@ -23,7 +23,6 @@ namespace vkdose {
 
 namespace {
 
-using bench::Row;
 using bench::Workload;
 
 constexpr std::uint32_t kProfiledSteps = 256, kFirstSteps = 32;
@@ -67,7 +66,7 @@ double rebuildSeconds(const VulkanProfile& first) {
     return first.rebuilds > 0 ? seconds / double(first.rebuilds) : 0;
 }
 
-void fillProfile(Row& row, const VulkanProfile& p) {
+void fillProfile(bench::Row& row, const VulkanProfile& p) {
     for (const VulkanProfile::Pass& pass : p.passes) row.passes.push_back({pass.name, pass.seconds / p.steps});
     row.listed = p.listed;
     row.refreshesPer1000 = 1e3 * double(p.refreshes) / p.steps;
@@ -77,7 +76,7 @@ void fillProfile(Row& row, const VulkanProfile& p) {
 }
 
 /// A backend of its own for each workload, so that the time to the first step is that of a program just started.
-void measure(Row& row, const Workload& w, const BackendChoice& choice, const bench::Effort& effort) {
+void measure(bench::Row& row, const Workload& w, const BackendChoice& choice, const bench::Effort& effort) {
     const auto start = std::chrono::steady_clock::now();
     const std::unique_ptr<Backend> backend = makeBackend(choice, row.particles);
     row.on = backend->description();
@@ -102,17 +101,18 @@ void measure(Row& row, const Workload& w, const BackendChoice& choice, const ben
     if (!validationClean(choice, *backend)) throw DeviceError("the validation layer found faults");
 }
 
-Row named(const std::string& name, const Workload& w, const bench::Effort& effort) {
-    Row row;
+bench::Row named(const std::string& name, const Workload& w, const bench::Effort& effort) {
+    bench::Row row;
     row.workload = name;
     row.particles = w.particles.size();
     row.repeats = effort.repeats;
     return row;
 }
 
-/// What a device or this machine cannot hold is a result too.
-Row measured(const std::string& name, const Workload& w, const BackendChoice& choice, const bench::Effort& effort) {
-    Row row = named(name, w, effort);
+/// A packing too large for a device or this machine is a result too.
+bench::Row measured(const std::string& name, const Workload& w, const BackendChoice& choice,
+                    const bench::Effort& effort) {
+    bench::Row row = named(name, w, effort);
     try {
         measure(row, w, choice, effort);
     } catch (const DeviceError& e) {
@@ -125,8 +125,9 @@ Row measured(const std::string& name, const Workload& w, const BackendChoice& ch
 }
 
 /// The sum of several processes. This one leaves the device alone.
-Row measuredCopies(const std::string& name, const Workload& w, const BenchOptions& options, bench::Effort effort) {
-    Row row = named(name, w, effort);
+bench::Row measuredCopies(const std::string& name, const Workload& w, const BenchOptions& options,
+                          bench::Effort effort) {
+    bench::Row row = named(name, w, effort);
     row.on = fmt::format("{} processes", options.copies);
     row.copies = options.copies;
     const auto oneCopy = [&](const bench::Meet& meet) {
@@ -146,10 +147,10 @@ Row measuredCopies(const std::string& name, const Workload& w, const BenchOption
 }
 
 /// `options.members` copies of the workload in one ensemble.
-Row measuredEnsemble(const std::string& name, const Workload& w, const BenchOptions& options,
-                     const bench::Effort& effort) {
+bench::Row measuredEnsemble(const std::string& name, const Workload& w, const BenchOptions& options,
+                            const bench::Effort& effort) {
     const std::size_t members = std::size_t(options.members);
-    Row row = named(name, w, effort);
+    bench::Row row = named(name, w, effort);
     row.members = options.members;
     row.particles *= members;
     try {
@@ -171,7 +172,7 @@ Row measuredEnsemble(const std::string& name, const Workload& w, const BenchOpti
     return row;
 }
 
-void print(const Row& row) {
+void print(const bench::Row& row) {
     fmt::print("{}\n", bench::tableLine(row));
     const std::string details = bench::detailLines(row);
     if (!details.empty()) fmt::print("{}\n", details);
@@ -193,7 +194,7 @@ int benchCommand(const BenchOptions& options) {
     }
 
     const std::atomic<bool>& stop = watchInterrupts();
-    std::vector<Row> rows;
+    std::vector<bench::Row> rows;
     fmt::print("{}\n", bench::headLine());
     for (const bench::Plan& plan : plans) {
         if (stop) break;
@@ -213,7 +214,7 @@ int benchCommand(const BenchOptions& options) {
         replaceFile(options.out / "bench.json", bench::jsonTable(rows));
         replaceFile(options.out / "bench.csv", bench::csvTable(rows));
     }
-    if (!rows.empty() && std::all_of(rows.begin(), rows.end(), [](const Row& r) { return !r.refused.empty(); }))
+    if (!rows.empty() && std::all_of(rows.begin(), rows.end(), [](const bench::Row& r) { return !r.refused.empty(); }))
         throw DeviceError("nothing could be measured");
     if (!rows.empty())
         fmt::print("\non {}; all figures: {}\n", rows.front().on, printable((options.out / "bench.csv").string()));
