@@ -109,7 +109,7 @@ bench::Row named(const std::string& name, const Workload& w, const bench::Effort
     return row;
 }
 
-/// What a device or this machine cannot hold is a result too.
+/// A packing too large for a device or this machine is a result too.
 bench::Row measured(const std::string& name, const Workload& w, const BackendChoice& choice,
                     const bench::Effort& effort) {
     bench::Row row = named(name, w, effort);
