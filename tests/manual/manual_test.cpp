@@ -22,13 +22,14 @@ std::string joined(const std::vector<std::string>& lines) {
 
 }  // namespace
 
-TEST_CASE("every link of the manual leads somewhere, and every page can be reached from the README") {
+TEST_CASE("every link and path of the manual leads somewhere, and every page can be reached from the README") {
     const std::vector<Page> pages = readPages(kRoot);
     REQUIRE(pages.size() >= 15);
     REQUIRE(pages.front().file == "README.md");
     std::size_t links = 0;
     for (const Page& page : pages) {
         CHECK(joined(deadLinks(page, pages, kRoot)) == "");
+        CHECK(joined(deadPaths(page, kRoot)) == "");
         CHECK(joined(page.faults) == "");
         links += page.links.size();
     }
@@ -90,6 +91,11 @@ TEST_CASE("the comparators of pages tell what is wrong") {
     CHECK(dead[2] == "a/page.md:4: gone.md is not there");
     CHECK(dead[3] == "a/page.md:5: no.png is not there");
     CHECK(dead[4] == "a/page.md:13: gone.md#x is not there");
+
+    const Page paths =
+        parsePage("p.md", "`host/gone.h` `host` `tools/bench-DEVICE.csv` `cases/*.toml`\n`a/page.md` \n");
+    REQUIRE(paths.paths.size() == 1);
+    CHECK(deadPaths(paths, box.path()) == std::vector<std::string>{"p.md:1: host/gone.h is not there"});
 
     const Page parts = parsePage("p.md",
                                  "<!-- vkdose keys --study -->\n\n| a |\n\n<!-- end -->\n"

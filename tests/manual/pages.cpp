@@ -37,6 +37,26 @@ void findLinks(const std::string& text, Page& page) {
     }
 }
 
+/// Code that begins with a room and is nothing but a path. "NAME", "DEVICE" and "..." stand for something.
+void findPaths(const std::string& text, Page& page) {
+    const std::string allowed = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./";
+    for (std::size_t at = text.find('`'); at != std::string::npos; at = text.find('`', at + 1)) {
+        const std::size_t end = text.find('`', at + 1);
+        if (end == std::string::npos) return;
+        const std::string code = text.substr(at + 1, end - at - 1);
+        const auto line = std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n') + 1;
+        at = end;
+        bool room = false;
+        for (const char* name : {"cases/", "geometry/", "host/", "shaders/", "tests/", "tools/"})
+            room = room || startsWith(code, name);
+        const bool path = code.find_first_not_of(allowed) == std::string::npos;
+        bool placeholder = false;
+        for (const char* word : {"NAME", "DEVICE", "..", "/."})
+            placeholder = placeholder || code.find(word) != std::string::npos;
+        if (room && path && !placeholder) page.paths.push_back({code, static_cast<int>(line)});
+    }
+}
+
 /// The file and the anchor of a link on `page`; both empty if it leads out into the world.
 std::pair<fs::path, std::string> resolved(const Page& page, const std::string& target) {
     if (target.find("://") != std::string::npos || startsWith(target, "mailto:")) return {};
@@ -103,6 +123,7 @@ Page parsePage(const fs::path& file, const std::string& text) {
     }
     if (printed) page.faults.push_back(std::to_string(number) + ": a part has no end");
     if (in != In::Text) page.faults.push_back(std::to_string(number) + ": a block has no end");
+    findPaths(prose, page);
     findLinks(withoutCode(prose), page);
     return page;
 }
@@ -144,6 +165,14 @@ std::vector<std::string> deadLinks(const Page& page, const std::vector<Page>& al
         const Page* target = pageAt(all, file);
         if (target == nullptr || target->anchors.count(anchor) == 0) tell(link, "has no such anchor");
     }
+    return dead;
+}
+
+std::vector<std::string> deadPaths(const Page& page, const fs::path& root) {
+    std::vector<std::string> dead;
+    for (const Link& path : page.paths)
+        if (!fs::exists(root / path.target))
+            dead.push_back(page.file.string() + ":" + std::to_string(path.line) + ": " + path.target + " is not there");
     return dead;
 }
 

@@ -30,6 +30,8 @@ struct Page {
     std::filesystem::path file;  ///< relative to the root
     std::vector<Link> links;     ///< of pictures too; none of what stands in code
     std::set<std::string> anchors;
+    std::vector<Link>
+        paths;  ///< of files and folders named in code: `host/model/key.h`; those with a placeholder left out
     std::vector<PrintedPart> parts;
     std::vector<Example> examples;
     std::vector<std::string> faults;  ///< of the page's form: a part or a block without an end
@@ -45,6 +47,9 @@ std::vector<Page> readPages(const std::filesystem::path& root);
 
 /// What is wrong with a page's links, a line for each: nothing there, outside `root`, or without that anchor.
 std::vector<std::string> deadLinks(const Page& page, const std::vector<Page>& all, const std::filesystem::path& root);
+
+/// The paths that a page names and that are not there.
+std::vector<std::string> deadPaths(const Page& page, const std::filesystem::path& root);
 
 /// The pages that no way of links leads to from the first one.
 std::vector<std::string> unreachable(const std::vector<Page>& all);
