@@ -172,7 +172,8 @@ void SweepFolder::gatherDoses() {
         const Row& member = members_.row(i);
         std::vector<Row> noted, kept;
         for (std::size_t k = 0; k < doses_.rows(); ++k)
-            if (numberOf(doses_.row(k)) == numberOf(member)) noted.push_back(doses_.row(k));
+            if (numberOf(doses_.row(k)) == numberOf(member) && (noted.empty() || noted.back() != doses_.row(k)))
+                noted.push_back(doses_.row(k));
         const Table doses = dosesIn(memberFolder(numberOf(member)));
         const Row head(member.begin(), member.end() - std::ptrdiff_t(kOutputColumns.size()));
         for (std::size_t k = 0; k < doses.rows(); ++k) kept.push_back(joined(head, doses.row(k)));
