@@ -1,6 +1,5 @@
 #version 450
 // coil: what the turning coil exerts in this step, one particle near it per invocation with all its contacts.
-// Built with and without TEXEL_READS, PACKED_STORES (shared/buffers.glsl) and ENERGY_BOOK.
 // Reads the source half of the state, entries, the coil's history; writes it, forces and torques, which `move` gathers.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/buffers.glsl"

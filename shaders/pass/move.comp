@@ -1,6 +1,5 @@
 #version 450
-// move: gathers the forces on one particle per invocation and moves it a time step. Built with and without TEXEL_READS,
-// PACKED_STORES (shared/buffers.glsl) and ENERGY_BOOK.
+// move: gathers the forces on one particle per invocation and moves it a time step.
 // Reads the source half of the state, links, forces and torques, anchors; writes the destination half; calls for a refresh
 // of the contact lists or a rebuild of the rows when the particle has moved as far as they allow for.
 //

@@ -1,6 +1,6 @@
 #version 450
 // near: lists the contacts that can come about before the next refresh and gives each a slot: pairs to their particle of
-// smaller index, surfaces and the coil. Built with and without TEXEL_READS and ENERGY_BOOK.
+// smaller index, surfaces and the coil.
 // Reads state, rows, current entries, links and history; writes the coming entries, the history carried to them and the
 // ranges of own slots. `link` then makes them current. Which slot a contact gets depends on timing; nothing that moves a
 // particle depends on the slot.

@@ -1,5 +1,5 @@
 #version 450
-// neighbours: builds the rows, sorted by index. Built with and without TEXEL_READS (shared/buffers.glsl).
+// neighbours: builds the rows, sorted by index.
 // Reads state and cells; writes rows, their ranges and the anchors of the rows. A row lists every particle closer than
 // the sum of radii + skin, so it stays complete until some particle has moved half the skin from its anchor. Where in the
 // table a row lies depends on timing; nothing that moves a particle depends on it.

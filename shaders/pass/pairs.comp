@@ -1,6 +1,5 @@
 #version 450
 // pairs: what two particles exert on each other in this step, one listed pair per invocation.
-// Built with and without TEXEL_READS, PACKED_STORES (shared/buffers.glsl) and ENERGY_BOOK.
 // Reads the source half of the state, entries, history; writes history, forces and torques, which `move` gathers. A
 // contact that does not touch exerts nothing and remembers nothing.
 #extension GL_GOOGLE_include_directive : require

@@ -1,6 +1,5 @@
 #version 450
 // surfaces: what the fixed surfaces exert in this step, one listed contact per invocation.
-// Built with and without TEXEL_READS, PACKED_STORES (shared/buffers.glsl) and ENERGY_BOOK.
 // Reads the source half of the state, entries, history; writes history, forces and torques, which `move` gathers.
 // A contact that does not touch exerts nothing and remembers nothing.
 //

@@ -185,12 +185,13 @@ void Ensemble::keepError(std::uint32_t member, const gpu::uvec4& error, std::uin
 
 VulkanProfile Ensemble::profile(std::uint32_t steps, double coilRate) {
     constexpr std::uint32_t kBatch = 32;
-    const std::size_t kinds = Passes::kTimed.size();
+    const std::vector<const char*> names = Passes::stepNames();
+    const std::size_t kinds = names.size();
     VulkanProfile p;
     std::unique_ptr<vk::Timestamps> times;
     if (vk::Timestamps::available(device_)) {
         times = std::make_unique<vk::Timestamps>(device_, std::uint32_t(kBatch * kinds + 1));
-        for (const char* name : Passes::kTimed) p.passes.push_back({name});
+        for (const char* name : names) p.passes.push_back({name});
     }
     const gpu::uvec4 before = passes_->controlOf(0).list;
     while (p.steps < steps) {

@@ -78,10 +78,10 @@ FieldPasses::FieldPasses(const vk::Device& device, const Passes& p, std::size_t 
                 {&p.state, &p.rows, &p.ranges, &p.history, &p.coilHistory, &p.member, &p.control, &p.cells, &p.anchors,
                  &grid_, &p.entries, &weights_, &params_, &p.forces, &p.torques, &along_},
                 {}, sizeof(gpu::StepPush)),
-      branches_(device, bindings_, field_branches_spv, Passes::constants(p.sizes)),
-      weigh_(device, bindings_, field_weights_spv, Passes::constants(p.sizes)),
-      sums_(device, bindings_, field_sums_spv, Passes::constants(p.sizes)),
-      kinetic_(device, bindings_, field_kinetic_spv, Passes::constants(p.sizes)) {}
+      branches_(device, bindings_, vk::pick(spirv::field_branches, 0), Passes::constants(p.sizes)),
+      weigh_(device, bindings_, vk::pick(spirv::field_weights, 0), Passes::constants(p.sizes)),
+      sums_(device, bindings_, vk::pick(spirv::field_sums, 0), Passes::constants(p.sizes)),
+      kinetic_(device, bindings_, vk::pick(spirv::field_kinetic, 0), Passes::constants(p.sizes)) {}
 
 void FieldPasses::dispatch(vk::Commands& commands, const vk::Pipeline& pass, std::uint32_t groups) const {
     pass.bind(commands.handle());

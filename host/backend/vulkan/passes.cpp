@@ -36,33 +36,41 @@ Access accessOn(const vk::Device& device, const TableSizes& s) {
     return {texel, texel && device.hasInt64()};
 }
 
-/// The variants of one pass (shaders/passes.cmake), as far as it has them.
-struct Variants {
-    using Code = std::span<const std::uint32_t>;
-    Code plain, texel, packed, energy, texelEnergy, packedEnergy;
+/// How the variants of a pass are chosen (shaders/passes.cmake).
+unsigned macrosFor(const Access& access, const TableSizes& s) {
+    return (access.texelReads ? spirv::TEXEL_READS : 0) | (access.packedStores ? spirv::PACKED_STORES : 0) |
+           (s.energyBook ? spirv::ENERGY_BOOK : 0);
+}
 
-    Code pick(const Access& access, bool wantsEnergy) const {
-        if (access.packedStores) return wantsEnergy ? packedEnergy : packed;
-        if (access.texelReads) return wantsEnergy ? texelEnergy : texel;
-        return wantsEnergy ? energy : plain;
-    }
+/// How many workgroups a pass of a step takes.
+enum class Extent {
+    OfStep,     ///< the device decides for each step: `arguments` are in its gpu::Dispatch
+    OfLists,    ///< the device decides at every refresh: `arguments` are in gpu::Dispatches
+    Particles,  ///< those of all live members
+    One,
 };
 
-const Variants kBin{bin_spv, bin_texel_spv, bin_texel_spv, bin_spv, bin_texel_spv, bin_texel_spv};
-const Variants kNeighbours{neighbours_spv, neighbours_texel_spv, neighbours_texel_spv,
-                           neighbours_spv, neighbours_texel_spv, neighbours_texel_spv};
-const Variants kNear{near_spv,        near_texel_spv,        near_texel_spv,
-                     near_energy_spv, near_texel_energy_spv, near_texel_energy_spv};
-const Variants kLink{link_spv,        link_texel_spv,        link_texel_spv,
-                     link_energy_spv, link_texel_energy_spv, link_texel_energy_spv};
-const Variants kPairs{pairs_spv,        pairs_texel_spv,        pairs_packed_spv,
-                      pairs_energy_spv, pairs_texel_energy_spv, pairs_packed_energy_spv};
-const Variants kSurfaces{surfaces_spv,        surfaces_texel_spv,        surfaces_packed_spv,
-                         surfaces_energy_spv, surfaces_texel_energy_spv, surfaces_packed_energy_spv};
-const Variants kCoil{coil_spv,        coil_texel_spv,        coil_packed_spv,
-                     coil_energy_spv, coil_texel_energy_spv, coil_packed_energy_spv};
-const Variants kMove{move_spv,        move_texel_spv,        move_packed_spv,
-                     move_energy_spv, move_texel_energy_spv, move_packed_energy_spv};
+struct StepPass {
+    const char* name;
+    std::span<const vk::Variant> variants;
+    Extent extent;
+    VkDeviceSize arguments = 0;
+};
+
+/// A step: each pass waits for the one before.
+constexpr std::array kStep{
+    StepPass{"clear", spirv::clear, Extent::OfStep, offsetof(gpu::Dispatch, cells)},
+    StepPass{"bin", spirv::bin, Extent::OfStep, offsetof(gpu::Dispatch, particles)},
+    StepPass{"neighbours", spirv::neighbours, Extent::OfStep, offsetof(gpu::Dispatch, particles)},
+    StepPass{"near", spirv::near, Extent::OfStep, offsetof(gpu::Dispatch, refresh)},
+    StepPass{"link", spirv::link, Extent::OfStep, offsetof(gpu::Dispatch, refresh)},
+    StepPass{"commit_lists", spirv::commit_lists, Extent::OfStep, offsetof(gpu::Dispatch, settle)},
+    StepPass{"pairs", spirv::pairs, Extent::OfLists, offsetof(gpu::Dispatches, pairs)},
+    StepPass{"surfaces", spirv::surfaces, Extent::OfLists, offsetof(gpu::Dispatches, surfaces)},
+    StepPass{"coil", spirv::coil, Extent::OfLists, offsetof(gpu::Dispatches, coil)},
+    StepPass{"move", spirv::move, Extent::Particles},
+    StepPass{"decide", spirv::decide, Extent::One},
+};
 
 }  // namespace
 
@@ -111,19 +119,17 @@ Passes::Passes(const vk::Device& device, const TableSizes& s, const Access& acce
                                                                    &member, &anchors, &entries, &forces, &torques}
                                   : std::vector<const vk::Buffer*>{},
                 sizeof(gpu::StepPush)),
-      clear_(device, bindings_, clear_spv, constants(s)),
-      bin_(device, bindings_, kBin.pick(access, s.energyBook), constants(s)),
-      neighbours_(device, bindings_, kNeighbours.pick(access, s.energyBook), constants(s)),
-      near_(device, bindings_, kNear.pick(access, s.energyBook), constants(s)),
-      link_(device, bindings_, kLink.pick(access, s.energyBook), constants(s)),
-      commitLists_(device, bindings_, commit_lists_spv, constants(s)),
-      pairs_(device, bindings_, kPairs.pick(access, s.energyBook), constants(s)),
-      surfaces_(device, bindings_, kSurfaces.pick(access, s.energyBook), constants(s)),
-      coil_(device, bindings_, kCoil.pick(access, s.energyBook), constants(s)),
-      move_(device, bindings_, kMove.pick(access, s.energyBook), constants(s)),
-      decide_(device, bindings_, decide_spv, constants(s)),
-      sense_(device, bindings_, sense_spv, constants(s)),
-      senseEnergy_(device, bindings_, sense_energy_spv, constants(s)) {}
+      sense_(device, bindings_, vk::pick(spirv::sense, macrosFor(access, s)), constants(s)),
+      senseEnergy_(device, bindings_, vk::pick(spirv::sense_energy, macrosFor(access, s)), constants(s)) {
+    for (const StepPass& pass : kStep)
+        step_.emplace_back(device, bindings_, vk::pick(pass.variants, macrosFor(access, s)), constants(s));
+}
+
+std::vector<const char*> Passes::stepNames() {
+    std::vector<const char*> names;
+    for (const StepPass& pass : kStep) names.push_back(pass.name);
+    return names;
+}
 
 std::array<std::uint32_t, 7> Passes::constants(const TableSizes& s) {
     return {s.workgroup, s.surfaces, s.surfaceKinds, s.kindSet, s.members, s.mostGroups, s.front};
@@ -196,6 +202,24 @@ gpu::StepPush Passes::push(std::uint32_t step, std::uint32_t source, bool openin
     return p;
 }
 
+void Passes::dispatch(vk::Commands& commands, std::size_t n, std::uint32_t source) const {
+    const StepPass& pass = kStep[n];
+    switch (pass.extent) {
+        case Extent::OfStep:
+            commands.dispatchIndirect(
+                control.handle(), offsetof(gpu::Dispatches, step) + source * sizeof(gpu::Dispatch) + pass.arguments);
+            return;
+        case Extent::OfLists:
+            commands.dispatchIndirect(control.handle(), pass.arguments);
+            return;
+        case Extent::Particles:
+            commands.dispatch(sizes.inRow(sizes.groups()), live_, sizes.layers(sizes.groups()));
+            return;
+        case Extent::One:
+            commands.dispatch(1, 1, 1);
+    }
+}
+
 void Passes::recordSteps(vk::Commands& commands, std::uint32_t first, std::uint32_t count, std::uint32_t source,
                          bool opening, vk::Timestamps* times) const {
     const VkCommandBuffer c = commands.handle();
@@ -204,33 +228,9 @@ void Passes::recordSteps(vk::Commands& commands, std::uint32_t first, std::uint3
     for (std::uint32_t n = first; n < first + count; ++n, source = 1 - source, opening = false) {
         const gpu::StepPush p = push(n, source, opening);
         bindings_.push(c, &p);
-        // How many workgroups, the device decides: none for a rebuild or a refresh that no particle asked for.
-        const VkDeviceSize step = offsetof(gpu::Dispatches, step) + source * sizeof(gpu::Dispatch);
-        const struct {
-            const vk::Pipeline& pass;
-            VkDeviceSize arguments;
-        } decided[] = {{clear_, step + offsetof(gpu::Dispatch, cells)},
-                       {bin_, step + offsetof(gpu::Dispatch, particles)},
-                       {neighbours_, step + offsetof(gpu::Dispatch, particles)},
-                       {near_, step + offsetof(gpu::Dispatch, refresh)},
-                       {link_, step + offsetof(gpu::Dispatch, refresh)},
-                       {commitLists_, step + offsetof(gpu::Dispatch, settle)},
-                       {pairs_, offsetof(gpu::Dispatches, pairs)},
-                       {surfaces_, offsetof(gpu::Dispatches, surfaces)},
-                       {coil_, offsetof(gpu::Dispatches, coil)}};
-        for (const auto& d : decided) {
-            d.pass.bind(c);
-            commands.dispatchIndirect(control.handle(), d.arguments);
-            commands.barrier();
-            if (times != nullptr) times->mark(commands);
-        }
-        const struct {
-            const vk::Pipeline& pass;
-            std::uint32_t groups, rows;
-        } fixed[] = {{move_, sizes.groups(), live_}, {decide_, 1, 1}};
-        for (const auto& f : fixed) {
-            f.pass.bind(c);
-            commands.dispatch(sizes.inRow(f.groups), f.rows, sizes.layers(f.groups));
+        for (std::size_t k = 0; k < kStep.size(); ++k) {
+            step_[k].bind(c);
+            dispatch(commands, k, source);
             commands.barrier();
             if (times != nullptr) times->mark(commands);
         }

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <vector>
 
@@ -36,7 +37,7 @@ class Passes {
     Passes(const vk::Device& device, const TableSizes& sizes);
 
     /// Records steps `first` ... `first + count - 1` of a batch; `source` is the half of the state they start from.
-    /// `times` gets a mark before the first step and one after each of the kTimed passes of every step.
+    /// `times` gets a mark before the first step and one after each pass of every step (stepNames).
     void recordSteps(vk::Commands& commands, std::uint32_t first, std::uint32_t count, std::uint32_t source,
                      bool opening, vk::Timestamps* times = nullptr) const;
     /// Of the member in this row of the roster (gpu::Member).
@@ -65,8 +66,8 @@ class Passes {
     /// Specialisation constants of every pass over tables of this size.
     static std::array<std::uint32_t, 7> constants(const TableSizes& sizes);
 
-    static constexpr std::array<const char*, 11> kTimed{
-        "clear", "bin", "neighbours", "near", "link", "commit_lists", "pairs", "surfaces", "coil", "move", "decide"};
+    /// The passes of a step, in their order.
+    static std::vector<const char*> stepNames();
 
   private:
     Passes(const vk::Device& device, const TableSizes& sizes, const Access& access);
@@ -75,11 +76,14 @@ class Passes {
         return sizeof(gpu::Dispatches) + member * sizeof(gpu::Control);
     }
 
+    /// The pass `n` of a step.
+    void dispatch(vk::Commands& commands, std::size_t n, std::uint32_t source) const;
+
     std::uint32_t live_ = 0;
     Access access_;
     vk::BindingSet bindings_;
-    vk::Pipeline clear_, bin_, neighbours_, near_, link_, commitLists_, pairs_, surfaces_, coil_, move_, decide_,
-        sense_, senseEnergy_;
+    std::deque<vk::Pipeline> step_;  ///< of a step, in their order
+    vk::Pipeline sense_, senseEnergy_;
 };
 
 }  // namespace vkdose
