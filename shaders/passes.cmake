@@ -1,6 +1,6 @@
-# Compiles every pass to SPIR-V in the variants that are declared here. ${spirv_dir}/passes.h then holds the code of each
-# variant (near_texel_spv) and for each pass the list of its variants (vkdose::spirv::near), of which the host takes the
-# one that suits the device and the world (host/vk/variant.h).
+# Compiles every pass to SPIR-V in the variants that are declared here. ${spirv_dir}/passes.h then holds the code of
+# each variant (near_texel_spv) and for each pass the list of its variants (vkdose::spirv::near), of which the host
+# takes the one that suits the device and the world (host/vk/variant.h).
 
 # The words that variants are named by, and the macros that each defines.
 set(macros_texel TEXEL_READS)                 # reads through texel-buffer views
@@ -30,12 +30,13 @@ set(passes
 
 set(spirv_dir ${CMAKE_BINARY_DIR}/spirv)
 file(MAKE_DIRECTORY ${spirv_dir})
-file(GLOB shader_headers CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/shaders/shared/*.h ${CMAKE_SOURCE_DIR}/shaders/law/*.glsl
-                                           ${CMAKE_SOURCE_DIR}/shaders/shared/*.glsl ${CMAKE_SOURCE_DIR}/shaders/pass/*.glsl)
+set(shader_dir ${CMAKE_SOURCE_DIR}/shaders)
+file(GLOB shader_headers CONFIGURE_DEPENDS ${shader_dir}/shared/*.h ${shader_dir}/shared/*.glsl ${shader_dir}/law/*.glsl
+                                           ${shader_dir}/pass/*.glsl)
 
 function(vkdose_compile source name)
   list(TRANSFORM ARGN PREPEND -D)
-  set(glslang ${GLSLANG} --quiet -V --target-env vulkan1.1 -I${CMAKE_SOURCE_DIR}/shaders ${ARGN})
+  set(glslang ${GLSLANG} --quiet -V --target-env vulkan1.1 -I${shader_dir} ${ARGN})
   add_custom_command(
     OUTPUT ${spirv_dir}/${name}.spv.h ${spirv_dir}/${name}.spv
     COMMAND ${glslang} -o ${spirv_dir}/${name}.spv ${source}
@@ -49,12 +50,12 @@ set(spirv_outputs)
 set(spirv_includes "")
 set(spirv_lists "")
 set(spirv_macros)
-file(GLOB undeclared CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/shaders/pass/*.comp ${CMAKE_SOURCE_DIR}/shaders/render/*.comp)
+file(GLOB undeclared CONFIGURE_DEPENDS ${shader_dir}/pass/*.comp ${shader_dir}/render/*.comp)
 foreach(declared ${passes})
   separate_arguments(variants UNIX_COMMAND "${declared}")
   list(POP_FRONT variants file)
   get_filename_component(stem ${file} NAME)
-  set(source ${CMAKE_SOURCE_DIR}/shaders/${file}.comp)
+  set(source ${shader_dir}/${file}.comp)
   list(REMOVE_ITEM undeclared ${source})
   string(APPEND spirv_lists "constexpr vk::Variant ${stem}[] = {")
   foreach(variant plain ${variants})
@@ -65,7 +66,7 @@ foreach(declared ${passes})
       string(REPLACE "_" ";" words ${variant})
       foreach(word ${words})
         if(NOT macros_${word})
-          message(FATAL_ERROR "shaders/passes.cmake: ${file} has a variant \"${variant}\", but macros_${word} is not set")
+          message(FATAL_ERROR "shaders/passes.cmake: ${file} has the variant \"${variant}\"; set macros_${word}")
         endif()
         list(APPEND macros ${macros_${word}})
       endforeach()

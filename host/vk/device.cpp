@@ -9,7 +9,11 @@
 #include <string_view>
 #include <type_traits>
 
+#include "shaders/shared/layout.h"
+
 namespace vkdose::vk {
+
+const std::uint32_t kStorageBuffers = gpu::kTables;
 
 /// What the validation layer said; it may speak from a thread of its own.
 struct ValidationMessages {

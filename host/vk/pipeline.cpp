@@ -4,16 +4,17 @@
 
 namespace vkdose::vk {
 
-BindingSet::BindingSet(const Device& device, const std::vector<const Buffer*>& storage,
-                       const std::vector<const Buffer*>& texel, std::uint32_t pushBytes)
+BindingSet::BindingSet(const Device& device, const std::vector<const Buffer*>& buffers, std::uint32_t pushBytes)
     : BindingSet(device, pushBytes) {
-    const std::uint32_t storageCount = std::uint32_t(storage.size()), texelCount = std::uint32_t(texel.size());
-    assert(storageCount <= kStorageBuffers);
+    const std::uint32_t count = std::uint32_t(buffers.size());
+    assert(count <= kStorageBuffers);
     std::vector<VkDescriptorSetLayoutBinding> bindings;
-    for (std::uint32_t i = 0; i < storageCount + texelCount; ++i)
-        bindings.push_back(
-            {i, i < storageCount ? VK_DESCRIPTOR_TYPE_STORAGE_BUFFER : VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, 1,
-             VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
+    const auto bindingOf = [&](std::uint32_t number, VkDescriptorType type) {
+        bindings.push_back({number, type, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
+    };
+    for (std::uint32_t i = 0; i < count; ++i) bindingOf(i, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
+    for (std::uint32_t i = 0; i < count; ++i)
+        if (buffers[i]->texelView() != VK_NULL_HANDLE) bindingOf(count + i, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER);
     VkDescriptorSetLayoutCreateInfo setInfo{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO, nullptr, 0,
                                             std::uint32_t(bindings.size()), bindings.data()};
     check(vkCreateDescriptorSetLayout(device.handle(), &setInfo, nullptr, &setLayout_), "vkCreateDescriptorSetLayout");
@@ -23,8 +24,9 @@ BindingSet::BindingSet(const Device& device, const std::vector<const Buffer*>& s
         VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO, nullptr, 0, 1, &setLayout_, 1, &range};
     check(vkCreatePipelineLayout(device.handle(), &layoutInfo, nullptr, &layout_), "vkCreatePipelineLayout");
 
-    std::vector<VkDescriptorPoolSize> sizes{{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, storageCount}};
-    if (texelCount > 0) sizes.push_back({VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, texelCount});
+    std::vector<VkDescriptorPoolSize> sizes{{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, count}};
+    const auto views = std::uint32_t(bindings.size()) - count;
+    if (views > 0) sizes.push_back({VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, views});
     VkDescriptorPoolCreateInfo poolInfo{
         VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO, nullptr, 0, 1, std::uint32_t(sizes.size()), sizes.data()};
     check(vkCreateDescriptorPool(device.handle(), &poolInfo, nullptr, &pool_), "vkCreateDescriptorPool");
@@ -32,23 +34,21 @@ BindingSet::BindingSet(const Device& device, const std::vector<const Buffer*>& s
                                          &setLayout_};
     check(vkAllocateDescriptorSets(device.handle(), &allocate, &set_), "vkAllocateDescriptorSets");
 
-    std::vector<VkDescriptorBufferInfo> buffers(storageCount);
-    std::vector<VkBufferView> views(texelCount);
+    std::vector<VkDescriptorBufferInfo> whole(count);
+    std::vector<VkBufferView> texels(count);
     std::vector<VkWriteDescriptorSet> writes;
-    for (std::uint32_t i = 0; i < storageCount + texelCount; ++i) {
+    for (const VkDescriptorSetLayoutBinding& binding : bindings) {
+        const std::uint32_t i = binding.binding % count;
+        whole[i] = {buffers[i]->handle(), 0, VK_WHOLE_SIZE};
+        texels[i] = buffers[i]->texelView();
         VkWriteDescriptorSet write{};
         write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
         write.dstSet = set_;
-        write.dstBinding = i;
+        write.dstBinding = binding.binding;
         write.descriptorCount = 1;
-        write.descriptorType = bindings[i].descriptorType;
-        if (i < storageCount) {
-            buffers[i] = {storage[i]->handle(), 0, VK_WHOLE_SIZE};
-            write.pBufferInfo = &buffers[i];
-        } else {
-            views[i - storageCount] = texel[i - storageCount]->texelView();
-            write.pTexelBufferView = &views[i - storageCount];
-        }
+        write.descriptorType = binding.descriptorType;
+        write.pBufferInfo = binding.binding < count ? &whole[i] : nullptr;
+        write.pTexelBufferView = binding.binding < count ? nullptr : &texels[i];
         writes.push_back(write);
     }
     vkUpdateDescriptorSets(device.handle(), std::uint32_t(writes.size()), writes.data(), 0, nullptr);

@@ -7,7 +7,7 @@
 #include "shared/layout.h"
 
 struct Sphere {
-    vec3 high; // centre, high and low part [m]
+    vec3 high;  // centre, high and low part [m]
     vec3 low;
     float radius;
 };
@@ -99,9 +99,9 @@ Overlap frontOverlap(SurfaceParams p, Sphere a) {
     return throat;
 }
 
-const uint kApart = 0u;       // two contacts
-const uint kWallCounts = 1u;  // one, that with the wall
-const uint kFrontCounts = 2u; // one, that with the front wall, its rim or its throat
+const uint kApart = 0u;        // two contacts
+const uint kWallCounts = 1u;   // one, that with the wall
+const uint kFrontCounts = 2u;  // one, that with the front wall, its rim or its throat
 
 /// What a wall that ends at the front wall and the front wall are to a sphere that overlaps both: geometry/surface.h,
 /// jointContact.

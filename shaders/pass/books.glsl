@@ -22,7 +22,7 @@ void bookDeparture(uint i, uint slot) {
     stored.x = e.couple.w;
     float left = dot(stored, vec4(1.0));
     if (isPair) {
-        Body a = readBody(i), b = readBody(readEntry(slot).y);
+        Body a = readBody(i), b = readBody(entriesAt(slot).y);
         if (a.sphere.radius > 0.0) left += workOnOneSide(e, a, 1.0);
         if (b.sphere.radius > 0.0) left += workOnOneSide(e, b, -1.0);
     }
@@ -35,8 +35,8 @@ void bookDepartureFromCoil(uint i) {
     for (uint t = 0u; t < kMaxTurns; ++t) {
         if (angles[t] == kNoTurn) continue;
         uint at = coilHistoryIndex(t, 0u, i);
-        vec4 stored = elasticEnergy(lawOf(kParticleCoil), 0.0, 1.0,
-                                    History(coilHistory[at], coilHistory[at + push.particles]));
+        vec4 stored =
+            elasticEnergy(lawOf(kParticleCoil), 0.0, 1.0, History(coilHistory[at], coilHistory[at + push.particles]));
         stored.x = coilHistory[at + 4u * push.particles].w;
         books[bookIndex(kBookFlow, i)].y += dot(stored, vec4(1.0));
     }
@@ -51,8 +51,7 @@ void bookStep(uint i, vec4 normal, vec4 sliders, vec3 centre, float r, float mas
     vec4 flow = books[bookIndex(kBookFlow, i)];
     float coilWork = -0.5 * springDt * member.coil.motion.x * (flow.z + coilTorque);
     vec3 v = first ? 2.0 * velocity - newVelocity : velocity, w = first ? 2.0 * spin - newSpin : spin;
-    float motion =
-        mass * (0.5 * dot(v, newVelocity) + 0.2 * r * r * dot(w, newSpin) - dot(gravity().xyz, centre));
+    float motion = mass * (0.5 * dot(v, newVelocity) + 0.2 * r * r * dot(w, newSpin) - dot(gravity().xyz, centre));
     flow.x += sliders.w + (first ? motion : 0.0);
     if (leaves) flow.y += motion;
     flow.z = leaves ? 0.0 : coilTorque;

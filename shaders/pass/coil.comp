@@ -35,9 +35,9 @@ void main() {
     float springDt = springStep();
     if (invocation() >= control.listed.z) return;
     uint slot = firstCoilSlot() + invocation();
-    uint i = readEntry(slot).x;
+    uint i = entriesAt(slot).x;
     Body me = readBody(i);
-    vec4 angles = readCoilHistory(wireAngleIndex(i));
+    vec4 angles = coilHistoryAt(wireAngleIndex(i));
     CoilView view = coilView(coil, coilTurn(coil.phase, push.stepInBatch), me.sphere);
     uint trouble = kEmpty;
     uint trips = coilCandidates(coil, view), candidates = 0u;
@@ -67,7 +67,7 @@ void main() {
         angles[turn] = touch.wireAngle;
 
         uint at = coilHistoryIndex(turn, 0u, i);
-        vec4 old0 = readCoilHistory(at), old1 = readCoilHistory(at + push.particles);
+        vec4 old0 = coilHistoryAt(at), old1 = coilHistoryAt(at + push.particles);
         History h = History(known ? old0 : vec4(0.0), known ? old1 : vec4(0.0));
 #ifdef ENERGY_BOOK
         History old = h;
@@ -98,4 +98,5 @@ void main() {
     if (trouble != kEmpty) report(trouble, i);
     writeForce(slot, vec4(force, overlap));
     writeTorque(slot, vec4(torque, coilTorque));
+    coilTorques[i] += coilTorque;
 }

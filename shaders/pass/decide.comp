@@ -9,7 +9,7 @@
 
 /// The wire of a turning coil is a helix on its way along the axis.
 bool coilDrifts() {
-    if (member.coil.motion.z == 0.0) return false;
+    if (!hasCoil()) return false;
     control.drift.x += abs(member.coil.motion.x / member.coil.pitch.w) * numerics().x;
     return control.drift.x > coilSlack();
 }

@@ -19,7 +19,7 @@ void main() {
     if (invocation() >= control.listed.x) return;
     uint slot = firstPairSlot() + invocation();
 
-    uvec2 who = readEntry(slot);
+    uvec2 who = entriesAt(slot);
     Body a = readBody(who.x), b = readBody(who.y);
     History h = History(readHistory(0u, slot), readHistory(1u, slot));
 #ifdef ENERGY_BOOK

@@ -1,6 +1,6 @@
 // A workgroup adds up a tile of the grid, one point per invocation: together its invocations look which particles of a
-// slice can reach the tile, then each adds these to its own point, in ascending order, so that sums do not depend on timing.
-// A slice is short because software devices end an invocation's loops after 65,535 trips.
+// slice can reach the tile, then each adds these to its own point, in ascending order, so that sums do not depend on
+// timing. A slice is short because software devices end an invocation's loops after 65,535 trips.
 #ifndef VKDOSE_PASS_TILE_GLSL
 #define VKDOSE_PASS_TILE_GLSL
 
@@ -8,9 +8,9 @@
 
 shared uint inReach[4];  // a bit for each particle of the slice
 
-vec3 here;     // the point of this invocation, as an offset from the lower corner
+vec3 here;  // the point of this invocation, as an offset from the lower corner
 uint pointIndex;
-bool onGrid;   // whether the point is one of the grid
+bool onGrid;  // whether the point is one of the grid
 
 /// Adds particle i to what this invocation keeps; the pass defines it.
 void add(uint i);
@@ -36,8 +36,8 @@ bool reaches(uint i, vec3 low, vec3 high, float margin) {
     vec3 outside = max(-offset, offset - field.size.xyz);
     vec3 away = field.along.xyz * max(max(low - offset, offset - high), vec3(0.0));
     float reach = field.low.w + margin;
-    return uint(state[stateIndex(push.source, kSpin, i)].w) == kActive && all(lessThanEqual(outside, vec3(margin))) &&
-           dot(away, away) < reach * reach;
+    return uint(state[stateIndex(push.source, kSpin, i)].w) == kStatusActive &&
+           all(lessThanEqual(outside, vec3(margin))) && dot(away, away) < reach * reach;
 }
 
 /// Adds those of the slice (at most 128) that can reach the tile.
@@ -50,8 +50,7 @@ void addSlice(vec3 low, vec3 high, float margin) {
         if (reaches(first + k, low, high, margin)) atomicOr(inReach[k / 32u], 1u << (k % 32u));
     barrier();
     for (uint word = 0u; word < 4u; ++word)
-        for (uint bits = inReach[word]; bits != 0u; bits &= bits - 1u)
-            add(first + 32u * word + uint(findLSB(bits)));
+        for (uint bits = inReach[word]; bits != 0u; bits &= bits - 1u) add(first + 32u * word + uint(findLSB(bits)));
 }
 
 #endif

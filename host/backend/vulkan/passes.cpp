@@ -11,27 +11,10 @@ namespace vkdose {
 
 namespace {
 
-constexpr VkDeviceSize kVec4 = 16;
-
-struct Elements {
-    VkDeviceSize state, rows, ranges, history, coilHistory, anchors, entries, books, forces, torques;
-    explicit Elements(const TableSizes& s)
-        : state(2ull * gpu::kFields * s.particles()),
-          rows(1ull * s.members * (s.rowEntries + s.linkEntries)),
-          ranges(2ull * s.particles()),
-          history(std::max<VkDeviceSize>(1, 1ull * s.historyParts() * s.springSlots())),
-          coilHistory(std::max<VkDeviceSize>(1, 1ull * s.coilHistoryRows() * s.particles())),
-          anchors(2ull * s.particles()),
-          entries(2ull * s.slots()),
-          books(s.energyBook ? 1ull * gpu::kBookFields * (s.particles() + s.slots()) : 1),
-          forces(s.forceEntries()),
-          torques(2ull * s.slots()) {}
-};
-
 Access accessOn(const vk::Device& device, const TableSizes& s) {
-    const Elements e(s);
-    const VkDeviceSize most =
-        std::max({e.state, e.rows, e.ranges, e.history, e.coilHistory, e.anchors, e.entries, e.forces, e.torques});
+    std::uint64_t most = 0;
+    for (const TableShape& table : tableShapes(s))
+        if (table.view != VK_FORMAT_UNDEFINED) most = std::max(most, table.texels);
     const bool texel = s.texelReads && most <= device.limits().maxTexelBufferElements;
     return {texel, texel && device.hasInt64()};
 }
@@ -74,51 +57,35 @@ constexpr std::array kStep{
 
 }  // namespace
 
-TableBytes tableBytes(const TableSizes& s) {
-    const Elements e(s);
-    const std::uint64_t records = 1ull * s.members * s.groups();
-    TableBytes bytes;
-    for (const std::uint64_t table :
-         {e.state * kVec4, e.rows * 4, e.ranges * kVec4, e.history * kVec4, e.coilHistory * kVec4,
-          s.members * sizeof(gpu::Member), sizeof(gpu::Dispatches) + s.members * sizeof(gpu::Control),
-          (VkDeviceSize(s.members) * s.cells + s.particles()) * 4, e.anchors * kVec4,
-          records * sizeof(gpu::SensorRecord), e.entries * 8, e.books * kVec4, records * sizeof(gpu::EnergyRecord),
-          e.forces * kVec4, e.torques * kVec4, e.history * kVec4}) {
-        bytes.all += table;
-        bytes.longest = std::max(bytes.longest, table);
-    }
-    return bytes;
+vk::Buffer Tables::make(const vk::Device& device, const TableSizes& sizes, const Access& access, std::size_t number) {
+    const TableShape table = tableShapes(sizes)[number];
+    return {device, table.title, table.bytes, access.texelReads ? table.view : VK_FORMAT_UNDEFINED};
 }
 
-Passes::Passes(const vk::Device& device, const TableSizes& s) : Passes(device, s, accessOn(device, s)) {}
+Tables::Tables(const vk::Device& device, const TableSizes& s, const Access& a)
+    : sizes(s),
+      access(a)
+#define TABLE(number, name, element, count, title) , name(make(device, s, a, number))
+#include "shaders/shared/tables.h"
+{
+}
 
-Passes::Passes(const vk::Device& device, const TableSizes& s, const Access& access)
-    : state(device, "the particle state", Elements(s).state * kVec4, access.view(VK_FORMAT_R32G32B32A32_SFLOAT)),
-      rows(device, "the neighbour rows", Elements(s).rows * 4, access.view(VK_FORMAT_R32_UINT)),
-      ranges(device, "the ranges of rows", Elements(s).ranges * kVec4, access.view(VK_FORMAT_R32G32B32A32_UINT)),
-      history(device, "the contact history", Elements(s).history * kVec4, access.view(VK_FORMAT_R32G32B32A32_SFLOAT)),
-      coilHistory(device, "the coil's contact history", Elements(s).coilHistory * kVec4,
-                  access.view(VK_FORMAT_R32G32B32A32_SFLOAT)),
-      member(device, "the parameters", s.members * sizeof(gpu::Member), access.view(VK_FORMAT_R32G32B32A32_SFLOAT)),
-      control(device, "the control block", sizeof(gpu::Dispatches) + s.members * sizeof(gpu::Control)),
-      cells(device, "the cell table", (VkDeviceSize(s.members) * s.cells + s.particles()) * 4),
-      anchors(device, "the anchors", Elements(s).anchors * kVec4, access.view(VK_FORMAT_R32G32B32A32_SFLOAT)),
-      sensors(device, "the sensors", sizeof(gpu::SensorRecord) * s.members * s.groups()),
-      entries(device, "the contact lists", Elements(s).entries * 8, access.view(VK_FORMAT_R32G32_UINT)),
-      books(device, "the energy book", Elements(s).books * kVec4),
-      energies(device, "the energy records", sizeof(gpu::EnergyRecord) * s.members * s.groups()),
-      forces(device, "the contact forces", Elements(s).forces * kVec4, access.view(VK_FORMAT_R32G32B32A32_SFLOAT)),
-      torques(device, "the contact torques", Elements(s).torques * kVec4, access.view(VK_FORMAT_R32G32B32A32_SFLOAT)),
-      carried(device, "the carried history", Elements(s).history * kVec4),
-      sizes(s),
-      access_(access),
-      bindings_(device,
-                {&state, &rows, &ranges, &history, &coilHistory, &member, &control, &cells, &anchors, &sensors,
-                 &entries, &books, &energies, &forces, &torques, &carried},
-                access.texelReads ? std::vector<const vk::Buffer*>{&state, &rows, &ranges, &history, &coilHistory,
-                                                                   &member, &anchors, &entries, &forces, &torques}
-                                  : std::vector<const vk::Buffer*>{},
-                sizeof(gpu::StepPush)),
+std::vector<const vk::Buffer*> Tables::all() const {
+    return {
+#define TABLE(number, name, element, count, title) &name,
+#include "shaders/shared/tables.h"
+    };
+}
+
+VkDeviceSize Tables::bytes() const {
+    VkDeviceSize sum = 0;
+    for (const vk::Buffer* table : all()) sum += table->size();
+    return sum;
+}
+
+Passes::Passes(const vk::Device& device, const TableSizes& s)
+    : Tables(device, s, accessOn(device, s)),
+      bindings_(device, all(), sizeof(gpu::StepPush)),
       sense_(device, bindings_, vk::pick(spirv::sense, macrosFor(access, s)), constants(s)),
       senseEnergy_(device, bindings_, vk::pick(spirv::sense_energy, macrosFor(access, s)), constants(s)) {
     for (const StepPass& pass : kStep)
@@ -140,12 +107,12 @@ void Passes::reset() {
     ranges.writeAll(none);
     if (sizes.coilSlots > 0) {
         const std::vector<gpu::vec4> angles(sizes.particles(), gpu::vec4(gpu::kNoTurn));
-        coilHistory.writeAll(angles, kVec4 * (sizes.coilHistoryRows() - 1) * sizes.particles());
+        coilHistory.writeAll(angles, sizeof(gpu::vec4) * (sizes.coilHistoryRows() - 1) * sizes.particles());
     }
     gpu::Control fresh{};
     fresh.call = fresh.error = gpu::uvec4(gpu::kEmpty);
     fresh.wanted = gpu::uvec4(1, 1, 0, 0);
-    control.writeAll(std::vector<gpu::Control>(sizes.members, fresh), controlOffset(0));
+    controls.writeAll(std::vector<gpu::Control>(sizes.members, fresh), controlOffset(0));
     setLive(sizes.members);
 }
 
@@ -161,28 +128,20 @@ void Passes::setLive(std::uint32_t live) {
     d.pairs = groups(sizes.pairSlots / sizes.workgroup);
     d.surfaces = groups(sizes.surfaceSlots / sizes.workgroup);
     d.coil = groups(sizes.coilSlots / sizes.workgroup);
-    control.write(0, &d, sizeof d);
+    controls.write(0, &d, sizeof d);
     live_ = live;
 }
 
-std::vector<gpu::Control> Passes::controls() const {
-    return control.readAll<gpu::Control>(sizes.members, controlOffset(0));
+std::vector<gpu::Control> Passes::allControls() const {
+    return controls.readAll<gpu::Control>(sizes.members, controlOffset(0));
 }
 
 gpu::Control Passes::controlOf(std::uint32_t m) const {
-    return control.readAll<gpu::Control>(1, controlOffset(m))[0];
+    return controls.readAll<gpu::Control>(1, controlOffset(m))[0];
 }
 
 void Passes::setControl(std::uint32_t m, const gpu::Control& c) {
-    control.write(controlOffset(m), &c, sizeof c);
-}
-
-VkDeviceSize Passes::bytes() const {
-    VkDeviceSize sum = 0;
-    for (const vk::Buffer* b : {&state, &rows, &ranges, &history, &coilHistory, &member, &control, &cells, &anchors,
-                                &sensors, &entries, &books, &energies, &forces, &torques, &carried})
-        sum += b->size();
-    return sum;
+    controls.write(controlOffset(m), &c, sizeof c);
 }
 
 gpu::StepPush Passes::push(std::uint32_t step, std::uint32_t source, bool opening) const {
@@ -207,10 +166,10 @@ void Passes::dispatch(vk::Commands& commands, std::size_t n, std::uint32_t sourc
     switch (pass.extent) {
         case Extent::OfStep:
             commands.dispatchIndirect(
-                control.handle(), offsetof(gpu::Dispatches, step) + source * sizeof(gpu::Dispatch) + pass.arguments);
+                controls.handle(), offsetof(gpu::Dispatches, step) + source * sizeof(gpu::Dispatch) + pass.arguments);
             return;
         case Extent::OfLists:
-            commands.dispatchIndirect(control.handle(), pass.arguments);
+            commands.dispatchIndirect(controls.handle(), pass.arguments);
             return;
         case Extent::Particles:
             commands.dispatch(sizes.inRow(sizes.groups()), live_, sizes.layers(sizes.groups()));

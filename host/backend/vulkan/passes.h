@@ -1,6 +1,5 @@
 #pragma once
-// The device side of one load: buffers, bindings and pipelines, sized for its particles. Mirrors shaders/pass and
-// shaders/shared/buffers.glsl; the order of the buffers is the order of the bindings.
+// The device side of one load: tables, bindings and pipelines, sized for its particles.
 
 #include <array>
 #include <cstdint>
@@ -22,17 +21,26 @@ namespace vkdose {
 struct Access {
     bool texelReads = false;    ///< through texel-buffer views
     bool packedStores = false;  ///< 64 bits at a time; only with texelReads
-    VkFormat view(VkFormat format) const { return texelReads ? format : VK_FORMAT_UNDEFINED; }
 };
 
-/// What tables of these sizes take on the device.
-struct TableBytes {
-    std::uint64_t all = 0;
-    std::uint64_t longest = 0;  ///< of any one
-};
-TableBytes tableBytes(const TableSizes& sizes);
+/// The tables of shaders/shared/tables.h, each under its name.
+class Tables {
+  public:
+    Tables(const vk::Device& device, const TableSizes& sizes, const Access& access);
 
-class Passes {
+    std::vector<const vk::Buffer*> all() const;  ///< in the order of their bindings
+    VkDeviceSize bytes() const;                  ///< of all
+
+    const TableSizes sizes;
+    const Access access;
+#define TABLE(number, name, element, count, title) vk::Buffer name;
+#include "shaders/shared/tables.h"
+
+  private:
+    static vk::Buffer make(const vk::Device& device, const TableSizes& sizes, const Access& access, std::size_t number);
+};
+
+class Passes : public Tables {
   public:
     Passes(const vk::Device& device, const TableSizes& sizes);
 
@@ -51,15 +59,9 @@ class Passes {
     /// From now on the first `live` rows of the roster take part in a step.
     void setLive(std::uint32_t live);
 
-    std::vector<gpu::Control> controls() const;  ///< of every member
+    std::vector<gpu::Control> allControls() const;  ///< of every member
     gpu::Control controlOf(std::uint32_t member) const;
     void setControl(std::uint32_t member, const gpu::Control& c);
-
-    vk::Buffer state, rows, ranges, history, coilHistory, member, control, cells, anchors, sensors, entries, books,
-        energies, forces, torques, carried;
-    const TableSizes sizes;
-    bool texelReads() const { return access_.texelReads; }
-    VkDeviceSize bytes() const;  ///< of all tables
 
     /// What every dispatch is told; the roster's first row.
     gpu::StepPush push(std::uint32_t step, std::uint32_t source, bool opening) const;
@@ -70,8 +72,6 @@ class Passes {
     static std::vector<const char*> stepNames();
 
   private:
-    Passes(const vk::Device& device, const TableSizes& sizes, const Access& access);
-
     static VkDeviceSize controlOffset(std::uint32_t member) {
         return sizeof(gpu::Dispatches) + member * sizeof(gpu::Control);
     }
@@ -80,7 +80,6 @@ class Passes {
     void dispatch(vk::Commands& commands, std::size_t n, std::uint32_t source) const;
 
     std::uint32_t live_ = 0;
-    Access access_;
     vk::BindingSet bindings_;
     std::deque<vk::Pipeline> step_;  ///< of a step, in their order
     vk::Pipeline sense_, senseEnergy_;
