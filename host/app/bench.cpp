@@ -9,6 +9,7 @@
 
 #include "host/app/commands.h"
 #include "host/app/exit_code.h"
+#include "host/app/inputs.h"
 #include "host/app/interrupt.h"
 #include "host/backend/vulkan/vulkan.h"
 #include "host/bench/copies.h"
@@ -181,6 +182,8 @@ void print(const Row& row) {
 
 int benchCommand(const BenchOptions& options) {
     const std::vector<bench::Plan> plans = chosenPlans(options);
+    if (!options.bed.empty())
+        keepInputs(loadCase(options.bed).files, {options.out / "bench.json", options.out / "bench.csv"});
     createFolder(options.out);
     bench::Effort effort;
     effort.repeats = options.repeats;

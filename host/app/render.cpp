@@ -10,6 +10,7 @@
 #include "host/app/film.h"
 #include "host/app/inputs.h"
 #include "host/app/run_states.h"
+#include "host/core/error.h"
 #include "host/core/file.h"
 #include "host/core/printable.h"
 #include "host/output/run_files.h"
@@ -110,6 +111,21 @@ void writePicture(const fs::path& file, const render::Canvas& canvas) {
     fmt::print("{}\n", printable(file.string()));
 }
 
+std::string pictureName(std::size_t i) {
+    return fmt::format("frame_{:06}.png", i);
+}
+
+/// Pictures of one film must not mix with those of another, nor replace a user's own.
+void requireNoPictures(const fs::path& folder) {
+    std::error_code code;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, code)) {
+        const std::string name = entry.path().filename().string();
+        if (name.starts_with("frame_") && name.ends_with(".png"))
+            throw OutputError(fmt::format("{} holds {} already; name another folder, or remove the pictures from it",
+                                          folder.string(), name));
+    }
+}
+
 void writeMovie(Renderer& renderer, const RenderOptions& options, std::size_t count) {
     const fs::path& to = options.movie;
     std::optional<Film> film;
@@ -117,7 +133,7 @@ void writeMovie(Renderer& renderer, const RenderOptions& options, std::size_t co
     for (std::size_t i = 0; i < count; ++i) {
         const render::Canvas canvas = renderer.draw({i});
         if (!to.has_extension()) {
-            replaceFile(to / fmt::format("frame_{:06}.png", i), canvas.png());
+            replaceFile(to / pictureName(i), canvas.png());
             continue;
         }
         if (canvas.width() % 2 != 0 || canvas.height() % 2 != 0)
@@ -146,6 +162,7 @@ std::vector<std::size_t> chosenOf(const RenderOptions& options, const RunStates&
 int renderCommand(const RenderOptions& options) {
     const fs::path picture = options.out.empty() ? options.folder / "picture.png" : options.out;
     keepInputs(filesOfRun(options.folder), {picture, options.movie});
+    if (!options.movie.has_extension() && !options.movie.empty()) requireNoPictures(options.movie);
     const RunStates states(options.folder);
     if ((options.panels || !options.movie.empty()) && !states.hasFrames())
         throw UsageError(fmt::format("{} kept no frames ([frames] in its case does), only its end can be drawn",

@@ -91,6 +91,9 @@ Frames::Frames(const fs::path& run) : folder_(run / kFramesFolder) {
 Frame Frames::read(const FrameEntry& entry) const {
     Frame frame;
     fs::path file = folder_ / frameFile(kParticlesFrame, entry.number);
+    if (!fs::exists(file))
+        throw OutputError(fmt::format("{} lists frame {}, but there is no file {}", (folder_ / kFramesIndex).string(),
+                                      entry.number, file.string()));
     try {
         readParticlesFile(content(file), frame);
         const fs::path contacts = folder_ / frameFile(kContactsFrame, entry.number);

@@ -80,9 +80,13 @@ std::vector<Quantity> quantitiesOf(const FieldSensor& s, const Plane& plane) {
 std::vector<Entry> keptMaps(const fs::path& list) {
     const Table table = Table::read(list);
     std::vector<Entry> entries;
-    for (std::size_t i = 0; i < table.rows(); ++i)
+    std::error_code code;
+    for (std::size_t i = 0; i < table.rows(); ++i) {
+        if (!fs::exists(list.parent_path() / table.text(i, "file"), code))
+            table.refuse(i, "file", "names a map that is not there", "put the map back, or run the case again");
         entries.push_back({table.number(i, "time_s"), table.text(i, "phase"), static_cast<int>(table.number(i, "dose")),
                            table.text(i, "file")});
+    }
     return entries;
 }
 

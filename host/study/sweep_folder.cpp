@@ -59,11 +59,14 @@ std::string today(const fs::path& file) {
     }
 }
 
-/// Whether a sweep has begun in the folder: its table is there, or at least its study and members.
-bool isSweep(const fs::path& folder) {
+/// Whether a sweep has begun in the folder: its table is there, or at least members and the base of this very study.
+/// Other files of these names may be the user's own.
+bool isSweep(const fs::path& folder, const Case& base) {
+    if (Table::salvage(folder / "members.csv").has("member")) return true;
     std::error_code code;
-    return Table::salvage(folder / "members.csv").has("member") ||
-           (fs::exists(folder / "study.toml", code) && fs::is_directory(folder / "members", code));
+    const fs::path file = folder / "base.toml";
+    return fs::is_directory(folder / "members", code) &&
+           (fileContent(file) == base.resolved || today(file) == base.resolved);
 }
 
 /// Whether nothing is in the folder but halves of files, of a sweep that was killed in its first moment.
@@ -93,7 +96,8 @@ void requireNothingLost(const fs::path& folder, const Study& study, const Case& 
 SweepFolder::SweepFolder(fs::path folder, const Study& study, const std::vector<Member>& members)
     : folder_(std::move(folder)), study_(study.file.string()) {
     std::error_code error;
-    const bool former = isSweep(folder_);
+    const Case base = loadCase(study.base);
+    const bool former = isSweep(folder_, base);
     if (fs::exists(folder_, error) && !fs::is_directory(folder_, error))
         throw FolderError(fmt::format("{} is a file, not a folder; choose another with --out", folder_.string()));
     if (!former && !holdsNothing(folder_))
@@ -117,7 +121,6 @@ SweepFolder::SweepFolder(fs::path folder, const Study& study, const std::vector<
     std::erase_if(status_, [](const auto& entry) { return entry.second == MemberStatus::Interrupted; });
     dropRows(members_, ended);
     gatherDoses();
-    const Case base = loadCase(study.base);
     requireNothingLost(folder_, study, base);
     try {
         rewrite();  // first: they tell that a sweep is here

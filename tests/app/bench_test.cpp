@@ -3,9 +3,11 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "host/app/exit_code.h"
 #include "tests/app/sandbox.h"
 #include "tests/support/catch.h"
 
+using namespace vkdose;
 using namespace vkdose::test;
 
 namespace {
@@ -47,6 +49,16 @@ TEST_CASE("bench measures the small workloads on the device") {
         if (result.contains("pass_step_s")) requirePositive(result, "pass_step_s");
     }
     CHECK(readCsv(box / "found/bench.csv").size() == 9);
+}
+
+TEST_CASE("bench does not replace the bed that it measures") {
+    const Sandbox box;
+    const std::string bed = readText(VKDOSE_SOURCE_DIR "/cases/mini.toml");
+    box.write("bench.csv", bed);
+    const auto outcome = box.vkdose("bench --quick --bed bench.csv --only free-fall --out ." + device());
+    CHECK(outcome.code == kBadInput);
+    CHECK(outcome.err.find("bench.csv is read by this command") != std::string::npos);
+    CHECK(readText(box / "bench.csv") == bed);
 }
 
 TEST_CASE("bench sums processes that run side by side") {

@@ -227,6 +227,12 @@ TEST_CASE("render: a film is handed to ffmpeg picture by picture") {
             differ += i % 4 != 3 && data[i] != static_cast<unsigned char>(given[k * kBytes + i]);
         CHECK(differ == 0);
     }
+    // A second film into the same folder would leave a mixture of both.
+    const std::string first = readText(box / "film/frame_000000.png");
+    outcome = box.vkdose("render run --movie film --size 80x60");
+    CHECK(outcome.code == kOutputError);
+    CHECK_THAT(outcome.err, Catch::Contains("film holds frame_00000") && Catch::Contains("name another folder"));
+    CHECK(readText(box / "film/frame_000000.png") == first);
 
     standIn(box, "echo 'no such codec' >&2; exit 1");
     outcome = box.vkdose("render run --movie film.mp4 --size 160x120", path);

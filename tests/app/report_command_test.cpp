@@ -77,7 +77,7 @@ TEST_CASE("report: what cannot be reported on is refused, and nothing is written
         CHECK_THAT(outcome.err, Catch::Contains(why));
     };
     refused("nowhere", "there is no folder nowhere");
-    refused("empty", "holds neither a run nor a sweep");
+    refused("empty", "holds neither a run (case.toml) nor a sweep (members.csv)");
     refused("lonely.toml", "there is no folder out/lonely");
     refused("sweep --experiment b.csv", "--experiment belongs to the report of a run");
     refused("sweep --profile p.csv", "--profile belongs to the report of a run");

@@ -53,8 +53,9 @@ TEST_CASE("a driver's file that is broken is told as that, not as too little mem
     const auto o = box.vkdose("devices", "env -u VK_DRIVER_FILES -u VK_ADD_DRIVER_FILES VK_ICD_FILENAMES=broken.json ");
     CAPTURE(o.out, o.err);
     CHECK(o.code == 4);
-    CHECK_THAT(o.err, Contains("a driver's description cannot be read") && Contains("VK_LOADER_DEBUG=error") &&
-                          !Contains("fewer particles"));
+    // Newer loaders (1.4) pass the file over, so that no driver is left; older ones fail for it.
+    CHECK_THAT(o.err, (Contains("a driver's description cannot be read") || Contains("one was passed over")) &&
+                          Contains("VK_LOADER_DEBUG=error") && !Contains("fewer particles"));
 }
 
 TEST_CASE("a device that lacks something is refused with what it lacks") {

@@ -267,7 +267,8 @@ TEST_CASE("frames of a run under way are those whose lines are whole; what is no
     refused(bytes.substr(0, bytes.size() / 2));
     refused(readText(box / "frames/contacts_000002.hdf"));
     fs::remove(file);
-    CHECK_THROWS_AS(frames.read(frames.entries()[2]), OutputError);
+    CHECK_THROWS_WITH(frames.read(frames.entries()[2]),
+                      Catch::Contains("frames.csv lists frame 2") && Catch::Contains("particles_000002.hdf"));
     CHECK(Frames(box / "nowhere").entries().empty());
 }
 

@@ -305,6 +305,12 @@ TEST_CASE("a sweep does not write into a folder that holds something else, or th
     MadeUpRuns runs(1);
     CHECK_THROWS_WITH(sweep.run(runs), Catch::Contains("something else than a sweep"));
     fs::remove(sweep.out / "thesis.tex");
+    // Files and a folder of the names that a sweep uses make no sweep.
+    fs::create_directories(sweep.out / "members");
+    for (const char* name : {"study.toml", "base.toml"}) std::ofstream(sweep.out / name) << "my own";
+    CHECK_THROWS_WITH(sweep.run(runs), Catch::Contains("something else than a sweep"));
+    CHECK(readText(sweep.out / "study.toml") == "my own");
+    for (const char* name : {"members", "study.toml", "base.toml"}) fs::remove(sweep.out / name);
     const Study study = sweep.place.study();
     const std::vector<Member> members = membersOf(study);
     const SweepFolder held(sweep.out, study, members);

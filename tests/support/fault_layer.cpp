@@ -1,13 +1,20 @@
 // A Vulkan layer that makes a good driver a bad one, for tests: production code has no hooks. VKDOSE_FAULT names what
-// fails, several at once separated by commas; NAME:N fails from the N-th call on (counted from 0).
+// fails, several faults separated by commas; NAME:N fails from the N-th call on (counted from 0).
 //
-//   no-device       no physical device is shown           no-compute     no queue family computes
-//   vulkan-1.0      the devices say Vulkan 1.0             few-buffers    4 storage buffers per stage, the least
-//   allowed least-limits    what compute uses is at the least that Vulkan 1.1 promises, except storage buffers per
-//   stage small-range     storage buffers of 64 KiB             few-groups     dispatches of 2 workgroups split-memory
-//   device memory the host cannot map, as on a discrete card, beside host memory no-queue        vkCreateDevice fails
-//   no-pipeline    vkCreateComputePipelines fails no-memory:N     vkAllocateMemory fails                 no-map
-//   vkMapMemory fails lost:N          vkQueueSubmit loses the device         lost-waiting:N vkWaitForFences does
+//   no-device       no physical device is shown
+//   no-compute      no queue family computes
+//   vulkan-1.0      the devices say Vulkan 1.0
+//   few-buffers     4 storage buffers per stage, the fewest that Vulkan allows
+//   least-limits    the limits of compute are the least that Vulkan 1.1 promises, except storage buffers per stage
+//   small-range     storage buffers of 64 KiB
+//   few-groups      dispatches of 2 workgroups
+//   split-memory    device memory that the host cannot map, as on a discrete card, beside host memory
+//   no-queue        vkCreateDevice fails
+//   no-pipeline     vkCreateComputePipelines fails
+//   no-memory:N     vkAllocateMemory fails
+//   no-map          vkMapMemory fails
+//   lost:N          vkQueueSubmit loses the device
+//   lost-waiting:N  vkWaitForFences loses it
 #include <vulkan/vk_layer.h>
 
 #include <algorithm>
