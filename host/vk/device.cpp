@@ -15,7 +15,7 @@ namespace vkdose::vk {
 
 const std::uint32_t kStorageBuffers = gpu::kTables;
 
-/// What the validation layer said; it may speak from a thread of its own.
+/// Messages of the validation layer, which may speak from a thread of its own.
 struct ValidationMessages {
     std::mutex mutex;
     std::vector<std::string> list;

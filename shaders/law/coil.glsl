@@ -53,7 +53,7 @@ float polarAngle(float x, float y) {
 
 float fold(float angle) { return angle - kTwoPi * floor(angle / kTwoPi + 0.5); }
 
-/// What the candidates of one sphere have in common.
+/// The quantities that all candidates of one sphere share.
 struct CoilView {
     float rho;        // distance from the axis [m]
     float off;        // rho - r_c, accurate [m]

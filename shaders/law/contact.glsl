@@ -1,4 +1,4 @@
-// One contact: normal, sliding, rolling and torsion put together. Knows no buffers.
+// One contact: normal, sliding, rolling and torsion put together. Knows no tables.
 #ifndef VKDOSE_LAW_CONTACT_GLSL
 #define VKDOSE_LAW_CONTACT_GLSL
 
@@ -33,7 +33,7 @@ Response contactResponse(ContactParams p, uvec4 choices, Meeting m, float dt, in
     vec3 vt = m.velocity - m.normal * vn;
     float f = normalForce(p, m.overlap, m.reduced, h.slidingMax.w);
     float fn = f - p.damping.w * vn;
-    // What limits friction: adhesion moves its zero (Luding 2008), or the size of the whole normal force.
+    // Friction is limited by the normal force, counted from the adhesive limit (Luding 2008), or by its size.
     float bearing = choices.x == kCoulombLuding ? max(0.0, f + p.normal.z * m.overlap) : abs(fn);
 
     bool slides, rolls, twists;

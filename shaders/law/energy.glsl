@@ -1,11 +1,11 @@
-// What a contact does with energy in a step (host/backend/backend.h, EnergyBook, for the balance): each part of its
-// force takes some from the motion, stores some in its spring and loses the rest. Knows no buffers.
+// The energy of a contact in a step (host/backend/backend.h, EnergyBook, for the balance): each part of its force takes
+// some from the motion, stores some in its spring and loses the rest. Knows no tables.
 #ifndef VKDOSE_LAW_ENERGY_GLSL
 #define VKDOSE_LAW_ENERGY_GLSL
 
 #include "law/contact.glsl"
 
-/// What a contact exerted in a step and where, kept until the next; all zero if it did not touch.
+/// Force and place of a contact in a step, kept until the next; all zero if it did not touch.
 struct Exerted {
     vec4 normal;  // xyz: normal; w: force along it, without damping [N]
     vec4 rest;    // xyz: damping and sliding force on i [N]; w: overlap [m]
@@ -35,8 +35,8 @@ vec4 elasticEnergy(ContactParams p, float f, float reduced, History h) {
     return 0.5 * twice;
 }
 
-/// What the force `e` takes in half a step `dt` [s] from a contact that moves with `velocity`, seen where the force
-/// acted, and `spin` (both of i relative to j).
+/// Work that the force `e` takes in half a step `dt` [s] from a contact that moves with `velocity`, seen where the
+/// force acted, and `spin` (both of i relative to j).
 Work halfStepWork(Exerted e, vec3 velocity, vec3 spin, float dt) {
     vec3 n = e.normal.xyz;
     float damping = dot(n, e.rest.xyz), twist = dot(n, e.couple.xyz);

@@ -1,4 +1,4 @@
-// Books of particles: what is not booked by a contact while it touches.
+// Books of particles. Contacts book for themselves while they touch (pass/slot_books.glsl); the rest is here.
 #ifndef VKDOSE_PASS_BOOKS_GLSL
 #define VKDOSE_PASS_BOOKS_GLSL
 
@@ -11,8 +11,8 @@ float workOnOneSide(Exerted e, Body b, float side) {
     return w.hysteretic + w.damping + dot(w.sliders, vec3(1.0));
 }
 
-/// Books a contact that touched until one of its particles, or both, left the motion: the energy in its springs is gone
-/// with them; what its last force still does to the one that stayed is booked here.
+/// Books a contact that touched until one of its particles, or both, left the motion. The energy in its springs is gone
+/// with them. Its last force still does work on a particle that stayed, which is booked here.
 void bookDeparture(uint i, uint slot) {
     History h = History(readHistory(0u, slot), readHistory(1u, slot));
     if (h.slidingMax.w <= 0.0) return;
@@ -29,7 +29,7 @@ void bookDeparture(uint i, uint slot) {
     books[bookIndex(kBookFlow, i)].y += left;
 }
 
-/// The same for what a particle that has left had in its contacts with the coil.
+/// The same for the contacts with the coil of a particle that has left.
 void bookDepartureFromCoil(uint i) {
     vec4 angles = coilHistory[wireAngleIndex(i)];
     for (uint t = 0u; t < kMaxTurns; ++t) {
@@ -42,8 +42,9 @@ void bookDepartureFromCoil(uint i) {
     }
 }
 
-/// Adds what the particle's own contacts booked in this step (fields as in shared/layout.h), the coil's work, what came
-/// with the load and what leaves with the particle. Velocities before and after the kick.
+/// Adds to the particle's book the books of its own contacts in this step (fields as in shared/layout.h), the coil's
+/// work, the energy that came with the load and the energy that leaves with the particle. Velocities are those before
+/// and after the kick.
 void bookStep(uint i, vec4 normal, vec4 sliders, vec3 centre, float r, float mass, vec3 velocity, vec3 spin,
               vec3 newVelocity, vec3 newSpin, float coilTorque, bool leaves) {
     bool first = opening();

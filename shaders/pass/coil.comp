@@ -1,6 +1,7 @@
 #version 450
-// coil: what the turning coil exerts in this step, one particle near it per invocation with all its contacts.
-// Reads the source half of the state, entries, the coil's history; writes it, forces and torques, which `move` gathers.
+// coil: computes the contacts with the turning coil in this step, one particle near it per invocation.
+// Reads the source half of the state, entries, the coil's history; writes that history, forces and torques, which
+// `move` gathers, and the sum of the particle's torque on the coil, which `sense` reads.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/buffers.glsl"
 #include "pass/wall.glsl"
@@ -81,7 +82,7 @@ void main() {
         coilHistory[at + push.particles] = h.rollingTorsion;
         force += f.force;
         torque += f.torque;
-        writeForce(turnForceIndex(turn, slot), vec4(f.force, 0.0));  // for who asks after single contacts
+        writeForce(turnForceIndex(turn, slot), vec4(f.force, 0.0));  // the host asks for single contacts
         coilTorque -= point.x * f.force.y - point.y * f.force.x + f.couple.z;
         overlap = max(overlap, o.depth / me.sphere.radius);
 #ifdef ENERGY_BOOK

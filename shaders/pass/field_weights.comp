@@ -1,6 +1,6 @@
 #version 450
-// field_weights: what the kernel around a place adds up to over the grid, one place per invocation: the particles of
-// the member, whose touching neighbours are counted as well, then, if contact stress is wanted, the nodes of the
+// field_weights: adds up the kernel around a place over the grid, one place per invocation. The places are the member's
+// particles, whose touching neighbours are counted as well; then, if contact stress is wanted, the nodes of the
 // branches of its contacts. Reads the source half of the state (of a branch the other), entries, links, forces,
 // branches; writes weights.
 #extension GL_GOOGLE_include_directive : require

@@ -1,7 +1,7 @@
 #version 450
-// link: makes the lists that `near` prepared the current ones, and tells every particle the slots of the contacts it
-// takes part in, in an order that no timing changes. Reads state, rows, coming entries, carried history; writes
-// entries, history, links and their ranges, list anchors.
+// link: makes the lists that `near` prepared the current ones. Lists for every particle the slots of its contacts, in
+// an order that no timing changes. Reads state, rows, coming entries, carried history; writes entries, history, links
+// and their ranges, list anchors.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/buffers.glsl"
 #include "pass/margin.glsl"

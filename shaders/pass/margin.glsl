@@ -1,4 +1,4 @@
-// Which contacts the lists hold: all that can touch while every particle and the coil keep within their slack.
+// The contacts that the lists hold: all that can touch while every particle and the coil keep within their slack.
 #ifndef VKDOSE_PASS_MARGIN_GLSL
 #define VKDOSE_PASS_MARGIN_GLSL
 

@@ -1,9 +1,10 @@
 #version 450
 // move: gathers the forces on one particle per invocation and moves it a time step.
-// Reads the source half of the state, links, forces and torques, anchors; writes the destination half; calls for a
-// refresh of the contact lists or a rebuild of the rows when the particle has moved as far as they allow for.
+// Reads the source half of the state, links, forces and torques, anchors; writes the other half. Calls for a refresh of
+// the contact lists or a rebuild of the rows when the particle has moved as far as they allow for.
 //
-// The sum runs in the order of the links: other particles by ascending index, surfaces, coil; wherever their slots are.
+// The sum runs in the order of the links: other particles by ascending index, surfaces, coil. It does not depend on
+// where their slots are.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/buffers.glsl"
 #include "pass/slack.glsl"
@@ -70,7 +71,7 @@ void main() {
     uint now = !sound ? kStatusLost : high.z > top.w ? kStatusDosed : outside ? kStatusLost : kStatusActive;
     bool leaves = moving && now != kStatusActive;
 
-    // Whenever lists are made of them, the rows must hold what is within the slack as well.
+    // Lists may be made from the rows at any time, so the rows must always hold all that is within the slack.
     bool rebuild = leaves || beyond(high - rowAnchor, (1.0 - kMostSlack) * slackUnit());
     bool refresh = beyond(high - listAnchor.xyz, listAnchor.w);
     uint call = !sound                ? kErrorNan

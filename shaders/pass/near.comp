@@ -1,11 +1,11 @@
 #version 450
-// near: lists the contacts that can come about before the next refresh and gives each a slot: pairs to their particle
-// of smaller index, surfaces and the coil. Reads state, rows, current entries, links and history; writes the coming
-// entries, the history carried to them and the ranges of own slots. `link` then makes them current. Which slot a
-// contact gets depends on timing; nothing that moves a particle depends on the slot.
+// near: lists the contacts that can come about before the next refresh and gives each a slot. The particle of smaller
+// index lists a pair. Reads state, rows, current entries, links and history; writes the coming entries, the history
+// carried to them and the ranges of own slots. `link` then makes them current. Which slot a contact gets depends on
+// timing; nothing that moves a particle depends on the slot.
 //
-// The rows alone would do. But they hold three times what touches, and with a slack of a hundredth of a radius instead
-// of their skin nearly every slot is a touching contact, which keeps all lanes of `pairs` busy.
+// The rows alone would do. But of three contacts in them one touches. The slack is a hundredth of a radius instead of
+// the rows' skin, so nearly every slot is a touching contact, which keeps all lanes of `pairs` busy.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/buffers.glsl"
 #include "pass/margin.glsl"
@@ -16,7 +16,7 @@
 uint partners[kMaxRow];
 uint pairs, surfaces, firstPair, firstSurface;
 
-/// The coming slot of what the contact `slot` joins; kEmpty if the two are no longer near.
+/// The coming slot of the contact that is in `slot` now; kEmpty if its two bodies are no longer near.
 uint comingSlot(uint slot, uint other) {
     uint to = kEmpty;
     if (ofPair(slot)) {
@@ -33,8 +33,8 @@ void prepare(uint slot, uint i, uint other) {
     for (uint part = 0u; part < kParts; ++part) carried[historyIndex(part, slot)] = vec4(0.0);
 }
 
-/// Whether a wall that ends at the front wall and the rim or throat may become one contact, or part, before the next
-/// refresh: in front of the wall itself they cannot.
+/// Whether before the next refresh the contact with a wall that ends at the front wall may become one with that with
+/// the rim or throat, or part from it. In front of the front wall itself it cannot.
 bool joinsAtFront(Sphere me, float slack) {
     bool both = (surfaces & (1u << FRONT)) != 0u && bitCount(surfaces) > 1u;
     return joints() && both && length(me.high.xy) < frontSurface().radius.x + slack + 1e-7;

@@ -1,7 +1,7 @@
 #version 450
-// sense: one record per workgroup of what the host wants to know (shared/layout.h, SensorRecord); the host adds the
-// records up in double precision. Reads the source half of the state; resets the accumulators in it. The order of every
-// sum is fixed by the tree.
+// sense: sums the sensors of the host, one record per workgroup (shared/layout.h, SensorRecord); the host adds the
+// records up in double precision. Reads the source half of the state and the torques on the coil; writes the records
+// and empties the accumulators: the largest overlap in the state, and the torques. A tree fixes the order of every sum.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/buffers.glsl"
 

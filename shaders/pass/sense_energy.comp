@@ -1,8 +1,8 @@
 #version 450
-// sense_energy: one record per workgroup of the energy book (shared/layout.h, EnergyRecord), with the energies of
-// motion and gravity at the full step before the last kick. Reads both halves of the state, the other one being what
-// the last step started from, and the books of the contacts; push.opening tells that it was the opening step. Resets
-// what the book accumulates.
+// sense_energy: sums the energy book, one record per workgroup (shared/layout.h, EnergyRecord), with the energies of
+// motion and gravity at the full step before the last kick. Reads both halves of the state, of which the other one is
+// where the last step started from, and the books of the contacts. push.opening tells that it was the opening step.
+// Writes the records and empties the books of the particles.
 #extension GL_GOOGLE_include_directive : require
 #define ENERGY_BOOK
 #include "shared/buffers.glsl"

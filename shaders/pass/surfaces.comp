@@ -1,11 +1,11 @@
 #version 450
-// surfaces: what the fixed surfaces exert in this step, one listed contact per invocation.
+// surfaces: computes the contacts with the fixed surfaces in this step, one listed contact per invocation.
 // Reads the source half of the state, entries, history; writes history, forces and torques, which `move` gathers.
 // A contact that does not touch exerts nothing and remembers nothing.
 //
-// Where walls go on into the throat, two surfaces may overlap a sphere in what is one contact, and the history passes
-// from one to the other. So all surfaces of a sphere at the rim are the work of the first one's invocation; `near` says
-// where.
+// Where walls go on into the throat, two surfaces may overlap a sphere in one contact, and the history passes from one
+// to the other. So one invocation, the first one's, computes all contacts of a sphere at the rim; `near` tells it how
+// many they are.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/buffers.glsl"
 #include "pass/wall.glsl"
@@ -13,7 +13,7 @@
 #include "pass/slot_books.glsl"
 #endif
 
-/// What a slot keeps of a contact from the last step; all zero if it did not touch.
+/// A slot's memory of the last step; all zero if the contact did not touch.
 struct Memory {
     History history;
 #ifdef ENERGY_BOOK

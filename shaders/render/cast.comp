@@ -46,8 +46,8 @@ Ray rayThrough(vec2 place) {
     return Ray(from, normalize(point - from));
 }
 
-/// Where a ray enters a sphere. The distance of its centre from the ray, not from the ray's origin, is what is
-/// squared, so that an origin far away costs no digits.
+/// Where a ray enters a sphere. The distance of its centre from the ray is squared, not that from the ray's origin, so
+/// that an origin far away costs no digits.
 float enterSphere(Ray ray, vec3 centre, float radius) {
     vec3 to = centre - ray.origin;
     float along = dot(to, ray.way);
@@ -85,7 +85,8 @@ ivec3 cellOf(vec3 p) {
 
 bool isCut() { return dot(params.cut.xyz, params.cut.xyz) > 0.0; }
 
-/// What the cut at `point` lies in, if anything. Of two spheres that overlap, on this side of where they meet.
+/// The body in which the cut at `point` lies, if any. Of two spheres that overlap, the one on this side of their
+/// meeting.
 Hit openedAt(vec3 point, float far) {
     Hit hit = Hit(kNever, kNothing, false);
     float deepest = 0.0;

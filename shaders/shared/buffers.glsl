@@ -1,4 +1,4 @@
-// Bindings of every pass. One set serves all passes; a pass that does not name a buffer does not touch it.
+// The tables and how passes read and write them. One set of bindings serves all passes.
 #ifndef VKDOSE_SHARED_BUFFERS_GLSL
 #define VKDOSE_SHARED_BUFFERS_GLSL
 
@@ -73,8 +73,8 @@ uint self;
 void openRow(uint row) { self = MEMBERS == 1u ? 0u : members[row].roster.x; }
 void openMember() { openRow(push.firstRow + gl_WorkGroupID.y); }
 
-// A member's parameters. What is read from the same place by all, lavapipe reads once, but only if the place is known
-// when the pipeline is made; else texel reads are faster.
+// A member's parameters. lavapipe reads a value once for all invocations if they read it from the same place and the
+// place is known when the pipeline is made; else texel reads are faster.
 #ifdef TEXEL_READS
 #define OF_MEMBER(field, vector) \
     (MEMBERS == 1u ? member.field : texelFetch(membersView, int(kMemberVectors * self + (vector))))
@@ -151,9 +151,8 @@ SurfaceParams readSurface(uint s) { return member.surface[s]; }
 #endif
 uint surfaceOf(uint other) { return other & ((1u << kSurfaceBits) - 1u); }
 
-// Where walls go on into the throat (law/surface.glsl, jointContact).
-/// A function: of a boolean constant made from others, in a pass that does not use it, lavapipe of Mesa 22.3 makes no
-/// pipeline.
+/// Whether there are walls that go on into the throat (law/surface.glsl, jointContact). This is a function, because
+/// lavapipe of Mesa 22.3 makes no pipeline of a pass that does not use a boolean constant made from others.
 bool joints() { return (KIND_SET & kEndingWalls) != 0u && (KIND_SET & (1u << kFront)) != 0u; }
 SurfaceParams frontSurface() {
     uint at = kVectorSurface + 4u * FRONT;
@@ -161,7 +160,7 @@ SurfaceParams frontSurface() {
                          OF_MEMBER(surface[FRONT].axis, at + 2u), OF_MEMBER(surface[FRONT].radius, at + 3u));
 }
 
-// What every step stores. PACKED_STORES writes 64 bits at a time, for devices that store component by component.
+// The stores of every step. PACKED_STORES writes 64 bits at a time, for devices that store component by component.
 #ifdef PACKED_STORES
 layout(std430, set = 0, binding = stateBinding) buffer PackedStateBuffer { u64vec4 packedState[]; };
 layout(std430, set = 0, binding = historyBinding) buffer PackedHistoryBuffer { u64vec4 packedHistory[]; };

@@ -38,7 +38,7 @@ SHARED_CONST kMaxLinks = 96u;         // contacts per particle: a row, every sur
 SHARED_CONST kEmpty = 0xffffffffu;    // end of a cell's list
 SHARED_REAL kNoTurn = 1e30f;          // wire angle in the place of a coil turn that is not touched
 // Slack: how far a particle may move before the contact lists are made anew; with half the skin of the rows as unit.
-// A particle at rest needs next to none; what falls gets room for a while.
+// A particle at rest needs next to none; one that falls gets room for a while.
 SHARED_REAL kLeastSlack = 0.0067f;
 SHARED_REAL kMostSlack = 0.2f;
 SHARED_REAL kSlackSteps = 256.0f;  // steps at the present speed
@@ -127,9 +127,9 @@ SHARED_CONST kVectorCoil = kVectorSurface + 4u * kMaxSurfaces;
 SHARED_CONST kVectorGravity = kVectorCoil + 5u;
 SHARED_CONST kMemberVectors = kVectorGravity + 6u;
 
-// --- control block: what the device decides and reports -----------------------------------------------------------
-// What a particle calls for in a step, the most urgent of all of them first: errors, what may have caused others before
-// these. A call is one word, kind << kCallShift | particle, and the least wins, whatever order invocations run in.
+// --- control block: decisions and reports of the device -----------------------------------------------------------
+// Calls of particles in order of urgency: errors first (causes before their effects), then rebuild, then refresh. A
+// call is one word, kind << kCallShift | particle, and the least wins, whatever order invocations run in.
 SHARED_CONST kErrorRowFull = 0u;
 SHARED_CONST kErrorCrowded = 1u;
 SHARED_CONST kErrorTables = 2u;
@@ -153,7 +153,7 @@ struct Dispatch {     // indirect arguments, three words each: workgroups in a r
 
 struct Dispatches {    // for all members together: as many workgroups as the one that wants most
     Dispatch step[2];  // of even and odd steps: `decide` clears that of its step and fills the other
-    uvec4 pairs;       // workgroups over what the contact lists hold: pairs ...
+    uvec4 pairs;       // workgroups over the entries of the contact lists: pairs ...
     uvec4 surfaces;    // ... contacts with surfaces ...
     uvec4 coil;        // ... particles near the coil
 };
@@ -178,7 +178,7 @@ struct SensorRecord {
 
 // --- the energy book (host/backend/backend.h, EnergyBook), kept only where the world asks for it [J] ---------------
 // vec4 book[3 fields][particles], then vec4 book[3 fields][slots]: of the contacts, which book to their first body. A
-// particle's holds what came together since the last sensing, a contact's the last step.
+// particle's book sums since the last sensing, a contact's holds the last step.
 SHARED_CONST kBookNormal = 0u;  // plastic, adhesive, viscous, numerical loss
 // sliding, rolling, torsion loss; of a particle: work of the coil, of a contact: loaded
 SHARED_CONST kBookSliders = 1u;

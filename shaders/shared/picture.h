@@ -1,4 +1,4 @@
-// What the ray caster (shaders/render/cast.comp) is told about a picture, seen by C++ and GLSL alike (see layout.h).
+// The ray caster's parameters of a picture (shaders/render/cast.comp), seen by C++ and GLSL alike (see layout.h).
 // Lengths are in metres from an origin that the host puts amid the scene.
 #ifndef VKDOSE_SHARED_PICTURE_H
 #define VKDOSE_SHARED_PICTURE_H

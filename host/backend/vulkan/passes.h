@@ -63,7 +63,7 @@ class Passes : public Tables {
     gpu::Control controlOf(std::uint32_t member) const;
     void setControl(std::uint32_t member, const gpu::Control& c);
 
-    /// What every dispatch is told; the roster's first row.
+    /// The push constants of every dispatch, for the roster's first row.
     gpu::StepPush push(std::uint32_t step, std::uint32_t source, bool opening) const;
     /// Specialisation constants of every pass over tables of this size.
     static std::array<std::uint32_t, 7> constants(const TableSizes& sizes);
