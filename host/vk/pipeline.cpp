@@ -8,13 +8,16 @@ BindingSet::BindingSet(const Device& device, const std::vector<const Buffer*>& b
     : BindingSet(device, pushBytes) {
     const std::uint32_t count = std::uint32_t(buffers.size());
     assert(count <= kStorageBuffers);
+    std::vector<std::uint32_t> viewed;  // those that have a view
     std::vector<VkDescriptorSetLayoutBinding> bindings;
-    const auto bindingOf = [&](std::uint32_t number, VkDescriptorType type) {
-        bindings.push_back({number, type, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
-    };
-    for (std::uint32_t i = 0; i < count; ++i) bindingOf(i, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
     for (std::uint32_t i = 0; i < count; ++i)
-        if (buffers[i]->texelView() != VK_NULL_HANDLE) bindingOf(count + i, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER);
+        bindings.push_back({i, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
+    for (std::uint32_t i = 0; i < count; ++i) {
+        if (buffers[i]->texelView() == VK_NULL_HANDLE) continue;
+        viewed.push_back(i);
+        bindings.push_back(
+            {count + i, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
+    }
     VkDescriptorSetLayoutCreateInfo setInfo{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO, nullptr, 0,
                                             std::uint32_t(bindings.size()), bindings.data()};
     check(vkCreateDescriptorSetLayout(device.handle(), &setInfo, nullptr, &setLayout_), "vkCreateDescriptorSetLayout");
@@ -25,7 +28,7 @@ BindingSet::BindingSet(const Device& device, const std::vector<const Buffer*>& b
     check(vkCreatePipelineLayout(device.handle(), &layoutInfo, nullptr, &layout_), "vkCreatePipelineLayout");
 
     std::vector<VkDescriptorPoolSize> sizes{{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, count}};
-    const auto views = std::uint32_t(bindings.size()) - count;
+    const auto views = std::uint32_t(viewed.size());
     if (views > 0) sizes.push_back({VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, views});
     VkDescriptorPoolCreateInfo poolInfo{
         VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO, nullptr, 0, 1, std::uint32_t(sizes.size()), sizes.data()};
@@ -37,19 +40,22 @@ BindingSet::BindingSet(const Device& device, const std::vector<const Buffer*>& b
     std::vector<VkDescriptorBufferInfo> whole(count);
     std::vector<VkBufferView> texels(count);
     std::vector<VkWriteDescriptorSet> writes;
-    for (const VkDescriptorSetLayoutBinding& binding : bindings) {
-        const std::uint32_t i = binding.binding % count;
+    const auto write = [&](std::uint32_t binding, VkDescriptorType type) -> VkWriteDescriptorSet& {
+        VkWriteDescriptorSet w{};
+        w.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
+        w.dstSet = set_;
+        w.dstBinding = binding;
+        w.descriptorCount = 1;
+        w.descriptorType = type;
+        return writes.emplace_back(w);
+    };
+    for (std::uint32_t i = 0; i < count; ++i) {
         whole[i] = {buffers[i]->handle(), 0, VK_WHOLE_SIZE};
+        write(i, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER).pBufferInfo = &whole[i];
+    }
+    for (const std::uint32_t i : viewed) {
         texels[i] = buffers[i]->texelView();
-        VkWriteDescriptorSet write{};
-        write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
-        write.dstSet = set_;
-        write.dstBinding = binding.binding;
-        write.descriptorCount = 1;
-        write.descriptorType = binding.descriptorType;
-        write.pBufferInfo = binding.binding < count ? &whole[i] : nullptr;
-        write.pTexelBufferView = binding.binding < count ? nullptr : &texels[i];
-        writes.push_back(write);
+        write(count + i, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER).pTexelBufferView = &texels[i];
     }
     vkUpdateDescriptorSets(device.handle(), std::uint32_t(writes.size()), writes.data(), 0, nullptr);
 }

@@ -22,7 +22,7 @@ using uint = glm::uint;
 
 // --- how many tables there are; the bindings of their views come after theirs ---------------------------------------
 SHARED_CONST kTables = 0u
-#define TABLE(number, name, element, count, title) +1u
+#define TABLE(number, name, element, count, title) +1u  // NOLINT(bugprone-macro-parentheses): a summand
 #include "tables.h"
     ;
 SHARED_CONST kFirstView = kTables;

@@ -20,7 +20,7 @@
 #endif
 
 // [2 halves][2 couples][particles][2 fields]: layout.h, stateOffset.
-VIEWED(0, state, vec4, 2 * kFields * particles, the particle state)
+VIEWED(0, state, vec4, 2 * particles * kFields, the particle state)
 // Rows: [canisters][rowEntries]: of every particle the others within reach and skin, ascending. Then links:
 // [canisters][linkEntries]: of every particle the contacts that it takes part in: with other particles by ascending
 // index, with surfaces, with the coil. A link is slot << 1, plus 1 for the contact's second body.
