@@ -291,6 +291,8 @@ void Device::createDevice(std::uint32_t family) {
 Device::Device() = default;
 
 std::vector<std::string> Device::validationMessages() const {
+    // Newer layers tell what they found on the device only when it is idle. A lost device has nothing more to tell.
+    if (validated()) vkDeviceWaitIdle(device_);
     const std::lock_guard lock(messages_->mutex);
     return messages_->list;
 }

@@ -128,6 +128,12 @@ def whole_summary(text):
         return False
 
 
+def same_but_blanks(good, other, name):
+    """A case with more blank lines, or fewer, is the same case and stays as its owner left it."""
+    one, two = (folders.bytes_of(os.path.join(folder, name)).split() for folder in (good, other))
+    return name == "case.toml" and one == two
+
+
 def judge_success(t, command, name, way, readable):
     """What exit 0 promises, after a spoilt file."""
     # Where a file's link leads, and the file now lies.
@@ -136,8 +142,9 @@ def judge_success(t, command, name, way, readable):
         if not folders.complete(t.path("out")) or not whole_summary(folders.bytes_of(t.path("out", "summary.json"))):
             t.found("exit 0 without a whole summary")
     elif command == "resume":
-        but = [name] if name.startswith(UNREAD) else behind
-        t.expect_same(t.ground.good("short", "reference")[0], t.path("out"), "resumed, exit 0, but", but)
+        good = t.ground.good("short", "reference")[0]
+        but = [name] if name.startswith(UNREAD) or same_but_blanks(good, t.path("out"), name) else behind
+        t.expect_same(good, t.path("out"), "resumed, exit 0, but", but)
     elif command == "sweep-on":
         but = behind
         if name == "members.csv" and way in ("other_number", "bit_flips"):
