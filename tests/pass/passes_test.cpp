@@ -35,7 +35,7 @@ struct Rig {
         sizes = tableSizes(world, Crowd(p), member, {64, 65535, device.limits().maxStorageBufferRange});
         sizes.cells = 32;  // far fewer than cells in use: many share a slot of the table
         passes = std::make_unique<Passes>(device, sizes);
-        passes->member.write(0, &member, sizeof member);
+        passes->members.write(0, &member, sizeof member);
         std::vector<gpu::vec4> half(std::size_t(gpu::kFields) * sizes.particles());
         packState(p, sizes.share, 0, half);
         passes->state.writeAll(half);
@@ -60,8 +60,8 @@ TEST_CASE("tables take as much of the device as is told beforehand") {
         World world = canisterWorld();
         world.energyBook = book;
         const Rig rig(world, cloud(301, 0.02, 5));
-        CHECK(rig.passes->bytes() == tableBytes(rig.sizes).all);
-        CHECK(rig.passes->history.size() <= tableBytes(rig.sizes).longest);
+        CHECK(rig.passes->bytes() == rig.sizes.allBytes());
+        CHECK(rig.passes->history.size() <= rig.sizes.longestBytes());
     }
 }
 
@@ -177,7 +177,8 @@ TEST_CASE("the sensor records add up to the host's sums") {
     rig.run([&](vk::Commands& c) { rig.passes->recordSensing(c, 0); });
     gpu::uvec4 count(0);
     double mass[4] = {}, kinetic = 0, rotational = 0, throat = 0;
-    for (const auto& r : rig.passes->sensors.readAll<gpu::SensorRecord>(rig.sizes.groups())) {
+    for (const auto& group : rig.passes->records.readAll<gpu::GroupRecord>(rig.sizes.groups())) {
+        const gpu::SensorRecord& r = group.sensors;
         count += r.count;
         for (int k = 0; k < 4; ++k) mass[k] += double(r.mass[k]);
         kinetic += double(r.motion.x);
@@ -188,18 +189,20 @@ TEST_CASE("the sensor records add up to the host's sums") {
     double weighed[4] = {}, k = 0, rot = 0, pz = 0;
     for (std::size_t i = 0; i < n; ++i) {
         const double m = world.density * 4 / 3 * kPi * std::pow(p.radius[i], 3);
-        const int region = p.status[i] == Status::Dosed  ? 2
-                           : p.status[i] == Status::Lost ? 3
-                                                         : (p.position[i].z > world.throatZ ? 1 : 0);
-        ++counted[region];
+        const bool past = p.position[i].z > world.throatZ;
+        const std::uint32_t region = p.status[i] == Status::Dosed  ? gpu::kRegionDosed
+                                     : p.status[i] == Status::Lost ? gpu::kRegionLost
+                                     : past                        ? gpu::kRegionThroat
+                                                                   : gpu::kRegionCanister;
+        ++counted[int(region)];
         weighed[region] += m;
-        if (region > 1) continue;
+        if (p.status[i] != Status::Active) continue;
         k += 0.5 * m * glm::dot(p.velocity[i], p.velocity[i]);
         rot += 0.2 * m * p.radius[i] * p.radius[i] * glm::dot(p.spin[i], p.spin[i]);
-        if (region == 1) pz += m * p.velocity[i].z;
+        if (region == gpu::kRegionThroat) pz += m * p.velocity[i].z;
     }
     CHECK(count == counted);
-    CHECK(counted[1] > 5);
+    CHECK(counted[gpu::kRegionThroat] > 5);
     // A record sums 64 numbers in single precision: six additions deep, 6e-8 each.
     for (int region = 0; region < 4; ++region) CHECK(nearRelative(mass[region], weighed[region], 1e-6));
     CHECK(nearRelative(kinetic, k, 1e-6));

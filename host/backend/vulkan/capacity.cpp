@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "host/backend/vulkan/pack.h"
-#include "host/backend/vulkan/passes.h"
 
 namespace vkdose {
 
@@ -26,8 +25,7 @@ bool fit(const std::vector<TableSizes>& canisters, const DeviceRoom& room) {
     all.members = std::uint32_t(canisters.size());
     const bool numbered = std::uint64_t(all.members) * all.share <= gpu::kMostParticles;
     if (!numbered || all.largestIndex() > std::numeric_limits<std::uint32_t>::max()) return false;
-    const TableBytes bytes = tableBytes(all);
-    return bytes.all <= room.memory && bytes.longest <= room.range;
+    return all.allBytes() <= room.memory && all.longestBytes() <= room.range;
 }
 
 }  // namespace vkdose
