@@ -286,7 +286,7 @@ void addRender(CLI::App& program, RenderOptions& options) {
         ->capture_default_str();
     command.add_option("--from", options.from, "value where the colours begin, in the unit of the colour bar");
     command.add_option("--to", options.to, "value where the colours end");
-    command.add_option("--view", options.view, "view")
+    command.add_option("--view", options.view, "side from which the picture is drawn")
         ->check(CLI::IsMember({"side", "end", "iso", "cut"}))
         ->capture_default_str();
     command

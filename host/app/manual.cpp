@@ -63,6 +63,16 @@ std::string usage(const CLI::App& command) {
     return text;
 }
 
+/// `text` with a backslash before each `mark`, which Markdown would take for the end of a cell or the start of a tag.
+std::string escaped(const std::string& text, char mark) {
+    std::string out;
+    for (const char c : text) {
+        if (c == mark) out += '\\';
+        out += c;
+    }
+    return out;
+}
+
 std::string optionRows(const CLI::App& command) {
     std::string rows;
     for (const CLI::Option* option : shownOptions(command, false)) {
@@ -71,10 +81,8 @@ std::string optionRows(const CLI::App& command) {
         if (!type.empty()) name += " " + type;
         if (option->get_items_expected_max() > 1 && type.find(',') == std::string::npos) name += " ...";
         const std::string standard = option->get_default_str();
-        for (std::size_t bar = name.find('|'); bar != std::string::npos; bar = name.find('|', bar + 2))
-            name.replace(bar, 1, "\\|");
-        rows += fmt::format("| `{}` | {} | {} | {} |\n", name, option->get_description(), allowedText(*option),
-                            standard.empty() ? "" : "`" + standard + "`");
+        rows += fmt::format("| `{}` | {} | {} | {} |\n", escaped(name, '|'), escaped(option->get_description(), '<'),
+                            allowedText(*option), standard.empty() ? "" : "`" + standard + "`");
     }
     return rows;
 }
@@ -93,10 +101,7 @@ std::string optionsPage(const CLI::App& program, bool brief) {
     std::string text = brief ? "| command | what it does |\n| --- | --- |\n" : "";
     for (const CLI::App* command : commandsOf(program)) {
         if (brief) {
-            std::string name = usage(*command);
-            for (std::size_t bar = name.find('|'); bar != std::string::npos; bar = name.find('|', bar + 2))
-                name.replace(bar, 1, "\\|");
-            text += fmt::format("| `{}` | {} |\n", name, command->get_description());
+            text += fmt::format("| `{}` | {} |\n", escaped(usage(*command), '|'), command->get_description());
             continue;
         }
         text += fmt::format("{}### `{}`\n\n", text.empty() ? "" : "\n", usage(*command));
