@@ -168,9 +168,9 @@ Ratios readRatios(Section& section, const Ratios* parent) {
 
 void readContact(Section& root, Case& c) {
     Section& contact = root.requiredTable("contact");
-    c.world.law.coulombLimit =
+    c.dosingLaw.coulombLimit =
         static_cast<CoulombLimit>(contact.choice("coulomb_limit", {"luding", "absolute"}, 0).value_or(0));
-    c.world.law.rollingLever =
+    c.dosingLaw.rollingLever =
         static_cast<RollingLever>(contact.choice("rolling_lever", {"full", "half"}, 0).value_or(0));
     c.world.maxOverlapRatio = contact.number("max_overlap_ratio", Bound::Positive, kPlain, kMaxOverlapRatio);
     const Ratios pair = readRatios(contact, nullptr);
@@ -190,9 +190,9 @@ void readContact(Section& root, Case& c) {
     const double coilKc = adhesion("coil_kc_over_k", coilSection.has("kc_over_k") ? coil.kc : wallKc);
     const std::array<double, kContactClasses> settling{pairKc, wallKc, coilKc};
 
-    c.settlingLaw = c.world.law;
+    c.settlingLaw = c.dosingLaw;
     for (std::size_t i = 0; i < ratios.size(); ++i) {
-        c.world.law.classes[i] = ratios[i].parameters(ratios[i].kc);
+        c.dosingLaw.classes[i] = ratios[i].parameters(ratios[i].kc);
         c.settlingLaw.classes[i] = ratios[i].parameters(settling[i]);
     }
 }

@@ -130,12 +130,12 @@ void packLaw(const ContactLaw& law, gpu::Member& member) {
     member.choices.z = float(law.rollingLever);
 }
 
-gpu::Member packMember(const World& world, const Particles& particles) {
+gpu::Member packMember(const World& world, const ContactLaw& law, const Particles& particles) {
     if (world.surfaces.size() > gpu::kMaxSurfaces)
         throw RunError(fmt::format("{} surfaces; the Vulkan backend holds {}", world.surfaces.size(),
                                    uint32_t(gpu::kMaxSurfaces)));
     gpu::Member m{};
-    packLaw(world.law, m);
+    packLaw(law, m);
     m.choices.x = float(world.surfaces.size());
     m.choices.w = 1.0f;
     for (std::size_t i = 0; i < world.surfaces.size(); ++i) {
