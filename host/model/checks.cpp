@@ -26,9 +26,9 @@ double mm(double metres) {
 void checkContact(CaseReader& reader, const Case& c) {
     const std::array<const char*, kContactClasses> path{"contact", "contact.wall", "contact.coil"};
     for (std::size_t i = 0; i < path.size(); ++i) {
-        const ContactParameters& p = c.world.law.classes[i];
+        const ContactParameters& p = c.dosingLaw.classes[i];
         // What a class inherits is reported once, where it is written.
-        const ContactParameters* parent = i == 0 ? nullptr : &c.world.law.classes[i - 1];
+        const ContactParameters* parent = i == 0 ? nullptr : &c.dosingLaw.classes[i - 1];
         const bool sameK1 = parent != nullptr && p.k1 / p.k2Max == parent->k1 / parent->k2Max;
         if (p.k1 > p.k2Max && !sameK1)
             reader.fault(fmt::format("{}.k1_over_k", path[i]), "the plastic stiffness exceeds the elastic one",
@@ -349,7 +349,7 @@ void checkSurfaces(CaseReader& reader, const Case& c, double radius) {
 
 void checkTimeStep(CaseReader& reader, const Case& c, double smallestRadius) {
     const double dt = c.world.timeStep;
-    const auto modes = contactModes(c.world.law, c.world.density, smallestRadius, contactClasses(c.world));
+    const auto modes = contactModes(c.dosingLaw, c.world.density, smallestRadius, contactClasses(c.world));
     const std::string automatic = fmt::format("give at most {:.3g} s, or \"auto\"", automaticTimeStep(modes));
     const ContactMode* stiffest = nullptr;
     const ContactMode* damped = nullptr;

@@ -32,8 +32,8 @@ TEST_CASE("GPU-assisted checks find an access outside a buffer") {
     REQUIRE(device.validated());
     Particles p;
     p.add({0, 0, 0}, 1e-3);
-    const World world = emptyWorld();
-    const gpu::Member member = packMember(world, p);
+    const RuledWorld world = emptyWorld();
+    const gpu::Member member = packMember(world, world.law, p);
     Passes passes(device, tableSizes(world, Crowd(p), member, {64, 65535, device.limits().maxStorageBufferRange}));
     passes.members.write(0, &member, sizeof member);
     std::vector<gpu::vec4> half(std::size_t(gpu::kFields) * 64);

@@ -30,8 +30,8 @@ struct Rig {
     TableSizes sizes;
     std::unique_ptr<Passes> passes;
 
-    Rig(const World& world, const Particles& p) {
-        const gpu::Member member = packMember(world, p);
+    Rig(const RuledWorld& world, const Particles& p) {
+        const gpu::Member member = packMember(world, world.law, p);
         sizes = tableSizes(world, Crowd(p), member, {64, 65535, device.limits().maxStorageBufferRange});
         sizes.cells = 32;  // far fewer than cells in use: many share a slot of the table
         passes = std::make_unique<Passes>(device, sizes);
@@ -57,7 +57,7 @@ struct Rig {
 
 TEST_CASE("tables take as much of the device as is told beforehand") {
     for (const bool book : {false, true}) {
-        World world = canisterWorld();
+        RuledWorld world = canisterWorld();
         world.energyBook = book;
         const Rig rig(world, cloud(301, 0.02, 5));
         CHECK(rig.passes->bytes() == rig.sizes.allBytes());
@@ -66,7 +66,7 @@ TEST_CASE("tables take as much of the device as is told beforehand") {
 }
 
 TEST_CASE("the rows hold every neighbour within reach and the skin, ascending, and no other") {
-    World world = emptyWorld();
+    RuledWorld world = emptyWorld();
     world.timeStep = 1e-9;  // the one step that follows the rebuild moves nothing
     world.skin = 0.4e-3;
     world.maxOverlapRatio = 1e9;  // the cloud is of overlapping spheres
@@ -100,7 +100,7 @@ TEST_CASE("the rows hold every neighbour within reach and the skin, ascending, a
 }
 
 TEST_CASE("the lists hold every contact within the slack once, and the links name them in order") {
-    World world = emptyWorld();
+    RuledWorld world = emptyWorld();
     world.timeStep = 1e-9;
     world.skin = 0.4e-3;
     world.surfaces = {geometry::Plane{{0, -0.004, 0}, {0, 1, 0}}, geometry::Plane{{-0.003, 0, 0}, {1, 0, 0}}};
@@ -167,7 +167,7 @@ TEST_CASE("the lists hold every contact within the slack once, and the links nam
 }
 
 TEST_CASE("the sensor records add up to the host's sums") {
-    World world = emptyWorld();
+    RuledWorld world = emptyWorld();
     world.throatZ = 0.004;
     const std::size_t n = 203;
     Particles p = cloud(n, 0.02, 3);
@@ -232,7 +232,7 @@ TEST_CASE("positions survive packing to single precision twice over") {
 }
 
 TEST_CASE("indices of 32 bits reach for a hundred million spheres") {
-    World world = emptyWorld();
+    RuledWorld world = emptyWorld();
     world.skin = 0.75e-3;
     world.coil = geometry::Coil{};
     world.surfaces = {geometry::Plane{{0, 0, 0}, {0, 1, 0}}, geometry::Trough{0.0115},
@@ -254,7 +254,7 @@ TEST_CASE("indices of 32 bits reach for a hundred million spheres") {
 }
 
 TEST_CASE("where dispatches go in layers, every layer is full") {
-    const World world = emptyWorld();
+    const RuledWorld world = emptyWorld();
     for (const std::uint64_t n : {1u, 64u, 128u, 129u, 300u, 577u}) {
         INFO(n << " particles");
         const TableSizes t = tableSizes(world, Crowd(n, 1e-3), {}, {64, 2, 1ULL << 27});

@@ -48,7 +48,7 @@ TEST_CASE("a study is every combination of its axes for every seed, seeds slowes
     }
     const Case c = caseOf(members[10]);
     CHECK(c.seed == 9);
-    CHECK(c.world.law.of(ContactClass::ParticleParticle).kc == 0.5 * 2000.0);
+    CHECK(c.dosingLaw.of(ContactClass::ParticleParticle).kc == 0.5 * 2000.0);
     CHECK(c.schedule.stop.maxDoses == 2);
     CHECK(c.schedule.rotateTime == 0.2);
     CHECK(c.schedule.coilSpeed == Approx(2 * kPi).epsilon(1e-12));  // 60 a minute, to rounding

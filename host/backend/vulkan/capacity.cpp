@@ -15,7 +15,7 @@ DeviceRoom roomOn(const vk::Device& device) {
 TableSizes roomOf(const World& world, const Particles& particles) {
     DeviceShape unlimited;
     unlimited.range = std::numeric_limits<std::uint64_t>::max();
-    return tableSizes(world, Crowd(particles), packMember(world, particles), unlimited);
+    return tableSizes(world, Crowd(particles), packMember(world, {}, particles), unlimited);
 }
 
 bool fit(const std::vector<TableSizes>& canisters, const DeviceRoom& room) {

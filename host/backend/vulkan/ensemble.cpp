@@ -71,7 +71,7 @@ void Ensemble::load(const std::vector<Canister>& canisters) {
         MemberState m;
         m.world = c.world;
         m.loaded = c.particles;
-        m.block = packMember(c.world, c.particles);
+        m.block = packMember(c.world, c.law, c.particles);
         rooms.push_back(tableSizes(c.world, Crowd(c.particles), m.block, shape, std::uint32_t(canisters.size())));
         members_.push_back(std::move(m));
     }
@@ -109,7 +109,6 @@ void Ensemble::writeBlocks() {
 
 void Ensemble::setLaw(std::uint32_t member, const ContactLaw& law) {
     packLaw(law, members_[member].block);
-    members_[member].world.law = law;
 }
 
 Record Ensemble::snapshot(std::uint32_t member) const {

@@ -21,6 +21,7 @@ class Ensemble {
 
     struct Canister {
         World world;
+        ContactLaw law;
         Particles particles;
     };
 

@@ -140,12 +140,12 @@ void packLaw(const ContactLaw& law, gpu::Member& member) {
     member.choices.y = float(law.rollingLever);
 }
 
-gpu::Member packMember(const World& world, const Particles& particles) {
+gpu::Member packMember(const World& world, const ContactLaw& law, const Particles& particles) {
     if (world.surfaces.size() > gpu::kMaxSurfaces)
         throw RunError(fmt::format("{} surfaces; the Vulkan backend holds {}", world.surfaces.size(),
                                    uint32_t(gpu::kMaxSurfaces)));
     gpu::Member m{};
-    packLaw(world.law, m);
+    packLaw(law, m);
     m.choices.z = 1.0f;
     for (std::size_t i = 0; i < world.surfaces.size(); ++i) {
         if (std::holds_alternative<geometry::Front>(world.surfaces[i]) && i + 1 < world.surfaces.size())
