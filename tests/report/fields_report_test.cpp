@@ -135,7 +135,7 @@ TEST_CASE("height profiles: the last row of each dose, and all rows") {
     }
 }
 
-TEST_CASE("a run without fields has none to show; a damaged map is named") {
+TEST_CASE("a run without fields has none to show, a damaged map is named") {
     const Sandbox box;
     const Case c = caseWithFields(false);
     CHECK(fieldsJson(box / "run", loadCase(VKDOSE_SOURCE_DIR "/cases/mini.toml")).is_null());
@@ -150,6 +150,7 @@ TEST_CASE("a run without fields has none to show; a damaged map is named") {
     CHECK_THAT(faultOf([&] { fieldsJson(box / "run", c); }),
                Catch::Contains("plane_000001.csv") && Catch::Contains("has 11 points") && Catch::Contains("has 12"));
     std::filesystem::remove(box / "run/fields/plane_000001.csv");
-    CHECK_THAT(faultOf([&] { fieldsJson(box / "run", c); }),
-               Catch::Contains("plane.csv:3") && Catch::Contains("plane_000001.csv") && Catch::Contains("is not there"));
+    CHECK_THAT(faultOf([&] { fieldsJson(box / "run", c); }), Catch::Contains("plane.csv:3") &&
+                                                                 Catch::Contains("plane_000001.csv") &&
+                                                                 Catch::Contains("is not there"));
 }
