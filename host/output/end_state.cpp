@@ -34,8 +34,8 @@ Frame readEndState(const std::filesystem::path& folder, const Case& c) {
     Frame frame;
     frame.time = numberIn(summary, "simulated_time_s", file);
     frame.step = std::uint64_t(numberIn(summary, "steps", file));
-    // In the summary positive when conveying, in a frame about +z.
-    frame.coilAngle = numberIn(summary, "coil_angle_rad", file) * Timeline(c).conveyingSense();
+    // Older summaries have it positive when conveying. The coil only turns in that sense, which tells the sign.
+    frame.coilAngle = std::abs(numberIn(summary, "coil_angle_rad", file)) * Timeline(c).conveyingSense();
     const Json doses = summary.value("doses", Json::array());
     frame.dose = int(doses.size());
     frame.phase = frame.dose == 0 ? Phase::Settle : Phase::Rest;
