@@ -12,7 +12,7 @@
 
 #include "host/app/commands.h"
 #include "host/app/exit_code.h"
-#include "host/core/printable.h"
+#include "host/app/manual.h"
 
 namespace vkdose {
 
@@ -21,19 +21,22 @@ namespace {
 void addCase(CLI::App& command, CaseOptions& input) {
     command.add_option("case", input.file, "case file (TOML)")->required();
     command
-        .add_option("--set", input.overrides, "replace a value of the case, e.g. --set coil.speed_rpm=60; repeatable")
+        .add_option("--set", input.overrides, "replace a value of the case: --set coil.speed_rpm=60; may be repeated")
         ->type_name("KEY=VALUE")
         ->take_all()
         ->allow_extra_args(false);
 }
 
 void addDevice(CLI::App& command, BackendChoice& backend) {
-    command.add_option("--device", backend.device, "Vulkan device: index or part of its name (see `vkdose devices`)");
-    command.add_flag("--validation", backend.validation, "load the Vulkan validation layer (slow, for development)");
+    command
+        .add_option("--device", backend.device, "Vulkan device: its index or part of its name (see `vkdose devices`)")
+        ->type_name("NAME");
+    command.add_flag("--validation", backend.validation, "load the Vulkan validation layer; slow, for development");
 }
 
 void addBackend(CLI::App& command, BackendChoice& backend) {
-    command.add_option("--backend", backend.backend, "vulkan or reference")
+    command.add_option("--backend", backend.backend, "the backend that computes the steps")
+        ->type_name("NAME")
         ->check(CLI::IsMember({"vulkan", "reference"}))
         ->capture_default_str();
     addDevice(command, backend);
@@ -46,14 +49,17 @@ void addParent(CLI::App& command, int& parent) {
 
 void addShow(CLI::App& command, bool& quiet, bool& live) {
     auto* silent = command.add_flag("--quiet", quiet, "print errors only");
-    command.add_flag("--live", live, "show the bed and the doses on the terminal")->excludes(silent);
+    command.add_flag("--live", live, "show the bed and the doses on the terminal while the run goes on")
+        ->excludes(silent);
 }
 
 void addRun(CLI::App& program, RunOptions& options) {
     CLI::App& command = *program.add_subcommand("run", "simulate a case and write its output folder");
     addCase(command, options.input);
-    command.add_option("--out", options.out, "output folder (default: out/<case name>)")->type_name("DIR");
-    command.add_flag("--force", options.force, "replace a former run in the output folder");
+    command.add_option("--out", options.out, "output folder (default: out/<case name> in the current folder)")
+        ->type_name("DIR");
+    command.add_flag("--force", options.force,
+                     "replace a former run in the output folder: its files, and none that vkdose did not write");
     addShow(command, options.quiet, options.live);
     command.add_option("--member", options.member, "number of the run in a study")->group("");
     addParent(command, options.parent);
@@ -69,21 +75,26 @@ void addResume(CLI::App& program, ResumeOptions& options) {
 }
 
 void addCheck(CLI::App& program, CheckOptions& options) {
-    CLI::App& command = *program.add_subcommand("check", "validate a case; print time scales, predictions, run time");
+    CLI::App& command = *program.add_subcommand(
+        "check", "validate a case; print contact durations, time step, particle count, closed forms and run time");
     addCase(command, options.input);
     command.add_flag("--measure", options.measure, "measure the device for about a second to estimate the run time");
     addBackend(command, options.backend);
 }
 
 void addCompare(CLI::App& program, CompareOptions& options) {
-    CLI::App& command = *program.add_subcommand("compare", "run a case on both backends and compare them over time");
+    CLI::App& command =
+        *program.add_subcommand("compare", "run a case on both backends side by side and judge the differences");
     addCase(command, options.input);
-    auto* steps = command.add_option("--steps", options.steps, "stop after so many steps")->check(CLI::PositiveNumber);
-    command.add_option("--time", options.time, "stop after so many simulated seconds (default: settling, first dose)")
+    auto* steps =
+        command.add_option("--steps", options.steps, "stop after this many steps")->check(CLI::PositiveNumber);
+    command
+        .add_option("--time", options.time, "stop after this simulated time [s] (default: settling and the first dose)")
         ->check(CLI::PositiveNumber)
         ->excludes(steps);
     command
-        .add_option("--twins", options.twins, "perturbed runs of the reference that measure the chaos of the packing")
+        .add_option("--twins", options.twins,
+                    "number of perturbed reference runs that measure the chaos of the packing")
         ->check(CLI::Range(1, 16))
         ->capture_default_str();
     addDevice(command, options.backend);
@@ -95,7 +106,7 @@ void addVerify(CLI::App& program, VerifyOptions& options) {
     command.add_option("--out", options.out, "folder for verify.md and verify.json")
         ->type_name("DIR")
         ->capture_default_str();
-    command.add_option("--only", options.only, "play the cases with this in their name")->type_name("NAME");
+    command.add_option("--only", options.only, "play only the cases with this in their name")->type_name("NAME");
 }
 
 void addBench(CLI::App& program, BenchOptions& options) {
@@ -103,30 +114,36 @@ void addBench(CLI::App& program, BenchOptions& options) {
     addDevice(command, options.backend);
     command
         .add_option("--bed", options.bed,
-                    "case with a list of settled particles, to run at rest and turning (default: " +
+                    "case with a list of settled particles, which is run at rest and turning (default: " +
                         std::string(kSettledBed) + ")")
         ->type_name("CASE");
-    command.add_option("--only", options.only, "run the workloads with this in their name")->type_name("NAME");
+    command.add_option("--only", options.only, "run only the workloads with this in their name")->type_name("NAME");
     command.add_option("--repeats", options.repeats, "timed repeats of each workload")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
-    command.add_option("--copies", options.copies, "processes that run each workload at once, one for each core")
+    command
+        .add_option("--copies", options.copies,
+                    "processes that run each workload at once, each pinned to a core; the rate is their sum")
         ->check(CLI::Range(1, 1024))
         ->capture_default_str();
-    command.add_option("--members", options.members, "canisters with each workload that share the device")
+    command
+        .add_option("--members", options.members,
+                    "canisters that share the device in one ensemble, each with the workload")
         ->check(CLI::Range(1, 65535))
         ->capture_default_str()
         ->excludes("--copies");
-    command.add_flag("--quick", options.quick, "the small workloads, too short to measure: a trial of the command");
+    command.add_flag("--quick", options.quick,
+                     "run only the small workloads, too short to be measured: a trial of the command");
     command.add_option("--out", options.out, "folder for bench.csv and bench.json")
         ->type_name("DIR")
         ->capture_default_str();
 }
 
 void addExportCoil(CLI::App& program, ExportCoilOptions& options) {
-    CLI::App& command = *program.add_subcommand("export-coil", "write the coil of a case as an STL mesh");
+    CLI::App& command =
+        *program.add_subcommand("export-coil", "write the coil of a case as an STL mesh, for other programs");
     addCase(command, options.input);
-    command.add_option("--out", options.out, "file to write")->type_name("FILE")->capture_default_str();
+    command.add_option("--out", options.out, "mesh to write, in metres")->type_name("FILE")->capture_default_str();
     command.add_option("--around", options.around, "corners of the wire's cross-section")
         ->check(CLI::Range(3, 1000))
         ->capture_default_str();
@@ -138,18 +155,22 @@ void addExportCoil(CLI::App& program, ExportCoilOptions& options) {
 CLI::App& addSweep(CLI::App& program, const char* name, const char* what, SweepOptions& options) {
     CLI::App& command = *program.add_subcommand(name, what);
     command.add_option("study", options.study, "study file (TOML)")->required();
-    command.add_option("--out", options.out, "folder of the sweep (default: out/<name of the study's file>)")
+    command
+        .add_option("--out", options.out,
+                    "folder of the sweep (default: out/<name of the study's file> in the current folder)")
         ->type_name("DIR");
     command
         .add_option("--jobs", options.jobs,
-                    "members at once, each a process of its own (default on a CPU: one for each core)")
+                    "members at once, each in a process of its own (default on a CPU: one for each core)")
         ->check(CLI::Range(1, 1024));
     command
-        .add_option("--ensemble", options.ensemble,
-                    "members at once that share the device (default on a GPU: as many as its memory holds)")
+        .add_option(
+            "--ensemble", options.ensemble,
+            "members at once that share the device in an ensemble (default on a GPU: as many as its memory holds)")
         ->check(CLI::Range(1, 1024))
         ->excludes("--jobs");
-    command.add_flag("--retry-failed", options.retryFailed, "run the members that failed again");
+    command.add_flag("--retry-failed", options.retryFailed,
+                     "run the members that failed again, from their checkpoints if these can be read");
     command.add_flag("--dry-run", options.dryRun, "print the members and write nothing");
     command.add_flag("--quiet", options.quiet, "print errors only");
     addBackend(command, options.backend);
@@ -161,15 +182,15 @@ void addReport(CLI::App& program, ReportOptions& options) {
     command.add_option("source", options.source, "output folder of a run or a sweep, or a study's file")
         ->required()
         ->type_name("DIR|STUDY");
-    command.add_option("--out", options.out, "file to write (default: report.html in the folder)")->type_name("FILE");
-    command
-        .add_option("--experiment", options.experiment, "readings of a balance, to stand beside a run's doses (CSV)")
+    command.add_option("--out", options.out, "page to write (default: report.html in the folder)")->type_name("FILE");
+    command.add_option("--experiment", options.experiment, "readings of a balance (CSV), shown beside a run's doses")
         ->type_name("FILE");
-    command.add_option("--expected", options.expected, "table of published results, to judge a sweep by (TOML)")
+    command.add_option("--expected", options.expected, "table of published results (TOML), by which a sweep is judged")
         ->type_name("FILE");
     command
         .add_option("--profile", options.profiles,
-                    "surface measured on a photograph (CSV), to stand beside a run's after a dose; may be repeated")
+                    "surface measured on a photograph (CSV), shown beside the run's after this dose (0: the settled "
+                    "bed; default: the last dose); may be repeated")
         ->type_name("FILE[@DOSE]")
         ->allow_extra_args(false);
 }
@@ -188,9 +209,13 @@ void addProfile(CLI::App& program, ProfileOptions& options) {
         ->delimiter(',')
         ->expected(4)
         ->type_name("X,Y,W,H");
-    auto* scale = command.add_option("--mm-per-pixel", reading.mmPerPixel, "size of a pixel [mm]");
-    command.add_option("--length-mm", reading.lengthMm, "what the region's width stands for [mm]")->excludes(scale);
-    command.add_option("--threshold", reading.threshold, "grey between powder and background (default: found)")
+    auto* scale = command.add_option("--mm-per-pixel", reading.mmPerPixel,
+                                     "size of a pixel [mm]; this or --length-mm is required");
+    command.add_option("--length-mm", reading.lengthMm, "length that the region's width stands for [mm]")
+        ->excludes(scale);
+    command
+        .add_option("--threshold", reading.threshold,
+                    "grey of the picture as it is, below which a pixel counts as dark (default: found, in even light)")
         ->check(CLI::Range(1, 255));
     command
         .add_option_function<std::string>(
@@ -198,12 +223,12 @@ void addProfile(CLI::App& program, ProfileOptions& options) {
             [&reading](const std::string& kind) {
                 reading.powder = kind == "dark" ? photo::Powder::Dark : photo::Powder::Light;
             },
-            "dark or light (default: what lies lower)")
+            "whether the powder is dark or light (default: the kind of pixel that lies lower)")
         ->check(CLI::IsMember({"dark", "light"}));
     command
         .add_option_function<std::string>(
             "--rear", [&reading](const std::string& side) { reading.rearLeft = side == "left"; },
-            "side of the rear wall in the picture (default: left)")
+            "side of the picture on which the rear wall is (default: left)")
         ->check(CLI::IsMember({"left", "right"}));
     command
         .add_option_function<std::vector<double>>(
@@ -212,49 +237,80 @@ void addProfile(CLI::App& program, ProfileOptions& options) {
                 reading.cornerZMm = corner[0];
                 reading.cornerHeightMm = corner[1];
             },
-            "z and height of the region's lower corner at the rear [mm] (default: 0,0)")
+            "place of the region's lower corner at the rear, from the rear wall and the lowest point [mm] (default: "
+            "0,0)")
         ->delimiter(',')
         ->expected(2)
         ->type_name("Z,H");
-    command.add_option("--speck-mm", reading.speckMm, "patches smaller than a square of this edge are dirt [mm]")
+    command
+        .add_option("--speck-mm", reading.speckMm, "patches and holes smaller than a square of this edge are dirt [mm]")
         ->check(CLI::NonNegativeNumber)
         ->capture_default_str();
-    command.add_option("--out", options.out, "file to write")->type_name("FILE")->capture_default_str();
-    command.add_option("--check", options.check, "picture to write, with the surface drawn over the photograph")
+    command.add_option("--out", options.out, "surface to write (CSV)")->type_name("FILE")->capture_default_str();
+    command
+        .add_option("--check", options.check,
+                    "picture to write, with the surface drawn over the photograph, to judge it by")
         ->type_name("FILE");
 }
 
 void addRender(CLI::App& program, RenderOptions& options) {
-    CLI::App& command = *program.add_subcommand("render", "draw a run: a picture, several in one, or a film");
+    CLI::App& command = *program.add_subcommand("render", "draw pictures and films of a run");
     command.add_option("dir", options.folder, "output folder of the run")->required()->type_name("DIR");
-    command.add_option("--out", options.out, "file to write (default: picture.png in the folder)")->type_name("FILE");
-    auto* times = command
-                      .add_option("--time", options.times,
-                                  "simulated time [s], or several, side by side; the nearest frames (default: the end)")
-                      ->expected(1, 26);
-    auto* panels =
-        command.add_flag("--panels", options.panels, "four times side by side: settled, first dose, half out, late")
-            ->excludes(times);
-    auto* movie = command.add_option("--movie", options.movie, "all frames: a film (ffmpeg), or a folder of pictures")
+    command.add_option("--out", options.out, "picture to write, a PNG (default: picture.png in the folder)")
+        ->type_name("FILE");
+    auto* times =
+        command
+            .add_option(
+                "--time", options.times,
+                "simulated time [s], one or several side by side; the nearest frames are drawn (default: the end)")
+            ->expected(1, 26);
+    auto* panels = command
+                       .add_flag("--panels", options.panels,
+                                 "four times side by side: settled, end of the first dose's turning, half of the "
+                                 "powder that came out is out, a tenth left")
+                       ->excludes(times);
+    auto* movie = command
+                      .add_option("--movie", options.movie,
+                                  "all frames: a film, encoded by ffmpeg if that is installed, or a folder of pictures "
+                                  "that holds no frame_*.png yet")
                       ->type_name("FILE|DIR")
                       ->excludes(times)
                       ->excludes(panels)
                       ->excludes("--out");
-    command.add_option("--rate", options.rate, "frames per second of the film")
+    command.add_option("--rate", options.rate, "frames a second of the film")
         ->check(CLI::Range(0.1, 240.0))
         ->capture_default_str()
         ->needs(movie);
-    command.add_option("--color", options.color, "what the colour tells")
+    command.add_option("--color", options.color, "quantity that the colour tells")
         ->check(CLI::IsMember({"kinetic-energy", "speed", "overlap", "radius", "fill-layer"}))
         ->capture_default_str();
-    command.add_option("--from", options.from, "where the colours begin, in the unit of the colour bar");
-    command.add_option("--to", options.to, "where they end");
-    command.add_option("--view", options.view, "from where")
+    command.add_option("--from", options.from, "value where the colours begin, in the unit of the colour bar");
+    command.add_option("--to", options.to, "value where the colours end");
+    command.add_option("--view", options.view, "side from which the picture is drawn")
         ->check(CLI::IsMember({"side", "end", "iso", "cut"}))
         ->capture_default_str();
-    command.add_option("--size", options.size, "width and height [pixels], e.g. 1280x720")->type_name("WxH");
-    command.add_flag("--no-coil", options.noCoil, "leave the coil out");
+    command
+        .add_option("--size", options.size,
+                    "width and height in pixels: 1280x720 (default: as large as the view takes)")
+        ->type_name("WxH");
+    command.add_flag("--no-coil", options.noCoil, "do not draw the coil");
     addDevice(command, options.backend);
+}
+
+/// The commands that print parts of the manual.
+struct ManualOptions {
+    bool study = false;
+    bool sweep = false;
+    bool brief = false;
+};
+
+void addManual(CLI::App& program, ManualOptions& options) {
+    CLI::App& keys = *program.add_subcommand("keys", "list every key of a case file: unit, default, bounds, meaning");
+    keys.add_flag("--study", options.study, "list the keys of a study file instead");
+    CLI::App& columns = *program.add_subcommand("columns", "list every column of the files that a run leaves");
+    columns.add_flag("--sweep", options.sweep, "list the columns of a sweep's tables instead");
+    CLI::App& all = *program.add_subcommand("options", "list every command with its options");
+    all.add_flag("--brief", options.brief, "list the commands alone, a line each");
 }
 
 /// Runs `command`; every error becomes lines on stderr and an exit code.
@@ -268,11 +324,17 @@ int guarded(const std::function<int()>& command) {
     }
 }
 
+int printed(const std::string& page) {
+    fmt::print("{}", page);
+    return kOk;
+}
+
 }  // namespace
 
 int commandLine(int argc, const char* const* argv) {
     std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files becomes an error of the write that meets it
     CLI::App program("Simulates the dosing of cohesive powder by a turning coil (discrete element method).", "vkdose");
+    program.set_version_flag("--version", "vkdose " VKDOSE_VERSION);
     program.require_subcommand(1);
     RunOptions run;
     ResumeOptions resume;
@@ -294,21 +356,23 @@ int commandLine(int argc, const char* const* argv) {
     addVerify(program, verification);
     addBench(program, bench);
     addExportCoil(program, exportCoil);
-    addSweep(program, "sweep", "run every member of a study", sweep)
-        .add_flag("--mpi", sweep.mpi, "a member on each rank of an MPI job (needs a build with VKDOSE_MPI)")
+    addSweep(program, "sweep", "run every member of a study: a base case, axes, seeds", sweep)
+        .add_flag("--mpi", sweep.mpi, "run a member on each rank of an MPI job (needs a build with VKDOSE_MPI)")
         ->excludes("--ensemble");
     program.get_subcommand("sweep")->add_flag("--prepare", sweep.prepare,
                                               "only make the members' folders, for a queue (tools/slurm-array)");
-    addSweep(program, "calibrate", "find the case of a study that doses what was measured", calibration);
+    addSweep(program, "calibrate", "find the parameters of a study that dose the measured mass", calibration);
     addReport(program, report);
     addProfile(program, profile);
     addRender(program, render);
+    ManualOptions manual;
+    addManual(program, manual);
     try {
         program.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
         // --help is a ParseError too, with code 0 and its text on stdout.
         if (e.get_exit_code() == 0) return program.exit(e);
-        fmt::print(stderr, "vkdose: {}\nRun `vkdose --help` or `vkdose COMMAND --help`.\n", printableLines(e.what()));
+        fmt::print(stderr, "{}", usageFault(program, e.what(), argc > 1 ? argv[1] : ""));
         return kBadInput;
     }
     if (program.got_subcommand("run")) return guarded([&] { return runCommand(run); });
@@ -323,6 +387,9 @@ int commandLine(int argc, const char* const* argv) {
     if (program.got_subcommand("report")) return guarded([&] { return reportCommand(report); });
     if (program.got_subcommand("profile")) return guarded([&] { return profileCommand(profile); });
     if (program.got_subcommand("render")) return guarded([&] { return renderCommand(render); });
+    if (program.got_subcommand("keys")) return guarded([&] { return printed(keysPage(manual.study)); });
+    if (program.got_subcommand("columns")) return guarded([&] { return printed(columnsPage(manual.sweep)); });
+    if (program.got_subcommand("options")) return guarded([&] { return printed(optionsPage(program, manual.brief)); });
     return guarded([] { return devicesCommand(); });
 }
 

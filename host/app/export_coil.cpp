@@ -17,7 +17,7 @@ int exportCoilCommand(const ExportCoilOptions& options) {
     if (!c.world.coil) throw UsageError("export-coil: the case has no coil");
     const std::vector<geometry::Triangle> mesh = geometry::coilMesh(*c.world.coil, options.around, options.perTurn);
     replaceFile(options.out, geometry::stlText(mesh));
-    fmt::print("{} triangles in {}\n", mesh.size(), printable(options.out.string()));
+    fmt::print("{} triangles in {}, lengths in metres\n", mesh.size(), printable(options.out.string()));
     return kOk;
 }
 

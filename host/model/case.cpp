@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "host/core/printable.h"
+#include "host/model/case_keys.h"
 #include "host/model/case_reader.h"
 #include "host/model/case_sections.h"
 #include "host/model/checks.h"
@@ -51,7 +52,7 @@ void checkName(CaseReader& reader, const std::string& name) {
 }
 
 void completeTime(Section& time, Case& c, const SizeRange& sizes) {
-    const auto modes = contactModes(c.world.law, c.world.density, sizes.smallest, contactClasses(c.world));
+    const auto modes = contactModes(c.dosingLaw, c.world.density, sizes.smallest, contactClasses(c.world));
     if (c.world.timeStep == 0) {
         // Three digits are enough and read better in the resolved case.
         const double exact = automaticTimeStep(modes);
@@ -59,8 +60,7 @@ void completeTime(Section& time, Case& c, const SizeRange& sizes) {
         c.world.timeStep = std::stod(fmt::format("{:.2e}", std::floor(exact / unit) * unit));
         time.record("step_s", c.world.timeStep);
     }
-    if (c.world.skin == 0)
-        c.world.skin = time.number("skin_mm", Bound::Positive, kMillimetre, kUsualSkin * sizes.mean * 1e3);
+    if (c.world.skin == 0) c.world.skin = time.number("skin_mm", kUsualSkin * sizes.mean * 1e3);
     const double steps = std::max(1.0, std::round(c.sensorInterval / c.world.timeStep));
     c.sensorInterval = steps * c.world.timeStep;
     if (c.frames.interval > 0)
@@ -91,17 +91,28 @@ Box defaultDomain(const Case& c, const SizeRange& sizes, const Insertion& filled
     return {box.low - margin, box.high + margin};
 }
 
+/// A study has the shape of a case, and would be a list of unknown keys.
+void refuseStudy(const Node& tree) {
+    for (const char* name : {"axis", "calibrate", "set"}) {
+        const Node* node = tree.child(name);
+        if (node == nullptr || (node->kind != Node::Kind::Array && node->kind != Node::Kind::Table)) continue;
+        throw CaseError({{node->file, node->line, "", "", "this is a study, not a case",
+                          "give it to `vkdose sweep`, or name its base case here"}});
+    }
+}
+
 Case interpret(const std::filesystem::path& file, Node tree, std::vector<std::filesystem::path> files) {
-    CaseReader reader(file.string(), std::move(tree));
+    refuseStudy(tree);
+    CaseReader reader(file.string(), std::move(tree), caseKeys());
     Section& root = reader.root();
     Case c;
     c.files = std::move(files);
     c.name = root.string("name", file.stem().string());
     if (!root.has("name") || root.isString("name")) checkName(reader, c.name);
-    c.reason = root.string("reason", "");
-    c.seed = static_cast<std::uint64_t>(root.integer("seed", 0, 1));
-    c.world.gravity = root.vector("gravity", Vec3(0, -9.81, 0));
-    c.bulkDensity = root.number("bulk_density", Bound::Positive, {1, "kg/m3"}, 471.0);
+    c.reason = root.string("reason");
+    c.seed = static_cast<std::uint64_t>(root.integer("seed"));
+    c.world.gravity = root.vector("gravity");
+    c.bulkDensity = root.number("bulk_density");
     readParticles(reader, root, c);
     readContact(root, c);
     const std::optional<Boundaries> kind = readBoundaries(reader, root, c);
@@ -115,12 +126,15 @@ Case interpret(const std::filesystem::path& file, Node tree, std::vector<std::fi
     checkFields(reader, c);
     reader.throwIfFaulty();
 
+    // The powder before the times: a size or a density in a wrong unit makes absurd steps, which are not to blame.
     const SizeRange sizes = sizeRange(c);
+    checkFilling(reader, c, sizes.largest);
+    reader.throwIfFaulty();
     completeTime(root.table("time"), c, sizes);
     checkTimeStep(reader, c, sizes.smallest);
     checkScales(reader, c, sizes);
     reader.throwIfFaulty();
-    checkFilling(reader, c, sizes.largest);
+    checkTouches(reader, c, sizes.largest);
     reader.throwIfFaulty();
 
     const Insertion filled = insertParticles(c);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <stdexcept>
 
 namespace vkdose {
 namespace {
@@ -143,26 +144,35 @@ double Section::checked(const Node& node, std::string_view key, Bound bound, Uni
     return kNaN;
 }
 
-double Section::number(std::string_view key, Bound bound, Unit unit, std::optional<double> fallback) {
-    const std::string remedy = numberRemedy(bound, unit);
-    const Node* node = take(key, !fallback, remedy);
-    double value = fallback.value_or(kNaN);
-    if (node != nullptr) value = checked(*node, key, bound, unit, remedy);
-    if (std::isfinite(value)) write(key, numeral(value));
-    return value / unit.perSI;
+const Key& Section::declared(std::string_view key) const {
+    for (const Key* declared : keysOf(reader_.tables_, path_))
+        if (declared->name == key) return *declared;
+    throw std::logic_error(fmt::format("the key {} is read but not declared", path(key)));
 }
 
-std::int64_t Section::integer(std::string_view key, std::int64_t low, std::optional<std::int64_t> fallback,
-                              std::int64_t high) {
-    std::string remedy = fmt::format("give a whole number >= {}", low);
-    if (high != std::numeric_limits<std::int64_t>::max()) remedy += fmt::format(" and <= {}", high);
+double Section::number(std::string_view key, std::optional<double> fallback) {
+    const Key& k = declared(key);
+    if (!fallback && k.standard.kind == Default::Kind::Value) fallback = k.standard.value[0];
+    const std::string remedy = numberRemedy(k.bound, k.unit);
     const Node* node = take(key, !fallback, remedy);
-    std::int64_t value = fallback.value_or(low);
+    double value = fallback.value_or(kNaN);
+    if (node != nullptr) value = checked(*node, key, k.bound, k.unit, remedy);
+    if (std::isfinite(value)) write(key, numeral(value));
+    return value / k.unit.perSI;
+}
+
+std::int64_t Section::integer(std::string_view key) {
+    const Key& k = declared(key);
+    const bool required = k.standard.kind != Default::Kind::Value;
+    std::string remedy = fmt::format("give a whole number >= {}", k.low);
+    if (k.high != std::numeric_limits<std::int64_t>::max()) remedy += fmt::format(" and <= {}", k.high);
+    const Node* node = take(key, required, remedy);
+    std::int64_t value = required ? k.low : static_cast<std::int64_t>(k.standard.value[0]);
     if (node != nullptr && node->kind != Node::Kind::Integer) {
         fault(*node, key, fmt::format("is {}, not a whole number", kindName(node->kind)), remedy);
-    } else if (node != nullptr && node->integer < low) {
+    } else if (node != nullptr && node->integer < k.low) {
         fault(*node, key, node->integer < 0 ? "is negative" : "is too small", remedy);
-    } else if (node != nullptr && node->integer > high) {
+    } else if (node != nullptr && node->integer > k.high) {
         fault(*node, key, "is too large", remedy);
     } else {
         if (node != nullptr) value = node->integer;
@@ -171,9 +181,9 @@ std::int64_t Section::integer(std::string_view key, std::int64_t low, std::optio
     return value;
 }
 
-bool Section::boolean(std::string_view key, bool fallback) {
+bool Section::boolean(std::string_view key) {
     const Node* node = take(key, false, "");
-    bool value = fallback;
+    bool value = declared(key).standard.value[0] != 0;
     if (node != nullptr && node->kind != Node::Kind::Boolean)
         fault(*node, key, fmt::format("is {}, not a boolean", kindName(node->kind)), "give true or false");
     else if (node != nullptr)
@@ -182,7 +192,9 @@ bool Section::boolean(std::string_view key, bool fallback) {
     return value;
 }
 
-std::string Section::string(std::string_view key, const std::optional<std::string>& fallback) {
+std::string Section::string(std::string_view key, std::optional<std::string> fallback) {
+    const Default& standard = declared(key).standard;
+    if (!fallback && standard.kind == Default::Kind::Value) fallback = std::string(standard.text);
     const std::string remedy = "give a string";
     const Node* node = take(key, !fallback, remedy);
     std::string value = fallback.value_or("");
@@ -194,7 +206,20 @@ std::string Section::string(std::string_view key, const std::optional<std::strin
     return value;
 }
 
-std::optional<std::size_t> Section::choice(std::string_view key, const std::vector<std::string>& words,
+std::optional<std::size_t> Section::choice(std::string_view key, std::optional<std::size_t> fallback) {
+    const Key& k = declared(key);
+    const std::vector<std::string> words = wordsOf(k.words);
+    const auto standard = std::find(words.begin(), words.end(), k.standard.text);
+    if (!fallback && k.standard.kind == Default::Kind::Value)
+        fallback = static_cast<std::size_t>(standard - words.begin());
+    return chosen(key, words, fallback);
+}
+
+void Section::onlyWord(std::string_view key, const std::string& word) {
+    chosen(key, {word}, std::nullopt);
+}
+
+std::optional<std::size_t> Section::chosen(std::string_view key, const std::vector<std::string>& words,
                                            std::optional<std::size_t> fallback) {
     const std::string remedy = fmt::format("give one of {}", listed(words));
     const Node* node = take(key, !fallback, remedy);
@@ -217,6 +242,9 @@ std::optional<std::size_t> Section::choice(std::string_view key, const std::vect
 }
 
 Vec3 Section::vector(std::string_view key, std::optional<Vec3> fallback) {
+    const Default& standard = declared(key).standard;
+    if (!fallback && standard.kind == Default::Kind::Value)
+        fallback = Vec3(standard.value[0], standard.value[1], standard.value[2]);
     const std::string remedy = "give three numbers: [x, y, z]";
     const Node* node = take(key, !fallback, remedy);
     Vec3 value = fallback.value_or(Vec3(kNaN));
@@ -309,7 +337,8 @@ void Section::finish() {
 
 // ---- CaseReader ---------------------------------------------------------------------------------------------------
 
-CaseReader::CaseReader(std::string file, Node tree) : file_(std::move(file)), tree_(std::move(tree)) {
+CaseReader::CaseReader(std::string file, Node tree, std::span<const KeyTable> tables)
+    : file_(std::move(file)), tree_(std::move(tree)), tables_(tables) {
     open(&tree_, "", false);
 }
 

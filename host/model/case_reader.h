@@ -3,33 +3,18 @@
 // was never asked for, and writes down each value it gave out: that record is the resolved case.
 
 #include <cstdint>
-#include <limits>
 #include <list>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "host/core/vec.h"
 #include "host/model/case_tree.h"
+#include "host/model/key.h"
 
 namespace vkdose {
-
-/// Unit of a key in the file: value in the file = value in SI * perSI.
-struct Unit {
-    double perSI;
-    const char* name;
-};
-inline constexpr Unit kPlain{1, ""};
-inline constexpr Unit kMetre{1, "m"};
-inline constexpr Unit kSecond{1, "s"};
-inline constexpr Unit kMillimetre{1e3, "mm"};
-inline constexpr Unit kMicrometre{1e6, "um"};
-inline constexpr Unit kGram{1e3, "g"};
-inline constexpr Unit kRpm{60 / (2 * kPi), "rpm"};
-inline constexpr Unit kDegree{180 / kPi, "degrees"};
-
-enum class Bound { Any, NonNegative, Positive };
 
 /// Beyond these, in SI, no number of a case or of a list of particles means anything: a unit or an exponent slipped.
 /// Powers and ratios of what lies between stay far from the ends of a double.
@@ -49,15 +34,17 @@ class Section {
     bool isString(std::string_view key) const;
     std::string path(std::string_view key) const;
 
-    /// `fallback` is in the unit of the file (NaN: what it follows from is at fault); without it the key must be there.
-    double number(std::string_view key, Bound bound, Unit unit, std::optional<double> fallback = std::nullopt);
-    std::int64_t integer(std::string_view key, std::int64_t low, std::optional<std::int64_t> fallback = std::nullopt,
-                         std::int64_t high = std::numeric_limits<std::int64_t>::max());
-    bool boolean(std::string_view key, bool fallback);
-    std::string string(std::string_view key, const std::optional<std::string>& fallback = std::nullopt);
+    /// Unit, bounds, words and default are those that the key was declared with (key.h). A `fallback` stands for a
+    /// default that follows from other keys; it is in the unit of the file (NaN: what it follows from is at fault). A
+    /// key with neither must be there. An undeclared key throws std::logic_error.
+    double number(std::string_view key, std::optional<double> fallback = std::nullopt);
+    std::int64_t integer(std::string_view key);
+    bool boolean(std::string_view key);
+    std::string string(std::string_view key, std::optional<std::string> fallback = std::nullopt);
     /// Index of the chosen word; nothing when it is missing or not one of them.
-    std::optional<std::size_t> choice(std::string_view key, const std::vector<std::string>& words,
-                                      std::optional<std::size_t> fallback = std::nullopt);
+    std::optional<std::size_t> choice(std::string_view key, std::optional<std::size_t> fallback = std::nullopt);
+    /// The same for a key that takes only this word where it holds a string: its number is read by number().
+    void onlyWord(std::string_view key, const std::string& word);
     Vec3 vector(std::string_view key, std::optional<Vec3> fallback = std::nullopt);
 
     /// A table inside this one, the same object at every call; when it is not there, all its keys take their defaults
@@ -83,7 +70,10 @@ class Section {
 
   private:
     friend class CaseReader;
+    const Key& declared(std::string_view key) const;
     const Node* take(std::string_view key, bool required, const std::string& remedy);
+    std::optional<std::size_t> chosen(std::string_view key, const std::vector<std::string>& words,
+                                      std::optional<std::size_t> fallback);
     void fault(const Node& node, std::string_view key, std::string problem, std::string remedy);
     double checked(const Node& node, std::string_view key, Bound bound, Unit unit, const std::string& remedy);
     void write(std::string_view key, const std::string& value);
@@ -101,7 +91,8 @@ class Section {
 
 class CaseReader {
   public:
-    CaseReader(std::string file, Node tree);
+    /// `tables` declare every key that the file may hold, and outlive the reader.
+    CaseReader(std::string file, Node tree, std::span<const KeyTable> tables);
 
     Section& root() { return sections_.front(); }
 
@@ -129,6 +120,7 @@ class CaseReader {
 
     std::string file_;
     Node tree_;
+    std::span<const KeyTable> tables_;
     std::list<Section> sections_;  ///< a list: references stay valid
     std::vector<Diagnostic> faults_;
 };

@@ -4,12 +4,12 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <optional>
 #include <sstream>
 
 #include "host/core/file.h"
+#include "host/model/case_keys.h"
 
 namespace vkdose {
 namespace {
@@ -123,6 +123,30 @@ void requirePlain(const std::string& text, const std::string& name) {
     }
 }
 
+/// The parser's complaint in the words of a case. It knows the grammar; what people mean by a slip it does not.
+Diagnostic syntaxFault(const toml::parse_error& error, const std::string& text, const std::string& name) {
+    const std::string said(error.description());
+    const auto at = static_cast<std::size_t>(error.source().begin.line);
+    Diagnostic fault{name, static_cast<int>(at), "", "", "not TOML: " + said, "see https://toml.io for the syntax"};
+    const Source source = makeSource(name, text);
+    const std::string line = at >= 1 && at <= source.lines.size() ? source.lines[at - 1] : "";
+    const auto says = [&](const char* words) { return said.find(words) != std::string::npos; };
+    if (says("cannot redefine existing")) {
+        fault.problem = fmt::format("not TOML: {} is there twice", said.substr(said.find("existing") + 9));
+        fault.remedy = "keep one of the two";
+    } else if (says("utf-8") || says("UTF-8")) {
+        fault.problem = "not TOML: the text is not UTF-8";
+        fault.remedy = "save the file as UTF-8";
+    } else if (says("expected a comment or whitespace, saw ','")) {
+        fault.problem = fmt::format("not TOML: a comma in a number: {}", line);
+        fault.remedy = "write decimals with a point";
+    } else if (says("expected a comment or whitespace, saw")) {
+        fault.problem = fmt::format("not TOML: more than a value: {}", line);
+        fault.remedy = "give the value alone, without its unit; a text stands between quotes";
+    }
+    return fault;
+}
+
 Node parseText(const std::string& text, const std::string& name) {
     requirePlain(text, name);
     try {
@@ -131,8 +155,7 @@ Node parseText(const std::string& text, const std::string& name) {
         node.line = 0;
         return node;
     } catch (const toml::parse_error& error) {
-        throw CaseError({{name, static_cast<int>(error.source().begin.line), "", "",
-                          fmt::format("not TOML: {}", error.description()), "see https://toml.io for the syntax"}});
+        throw CaseError({syntaxFault(error, text, name)});
     }
 }
 
@@ -163,40 +186,20 @@ Node readWithBase(const std::filesystem::path& file, const Diagnostic& whoAsks,
     return lower;
 }
 
-/// Keys that exclude one another, so that the upper of two layers wins. "*": every other key of the table.
-struct Rival {
-    std::string_view table;
-    std::string_view key;
-    std::string_view loser;
-    bool onlyIfDifferent;  ///< the key chooses a variant; the losers belong to the old one
-};
-constexpr std::array<Rival, 14> kRivals{{
-    {"coil", "turns", "pitch_mm", false},
-    {"coil", "pitch_mm", "turns", false},
-    {"coil", "radius_mm", "clearance_mm", false},
-    {"coil", "clearance_mm", "radius_mm", false},
-    {"particles", "mass_g", "list", false},
-    {"particles", "list", "mass_g", false},
-    {"particles", "list", "size", false},
-    {"particles", "list", "region", false},
-    {"particles.size", "distribution", "*", true},
-    {"stop", "rule", "threshold_g", true},
-    {"stop", "rule", "doses", true},
-    {"", "boundaries", "canister", true},
-    {"", "boundaries", "plane", true},
-    {"", "boundaries", "cylinder", true},
-}};
-
+/// Removes from `lower` what keys of `upper` replace: keys that exclude one another, so that the upper layer wins.
 void dropRivals(Node& lower, const Node& upper, std::string_view path) {
-    for (const Rival& rival : kRivals) {
-        const Node* winner = upper.child(rival.key);
-        if (rival.table != path || winner == nullptr) continue;
-        const Node* before = lower.child(rival.key);
-        if (rival.onlyIfDifferent && (before == nullptr || before->string == winner->string)) continue;
-        if (rival.loser == "*")
-            lower.children.clear();
-        else
-            lower.drop(rival.loser);
+    for (const Key* key : keysOf(caseKeys(), path)) {
+        const Node* winner = upper.child(key->name);
+        if (key->losers.empty() || winner == nullptr) continue;
+        const Node* before = lower.child(key->name);
+        const bool choice = key->type == Key::Type::Word;
+        if (choice && (before == nullptr || before->string == winner->string)) continue;
+        for (const std::string& loser : wordsOf(key->losers)) {
+            if (loser == "*")
+                lower.children.clear();
+            else
+                lower.drop(loser);
+        }
     }
 }
 

@@ -27,9 +27,9 @@ double mm(double metres) {
 void checkContact(CaseReader& reader, const Case& c) {
     const std::array<const char*, kContactClasses> path{"contact", "contact.wall", "contact.coil"};
     for (std::size_t i = 0; i < path.size(); ++i) {
-        const ContactParameters& p = c.world.law.classes[i];
+        const ContactParameters& p = c.dosingLaw.classes[i];
         // What a class inherits is reported once, where it is written.
-        const ContactParameters* parent = i == 0 ? nullptr : &c.world.law.classes[i - 1];
+        const ContactParameters* parent = i == 0 ? nullptr : &c.dosingLaw.classes[i - 1];
         const bool sameK1 = parent != nullptr && p.k1 / p.k2Max == parent->k1 / parent->k2Max;
         if (p.k1 > p.k2Max && !sameK1)
             reader.fault(fmt::format("{}.k1_over_k", path[i]), "the plastic stiffness exceeds the elastic one",
@@ -82,8 +82,8 @@ const char* radiusKey(CaseReader& reader) {
     return reader.root().table("coil").has("clearance_mm") ? "coil.clearance_mm" : "coil.radius_mm";
 }
 
-/// The coil's radius against the wire within and the walls around.
-void checkCoilRadius(CaseReader& reader, const Case& c) {
+/// The coil's radius against the wire within and the walls around. False if the wire cannot be wound there at all.
+bool checkCoilRadius(CaseReader& reader, const Case& c) {
     const geometry::Coil& coil = *c.world.coil;
     const bool byClearance = c.canister && reader.root().table("coil").has("clearance_mm");
     double room = std::numeric_limits<double>::infinity();
@@ -96,25 +96,30 @@ void checkCoilRadius(CaseReader& reader, const Case& c) {
         room = (inHole ? can.outletDiameter : can.width) / 2;
     }
     const double outer = coil.radius + coil.wireRadius;
+    // The hole may be the one that is wrong.
+    const std::string orWider = std::string_view(around) == "outlet"
+                                    ? fmt::format(", or an outlet_diameter_mm of at least {:.6g}", mm(2 * outer))
+                                    : "";
     if (2 * coil.wireRadius >= room)
         reader.fault("coil.wire_diameter_mm",
                      fmt::format("so thick a wire cannot be wound in the {}, {:.6g} mm wide", around, mm(2 * room)),
-                     fmt::format("give less than {:.6g}", mm(room)));
+                     fmt::format("give less than {:.6g}{}", mm(room), orWider));
     else if (outer > room)
         reader.fault(
             radiusKey(reader),
             fmt::format("the coil reaches {:.6g} mm from its axis, the {} only {:.6g} mm", mm(outer), around, mm(room)),
-            fmt::format("give a radius_mm of at most {:.6g}", mm(room - coil.wireRadius)));
+            fmt::format("give a radius_mm of at most {:.6g}{}", mm(room - coil.wireRadius), orWider));
     else if (coil.radius <= coil.wireRadius)
         reader.fault(radiusKey(reader),
                      fmt::format("the wire ({:.6g} mm thick) fills the coil", mm(2 * coil.wireRadius)),
                      byClearance ? fmt::format("give a clearance_mm below {:.6g}", mm(room - 2 * coil.wireRadius))
                                  : fmt::format("give a radius_mm above {:.6g}", mm(coil.wireRadius)));
+    return 2 * coil.wireRadius < room;
 }
 
 void checkCoil(CaseReader& reader, const Case& c) {
     const geometry::Coil& coil = *c.world.coil;
-    checkCoilRadius(reader, c);
+    if (!checkCoilRadius(reader, c)) return;  // a wire that is far too thick is told once
     if (coil.pitch <= 2 * coil.wireRadius)
         reader.fault(
             reader.root().table("coil").has("pitch_mm") ? "coil.pitch_mm" : "coil.turns",
@@ -153,7 +158,14 @@ void checkBed(CaseReader& reader, const Case& c) {
     const double below = can.flatFloor ? can.width * half : 0.5 * kPi * half * half;
     const double volume = can.length * (below + can.width * (can.height - half));
     const double bed = c.filling.mass / c.world.density / kLoosestBed;
-    if (bed > volume)
+    // No powder is so light: with a density in g/cm3 the mass would seem to be at fault.
+    constexpr double kLightest = 20;
+    if (bed > volume && c.world.density < kLightest)
+        reader.fault(
+            "particles.density",
+            fmt::format("makes the fill too large: {:.4g} cm3 for a canister of {:.4g} cm3", bed * 1e6, volume * 1e6),
+            fmt::format("give kg/m3; {:.6g} g/cm3 is {:.6g} kg/m3", c.world.density, 1e3 * c.world.density));
+    else if (bed > volume)
         reader.fault(
             "particles.mass_g",
             fmt::format("the fill does not fit: a loose bed of it (volume fraction {}) takes {:.4g} cm3, the "
@@ -173,7 +185,8 @@ void checkLargest(CaseReader& reader, const Case& c, double largest) {
         reader.fault(key,
                      fmt::format("spheres of radius {:.4g} mm do not pass the {:.4g} mm {}", mm(largest), mm(narrowest),
                                  can.outletDiameter < can.width ? "outlet" : "trough"),
-                     fmt::format("keep radii below {:.4g} mm", mm(narrowest / 2)));
+                     fmt::format("keep radii below {:.4g} mm{}", mm(narrowest / 2),
+                                 c.filling.list ? "; a list is in metres" : ""));
 }
 
 void checkGrid(CaseReader& reader, const Case& c, double largest) {
@@ -181,7 +194,9 @@ void checkGrid(CaseReader& reader, const Case& c, double largest) {
     const double expected = f.mass / sphereMass(c.world.density, std::cbrt(meanCubedRadius(f.size)));
     if (expected > kMaxParticles) {
         reader.fault("particles.mass_g", fmt::format("takes about {:.2g} particles", expected),
-                     "give less mass or larger meso-particles");
+                     f.size.kind == SizeDistribution::Kind::Quantiles
+                         ? "give less mass or a larger scale_up; d10_um, d50_um and d90_um are in micrometres"
+                         : "give less mass or larger meso-particles");
         return;
     }
     const double capacity = InsertionGrid(f.region, largest).capacity();
@@ -323,7 +338,7 @@ void checkSurfaces(CaseReader& reader, const Case& c, double radius) {
 
 void checkTimeStep(CaseReader& reader, const Case& c, double smallestRadius) {
     const double dt = c.world.timeStep;
-    const auto modes = contactModes(c.world.law, c.world.density, smallestRadius, contactClasses(c.world));
+    const auto modes = contactModes(c.dosingLaw, c.world.density, smallestRadius, contactClasses(c.world));
     const std::string automatic = fmt::format("give at most {:.3g} s, or \"auto\"", automaticTimeStep(modes));
     const ContactMode* stiffest = nullptr;
     const ContactMode* damped = nullptr;
@@ -350,7 +365,10 @@ void checkFilling(CaseReader& reader, const Case& c, double largestRadius) {
     if (c.canister) checkLargest(reader, c, largestRadius);
     if (c.canister && !c.filling.list) checkBed(reader, c);
     if (!reader.faulty() && !c.filling.list) checkGrid(reader, c, largestRadius);
-    if (!c.world.coil || reader.faulty()) return;
+}
+
+void checkTouches(CaseReader& reader, const Case& c, double largestRadius) {
+    if (!c.world.coil) return;
     const int touches = geometry::maxTouches(*c.world.coil, largestRadius);
     if (touches > kMaxCoilTouches)
         reader.fault(reader.root().table("coil").has("pitch_mm") ? "coil.pitch_mm" : "coil.turns",

@@ -26,8 +26,11 @@ void checkFields(CaseReader& reader, const Case& c);
 /// The time step against the fastest contact motion of the smallest sphere (radius in metres).
 void checkTimeStep(CaseReader& reader, const Case& c, double smallestRadius);
 
-/// Whether the mass fits the canister, and the grid its region; whether the coil can be touched by too many turns.
+/// Whether the largest sphere passes the outlet, the mass fits the canister, and the grid its region.
 void checkFilling(CaseReader& reader, const Case& c, double largestRadius);
+
+/// Whether a sphere of this radius [m] can touch too many turns of the coil.
+void checkTouches(CaseReader& reader, const Case& c, double largestRadius);
 
 // scales.cpp
 /// Numbers that do not go together: masses beyond single precision, a way in one step that skips contacts, durations

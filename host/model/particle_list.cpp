@@ -60,6 +60,11 @@ class ListReader {
 
     bool readHeader(const std::vector<std::string>& names) {
         const std::size_t before = count_;
+        if (names.size() == 1 && names[0].find(';') != std::string::npos) {
+            fault("", "", fmt::format("has semicolons between its columns: {}", names[0]),
+                  "separate columns by commas, and write decimals with a point");
+            return false;
+        }
         columns_ = names.size();
         for (std::size_t i = 0; i < names.size(); ++i) {
             if (names[i] == "id") continue;  // the place in the list is the identity

@@ -12,8 +12,6 @@ namespace {
 
 using Preset = FieldSensor::Preset;
 
-const std::vector<std::string> kPresets{"grid", "height-profile", "mid-plane", "outlet"};
-
 /// The box of a preset and which of its directions it resolves.
 struct Frame {
     Vec3 low, high;
@@ -103,24 +101,23 @@ void readFields(CaseReader& reader, Section& root, double meanDiameter, Case& c)
     std::set<std::string> names;
     for (Section* section : root.tables("field")) {
         FieldSensor sensor;
-        const auto preset = section->choice("preset", kPresets, 0);
+        const auto preset = section->choice("preset");
         sensor.preset = static_cast<Preset>(preset.value_or(0));
-        const std::string fallback = sensor.preset == Preset::None ? fmt::format("field-{}", names.size() + 1)
-                                                                   : kPresets[std::size_t(sensor.preset)];
+        const std::string fallback =
+            sensor.preset == Preset::None ? fmt::format("field-{}", names.size() + 1) : section->node("preset")->string;
         sensor.name = section->string("name", fallback);
         if (!section->has("name") || section->isString("name"))
             checkName(reader, section->path("name"), sensor.name, names);
         FieldRequest& request = sensor.request;
-        request.kernel = static_cast<Kernel>(section->choice("kernel", {"gaussian", "lucy"}, 0).value_or(0));
+        request.kernel = static_cast<Kernel>(section->choice("kernel").value_or(0));
         const double width = (request.kernel == Kernel::Lucy ? 2 : 1) * meanDiameter;
-        request.width = section->number("width_mm", Bound::Positive, kMillimetre, std::round(width * 1e9) / 1e6);
-        sensor.average = section->boolean("average", false);
-        sensor.stress = request.contactStress = section->boolean("stress", false);
+        request.width = section->number("width_mm", std::round(width * 1e9) / 1e6);
+        sensor.average = section->boolean("average");
+        sensor.stress = request.contactStress = section->boolean("stress");
         readGrid(reader, *section, c, sensor);
         const bool map = request.grid.resolvedDirections() > 1;
-        sensor.interval = section->number("interval_s", Bound::Positive, kSecond, (map ? 10 : 1) * c.sensorInterval);
-        if (sensor.preset == Preset::HeightProfile)
-            sensor.initialHeight = section->number("initial_height_mm", Bound::NonNegative, kMillimetre, 0.0);
+        sensor.interval = section->number("interval_s", (map ? 10 : 1) * c.sensorInterval);
+        if (sensor.preset == Preset::HeightProfile) sensor.initialHeight = section->number("initial_height_mm");
         c.fields.push_back(std::move(sensor));
     }
 }

@@ -21,14 +21,11 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 SizeDistribution readSize(Section& section) {
     using Kind = SizeDistribution::Kind;
     SizeDistribution size;
-    const auto positive = [&](const char* key, Unit unit = kMillimetre, std::optional<double> fallback = std::nullopt) {
-        return section.number(key, Bound::Positive, unit, fallback);
-    };
     const auto bounds = [&](double low, double high) {  // defaults, in metres
-        size.radiusMin = positive("radius_min_mm", kMillimetre, low * 1e3);
-        size.radiusMax = positive("radius_max_mm", kMillimetre, high * 1e3);
+        size.radiusMin = section.number("radius_min_mm", low * 1e3);
+        size.radiusMax = section.number("radius_max_mm", high * 1e3);
     };
-    const auto kind = section.choice("distribution", {"uniform", "fixed", "normal", "lognormal", "quantiles"});
+    const auto kind = section.choice("distribution");
     if (!kind) {
         section.abandon();
         return size;
@@ -36,27 +33,27 @@ SizeDistribution readSize(Section& section) {
     size.kind = static_cast<Kind>(*kind);
     switch (size.kind) {
         case Kind::Uniform:
-            size.radiusMin = positive("radius_min_mm");
-            size.radiusMax = positive("radius_max_mm");
+            size.radiusMin = section.number("radius_min_mm");
+            size.radiusMax = section.number("radius_max_mm");
             break;
         case Kind::Fixed:
-            size.radius = positive("radius_mm");
+            size.radius = section.number("radius_mm");
             break;
         case Kind::Normal:
-            size.radius = positive("radius_mean_mm");
-            size.deviation = positive("radius_deviation_mm");
+            size.radius = section.number("radius_mean_mm");
+            size.deviation = section.number("radius_deviation_mm");
             bounds(std::max(size.radius - 2 * size.deviation, 0.1 * size.radius), size.radius + 2 * size.deviation);
             break;
         case Kind::Lognormal:
-            size.radius = positive("radius_median_mm");
-            size.deviation = positive("log_deviation", kPlain);
+            size.radius = section.number("radius_median_mm");
+            size.deviation = section.number("log_deviation");
             bounds(size.radius * std::exp(-2 * size.deviation), size.radius * std::exp(2 * size.deviation));
             break;
         case Kind::Quantiles:
-            size.scaleUp = positive("scale_up", kPlain, 1.0);
-            size.r10 = 0.5 * size.scaleUp * positive("d10_um", kMicrometre);
-            size.r50 = 0.5 * size.scaleUp * positive("d50_um", kMicrometre);
-            size.r90 = 0.5 * size.scaleUp * positive("d90_um", kMicrometre);
+            size.scaleUp = section.number("scale_up");
+            size.r10 = 0.5 * size.scaleUp * section.number("d10_um");
+            size.r50 = 0.5 * size.scaleUp * section.number("d50_um");
+            size.r90 = 0.5 * size.scaleUp * section.number("d90_um");
             bounds(finestRadius(size), coarsestRadius(size));
             break;
     }
@@ -67,7 +64,7 @@ SizeDistribution readSize(Section& section) {
 
 void readParticles(CaseReader& reader, Section& root, Case& c) {
     Section& section = root.requiredTable("particles");
-    c.world.density = section.number("density", Bound::Positive, {1, "kg/m3"});
+    c.world.density = section.number("density");
     if (section.has("list")) {
         const std::string path = section.string("list");
         if (section.has("mass_g"))
@@ -88,7 +85,7 @@ void readParticles(CaseReader& reader, Section& root, Case& c) {
         return;
     }
     section.know("list");
-    c.filling.mass = section.number("mass_g", Bound::Positive, kGram);
+    c.filling.mass = section.number("mass_g");
     c.filling.size = readSize(section.requiredTable("size"));
 }
 
@@ -138,29 +135,26 @@ struct Ratios {
 
 /// Reads one class; keys that are not there come from `parent`, or from the defaults when there is none.
 Ratios readRatios(Section& section, const Ratios* parent) {
-    const auto key = [&](const char* name, Bound bound, double Ratios::*member, std::optional<double> fallback = {},
-                         Unit unit = kPlain) {
+    const auto key = [&](const char* name, double Ratios::*member, std::optional<double> fallback = {}) {
         if (parent != nullptr) fallback = parent->*member;
-        return section.number(name, bound, unit, fallback);
+        return section.number(name, fallback);
     };
-    constexpr double kTwoSevenths = 0.286;  // sliding then oscillates as fast as the normal direction (paper)
-    const Bound low = Bound::NonNegative;
     Ratios r{};
-    r.k = key("k", Bound::Positive, &Ratios::k, {}, {1, "N/m"});
-    r.k1 = key("k1_over_k", Bound::Positive, &Ratios::k1);
-    r.kc = key("kc_over_k", low, &Ratios::kc);
+    r.k = key("k", &Ratios::k);
+    r.k1 = key("k1_over_k", &Ratios::k1);
+    r.kc = key("kc_over_k", &Ratios::kc);
     // Without plasticity (k1 = k) the depth means nothing and may be left out.
-    r.plasticity = key("plasticity_depth", low, &Ratios::plasticity, r.k1 < 1 ? std::optional<double>() : 0.0);
-    r.damping = key("damping", low, &Ratios::damping, {}, {1, "kg/s"});
-    r.mu = key("friction", low, &Ratios::mu);
-    r.kt = key("kt_over_k", Bound::Positive, &Ratios::kt, kTwoSevenths);
-    r.dampingT = key("damping_t_ratio", low, &Ratios::dampingT, kTwoSevenths);
-    r.muR = key("rolling_friction", low, &Ratios::muR, 0.0);
-    r.kr = key("kr_over_k", Bound::Positive, &Ratios::kr, kTwoSevenths);
-    r.dampingR = key("damping_r_ratio", low, &Ratios::dampingR, kTwoSevenths);
-    r.muTo = key("torsion_friction", low, &Ratios::muTo, 0.0);
-    r.kTo = key("kto_over_k", Bound::Positive, &Ratios::kTo, kTwoSevenths);
-    r.dampingTo = key("damping_to_ratio", low, &Ratios::dampingTo, kTwoSevenths);
+    r.plasticity = key("plasticity_depth", &Ratios::plasticity, r.k1 < 1 ? std::optional<double>() : 0.0);
+    r.damping = key("damping", &Ratios::damping);
+    r.mu = key("friction", &Ratios::mu);
+    r.kt = key("kt_over_k", &Ratios::kt);
+    r.dampingT = key("damping_t_ratio", &Ratios::dampingT);
+    r.muR = key("rolling_friction", &Ratios::muR);
+    r.kr = key("kr_over_k", &Ratios::kr);
+    r.dampingR = key("damping_r_ratio", &Ratios::dampingR);
+    r.muTo = key("torsion_friction", &Ratios::muTo);
+    r.kTo = key("kto_over_k", &Ratios::kTo);
+    r.dampingTo = key("damping_to_ratio", &Ratios::dampingTo);
     return r;
 }
 
@@ -168,11 +162,9 @@ Ratios readRatios(Section& section, const Ratios* parent) {
 
 void readContact(Section& root, Case& c) {
     Section& contact = root.requiredTable("contact");
-    c.world.law.coulombLimit =
-        static_cast<CoulombLimit>(contact.choice("coulomb_limit", {"luding", "absolute"}, 0).value_or(0));
-    c.world.law.rollingLever =
-        static_cast<RollingLever>(contact.choice("rolling_lever", {"full", "half"}, 0).value_or(0));
-    c.world.maxOverlapRatio = contact.number("max_overlap_ratio", Bound::Positive, kPlain, kMaxOverlapRatio);
+    c.dosingLaw.coulombLimit = static_cast<CoulombLimit>(contact.choice("coulomb_limit").value_or(0));
+    c.dosingLaw.rollingLever = static_cast<RollingLever>(contact.choice("rolling_lever").value_or(0));
+    c.world.maxOverlapRatio = contact.number("max_overlap_ratio");
     const Ratios pair = readRatios(contact, nullptr);
     Section& wallSection = contact.table("wall");
     const Ratios wall = readRatios(wallSection, &pair);
@@ -182,17 +174,14 @@ void readContact(Section& root, Case& c) {
 
     // While settling, adhesion has its own strength, except where a class was given one of its own.
     Section& settle = root.table("settle");
-    const auto adhesion = [&](const char* key, double fallback) {
-        return settle.number(key, Bound::NonNegative, kPlain, fallback);
-    };
-    const double pairKc = adhesion("kc_over_k", pair.kc);
-    const double wallKc = adhesion("wall_kc_over_k", wallSection.has("kc_over_k") ? wall.kc : pairKc);
-    const double coilKc = adhesion("coil_kc_over_k", coilSection.has("kc_over_k") ? coil.kc : wallKc);
+    const double pairKc = settle.number("kc_over_k", pair.kc);
+    const double wallKc = settle.number("wall_kc_over_k", wallSection.has("kc_over_k") ? wall.kc : pairKc);
+    const double coilKc = settle.number("coil_kc_over_k", coilSection.has("kc_over_k") ? coil.kc : wallKc);
     const std::array<double, kContactClasses> settling{pairKc, wallKc, coilKc};
 
-    c.settlingLaw = c.world.law;
+    c.settlingLaw = c.dosingLaw;
     for (std::size_t i = 0; i < ratios.size(); ++i) {
-        c.world.law.classes[i] = ratios[i].parameters(ratios[i].kc);
+        c.dosingLaw.classes[i] = ratios[i].parameters(ratios[i].kc);
         c.settlingLaw.classes[i] = ratios[i].parameters(settling[i]);
     }
 }

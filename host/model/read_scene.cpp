@@ -36,13 +36,13 @@ void addCanister(Case& c) {
 void readCanister(Section& root, Case& c) {
     Section& section = root.requiredTable("canister");
     Canister can;
-    can.length = section.number("length_mm", Bound::Positive, kMillimetre);
-    can.width = section.number("width_mm", Bound::Positive, kMillimetre);
-    can.height = section.number("height_mm", Bound::Positive, kMillimetre);
-    can.flatFloor = section.choice("floor", {"trough", "flat"}, 0) == std::size_t{1};
-    can.outletDiameter = section.number("outlet_diameter_mm", Bound::Positive, kMillimetre);
-    can.throatLength = section.number("throat_length_mm", Bound::Positive, kMillimetre);
-    can.lid = section.boolean("lid", false);
+    can.length = section.number("length_mm");
+    can.width = section.number("width_mm");
+    can.height = section.number("height_mm");
+    can.flatFloor = section.choice("floor") == std::size_t{1};
+    can.outletDiameter = section.number("outlet_diameter_mm");
+    can.throatLength = section.number("throat_length_mm");
+    can.lid = section.boolean("lid");
     c.canister = can;
     addCanister(c);
 }
@@ -64,10 +64,10 @@ void readSurfaces(CaseReader& reader, Section& root, Case& c) {
         geometry::Tube shape;
         shape.base = tube->vector("base");
         shape.axis = readDirection(reader, *tube, "axis");
-        shape.radius = tube->number("radius_mm", Bound::Positive, kMillimetre);
-        if (tube->has("length_mm")) shape.length = tube->number("length_mm", Bound::Positive, kMillimetre);
+        shape.radius = tube->number("radius_mm");
+        if (tube->has("length_mm")) shape.length = tube->number("length_mm");
         tube->know("length_mm");
-        shape.inside = tube->boolean("inside", true);
+        shape.inside = tube->boolean("inside");
         c.world.surfaces.push_back(shape);
     }
     if (c.world.surfaces.empty() && !reader.faulty())
@@ -91,7 +91,7 @@ void refuseUnused(CaseReader& reader, Section& root, Boundaries kind) {
 }  // namespace
 
 std::optional<Boundaries> readBoundaries(CaseReader& reader, Section& root, Case& c) {
-    const auto index = root.choice("boundaries", {"canister", "list", "none"}, 0);
+    const auto index = root.choice("boundaries");
     for (const char* key : {"canister", "plane", "cylinder"})
         if (!index || !root.has(key)) root.know(key);
     if (!index) return std::nullopt;
@@ -105,8 +105,7 @@ std::optional<Boundaries> readBoundaries(CaseReader& reader, Section& root, Case
 namespace {
 
 /// The value of one of two keys of which exactly one must be given; the index of that key in `which`.
-double readEither(CaseReader& reader, Section& section, const char* first, Unit firstUnit, const char* second,
-                  Unit secondUnit, int& which) {
+double readEither(CaseReader& reader, Section& section, const char* first, const char* second, int& which) {
     which = section.has(second) && !section.has(first) ? 1 : 0;
     section.know(first);
     section.know(second);
@@ -116,7 +115,7 @@ double readEither(CaseReader& reader, Section& section, const char* first, Unit 
         reader.fault(section.path(first), "is missing", fmt::format("give {} or {}", first, second));
         return kNaN;
     }
-    return section.number(which == 0 ? first : second, Bound::Positive, which == 0 ? firstUnit : secondUnit);
+    return section.number(which == 0 ? first : second);
 }
 
 }  // namespace
@@ -129,26 +128,24 @@ void readCoil(CaseReader& reader, Section& root, Case& c) {
     Section& section = root.table("coil");
     geometry::Coil coil{};
     int which = 0;
-    coil.length = section.number("length_mm", Bound::Positive, kMillimetre);
-    const double winding = readEither(reader, section, "turns", kPlain, "pitch_mm", kMillimetre, which);
+    coil.length = section.number("length_mm");
+    const double winding = readEither(reader, section, "turns", "pitch_mm", which);
     coil.pitch = which == 0 ? coil.length / winding : winding;
-    coil.wireRadius = section.number("wire_diameter_mm", Bound::Positive, kMillimetre) / 2;
-    const double size = readEither(reader, section, "radius_mm", kMillimetre, "clearance_mm", kMillimetre, which);
+    coil.wireRadius = section.number("wire_diameter_mm") / 2;
+    const double size = readEither(reader, section, "radius_mm", "clearance_mm", which);
     coil.radius = size;
     if (which == 1 && !c.canister)
         reader.fault("coil.clearance_mm", "needs a canister to be measured from", "give radius_mm");
     else if (which == 1)  // between the wire and the narrower of trough and hole
         coil.radius = std::min(c.canister->width, c.canister->outletDiameter) / 2 - size - coil.wireRadius;
-    coil.zStart = section.number("z_start_mm", Bound::Any, kMillimetre, 0.0);
-    coil.startAngle = section.number("start_angle_deg", Bound::Any, kDegree, 0.0);
-    coil.hand = section.choice("hand", {"right", "left"}, 0) == std::size_t{1} ? -1 : 1;
-    c.schedule.coilSpeed = section.number("speed_rpm", Bound::NonNegative, kRpm);
+    coil.zStart = section.number("z_start_mm");
+    coil.startAngle = section.number("start_angle_deg");
+    coil.hand = section.choice("hand") == std::size_t{1} ? -1 : 1;
+    c.schedule.coilSpeed = section.number("speed_rpm");
     c.world.coil = coil;
 }
 
 namespace {
-
-constexpr std::int64_t kMostDoses = 1'000'000'000;
 
 // ---- time ---------------------------------------------------------------------------------------------------------
 
@@ -156,20 +153,17 @@ void readStop(Section& root, Case& c) {
     const bool doses = c.schedule.rotateTime > 0;
     Section& section = root.table("stop");
     StopRule stop;
-    const auto rule =
-        section.choice("rule", {"none", "experiment", "simulation"}, doses ? std::size_t{1} : std::size_t{0});
+    const auto rule = section.choice("rule", doses ? std::size_t{1} : std::size_t{0});
     if (!rule) {
         section.abandon();
         return;
     }
     stop.kind = static_cast<StopRule::Kind>(*rule);
     stop.threshold = 0;
-    if (stop.kind == StopRule::Kind::Experiment)
-        stop.threshold = section.number("threshold_g", Bound::NonNegative, kGram, 0.15);
-    if (stop.kind != StopRule::Kind::None) stop.doses = static_cast<int>(section.integer("doses", 1, 3, kMostDoses));
-    if (section.has("max_doses"))
-        stop.maxDoses = static_cast<int>(section.integer("max_doses", 1, std::nullopt, kMostDoses));
-    if (section.has("end_time_s")) stop.endTime = section.number("end_time_s", Bound::Positive, kSecond);
+    if (stop.kind == StopRule::Kind::Experiment) stop.threshold = section.number("threshold_g");
+    if (stop.kind != StopRule::Kind::None) stop.doses = static_cast<int>(section.integer("doses"));
+    if (section.has("max_doses")) stop.maxDoses = static_cast<int>(section.integer("max_doses"));
+    if (section.has("end_time_s")) stop.endTime = section.number("end_time_s");
     section.know("max_doses");
     section.know("end_time_s");
     c.schedule.stop = stop;
@@ -179,29 +173,29 @@ void readStop(Section& root, Case& c) {
 
 void readSchedule(Section& root, Case& c) {
     Section& settle = root.table("settle");
-    c.schedule.settleTime = settle.number("time_s", Bound::NonNegative, kSecond, 0.0);
+    c.schedule.settleTime = settle.number("time_s");
     Section& dose = root.table("dose");
-    c.schedule.rotateTime = dose.number("rotate_s", Bound::NonNegative, kSecond, 0.0);
-    c.schedule.restTime = dose.number("rest_s", Bound::NonNegative, kSecond, 0.0);
+    c.schedule.rotateTime = dose.number("rotate_s");
+    c.schedule.restTime = dose.number("rest_s");
     readStop(root, c);
     Section& sensors = root.table("sensors");
-    c.sensorInterval = sensors.number("interval_s", Bound::Positive, kSecond, 0.01);
-    c.world.energyBook = sensors.boolean("energy", false);
+    c.sensorInterval = sensors.number("interval_s");
+    c.world.energyBook = sensors.boolean("energy");
     Section& frames = root.table("frames");
-    c.frames.interval = frames.number("interval_s", Bound::NonNegative, kSecond, 0.0);
-    c.frames.contacts = frames.boolean("contacts", false);
+    c.frames.interval = frames.number("interval_s");
+    c.frames.contacts = frames.boolean("contacts");
     Section& checkpoint = root.table("checkpoint");
-    c.checkpoint.wall = checkpoint.number("wall_s", Bound::NonNegative, kSecond, c.checkpoint.wall);
-    c.checkpoint.simulated = checkpoint.number("time_s", Bound::NonNegative, kSecond, c.checkpoint.simulated);
+    c.checkpoint.wall = checkpoint.number("wall_s");
+    c.checkpoint.simulated = checkpoint.number("time_s");
 }
 
 void readTime(Section& root, Case& c) {
     Section& time = root.table("time");
     if (time.isString("step_s"))
-        time.choice("step_s", {"auto"});
+        time.onlyWord("step_s", "auto");
     else if (time.has("step_s"))
-        c.world.timeStep = time.number("step_s", Bound::Positive, kSecond);
-    if (time.has("skin_mm")) c.world.skin = time.number("skin_mm", Bound::Positive, kMillimetre);
+        c.world.timeStep = time.number("step_s");
+    if (time.has("skin_mm")) c.world.skin = time.number("skin_mm");
     time.know("step_s");
     time.know("skin_mm");
 }

@@ -62,11 +62,10 @@ class Run {
   private:
     void playThrough(const RunCheckpoint* from) {
         try {
-            load();
             if (from != nullptr)
                 goOn(*from);
-            else if (timeline_.frameDue(0))
-                frame();
+            else
+                begin();
             checkpointed_ = Clock::now();
             checkpointTime_ = timeline_.time(step_);
             result_.reason = steps();
@@ -77,16 +76,15 @@ class Run {
         }
     }
 
-    void load() {
-        World world = case_.world;
-        world.law = case_.settlingLaw;
-        backend_.load(world, result_.particles);
+    void begin() {
+        backend_.load(case_.world, case_.settlingLaw, result_.particles);
+        if (timeline_.frameDue(0)) frame();
     }
 
     /// Goes on where the run was when `from` was taken.
     void goOn(const RunCheckpoint& from) {
         restore(from.run);
-        if (dosing_) backend_.setLaw(case_.world.law);
+        backend_.load(case_.world, dosing_ ? case_.dosingLaw : case_.settlingLaw, result_.particles);
         backend_.restore(from.backend);
         if (result_.last.coilAngle * backend_.coilAngle() < 0) angleSign_ = -1;
         before_ = {step_, result_.particleSteps, result_.wallTime};
@@ -259,7 +257,7 @@ class Run {
 
     void beginDosing() {
         dosing_ = true;
-        backend_.setLaw(case_.world.law);
+        backend_.setLaw(*stretch_.law);
         result_.dosedWhileSettling = mass(result_.last.sensors, Region::Dosed);
     }
 

@@ -41,8 +41,8 @@ void readMeasured(CaseReader& reader, const std::filesystem::path& file, Calibra
 FreeParameter readParameter(CaseReader& reader, Section& table, const std::string& path) {
     FreeParameter p;
     p.key = table.string("key");
-    p.low = table.number("low", Bound::Any, kPlain);
-    p.high = table.number("high", Bound::Any, kPlain);
+    p.low = table.number("low");
+    p.high = table.number("high");
     if (p.low >= p.high) reader.fault(path + ".high", "is not above low", "give bounds with low < high");
     return p;
 }
@@ -51,10 +51,10 @@ FreeParameter readParameter(CaseReader& reader, Section& table, const std::strin
 
 CalibrationAim readCalibrationAim(CaseReader& reader, Section& table, const std::filesystem::path& folder) {
     CalibrationAim aim;
-    const bool search = table.choice("method", {"grid", "surrogate"}, 0) == std::size_t{1};
+    const bool search = table.choice("method") == std::size_t{1};
     aim.method = search ? CalibrationAim::Method::Surrogate : CalibrationAim::Method::Grid;
     const bool measured = table.has("measured");
-    if (!measured || table.has("tolerance_g")) aim.tolerance = table.number("tolerance_g", Bound::Positive, kGram);
+    if (!measured || table.has("tolerance_g")) aim.tolerance = table.number("tolerance_g");
     if (measured) {
         if (table.has("target_g_per_dose"))
             reader.fault("calibrate.target_g_per_dose", "the target is measured", "give this or measured, not both");
@@ -65,11 +65,11 @@ CalibrationAim readCalibrationAim(CaseReader& reader, Section& table, const std:
             readMeasured(reader, aim.measured, aim);
         }
     } else {
-        aim.target = table.number("target_g_per_dose", Bound::Positive, kGram);
+        aim.target = table.number("target_g_per_dose");
         table.know("measured");
     }
     if (search) {
-        aim.maxRuns = int(table.integer("max_runs", 3, 30, 500));
+        aim.maxRuns = int(table.integer("max_runs"));
         const std::vector<Section*> parameters = table.tables("parameter");
         for (std::size_t i = 0; i < parameters.size(); ++i)
             aim.parameters.push_back(readParameter(reader, *parameters[i], fmt::format("calibrate.parameter[{}]", i)));
@@ -77,7 +77,7 @@ CalibrationAim readCalibrationAim(CaseReader& reader, Section& table, const std:
             reader.fault("calibrate.parameter", "a search has one to four free parameters",
                          "add [[calibrate.parameter]] with key, low and high");
     } else {
-        aim.along = table.string("along", "contact.kc_over_k");
+        aim.along = table.string("along");
     }
     return aim;
 }

@@ -7,7 +7,9 @@
 #include <set>
 
 #include "host/core/file.h"
+#include "host/model/case_keys.h"
 #include "host/model/case_reader.h"
+#include "host/study/study_keys.h"
 
 namespace vkdose {
 
@@ -78,9 +80,9 @@ Node rangeValue(const Node& place, double value, bool whole) {
 }
 
 void readRange(CaseReader& reader, Section& table, const std::string& path, Axis& axis) {
-    const double from = table.number("from", Bound::Any, kPlain);
-    const double to = table.number("to", Bound::Any, kPlain);
-    const std::int64_t steps = table.integer("steps", 2, std::nullopt, std::int64_t(kMostMembers));
+    const double from = table.number("from");
+    const double to = table.number("to");
+    const std::int64_t steps = table.integer("steps");
     const Node* first = table.node("from");
     const Node* last = table.node("to");
     if (axis.keys.size() > 1)
@@ -166,6 +168,18 @@ void checkCalibration(CaseReader& reader, const Study& study) {
                      "name the key of the axis to interpolate along");
 }
 
+/// A case has none of a study's tables, and would be a list of unknown keys.
+void refuseCase(const std::filesystem::path& file, const Node& tree) {
+    for (const char* name : {"axis", "seeds", "set", "calibrate"})
+        if (tree.child(name) != nullptr) return;
+    for (const KeyTable& table : caseKeys()) {
+        const Node* node = table.paths.empty() ? nullptr : tree.child(wordsOf(table.paths).front());
+        if (node == nullptr || node->kind != Node::Kind::Table) continue;
+        throw CaseError({{file.string(), node->line, "", "", "this is a case, not a study",
+                          "give it to `vkdose run`, or write a study with it as base"}});
+    }
+}
+
 }  // namespace
 
 std::vector<std::string> Study::keys() const {
@@ -177,13 +191,15 @@ std::vector<std::string> Study::keys() const {
 }
 
 Study readStudy(const std::filesystem::path& file) {
-    CaseReader reader(file.string(), readTreeAlone(file));
+    Node tree = readTreeAlone(file);
+    refuseCase(file, tree);
+    CaseReader reader(file.string(), std::move(tree), studyKeys());
     Section& root = reader.root();
     Study study;
     study.file = file;
     study.text = fileContent(file).value_or("");
     study.name = root.string("name", file.stem().string());
-    study.reason = root.string("reason", "");
+    study.reason = root.string("reason");
     study.base = file.parent_path() / root.string("base");
     readSeeds(reader, root, study);
     std::set<std::string> used;

@@ -168,7 +168,10 @@ void SweepFolder::read(const Row& keys) {
 /// The doses of the members that have ended, from their folders: the table may have lost some, or been edited.
 void SweepFolder::gatherDoses() {
     std::map<int, std::vector<Row>> noted;
-    for (std::size_t k = 0; k < doses_.rows(); ++k) noted[numberOf(doses_.row(k))].push_back(doses_.row(k));
+    for (std::size_t k = 0; k < doses_.rows(); ++k) {
+        std::vector<Row>& rows = noted[numberOf(doses_.row(k))];
+        if (rows.empty() || rows.back() != doses_.row(k)) rows.push_back(doses_.row(k));  // one line twice is one dose
+    }
     Table all(doses_.names());
     for (std::size_t i = 0; i < members_.rows(); ++i) {
         const Row& member = members_.row(i);

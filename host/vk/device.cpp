@@ -9,9 +9,13 @@
 #include <string_view>
 #include <type_traits>
 
+#include "shaders/shared/layout.h"
+
 namespace vkdose::vk {
 
-/// What the validation layer said; it may speak from a thread of its own.
+const std::uint32_t kStorageBuffers = gpu::kTables;
+
+/// Messages of the validation layer, which may speak from a thread of its own.
 struct ValidationMessages {
     std::mutex mutex;
     std::vector<std::string> list;
@@ -287,6 +291,8 @@ void Device::createDevice(std::uint32_t family) {
 Device::Device() = default;
 
 std::vector<std::string> Device::validationMessages() const {
+    // Newer layers tell what they found on the device only when it is idle. A lost device has nothing more to tell.
+    if (validated()) vkDeviceWaitIdle(device_);
     const std::lock_guard lock(messages_->mutex);
     return messages_->list;
 }

@@ -62,6 +62,7 @@ TEST_CASE("help and usage") {
     for (const char* word : {"run", "resume", "sweep", "calibrate", "check", "devices", "compare", "profile"})
         CHECK_THAT(help.out, Catch::Contains(word));
     CHECK(box.vkdose("run --help").code == 0);
+    CHECK_THAT(box.vkdose("--version").out, Catch::StartsWith("vkdose "));
     for (const char* bad : {"", "fly", "run", "run x.toml --backend cuda", "run x.toml --nonsense",
                             "compare x.toml --steps 5 --time 1", "compare x.toml --steps 0"}) {
         const auto o = box.vkdose(bad);
@@ -71,6 +72,10 @@ TEST_CASE("help and usage") {
         CHECK(o.out.empty());
     }
     CHECK(box.files().empty());
+    // The culprit by its name: the word that is no command, the command that lacks something.
+    CHECK_THAT(box.vkdose("rnu x.toml").err, Catch::Contains("there is no command rnu; did you mean run?"));
+    CHECK_THAT(box.vkdose("run").err, Catch::StartsWith("vkdose run: ") && Catch::Contains("`vkdose run --help`"));
+    CHECK_THAT(box.vkdose("").err, Catch::StartsWith("vkdose: give a command") && Catch::Contains("calibrate"));
 }
 
 TEST_CASE("a bad case is refused with exit code 2 and nothing written") {

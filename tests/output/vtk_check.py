@@ -1,6 +1,6 @@
 """Opens the frames of a run with VTK's own reader and with h5py, as their users do, and looks at a picture of one.
 
-vtk_check.py RUN README PICTURE: the output folder of a run, the README with the lines for h5py, where to leave the picture.
+vtk_check.py RUN PAGE PICTURE: the output folder of a run, the page of the manual with the lines for h5py, where to leave the picture.
 """
 import csv
 import io
@@ -21,7 +21,7 @@ from vtkmodules.vtkIOImage import vtkPNGReader, vtkPNGWriter
 from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer, vtkWindowToImageFilter
 from vtkmodules.vtkRenderingOpenGL2 import vtkXOpenGLRenderWindow
 
-run, readme, picture = sys.argv[1:4]
+run, page, picture = sys.argv[1:4]
 frames = os.path.join(run, "frames")
 
 
@@ -131,20 +131,20 @@ def check_series(index):
               f"the series of {kind} is not the list of frames")
 
 
-def check_readme(particles, number):
-    """The lines for h5py, as they stand in the README."""
-    with open(readme) as file:
+def check_page(particles, number):
+    """The lines for h5py, as they stand on the page."""
+    with open(page) as file:
         block = re.search(r"((?:    .*\n)*    import h5py\n(?:    .*\n)*)", file.read()).group(1)
     lines = [line[4:] for line in block.splitlines()]
-    check(len(lines) <= 5, "the README's lines for h5py are more than five")
+    check(len(lines) <= 5, "the lines for h5py are more than five")
     code = "\n".join(lines).replace("out/quickstart", run).replace("000012", f"{number:0>6}")
-    check(run in code and number in code, "the README reads another file")
+    check(run in code and number in code, "the lines for h5py read another file")
     said = io.StringIO()
     with redirect_stdout(said):
         exec(code, {})
     top = (points(particles)[:, 1] + array(particles.GetPointData(), "radius")).max()
     time = array(particles.GetFieldData(), "TimeValue")[0]
-    check(re.findall(r"[\d.e+-]*\d", said.getvalue()) == [str(time), str(top)], f"the README's lines say {said.getvalue()}")
+    check(re.findall(r"[\d.e+-]*\d", said.getvalue()) == [str(time), str(top)], f"the lines for h5py say {said.getvalue()}")
 
 
 def render(particles, coil):
@@ -221,7 +221,7 @@ def check_picture(particles, coil):
 
 def check_force_network(number):
     """The tool draws coil and contacts, and says what the largest force is."""
-    tool = os.path.join(os.path.dirname(os.path.abspath(readme)), "tools", "force-network")
+    tool = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "tools", "force-network")
     drawn = picture + ".forces.png"
     said = subprocess.run([tool, run, number, drawn], capture_output=True, text=True, check=True).stdout
     largest = array(load(f"contacts_{number:0>6}.hdf").GetCellData(), "normal_force").max()
@@ -243,7 +243,7 @@ particles = check_particles(index)
 check_contacts(last, particles)
 check_surfaces(index)
 check_series(index)
-check_readme(particles, last)
+check_page(particles, last)
 reading, writing = os.pipe()
 server = subprocess.Popen(["Xvfb", "-displayfd", str(writing), "-screen", "0", "640x480x24", "-nolisten", "tcp"],
                           pass_fds=[writing], stderr=subprocess.DEVNULL)

@@ -1,4 +1,4 @@
-// What users do with frames: VTK's own reader (that of ParaView), h5py by the README's lines, and a picture.
+// What users do with frames: VTK's own reader (that of ParaView), h5py by the manual's lines, and a picture.
 #include <atomic>
 #include <cstdlib>
 
@@ -68,7 +68,7 @@ TEST_CASE("VTK and h5py open the frames of a run, and a picture shows them") {
     }
     const std::string said = box / "said.txt", picture = VKDOSE_BINARY_DIR "/tests/frame.png";
     const std::string arguments =
-        (box / "run").string() + " " VKDOSE_SOURCE_DIR "/README.md " + picture + " > " + said + " 2>&1";
+        (box / "run").string() + " " VKDOSE_SOURCE_DIR "/host/output/README.md " + picture + " > " + said + " 2>&1";
     const int status = std::system((kPython + " " VKDOSE_SOURCE_DIR "/tests/output/vtk_check.py " + arguments).c_str());
     CAPTURE(readText(said));
     CHECK(status == 0);

@@ -150,6 +150,7 @@ TEST_CASE("a run without fields has none to show; a damaged map is named") {
     CHECK_THAT(faultOf([&] { fieldsJson(box / "run", c); }),
                Catch::Contains("plane_000001.csv") && Catch::Contains("has 11 points") && Catch::Contains("has 12"));
     std::filesystem::remove(box / "run/fields/plane_000001.csv");
-    CHECK_THAT(faultOf([&] { fieldsJson(box / "run", c); }),
-               Catch::Contains("plane.csv:3") && Catch::Contains("plane_000001.csv") && Catch::Contains("is not there"));
+    CHECK_THAT(faultOf([&] { fieldsJson(box / "run", c); }), Catch::Contains("plane.csv:3") &&
+                                                                 Catch::Contains("plane_000001.csv") &&
+                                                                 Catch::Contains("is not there"));
 }

@@ -48,7 +48,7 @@ TEST_CASE("a study is every combination of its axes for every seed, seeds slowes
     }
     const Case c = caseOf(members[10]);
     CHECK(c.seed == 9);
-    CHECK(c.world.law.of(ContactClass::ParticleParticle).kc == 0.5 * 2000.0);
+    CHECK(c.dosingLaw.of(ContactClass::ParticleParticle).kc == 0.5 * 2000.0);
     CHECK(c.schedule.stop.maxDoses == 2);
     CHECK(c.schedule.rotateTime == 0.2);
     CHECK(c.schedule.coilSpeed == Approx(2 * kPi).epsilon(1e-12));  // 60 a minute, to rounding
@@ -182,6 +182,16 @@ TEST_CASE("a list that is varied is checked as a single value is, and told with 
                    Catch::Contains("study.toml:" + std::to_string(lineOf(text(row.bad), row.bad + "]")) + ": " +
                                    (row.key == "domain.high" ? "domain.high" : "")) &&
                        Catch::Contains(row.says) && Catch::Contains("(member 1: " + row.key));
+    }
+}
+
+TEST_CASE("a case given as a study is told so") {
+    try {
+        readStudy(VKDOSE_SOURCE_DIR "/cases/mini.toml");
+        FAIL("was read as a study");
+    } catch (const CaseError& error) {
+        REQUIRE(error.faults().size() == 1);
+        CHECK_THAT(error.what(), Catch::Contains("this is a case, not a study") && Catch::Contains("vkdose run"));
     }
 }
 

@@ -183,6 +183,9 @@ TEST_CASE("doses that the table has lost come back from the members' folders") {
         other[digit] = other[digit] == '1' ? '2' : '1';
         std::ofstream(table) << other;
     }
+    SECTION("a line twice") {
+        std::ofstream(table) << good + good.substr(good.rfind('\n', good.size() - 2) + 1);
+    }
     SECTION("a member's folder gone, the table whole") {
         fs::remove_all(sweep.out / "members/0003");
     }

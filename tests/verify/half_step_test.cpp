@@ -1,5 +1,5 @@
 // What velocity Verlet with half-step velocities does to a small sphere at the neck between two large ones: the limits
-// the README states, so that they stay true. A change that removes the error must change the README too.
+// host/verify/README.md states, so that they stay true. A change that removes the error must change that page too.
 
 #include "host/backend/reference/reference.h"
 #include "host/core/vec.h"

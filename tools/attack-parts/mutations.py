@@ -128,19 +128,29 @@ def whole_summary(text):
         return False
 
 
+def same_but_blanks(good, other, name):
+    """A case with more blank lines, or fewer, is the same case and stays as its owner left it."""
+    one, two = (folders.bytes_of(os.path.join(folder, name)).split() for folder in (good, other))
+    return name == "case.toml" and one == two
+
+
 def judge_success(t, command, name, way, readable):
     """What exit 0 promises, after a spoilt file."""
-    behind = ["nowhere"] if way == "dangling" else []  # where a file's link leads, and the file now lies
+    # Where a file's link leads, and the file now lies.
+    behind = [os.path.join(os.path.dirname(name), "nowhere")] if way == "dangling" else []
     if command == "run":
         if not folders.complete(t.path("out")) or not whole_summary(folders.bytes_of(t.path("out", "summary.json"))):
             t.found("exit 0 without a whole summary")
     elif command == "resume":
-        but = [name] if name.startswith(UNREAD) else behind
-        t.expect_same(t.ground.good("short", "reference")[0], t.path("out"), "resumed, exit 0, but", but)
+        good = t.ground.good("short", "reference")[0]
+        but = [name] if name.startswith(UNREAD) or same_but_blanks(good, t.path("out"), name) else behind
+        t.expect_same(good, t.path("out"), "resumed, exit 0, but", but)
     elif command == "sweep-on":
-        but = behind
+        but = list(behind)
         if name == "members.csv" and way in ("other_number", "bit_flips"):
             but = [name]  # the rows of members that have ended are taken as they stand
+        if way == "dangling" and name.startswith("members/") or way == "endless":
+            but.append(name)  # nobody writes the case of a member that has ended again, nor turns a device into a file
         t.expect_same(t.ground.good_sweep("reference")[0], t.path("out"), "swept on, exit 0, but", but)
     else:
         made = {"report": "out/report.html", "report-sweep": "out/report.html", "render": "out/picture.png",

@@ -8,7 +8,7 @@ import threading
 import time
 
 TAIL = 8000  # characters of its output that are looked at
-CODES = (0, 1, 2, 3, 4, 5, 130)  # what the README documents
+CODES = (0, 1, 2, 3, 4, 5, 130)  # those that host/app/README.md documents
 IDLE = 8  # seconds of sleep, without any work, after which a program waits for what will not come
 SANITIZERS = ("Sanitizer", "runtime error:")
 

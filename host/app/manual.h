@@ -1,0 +1,26 @@
+#pragma once
+// The parts of the manual that the program knows itself, as Markdown: `vkdose keys`, `columns`, `options`. tools/manual
+// puts them into the pages, and tests/manual holds the pages against them.
+
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace vkdose {
+
+/// Every key of a case file, or of a study.
+std::string keysPage(bool study);
+
+/// Every column of the tables that a run leaves, or a sweep.
+std::string columnsPage(bool sweep);
+
+/// The options of every command; `brief`: a table of the commands, a line each.
+std::string optionsPage(const CLI::App& program, bool brief);
+
+/// The lines that tell a fault of the command line, and where to read on: `problem` by the parser, `first` the word
+/// that follows the program's name.
+std::string usageFault(const CLI::App& program, const std::string& problem, const std::string& first);
+
+}  // namespace vkdose

@@ -1,0 +1,261 @@
+#include "host/model/case_keys.h"
+
+#include "host/model/case.h"
+
+namespace vkdose {
+namespace {
+
+using namespace key;
+
+constexpr Unit kDensity{1, "kg/m3"};
+constexpr Bound kPositive = Bound::Positive;
+constexpr Bound kNonNegative = Bound::NonNegative;
+constexpr std::int64_t kAnyCount = std::numeric_limits<std::int64_t>::max();
+constexpr std::int64_t kMostDoses = 1'000'000'000;
+/// With it sliding, and rolling likewise, oscillates as fast as the normal direction (paper).
+constexpr double kTwoSevenths = 0.286;
+
+constexpr Key kTop[] = {
+    text("base", told("none"), "another case to start from; the path is relative to this file"),
+    text("name", told("name of the file"),
+         "name of the case and of its default output folder: at most 200 visible characters, no slash, no blank at "
+         "either end"),
+    text("reason", "", "why the case exists; it is printed"),
+    integer("seed", 0, kAnyCount, 1, "sets sizes and positions: the same seed gives the same particles"),
+    vector("gravity", {1, "m/s2"}, {0, -9.81, 0}, "acceleration of gravity"),
+    number("bulk_density", kDensity, kPositive, 471.0,
+           "of the settled powder; only the closed form of the mass per dose uses it"),
+    word("boundaries", "canister list none", "canister",
+         "`\"canister\"`: the walls of `[canister]`; `\"list\"`: each `[[plane]]` and `[[cylinder]]`; `\"none\"`: no "
+         "walls")
+        .replacing("canister plane cylinder"),
+};
+
+constexpr Key kParticles[] = {
+    number("density", kDensity, kPositive, kRequired, "of the particles themselves, not of the bed"),
+    number("mass_g", kGram, kPositive, told("required without `list`"),
+           "mass of the fill; it is met as closely as one particle allows")
+        .replacing("list"),
+    text("list", told("none"),
+         "a CSV of particles to start from in place of a fill; the path is relative to the case file")
+        .replacing("mass_g size region"),
+};
+
+constexpr Key kUniform[] = {
+    word("distribution", "uniform fixed normal lognormal quantiles", kRequired, "the kind of distribution")
+        .replacing("*"),
+    number("radius_min_mm", kMillimetre, kPositive, kRequired, "smallest radius"),
+    number("radius_max_mm", kMillimetre, kPositive, kRequired, "largest radius"),
+};
+constexpr Key kFixed[] = {
+    number("radius_mm", kMillimetre, kPositive, kRequired, "radius of every sphere"),
+};
+constexpr Key kNormal[] = {
+    number("radius_mean_mm", kMillimetre, kPositive, kRequired, "mean radius before the bounds cut"),
+    number("radius_deviation_mm", kMillimetre, kPositive, kRequired, "standard deviation of the radius"),
+    number("radius_min_mm", kMillimetre, kPositive, told("mean - 2 deviations, at least mean/10"), "smallest radius"),
+    number("radius_max_mm", kMillimetre, kPositive, told("mean + 2 deviations"), "largest radius"),
+};
+constexpr Key kLognormal[] = {
+    number("radius_median_mm", kMillimetre, kPositive, kRequired, "median radius before the bounds cut"),
+    number("log_deviation", kPlain, kPositive, kRequired, "standard deviation of ln r"),
+    number("radius_min_mm", kMillimetre, kPositive, told("median · exp(-2 `log_deviation`)"), "smallest radius"),
+    number("radius_max_mm", kMillimetre, kPositive, told("median · exp(2 `log_deviation`)"), "largest radius"),
+};
+constexpr Key kQuantiles[] = {
+    number("scale_up", kPlain, kPositive, 1.0, "size of a simulated meso-particle over that of a grain of the powder"),
+    number("d10_um", kMicrometre, kPositive, kRequired, "**diameter** below which 10 % of the powder's volume lies"),
+    number("d50_um", kMicrometre, kPositive, kRequired, "diameter below which half of the volume lies"),
+    number("d90_um", kMicrometre, kPositive, kRequired, "diameter below which 90 % of the volume lies"),
+    number("radius_min_mm", kMillimetre, kPositive, told("where the line through the quantiles reaches 0"),
+           "smallest radius, after `scale_up`"),
+    number("radius_max_mm", kMillimetre, kPositive, told("where the line through the quantiles reaches 1"),
+           "largest radius, after `scale_up`"),
+};
+
+constexpr Key kRegion[] = {
+    vector("low", kMetre, kRequired, "lower corner of the box that is filled"),
+    vector("high", kMetre, kRequired, "upper corner"),
+};
+
+constexpr Key kContactAlone[] = {
+    word("coulomb_limit", "luding absolute", "luding", "the force that friction is a fraction of"),
+    word("rolling_lever", "full half", "full", "the lever of rolling and torsion"),
+    number(
+        "max_overlap_ratio", kPlain, kPositive, kMaxOverlapRatio,
+        "overlap over smaller radius at which the run stops; at most 2. Particles pinched between coil and wall need "
+        "more than the default (the paper's cases say 1)"),
+};
+constexpr Key kContactClass[] = {
+    number("k", {1, "N/m"}, kPositive, kRequired,
+           "k̂₂, the largest stiffness of unloading; all other stiffnesses are ratios to it"),
+    number("k1_over_k", kPlain, kPositive, kRequired, "k₁/k, stiffness of plastic loading; at most 1"),
+    number("kc_over_k", kPlain, kNonNegative, kRequired, "k_c/k, adhesion, during the doses"),
+    number("plasticity_depth", kPlain, kNonNegative, told("required if k₁ < k"),
+           "φ_f, the overlap relative to the radius at which k₂ reaches k"),
+    number("damping", {1, "kg/s"}, kNonNegative, kRequired, "γ, of the normal direction; a dashpot, not a restitution"),
+    number("friction", kPlain, kNonNegative, kRequired, "μ, a coefficient, not an angle"),
+    number("kt_over_k", kPlain, kPositive, kTwoSevenths, "k_t/k, stiffness of sliding"),
+    number("damping_t_ratio", kPlain, kNonNegative, kTwoSevenths, "γ_t/γ, damping of sliding"),
+    number("rolling_friction", kPlain, kNonNegative, 0.0, "μ_r; 0 switches rolling resistance off"),
+    number("kr_over_k", kPlain, kPositive, kTwoSevenths, "k_r/k, stiffness of rolling"),
+    number("damping_r_ratio", kPlain, kNonNegative, kTwoSevenths, "γ_r/γ, damping of rolling"),
+    number("torsion_friction", kPlain, kNonNegative, 0.0, "μ_to; 0 switches torsion resistance off"),
+    number("kto_over_k", kPlain, kPositive, kTwoSevenths, "k_to/k, stiffness of torsion"),
+    number("damping_to_ratio", kPlain, kNonNegative, kTwoSevenths, "γ_to/γ, damping of torsion"),
+};
+
+constexpr Key kCanister[] = {
+    number("length_mm", kMillimetre, kPositive, kRequired, "along the coil, from the rear wall to the front wall"),
+    number("width_mm", kMillimetre, kPositive, kRequired, "inside width, which is also the diameter of the trough"),
+    number("height_mm", kMillimetre, kPositive, kRequired, "from the lowest point of the floor"),
+    word("floor", "trough flat", "trough",
+         "`\"trough\"`: a half-cylinder around the coil's axis; `\"flat\"`: a plane half a width below the axis"),
+    number("outlet_diameter_mm", kMillimetre, kPositive, kRequired,
+           "of the hole in the front wall and of the throat behind it; at most `width_mm`"),
+    number("throat_length_mm", kMillimetre, kPositive, kRequired, "powder that passes the throat's end is dosed"),
+    boolean("lid", false,
+            "closes the canister at its height, or above the grid that the fill starts from where that reaches higher. "
+            "Without a lid a sphere that the coil pinches and flings out is lost, which ends the run"),
+};
+
+constexpr Key kPlane[] = {
+    vector("point", kMetre, kRequired, "a point of the plane"),
+    vector("normal", kPlain, kRequired, "points to the side of the particles; of any length but zero"),
+};
+constexpr Key kCylinder[] = {
+    vector("base", kMetre, kRequired, "centre of the first end; of an endless one any point of the axis"),
+    vector("axis", kPlain, kRequired, "direction of the axis; of any length but zero"),
+    number("radius_mm", kMillimetre, kPositive, kRequired, "inner radius if the particles are inside, else outer"),
+    number("length_mm", kMillimetre, kPositive, told("endless"), "the cylinder is open at both ends"),
+    boolean("inside", true, "whether the particles are inside"),
+};
+
+constexpr Key kCoil[] = {
+    number("length_mm", kMillimetre, kPositive, kRequired, "along the axis; as a rule canister and throat together"),
+    number("turns", kPlain, kPositive, told("this or `pitch_mm`"), "number of turns over the whole length")
+        .replacing("pitch_mm"),
+    number("pitch_mm", kMillimetre, kPositive, told("this or `turns`"), "length of one turn").replacing("turns"),
+    number("wire_diameter_mm", kMillimetre, kPositive, kRequired, "thickness of the wire"),
+    number("radius_mm", kMillimetre, kPositive, told("this or `clearance_mm`"),
+           "from the axis to the wire's centre line")
+        .replacing("clearance_mm"),
+    number("clearance_mm", kMillimetre, kPositive, told("this or `radius_mm`"),
+           "gap between the wire and the narrower of trough and hole")
+        .replacing("radius_mm"),
+    number("z_start_mm", kMillimetre, Bound::Any, 0.0, "where the coil begins"),
+    number("start_angle_deg", kDegree, Bound::Any, 0.0, "of the wire's beginning, from +x towards +y"),
+    word("hand", "right left", "right", "hand of the helix"),
+    number("speed_rpm", kRpm, kNonNegative, kRequired, "speed during a dose, in the sense that conveys towards +z"),
+};
+
+constexpr Key kSettle[] = {
+    number("time_s", kSecond, kNonNegative, 0.0, "duration of settling, with the coil at rest"),
+    number("kc_over_k", kPlain, kNonNegative, told("that of `[contact]`"),
+           "adhesion while settling; a weaker one makes the bed homogeneous"),
+    number("wall_kc_over_k", kPlain, kNonNegative, told("the wall's own, or `kc_over_k` above"),
+           "adhesion between particle and wall while settling"),
+    number("coil_kc_over_k", kPlain, kNonNegative, told("the coil's own, or the wall's above"),
+           "adhesion between particle and coil while settling"),
+};
+constexpr Key kDose[] = {
+    number("rotate_s", kSecond, kNonNegative, 0.0,
+           "time the coil turns in a dose; 0: no doses, the run is the settling"),
+    number("rest_s", kSecond, kNonNegative, 0.0, "rest after each rotation, part of the dose"),
+};
+constexpr Key kStop[] = {
+    word("rule", "none experiment simulation", told("`\"experiment\"`; without doses `\"none\"`"),
+         "`\"experiment\"`: the last `doses` doses together gave no more than `threshold_g`; `\"simulation\"`: they "
+         "gave "
+         "nothing; `\"none\"`: `max_doses` or `end_time_s` is required")
+        .replacing("threshold_g doses"),
+    number("threshold_g", kGram, kNonNegative, 0.15, "for `\"experiment\"`"),
+    integer("doses", 1, kMostDoses, 3, "for `\"experiment\"` and `\"simulation\"`"),
+    integer("max_doses", 1, kMostDoses, told("none"), "the run ends after so many doses"),
+    number("end_time_s", kSecond, kPositive, told("none"), "the run ends at this simulated time; settling counts"),
+};
+constexpr Key kTime[] = {
+    number("step_s", kSecond, kPositive, told("`\"auto\"`"),
+           "time step. `\"auto\"`: 1/8 of the stiffest normal contact, 1/6 of any other, half of the fastest damping "
+           "time, whichever is least, cut to three digits"),
+    number("skin_mm", kMillimetre, kPositive, told("0.6 of the mean radius"),
+           "extra reach of the neighbour rows: larger means longer rows that are rebuilt less often"),
+};
+constexpr Key kSensors[] = {
+    number("interval_s", kSecond, kPositive, 0.01, "between two lines of the time series; rounded to whole steps"),
+    boolean("energy", false,
+            "keeps the energy ledger. The motion stays the same to the last bit; a step costs half as much again"),
+};
+constexpr Key kFrames[] = {
+    number("interval_s", kSecond, kNonNegative, 0.0,
+           "between two frames; rounded to whole sensor intervals and no shorter than one; 0: no frames. It changes no "
+           "bit of the run"),
+    boolean("contacts", false, "stores the contacts as well"),
+};
+constexpr Key kCheckpoint[] = {
+    number("wall_s", kSecond, kNonNegative, CheckpointInterval{}.wall,
+           "wall time between two checkpoints; 0: none by the clock"),
+    number("time_s", kSecond, kNonNegative, CheckpointInterval{}.simulated,
+           "simulated time between two checkpoints; 0: none by simulated time"),
+};
+constexpr Key kDomain[] = {
+    vector("low", kMetre, told("canister and fill with a margin; without a canister the particles, and as much again"),
+           "lower corner of the box outside of which a particle is lost, which ends the run"),
+    vector("high", kMetre, told("likewise"), "upper corner"),
+};
+
+constexpr Key kField[] = {
+    word("preset", "grid height-profile mid-plane outlet", "grid",
+         "sets box and cells; `\"grid\"` is the whole canister in three directions"),
+    text("name", told("the preset's; of grids `field-1`, ..."), "of its files: letters, digits, `-` and `_`"),
+    word("kernel", "gaussian lucy", "gaussian", "`\"gaussian\"` is cut at three widths; `\"lucy\"` ends at its width"),
+    number("width_mm", kMillimetre, kPositive, told("mean diameter; Lucy: two"), "width of the kernel"),
+    boolean("average", false, "the mean of all sensor intervals since the field before, in place of the instant"),
+    boolean("stress", false, "adds contact and kinetic stress, granular temperature and coordination"),
+    vector("low", kMetre, told("the preset's; required without a canister"), "lower corner of the grid"),
+    vector("high", kMetre, told("the preset's; required without a canister"), "upper corner"),
+    vector("cells", kPlain, told("as wide as the kernel, Lucy half; 1 where the preset does not resolve"),
+           "along x, y and z. A direction with one cell is averaged over. At most 10⁶ in all"),
+    number("interval_s", kSecond, kPositive, told("`sensors.interval_s`; of maps ten of them"),
+           "between two fields that are kept; rounded to whole sensor intervals"),
+    number("initial_height_mm", kMillimetre, kNonNegative, 0.0,
+           "`\"height-profile\"` only: h_ini; 0: as the density of the bed tells"),
+};
+
+constexpr KeyTable kTables[] = {
+    {"", kTop, ""},
+    {"particles", kParticles, ""},
+    {"particles.size", kUniform, "Radii spread evenly, `distribution = \"uniform\"`:"},
+    {"particles.size", kFixed, "One radius, `\"fixed\"`:"},
+    {"particles.size", kNormal, "Normal radii, `\"normal\"`. A draw outside the bounds is drawn again:"},
+    {"particles.size", kLognormal, "Lognormal radii, `\"lognormal\"`. A draw outside the bounds is drawn again:"},
+    {"particles.size", kQuantiles, "Measured quantiles of the volume, `\"quantiles\"`:"},
+    {"particles.region", kRegion, "The box to fill, where `boundaries` is `\"list\"` or `\"none\"`."},
+    {"contact contact.wall contact.coil", kContactClass,
+     "`[contact]` holds the parameters between particles. `[contact.wall]` replaces single ones for the walls,\n"
+     "`[contact.coil]` for the coil. The coil takes what it does not state from the wall, and the wall from "
+     "`[contact]`."},
+    {"contact", kContactAlone, "These three hold for all contacts."},
+    {"canister", kCanister, ""},
+    {"plane[]", kPlane, "A wall without end, for `boundaries = \"list\"`."},
+    {"cylinder[]", kCylinder, "A round wall, for `boundaries = \"list\"`."},
+    {"coil", kCoil,
+     "A round wire on a helix, closed by round caps, turns as a rigid body. Without this table there is no coil."},
+    {"settle", kSettle, "The run begins with the coil at rest."},
+    {"dose", kDose, "Then the coil turns and rests, dose after dose."},
+    {"stop", kStop, "A run ends when one of these conditions holds, or when the canister is empty."},
+    {"time", kTime, ""},
+    {"sensors", kSensors, ""},
+    {"frames", kFrames, ""},
+    {"checkpoint", kCheckpoint, ""},
+    {"domain", kDomain, ""},
+    {"field[]", kField, "A field to take while the run goes on, a table for each."},
+};
+
+}  // namespace
+
+std::span<const KeyTable> caseKeys() {
+    return kTables;
+}
+
+}  // namespace vkdose

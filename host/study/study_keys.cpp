@@ -1,0 +1,67 @@
+#include "host/study/study_keys.h"
+
+#include "host/study/study.h"
+
+namespace vkdose {
+namespace {
+
+using namespace key;
+
+constexpr Key kTop[] = {
+    text("name", told("name of the file"), "name of the study, for the report"),
+    text("reason", "", "why the study exists; the report shows it"),
+    text("base", kRequired, "the case that is varied; the path is relative to the study's folder"),
+    other(
+        "seeds", told("the base case's seed"),
+        "a list of different whole numbers ≥ 0, or how many: `3` stands for `[1, 2, 3]`. Every point is run with every "
+        "seed"),
+};
+
+constexpr Key kSet[] = {
+    other("\"TABLE.KEY\"", told("the base case's value"), "any key of a case file, for every member"),
+};
+
+constexpr Key kAxis[] = {
+    text("key", told("this or `keys`"), "the key that varies, with its table: `\"contact.friction\"`"),
+    other("keys", told("this or `key`"), "keys that vary together"),
+    other("values", told("this or a range"), "the values; with `keys` a row of values for each point"),
+    number("from", kPlain, Bound::Any, told("this or `values`"), "first value of a range"),
+    number("to", kPlain, Bound::Any, told("with `from`"), "last value of the range"),
+    integer("steps", 2, std::int64_t(kMostMembers), told("with `from`"), "number of values, both ends included"),
+};
+
+constexpr Key kCalibrate[] = {
+    word("method", "grid surrogate", "grid", "how the parameters are searched for"),
+    number("target_g_per_dose", kGram, Bound::Positive, told("required without `measured`"),
+           "measured mass per dose, β"),
+    number("tolerance_g", kGram, Bound::Positive, told("required without `measured`; with it the slope's error"),
+           "standard error of the target"),
+    text("measured", told("none"),
+         "a balance's CSV with the columns `dose` (1, 2, ...) and `mass_g` or `cumulative_g`, in place of a target: β "
+         "is "
+         "the slope until 80 % of all is out"),
+    text("along", "contact.kc_over_k", "grid: the axis to interpolate along"),
+    integer("max_runs", 3, 500, 30, "surrogate: points at most, each run with every seed"),
+};
+
+constexpr Key kParameter[] = {
+    text("key", kRequired, "a key of the base case with a number for a value"),
+    number("low", kPlain, Bound::Any, kRequired, "lower bound, in the unit of the key"),
+    number("high", kPlain, Bound::Any, kRequired, "upper bound"),
+};
+
+constexpr KeyTable kTables[] = {
+    {"", kTop, ""},
+    {"set", kSet, "Values of every member, laid over the base case."},
+    {"axis[]", kAxis, "One direction of the grid of members, a table for each. Members are all combinations."},
+    {"calibrate", kCalibrate, "For `vkdose calibrate` only."},
+    {"calibrate.parameter[]", kParameter, "One to four free parameters, for `method = \"surrogate\"` only."},
+};
+
+}  // namespace
+
+std::span<const KeyTable> studyKeys() {
+    return kTables;
+}
+
+}  // namespace vkdose

@@ -1,0 +1,128 @@
+// The declarations of keys are those that the reader reads by: a key that is declared and never read would stand in the
+// manual and do nothing.
+#include <algorithm>
+#include <sstream>
+
+#include "host/core/error.h"
+#include "host/model/case_keys.h"
+#include "tests/model/case_files.h"
+#include "tests/support/catch.h"
+
+using namespace vkdose;
+using test::Folder;
+using test::kFreeCase;
+using test::kGoodCase;
+using test::replaced;
+
+namespace {
+
+/// `text` with `key = value` in the table under `header` ("" for the top), in place of what it says there.
+std::string withKey(const std::string& text, const std::string& header, const std::string& key,
+                    const std::string& value) {
+    std::istringstream lines(text);
+    std::string out, section;
+    bool found = header.empty();
+    if (found) out += key + " = " + value + "\n";
+    for (std::string line; std::getline(lines, line);) {
+        if (line.front() == '[') section = line;
+        if (section == header && line.rfind(key + " =", 0) == 0) continue;
+        out += line + "\n";
+        if (line != header) continue;
+        out += key + " = " + value + "\n";
+        found = true;
+    }
+    if (!found) out += header + "\n" + key + " = " + value + "\n";
+    return out;
+}
+
+/// A case in which the keys of the table have a use; of the sizes that of distribution `kind`.
+std::string caseFor(const KeyTable& table, const std::string& kind) {
+    const std::string filled = replaced(kFreeCase, "list = \"two.csv\"",
+                                        "mass_g = 0.1\n[particles.size]\ndistribution = \"fixed\"\nradius_mm = 1");
+    if (table.paths == "particles.region") return filled;
+    if (table.paths == "plane[]" || table.paths == "cylinder[]")
+        return replaced(filled, "boundaries = \"none\"", "boundaries = \"list\"");
+    if (table.paths == "field[]") return kGoodCase + "[[field]]\npreset = \"height-profile\"\n";
+    if (table.paths != "particles.size") return kGoodCase;
+    std::string text = withKey(kGoodCase, "[particles.size]", "distribution", "\"" + kind + "\"");
+    for (const char* key : {"radius_min_mm", "radius_max_mm"}) text = withKey(text, "[particles.size]", key, "1");
+    return text;
+}
+
+std::vector<std::string> headersOf(const KeyTable& table) {
+    if (table.paths.empty()) return {""};
+    std::vector<std::string> headers;
+    for (const std::string& path : wordsOf(table.paths)) {
+        const std::size_t bracket = path.find("[]");
+        headers.push_back(bracket == std::string::npos ? "[" + path + "]" : "[[" + path.substr(0, bracket) + "]]");
+    }
+    return headers;
+}
+
+}  // namespace
+
+TEST_CASE("every declared key is read: a date for its value is a fault of that key, not an unknown key") {
+    const std::vector<std::string> kinds = wordsOf(keysOf(caseKeys(), "particles.size").front()->words);
+    std::size_t distribution = 0, keys = 0;
+    for (const KeyTable& table : caseKeys()) {
+        const std::string kind = table.paths == "particles.size" ? kinds.at(distribution++) : "";
+        for (const std::string& header : headersOf(table)) {
+            for (const Key& key : table.keys) {
+                const std::string name(key.name);
+                const Folder folder;
+                folder.write("two.csv", "x,y,z,r\n0,0,0,1e-3\n0,5e-3,0,1e-3\n");
+                const auto file = folder.write("case.toml", withKey(caseFor(table, kind), header, name, "1979-05-27"));
+                CAPTURE(header, kind, name);
+                ++keys;
+                try {
+                    loadCase(file);
+                    FAIL("was not read");
+                } catch (const CaseError& error) {
+                    CAPTURE(error.what());
+                    const auto blamed = [&](const Diagnostic& d) { return d.key.ends_with(name) && d.line > 0; };
+                    const auto fault = std::find_if(error.faults().begin(), error.faults().end(), blamed);
+                    REQUIRE(fault != error.faults().end());
+                    CHECK_THAT(fault->problem, !Catch::Contains("unknown"));
+                }
+            }
+        }
+    }
+    CHECK(distribution == kinds.size());
+    CHECK(keys > 100);
+}
+
+TEST_CASE("a default that is declared is the one that a case gets") {
+    const Folder folder;
+    const std::string resolved = loadCase(folder.write("case.toml", kGoodCase)).resolved;
+    std::istringstream lines(resolved);
+    std::string path;
+    int compared = 0;
+    for (std::string line; std::getline(lines, line);) {
+        if (line.empty()) continue;
+        if (line.front() == '[') path = line.substr(1, line.size() - 2);
+        const std::size_t equals = line.find(" = ");
+        if (equals == std::string::npos || kGoodCase.find(line.substr(0, equals + 2)) != std::string::npos) continue;
+        if (path == "contact.wall" || path == "contact.coil") continue;  // they inherit
+        for (const Key* key : keysOf(caseKeys(), path)) {
+            if (key->name != line.substr(0, equals) || key->standard.kind != Default::Kind::Value) continue;
+            CAPTURE(path, line);
+            const std::string value = line.substr(equals + 3);
+            // Intervals are rounded to whole steps.
+            if (key->type == Key::Type::Number) CHECK(std::stod(value) == Approx(key->standard.value[0]).epsilon(1e-3));
+            if (key->type == Key::Type::Word) CHECK(value == "\"" + std::string(key->standard.text) + "\"");
+            if (key->type == Key::Type::Boolean) CHECK(value == (key->standard.value[0] != 0 ? "true" : "false"));
+            ++compared;
+        }
+    }
+    CHECK(compared > 20);
+}
+
+TEST_CASE("the reference of the keys has a heading for each table and a row for each key") {
+    const std::string text = keyReference(caseKeys());
+    for (const char* row : {"### `[contact]`, `[contact.wall]`, `[contact.coil]`\n", "### `[[plane]]`\n",
+                            "| `density` | kg/m3 | required | > 0 | ", "| `speed_rpm` | rpm | required | ≥ 0 | ",
+                            "| `gravity` | m/s2 | [0, -9.81, 0] | three numbers | ", "| `lid` |  | `false` | "})
+        CHECK_THAT(text, Catch::Contains(row));
+    const std::string heading = "### `[particles.size]`\n";
+    CHECK(text.find(heading) == text.rfind(heading));  // one for its five kinds
+}
