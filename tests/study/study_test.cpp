@@ -153,6 +153,38 @@ TEST_CASE("every fault of a study names its line, its key and a remedy") {
     }
 }
 
+TEST_CASE("a list that is varied is checked as a single value is, and told with the line of its point") {
+    const StudyFolder folder;
+    struct Fault {
+        std::string key, good, bad, says;
+    };
+    for (const Fault& row : std::vector<Fault>{
+             {"domain.high", "[0.1, 0.1, 0.1]", "[0.1, 0.1]", "domain.high = [0.1, 0.1]: is not an array of three"},
+             {"domain.high", "[0.1, 0.1, 0.1]", "[0.1, \"b\", 0.1]", "\"b\" is not a finite number"},
+             {"domain.high", "[0.1, 0.1, 0.1]", "[0.1, nan, 0.1]", "nan is not a finite number"},
+             {"domain.high", "[0.1, 0.1, 0.1]", "7", "domain.high = 7: is not an array of three"},
+             {"contact.friction", "0.5", "[0.5]", "contact.friction = [0.5]: is an array, not a number"},
+             {"field", "[{preset = \"outlet\"}]", "[{preset = \"outlte\"}]",
+              "field[0].preset = \"outlte\": is not known"},
+             {"field", "[{preset = \"outlet\"}]", "[{presett = \"outlet\"}]",
+              "field[0].presett = \"outlet\": unknown key"},
+             {"field", "[{preset = \"outlet\"}]", "[1]", "field = [1]: is not a list of tables"},
+         }) {
+        CAPTURE(row.key, row.bad);
+        const auto text = [&](const std::string& second) {
+            return "base = \"good.toml\"\n[set]\ndomain.low = [-0.1, -0.1, -0.1]\n" +
+                   (row.key == "domain.high" ? "" : std::string("domain.high = [0.1, 0.1, 0.1]\n")) +
+                   "[[axis]]\nkey = \"" + row.key + "\"\nvalues = [\n" + row.good + ",\n" + second + "]\n";
+        };
+        const auto faults = faultsOf(folder, text(row.bad));
+        REQUIRE(faults.size() == 1);
+        CHECK_THAT(faults[0].text(),
+                   Catch::Contains("study.toml:" + std::to_string(lineOf(text(row.bad), row.bad + "]")) + ": " +
+                                   (row.key == "domain.high" ? "domain.high" : "")) &&
+                       Catch::Contains(row.says) && Catch::Contains("(member 1: " + row.key));
+    }
+}
+
 TEST_CASE("a case given as a study is told so") {
     try {
         readStudy(VKDOSE_SOURCE_DIR "/cases/mini.toml");

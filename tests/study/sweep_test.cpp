@@ -17,11 +17,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string readText(const fs::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 /// Stands in for the processes: a member "runs" until it is waited for, the last started ends first.
 class MadeUpRuns : public MemberRunner {
   public:
