@@ -1,55 +1,107 @@
-# Compiles every pass to SPIR-V and embeds it as C++ headers, which ${spirv_dir}/passes.h includes. What a pass says of how
-# it is built makes its variants: "TEXEL_READS" one that reads through texel-buffer views (suffix _texel), which some
-# devices do several times faster, and with "PACKED_STORES" one that moreover stores 64 bits at a time (_packed); "and
-# ENERGY_BOOK" all of these once more with the energy book (_energy), which costs nothing without.
+# Compiles every pass to SPIR-V in the variants that are declared here. ${spirv_dir}/passes.h then holds the code of
+# each variant (near_texel_spv) and for each pass the list of its variants (vkdose::spirv::near), of which the host
+# takes the one that suits the device and the world (host/vk/variant.h).
+
+# The words that variants are named by, and the macros that each defines.
+set(macros_texel TEXEL_READS)                 # reads through texel-buffer views
+set(macros_packed TEXEL_READS PACKED_STORES)  # and stores 64 bits at a time
+set(macros_energy ENERGY_BOOK)                # keeps the energy book
+
+# Every pass, and its variants beside the plain one.
+set(passes
+    "pass/clear"
+    "pass/bin texel"
+    "pass/neighbours texel"
+    "pass/near texel energy texel_energy"
+    "pass/link texel energy texel_energy"
+    "pass/commit_lists"
+    "pass/pairs texel packed energy texel_energy packed_energy"
+    "pass/surfaces texel packed energy texel_energy packed_energy"
+    "pass/coil texel packed energy texel_energy packed_energy"
+    "pass/move texel packed energy texel_energy packed_energy"
+    "pass/decide"
+    "pass/sense"
+    "pass/sense_energy"
+    "pass/field_branches"
+    "pass/field_weights"
+    "pass/field_sums"
+    "pass/field_kinetic"
+    "render/cast")
+
 set(spirv_dir ${CMAKE_BINARY_DIR}/spirv)
 file(MAKE_DIRECTORY ${spirv_dir})
-file(GLOB shader_headers CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/shaders/shared/*.h ${CMAKE_SOURCE_DIR}/shaders/law/*.glsl
-                                           ${CMAKE_SOURCE_DIR}/shaders/shared/*.glsl ${CMAKE_SOURCE_DIR}/shaders/pass/*.glsl)
-set(spirv_outputs)
+set(shader_dir ${CMAKE_SOURCE_DIR}/shaders)
+file(GLOB shader_headers CONFIGURE_DEPENDS ${shader_dir}/shared/*.h ${shader_dir}/shared/*.glsl ${shader_dir}/law/*.glsl
+                                           ${shader_dir}/pass/*.glsl)
 
 function(vkdose_compile source name)
+  list(TRANSFORM ARGN PREPEND -D)
+  set(glslang ${GLSLANG} --quiet -V --target-env vulkan1.1 -I${shader_dir} ${ARGN})
   add_custom_command(
     OUTPUT ${spirv_dir}/${name}.spv.h ${spirv_dir}/${name}.spv
-    COMMAND ${GLSLANG} --quiet -V --target-env vulkan1.1 -I${CMAKE_SOURCE_DIR}/shaders ${ARGN} -o ${spirv_dir}/${name}.spv
-            ${source}
-    COMMAND ${GLSLANG} --quiet -V --target-env vulkan1.1 -I${CMAKE_SOURCE_DIR}/shaders ${ARGN} --vn ${name}_spv -o
-            ${spirv_dir}/${name}.spv.h ${source}
+    COMMAND ${glslang} -o ${spirv_dir}/${name}.spv ${source}
+    COMMAND ${glslang} --vn ${name}_spv -o ${spirv_dir}/${name}.spv.h ${source}
     DEPENDS ${source} ${shader_headers}
     COMMENT "SPIR-V ${name}"
     VERBATIM)
-  list(APPEND spirv_outputs ${spirv_dir}/${name}.spv.h)
-  set(spirv_outputs ${spirv_outputs} PARENT_SCOPE)
 endfunction()
 
-file(GLOB passes CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/shaders/pass/*.comp ${CMAKE_SOURCE_DIR}/shaders/render/*.comp)
-foreach(pass ${passes})
-  get_filename_component(stem ${pass} NAME_WE)
-  file(STRINGS ${pass} texel REGEX "TEXEL_READS")
-  file(STRINGS ${pass} packed REGEX "PACKED_STORES")
-  file(STRINGS ${pass} energy REGEX "and ENERGY_BOOK")
-  vkdose_compile(${pass} ${stem})
-  if(texel)
-    vkdose_compile(${pass} ${stem}_texel -DTEXEL_READS)
-  endif()
-  if(packed)
-    vkdose_compile(${pass} ${stem}_packed -DTEXEL_READS -DPACKED_STORES)
-  endif()
-  if(energy)
-    vkdose_compile(${pass} ${stem}_energy -DENERGY_BOOK)
-    vkdose_compile(${pass} ${stem}_texel_energy -DTEXEL_READS -DENERGY_BOOK)
-  endif()
-  if(packed AND energy)
-    vkdose_compile(${pass} ${stem}_packed_energy -DTEXEL_READS -DPACKED_STORES -DENERGY_BOOK)
-  endif()
+set(spirv_outputs)
+set(spirv_includes "")
+set(spirv_lists "")
+set(spirv_macros)
+file(GLOB undeclared CONFIGURE_DEPENDS ${shader_dir}/pass/*.comp ${shader_dir}/render/*.comp)
+foreach(declared ${passes})
+  separate_arguments(variants UNIX_COMMAND "${declared}")
+  list(POP_FRONT variants file)
+  get_filename_component(stem ${file} NAME)
+  set(source ${shader_dir}/${file}.comp)
+  list(REMOVE_ITEM undeclared ${source})
+  string(APPEND spirv_lists "constexpr vk::Variant ${stem}[] = {")
+  foreach(variant plain ${variants})
+    set(name ${stem})
+    set(macros)
+    if(NOT variant STREQUAL plain)
+      set(name ${stem}_${variant})
+      string(REPLACE "_" ";" words ${variant})
+      foreach(word ${words})
+        if(NOT macros_${word})
+          message(FATAL_ERROR "shaders/passes.cmake: ${file} has the variant \"${variant}\"; set macros_${word}")
+        endif()
+        list(APPEND macros ${macros_${word}})
+      endforeach()
+    endif()
+    vkdose_compile(${source} ${name} ${macros})
+    list(APPEND spirv_outputs ${spirv_dir}/${name}.spv.h)
+    list(APPEND spirv_macros ${macros})
+    list(JOIN macros " | " bits)
+    if(NOT macros)
+      set(bits 0)
+    endif()
+    string(APPEND spirv_includes "#include \"spirv/${name}.spv.h\"\n")
+    string(APPEND spirv_lists "{${bits}, ${name}_spv}, ")
+  endforeach()
+  string(APPEND spirv_lists "};\n")
 endforeach()
+if(undeclared)
+  message(FATAL_ERROR "shaders/passes.cmake declares no variants of ${undeclared}")
+endif()
 
-set(includes "")
-foreach(header ${spirv_outputs})
-  get_filename_component(name ${header} NAME)
-  string(APPEND includes "#include \"spirv/${name}\"\n")
+list(REMOVE_DUPLICATES spirv_macros)
+set(spirv_bits "")
+set(bit 0)
+foreach(macro ${spirv_macros})
+  string(APPEND spirv_bits "constexpr unsigned ${macro} = 1u << ${bit};\n")
+  math(EXPR bit "${bit} + 1")
 endforeach()
-file(CONFIGURE OUTPUT ${spirv_dir}/passes.h CONTENT "#pragma once\n${includes}")
+file(CONFIGURE OUTPUT ${spirv_dir}/passes.h CONTENT
+"// Made by shaders/passes.cmake.
+#pragma once
+#include \"host/vk/variant.h\"
+${spirv_includes}
+namespace vkdose::spirv {
+${spirv_bits}${spirv_lists}}
+")
 
 add_custom_target(vkdose_spirv_build DEPENDS ${spirv_outputs})
 add_library(vkdose_spirv INTERFACE)

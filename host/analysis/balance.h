@@ -1,5 +1,5 @@
 #pragma once
-// What a balance read, dose after dose.
+// The readings of a balance, dose after dose.
 
 #include <filesystem>
 #include <vector>

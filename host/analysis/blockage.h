@@ -9,8 +9,8 @@
 
 namespace vkdose {
 
-/// What counts as blocked: `doses` in a row that together give no more than `threshold`, while more than the part
-/// `remaining` of the fill is still inside. Threshold and doses are those of the paper's experiments.
+/// A canister counts as blocked after `doses` in a row that together give no more than `threshold`, while more than the
+/// part `remaining` of the fill is still inside. Threshold and doses are those of the paper's experiments.
 struct BlockageRule {
     double threshold = 0.15e-3;  ///< [kg]
     int doses = 3;

@@ -5,6 +5,8 @@
 #include <limits>
 #include <vector>
 
+#include "host/core/sphere.h"
+
 namespace vkdose {
 
 namespace {
@@ -16,10 +18,6 @@ constexpr double kLeastSpheres = 100;
 
 /// Side of the lattice of points that stands for a sphere: a part of it is known to about 1/16 of its diameter.
 constexpr int kLattice = 16;
-
-double sphereVolume(double r) {
-    return 4.0 / 3.0 * kPi * r * r * r;
-}
 
 /// Squares of `side` over the floor plan x in [-halfWidth, halfWidth], z in [begin, end], each with the top of the
 /// highest sphere whose centre is over it. The last row and column are cut by the plan's edge.

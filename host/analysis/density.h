@@ -26,8 +26,8 @@ std::optional<BulkDensity> bedDensity(const Particles& particles, double particl
 
 /// Between the coil's turns: the cylinder of the coil's outer radius within the canister, less the wire, over those
 /// slices along the axis (two mean diameters thick) whose surface lies a mean diameter above it, so that they are full
-/// or could be; voids under arches count as volume. Only the part of the coil beyond z = `from` [m]. None if no slice is
-/// covered.
+/// or could be; voids under arches count as volume. Only the part of the coil beyond z = `from` [m]. None if no slice
+/// is covered.
 std::optional<BulkDensity> coilDensity(const Particles& particles, double particleDensity, const Canister& canister,
                                        const geometry::Coil& coil, double from = 0);
 

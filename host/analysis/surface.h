@@ -20,7 +20,7 @@ struct Strip {
     double to = std::numeric_limits<double>::infinity();
 };
 
-/// What stands for the width: the mean over it, or its highest point, as seen from the side.
+/// The height that stands for the width: the mean over it, or its highest point, as seen from the side.
 enum class Across { Mean, Highest };
 
 /// Over a spot of the floor plan the surface is the highest point of any sphere above it that is neither dosed nor lost

@@ -1,6 +1,7 @@
 #include "host/analysis/work.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 
@@ -19,8 +20,9 @@ double DriveWork::massPerJoule(double mass) const {
 DriveWork driveWork(std::span<const double> angle, std::span<const double> torque) {
     DriveWork sum;
     for (std::size_t i = 1; i < std::min(angle.size(), torque.size()); ++i) {
-        sum.turns += (angle[i] - angle[i - 1]) / (2 * kPi);
-        sum.work += torque[i] * (angle[i] - angle[i - 1]);
+        const double turned = std::abs(angle[i] - angle[i - 1]);
+        sum.turns += turned / (2 * kPi);
+        sum.work += torque[i] * turned;
     }
     return sum;
 }

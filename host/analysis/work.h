@@ -1,5 +1,5 @@
 #pragma once
-// What the coil turns and works for the mass it doses.
+// The turns and the work of the coil for the mass it doses.
 
 #include <span>
 
@@ -15,8 +15,9 @@ struct DriveWork {
     double massPerJoule(double mass) const;
 };
 
-/// From the time series: `angle` [rad] turned since the start at every line, `torque` [N m] its mean since the line
-/// before. The first line begins the stretch: its torque belongs to what was before. Both have the same length.
+/// From the time series: `angle` [rad] of the coil at every line, which turns in one sense only, whichever; `torque` [N
+/// m] of the drive, mean since the line before. The first line begins the stretch: its torque belongs to what was
+/// before. Both have the same length.
 DriveWork driveWork(std::span<const double> angle, std::span<const double> torque);
 
 }  // namespace vkdose

@@ -102,7 +102,7 @@ std::vector<Setting> settingsAt(const Study& study, const Parameters& p) {
     return all;
 }
 
-/// What of a search can be checked before it: the corners of its bounds. Throws CaseError if one is no case.
+/// Checks a search before it begins: the corners of its bounds must be cases. Throws CaseError if one is none.
 void checkCorners(const Study& study) {
     const std::vector<FreeParameter>& free = study.calibration->parameters;
     for (unsigned corner = 0; corner < 1U << free.size(); ++corner) {

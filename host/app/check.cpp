@@ -19,9 +19,7 @@ constexpr double kAssumedSpeed = 6e6;
 /// The freshly filled grid has no contacts yet, so it runs faster than the bed it becomes.
 double measuredSpeed(const Case& c, const Insertion& filled, Backend& backend) {
     using Clock = std::chrono::steady_clock;
-    World world = c.world;
-    world.law = c.settlingLaw;
-    backend.load(world, filled.particles);
+    backend.load(c.world, c.settlingLaw, filled.particles);
     // Without an outlet or a fall of a second there is nothing to lose; the probe ends long before either.
     std::uint32_t steps = 16;
     backend.advance(steps, 0);  // warm up: pipelines, first neighbour list

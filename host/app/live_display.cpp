@@ -74,10 +74,8 @@ void LiveDisplay::read(const Progress& p) {
     state_.frame = {p.step, p.time, p.phase, p.dose, backend_.coilAngle(), backend_.particles(), {}};
     const Particles& particles = state_.frame.particles;
     double dosed = 0;
-    for (std::size_t i = 0; i < particles.size(); ++i) {
-        const double r = particles.radius[i];
-        if (particles.status[i] == Status::Dosed) dosed += density_ * 4 / 3 * kPi * r * r * r;
-    }
+    for (std::size_t i = 0; i < particles.size(); ++i)
+        if (particles.status[i] == Status::Dosed) dosed += sphereMass(density_, particles.radius[i]);
     if (p.dose == 0) dosedBefore_ = dosed;
     state_.underWay = dosed - (state_.doses.empty() ? dosedBefore_ : state_.doses.back().cumulative);
 }

@@ -14,7 +14,7 @@ namespace vkdose {
 
 namespace {
 
-/// What a person looks at first: how much was found, and where.
+/// The first things a person looks at: how much was found, and where.
 std::string summary(const photo::Surface& s) {
     double low = std::numeric_limits<double>::infinity(), high = -low, sum = 0;
     int known = 0;

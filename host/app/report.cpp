@@ -22,7 +22,7 @@ std::string doseTable(const std::vector<Dose>& doses) {
     return text;
 }
 
-/// What the paper judges a run by; what the doses are too few to tell is left out.
+/// The figures by which the paper judges a run; those that need more doses are left out.
 std::string figureLines(const RunResult& r) {
     const DosingFigures f = figuresOf(r.doses, r.ledger.filledMass());
     std::string text;

@@ -1,5 +1,5 @@
 #pragma once
-// What there is to be looked at of a run: its frames, or where it kept none, its end.
+// The states of a run that can be looked at: its frames, or its end if it kept none.
 
 #include <cstddef>
 #include <filesystem>

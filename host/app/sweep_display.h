@@ -1,5 +1,5 @@
 #pragma once
-// What a sweep tells as it goes: a line for every member that ends, and how far the whole study is.
+// The messages of a sweep: a line for every member that ends, and how far the whole study is.
 
 #include <chrono>
 #include <string>

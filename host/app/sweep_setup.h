@@ -1,5 +1,5 @@
 #pragma once
-// What `vkdose sweep` and `vkdose calibrate` begin with.
+// The common beginning of `vkdose sweep` and `vkdose calibrate`.
 
 #include <filesystem>
 #include <memory>

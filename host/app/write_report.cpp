@@ -32,7 +32,8 @@ fs::path folderOf(const fs::path& source) {
 void requireFolder(const fs::path& folder) {
     if (!fs::is_directory(folder)) throw UsageError(fmt::format("report: there is no folder {}", folder.string()));
     if (!report::isSweep(folder) && !fs::exists(folder / "case.toml"))
-        throw UsageError(fmt::format("report: {} holds neither a run (case.toml) nor a sweep (members.csv)", folder.string()));
+        throw UsageError(
+            fmt::format("report: {} holds neither a run (case.toml) nor a sweep (members.csv)", folder.string()));
 }
 
 }  // namespace

@@ -80,8 +80,9 @@ class Backend {
   public:
     virtual ~Backend() = default;
 
-    /// Start over with these particles. Throws RunError if they do not fit the backend's tables.
-    virtual void load(const World& world, const Particles& particles) = 0;
+    /// Start over with these particles under this law. Throws RunError if they do not fit the backend's tables.
+    virtual void load(const World& world, const ContactLaw& law, const Particles& particles) = 0;
+    void load(const RuledWorld& world, const Particles& particles) { load(world, world.law, particles); }
 
     /// Replace the contact law, keeping state and history (the switch of k_c after settling). The energy book stays
     /// closed if only adhesion changes.

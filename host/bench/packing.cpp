@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "host/core/random.h"
+#include "host/core/sphere.h"
 
 namespace vkdose::bench {
 
@@ -81,7 +82,7 @@ Packing relaxedTile(std::uint64_t seed) {
     double volume = 0;
     for (std::size_t i = 0; i < n; ++i) {
         radius[i] = kRadiusMin + (kRadiusMax - kRadiusMin) * uniforms(seed, Stream::Radius, i)[0];
-        volume += 4.0 / 3.0 * kPi * radius[i] * radius[i] * radius[i];
+        volume += sphereVolume(radius[i]);
     }
     const double edge = std::cbrt(volume / kVolumeFraction), site = edge / kSide;
     Packing tile;

@@ -165,7 +165,7 @@ struct PlainLoop::Loop {
     Law law;
     float dt;
 
-    Loop(const World& w, const Particles& p, int threads, double inertia)
+    Loop(const RuledWorld& w, const Particles& p, int threads, double inertia)
         : sphere(spheresOf(p)),
           load(threads, std::vector<Load>(p.size())),
           list(sphere, float(w.skin)),
@@ -210,7 +210,7 @@ struct PlainLoop::Loop {
     }
 };
 
-PlainLoop::PlainLoop(const World& world, const Particles& particles, int threads, double inertia)
+PlainLoop::PlainLoop(const RuledWorld& world, const Particles& particles, int threads, double inertia)
     : loop_(std::make_unique<Loop>(world, particles, threads, inertia)) {}
 
 PlainLoop::~PlainLoop() = default;

@@ -16,7 +16,7 @@ namespace vkdose::bench {
 /// arithmetic is the same, and they hardly move. With 1 it computes what a backend does, from a start without contacts.
 class PlainLoop {
   public:
-    PlainLoop(const World& world, const Particles& particles, int threads, double inertia = 1e6);
+    PlainLoop(const RuledWorld& world, const Particles& particles, int threads, double inertia = 1e6);
     ~PlainLoop();
     PlainLoop(const PlainLoop&) = delete;
     PlainLoop& operator=(const PlainLoop&) = delete;

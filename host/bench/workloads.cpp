@@ -15,7 +15,7 @@ constexpr double kFallSpeed = 0.1;     // about that of the coil's rim [m/s]
 constexpr std::uint32_t kReliefSteps = 4000;
 
 /// The paper's parameters (physics.md), friction limited as in cases/paper-48g.toml.
-World paperWorld() {
+RuledWorld paperWorld() {
     ContactParameters p;
     const double k = 24067;
     p.k1 = 0.2 * k;
@@ -26,7 +26,7 @@ World paperWorld() {
     p.kt = p.kr = 0.286 * k;
     p.gammaT = p.gammaR = 0.286 * p.gamma;
     p.mu = p.muR = 0.5;
-    World world;
+    RuledWorld world;
     world.law.classes.fill(p);
     world.law.coulombLimit = CoulombLimit::Absolute;
     world.density = 1427;
@@ -72,7 +72,7 @@ Workload freeFall() {
 }
 
 Workload bedOf(const Case& c, double coilRate) {
-    return {c.world, insertParticles(c).particles, coilRate, kReliefSteps};
+    return {{c.world, c.dosingLaw}, insertParticles(c).particles, coilRate, kReliefSteps};
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 namespace vkdose::bench {
 
 struct Workload {
-    World world;
+    RuledWorld world;
     Particles particles;
     double coilRate = 0;           ///< [rad/s about +z]
     std::uint32_t warmSteps = 64;  ///< before anything is timed

@@ -11,8 +11,8 @@
 
 namespace vkdose {
 
-/// What to make of a last line without an end: in a file that a program still writes it may be half a line, in one
-/// that a person wrote it is whole.
+/// A last line without an end may be half a line in a file that a program still writes; in one that a person wrote it
+/// is whole.
 enum class LastLine { Growing, Whole };
 
 class Table {
@@ -23,7 +23,7 @@ class Table {
     /// Throws CaseError, naming the line, if the file cannot be read, is not CSV, or has a row of another length.
     static Table read(const std::filesystem::path& file, LastLine last = LastLine::Growing);
 
-    /// What is whole of a table whose writer may have been killed: a line that lacks its end or a field is left out. An
+    /// The whole lines of a table whose writer may have been killed: one that lacks its end or a field is left out. An
     /// empty table if there is no such file.
     static Table salvage(const std::filesystem::path& file);
 

@@ -9,7 +9,7 @@
 
 namespace vkdose {
 
-/// What the numbers are for, so that two uses with the same index do not share them.
+/// The use of the numbers: two uses with the same index do not share them.
 enum class Stream : std::uint32_t { Radius = 1, Jitter = 2 };
 
 /// Two independent numbers, uniform in the open interval (0, 1), 53 bits each.

@@ -82,8 +82,9 @@ struct Case {
     std::string name;
     std::string reason;
     std::uint64_t seed = 1;
-    World world;                       ///< with the law of the doses
-    ContactLaw settlingLaw;            ///< with the settling k_c
+    World world;
+    ContactLaw settlingLaw;            ///< of the contacts while the powder settles
+    ContactLaw dosingLaw;              ///< from the first dose on
     std::optional<Canister> canister;  ///< absent for free boundaries
     Filling filling;
     Schedule schedule;

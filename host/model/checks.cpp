@@ -4,10 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <limits>
 
 #include "geometry/coincidence.h"
 #include "host/model/grid.h"
+#include "host/model/overlaps.h"
 #include "host/model/size_distribution.h"
 #include "host/model/stability.h"
 
@@ -26,9 +27,9 @@ double mm(double metres) {
 void checkContact(CaseReader& reader, const Case& c) {
     const std::array<const char*, kContactClasses> path{"contact", "contact.wall", "contact.coil"};
     for (std::size_t i = 0; i < path.size(); ++i) {
-        const ContactParameters& p = c.world.law.classes[i];
+        const ContactParameters& p = c.dosingLaw.classes[i];
         // What a class inherits is reported once, where it is written.
-        const ContactParameters* parent = i == 0 ? nullptr : &c.world.law.classes[i - 1];
+        const ContactParameters* parent = i == 0 ? nullptr : &c.dosingLaw.classes[i - 1];
         const bool sameK1 = parent != nullptr && p.k1 / p.k2Max == parent->k1 / parent->k2Max;
         if (p.k1 > p.k2Max && !sameK1)
             reader.fault(fmt::format("{}.k1_over_k", path[i]), "the plastic stiffness exceeds the elastic one",
@@ -190,7 +191,7 @@ void checkLargest(CaseReader& reader, const Case& c, double largest) {
 
 void checkGrid(CaseReader& reader, const Case& c, double largest) {
     const Filling& f = c.filling;
-    const double expected = f.mass / (c.world.density * 4.0 / 3.0 * kPi * meanCubedRadius(f.size));
+    const double expected = f.mass / sphereMass(c.world.density, std::cbrt(meanCubedRadius(f.size)));
     if (expected > kMaxParticles) {
         reader.fault("particles.mass_g", fmt::format("takes about {:.2g} particles", expected),
                      f.size.kind == SizeDistribution::Kind::Quantiles
@@ -288,27 +289,15 @@ void checkMotion(CaseReader& reader, const Case& c, const Particles& p, const st
     }
 }
 
-/// Overlaps among the particles, found along x in sorted order.
+/// Overlaps among the particles.
 void checkPairs(CaseReader& reader, const Particles& p, const std::string& path) {
     Few faults(reader, path);
-    std::vector<std::size_t> order(p.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::sort(order.begin(), order.end(),
-              [&](std::size_t a, std::size_t b) { return p.position[a].x < p.position[b].x; });
-    const double largest = p.size() == 0 ? 0 : *std::max_element(p.radius.begin(), p.radius.end());
-    for (std::size_t a = 0; a < order.size(); ++a) {
-        const std::size_t i = order[a];
-        for (std::size_t b = a + 1; b < order.size(); ++b) {
-            const std::size_t j = order[b];
-            if (p.position[j].x - p.position[i].x > p.radius[i] + largest) break;
-            const double overlap = p.radius[i] + p.radius[j] - glm::distance(p.position[i], p.position[j]);
-            const double ratio = overlap / std::min(p.radius[i], p.radius[j]);
-            if (ratio > kMaxOverlapRatio)
-                faults.add(fmt::format("{} overlaps particle {} by {:.3g} of the smaller radius",
-                                       named(p, std::min(i, j)), std::max(i, j), ratio),
-                           fmt::format("keep the overlap below {}", kMaxOverlapRatio));
-        }
-    }
+    forEachOverlap(p, [&](std::size_t i, std::size_t j, double ratio) {
+        if (ratio > kMaxOverlapRatio)
+            faults.add(fmt::format("{} overlaps particle {} by {:.3g} of the smaller radius", named(p, std::min(i, j)),
+                                   std::max(i, j), ratio),
+                       fmt::format("keep the overlap below {}", kMaxOverlapRatio));
+    });
 }
 
 /// The key that makes a surface. Those of a list come in the order of the file, planes first.
@@ -349,7 +338,7 @@ void checkSurfaces(CaseReader& reader, const Case& c, double radius) {
 
 void checkTimeStep(CaseReader& reader, const Case& c, double smallestRadius) {
     const double dt = c.world.timeStep;
-    const auto modes = contactModes(c.world.law, c.world.density, smallestRadius, contactClasses(c.world));
+    const auto modes = contactModes(c.dosingLaw, c.world.density, smallestRadius, contactClasses(c.world));
     const std::string automatic = fmt::format("give at most {:.3g} s, or \"auto\"", automaticTimeStep(modes));
     const ContactMode* stiffest = nullptr;
     const ContactMode* damped = nullptr;

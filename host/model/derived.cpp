@@ -58,7 +58,7 @@ Derived derive(const Case& c, const Insertion& filled) {
     const Sizes sizes = sizesOf(c);
     d.stiffest = kWall;
     for (const ContactClass kind : contactClasses(c.world)) {
-        const ContactParameters& p = c.world.law.of(kind);
+        const ContactParameters& p = c.dosingLaw.of(kind);
         const bool pair = kind == ContactClass::ParticleParticle;
         ContactParameters undamped = p;
         undamped.gamma = 0;

@@ -162,8 +162,8 @@ Ratios readRatios(Section& section, const Ratios* parent) {
 
 void readContact(Section& root, Case& c) {
     Section& contact = root.requiredTable("contact");
-    c.world.law.coulombLimit = static_cast<CoulombLimit>(contact.choice("coulomb_limit").value_or(0));
-    c.world.law.rollingLever = static_cast<RollingLever>(contact.choice("rolling_lever").value_or(0));
+    c.dosingLaw.coulombLimit = static_cast<CoulombLimit>(contact.choice("coulomb_limit").value_or(0));
+    c.dosingLaw.rollingLever = static_cast<RollingLever>(contact.choice("rolling_lever").value_or(0));
     c.world.maxOverlapRatio = contact.number("max_overlap_ratio");
     const Ratios pair = readRatios(contact, nullptr);
     Section& wallSection = contact.table("wall");
@@ -179,9 +179,9 @@ void readContact(Section& root, Case& c) {
     const double coilKc = settle.number("coil_kc_over_k", coilSection.has("kc_over_k") ? coil.kc : wallKc);
     const std::array<double, kContactClasses> settling{pairKc, wallKc, coilKc};
 
-    c.settlingLaw = c.world.law;
+    c.settlingLaw = c.dosingLaw;
     for (std::size_t i = 0; i < ratios.size(); ++i) {
-        c.world.law.classes[i] = ratios[i].parameters(ratios[i].kc);
+        c.dosingLaw.classes[i] = ratios[i].parameters(ratios[i].kc);
         c.settlingLaw.classes[i] = ratios[i].parameters(settling[i]);
     }
 }

@@ -23,13 +23,13 @@ struct Box {
 /// for more.
 inline constexpr double kMaxOverlapRatio = 0.2;
 
-/// One member: a canister (or any set of surfaces) and its powder.
+/// One member: a canister (or any set of surfaces) and its powder, without what changes from phase to phase of a run:
+/// the law of its contacts, which may be another while the powder settles, and the coil's speed.
 struct World {
     /// Contact history is kept per (particle, surface). Walls that end at a front wall come before it, which is the
     /// last: it takes over their contacts, and they its.
     std::vector<geometry::Surface> surfaces;
     std::optional<geometry::Coil> coil;
-    ContactLaw law;
     Vec3 gravity{0, -9.81, 0};
     double density = 0;   ///< of the particles [kg/m3]
     double timeStep = 0;  ///< [s]
@@ -40,6 +40,11 @@ struct World {
     /// A particle whose centre passes throatZ is in the throat, past outletZ it is dosed. Infinite: no outlet.
     double throatZ = std::numeric_limits<double>::infinity();
     double outletZ = std::numeric_limits<double>::infinity();
+};
+
+/// A world with the one law that holds in it from beginning to end, as in tests and benchmarks.
+struct RuledWorld : World {
+    ContactLaw law;
 };
 
 /// Turns of the coil one sphere may touch at once: the slots a backend keeps contact history for.

@@ -11,7 +11,7 @@
 
 namespace vkdose {
 
-/// What a file held when it was stored.
+/// Length and checksum of a file when it was stored.
 struct CsvMark {
     std::uint64_t bytes = 0;
     std::optional<std::uint32_t> checksum = std::nullopt;  ///< CRC-32 of them; none if nobody noted it

@@ -2,18 +2,19 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "host/core/error.h"
 #include "host/core/file.h"
 #include "host/model/particle_list.h"
+#include "host/output/summary.h"
 
 namespace vkdose {
 
 namespace {
 
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 double numberIn(const Json& summary, const char* key, const std::filesystem::path& file) {
     const auto found = summary.find(key);
@@ -26,15 +27,15 @@ double numberIn(const Json& summary, const char* key, const std::filesystem::pat
 
 Frame readEndState(const std::filesystem::path& folder, const Case& c) {
     const std::filesystem::path file = folder / "summary.json", list = folder / "particles.csv";
-    std::ifstream stream = inputFile(file);
-    if (!stream) throw OutputError(unreadable(file));
-    const Json summary = Json::parse(stream, nullptr, false);
-    if (!summary.is_object()) throw OutputError(fmt::format("{}: no summary", file.string()));
+    if (!inputFile(file)) throw OutputError(unreadable(file));
+    const std::optional<Json> read = readSummary(folder);
+    if (!read) throw OutputError(fmt::format("{}: no summary", file.string()));
+    const Json& summary = *read;
     Frame frame;
     frame.time = numberIn(summary, "simulated_time_s", file);
     frame.step = std::uint64_t(numberIn(summary, "steps", file));
-    // In the summary positive when conveying, in a frame about +z.
-    frame.coilAngle = numberIn(summary, "coil_angle_rad", file) * Timeline(c).conveyingSense();
+    // Older summaries have it positive when conveying. The coil only turns in that sense, which tells the sign.
+    frame.coilAngle = std::abs(numberIn(summary, "coil_angle_rad", file)) * Timeline(c).conveyingSense();
     const Json doses = summary.value("doses", Json::array());
     frame.dose = int(doses.size());
     frame.phase = frame.dose == 0 ? Phase::Settle : Phase::Rest;

@@ -1,5 +1,5 @@
 #pragma once
-// What the files of a frame hold: VTKHDF files that ParaView shows and that give the frame back, bit for bit.
+// The contents of a frame's files: VTKHDF files that ParaView shows and that give the frame back, bit for bit.
 //
 //   particles: a vertex for each particle, dosed ones included, in the order of their numbers
 //   contacts:  a line for each contact, from the particle's centre to the other's, or to the point of the wall

@@ -38,7 +38,7 @@ bool isPrepared(const fs::path& folder, const Case& c) {
     return fileContent(folder / "case.toml") == c.resolved;
 }
 
-/// What a new run removes. A case that is there already stays: it may be what the run is read from.
+/// The files that a new run removes. A case that is there already stays: the run may be read from it.
 std::vector<fs::path> replacedIn(const fs::path& folder, const Case& c) {
     std::vector<fs::path> files = filesOfRun(folder);
     if (fileContent(folder / "case.toml") == c.resolved) std::erase(files, folder / "case.toml");

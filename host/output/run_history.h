@@ -1,5 +1,5 @@
 #pragma once
-// What the files of a run tell of it beyond its doses: how the powder flowed, and where it arched.
+// The history of a run beyond its doses, from its files: how the powder flowed, and where it arched.
 
 #include <filesystem>
 #include <optional>

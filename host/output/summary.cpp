@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "host/analysis/figures.h"
+#include "host/core/file.h"
 
 namespace vkdose {
 
@@ -172,6 +173,12 @@ std::string summaryJson(const Case& c, const RunResult& r, const std::string& ba
     j["particle_steps_per_second"] = number(r.particleStepsPerSecond());
     j["stepping_wall_time_s"] = number(r.wallTime);
     return j.dump(2, ' ', false, Json::error_handler_t::replace);
+}
+
+std::optional<Json> readSummary(const std::filesystem::path& folder) {
+    const std::optional<std::string> text = fileContent(folder / "summary.json");
+    Json summary = text ? Json::parse(*text, nullptr, false) : Json();
+    return summary.is_object() ? std::optional(std::move(summary)) : std::nullopt;
 }
 
 }  // namespace vkdose

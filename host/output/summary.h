@@ -1,6 +1,9 @@
 #pragma once
 // summary.json: what was run, on what, and what came out, for scripts.
 
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 
 #include "host/output/run_history.h"
@@ -10,5 +13,8 @@ namespace vkdose {
 /// The summary as indented JSON. Units are in the names; a figure that does not exist is null.
 std::string summaryJson(const Case& c, const RunResult& result, const std::string& backend,
                         const RunHistory& history = {});
+
+/// The summary in a run's output folder; nothing if there is none, or it is not whole.
+std::optional<nlohmann::ordered_json> readSummary(const std::filesystem::path& folder);
 
 }  // namespace vkdose

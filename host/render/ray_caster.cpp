@@ -114,7 +114,7 @@ Image RayCaster::draw(const Scene& scene, const Camera& camera) {
     const vk::BindingSet bindings(device_,
                                   {paramsBuffer.get(), sphereBuffer.get(), paintBuffer.get(), jointBuffer.get(),
                                    cellBuffer.get(), entryBuffer.get(), &picture},
-                                  {}, sizeof(std::uint32_t));
+                                  sizeof(std::uint32_t));
     if (!pipeline_)
         pipeline_.emplace(device_, bindings, std::span<const std::uint32_t>(cast_spv),
                           std::span<const std::uint32_t>());

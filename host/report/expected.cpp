@@ -1,7 +1,6 @@
 #include "host/report/expected.h"
 
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
 #include <algorithm>
 #include <cmath>
@@ -27,16 +26,16 @@ class ExpectedReader {
   public:
     explicit ExpectedReader(std::string file) : file_(std::move(file)) {}
 
-    std::vector<Expected> read(const toml::table& root) {
-        const toml::array* list = root["expected"].as_array();
-        if (list == nullptr || root.size() != 1) {
+    std::vector<Expected> read(const Node& root) {
+        const Node* list = root.child("expected");
+        if (list == nullptr || list->kind != Node::Kind::Array || root.children.size() != 1) {
             fault(root, "expected", "", "give tables [[expected]] and nothing else");
         } else {
-            for (const toml::node& entry : *list) {
-                if (const toml::table* row = entry.as_table())
-                    rows_.push_back(readRow(*row));
+            for (const Node& row : list->children) {
+                if (row.kind == Node::Kind::Table)
+                    rows_.push_back(readRow(row));
                 else
-                    fault(entry, "expected", "is no table", "write [[expected]]");
+                    fault(row, "expected", "is no table", "write [[expected]]");
             }
         }
         if (!faults_.empty()) throw CaseError(faults_);
@@ -44,18 +43,17 @@ class ExpectedReader {
     }
 
   private:
-    void fault(const toml::node& at, const std::string& key, const std::string& problem, const std::string& remedy) {
-        faults_.push_back({file_, static_cast<int>(at.source().begin.line), key, "",
-                           problem.empty() ? "is not what a table of results holds" : problem, remedy});
+    void fault(const Node& at, const std::string& key, const std::string& problem, const std::string& remedy) {
+        faults_.push_back(
+            {file_, at.line, key, "", problem.empty() ? "is not what a table of results holds" : problem, remedy});
     }
 
-    Expected readRow(const toml::table& row) {
+    Expected readRow(const Node& row) {
         static const std::vector<std::string> known{"id",   "what",  "section", "source",  "kind", "quantity",
                                                     "dose", "value", "along",   "matches", "near", "where"};
-        for (const auto& [key, value] : row)
-            if (std::find(known.begin(), known.end(), std::string(key.str())) == known.end())
-                fault(value, std::string(key.str()), "is not known",
-                      "known: " + fmt::format("{}", fmt::join(known, ", ")));
+        for (const Node& value : row.children)
+            if (std::find(known.begin(), known.end(), value.key) == known.end())
+                fault(value, value.key, "is not known", "known: " + fmt::format("{}", fmt::join(known, ", ")));
         Expected e;
         e.id = text(row, "id", true);
         e.what = text(row, "what", true);
@@ -68,12 +66,12 @@ class ExpectedReader {
         e.matches = number(row, "matches", e.matches);
         e.near = number(row, "near", e.near);
         e.kind = kind(row);
-        if (const toml::table* where = row["where"].as_table()) e.where = settingsOf(*where);
+        if (const Node* where = row.child("where")) e.where = settingsOf(*where);
         requireWhole(row, e);
         return e;
     }
 
-    Kind kind(const toml::table& row) {
+    Kind kind(const Node& row) {
         const std::string name = text(row, "kind", true);
         for (const KindName& k : kKinds)
             if (name == k.name) return k.kind;
@@ -85,27 +83,28 @@ class ExpectedReader {
         return Kind::NotJudged;
     }
 
-    void requireWhole(const toml::table& row, const Expected& e) {
+    void requireWhole(const Node& row, const Expected& e) {
         if (e.kind == Kind::NotJudged) return;
         if (e.quantity.empty()) fault(row, "quantity", "is missing", "name a column of members.csv");
         const bool figure = e.kind == Kind::Value || e.kind == Kind::AtMost;
-        if (figure && !row.contains("value")) fault(row, "value", "is missing", "give the published figure");
+        if (figure && row.child("value") == nullptr) fault(row, "value", "is missing", "give the published figure");
         if (figure && e.value == 0) fault(row, "value", "is zero", "differences are relative to it");
         if (!figure && e.along.empty()) fault(row, "along", "is missing", "name the key that varies");
         if (e.quantity == "cumulative_mass_kg" && e.dose < 1) fault(row, "dose", "is missing", "say after which dose");
     }
 
-    std::string text(const toml::table& row, const char* key, bool required) {
-        if (const auto value = row[key].value<std::string>()) return *value;
-        if (required || row.contains(key)) fault(row, key, "is missing or no text", "give a text");
+    std::string text(const Node& row, const char* key, bool required) {
+        const Node* value = row.child(key);
+        if (value != nullptr && value->kind == Node::Kind::String) return value->string;
+        if (required || value != nullptr) fault(row, key, "is missing or no text", "give a text");
         return "";
     }
 
-    double number(const toml::table& row, const char* key, double otherwise) {
-        if (!row.contains(key)) return otherwise;
-        const auto value = row[key].value<double>();
-        if (!value || !std::isfinite(*value)) fault(row, key, "is not a number", "give a number");
-        return value.value_or(otherwise);
+    double number(const Node& row, const char* key, double otherwise) {
+        const Node* value = row.child(key);
+        if (value == nullptr) return otherwise;
+        if (!value->isNumber() || !std::isfinite(value->number)) fault(row, key, "is not a number", "give a number");
+        return value->isNumber() ? value->number : otherwise;
     }
 
     std::string file_;
@@ -257,7 +256,7 @@ Verdict judgeTrend(const Expected& e, const std::vector<Curve>& curves) {
 }  // namespace
 
 std::vector<Expected> readExpected(const std::filesystem::path& file) {
-    return ExpectedReader(file.string()).read(parseToml(file));
+    return ExpectedReader(file.string()).read(readTreeAlone(file));
 }
 
 Verdict judge(const Expected& e, const std::vector<Point>& points) {

@@ -66,10 +66,11 @@ struct Verdict {
 /// Reads the table (TOML, [[expected]]). Throws CaseError with every fault found.
 std::vector<Expected> readExpected(const std::filesystem::path& file);
 
-/// What the points say. A point carries a condition if the numbers differ by no more than 1 %, or the words not at all.
-/// A value matches if it is off by no more than `matches`, or than two standard errors of the mean over the points that
-/// carry the conditions. A trend is judged along its key for every combination of the other keys that occurs, between
-/// neighbours: a step against it counts only beyond two standard errors of the difference (none known: at all).
+/// Judges by the points of a study. A point carries a condition if the numbers differ by no more than 1 %, or the words
+/// not at all. A value matches if it is off by no more than `matches`, or than two standard errors of the mean over the
+/// points that carry the conditions. A trend is judged along its key for every combination of the other keys that
+/// occurs, between neighbours: a step against it counts only beyond two standard errors of the difference (none known:
+/// at all).
 Verdict judge(const Expected& expected, const std::vector<Point>& points);
 
 }  // namespace vkdose::report

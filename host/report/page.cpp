@@ -29,7 +29,7 @@ std::string escaped(std::string_view text) {
     return html;
 }
 
-/// What its texts say, with every character in sight.
+/// Its texts, with every character in sight.
 Json shown(Json data) {
     if (data.is_string()) return printableLines(data.get_ref<const std::string&>());
     if (data.is_structured())

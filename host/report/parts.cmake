@@ -6,7 +6,8 @@ find_file(THREE_SCRIPT three.min.js PATHS /usr/share/javascript/three/build REQU
 find_file(THREE_LICENCE copyright PATHS /usr/share/doc/libjs-three NO_DEFAULT_PATH REQUIRED)
 
 set(parts "")
-foreach(part Page:page.html Style:page.css Charts:charts.js Ramp:ramp.js Controls:controls.js Stream:stream.js Fields:fields.js Run:run.js Study:study.js Main:main.js
+foreach(part Page:page.html Style:page.css Charts:charts.js Ramp:ramp.js Controls:controls.js Stream:stream.js
+        Fields:fields.js Run:run.js Study:study.js Main:main.js
         Player:player.js PlayerFrames:player_frames.js PlayerColours:player_colours.js PlayerScene:player_scene.js
         D3:${D3_SCRIPT} Licence:${D3_LICENCE} Three:${THREE_SCRIPT} ThreeLicence:${THREE_LICENCE})
   string(REGEX MATCH "^([^:]*):(.*)$" unused ${part})
@@ -16,4 +17,5 @@ foreach(part Page:page.html Style:page.css Charts:charts.js Ramp:ramp.js Control
   file(READ ${file} text)
   string(APPEND parts "inline constexpr char k${name}[] = R\"_part_(${text})_part_\";\n")
 endforeach()
-file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/report/parts.h CONTENT "#pragma once\n\nnamespace vkdose::report::parts {\n\n\${parts}\n}\n")
+file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/report/parts.h CONTENT
+"#pragma once\n\nnamespace vkdose::report::parts {\n\n\${parts}\n}\n")

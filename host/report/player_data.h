@@ -29,7 +29,7 @@ struct FrameSource {
 /// Those in a run's output folder; none if it kept none. Throws OutputError if what is there cannot be read.
 FrameSource framesOf(const std::filesystem::path& run);
 
-/// What the player may take of a page [characters], so that page and player stay below 25 MB.
+/// Characters that the player may take of a page, so that page and player stay below 25 MB.
 inline constexpr std::size_t kMostCharacters = 22'000'000;
 
 /// What the player of a page needs, as `player` of runJson: what is the same in all frames, the frames' times, phases,

@@ -19,7 +19,7 @@ struct RunSources {
 /// The particles of a run's particles.csv; dosed and lost ones with their status.
 Particles readEndState(const std::filesystem::path& file);
 
-/// What the canister held at the start [kg], from the first line of the time series.
+/// Mass in the canister at the start [kg], from the first line of the time series.
 double filledMass(const RunSources& run);
 
 /// [{"name", "value", "note"}, ...]: what is shown, with unit and, where a rule decides, the rule. Figures that the run

@@ -15,6 +15,7 @@
 #include "host/core/file.h"
 #include "host/model/case.h"
 #include "host/output/dose_table.h"
+#include "host/output/summary.h"
 #include "host/report/fields_report.h"
 #include "host/report/player_data.h"
 #include "host/report/run_figures.h"
@@ -74,16 +75,16 @@ Json rotations(const Table& series) {
 }
 
 /// The summary; null if there is none, or only that of an interruption after which the run went on.
-Json readSummary(const fs::path& folder, const Table& series) {
+Json summaryOf(const fs::path& folder, const Table& series) {
     const fs::path file = folder / "summary.json";
     if (!fs::exists(file)) return nullptr;
-    const Json summary = Json::parse(readText(file), nullptr, false);
-    if (!summary.is_object()) throw CaseError({{file.string(), 0, "", "", "is not a summary", "run the case again"}});
-    const Json& time = summary.value("simulated_time_s", Json());
+    const std::optional<Json> summary = readSummary(folder);
+    if (!summary) throw CaseError({{file.string(), 0, "", "", "is not a summary", "run the case again"}});
+    const Json& time = summary->value("simulated_time_s", Json());
     constexpr double kRounding = 1e-8;  // the time series has nine digits
     const bool later = time.is_number() && series.rows() > 0 &&
                        series.number(series.rows() - 1, "time_s") > time.get<double>() * (1 + kRounding);
-    return later ? Json(nullptr) : summary;
+    return later ? Json(nullptr) : *summary;
 }
 
 Json dosesJson(const Table& table, const RunSources& run) {
@@ -140,7 +141,7 @@ Json runJson(const fs::path& folder, const std::optional<fs::path>& experiment, 
     const Case c = loadResolvedCase(readText(folder / "case.toml"), folder / "case.toml");
     const Table series = Table::read(folder / "timeseries.csv");
     const Table doseTable = Table::read(folder / "doses.csv");
-    RunSources sources{c, series, dosesOf(doseTable), readSummary(folder, series), {}};
+    RunSources sources{c, series, dosesOf(doseTable), summaryOf(folder, series), {}};
     if (sources.summary.is_object() && fs::exists(folder / "particles.csv"))
         sources.particles = readEndState(folder / "particles.csv");
 

@@ -1,5 +1,5 @@
 #pragma once
-// What a report says of one run: the figures and curves in its output folder.
+// The data of a run's report: the figures and curves in its output folder.
 
 #include <filesystem>
 #include <nlohmann/json.hpp>

@@ -1,5 +1,5 @@
 #pragma once
-// What a page's Content-Security-Policy knows its own scripts and styles by.
+// Hashes by which a page's Content-Security-Policy knows the page's own scripts and styles.
 
 #include <string>
 #include <string_view>

@@ -65,9 +65,9 @@ class PointReader {
         : folder_(folder), head_(head), members_(members), doses_(readDoses(folder / "doses.csv")) {
         for (const char* name : {"base.toml", "study.toml"}) {
             if (!fs::exists(folder / name)) continue;
-            const toml::table root = parseToml(folder / name);
-            const toml::table* set = std::string(name) == "study.toml" ? root["set"].as_table() : &root;
-            if (set) merge(settingsOf(*set));
+            const Node root = readTreeAlone(folder / name);
+            const Node* set = std::string(name) == "study.toml" ? root.child("set") : &root;
+            if (set != nullptr) merge(settingsOf(*set));
         }
     }
 
@@ -107,7 +107,7 @@ class PointReader {
         const fs::path resolved =
             folder_ / "members" / fmt::format("{:04}", static_cast<int>(members_.number(row, "member"))) / "case.toml";
         if (fs::exists(resolved))
-            for (const auto& [key, value] : settingsOf(parseToml(resolved))) keys[key] = value;
+            for (const auto& [key, value] : settingsOf(readTreeAlone(resolved))) keys[key] = value;
         for (const std::vector<std::string>& axis : head_.axes)
             for (const std::string& key : axis) keys[key] = settingOf(members_.text(row, key));
         return keys;
@@ -173,18 +173,18 @@ StudyHead readHead(const fs::path& folder, const Table& members) {
     const std::vector<std::string> columns = axisColumns(members);
     std::vector<std::string> left = columns;
     if (fs::exists(folder / "study.toml")) {
-        const toml::table root = parseToml(folder / "study.toml");
-        head.name = root["name"].value_or(head.name);
-        head.reason = root["reason"].value_or(std::string());
-        head.target = root["calibrate"]["target_g_per_dose"].value_or(head.target) * 1e-3;
-        const toml::array* axes = root["axis"].as_array();
-        for (std::size_t i = 0; axes != nullptr && i < axes->size(); ++i) {
-            const toml::table* axis = axes->get(i)->as_table();
-            if (axis == nullptr) continue;
+        const Node root = readTreeAlone(folder / "study.toml");
+        head.name = textIn(root, "name", head.name);
+        head.reason = textIn(root, "reason", "");
+        const Node* aim = root.child("calibrate");
+        const Node* target = aim != nullptr ? aim->child("target_g_per_dose") : nullptr;
+        if (target != nullptr && target->isNumber()) head.target = target->number * 1e-3;
+        const Node none, *axes = root.child("axis");
+        for (const Node& axis : axes != nullptr ? axes->children : none.children) {
             std::vector<std::string> keys;
-            if (const auto key = (*axis)["key"].value<std::string>()) keys.push_back(*key);
-            if (const toml::array* several = (*axis)["keys"].as_array())
-                for (const auto& key : *several) keys.push_back(key.value_or(std::string()));
+            if (const std::string key = textIn(axis, "key", ""); !key.empty()) keys.push_back(key);
+            if (const Node* several = axis.child("keys"))
+                for (const Node& key : several->children) keys.push_back(key.string);
             const auto isColumn = [&](const std::string& key) {
                 return std::find(columns.begin(), columns.end(), key) != columns.end();
             };

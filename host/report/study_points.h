@@ -12,7 +12,7 @@
 
 namespace vkdose::report {
 
-/// What study.toml says of a study, as far as a report needs it.
+/// The parts of study.toml that a report needs.
 struct StudyHead {
     std::string name, reason;
     std::vector<std::vector<std::string>> axes;  ///< keys of each

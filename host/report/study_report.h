@@ -1,5 +1,5 @@
 #pragma once
-// What a report says of a study: the folder of a sweep, finished or not.
+// The data of a study's report, from the folder of a sweep, finished or not.
 
 #include <filesystem>
 #include <optional>

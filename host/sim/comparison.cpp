@@ -49,10 +49,8 @@ class Walker {
   public:
     Walker(std::string name, const Case& c, const Timeline& timeline, Backend& backend, const Particles& start,
            double filledMass)
-        : name_(std::move(name)), case_(c), timeline_(timeline), backend_(backend), ledger_(start.size(), filledMass) {
-        World world = c.world;
-        world.law = c.settlingLaw;
-        told([&] { backend_.load(world, start); });
+        : name_(std::move(name)), timeline_(timeline), backend_(backend), ledger_(start.size(), filledMass) {
+        told([&] { backend_.load(c.world, c.settlingLaw, start); });
     }
 
     void advanceTo(std::uint64_t step) {
@@ -60,10 +58,8 @@ class Walker {
         const auto n = static_cast<std::uint32_t>(step - step_);
         Sensors sensors;
         told([&] {
-            if (stretch.phase != Phase::Settle && !dosing_) {
-                backend_.setLaw(case_.world.law);
-                dosing_ = true;
-            }
+            if (stretch.law != law_) backend_.setLaw(*stretch.law);
+            law_ = stretch.law;
             sensors = backend_.advance(n, stretch.rate);
             ledger_.close(sensors, timeline_.time(step));
             state = backend_.particles();
@@ -122,12 +118,11 @@ class Walker {
     }
 
     std::string name_;
-    const Case& case_;
     const Timeline& timeline_;
     Backend& backend_;
     Ledger ledger_;
     std::uint64_t step_ = 0;
-    bool dosing_ = false;
+    const ContactLaw* law_ = nullptr;  // in force
     std::uint64_t phaseEnd_ = 0;
     double impulse_ = 0, energySteps_ = 0, contactSteps_ = 0;  // sums over the phase, times steps
     std::uint64_t phaseSteps_ = 0;

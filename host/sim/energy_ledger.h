@@ -77,7 +77,7 @@ inline constexpr auto kMomentumColumns = columns(
     column<&EnergyBook::angularMomentum, 1>("angular_momentum_y_kg_m2_s", "kg m2/s", "The same along y."),
     column<&EnergyBook::angularMomentum, 2>("angular_momentum_z_kg_m2_s", "kg m2/s", "The same along z."));
 
-/// What flows in or out during a call, so that the books of several calls add up.
+/// Energy that flows in or out during a call: the books of several calls add up.
 inline constexpr auto kFlowColumns = std::tuple_cat(kLossColumns, kOutsideColumns, kLoadedColumns);
 /// A whole book, as a checkpoint holds it.
 inline constexpr auto kBookColumns = std::tuple_cat(kMotionColumns, kElasticColumns, kFlowColumns, kMomentumColumns);

@@ -12,7 +12,7 @@ inline constexpr double kLedgerTolerance = 1e-6;
 
 class Ledger {
   public:
-    /// What was filled: number of particles and their mass [kg].
+    /// Number of the particles that were filled in, and their mass [kg].
     Ledger(std::uint64_t count, double mass) : count_(count), mass_(mass) {}
 
     /// Closes the ledger at simulated time `time` [s]. Throws RunError if a particle is lost, if the counts of the

@@ -62,11 +62,10 @@ class Run {
   private:
     void playThrough(const RunCheckpoint* from) {
         try {
-            load();
             if (from != nullptr)
                 goOn(*from);
-            else if (timeline_.frameDue(0))
-                frame();
+            else
+                begin();
             checkpointed_ = Clock::now();
             checkpointTime_ = timeline_.time(step_);
             result_.reason = steps();
@@ -77,17 +76,17 @@ class Run {
         }
     }
 
-    void load() {
-        World world = case_.world;
-        world.law = case_.settlingLaw;
-        backend_.load(world, result_.particles);
+    void begin() {
+        backend_.load(case_.world, case_.settlingLaw, result_.particles);
+        if (timeline_.frameDue(0)) frame();
     }
 
     /// Goes on where the run was when `from` was taken.
     void goOn(const RunCheckpoint& from) {
         restore(from.run);
-        if (dosing_) backend_.setLaw(case_.world.law);
+        backend_.load(case_.world, dosing_ ? case_.dosingLaw : case_.settlingLaw, result_.particles);
         backend_.restore(from.backend);
+        if (result_.last.coilAngle * backend_.coilAngle() < 0) angleSign_ = -1;
         before_ = {step_, result_.particleSteps, result_.wallTime};
     }
 
@@ -232,7 +231,7 @@ class Run {
         s.time = timeline_.time(step_);
         s.phase = stretch_.phase;
         s.dose = stretch_.dose;
-        s.coilAngle = backend_.coilAngle() * timeline_.conveyingSense();
+        s.coilAngle = angleSign_ * backend_.coilAngle();
         s.sensors = now_;
         s.sensors.coilTorque = impulse_ / static_cast<double>(gathered_);
         s.coilTorque = driveTorque(s.sensors.coilTorque);
@@ -258,7 +257,7 @@ class Run {
 
     void beginDosing() {
         dosing_ = true;
-        backend_.setLaw(case_.world.law);
+        backend_.setLaw(*stretch_.law);
         result_.dosedWhileSettling = mass(result_.last.sensors, Region::Dosed);
     }
 
@@ -365,6 +364,10 @@ class Run {
     std::uint64_t active_ = 0;  ///< particles still moving
     Timeline::Stretch stretch_{Phase::Settle, 0, 0, 0};
     bool dosing_ = false;
+
+    /// -1 in a run whose time series began with angles that are positive when conveying, as vkdose once wrote them: a
+    /// series keeps its sense to the end.
+    double angleSign_ = 1;
 
     Sensors now_;                 ///< of the last call, joined with the calls since the last sample
     std::uint64_t gathered_ = 0;  ///< steps since the last sample

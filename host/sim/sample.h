@@ -19,7 +19,7 @@ struct Sample {
     double time = 0;  ///< [s]
     Phase phase = Phase::Settle;
     int dose = 0;                        ///< 0 while settling
-    double coilAngle = 0;                ///< turned since the start, positive when conveying [rad]
+    double coilAngle = 0;                ///< of Backend::coilAngle: rotation about +z since the start [rad]
     Sensors sensors;                     ///< coilTorque: about +z, on the coil, mean since the last sample [N m]
     double outletVelocity = 0;           ///< mean v_z of the mass in the throat [m/s]; NaN while it is empty
     double coilTorque = 0;               ///< the drive's: positive when the powder resists conveying [N m]
@@ -56,12 +56,15 @@ inline constexpr auto kSensorColumns =
 
 // The columns of a sample's own.
 inline constexpr auto kStepColumns = columns(column<&Sample::step>("step", "1", "Number of time steps made."));
-inline constexpr auto kWhenColumns = columns(
-    column<&Sample::time>("time_s", "s", "Simulated time."),
-    column<&Sample::phase>("phase", "",
-                           "What the schedule asks for in the time before this line: settle, rotate or rest."),
-    column<&Sample::dose>("dose", "1", "Number of the dose, from 1; 0 while settling."),
-    column<&Sample::coilAngle>("coil_angle_rad", "rad", "Angle that the coil has turned, positive when it conveys."));
+/// The same sense in every file.
+inline constexpr const char* kCoilAngleMeaning =
+    "Angle that the coil has turned about +z by the right-hand rule; a right-handed coil conveys at falling angles.";
+inline constexpr auto kWhenColumns =
+    columns(column<&Sample::time>("time_s", "s", "Simulated time."),
+            column<&Sample::phase>("phase", "",
+                                   "What the schedule asks for in the time before this line: settle, rotate or rest."),
+            column<&Sample::dose>("dose", "1", "Number of the dose, from 1; 0 while settling."),
+            column<&Sample::coilAngle>("coil_angle_rad", "rad", kCoilAngleMeaning));
 inline constexpr auto kDriveColumns = columns(
     column<&Sample::outletVelocity>("outlet_velocity_m_s", "m/s",
                                     "Mean velocity along +z of the mass in the throat; nan while it is empty."),

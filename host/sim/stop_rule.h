@@ -10,7 +10,7 @@
 
 namespace vkdose {
 
-/// What ended a run.
+/// The reason why a run ended.
 enum class StopReason {
     Settled,      ///< the case asks for no doses
     Experiment,   ///< the cumulative mass changed by no more than the threshold over the last doses

@@ -28,7 +28,7 @@ std::uint64_t wholeSteps(const char* key, double duration, double timeStep) {
 
 }  // namespace
 
-Timeline::Timeline(const Case& c) : timeStep_(c.world.timeStep) {
+Timeline::Timeline(const Case& c) : timeStep_(c.world.timeStep), settlingLaw_(c.settlingLaw), dosingLaw_(c.dosingLaw) {
     if (!(timeStep_ > 0)) refuse("time_step", timeStep_, "is not positive", "give a time step > 0 in seconds");
     if (!(c.sensorInterval > 0)) refuse("sensor_interval", c.sensorInterval, "is not positive", "give a time > 0");
     settle_ = wholeSteps("settle_time", c.schedule.settleTime, timeStep_);
@@ -49,13 +49,13 @@ Timeline::Timeline(const Case& c) : timeStep_(c.world.timeStep) {
 }
 
 Timeline::Stretch Timeline::at(std::uint64_t step) const {
-    if (step < settle_ || !hasDoses()) return {Phase::Settle, 0, std::min(settle_, end_), 0.0};
+    if (step < settle_ || !hasDoses()) return {Phase::Settle, 0, std::min(settle_, end_), 0.0, &settlingLaw_};
     const std::uint64_t dose = (step - settle_) / cycle();
     const std::uint64_t start = settle_ + dose * cycle();
     const bool rotating = step - start < rotate_;
     const std::uint64_t phaseEnd = start + (rotating ? rotate_ : cycle());
     return {rotating ? Phase::Rotate : Phase::Rest, static_cast<int>(dose) + 1, std::min(phaseEnd, end_),
-            rotating ? rate_ : 0.0};
+            rotating ? rate_ : 0.0, &dosingLaw_};
 }
 
 std::uint64_t Timeline::nextSample(std::uint64_t step) const {

@@ -29,9 +29,10 @@ class Timeline {
     /// The part of one phase that starts at a step. Steps `step` ... `end` - 1 are made in it.
     struct Stretch {
         Phase phase;
-        int dose;           ///< 1 for the first; 0 while settling
-        std::uint64_t end;  ///< first step that is no longer in it
-        double rate;        ///< of the coil about +z [rad/s]
+        int dose;                         ///< 1 for the first; 0 while settling
+        std::uint64_t end;                ///< first step that is no longer in it
+        double rate;                      ///< of the coil about +z [rad/s]
+        const ContactLaw* law = nullptr;  ///< of the contacts; lives as long as the timeline
     };
 
     /// The stretch in which the step that follows `step` finished steps is made. Call only while !over(step).
@@ -77,6 +78,7 @@ class Timeline {
     std::uint64_t end_ = kNever;
     double sense_ = 0;
     double rate_ = 0;
+    ContactLaw settlingLaw_, dosingLaw_;
 };
 
 }  // namespace vkdose

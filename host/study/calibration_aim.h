@@ -1,5 +1,5 @@
 #pragma once
-// What a calibration looks for: the table [calibrate] of a study.
+// The aim of a calibration: the table [calibrate] of a study.
 
 #include <filesystem>
 #include <string>

@@ -7,7 +7,7 @@
 
 namespace vkdose {
 
-/// What is believed of the value at a point.
+/// The value at a point as the process believes it.
 struct Belief {
     double mean = 0;
     double deviation = 0;  ///< of the underlying value, without the noise of another observation

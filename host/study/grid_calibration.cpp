@@ -12,7 +12,7 @@ namespace vkdose {
 
 namespace {
 
-/// What the members of a point found, a value for each seed.
+/// The results of the members of a point, a value for each seed.
 struct Found {
     std::vector<double> beta, betaError, rsd, doses;
 };

@@ -7,24 +7,18 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "host/core/exit_code.h"
 #include "host/core/file.h"
 #include "host/output/checkpoint.h"
+#include "host/output/summary.h"
 #include "host/sim/dose.h"
 
 namespace vkdose {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 namespace {
-
-constexpr int kInterruptedCode = 130;
-
-Json readSummary(const fs::path& folder) {
-    std::ifstream stream = inputFile(folder / "summary.json");
-    Json summary = stream ? Json::parse(stream, nullptr, false) : Json();
-    return summary.is_object() ? summary : Json::object();
-}
 
 /// The value at "a/b" as it stands in a table; empty if it is null or not there.
 std::string field(const Json& summary, const char* pointer) {
@@ -124,11 +118,11 @@ std::string statusText(MemberStatus status) {
 }
 
 MemberResult readResult(const fs::path& folder, const MemberEnd& end) {
-    const Json summary = readSummary(folder);
+    const Json summary = readSummary(folder).value_or(Json::object());
     const Table table = dosesIn(folder);
     MemberResult result;
     for (std::size_t i = 0; i < table.rows(); ++i) result.doses.push_back(table.row(i));
-    if (end.code == kInterruptedCode) {
+    if (end.code == kInterrupted) {
         result.status = MemberStatus::Interrupted;
     } else if (end.code != 0) {
         result.error = errorText(end, summary);
@@ -149,7 +143,7 @@ Table dosesIn(const fs::path& folder) {
 }
 
 bool isOver(const fs::path& folder) {
-    const Json summary = readSummary(folder);
+    const Json summary = readSummary(folder).value_or(Json::object());
     return !fs::exists(folder / kCheckpointName) && summary.contains("error") && summary["error"].is_null() &&
            !summary.value("interrupted", true);
 }

@@ -1,5 +1,5 @@
 #pragma once
-// What became of a member, from the output folder of its run.
+// The result of a member, from the output folder of its run.
 
 #include <filesystem>
 #include <span>
@@ -26,7 +26,7 @@ struct MemberResult {
     std::vector<Row> doses;  ///< rows of the run's doses.csv
 };
 
-/// What a member's run has left, from which its row in members.csv is made.
+/// The remains of a member's run, from which its row in members.csv is made.
 struct MemberRemains;
 
 /// A column of members.csv behind member, seed and the keys of the axes.
@@ -45,7 +45,7 @@ extern const Row kOutputColumns;
 /// "ok", "failed", "interrupted".
 std::string statusText(MemberStatus status);
 
-/// What a run left in `folder`. A run that ended with 0 but left nothing readable has failed.
+/// The result that a run left in `folder`. A run that ended with 0 but left nothing readable has failed.
 MemberResult readResult(const std::filesystem::path& folder, const MemberEnd& end);
 
 /// The doses that a run noted in `folder`; an empty table if there are none, or they are not a run's.

@@ -14,7 +14,7 @@ namespace vkdose {
 
 using Parameters = std::vector<double>;  ///< a value for each free parameter, in the units of their keys
 
-/// What was found at a point.
+/// The masses per dose that runs at one point gave.
 struct Trial {
     std::vector<double> values;  ///< mass per dose, one for each seed; without those that gave none [kg]
     double error = 0;            ///< standard error of a single seed's value [kg]; 0 if it is not known
@@ -32,8 +32,8 @@ struct SearchResult {
     double mean = 0;       ///< believed there [kg]
     double deviation = 0;  ///< standard deviation of this belief [kg]
     bool met = false;      ///< both the distance to the target and the deviation are within the tolerance
-    /// For each parameter the range of those values that may meet the target: mean within two deviations and the
-    /// tolerance, whatever the other parameters. Wide where the parameters can make up for each other.
+    /// For each parameter the range of its values that may meet the target: the mean is within two deviations and the
+    /// tolerance of it for some values of the others. If two parameters compensate each other, their ranges are wide.
     std::vector<std::pair<double, double>> compatible;
 };
 

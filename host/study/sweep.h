@@ -68,9 +68,9 @@ struct SweepOutcome {
     bool whole = false;  ///< every member has ended
 };
 
-/// Runs those of `members` that have not ended yet; failed ones again if `retryFailed`, and then anew where a checkpoint
-/// cannot be used. A member that fails does not keep the others from running. Setting `stop` ends the running ones so
-/// that they can be gone on with. Throws OutputError.
+/// Runs those of `members` that have not ended yet; failed ones again if `retryFailed`, and then anew where a
+/// checkpoint cannot be used. A member that fails does not keep the others from running. Setting `stop` ends the
+/// running ones so that they can be gone on with. Throws OutputError.
 SweepOutcome runMembers(SweepFolder& folder, const std::vector<Member>& members, MemberRunner& runner,
                         SweepObserver& observer, const std::atomic<bool>& stop, bool retryFailed = false);
 

@@ -167,16 +167,22 @@ void SweepFolder::read(const Row& keys) {
 
 /// The doses of the members that have ended, from their folders: the table may have lost some, or been edited.
 void SweepFolder::gatherDoses() {
+    std::map<int, std::vector<Row>> noted;
+    for (std::size_t k = 0; k < doses_.rows(); ++k) {
+        std::vector<Row>& rows = noted[numberOf(doses_.row(k))];
+        if (rows.empty() || rows.back() != doses_.row(k)) rows.push_back(doses_.row(k));  // one line twice is one dose
+    }
     Table all(doses_.names());
     for (std::size_t i = 0; i < members_.rows(); ++i) {
         const Row& member = members_.row(i);
-        std::vector<Row> noted, kept;
-        for (std::size_t k = 0; k < doses_.rows(); ++k)
-            if (numberOf(doses_.row(k)) == numberOf(member)) noted.push_back(doses_.row(k));
-        const Table doses = dosesIn(memberFolder(numberOf(member)));
         const Row head(member.begin(), member.end() - std::ptrdiff_t(kOutputColumns.size()));
-        for (std::size_t k = 0; k < doses.rows(); ++k) kept.push_back(joined(head, doses.row(k)));
-        for (const Row& row : kept.size() >= noted.size() ? kept : noted) all.add(row);
+        const std::vector<Row>& table = noted[numberOf(member)];
+        const Table folder = dosesIn(memberFolder(numberOf(member)));
+        if (folder.rows() < table.size()) {  // the folder has lost some itself, or is gone
+            for (const Row& row : table) all.add(row);
+            continue;
+        }
+        for (std::size_t k = 0; k < folder.rows(); ++k) all.add(joined(head, folder.row(k)));
     }
     doses_ = std::move(all);
 }

@@ -10,7 +10,7 @@ namespace {
 
 constexpr const char* kReset = "\033[0m";
 
-/// What selects a colour for what is written (38) or for what is behind it (48).
+/// The code that selects a colour for the character (38) or for its background (48).
 std::string selecting(int what, const Colour& c) {
     return fmt::format("\033[{};2;{};{};{}m", what, c.red, c.green, c.blue);
 }

@@ -7,14 +7,14 @@ namespace vkdose::terminal {
 
 class Pace {
   public:
-    /// `share`: of all time, for drawing at most; `interval`: between two drawings at least [s].
+    /// `share`: largest fraction of the time that drawing may take; `interval`: least time between two drawings [s].
     Pace(double share, double interval) : share_(share), interval_(interval) {}
 
     /// Whether it is time at `now` [s].
     bool due(double now) const { return now >= next_; }
 
-    /// Tells that drawing took from `begin` to `end` [s]. After it comes a break so long that the two together are to
-    /// the drawing as 1 to `share`.
+    /// Tells that drawing took from `begin` to `end` [s]. The pause after it is chosen so that drawing takes at most
+    /// the fraction `share` of the elapsed time.
     void drew(double begin, double end) { next_ = std::max(begin + interval_, begin + (end - begin) / share_); }
 
   private:

@@ -42,7 +42,7 @@ std::vector<std::string> doseRows(const LiveState& s, int columns, int rows) {
     return lines;
 }
 
-/// What the colours of the spheres mean.
+/// The meaning of the spheres' colours.
 std::string legend(double fast) {
     std::string text = "speed 0 ";
     for (int i = 0; i <= 8; ++i) {

@@ -1,5 +1,5 @@
 #pragma once
-// What stands on the terminal while a run goes on: the bed from the side, the doses as bars, how far the run is.
+// The picture on the terminal while a run goes on: the bed from the side, the doses as bars, how far the run is.
 
 #include <string>
 #include <vector>

@@ -10,7 +10,7 @@
 
 namespace vkdose::terminal {
 
-/// What does not change while a run goes on.
+/// The things that do not change while a run goes on.
 struct Scene {
     std::optional<Canister> canister;
     std::optional<geometry::Coil> coil;

@@ -80,7 +80,7 @@ double weightOf(const Particles& p) {
 }
 
 /// Force of every surface on the particles at rest: spring forces, as there is no velocity to damp.
-std::vector<Vec3> reactions(const World& world, Trial& trial) {
+std::vector<Vec3> reactions(const RuledWorld& world, Trial& trial) {
     const ContactParameters& law = world.law.of(ContactClass::ParticleWall);
     std::vector<Vec3> force(world.surfaces.size(), Vec3(0));
     for (const Contact& c : trial.contacts()) {
@@ -103,7 +103,7 @@ double shareAbove(double y, double level, double width) {
 struct Borne {
     double stress, weight;
 };
-Borne borneAt(Bench& bench, const World& world, Trial& trial, double half, double level) {
+Borne borneAt(Bench& bench, const RuledWorld& world, Trial& trial, double half, double level) {
     FieldRequest request;
     request.kernel = Kernel::Lucy;
     request.width = 4 * kRadius;
@@ -131,7 +131,7 @@ Borne borneAt(Bench& bench, const World& world, Trial& trial, double half, doubl
 void bedWeight(Bench& bench) {
     const double half = 2.6 * kRadius;
     for (const double mu : {0.0, 0.5}) {
-        World world = floor(grain(mu, 0), kStep);
+        RuledWorld world = floor(grain(mu, 0), kStep);
         world.surfaces = boxAround(half);
         const Particles bed = grid(2, mu > 0 ? 32 : 16);
         Trial trial(bench, world, bed);
@@ -161,7 +161,7 @@ void bedWeight(Bench& bench) {
 // h/4 and R/2, so that tan = 2 height/distance. Friction holds a heap up; without it there is none.
 void heap(Bench& bench) {
     for (const double mu : {0.0, 0.5}) {
-        World world = floor(grain(mu, mu > 0 ? 0.2 : 0), kStep);
+        RuledWorld world = floor(grain(mu, mu > 0 ? 0.2 : 0), kStep);
         const Particles block = grid(5, 5);
         Trial trial(bench, world, block);
         trial.advanceTo(0.6);

@@ -1,5 +1,5 @@
 #pragma once
-// What the verification suite finds: one figure of one small case beside what it must be.
+// A finding of the verification suite: one figure of one small case beside the value it must have.
 
 #include <string>
 

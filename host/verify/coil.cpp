@@ -21,7 +21,7 @@ constexpr double kTrough = 0.0115;  // half width [m]
 // Spheres at rest that the wire passes by a hundredth of a radius, and one on the axis: no torque and no motion,
 // exactly none.
 void emptyCanister(Bench& bench) {
-    World world = space(spring(1000), 1e-5);
+    RuledWorld world = space(spring(1000), 1e-5);
     const geometry::Coil coil = narrowCoil();
     world.coil = coil;
     const double clear = coil.radius + coil.wireRadius + 1.01 * kRadius;  // from the axis
@@ -83,7 +83,7 @@ void pressedAgainstWire(Bench& bench) {
         ContactParameters p = spring(k);
         p.mu = slips ? mu : 1e3;
         p.gammaT = slips ? 1e4 : 0.05;
-        World world = space(p, dt);
+        RuledWorld world = space(p, dt);
         world.coil = coil;
         const std::vector<Pressed> pressed = aroundWire(coil, depth, rate);
         Particles start;
@@ -127,7 +127,7 @@ void pushedAlongTrough(Bench& bench) {
         p.mu = mu;
         p.kt = 60;
         p.gammaT = 0.003;
-        World world = space(p, 8e-5);
+        RuledWorld world = space(p, 8e-5);
         world.gravity = kGravity * Vec3(0, -std::cos(slope), -std::sin(slope));
         world.coil = coil;
         world.surfaces = {geometry::Trough{kTrough}};

@@ -94,7 +94,7 @@ void obliqueSliding(Bench& bench) {
     p.mu = mu;
     p.kt = 0.286 * kK2Max;
     const std::vector<double> tangential{normal * std::tan(75 * kPi / 180), normal * std::tan(85 * kPi / 180)};
-    World world = floor(p, 1e-7, 0);
+    RuledWorld world = floor(p, 1e-7, 0);
     Trial trial(bench, world, thrownAtFloor(normal, tangential));
     trial.advanceTo(4e-4);
 

@@ -33,7 +33,7 @@ double kineticEnergy(const Particles& p) {
 void plasticLoss(Bench& bench) {
     const HeadOn law{.kc = 0.873 * kK2Max};
     const std::vector<double> speeds{0.2, 0.4, 0.6};
-    World world = space(plastic(law.kc, 0), 1e-7);
+    RuledWorld world = space(plastic(law.kc, 0), 1e-7);
     world.energyBook = true;
     const Particles pairs = pairsAt(speeds);
     Trial trial(bench, world, pairs);
@@ -56,7 +56,7 @@ void plasticLoss(Bench& bench) {
 // A linear spring with damping, from touch to parting half a period: e = exp(-gamma/(2 m12) t_c), all of it viscous.
 void dampingLoss(Bench& bench) {
     const double k = 2000, gamma = 0.05, speed = 0.1, dt = 2e-8;
-    World world = space(spring(k, gamma), dt);
+    RuledWorld world = space(spring(k, gamma), dt);
     world.energyBook = true;
     Trial trial(bench, world, pairsAt({speed}));
     const double m = massOf(kRadius) / 2, half = gamma / (2 * m);
@@ -74,7 +74,7 @@ void frictionLoss(Bench& bench) {
     ContactParameters p = spring(k, 0.02);
     p.mu = mu;
     p.kt = 0.5 * k;
-    World world = floor(p, 1e-5);
+    RuledWorld world = floor(p, 1e-5);
     world.energyBook = true;
     const double sinking = massOf(kRadius) * kGravity / k;
     Particles sphere;
@@ -91,7 +91,7 @@ void frictionLoss(Bench& bench) {
 
 // Everything at once, and nothing from outside: what was loaded is motion, springs and losses, none of them negative.
 void clusterBalance(Bench& bench) {
-    World world = space(everyInteraction(), 1e-6);
+    RuledWorld world = space(everyInteraction(), 1e-6);
     world.energyBook = true;
     const Particles cluster = collapsingCluster();
     Trial trial(bench, world, cluster);

@@ -9,7 +9,7 @@ namespace vkdose::verify {
 
 // y = y0 - g t^2/2 and v = -g t, which the leapfrog renders exactly.
 void freeFall(Bench& bench) {
-    World world = space(spring(1000), 1e-5);
+    RuledWorld world = space(spring(1000), 1e-5);
     world.gravity = Vec3(0, -kGravity, 0);
     Particles one;
     const Vec3 start(0.3, 0.4, -0.2), push(0.05, 0, -0.02);

@@ -63,7 +63,7 @@ Particles collapsingCluster() {
 // precision holds, so that masses agree.
 void isolatedCluster(Bench& bench) {
     const Particles cluster = collapsingCluster();
-    World world = space(everyInteraction(), 1e-6);
+    RuledWorld world = space(everyInteraction(), 1e-6);
     const Momentum before(cluster);
     Trial trial(bench, world, cluster);
     std::size_t most = 0;

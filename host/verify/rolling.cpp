@@ -22,7 +22,7 @@ ContactParameters grippy(double rollingFriction) {
     return p;
 }
 
-Particles resting(const World& world) {
+Particles resting(const RuledWorld& world) {
     Particles p;
     p.add(Vec3(0, kRadius + massOf(kRadius) * world.gravity.y / kStiffness, 0), kRadius);
     return p;
@@ -33,7 +33,7 @@ Particles resting(const World& world) {
 // Without slipping: acceleration 5/7 g sin(tilt).
 void inclineRolls(Bench& bench) {
     const double tilt = kPi / 6, dt = 1e-5;
-    const World world = floor(grippy(0), dt, kGravity, tilt);
+    const RuledWorld world = floor(grippy(0), dt, kGravity, tilt);
     Trial trial(bench, world, resting(world));
     trial.advance(2000);
     const double speed = 5.0 / 7 * kGravity * std::sin(tilt) * trial.halfStep();
@@ -52,7 +52,7 @@ void rollingResistance(Bench& bench) {
         const std::string name = lever == RollingLever::Full ? "full" : "half";
         for (const double factor : {0.97, 1.2}) {
             const double tilt = std::atan(factor * ratio * friction);
-            World world = floor(grippy(friction), dt, kGravity, tilt);
+            RuledWorld world = floor(grippy(friction), dt, kGravity, tilt);
             world.law.rollingLever = lever;
             Trial trial(bench, world, resting(world));
             trial.advance(3000);

@@ -23,8 +23,8 @@ ContactLaw lawOf(const ContactParameters& p) {
     return law;
 }
 
-World space(const ContactParameters& p, double timeStep) {
-    World world;
+RuledWorld space(const ContactParameters& p, double timeStep) {
+    RuledWorld world;
     world.law = lawOf(p);
     world.gravity = Vec3(0);
     world.density = kDensity;
@@ -33,14 +33,14 @@ World space(const ContactParameters& p, double timeStep) {
     return world;
 }
 
-World floor(const ContactParameters& p, double timeStep, double gravity, double tilt) {
-    World world = space(p, timeStep);
+RuledWorld floor(const ContactParameters& p, double timeStep, double gravity, double tilt) {
+    RuledWorld world = space(p, timeStep);
     world.gravity = gravity * Vec3(std::sin(tilt), -std::cos(tilt), 0);
     world.surfaces.push_back(geometry::Plane{Vec3(0), Vec3(0, 1, 0)});
     return world;
 }
 
-Trial::Trial(Bench& bench, const World& world, const Particles& particles)
+Trial::Trial(Bench& bench, const RuledWorld& world, const Particles& particles)
     : backend_(&bench.backend()), now_(particles), timeStep_(world.timeStep) {
     backend_->load(world, particles);
 }

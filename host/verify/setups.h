@@ -25,10 +25,10 @@ ContactParameters spring(double k, double gamma = 0);
 ContactLaw lawOf(const ContactParameters& p);
 
 /// Empty space without gravity.
-World space(const ContactParameters& p, double timeStep);
+RuledWorld space(const ContactParameters& p, double timeStep);
 
 /// The floor y = 0 under gravity that pulls by `gravity` [m/s2], `tilt` [rad] from the vertical towards +x.
-World floor(const ContactParameters& p, double timeStep, double gravity = kGravity, double tilt = 0);
+RuledWorld floor(const ContactParameters& p, double timeStep, double gravity = kGravity, double tilt = 0);
 
 /// Friction, rolling, torsion, damping, adhesion and plasticity all at once, and a cluster of 31 spheres thrown at its
 /// middle, so that they collide within a few milliseconds (momentum.cpp).
@@ -38,7 +38,7 @@ Particles collapsingCluster();
 /// Loads a world and counts its steps.
 class Trial {
   public:
-    Trial(Bench& bench, const World& world, const Particles& particles);
+    Trial(Bench& bench, const RuledWorld& world, const Particles& particles);
 
     Sensors advance(std::uint64_t steps, double coilRate = 0);
     /// As many steps as come nearest to `seconds` from the load.

@@ -43,8 +43,8 @@ geometry::Surface cylinder(const Vec3& axis, double radius) {
 }
 
 /// A world with a wedge for every ratio, side by side along x.
-World wedges(const ContactParameters& p, double timeStep, double gravity) {
-    World world = space(p, timeStep);
+RuledWorld wedges(const ContactParameters& p, double timeStep, double gravity) {
+    RuledWorld world = space(p, timeStep);
     world.gravity = Vec3(0, -gravity, 0);
     for (std::size_t i = 0; i < std::size(kRatios); ++i)
         for (const double side : {-1.0, 1.0})
@@ -104,7 +104,7 @@ void rollOff(Bench& bench) {
                  sinking = massOf(kRadius) * kGravity * std::cos(start) / k;
     ContactParameters law = gripping(k, 0.02);
     law.gammaT = 0.01;
-    World world = space(law, dt);
+    RuledWorld world = space(law, dt);
     world.gravity = Vec3(0, -kGravity, 0);
     const std::size_t n = std::size(kRatios);
     std::vector<Vec3> axes;
@@ -203,7 +203,7 @@ std::vector<Descent> descend(Bench& bench, const std::vector<double>& ratios, do
     law.mu = kNeckFriction;
     law.kt = 0.286 * kK2Max;
     law.gammaT = 0.01;
-    World world = space(law, dt);
+    RuledWorld world = space(law, dt);
     world.gravity = Vec3(0, -kGravity, 0);
     Particles p;
     const auto axis = [](std::size_t i) { return Vec3(kFar * static_cast<double>(i), 0, 0); };

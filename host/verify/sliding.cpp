@@ -18,7 +18,7 @@ ContactParameters rough(double mu) {
 }
 
 /// Sphere at rest on the floor, as deep as its weight presses it.
-Particles resting(const World& world, double speed) {
+Particles resting(const RuledWorld& world, double speed) {
     const double sinking = -massOf(kRadius) * world.gravity.y / kStiffness;
     Particles p;
     p.add(Vec3(0, kRadius - sinking, 0), kRadius, Vec3(speed, 0, 0));
@@ -30,7 +30,7 @@ Particles resting(const World& world, double speed) {
 // Friction mu m g brakes the sphere and spins it up, until after t = 2/7 u0/(mu g) it rolls with 5/7 of its speed.
 void slipThenRoll(Bench& bench) {
     const double mu = 0.3, start = 0.1, dt = 1e-5;
-    const World world = floor(rough(mu), dt);
+    const RuledWorld world = floor(rough(mu), dt);
     Trial trial(bench, world, resting(world, start));
     const double rolls = 2.0 / 7 * start / (mu * kGravity);
     // The spring first stretches to mu m g/k_t, which takes this part of the slipping.
@@ -56,7 +56,7 @@ void slipThenRoll(Bench& bench) {
 // On a slope with tan(tilt) > 7/2 mu: acceleration g (sin - mu cos), spin 5/2 mu g cos t/a.
 void inclineSlides(Bench& bench) {
     const double mu = 0.2, tilt = kPi / 4, dt = 1e-5;
-    const World world = floor(rough(mu), dt, kGravity, tilt);
+    const RuledWorld world = floor(rough(mu), dt, kGravity, tilt);
     Trial trial(bench, world, resting(world, 0));
     trial.advance(1000);  // the spring stretches first
     const Particles early = trial.now();
@@ -79,7 +79,7 @@ void coulombLimit(Bench& bench) {
     p.kc = chi * kStiffness;
     p.plasticityDepth = 0.05;
     for (const CoulombLimit limit : {CoulombLimit::Luding, CoulombLimit::Absolute}) {
-        World world = floor(p, dt);
+        RuledWorld world = floor(p, dt);
         world.law.coulombLimit = limit;
         Trial trial(bench, world, resting(world, 0.2));
         trial.advance(200);  // the spring stretches first

@@ -4,7 +4,7 @@
 
 namespace vkdose::vk {
 
-/// What the device itself makes of copying one buffer to another, read and write counted, the best of a few tries
+/// Bandwidth of the device itself in copying one buffer to another, read and write counted, the best of a few tries
 /// [bytes/s]. Takes about 0.1 s on a processor. Of buffers that no cache of a processor holds.
 double copyBandwidth(const Device& device);
 

@@ -9,9 +9,13 @@
 #include <string_view>
 #include <type_traits>
 
+#include "shaders/shared/layout.h"
+
 namespace vkdose::vk {
 
-/// What the validation layer said; it may speak from a thread of its own.
+const std::uint32_t kStorageBuffers = gpu::kTables;
+
+/// Messages of the validation layer, which may speak from a thread of its own.
 struct ValidationMessages {
     std::mutex mutex;
     std::vector<std::string> list;

@@ -16,8 +16,8 @@ namespace vkdose::vk {
 void check(VkResult result, const char* call);
 
 /// Storage buffers that one binding set may hold, so that a device with fewer per stage is refused before anything is
-/// built on it.
-inline constexpr std::uint32_t kStorageBuffers = 16;
+/// built on it. The passes of a step bind all tables, and no other set is larger.
+extern const std::uint32_t kStorageBuffers;
 
 struct DeviceChoice {
     /// Empty: automatic (discrete, then integrated, then virtual, then CPU). Else an index of listDevices() or a

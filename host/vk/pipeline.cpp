@@ -4,16 +4,20 @@
 
 namespace vkdose::vk {
 
-BindingSet::BindingSet(const Device& device, const std::vector<const Buffer*>& storage,
-                       const std::vector<const Buffer*>& texel, std::uint32_t pushBytes)
+BindingSet::BindingSet(const Device& device, const std::vector<const Buffer*>& buffers, std::uint32_t pushBytes)
     : BindingSet(device, pushBytes) {
-    const std::uint32_t storageCount = std::uint32_t(storage.size()), texelCount = std::uint32_t(texel.size());
-    assert(storageCount <= kStorageBuffers);
+    const std::uint32_t count = std::uint32_t(buffers.size());
+    assert(count <= kStorageBuffers);
+    std::vector<std::uint32_t> viewed;  // those that have a view
     std::vector<VkDescriptorSetLayoutBinding> bindings;
-    for (std::uint32_t i = 0; i < storageCount + texelCount; ++i)
+    for (std::uint32_t i = 0; i < count; ++i)
+        bindings.push_back({i, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
+    for (std::uint32_t i = 0; i < count; ++i) {
+        if (buffers[i]->texelView() == VK_NULL_HANDLE) continue;
+        viewed.push_back(i);
         bindings.push_back(
-            {i, i < storageCount ? VK_DESCRIPTOR_TYPE_STORAGE_BUFFER : VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, 1,
-             VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
+            {count + i, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
+    }
     VkDescriptorSetLayoutCreateInfo setInfo{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO, nullptr, 0,
                                             std::uint32_t(bindings.size()), bindings.data()};
     check(vkCreateDescriptorSetLayout(device.handle(), &setInfo, nullptr, &setLayout_), "vkCreateDescriptorSetLayout");
@@ -23,8 +27,9 @@ BindingSet::BindingSet(const Device& device, const std::vector<const Buffer*>& s
         VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO, nullptr, 0, 1, &setLayout_, 1, &range};
     check(vkCreatePipelineLayout(device.handle(), &layoutInfo, nullptr, &layout_), "vkCreatePipelineLayout");
 
-    std::vector<VkDescriptorPoolSize> sizes{{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, storageCount}};
-    if (texelCount > 0) sizes.push_back({VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, texelCount});
+    std::vector<VkDescriptorPoolSize> sizes{{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, count}};
+    const auto views = std::uint32_t(viewed.size());
+    if (views > 0) sizes.push_back({VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, views});
     VkDescriptorPoolCreateInfo poolInfo{
         VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO, nullptr, 0, 1, std::uint32_t(sizes.size()), sizes.data()};
     check(vkCreateDescriptorPool(device.handle(), &poolInfo, nullptr, &pool_), "vkCreateDescriptorPool");
@@ -32,24 +37,25 @@ BindingSet::BindingSet(const Device& device, const std::vector<const Buffer*>& s
                                          &setLayout_};
     check(vkAllocateDescriptorSets(device.handle(), &allocate, &set_), "vkAllocateDescriptorSets");
 
-    std::vector<VkDescriptorBufferInfo> buffers(storageCount);
-    std::vector<VkBufferView> views(texelCount);
+    std::vector<VkDescriptorBufferInfo> whole(count);
+    std::vector<VkBufferView> texels(count);
     std::vector<VkWriteDescriptorSet> writes;
-    for (std::uint32_t i = 0; i < storageCount + texelCount; ++i) {
-        VkWriteDescriptorSet write{};
-        write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
-        write.dstSet = set_;
-        write.dstBinding = i;
-        write.descriptorCount = 1;
-        write.descriptorType = bindings[i].descriptorType;
-        if (i < storageCount) {
-            buffers[i] = {storage[i]->handle(), 0, VK_WHOLE_SIZE};
-            write.pBufferInfo = &buffers[i];
-        } else {
-            views[i - storageCount] = texel[i - storageCount]->texelView();
-            write.pTexelBufferView = &views[i - storageCount];
-        }
-        writes.push_back(write);
+    const auto write = [&](std::uint32_t binding, VkDescriptorType type) -> VkWriteDescriptorSet& {
+        VkWriteDescriptorSet w{};
+        w.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
+        w.dstSet = set_;
+        w.dstBinding = binding;
+        w.descriptorCount = 1;
+        w.descriptorType = type;
+        return writes.emplace_back(w);
+    };
+    for (std::uint32_t i = 0; i < count; ++i) {
+        whole[i] = {buffers[i]->handle(), 0, VK_WHOLE_SIZE};
+        write(i, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER).pBufferInfo = &whole[i];
+    }
+    for (const std::uint32_t i : viewed) {
+        texels[i] = buffers[i]->texelView();
+        write(count + i, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER).pTexelBufferView = &texels[i];
     }
     vkUpdateDescriptorSets(device.handle(), std::uint32_t(writes.size()), writes.data(), 0, nullptr);
 }

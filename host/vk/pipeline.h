@@ -12,11 +12,11 @@
 
 namespace vkdose::vk {
 
-/// Bindings of the one set: storage buffers first, then uniform texel views, numbered consecutively.
+/// Bindings of the one set: the storage buffers, numbered in their order; then the texel views of those that have one,
+/// each as far behind its buffer as there are buffers.
 class BindingSet {
   public:
-    BindingSet(const Device& device, const std::vector<const Buffer*>& storage, const std::vector<const Buffer*>& texel,
-               std::uint32_t pushBytes);
+    BindingSet(const Device& device, const std::vector<const Buffer*>& buffers, std::uint32_t pushBytes);
     ~BindingSet();
     BindingSet(const BindingSet&) = delete;
     BindingSet& operator=(const BindingSet&) = delete;

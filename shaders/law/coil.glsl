@@ -1,10 +1,11 @@
 // Closest points on the turning coil (geometry/coil.h): local minima of the distance from a point to a helical wire.
 //
 // In cylindrical coordinates (rho, theta, z) of the point, with u = phase of the wire - theta, the distance is
-// stationary where  u + eps sin u = M,  eps = rho r_c kappa^2,  M = u at the point's own z. Around every u = 2 pi k lies
-// at most one minimum; with v = u - 2 pi k, m = M - 2 pi k, Newton from v0 = m/(1 + eps) converges without ever passing
-// the root, because the left side is concave for v > 0 (and odd). A sphere smaller than r_c cannot touch the wire further
-// than `reach.x` from its own angle, where the slope is still positive: six steps are plenty, and a failure is reported.
+// stationary where  u + eps sin u = M,  eps = rho r_c kappa^2,  M = u at the point's own z. Around every u = 2 pi k
+// lies at most one minimum; with v = u - 2 pi k, m = M - 2 pi k, Newton from v0 = m/(1 + eps) converges without ever
+// passing the root, because the left side is concave for v > 0 (and odd). A sphere smaller than r_c cannot touch the
+// wire further than `reach.x` from its own angle, where the slope is still positive: six steps are plenty, and a
+// failure is reported.
 //
 // The distance is formed in the polar frame, g^2 + 4 rho r_c sin^2(v/2) + dz^2, so that no large angle and no device
 // sine (2^-11 is all Vulkan promises) ever meets the overlap.
@@ -22,6 +23,8 @@ struct CoilTouch {
     bool failed;      // Newton did not converge
 };
 
+// A series is read along its lines.
+// clang-format off
 /// sin and cos of half an angle |v| <= pi, by their series (errors below 1e-9).
 vec2 halfSinCos(float v) {
     float h = 0.5 * v, q = h * h;
@@ -46,19 +49,20 @@ float polarAngle(float x, float y) {
     if (x < 0.0) a = 3.14159265358979324 - a;
     return y < 0.0 ? -a : a;
 }
+// clang-format on
 
 float fold(float angle) { return angle - kTwoPi * floor(angle / kTwoPi + 0.5); }
 
-/// What the candidates of one sphere have in common.
+/// The quantities that all candidates of one sphere share.
 struct CoilView {
-    float rho;       // distance from the axis [m]
-    float off;       // rho - r_c, accurate [m]
-    vec2 outward;    // unit
-    float z;         // from the wire's start, along the axis [m]
-    float start;     // u at the wire's start, folded [rad]
-    float phase;     // M folded into (-pi, pi] [rad]
-    float wirePhase; // kappa z [rad]
-    float reach;     // sphere + wire radius [m]
+    float rho;        // distance from the axis [m]
+    float off;        // rho - r_c, accurate [m]
+    vec2 outward;     // unit
+    float z;          // from the wire's start, along the axis [m]
+    float start;      // u at the wire's start, folded [rad]
+    float phase;      // M folded into (-pi, pi] [rad]
+    float wirePhase;  // kappa z [rad]
+    float reach;      // sphere + wire radius [m]
     bool nearEnd;
 };
 
@@ -94,9 +98,9 @@ CoilView coilView(CoilParams c, float turn, Sphere a) {
     return w;
 }
 
-/// Whether the sphere comes closer than `slack` to the wire, or may: with the wire's next turn off by the angle m at the
-/// sphere's own z, a wire point at the angle v is at least  off^2 + A v^2 + ((m - v) / kappa)^2  away (squared), with
-/// A = 4 rho r_c / pi^2 for sin(v/2) >= v/pi; that is least where v makes it  off^2 + m^2 A / (1 + A kappa^2).
+/// Whether the sphere comes closer than `slack` to the wire, or may: with the wire's next turn off by the angle m at
+/// the sphere's own z, a wire point at the angle v is at least  off^2 + A v^2 + ((m - v) / kappa)^2  away (squared),
+/// with A = 4 rho r_c / pi^2 for sin(v/2) >= v/pi; that is least where v makes it  off^2 + m^2 A / (1 + A kappa^2).
 bool nearCoil(CoilParams c, float turn, Sphere a, float slack) {
     CoilView w = coilView(c, turn, a);
     float reach = w.reach + slack + 1e-7;

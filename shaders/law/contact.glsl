@@ -1,4 +1,4 @@
-// One contact: normal, sliding, rolling and torsion put together. Knows no buffers.
+// One contact: normal, sliding, rolling and torsion put together. Knows no tables.
 #ifndef VKDOSE_LAW_CONTACT_GLSL
 #define VKDOSE_LAW_CONTACT_GLSL
 
@@ -8,52 +8,52 @@
 #include "law/torsion.glsl"
 
 struct History {
-    vec4 slidingMax;     // xyz: sliding spring [m]; w: delta_max [m]
-    vec4 rollingTorsion; // xyz: rolling spring [m]; w: torsion spring [m]
+    vec4 slidingMax;      // xyz: sliding spring [m]; w: delta_max [m]
+    vec4 rollingTorsion;  // xyz: rolling spring [m]; w: torsion spring [m]
 };
 
 struct Meeting {
-    vec3 normal;         // from j to i
-    float overlap;       // [m], > 0
-    float reduced;       // 2 a_i a_j/(a_i + a_j), wall 2 a_i [m]
-    vec3 velocity;       // of i relative to j at the contact point [m/s]
-    vec3 spin;           // omega_i - omega_j [rad/s]
+    vec3 normal;    // from j to i
+    float overlap;  // [m], > 0
+    float reduced;  // 2 a_i a_j/(a_i + a_j), wall 2 a_i [m]
+    vec3 velocity;  // of i relative to j at the contact point [m/s]
+    vec3 spin;      // omega_i - omega_j [rad/s]
 };
 
 struct Response {
-    vec3 force;   // on i [N]; on j the opposite
-    vec3 sliding; // its tangential part, which acts on the lever arms [N]
-    vec3 couple;  // rolling and torsion torque on i [N m]; on j the opposite
+    vec3 force;                 // on i [N]; on j the opposite
+    vec3 sliding;               // its tangential part, which acts on the lever arms [N]
+    vec3 couple;                // rolling and torsion torque on i [N m]; on j the opposite
     float hysteretic, damping;  // the normal part: without damping, and damping alone [N]
-    bvec3 slips;  // sliding, rolling, torsion
+    bvec3 slips;                // sliding, rolling, torsion
 };
 
 Response contactResponse(ContactParams p, uvec4 choices, Meeting m, float dt, inout History h) {
     float vn = dot(m.velocity, m.normal);
     vec3 vt = m.velocity - m.normal * vn;
     float f = normalForce(p, m.overlap, m.reduced, h.slidingMax.w);
-    float fn = f - p.normal.w * vn;
-    // What limits friction: adhesion moves its zero (Luding 2008), or the size of the whole normal force.
-    float bearing = choices.y == 0u ? max(0.0, f + p.normal.z * m.overlap) : abs(fn);
+    float fn = f - p.damping.w * vn;
+    // Friction is limited by the normal force, counted from the adhesive limit (Luding 2008), or by its size.
+    float bearing = choices.x == kCoulombLuding ? max(0.0, f + p.normal.z * m.overlap) : abs(fn);
 
     bool slides, rolls, twists;
     vec3 spring = h.slidingMax.xyz;
-    vec3 ft = frictionForce(p.sliding.x, p.sliding.y, p.sliding.z * bearing, m.normal, vt, dt, spring, slides);
+    vec3 ft = frictionForce(p.springs.x, p.damping.x, p.friction.x * bearing, m.normal, vt, dt, spring, slides);
     h.slidingMax.xyz = spring;
 
-    float lever = rollingLever(m.reduced, choices.z);
+    float lever = rollingLever(m.reduced, choices.y);
     spring = h.rollingTorsion.xyz;
-    vec3 fr = frictionForce(p.rolling.x, p.rolling.y, p.rolling.z * bearing, m.normal,
+    vec3 fr = frictionForce(p.springs.y, p.damping.y, p.friction.y * bearing, m.normal,
                             rollingVelocity(lever, m.normal, m.spin), dt, spring, rolls);
     h.rollingTorsion.xyz = spring;
 
     float twist = h.rollingTorsion.w;
-    float fto = torsionForce(p.torsion.x, p.torsion.y, p.torsion.z * bearing, lever * dot(m.normal, m.spin), dt, twist,
+    float fto = torsionForce(p.springs.z, p.damping.z, p.friction.z * bearing, lever * dot(m.normal, m.spin), dt, twist,
                              twists);
     h.rollingTorsion.w = twist;
 
-    return Response(m.normal * fn + ft, ft, lever * (cross(m.normal, fr) + m.normal * fto), f,
-                    -p.normal.w * vn, bvec3(slides, rolls, twists));
+    return Response(m.normal * fn + ft, ft, lever * (cross(m.normal, fr) + m.normal * fto), f, -p.damping.w * vn,
+                    bvec3(slides, rolls, twists));
 }
 
 #endif

@@ -1,15 +1,15 @@
-// What a contact does with energy in a step (host/backend/backend.h, EnergyBook, for the balance): each part of its
-// force takes some from the motion, stores some in its spring and loses the rest. Knows no buffers.
+// The energy of a contact in a step (host/backend/backend.h, EnergyBook, for the balance): each part of its force takes
+// some from the motion, stores some in its spring and loses the rest. Knows no tables.
 #ifndef VKDOSE_LAW_ENERGY_GLSL
 #define VKDOSE_LAW_ENERGY_GLSL
 
 #include "law/contact.glsl"
 
-/// What a contact exerted in a step and where, kept until the next; all zero if it did not touch.
+/// Force and place of a contact in a step, kept until the next; all zero if it did not touch.
 struct Exerted {
-    vec4 normal; // xyz: normal; w: force along it, without damping [N]
-    vec4 rest;   // xyz: damping and sliding force on i [N]; w: overlap [m]
-    vec4 couple; // xyz: rolling and torsion torque on i [N m]; w: energy of the normal spring [J]
+    vec4 normal;  // xyz: normal; w: force along it, without damping [N]
+    vec4 rest;    // xyz: damping and sliding force on i [N]; w: overlap [m]
+    vec4 couple;  // xyz: rolling and torsion torque on i [N m]; w: energy of the normal spring [J]
 };
 
 struct Book {
@@ -23,20 +23,20 @@ struct Book {
 struct Work {
     float hysteretic;
     float damping;
-    vec3 sliders; // sliding, rolling, torsion
+    vec3 sliders;  // sliding, rolling, torsion
 };
 
 /// Energy in the springs of a contact that exerts `f` with this history: normal, sliding, rolling, torsion [J].
 vec4 elasticEnergy(ContactParams p, float f, float reduced, History h) {
     vec4 twice = vec4(f * f / unloadingStiffness(p, reduced, h.slidingMax.w),
-                      p.sliding.x * dot(h.slidingMax.xyz, h.slidingMax.xyz),
-                      p.rolling.x * dot(h.rollingTorsion.xyz, h.rollingTorsion.xyz),
-                      p.torsion.x * h.rollingTorsion.w * h.rollingTorsion.w);
+                      p.springs.x * dot(h.slidingMax.xyz, h.slidingMax.xyz),
+                      p.springs.y * dot(h.rollingTorsion.xyz, h.rollingTorsion.xyz),
+                      p.springs.z * h.rollingTorsion.w * h.rollingTorsion.w);
     return 0.5 * twice;
 }
 
-/// What the force `e` takes in half a step `dt` [s] from a contact that moves with `velocity`, seen where the force
-/// acted, and `spin` (both of i relative to j).
+/// Work that the force `e` takes in half a step `dt` [s] from a contact that moves with `velocity`, seen where the
+/// force acted, and `spin` (both of i relative to j).
 Work halfStepWork(Exerted e, vec3 velocity, vec3 spin, float dt) {
     vec3 n = e.normal.xyz;
     float damping = dot(n, e.rest.xyz), twist = dot(n, e.couple.xyz);
@@ -63,14 +63,12 @@ Book bookContact(Exerted before, Exerted now, bool known, bool touching, vec4 st
     vec3 slipping = vec3(touching ? slips : bvec3(true));  // when a contact opens its springs snap
     vec3 friction = spent * slipping;
     float sticking = dot(spent, vec3(1.0) - slipping);
-    return Book(vec4(adhesive ? 0.0 : loss, adhesive ? loss : 0.0, a.damping + b.damping + sticking,
-                     taken - gained.x - loss),
-                vec4(friction, 0.0), vec4(0.0), stored);
+    return Book(
+        vec4(adhesive ? 0.0 : loss, adhesive ? loss : 0.0, a.damping + b.damping + sticking, taken - gained.x - loss),
+        vec4(friction, 0.0), vec4(0.0), stored);
 }
 
 /// Books the first of a contact that was loaded touching.
-Book bookLoaded(vec4 stored) {
-    return Book(vec4(0.0), vec4(-stored.yzw, 0.0), vec4(stored.x, 0.0, 0.0, 0.0), stored);
-}
+Book bookLoaded(vec4 stored) { return Book(vec4(0.0), vec4(-stored.yzw, 0.0), vec4(stored.x, 0.0, 0.0, 0.0), stored); }
 
 #endif

@@ -12,7 +12,7 @@ float normalForce(ContactParams p, float overlap, float reduced, inout float max
     maxOverlap = max(maxOverlap, overlap);
     if (range <= 0.0) return k1 * overlap;  // one stiffness: an elastic spring, nothing to remember
 
-    float limit = k2Max / range * p.sliding.w * reduced;  // delta*: the plastic limit
+    float limit = k2Max / range * p.normal.w * reduced;  // delta*: the plastic limit
     float effective = min(maxOverlap, limit);
     float k2 = k1 + range * min(1.0, maxOverlap / limit);
     float unloading = k2 * (overlap - effective) + k1 * effective;  // = k2 (delta - delta_0), without cancellation
@@ -30,7 +30,7 @@ float normalForce(ContactParams p, float overlap, float reduced, inout float max
 float unloadingStiffness(ContactParams p, float reduced, float maxOverlap) {
     float k1 = p.normal.x, range = p.normal.y - k1;
     if (range <= 0.0) return k1;
-    return k1 + range * min(1.0, maxOverlap * range / (p.normal.y * p.sliding.w * reduced));
+    return k1 + range * min(1.0, maxOverlap * range / (p.normal.y * p.normal.w * reduced));
 }
 
 #endif

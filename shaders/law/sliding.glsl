@@ -11,7 +11,7 @@ vec3 intoTangentPlane(vec3 spring, vec3 n) {
 }
 
 /// `v` tangential velocity [m/s], `limit` Coulomb force [N], `dt` advance of the spring [s]. Returns the force [N] that
-/// resists v; the spring [m] is what it will be at the next step, `slips` whether the slider does.
+/// resists v. `spring` [m] becomes the spring of the next step; `slips` tells whether the slider slips.
 vec3 frictionForce(float k, float gamma, float limit, vec3 n, vec3 v, float dt, inout vec3 spring, out bool slips) {
     spring = intoTangentPlane(spring, n) + v * dt;
     vec3 f = -k * spring - gamma * v;

@@ -7,7 +7,7 @@
 #include "shared/layout.h"
 
 struct Sphere {
-    vec3 high; // centre, high and low part [m]
+    vec3 high;  // centre, high and low part [m]
     vec3 low;
     float radius;
 };
@@ -72,8 +72,8 @@ Overlap tubeOverlap(SurfaceParams p, Sphere a) {
     return cylinderOverlap(p.radius.xy, d, p.pointLow.w, a.radius);
 }
 
-/// A wall along z that ends where `p.pointHigh.z` is: beyond, its closest point lies on that end's edge. `endless` is
-/// what there is to the wall without an end.
+/// A wall along z that ends at `p.pointHigh.z`: beyond, its closest point lies on that end's edge. `endless` is the
+/// overlap with the same wall without an end.
 Overlap upToEnd(SurfaceParams p, Sphere a, Overlap endless) {
     precise float past = (a.high.z - p.pointHigh.z) + (a.low.z - p.pointLow.z);
     if (p.pointLow.w == 0.0 || past <= 0.0) return endless;
@@ -99,12 +99,12 @@ Overlap frontOverlap(SurfaceParams p, Sphere a) {
     return throat;
 }
 
-const uint kApart = 0u;       // two contacts
-const uint kWallCounts = 1u;  // one, that with the wall
-const uint kFrontCounts = 2u; // one, that with the front wall, its rim or its throat
+const uint kApart = 0u;        // two contacts
+const uint kWallCounts = 1u;   // one, that with the wall
+const uint kFrontCounts = 2u;  // one, that with the front wall, its rim or its throat
 
-/// What a wall that ends at the front wall and the front wall are to a sphere that overlaps both: geometry/surface.h,
-/// jointContact.
+/// Whether a sphere that overlaps the front wall and a wall that ends there has two contacts or one, and which one:
+/// geometry/surface.h, jointContact.
 uint jointContact(Overlap wall, Overlap front, float radius) {
     bool wallDeeper = wall.depth >= front.depth;
     float most = max(wall.depth, front.depth), least = min(wall.depth, front.depth);

@@ -1,7 +1,7 @@
 // Arithmetic on unevaluated sums of two floats (high + low). Overlaps under gravity are half a micrometre while
 // positions are centimetres and radii millimetres: a plain float difference of distances is wrong by 1e-10 m, which at
-// the limit stiffness is a force of a particle's own weight in the smallest spheres. Sources: Dekker (1971), Numer. Math.
-// 18:224; Knuth, TAOCP 2, 4.2.2. `precise` keeps the compiler from "simplifying" the error terms away; no fused
+// the limit stiffness is a force of a particle's own weight in the smallest spheres. Sources: Dekker (1971), Numer.
+// Math. 18:224; Knuth, TAOCP 2, 4.2.2. `precise` keeps the compiler from "simplifying" the error terms away; no fused
 // multiply-add is assumed, because Vulkan does not promise one.
 #ifndef VKDOSE_LAW_TWOFLOAT_GLSL
 #define VKDOSE_LAW_TWOFLOAT_GLSL

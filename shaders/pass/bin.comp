@@ -1,6 +1,7 @@
 #version 450
-// bin: chains every moving particle into its cell. Built with and without TEXEL_READS (shared/buffers.glsl). Reads the state; writes heads and links. The order within a chain
-// depends on timing; `neighbours` sorts its rows, so that nothing after it does.
+// bin: chains every moving particle into its cell.
+// Reads the state; writes the cells' heads and chains. The order within a chain depends on timing; `neighbours` sorts
+// its rows, so that nothing after it does.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/buffers.glsl"
 #include "shared/cells.glsl"

@@ -1,4 +1,4 @@
-// Books of particles: what is not booked by a contact while it touches.
+// Books of particles. Contacts book for themselves while they touch (pass/slot_books.glsl); the rest is here.
 #ifndef VKDOSE_PASS_BOOKS_GLSL
 #define VKDOSE_PASS_BOOKS_GLSL
 
@@ -11,8 +11,8 @@ float workOnOneSide(Exerted e, Body b, float side) {
     return w.hysteretic + w.damping + dot(w.sliders, vec3(1.0));
 }
 
-/// Books a contact that touched until one of its particles, or both, left the motion: the energy in its springs is gone
-/// with them; what its last force still does to the one that stayed is booked here.
+/// Books a contact that touched until one of its particles, or both, left the motion. The energy in its springs is gone
+/// with them. Its last force still does work on a particle that stayed, which is booked here.
 void bookDeparture(uint i, uint slot) {
     History h = History(readHistory(0u, slot), readHistory(1u, slot));
     if (h.slidingMax.w <= 0.0) return;
@@ -22,28 +22,29 @@ void bookDeparture(uint i, uint slot) {
     stored.x = e.couple.w;
     float left = dot(stored, vec4(1.0));
     if (isPair) {
-        Body a = readBody(i), b = readBody(readEntry(slot).y);
+        Body a = readBody(i), b = readBody(entriesAt(slot).y);
         if (a.sphere.radius > 0.0) left += workOnOneSide(e, a, 1.0);
         if (b.sphere.radius > 0.0) left += workOnOneSide(e, b, -1.0);
     }
     books[bookIndex(kBookFlow, i)].y += left;
 }
 
-/// The same for what a particle that has left had in its contacts with the coil.
+/// The same for the contacts with the coil of a particle that has left.
 void bookDepartureFromCoil(uint i) {
     vec4 angles = coilHistory[wireAngleIndex(i)];
     for (uint t = 0u; t < kMaxTurns; ++t) {
         if (angles[t] == kNoTurn) continue;
         uint at = coilHistoryIndex(t, 0u, i);
-        vec4 stored = elasticEnergy(lawOf(kParticleCoil), 0.0, 1.0,
-                                    History(coilHistory[at], coilHistory[at + push.particles]));
+        vec4 stored =
+            elasticEnergy(lawOf(kParticleCoil), 0.0, 1.0, History(coilHistory[at], coilHistory[at + push.particles]));
         stored.x = coilHistory[at + 4u * push.particles].w;
         books[bookIndex(kBookFlow, i)].y += dot(stored, vec4(1.0));
     }
 }
 
-/// Adds what the particle's own contacts booked in this step (fields as in shared/layout.h), the coil's work, what came
-/// with the load and what leaves with the particle. Velocities before and after the kick.
+/// Adds to the particle's book the books of its own contacts in this step (fields as in shared/layout.h), the coil's
+/// work, the energy that came with the load and the energy that leaves with the particle. Velocities are those before
+/// and after the kick.
 void bookStep(uint i, vec4 normal, vec4 sliders, vec3 centre, float r, float mass, vec3 velocity, vec3 spin,
               vec3 newVelocity, vec3 newSpin, float coilTorque, bool leaves) {
     bool first = opening();
@@ -51,8 +52,7 @@ void bookStep(uint i, vec4 normal, vec4 sliders, vec3 centre, float r, float mas
     vec4 flow = books[bookIndex(kBookFlow, i)];
     float coilWork = -0.5 * springDt * member.coil.motion.x * (flow.z + coilTorque);
     vec3 v = first ? 2.0 * velocity - newVelocity : velocity, w = first ? 2.0 * spin - newSpin : spin;
-    float motion =
-        mass * (0.5 * dot(v, newVelocity) + 0.2 * r * r * dot(w, newSpin) - dot(gravity().xyz, centre));
+    float motion = mass * (0.5 * dot(v, newVelocity) + 0.2 * r * r * dot(w, newSpin) - dot(gravity().xyz, centre));
     flow.x += sliders.w + (first ? motion : 0.0);
     if (leaves) flow.y += motion;
     flow.z = leaves ? 0.0 : coilTorque;

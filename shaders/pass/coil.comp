@@ -1,7 +1,7 @@
 #version 450
-// coil: what the turning coil exerts in this step, one particle near it per invocation with all its contacts.
-// Built with and without TEXEL_READS, PACKED_STORES (shared/buffers.glsl) and ENERGY_BOOK.
-// Reads the source half of the state, entries, the coil's history; writes it, forces and torques, which `move` gathers.
+// coil: computes the contacts with the turning coil in this step, one particle near it per invocation.
+// Reads the source half of the state, entries, the coil's history; writes that history, forces and torques, which
+// `move` gathers, and the sum of the particle's torque on the coil, which `sense` reads.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/buffers.glsl"
 #include "pass/wall.glsl"
@@ -36,9 +36,9 @@ void main() {
     float springDt = springStep();
     if (invocation() >= control.listed.z) return;
     uint slot = firstCoilSlot() + invocation();
-    uint i = readEntry(slot).x;
+    uint i = entriesAt(slot).x;
     Body me = readBody(i);
-    vec4 angles = readCoilHistory(wireAngleIndex(i));
+    vec4 angles = coilHistoryAt(wireAngleIndex(i));
     CoilView view = coilView(coil, coilTurn(coil.phase, push.stepInBatch), me.sphere);
     uint trouble = kEmpty;
     uint trips = coilCandidates(coil, view), candidates = 0u;
@@ -68,7 +68,7 @@ void main() {
         angles[turn] = touch.wireAngle;
 
         uint at = coilHistoryIndex(turn, 0u, i);
-        vec4 old0 = readCoilHistory(at), old1 = readCoilHistory(at + push.particles);
+        vec4 old0 = coilHistoryAt(at), old1 = coilHistoryAt(at + push.particles);
         History h = History(known ? old0 : vec4(0.0), known ? old1 : vec4(0.0));
 #ifdef ENERGY_BOOK
         History old = h;
@@ -82,7 +82,7 @@ void main() {
         coilHistory[at + push.particles] = h.rollingTorsion;
         force += f.force;
         torque += f.torque;
-        writeForce(turnForceIndex(turn, slot), vec4(f.force, 0.0));  // for who asks after single contacts
+        writeForce(turnForceIndex(turn, slot), vec4(f.force, 0.0));  // the host asks for single contacts
         coilTorque -= point.x * f.force.y - point.y * f.force.x + f.couple.z;
         overlap = max(overlap, o.depth / me.sphere.radius);
 #ifdef ENERGY_BOOK
@@ -99,4 +99,5 @@ void main() {
     if (trouble != kEmpty) report(trouble, i);
     writeForce(slot, vec4(force, overlap));
     writeTorque(slot, vec4(torque, coilTorque));
+    coilTorques[i] += coilTorque;
 }

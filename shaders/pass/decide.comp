@@ -1,15 +1,16 @@
 #version 450
-// decide: ends a step: keeps every member's first error, says which members start the next step with new rows or new
-// contact lists, and sizes the dispatches for that. One workgroup, each invocation for some of the members.
-// Everything that particles ask for comes through one word (Control.call), because lavapipe makes every atomic that a
-// pass contains, needed or not: with a dozen of them `move` took two thirds longer.
+// decide: ends a step. Keeps every member's first error, says which members start the next step with new rows or new
+// contact lists, and sizes the dispatches for that. One workgroup, each invocation for some of the members. Reads and
+// writes the controls.
+// All calls of particles come through one word (Control.call), because lavapipe runs every atomic that a pass contains,
+// needed or not: with a dozen of them `move` took two thirds longer.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/buffers.glsl"
 #include "pass/slack.glsl"
 
 /// The wire of a turning coil is a helix on its way along the axis.
 bool coilDrifts() {
-    if (member.coil.motion.z == 0.0) return false;
+    if (!hasCoil()) return false;
     control.drift.x += abs(member.coil.motion.x / member.coil.pitch.w) * numerics().x;
     return control.drift.x > coilSlack();
 }

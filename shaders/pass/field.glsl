@@ -1,18 +1,15 @@
-// What the field passes share: their buffers, the kernel, and which contacts there are. They bind tables of their own in
-// the places of four that they have no use for. Positions are offsets from the grid's lower corner. A contact is numbered
-// as its force is (shared/buffers.glsl): by its slot, one with the coil by the slot's turn.
+// The common part of the field passes: their tables, the kernel, and which contacts there are. Positions are offsets
+// from the grid's lower corner. A contact is numbered as its force is (forces in shared/tables.h): by its slot, one
+// with the coil by the slot's turn.
 #ifndef VKDOSE_PASS_FIELD_GLSL
 #define VKDOSE_PASS_FIELD_GLSL
 
-// The fields: vec4[points][kFieldVectors].
-layout(std430, set = 0, binding = 9) buffer GridBuffer { vec4 grid[]; };
-// One over the integral of a kernel over the grid, zero outside: float[particles], then float[contacts][kFieldNodes];
-// then float[particles]: how many others touch each.
-layout(std430, set = 0, binding = 11) buffer WeightBuffer { float weights[]; };
-layout(std430, set = 0, binding = 12) readonly buffer FieldBuffer { FieldParams field; };
-// Of each contact: its branch, from the other's centre or the wall to the particle, when the force acted; w: 1 if it
-// touched.
-layout(std430, set = 0, binding = 15) buffer BranchBuffer { vec4 branches[]; };
+#define TABLE(number, name, element, count, title) \
+    layout(std430, set = 0, binding = number) buffer name##Buffer { element name[]; };
+#define PARAMETERS(number, name, element, count, title) \
+    layout(std430, set = 0, binding = number) readonly buffer name##Buffer { element name[]; };
+#include "shared/field_tables.h"
+#define field fields[0]
 
 // Gauss-Legendre on [0, 1] (host/model/field.h).
 const vec4 kNodes = vec4(0.06943184420297371, 0.33000947820757187, 0.66999052179242813, 0.93056815579702629);

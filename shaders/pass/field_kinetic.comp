@@ -6,8 +6,8 @@
 #include "shared/buffers.glsl"
 #include "pass/tile.glsl"
 
-vec3 mean;              // velocity of the field here
-vec3 squares, mixed;    // xx, yy, zz; yz, zx, xy
+vec3 mean;            // velocity of the field here
+vec3 squares, mixed;  // xx, yy, zz; yz, zx, xy
 
 void add(uint i) {
     float r = state[stateIndex(push.source, kPosition, i)].w;

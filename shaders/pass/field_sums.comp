@@ -1,7 +1,7 @@
 #version 450
-// field_sums: adds a slice of particles to the fields that are plain sums: density, momentum, number, touching neighbours
-// and contact stress. One point of the grid per invocation; the slices follow each other.
-// Reads the source half of the state, links, entries, forces, branches, weights; writes the grid.
+// field_sums: adds a slice of particles to the fields that are plain sums: density, momentum, number, touching
+// neighbours and contact stress. One point of the grid per invocation; the slices follow each other. Reads the source
+// half of the state, links, entries, forces, branches, weights; writes the grid.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/buffers.glsl"
 #include "pass/tile.glsl"

@@ -1,7 +1,8 @@
 #version 450
-// field_weights: what the kernel around a place adds up to over the grid, one place per invocation: the particles of the
-// member, whose touching neighbours are counted as well, then, if contact stress is wanted, the nodes of the branches of its
-// contacts. Reads the source half of the state (of a branch the other), entries, links, forces, branches; writes weights.
+// field_weights: adds up the kernel around a place over the grid, one place per invocation. The places are the member's
+// particles, whose touching neighbours are counted as well; then, if contact stress is wanted, the nodes of the
+// branches of its contacts. Reads the source half of the state (of a branch the other), entries, links, forces,
+// branches; writes weights.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/buffers.glsl"
 #include "pass/field.glsl"
@@ -41,7 +42,7 @@ void main() {
     uint k = invocation();
     if (k < push.share) {
         uint i = firstParticle() + k;
-        bool active_ = uint(state[stateIndex(push.source, kSpin, i)].w) == kActive;
+        bool active_ = uint(state[stateIndex(push.source, kSpin, i)].w) == kStatusActive;
         weights[i] = active_ ? weightAt(offsetOf(push.source, i)) : 0.0;
         weights[touchesIndex(i)] = active_ ? touching(i) : 0.0;
         return;

@@ -1,7 +1,7 @@
 #version 450
-// link: makes the lists that `near` prepared the current ones, and tells every particle the slots of the contacts it takes
-// part in, in an order that no timing changes. Built with and without TEXEL_READS and ENERGY_BOOK.
-// Reads state, rows, coming entries, carried history; writes entries, history, links and their ranges, list anchors.
+// link: makes the lists that `near` prepared the current ones. Lists for every particle the slots of its contacts, in
+// an order that no timing changes. Reads state, rows, coming entries, carried history; writes entries, history, links
+// and their ranges, list anchors.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/buffers.glsl"
 #include "pass/margin.glsl"
@@ -15,7 +15,7 @@ void adopt(uint slot) {
 
 /// The slot of the pair (j, i) among those that j owns.
 uint slotOfOwner(uint j, uint i) {
-    uvec4 own = readRange(slotRangeIndex(j));
+    uvec4 own = rangesAt(slotRangeIndex(j));
     uint slot = kEmpty;
     for (uint k = 0u; k < own.y; ++k)
         if (entries[comingEntryIndex(own.x + k)].y == i) slot = own.x + k;
@@ -28,11 +28,11 @@ void main() {
     uint i = firstParticle() + invocation();
     vec4 p = readState(push.source, kPosition, i);
     float slack = slackOfParticle(i);
-    uvec4 range = readRange(rowRangeIndex(i)), own = readRange(slotRangeIndex(i));
+    uvec4 range = rangesAt(rowRangeIndex(i)), own = rangesAt(slotRangeIndex(i));
 
     uint count = 0u, mine = own.x;
     for (uint s = 0u; s < range.y; ++s) {
-        uint j = readRow(range.x + s);
+        uint j = rowsAt(range.x + s);
         if (!nearPair(p, slack, readState(push.source, kPosition, j), slackOfParticle(j))) continue;
         uint slot = mine;
         if (j > i)

@@ -1,4 +1,4 @@
-// Which contacts the lists hold: all that can touch while every particle and the coil keep within their slack.
+// The contacts that the lists hold: all that can touch while every particle and the coil keep within their slack.
 #ifndef VKDOSE_PASS_MARGIN_GLSL
 #define VKDOSE_PASS_MARGIN_GLSL
 
@@ -16,16 +16,15 @@ bool nearPair(vec4 p, float slackP, vec4 q, float slackQ) {
 }
 
 bool nearTheCoil(Sphere a, float slack) {
+    if (!hasCoil() || a.radius < 0.0) return false;
     CoilParams coil = member.coil;
-    if (coil.motion.z == 0.0 || a.radius < 0.0) return false;
     return nearCoil(coil, coilTurn(coil.phase, push.stepInBatch), a, slack + coilSlack());
 }
 
 // The kind is known when the pipeline is made, so that all but one branch of surfaceGap fold away, and the parameters
 // are read outside any branch. One line per surface, because drivers differ in which loops they unroll.
-#define PROBE(s)                                                                                    \
-    if (s < SURFACES)                                                                               \
-        near |= surfaceGap((KINDS >> (4u * s)) & 15u, member.surface[s], a) < reach ? 1u << s : 0u;
+#define PROBE(s) \
+    if (s < SURFACES) near |= surfaceGap((KINDS >> (4u * s)) & 15u, member.surface[s], a) < reach ? 1u << s : 0u;
 
 /// Surfaces, a bit each.
 uint nearSurfaces(Sphere a, float slack) {

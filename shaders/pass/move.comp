@@ -1,10 +1,10 @@
 #version 450
-// move: gathers the forces on one particle per invocation and moves it a time step. Built with and without TEXEL_READS,
-// PACKED_STORES (shared/buffers.glsl) and ENERGY_BOOK.
-// Reads the source half of the state, links, forces and torques, anchors; writes the destination half; calls for a refresh
-// of the contact lists or a rebuild of the rows when the particle has moved as far as they allow for.
+// move: gathers the forces on one particle per invocation and moves it a time step.
+// Reads the source half of the state, links, forces and torques, anchors; writes the other half. Calls for a refresh of
+// the contact lists or a rebuild of the rows when the particle has moved as far as they allow for.
 //
-// The sum runs in the order of the links: other particles by ascending index, surfaces, coil; wherever their slots are.
+// The sum runs in the order of the links: other particles by ascending index, surfaces, coil. It does not depend on
+// where their slots are.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/buffers.glsl"
 #include "pass/slack.glsl"
@@ -29,23 +29,24 @@ void main() {
     vec4 spin4 = readState(push.source, kSpin, i);
     vec3 rowAnchor = readAnchor(kRowAnchor, i).xyz;
     vec4 listAnchor = readAnchor(kListAnchor, i);  // w: slack
-    uvec4 range = readRange(rowRangeIndex(i));
-    bool moving = uint(spin4.w) == kActive;
+    uvec4 range = rangesAt(rowRangeIndex(i));
+    bool moving = uint(spin4.w) == kStatusActive;
 
     // A particle out of the motion has no links, so that all it does is copy itself.
     vec3 force = vec3(0.0), torque = vec3(0.0);
-    float coilTorque = 0.0, overlap = 0.0;
+    float overlap = 0.0;
 #ifdef ENERGY_BOOK
+    float coilTorque = 0.0;
     vec4 normal = vec4(0.0), sliders = vec4(0.0);
 #endif
     for (uint k = 0u; k < range.w; ++k) {
-        uint link = readRow(linkIndex(range.z + k));
-        vec4 f = readForce(link >> 1u), t = readTorque(link & 1u, link >> 1u);
+        uint link = rowsAt(linkIndex(range.z + k));
+        vec4 f = forcesAt(link >> 1u), t = readTorque(link & 1u, link >> 1u);
         force += (link & 1u) == 0u ? f.xyz : -f.xyz;
         torque += t.xyz;
-        coilTorque += t.w;
         overlap = max(overlap, f.w);
 #ifdef ENERGY_BOOK
+        coilTorque += t.w;
         if ((link & 1u) == 0u) {
             normal += books[slotBookIndex(kBookNormal, link >> 1u)];
             sliders += books[slotBookIndex(kBookSliders, link >> 1u)];
@@ -67,28 +68,28 @@ void main() {
 
     bool sound = finite(high) && finite(velocity) && finite(spin);
     bool outside = any(lessThan(high, bottom.xyz)) || any(greaterThan(high, top.xyz));
-    uint now = !sound ? kLost : high.z > top.w ? kDosed : outside ? kLost : kActive;
-    bool leaves = moving && now != kActive;
+    uint now = !sound ? kStatusLost : high.z > top.w ? kStatusDosed : outside ? kStatusLost : kStatusActive;
+    bool leaves = moving && now != kStatusActive;
 
-    // Whenever lists are made of them, the rows must hold what is within the slack as well.
+    // Lists may be made from the rows at any time, so the rows must always hold all that is within the slack.
     bool rebuild = leaves || beyond(high - rowAnchor, (1.0 - kMostSlack) * slackUnit());
     bool refresh = beyond(high - listAnchor.xyz, listAnchor.w);
-    uint call = !sound                   ? kErrorNan
-                : overlap > numbers.w   ? kErrorOverlap
-                : now == kLost           ? kErrorLost
-                : rebuild                ? kCallRebuild
-                                         : kCallRefresh;
+    uint call = !sound                ? kErrorNan
+                : overlap > numbers.w ? kErrorOverlap
+                : now == kStatusLost  ? kErrorLost
+                : rebuild             ? kCallRebuild
+                                      : kCallRefresh;
     if (moving && (call < kErrors || rebuild || refresh)) report(call, i);
 
 #ifdef ENERGY_BOOK
     if (moving)
-        bookStep(i, normal, sliders, position.xyz, r, mass, velocity4.xyz, spin4.xyz, velocity, spin, coilTorque, leaves);
+        bookStep(i, normal, sliders, position.xyz, r, mass, velocity4.xyz, spin4.xyz, velocity, spin, coilTorque,
+                 leaves);
 #endif
 
     uint to = 1u - push.source;
     float radius = leaves ? -position.w : position.w;  // a negative radius touches nothing
-    writeState(to, kPosition, i, moving ? vec4(high, radius) : position,
-               moving ? vec4(low, residue.w + coilTorque) : residue);
+    writeState(to, kPosition, i, moving ? vec4(high, radius) : position, moving ? vec4(low, 0.0) : residue);
     writeState(to, kVelocity, i, moving ? vec4(velocity, max(velocity4.w, overlap)) : velocity4,
                moving ? vec4(spin, float(now)) : spin4);
 }

@@ -1,12 +1,11 @@
 #version 450
-// near: lists the contacts that can come about before the next refresh and gives each a slot: pairs to their particle of
-// smaller index, surfaces and the coil. Built with and without TEXEL_READS and ENERGY_BOOK.
-// Reads state, rows, current entries, links and history; writes the coming entries, the history carried to them and the
-// ranges of own slots. `link` then makes them current. Which slot a contact gets depends on timing; nothing that moves a
-// particle depends on the slot.
+// near: lists the contacts that can come about before the next refresh and gives each a slot. The particle of smaller
+// index lists a pair. Reads state, rows, current entries, links and history; writes the coming entries, the history
+// carried to them and the ranges of own slots. `link` then makes them current. Which slot a contact gets depends on
+// timing; nothing that moves a particle depends on the slot.
 //
-// The rows alone would do. But they hold three times what touches, and with a slack of a hundredth of a radius instead
-// of their skin nearly every slot is a touching contact, which keeps all lanes of `pairs` busy.
+// The rows alone would do. But of three contacts in them one touches. The slack is a hundredth of a radius instead of
+// the rows' skin, so nearly every slot is a touching contact, which keeps all lanes of `pairs` busy.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/buffers.glsl"
 #include "pass/margin.glsl"
@@ -17,7 +16,7 @@
 uint partners[kMaxRow];
 uint pairs, surfaces, firstPair, firstSurface;
 
-/// The coming slot of what the contact `slot` joins; kEmpty if the two are no longer near.
+/// The coming slot of the contact that is in `slot` now; kEmpty if its two bodies are no longer near.
 uint comingSlot(uint slot, uint other) {
     uint to = kEmpty;
     if (ofPair(slot)) {
@@ -34,8 +33,8 @@ void prepare(uint slot, uint i, uint other) {
     for (uint part = 0u; part < kParts; ++part) carried[historyIndex(part, slot)] = vec4(0.0);
 }
 
-/// Whether a wall that ends at the front wall and the rim or throat may become one contact, or part, before the next
-/// refresh: in front of the wall itself they cannot.
+/// Whether before the next refresh the contact with a wall that ends at the front wall may become one with that with
+/// the rim or throat, or part from it. In front of the front wall itself it cannot.
 bool joinsAtFront(Sphere me, float slack) {
     bool both = (surfaces & (1u << FRONT)) != 0u && bitCount(surfaces) > 1u;
     return joints() && both && length(me.high.xy) < frontSurface().radius.x + slack + 1e-7;
@@ -48,11 +47,11 @@ void main() {
     vec4 p = readState(push.source, kPosition, i);
     Sphere me = Sphere(p.xyz, vec3(0.0), p.w);
     float slack = slackOfParticle(i);
-    uvec4 range = readRange(rowRangeIndex(i));
+    uvec4 range = rangesAt(rowRangeIndex(i));
 
     pairs = 0u;
     for (uint s = 0u; s < range.y; ++s) {
-        uint j = readRow(range.x + s);
+        uint j = rowsAt(range.x + s);
         if (j > i && nearPair(p, slack, readState(push.source, kPosition, j), slackOfParticle(j))) {
             partners[pairs] = j;
             ++pairs;
@@ -86,19 +85,18 @@ void main() {
     for (uint once = coil; once > 0u; --once) entries[comingEntryIndex(firstCoil)] = uvec2(i, 0u);
 
     for (uint k = 0u; k < range.w; ++k) {
-        uint link = readRow(linkIndex(range.z + k)), slot = link >> 1u;
+        uint link = rowsAt(linkIndex(range.z + k)), slot = link >> 1u;
         if ((link & 1u) != 0u) continue;  // the other particle's
         if (slot >= springSlots()) continue;
-        uint to = comingSlot(slot, readEntry(slot).y);
+        uint to = comingSlot(slot, entriesAt(slot).y);
         if (to != kEmpty) {
-            for (uint part = 0u; part < kParts; ++part)
-                carried[historyIndex(part, to)] = readHistory(part, slot);
+            for (uint part = 0u; part < kParts; ++part) carried[historyIndex(part, to)] = readHistory(part, slot);
         }
 #ifdef ENERGY_BOOK
         if (to == kEmpty) bookDeparture(i, slot);
 #endif
     }
-    if (p.w < 0.0 && member.coil.motion.z != 0.0) {
+    if (p.w < 0.0 && hasCoil()) {
 #ifdef ENERGY_BOOK
         bookDepartureFromCoil(i);
 #endif

@@ -1,8 +1,8 @@
 #version 450
-// neighbours: builds the rows, sorted by index. Built with and without TEXEL_READS (shared/buffers.glsl).
+// neighbours: builds the rows, sorted by index.
 // Reads state and cells; writes rows, their ranges and the anchors of the rows. A row lists every particle closer than
-// the sum of radii + skin, so it stays complete until some particle has moved half the skin from its anchor. Where in the
-// table a row lies depends on timing; nothing that moves a particle depends on it.
+// the sum of radii + skin, so it stays complete until some particle has moved half the skin from its anchor. Where in
+// the table a row lies depends on timing; nothing that moves a particle depends on it.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/buffers.glsl"
 #include "shared/cells.glsl"
@@ -10,7 +10,8 @@
 uint row[kMaxRow];
 
 // Particles looked at for one row. Spheres of sizes that a row of kMaxRow holds stay far below. lavapipe ends all loops
-// of a subgroup after 65535 trips together, silently: 8 rows of this, with the loops that sort them, stay below as well.
+// of a subgroup after 65535 trips together, silently: 8 rows of this, with the loops that sort them, stay below as
+// well.
 const uint kMostVisits = 4096u;
 
 void insertSorted(uint j, uint count) {

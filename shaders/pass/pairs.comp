@@ -1,6 +1,5 @@
 #version 450
-// pairs: what two particles exert on each other in this step, one listed pair per invocation.
-// Built with and without TEXEL_READS, PACKED_STORES (shared/buffers.glsl) and ENERGY_BOOK.
+// pairs: computes the contacts between particles in this step, one listed pair per invocation.
 // Reads the source half of the state, entries, history; writes history, forces and torques, which `move` gathers. A
 // contact that does not touch exerts nothing and remembers nothing.
 #extension GL_GOOGLE_include_directive : require
@@ -12,7 +11,7 @@
 #endif
 
 void main() {
-    // What is the same for all comes before any branch: there lavapipe reads it once, behind it lane by lane.
+    // These are the same for all invocations. lavapipe reads them once here, but lane by lane behind a branch.
     openMember();
     ContactParams law = lawOf(kParticleParticle);
     uvec4 chosen = choices();
@@ -20,7 +19,7 @@ void main() {
     if (invocation() >= control.listed.x) return;
     uint slot = firstPairSlot() + invocation();
 
-    uvec2 who = readEntry(slot);
+    uvec2 who = entriesAt(slot);
     Body a = readBody(who.x), b = readBody(who.y);
     History h = History(readHistory(0u, slot), readHistory(1u, slot));
 #ifdef ENERGY_BOOK

@@ -1,7 +1,7 @@
 #version 450
-// sense: one record per workgroup of what the host wants to know (shared/layout.h, SensorRecord); the host adds the
-// records up in double precision. Reads the source half of the state; resets the accumulators in it. The order of every
-// sum is fixed by the tree.
+// sense: sums the sensors of the host, one record per workgroup (shared/layout.h, SensorRecord); the host adds the
+// records up in double precision. Reads the source half of the state and the torques on the coil; writes the records
+// and empties the accumulators: the largest overlap in the state, and the torques. A tree fixes the order of every sum.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/buffers.glsl"
 
@@ -14,7 +14,6 @@ void main() {
     openMember();
     uint i = firstParticle() + invocation(), lane = gl_LocalInvocationID.x;
     vec4 position = state[stateIndex(push.source, kPosition, i)];
-    vec4 residue = state[stateIndex(push.source, kResidue, i)];
     vec4 velocity = state[stateIndex(push.source, kVelocity, i)];
     vec4 spin = state[stateIndex(push.source, kSpin, i)];
     uint status = uint(spin.w);
@@ -22,18 +21,24 @@ void main() {
     float m = member.gravity.w * (4.0 / 3.0 * 3.14159265358979) * r * r * r;
 
     uint region = kEmpty;
-    if (status == kActive) region = position.z > member.domainLow.w ? 1u : 0u;
-    if (status == kDosed) region = 2u;
-    if (status == kLost) region = 3u;
-    uvec4 here = uvec4(equal(uvec4(region), uvec4(0u, 1u, 2u, 3u)));
+    if (status == kStatusActive) region = position.z > member.domainLow.w ? kRegionThroat : kRegionCanister;
+    if (status == kStatusDosed) region = kRegionDosed;
+    if (status == kStatusLost) region = kRegionLost;
+    uvec4 regions = uvec4(kRegionCanister, kRegionThroat, kRegionDosed, kRegionLost);
+    uvec4 here = uvec4(equal(uvec4(region), regions));
+    float coilTorque = 0.0;
+    if (hasCoil()) {
+        coilTorque = coilTorques[i];
+        coilTorques[i] = 0.0;
+    }
     count[lane] = here;
     mass[lane] = m * vec4(here);
-    float active_ = status == kActive ? 1.0 : 0.0;
-    motion[lane] = vec4(active_ * 0.5 * m * dot(velocity.xyz, velocity.xyz),
-                        active_ * 0.2 * m * r * r * dot(spin.xyz, spin.xyz), float(here.y) * m * velocity.z, residue.w);
+    float active_ = status == kStatusActive ? 1.0 : 0.0;
+    motion[lane] =
+        vec4(active_ * 0.5 * m * dot(velocity.xyz, velocity.xyz), active_ * 0.2 * m * r * r * dot(spin.xyz, spin.xyz),
+             float(here[kRegionThroat]) * m * velocity.z, coilTorque);
     overlap[lane] = velocity.w;
-    if (status != kPadding) {
-        state[stateIndex(push.source, kResidue, i)] = vec4(residue.xyz, 0.0);
+    if (status != kStatusPadding) {
         state[stateIndex(push.source, kVelocity, i)] = vec4(velocity.xyz, 0.0);
     }
 
@@ -47,5 +52,6 @@ void main() {
         }
     }
     if (lane == 0u)
-        sensors[i / gl_WorkGroupSize.x] = SensorRecord(count[0], mass[0], motion[0], vec4(overlap[0], 0.0, 0.0, 0.0));
+        records[i / gl_WorkGroupSize.x].sensors =
+            SensorRecord(count[0], mass[0], motion[0], vec4(overlap[0], 0.0, 0.0, 0.0));
 }

@@ -1,8 +1,8 @@
 #version 450
-// sense_energy: one record per workgroup of the energy book (shared/layout.h, EnergyRecord), with the energies of motion
-// and gravity at the full step before the last kick. Reads both halves of the state, the other one being what the last
-// step started from, and the books of the contacts; push.opening tells that it was the opening step. Resets what the book
-// accumulates. Only ENERGY_BOOK (shared/buffers.glsl) exists of it.
+// sense_energy: sums the energy book, one record per workgroup (shared/layout.h, EnergyRecord), with the energies of
+// motion and gravity at the full step before the last kick. Reads both halves of the state, of which the other one is
+// where the last step started from, and the books of the contacts. push.opening tells that it was the opening step.
+// Writes the records and empties the books of the particles.
 #extension GL_GOOGLE_include_directive : require
 #define ENERGY_BOOK
 #include "shared/buffers.glsl"
@@ -25,22 +25,22 @@ void main() {
         oldSpin = 2.0 * oldSpin - spin.xyz;
     }
     float r = abs(position.w);
-    bool moving = uint(spin.w) == kActive;
+    bool moving = uint(spin.w) == kStatusActive;
     float m = moving ? gravity.w * (4.0 / 3.0 * 3.14159265358979) * r * r * r : 0.0;
     float inertia = 0.4 * m * r * r;
 
-    uvec4 range = readRange(rowRangeIndex(i));
+    uvec4 range = rangesAt(rowRangeIndex(i));
     vec4 elastic = vec4(0.0);
     for (uint k = 0u; k < range.w; ++k) {
-        uint link = readRow(linkIndex(range.z + k));
+        uint link = rowsAt(linkIndex(range.z + k));
         if ((link & 1u) == 0u) elastic += books[slotBookIndex(kBookElastic, link >> 1u)];
     }
     vec4 flow = books[bookIndex(kBookFlow, i)];
-    record[lane] = EnergyRecord(
-        books[bookIndex(kBookNormal, i)], books[bookIndex(kBookSliders, i)],
-        vec4(flow.xy, 0.5 * m * dot(oldVelocity, velocity), 0.5 * inertia * dot(oldSpin, spin.xyz)),
-        elastic, vec4(m * velocity, -m * dot(gravity.xyz, start)),
-        vec4(m * cross(position.xyz, velocity) + inertia * spin.xyz, 0.0));
+    record[lane] =
+        EnergyRecord(books[bookIndex(kBookNormal, i)], books[bookIndex(kBookSliders, i)],
+                     vec4(flow.xy, 0.5 * m * dot(oldVelocity, velocity), 0.5 * inertia * dot(oldSpin, spin.xyz)),
+                     elastic, vec4(m * velocity, -m * dot(gravity.xyz, start)),
+                     vec4(m * cross(position.xyz, velocity) + inertia * spin.xyz, 0.0));
     books[bookIndex(kBookNormal, i)] = vec4(0.0);
     books[bookIndex(kBookSliders, i)] = vec4(0.0);
     books[bookIndex(kBookFlow, i)] = vec4(0.0, 0.0, flow.zw);
@@ -57,5 +57,5 @@ void main() {
             record[lane].angular += other.angular;
         }
     }
-    if (lane == 0u) energies[i / gl_WorkGroupSize.x] = record[0];
+    if (lane == 0u) records[i / gl_WorkGroupSize.x].energy = record[0];
 }

@@ -37,7 +37,8 @@ vec3 pairVelocity(Exerted e, Body a, Body b) {
 }
 
 /// `old` and `h` are the history before and after the step.
-void bookPair(ContactParams law, float springDt, uint slot, Body a, Body b, Overlap o, Response r, bool touching, History old, History h) {
+void bookPair(ContactParams law, float springDt, uint slot, Body a, Body b, Overlap o, Response r, bool touching,
+              History old, History h) {
     bool known = old.slidingMax.w > 0.0;
     Exerted before = exertedBefore(slot, known), now = kNothing;
     float ra = a.sphere.radius, rb = b.sphere.radius, reduced = 2.0 * ra * rb / (ra + rb);
@@ -79,8 +80,8 @@ Book bookWall(ContactParams law, float springDt, float rate, Body me, Exerted be
 }
 
 /// `before` is what the contact exerted in the last step, `old` and `h` its history before and after this one.
-void bookSurface(ContactParams law, float springDt, uint slot, Body me, Overlap o, Response r, bool touching, Exerted before,
-                 History old, History h) {
+void bookSurface(ContactParams law, float springDt, uint slot, Body me, Overlap o, Response r, bool touching,
+                 Exerted before, History old, History h) {
     bool known = old.slidingMax.w > 0.0;
     Exerted now = kNothing;
     vec4 stored = vec4(0.0);
@@ -98,12 +99,13 @@ Book coilBook;
 
 void openCoilBook() { coilBook = Book(vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0)); }
 
-void bookCoil(ContactParams law, float springDt, float rate, uint i, uint turn, Body me, Overlap o, Response r, bool known, bool touching, History old, History h) {
+void bookCoil(ContactParams law, float springDt, float rate, uint i, uint turn, Body me, Overlap o, Response r,
+              bool known, bool touching, History old, History h) {
     uint at = coilHistoryIndex(turn, 2u, i);
     Exerted before = kNothing, now = kNothing;
     if (known)
-        before = Exerted(readCoilHistory(at), readCoilHistory(at + push.particles),
-                         readCoilHistory(at + 2u * push.particles));
+        before =
+            Exerted(coilHistoryAt(at), coilHistoryAt(at + push.particles), coilHistoryAt(at + 2u * push.particles));
     vec4 stored = vec4(0.0);
     if (touching) {
         stored = elasticEnergy(law, r.hysteretic, 2.0 * me.sphere.radius, h);
@@ -124,7 +126,7 @@ void partCoil(ContactParams law, float springDt, float rate, uint i, Body me, ve
     for (uint t = 0u; t < kMaxTurns; ++t) {
         if (was[t] == kNoTurn || (met & (1u << t)) != 0u) continue;
         uint at = coilHistoryIndex(t, 0u, i);
-        History old = History(readCoilHistory(at), readCoilHistory(at + push.particles));
+        History old = History(coilHistoryAt(at), coilHistoryAt(at + push.particles));
         bookCoil(law, springDt, rate, i, t, me, kNoOverlap, kNoResponse, true, false, old, old);
     }
 }

@@ -1,11 +1,11 @@
 #version 450
-// surfaces: what the fixed surfaces exert in this step, one listed contact per invocation.
-// Built with and without TEXEL_READS, PACKED_STORES (shared/buffers.glsl) and ENERGY_BOOK.
+// surfaces: computes the contacts with the fixed surfaces in this step, one listed contact per invocation.
 // Reads the source half of the state, entries, history; writes history, forces and torques, which `move` gathers.
 // A contact that does not touch exerts nothing and remembers nothing.
 //
-// Where walls go on into the throat, two surfaces may overlap a sphere in what is one contact, and the history passes from
-// one to the other. So all surfaces of a sphere at the rim are the work of the first one's invocation; `near` says where.
+// Where walls go on into the throat, two surfaces may overlap a sphere in one contact, and the history passes from one
+// to the other. So one invocation, the first one's, computes all contacts of a sphere at the rim; `near` tells it how
+// many they are.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/buffers.glsl"
 #include "pass/wall.glsl"
@@ -13,7 +13,7 @@
 #include "pass/slot_books.glsl"
 #endif
 
-/// What a slot keeps of a contact from the last step; all zero if it did not touch.
+/// A slot's memory of the last step; all zero if the contact did not touch.
 struct Memory {
     History history;
 #ifdef ENERGY_BOOK
@@ -49,7 +49,7 @@ void main() {
     float springDt = springStep();
     if (invocation() >= control.listed.y) return;
     uint slot = firstSurfaceSlot() + invocation();
-    uvec2 who = readEntry(slot);
+    uvec2 who = entriesAt(slot);
     uint works = who.y >> kSurfaceBits;
     if (works == 0u) return;
     Body me = readBody(who.x);
@@ -57,21 +57,18 @@ void main() {
     bool joined = joints() && works > 1u;
     uint end = slot + works;
     Overlap front;
-    Memory frontMemory;
-    if (joints()) {
-        front = frontOverlap(frontWall, me.sphere);
-        frontMemory = recall(end - 1u);
-    }
+    if (joints()) front = frontOverlap(frontWall, me.sphere);
+    Memory frontMemory = recall(end - 1u);  // the front wall is the last; of a single contact this is its own
 
     for (; slot < end; ++slot) {
-        SurfaceParams p = readSurface(surfaceOf(readEntry(slot).y));
+        SurfaceParams p = readSurface(surfaceOf(entriesAt(slot).y));
         uint kind = uint(p.pointHigh.w);
         Overlap o = surfaceOverlap(KIND_SET, kind, p, me.sphere);
-        Memory memory = recall(slot);
+        Memory memory = frontMemory;
         if (joined) {
+            if (slot + 1u < end) memory = recall(slot);
             if (kind == kFront) {
                 o = front;
-                memory = frontMemory;
             } else if (kind != kTube && p.pointLow.w != 0.0 && o.depth > 0.0 && front.depth > 0.0) {
                 uint joint = jointContact(o, front, me.sphere.radius);
                 // The contact that counts goes on with the other's history unless it has its own.

@@ -1,6 +1,6 @@
-// A workgroup adds up a tile of the grid, one point per invocation: together its invocations look which particles of a
-// slice can reach the tile, then each adds these to its own point, in ascending order, so that sums do not depend on timing.
-// A slice is short because software devices end an invocation's loops after 65,535 trips.
+// A workgroup adds up a tile of the grid, one point per invocation. First its invocations find out together which
+// particles of a slice can reach the tile. Then each adds these to its own point in ascending order, so that sums do
+// not depend on timing. A slice is short because software devices end an invocation's loops after 65,535 trips.
 #ifndef VKDOSE_PASS_TILE_GLSL
 #define VKDOSE_PASS_TILE_GLSL
 
@@ -8,11 +8,11 @@
 
 shared uint inReach[4];  // a bit for each particle of the slice
 
-vec3 here;     // the point of this invocation, as an offset from the lower corner
+vec3 here;  // the point of this invocation, as an offset from the lower corner
 uint pointIndex;
-bool onGrid;   // whether the point is one of the grid
+bool onGrid;  // whether the point is one of the grid
 
-/// Adds particle i to what this invocation keeps; the pass defines it.
+/// Adds particle i to the sums of this invocation; the pass defines it.
 void add(uint i);
 
 /// False for workgroups beyond the last tile.
@@ -30,14 +30,14 @@ bool openTile(out vec3 low, out vec3 high) {
     return n < tiles.x * tiles.y * tiles.z;
 }
 
-/// Whether what is smeared out no further than `margin` from particle i, and in the grid, may reach the tile.
+/// Whether the kernel around a place of the grid, no further than `margin` from particle i, may reach the tile.
 bool reaches(uint i, vec3 low, vec3 high, float margin) {
     vec3 offset = offsetOf(push.source, i);
     vec3 outside = max(-offset, offset - field.size.xyz);
     vec3 away = field.along.xyz * max(max(low - offset, offset - high), vec3(0.0));
     float reach = field.low.w + margin;
-    return uint(state[stateIndex(push.source, kSpin, i)].w) == kActive && all(lessThanEqual(outside, vec3(margin))) &&
-           dot(away, away) < reach * reach;
+    return uint(state[stateIndex(push.source, kSpin, i)].w) == kStatusActive &&
+           all(lessThanEqual(outside, vec3(margin))) && dot(away, away) < reach * reach;
 }
 
 /// Adds those of the slice (at most 128) that can reach the tile.
@@ -50,8 +50,7 @@ void addSlice(vec3 low, vec3 high, float margin) {
         if (reaches(first + k, low, high, margin)) atomicOr(inReach[k / 32u], 1u << (k % 32u));
     barrier();
     for (uint word = 0u; word < 4u; ++word)
-        for (uint bits = inReach[word]; bits != 0u; bits &= bits - 1u)
-            add(first + 32u * word + uint(findLSB(bits)));
+        for (uint bits = inReach[word]; bits != 0u; bits &= bits - 1u) add(first + 32u * word + uint(findLSB(bits)));
 }
 
 #endif

@@ -1,7 +1,7 @@
 #version 450
 // cast: a picture of spheres and of a coil, one pixel per invocation, by rays through a uniform grid.
-// Reads the picture's parameters, spheres with their colours, the joints of the coil's wire and the grid; writes for every
-// pixel its colour, how much of it is covered, and how near to the viewer.
+// Reads the picture's parameters, spheres with their colours, the joints of the coil's wire and the grid; writes for
+// every pixel its colour, how much of it is covered, and how near to the viewer.
 //
 // A cell of the grid is a range of `entries` in three parts: spheres and pieces of wire that a ray through the cell can
 // meet, and spheres near enough to take light from a point in it. No loop is longer than a row of cells or such a part.
@@ -14,7 +14,7 @@ layout(std430, set = 0, binding = 0) readonly buffer ParamsBuffer { PictureParam
 layout(std430, set = 0, binding = 1) readonly buffer SphereBuffer { vec4 spheres[]; };  // centre, radius
 layout(std430, set = 0, binding = 2) readonly buffer PaintBuffer { vec4 paint[]; };     // of a sphere: linear RGB
 layout(std430, set = 0, binding = 3) readonly buffer JointBuffer { vec4 joints[]; };    // centre line; w: angle [rad]
-layout(std430, set = 0, binding = 4) readonly buffer CellBuffer { uvec4 cells[]; };     // begin, ends of the three parts
+layout(std430, set = 0, binding = 4) readonly buffer CellBuffer { uvec4 cells[]; };  // begin, ends of the three parts
 layout(std430, set = 0, binding = 5) readonly buffer EntryBuffer { uint entries[]; };
 layout(std430, set = 0, binding = 6) writeonly buffer PictureBuffer { uvec2 picture[]; };  // RGBA8 (sRGB), depth bits
 
@@ -32,8 +32,8 @@ struct Ray {
 
 struct Hit {
     float far;
-    uint what;   // a sphere, or after these a piece of wire
-    bool face;   // cut open
+    uint what;  // a sphere, or after these a piece of wire
+    bool face;  // cut open
 };
 
 /// Ray through a place in the picture, in pixels from its top left corner.
@@ -46,8 +46,8 @@ Ray rayThrough(vec2 place) {
     return Ray(from, normalize(point - from));
 }
 
-/// Where a ray enters a sphere. The distance of its centre from the ray, not from the ray's origin, is what is
-/// squared, so that an origin far away costs no digits.
+/// Where a ray enters a sphere. The distance of its centre from the ray is squared, not that from the ray's origin, so
+/// that an origin far away costs no digits.
 float enterSphere(Ray ray, vec3 centre, float radius) {
     vec3 to = centre - ray.origin;
     float along = dot(to, ray.way);
@@ -85,7 +85,8 @@ ivec3 cellOf(vec3 p) {
 
 bool isCut() { return dot(params.cut.xyz, params.cut.xyz) > 0.0; }
 
-/// What the cut at `point` lies in, if anything. Of two spheres that overlap, on this side of where they meet.
+/// The body in which the cut at `point` lies, if any. Of two spheres that overlap, the one on this side of their
+/// meeting.
 Hit openedAt(vec3 point, float far) {
     Hit hit = Hit(kNever, kNothing, false);
     float deepest = 0.0;
@@ -140,8 +141,9 @@ Hit firstHit(Ray ray) {
             if (far >= enter && far < hit.far) hit = Hit(far, params.size.z + entries[e], false);
         }
         float edge = min(min(next.x, next.y), next.z);
-        bvec3 axis = next.x <= edge ? bvec3(true, false, false)
-                                    : next.y <= edge ? bvec3(false, true, false) : bvec3(false, false, true);
+        bvec3 axis = next.x <= edge   ? bvec3(true, false, false)
+                     : next.y <= edge ? bvec3(false, true, false)
+                                      : bvec3(false, false, true);
         cell += mix(ivec3(0), turn, axis);
         next += mix(vec3(0.0), stride, axis);
         bool within = all(greaterThanEqual(cell, ivec3(0))) && all(lessThan(cell, ivec3(params.cells.xyz)));

@@ -7,6 +7,7 @@
 #ifdef __cplusplus
 #include <glm/glm.hpp>
 namespace vkdose::gpu {
+using glm::uvec2;
 using glm::uvec4;
 using glm::vec4;
 using uint = glm::uint;
@@ -19,9 +20,16 @@ using uint = glm::uint;
 #define SHARED_FUNCTION
 #endif
 
+// --- how many tables there are; the bindings of their views come after theirs ---------------------------------------
+SHARED_CONST kTables = 0u
+#define TABLE(number, name, element, count, title) +1u  // NOLINT(bugprone-macro-parentheses): a summand
+#include "tables.h"
+    ;
+SHARED_CONST kFirstView = kTables;
+
 // --- limits -------------------------------------------------------------------------------------------------------
 SHARED_CONST kMaxSurfaces = 28u;
-SHARED_CONST kMaxTurns = 4u;          // of the coil that one particle touches at once
+SHARED_CONST kMaxTurns = 4u;  // of the coil that one particle touches at once
 // Of a contact with a surface an entry holds the surface, and above these bits how many slots its invocation works on.
 SHARED_CONST kSurfaceBits = 5u;
 SHARED_CONST kUnrolledSurfaces = 8u;  // surfaces whose kind is a specialisation constant; more go through a slower loop
@@ -30,7 +38,7 @@ SHARED_CONST kMaxLinks = 96u;         // contacts per particle: a row, every sur
 SHARED_CONST kEmpty = 0xffffffffu;    // end of a cell's list
 SHARED_REAL kNoTurn = 1e30f;          // wire angle in the place of a coil turn that is not touched
 // Slack: how far a particle may move before the contact lists are made anew; with half the skin of the rows as unit.
-// A particle at rest needs next to none; what falls gets room for a while.
+// A particle at rest needs next to none; one that falls gets room for a while.
 SHARED_REAL kLeastSlack = 0.0067f;
 SHARED_REAL kMostSlack = 0.2f;
 SHARED_REAL kSlackSteps = 256.0f;  // steps at the present speed
@@ -40,20 +48,26 @@ SHARED_REAL kCoilSlack = 0.03f;    // of the coil's wire
 // The halves take turns as source and destination. Two fields side by side are 32 bytes, which a device with 64-bit
 // integers can store in four pieces instead of eight.
 SHARED_CONST kPosition = 0u;  // xyz: high part [m]; w: radius [m], negative once the particle is out of the motion
-SHARED_CONST kResidue = 1u;   // xyz: low part of the position [m]; w: sum over steps of the torque on the coil [N m]
+SHARED_CONST kResidue = 1u;   // xyz: low part of the position [m]
 // xyz: half-step velocity [m/s]; w: largest overlap / smaller radius since the last sensing
 SHARED_CONST kVelocity = 2u;
-SHARED_CONST kSpin = 3u;  // xyz: half-step angular velocity [rad/s]; w: status as a float (kActive ...)
+SHARED_CONST kSpin = 3u;  // xyz: half-step angular velocity [rad/s]; w: status as a float (kStatusActive ...)
 SHARED_CONST kFields = 4u;
 
 SHARED_FUNCTION uint stateOffset(uint field, uint i, uint particles) {
     return (field / 2u * particles + i) * 2u + field % 2u;
 }
 
-SHARED_CONST kActive = 0u;
-SHARED_CONST kDosed = 1u;
-SHARED_CONST kLost = 2u;
-SHARED_CONST kPadding = 3u;  // fills a member's last workgroup
+SHARED_CONST kStatusActive = 0u;
+SHARED_CONST kStatusDosed = 1u;
+SHARED_CONST kStatusLost = 2u;
+SHARED_CONST kStatusPadding = 3u;  // fills a member's last workgroup
+
+// Where the sensors count a particle.
+SHARED_CONST kRegionCanister = 0u;
+SHARED_CONST kRegionThroat = 1u;
+SHARED_CONST kRegionDosed = 2u;
+SHARED_CONST kRegionLost = 3u;
 
 // --- contact classes and surface kinds ----------------------------------------------------------------------------
 SHARED_CONST kParticleParticle = 0u;
@@ -67,19 +81,24 @@ SHARED_CONST kFront = 3u;
 SHARED_CONST kEndingWalls = 16u;  // a bit beside those of the kinds: planes or the trough end at the front wall
 
 // --- one canister's parameters ------------------------------------------------------------------------------------
+SHARED_CONST kCoulombLuding = 0u;
+SHARED_CONST kCoulombAbsolute = 1u;
+SHARED_CONST kLeverFull = 0u;
+SHARED_CONST kLeverHalf = 1u;
+
 struct ContactParams {
-    vec4 normal;   // k1, k2Max, kc [N/m], gamma [kg/s]
-    vec4 sliding;  // kt [N/m], gammaT [kg/s], mu, plasticity depth
-    vec4 rolling;  // kr [N/m], gammaR [kg/s], muR, -
-    vec4 torsion;  // kTo [N/m], gammaTo [kg/s], muTo, -
+    vec4 normal;    // k1, k2Max, kc [N/m], plasticity depth
+    vec4 springs;   // of sliding, rolling, torsion: kt, kr, kTo [N/m]
+    vec4 friction;  // coefficients of sliding, rolling, torsion: mu, muR, muTo
+    vec4 damping;   // of sliding, rolling, torsion, then of the normal part: gammaT, gammaR, gammaTo, gamma [kg/s]
 };
 
 struct SurfaceParams {
     // xyz: plane point or tube base, high part (front: z in z; walls that end: z of the end in z) [m]; w: kind
     vec4 pointHigh;
-    vec4 pointLow;   // xyz: low part; w: tube: +1 touched from inside, -1 from outside; plane, trough: 1 if it ends
-    vec4 axis;       // plane normal or tube axis, unit; w: length of tube or throat [m]
-    vec4 radius;     // x, y: radius high, low (trough: half width; front: hole) [m]
+    vec4 pointLow;  // xyz: low part; w: tube: +1 touched from inside, -1 from outside; plane, trough: 1 if it ends
+    vec4 axis;      // plane normal or tube axis, unit; w: length of tube or throat [m]
+    vec4 radius;    // x, y: radius high, low (trough: half width; front: hole) [m]
 };
 
 struct CoilParams {
@@ -99,8 +118,8 @@ struct Member {
     vec4 domainLow;   // xyz [m]; w: throatZ [m]
     vec4 domainHigh;  // xyz [m]; w: outletZ [m]
     vec4 numerics;    // time step [s], skin [m], cell size [m], largest allowed overlap ratio
-    vec4 choices;  // surfaces, coulomb limit (0 luding, 1 absolute), rolling lever (0 full, 1 half), 1 before any step
-    uvec4 roster;  // x: in block n, the member that row n of a dispatch works for
+    vec4 choices;     // Coulomb limit (kCoulombLuding ...), rolling lever (kLeverFull ...), 1 before any step
+    uvec4 roster;     // x: in block n, the member that row n of a dispatch works for
 };
 // Where in a member some of its vectors are.
 SHARED_CONST kVectorSurface = 12u;
@@ -108,9 +127,9 @@ SHARED_CONST kVectorCoil = kVectorSurface + 4u * kMaxSurfaces;
 SHARED_CONST kVectorGravity = kVectorCoil + 5u;
 SHARED_CONST kMemberVectors = kVectorGravity + 6u;
 
-// --- control block: what the device decides and reports -----------------------------------------------------------
-// What a particle calls for in a step, the most urgent of all of them first: errors, what may have caused others before
-// these. A call is one word, kind << kCallShift | particle, and the least wins, whatever order invocations run in.
+// --- control block: decisions and reports of the device -----------------------------------------------------------
+// Calls of particles in order of urgency: errors first (causes before their effects), then rebuild, then refresh. A
+// call is one word, kind << kCallShift | particle, and the least wins, whatever order invocations run in.
 SHARED_CONST kErrorRowFull = 0u;
 SHARED_CONST kErrorCrowded = 1u;
 SHARED_CONST kErrorTables = 2u;
@@ -134,7 +153,7 @@ struct Dispatch {     // indirect arguments, three words each: workgroups in a r
 
 struct Dispatches {    // for all members together: as many workgroups as the one that wants most
     Dispatch step[2];  // of even and odd steps: `decide` clears that of its step and fills the other
-    uvec4 pairs;       // workgroups over what the contact lists hold: pairs ...
+    uvec4 pairs;       // workgroups over the entries of the contact lists: pairs ...
     uvec4 surfaces;    // ... contacts with surfaces ...
     uvec4 coil;        // ... particles near the coil
 };
@@ -149,9 +168,9 @@ struct Control {   // a member's
     uvec4 error;  // the first: x: step of the batch, y: kind, z: particle; x is kEmpty while there is none
 };
 
-// --- sensing: one record per workgroup, summed by the host in double precision ------------------------------------
+// --- sensing: records of workgroups, summed by the host in double precision ---------------------------------------
 struct SensorRecord {
-    uvec4 count;    // particles per region: canister, throat, dosed, lost
+    uvec4 count;    // particles per region (kRegionCanister ...)
     vec4 mass;      // per region [kg]
     vec4 motion;    // kinetic energy, rotational energy [J], momentum along z in the throat [kg m/s], torque sum [N m]
     vec4 extremes;  // x: largest overlap ratio
@@ -159,7 +178,7 @@ struct SensorRecord {
 
 // --- the energy book (host/backend/backend.h, EnergyBook), kept only where the world asks for it [J] ---------------
 // vec4 book[3 fields][particles], then vec4 book[3 fields][slots]: of the contacts, which book to their first body. A
-// particle's holds what came together since the last sensing, a contact's the last step.
+// particle's book sums since the last sensing, a contact's holds the last step.
 SHARED_CONST kBookNormal = 0u;  // plastic, adhesive, viscous, numerical loss
 // sliding, rolling, torsion loss; of a particle: work of the coil, of a contact: loaded
 SHARED_CONST kBookSliders = 1u;
@@ -167,13 +186,18 @@ SHARED_CONST kBookFlow = 2u;     // of a particle: loaded, left; z: torque on th
 SHARED_CONST kBookElastic = 2u;  // of a contact: energy of its normal, sliding, rolling, torsion springs
 SHARED_CONST kBookFields = 3u;
 
-struct EnergyRecord {  // one per workgroup
-    vec4 normal;       // as kBookNormal
-    vec4 sliders;      // as kBookSliders
-    vec4 flow;         // loaded, left, kinetic, rotational energy
-    vec4 elastic;      // as kBookElastic, of the contacts that the particles own
-    vec4 momentum;     // xyz [kg m/s]; w: potential energy
-    vec4 angular;      // xyz: angular momentum about the origin [kg m2/s]
+struct EnergyRecord {
+    vec4 normal;    // as kBookNormal
+    vec4 sliders;   // as kBookSliders
+    vec4 flow;      // loaded, left, kinetic, rotational energy
+    vec4 elastic;   // as kBookElastic, of the contacts that the particles own
+    vec4 momentum;  // xyz [kg m/s]; w: potential energy
+    vec4 angular;   // xyz: angular momentum about the origin [kg m2/s]
+};
+
+struct GroupRecord {  // one per workgroup
+    SensorRecord sensors;
+    EnergyRecord energy;
 };
 
 // --- coarse-grained fields (host/model/field.h) --------------------------------------------------------------------

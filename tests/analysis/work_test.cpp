@@ -17,6 +17,10 @@ TEST_CASE("turns and work of the drive by hand") {
     const DriveWork w = driveWork(angle, torque);
     CHECK(nearRelative(w.turns, 1.5, 1e-12));
     CHECK(nearRelative(w.work, 2e-3 * 2 * kPi - 1e-3 * kPi, 1e-12));
+    std::vector<double> other;  // a coil that conveys in the other sense
+    for (const double a : angle) other.push_back(-a);
+    CHECK(driveWork(other, torque).turns == w.turns);
+    CHECK(driveWork(other, torque).work == w.work);
     CHECK(nearRelative(w.massPerTurn(3e-3), 2e-3, 1e-12));
     CHECK(nearRelative(w.massPerJoule(3e-3), 3e-3 / (3e-3 * kPi), 1e-12));
 }

@@ -5,7 +5,10 @@
 #include <nlohmann/json.hpp>
 
 #include "host/app/report.h"
+#include "host/output/end_state.h"
+#include "host/output/frames.h"
 #include "host/output/summary.h"
+#include "host/sim/run_record.h"
 #include "tests/app/sandbox.h"
 #include "tests/sim/fake_backend.h"
 #include "tests/support/catch.h"
@@ -254,4 +257,46 @@ TEST_CASE("figures that are not numbers become null in the summary") {
     const auto summary = nlohmann::json::parse(summaryJson(smallCase(), r, "fake"));
     CHECK(summary["coil_angle_rad"].is_null());
     CHECK(summary["closed_form"]["doses"].is_null());
+}
+
+TEST_CASE("the angle of the coil is the same in every file of a run, whatever its hand") {
+    for (const int hand : {-1, 1}) {
+        CAPTURE(hand);
+        const Sandbox box;
+        Case c = smallCase();
+        c.world.coil->hand = hand;
+        c.frames.interval = 0.03;
+        c.checkpoint.wall = 0;
+        c.checkpoint.simulated = 0.001;
+        c.schedule.stop.maxDoses = 1;
+        c.resolved = "name = \"fake\"\n";
+        FakeBackend backend;
+        backend.spoil = [&](std::uint64_t step, Sensors&) { backend.runErrorAt = step >= 150 ? 150 : 1000; };
+        RunFolder folder(box / "out", false, c, "fake");
+        const RunResult r = runInto(folder, backend, c);  // fails at rest, so that the checkpoint stays
+        REQUIRE(r.reason == StopReason::RunError);
+
+        const double turned = -hand * 4 * 0.05;  // a right-handed coil conveys clockwise
+        CHECK(r.last.coilAngle == Approx(turned));
+        const auto series = readCsv(box / "out/timeseries.csv");
+        CHECK(std::stod(series.back()[column(series, "coil_angle_rad")]) == Approx(turned));
+        const auto summary = nlohmann::json::parse(readText(box / "out/summary.json"));
+        CHECK(summary["coil_angle_rad"].get<double>() == Approx(turned));
+        const Frames frames(box / "out");
+        REQUIRE(frames.entries().back().step == 150);
+        CHECK(frames.entries().back().coilAngle == Approx(turned));
+        CHECK(frames.read(frames.entries().back()).coilAngle == Approx(turned));
+        const Checkpoint checkpoint = readCheckpoint(box / "out/checkpoint.h5");
+        CHECK(checkpoint.run.backend.one<double>("angle") == Approx(turned));
+        Sample last;
+        get(checkpoint.run.run, "last", last);
+        CHECK(last.coilAngle == Approx(turned));
+        // The end as pictures and films see it; earlier versions of vkdose wrote it as positive when conveying.
+        for (const double written : {turned, std::abs(turned)}) {
+            auto other = summary;
+            other["coil_angle_rad"] = written;
+            box.write("out/summary.json", other.dump());
+            CHECK(readEndState(box / "out", c).coilAngle == Approx(turned));
+        }
+    }
 }

@@ -12,7 +12,7 @@ using namespace vkdose::bench;
 
 namespace {
 
-World paperWorld() {
+RuledWorld paperWorld() {
     return plans({})[1].make().world;
 }
 
@@ -29,7 +29,7 @@ Particles row(double r) {
 
 TEST_CASE("the plain loop finds its neighbours and leaves the packing as it was") {
     constexpr double r = 1e-3;
-    World world = paperWorld();
+    RuledWorld world = paperWorld();
     world.skin = 0.1 * r;
     for (const int threads : {1, 2}) {
         PlainLoop loop(world, row(r), threads);
@@ -42,7 +42,7 @@ TEST_CASE("the plain loop finds its neighbours and leaves the packing as it was"
 
 TEST_CASE("the plain loop's list is that of all pairs") {
     const Workload box = plans({})[1].make();
-    const World& world = box.world;
+    const RuledWorld& world = box.world;
     Particles few;
     for (std::size_t i = 0; i < box.particles.size(); i += 7)  // with holes, and an odd number of them
         few.add(box.particles.position[i], box.particles.radius[i]);
@@ -65,8 +65,8 @@ constexpr double kThrown = 0.2;   // [m/s]
 constexpr double kShift = 0.1, kOnAverage = 0.01;
 
 /// Empty space in which every pair is in the list from the start.
-World space() {
-    World world = paperWorld();
+RuledWorld space() {
+    RuledWorld world = paperWorld();
     world.surfaces.clear();
     world.gravity = Vec3(0);
     world.skin = 1;
@@ -91,7 +91,7 @@ Particles threesome(int seed) {
 }  // namespace
 
 TEST_CASE("the plain loop computes the contact law") {
-    World world = space();
+    RuledWorld world = space();
     ContactParameters& p = world.law.of(ContactClass::ParticleParticle);
     // Damping begins with a jump, so that a contact found a step later, by rounding, costs its force for that step.
     p.gamma *= 0.1, p.gammaT *= 0.1, p.gammaR *= 0.1;

@@ -10,6 +10,7 @@
 
 #include "host/model/case.h"
 #include "tests/model/mutants.h"
+#include "tests/support/folder.h"
 
 using namespace vkdose;
 
@@ -22,23 +23,9 @@ namespace {
 
 /// One folder for the life of the process, in memory where the system offers that.
 const std::filesystem::path& folder() {
-    static const struct Folder {
-        std::filesystem::path path;
-        Folder() {
-            const std::filesystem::path memory = "/dev/shm";
-            const auto above = access(memory.c_str(), W_OK) == 0 ? memory : std::filesystem::temp_directory_path();
-            std::string name = (above / "vkdose-fuzz-XXXXXX").string();
-            if (mkdtemp(name.data()) == nullptr) fail("no temporary folder");
-            path = name;
-        }
-        Folder(const Folder&) = delete;
-        Folder& operator=(const Folder&) = delete;
-        ~Folder() {
-            std::error_code ignored;
-            std::filesystem::remove_all(path, ignored);
-        }
-    } theFolder;
-    return theFolder.path;
+    const char* memory = "/dev/shm";
+    static const test::Folder theFolder(access(memory, W_OK) == 0 ? memory : std::filesystem::temp_directory_path());
+    return theFolder.path();
 }
 
 std::filesystem::path write(const char* name, const std::string& text) {

@@ -32,18 +32,18 @@ TEST_CASE("GPU-assisted checks find an access outside a buffer") {
     REQUIRE(device.validated());
     Particles p;
     p.add({0, 0, 0}, 1e-3);
-    const World world = emptyWorld();
-    const gpu::Member member = packMember(world, p);
+    const RuledWorld world = emptyWorld();
+    const gpu::Member member = packMember(world, world.law, p);
     Passes passes(device, tableSizes(world, Crowd(p), member, {64, 65535, device.limits().maxStorageBufferRange}));
-    passes.member.write(0, &member, sizeof member);
+    passes.members.write(0, &member, sizeof member);
     std::vector<gpu::vec4> half(std::size_t(gpu::kFields) * 64);
     packState(p, 64, 0, half);
     passes.state.writeAll(half);
     passes.reset();
-    auto dispatches = passes.control.readAll<gpu::Dispatches>(1)[0];
+    auto dispatches = passes.controls.readAll<gpu::Dispatches>(1)[0];
     dispatches.step[0].particles.x =
         4;  // reaches beyond the two ranges and anchors that the one workgroup of particles has
-    passes.control.write(0, &dispatches, sizeof dispatches);
+    passes.controls.write(0, &dispatches, sizeof dispatches);
     vk::Commands commands(device);
     commands.begin();
     passes.recordSteps(commands, 0, 1, 0, true);

@@ -129,11 +129,7 @@ struct Play {
     Timeline timeline{c};
     std::unique_ptr<Backend> backend = makeReferenceBackend();
 
-    Play() {
-        World world = c.world;
-        world.law = c.settlingLaw;
-        backend->load(world, filled.particles);
-    }
+    Play() { backend->load(c.world, c.settlingLaw, filled.particles); }
     Sensors advance(std::uint64_t steps, double rate) const {
         return backend->advance(static_cast<std::uint32_t>(steps), rate);
     }
@@ -151,7 +147,7 @@ TEST_CASE("bits: the reference's results for the mini case are those of the last
     Bits found{};
     found.filled = bitsOf(play.filled.particles);
     found.settled = bitsOf(*play.backend, play.advance(play.timeline.settleSteps(), 0));
-    play.backend->setLaw(play.c.world.law);
+    play.backend->setLaw(play.c.dosingLaw);
     const Sensors sensors =
         play.advance(play.timeline.rotateSteps() / 2, play.timeline.at(play.timeline.settleSteps()).rate);
     found.dosing = bitsOf(*play.backend, sensors);

@@ -36,8 +36,8 @@ Coil coilOf(double length, int hand) {
 }
 
 /// A trough of 24 mm with a coil, an outlet and a throat of 6 mm.
-World smallCanister() {
-    World world = freeWorld(softParameters(), 1e-5);
+RuledWorld smallCanister() {
+    RuledWorld world = freeWorld(softParameters(), 1e-5);
     world.gravity = Vec3(0, -kGravity, 0);
     world.skin = 0.2e-3;
     world.surfaces = {geometry::Trough{kTroughRadius, 24e-3}, geometry::Plane{Vec3(0), Vec3(0, 0, 1)},
@@ -87,7 +87,7 @@ TEST_CASE("canister: a coil turns in an empty one") {
 
 TEST_CASE("canister: the coil pushes a particle at V_z = p Omega / 2 pi") {
     for (const int hand : {1, -1}) {
-        World world = freeWorld(softParameters(), 1e-5);
+        RuledWorld world = freeWorld(softParameters(), 1e-5);
         world.gravity = Vec3(0, -kGravity, 0);
         for (ContactParameters& p : world.law.classes) p.kc = 0;
         world.surfaces = {geometry::Trough{kTroughRadius}};
@@ -113,7 +113,7 @@ TEST_CASE("canister: the coil pushes a particle at V_z = p Omega / 2 pi") {
 }
 
 TEST_CASE("canister: torque on the coil is the moment of the opposite of the force on the particle") {
-    World world = freeWorld(softParameters(), 1e-6);
+    RuledWorld world = freeWorld(softParameters(), 1e-6);
     const Coil coil = coilOf(70e-3, 1);
     world.coil = coil;
     const double overlap = 2e-6;
@@ -132,7 +132,7 @@ TEST_CASE("canister: torque on the coil is the moment of the opposite of the for
 }
 
 TEST_CASE("canister: the coil's torque is what the particles' angular momentum about it loses") {
-    World world = freeWorld(softParameters(), 1e-5);
+    RuledWorld world = freeWorld(softParameters(), 1e-5);
     for (ContactParameters& p : world.law.classes) {
         p.kTo = 100;
         p.gammaTo = 1e-3;
@@ -167,7 +167,7 @@ TEST_CASE("canister: the coil's torque is what the particles' angular momentum a
 }
 
 TEST_CASE("canister: a sphere that touches more turns than have slots is an error that names it") {
-    World world = freeWorld(softParameters(), 1e-5);
+    RuledWorld world = freeWorld(softParameters(), 1e-5);
     const Coil coil{30e-3, 0.7e-3, 0.3e-3, 30e-3, 0, 0, 1};
     world.coil = coil;
     const double a = 10e-3;
@@ -181,7 +181,7 @@ TEST_CASE("canister: a sphere that touches more turns than have slots is an erro
 
 TEST_CASE("canister: two turns touched at once are two contacts, each with its own history while the coil turns") {
     // A linear spring never pulls delta_max back: it must be the largest overlap the turn has had since it was met.
-    World world = freeWorld(spring(500), 1e-5);
+    RuledWorld world = freeWorld(spring(500), 1e-5);
     for (ContactParameters& p : world.law.classes) p.gamma = 5e-3;
     world.gravity = Vec3(0, -kGravity, 0);
     const Coil coil{10.4e-3, 4e-3, 1e-3, 30e-3, 0, 0, 1};
@@ -221,7 +221,7 @@ TEST_CASE("canister: two turns touched at once are two contacts, each with its o
 }
 
 TEST_CASE("canister: a heap settles on the coil, is dosed, and the ledger closes at every output") {
-    const World world = smallCanister();
+    const RuledWorld world = smallCanister();
     const Particles start = heap();
     auto backend = makeReferenceBackend();
     backend->load(world, start);

@@ -15,9 +15,9 @@ using namespace vkdose::test;
 namespace {
 
 /// Runs `steps` steps in calls of `stride` and joins their books. After every call the balance must close to rounding.
-EnergyLedger played(Backend& backend, const World& world, const Particles& particles, int steps, int stride,
+EnergyLedger played(Backend& backend, const RuledWorld& world, const Particles& particles, int steps, int stride,
                     double coilRate = 0) {
-    World booked = world;
+    RuledWorld booked = world;
     booked.energyBook = true;
     backend.load(booked, particles);
     EnergyLedger ledger;
@@ -34,7 +34,7 @@ EnergyLedger played(Backend& backend, const World& world, const Particles& parti
     return ledger;
 }
 
-EnergyLedger played(const World& world, const Particles& particles, int steps, int stride = 1) {
+EnergyLedger played(const RuledWorld& world, const Particles& particles, int steps, int stride = 1) {
     auto backend = makeReferenceBackend();
     return played(*backend, world, particles, steps, stride);
 }
@@ -102,7 +102,7 @@ TEST_CASE("energy: a sphere that slips until it rolls loses two sevenths of its 
     p.kt = 1000;
     p.gammaT = 0.01;
     p.mu = 0.3;
-    World world = planeWorld(p, 2e-6);
+    RuledWorld world = planeWorld(p, 2e-6);
     world.gravity = Vec3(0, -kGravity, 0);
     const double weight = massOf(kRadius) * kGravity, speed = 0.05;
     Particles one;
@@ -119,7 +119,7 @@ TEST_CASE("energy: a sphere that spins on a plane loses its spin to torsion, one
     ContactParameters p = spring(4000);
     p.kTo = p.kr = 500;
     p.gammaTo = p.gammaR = 0.005;
-    World world = planeWorld(p, 2e-6);
+    RuledWorld world = planeWorld(p, 2e-6);
     world.gravity = Vec3(0, -kGravity, 0);
     const double weight = massOf(kRadius) * kGravity, inertia = 0.4 * massOf(kRadius) * kRadius * kRadius;
     const double rate = 40, incoming = inertia * rate * rate / 2;
@@ -172,12 +172,12 @@ TEST_CASE("energy: the time step's own loss falls with its square") {
 namespace {
 
 /// Spheres thrown into a corner of a small canister with a coil, and an outlet they soon find.
-World smallCanister(double timeStep) {
+RuledWorld smallCanister(double timeStep) {
     ContactParameters p = paperParameters(0.3);
     p.kTo = 4000;
     p.gammaTo = 0.01;
     p.muTo = 0.3;
-    World world = freeWorld(p, timeStep);
+    RuledWorld world = freeWorld(p, timeStep);
     world.gravity = Vec3(0, -kGravity, 0);
     world.maxOverlapRatio = 1;
     world.surfaces = {geometry::Trough{8e-3, 16e-3}, geometry::Plane{Vec3(0), Vec3(0, 0, 1)},
@@ -213,7 +213,7 @@ Particles throwIn(int layers) {
 
 TEST_CASE("energy: a bed under a turning coil that doses closes to rounding, and loses energy in every way") {
     for (const CoulombLimit limit : {CoulombLimit::Luding, CoulombLimit::Absolute}) {
-        World world = smallCanister(2e-6);
+        RuledWorld world = smallCanister(2e-6);
         world.law.coulombLimit = limit;
         auto backend = makeReferenceBackend();
         const EnergyLedger ledger = played(*backend, world, throwIn(7), 40000, 100, -60);
@@ -233,7 +233,7 @@ TEST_CASE("energy: a bed under a turning coil that doses closes to rounding, and
 }
 
 TEST_CASE("energy: the balance survives the switch of adhesion, up and down") {
-    World world = smallCanister(2e-6);
+    RuledWorld world = smallCanister(2e-6);
     world.energyBook = true;
     auto backend = makeReferenceBackend();
     backend->load(world, throwIn(7));
@@ -248,7 +248,7 @@ TEST_CASE("energy: the balance survives the switch of adhesion, up and down") {
 }
 
 TEST_CASE("energy: keeping the book changes no bit of the motion") {
-    World world = smallCanister(2e-6);
+    RuledWorld world = smallCanister(2e-6);
     auto plain = makeReferenceBackend(), booked = makeReferenceBackend();
     plain->load(world, throwIn(7));
     world.energyBook = true;
@@ -261,7 +261,7 @@ TEST_CASE("energy: keeping the book changes no bit of the motion") {
 }
 
 TEST_CASE("energy: the book's momenta are the particles'") {
-    World world = smallCanister(2e-6);
+    RuledWorld world = smallCanister(2e-6);
     world.energyBook = true;
     auto backend = makeReferenceBackend();
     backend->load(world, throwIn(7));

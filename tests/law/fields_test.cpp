@@ -201,7 +201,7 @@ TEST_CASE("fields: the stress of a contact integrates to force times branch, and
 TEST_CASE("fields: in a column at rest the vertical stress balances the weight above, and the floor's reaction") {
     constexpr int kSpheres = 12;
     const double k = 2000, m = massOf(kRadius), weight = m * kGravity;
-    World world = planeWorld(spring(k), 1e-6);
+    RuledWorld world = planeWorld(spring(k), 1e-6);
     world.gravity = Vec3(0, -kGravity, 0);
     Particles p;
     double y = 0;

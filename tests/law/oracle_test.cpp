@@ -221,7 +221,7 @@ TEST_CASE("oracle: a sphere on a tilted plane sticks, slides, rolls or is braked
             running = row.at("case");
             const ContactParameters p = paperParameters(row.at("kc_over_k"), row.at("mu"), row.at("mu_r"));
             const double tilt = row.at("tilt_deg") * kPi / 180;
-            World world = planeWorld(p, dt);
+            RuledWorld world = planeWorld(p, dt);
             world.gravity = kGravity * Vec3(std::sin(tilt), -std::cos(tilt), 0);
             Particles one;
             // The table gives the height with ten digits, too few for an overlap of 2e-8 m: the formula of its README.

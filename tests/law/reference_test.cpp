@@ -101,7 +101,7 @@ TEST_CASE("reference: the neighbour list's skin changes nothing but the number o
     std::vector<Particles> ends;
     std::vector<std::uint64_t> builds;
     for (const double skin : {0.0, 0.05e-3, 1e-3}) {
-        World world = freeWorld(everything(), 1e-6);
+        RuledWorld world = freeWorld(everything(), 1e-6);
         world.skin = skin;
         auto backend = makeReferenceBackend();
         backend->load(world, start);
@@ -130,7 +130,7 @@ TEST_CASE("reference: many steps in one call are the same as one step in many ca
 }
 
 TEST_CASE("reference: the switch of the law keeps every history and state") {
-    World world = freeWorld(everything(), 1e-6);
+    RuledWorld world = freeWorld(everything(), 1e-6);
     auto backend = makeReferenceBackend();
     backend->load(world, cluster(3, 0.2, 31));
     backend->advance(600, 0);
@@ -165,7 +165,7 @@ TEST_CASE("reference: the switch of the law keeps every history and state") {
 
 TEST_CASE("reference: a contact that parts and comes back is a new contact") {
     // Straight up and down on a plane under gravity, bouncing.
-    World world = planeWorld(paperParameters(0, 0.5, 0.5), 1e-6);
+    RuledWorld world = planeWorld(paperParameters(0, 0.5, 0.5), 1e-6);
     world.gravity = Vec3(0, -kGravity, 0);
     Particles one;
     one.add(Vec3(0, kRadius * (1 - 1e-12), 0), kRadius, Vec3(0.02, -0.3, 0));
@@ -185,7 +185,7 @@ TEST_CASE("reference: a contact that parts and comes back is a new contact") {
 }
 
 TEST_CASE("reference: the first step is half a kick and leaves the springs at rest") {
-    World world = planeWorld(paperParameters(0, 0.5, 0.5), 1e-6);
+    RuledWorld world = planeWorld(paperParameters(0, 0.5, 0.5), 1e-6);
     world.gravity = Vec3(0, -kGravity, 0);
     Particles one;
     one.add(Vec3(0, 1, 0), kRadius, Vec3(0));
@@ -206,7 +206,7 @@ TEST_CASE("reference: the first step is half a kick and leaves the springs at re
 }
 
 TEST_CASE("reference: a particle past the outlet is dosed, frozen and stays in the ledger") {
-    World world = freeWorld(paperParameters(), 1e-4);
+    RuledWorld world = freeWorld(paperParameters(), 1e-4);
     world.throatZ = 10e-3;
     world.outletZ = 20e-3;
     Particles three;
@@ -237,7 +237,7 @@ TEST_CASE("reference: a particle past the outlet is dosed, frozen and stays in t
 }
 
 TEST_CASE("reference: a particle that leaves the domain is an error that names it") {
-    World world = freeWorld(paperParameters(), 1e-3);
+    RuledWorld world = freeWorld(paperParameters(), 1e-3);
     world.domain = {Vec3(-10e-3), Vec3(9.5e-3)};
     Particles two;
     two.add(Vec3(0), kRadius);
@@ -282,7 +282,7 @@ TEST_CASE("reference: an overlap beyond a fifth of the radius is an error that n
 
 TEST_CASE("reference: load starts over") {
     auto backend = makeReferenceBackend();
-    const World world = freeWorld(everything(), 1e-6);
+    const RuledWorld world = freeWorld(everything(), 1e-6);
     const Particles start = cluster(2, 0.2, 5);
     backend->load(world, start);
     backend->advance(500, 3.0);

@@ -30,7 +30,7 @@ TEST_CASE("rolling: a rolling sphere is braked by (5/7) mu_r g a_r / a") {
         ContactParameters p = paperParameters(0, 0.5, 0.02);
         p.gamma = 0.3;  // near critical damping, so that the start leaves no rattle
         p.gammaT = 0.2;
-        World world = planeWorld(p, 4e-6);
+        RuledWorld world = planeWorld(p, 4e-6);
         world.gravity = Vec3(0, -kGravity, 0);
         world.law.rollingLever = lever;
         const double speed = 0.1, sinking = massOf(kRadius) * kGravity / p.k1;

@@ -52,8 +52,8 @@ inline ContactLaw lawOf(const ContactParameters& p, CoulombLimit limit = Coulomb
 }
 
 /// Empty space without gravity, 2 m wide.
-inline World freeWorld(const ContactParameters& p, double timeStep) {
-    World world;
+inline RuledWorld freeWorld(const ContactParameters& p, double timeStep) {
+    RuledWorld world;
     world.law = lawOf(p);
     world.gravity = Vec3(0);
     world.density = kDensity;
@@ -63,8 +63,8 @@ inline World freeWorld(const ContactParameters& p, double timeStep) {
 }
 
 /// The same with the plane y = 0 below.
-inline World planeWorld(const ContactParameters& p, double timeStep) {
-    World world = freeWorld(p, timeStep);
+inline RuledWorld planeWorld(const ContactParameters& p, double timeStep) {
+    RuledWorld world = freeWorld(p, timeStep);
     world.surfaces.push_back(geometry::Plane{Vec3(0), Vec3(0, 1, 0)});
     return world;
 }
@@ -72,7 +72,7 @@ inline World planeWorld(const ContactParameters& p, double timeStep) {
 /// Advances a backend step by step and offers velocities at full steps: the mean of the half steps around them.
 class Stepper {
   public:
-    Stepper(const World& world, const Particles& particles) : backend_(makeReferenceBackend()), now_(particles) {
+    Stepper(const RuledWorld& world, const Particles& particles) : backend_(makeReferenceBackend()), now_(particles) {
         backend_->load(world, particles);
     }
 

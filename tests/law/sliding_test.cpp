@@ -89,7 +89,7 @@ TEST_CASE("sliding: an oblique impact that slides throughout") {
     p.mu = 0.2;
     const double vn = 0.1, vt = 2.0;
     for (const CoulombLimit limit : {CoulombLimit::Absolute, CoulombLimit::Luding}) {
-        World world = planeWorld(p, 1e-8);
+        RuledWorld world = planeWorld(p, 1e-8);
         world.law = lawOf(p, limit);
         Particles one;
         one.add(Vec3(0, kRadius, 0), kRadius, Vec3(vt * 0.6, -vn, vt * 0.8));
@@ -111,7 +111,7 @@ TEST_CASE("sliding: a sphere set sliding on a plane ends up rolling at 5/7 of it
     ContactParameters p = paperParameters(0, 0.3, 0);
     p.gamma = 0.3;  // near critical damping: the bed of the slide stays quiet
     p.gammaT = 0.2;
-    World world = planeWorld(p, 4e-6);
+    RuledWorld world = planeWorld(p, 4e-6);
     world.gravity = Vec3(0, -kGravity, 0);
     const double speed = 0.1, sinking = massOf(kRadius) * kGravity / p.k1;
     Particles one;

@@ -14,7 +14,7 @@ namespace {
 
 /// A sphere resting on a plane with torsion friction only, spinning about the vertical.
 Stepper spinner(const ContactParameters& p, double spin, double timeStep, RollingLever lever) {
-    World world = planeWorld(p, timeStep);
+    RuledWorld world = planeWorld(p, timeStep);
     world.gravity = Vec3(0, -kGravity, 0);
     world.law.rollingLever = lever;
     Particles one;

@@ -33,8 +33,8 @@ const std::map<std::string, Layout>& hostLayouts() {
     using namespace vkdose::gpu;
     static const std::map<std::string, Layout> layouts = {
         {"ContactParams",
-         {{FIELD(ContactParams, normal), FIELD(ContactParams, sliding), FIELD(ContactParams, rolling),
-           FIELD(ContactParams, torsion)},
+         {{FIELD(ContactParams, normal), FIELD(ContactParams, springs), FIELD(ContactParams, friction),
+           FIELD(ContactParams, damping)},
           sizeof(ContactParams)}},
         {"SurfaceParams",
          {{FIELD(SurfaceParams, pointHigh), FIELD(SurfaceParams, pointLow), FIELD(SurfaceParams, axis),
@@ -67,6 +67,7 @@ const std::map<std::string, Layout>& hostLayouts() {
          {{FIELD(EnergyRecord, normal), FIELD(EnergyRecord, sliders), FIELD(EnergyRecord, flow),
            FIELD(EnergyRecord, elastic), FIELD(EnergyRecord, momentum), FIELD(EnergyRecord, angular)},
           sizeof(EnergyRecord)}},
+        {"GroupRecord", {{FIELD(GroupRecord, sensors), FIELD(GroupRecord, energy)}, sizeof(GroupRecord)}},
         {"FieldParams",
          {{FIELD(FieldParams, low), FIELD(FieldParams, size), FIELD(FieldParams, cell), FIELD(FieldParams, along),
            FIELD(FieldParams, cells), FIELD(FieldParams, tile), FIELD(FieldParams, tiles)},

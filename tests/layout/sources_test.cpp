@@ -1,10 +1,13 @@
-// What our sources must not contain: in shaders what drivers are known to get wrong, in tests what only one version of
-// Catch2 has.
+// Our sources must not contain some things: shaders, loops that drivers are known to get wrong; tests, names that only
+// one version of Catch2 has; none of them, a line over 120 characters.
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <regex>
+#include <set>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "tests/support/catch.h"
 
@@ -26,6 +29,23 @@ bool hasDo(const std::string& code) {
 /// A loop without a condition, bounded by a break alone if at all.
 bool hasEndlessLoop(const std::string& code) {
     return std::regex_search(code, std::regex("while\\s*\\(\\s*true\\s*\\)|for\\s*\\([^;]*;\\s*;[^)]*\\)"));
+}
+
+/// Characters, not bytes: of UTF-8 the bytes that begin one.
+std::size_t width(const std::string& line) {
+    return std::size_t(std::count_if(line.begin(), line.end(), [](char c) { return (c & 0xc0) != 0x80; }));
+}
+
+/// Numbers of the lines over 120 characters. A path in an #include cannot be broken.
+std::vector<std::size_t> wideLines(const std::string& text) {
+    std::vector<std::size_t> wide;
+    std::istringstream stream(text);
+    std::size_t number = 0;
+    for (std::string line; std::getline(stream, line);) {
+        ++number;
+        if (width(line) > 120 && line.rfind("#include", 0) != 0) wide.push_back(number);
+    }
+    return wide;
 }
 
 std::string readText(const fs::path& file) {
@@ -76,4 +96,26 @@ TEST_CASE("tests take Catch2 from tests/support/catch.h, under names that both i
         ++files;
     }
     CHECK(files >= 100);
+}
+
+TEST_CASE("no line of GLSL, C++ or CMake is over 120 characters") {
+    const std::string fits(120, 'x'), umlauts = std::string(119, 'x') + "\u00e4";
+    CHECK(wideLines(fits + "\n" + umlauts + "\n").empty());
+    CHECK(wideLines("a\n" + fits + "x\n") == std::vector<std::size_t>{2});
+    std::size_t files = 0;
+    for (const char* folder : {"CMakeLists.txt", "shaders", "host", "geometry", "tests"}) {
+        const fs::path root = fs::path(VKDOSE_SOURCE_DIR) / folder;
+        std::vector<fs::path> sources;
+        if (fs::is_regular_file(root)) sources.push_back(root);
+        if (fs::is_directory(root))
+            for (const auto& entry : fs::recursive_directory_iterator(root)) sources.push_back(entry.path());
+        for (const fs::path& source : sources) {
+            static const std::set<std::string> ours{".cpp", ".h", ".comp", ".glsl", ".cmake"};
+            if (ours.count(source.extension().string()) == 0 && source.filename() != "CMakeLists.txt") continue;
+            INFO(source);
+            CHECK(wideLines(readText(source)) == std::vector<std::size_t>{});
+            ++files;
+        }
+    }
+    CHECK(files >= 300);
 }

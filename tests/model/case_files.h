@@ -1,40 +1,13 @@
 #pragma once
-// Case files written by a test: a folder of its own per test, removed at the end.
-
-#include <stdlib.h>
+// Case files that a test writes and breaks.
 
 #include <filesystem>
-#include <fstream>
-#include <stdexcept>
 #include <string>
 
 #include "host/model/case.h"
+#include "tests/support/folder.h"
 
 namespace vkdose::test {
-
-class Folder {
-  public:
-    Folder() {
-        std::string name = (std::filesystem::temp_directory_path() / "vkdose-model-XXXXXX").string();
-        if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-        path_ = name;
-    }
-    ~Folder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-
-    std::filesystem::path write(const std::string& name, const std::string& text) const {
-        std::ofstream(path_ / name, std::ios::binary) << text;
-        return path_ / name;
-    }
-    const std::filesystem::path& path() const { return path_; }
-
-  private:
-    std::filesystem::path path_;
-};
 
 inline std::filesystem::path shippedCase(const std::string& name) {
     return std::filesystem::path(VKDOSE_SOURCE_DIR) / "cases" / name;

@@ -33,7 +33,7 @@ void checkSame(const Case& a, const Case& b) {
     CHECK(a.name == b.name);
     CHECK(a.reason == b.reason);
     CHECK(a.seed == b.seed);
-    checkSameLaw(a.world.law, b.world.law);
+    checkSameLaw(a.dosingLaw, b.dosingLaw);
     checkSameLaw(a.settlingLaw, b.settlingLaw);
     CHECK(a.world.surfaces.size() == b.world.surfaces.size());
     CHECK(a.world.gravity == b.world.gravity);
@@ -74,7 +74,7 @@ void checkSame(const Case& a, const Case& b) {
 
 TEST_CASE("the paper's case, value by value") {
     const Case c = loadCase(shippedCase("paper-48g.toml"));
-    const ContactParameters& p = c.world.law.of(ContactClass::ParticleParticle);
+    const ContactParameters& p = c.dosingLaw.of(ContactClass::ParticleParticle);
     CHECK(p.k2Max == 24067.0);
     CHECK(p.k1 == Approx(4813.4).epsilon(1e-14));
     CHECK(p.kc == Approx(0.873 * 24067).epsilon(1e-14));
@@ -87,13 +87,13 @@ TEST_CASE("the paper's case, value by value") {
     CHECK(p.mu == 0.5);
     CHECK(p.muR == 0.5);
     CHECK(p.muTo == 0);
-    CHECK(c.world.law.of(ContactClass::ParticleWall).mu == 0.2);
-    CHECK(c.world.law.of(ContactClass::ParticleCoil).mu == 0.2);
-    CHECK(c.world.law.of(ContactClass::ParticleCoil).k2Max == 24067.0);
+    CHECK(c.dosingLaw.of(ContactClass::ParticleWall).mu == 0.2);
+    CHECK(c.dosingLaw.of(ContactClass::ParticleCoil).mu == 0.2);
+    CHECK(c.dosingLaw.of(ContactClass::ParticleCoil).k2Max == 24067.0);
     for (const ContactParameters& q : c.settlingLaw.classes) CHECK(q.kc == Approx(0.3 * 24067).epsilon(1e-14));
-    CHECK(c.world.law.coulombLimit == CoulombLimit::Absolute);
+    CHECK(c.dosingLaw.coulombLimit == CoulombLimit::Absolute);
     CHECK(c.world.maxOverlapRatio == 1);
-    CHECK(c.world.law.rollingLever == RollingLever::Full);
+    CHECK(c.dosingLaw.rollingLever == RollingLever::Full);
     CHECK(c.world.density == 1427);
     CHECK(c.world.gravity == Vec3(0, -9.81, 0));
     CHECK(c.world.timeStep == 2.26e-6);
@@ -161,9 +161,9 @@ TEST_CASE("overrides are TOML values or bare words, the last one wins") {
     const auto file = folder.write("case.toml", kGoodCase);
     const Case c = loadCase(file, {"contact.friction=0.1", "contact.friction = 0.3", "coil.hand=left", "seed=9",
                                    "gravity=[0, -1.62, 0]", "contact.coil.friction=0.7", "name=other-name"});
-    CHECK(c.world.law.of(ContactClass::ParticleParticle).mu == 0.3);
-    CHECK(c.world.law.of(ContactClass::ParticleWall).mu == 0.2);
-    CHECK(c.world.law.of(ContactClass::ParticleCoil).mu == 0.7);
+    CHECK(c.dosingLaw.of(ContactClass::ParticleParticle).mu == 0.3);
+    CHECK(c.dosingLaw.of(ContactClass::ParticleWall).mu == 0.2);
+    CHECK(c.dosingLaw.of(ContactClass::ParticleCoil).mu == 0.7);
     CHECK(c.world.coil->hand == -1);
     CHECK(c.seed == 9);
     CHECK(c.world.gravity.y == -1.62);
@@ -192,8 +192,8 @@ TEST_CASE("a base file is overridden key by key, faults name the file they stand
         folder.write("variants/top.toml", "base = \"middle.toml\"\nname = \"top\"\n[coil]\npitch_mm = 6\n");
     const Case c = loadCase(top);
     CHECK(c.name == "top");
-    CHECK(c.world.law.of(ContactClass::ParticleParticle).mu == 0.4);
-    CHECK(c.world.law.of(ContactClass::ParticleWall).mu == 0.2);
+    CHECK(c.dosingLaw.of(ContactClass::ParticleParticle).mu == 0.4);
+    CHECK(c.dosingLaw.of(ContactClass::ParticleWall).mu == 0.2);
     CHECK(c.world.coil->pitch == 6e-3);
     CHECK(c.resolved.find("base") == std::string::npos);
 
@@ -229,12 +229,12 @@ TEST_CASE("settling adhesion: for every class without one of its own") {
     const Folder folder;
     const auto file = folder.write("case.toml", kGoodCase);
     const Case plain = loadCase(file);  // no settling value: the doses' law from the start
-    CHECK(plain.settlingLaw.classes[0].kc == plain.world.law.classes[0].kc);
+    CHECK(plain.settlingLaw.classes[0].kc == plain.dosingLaw.classes[0].kc);
     const Case c = loadCase(file, {"settle.kc_over_k=0.3", "contact.wall.kc_over_k=0.1"});
     CHECK(c.settlingLaw.of(ContactClass::ParticleParticle).kc == Approx(600));
     CHECK(c.settlingLaw.of(ContactClass::ParticleWall).kc == Approx(200));
     CHECK(c.settlingLaw.of(ContactClass::ParticleCoil).kc == Approx(200));
-    CHECK(c.world.law.of(ContactClass::ParticleCoil).kc == Approx(200));
+    CHECK(c.dosingLaw.of(ContactClass::ParticleCoil).kc == Approx(200));
     const Case d = loadCase(file, {"settle.kc_over_k=0.3", "settle.coil_kc_over_k=0"});
     CHECK(d.settlingLaw.of(ContactClass::ParticleWall).kc == Approx(600));
     CHECK(d.settlingLaw.of(ContactClass::ParticleCoil).kc == 0);

@@ -13,7 +13,7 @@ using test::shippedCase;
 
 TEST_CASE("contact durations of the paper") {
     const Case c = loadCase(shippedCase("paper-48g.toml"));
-    const ContactParameters& p = c.world.law.of(ContactClass::ParticleParticle);
+    const ContactParameters& p = c.dosingLaw.of(ContactClass::ParticleParticle);
     // Printed: 1.1297e-4 s. The table's k1 and gamma are rounded to 0.2 %, so t_c may differ by half as much.
     CHECK(contactDuration(p, 1427, 1.25e-3, 1.25e-3, p.k1) == Approx(1.1297e-4).epsilon(1e-3));
     // Against a wall the reduced mass doubles. By hand: m = 1.167458e-5 kg, k1/m = 4.12298e8, (gamma/2m)^2 = 1.25449e7.

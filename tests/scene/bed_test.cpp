@@ -9,7 +9,7 @@ using namespace vkdose::test;
 namespace {
 
 /// Two calls of different length, the second with the coil turning.
-std::unique_ptr<Backend> played(const World& w, const Particles& p, const VulkanOptions& options = {}) {
+std::unique_ptr<Backend> played(const RuledWorld& w, const Particles& p, const VulkanOptions& options = {}) {
     auto device = gpu(options);
     device->load(w, p);
     device->advance(1201, 0);
@@ -38,7 +38,7 @@ Particles twinOf(const Particles& original, unsigned seed) {
 }
 
 /// The sensors of 4000 steps, after a first 400.
-Sensors late(const World& w, const Particles& p) {
+Sensors late(const RuledWorld& w, const Particles& p) {
     const auto reference = makeReferenceBackend();
     reference->load(w, p);
     reference->advance(400, -9.42);
@@ -48,7 +48,7 @@ Sensors late(const World& w, const Particles& p) {
 }  // namespace
 
 TEST_CASE("a bed of odd size follows the reference through its first contacts, then in its sums") {
-    const World w = canisterWorld();
+    const RuledWorld w = canisterWorld();
     const Particles p = thrownIn(131);
     auto device = gpu();
     auto reference = makeReferenceBackend();
@@ -85,7 +85,7 @@ TEST_CASE("a bed of odd size follows the reference through its first contacts, t
 }
 
 TEST_CASE("history follows the pair: how often the rows are rebuilt does not change a bit") {
-    World w = canisterWorld();
+    RuledWorld w = canisterWorld();
     const Particles p = thrownIn(97);
     w.skin = 0.05e-3;
     const auto often = played(w, p);
@@ -98,7 +98,7 @@ TEST_CASE("history follows the pair: how often the rows are rebuilt does not cha
 }
 
 TEST_CASE("the same case gives the same bits, whatever the workgroup and the way of reading") {
-    const World w = canisterWorld();
+    const RuledWorld w = canisterWorld();
     const Particles p = thrownIn(131);
     const auto first = played(w, p);
     VulkanOptions other;
@@ -121,7 +121,7 @@ TEST_CASE("the same case gives the same bits, whatever the workgroup and the way
 }
 
 TEST_CASE("the bits do not depend on how the steps are cut into calls") {
-    const World w = canisterWorld();
+    const RuledWorld w = canisterWorld();
     const Particles p = thrownIn(65);
     const auto whole = played(w, p);
     auto cut = gpu();
@@ -134,7 +134,7 @@ TEST_CASE("the bits do not depend on how the steps are cut into calls") {
 }
 
 TEST_CASE("an isolated cluster keeps its momentum") {
-    World w = emptyWorld();
+    RuledWorld w = emptyWorld();
     w.gravity = Vec3(0);
     Particles p;
     std::mt19937 random(5);
@@ -160,7 +160,7 @@ TEST_CASE("an isolated cluster keeps its momentum") {
 }
 
 TEST_CASE("a slow particle moves on though its step is below a float's resolution") {
-    World w = emptyWorld();
+    RuledWorld w = emptyWorld();
     w.gravity = Vec3(0);
     Particles p;
     p.add({0.1, 0.05, -0.1}, single(1e-3), {1e-3, -5e-4, 3e-4});
@@ -173,7 +173,7 @@ TEST_CASE("a slow particle moves on though its step is below a float's resolutio
 }
 
 TEST_CASE("the switch of the law keeps state and history") {
-    const World w = canisterWorld();
+    const RuledWorld w = canisterWorld();
     const Particles p = thrownIn(65);
     auto device = gpu();
     device->load(w, p);

@@ -13,7 +13,7 @@ std::unique_ptr<Backend> made(bool reference) {
     return reference ? makeReferenceBackend() : gpu();
 }
 
-double massOf(const World& w, double radius) {
+double massOf(const RuledWorld& w, double radius) {
     return w.density * (4.0 / 3.0) * kPi * radius * radius * radius;
 }
 
@@ -32,7 +32,7 @@ bool anyForce(const Backend& backend) {
 }
 
 /// Makes one step and holds what the contacts exerted against what the particles' velocities did.
-void checkMomentum(Backend& backend, const World& w, double rate) {
+void checkMomentum(Backend& backend, const RuledWorld& w, double rate) {
     const Particles before = backend.particles();
     backend.advance(1, rate);
     const Particles after = backend.particles();
@@ -53,7 +53,7 @@ void checkMomentum(Backend& backend, const World& w, double rate) {
 
 TEST_CASE("the forces of the contacts are what moves the particles, and survive refreshes, rebuilds and a restart") {
     const bool reference = GENERATE(false, true);
-    World w = canisterWorld();
+    RuledWorld w = canisterWorld();
     w.maxOverlapRatio = 1;
     w.energyBook = GENERATE(false, true);
     constexpr double kRate = -9.4;
@@ -84,7 +84,7 @@ TEST_CASE("the forces of the contacts are what moves the particles, and survive 
 
 TEST_CASE("a sphere at rest presses on the floor with its weight") {
     const bool reference = GENERATE(false, true);
-    World w = emptyWorld();
+    RuledWorld w = emptyWorld();
     w.surfaces = {geometry::Plane{{0, 0, 0}, {0, 1, 0}}};
     const double a = single(1.25e-3);
     Particles p;

@@ -12,8 +12,8 @@ using namespace vkdose::test;
 namespace {
 
 /// A short canister whose coil soon doses. Soft contacts, so that much happens in few steps.
-World dosingWorld() {
-    World w = emptyWorld();
+RuledWorld dosingWorld() {
+    RuledWorld w = emptyWorld();
     w.energyBook = true;
     w.maxOverlapRatio = 1;
     w.timeStep = 4e-6;
@@ -21,7 +21,8 @@ World dosingWorld() {
         p.k1 /= 10, p.k2Max /= 10, p.kc /= 10, p.kt /= 10, p.kr /= 10, p.kTo /= 10;
         p.gamma /= 3, p.gammaT /= 3, p.gammaR /= 3, p.gammaTo /= 3;
     }
-    w.surfaces = {geometry::Trough{8e-3, 16e-3}, geometry::Plane{{0, 0, 0}, {0, 0, 1}}, geometry::Front{16e-3, 8e-3, 3e-3}};
+    w.surfaces = {geometry::Trough{8e-3, 16e-3}, geometry::Plane{{0, 0, 0}, {0, 0, 1}},
+                  geometry::Front{16e-3, 8e-3, 3e-3}};
     w.coil = geometry::Coil{6.5e-3, 6e-3, 0.9e-3, 19e-3};
     w.domain = {Vec3(-0.02), Vec3(0.02, 0.1, 0.05)};
     w.throatZ = 16e-3;
@@ -66,7 +67,7 @@ double scaleOf(const EnergyLedger& ledger) {
 }  // namespace
 
 TEST_CASE("energy: device and reference book the same, term by term, until packings part") {
-    const World w = dosingWorld();
+    const RuledWorld w = dosingWorld();
     const Particles p = thrownAbout(45);
     auto device = gpu();
     auto reference = makeReferenceBackend();
@@ -94,7 +95,7 @@ TEST_CASE("energy: device and reference book the same, term by term, until packi
 }
 
 TEST_CASE("energy: a bed under the coil that doses closes on the device, and loses energy in every way") {
-    World w = dosingWorld();
+    RuledWorld w = dosingWorld();
     w.law.coulombLimit = GENERATE(CoulombLimit::Luding, CoulombLimit::Absolute);
     auto device = gpu();
     device->load(w, thrownAbout(97));
@@ -119,7 +120,7 @@ TEST_CASE("energy: a bed under the coil that doses closes on the device, and los
 }
 
 TEST_CASE("energy: keeping the book changes no bit of the motion") {
-    World w = dosingWorld();
+    RuledWorld w = dosingWorld();
     const Particles p = thrownAbout(97);
     VulkanOptions options;
     options.reads = GENERATE(VulkanOptions::Reads::Automatic, VulkanOptions::Reads::Storage);
@@ -140,7 +141,7 @@ TEST_CASE("energy: keeping the book changes no bit of the motion") {
 }
 
 TEST_CASE("energy: what a dosed particle had in its contacts leaves with it") {
-    World w = dosingWorld();
+    RuledWorld w = dosingWorld();
     w.surfaces.clear();
     w.coil.reset();
     w.gravity = Vec3(0);

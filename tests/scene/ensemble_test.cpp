@@ -33,7 +33,7 @@ struct Outcome {
 };
 
 Outcome play(Backend& backend, const Script& s, const Record* from = nullptr, Record* to = nullptr) {
-    World w = canisterWorld();
+    RuledWorld w = canisterWorld();
     w.maxOverlapRatio = 1;
     w.timeStep = s.timeStep;
     w.energyBook = s.energyBook;
@@ -164,7 +164,7 @@ TEST_CASE("a canister goes on in an ensemble from where it was alone, and the ot
 
 TEST_CASE("canisters with surfaces of other kinds cannot share tables") {
     std::vector<std::unique_ptr<Backend>> backends = gpuEnsemble(2);
-    World odd = canisterWorld();
+    RuledWorld odd = canisterWorld();
     odd.surfaces.pop_back();
     std::vector<std::string> said(2);
     std::thread other([&] {

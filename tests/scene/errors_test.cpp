@@ -11,7 +11,7 @@ using Catch::Contains;
 
 namespace {
 
-void requireRunError(const World& w, const Particles& p, std::uint32_t steps, const std::string& words) {
+void requireRunError(const RuledWorld& w, const Particles& p, std::uint32_t steps, const std::string& words) {
     auto device = gpu();
     device->load(w, p);
     REQUIRE_THROWS_AS(device->advance(steps, 0), RunError);
@@ -24,7 +24,7 @@ void requireRunError(const World& w, const Particles& p, std::uint32_t steps, co
 }  // namespace
 
 TEST_CASE("a particle that leaves the domain is named with its place and time") {
-    World w = emptyWorld();
+    RuledWorld w = emptyWorld();
     w.domain = {Vec3(-0.01), Vec3(0.01)};
     Particles p;
     p.add({0, 0, 0}, 1e-3);
@@ -47,7 +47,7 @@ TEST_CASE("two spheres in one place are reported") {
 }
 
 TEST_CASE("how deep an overlap may be is the world's choice") {
-    World w = emptyWorld();
+    RuledWorld w = emptyWorld();
     w.timeStep = 1e-8;
     Particles p;
     p.add({0, 0, 0}, 1e-3);
@@ -76,7 +76,7 @@ TEST_CASE("a full neighbour row is reported") {
         const double z = -1 + (2 * i + 1) / 90.0, phi = i * 2.399963;
         p.add(1.21e-3 * Vec3(std::sqrt(1 - z * z) * std::cos(phi), std::sqrt(1 - z * z) * std::sin(phi), z), 1.0e-4);
     }
-    World w = emptyWorld();
+    RuledWorld w = emptyWorld();
     w.timeStep = 1e-8;
     w.skin = 0.15e-3;
     requireRunError(w, p, 1, "more neighbours than a row holds");
@@ -89,7 +89,7 @@ TEST_CASE("a skin that fills a row at the first step, and no other, is refused w
     int refused = 0, runs = 0;
     for (const double skin : {0.6, 1.5, 2.0, 2.2, 2.4, 2.6, 2.8, 3.0, 3.2, 3.5, 4.0, 6.0, 21.0}) {
         CAPTURE(skin);
-        World world = c.world;
+        RuledWorld world{c.world, c.settlingLaw};
         world.skin = skin * 1e-3;
         auto device = gpu();
         device->load(world, filled.particles);
@@ -115,7 +115,7 @@ TEST_CASE("more neighbours and contacts than the tables are made for are reporte
                  spacing = 2 * radius / GENERATE(1.75, 1.45);  // 26 others overflow the rows, 18 the pairs
     Particles p;
     for (int i = 0; i < 12 * 12 * 12; ++i) p.add(spacing * Vec3(i % 12, i / 12 % 12, i / 144), radius);
-    World w = emptyWorld();
+    RuledWorld w = emptyWorld();
     w.timeStep = 1e-9;
     w.skin = 1e-6;
     w.maxOverlapRatio = 2;
@@ -127,14 +127,14 @@ TEST_CASE("more particles around one than the neighbour search may look at are r
     // The large sphere, far away, makes the cells of the search large; the small ones, apart from each other, fill one.
     p.add({0.5, 0, 0}, 0.01);
     for (int i = 0; i < 17 * 17 * 17; ++i) p.add(3e-4 * Vec3(1 + i % 17, 1 + i / 17 % 17, 1 + i / 289), 1e-4);
-    World w = emptyWorld();
+    RuledWorld w = emptyWorld();
     w.timeStep = 1e-8;
     w.skin = 1e-5;
     requireRunError(w, p, 1, "has thousands of others around it");
 }
 
 TEST_CASE("a dosed particle is counted once and its neighbours forget it") {
-    World w = canisterWorld();
+    RuledWorld w = canisterWorld();
     w.surfaces.clear();
     w.coil.reset();
     Particles p;

@@ -60,7 +60,7 @@ constexpr double kRate = -9.42;
 }  // namespace
 
 TEST_CASE("fields: the device's are the reference's, of a packing on walls and coil") {
-    World world = canisterWorld();
+    RuledWorld world = canisterWorld();
     world.maxOverlapRatio = 1;
     const auto device = gpu(), reference = makeReferenceBackend();
     device->load(world, thrownIn(307));
@@ -91,7 +91,7 @@ TEST_CASE("fields: the device's are the reference's, of a packing on walls and c
 }
 
 TEST_CASE("fields: on the device too each turn of the coil that a sphere touches has a branch of its own") {
-    World world = canisterWorld();
+    RuledWorld world = canisterWorld();
     world.surfaces.clear();
     world.gravity = Vec3(0);
     world.coil->pitch = 3.5e-3;  // spheres fit between two turns and lie in the groove
@@ -122,7 +122,7 @@ TEST_CASE("fields: on the device too each turn of the coil that a sphere touches
 }
 
 TEST_CASE("fields: on the device, a bed that moves as one has that velocity to the last bits") {
-    World world = emptyWorld();
+    RuledWorld world = emptyWorld();
     Particles p = thrownIn(131);
     for (Vec3& v : p.velocity) v = Vec3(0.25, -0.5, 1);
     const auto device = gpu();
@@ -141,7 +141,7 @@ TEST_CASE("fields: on the device, a bed that moves as one has that velocity to t
 }
 
 TEST_CASE("fields: asking for them changes nothing, and gives the same bits however the steps were cut") {
-    const World world = canisterWorld();
+    const RuledWorld world = canisterWorld();
     const Particles p = thrownIn(211);
     const FieldRequest r = request({1, 23, 31}, 2e-3), small = request({1, 1, 5}, 0.02);
     VulkanOptions few;
@@ -176,7 +176,7 @@ TEST_CASE("fields: asking for them changes nothing, and gives the same bits howe
 
 TEST_CASE("fields: a canister has the same in an ensemble as alone") {
     const FieldRequest r = request({1, 11, 17}, 3e-3);
-    const World world = canisterWorld();
+    const RuledWorld world = canisterWorld();
     const std::array<Particles, 2> beds{thrownIn(67), thrownIn(130)};
     std::array<FieldPoints, 2> alone, together;
     const auto run = [&](Backend& backend, std::size_t k) {

@@ -14,7 +14,7 @@ constexpr double kSpeed = 0.5;  // [m/s] scale of the impacts below
 
 /// Runs both backends through `steps` steps and returns their differences; the scene must end with a contact history
 /// behind it.
-Differences run(const World& world, const Particles& particles, std::uint32_t steps, double rate = 0) {
+Differences run(const RuledWorld& world, const Particles& particles, std::uint32_t steps, double rate = 0) {
     auto device = gpu();
     auto reference = makeReferenceBackend();
     device->load(world, particles);
@@ -51,7 +51,7 @@ TEST_CASE("two spheres of size ratio three collide off centre") {
     Particles p;
     p.add({0.031, -0.02, 0.045}, single(1.875e-3), {0.2, 0.05, 0}, {30, 60, -20});
     p.add({0.031 + 2.501e-3, -0.02, 0.045 + 1e-4}, single(0.625e-3), {-0.2, 0, 0.05}, {-80, 10, 40});
-    World w = emptyWorld();
+    RuledWorld w = emptyWorld();
     for (const auto limit : {CoulombLimit::Luding, CoulombLimit::Absolute})
         for (const auto lever : {RollingLever::Full, RollingLever::Half}) {
             w.law.coulombLimit = limit;
@@ -64,7 +64,7 @@ TEST_CASE("two spheres stay stuck by adhesion") {
     Particles p;
     p.add({0, 0, 0}, single(1.25e-3), {0.5, 0, 0});
     p.add({2.5e-3, 0, 0}, single(1.25e-3), {-0.5, 0, 0});
-    World w = emptyWorld();
+    RuledWorld w = emptyWorld();
     w.law = paperLaw(0.873);
     w.gravity = Vec3(0);
     requireClose(run(w, p, 500));
@@ -74,13 +74,13 @@ TEST_CASE("an elastic law (k1 = k2) has no plastic limit to divide by") {
     Particles p;
     p.add({0, 0, 0}, single(1.25e-3), {0.1, 0, 0});
     p.add({2.5e-3, 0, 0}, single(1.25e-3), {-0.1, 0, 0});
-    World w = emptyWorld();
+    RuledWorld w = emptyWorld();
     for (ContactParameters& c : w.law.classes) c.k1 = c.k2Max;
     requireClose(run(w, p, 15));
 }
 
 TEST_CASE("a sphere meets every surface") {
-    World w = emptyWorld();
+    RuledWorld w = emptyWorld();
     const double a = single(1.25e-3), s = std::sqrt(0.5);
     struct Shot {
         const char* name;
@@ -125,7 +125,7 @@ TEST_CASE("spheres pressed against the coil wherever it is") {
     // um the spheres are pressed in. The way they then go, some 20 um, is off by that part: 3e-8 m or 4e-5 of a radius.
     // Where a contact is pulled back on the adhesive branch, delta_max answers to the overlap with a slope of
     // (k2 + kc)/(k2 - k1), 40 at this depth: 1.2e-7 m or 2e-4 of a radius.
-    World w = canisterWorld();
+    RuledWorld w = canisterWorld();
     w.surfaces.clear();
     w.gravity = Vec3(0);
     std::size_t most = 0;
@@ -157,16 +157,16 @@ TEST_CASE("spheres pressed against the coil wherever it is") {
 
 TEST_CASE("the comparison of two backends sees what it is there to see") {
     Particles p = thrown({0.02, -0.01, 0.03}, {0, -1, 0}, single(1.25e-3), {0.1, 0, 0.05});
-    World w = emptyWorld();
+    RuledWorld w = emptyWorld();
     w.surfaces = {geometry::Plane{{0, -0.01, 0}, {0, 1, 0}}};
-    const auto played = [](const World& world, const Particles& particles) {
+    const auto played = [](const RuledWorld& world, const Particles& particles) {
         auto backend = makeReferenceBackend();
         backend->load(world, particles);
         backend->advance(30, 0);
         return backend;
     };
     const auto sound = played(w, p);
-    World other = w;
+    RuledWorld other = w;
     other.law.of(ContactClass::ParticleWall).mu *= 1.001;
     CHECK(differences(*played(other, p), *sound, kSpeed).velocity > 1e-5);
     other = w;

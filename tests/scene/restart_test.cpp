@@ -35,7 +35,7 @@ void checkSameButForces(std::vector<Contact> contacts, const std::vector<Contact
 }
 
 void restartAgrees(bool reference) {
-    World w = canisterWorld();
+    RuledWorld w = canisterWorld();
     w.maxOverlapRatio = 1;
     w.energyBook = GENERATE(false, true);
     const Particles p = thrownIn(203);
@@ -97,7 +97,7 @@ TEST_CASE("a snapshot that does not fit is refused") {
 }
 
 TEST_CASE("the bits do not depend on how many steps a submission holds") {
-    World w = canisterWorld();
+    RuledWorld w = canisterWorld();
     w.maxOverlapRatio = 1;
     const Particles p = thrownIn(67);
     const auto play = [&](std::uint32_t batch) {

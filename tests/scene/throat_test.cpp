@@ -17,21 +17,21 @@ constexpr double kThroat = 0.01;    // its length
 const double kA = single(1.25e-3);  // radius of the sphere
 constexpr double kDegree = kPi / 180;
 
-World wallsOnly(std::vector<geometry::Surface> surfaces) {
-    World w = emptyWorld();
+RuledWorld wallsOnly(std::vector<geometry::Surface> surfaces) {
+    RuledWorld w = emptyWorld();
     w.gravity = Vec3(0);
     w.surfaces = std::move(surfaces);
     return w;
 }
 
 /// The paper's canister without its coil, with a hole of this radius.
-World canister(double hole = kHalf) {
+RuledWorld canister(double hole = kHalf) {
     return wallsOnly({geometry::Trough{kHalf, kFrontZ}, geometry::Plane{{0, 0, 0}, {0, 0, 1}},
                       geometry::Front{kFrontZ, hole, kThroat}});
 }
 
 /// The same with a flat floor.
-World flatCanister() {
+RuledWorld flatCanister() {
     return wallsOnly({geometry::Plane{{-kHalf, 0, 0}, {1, 0, 0}, kFrontZ},
                       geometry::Plane{{kHalf, 0, 0}, {-1, 0, 0}, kFrontZ},
                       geometry::Plane{{0, -kHalf, 0}, {0, 1, 0}, kFrontZ}, geometry::Plane{{0, 0, 0}, {0, 0, 1}},
@@ -46,7 +46,7 @@ Vec3 inWall(double radius, double depth, double angle, double z) {
 
 /// The contacts with walls that a sphere has at each of these places, one after the other on their own as far as walls
 /// are concerned: what spheres do to each other is not looked at.
-std::vector<std::vector<Contact>> contactsAt(Backend& backend, World world, const std::vector<Vec3>& places) {
+std::vector<std::vector<Contact>> contactsAt(Backend& backend, RuledWorld world, const std::vector<Vec3>& places) {
     Particles p;
     for (const Vec3& x : places) p.add(x, kA);
     world.maxOverlapRatio = 10;
@@ -176,7 +176,7 @@ TEST_CASE("throat: a sphere slides from trough to throat and back as along an en
             Particles p;
             p.add(inWall(kHalf, 4e-6, angle * kDegree, kFrontZ - direction * 1e-5), kA, {0.01, -0.02, direction * 1.5},
                   {40, 10, -70});
-            World ending = canister(), endless = wallsOnly({geometry::Trough{kHalf}});
+            RuledWorld ending = canister(), endless = wallsOnly({geometry::Trough{kHalf}});
             ending.law = endless.law = paperLaw(0.873);
             ending.gravity = endless.gravity = 2000.0 * Vec3(std::cos(angle * kDegree), std::sin(angle * kDegree), 0);
             onBoth([&](Backend& backend, double) {
@@ -206,9 +206,9 @@ TEST_CASE("throat: a sphere slides from trough to throat and back as along an en
 TEST_CASE("throat: a sphere goes round in the hole as in an endless tube") {
     // From the throat's top down the side and out into the trough, and the other way: the contact passes from the front
     // wall to the trough and back.
-    World tube = wallsOnly({geometry::Tube{{0, 0, 0}, {0, 0, 1}, kHalf}});
-    World ending = canister();
-    for (World* w : {&tube, &ending}) {
+    RuledWorld tube = wallsOnly({geometry::Tube{{0, 0, 0}, {0, 0, 1}, kHalf}});
+    RuledWorld ending = canister();
+    for (RuledWorld* w : {&tube, &ending}) {
         w->law = paperLaw(0.873);
         w->timeStep = 4e-6;
     }
@@ -220,7 +220,7 @@ TEST_CASE("throat: a sphere goes round in the hole as in an endless tube") {
     onBoth([&](Backend& backend, double) {
         std::vector<Particles> ends;
         std::vector<std::vector<Contact>> contacts;
-        for (const World& w : {tube, ending}) {
+        for (const RuledWorld& w : {tube, ending}) {
             backend.load(w, p);
             backend.advance(900, 0);
             ends.push_back(backend.particles());
@@ -240,7 +240,7 @@ TEST_CASE("throat: a sphere goes round in the hole as in an endless tube") {
 TEST_CASE("throat: over the rim from the front wall the contact keeps its history") {
     // A sphere that has been pressed against the top of the throat moves out over the rim, and back in. Without
     // adhesion the deepest overlap of a contact that lasts never falls.
-    World world = canister();
+    RuledWorld world = canister();
     world.law = paperLaw(0);
     world.gravity = Vec3(0, 2000, 0);  // holds a sphere 5 um deep
     const double along = GENERATE(0.4, -0.4);
@@ -264,7 +264,7 @@ TEST_CASE("throat: over the rim from the front wall the contact keeps its histor
 }
 
 TEST_CASE("throat: the energy book closes while contacts pass from wall to wall") {
-    World world = canister();
+    RuledWorld world = canister();
     world.energyBook = true;
     world.law = paperLaw(0.873);
     world.gravity = Vec3(0, -9.81, 0);

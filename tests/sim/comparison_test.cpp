@@ -12,15 +12,15 @@ namespace {
 /// Passes everything on to a reference, with something changed in the world.
 class Wrong : public Backend {
   public:
-    explicit Wrong(std::function<void(World&)> change) : change_(std::move(change)), inner_(makeReferenceBackend()) {}
-    void load(const World& world, const Particles& p) override {
-        World w = world;
+    explicit Wrong(std::function<void(RuledWorld&)> change)
+        : change_(std::move(change)), inner_(makeReferenceBackend()) {}
+    void load(const World& world, const ContactLaw& law, const Particles& p) override {
+        RuledWorld w{world, law};
         change_(w);
         inner_->load(w, p);
     }
     void setLaw(const ContactLaw& law) override {
-        World w;
-        w.law = law;
+        RuledWorld w{{}, law};
         change_(w);
         inner_->setLaw(w.law);
     }
@@ -34,7 +34,7 @@ class Wrong : public Backend {
     std::string description() const override { return "wrong"; }
 
   private:
-    std::function<void(World&)> change_;
+    std::function<void(RuledWorld&)> change_;
     std::unique_ptr<Backend> inner_;
 };
 
@@ -47,7 +47,7 @@ Case fallingSpheres() {
     c.world.skin = 2e-4;
     c.world.domain = {Vec3(-1), Vec3(1)};
     c.world.surfaces.push_back(geometry::Plane{Vec3(0), Vec3(0, 1, 0)});
-    for (ContactParameters& p : c.world.law.classes) {
+    for (ContactParameters& p : c.dosingLaw.classes) {
         p.k1 = 400;
         p.k2Max = 2000;
         p.kc = 100;
@@ -60,7 +60,7 @@ Case fallingSpheres() {
         p.gammaR = 0.003;
         p.muR = 0.2;
     }
-    c.settlingLaw = c.world.law;
+    c.settlingLaw = c.dosingLaw;
     c.schedule.settleTime = 0.04;
     c.sensorInterval = 0.01;
     Particles p;
@@ -99,23 +99,23 @@ TEST_CASE("the reference agrees with itself to the last bit") {
 
 TEST_CASE("a backend that is a little wrong is found out") {
     SECTION("gravity 0.1 % too strong") {
-        Wrong wrong([](World& w) { w.gravity *= 1.001; });
+        Wrong wrong([](RuledWorld& w) { w.gravity *= 1.001; });
         CHECK(against(wrong).verdict() == Verdict::Differs);
     }
     SECTION("5 % more stiffness") {
-        Wrong wrong([](World& w) {
+        Wrong wrong([](RuledWorld& w) {
             for (ContactParameters& p : w.law.classes) p.k1 *= 1.05;
         });
         CHECK(against(wrong).verdict() == Verdict::Differs);
     }
     SECTION("5 % less damping") {
-        Wrong wrong([](World& w) {
+        Wrong wrong([](RuledWorld& w) {
             for (ContactParameters& p : w.law.classes) p.gamma *= 0.95;
         });
         CHECK(against(wrong).verdict() == Verdict::Differs);
     }
     SECTION("no rolling resistance") {
-        Wrong wrong([](World& w) {
+        Wrong wrong([](RuledWorld& w) {
             for (ContactParameters& p : w.law.classes) p.muR = 0;
         });
         CHECK(against(wrong).verdict() == Verdict::Differs);

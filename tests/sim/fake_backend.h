@@ -39,9 +39,9 @@ class FakeBackend : public Backend {
     int loads = 0;
     std::uint64_t step = 0;
 
-    void load(const World& world, const Particles& particles) override {
+    void load(const World& world, const ContactLaw& law, const Particles& particles) override {
         ++loads;
-        world_ = world;
+        world_ = {world, law};
         particles_ = particles;
     }
     void setLaw(const ContactLaw& law) override { world_.law = law; }
@@ -88,7 +88,7 @@ class FakeBackend : public Backend {
     std::string description() const override { return "fake"; }
 
   private:
-    World world_;
+    RuledWorld world_;
     Particles particles_;
     double angle_ = 0;
 };
@@ -113,7 +113,7 @@ inline Case smallCase() {
     c.name = "fake";
     c.world.timeStep = 1e-3;
     c.world.density = 1000;
-    c.world.law.of(ContactClass::ParticleParticle).kc = 7;
+    c.dosingLaw.of(ContactClass::ParticleParticle).kc = 7;
     c.settlingLaw.of(ContactClass::ParticleParticle).kc = 3;
     geometry::Coil coil{};
     coil.radius = 0.01;

@@ -41,7 +41,7 @@ TEST_CASE("a run makes every phase's steps at its rate and under its law") {
     CHECK(r.endState);
 }
 
-TEST_CASE("samples come at the sensor interval and at phase ends, with the conveyed angle") {
+TEST_CASE("samples come at the sensor interval and at phase ends, with the angle about +z") {
     for (const int hand : {-1, 1}) {
         Case c = smallCase();
         c.world.coil->hand = hand;
@@ -54,8 +54,8 @@ TEST_CASE("samples come at the sensor interval and at phase ends, with the conve
         CHECK(at == std::vector<std::uint64_t>{30, 60, 90, 100, 120, 150, 170, 180, 210});
         CHECK(notes.samples[3].phase == Phase::Settle);
         CHECK(notes.samples[3].coilAngle == 0);
-        CHECK(notes.samples[5].coilAngle == Approx(4 * 0.05));
-        CHECK(notes.samples.back().coilAngle == Approx(3 * 4 * 0.05));
+        CHECK(notes.samples[5].coilAngle == Approx(-hand * 4 * 0.05));  // a right-handed coil conveys clockwise
+        CHECK(notes.samples.back().coilAngle == Approx(-hand * 3 * 4 * 0.05));
         CHECK(notes.samples[5].time == Approx(0.15));
         CHECK(std::isnan(notes.samples[5].outletVelocity));  // the throat is empty
     }
@@ -407,4 +407,29 @@ TEST_CASE("a run that goes on tells its pace by what it did itself") {
     REQUIRE(done > 0);
     CHECK(after.progress.back().particleSteps == whole - done);
     CHECK(notes.progress.back().steps == notes.progress.back().step);
+}
+
+TEST_CASE("a run whose angles were once written as positive when conveying keeps that sense when it goes on") {
+    Case c = smallCase();
+    c.world.coil->hand = 1;  // conveys at falling angles
+    c.checkpoint.wall = 0;
+    c.checkpoint.simulated = 0.001;
+    FakeBackend backend;
+    Keeper notes;
+    play(c, backend, notes);
+    for (const bool former : {false, true}) {
+        RunCheckpoint from = notes.kept.back();
+        REQUIRE(from.run.get<double>("last")[1] < 0);
+        if (former) {
+            std::vector<double> last = from.run.get<double>("last");
+            last[1] = -last[1];
+            from.run.put("last", last);
+        }
+        FakeBackend second;
+        Notebook after;
+        const std::atomic<bool> stop{false};
+        runFilled(c, smallFilling(), {}, second, after, stop, &from);
+        REQUIRE_FALSE(after.samples.empty());
+        for (const Sample& s : after.samples) CHECK((s.coilAngle > 0) == former);
+    }
 }

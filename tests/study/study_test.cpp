@@ -48,7 +48,7 @@ TEST_CASE("a study is every combination of its axes for every seed, seeds slowes
     }
     const Case c = caseOf(members[10]);
     CHECK(c.seed == 9);
-    CHECK(c.world.law.of(ContactClass::ParticleParticle).kc == 0.5 * 2000.0);
+    CHECK(c.dosingLaw.of(ContactClass::ParticleParticle).kc == 0.5 * 2000.0);
     CHECK(c.schedule.stop.maxDoses == 2);
     CHECK(c.schedule.rotateTime == 0.2);
     CHECK(c.schedule.coilSpeed == Approx(2 * kPi).epsilon(1e-12));  // 60 a minute, to rounding
@@ -150,6 +150,38 @@ TEST_CASE("every fault of a study names its line, its key and a remedy") {
         CHECK(told->file.find(row.says == "there is no such file" ? "bad.toml" : "study.toml") != std::string::npos);
         // At the line, or at the axis that holds it.
         if (!row.where.empty()) CHECK(told->line == lineOf(text, row.where));
+    }
+}
+
+TEST_CASE("a list that is varied is checked as a single value is, and told with the line of its point") {
+    const StudyFolder folder;
+    struct Fault {
+        std::string key, good, bad, says;
+    };
+    for (const Fault& row : std::vector<Fault>{
+             {"domain.high", "[0.1, 0.1, 0.1]", "[0.1, 0.1]", "domain.high = [0.1, 0.1]: is not an array of three"},
+             {"domain.high", "[0.1, 0.1, 0.1]", "[0.1, \"b\", 0.1]", "\"b\" is not a finite number"},
+             {"domain.high", "[0.1, 0.1, 0.1]", "[0.1, nan, 0.1]", "nan is not a finite number"},
+             {"domain.high", "[0.1, 0.1, 0.1]", "7", "domain.high = 7: is not an array of three"},
+             {"contact.friction", "0.5", "[0.5]", "contact.friction = [0.5]: is an array, not a number"},
+             {"field", "[{preset = \"outlet\"}]", "[{preset = \"outlte\"}]",
+              "field[0].preset = \"outlte\": is not known"},
+             {"field", "[{preset = \"outlet\"}]", "[{presett = \"outlet\"}]",
+              "field[0].presett = \"outlet\": unknown key"},
+             {"field", "[{preset = \"outlet\"}]", "[1]", "field = [1]: is not a list of tables"},
+         }) {
+        CAPTURE(row.key, row.bad);
+        const auto text = [&](const std::string& second) {
+            return "base = \"good.toml\"\n[set]\ndomain.low = [-0.1, -0.1, -0.1]\n" +
+                   (row.key == "domain.high" ? "" : std::string("domain.high = [0.1, 0.1, 0.1]\n")) +
+                   "[[axis]]\nkey = \"" + row.key + "\"\nvalues = [\n" + row.good + ",\n" + second + "]\n";
+        };
+        const auto faults = faultsOf(folder, text(row.bad));
+        REQUIRE(faults.size() == 1);
+        CHECK_THAT(faults[0].text(),
+                   Catch::Contains("study.toml:" + std::to_string(lineOf(text(row.bad), row.bad + "]")) + ": " +
+                                   (row.key == "domain.high" ? "domain.high" : "")) &&
+                       Catch::Contains(row.says) && Catch::Contains("(member 1: " + row.key));
     }
 }
 

@@ -17,11 +17,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string readText(const fs::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 /// Stands in for the processes: a member "runs" until it is waited for, the last started ends first.
 class MadeUpRuns : public MemberRunner {
   public:
@@ -187,6 +182,9 @@ TEST_CASE("doses that the table has lost come back from the members' folders") {
         REQUIRE(digit != std::string::npos);
         other[digit] = other[digit] == '1' ? '2' : '1';
         std::ofstream(table) << other;
+    }
+    SECTION("a line twice") {
+        std::ofstream(table) << good + good.substr(good.rfind('\n', good.size() - 2) + 1);
     }
     SECTION("a member's folder gone, the table whole") {
         fs::remove_all(sweep.out / "members/0003");

@@ -57,8 +57,8 @@ inline ContactLaw paperLaw(double kcOverK = 0.3) {
     return law;
 }
 
-inline World emptyWorld() {
-    World w;
+inline RuledWorld emptyWorld() {
+    RuledWorld w;
     w.law = paperLaw();
     w.density = 1427;
     w.timeStep = 2.26e-6;
@@ -68,8 +68,8 @@ inline World emptyWorld() {
 }
 
 /// The paper's canister, narrow coil.
-inline World canisterWorld() {
-    World w = emptyWorld();
+inline RuledWorld canisterWorld() {
+    RuledWorld w = emptyWorld();
     w.surfaces = {geometry::Trough{0.0115, 0.06}, geometry::Plane{{0, 0, 0}, {0, 0, 1}},
                   geometry::Front{0.06, 0.0115, 0.01}};
     w.coil = geometry::Coil{0.0104, 0.00875, 0.001, 0.07};

@@ -21,13 +21,13 @@ namespace {
 /// call, or what it tells.
 class Skewed final : public Backend {
   public:
-    std::function<void(World&)> world = [](World&) {};
+    std::function<void(RuledWorld&)> world = [](RuledWorld&) {};
     double rate = 1;
     std::function<void(Record&)> state;
     std::function<void(Sensors&)> sensors = [](Sensors&) {};
 
-    void load(const World& given, const Particles& particles) override {
-        World changed = given;
+    void load(const World& given, const ContactLaw& law, const Particles& particles) override {
+        RuledWorld changed{given, law};
         world(changed);
         sound_->load(changed, particles);
     }
@@ -55,8 +55,8 @@ class Skewed final : public Backend {
 };
 
 /// A change of one parameter of every class.
-std::function<void(World&)> scaled(double ContactParameters::*parameter, double factor) {
-    return [=](World& world) {
+std::function<void(RuledWorld&)> scaled(double ContactParameters::*parameter, double factor) {
+    return [=](RuledWorld& world) {
         for (ContactParameters& p : world.law.classes) p.*parameter *= factor;
     };
 }
@@ -84,7 +84,7 @@ namespace {
 
 struct Mutant {
     const char* name;
-    std::function<void(World&)> world;
+    std::function<void(RuledWorld&)> world;
     double rate;
     std::set<std::string> fails;  ///< at least these
     const char* spared;           ///< part of the names of cases that must not notice
@@ -92,7 +92,7 @@ struct Mutant {
     std::function<void(Sensors&)> sensors = [](Sensors&) {};
 };
 
-void asItIs(World&) {}
+void asItIs(RuledWorld&) {}
 
 std::vector<Mutant> mutants() {
     return {
@@ -107,7 +107,7 @@ std::vector<Mutant> mutants() {
          {"collisions/head-on", "energy/plastic"},
          "integrator"},
         {"the other Coulomb limit",
-         [](World& w) {
+         [](RuledWorld& w) {
              w.law.coulombLimit =
                  w.law.coulombLimit == CoulombLimit::Luding ? CoulombLimit::Absolute : CoulombLimit::Luding;
          },
@@ -134,59 +134,59 @@ std::vector<Mutant> mutants() {
         {"torsion friction 5 % up", scaled(&ContactParameters::muTo, 1.05), 1, {"torsion/spin-decay"}, "rolling"},
         {"torsion stiffness 5 % up", scaled(&ContactParameters::kTo, 1.05), 1, {"torsion/spin-decay"}, "rolling"},
         {"the wrong rolling lever",
-         [](World& w) {
+         [](RuledWorld& w) {
              w.law.rollingLever = w.law.rollingLever == RollingLever::Full ? RollingLever::Half : RollingLever::Full;
          },
          1,
          {"rolling/resistance", "torsion/spin-decay"},
          "head-on"},
         {"gravity 1 % up",
-         [](World& w) { w.gravity *= 1.01; },
+         [](RuledWorld& w) { w.gravity *= 1.01; },
          1,
          {"integrator/free-fall", "integrator/bounce", "sliding/steep-incline", "bed/column", "bed/weight",
           "rolling/gentle-incline", "size-ratio/roll-off", "size-ratio/wedge-rest", "size-ratio/neck"},
          "head-on"},
         {"the coil 1 % fast", asItIs, 1.01, {"coil/pressed-sphere", "coil/pushed-sphere"}, "rolling"},
         {"a coil of the other hand",
-         [](World& w) {
+         [](RuledWorld& w) {
              if (w.coil) w.coil->hand = -1;
          },
          1,
          {"coil/pressed-sphere", "coil/pushed-sphere"},
          "rolling"},
         {"density 1 % up",
-         [](World& w) { w.density *= 1.01; },
+         [](RuledWorld& w) { w.density *= 1.01; },
          1,
          {"collisions/head-on", "bed/weight", "energy/friction", "energy/cluster"},
          "free-fall"},
         {"a wire 2 % thicker",
-         [](World& w) {
+         [](RuledWorld& w) {
              if (w.coil) w.coil->wireRadius *= 1.02;
          },
          1,
          {"coil/empty-canister", "coil/pressed-sphere"},
          "rolling"},
         {"a hundred thousandth of gravity where there is none",
-         [](World& w) {
+         [](RuledWorld& w) {
              if (w.gravity == Vec3(0)) w.gravity = Vec3(0, -1e-4, 0);
          },
          1,
          {"momentum/cluster"},
          "rolling"},
         {"contacts that should stick slip",
-         [](World& w) {
+         [](RuledWorld& w) {
              for (ContactParameters& p : w.law.classes) p.mu = std::min(p.mu, 0.2);
          },
          1,
          {"size-ratio/wedge-bounce", "size-ratio/wedge-rest", "size-ratio/neck", "collisions/oblique-sticking"},
          "steep-incline"},
         {"a time step four times as long as said",
-         [](World& w) { w.timeStep *= 4; },
+         [](RuledWorld& w) { w.timeStep *= 4; },
          1,
          {"size-ratio/wedge-bounce", "energy/cluster"},
          "column"},
         {"neither friction nor rolling friction",
-         [](World& w) {
+         [](RuledWorld& w) {
              for (ContactParameters& p : w.law.classes) p.mu = p.muR = 0;
          },
          1,

@@ -17,7 +17,7 @@ void Forces::reset(std::size_t particles) {
     turns_.assign(particles, {});
 }
 
-void Forces::evaluate(const World& world, const Particles& particles, const Neighbours& neighbours,
+void Forces::evaluate(const RuledWorld& world, const Particles& particles, const Neighbours& neighbours,
                       const CoilMotion& coilMotion, double springDt, Loads& loads) {
     world_ = &world;
     particles_ = &particles;

@@ -44,8 +44,8 @@ class Forces {
 
     /// Contact forces of all active particles; histories advance by `springDt` [s], those of contacts that have
     /// parted vanish. Throws RunError when a particle touches more turns of the coil than there are slots for.
-    void evaluate(const World& world, const Particles& particles, const Neighbours& neighbours, const CoilMotion& coil,
-                  double springDt, Loads& loads);
+    void evaluate(const RuledWorld& world, const Particles& particles, const Neighbours& neighbours,
+                  const CoilMotion& coil, double springDt, Loads& loads);
 
     /// Every contact touching at the last `evaluate`, by class, particle, other.
     std::vector<Contact> contacts() const;
@@ -98,7 +98,7 @@ class Forces {
     std::vector<Met> met_;                              ///< scratch: the surfaces of one particle
 
     // The arguments of the `evaluate` in progress.
-    const World* world_ = nullptr;
+    const RuledWorld* world_ = nullptr;
     const Particles* particles_ = nullptr;
     const Neighbours* neighbours_ = nullptr;
     CoilMotion motion_{};

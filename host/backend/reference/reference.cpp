@@ -42,8 +42,8 @@ std::string nameOf(const Deepest& deepest) {
 
 class ReferenceBackend final : public Backend {
   public:
-    void load(const World& world, const Particles& particles) override {
-        world_ = world;
+    void load(const World& world, const ContactLaw& law, const Particles& particles) override {
+        world_ = {world, law};
         particles_ = particles;
         forces_.reset(particles.size());
         loads_ = {};
@@ -92,7 +92,7 @@ class ReferenceBackend final : public Backend {
         return fmt::format("step {} (t = {:.6g} s)", steps_, static_cast<double>(steps_) * world_.timeStep);
     }
 
-    World world_;
+    RuledWorld world_;
     Particles particles_;
     Neighbours neighbours_;
     Forces forces_;

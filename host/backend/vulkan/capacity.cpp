@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "host/backend/vulkan/pack.h"
-#include "host/backend/vulkan/passes.h"
 
 namespace vkdose {
 
@@ -16,7 +15,7 @@ DeviceRoom roomOn(const vk::Device& device) {
 TableSizes roomOf(const World& world, const Particles& particles) {
     DeviceShape unlimited;
     unlimited.range = std::numeric_limits<std::uint64_t>::max();
-    return tableSizes(world, Crowd(particles), packMember(world, particles), unlimited);
+    return tableSizes(world, Crowd(particles), packMember(world, {}, particles), unlimited);
 }
 
 bool fit(const std::vector<TableSizes>& canisters, const DeviceRoom& room) {
@@ -26,8 +25,7 @@ bool fit(const std::vector<TableSizes>& canisters, const DeviceRoom& room) {
     all.members = std::uint32_t(canisters.size());
     const bool numbered = std::uint64_t(all.members) * all.share <= gpu::kMostParticles;
     if (!numbered || all.largestIndex() > std::numeric_limits<std::uint32_t>::max()) return false;
-    const TableBytes bytes = tableBytes(all);
-    return bytes.all <= room.memory && bytes.longest <= room.range;
+    return all.allBytes() <= room.memory && all.longestBytes() <= room.range;
 }
 
 }  // namespace vkdose

@@ -9,14 +9,14 @@
 
 namespace vkdose {
 
-/// What of a device limits the canisters that share it.
+/// The limits of a device on the canisters that share it.
 struct DeviceRoom {
     std::uint64_t memory = 0;   ///< for tables [bytes]
     std::uint64_t range = 0;    ///< longest buffer that can be bound [bytes]
     std::uint32_t members = 0;  ///< rows of workgroups in a dispatch
 };
 
-/// What there is now; of the memory that is to be had a fifth is left for pipelines, staging and other programs.
+/// Its limits now. A fifth of the free memory is left for pipelines, staging and other programs.
 DeviceRoom roomOn(const vk::Device& device);
 
 /// The room one canister takes where nothing limits it. Throws RunError if indices of 32 bits do not reach.

@@ -15,6 +15,10 @@ namespace vkdose {
 
 namespace {
 
+static_assert(gpu::kRegionCanister == std::uint32_t(Region::Canister) &&
+              gpu::kRegionThroat == std::uint32_t(Region::Throat) &&
+              gpu::kRegionDosed == std::uint32_t(Region::Dosed) && gpu::kRegionLost == std::uint32_t(Region::Lost));
+
 const char* text(std::uint32_t error) {
     switch (error) {
         case gpu::kErrorRowFull:
@@ -67,7 +71,7 @@ void Ensemble::load(const std::vector<Canister>& canisters) {
         MemberState m;
         m.world = c.world;
         m.loaded = c.particles;
-        m.block = packMember(c.world, c.particles);
+        m.block = packMember(c.world, c.law, c.particles);
         rooms.push_back(tableSizes(c.world, Crowd(c.particles), m.block, shape, std::uint32_t(canisters.size())));
         members_.push_back(std::move(m));
     }
@@ -100,12 +104,11 @@ void Ensemble::setLive(const std::vector<std::uint32_t>& members) {
 void Ensemble::writeBlocks() {
     std::vector<gpu::Member> blocks;
     for (const MemberState& m : members_) blocks.push_back(m.block);
-    passes_->member.writeAll(blocks);
+    passes_->members.writeAll(blocks);
 }
 
 void Ensemble::setLaw(std::uint32_t member, const ContactLaw& law) {
     packLaw(law, members_[member].block);
-    members_[member].world.law = law;
 }
 
 Record Ensemble::snapshot(std::uint32_t member) const {
@@ -134,7 +137,7 @@ void Ensemble::runBatch(std::uint32_t count, const std::vector<double>& coilRate
         perStep.push_back(turnsFixed(coilRates[index] * m.world.timeStep));
         packPhase(turnsFixed(m.world.coil ? m.world.coil->startAngle : 0.0) + m.turned, perStep.back(), m.block);
         m.block.coil.motion.x = float(coilRates[index]);
-        m.block.choices.w = m.step == 0 ? 1.0f : 0.0f;
+        m.block.choices.z = m.step == 0 ? 1.0f : 0.0f;
         opening = opening || m.step == 0;
     }
     writeBlocks();
@@ -146,7 +149,7 @@ void Ensemble::runBatch(std::uint32_t count, const std::vector<double>& coilRate
     commands.submit();
     source_ = (source_ + count) % 2;
     lastStep_ = count - 1;
-    const std::vector<gpu::Control> controls = passes_->controls();
+    const std::vector<gpu::Control> controls = passes_->allControls();
     for (std::uint32_t row = 0; row < live_.size(); ++row) {
         MemberState& m = members_[live_[row]];
         m.turned += perStep[row] * count;
@@ -185,12 +188,13 @@ void Ensemble::keepError(std::uint32_t member, const gpu::uvec4& error, std::uin
 
 VulkanProfile Ensemble::profile(std::uint32_t steps, double coilRate) {
     constexpr std::uint32_t kBatch = 32;
-    const std::size_t kinds = Passes::kTimed.size();
+    const std::vector<const char*> names = Passes::stepNames();
+    const std::size_t kinds = names.size();
     VulkanProfile p;
     std::unique_ptr<vk::Timestamps> times;
     if (vk::Timestamps::available(device_)) {
         times = std::make_unique<vk::Timestamps>(device_, std::uint32_t(kBatch * kinds + 1));
-        for (const char* name : Passes::kTimed) p.passes.push_back({name});
+        for (const char* name : names) p.passes.push_back({name});
     }
     const gpu::uvec4 before = passes_->controlOf(0).list;
     while (p.steps < steps) {
@@ -210,7 +214,7 @@ VulkanProfile Ensemble::profile(std::uint32_t steps, double coilRate) {
     p.listed /= double(n);
     p.tableBytes = double(passes_->bytes());
     p.copyBandwidth = vk::copyBandwidth(device_);
-    p.texelReads = passes_->texelReads();
+    p.texelReads = passes_->access.texelReads;
     return p;
 }
 
@@ -225,8 +229,9 @@ Sensors Ensemble::sense(std::uint32_t member, std::uint32_t steps) {
     commands.hostBarrier();
     commands.submit();
     Sensors s;
-    for (const gpu::SensorRecord& r :
-         passes_->sensors.readAll<gpu::SensorRecord>(groups, sizeof(gpu::SensorRecord) * member * groups)) {
+    for (const gpu::GroupRecord& group :
+         passes_->records.readAll<gpu::GroupRecord>(groups, sizeof(gpu::GroupRecord) * member * groups)) {
+        const gpu::SensorRecord& r = group.sensors;
         for (int region = 0; region < kRegions; ++region) {
             s.count[region] += r.count[region];
             s.mass[region] += double(r.mass[region]);
@@ -255,8 +260,9 @@ FieldPoints Ensemble::fields(std::uint32_t member, const FieldRequest& request) 
 EnergyBook Ensemble::readEnergy(std::uint32_t member) const {
     const std::uint32_t groups = passes_->sizes.groups();
     EnergyBook b;
-    for (const gpu::EnergyRecord& r :
-         passes_->energies.readAll<gpu::EnergyRecord>(groups, sizeof(gpu::EnergyRecord) * member * groups)) {
+    for (const gpu::GroupRecord& group :
+         passes_->records.readAll<gpu::GroupRecord>(groups, sizeof(gpu::GroupRecord) * member * groups)) {
+        const gpu::EnergyRecord& r = group.energy;
         b.plastic += double(r.normal.x);
         b.adhesive += double(r.normal.y);
         b.viscous += double(r.normal.z);

@@ -1,6 +1,6 @@
 #pragma once
 // Canisters that share one device: the same passes step all of them at once, each with its own part of every table, its
-// own parameters and coil. What a member computes does not depend on the others, to the bit. A single canister is an
+// own parameters and coil. A member's results do not depend on the others, to the bit. A single canister is an
 // ensemble of one. For one thread at a time.
 
 #include <cstdint>
@@ -21,6 +21,7 @@ class Ensemble {
 
     struct Canister {
         World world;
+        ContactLaw law;
         Particles particles;
     };
 
@@ -37,7 +38,7 @@ class Ensemble {
     /// (`failure`), and its state is of no use from then on.
     void advance(std::uint32_t steps, const std::vector<double>& coilRates);
 
-    /// What stopped this member.
+    /// The error that stopped this member.
     const std::optional<std::string>& failure(std::uint32_t member) const { return members_[member].failure; }
 
     /// Of a live member; means over the last `steps`.

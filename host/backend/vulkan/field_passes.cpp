@@ -65,23 +65,47 @@ FieldPoint unpack(const gpu::vec4* v) {
 
 }  // namespace
 
+namespace {
+
+/// The sizes that shaders/shared/field_tables.h counts with, and the bytes of its tables.
+struct FieldCounts {
+    std::uint64_t points, particles, forceEntries;
+
+#define TABLE(number, name, element, count, title) \
+    std::uint64_t name##Bytes() const {            \
+        using namespace gpu;                       \
+        return (count) * sizeof(element);          \
+    }
+#include "shaders/shared/field_tables.h"
+};
+
+/// The tables of a step with those of the field passes in the place of some.
+std::vector<const vk::Buffer*> with(const FieldTables& own, std::vector<const vk::Buffer*> tables) {
+#define TABLE(number, name, element, count, title) tables[number] = &own.name;
+#include "shaders/shared/field_tables.h"
+    return tables;
+}
+
+}  // namespace
+
+FieldTables::FieldTables(const vk::Device& device, const Tables& tables, std::size_t n)
+    : points(n)
+#define TABLE(number, name, element, count, title) \
+    , name(device, #title,                         \
+           FieldCounts{n, tables.sizes.particles(), tables.forces.size() / sizeof(gpu::vec4)}.name##Bytes())
+#include "shaders/shared/field_tables.h"
+{
+}
+
 FieldPasses::FieldPasses(const vk::Device& device, const Passes& p, std::size_t points)
     : device_(device),
       passes_(p),
-      points_(points),
-      grid_(device, "the fields", points * gpu::kFieldVectors * sizeof(gpu::vec4)),
-      weights_(device, "the weights of the fields",
-               (2ULL * p.sizes.particles() + VkDeviceSize(gpu::kFieldNodes) * p.sizes.forceEntries()) * sizeof(float)),
-      params_(device, "the parameters of the fields", sizeof(gpu::FieldParams)),
-      along_(device, "the branches of the contacts", VkDeviceSize(p.sizes.forceEntries()) * sizeof(gpu::vec4)),
-      bindings_(device,
-                {&p.state, &p.rows, &p.ranges, &p.history, &p.coilHistory, &p.member, &p.control, &p.cells, &p.anchors,
-                 &grid_, &p.entries, &weights_, &params_, &p.forces, &p.torques, &along_},
-                {}, sizeof(gpu::StepPush)),
-      branches_(device, bindings_, field_branches_spv, Passes::constants(p.sizes)),
-      weigh_(device, bindings_, field_weights_spv, Passes::constants(p.sizes)),
-      sums_(device, bindings_, field_sums_spv, Passes::constants(p.sizes)),
-      kinetic_(device, bindings_, field_kinetic_spv, Passes::constants(p.sizes)) {}
+      own_(device, p, points),
+      bindings_(device, with(own_, p.all()), sizeof(gpu::StepPush)),
+      branches_(device, bindings_, vk::pick(spirv::field_branches, 0), Passes::constants(p.sizes)),
+      weigh_(device, bindings_, vk::pick(spirv::field_weights, 0), Passes::constants(p.sizes)),
+      sums_(device, bindings_, vk::pick(spirv::field_sums, 0), Passes::constants(p.sizes)),
+      kinetic_(device, bindings_, vk::pick(spirv::field_kinetic, 0), Passes::constants(p.sizes)) {}
 
 void FieldPasses::dispatch(vk::Commands& commands, const vk::Pipeline& pass, std::uint32_t groups) const {
     pass.bind(commands.handle());
@@ -92,7 +116,7 @@ void FieldPasses::dispatch(vk::Commands& commands, const vk::Pipeline& pass, std
 FieldPoints FieldPasses::compute(const FieldRequest& request, const Moment& moment) {
     const TableSizes& s = passes_.sizes;
     const gpu::FieldParams params = pack(request, s.workgroup, moment.largestRadius);
-    params_.write(0, &params, sizeof params);
+    own_.fields.write(0, &params, sizeof params);
     const std::uint32_t contacts = s.pairSlots + s.surfaceSlots + gpu::kMaxTurns * s.coilSlots;
     const std::uint32_t tiles = params.tiles.x * params.tiles.y * params.tiles.z;
 
@@ -113,7 +137,7 @@ FieldPoints FieldPasses::compute(const FieldRequest& request, const Moment& mome
     commands.hostBarrier();
     commands.submit();
 
-    const auto vectors = grid_.readAll<gpu::vec4>(gpu::kFieldVectors * request.grid.points());
+    const auto vectors = own_.grid.readAll<gpu::vec4>(gpu::kFieldVectors * request.grid.points());
     FieldPoints points;
     points.reserve(request.grid.points());
     for (std::size_t k = 0; k < request.grid.points(); ++k) points.push_back(unpack(&vectors[gpu::kFieldVectors * k]));

@@ -8,13 +8,22 @@
 
 namespace vkdose {
 
+/// The tables of shaders/shared/field_tables.h, each under its name, for grids of up to `points`.
+struct FieldTables {
+    FieldTables(const vk::Device& device, const Tables& tables, std::size_t points);
+
+    const std::size_t points;
+#define TABLE(number, name, element, count, title) vk::Buffer name;
+#include "shaders/shared/field_tables.h"
+};
+
 class FieldPasses {
   public:
     /// For grids of up to `points`. `passes` must outlive it.
     FieldPasses(const vk::Device& device, const Passes& passes, std::size_t points);
 
     /// Whether a grid fits its tables.
-    bool holds(const FieldRequest& request) const { return request.grid.points() <= points_; }
+    bool holds(const FieldRequest& request) const { return request.grid.points() <= own_.points; }
 
     struct Moment {
         std::uint32_t row;       ///< of the member on the roster
@@ -30,8 +39,7 @@ class FieldPasses {
 
     const vk::Device& device_;
     const Passes& passes_;
-    std::size_t points_;
-    vk::Buffer grid_, weights_, params_, along_;
+    FieldTables own_;
     vk::BindingSet bindings_;
     vk::Pipeline branches_, weigh_, sums_, kinetic_;
 };

@@ -16,6 +16,16 @@ namespace {
 using gpu::uvec4;
 using gpu::vec4;
 
+// The device counts as the host does.
+static_assert(gpu::kStatusActive == uint32_t(Status::Active) && gpu::kStatusDosed == uint32_t(Status::Dosed) &&
+              gpu::kStatusLost == uint32_t(Status::Lost));
+static_assert(gpu::kParticleParticle == uint32_t(ContactClass::ParticleParticle) &&
+              gpu::kParticleWall == uint32_t(ContactClass::ParticleWall) &&
+              gpu::kParticleCoil == uint32_t(ContactClass::ParticleCoil));
+static_assert(gpu::kCoulombLuding == uint32_t(CoulombLimit::Luding) &&
+              gpu::kCoulombAbsolute == uint32_t(CoulombLimit::Absolute));
+static_assert(gpu::kLeverFull == uint32_t(RollingLever::Full) && gpu::kLeverHalf == uint32_t(RollingLever::Half));
+
 /// A double as the unevaluated sum of two floats.
 struct Split {
     float high, low;
@@ -44,10 +54,10 @@ double largestRadius(const Particles& p) {
 
 gpu::ContactParams packContact(const ContactParameters& c) {
     gpu::ContactParams p{};
-    p.normal = vec4(float(c.k1), float(c.k2Max), float(c.kc), float(c.gamma));
-    p.sliding = vec4(float(c.kt), float(c.gammaT), float(c.mu), float(c.plasticityDepth));
-    p.rolling = vec4(float(c.kr), float(c.gammaR), float(c.muR), 0.0f);
-    p.torsion = vec4(float(c.kTo), float(c.gammaTo), float(c.muTo), 0.0f);
+    p.normal = vec4(float(c.k1), float(c.k2Max), float(c.kc), float(c.plasticityDepth));
+    p.springs = vec4(float(c.kt), float(c.kr), float(c.kTo), 0.0f);
+    p.friction = vec4(float(c.mu), float(c.muR), float(c.muTo), 0.0f);
+    p.damping = vec4(float(c.gammaT), float(c.gammaR), float(c.gammaTo), float(c.gamma));
     return p;
 }
 
@@ -126,18 +136,17 @@ std::uint64_t turnsFixed(double angle) {
 
 void packLaw(const ContactLaw& law, gpu::Member& member) {
     for (int i = 0; i < kContactClasses; ++i) member.contact[i] = packContact(law.classes[i]);
-    member.choices.y = float(law.coulombLimit);
-    member.choices.z = float(law.rollingLever);
+    member.choices.x = float(law.coulombLimit);
+    member.choices.y = float(law.rollingLever);
 }
 
-gpu::Member packMember(const World& world, const Particles& particles) {
+gpu::Member packMember(const World& world, const ContactLaw& law, const Particles& particles) {
     if (world.surfaces.size() > gpu::kMaxSurfaces)
         throw RunError(fmt::format("{} surfaces; the Vulkan backend holds {}", world.surfaces.size(),
                                    uint32_t(gpu::kMaxSurfaces)));
     gpu::Member m{};
-    packLaw(world.law, m);
-    m.choices.x = float(world.surfaces.size());
-    m.choices.w = 1.0f;
+    packLaw(law, m);
+    m.choices.z = 1.0f;
     for (std::size_t i = 0; i < world.surfaces.size(); ++i) {
         if (std::holds_alternative<geometry::Front>(world.surfaces[i]) && i + 1 < world.surfaces.size())
             throw std::logic_error("the front wall must be the last surface");
@@ -167,7 +176,7 @@ void packState(const Particles& p, std::size_t share, std::size_t first, std::ve
         vec4& position = at(gpu::kPosition, i);
         vec4& spin = at(gpu::kSpin, i);
         if (i >= p.size()) {
-            spin.w = float(gpu::kPadding);
+            spin.w = float(gpu::kStatusPadding);
             continue;
         }
         Split3 x(p.position[i]);

@@ -11,7 +11,7 @@
 namespace vkdose {
 
 /// Everything of the only member, but the coil's phase. Throws RunError if the world does not fit the tables.
-gpu::Member packMember(const World& world, const Particles& particles);
+gpu::Member packMember(const World& world, const ContactLaw& law, const Particles& particles);
 
 /// Replaces the contact law of a packed member.
 void packLaw(const ContactLaw& law, gpu::Member& member);

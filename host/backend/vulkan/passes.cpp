@@ -11,119 +11,92 @@ namespace vkdose {
 
 namespace {
 
-constexpr VkDeviceSize kVec4 = 16;
-
-struct Elements {
-    VkDeviceSize state, rows, ranges, history, coilHistory, anchors, entries, books, forces, torques;
-    explicit Elements(const TableSizes& s)
-        : state(2ull * gpu::kFields * s.particles()),
-          rows(1ull * s.members * (s.rowEntries + s.linkEntries)),
-          ranges(2ull * s.particles()),
-          history(std::max<VkDeviceSize>(1, 1ull * s.historyParts() * s.springSlots())),
-          coilHistory(std::max<VkDeviceSize>(1, 1ull * s.coilHistoryRows() * s.particles())),
-          anchors(2ull * s.particles()),
-          entries(2ull * s.slots()),
-          books(s.energyBook ? 1ull * gpu::kBookFields * (s.particles() + s.slots()) : 1),
-          forces(s.forceEntries()),
-          torques(2ull * s.slots()) {}
-};
-
 Access accessOn(const vk::Device& device, const TableSizes& s) {
-    const Elements e(s);
-    const VkDeviceSize most =
-        std::max({e.state, e.rows, e.ranges, e.history, e.coilHistory, e.anchors, e.entries, e.forces, e.torques});
+    std::uint64_t most = 0;
+    for (const TableShape& table : tableShapes(s))
+        if (table.view != VK_FORMAT_UNDEFINED) most = std::max(most, table.texels);
     const bool texel = s.texelReads && most <= device.limits().maxTexelBufferElements;
     return {texel, texel && device.hasInt64()};
 }
 
-/// The variants of one pass (shaders/passes.cmake), as far as it has them.
-struct Variants {
-    using Code = std::span<const std::uint32_t>;
-    Code plain, texel, packed, energy, texelEnergy, packedEnergy;
+/// How the variants of a pass are chosen (shaders/passes.cmake).
+unsigned macrosFor(const Access& access, const TableSizes& s) {
+    return (access.texelReads ? spirv::TEXEL_READS : 0) | (access.packedStores ? spirv::PACKED_STORES : 0) |
+           (s.energyBook ? spirv::ENERGY_BOOK : 0);
+}
 
-    Code pick(const Access& access, bool wantsEnergy) const {
-        if (access.packedStores) return wantsEnergy ? packedEnergy : packed;
-        if (access.texelReads) return wantsEnergy ? texelEnergy : texel;
-        return wantsEnergy ? energy : plain;
-    }
+/// How many workgroups a pass of a step takes.
+enum class Extent {
+    OfStep,     ///< the device decides for each step: `arguments` are in its gpu::Dispatch
+    OfLists,    ///< the device decides at every refresh: `arguments` are in gpu::Dispatches
+    Particles,  ///< those of all live members
+    One,
 };
 
-const Variants kBin{bin_spv, bin_texel_spv, bin_texel_spv, bin_spv, bin_texel_spv, bin_texel_spv};
-const Variants kNeighbours{neighbours_spv, neighbours_texel_spv, neighbours_texel_spv,
-                           neighbours_spv, neighbours_texel_spv, neighbours_texel_spv};
-const Variants kNear{near_spv,        near_texel_spv,        near_texel_spv,
-                     near_energy_spv, near_texel_energy_spv, near_texel_energy_spv};
-const Variants kLink{link_spv,        link_texel_spv,        link_texel_spv,
-                     link_energy_spv, link_texel_energy_spv, link_texel_energy_spv};
-const Variants kPairs{pairs_spv,        pairs_texel_spv,        pairs_packed_spv,
-                      pairs_energy_spv, pairs_texel_energy_spv, pairs_packed_energy_spv};
-const Variants kSurfaces{surfaces_spv,        surfaces_texel_spv,        surfaces_packed_spv,
-                         surfaces_energy_spv, surfaces_texel_energy_spv, surfaces_packed_energy_spv};
-const Variants kCoil{coil_spv,        coil_texel_spv,        coil_packed_spv,
-                     coil_energy_spv, coil_texel_energy_spv, coil_packed_energy_spv};
-const Variants kMove{move_spv,        move_texel_spv,        move_packed_spv,
-                     move_energy_spv, move_texel_energy_spv, move_packed_energy_spv};
+struct StepPass {
+    const char* name;
+    std::span<const vk::Variant> variants;
+    Extent extent;
+    VkDeviceSize arguments = 0;
+};
+
+/// A step: each pass waits for the one before.
+constexpr std::array kStep{
+    StepPass{"clear", spirv::clear, Extent::OfStep, offsetof(gpu::Dispatch, cells)},
+    StepPass{"bin", spirv::bin, Extent::OfStep, offsetof(gpu::Dispatch, particles)},
+    StepPass{"neighbours", spirv::neighbours, Extent::OfStep, offsetof(gpu::Dispatch, particles)},
+    StepPass{"near", spirv::near, Extent::OfStep, offsetof(gpu::Dispatch, refresh)},
+    StepPass{"link", spirv::link, Extent::OfStep, offsetof(gpu::Dispatch, refresh)},
+    StepPass{"commit_lists", spirv::commit_lists, Extent::OfStep, offsetof(gpu::Dispatch, settle)},
+    StepPass{"pairs", spirv::pairs, Extent::OfLists, offsetof(gpu::Dispatches, pairs)},
+    StepPass{"surfaces", spirv::surfaces, Extent::OfLists, offsetof(gpu::Dispatches, surfaces)},
+    StepPass{"coil", spirv::coil, Extent::OfLists, offsetof(gpu::Dispatches, coil)},
+    StepPass{"move", spirv::move, Extent::Particles},
+    StepPass{"decide", spirv::decide, Extent::One},
+};
 
 }  // namespace
 
-TableBytes tableBytes(const TableSizes& s) {
-    const Elements e(s);
-    const std::uint64_t records = 1ull * s.members * s.groups();
-    TableBytes bytes;
-    for (const std::uint64_t table :
-         {e.state * kVec4, e.rows * 4, e.ranges * kVec4, e.history * kVec4, e.coilHistory * kVec4,
-          s.members * sizeof(gpu::Member), sizeof(gpu::Dispatches) + s.members * sizeof(gpu::Control),
-          (VkDeviceSize(s.members) * s.cells + s.particles()) * 4, e.anchors * kVec4,
-          records * sizeof(gpu::SensorRecord), e.entries * 8, e.books * kVec4, records * sizeof(gpu::EnergyRecord),
-          e.forces * kVec4, e.torques * kVec4, e.history * kVec4}) {
-        bytes.all += table;
-        bytes.longest = std::max(bytes.longest, table);
-    }
-    return bytes;
+vk::Buffer Tables::make(const vk::Device& device, const TableSizes& sizes, const Access& access, std::size_t number) {
+    const TableShape table = tableShapes(sizes)[number];
+    return {device, table.title, table.bytes, access.texelReads ? table.view : VK_FORMAT_UNDEFINED};
 }
 
-Passes::Passes(const vk::Device& device, const TableSizes& s) : Passes(device, s, accessOn(device, s)) {}
+Tables::Tables(const vk::Device& device, const TableSizes& s, const Access& a)
+    : sizes(s),
+      access(a)
+#define TABLE(number, name, element, count, title) , name(make(device, s, a, number))
+#include "shaders/shared/tables.h"
+{
+}
 
-Passes::Passes(const vk::Device& device, const TableSizes& s, const Access& access)
-    : state(device, "the particle state", Elements(s).state * kVec4, access.view(VK_FORMAT_R32G32B32A32_SFLOAT)),
-      rows(device, "the neighbour rows", Elements(s).rows * 4, access.view(VK_FORMAT_R32_UINT)),
-      ranges(device, "the ranges of rows", Elements(s).ranges * kVec4, access.view(VK_FORMAT_R32G32B32A32_UINT)),
-      history(device, "the contact history", Elements(s).history * kVec4, access.view(VK_FORMAT_R32G32B32A32_SFLOAT)),
-      coilHistory(device, "the coil's contact history", Elements(s).coilHistory * kVec4,
-                  access.view(VK_FORMAT_R32G32B32A32_SFLOAT)),
-      member(device, "the parameters", s.members * sizeof(gpu::Member), access.view(VK_FORMAT_R32G32B32A32_SFLOAT)),
-      control(device, "the control block", sizeof(gpu::Dispatches) + s.members * sizeof(gpu::Control)),
-      cells(device, "the cell table", (VkDeviceSize(s.members) * s.cells + s.particles()) * 4),
-      anchors(device, "the anchors", Elements(s).anchors * kVec4, access.view(VK_FORMAT_R32G32B32A32_SFLOAT)),
-      sensors(device, "the sensors", sizeof(gpu::SensorRecord) * s.members * s.groups()),
-      entries(device, "the contact lists", Elements(s).entries * 8, access.view(VK_FORMAT_R32G32_UINT)),
-      books(device, "the energy book", Elements(s).books * kVec4),
-      energies(device, "the energy records", sizeof(gpu::EnergyRecord) * s.members * s.groups()),
-      forces(device, "the contact forces", Elements(s).forces * kVec4, access.view(VK_FORMAT_R32G32B32A32_SFLOAT)),
-      torques(device, "the contact torques", Elements(s).torques * kVec4, access.view(VK_FORMAT_R32G32B32A32_SFLOAT)),
-      carried(device, "the carried history", Elements(s).history * kVec4),
-      sizes(s),
-      access_(access),
-      bindings_(device,
-                {&state, &rows, &ranges, &history, &coilHistory, &member, &control, &cells, &anchors, &sensors,
-                 &entries, &books, &energies, &forces, &torques, &carried},
-                access.texelReads ? std::vector<const vk::Buffer*>{&state, &rows, &ranges, &history, &coilHistory,
-                                                                   &member, &anchors, &entries, &forces, &torques}
-                                  : std::vector<const vk::Buffer*>{},
-                sizeof(gpu::StepPush)),
-      clear_(device, bindings_, clear_spv, constants(s)),
-      bin_(device, bindings_, kBin.pick(access, s.energyBook), constants(s)),
-      neighbours_(device, bindings_, kNeighbours.pick(access, s.energyBook), constants(s)),
-      near_(device, bindings_, kNear.pick(access, s.energyBook), constants(s)),
-      link_(device, bindings_, kLink.pick(access, s.energyBook), constants(s)),
-      commitLists_(device, bindings_, commit_lists_spv, constants(s)),
-      pairs_(device, bindings_, kPairs.pick(access, s.energyBook), constants(s)),
-      surfaces_(device, bindings_, kSurfaces.pick(access, s.energyBook), constants(s)),
-      coil_(device, bindings_, kCoil.pick(access, s.energyBook), constants(s)),
-      move_(device, bindings_, kMove.pick(access, s.energyBook), constants(s)),
-      decide_(device, bindings_, decide_spv, constants(s)),
-      sense_(device, bindings_, sense_spv, constants(s)),
-      senseEnergy_(device, bindings_, sense_energy_spv, constants(s)) {}
+std::vector<const vk::Buffer*> Tables::all() const {
+    return {
+#define TABLE(number, name, element, count, title) &name,
+#include "shaders/shared/tables.h"
+    };
+}
+
+VkDeviceSize Tables::bytes() const {
+    VkDeviceSize sum = 0;
+    for (const vk::Buffer* table : all()) sum += table->size();
+    return sum;
+}
+
+Passes::Passes(const vk::Device& device, const TableSizes& s)
+    : Tables(device, s, accessOn(device, s)),
+      bindings_(device, all(), sizeof(gpu::StepPush)),
+      sense_(device, bindings_, vk::pick(spirv::sense, macrosFor(access, s)), constants(s)),
+      senseEnergy_(device, bindings_, vk::pick(spirv::sense_energy, macrosFor(access, s)), constants(s)) {
+    for (const StepPass& pass : kStep)
+        step_.emplace_back(device, bindings_, vk::pick(pass.variants, macrosFor(access, s)), constants(s));
+}
+
+std::vector<const char*> Passes::stepNames() {
+    std::vector<const char*> names;
+    for (const StepPass& pass : kStep) names.push_back(pass.name);
+    return names;
+}
 
 std::array<std::uint32_t, 7> Passes::constants(const TableSizes& s) {
     return {s.workgroup, s.surfaces, s.surfaceKinds, s.kindSet, s.members, s.mostGroups, s.front};
@@ -134,12 +107,12 @@ void Passes::reset() {
     ranges.writeAll(none);
     if (sizes.coilSlots > 0) {
         const std::vector<gpu::vec4> angles(sizes.particles(), gpu::vec4(gpu::kNoTurn));
-        coilHistory.writeAll(angles, kVec4 * (sizes.coilHistoryRows() - 1) * sizes.particles());
+        coilHistory.writeAll(angles, sizeof(gpu::vec4) * (sizes.coilHistoryRows() - 1) * sizes.particles());
     }
     gpu::Control fresh{};
     fresh.call = fresh.error = gpu::uvec4(gpu::kEmpty);
     fresh.wanted = gpu::uvec4(1, 1, 0, 0);
-    control.writeAll(std::vector<gpu::Control>(sizes.members, fresh), controlOffset(0));
+    controls.writeAll(std::vector<gpu::Control>(sizes.members, fresh), controlOffset(0));
     setLive(sizes.members);
 }
 
@@ -155,28 +128,20 @@ void Passes::setLive(std::uint32_t live) {
     d.pairs = groups(sizes.pairSlots / sizes.workgroup);
     d.surfaces = groups(sizes.surfaceSlots / sizes.workgroup);
     d.coil = groups(sizes.coilSlots / sizes.workgroup);
-    control.write(0, &d, sizeof d);
+    controls.write(0, &d, sizeof d);
     live_ = live;
 }
 
-std::vector<gpu::Control> Passes::controls() const {
-    return control.readAll<gpu::Control>(sizes.members, controlOffset(0));
+std::vector<gpu::Control> Passes::allControls() const {
+    return controls.readAll<gpu::Control>(sizes.members, controlOffset(0));
 }
 
 gpu::Control Passes::controlOf(std::uint32_t m) const {
-    return control.readAll<gpu::Control>(1, controlOffset(m))[0];
+    return controls.readAll<gpu::Control>(1, controlOffset(m))[0];
 }
 
 void Passes::setControl(std::uint32_t m, const gpu::Control& c) {
-    control.write(controlOffset(m), &c, sizeof c);
-}
-
-VkDeviceSize Passes::bytes() const {
-    VkDeviceSize sum = 0;
-    for (const vk::Buffer* b : {&state, &rows, &ranges, &history, &coilHistory, &member, &control, &cells, &anchors,
-                                &sensors, &entries, &books, &energies, &forces, &torques, &carried})
-        sum += b->size();
-    return sum;
+    controls.write(controlOffset(m), &c, sizeof c);
 }
 
 gpu::StepPush Passes::push(std::uint32_t step, std::uint32_t source, bool opening) const {
@@ -196,6 +161,24 @@ gpu::StepPush Passes::push(std::uint32_t step, std::uint32_t source, bool openin
     return p;
 }
 
+void Passes::dispatch(vk::Commands& commands, std::size_t n, std::uint32_t source) const {
+    const StepPass& pass = kStep[n];
+    switch (pass.extent) {
+        case Extent::OfStep:
+            commands.dispatchIndirect(
+                controls.handle(), offsetof(gpu::Dispatches, step) + source * sizeof(gpu::Dispatch) + pass.arguments);
+            return;
+        case Extent::OfLists:
+            commands.dispatchIndirect(controls.handle(), pass.arguments);
+            return;
+        case Extent::Particles:
+            commands.dispatch(sizes.inRow(sizes.groups()), live_, sizes.layers(sizes.groups()));
+            return;
+        case Extent::One:
+            commands.dispatch(1, 1, 1);
+    }
+}
+
 void Passes::recordSteps(vk::Commands& commands, std::uint32_t first, std::uint32_t count, std::uint32_t source,
                          bool opening, vk::Timestamps* times) const {
     const VkCommandBuffer c = commands.handle();
@@ -204,33 +187,9 @@ void Passes::recordSteps(vk::Commands& commands, std::uint32_t first, std::uint3
     for (std::uint32_t n = first; n < first + count; ++n, source = 1 - source, opening = false) {
         const gpu::StepPush p = push(n, source, opening);
         bindings_.push(c, &p);
-        // How many workgroups, the device decides: none for a rebuild or a refresh that no particle asked for.
-        const VkDeviceSize step = offsetof(gpu::Dispatches, step) + source * sizeof(gpu::Dispatch);
-        const struct {
-            const vk::Pipeline& pass;
-            VkDeviceSize arguments;
-        } decided[] = {{clear_, step + offsetof(gpu::Dispatch, cells)},
-                       {bin_, step + offsetof(gpu::Dispatch, particles)},
-                       {neighbours_, step + offsetof(gpu::Dispatch, particles)},
-                       {near_, step + offsetof(gpu::Dispatch, refresh)},
-                       {link_, step + offsetof(gpu::Dispatch, refresh)},
-                       {commitLists_, step + offsetof(gpu::Dispatch, settle)},
-                       {pairs_, offsetof(gpu::Dispatches, pairs)},
-                       {surfaces_, offsetof(gpu::Dispatches, surfaces)},
-                       {coil_, offsetof(gpu::Dispatches, coil)}};
-        for (const auto& d : decided) {
-            d.pass.bind(c);
-            commands.dispatchIndirect(control.handle(), d.arguments);
-            commands.barrier();
-            if (times != nullptr) times->mark(commands);
-        }
-        const struct {
-            const vk::Pipeline& pass;
-            std::uint32_t groups, rows;
-        } fixed[] = {{move_, sizes.groups(), live_}, {decide_, 1, 1}};
-        for (const auto& f : fixed) {
-            f.pass.bind(c);
-            commands.dispatch(sizes.inRow(f.groups), f.rows, sizes.layers(f.groups));
+        for (std::size_t k = 0; k < kStep.size(); ++k) {
+            step_[k].bind(c);
+            dispatch(commands, k, source);
             commands.barrier();
             if (times != nullptr) times->mark(commands);
         }

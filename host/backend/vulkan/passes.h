@@ -1,9 +1,9 @@
 #pragma once
-// The device side of one load: buffers, bindings and pipelines, sized for its particles. Mirrors shaders/pass and
-// shaders/shared/buffers.glsl; the order of the buffers is the order of the bindings.
+// The device side of one load: tables, bindings and pipelines, sized for its particles.
 
 #include <array>
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <vector>
 
@@ -21,22 +21,31 @@ namespace vkdose {
 struct Access {
     bool texelReads = false;    ///< through texel-buffer views
     bool packedStores = false;  ///< 64 bits at a time; only with texelReads
-    VkFormat view(VkFormat format) const { return texelReads ? format : VK_FORMAT_UNDEFINED; }
 };
 
-/// What tables of these sizes take on the device.
-struct TableBytes {
-    std::uint64_t all = 0;
-    std::uint64_t longest = 0;  ///< of any one
-};
-TableBytes tableBytes(const TableSizes& sizes);
+/// The tables of shaders/shared/tables.h, each under its name.
+class Tables {
+  public:
+    Tables(const vk::Device& device, const TableSizes& sizes, const Access& access);
 
-class Passes {
+    std::vector<const vk::Buffer*> all() const;  ///< in the order of their bindings
+    VkDeviceSize bytes() const;                  ///< of all
+
+    const TableSizes sizes;
+    const Access access;
+#define TABLE(number, name, element, count, title) vk::Buffer name;
+#include "shaders/shared/tables.h"
+
+  private:
+    static vk::Buffer make(const vk::Device& device, const TableSizes& sizes, const Access& access, std::size_t number);
+};
+
+class Passes : public Tables {
   public:
     Passes(const vk::Device& device, const TableSizes& sizes);
 
     /// Records steps `first` ... `first + count - 1` of a batch; `source` is the half of the state they start from.
-    /// `times` gets a mark before the first step and one after each of the kTimed passes of every step.
+    /// `times` gets a mark before the first step and one after each pass of every step (stepNames).
     void recordSteps(vk::Commands& commands, std::uint32_t first, std::uint32_t count, std::uint32_t source,
                      bool opening, vk::Timestamps* times = nullptr) const;
     /// Of the member in this row of the roster (gpu::Member).
@@ -50,36 +59,30 @@ class Passes {
     /// From now on the first `live` rows of the roster take part in a step.
     void setLive(std::uint32_t live);
 
-    std::vector<gpu::Control> controls() const;  ///< of every member
+    std::vector<gpu::Control> allControls() const;  ///< of every member
     gpu::Control controlOf(std::uint32_t member) const;
     void setControl(std::uint32_t member, const gpu::Control& c);
 
-    vk::Buffer state, rows, ranges, history, coilHistory, member, control, cells, anchors, sensors, entries, books,
-        energies, forces, torques, carried;
-    const TableSizes sizes;
-    bool texelReads() const { return access_.texelReads; }
-    VkDeviceSize bytes() const;  ///< of all tables
-
-    /// What every dispatch is told; the roster's first row.
+    /// The push constants of every dispatch, for the roster's first row.
     gpu::StepPush push(std::uint32_t step, std::uint32_t source, bool opening) const;
     /// Specialisation constants of every pass over tables of this size.
     static std::array<std::uint32_t, 7> constants(const TableSizes& sizes);
 
-    static constexpr std::array<const char*, 11> kTimed{
-        "clear", "bin", "neighbours", "near", "link", "commit_lists", "pairs", "surfaces", "coil", "move", "decide"};
+    /// The passes of a step, in their order.
+    static std::vector<const char*> stepNames();
 
   private:
-    Passes(const vk::Device& device, const TableSizes& sizes, const Access& access);
-
     static VkDeviceSize controlOffset(std::uint32_t member) {
         return sizeof(gpu::Dispatches) + member * sizeof(gpu::Control);
     }
 
+    /// The pass `n` of a step.
+    void dispatch(vk::Commands& commands, std::size_t n, std::uint32_t source) const;
+
     std::uint32_t live_ = 0;
-    Access access_;
     vk::BindingSet bindings_;
-    vk::Pipeline clear_, bin_, neighbours_, near_, link_, commitLists_, pairs_, surfaces_, coil_, move_, decide_,
-        sense_, senseEnergy_;
+    std::deque<vk::Pipeline> step_;  ///< of a step, in their order
+    vk::Pipeline sense_, senseEnergy_;
 };
 
 }  // namespace vkdose

@@ -7,10 +7,10 @@
 
 namespace vkdose {
 
-void Rendezvous::load(std::size_t guest, const World& world, const Particles& particles) {
+void Rendezvous::load(std::size_t guest, const World& world, const ContactLaw& law, const Particles& particles) {
     std::unique_lock lock(mutex_);
     Guest& g = guests_[guest];
-    g.canister = {world, particles};
+    g.canister = {world, law, particles};
     g.wish = Wish::Load;
     await(lock, g);
 }

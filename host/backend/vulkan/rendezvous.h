@@ -16,7 +16,7 @@ class Rendezvous {
     Rendezvous(const VulkanOptions& options, std::size_t guests) : ensemble_(options), guests_(guests) {}
 
     /// Returns when all who are present have loaded. Throws what Ensemble::load throws, at everyone.
-    void load(std::size_t guest, const World& world, const Particles& particles);
+    void load(std::size_t guest, const World& world, const ContactLaw& law, const Particles& particles);
 
     /// Returns when the guest's steps are made; those of others may then still be under way. Throws RunError if this
     /// guest's run has failed, what else the device throws at everyone.

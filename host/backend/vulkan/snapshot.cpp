@@ -63,8 +63,8 @@ struct SlotRun {
     }
 };
 
-/// Lists what touched, as a refresh would have: the next one carries the histories on. Returns what Control::listed
-/// says of it: nothing of the coil, whose histories are the particles' own.
+/// Lists the contacts that touched, as a refresh would have: the next one carries the histories on. Returns
+/// Control::listed for these lists: none of the coil, whose histories are the particles' own.
 uvec4 restoreContacts(Passes& passes, std::uint32_t member, std::size_t particles, const Record& record) {
     const TableSizes& t = passes.sizes;
     const auto& owner = record.get<std::uint32_t>("contact_particle");
@@ -136,7 +136,7 @@ std::vector<SlotContact> touchingSlots(const Passes& passes, std::uint32_t membe
 
 namespace {
 
-/// What each turn exerts on each particle in the last step, by turn slot; zero for one that is not near the coil.
+/// The force of each turn on each particle in the last step, by turn slot; zero for one that is not near the coil.
 using TurnForces = std::array<vec4, gpu::kMaxTurns>;
 
 std::vector<TurnForces> turnForces(const Passes& passes, std::uint32_t member, std::size_t particles) {

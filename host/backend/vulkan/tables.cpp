@@ -53,17 +53,93 @@ void TableSizes::growTo(const TableSizes& other) {
         this->*size = std::max(this->*size, other.*size);
 }
 
+namespace {
+
+/// The sizes that shaders/shared/tables.h counts with: of all members together, in 64 bits, because the tables are
+/// counted before it is known whether 32 bits number their elements.
+struct TableCounts {
+    std::uint64_t canisters, particles, groups, cellHeads, rowEntries, linkEntries, springSlots, coilSlots, slots,
+        historyParts, coilHistoryRows, coils, energyBook;
+
+    explicit TableCounts(const TableSizes& s)
+        : canisters(s.members),
+          particles(canisters * s.share),
+          groups(s.groups()),
+          cellHeads(s.cells),
+          rowEntries(s.rowEntries),
+          linkEntries(s.linkEntries),
+          springSlots(canisters * (std::uint64_t(s.pairSlots) + s.surfaceSlots)),
+          coilSlots(canisters * s.coilSlots),
+          slots(springSlots + coilSlots),
+          historyParts(s.historyParts()),
+          coilHistoryRows(s.coilHistoryRows()),
+          coils(s.coilSlots > 0 ? 1 : 0),
+          energyBook(s.energyBook ? 1 : 0) {}
+
+    std::array<TableShape, gpu::kTables> shapes() const;
+};
+
+/// Views of records show their vectors.
+template <class Element>
+constexpr VkFormat kViewOf = VK_FORMAT_R32G32B32A32_SFLOAT;
+template <>
+constexpr VkFormat kViewOf<gpu::uint> = VK_FORMAT_R32_UINT;
+template <>
+constexpr VkFormat kViewOf<glm::uvec2> = VK_FORMAT_R32G32_UINT;
+template <>
+constexpr VkFormat kViewOf<gpu::uvec4> = VK_FORMAT_R32G32B32A32_UINT;
+
+template <class Element>
+TableShape shape(const char* title, std::uint64_t count, bool viewed, std::size_t headBytes = 0) {
+    const std::uint64_t elements = std::max<std::uint64_t>(1, count), bytes = elements * sizeof(Element);
+    const std::uint64_t texel = std::min(sizeof(Element), sizeof(gpu::vec4));
+    return {title, elements, bytes + headBytes, viewed ? kViewOf<Element> : VK_FORMAT_UNDEFINED, bytes / texel};
+}
+
+std::array<TableShape, gpu::kTables> TableCounts::shapes() const {
+    using namespace gpu;
+    return {
+#define TABLE(number, name, element, count, title) shape<element>(#title, count, false),
+#define VIEWED(number, name, element, count, title) shape<element>(#title, count, true),
+#define PARAMETERS(number, name, element, count, title) shape<element>(#title, count, true),
+#define HEADED(number, name, element, count, title, head, headName) shape<element>(#title, count, false, sizeof(head)),
+#include "shaders/shared/tables.h"
+    };
+}
+
+constexpr bool numberedInOrder() {
+    std::uint32_t next = 0;
+    for (const std::uint32_t number : {
+#define TABLE(number, name, element, count, title) number##U,
+#include "shaders/shared/tables.h"
+         })
+        if (number != next++) return false;
+    return true;
+}
+static_assert(numberedInOrder(), "the bindings in shaders/shared/tables.h are 0, 1, 2, ...");
+
+}  // namespace
+
+std::array<TableShape, gpu::kTables> tableShapes(const TableSizes& sizes) {
+    return TableCounts(sizes).shapes();
+}
+
 std::uint64_t TableSizes::largestIndex() const {
-    const std::uint64_t n = std::uint64_t(members) * share, m = members;
-    const std::uint64_t springs = m * (std::uint64_t(pairSlots) + surfaceSlots), all = springs + m * coilSlots;
-    return std::max({2 * n * gpu::kFields,                             // state
-                     m * (std::uint64_t(rowEntries) + linkEntries),    // rows and links
-                     2 * all,                                          // links, entries, torques
-                     all + gpu::kMaxTurns * m * coilSlots,             // forces
-                     historyParts() * springs, coilHistoryRows() * n,  // histories
-                     gpu::kBookFields * (n + all),                     // energy book
-                     m * cells + n}) -
-           1;
+    std::uint64_t most = 0;  // a link is no larger either: a slot and a bit, as the torques are numbered
+    for (const TableShape& table : tableShapes(*this)) most = std::max(most, table.elements);
+    return most - 1;
+}
+
+std::uint64_t TableSizes::allBytes() const {
+    std::uint64_t sum = 0;
+    for (const TableShape& table : tableShapes(*this)) sum += table.bytes;
+    return sum;
+}
+
+std::uint64_t TableSizes::longestBytes() const {
+    std::uint64_t most = 0;
+    for (const TableShape& table : tableShapes(*this)) most = std::max(most, table.bytes);
+    return most;
 }
 
 TableSizes tableSizes(const World& world, const Crowd& crowd, const gpu::Member& member, const DeviceShape& device,

@@ -1,7 +1,10 @@
 #pragma once
 // How much room the device's tables need for worlds and their particles.
 
+#include <volk.h>
+
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -42,8 +45,6 @@ struct TableSizes {
     std::uint32_t particles() const { return members * share; }
     std::uint32_t springSlots() const { return members * (pairSlots + surfaceSlots); }
     std::uint32_t slots() const { return springSlots() + members * coilSlots; }
-    /// Entries of the force table: one for each slot, then one for each turn that each coil slot can touch.
-    std::uint32_t forceEntries() const { return slots() + gpu::kMaxTurns * members * coilSlots; }
     /// Entry of what turn `turn` exerts in coil slot `slot` of all members (turnForceIndex in shared/buffers.glsl).
     std::size_t turnForceOffset(std::uint32_t turn, std::uint32_t slot) const {
         return slots() + std::size_t(turn) * members * coilSlots + slot;
@@ -58,8 +59,23 @@ struct TableSizes {
     }
     /// The largest index into a table, which must stay below 2^32: in vectors, or whatever the table is made of.
     std::uint64_t largestIndex() const;
+    /// Of all tables together, and of the longest [bytes].
+    std::uint64_t allBytes() const;
+    std::uint64_t longestBytes() const;
     std::uint32_t coilHistoryRows() const { return coilSlots > 0 ? gpu::kMaxTurns * historyParts() + 1 : 0; }
 };
+
+/// One table on the device, as shaders/shared/tables.h lists it.
+struct TableShape {
+    const char* title;       ///< for messages
+    std::uint64_t elements;  ///< at least one
+    std::uint64_t bytes;     ///< of all elements, and of the head if it has one
+    VkFormat view;           ///< of a texel view; undefined where no pass reads the table through one
+    std::uint64_t texels;    ///< of the view
+};
+
+/// In the order of their bindings.
+std::array<TableShape, gpu::kTables> tableShapes(const TableSizes& sizes);
 
 /// How many spheres, and how large on average [m].
 struct Crowd {

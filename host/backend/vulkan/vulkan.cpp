@@ -27,8 +27,8 @@ class VulkanBackend final : public Backend {
     VulkanBackend(const VulkanBackend&) = delete;
     VulkanBackend& operator=(const VulkanBackend&) = delete;
 
-    void load(const World& world, const Particles& particles) override {
-        ensemble_->load(guest_, world, particles);
+    void load(const World& world, const ContactLaw& law, const Particles& particles) override {
+        ensemble_->load(guest_, world, law, particles);
         timeStep_ = world.timeStep;
         angle_ = 0;
     }

@@ -39,7 +39,7 @@ struct ValidationReport {
 };
 ValidationReport validationReport(const Backend& backend);
 
-/// Where the device's time goes, and what its tables take.
+/// How the device's time divides between the passes, and the size of its tables.
 struct VulkanProfile {
     struct Pass {
         std::string name;

@@ -1,0 +1,44 @@
+#pragma once
+// The one search for spheres that overlap, over all of them at one instant.
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "host/model/particles.h"
+
+namespace vkdose {
+
+/// Calls `visit(i, j, ratio)` once for every two active particles that overlap: `ratio` is their overlap over the
+/// smaller radius of the two [-]. They come in order of their place along the longest side of the bed.
+template <class Visit>
+void forEachOverlap(const Particles& p, const Visit& visit) {
+    Vec3 low(std::numeric_limits<double>::infinity()), high = -low;
+    std::vector<std::size_t> order;
+    double largest = 0;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+        if (p.status[i] != Status::Active) continue;
+        order.push_back(i);
+        low = glm::min(low, p.position[i]);
+        high = glm::max(high, p.position[i]);
+        largest = std::max(largest, p.radius[i]);
+    }
+    const Vec3 size = high - low;  // few particles are side by side along the longest side
+    const glm::length_t axis = size.x > size.y && size.x > size.z ? 0 : size.y > size.z ? 1 : 2;
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b) { return p.position[a][axis] < p.position[b][axis]; });
+    for (auto a = order.begin(); a != order.end(); ++a) {
+        const std::size_t i = *a;
+        const double reach = p.position[i][axis] + p.radius[i] + largest;
+        for (auto b = a + 1; b != order.end() && p.position[*b][axis] < reach; ++b) {
+            const std::size_t j = *b;
+            const Vec3 apart = p.position[j] - p.position[i];
+            const double touch = p.radius[i] + p.radius[j];
+            if (glm::dot(apart, apart) >= touch * touch) continue;
+            visit(i, j, (touch - glm::length(apart)) / std::min(p.radius[i], p.radius[j]));
+        }
+    }
+}
+
+}  // namespace vkdose

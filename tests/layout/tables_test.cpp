@@ -1,0 +1,133 @@
+// The tables that the passes bind, against the lists that they come from (shaders/shared/tables.h, field_tables.h), and
+// the page that explains them.
+
+#include <spirv_cross/spirv_cross_c.h>
+
+#include <fstream>
+#include <map>
+#include <set>
+#include <span>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "shaders/shared/layout.h"
+#include "spirv/passes.h"
+#include "tests/support/catch.h"
+
+using namespace vkdose;
+
+namespace {
+
+struct Listed {
+    unsigned binding;
+    std::string name, element, title;
+};
+
+const std::vector<Listed> kListed{
+#define TABLE(binding, name, element, count, title) {binding, #name, #element, #title},
+#include "shaders/shared/tables.h"
+};
+const std::vector<Listed> kFieldListed{
+#define TABLE(binding, name, element, count, title) {binding, #name, #element, #title},
+#include "shaders/shared/field_tables.h"
+};
+
+/// The names of the blocks and views that a pass really uses, by binding.
+class Used {
+  public:
+    explicit Used(std::span<const std::uint32_t> code) {
+        spvc_context context = nullptr;
+        REQUIRE(spvc_context_create(&context) == SPVC_SUCCESS);
+        spvc_parsed_ir ir = nullptr;
+        REQUIRE(spvc_context_parse_spirv(context, code.data(), code.size(), &ir) == SPVC_SUCCESS);
+        spvc_compiler compiler = nullptr;
+        REQUIRE(spvc_context_create_compiler(context, SPVC_BACKEND_NONE, ir, SPVC_CAPTURE_MODE_TAKE_OWNERSHIP,
+                                             &compiler) == SPVC_SUCCESS);
+        spvc_set active = nullptr;
+        REQUIRE(spvc_compiler_get_active_interface_variables(compiler, &active) == SPVC_SUCCESS);
+        spvc_resources resources = nullptr;
+        REQUIRE(spvc_compiler_create_shader_resources_for_active_variables(compiler, &resources, active) ==
+                SPVC_SUCCESS);
+        for (const spvc_resource_type kind : {SPVC_RESOURCE_TYPE_STORAGE_BUFFER, SPVC_RESOURCE_TYPE_SEPARATE_IMAGE}) {
+            const spvc_reflected_resource* list = nullptr;
+            std::size_t count = 0;
+            REQUIRE(spvc_resources_get_resource_list_for_type(resources, kind, &list, &count) == SPVC_SUCCESS);
+            for (std::size_t i = 0; i < count; ++i)
+                names[spvc_compiler_get_decoration(compiler, list[i].id, SpvDecorationBinding)].insert(list[i].name);
+        }
+        spvc_context_destroy(context);
+    }
+
+    std::map<unsigned, std::set<std::string>> names;
+};
+
+std::string readText(const std::string& path) {
+    std::ifstream stream(path);
+    std::ostringstream text;
+    text << stream.rdbuf();
+    return text.str();
+}
+
+}  // namespace
+
+TEST_CASE("every binding of a pass is that of its table in the list, or of the table's view") {
+    std::set<std::string> met;
+    for (const auto variants :
+         {std::span<const vk::Variant>(spirv::near), std::span<const vk::Variant>(spirv::link),
+          std::span<const vk::Variant>(spirv::pairs), std::span<const vk::Variant>(spirv::coil),
+          std::span<const vk::Variant>(spirv::surfaces), std::span<const vk::Variant>(spirv::move),
+          std::span<const vk::Variant>(spirv::sense), std::span<const vk::Variant>(spirv::neighbours)})
+        for (const vk::Variant& variant : variants)
+            for (const auto& [binding, names] : Used(variant.code).names)
+                for (const std::string& name : names) {
+                    INFO(name << " at " << binding);
+                    const bool view = binding >= gpu::kFirstView;
+                    REQUIRE(binding - (view ? gpu::kFirstView : 0) < kListed.size());
+                    const Listed& table = kListed[binding - (view ? gpu::kFirstView : 0)];
+                    if (name.rfind("Packed", 0) == 0) continue;  // the same table in other words
+                    CHECK(name == table.name + (view ? "View" : "Buffer"));
+                    met.insert(table.name);
+                }
+    CHECK(met.size() >= gpu::kTables - 1);  // the energy book's sums are a matter of sense_energy
+}
+
+TEST_CASE("a field pass uses no table whose place one of its own takes") {
+    std::map<unsigned, std::string> own;
+    for (const Listed& table : kFieldListed) own[table.binding] = table.name + "Buffer";
+    std::set<std::string> met;
+    for (const auto variants :
+         {std::span<const vk::Variant>(spirv::field_branches), std::span<const vk::Variant>(spirv::field_weights),
+          std::span<const vk::Variant>(spirv::field_sums), std::span<const vk::Variant>(spirv::field_kinetic)})
+        for (const auto& [binding, names] : Used(variants[0].code).names) {
+            CHECK(names.size() == 1);
+            const bool taken = own.count(binding) == 1;
+            REQUIRE(binding < kListed.size());
+            CHECK(*names.begin() == (taken ? own[binding] : kListed[binding].name + "Buffer"));
+            if (taken) met.insert(*names.begin());
+        }
+    CHECK(met.size() == kFieldListed.size());
+}
+
+TEST_CASE("shaders/README.md tells of every table, with its binding and element, and of every pass") {
+    const std::string page = readText(VKDOSE_SOURCE_DIR "/shaders/README.md");
+    REQUIRE_FALSE(page.empty());
+    std::vector<Listed> all = kListed;
+    all.insert(all.end(), kFieldListed.begin(), kFieldListed.end());
+    for (const Listed& t : all) {
+        const std::string row = "\n| " + std::to_string(t.binding) + " | `" + t.name + "` | `" + t.element + "` | ";
+        INFO("a row that begins" << row);
+        CHECK(page.find(row) != std::string::npos);
+    }
+    std::istringstream cmake(readText(VKDOSE_SOURCE_DIR "/shaders/passes.cmake"));
+    std::size_t passes = 0;
+    for (std::string line; std::getline(cmake, line);) {
+        const std::size_t at = line.find("\"pass/");
+        if (at == std::string::npos) continue;
+        const std::string name = line.substr(at + 6, line.find_first_of(" \"", at + 6) - at - 6);
+        INFO("pass " << name);
+        CHECK(page.find("`" + name + "`") != std::string::npos);
+        ++passes;
+    }
+    CHECK(passes >= 17);
+}
