@@ -49,12 +49,12 @@ TEST_CASE("a batch fits the device's memory, its longest buffer and its dispatch
     TableSizes three = small;
     three.members = 3;
     DeviceRoom room = kWide;
-    room.memory = tableBytes(three).all;
+    room.memory = three.allBytes();
     CHECK(batchesOf(four, room, 99) == Batches{{0, 1, 2}, {3}});
     room.memory -= 1;
     CHECK(batchesOf(four, room, 99) == Batches{{0, 1}, {2, 3}});
     room = kWide;
-    room.range = tableBytes(three).longest;
+    room.range = three.longestBytes();
     CHECK(batchesOf(four, room, 99) == Batches{{0, 1, 2}, {3}});
     room = kWide;
     room.members = 2;
@@ -62,8 +62,8 @@ TEST_CASE("a batch fits the device's memory, its longest buffer and its dispatch
 
     // Every member of a batch takes as much as the largest: a small one beside it does not fit where two small ones do.
     room = kWide;
-    room.memory = tableBytes(large).all;
-    CHECK(tableBytes(three).all <= room.memory);
+    room.memory = large.allBytes();
+    CHECK(three.allBytes() <= room.memory);
     CHECK(batchesOf({{0, 4, large}, {1, 3, small}, {2, 2, small}, {3, 1, small}}, room, 99) == Batches{{0}, {1, 2, 3}});
     room.memory = 1;
     CHECK(batchesOf({{0, 4, large}, {1, 3, small}}, room, 99) == Batches{{0}, {1}});
