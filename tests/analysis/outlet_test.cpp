@@ -48,7 +48,7 @@ Verdict same(double a, double b) {
 
 }  // namespace
 
-TEST_CASE("a stop goes on over a rest, which does not count; the coil's filling is none") {
+TEST_CASE("a stop goes on over a rest, which does not count, the coil's filling is none") {
     const OutletFlow flow = flowOf("ss---xxx--...----xxx");
     CHECK(same(flow.lead.value(), 0.4));  // up to the line in which something had come
     CHECK(flow.longest.dose == 1);
@@ -70,7 +70,7 @@ TEST_CASE("a stop of more than a turn counts as stopped, from the dose in which 
     CHECK(same(flow.longestIn.at(3), 0.8));
 }
 
-TEST_CASE("what falls out at rest ends a stop; the longest of several in a dose counts") {
+TEST_CASE("what falls out at rest ends a stop, the longest of several in a dose counts") {
     const OutletFlow flow = flowOf("x---x-.o.----x--");
     CHECK(same(flow.longest.time, 0.4));
     CHECK(flow.longest.dose == 2);
@@ -78,7 +78,7 @@ TEST_CASE("what falls out at rest ends a stop; the longest of several in a dose 
     CHECK(same(flow.longestIn.at(2), 0.4));
 }
 
-TEST_CASE("an outlet from which nothing ever came has stopped from the start; an empty canister has not") {
+TEST_CASE("an outlet from which nothing ever came has stopped from the start, an empty canister has not") {
     const OutletFlow never = flowOf("s--------..--------");
     CHECK_FALSE(never.lead);
     CHECK(same(never.longest.time, 1.6));

@@ -64,7 +64,7 @@ Rows runInto(const fs::path& out, const Case& c) {
 
 }  // namespace
 
-TEST_CASE("a field in one place is a line for each time; in one direction one for each point") {
+TEST_CASE("a field in one place is a line for each time, in one direction one for each point") {
     const Sandbox box;
     const Rows place = runInto(box / "out", caseWith({1, 1, 1}, FieldSensor::Preset::None, true));
     REQUIRE(place.size() == 1 + 5);
@@ -92,7 +92,7 @@ TEST_CASE("a field in one place is a line for each time; in one direction one fo
     CHECK(value(heights, 2, "height_m_at_z_0.015_m") == Approx(0.05 * 120 / 100));
 }
 
-TEST_CASE("a map is a file for each time, which the field's own file lists; a new run removes them") {
+TEST_CASE("a map is a file for each time, which the field's own file lists, a new run removes them") {
     const Sandbox box;
     const Rows list = runInto(box / "out", caseWith({1, 2, 3}, FieldSensor::Preset::None, false));
     REQUIRE(list.size() == 1 + 5);

@@ -137,7 +137,7 @@ TEST_CASE("a member that fails is told, the rest go on, and the exit code says s
     CHECK_THAT(o.out, Catch::Contains("2 done, 2 failed"));
 }
 
-TEST_CASE("a dry run prints the members, a faulty study is refused; neither writes anything") {
+TEST_CASE("a dry run prints the members, a faulty study is refused, neither writes anything") {
     const Sandbox box;
     box.write("study.toml", kStudy);
     const auto dry = box.vkdose("sweep study.toml --dry-run");

@@ -17,7 +17,7 @@ TEST_CASE("what is written into a line is read from it, commas, quotes and blank
     for (const char* broken : {"\"1,2", "a\"b,2", "\"a\"b,2"}) CHECK_FALSE(csvFields(broken));
 }
 
-TEST_CASE("blank lines count, and are passed over; a byte order mark and carriage returns are no text") {
+TEST_CASE("blank lines count, and are passed over, a byte order mark and carriage returns are no text") {
     std::istringstream text(
         "\xef\xbb\xbf"
         "a,b\r\n\n  \n1,2\r\n3,4");

@@ -91,7 +91,7 @@ TEST_CASE("of a table whose writer was killed, what is whole is kept") {
     CHECK(Table::salvage(box / "none.csv").names().empty());
 }
 
-TEST_CASE("rows are added, removed and sorted; a fault still names the line they came from") {
+TEST_CASE("rows are added, removed and sorted, a fault still names the line they came from") {
     const Sandbox box;
     Table table = Table::read(box.write("t.csv", "a,b\n3,x\n1,y\n2,z\n"));
     table.add({"1", "w"});

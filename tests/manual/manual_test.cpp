@@ -37,7 +37,7 @@ TEST_CASE("every link and path of the manual leads somewhere, and every page can
     CHECK(joined(unreachable(pages)) == "");
 }
 
-TEST_CASE("what the program prints stands on the pages as it prints it; else run tools/manual") {
+TEST_CASE("printed parts stand on the pages as the program prints them, else run tools/manual") {
     const Sandbox box;
     int parts = 0;
     for (const Page& page : readPages(kRoot)) {

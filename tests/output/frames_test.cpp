@@ -242,7 +242,7 @@ TEST_CASE("a new run removes the frames of a former one and nothing else") {
     CHECK_FALSE(fs::exists(box / "frames"));
 }
 
-TEST_CASE("frames of a run under way are those whose lines are whole; what is no frame is refused by name") {
+TEST_CASE("frames of a run under way are those whose lines are whole, what is no frame is refused by name") {
     const Sandbox box;
     {
         FrameWriter writer(box.path(), smallWorld(), 0);

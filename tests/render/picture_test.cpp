@@ -86,7 +86,7 @@ int ink(const Canvas& canvas, double left, double top, double right, double bott
 
 }  // namespace
 
-TEST_CASE("particles stand where they are, in the colour of their speed; dosed ones are gone") {
+TEST_CASE("particles stand where they are, in the colour of their speed, dosed ones are gone") {
     Studio studio;
     for (const auto view : {render::View::Side, render::View::End, render::View::Iso}) {
         PictureSpec spec;

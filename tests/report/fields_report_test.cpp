@@ -135,7 +135,7 @@ TEST_CASE("height profiles: the last row of each dose, and all rows") {
     }
 }
 
-TEST_CASE("a run without fields has none to show; a damaged map is named") {
+TEST_CASE("a run without fields has none to show, a damaged map is named") {
     const Sandbox box;
     const Case c = caseWithFields(false);
     CHECK(fieldsJson(box / "run", loadCase(VKDOSE_SOURCE_DIR "/cases/mini.toml")).is_null());

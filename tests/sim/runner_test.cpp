@@ -237,7 +237,7 @@ TEST_CASE("an error of the backend keeps what was computed and is reported") {
     }
 }
 
-TEST_CASE("a ledger that does not close stops the run; the bad sample is on record, the result keeps the good one") {
+TEST_CASE("a ledger that does not close stops the run, the bad sample is on record, the result keeps the good one") {
     FakeBackend backend;
     backend.spoil = [](std::uint64_t step, Sensors& s) {
         if (step >= 120) s.count[0] -= 1;

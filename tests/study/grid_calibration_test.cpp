@@ -152,7 +152,7 @@ TEST_CASE("chosen is the steadiest crossing, and of equally steady ones that wit
     CHECK(choiceOf(0.20, 0.21, 0.9) == "0.5");
 }
 
-TEST_CASE("members that failed or gave nothing are left out; without a crossing there is no choice") {
+TEST_CASE("members that failed or gave nothing are left out, without a crossing there is no choice") {
     Members m;
     m.add("0.5", 0, 5e-3);
     m.add("0.5", 1, 1e-3, 0.2, "failed");

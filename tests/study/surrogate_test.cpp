@@ -227,7 +227,7 @@ TEST_CASE("a target out of reach is not met, and the nearest end is told") {
     CHECK(result->points[result->best][0] < 0.1);
 }
 
-TEST_CASE("points without a mass per dose are gone around; too many of them end the search") {
+TEST_CASE("points without a mass per dose are gone around, too many of them end the search") {
     const auto result = search(aimAt(4.4e-3, 0.02e-3, 20, {kCohesion}),
                                each([](const Parameters& p) { return p[0] > 0.7 ? NAN : massPerDose(p[0], 0.3); }));
     REQUIRE(result);

@@ -127,7 +127,7 @@ TEST_CASE("every member runs once, no more at a time than there are slots, and i
     CHECK(readText(sweep.out / "members.csv") == noted);
 }
 
-TEST_CASE("a member that fails does not keep the others from running; it is run again only when asked for") {
+TEST_CASE("a member that fails does not keep the others from running, it is run again only when asked for") {
     const Sweeping sweep;
     MadeUpRuns runs(2);
     runs.codes = {{4, 3}, {7, 128 + 9}};
