@@ -8,7 +8,7 @@
 //   /when/time                        simulated time [s]
 //   /when/timeseries, doses, fields   bytes of the CSV files at that time
 //   /when/frames                      bytes of frames.csv; 0: the run keeps no frames
-//   /when/checksums                   CRC-32 of these bytes: time series, doses, frames, every field; older ones lack it
+//   /when/checksums                   CRC-32 of these: time series, doses, frames, every field; older ones lack it
 //   /when/member                      number of the run in its study; 0: it is in none
 
 #include <cstdint>

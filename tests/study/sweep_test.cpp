@@ -41,8 +41,12 @@ class MadeUpRuns : public MemberRunner {
         const auto code = codes.find(task.number);
         MemberEnd end{task.number, interrupted ? 130 : code == codes.end() ? 0 : code->second, ""};
         if (end.code == 3) end.said = "particle 7, \"lost\"";
-        std::ofstream(task.folder / "doses.csv") << csvHeader(kDoseColumns) << "\n1,0.1,0.002,0.002,3,0.5,0.0021,1\n"
-                                                 << "2,0.2,0.001,0.003,1,0.7,0.0021,0\n";
+        const Dose whole{
+            .index = 1, .mass = 0.002, .particles = 3, .cumulative = 0.002, .coilTorque = 0.5, .complete = true};
+        const Dose cut{.index = 2, .mass = 0.001, .particles = 1, .cumulative = 0.003, .coilTorque = 0.7};
+        std::ofstream(task.folder / "doses.csv") << csvHeader(kDoseColumns) << "\n"
+                                                 << csvRow(kDoseColumns, whole) << "\n"
+                                                 << csvRow(kDoseColumns, cut) << "\n";
         if (end.code == 0)
             std::ofstream(task.folder / "summary.json")
                 << R"({"error": null, "interrupted": false, "stop_reason": "dose_count", "simulated_time_s": 1.5})";
