@@ -13,7 +13,7 @@
 #include "host/app/interrupt.h"
 #include "host/backend/vulkan/vulkan.h"
 #include "host/bench/copies.h"
-#include "host/bench/table.h"
+#include "host/bench/results_table.h"
 #include "host/core/error.h"
 #include "host/core/file.h"
 #include "host/core/printable.h"

@@ -9,7 +9,7 @@
 #include "host/core/printable.h"
 #include "host/model/case.h"
 #include "host/output/run_folder.h"
-#include "host/photo/picture.h"
+#include "host/photo/photograph.h"
 
 namespace vkdose {
 

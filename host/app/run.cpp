@@ -1,12 +1,12 @@
 #include <fmt/format.h>
 
 #include "host/app/commands.h"
+#include "host/app/end_table.h"
 #include "host/app/exit_code.h"
 #include "host/app/interrupt.h"
 #include "host/app/live_display.h"
 #include "host/app/play.h"
 #include "host/app/progress.h"
-#include "host/app/report.h"
 #include "host/core/printable.h"
 #include "host/sim/run_record.h"
 

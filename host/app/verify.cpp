@@ -8,8 +8,8 @@
 #include "host/app/interrupt.h"
 #include "host/core/file.h"
 #include "host/core/printable.h"
+#include "host/verify/findings_table.h"
 #include "host/verify/suite.h"
-#include "host/verify/table.h"
 
 namespace vkdose {
 

@@ -6,11 +6,11 @@
 #include "host/core/file.h"
 #include "host/core/printable.h"
 #include "host/output/run_files.h"
+#include "host/report/free_surface_report.h"
 #include "host/report/page.h"
 #include "host/report/player_data.h"
 #include "host/report/run_report.h"
 #include "host/report/study_report.h"
-#include "host/report/surface_report.h"
 #include "host/study/sweep_folder.h"
 
 namespace vkdose {

@@ -1,6 +1,6 @@
 #pragma once
-// Every key of a case file. The readers (read_powder.cpp, read_scene.cpp, read_field.cpp, case.cpp) take units, bounds,
-// words and defaults from here.
+// Every key of a case file. The readers (read_powder.cpp, read_apparatus.cpp, read_field.cpp, case.cpp) take units,
+// bounds, words and defaults from here.
 
 #include "host/model/key.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-// The tables of a case file, read into a Case. Every key and its default stands in read_powder.cpp, read_scene.cpp
+// The tables of a case file, read into a Case. Every key and its default stands in read_powder.cpp, read_apparatus.cpp
 // or read_field.cpp.
 
 #include <optional>
@@ -17,7 +17,7 @@ void readContact(Section& root, Case& c);
 /// The box of the insertion grid: the canister above its coil, or as given. After boundaries and coil.
 void readRegion(Section& root, std::optional<Boundaries> kind, Case& c);
 
-// read_scene.cpp
+// read_apparatus.cpp
 /// Nothing when the kind itself is at fault.
 std::optional<Boundaries> readBoundaries(CaseReader& reader, Section& root, Case& c);
 void readCoil(CaseReader& reader, Section& root, Case& c);

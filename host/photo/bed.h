@@ -1,7 +1,7 @@
 #pragma once
 // A photograph in two colours: which of its pixels are the bed of powder.
 
-#include "host/photo/picture.h"
+#include "host/photo/photograph.h"
 
 namespace vkdose::photo {
 

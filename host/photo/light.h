@@ -1,7 +1,7 @@
 #pragma once
 // Contrast of a photograph: the light that falls unevenly is taken off, and what is left fills the range of greys.
 
-#include "host/photo/picture.h"
+#include "host/photo/photograph.h"
 
 namespace vkdose::photo {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "host/render/colour.h"
-#include "host/render/grid.h"
+#include "host/render/ray_grid.h"
 #include "host/vk/buffer.h"
 #include "host/vk/commands.h"
 #include "shaders/shared/picture.h"

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <memory>
 
+#include "host/analysis/free_surface.h"
 #include "host/analysis/overlap.h"
-#include "host/analysis/surface.h"
 #include "host/core/error.h"
 #include "host/report/deflate.h"
 #include "host/report/thinning.h"

@@ -17,9 +17,9 @@
 #include "host/output/dose_table.h"
 #include "host/output/summary.h"
 #include "host/report/fields_report.h"
+#include "host/report/free_surface_report.h"
 #include "host/report/player_data.h"
 #include "host/report/run_figures.h"
-#include "host/report/surface_report.h"
 
 namespace vkdose::report {
 

@@ -6,7 +6,7 @@
 
 #include "host/model/case.h"
 #include "host/sim/frame.h"
-#include "host/terminal/canvas.h"
+#include "host/terminal/pixels.h"
 
 namespace vkdose::terminal {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "host/backend/backend.h"
-#include "host/verify/check.h"
+#include "host/verify/finding.h"
 
 namespace vkdose::verify {
 

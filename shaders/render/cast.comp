@@ -20,7 +20,7 @@ layout(std430, set = 0, binding = 6) writeonly buffer PictureBuffer { uvec2 pict
 
 const float kNever = 1e30;
 const uint kNothing = 0xffffffffu;
-const float kReach = 2.5;                    // of a sphere's shade, in radii; host/render/grid.h has the same
+const float kReach = 2.5;                    // of a sphere's shade, in radii; host/render/ray_grid.h has the same
 const float kSky = 0.55;                     // light that comes from everywhere, over that of the colour map
 const float kSun = 0.75;                     // and from one side
 const vec3 kSteel = vec3(0.36, 0.38, 0.41);  // linear

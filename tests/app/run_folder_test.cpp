@@ -4,7 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "host/app/report.h"
+#include "host/app/end_table.h"
 #include "host/output/end_state.h"
 #include "host/output/frames.h"
 #include "host/output/summary.h"

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "host/app/end_table.h"
 #include "host/app/progress.h"
-#include "host/app/report.h"
 #include "tests/app/sandbox.h"
 #include "tests/sim/fake_backend.h"
 #include "tests/support/catch.h"

@@ -6,7 +6,7 @@
 
 #include "host/core/random.h"
 #include "host/core/vec.h"
-#include "host/photo/picture.h"
+#include "host/photo/photograph.h"
 
 namespace vkdose::test {
 

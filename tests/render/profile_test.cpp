@@ -1,7 +1,7 @@
 // A photograph taken by the ray caster: the profile found in it is that of the particles.
 
 #include "host/photo/profile.h"
-#include "host/analysis/surface.h"
+#include "host/analysis/free_surface.h"
 #include "tests/render/scenes.h"
 #include "tests/support/near.h"
 

@@ -1,5 +1,5 @@
 // Maps of fields in a browser: what stands where, and that they and the player lead each other.
-#include "host/report/surface_report.h"
+#include "host/report/free_surface_report.h"
 #include "tests/report/browser.h"
 #include "tests/report/fields.h"
 #include "tests/report/folders.h"

@@ -1,6 +1,6 @@
 // The player in a browser, on a scene whose picture is known.
 #include "host/core/error.h"
-#include "host/report/surface_report.h"
+#include "host/report/free_surface_report.h"
 #include "tests/report/browser.h"
 #include "tests/report/folders.h"
 #include "tests/report/frames.h"

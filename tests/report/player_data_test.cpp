@@ -1,7 +1,7 @@
 #include "host/report/player_data.h"
 
+#include "host/analysis/free_surface.h"
 #include "host/analysis/overlap.h"
-#include "host/analysis/surface.h"
 #include "host/core/error.h"
 #include "host/core/random.h"
 #include "host/report/deflate.h"

@@ -8,8 +8,8 @@
 #include <set>
 
 #include "host/backend/reference/reference.h"
+#include "host/verify/findings_table.h"
 #include "host/verify/setups.h"
-#include "host/verify/table.h"
 #include "tests/support/catch.h"
 
 using namespace vkdose;

@@ -1,6 +1,6 @@
 // Files as cameras write them, and as accidents leave them.
 
-#include "host/photo/picture.h"
+#include "host/photo/photograph.h"
 
 #include <leptonica/allheaders.h>
 #include <unistd.h>

@@ -1,6 +1,6 @@
 // The suite's comparator, and what it makes of cases that check nothing or break off.
 
-#include "host/verify/check.h"
+#include "host/verify/finding.h"
 
 #include <cmath>
 #include <limits>
@@ -8,8 +8,8 @@
 #include <set>
 
 #include "host/core/error.h"
+#include "host/verify/findings_table.h"
 #include "host/verify/suite.h"
-#include "host/verify/table.h"
 #include "tests/sim/fake_backend.h"
 #include "tests/support/catch.h"
 

@@ -1,4 +1,4 @@
-#include "host/analysis/surface.h"
+#include "host/analysis/free_surface.h"
 
 #include <stdexcept>
 

@@ -1,4 +1,4 @@
-#include "host/terminal/canvas.h"
+#include "host/terminal/pixels.h"
 #include "tests/support/catch.h"
 
 using namespace vkdose::terminal;

@@ -1,4 +1,4 @@
-#include "host/verify/check.h"
+#include "host/verify/finding.h"
 
 #include <cmath>
 #include <limits>

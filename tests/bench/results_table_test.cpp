@@ -1,6 +1,6 @@
 // The result as programs read it.
 
-#include "host/bench/table.h"
+#include "host/bench/results_table.h"
 
 #include <nlohmann/json.hpp>
 

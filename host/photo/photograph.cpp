@@ -1,4 +1,4 @@
-#include "host/photo/picture.h"
+#include "host/photo/photograph.h"
 
 #include <fmt/format.h>
 #include <leptonica/allheaders.h>

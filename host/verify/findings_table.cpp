@@ -1,4 +1,4 @@
-#include "host/verify/table.h"
+#include "host/verify/findings_table.h"
 
 #include <fmt/format.h>
 

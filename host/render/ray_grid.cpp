@@ -1,4 +1,4 @@
-#include "host/render/grid.h"
+#include "host/render/ray_grid.h"
 
 #include <algorithm>
 #include <array>

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "host/verify/check.h"
+#include "host/verify/finding.h"
 
 namespace vkdose::verify {
 

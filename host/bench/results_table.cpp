@@ -1,4 +1,4 @@
-#include "host/bench/table.h"
+#include "host/bench/results_table.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
-#include "host/report/surface_report.h"
+#include "host/report/free_surface_report.h"
 
-#include "host/analysis/surface.h"
+#include "host/analysis/free_surface.h"
 #include "tests/report/faults.h"
 #include "tests/report/folders.h"
 #include "tests/report/frames.h"

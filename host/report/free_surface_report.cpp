@@ -1,4 +1,4 @@
-#include "host/report/surface_report.h"
+#include "host/report/free_surface_report.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "host/analysis/density.h"
-#include "host/analysis/surface.h"
+#include "host/analysis/free_surface.h"
 #include "host/core/csv_lines.h"
 #include "host/core/csv_table.h"
 #include "host/core/error.h"

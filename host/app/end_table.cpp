@@ -1,4 +1,4 @@
-#include "host/app/report.h"
+#include "host/app/end_table.h"
 
 #include <fmt/format.h>
 
