@@ -121,7 +121,7 @@ SweepFolder::SweepFolder(fs::path folder, const Study& study, const std::vector<
         if (status != MemberStatus::Interrupted) ended.insert(number);
     std::erase_if(status_, [](const auto& entry) { return entry.second == MemberStatus::Interrupted; });
     dropRows(members_, ended);
-    gatherDoses();
+    gatherResults();
     requireNothingLost(folder_, study, base);
     try {
         rewrite();  // first: they tell that a sweep is here
@@ -165,26 +165,33 @@ void SweepFolder::read(const Row& keys) {
             if (members_.text(i, "status") == statusText(s)) status_[numberOf(members_.row(i))] = s;
 }
 
-/// The doses of the members that have ended, from their folders: the table may have lost some, or been edited.
-void SweepFolder::gatherDoses() {
+/// Results and doses of the members that have ended, from their folders: the tables may have lost some, or been edited.
+void SweepFolder::gatherResults() {
     std::map<int, std::vector<Row>> noted;
     for (std::size_t k = 0; k < doses_.rows(); ++k) {
         std::vector<Row>& rows = noted[numberOf(doses_.row(k))];
         if (rows.empty() || rows.back() != doses_.row(k)) rows.push_back(doses_.row(k));  // one line twice is one dose
     }
-    Table all(doses_.names());
+    Table members(members_.names()), doses(doses_.names());
     for (std::size_t i = 0; i < members_.rows(); ++i) {
-        const Row& member = members_.row(i);
-        const Row head(member.begin(), member.end() - std::ptrdiff_t(kOutputColumns.size()));
-        const std::vector<Row>& table = noted[numberOf(member)];
-        const Table folder = dosesIn(memberFolder(numberOf(member)));
-        if (folder.rows() < table.size()) {  // the folder has lost some itself, or is gone
-            for (const Row& row : table) all.add(row);
+        Row member = members_.row(i);
+        const int number = numberOf(member);
+        const MemberResult found = readResult(memberFolder(number), {number, 0, ""});
+        const auto outputs = member.end() - std::ptrdiff_t(kOutputColumns.size());
+        const Row head(member.begin(), outputs);
+        if (status(number) == MemberStatus::Ok && found.status == MemberStatus::Ok)
+            std::transform(found.outputs.begin(), found.outputs.end(), outputs, outputs,
+                           [](const std::string& kept, const std::string& row) { return kept.empty() ? row : kept; });
+        members.add(member);
+        const std::vector<Row>& table = noted[number];
+        if (found.doses.size() < table.size()) {  // the folder has lost some itself, or is gone
+            for (const Row& row : table) doses.add(row);
             continue;
         }
-        for (std::size_t k = 0; k < folder.rows(); ++k) all.add(joined(head, folder.row(k)));
+        for (const Row& dose : found.doses) doses.add(joined(head, dose));
     }
-    doses_ = std::move(all);
+    members_ = std::move(members);
+    doses_ = std::move(doses);
 }
 
 void SweepFolder::requireSame(const Member& member) const {

@@ -55,7 +55,7 @@ class SweepFolder {
   private:
     void lock();
     void read(const Row& keys);
-    void gatherDoses();
+    void gatherResults();
     void rewrite();
 
     std::filesystem::path folder_;

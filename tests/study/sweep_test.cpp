@@ -199,6 +199,31 @@ TEST_CASE("doses that the table has lost come back from the members' folders") {
     CHECK(readText(table) == good);
 }
 
+TEST_CASE("results that were edited in the table come back from the members' folders") {
+    const Sweeping sweep;
+    MadeUpRuns runs(1);
+    (void)sweep.run(runs);
+    const fs::path table = sweep.out / "members.csv";
+    const std::string good = readText(table), time = ",1.5,";
+    std::string other = good;
+    const std::size_t at = other.rfind(time);
+    REQUIRE(at != std::string::npos);
+    SECTION("a number") {
+        other.replace(at, time.size(), ",2.5,");
+    }
+    SECTION("no number") {
+        other.replace(at, time.size(), ",1.\xd5,");
+    }
+    SECTION("nothing") {
+        other.replace(at, time.size(), ",,");
+    }
+    std::ofstream(table) << other;
+    MadeUpRuns nothing(1);
+    CHECK(sweep.run(nothing).ok == 12);
+    CHECK(nothing.started.empty());
+    CHECK(readText(table) == good);
+}
+
 TEST_CASE("an interrupted sweep goes on with the members that had begun, from their checkpoints") {
     const Sweeping sweep;
     MadeUpRuns runs(2);
