@@ -59,7 +59,7 @@ Closest closestPoint(const Surface& surface, const Vec3& q);
 /// Whether `surface` is a plane or trough that ends at a front wall, where it meets the rim of the hole.
 bool endsAtFront(const Surface& surface);
 
-/// What a wall that ends at the front wall and the front wall itself are to a sphere that overlaps both.
+/// The relation of a wall that ends at the front wall and the front wall itself, for a sphere that overlaps both.
 enum class Joint {
     Apart,  ///< two contacts, as in the corner between a side and the front wall
     Wall,   ///< one contact: that with the wall, which overlaps at least as deeply

@@ -12,7 +12,7 @@ namespace vkdose {
 
 namespace {
 
-/// What lavapipe's threads gain, a canister loses again because they are woken for every pass. Other drivers do not
+/// Waking lavapipe's threads for every pass costs a small canister more than they gain. Other drivers do not
 /// look at this variable, and whoever has set it is right.
 void chooseThreads(std::size_t particles) {
     constexpr const char* kVariable = "LP_NUM_THREADS";

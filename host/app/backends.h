@@ -37,7 +37,7 @@ BackendChoice sameBackend(const std::string& description, const BackendChoice& c
 /// take turns at the GPUs of the kind that is taken by itself; the processor is one device, whatever drivers it has.
 BackendChoice choiceOfRank(const BackendChoice& choice, const std::vector<vk::DeviceInfo>& devices, int localRank);
 
-/// What the Vulkan validation layer found, if it was asked for; its absence counts as a finding.
+/// The findings of the Vulkan validation layer, if it was asked for; its absence counts as a finding.
 std::vector<std::string> validationFindings(const BackendChoice& choice, const Backend& backend);
 
 /// Prints that on stderr; false if there is any.

@@ -39,7 +39,7 @@ std::vector<std::string> environmentFor(int slots) {
     return variables;
 }
 
-/// What a process gets instead of our terminal: no input, no output, a pipe for what goes wrong; and a process group of
+/// Replaces our terminal for a process: no input, no output, a pipe for error messages, and a process group of
 /// its own, so that Ctrl-C on the terminal reaches it through us, once.
 class Surroundings {
   public:

@@ -47,7 +47,7 @@ Film::Film(std::filesystem::path file, int width, int height, double rate) : fil
     std::vector<std::string> words{"ffmpeg", "-nostdin", "-loglevel", "error", "-y", "-f", "rawvideo", "-pix_fmt",
                                    "bgr0", "-s", fmt::format("{}x{}", width, height), "-framerate",
                                    fmt::format("{:.6g}", rate), "-i", "pipe:0",
-                                   // What every player takes; a slash in front, lest a name be taken for an option.
+                                   // Every player takes this format. An absolute path cannot be taken for an option.
                                    "-pix_fmt", "yuv420p", std::filesystem::absolute(file_).string()};
     std::vector<char*> arguments;
     for (std::string& word : words) arguments.push_back(word.data());

@@ -9,7 +9,7 @@
 
 namespace vkdose {
 
-/// What runs the members: on a GPU ensembles as large as its memory allows, on a CPU a process for each core, unless
+/// The runner of the members: on a GPU ensembles as large as its memory allows, on a CPU a process per core, unless
 /// the options say how many. Throws DeviceError if there is no device to run them on.
 std::unique_ptr<MemberRunner> makeRunner(const SweepOptions& options);
 

@@ -1,5 +1,5 @@
 #pragma once
-// What a backend promises: it holds a world and its particles, advances them n steps, and gives reduced sensors and
+// The promises of a backend: it holds a world and its particles, advances them n steps, and gives reduced sensors and
 // state back. Coarse on purpose: nothing here is called inside the step loop.
 //
 // One step (leapfrog = velocity Verlet with half-step velocities in the contact law):

@@ -22,7 +22,7 @@ namespace vkdose::bench {
 
 namespace {
 
-/// What the processes share: a barrier, and a row of figures for each copy.
+/// Memory that the processes share: a barrier, and a row of figures for each copy.
 class Shared {
   public:
     Shared(int copies, int repeats) : bytes_(kHead + sizeof(double) * std::size_t(copies) * std::size_t(repeats)) {

@@ -28,7 +28,7 @@ struct Load {
     V force{0}, torque{0};
 };
 
-/// What a pair remembers, and the other one of the two.
+/// The memory of a pair, and the other one of the two.
 struct Near {
     std::uint32_t other;
     float maxOverlap = 0;

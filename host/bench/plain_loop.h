@@ -1,5 +1,5 @@
 #pragma once
-// What plain code does with the same packing: the yardstick for speed on a processor. No part of the simulator.
+// Plain code on the same packing: the yardstick for speed on a processor. No part of the simulator.
 
 #include <cstdint>
 #include <memory>

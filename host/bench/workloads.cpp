@@ -44,7 +44,7 @@ const Packing& tile() {
 Workload box(int nx, int ny, int nz) {
     const Packing packing = tiled(tile(), nx, ny, nz);
     Workload w{paperWorld(), packing.particles, 0, 200};
-    // What the packing is at rest with.
+    // The packing is at rest with these.
     ContactParameters& wall = w.world.law.classes[std::size_t(ContactClass::ParticleWall)];
     wall.k1 *= 2;
     wall.k2Max *= 2;

@@ -1,5 +1,5 @@
 #pragma once
-// What the benchmark runs: fixed worlds with fixed particles, the same on every machine.
+// The workloads of the benchmark: fixed worlds with fixed particles, the same on every machine.
 
 #include <functional>
 #include <optional>

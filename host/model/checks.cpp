@@ -28,7 +28,7 @@ void checkContact(CaseReader& reader, const Case& c) {
     const std::array<const char*, kContactClasses> path{"contact", "contact.wall", "contact.coil"};
     for (std::size_t i = 0; i < path.size(); ++i) {
         const ContactParameters& p = c.dosingLaw.classes[i];
-        // What a class inherits is reported once, where it is written.
+        // An inherited fault is reported once, where the value is written.
         const ContactParameters* parent = i == 0 ? nullptr : &c.dosingLaw.classes[i - 1];
         const bool sameK1 = parent != nullptr && p.k1 / p.k2Max == parent->k1 / parent->k2Max;
         if (p.k1 > p.k2Max && !sameK1)
@@ -151,7 +151,7 @@ void checkBox(CaseReader& reader, const char* path, const Box& box) {
                      "give the lower corner as low, the upper as high");
 }
 
-/// What makes a mass fit: the bed's volume against the canister's, at the loosest packing a bed keeps.
+/// Compares the volume of the bed with the canister's, at the loosest packing that a bed keeps.
 void checkBed(CaseReader& reader, const Case& c) {
     const Canister& can = *c.canister;
     const double half = can.width / 2;

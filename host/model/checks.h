@@ -1,5 +1,5 @@
 #pragma once
-// What single keys cannot tell: faults between fields of a case. Comparisons are false for NaN, which stands for a
+// Faults between the keys of a case, which no single key shows. Comparisons are false for NaN, which stands for a
 // value whose key is already reported.
 
 #include <limits>

@@ -59,7 +59,7 @@ inline constexpr std::size_t kMostFieldPoints = 1'000'000;
 /// Points in reach of one kernel: more would end a loop on software devices, and no width needs so fine a grid.
 inline constexpr double kMostPointsInReach = 60'000;
 
-/// What is wrong with a request, and what would be right; nothing if it can be met.
+/// The fault of a request, and its cure; nothing if the request can be met.
 std::optional<std::string> faultOf(const FieldRequest& request);
 
 /// The fields at one point. All are densities that add up, so that they can be averaged over time as they are; what is

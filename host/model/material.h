@@ -5,7 +5,7 @@
 
 namespace vkdose {
 
-/// What touches what; each class has its own parameters.
+/// The two bodies of a contact. Each class of contacts has its own parameters.
 enum class ContactClass { ParticleParticle = 0, ParticleWall = 1, ParticleCoil = 2 };
 inline constexpr int kContactClasses = 3;
 

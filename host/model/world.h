@@ -1,5 +1,5 @@
 #pragma once
-// What a backend simulates, free of file formats: surfaces, coil, materials, time step. Built from a Case by
+// The world that a backend simulates, free of file formats: surfaces, coil, time step. Built from a Case by
 // model/case.h, or by hand in tests.
 
 #include <limits>

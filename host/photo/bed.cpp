@@ -39,7 +39,7 @@ Mask withoutPatches(const Mask& mask, double pixels, int connectivity) {
     return maskOf(held(kept));
 }
 
-/// What hangs together with the lowest `rows`.
+/// The pixels that hang together with the lowest `rows`.
 Mask reachingDown(const Mask& mask, int rows) {
     Mask lowest = mask;
     std::fill_n(lowest.value.begin(), std::ptrdiff_t(mask.width) * std::max(0, mask.height - rows), std::uint8_t(0));

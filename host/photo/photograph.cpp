@@ -14,7 +14,7 @@ namespace vkdose::photo {
 namespace {
 
 constexpr int kLeastRegion = 8;
-/// What Leptonica reads to recognise a format.
+/// The number of bytes that Leptonica reads to recognise a format.
 constexpr std::size_t kLeastBytes = 12;
 
 std::string bytesOf(const std::filesystem::path& file) {

@@ -123,7 +123,7 @@ void addKept(const Line& line, const CutPlane& cut, std::vector<Line>& kept) {
     const auto beyond = [&](const Vec3& x) { return glm::dot(x, cut.normal) - cut.offset; };
     for (std::size_t i = 0; i < line.size(); ++i) {
         const double here = beyond(line[i]), before = i > 0 ? beyond(line[i - 1]) : here;
-        // What lies in the plane of the cut stays, whatever rounding says.
+        // Points in the plane of the cut stay, whatever rounding says.
         constexpr double kNothing = 1e-9;
         if ((here > kNothing) != (before > kNothing))
             part.push_back(line[i - 1] + (line[i] - line[i - 1]) * (before / (before - here)));

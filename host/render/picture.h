@@ -24,7 +24,7 @@ struct Panel {
     std::string title;
 };
 
-/// What has to be seen of a frame: the canister and its coil, as high as all powder but a stray hundredth reaches, or
+/// The part of a frame to be seen: the canister and its coil, as high as all powder but a stray hundredth reaches, or
 /// particles and coil where there is none, with a margin.
 Box contentOf(const Case& c, const Frame& frame);
 /// Of several frames.

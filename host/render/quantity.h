@@ -1,5 +1,5 @@
 #pragma once
-// What the colour of a particle may tell, and the scale beside the picture that says so.
+// The quantities that the colour of a particle may show, and the scale beside the picture.
 
 #include <optional>
 #include <string>
@@ -43,7 +43,7 @@ struct Scale {
     std::vector<Tick> ticks() const;
 };
 
-/// What a user asks of the range, in the unit of the ticks.
+/// The range that a user asks for, in the unit of the ticks.
 struct Range {
     std::optional<double> from, to;
 };

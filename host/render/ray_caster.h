@@ -13,7 +13,7 @@
 
 namespace vkdose::render {
 
-/// What there is to be seen.
+/// All that can be seen.
 struct Scene {
     std::vector<Vec3> centre;    ///< of the spheres [m]
     std::vector<double> radius;  ///< [m]

@@ -1,4 +1,4 @@
-// What a reader works a figure with, and is told of the moment it shows.
+// The controls of a figure, and the line that tells the moment it shows.
 
 function control(parent, label, element) {
   const box = add(parent, "label", null, "control");

@@ -30,7 +30,7 @@ struct Quantity {
     double most = 0;
 };
 
-/// What of a grid with two resolved directions goes across the page, and what up.
+/// Which of a grid's two resolved directions goes across the page, and which up.
 struct Plane {
     explicit Plane(const FieldGrid& grid)
         : across(grid.resolved(2) ? 2 : 0), up(grid.resolved(1) ? 1 : 0), over(3 - across - up), grid_(grid) {}

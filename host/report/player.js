@@ -1,6 +1,6 @@
 // The player of a run's page: picture, controls, and the clock that the charts follow.
 
-/// What the charts follow and set. `time` [s] is that of the frame shown; null until there is a player.
+/// The moment that the charts follow and set. `time` [s] is that of the frame shown; null until there is a player.
 const clock = {
   time: null, frame: null, followers: [],
   jump: () => {},  // to the frame nearest to a time
@@ -156,7 +156,7 @@ function playerControls(box, player, frames, scene) {
   show(f.settled);
 }
 
-/// What the reader should know of the picture's accuracy.
+/// A note for the reader on the picture's accuracy.
 function playerNote(player) {
   const error = d3.max([0, 1, 2].map(k => player.high[k] - player.low[k])) / 131070 * 1e6;
   const fewer = player.frames.time_s.length < player.stored

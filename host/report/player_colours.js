@@ -1,4 +1,4 @@
-// What the player can colour particles by: a name, a scale for the legend, and an entry of the ramp for each particle.
+// The quantities that colour particles: a name, a scale for the legend, and an entry of the ramp for each particle.
 
 /// List of {name, unit, scale (of D3, from values to 0..1), entry(frame, particle) of the ramp}. Scales end at the highest
 /// value from the start of dosing on; what lies outside takes the colour of the end.

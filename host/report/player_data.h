@@ -32,7 +32,7 @@ FrameSource framesOf(const std::filesystem::path& run);
 /// Characters that the player may take of a page, so that page and player stay below 25 MB.
 inline constexpr std::size_t kMostCharacters = 22'000'000;
 
-/// What the player of a page needs, as `player` of runJson: what is the same in all frames, the frames' times, phases,
+/// The player's data, `player` of runJson: the part that is the same in all frames, the frames' times, phases,
 /// doses and coil angles, and the stream. Only every n-th frame and the last one if all of them take more than
 /// `mostCharacters`, or more than the page can hold in memory or number; the page says so. `columns`: of the surface,
 /// in a case with a canister.

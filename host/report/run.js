@@ -13,7 +13,7 @@ function facts(main, list) {
   });
 }
 
-/// What ties a chart to the player, if there is one: over time, or over doses.
+/// Ties a chart over time, or over doses, to the player, if there is one.
 const overTime = run => run.player && {place: () => clock.time, jump: t => clock.jump(t), listen: f => clock.follow(f)};
 const overDoses = run => run.player && {
   place: () => (clock.time === null ? null : clock.dose()), listen: f => clock.follow(f),

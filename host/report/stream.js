@@ -1,4 +1,4 @@
-// What the page keeps deflated, and places in time.
+// Data that the page keeps deflated, and places in time.
 
 /// The bytes of a zlib stream in base64.
 async function inflated(text) {

@@ -252,7 +252,7 @@ class Run {
                            backend_.particles(), backend_.contacts()});
     }
 
-    /// What the drive must supply to convey against the powder's torque on the coil.
+    /// The torque that the drive must supply to convey against the powder's torque on the coil.
     double driveTorque(double onCoil) const { return -onCoil * timeline_.conveyingSense() + 0.0; }
 
     void beginDosing() {

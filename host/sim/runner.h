@@ -33,7 +33,7 @@ struct Progress {
     double wallTime = 0;       ///< spent stepping [s]
 };
 
-/// What a run can go on from: the runner's own state and the backend's snapshot.
+/// A state to resume from: the runner's own and the backend's snapshot.
 struct RunCheckpoint {
     Record run;
     Record backend;

@@ -98,8 +98,8 @@ double shareAbove(double y, double level, double width) {
     return 0.5 + s * (1 - 2 * a * a + 2 * a * a * a - 0.6 * a * a * a * a) / 0.8;
 }
 
-/// What the powder bears at height `level` [N]: the coarse-grained contact stress, and the weight above less what the
-/// walls carry of it, both smeared out alike.
+/// The force that the powder bears at height `level` [N]: by the coarse-grained contact stress, and by the weight above
+/// less what the walls carry of it, both smeared out alike.
 struct Borne {
     double stress, weight;
 };

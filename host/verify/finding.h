@@ -13,7 +13,7 @@ struct Tolerance {
     double scale = 0;
 };
 
-/// What the expected value is worth: derived (in closed form, by geometry, by another program), or merely of the right
+/// The worth of the expected value: derived (in closed form, by geometry, by another program), or merely of the right
 /// size, so that it tells a wild result from a sane one and no more.
 enum class Kind { Known, Plausible };
 

@@ -1,4 +1,4 @@
-// What contacts cannot change: the momentum and the angular momentum of particles left to themselves.
+// Contacts change neither the momentum nor the angular momentum of particles left to themselves.
 
 #include <algorithm>
 

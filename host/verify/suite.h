@@ -12,7 +12,7 @@
 
 namespace vkdose::verify {
 
-/// What a case works with: a backend to load and advance as it likes, and a place for its findings.
+/// The equipment of a case: a backend to load and advance as it likes, and a place for its findings.
 class Bench {
   public:
     Bench(Backend& backend, std::string where) : backend_(&backend), where_(std::move(where)) {}

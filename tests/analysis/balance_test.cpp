@@ -1,4 +1,4 @@
-// What a balance read, as people write it down, and what can be wrong with it.
+// Readings of a balance, as people write them down, and their faults.
 #include "host/analysis/balance.h"
 
 #include "host/core/error.h"

@@ -86,7 +86,7 @@ TEST_CASE("an outlet from which nothing ever came has stopped from the start, an
     CHECK(outletFlow(series("x----------------", 0.01 * kFill), kFill).longest.dose == 0);
     CHECK(flowOf("sss").longest.dose == 0);
     CHECK(outletFlow({}, kFill).longest.dose == 0);
-    // What fell out while settling has come out.
+    // Powder that fell out while settling counts as out.
     CHECK(same(flowOf("o--x").lead.value(), 0));
 }
 

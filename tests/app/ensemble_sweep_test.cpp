@@ -110,7 +110,7 @@ TEST_CASE("a sweep on an ensemble that is killed, and interrupted, goes on to th
     int status = 0;
     waitpid(interrupted, &status, 0);
     CHECK(WEXITSTATUS(status) == 130);
-    // Who had not ended has been stored, all at once; so was the one that failed, before it did.
+    // Members that had not ended have been stored, all at once; so was the one that failed, before it did.
     const auto rows = timeless(place.box / "cut");
     CHECK(std::count_if(rows.begin(), rows.end(), [](const Row& row) { return row[kStatus] == "interrupted"; }) > 0);
     for (const Row& row : rows)

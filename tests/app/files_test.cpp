@@ -1,4 +1,4 @@
-// What a user keeps beside, above and below the program's own files is safe from it.
+// A user's files beside, above and below the program's own are safe from it.
 
 #include <fcntl.h>
 #include <sys/file.h>

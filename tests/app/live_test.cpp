@@ -120,7 +120,7 @@ TEST_CASE("Ctrl-C while a run is looked at leaves the terminal in order, and a r
     CHECK(cut.code == 130);
     requireCursorBack(cut.text);
     CHECK_THAT(cut.text, Catch::Contains("vkdose resume cut"));
-    // What had been dosed before stands in the first picture.
+    // The doses from before stand in the first picture.
     const Shown rest = onTerminal(box, "resume cut --live", "\033[?25h", '\x03');
     CAPTURE(rest.text);
     CHECK(rest.code == 130);

@@ -1,4 +1,4 @@
-// What a run's own files tell of it: arches in the frames at the doses' ends.
+// The history that a run's own files tell: arches in the frames at the doses' ends.
 #include "host/output/run_history.h"
 
 #include "host/output/frame_writer.h"

@@ -32,7 +32,7 @@ class Sandbox : public Folder {
                 readText(path() / "stderr.txt")};
     }
 
-    /// What lies in the sandbox beside the captured output.
+    /// The files in the sandbox beside the captured output.
     std::vector<std::string> files() const {
         std::vector<std::string> names;
         for (const auto& entry : std::filesystem::directory_iterator(path())) {

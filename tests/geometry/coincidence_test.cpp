@@ -16,7 +16,7 @@ const Vec3 kLow(-0.03, -0.03, -0.01), kHigh(0.03, 0.05, 0.08);
 bool coincide(const std::vector<Surface>& surfaces) {
     const auto found = findCoincidence(surfaces, kA, kLow, kHigh);
     if (!found) return false;
-    // What is reported is true.
+    // The reported coincidence is true.
     const Closest a = closestPoint(surfaces[found->first], found->centre),
                   b = closestPoint(surfaces[found->second], found->centre);
     CHECK(test::near(a.distance, kA, kA, 0.021));

@@ -41,7 +41,7 @@ double sampledDistance(const Parametrisation& surface, const Vec3& q) {
     return best;
 }
 
-/// What every answer must satisfy: unit normal, and the query reached from the point along it.
+/// Every answer has a unit normal, and the query is reached from the point along it.
 void checkConsistent(const Closest& closest, const Vec3& q) {
     CHECK(near(glm::length(closest.normal), 1, 1, 1e-12));
     CHECK(near(closest.point + closest.distance * closest.normal, q, kSize, 1e-12));

@@ -18,7 +18,7 @@ class Assisted {
     Assisted& operator=(const Assisted&) = delete;
 };
 
-/// What it says of the device, not of the features that it switches on for itself.
+/// Its messages on the device, without those on features that it switches on for itself.
 std::vector<std::string> withoutItsOwn(std::vector<std::string> messages) {
     std::erase_if(messages, [](const std::string& m) { return m.find("Internal Warning: ") != std::string::npos; });
     return messages;

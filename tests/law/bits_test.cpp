@@ -1,4 +1,4 @@
-// What the reference backend makes of cases/mini.toml, as hashes: a change that moves a single bit of its results must
+// The reference backend's results of cases/mini.toml, as hashes: a change that moves a single bit of them must
 // not pass unseen. Where a change means to, renew the hashes: run `build/release/tests/test_law "bits: *"`, paste the
 // lines it prints over those of the same name here, and say in the commit message why the results move.
 //

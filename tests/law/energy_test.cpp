@@ -223,8 +223,8 @@ TEST_CASE("energy: a bed under a turning coil that doses closes to rounding, and
             CHECK(loss > 1e-4 * ledger.losses());
         CHECK(b.coilWork > 0.1 * b.loaded);
         CHECK(b.left != 0);  // of either sign: the outlet reaches below the origin
-        // What meets along a normal ends up, by and large, in the three losses of that direction; the time step
-        // mistakes (pi dt/t_c)^2/12 of it, at most that of the two smallest spheres on k1.
+        // The energy of motion along a normal ends up, by and large, in the three losses of that direction; the time
+        // step mistakes (pi dt/t_c)^2/12 of it, at most that of the two smallest spheres on k1.
         const double smallest = 0.75 * kRadius, met = b.plastic + b.adhesive + b.viscous;
         const double share = world.timeStep * world.timeStep * kK1 / (massOf(smallest) / 2) / 12;
         REQUIRE(share < 1e-3);

@@ -167,7 +167,7 @@ TEST_CASE("fields: the stress of a contact integrates to force times branch, and
     const Vec3 force(1, -2, 3), along(0.5e-3, 0.2e-3, -2e-3);
     const std::vector<Branch> branches{{0, 1, true, Vec3(0.1e-3), along, force}};
     const double length = glm::length(along);
-    // What is promised of the quadrature (host/model/field.h).
+    // The promised accuracy of the quadrature (host/model/field.h).
     const auto [ratio, tolerance] = GENERATE(std::pair(2.0, 2e-5), std::pair(4.0, 1e-2));
     const double w = length / ratio;
     const FieldRequest r = request(Vec3(-0.008), Vec3(0.008), {25, 25, 25}, w);

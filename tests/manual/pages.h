@@ -45,7 +45,7 @@ Page parsePage(const std::filesystem::path& file, const std::string& text);
 /// Every *.md file below `root` but in hidden folders, `build` and `out`: README.md first, then by name.
 std::vector<Page> readPages(const std::filesystem::path& root);
 
-/// What is wrong with a page's links, a line for each: nothing there, outside `root`, or without that anchor.
+/// The faults of a page's links, a line for each: nothing there, outside `root`, or without that anchor.
 std::vector<std::string> deadLinks(const Page& page, const std::vector<Page>& all, const std::filesystem::path& root);
 
 /// The paths that a page names and that are not there.

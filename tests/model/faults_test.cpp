@@ -184,7 +184,7 @@ TEST_CASE("overdamping is an unstable time step") {
                                  {"contact.damping=2", "contact.damping_r_ratio=0", "time.step_s=1e-5"});
     REQUIRE(faults.size() == 1);
     CHECK_THAT(faults[0].text(), Catch::Contains("--set time.step_s = 1e-5") && Catch::Contains("damping"));
-    // What "auto" makes of the same damping is accepted.
+    // The step that "auto" takes for the same damping is accepted.
     CHECK_NOTHROW(loadCase(folder.write("case.toml", kGoodCase), {"contact.damping=2"}));
 }
 

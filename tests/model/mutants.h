@@ -1,6 +1,6 @@
 #pragma once
-// What the mutation tests of case files and particle lists share: a text cut into lines, seeded choices, and what makes
-// a message clear.
+// Shared by the mutation tests of case files and particle lists: a text cut into lines, seeded choices, and the test of
+// a clear message.
 
 #include <cstdint>
 #include <random>

@@ -10,7 +10,7 @@ using test::replaced;
 
 namespace {
 
-/// What loading says; a slip is told alone.
+/// The message of loading; a slip is told alone.
 std::string told(const Folder& folder, const std::string& text) {
     try {
         loadCase(folder.write("case.toml", text));

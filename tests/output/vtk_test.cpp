@@ -1,4 +1,4 @@
-// What users do with frames: VTK's own reader (that of ParaView), h5py by the manual's lines, and a picture.
+// Frames as users read them: VTK's own reader (that of ParaView), h5py by the manual's lines, and a picture.
 #include <atomic>
 #include <cstdlib>
 

@@ -10,7 +10,7 @@
 
 namespace vkdose::test {
 
-/// What is in front of the camera. Pixels whose centre lies below the surface are powder.
+/// The view in front of the camera. Pixels whose centre lies below the surface are powder.
 struct Drawing {
     int width = 300, height = 200;
     /// Height of the surface over the picture's lower edge [pixels], at x pixels from the left; NaN: no powder there.

@@ -1,4 +1,4 @@
-// What the ray caster shows, against closed forms and against a brute-force picture in double precision.
+// The ray caster against closed forms and against a brute-force picture in double precision.
 
 #include "tests/render/scenes.h"
 

@@ -1,4 +1,4 @@
-// What colours tell: values of particles, scales and their ticks, the colour map.
+// Colours: values of particles, scales and their ticks, the colour map.
 
 #include <cmath>
 #include <limits>

@@ -78,7 +78,7 @@ inline Ray rayOf(const render::Camera& c, int x, int y, int part) {
     return {eye, glm::normalize(point - eye)};
 }
 
-/// What a pixel shows, sphere by sphere in double precision.
+/// The spheres that a pixel shows, one by one in double precision.
 struct Sight {
     int hits = 0;
     double depth = -1e30;

@@ -62,7 +62,7 @@ inline std::string readProbe(const std::string& name) {
     return readText(folder + "probe.js") + readText(folder + name);
 }
 
-/// What it found.
+/// The findings of the probe.
 inline report::Json probed(const std::string& dom) {
     const std::string mark = "<pre id=\"probe\">";
     const std::size_t begin = dom.find(mark) + mark.size();

@@ -1,5 +1,5 @@
 #pragma once
-// What is said of bad input.
+// The message for bad input.
 
 #include <functional>
 #include <string>

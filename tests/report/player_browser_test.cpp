@@ -106,7 +106,7 @@ TEST_CASE("a browser plays the frames of a run") {
     const double shownFor = seen["played"][2][0].get<double>() - seen["played"][0][0].get<double>();
     CHECK(near(shownFor, 450, 10, 1.01));  // [ms], to a picture
 
-    // What the browser unpacked is what was packed.
+    // The browser unpacked the bytes that were packed.
     const Case c = loadCase(VKDOSE_SOURCE_DIR "/cases/mini.toml");
     const Vec3 low = c.world.domain.low, size = c.world.domain.high - low;
     const std::vector<Frame> frames = scene();

@@ -1,5 +1,5 @@
 #pragma once
-// What a page holds deflated, taken apart.
+// The deflated data of a page, taken apart.
 
 #include <zlib.h>
 

@@ -21,8 +21,8 @@ std::unique_ptr<Backend> played(const RuledWorld& w, const Particles& p, const V
 
 namespace {
 
-/// What rounding displaces a particle by, in mean radii: 7e-7 in the first 400 steps on lavapipe, at random, so that
-/// ten times as many steps make it three times as much.
+/// The way by which rounding displaces a particle, in mean radii: 7e-7 in the first 400 steps on lavapipe, at random,
+/// so that ten times as many steps make it three times as much.
 constexpr double kRounding = 3e-6;
 
 /// The particles, each displaced by up to kRounding.

@@ -1,4 +1,4 @@
-// What single contacts say they exert: together it is what moves the particles, at rest it is the weight.
+// The forces that single contacts tell: their sum moves the particles, and at rest it is the weight.
 
 #include <algorithm>
 

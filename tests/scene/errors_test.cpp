@@ -1,4 +1,4 @@
-// What the user must see: particles lost, overlaps no law covers, tables that are full.
+// Errors that the user must see: particles lost, overlaps no law covers, tables that are full.
 
 #include <fmt/format.h>
 

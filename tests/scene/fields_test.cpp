@@ -19,7 +19,7 @@ FieldRequest request(std::array<std::uint32_t, 3> cells, double width, Kernel ke
     return r;
 }
 
-/// What the numbers of FieldPoint are measured in: the largest of their kind.
+/// The scales of the numbers of FieldPoint: the largest of their kind.
 std::array<double, FieldPoint::kNumbers> scales(const FieldPoints& points) {
     std::array<double, FieldPoint::kNumbers> most{};
     const auto kinds = [](std::size_t k) { return k < 1 ? 0 : k < 4 ? 1 : k < 5 ? 2 : k < 6 ? 3 : k < 12 ? 4 : 5; };

@@ -31,7 +31,7 @@ class FakeBackend : public Backend {
     std::optional<std::uint64_t> deviceErrorAt;
     double particleMass = 1e-3;
 
-    /// What every point of a field holds after so many steps.
+    /// The value of every point of a field after so many steps.
     std::function<FieldPoint(std::uint64_t step)> field = [](std::uint64_t) { return FieldPoint{}; };
 
     std::vector<Call> calls;

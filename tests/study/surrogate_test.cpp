@@ -86,7 +86,7 @@ TEST_CASE("a process finds out how noisy its observations are") {
     }
     // Between a line through 41 points (0.3 sqrt(2/41) = 0.07) and no smoothing at all (0.3).
     CHECK(std::sqrt(off) < 0.15);
-    // What it believes of itself is right to a factor of two.
+    // Its estimate of its own error is right to a factor of two.
     CHECK(std::sqrt(believed) > 0.5 * std::sqrt(off));
     CHECK(std::sqrt(believed) < 3 * std::sqrt(off));
 }

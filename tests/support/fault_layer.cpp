@@ -78,7 +78,7 @@ Device& deviceOf(const void* handle) {
     const std::lock_guard lock(mutex);
     return devices.at(key(handle));
 }
-/// What this layer intercepts, by name.
+/// The functions that this layer intercepts, by name.
 const Functions& intercepted();
 
 template <class Function, class Owner>
@@ -135,7 +135,7 @@ VKAPI_ATTR void VKAPI_CALL queueFamilies(VkPhysicalDevice physical, std::uint32_
         families[i].queueFlags &= ~VkQueueFlags(VK_QUEUE_COMPUTE_BIT);
 }
 
-/// What the specification's table of required limits lets a Vulkan 1.1 device have at the least.
+/// Lowers limits to the least that the specification's table of required limits allows a Vulkan 1.1 device.
 void lower(VkPhysicalDeviceLimits& l) {
     const auto least = [](auto& limit, auto value) {
         limit = std::min<std::remove_reference_t<decltype(limit)>>(limit, value);

@@ -1,4 +1,4 @@
-// What a person sees of a run: counted in pixels and characters.
+// The picture of a run on a terminal, counted in pixels and characters.
 
 #include "host/terminal/screen.h"
 

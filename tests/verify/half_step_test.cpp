@@ -1,4 +1,4 @@
-// What velocity Verlet with half-step velocities does to a small sphere at the neck between two large ones: the limits
+// Velocity Verlet with half-step velocities, and a small sphere at the neck between two large ones: the limits
 // host/verify/README.md states, so that they stay true. A change that removes the error must change that page too.
 
 #include "host/backend/reference/reference.h"

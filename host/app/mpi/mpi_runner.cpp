@@ -18,7 +18,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// What is said between rank 0 and the others; the text of a message is JSON.
+/// The messages between rank 0 and the others; their text is JSON.
 enum Tag { kTask = 1, kEnd, kInterrupt, kQuit };
 
 void check(int result, const char* call) {

@@ -16,7 +16,7 @@ struct Body {
     double radius;  ///< [m]
 };
 
-/// What a contact remembers.
+/// The memory of a contact.
 struct History {
     double maxOverlap = 0;  ///< delta_max [m]
     Vec3 sliding{0};        ///< xi [m]

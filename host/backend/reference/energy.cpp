@@ -12,7 +12,7 @@ struct Work {
     double sum() const { return hysteretic + damping + sliding + rolling + torsion; }
 };
 
-/// What the force `e` takes in half a step. The motion is met where the force acted, so that contacts book exactly
+/// The work that the force `e` takes in half a step, at the place where the force acted: so contacts book exactly
 /// what particles feel: with the normal and levers of another step the balance would be of first order in dt.
 Work halfStepWork(const Exerted& e, const Body& i, const Body& j, double dt) {
     if (!e.touching) return {};
@@ -29,7 +29,7 @@ Work operator+(const Work& a, const Work& b) {
             a.torsion + b.torsion};
 }
 
-/// What the normal force loses by the law: the area between its way and the overlap axis, less what it stores. A new
+/// Energy that the normal force loses: the area between its path and the overlap axis, less the stored part. A new
 /// contact comes from overlap zero and one that parts goes there, whatever the particles do beyond that within the
 /// step.
 double lossByLaw(const Exerted& before, const Exerted& now, double taken) {

@@ -1,5 +1,5 @@
 #pragma once
-// What a contact does with energy in a step: each part of its force takes some from the motion, stores some in its
+// The energy of a contact in a step: each part of its force takes some from the motion, stores some in its
 // spring and loses the rest (backend.h, EnergyBook, for the balance that this closes).
 
 #include "host/backend/backend.h"
@@ -16,7 +16,7 @@ struct Elastic {
 /// Energy stored by a contact that exerts `hysteretic` [N] with this history.
 Elastic elasticEnergy(const ContactParameters& p, double hysteretic, double reduced, const History& history);
 
-/// What a contact exerted in a step and where, kept until the next. None of it if it did not touch, and without an
+/// The force of a contact in a step and its place, kept until the next. Zero if it did not touch, and without an
 /// energy book only the force.
 struct Exerted {
     bool touching = false;

@@ -21,7 +21,7 @@ struct Deepest {
     std::uint32_t other = 0;
 };
 
-/// What the contacts do to the particles and the coil at one instant.
+/// Forces and torques of the contacts on the particles and the coil at one instant.
 struct Loads {
     std::vector<Vec3> force;   ///< without gravity [N]
     std::vector<Vec3> torque;  ///< about the particle's centre [N m]
