@@ -12,8 +12,8 @@ namespace vkdose {
 
 namespace {
 
-/// Waking lavapipe's threads for every pass costs a small canister more than they gain. Other drivers do not
-/// look at this variable, and whoever has set it is right.
+/// For a small canister, waking lavapipe's threads in every pass costs more time than they save. Other drivers ignore
+/// this variable. A value that the user has set is kept.
 void chooseThreads(std::size_t particles) {
     constexpr const char* kVariable = "LP_NUM_THREADS";
     constexpr std::size_t kWorthThreads = 10000;
@@ -33,7 +33,7 @@ std::vector<std::string> findingsOf(const ValidationReport& report) {
     return found;
 }
 
-/// Prints what was found on stderr; whether that was nothing.
+/// Prints the findings on stderr. Returns true if there are none.
 bool saidNone(const std::vector<std::string>& findings) {
     for (const std::string& line : findings) fmt::print(stderr, "{}\n", line);
     return findings.empty();

@@ -22,19 +22,21 @@ struct BackendChoice {
     bool validation = false;         ///< Vulkan validation layer
 };
 
-/// For `particles`, of which it takes the number of lavapipe's threads. Throws UsageError if a device is asked for on
-/// the reference backend, DeviceError if there is none.
+/// Makes the chosen backend. The number of `particles` decides how many threads lavapipe uses. Throws UsageError if a
+/// device is asked for on the reference backend, and DeviceError if there is no device.
 std::unique_ptr<Backend> makeBackend(const BackendChoice& choice, std::size_t particles);
 
-/// Backends of canisters that share a device (makeVulkanEnsemble), of `particles` all together.
+/// Makes the backends of canisters that share a device (makeVulkanEnsemble); `particles` is the number in all of them
+/// together.
 std::vector<std::unique_ptr<Backend>> makeEnsemble(const BackendChoice& choice, std::size_t members,
                                                    std::size_t particles);
 
 /// The backend and device a description (Backend::description) stands for; `device` of `choice` wins, if given.
 BackendChoice sameBackend(const std::string& description, const BackendChoice& choice);
 
-/// The choice for one of several processes that share a machine, counted from 0. Where nothing says which device, they
-/// take turns at the GPUs of the kind that is taken by itself; the processor is one device, whatever drivers it has.
+/// The choice for one of several processes that share a machine; `localRank` counts them from 0. If the choice names no
+/// device, the processes take turns at the GPUs of the kind that the automatic choice prefers. The processor counts as
+/// one device, however many drivers it has.
 BackendChoice choiceOfRank(const BackendChoice& choice, const std::vector<vk::DeviceInfo>& devices, int localRank);
 
 /// The findings of the Vulkan validation layer, if it was asked for; its absence counts as a finding.

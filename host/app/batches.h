@@ -13,9 +13,9 @@ struct BatchMember {
     TableSizes tables;  ///< roomOf
 };
 
-/// Cuts members into batches of at most `most` that fit the device: those of a kind together, and among them those with
-/// about as many steps, so that a batch ends together. One that does not even fit alone is a batch of its own, whose
-/// backend then tells what is short.
+/// Cuts members into batches of at most `most` that fit the device. A batch holds members of one kind, as far as
+/// possible with similar numbers of steps, so that they end together. A member that does not fit even alone gets a
+/// batch of its own, and its backend then says what is short.
 std::vector<std::vector<int>> batchesOf(std::vector<BatchMember> members, const DeviceRoom& room, std::size_t most);
 
 }  // namespace vkdose

@@ -56,8 +56,8 @@ double since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// Mean time of a rebuild of the neighbour rows with the refresh of the contact lists that follows: all passes but
-/// those of every step, in the first steps after loading, of which the very first builds the rows.
+/// Mean time of a rebuild of the neighbour rows and the refresh of the contact lists that follows. It covers all passes
+/// except those of every step. It is taken from the first steps after loading; the very first of them builds the rows.
 double rebuildSeconds(const VulkanProfile& first) {
     double seconds = 0;
     for (const VulkanProfile::Pass& p : first.passes)
@@ -124,7 +124,7 @@ bench::Row measured(const std::string& name, const Workload& w, const BackendCho
     return row;
 }
 
-/// The sum of several processes. This one leaves the device alone.
+/// Adds up the speeds of several processes. This process itself does not use the device.
 bench::Row measuredCopies(const std::string& name, const Workload& w, const BenchOptions& options,
                           bench::Effort effort) {
     bench::Row row = named(name, w, effort);

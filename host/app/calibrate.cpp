@@ -102,7 +102,7 @@ std::vector<Setting> settingsAt(const Study& study, const Parameters& p) {
     return all;
 }
 
-/// Checks a search before it begins: the corners of its bounds must be cases. Throws CaseError if one is none.
+/// Checks a search before it begins: each corner of its bounds must be a valid case. Throws CaseError if one is not.
 void checkCorners(const Study& study) {
     const std::vector<FreeParameter>& free = study.calibration->parameters;
     for (unsigned corner = 0; corner < 1U << free.size(); ++corner) {

@@ -13,7 +13,7 @@ namespace vkdose {
 
 namespace {
 
-/// Stands in for a measurement: about what two cores of a server make of a settled bed on a CPU driver.
+/// Used where no speed is measured: about the speed of two cores of a server with a CPU driver and a settled bed.
 constexpr double kAssumedSpeed = 6e6;
 
 /// The freshly filled grid has no contacts yet, so it runs faster than the bed it becomes.

@@ -66,7 +66,7 @@ class Surroundings {
 }  // namespace
 
 ChildRunner::~ChildRunner() {
-    // An error ends the sweep: what has been started is to end with it.
+    // An error ends the sweep, and the members that were started must end with it.
     ChildRunner::interrupt();
     while (!children_.empty()) reap(children_.begin());
 }

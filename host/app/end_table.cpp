@@ -63,7 +63,7 @@ std::string overlapLine(const RunResult& r) {
     return text + "\n";
 }
 
-/// Shares are of the coil's work where it did some, else of what was loaded and lost since.
+/// Shares are relative to the coil's work if the coil did any, else to the losses.
 std::string energyLine(const EnergyLedger& ledger) {
     const EnergyBook& b = ledger.sum;
     const bool turned = b.coilWork != 0;

@@ -7,7 +7,7 @@
 
 namespace vkdose {
 
-/// An error as whoever started the program is told of it.
+/// An error as the caller of the program sees it.
 struct Refusal {
     ExitCode code = kRunError;
     std::string text;  ///< one line, of a case as many as it has faults

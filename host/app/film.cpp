@@ -29,7 +29,7 @@ std::string contentOf(int file) {
     return text;
 }
 
-/// An encoder that ends early must be told as such, not end us by a signal.
+/// If the encoder ends early, this must be reported as an error. Without this class a signal would end our program.
 class NoPipeSignal {
   public:
     NoPipeSignal() : before_(std::signal(SIGPIPE, SIG_IGN)) {}

@@ -8,22 +8,22 @@
 
 namespace vkdose {
 
-/// A film being encoded by the program ffmpeg, which gets one picture after the other through a pipe.
+/// A film that the program ffmpeg encodes. ffmpeg gets one picture after the other through a pipe.
 class Film {
   public:
-    /// Of pictures of even width and height [pixels], each shown for 1/rate seconds. What is in the file is replaced.
-    /// Throws UsageError if ffmpeg is not installed.
+    /// Begins a film of pictures with even width and height [pixels], each shown for 1/rate seconds. An existing file
+    /// is replaced. Throws UsageError if ffmpeg is not installed.
     Film(std::filesystem::path file, int width, int height, double rate);
     /// Gives the film up if it has not been finished.
     ~Film();
     Film(const Film&) = delete;
     Film& operator=(const Film&) = delete;
 
-    /// Rows from the top, each pixel blue, green, red and a byte of no meaning. Throws OutputError, with what ffmpeg
-    /// says, if it does not take the picture.
+    /// Adds a picture: rows from the top, each pixel blue, green, red and an unused byte. Throws OutputError, with the
+    /// message of ffmpeg, if ffmpeg does not take the picture.
     void add(const std::vector<std::uint8_t>& picture);
 
-    /// Throws OutputError, with what ffmpeg says, if the film has not come about.
+    /// Throws OutputError, with the message of ffmpeg, if ffmpeg could not make the film.
     void finish();
 
   private:

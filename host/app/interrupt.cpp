@@ -19,7 +19,7 @@ extern "C" void onSignal(int) {
     interrupted = true;
 }
 
-/// The terminal is closed: what would be written to it goes nowhere.
+/// The terminal is closed, so output that would go to it is discarded from now on.
 extern "C" void onHangup(int) {
     const int before = errno, nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
     if (outputIsTerminal) dup2(nowhere, STDOUT_FILENO);
@@ -38,8 +38,8 @@ const std::atomic<bool>& watchInterrupts() {
     sigemptyset(&action.sa_mask);
     sigaction(SIGINT, &action, nullptr);
     sigaction(SIGTERM, &action, nullptr);
-    // Closing a terminal sends this signal more than once, so that it never ends the program at once. Under nohup it
-    // stays ignored.
+    // Closing a terminal sends this signal more than once, so a second one does not end the program at once. Under
+    // nohup it stays ignored.
     struct sigaction before {};
     sigaction(SIGHUP, nullptr, &before);
     if (before.sa_handler != SIG_IGN) {

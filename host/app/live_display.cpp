@@ -12,8 +12,8 @@ namespace vkdose {
 
 namespace {
 
-/// Of the wall time, for reading back and drawing at most: a quarter of what is promised, for it is measured that
-/// drawing slows the run by more than twice its own time.
+/// The largest fraction of the wall time that reading back and drawing may take. It is a quarter of the promised
+/// fraction, because drawing was measured to slow the run by more than twice its own time.
 constexpr double kShare = 0.005;
 constexpr double kInterval = 0.2;  ///< [s]
 
@@ -86,7 +86,8 @@ void LiveDisplay::draw() {
         size.ws_col = 80;
         size.ws_row = 24;
     }
-    // Hidden while it runs over the picture, and back at once: whenever the program ends, the terminal is as it was.
+    // The cursor is hidden only while it moves over the picture, so that the terminal is as it was whenever the program
+    // ends.
     std::string text = "\033[?25l";
     if (columns_ != 0 && (size.ws_col != columns_ || size.ws_row != rows_))
         text += "\033[H\033[2J";  // lines have been broken anew: nobody knows where the picture stands

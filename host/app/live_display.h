@@ -1,5 +1,5 @@
 #pragma once
-// The picture of a run that goes on, on a terminal: drawn again in place, some times a second.
+// The picture of a running simulation on a terminal. It is drawn again in place several times a second.
 
 #include <chrono>
 #include <cstdio>
@@ -15,8 +15,8 @@ namespace vkdose {
 
 class LiveDisplay : public RunDisplay {
   public:
-    /// Reads particles from `backend`, which must outlive it, while the run is between two of its calls: that changes
-    /// nothing for the run. `before` are the doses of a run that is resumed.
+    /// Reads particles from `backend` between two calls of the run, which does not change the run. `backend` must
+    /// outlive this object. `before` holds the doses that a resumed run already has.
     LiveDisplay(const Case& c, const Derived& derived, const Backend& backend, std::vector<Dose> before,
                 std::FILE* stream = stdout);
 
@@ -26,7 +26,7 @@ class LiveDisplay : public RunDisplay {
     void onProgress(const Progress& progress) override;
     void onDose(const Dose& dose) override;
 
-    /// Draws once more what is known, without asking the backend, and leaves the cursor below.
+    /// Draws the last known state once more, without asking the backend, and leaves the cursor below the picture.
     void close() override;
 
   private:

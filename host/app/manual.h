@@ -19,8 +19,8 @@ std::string columnsPage(bool sweep);
 /// The options of every command; `brief`: a table of the commands, a line each.
 std::string optionsPage(const CLI::App& program, bool brief);
 
-/// The lines that tell a fault of the command line, and where to read on: `problem` by the parser, `first` the word
-/// that follows the program's name.
+/// The lines that report a fault of the command line and say where to read on. `problem` is the message of the parser,
+/// `first` the word after the program's name.
 std::string usageFault(const CLI::App& program, const std::string& problem, const std::string& first);
 
 }  // namespace vkdose

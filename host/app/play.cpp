@@ -50,7 +50,8 @@ ExitCode exitCode(StopReason reason) {
     }
 }
 
-/// A case as this vkdose writes it, whatever version wrote the text; empty if it is none.
+/// The case in `text` as this version of vkdose writes it, whichever version wrote `text`. Empty if `text` is not a
+/// case.
 std::string resolvedIn(const std::string& text, const std::filesystem::path& file) {
     try {
         return loadResolvedCase(text, file).resolved;

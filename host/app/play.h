@@ -1,5 +1,5 @@
 #pragma once
-// Plays a run into its output folder, without a word: as a command, or as a member of an ensemble.
+// Plays a run into its output folder and prints nothing. Commands use it, and members of an ensemble.
 
 #include <atomic>
 #include <filesystem>
@@ -21,12 +21,12 @@ struct ReadyRun {
     std::optional<FolderLock> lock;  ///< of the folder it goes on in
 };
 
-/// From its start. Throws CaseError.
+/// A run from its start. Throws CaseError.
 ReadyRun readyRun(const CaseOptions& input);
 
-/// From the checkpoint in `folder`, which it takes for this process: from now on no other run changes it. Throws
-/// FolderError if another process has it, CheckpointError if there is no checkpoint, or if the run is over, and
-/// CaseError.
+/// A run that goes on from the checkpoint in `folder`. Locks the folder for this process, so that no other run changes
+/// it. Throws FolderError if another process holds the lock, CheckpointError if there is no checkpoint or the run is
+/// over, and CaseError.
 ReadyRun readyToResume(const std::filesystem::path& folder);
 
 /// Goes on in the folder, or starts over in it as `force` allows (RunFolder).
@@ -38,8 +38,8 @@ struct Played {
     std::string error;  ///< what stopped it; empty if nothing did
 };
 
-/// Plays `run` and finishes its folder; of a result that could not be stored, `error` tells the way on. `display` is
-/// told of progress and doses, if there is one. Throws CheckpointError if the checkpoint does not fit its case.
+/// Plays `run` and finishes its folder. If a result could not be stored, `error` says how to go on. `display`, if
+/// given, is told of progress and doses. Throws CheckpointError if the checkpoint does not fit its case.
 Played play(ReadyRun run, Backend& backend, RunFolder& folder, RunObserver* display, const std::atomic<bool>& stop);
 
 /// How to go on with a run that ended before it was over.

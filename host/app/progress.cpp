@@ -71,7 +71,7 @@ void ProgressDisplay::onDose(const Dose& d) {
                     d.complete ? "" : " (incomplete)", d.cumulative * 1e3));
 }
 
-/// That a terminal is gone is no reason to end a run: its closing interrupts it.
+/// A failed write is ignored. A lost terminal needs no error here, because its closing interrupts the run.
 void ProgressDisplay::say(const std::string& text) {
     (void)std::fputs(text.c_str(), stream_);
 }

@@ -58,7 +58,8 @@ class Renderer {
                     "where its particles lay when the powder had settled");
             fill_ = states.read(states.settled()).particles;
         }
-        // One pass over all that will be drawn, so that nothing jumps from one to the next.
+        // One pass over all states to be drawn sets scale and camera, so that nothing jumps from one picture to the
+        // next.
         std::vector<double> values =
             fill_ ? render::valuesOf(quantity_, states.setup(), fillFrame(), fillPointer()) : std::vector<double>();
         for (const std::size_t entry : chosen) {

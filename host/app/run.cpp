@@ -22,7 +22,7 @@ struct Manner {
     int parent = 0;
 };
 
-/// The display that was asked for, or the plain one where the live one cannot be; none of a quiet run.
+/// The display that was asked for. Where a live display is not possible, the plain one; for a quiet run, none.
 std::unique_ptr<RunDisplay> makeDisplay(const Manner& manner, const ReadyRun& run, const Backend& backend) {
     if (manner.quiet) return nullptr;
     std::string why;

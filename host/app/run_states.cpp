@@ -64,7 +64,7 @@ std::vector<std::size_t> RunStates::story() const {
     for (std::size_t i = first; i <= last; ++i)
         if (entries_[i].dose == 1 && entries_[i].phase == Phase::Rotate) turned = i;
     const double filled = massLeft(first), left = massLeft(last);
-    // The mass in the canister only falls, so halving the search reads few frames.
+    // The mass in the canister only falls, so a binary search finds the state and reads few frames.
     const auto firstWith = [&](double mass) {  // no more than this left
         std::size_t low = first, high = last;
         while (low < high) {

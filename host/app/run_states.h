@@ -13,24 +13,24 @@ namespace vkdose {
 
 class RunStates {
   public:
-    /// Of the run whose output folder this is. Throws UsageError if it holds no run, or one with neither frames nor an
-    /// end, OutputError if what is there cannot be read.
+    /// Opens the states of the run in this output folder. Throws UsageError if the folder holds no run, or a run with
+    /// neither frames nor an end. Throws OutputError if the stored data cannot be read.
     explicit RunStates(const std::filesystem::path& folder);
 
     const Case& setup() const { return case_; }
     bool hasFrames() const { return !frames_.entries().empty(); }
-    /// In the order of time; of a run without frames its end alone.
+    /// In the order of time. A run without frames has only its end.
     const std::vector<FrameEntry>& entries() const { return entries_; }
     Frame read(std::size_t entry) const;
 
-    /// The entry nearest to a time. Throws UsageError, which says what there is, if it is before the first or after the
-    /// last by more than the time between two.
+    /// The entry nearest to a time. Throws UsageError, which says what there is, if the time is before the first entry,
+    /// or after the last entry by more than the time between two entries.
     std::size_t at(double time) const;
 
     std::size_t settled() const { return settledOf(entries_); }
 
-    /// Four that tell a run's story: settled, the end of the first dose's turning, half of what came out is out, and
-    /// the last with a tenth of the fill left. Fewer where two are the same.
+    /// Four states that tell a run's story: settled; the end of the first dose's turning; half of all that came out is
+    /// out; the last state with a tenth of the fill left. Fewer where two are the same.
     std::vector<std::size_t> story() const;
 
   private:

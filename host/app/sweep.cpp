@@ -22,7 +22,7 @@ namespace vkdose {
 std::unique_ptr<MemberRunner> makeRunner(const SweepOptions& options) {
     const int cores = int(std::max(1U, std::thread::hardware_concurrency()));
     if (options.backend.backend == "vulkan") {
-        // Asked for even if the number is given: without a device no member could run.
+        // The device is looked for even if the number of members is given, because no member can run without one.
         const vk::Device device(vk::DeviceChoice{options.backend.device, false});
         const bool gpu = device.info().isGpu();
         if (options.ensemble > 0 || (gpu && options.jobs == 0))

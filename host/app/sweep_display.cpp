@@ -89,8 +89,8 @@ void SweepDisplay::onProgress(const SweepProgress& p) {
     std::string text = fmt::format("{} of {} members done, {} running", p.ok + p.failed, p.members, p.running);
     if (p.failed > 0) text += fmt::format(", {} failed", p.failed);
     text += fmt::format("; {:.0f} %, ETA {}", 100 * p.fraction, duration(left));
-    // \033[K clears what a longer line before left behind. That a terminal is gone is no reason to end a sweep: its
-    // closing interrupts it.
+    // \033[K clears what a longer line before left behind. A failed write is ignored. A lost terminal needs no error
+    // here, because its closing interrupts the sweep.
     (void)std::fputs((terminal_ ? "\r" + text + "\033[K" : text + "\n").c_str(), stderr);
     std::fflush(stderr);
     open_ = terminal_;

@@ -11,7 +11,7 @@ namespace vkdose {
 
 class SweepDisplay : public SweepObserver {
   public:
-    /// `command`: by what it goes on. `quiet`: only what went wrong.
+    /// `command`: the command that goes on with the sweep. `quiet`: prints only what went wrong.
     SweepDisplay(std::string command, const Study& study, bool quiet);
     ~SweepDisplay() override;
     SweepDisplay(const SweepDisplay&) = delete;

@@ -4,8 +4,9 @@
 
 namespace vkdose::vk {
 
-/// Bandwidth of the device itself in copying one buffer to another, read and write counted, the best of a few tries
-/// [bytes/s]. Takes about 0.1 s on a processor. Of buffers that no cache of a processor holds.
+/// Bandwidth with which the device copies one buffer to another [bytes/s]. Bytes read and bytes written both count, and
+/// the best of a few tries is returned. The buffers are too large for any cache of a processor. Takes about 0.1 s on a
+/// processor.
 double copyBandwidth(const Device& device);
 
 }  // namespace vkdose::vk

@@ -15,8 +15,8 @@ namespace vkdose::vk {
 /// Throws DeviceError naming the call and the result unless `result` is VK_SUCCESS.
 void check(VkResult result, const char* call);
 
-/// Storage buffers that one binding set may hold, so that a device with fewer per stage is refused before anything is
-/// built on it. The passes of a step bind all tables, and no other set is larger.
+/// The largest number of storage buffers in one binding set. A device that allows fewer per stage is refused before
+/// anything is built on it. The passes of a step bind all tables, and no other set is larger.
 extern const std::uint32_t kStorageBuffers;
 
 struct DeviceChoice {
@@ -44,7 +44,7 @@ struct DeviceInfo {
 /// Every device the Vulkan loader shows. Throws DeviceError if there is no loader or no driver.
 std::vector<DeviceInfo> listDevices();
 
-/// Those of `devices` that can be used and are of the best kind there is; the automatic choice takes the first.
+/// The usable devices of the best kind among `devices`. The automatic choice takes the first of them.
 std::vector<DeviceInfo> bestOf(const std::vector<DeviceInfo>& devices);
 
 struct ValidationMessages;
@@ -65,8 +65,8 @@ class Device {
     /// Whether shaders may use 64-bit integers; enabled where the device has them.
     bool hasInt64() const { return int64_; }
 
-    /// Memory of the device that is still to be had [bytes], of the largest heap: what the driver says other programs
-    /// leave (VK_EXT_memory_budget), or all of it where it does not say.
+    /// Free memory of the device's largest heap [bytes]. The driver says how much other programs leave
+    /// (VK_EXT_memory_budget). Where it does not say, the whole heap counts as free.
     std::uint64_t freeMemory() const;
 
     /// Index of a memory type allowed by `typeBits` with all of `wanted`; -1 if none.

@@ -12,8 +12,8 @@
 
 namespace vkdose::vk {
 
-/// Bindings of the one set: the storage buffers, numbered in their order; then the texel views of those that have one,
-/// each as far behind its buffer as there are buffers.
+/// The bindings of the one set: first the storage buffers, numbered in their order, then the texel views of those that
+/// have one. The binding of a view is that of its buffer plus the number of buffers.
 class BindingSet {
   public:
     BindingSet(const Device& device, const std::vector<const Buffer*>& buffers, std::uint32_t pushBytes);

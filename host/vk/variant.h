@@ -12,8 +12,8 @@ struct Variant {
     std::span<const std::uint32_t> code;
 };
 
-/// The code of the variant that was made with the most macros, all of which are `wanted`. A pass has a plain variant,
-/// made with none, so that there always is one.
+/// Among the variants whose macros are all `wanted`, the code of the one with the most macros. Each pass has a plain
+/// variant without macros, so there always is one.
 constexpr std::span<const std::uint32_t> pick(std::span<const Variant> variants, unsigned wanted) {
     const Variant* best = nullptr;
     for (const Variant& v : variants)

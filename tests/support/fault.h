@@ -6,8 +6,9 @@
 
 namespace vkdose::test {
 
-/// While it lives, every Vulkan instance has the faults of `names` (see fault_layer.cpp), in this process and in those
-/// it starts. The validation layer, where a test loads it, stands above and takes the spoilt device for the real one.
+/// While it lives, every Vulkan instance of this process, and of the processes that it starts, has the faults of
+/// `names` (see fault_layer.cpp). The validation layer, where a test loads it, stands above and takes the spoilt device
+/// for the real one.
 class Fault {
   public:
     explicit Fault(const std::string& names, bool validated = true) {

@@ -49,7 +49,8 @@ bool failsNow(std::string_view name, std::atomic<int>& calls) {
     return from && calls++ >= *from;
 }
 
-/// The functions of the layer below. Asked for when the object is made: later the loader answers with the top layer's.
+/// The functions of the layer below. They are asked for when the object is made, because later the loader answers with
+/// those of the top layer.
 using Functions = std::map<std::string_view, PFN_vkVoidFunction>;
 
 struct Instance {

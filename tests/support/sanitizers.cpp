@@ -1,9 +1,10 @@
-// Linked into every program of a build with sanitizers: its settings, so that no environment has to be set.
+// The settings of the sanitizers. Linked into every program of a build with sanitizers, so that no environment has to
+// be set.
 
 #include <dlfcn.h>
 
-// Leaks that are not ours: what the Vulkan loader, the drivers and their libraries keep until the process ends, and the
-// fonts that cairo has looked up.
+// Leaks that are not ours. The Vulkan loader, the drivers and their libraries keep memory until the process ends, and
+// cairo keeps the fonts that it has looked up.
 extern "C" const char* __lsan_default_suppressions() {
     return "leak:libvulkan\n"
            "leak:libvk_swiftshader\n"
@@ -16,14 +17,15 @@ extern "C" const char* __lsan_default_options() {
     return "print_suppressions=0";
 }
 
-// With SwiftShader's threads the leak check itself breaks off once in some hundred programs ("has encountered a fatal
-// error"), when one of them ends as it stops them all. What we leak shows on lavapipe.
+// The leak check stops all threads. If one of SwiftShader's threads ends meanwhile, the check itself breaks off ("has
+// encountered a fatal error"), once in some hundred programs. So it is off with SwiftShader; our leaks show on
+// lavapipe.
 extern "C" int __lsan_is_turned_off() {
     return dlopen("libvk_swiftshader.so", RTLD_LAZY | RTLD_NOLOAD) != nullptr ? 1 : 0;
 }
 
-// Keeps every library loaded: a suppression goes by the library's name, and of one that was unloaded only addresses are
-// left.
+// Keeps every library loaded. A suppression goes by the name of a library, and the report has only addresses for a
+// library that was unloaded.
 extern "C" int dlclose(void*) noexcept {
     return 0;
 }

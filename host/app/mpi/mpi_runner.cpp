@@ -49,7 +49,7 @@ std::optional<Heard> hear() {
     return Heard{status.MPI_SOURCE, status.MPI_TAG, Json::parse(text)};
 }
 
-/// Of this rank among those on its machine.
+/// The number of this rank among the ranks on its machine.
 int localRank() {
     MPI_Comm machine = MPI_COMM_NULL;
     check(MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine), "MPI_Comm_split_type");
@@ -69,7 +69,8 @@ void serve(const BackendChoice& choice) {
             if (heard->tag == kQuit) return;
             if (heard->tag == kTask)
                 own.start({heard->what["number"], heard->what["folder"].get<std::string>(), heard->what["resume"]});
-            // A second time would end the member without a checkpoint; the launcher may have told this rank already.
+            // A second interrupt would end the member without a checkpoint, and the launcher may have interrupted this
+            // rank already.
             if (heard->tag == kInterrupt && !std::exchange(interrupted, true)) own.interrupt();
         }
         if (stop && !std::exchange(interrupted, true)) own.interrupt();

@@ -9,8 +9,8 @@
 
 namespace vkdose {
 
-/// On rank 0 the runner, which ends the job when it goes; on the others nothing, once the job is over: they have served
-/// it. Throws UsageError if this vkdose was built without MPI.
+/// On rank 0, returns the runner; the job ends when the runner is destroyed. On the other ranks, serves rank 0 until
+/// the job is over and then returns nothing. Throws UsageError if this vkdose was built without MPI.
 std::unique_ptr<MemberRunner> makeMpiRunner(const BackendChoice& choice);
 
 }  // namespace vkdose
