@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::array<const char*, 4> kNames{"side", "end", "iso", "cut"};
 
-/// Of the eye, over the diagonal of what it sees: a lens of moderate length.
+/// Distance of the eye in parts of the diagonal of the scene; it acts as a lens of moderate length.
 constexpr double kEyeDistance = 3;
 
 /// Smallest and largest place of the content's corners.
@@ -74,7 +74,7 @@ Camera cameraFor(View view, const Box& content, int width, int height) {
     c.pixel = std::max((e.right - e.left) / width, (e.bottom - e.top) / height);
     c.centreX = -e.left / c.pixel;
     c.centreY = -e.top / c.pixel;
-    // Less a little, so that what fills the picture by construction is not rounded up beyond it.
+    // A small amount is subtracted, so that content which exactly fills the picture is not rounded up beyond it.
     c.width = std::clamp(int(std::ceil((e.right - e.left) / c.pixel - 1e-6)), 1, width);
     c.height = std::clamp(int(std::ceil((e.bottom - e.top) / c.pixel - 1e-6)), 1, height);
     return c;

@@ -9,14 +9,14 @@
 
 namespace vkdose::render {
 
-/// Side: from -x, the outlet on the right. End: into the outlet. Iso: in perspective, from the side, the outlet's end
-/// and above. Cut: as Side, all of x < 0 taken away. All but Iso are true to scale.
+/// Side: seen from -x, the outlet on the right. End: seen into the outlet. Iso: in perspective, from the side, the
+/// outlet's end and above. Cut: as Side, with all of x < 0 taken away. All but Iso are true to scale.
 enum class View { Side, End, Iso, Cut };
 
 /// "side" ...; none if there is no such view.
 std::optional<View> viewNamed(std::string_view name);
 
-/// All that lies beyond the plane along its normal is taken away.
+/// The part of the scene beyond the plane along its normal is taken away.
 struct CutPlane {
     Vec3 normal;    ///< unit
     double offset;  ///< dot(point, normal) of the plane's points [m]
@@ -38,8 +38,8 @@ struct Camera {
     Place project(const Vec3& point) const;
 };
 
-/// The camera whose picture is filled by `content` in one direction at least, cut to it in the other; at most
-/// `width` x `height` pixels.
+/// A camera for which `content` fills the picture in at least one direction. In the other direction the picture is cut
+/// to the content. The picture has at most `width` x `height` pixels.
 Camera cameraFor(View view, const Box& content, int width, int height);
 
 }  // namespace vkdose::render

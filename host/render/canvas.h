@@ -28,11 +28,11 @@ class Canvas {
     };
     enum class Align { Left, Centre, Right };
 
-    /// With its top left corner there; what it does not cover stays.
+    /// Draws the image with its top left corner at (left, top). Pixels that it does not cover stay.
     void image(const Image& image, int left, int top);
     void line(const std::vector<Point>& points, double thickness, const Vec3& colour);
     void box(double left, double top, double width, double height, const Vec3& colour);
-    /// On the line y, its left end, middle or right end at x. `size`: height of a line [pixels].
+    /// Writes on the line y, with the text's left end, middle or right end at x. `size`: height of a line [pixels].
     void text(const std::string& text, double x, double y, double size, const Vec3& colour, Align align = Align::Left);
     /// Reading upwards, its middle at y.
     void textUpwards(const std::string& text, double x, double y, double size, const Vec3& colour);
@@ -41,7 +41,7 @@ class Canvas {
     void clip(double left, double top, double width, double height);
     void unclip();
 
-    /// 0 ... 1.
+    /// Components from 0 to 1.
     Vec3 colourAt(int x, int y) const;
     /// Rows of pixels from the top, each blue, green, red and a byte of no meaning.
     std::vector<std::uint8_t> bytes() const;

@@ -5,9 +5,9 @@
 
 namespace vkdose::render {
 
-/// Red, green and blue in 0 ... 1, as a screen takes them (sRGB). From dark blue over purple and red to a light yellow,
-/// in equal steps of lightness, so that it reads in print and whatever colours the reader tells apart. `t` outside 0
-/// ... 1 takes the colour of the end; one that is not a number is grey.
+/// Red, green and blue in 0 ... 1, as a screen takes them (sRGB). The map goes from dark blue over purple and red to a
+/// light yellow in equal steps of lightness, so that it reads in print and for colour-blind readers. `t` outside 0 ...
+/// 1 takes the colour of the end. A `t` that is not a number is grey.
 Vec3 mapColour(double t);
 
 /// sRGB (IEC 61966-2-1) to linear light, component by component.

@@ -9,7 +9,7 @@ namespace vkdose::render {
 
 namespace {
 
-// When nobody says how large: room for one panel, and how much wider for several.
+// The width where the user gives no size: room for one panel, and a larger width for several.
 constexpr int kAutoWidth = 1400, kAutoHeight = 860, kAutoWider = 1900;
 
 // In heights of a line of text.
@@ -66,13 +66,13 @@ Layout layoutOf(const PictureSpec& spec, const Box& content, std::size_t panels)
         l.width = even(usedX + l.width - across);
         l.height = even(usedY + l.height - down);
     }
-    // In the middle of what room there is.
+    // Centred in the room that there is.
     const double left = std::floor((l.width - kBarBlock * l.text - usedX) / 2);
     const double top = std::floor((l.height - kFooter * l.text - usedY) / 2);
     for (std::size_t i = 0; i < panels; ++i)
         l.panels.push_back({std::floor(left + stepX * double(i % a.columns)),
                             std::floor(top + stepY * double(i / a.columns) + kHeader * l.text)});
-    // In whole pixels: half of one would mix the colours with the paper's.
+    // In whole pixels, because half a pixel would mix the colours with the paper's.
     const double room = usedY - kHeader * l.text;
     l.barWidth = std::floor(kBarWidth * l.text);
     l.barHeight = std::floor(std::min(room, 24 * l.text));
@@ -81,7 +81,7 @@ Layout layoutOf(const PictureSpec& spec, const Box& content, std::size_t panels)
     const Vec3 along = spec.view == View::End ? Vec3(1, 0, 0) : Vec3(0, 0, 1);
     l.scaleLength = roundedDown(0.35 * glm::dot(content.high - content.low, along));
     const Canvas::Point corner = l.panels[(rows - 1) * a.columns];
-    // Along the lower edge of what is seen, on the viewer's side.
+    // Along the lower edge of the content, on the viewer's side.
     const auto place = [&](double way) {
         const Camera::Place p = l.camera.project(content.low + along * way);
         return Canvas::Point{corner.x + p.x, corner.y + p.y + 0.9 * l.text};

@@ -24,8 +24,8 @@ Line arc(const Ring& ring, double from, double to) {
     return line;
 }
 
-/// Angles at which the side of a cylinder with these rings turns away from the viewer. Seen along its axis it has none,
-/// and any will do.
+/// Angles at which the side of a cylinder with these rings turns away from the viewer. Seen along its axis the cylinder
+/// has no such angles, and any will do.
 std::array<double, 2> limbs(const Ring& ring, const Vec3& towards) {
     const double angle = std::atan2(glm::dot(towards, ring.right), -glm::dot(towards, ring.up));
     return {angle, angle + kPi};

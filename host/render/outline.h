@@ -10,8 +10,9 @@ namespace vkdose::render {
 
 using Line = std::vector<Vec3>;  ///< points of a polyline [m]
 
-/// Of a canister the profile of its ends, what joins them, the hole in front and the throat; of round ones the two
-/// sides seen from `towards`. Of other surfaces what lies in `content`. In a cut, what is taken away is left out.
+/// The edges to be drawn. Of a canister: the profile of its ends, the lines between them, the hole in front and the
+/// throat. Of round surfaces: the two sides seen from `towards`. Of other surfaces: the part in `content`. In a cut,
+/// edges in the part that is taken away are left out.
 std::vector<Line> outlineOf(const Case& c, const Vec3& towards, const Box& content, const std::optional<CutPlane>& cut);
 
 }  // namespace vkdose::render

@@ -16,7 +16,7 @@ namespace {
 
 const Vec3 kInk(0.13), kEdge(0.42);
 
-/// Nearer to what is drawn than this, a line is on its surface [pixels].
+/// A line that is nearer than this to the drawn surface counts as on it [pixels].
 constexpr double kOn = 1.5;
 
 void include(Box& box, const Vec3& low, const Vec3& high) {
@@ -24,8 +24,9 @@ void include(Box& box, const Vec3& low, const Vec3& high) {
     box.high = glm::max(box.high, high);
 }
 
-/// Up to here lies all of the powder but a hundredth: single spheres are flung about, and stick to a lid. All that was
-/// dosed counts as powder, so that the last of it is not stray [m].
+/// The height up to which all powder lies except a stray hundredth [m]. It is needed because single spheres are flung
+/// about or stick to a lid. Dosed particles count as powder, so that the last particles in the canister are not taken
+/// for stray ones.
 double powderTop(const Particles& p) {
     std::vector<double> tops;
     for (std::size_t i = 0; i < p.size(); ++i)
@@ -51,7 +52,7 @@ Scene sceneOf(const Case& c, const PictureSpec& spec, const Panel& panel) {
     return scene;
 }
 
-/// Draws what nothing hides of a line, piece by piece.
+/// Draws the visible parts of a line, piece by piece.
 void drawSeen(Canvas& canvas, const Line& line, const Camera& camera, const Image& image, Canvas::Point corner,
               double thickness) {
     std::vector<Canvas::Point> run;

@@ -24,8 +24,8 @@ struct Panel {
     std::string title;
 };
 
-/// The part of a frame to be seen: the canister and its coil, as high as all powder but a stray hundredth reaches, or
-/// particles and coil where there is none, with a margin.
+/// The part of a frame to be seen, with a margin: the canister and its coil, up to the height that all powder but a
+/// stray hundredth reaches. Without a canister it is the particles and the coil.
 Box contentOf(const Case& c, const Frame& frame);
 /// Of several frames.
 Box united(const Box& a, const Box& b);
@@ -46,7 +46,7 @@ struct Layout {
 };
 Layout layoutOf(const PictureSpec& spec, const Box& content, std::size_t panels);
 
-/// The picture. `content` as given by contentOf; that of all frames of a film, so that nothing jumps.
+/// Draws the picture. `content` is that of contentOf, united over all frames of a film, so that nothing jumps.
 Canvas drawPicture(RayCaster& caster, const Case& c, const PictureSpec& spec, const Box& content,
                    const std::vector<Panel>& panels);
 

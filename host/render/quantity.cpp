@@ -38,7 +38,7 @@ struct Extremes {
     bool none() const { return low > high; }
 };
 
-/// Of the coil's wire while it turns; 0 if it never does.
+/// Speed of the coil's wire while it turns; 0 if it never turns.
 double wireSpeed(const Case& c) {
     return c.world.coil && c.schedule.rotateTime > 0 ? c.schedule.coilSpeed * c.world.coil->radius : 0.0;
 }
@@ -49,7 +49,7 @@ double meanMass(const Case& c) {
     return filled.particles.size() > 0 ? filled.mass / double(filled.particles.size()) : 0.0;
 }
 
-/// With ends apart, so that equal values have a colour too.
+/// Sets the ends apart, so that equal values have a colour too.
 void spread(Scale& s, const Extremes& e) {
     s.low = e.none() ? 0 : e.low;
     s.high = e.none() ? 1 : e.high;

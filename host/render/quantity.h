@@ -17,8 +17,8 @@ enum class Quantity { KineticEnergy, Speed, Overlap, Radius, FillLayer };
 inline constexpr const char* kQuantityNames[] = {"kinetic-energy", "speed", "overlap", "radius", "fill-layer"};
 std::optional<Quantity> quantityNamed(std::string_view name);
 
-/// Of every particle, in SI: m v^2/2 of the centre, |v|, the largest overlap over the smaller radius, the radius, or
-/// its height in `fill` (y), the state when the powder had settled; NaN without one.
+/// The values of every particle, in SI: m v^2/2 of the centre, |v|, the largest overlap over the smaller radius, the
+/// radius, or the height (y) in `fill`, the state when the powder had settled. Without `fill` the height is NaN.
 std::vector<double> valuesOf(Quantity quantity, const Case& c, const Frame& frame, const Particles* fill);
 
 /// Values to places on the colour map.
@@ -29,9 +29,9 @@ struct Scale {
     bool logarithmic = false;
     int bands = 0;  ///< equal bands of one colour each; 0: no bands
 
-    /// 0 at `low`, 1 at `high`, beyond them outside of that.
+    /// The place on the scale: 0 at `low`, 1 at `high`, less than 0 or more than 1 beyond.
     double along(double value) const;
-    /// The same, of a band the place of its middle.
+    /// As `along`, but with bands it is the place of the middle of the value's band.
     double place(double value) const;
     /// The colour of a value (sRGB).
     Vec3 colour(double value) const;
@@ -48,10 +48,11 @@ struct Range {
     std::optional<double> from, to;
 };
 
-/// A scale that all pictures of a run share wherever possible. Speed and kinetic energy reach to what the wire of the
-/// turning coil has, the latter for a sphere of mean mass, over three decades down; overlap 0.001 to 1; radius and
-/// layer to what is there. What cannot be said so (no coil that turns) reaches to the largest of `values`. Throws
-/// std::invalid_argument, saying why, if the range asked for is empty or, on a logarithmic scale, not positive.
+/// A scale that all pictures of a run share wherever possible. Speed reaches up to the speed of the turning coil's
+/// wire. Kinetic energy reaches up to that of a sphere of mean mass at this speed, and three decades down. Overlap goes
+/// from 0.001 to 1. Radius and layer go from the least to the largest value. Without a coil that turns, speed and
+/// kinetic energy reach up to the largest of `values`. Throws std::invalid_argument, saying why, if the range asked for
+/// is empty or, on a logarithmic scale, not positive.
 Scale scaleFor(Quantity quantity, const Case& c, const std::vector<double>& values, const Range& range = {});
 
 }  // namespace vkdose::render

@@ -23,7 +23,7 @@ constexpr std::uint32_t kRays = 3;    // per pixel and direction
 constexpr int kJointsPerTurn = 128;   // chords then leave the wire's centre line by 0.0003 of its radius
 const Vec3 kLight(-0.45, 0.6, 0.66);  // from the left, above and the viewer: right, up, towards
 
-/// Amid the spheres and the coil, so that floats are as fine as they can be.
+/// The origin lies amid the spheres and the coil, so that floats have their smallest rounding errors there.
 Vec3 originOf(const Scene& scene) {
     Vec3 low(0), high(0);
     if (!scene.centre.empty()) low = high = scene.centre[0];
@@ -68,7 +68,7 @@ gpu::PictureParams paramsOf(const Scene& scene, const Camera& camera, const Vec3
     return p;
 }
 
-/// A buffer of these values; of one that nothing reads if there are none.
+/// A buffer of these values. If there are none, a buffer that nothing reads.
 template <typename T>
 std::unique_ptr<vk::Buffer> filled(const vk::Device& device, const char* name, const std::vector<T>& values) {
     auto buffer = std::make_unique<vk::Buffer>(device, name, std::max<std::size_t>(values.size(), 1) * sizeof(T));

@@ -13,7 +13,8 @@ using glm::uvec3;
 using glm::vec3;
 using glm::vec4;
 
-/// However far apart things lie. A ray passes at most so many cells in one direction.
+/// Limits that hold however far apart things lie: cells of the grid (more only for very many spheres), and cells that a
+/// ray passes in one direction.
 constexpr double kMostCells = 1 << 20;
 constexpr float kMostInRow = 1000;
 

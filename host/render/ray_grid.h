@@ -20,8 +20,8 @@ struct Grid {
     std::vector<std::uint32_t> entries;
 };
 
-/// Of spheres (centre, radius) and the joints of a wire, with cells of a mean diameter unless that made too many.
-/// Whatever is in them is inside the grid.
+/// The grid over spheres (centre, radius) and the joints of a wire. All of them lie inside. A cell is as large as a
+/// mean diameter, unless that gives too many cells.
 Grid gridOf(const std::vector<glm::vec4>& spheres, const std::vector<glm::vec4>& joints, float wireRadius);
 
 }  // namespace vkdose::render

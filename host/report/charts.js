@@ -43,7 +43,8 @@ function legendEntry(legend, series) {
   legend.appendChild(item);
 }
 
-/// Draws again whenever the width changes, so that letters keep their size. Paper has a width of its own [CSS pixels].
+/// The chart is drawn again whenever the width changes, so that letters keep their size. On paper it has this width
+/// [CSS pixels].
 const kPaperWidth = 310;
 const drawings = [];
 let clips = 0;
@@ -88,7 +89,7 @@ function bands(c, spec, x) {
   });
 }
 
-/// Pieces of a curve between points that are missing.
+/// The parts of a curve between missing points.
 function pieces(points) {
   const list = [[]];
   points.forEach(p => (isNumber(p[0]) && isNumber(p[1]) ? list[list.length - 1].push(p) : list.push([])));
@@ -121,7 +122,7 @@ function errorBar(group, x, low, high, stroke) {
     group.append("line").attr({x1, x2, y1, y2}).style({stroke, "stroke-width": 1.4}));
 }
 
-/// A rule where `link.place()` says, and a jump there by clicking or dragging. Returns what moves the rule.
+/// Draws a vertical rule at `link.place()`; clicking or dragging jumps there. Returns a function that moves the rule.
 function follow(c, link, x) {
   const rule = c.plot.append("line").attr({class: "now", y1: 0, y2: c.height});
   const move = () => {
@@ -181,7 +182,7 @@ function chart(parent, spec) {
   });
 }
 
-/// Where the line value = target crosses the square of four cells (places in units of cells): pairs of points.
+/// The pieces of the line value = target within a square of four cells, as pairs of points (places in units of cells).
 function crossings(i, j, at, target) {
   const corners = [[i, j], [i + 1, j], [i + 1, j + 1], [i, j + 1]];
   const values = corners.map(([a, b]) => at(a, b));

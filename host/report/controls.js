@@ -34,5 +34,5 @@ function slider(parent, label, most, changed) {
 
 const kPhases = ["settling", "the coil turns", "at rest"];
 
-/// When something shown was so: time [s], dose (0: none so far) and number of the phase.
+/// The moment of a picture as text: time [s], dose (0: none so far) and number of the phase.
 const momentText = (time, dose, phase) => `t = ${time.toFixed(3)} s${dose > 0 ? `, dose ${dose}` : ""}, ${kPhases[phase]}`;

@@ -1,5 +1,5 @@
 #pragma once
-// A table of published results, and what a study says to each.
+// A table of published results, and the judgement of each by a study.
 
 #include <filesystem>
 #include <limits>
@@ -16,8 +16,8 @@ struct Setting {
     double number = std::numeric_limits<double>::quiet_NaN();  ///< if it is one
 };
 
-/// One point of a study, over its seeds: the keys of its case that somebody may ask for, and its outputs in the units
-/// of members.csv.
+/// One point of a study, averaged over its seeds: the keys of its case that a condition may name, and its outputs in
+/// the units of members.csv.
 struct Point {
     std::map<std::string, Setting> keys;
     struct Output {
@@ -66,11 +66,11 @@ struct Verdict {
 /// Reads the table (TOML, [[expected]]). Throws CaseError with every fault found.
 std::vector<Expected> readExpected(const std::filesystem::path& file);
 
-/// Judges by the points of a study. A point carries a condition if the numbers differ by no more than 1 %, or the words
-/// not at all. A value matches if it is off by no more than `matches`, or than two standard errors of the mean over the
-/// points that carry the conditions. A trend is judged along its key for every combination of the other keys that
-/// occurs, between neighbours: a step against it counts only beyond two standard errors of the difference (none known:
-/// at all).
+/// Judges a result by the points of a study. A point meets a condition if the numbers differ by no more than 1 %, or if
+/// the words are equal. A value matches if it is off by no more than `matches`, or by no more than two standard errors
+/// of the mean over the points that meet the conditions. A trend is judged along its key, for every combination of the
+/// other keys that occurs. Neighbours are compared: a step against the trend counts only beyond two standard errors of
+/// the difference, or always if no error is known.
 Verdict judge(const Expected& expected, const std::vector<Point>& points);
 
 }  // namespace vkdose::report

@@ -18,8 +18,8 @@ async function readMaps(map) {
 /// Of a level of a signed scale, in parts of the largest value.
 const signedPart = level => Math.sign(level - 128) * ((level - 128) / 127) ** 2;
 
-/// List of {name, unit, scale (of D3, from values to 0..1), entry(cell of all maps) of the ramp}, and `velocity`, which
-/// tells the two parts in the plane [largest speed] of a cell.
+/// List of {name, unit, scale (of D3, from values to 0..1), entry(cell of all maps) of the ramp}. `velocity` gives the
+/// two in-plane parts of a cell's velocity [largest speed].
 function fieldQuantities(map, levels) {
   const [density, across, up] = levels, velocity = i => [signedPart(across[i]), signedPart(up[i])];
   const speed = d3.scale.log().domain([1e-3, 1]), fastest = map.quantities[1].most;
@@ -45,7 +45,8 @@ function arrow(x, y, [across, up], longest) {
 const kMapMargin = {top: 24, right: 12, bottom: 40, left: 52};
 const kTallestMap = 420, kArrowSpacing = 15;  // [CSS pixels]
 
-/// The uppermost row with powder from the settled bed on: what is above in every map would leave little room for the rest.
+/// The uppermost row that has powder in some map from the settled bed on. Higher rows are left out, because they would
+/// leave little room for the rest.
 function firstRow(map, quantities, settled) {
   const [columns, rows] = map.cells;
   let first = rows;

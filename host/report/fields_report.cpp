@@ -123,8 +123,8 @@ std::uint8_t levelOf(double value, const Quantity& q) {
     return static_cast<std::uint8_t>(128 + std::lround(std::copysign(127 * std::sqrt(std::abs(part)), part)));
 }
 
-/// Sets `most` of every quantity from the maps since dosing began, or from all if it has not. Only where there is
-/// powder; the two velocities share theirs.
+/// Sets `most` of every quantity from the maps since dosing began, or from all maps if it has not begun. Only cells
+/// with powder count. The two velocities share one `most`.
 void findScales(std::vector<Quantity>& quantities, const std::vector<Entry>& entries, const std::vector<Map>& maps) {
     const bool dosing = std::any_of(entries.begin(), entries.end(), [](const Entry& e) { return e.dose > 0; });
     const auto each = [&](auto look) {
@@ -215,7 +215,7 @@ double rounded(double height) {
     return std::round(height * 1e6) / 1e6;
 }
 
-/// All rows, or every n-th of them and the last, and the last of each dose (0: the settled bed).
+/// All rows; or every n-th row, the last row, and the last row of each dose (0: the settled bed).
 Json profileJson(const fs::path& folder, const FieldSensor& s) {
     const Table table = Table::read(folder / (s.name + ".csv"));
     if (table.rows() == 0) return nullptr;

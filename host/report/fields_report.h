@@ -1,9 +1,10 @@
 #pragma once
 // The fields that a run kept (fields/ of its folder), as its page takes them: maps of a plane and height profiles.
 //
-// A map's stream, deflated and in base64, holds for each map and each quantity a byte for every cell, rows from above:
-// the difference from the map before (the first one's from 0), modulo 256. The byte is a level of the quantity's scale,
-// on which `most` is the largest value once dosing has begun, and what lies beyond takes the level of the end:
+// A map's stream is deflated and in base64. It holds for each map and each quantity a byte for every cell, rows from
+// above. The byte is the difference from the map before (the first map's from 0), modulo 256, of the level on the
+// quantity's scale. On this scale `most` is the largest value once dosing has begun. Values beyond the scale take the
+// level of its end:
 //
 //   linear   255 v / most
 //   root     255 sqrt(v / most), for what spans decades
@@ -19,12 +20,12 @@ namespace vkdose::report {
 /// Levels that all maps of a page may take together [bytes]; a page holds four characters for three of them.
 inline constexpr std::size_t kMostFieldBytes = 3'000'000;
 
-/// Below this level of density there are but the tails of kernels, and no velocity worth a scale.
+/// Below this level of density a cell holds only the tails of kernels, so its values do not set the scales.
 inline constexpr int kSparseLevel = 5;
 
-/// `fields` of runJson: {maps, profiles}; null if the run has kept none. Of more maps than there is room for only every
-/// n-th and the last; a field of which not even two fit has no stream. Fields in one place, along one line and in three
-/// directions are not among them. Throws CaseError if a file is damaged.
+/// `fields` of runJson: {maps, profiles}; null if the run has kept none. If there is no room for all maps, only every
+/// n-th and the last are taken. A field of which not even two maps fit has no stream. Fields in one place, along one
+/// line and in three directions are not included. Throws CaseError if a file is damaged.
 Json fieldsJson(const std::filesystem::path& folder, const Case& c, std::size_t mostBytes = kMostFieldBytes);
 
 /// Characters that its streams take.

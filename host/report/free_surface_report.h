@@ -22,9 +22,10 @@ Photograph photographOf(const std::string& argument);
 /// Columns of the surface: about a mean radius wide.
 std::size_t surfaceColumns(const Case& c, const Particles& particles);
 
-/// `surface` of runJson: the profile of the settled bed and at the last frame of each dose, or without frames that of
-/// the end state, which is dose `lastDose`; and the photographs. Null without a canister or anything to show. Throws
-/// CaseError if a photograph cannot be read or there is no state of its dose.
+/// `surface` of runJson: the profile of the settled bed and the profile at the last frame of each dose, together with
+/// the photographs. Without frames there is one profile, that of the end state, which is dose `lastDose`. Null without
+/// a canister or without anything to show. Throws CaseError if a photograph cannot be read or there is no state of its
+/// dose.
 Json surfaceJson(const Case& c, const FrameSource& frames, const std::optional<Particles>& end, int lastDose,
                  const std::vector<Photograph>& photographs);
 

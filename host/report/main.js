@@ -6,7 +6,7 @@ try {
   add(main, "h1", report.name);
   if (report.reason) add(main, "p", report.reason, "reason");
   (report.kind === "run" ? runPage : studyPage)(main, report);
-  // The first charts were drawn before their neighbours took their part of the width.
+  // The first charts were drawn before their neighbours took part of the width, so all are drawn again.
   const draw = width => drawings.forEach(again => again(width));
   draw();
   let waiting = 0;

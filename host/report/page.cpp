@@ -29,7 +29,7 @@ std::string escaped(std::string_view text) {
     return html;
 }
 
-/// Its texts, with every character in sight.
+/// The texts in `data`, with every character made visible.
 Json shown(Json data) {
     if (data.is_string()) return printableLines(data.get_ref<const std::string&>());
     if (data.is_structured())
@@ -49,8 +49,8 @@ std::string scriptData(const Json& data) {
     return text;
 }
 
-/// The scripts of the page, each the text of an element. Those of the player, which are many times the rest, only for
-/// pages with frames.
+/// The scripts of the page, each the text of an element. The scripts of the player are many times larger than the rest,
+/// so only pages with frames have them.
 std::vector<std::string> scriptsOf(bool player) {
     std::vector<std::string> scripts{parts::kD3};
     if (player) {
@@ -63,8 +63,8 @@ std::vector<std::string> scriptsOf(bool player) {
     return scripts;
 }
 
-/// Only the page's own scripts and style take effect, and nothing is asked of a network or sent to it: what somebody
-/// gets into the page in spite of the escapes does nothing. Styles that scripts set by way of the DOM need no leave.
+/// Only the page's own scripts and style take effect, and nothing is asked of a network or sent to it. So text that
+/// gets into the page in spite of the escapes does nothing. Styles that scripts set through the DOM need no permission.
 std::string policy(const std::vector<std::string>& scripts) {
     std::string hashes;
     for (const std::string& script : scripts) hashes += " " + sourceHash(script);
@@ -99,7 +99,7 @@ std::string page(const Json& data) {
         {"three-licence", player ? threeLicence() : std::string()},
         {"scripts", elements(scripts)},
     }};
-    // One pass from front to back, so that nothing put in is looked through for marks again.
+    // One pass from front to back, so that inserted text is not searched for marks again.
     std::string html;
     std::string_view left = parts::kPage;
     while (true) {

@@ -167,7 +167,8 @@ function playerNote(player) {
 const kPlayerHelp = "Drag or use the arrow keys to turn; click the picture, then the wheel zooms; Space plays, Page Up and " +
   "Page Down go to another dose, Home to the first view. A click in a chart leads here.";
 
-/// The figure, at once; its picture as soon as the frames are unpacked. What cannot be shown is said in its place.
+/// The figure is made at once, and its picture as soon as the frames are unpacked. If the picture cannot be shown, the
+/// reason stands in its place.
 function playerFigure(parent, player) {
   const box = add(parent, "figure", null, "viewer player");
   box.dataset.state = "loading";

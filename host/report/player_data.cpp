@@ -43,7 +43,8 @@ void addPlanes(Deflate& stream, const std::vector<std::uint16_t>& values) {
     stream.add(bytes);
 }
 
-/// Values of one kind, frame after frame, as differences. What is not set stays as it was, and costs next to nothing.
+/// Values of one kind, frame after frame, as differences. A value that is not set stays as it was, and costs next to
+/// nothing.
 template <typename Value>
 class Row {
   public:
@@ -226,7 +227,7 @@ Json playerJson(const Case& c, const FrameSource& frames, std::size_t columns, s
             j["stream"] = std::move(stream);
             return j;
         }
-        // As many times fewer as did not fit, and at least one less in a row.
+        // The stride grows by the ratio of all frames to those that fitted, and by at least one.
         stride = std::max(stride + 1, stride * entries.size() / done);
     }
 }

@@ -21,7 +21,7 @@ function unpackFrames(player, bytes) {
     count, particles: n, position: new Uint16Array(3 * n * count), speed: new Uint8Array(n * count),
     overlap: new Uint8Array(n * count), surface: new Uint16Array(k * count),
   };
-  // Adds to what stood in the frame before; the arrays' own width makes it modulo 2^16 or 2^8.
+  // Adds the differences to the values of the frame before. The width of the arrays makes the sums modulo 2^16 or 2^8.
   const add = (into, first, step, before, changes) => {
     for (let i = 0, j = first; i < changes.length; ++i, j += step) into[j] = (before < 0 ? 0 : into[j - first + before]) + changes[i];
   };

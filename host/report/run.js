@@ -73,7 +73,8 @@ function timeCharts(parent, run) {
                  note: "The ledger: together always what was filled."});
 }
 
-/// At most so many states of the bed: settled, after every n-th dose, the last, and those of `wanted` doses.
+/// The states of the bed that are shown: every n-th from the settled bed on, which are at most this many, then the
+/// last, and those of `wanted` doses.
 const kMostStates = 8;
 function everyFewDoses(states, wanted) {
   const every = Math.ceil(states.length / kMostStates);

@@ -97,7 +97,7 @@ class Facts {
             w.work > 0 ? fmt::format("{:.4g} g/J", w.massPerJoule(dosed) * 1e3) : "");
     }
 
-    /// Means by time; what the throat's few particles do while it is nearly empty counts like the rest.
+    /// Means by time. Values while the throat is nearly empty come from few particles, but count like the rest.
     void outlet() {
         double turning = 0, turns = 0, peak = 0, lowest = 0;
         for (std::size_t i = 0; i < run_.series.rows(); ++i) {
@@ -130,7 +130,7 @@ class Facts {
                       : "nothing came at all");
     }
 
-    /// From frames at the doses' ends, which the summary of a run that kept some tells.
+    /// From frames at the doses' ends. The summary of a run that kept frames lists the arches.
     void arches() {
         if (!run_.summary.is_object() || !run_.summary.contains("arches")) return;
         double highest = 0;

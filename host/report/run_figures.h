@@ -22,8 +22,8 @@ Particles readEndState(const std::filesystem::path& file);
 /// Mass in the canister at the start [kg], from the first line of the time series.
 double filledMass(const RunSources& run);
 
-/// [{"name", "value", "note"}, ...]: what is shown, with unit and, where a rule decides, the rule. Figures that the run
-/// is too short for are left out.
+/// [{"name", "value", "note"}, ...]. The value has its unit; the note gives the rule where a rule decides. Figures are
+/// left out for which the run is too short.
 Json runFacts(const RunSources& run);
 
 }  // namespace vkdose::report

@@ -58,7 +58,8 @@ Json seriesJson(const Table& series) {
     return j;
 }
 
-/// When the coil turned: [begin, end] [s] for each dose. A line's phase is that of the time since the line before.
+/// When the coil turned: [begin, end] [s] for each dose. The phase in a line is that of the time between this line and
+/// the one before.
 Json rotations(const Table& series) {
     Json list = Json::array();
     double before = 0;
@@ -74,7 +75,7 @@ Json rotations(const Table& series) {
     return list;
 }
 
-/// The summary; null if there is none, or only that of an interruption after which the run went on.
+/// The summary. Null if there is none, or if it is that of an interruption after which the run went on.
 Json summaryOf(const fs::path& folder, const Table& series) {
     const fs::path file = folder / "summary.json";
     if (!fs::exists(file)) return nullptr;

@@ -32,9 +32,9 @@ struct StudyPoint {
     std::vector<Estimate> doses;      ///< mass of dose 1, 2, ... over the seeds [kg]
 };
 
-/// The points in the order in which their first members stand in members.csv. Doses are taken from doses.csv, and so is
-/// beta where members.csv has none. Conditions of a point come from its columns, from its member's resolved case, from
-/// [set] of study.toml and from base.toml, in this order.
+/// The points in the order in which their first members stand in members.csv. The doses are taken from doses.csv. So is
+/// beta where members.csv has none. The conditions of a point come from its columns, from its member's resolved case,
+/// from [set] of study.toml and from base.toml, in this order.
 std::vector<StudyPoint> readPoints(const std::filesystem::path& folder, const StudyHead& head, const Table& members);
 
 }  // namespace vkdose::report

@@ -1,5 +1,5 @@
 #pragma once
-// Fewer entries where a page cannot hold all.
+// Leaves out entries where a page cannot hold all.
 
 #include <cstddef>
 #include <vector>
