@@ -1,6 +1,6 @@
 """Full disks: the output lies on a file system of some hundred KiB that fills up at any point. The command says so with
-exit code 5 and leaves a good checkpoint; after room was made the run goes on to the same bits. Where no file system can
-be mounted, a limit on the size of files takes its place."""
+exit code 5 and leaves a good checkpoint. When there is room again, the run goes on to the same bits. Where no file
+system can be mounted, a limit on the size of files takes its place."""
 
 import os
 import shutil
@@ -19,7 +19,7 @@ _guard = threading.Lock()
 
 
 def mount(folder, kib):
-    """A file system of this size at a folder; False if that may not be."""
+    """Mounts a file system of this size at a folder; False if that is not permitted."""
     os.makedirs(folder)
     words = ["mount", "-t", "tmpfs", "-o", f"size={kib}k,nosuid,nodev", "vkdose-attack", folder]
     if os.geteuid() != 0 or subprocess.run(words, stderr=subprocess.DEVNULL, check=False).returncode != 0:
@@ -51,7 +51,7 @@ def unmount_all():
 
 
 def room_taken(folder):
-    """What a folder takes on such a file system, in KiB."""
+    """The size of a folder on such a file system, in KiB."""
     return sum(4 * (1 + os.path.getsize(os.path.join(folder, name)) // 4096) for name in folders.files_in(folder)) + 12
 
 
@@ -65,7 +65,7 @@ def judge_full(t, end, what):
 
 
 def limited(t, disk, kib, words):
-    """Runs a command with this much room, all told or, without a mount, for a file."""
+    """Runs a command with this much room: in total, or without a mount for each file."""
     if disk.mounted:
         resize(disk.folder, kib)
         return t.vkdose(*words)
@@ -85,7 +85,7 @@ class Disk:
 
 
 def after_room(t, good, folder, again):
-    """Room was made: the run goes on, or begins anew, and is as if nothing had happened."""
+    """Once there is room again, the run goes on or begins anew. Its result is that of an undisturbed run."""
     resumable = os.path.exists(os.path.join(folder, CHECKPOINT))
     words = ["resume", folder, "--quiet"] if resumable else again + ["--force"]
     end = t.vkdose(*words)

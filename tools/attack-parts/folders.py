@@ -31,7 +31,7 @@ def remove(path):
 
 
 def files_in(folder):
-    """The paths, from the folder on, of all that is no folder in it."""
+    """The paths, relative to the folder, of everything in it that is not a folder itself."""
     found = []
     for place, _, names in os.walk(folder):
         found += [os.path.relpath(os.path.join(place, name), folder) for name in names]
@@ -39,7 +39,7 @@ def files_in(folder):
 
 
 def timeless(path):
-    """What a file holds, without what depends on the clock."""
+    """The content of a file, without the parts that depend on the clock."""
     content = bytes_of(path)
     name = os.path.basename(path)
     try:
@@ -74,7 +74,7 @@ def brief(texts):
 
 
 def state(path):
-    """What stands at a path, without following it: kind and content, to tell whether anybody changed it."""
+    """Kind and content of the file at a path, to tell whether anybody changed it. A link is not followed."""
     try:
         info = os.lstat(path)
     except OSError:

@@ -1,7 +1,7 @@
-"""Foreign files: folders hold files of the user's own, many with the names that a run or a sweep uses. Whatever a
-command does there, --force included, what vkdose did not write itself is as it was; a link and a device stay what they
-are. Where a run has begun, what bears a name of that run's is the run's; all else there is the user's, and so is all in
-any other folder."""
+"""Foreign files: folders hold files of the user's own, many with the names that a run or a sweep uses. No command
+there, not even with --force, changes a file that vkdose did not write itself; a link and a device stay what they are.
+Where a run has begun, files with the names of that run belong to the run. All other files there are the user's, and so
+are all files in any other folder."""
 
 import os
 import stat
@@ -25,7 +25,7 @@ SWEEP_LIKE = ("study.toml", "base.toml", "members.csv", "doses.csv", "members/00
 
 
 class Own:
-    """The user's files: what they were like, and which are so no more."""
+    """The user's files: their first state, and a test of which have changed."""
 
     def __init__(self, t):
         self._t, self._before = t, {}
@@ -141,7 +141,7 @@ def report_into(t, own):
 
 
 def things(t, own):
-    """What --out names is a link, a pipe or a device, or a part of the folder is."""
+    """The path of --out, or a part of the folder, is a link, a pipe or a device."""
     folder, own_file = t.path("out"), t.path("precious.txt")
     folders.copy(t.ground.good("short", "reference")[0], folder)
     own.write(own_file)
@@ -161,7 +161,7 @@ def things(t, own):
 
 
 def links_in_folder(t, own):
-    """Of the run's folder something that no user makes a link is one, to the user's files elsewhere."""
+    """A part of the run's folder is a link to the user's files elsewhere, though no user would make it one."""
     folder, force = t.path("out"), t.rng.random() < 0.6
     resume = t.rng.random() < 0.4
     run = t.ground.broken("short", "reference") if resume else t.ground.good("short", "reference")[0]

@@ -37,7 +37,7 @@ values = [0.3, 0.5]
 
 
 class Try:
-    """One attack: a folder, dice of its own, what was done, and what was found."""
+    """One attack: a folder, random numbers of its own, the list of actions, and the finds."""
 
     def __init__(self, ground, kind, number):
         self.ground, self.kind, self.number = ground, kind, number
@@ -64,7 +64,7 @@ class Try:
         return program.Running(line, self.folder, self.ground.environment, **limits)
 
     def ended(self, running, sent=()):
-        """Waits for it and finds what no command may do. `sent`: the signals that it was sent."""
+        """Waits for the program and notes what no command may do. `sent`: the signals that it was sent."""
         end = running.wait(self.ground.patience)
         self.note(f"{end.how()} after {end.seconds:.2f} s: {end.said()}")
         fault = end.fault(sent)
@@ -121,7 +121,7 @@ class Ground:
             return self._made[name]
 
     def must(self, *words):
-        """Runs the program undisturbed; there is no attack if that fails. The seconds it took."""
+        """Runs the program undisturbed and returns the seconds it took. If that fails, there is no attack."""
         running = program.Running([self.program, *words], self.foundation, self.environment)
         end = running.wait(600)
         if end.code != 0:
@@ -180,7 +180,7 @@ class Ground:
         return self.made(f"sweep-{manner}", make)
 
     def broken_sweep(self, manner="reference"):
-        """A sweep that was killed when some of its members had ended."""
+        """A sweep that was killed after some of its members had ended."""
         def make(path):
             self.study(self.foundation)
             for _ in range(20):

@@ -1,5 +1,5 @@
-"""Kills: runs, resumed runs, sweeps and reports are ended by signals at any moment, and gone on with until done. What
-they leave is that of an undisturbed run, to the last byte."""
+"""Kills: runs, resumed runs, sweeps and reports are ended by signals at any moment, then continued until they are done.
+The files that they leave are those of an undisturbed run, to the last byte."""
 
 import os
 import signal
@@ -15,7 +15,7 @@ START = 0.6  # seconds in which a program begins
 
 
 def listens(pid):
-    """Whether a program has taken SIGINT into its own hands, as it does before its first step."""
+    """Whether a program handles SIGINT itself, as it does before its first step."""
     try:
         with open(f"/proc/{pid}/status", encoding="utf-8") as file:
             caught = next((line for line in file if line.startswith("SigCgt:")), "SigCgt: 0")

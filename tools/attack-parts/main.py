@@ -40,7 +40,7 @@ def options_of(words):
 
 
 def order(options):
-    """All tries, the kinds evenly mixed, so that a bound on the time cuts each by the same part."""
+    """All tries. The kinds are evenly mixed, so that a time limit cuts each kind by the same part."""
     chosen = []
     for name in options.only or KINDS:
         numbers = options.numbers or range(getattr(options, name))

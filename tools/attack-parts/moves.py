@@ -1,5 +1,5 @@
 """Moves: the output folder is moved, removed, replaced or emptied while a run writes into it. The program then fails
-and says so, or leaves a whole run; what was moved can be gone on with."""
+and says so, or leaves a whole run. A folder that was moved can be continued."""
 
 import os
 import shutil

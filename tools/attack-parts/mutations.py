@@ -1,5 +1,5 @@
-"""Mutations: every file that a command reads is spoilt in some way. The command then refuses, by the file's name, or
-does what it should: no signal, no hang, no internal error, no result that is none."""
+"""Mutations: every file that a command reads is spoilt in some way. The command then refuses and names the file,
+or does its work: no signal, no hang, no internal error, no result without meaning."""
 
 import glob
 import json
@@ -39,7 +39,7 @@ TARGETS = (
     ("calibrate", ["study.toml", "measured.csv"]),
 )
 DECK = [(command, name) for command, names in TARGETS for name in names]
-# These may be spoilt and a resumed run not see it: it has no need of them, and does not write them again.
+# A resumed run may miss that these are spoilt: it does not need them and does not write them again.
 UNREAD = ("frames/particles_", "fields/mid-plane_")
 
 
@@ -69,7 +69,7 @@ def list_case(t):
 
 
 def prepare(t, command, name):
-    """Makes the folder as the command is to find it. The words of the command and the path of the file to be spoilt."""
+    """Makes the folder for the command. Returns the words of the command and the path of the file to be spoilt."""
     ground = t.ground
     device = ["--backend", "vulkan" if t.rng.random() < 0.1 else "reference"]
     if command in ("run", "check", "compare", "export-coil"):
@@ -137,7 +137,7 @@ def same_but_blanks(good, other, name):
 
 
 def judge_success(t, command, name, way, readable):
-    """What exit 0 promises, after a spoilt file."""
+    """Checks the promises of exit 0 after a spoilt file."""
     # Where a file's link leads, and the file now lies.
     behind = [os.path.join(os.path.dirname(name), "nowhere")] if way == "dangling" else []
     if command == "run":
@@ -167,7 +167,7 @@ def judge_success(t, command, name, way, readable):
 
 
 def judge_refusal(t, end, command, name):
-    """A refusal names the file; where a case became another case, what it cannot do is told otherwise."""
+    """Checks a refusal: it names the file. If the spoilt case is another valid case, the message may be another one."""
     said = end.err + end.out
     allowed = {"run": (2, 3), "compare": (1, 2, 3), "sweep": (1, 2), "sweep-on": (1, 2, 5)}
     if end.code not in allowed.get(command, (2, 5)):
@@ -177,7 +177,7 @@ def judge_refusal(t, end, command, name):
 
 
 def wait_or_interrupt(t, running, command, readable):
-    """A spoilt case may be one that takes long: it does not hang if it has begun and ends when asked to."""
+    """A spoilt case may be one that takes long. The program does not hang if it has begun and ends on request."""
     while not running.over() and not running.hangs(LONG):
         time.sleep(0.005)
     begun = command == "compare" or any(os.path.exists(t.path("out", name)) for name in ("timeseries.csv", "members"))

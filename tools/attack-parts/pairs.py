@@ -30,7 +30,7 @@ def refused(t, end, folder):
 
 
 def outcome(t, ends, goods, folder):
-    """Of two commands that each would make one of `goods`: who said 0 made the folder what it is."""
+    """Two commands each would make one of `goods`. The one with exit code 0 made the folder."""
     won = [good for end, good in zip(ends, goods) if end.code == 0]
     for end in ends:
         if end.code not in (None, 0) and not refused(t, end, folder):
@@ -59,7 +59,7 @@ def runs(t, force):
 
 
 def resume_and(t, second):
-    """A run is gone on with, and at the same time something else begins there."""
+    """A run is resumed, and at the same time something else begins in its folder."""
     good, seconds = t.ground.good("short", "reference")
     folder = t.path("run")
     folders.copy(t.ground.broken("short", "reference"), folder)

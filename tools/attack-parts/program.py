@@ -26,8 +26,8 @@ def stat(path):
 
 
 def stats_of(session):
-    """Of the processes of a session that have not ended (a child of ours, its children, and theirs): what /proc says of
-    each, and the states of its threads."""
+    """The processes of a session that have not ended (a child of ours, its children, and theirs): the entry of each in
+    /proc, and the states of its threads."""
     alive = {}
     for name in os.listdir("/proc"):
         fields = stat(f"/proc/{name}") if name.isdigit() else None
@@ -48,7 +48,7 @@ def in_session(session):
 
 
 def work_of(session):
-    """The processor time [s] that a session has taken, and whether all its threads sleep, none waiting for a disk."""
+    """The processor time [s] that a session has taken, and whether all its threads sleep and none waits for a disk."""
     alive = stats_of(session).values()
     ticks = sum(int(fields[i]) for fields, _ in alive for i in (11, 12, 13, 14))
     return ticks / os.sysconf("SC_CLK_TCK"), bool(alive) and all(set(states) == {"S"} for _, states in alive)
@@ -87,7 +87,7 @@ class Ended:
         return signal.Signals(-self.code).name if self.code < 0 else f"exit {self.code}"
 
     def fault(self, sent=()):
-        """What no command may do whatever happens; empty if it did not. `sent`: signals that we sent."""
+        """The faults that no command may ever show; empty if there are none. `sent`: signals that we sent."""
         if self.code is None:
             return "hangs"
         if any(word in self.err + self.out for word in SANITIZERS):
@@ -112,7 +112,8 @@ class Running:
             limits.append(f"--fsize={file_size}")
         self._out, self._err = tempfile.TemporaryFile(), tempfile.TemporaryFile()
         self.began = time.monotonic()
-        # A limit on files stands for a full disk, which sends no signal: SIGXFSZ stays ignored, as Python has it.
+        # A limit on the size of files stands for a full disk. A full disk sends no signal, so SIGXFSZ stays ignored, as
+        # Python has it.
         self._child = subprocess.Popen(limits + ["--"] + words, cwd=folder, env=environment, stdin=subprocess.DEVNULL,
                                        stdout=self._out, stderr=self._err, start_new_session=True,
                                        restore_signals=not file_size)
@@ -136,7 +137,7 @@ class Running:
             send(self.pid, number)
 
     def hangs(self, seconds):
-        """Whether it has taken so much processor time, or waits idly: on a busy machine the clock says nothing."""
+        """Whether it has taken so much processor time, or waits idly. The clock would say nothing on a busy machine."""
         now = time.monotonic()
         if now < self._looked + 0.25:
             return False
@@ -147,7 +148,7 @@ class Running:
         return work > seconds or now > self._idle_since + IDLE
 
     def wait(self, seconds):
-        """Waits for its end; if it hangs, ends it. `seconds`: of processor time that it may take."""
+        """Waits for its end; if it hangs, ends it. `seconds`: the processor time that it may take."""
         while not self.over() and not self.hangs(seconds):
             time.sleep(0.002)
         code = self._child.poll()

@@ -1,4 +1,4 @@
-"""Ways to spoil a file, by the dice."""
+"""Ways to spoil a file, chosen at random."""
 
 import os
 import re
@@ -107,7 +107,7 @@ THINGS = (folder, fifo, fifo, loop, dangling, endless, huge)
 
 
 def spoil(rng, path):
-    """Spoils a file; what was done, and whether what is there now can be read."""
+    """Spoils a file. Returns a text of what was done, and whether the result can be read."""
     data = folders.bytes_of(path)
     if rng.random() < 0.25:
         way = rng.choice(THINGS)
