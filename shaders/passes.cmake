@@ -1,6 +1,6 @@
 # Compiles every pass to SPIR-V in the variants that are declared here. ${spirv_dir}/passes.h then holds the code of
-# each variant (near_texel_spv) and for each pass the list of its variants (vkdose::spirv::near), of which the host
-# takes the one that suits the device and the world (host/vk/variant.h).
+# each variant (near_texel_spv), and for each pass the list of its variants (vkdose::spirv::near). The host takes the
+# variant that suits the device and the world (host/vk/variant.h).
 
 # The words that variants are named by, and the macros that each defines.
 set(macros_texel TEXEL_READS)                 # reads through texel-buffer views

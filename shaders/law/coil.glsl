@@ -7,8 +7,8 @@
 // wire further than `reach.x` from its own angle, where the slope is still positive: six steps are plenty, and a
 // failure is reported.
 //
-// The distance is formed in the polar frame, g^2 + 4 rho r_c sin^2(v/2) + dz^2, so that no large angle and no device
-// sine (2^-11 is all Vulkan promises) ever meets the overlap.
+// The distance is formed in the polar frame, g^2 + 4 rho r_c sin^2(v/2) + dz^2. So neither a large angle nor the sine
+// of the device (Vulkan promises only 2^-11) affects the overlap.
 #ifndef VKDOSE_LAW_COIL_GLSL
 #define VKDOSE_LAW_COIL_GLSL
 
@@ -23,7 +23,7 @@ struct CoilTouch {
     bool failed;      // Newton did not converge
 };
 
-// A series is read along its lines.
+// The formatter is off, so that each series stays readable line by line.
 // clang-format off
 /// sin and cos of half an angle |v| <= pi, by their series (errors below 1e-9).
 vec2 halfSinCos(float v) {
@@ -66,8 +66,8 @@ struct CoilView {
     bool nearEnd;
 };
 
-/// Rotation of the coil in turns at this step, in [-0.5, 0.5): start + step x increment in 64-bit fixed point, so that
-/// hours of turning lose nothing. Only the high word is needed.
+/// Rotation of the coil in turns at this step, in [-0.5, 0.5). It is start + step x increment in 64-bit fixed point, so
+/// that hours of turning lose no accuracy. Only the high word is needed.
 float coilTurn(uvec4 phase, uint step) {
     uint high, low, carry;
     umulExtended(phase.w, step, high, low);

@@ -68,7 +68,7 @@ Book bookContact(Exerted before, Exerted now, bool known, bool touching, vec4 st
         vec4(friction, 0.0), vec4(0.0), stored);
 }
 
-/// Books the first of a contact that was loaded touching.
+/// Books the first step of a contact that touched when it was loaded.
 Book bookLoaded(vec4 stored) { return Book(vec4(0.0), vec4(-stored.yzw, 0.0), vec4(stored.x, 0.0, 0.0, 0.0), stored); }
 
 #endif

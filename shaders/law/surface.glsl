@@ -72,8 +72,8 @@ Overlap tubeOverlap(SurfaceParams p, Sphere a) {
     return cylinderOverlap(p.radius.xy, d, p.pointLow.w, a.radius);
 }
 
-/// A wall along z that ends at `p.pointHigh.z`: beyond, its closest point lies on that end's edge. `endless` is the
-/// overlap with the same wall without an end.
+/// A wall along z that ends at `p.pointHigh.z`. Beyond the end, its closest point lies on the edge of that end.
+/// `endless` is the overlap with the same wall without an end.
 Overlap upToEnd(SurfaceParams p, Sphere a, Overlap endless) {
     precise float past = (a.high.z - p.pointHigh.z) + (a.low.z - p.pointLow.z);
     if (p.pointLow.w == 0.0 || past <= 0.0) return endless;
@@ -128,7 +128,8 @@ float surfaceGap(uint kind, SurfaceParams p, Sphere a) {
     return (kind == kPlane || kind == kTrough) && p.pointLow.w != 0.0 ? max(gap, -before - a.radius) : gap;
 }
 
-/// `kinds`: those that there are, a bit each. A constant when the pipeline is made, so that the others cost nothing.
+/// `kinds` has a bit for each kind of surface that there is. It is a constant when the pipeline is made, so that kinds
+/// that are absent cost nothing.
 Overlap surfaceOverlap(uint kinds, uint kind, SurfaceParams p, Sphere a) {
     bool ends = (kinds & kEndingWalls) != 0u;
     if ((kinds & (1u << kPlane)) != 0u && kind == kPlane)

@@ -1,5 +1,5 @@
-// Torsion friction: the scalar twin of sliding, about the normal. Twice the spring's sign is the same seen from either
-// particle, so one scalar serves the pair.
+// Torsion friction: the scalar twin of sliding, about the normal. The spring has the same sign seen from either
+// particle, because both the normal and the relative spin change sign. So one scalar serves the pair.
 #ifndef VKDOSE_LAW_TORSION_GLSL
 #define VKDOSE_LAW_TORSION_GLSL
 

@@ -10,7 +10,8 @@
 #include "pass/slot_books.glsl"
 #endif
 
-/// The turn that was touched at `angle`: the same turn moves far less than half a turn along the wire in a step.
+/// The turn that was touched at `angle`. In a step the contact with one turn moves far less than half a turn along the
+/// wire, so its angle identifies it.
 uint knownTurn(vec4 angles, uint met, float angle) {
     uint turn = kEmpty;
     for (uint t = 0u; t < kMaxTurns; ++t)
@@ -18,7 +19,7 @@ uint knownTurn(vec4 angles, uint met, float angle) {
     return turn;
 }
 
-/// Room for a new turn: one that no old contact may still claim, else any not taken in this step.
+/// Finds room for a new turn: a place that no old contact may still claim, else any place not taken in this step.
 uint freeTurn(vec4 angles, uint met) {
     uint turn = kEmpty;
     for (uint t = kMaxTurns; t > 0u; --t)

@@ -1,7 +1,7 @@
 #version 450
-// commit_lists: ends a refresh of the contact lists. Says how much each member's hold and sizes the dispatches over
-// them for the member that has most. One workgroup, each invocation for some of the members. Reads and writes the
-// controls.
+// commit_lists: ends a refresh of the contact lists. Notes how many contacts the lists of each member hold, and sizes
+// the dispatches over them for the member that has most. One workgroup, each invocation for some of the members. Reads
+// and writes the controls.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/buffers.glsl"
 

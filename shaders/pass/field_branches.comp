@@ -1,7 +1,7 @@
 #version 450
 // field_branches: the branch of every contact that touched in the last step, one contact per invocation.
-// Reads the state of before that step (the half that is not the source), entries, forces, which turns of the coil are
-// touched, the coil as it stood in step stepInBatch of the last batch; writes the branches (pass/field.glsl).
+// Reads the state before that step (the half that is not the source), entries, forces, the turns of the coil that are
+// touched, and the coil as it stood in step stepInBatch of the last batch. Writes the branches (pass/field.glsl).
 #extension GL_GOOGLE_include_directive : require
 #include "shared/buffers.glsl"
 #include "law/coil.glsl"

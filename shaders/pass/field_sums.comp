@@ -19,7 +19,7 @@ void addBranch(uint contact, vec3 from) {
     stress += outerProduct(branch.xyz * w, forces[contact].xyz);
 }
 
-/// Of the contacts whose first body particle i is, in the order of its links.
+/// Adds the contacts whose first body is particle i, in the order of its links.
 void addBranches(uint i) {
     vec3 from = offsetOf(1u - push.source, i);
     uvec4 range = ranges[rowRangeIndex(i)];

@@ -26,7 +26,7 @@ float weightAt(vec3 offset) {
     return sum > 0.0 ? 1.0 / (sum * field.cell.w) : 0.0;
 }
 
-/// Others that touched particle i in the last step.
+/// The number of other particles that touched particle i in the last step.
 float touching(uint i) {
     uvec4 range = ranges[rowRangeIndex(i)];
     float count = 0.0;

@@ -33,8 +33,8 @@ void prepare(uint slot, uint i, uint other) {
     for (uint part = 0u; part < kParts; ++part) carried[historyIndex(part, slot)] = vec4(0.0);
 }
 
-/// Whether before the next refresh the contact with a wall that ends at the front wall may become one with that with
-/// the rim or throat, or part from it. In front of the front wall itself it cannot.
+/// Whether the contact with a wall that ends at the front wall may, before the next refresh, become one with the
+/// contact with the rim or the throat, or part from it. In front of the front wall itself it cannot.
 bool joinsAtFront(Sphere me, float slack) {
     bool both = (surfaces & (1u << FRONT)) != 0u && bitCount(surfaces) > 1u;
     return joints() && both && length(me.high.xy) < frontSurface().radius.x + slack + 1e-7;

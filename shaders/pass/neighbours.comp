@@ -9,9 +9,9 @@
 
 uint row[kMaxRow];
 
-// Particles looked at for one row. Spheres of sizes that a row of kMaxRow holds stay far below. lavapipe ends all loops
-// of a subgroup after 65535 trips together, silently: 8 rows of this, with the loops that sort them, stay below as
-// well.
+// The most particles that are looked at for one row. Sizes of spheres for which kMaxRow is enough stay far below.
+// lavapipe silently ends all loops of a subgroup after 65535 trips together. 8 rows with this many visits, and the
+// loops that sort them, stay below this limit as well.
 const uint kMostVisits = 4096u;
 
 void insertSorted(uint j, uint count) {

@@ -1,7 +1,8 @@
 #version 450
 // sense_energy: sums the energy book, one record per workgroup (shared/layout.h, EnergyRecord), with the energies of
-// motion and gravity at the full step before the last kick. Reads both halves of the state, of which the other one is
-// where the last step started from, and the books of the contacts. push.opening tells that it was the opening step.
+// motion and gravity at the full step before the last kick. Reads both halves of the state; the last step started from
+// the half that is not the source. Reads the books of the contacts and push.opening, which says that the last step was
+// the opening one.
 // Writes the records and empties the books of the particles.
 #extension GL_GOOGLE_include_directive : require
 #define ENERGY_BOOK

@@ -59,7 +59,7 @@ void bookPair(ContactParams law, float springDt, uint slot, Body a, Body b, Over
     writeBook(slot, booked);
 }
 
-/// Motion of the particle against a wall that turns at `rate` about the z axis, at the contact of `e`, when the
+/// Velocity of the particle relative to a wall that turns at `rate` about the z axis, at the contact of `e`, when the
 /// particle's centre was at `centre`.
 vec3 wallVelocity(Exerted e, Body me, vec3 centre, float rate) {
     float lever = me.sphere.radius - 0.5 * e.rest.w;

@@ -46,8 +46,8 @@ Ray rayThrough(vec2 place) {
     return Ray(from, normalize(point - from));
 }
 
-/// Where a ray enters a sphere. The distance of its centre from the ray is squared, not that from the ray's origin, so
-/// that an origin far away costs no digits.
+/// Where a ray enters a sphere. The squared quantity is the distance of the centre from the ray, not that from the
+/// ray's origin, so that a far origin loses no digits.
 float enterSphere(Ray ray, vec3 centre, float radius) {
     vec3 to = centre - ray.origin;
     float along = dot(to, ray.way);
@@ -85,8 +85,8 @@ ivec3 cellOf(vec3 p) {
 
 bool isCut() { return dot(params.cut.xyz, params.cut.xyz) > 0.0; }
 
-/// The body in which the cut at `point` lies, if any. Of two spheres that overlap, the one on this side of their
-/// meeting.
+/// The body in which the cut lies at `point`, if any. Where two spheres overlap, it is the sphere on whose side of
+/// their meeting the point lies.
 Hit openedAt(vec3 point, float far) {
     Hit hit = Hit(kNever, kNothing, false);
     float deepest = 0.0;
@@ -152,8 +152,8 @@ Hit firstHit(Ray ray) {
     return hit;
 }
 
-/// How much of the sky a point sees past the spheres around it: each takes cos (r/d)^2, as a sphere of that size would
-/// from a point with nothing else around, and less towards the end of its reach.
+/// The part of the sky that a point sees past the spheres around it. Each sphere takes cos (r/d)^2, as it would from a
+/// point with nothing else around, and less towards the end of its reach.
 float openness(vec3 p, vec3 normal) {
     uvec4 part = cells[cellAt(cellOf(p))];
     float open = 1.0;
@@ -170,7 +170,7 @@ float openness(vec3 p, vec3 normal) {
 }
 
 vec3 wireNormal(vec3 p, uint piece) {
-    // The joint's angle goes on between the joints, and with it the centre line: no facets.
+    // The angle is interpolated between the joints, and the centre line follows from it, so that there are no facets.
     vec4 a = joints[piece], b = joints[piece + 1u];
     vec3 way = b.xyz - a.xyz;
     float share = clamp(dot(p - a.xyz, way) / dot(way, way), 0.0, 1.0), angle = mix(a.w, b.w, share);

@@ -32,8 +32,8 @@ layout(push_constant) uniform Push { StepPush push; };
     };
 #include "shared/tables.h"
 
-// Reading through views where the device is faster so: stateAt(at) is state[at], and likewise for every table that has
-// a view. The views' bindings come after those of the tables.
+// Some devices read faster through texel views. There stateAt(at) is state[at] read through the view, and likewise for
+// every table that has a view. The views' bindings come after those of the tables.
 #define TABLE(number, name, element, count, title)
 #define HEADED(number, name, element, count, title, head, headName)
 #ifdef TEXEL_READS
@@ -65,8 +65,8 @@ const uint kParts = 2u;
 const uint kRowAnchor = 0u;
 const uint kListAnchor = 1u;
 
-/// The member that this workgroup works for: a dispatch has a row of workgroups for each that is live. A run on its own
-/// is an ensemble of one, for which all that follows from this folds away.
+/// The member that this workgroup works for. A dispatch has a row of workgroups for each live member. A run on its own
+/// is an ensemble of one member; the compiler then removes all that depends on this.
 uint self;
 #define member members[self]
 #define control controls[self]
@@ -74,7 +74,7 @@ void openRow(uint row) { self = MEMBERS == 1u ? 0u : members[row].roster.x; }
 void openMember() { openRow(push.firstRow + gl_WorkGroupID.y); }
 
 // A member's parameters. lavapipe reads a value once for all invocations if they read it from the same place and the
-// place is known when the pipeline is made; else texel reads are faster.
+// place is known when the pipeline is made. Otherwise texel reads are faster.
 #ifdef TEXEL_READS
 #define OF_MEMBER(field, vector) \
     (MEMBERS == 1u ? member.field : texelFetch(membersView, int(kMemberVectors * self + (vector))))

@@ -1,5 +1,5 @@
 // The tables of the field passes (host/model/field.h), in the manner of shared/tables.h. A device need not bind more
-// than those, so that each takes the binding of a table that no field pass uses.
+// tables than those of shared/tables.h, so each of these takes the binding of a table that no field pass uses.
 #ifndef PARAMETERS
 #define PARAMETERS TABLE
 #endif

@@ -30,15 +30,16 @@ SHARED_CONST kFirstView = kTables;
 // --- limits -------------------------------------------------------------------------------------------------------
 SHARED_CONST kMaxSurfaces = 28u;
 SHARED_CONST kMaxTurns = 4u;  // of the coil that one particle touches at once
-// Of a contact with a surface an entry holds the surface, and above these bits how many slots its invocation works on.
+// The entry of a contact with a surface holds the surface in these bits. The bits above hold the number of slots that
+// its invocation works on.
 SHARED_CONST kSurfaceBits = 5u;
 SHARED_CONST kUnrolledSurfaces = 8u;  // surfaces whose kind is a specialisation constant; more go through a slower loop
 SHARED_CONST kMaxRow = 64u;           // neighbours per particle
 SHARED_CONST kMaxLinks = 96u;         // contacts per particle: a row, every surface, the coil
 SHARED_CONST kEmpty = 0xffffffffu;    // end of a cell's list
 SHARED_REAL kNoTurn = 1e30f;          // wire angle in the place of a coil turn that is not touched
-// Slack: how far a particle may move before the contact lists are made anew; with half the skin of the rows as unit.
-// A particle at rest needs next to none; one that falls gets room for a while.
+// Slack: how far a particle may move before the contact lists are made anew. Its unit is half the skin of the rows. A
+// particle at rest needs next to none; a falling one gets room for a while.
 SHARED_REAL kLeastSlack = 0.0067f;
 SHARED_REAL kMostSlack = 0.2f;
 SHARED_REAL kSlackSteps = 256.0f;  // steps at the present speed
@@ -177,8 +178,8 @@ struct SensorRecord {
 };
 
 // --- the energy book (host/backend/backend.h, EnergyBook), kept only where the world asks for it [J] ---------------
-// vec4 book[3 fields][particles], then vec4 book[3 fields][slots]: of the contacts, which book to their first body. A
-// particle's book sums since the last sensing, a contact's holds the last step.
+// vec4 book[3 fields][particles], then vec4 book[3 fields][slots] of the contacts, which book to their first body. The
+// book of a particle sums since the last sensing; the book of a contact holds the last step.
 SHARED_CONST kBookNormal = 0u;  // plastic, adhesive, viscous, numerical loss
 // sliding, rolling, torsion loss; of a particle: work of the coil, of a contact: loaded
 SHARED_CONST kBookSliders = 1u;

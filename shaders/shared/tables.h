@@ -1,6 +1,7 @@
-// The tables on the device: one line each, from which GLSL (shared/buffers.glsl) and C++ (host/backend/vulkan/tables.h,
-// passes.h) take their bindings, sizes, views, reading functions and byte counts. Whoever includes this file defines
-// TABLE before, and where they differ from it the kinds below. shaders/README.md tells who writes and reads each table.
+// The tables on the device, one line each. GLSL (shared/buffers.glsl) and C++ (host/backend/vulkan/tables.h, passes.h)
+// take their bindings, sizes, views, reading functions and byte counts from these lines. A file that includes this one
+// defines TABLE before, and the kinds below where they differ from TABLE. shaders/README.md says who writes and reads
+// each table.
 //
 //   TABLE(binding, name, element, count, title)                    elements, none of which is read through a view
 //   VIEWED(binding, name, element, count, title)                   read through a texel view on devices that gain by it
@@ -21,15 +22,15 @@
 
 // [2 halves][2 couples][particles][2 fields]: layout.h, stateOffset.
 VIEWED(0, state, vec4, 2 * particles * kFields, the particle state)
-// Rows: [canisters][rowEntries]: of every particle the others within reach and skin, ascending. Then links:
-// [canisters][linkEntries]: of every particle the contacts that it takes part in: with other particles by ascending
-// index, with surfaces, with the coil. A link is slot << 1, plus 1 for the contact's second body.
+// Rows: [canisters][rowEntries]: for every particle, the others within reach and skin, ascending. Then links:
+// [canisters][linkEntries]: for every particle, the contacts that it takes part in, ordered as other particles by
+// ascending index, surfaces, coil. A link is slot << 1, plus 1 for the contact's second body.
 VIEWED(1, rows, uint, canisters * (rowEntries + linkEntries), the neighbour rows)
 // [particles]: row (first, count), links (first, count). Then [particles]: own pair slots (first, count), own surface
 // slots (first, count).
 VIEWED(2, ranges, uvec4, 2 * particles, the ranges of rows)
-// [pair and surface slots][2]: History of law/contact.glsl, zero while the two do not touch. With the energy book
-// follows [3][slots]: Exerted of law/energy.glsl.
+// [pair and surface slots][2]: History of law/contact.glsl, zero while the two bodies do not touch. With the energy
+// book, [3][slots] follows: Exerted of law/energy.glsl.
 VIEWED(3, history, vec4, historyParts * springSlots, the contact history)
 // [turns][parts][particles]: as the history above. Then [particles]: wire angle of each turn, kNoTurn if it is free.
 // Empty without a coil.
@@ -44,8 +45,8 @@ TABLE(7, cells, uint, canisters * cellHeads + particles, the cell table)
 VIEWED(8, anchors, vec4, 2 * particles, the anchors)
 // [canisters][workgroups over a canister's particles].
 TABLE(9, records, GroupRecord, canisters * groups, the records of the sensors)
-// [slots]: particle; the other particle, or the surface and the works above it (kSurfaceBits). Then [slots]: those that
-// a refresh prepares.
+// [slots]: the particle; then the other particle, or the surface with the number of its works in the bits above it
+// (kSurfaceBits). Then [slots]: the entries that a refresh prepares.
 VIEWED(10, entries, uvec2, 2 * slots, the contact lists)
 // [fields][particles]; then [fields][slots]: layout.h, kBookNormal. Empty without an energy book.
 TABLE(11, books, vec4, energyBook * kBookFields * (particles + slots), the energy book)
