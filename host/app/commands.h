@@ -1,5 +1,6 @@
 #pragma once
-// One function per command of the program. Each returns an exit code and throws what command_line.cpp turns into one.
+// One function per command of the program. Each returns an exit code and throws errors that command_line.cpp turns into
+// one.
 
 #include <cstdint>
 #include <filesystem>

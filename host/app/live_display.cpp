@@ -90,7 +90,7 @@ void LiveDisplay::draw() {
     // ends.
     std::string text = "\033[?25l";
     if (columns_ != 0 && (size.ws_col != columns_ || size.ws_row != rows_))
-        text += "\033[H\033[2J";  // lines have been broken anew: nobody knows where the picture stands
+        text += "\033[H\033[2J";  // the terminal has wrapped lines anew, so the place of the picture is unknown
     else if (lines_ > 0)
         text += fmt::format("\033[{}A", lines_);
     state_.progress = progressText(progress_);

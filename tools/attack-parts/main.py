@@ -91,7 +91,7 @@ def attempt(ground, tally, keep, name, number, last):
     t = Try(ground, name, number)
     try:
         KINDS[name].attempt(t)
-    except Exception:  # a fault of the attack's own is no reason to stop, nor to be overlooked
+    except Exception:  # a fault of the attack itself does not stop it, but is reported
         if ground.over.is_set():
             return
         t.found("the attack itself failed: " + traceback.format_exc())
