@@ -21,7 +21,8 @@ namespace vkdose::geometry {
 
 namespace {
 
-/// Two minima of different turns are never this close in phase; two results that are, are one minimum [rad].
+/// Minima of different turns are always further apart in phase than this. Two results closer than this are the same
+/// minimum [rad].
 constexpr double kSameMinimum = 1e-8;
 
 /// A query point in the wire's frame.
@@ -47,13 +48,16 @@ View viewFrom(const Coil& coil, double angle, const Vec3& q) {
 
 /// Root v of v + eps sin v = m inside the window; the caller has made sure there is one.
 double rootInWindow(double eps, double m) {
-    constexpr int kMaxSteps = 200;  // quadratic as a rule; by halves towards the window's edge, where f' vanishes
+    // Newton converges quadratically as a rule. Towards the window's edge, where f' vanishes, a step only halves the
+    // error, so many steps are allowed.
+    constexpr int kMaxSteps = 200;
     const double target = std::abs(m);
     double v = target / (1 + eps);
     for (int step = 0; step < kMaxSteps; ++step) {
         const double shortfall = target - (v + eps * std::sin(v));
         const double slope = 1 + eps * std::cos(v);
-        // Rounding alone makes the climb stop, reach the root from above or meet a slope of zero.
+        // In exact arithmetic the climb goes on. Only rounding can stop it, take it past the root or make the slope
+        // zero.
         if (shortfall <= 0 || slope <= 0 || v + shortfall / slope <= v) return std::copysign(v, m);
         v += shortfall / slope;
     }
@@ -66,7 +70,7 @@ CoilTouch touchAt(const Coil& coil, double angle, const Vec3& q, double s) {
     const Vec3 outward(std::cos(psi), std::sin(psi), 0);
     const Vec3 centre = coil.radius * outward + Vec3(0, 0, coil.zStart + s);
     const double away = glm::length(q - centre);
-    const Vec3 normal = away > 0 ? (q - centre) / away : outward;  // on the centre line every direction is as good
+    const Vec3 normal = away > 0 ? (q - centre) / away : outward;  // on the centre line all directions are equal
 
     CoilTouch touch{};
     touch.point = centre + coil.wireRadius * normal;
@@ -81,7 +85,8 @@ void interiorMinima(const View& view, double low, double high, std::vector<doubl
     const auto keep = [&](double k) {
         const double m = view.phase - 2 * kPi * k;
         const double s = view.height + (rootInWindow(view.eps, m) - m) / view.kappa;
-        // A minimum at the very end must not fall between this test and the one of the ends for want of a digit.
+        // The tolerance keeps a minimum at the very end: without it, rounding could make both this test and the test of
+        // the ends miss it.
         if (s >= low - kSameMinimum / std::abs(view.kappa) && s <= high + kSameMinimum / std::abs(view.kappa))
             found.push_back(glm::clamp(s, low, high));
     };
@@ -127,7 +132,7 @@ void requireFinite(const Vec3& q, double angle) {
 
 std::vector<CoilTouch> touches(const Coil& coil, double angle, const Vec3& q, double reach) {
     requireFinite(q, angle);
-    const double span = reach + coil.wireRadius;  // between the point and the centre line
+    const double span = reach + coil.wireRadius;  // largest distance from the point to the centre line
     const double height = q.z - coil.zStart;
     const double rho = std::hypot(q.x, q.y);
     std::vector<CoilTouch> found;
@@ -153,9 +158,9 @@ CoilTouch closestPoint(const Coil& coil, double angle, const Vec3& q) {
 int maxTouches(const Coil& coil, double a) {
     const auto whole = [](double turns) { return static_cast<int>(std::min(std::floor(turns), 1e9)); };
     const double reach = a + coil.wireRadius;
-    const double span = std::min(2 * reach, coil.length);  // of the touching wire points along z
-    // A wire point within reach < radius is less than asin(reach/radius) off the sphere's own angle, so that two of
-    // them, on different turns, differ by at least this much along z.
+    const double span = std::min(2 * reach, coil.length);  // extent along z of the wire points that can touch
+    // A wire point within reach < radius is less than asin(reach/radius) off the sphere's own angle. Two such points on
+    // different turns therefore differ along z by at least this much.
     if (reach < coil.radius) {
         const double separation = coil.pitch * (1 - std::asin(reach / coil.radius) / kPi);
         return whole(span / separation) + 1;

@@ -20,8 +20,8 @@ struct Coil {
     int hand = 1;           ///< +1 right-handed, -1 left-handed
 };
 
-/// A local minimum of the distance to the wire, one per turn in reach. `wireAngle` = hand * 2 pi s / pitch
-/// identifies the turn: it moves continuously with the contact, and two turns differ by about 2 pi.
+/// A local minimum of the distance to the wire. There is one per turn in reach. `wireAngle` = hand * 2 pi s / pitch
+/// identifies the turn: it changes continuously as the contact moves, and differs by about 2 pi between two turns.
 struct CoilTouch : Closest {
     double wireAngle;
 };
@@ -31,7 +31,7 @@ struct CoilTouch : Closest {
 /// throws std::logic_error if it does not converge.
 std::vector<CoilTouch> touches(const Coil& coil, double angle, const Vec3& q, double reach);
 
-/// Closest point of the whole wire, however far.
+/// Closest point of the whole wire, at any distance.
 CoilTouch closestPoint(const Coil& coil, double angle, const Vec3& q);
 
 /// Upper bound on how many turns a sphere of radius `a` can touch at once.

@@ -10,7 +10,8 @@ namespace vkdose::geometry {
 
 namespace {
 
-/// Corners around the centre line at wire coordinate s, anticlockwise for who looks against its direction.
+/// Corners around the centre line at wire coordinate s. They go anticlockwise as seen by a viewer who looks against the
+/// line's direction.
 std::vector<Vec3> ring(const Coil& coil, double s, int around) {
     const double kappa = coil.hand * 2 * kPi / coil.pitch, psi = coil.startAngle + kappa * s;
     const Vec3 outwards(std::cos(psi), std::sin(psi), 0);

@@ -1,5 +1,5 @@
 #pragma once
-// The coil as triangles, for programs that know walls by their mesh only. Nothing here computes with it.
+// The coil as triangles, for other programs that take walls only as meshes. vkdose itself does not compute with it.
 
 #include <array>
 #include <string>

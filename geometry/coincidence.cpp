@@ -7,10 +7,10 @@ namespace vkdose::geometry {
 
 namespace {
 
-constexpr int kSeeds = 7;         // points to start from, along each edge of the box
-constexpr int kRounds = 60;       // of projection onto the two surfaces in turn
-constexpr double kNear = 0.02;    // of the radius
-constexpr double kAlike = 0.999;  // cosine of 2.5 degrees
+constexpr int kSeeds = 7;         // number of starting points along each edge of the box
+constexpr int kRounds = 60;       // number of projections onto both surfaces in turn
+constexpr double kNear = 0.02;    // largest difference of a distance from the radius, as a fraction of the radius
+constexpr double kAlike = 0.999;  // cosine of 2.5 degrees, the largest angle between the normals
 
 bool inBox(const Vec3& q, const Vec3& low, const Vec3& high) {
     return glm::all(glm::greaterThanEqual(q, low)) && glm::all(glm::lessThanEqual(q, high));
@@ -24,7 +24,8 @@ Vec3 ontoSurface(const Surface& surface, double radius, const Vec3& q) {
 
 /// Where a sphere that starts at `q` touches both surfaces in the same place, if it gets there.
 std::optional<Vec3> commonPlace(const Surface& a, const Surface& b, double radius, Vec3 q) {
-    // Projecting in turn converges to where the sphere touches both, along a tangent slowly, but near enough.
+    // Projection onto the two in turn converges to a place where the sphere touches both. It converges slowly where the
+    // surfaces are tangent, but comes near enough.
     for (int n = 0; n < kRounds; ++n) q = ontoSurface(b, radius, ontoSurface(a, radius, q));
     const Closest toA = closestPoint(a, q), toB = closestPoint(b, q);
     const bool touchesBoth =

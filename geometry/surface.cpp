@@ -6,7 +6,7 @@ namespace vkdose::geometry {
 
 namespace {
 
-/// Unit vector along `v`, or `fallback` where `v` is zero and every direction is as close.
+/// Unit vector along `v`, or `fallback` if `v` is zero, where all directions are equal.
 Vec3 direction(const Vec3& v, const Vec3& fallback) {
     const double size = glm::length(v);
     return size > 0 ? v / size : fallback;
@@ -35,7 +35,8 @@ Closest closest(const Plane& plane, const Vec3& q) {
 }
 
 Closest closest(const Trough& trough, const Vec3& q) {
-    // Above the axis the side walls, below it the half cylinder: both look outwards along a unit vector.
+    // Above the axis the sphere meets the side walls, below it the half cylinder. `outward` is the unit vector that
+    // points to either of them.
     const Vec3 outward = q.y >= 0 ? Vec3(q.x >= 0 ? 1 : -1, 0, 0) : glm::normalize(Vec3(q.x, q.y, 0));
     const double distance = trough.halfWidth - glm::dot(q, outward);
     return upTo(trough.end, {q + distance * outward, -outward, distance}, q);
@@ -90,8 +91,8 @@ Joint jointContact(const Closest& wall, const Closest& front, double radius) {
     const double deeper = wallDeeper ? wall.distance : front.distance;
     const double shallower = wallDeeper ? front.distance : wall.distance;
     const double cosine = glm::dot(wall.normal, front.normal);
-    // Seen along the deeper's normal the sphere's centre is `deeper` above that contact's plane, the other's closest
-    // point shallower * cosine below the centre.
+    // Heights are measured along the normal of the deeper contact. The sphere's centre is `deeper` above that contact's
+    // plane. The closest point of the other contact is shallower * cosine below the centre.
     const double height = deeper - shallower * cosine;
     if (cosine < kSameDirection && height >= radius - deeper) return Joint::Apart;
     return wallDeeper ? Joint::Wall : Joint::Front;

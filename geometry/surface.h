@@ -66,9 +66,10 @@ enum class Joint {
     Front   ///< one contact: that with the front wall, its rim or its throat
 };
 
-/// Two surfaces that go on into each other are one to a sphere, and so is a ledge that the contact's flat covers: only
-/// the deeper contact counts. That is so if their normals are within 20 degrees, or if the shallower's closest point
-/// lies no higher above the deeper's tangent plane than the overlap. `radius` of the sphere [m]; both must touch it.
+/// Only the deeper contact counts where two surfaces act on a sphere as one: they continue each other, or form a ledge
+/// that the flat of the contact covers. The first holds if their normals differ by at most 20 degrees. The second holds
+/// if the closest point of the shallower contact lies no higher above the tangent plane of the deeper one than the
+/// overlap. `radius` is that of the sphere [m]; both surfaces must touch it.
 Joint jointContact(const Closest& wall, const Closest& front, double radius);
 
 }  // namespace vkdose::geometry

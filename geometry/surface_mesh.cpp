@@ -72,7 +72,8 @@ class Mesher {
         extrude(circle, begin * tube.axis, end * tube.axis);
     }
 
-    /// The wall around the hole: between the hole's edge and the wall's own, seen from the axis.
+    /// Adds the wall around the hole: as seen from the axis, the part between the edge of the hole and the outer edge
+    /// of the wall.
     void add(const Front& front) {
         const Vec3 centre(0, 0, front.z);
         const auto edge = [&](double angle) {
@@ -100,7 +101,8 @@ class Mesher {
     std::vector<Triangle> mesh() { return std::move(mesh_); }
 
   private:
-    /// A trough is convex: the room within it is that of its tangents, at the corners of its mesh and between.
+    /// A trough is convex, so the room inside it is the room inside its tangent planes. They are taken at the corners
+    /// of its mesh and between them.
     void confine(const Trough& trough) {
         for (int i = 0; i <= around_; ++i) {
             const double angle = kPi + kPi * i / around_;
@@ -120,7 +122,7 @@ class Mesher {
         const Vec3 side = 2 * scale_ * across(plane.normal), other = glm::cross(plane.normal, side);
         Corners corners{centre - side - other, centre + side - other, centre + side + other, centre - side + other};
         for (const HalfSpace& h : room_) {
-            // A plane that is a face of the room itself is in it.
+            // The tolerance keeps a plane that is itself a face of the room.
             const auto beyond = [&](const Vec3& x) { return glm::dot(h.normal, x) - h.offset - 1e-9 * scale_; };
             Corners kept;
             for (std::size_t i = 0; i < corners.size(); ++i) {

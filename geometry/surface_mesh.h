@@ -1,5 +1,5 @@
 #pragma once
-// The fixed surfaces as triangles, to be looked at. Nothing computes with them.
+// The fixed surfaces as triangles, for pictures only. No computation uses them.
 
 #include <vector>
 
@@ -8,9 +8,9 @@
 
 namespace vkdose::geometry {
 
-/// The surfaces as far as they lie in the box from `low` to `high` [m], and, if one of them is a trough, in it. A
-/// throat reaches out of the box by its length; a tube of finite length is whole. Round ones have `around` corners to a
-/// turn, which lie on them. Which way a triangle faces means nothing.
+/// The parts of the surfaces inside the box from `low` to `high` [m] and, if one of them is a trough, inside the
+/// trough. A throat reaches out of the box by its length. A tube of finite length is shown whole. Round surfaces get
+/// `around` corners to a turn, which lie on the surface. The orientation of a triangle means nothing.
 std::vector<Triangle> surfaceMesh(const std::vector<Surface>& surfaces, const Vec3& low, const Vec3& high,
                                   int around = 96);
 

@@ -1,6 +1,6 @@
 #pragma once
-// The promises of a backend: it holds a world and its particles, advances them n steps, and gives reduced sensors and
-// state back. Coarse on purpose: nothing here is called inside the step loop.
+// The promises of a backend. A backend holds a world and its particles, advances them n steps, and returns reduced
+// sensors and state. The interface is coarse on purpose, so that no function of it is called inside the step loop.
 //
 // One step (leapfrog = velocity Verlet with half-step velocities in the contact law):
 //   forces from x(n), v(n-1/2); springs advance by v dt; v(n+1/2) = v(n-1/2) + dt a; x(n+1) = x(n) + dt v(n+1/2).
@@ -23,14 +23,15 @@ namespace vkdose {
 enum class Region { Canister = 0, Throat = 1, Dosed = 2, Lost = 3 };
 inline constexpr int kRegions = 4;
 
-/// Where the energy is and where it went, kept if World::energyBook asks for it [J]. Energies belong to the full step n
-/// at which forces last acted: positions x(n), springs as they were then, and the product of the half-step velocities
-/// around it, m/2 v(n-1/2).v(n+1/2). With these the leapfrog obeys an exact balance (exact apart from rounding):
+/// The energies of the system and their changes [J]. The book is kept if World::energyBook asks for it. Energies belong
+/// to the full step n at which forces last acted: they use the positions x(n), the springs at that time, and the
+/// product of the half-step velocities around it, m/2 v(n-1/2).v(n+1/2). With these, the leapfrog obeys an exact
+/// balance (exact apart from rounding):
 ///
 ///   change of (motion + potential + elastic) = loaded + coilWork - all losses - left,
 ///
-/// because summation by parts turns the work of a contact force into (F(n-1) + F(n))/2 . v(n-1/2) dt, which is what
-/// each contact books, for every part of its force, against its own relative motion.
+/// The reason is that summation by parts turns the work of a contact force into (F(n-1) + F(n))/2 . v(n-1/2) dt. Each
+/// contact books this work for every part of its force, with its own relative motion as the velocity.
 struct EnergyBook {
     // At the instant.
     double kinetic = 0, rotational = 0;
@@ -39,16 +40,17 @@ struct EnergyBook {
     Vec3 momentum{0};         ///< of active particles, half-step velocities [kg m/s]
     Vec3 angularMomentum{0};  ///< about the origin, spins included [kg m2/s]
 
-    // During the call. A loss is what a part of the force took from the motion and did not store in its spring.
+    // During the call. A loss is the energy that a part of the force took from the motion and did not store in its
+    // spring.
     double plastic = 0;   ///< by the normal force off the adhesive branch
     double adhesive = 0;  ///< by the normal force on the adhesive branch, and where k_c falls
     double viscous = 0;   ///< by normal damping, and by the dashpots of sliders that stick
     double sliding = 0, rolling = 0,
            torsion = 0;    ///< by slipping sliders, and by springs that snap when a contact opens
-    double numerical = 0;  ///< the time step's own: between the true start or end of a contact and the nearest step
+    double numerical = 0;  ///< by the time step: between the true start or end of a contact and the nearest step
     double coilWork = 0;   ///< done by the coil on the particles
-    double left = 0;       ///< carried off by particles that were dosed or lost, energy of their contacts included
-    double loaded = 0;     ///< of the state loaded, contacts included; in the call that makes the first step
+    double left = 0;       ///< taken along by particles that were dosed or lost, energy of their contacts included
+    double loaded = 0;     ///< of the loaded state, contacts included; booked in the call that makes the first step
 };
 
 /// Reduced on the device at the end of an `advance`.
@@ -58,7 +60,7 @@ struct Sensors {
     double kineticEnergy = 0;                     ///< translational, active particles, half-step velocities [J]
     double rotationalEnergy = 0;                  ///< [J]
     double coilTorque = 0;       ///< torque about +z that the particles exert on the coil, mean over the call [N m]
-    double throatMomentumZ = 0;  ///< sum of m v_z in the throat; over its mass: the outlet velocity [kg m/s]
+    double throatMomentumZ = 0;  ///< sum of m v_z in the throat; divided by the mass there: outlet velocity [kg m/s]
     double maxOverlapRatio = 0;  ///< largest overlap over smaller radius seen during the call [-]
     std::uint64_t rebuilds = 0;  ///< neighbour-list builds since load
     std::optional<EnergyBook> energy;  ///< if the world asks for it and a step has been made since load
@@ -92,8 +94,8 @@ class Backend {
     /// NaN, a full table or an overlap above the world's limit, naming the particle and the step.
     virtual Sensors advance(std::uint32_t steps, double coilRate) = 0;
 
-    /// Everything the next `advance` depends on, beside the world and the radii: restored, the run goes on with the
-    /// same bits as if it had not been interrupted. Take it between calls of `advance`.
+    /// Everything that the next `advance` depends on, except the world and the radii. After `restore` the run goes on
+    /// with the same bits as if it had not been interrupted. Take it between calls of `advance`.
     virtual Record snapshot() const = 0;
 
     /// Puts back what `snapshot` gave, on top of a `load` of the same world and radii (and a `setLaw` if there was
@@ -103,9 +105,9 @@ class Backend {
     virtual Particles particles() const = 0;
     virtual std::vector<Contact> contacts() const = 0;
 
-    /// Coarse-grained fields of what is active now, at the points of the grid; only these come back from a device.
-    /// Forces are those of the last step made since load or restore, none before any. Throws RunError if the request
-    /// cannot be met (faultOf).
+    /// Coarse-grained fields of the particles that are active now, at the points of the grid. A device returns only
+    /// these. Forces are those of the last step made since load or restore; before any step there are none. Throws
+    /// RunError if the request cannot be met (faultOf).
     virtual FieldPoints fields(const FieldRequest& request) = 0;
 
     /// Rotation of the coil about +z since load [rad].

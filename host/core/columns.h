@@ -21,20 +21,21 @@
 
 namespace vkdose {
 
-/// A column as people are told of it.
+/// Name, unit and meaning of a column, as manual and messages show them.
 struct ColumnText {
     std::string name;
     std::string unit;  ///< "s", "kg"; "1" for a number without a unit, "" for a word
     std::string meaning;
 };
 
-/// An enumeration that stands in tables as a word: a specialisation gives `names`, in the order of its values.
+/// An enumeration that tables show as a word. A specialisation gives the words as `names`, in the order of its values.
 template <class E>
 struct Words;
 
-inline constexpr int kAllDigits = 0;  ///< as many as it takes to read the same number back
+inline constexpr int kAllDigits = 0;  ///< as many digits as are needed to read the same number back
 
-/// Goes from a row to what a column shows: each step is a member, a member function or the index of an element.
+/// Goes from a row to the value that a column shows. Each step is a member, a member function or the index of an
+/// element.
 template <auto Step, auto... Rest, class R>
 constexpr decltype(auto) follow(R&& row) {
     using S = decltype(Step);
@@ -50,7 +51,7 @@ constexpr decltype(auto) follow(R&& row) {
         return next(row);
     } else if constexpr (std::is_lvalue_reference_v<decltype(next(row))>) {
         return follow<Rest...>(next(row));
-    } else {  // part of a value that a function returned: by value
+    } else {  // a part of a value that a function returned is returned by value, because that value does not last
         const auto value = next(row);
         return std::decay_t<decltype(follow<Rest...>(value))>(follow<Rest...>(value));
     }
@@ -61,9 +62,9 @@ struct Column {
     const char* name;
     const char* unit;     ///< as in ColumnText
     const char* meaning;  ///< one sentence
-    int digits = 9;       ///< significant ones of a number that is not whole, or kAllDigits
+    int digits = 9;       ///< significant digits of a number that is not whole, or kAllDigits
 
-    /// Computed from other members: written, but neither stored nor read.
+    /// Whether the value is computed from other members. It is then written, but neither stored nor read.
     static constexpr bool kComputed = (std::is_member_function_pointer_v<decltype(Path)> || ...);
 
     template <class R>
@@ -83,7 +84,7 @@ constexpr std::tuple<C...> columns(C... list) {
     return std::tuple<C...>(list...);
 }
 
-/// The columns of a type as those of one that holds it as its member `Member`.
+/// Turns a column of a type into a column of a type that holds the first as its member `Member`.
 template <auto Member, auto... Path>
 constexpr Column<Member, Path...> within(const Column<Path...>& c) {
     return {c.name, c.unit, c.meaning, c.digits};
@@ -145,7 +146,8 @@ std::string csvRow(const std::tuple<C...>& table, const R& row) {
     return line.substr(1);
 }
 
-/// Sets a value from the text in a table; false if that is none of its kind (a number is then NaN or 0).
+/// Sets a value from the text in a table. Returns false if the text is not of the value's kind; a number is then NaN
+/// or 0.
 template <class T>
 bool readCell(const std::string& text, T& value) {
     if constexpr (std::is_enum_v<T>) {
@@ -169,7 +171,7 @@ bool readCell(const std::string& text, T& value) {
     }
 }
 
-/// Sets a row from its texts, which `text(name)` gives; those of a wrong kind are told to `wrong(name)`.
+/// Sets a row from its texts, which `text(name)` gives. Calls `wrong(name)` for each text of a wrong kind.
 template <class... C, class R, class Text, class Wrong>
 void readRow(const std::tuple<C...>& table, R& row, const Text& text, const Wrong& wrong) {
     forEachColumn(table, [&](const auto& c) {
@@ -178,7 +180,8 @@ void readRow(const std::tuple<C...>& table, R& row, const Text& text, const Wron
     });
 }
 
-/// A row as numbers to store: whole ones, words and truths in one list, the others in another, in the table's order.
+/// A row as numbers to store, in the table's order. One list holds whole numbers, words and booleans, the other the
+/// remaining numbers.
 struct StoredRow {
     std::vector<std::uint64_t> counts;
     std::vector<double> figures;
@@ -196,7 +199,7 @@ void store(const std::tuple<C...>& table, const R& row, StoredRow& into) {
     });
 }
 
-/// How many of each a row has.
+/// How many numbers a row adds to each list of StoredRow.
 template <class R, class... C>
 StoredRow storedShape(const std::tuple<C...>& table) {
     StoredRow shape;
@@ -204,7 +207,7 @@ StoredRow storedShape(const std::tuple<C...>& table) {
     return shape;
 }
 
-/// The row that was stored from these places on, which are moved behind it.
+/// Reads the row stored from these places on, and moves the places behind it.
 template <class... C, class R>
 void load(const std::tuple<C...>& table, R& row, const std::uint64_t*& counts, const double*& figures) {
     forEachColumn(table, [&](const auto& c) {

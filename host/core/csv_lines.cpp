@@ -17,8 +17,8 @@ std::optional<double> readNumber(std::string_view text) {
     return value;
 }
 
-/// A text that a spreadsheet takes for a formula when it stands in a cell, behind any number of apostrophes. A number
-/// is none, whatever its sign.
+/// Whether a spreadsheet would take this text in a cell for a formula, perhaps behind some apostrophes. A number with a
+/// sign is not a formula.
 bool isFormula(std::string_view field) {
     field.remove_prefix(std::min(field.find_first_not_of('\''), field.size()));
     return !field.empty() && std::string_view("=+-@\t").find(field.front()) != std::string_view::npos &&

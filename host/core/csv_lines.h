@@ -1,5 +1,5 @@
 #pragma once
-// The lines of a CSV and their fields: the only place that takes them apart or puts them together.
+// The lines of a CSV and their fields. No other place takes them apart or puts them together.
 
 #include <istream>
 #include <optional>
@@ -11,16 +11,16 @@ namespace vkdose {
 
 using Row = std::vector<std::string>;
 
-/// One line, without its end: fields in quotes where they need them. A line break in a field becomes a blank: a row
-/// stays on a line. A text that a spreadsheet would compute (it begins with = + - @ or a tab, and is no number) gets an
-/// apostrophe in front, as is the custom.
+/// One line, without its line break. Fields that need quotes get them. A line break in a field becomes a blank, so that
+/// a row stays on one line. A text that a spreadsheet would compute (it begins with = + - @ or a tab, and is no number)
+/// gets an apostrophe in front, as is the custom.
 std::string csvLine(const Row& fields);
 
-/// Takes a line apart; nothing if it is not CSV (a stray quote). Blanks around a field without quotes do not count, nor
-/// does the apostrophe that keeps a text from being a formula.
+/// Takes a line apart. Returns nothing if it is not CSV (a stray quote). Blanks around a field without quotes are
+/// dropped, and so is the apostrophe that keeps a text from being a formula.
 std::optional<Row> csvFields(std::string_view line);
 
-/// Goes through a CSV line by line, so that every fault has its line.
+/// Reads a CSV line by line, so that a message about a fault can name its line.
 class CsvLines {
   public:
     explicit CsvLines(std::istream& stream) : stream_(stream) {}

@@ -11,8 +11,8 @@
 
 namespace vkdose {
 
-/// A last line without an end may be half a line in a file that a program still writes; in one that a person wrote it
-/// is whole.
+/// How to take a last line without a line break. In a file that a program still writes it may be half a line (Growing).
+/// In a file that a person wrote it is a whole line.
 enum class LastLine { Growing, Whole };
 
 class Table {
@@ -23,8 +23,8 @@ class Table {
     /// Throws CaseError, naming the line, if the file cannot be read, is not CSV, or has a row of another length.
     static Table read(const std::filesystem::path& file, LastLine last = LastLine::Growing);
 
-    /// The whole lines of a table whose writer may have been killed: one that lacks its end or a field is left out. An
-    /// empty table if there is no such file.
+    /// Reads the whole lines of a table whose writer may have been killed. A line that lacks its end or a field is left
+    /// out. The table is empty if there is no such file.
     static Table salvage(const std::filesystem::path& file);
 
     const Row& names() const { return names_; }
@@ -50,7 +50,7 @@ class Table {
   private:
     struct Line {
         Row fields;
-        int number = 0;  ///< in the file; 0: it comes from none
+        int number = 0;  ///< of the line in the file; 0: the row does not come from a file
     };
     std::size_t place(std::string_view name) const;
 

@@ -8,7 +8,7 @@ namespace vkdose {
 
 namespace {
 
-/// Long enough to recognise what was written, cut where a character of UTF-8 begins.
+/// Shortens a text, but keeps enough to recognise it. The cut is made where a character of UTF-8 begins.
 std::string shortened(const std::string& text) {
     constexpr std::size_t kShown = 120;
     if (text.size() <= kShown) return text;

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Of what is there but is no file: "a pipe", "a device", ...
+/// Name for something at a path that is not a regular file: "a pipe", "a device", ...
 const char* kindOf(fs::file_type type) {
     switch (type) {
         case fs::file_type::directory:
@@ -36,7 +36,7 @@ const char* kindOf(fs::file_type type) {
     }
 }
 
-/// Writes into what is open and closes it; false, with errno set, if that fails.
+/// Writes into an open file and closes it. Returns false, with errno set, if that fails.
 bool writeAll(int handle, std::string_view content, bool sync) {
     bool good = true;
     for (std::size_t done = 0; good && done < content.size();) {
@@ -51,7 +51,7 @@ bool writeAll(int handle, std::string_view content, bool sync) {
     return good && closed;
 }
 
-/// Where a chain of links ends, whether or not a file is there.
+/// The path at the end of a chain of links. A file need not exist there.
 fs::path linkEnd(fs::path file) {
     constexpr int kMostLinks = 40;  // as many as Linux follows
     std::error_code code;
@@ -141,7 +141,8 @@ void replaceFile(const fs::path& file, std::string_view content) {
         ::unlink(fresh.c_str());
         throw OutputError(fault);
     }
-    // The move itself has to survive a crash as well; a file system that cannot sync a folder has done what it can.
+    // The folder is synced too, so that the move itself survives a crash. A failure is ignored, because some file
+    // systems cannot sync a folder.
     const int folder = ::open(target.has_parent_path() ? target.parent_path().c_str() : ".", O_RDONLY | O_DIRECTORY);
     if (folder >= 0) {
         ::fsync(folder);

@@ -15,7 +15,7 @@ namespace vkdose {
 
 namespace {
 
-// A child process has no part in it: it would hold the lock longer than we do.
+// A child process does not inherit the handle: it would hold the lock longer than this process.
 int opened(const std::filesystem::path& folder) {
     return ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
 }

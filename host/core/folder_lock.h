@@ -6,16 +6,16 @@
 
 namespace vkdose {
 
-/// The folder itself is what is locked: files in it come and go, which would shake a lock off.
+/// The lock is on the folder itself, because files in it are replaced, and a lock on a file would go with it.
 class FolderLock {
   public:
-    /// Nothing if another process holds the folder. Throws OutputError if it cannot be opened.
+    /// Takes the lock. Returns nothing if another process holds it. Throws OutputError if the folder cannot be opened.
     static std::optional<FolderLock> take(const std::filesystem::path& folder);
 
-    /// Whether another process holds it; a folder that is not there is free.
+    /// Whether another process holds the lock. A folder that does not exist is free.
     static bool isTaken(const std::filesystem::path& folder);
 
-    /// Waits until none does, or a signal comes.
+    /// Waits until no process holds the lock, or until a signal comes.
     static void await(const std::filesystem::path& folder);
 
     FolderLock(FolderLock&& other) noexcept;

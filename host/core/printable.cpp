@@ -21,8 +21,8 @@ std::uint32_t codePoint(std::string_view character) {
     return point;
 }
 
-/// Controls, marks and overrides of direction, blanks of no width, separators of lines, tags (Unicode: Cc, Cf, Zl, Zp,
-/// without the joiners, which some scripts need).
+/// Whether a character cannot be seen: controls, marks and overrides of direction, blanks of no width, separators of
+/// lines, tags (Unicode: Cc, Cf, Zl, Zp, without the joiners, which some scripts need).
 bool isHidden(std::uint32_t c) {
     const auto within = [c](std::uint32_t first, std::uint32_t last) { return c >= first && c <= last; };
     return c < 0x20 || within(0x7f, 0x9f) || c == 0xad || c == 0x61c || c == 0x180e || c == 0x200b ||

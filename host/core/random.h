@@ -1,5 +1,6 @@
 #pragma once
-// Random numbers that depend on nothing but (seed, stream, index, attempt): no state, any order, every platform.
+// Random numbers that depend only on (seed, stream, index, attempt). They have no state, can be drawn in any order, and
+// are the same on every platform.
 // Philox4x32-10 of Random123: Salmon et al., "Parallel random numbers: as easy as 1, 2, 3", SC11.
 
 #include <Random123/philox.h>
@@ -9,7 +10,7 @@
 
 namespace vkdose {
 
-/// The use of the numbers: two uses with the same index do not share them.
+/// The use of the numbers. Two uses with the same index get different numbers.
 enum class Stream : std::uint32_t { Radius = 1, Jitter = 2 };
 
 /// Two independent numbers, uniform in the open interval (0, 1), 53 bits each.

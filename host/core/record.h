@@ -1,5 +1,5 @@
 #pragma once
-// Named arrays: the neutral form in which parts of the program hand over their state to be stored, and get it back.
+// Named arrays. In this neutral form, parts of the program hand over their state to be stored, and get it back.
 
 #include <cstdint>
 #include <map>
@@ -11,7 +11,7 @@
 
 namespace vkdose {
 
-/// A record lacks what was asked for, or holds it in another shape.
+/// A record lacks the array that was asked for, or holds it in another shape.
 class RecordError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };

@@ -4,7 +4,7 @@
 
 namespace vkdose {
 
-/// Of a ball with this radius [m3]; sphereMass (host/model/particles.h) is its mass.
+/// Volume of a ball with this radius [m3]. Its mass is sphereMass (host/model/particles.h).
 inline double sphereVolume(double radius) {
     return 4.0 / 3.0 * kPi * radius * radius * radius;
 }

@@ -35,8 +35,8 @@ SizeRange sizeRange(const Case& c) {
     return range;
 }
 
-/// The name becomes a folder and stands in the summary, which is UTF-8; by default it is that of the file, which may be
-/// anything.
+/// The name becomes the name of a folder and is written into the summary, which is UTF-8. It has to be checked even by
+/// default: then it is the name of the case file, which may be anything.
 void checkName(CaseReader& reader, const std::string& name) {
     constexpr std::size_t kLongestName = 200;
     const std::string shown = name.substr(0, kLongestName);
@@ -72,7 +72,8 @@ double canisterTop(const Canister& can, const Insertion& filled) {
     return std::max(can.height - can.width / 2, filled.fillHeight);
 }
 
-/// The domain a case does not state: the canister up to the top of the grid, or the particles and ten diameters.
+/// The domain of a case that states none: the canister up to the top of the grid, or the box around the particles with
+/// a margin of at least ten diameters.
 Box defaultDomain(const Case& c, const SizeRange& sizes, const Insertion& filled) {
     const double diameter = 2 * sizes.largest;
     if (c.canister) {
@@ -91,7 +92,8 @@ Box defaultDomain(const Case& c, const SizeRange& sizes, const Insertion& filled
     return {box.low - margin, box.high + margin};
 }
 
-/// A study has the shape of a case, and would be a list of unknown keys.
+/// Refuses a study. It has the shape of a case, so that without this check every key of it would be reported as
+/// unknown.
 void refuseStudy(const Node& tree) {
     for (const char* name : {"axis", "calibrate", "set"}) {
         const Node* node = tree.child(name);
@@ -126,7 +128,8 @@ Case interpret(const std::filesystem::path& file, Node tree, std::vector<std::fi
     checkFields(reader, c);
     reader.throwIfFaulty();
 
-    // The powder before the times: a size or a density in a wrong unit makes absurd steps, which are not to blame.
+    // The powder is checked before the times: a size or a density in a wrong unit leads to absurd time steps, and the
+    // message must blame the powder for them.
     const SizeRange sizes = sizeRange(c);
     checkFilling(reader, c, sizes.largest);
     reader.throwIfFaulty();

@@ -27,7 +27,7 @@ struct SizeDistribution {
     double scaleUp = 1;                ///< Quantiles: factor from the powder's sizes to the meso-particles'
 };
 
-/// How the particles come into being: drawn and put on a grid, or listed in a CSV.
+/// The origin of the particles: drawn and put on a grid, or listed in a CSV.
 struct Filling {
     double mass = 0;  ///< target [kg]; 0 with an explicit list
     SizeDistribution size;
@@ -35,7 +35,7 @@ struct Filling {
     Box region;  ///< of the grid, open upwards in a canister (high.y infinite); unused with a list
 };
 
-/// When a run is over. Any of them ends it.
+/// The rules that end a run. The first one that is met ends it.
 struct StopRule {
     /// Paper: experiments stop when the cumulative mass changes by no more than `threshold` over `doses` consecutive
     /// doses; simulations when it does not change at all (threshold 0).
@@ -63,10 +63,10 @@ struct Canister {
     double outletDiameter = 0;
     double throatLength = 0;
     bool flatFloor = false;
-    bool lid = false;  ///< closed at the top, or above the fill where the loose grid reaches higher
+    bool lid = false;  ///< closed at the top, or above the fill if the loose grid is higher than the top
 };
 
-/// How often a run stores what it needs to go on after an interruption; 0: not by this clock.
+/// The time between two checkpoints, with which a run can go on after an interruption. 0: not by this clock.
 struct CheckpointInterval {
     double wall = 300;     ///< of wall time [s]
     double simulated = 0;  ///< of simulated time [s]
@@ -75,7 +75,7 @@ struct CheckpointInterval {
 /// Which frames of a run are stored.
 struct FrameStorage {
     double interval = 0;    ///< [s], a whole number of sensor intervals after loading; 0: none
-    bool contacts = false;  ///< the contacts as well, not only what they do to each particle
+    bool contacts = false;  ///< store the contacts as well, not only their effect on each particle
 };
 
 struct Case {
@@ -94,16 +94,17 @@ struct Case {
     std::vector<FieldSensor> fields;           ///< taken while the run goes on
     double bulkDensity = 471;                  ///< rho_b for the closed form [kg/m3]
     std::string resolved;                      ///< the case as TOML with every default and --set applied
-    std::vector<std::filesystem::path> files;  ///< it was read from: the case file, its bases, the list of particles
+    std::vector<std::filesystem::path> files;  ///< read for this case: the case file, its bases, the particle list
 };
 
 /// Reads, resolves `overrides` ("key.path=value"), checks. Throws CaseError with every fault found.
 Case loadCase(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
 
-/// The same with layers of overrides, each over the one before, in which each value knows where it was written.
+/// The same with several layers of overrides. Each layer overrides the one before, and each value knows where it was
+/// written.
 Case loadVariant(const std::filesystem::path& file, std::vector<Node> layers);
 
-/// The same for the text of a resolved case (`Case::resolved`), as if it stood in `file`.
+/// The same for the text of a resolved case (`Case::resolved`). Messages and paths treat it as the content of `file`.
 Case loadResolvedCase(const std::string& text, const std::filesystem::path& file);
 
 /// Draws (or copies) the particles of a case: sizes from the distribution until the target mass is met as closely as

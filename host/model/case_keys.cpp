@@ -12,7 +12,8 @@ constexpr Bound kPositive = Bound::Positive;
 constexpr Bound kNonNegative = Bound::NonNegative;
 constexpr std::int64_t kAnyCount = std::numeric_limits<std::int64_t>::max();
 constexpr std::int64_t kMostDoses = 1'000'000'000;
-/// With it sliding, and rolling likewise, oscillates as fast as the normal direction (paper).
+/// Ratio of the sliding (or rolling) stiffness to the normal one with which sliding (or rolling) oscillates as fast as
+/// the normal direction (paper).
 constexpr double kTwoSevenths = 0.286;
 
 constexpr Key kTop[] = {

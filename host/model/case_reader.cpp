@@ -86,7 +86,7 @@ std::string closestWord(std::string_view word, const std::vector<std::string>& k
         }
     }
     if (!best.empty()) return best;
-    // "radius" for "radius_mm", "speed" for "coil_speed": the unit or a qualifier was left out or added.
+    // Finds "radius_mm" for "radius" and "coil_speed" for "speed": a unit or a qualifier was left out or added.
     for (const std::string& candidate : known)
         if (word.size() >= 3 &&
             (candidate.find(word) != std::string::npos || word.find(candidate) != std::string::npos))
@@ -325,7 +325,7 @@ void Section::finish() {
     for (const Node& child : node_->children) {
         if (std::find(known_.begin(), known_.end(), child.key) != known_.end()) continue;
         const std::string meant = closestWord(child.key, known_);
-        if (abandoned_ && meant.empty()) continue;  // it may belong to the choice that is at fault
+        if (abandoned_ && meant.empty()) continue;  // the key may belong to the choice that could not be read
         const bool isTable = child.kind == Node::Kind::Table;
         std::vector<std::string> sorted = known_;
         std::sort(sorted.begin(), sorted.end());

@@ -1,6 +1,6 @@
 #pragma once
-// Typed access to a case tree that collects every fault instead of stopping at the first, tells unknown keys by what
-// was never asked for, and writes down each value it gave out: that record is the resolved case.
+// Typed access to a case tree. It collects every fault instead of stopping at the first. A key that was never asked for
+// is an unknown key. It records each value that it gave out, and this record is the resolved case.
 
 #include <cstdint>
 #include <list>
@@ -16,15 +16,15 @@
 
 namespace vkdose {
 
-/// Beyond these, in SI, no number of a case or of a list of particles means anything: a unit or an exponent slipped.
-/// Powers and ratios of what lies between stay far from the ends of a double.
+/// Bounds in SI on the numbers of a case and of a list of particles. Beyond them a unit or an exponent must be wrong.
+/// Powers and ratios of numbers within them stay far from the limits of a double.
 inline constexpr double kLargestNumber = 1e15;
-inline constexpr double kSmallestNumber = 1e-15;  ///< of what must be positive
+inline constexpr double kSmallestNumber = 1e-15;  ///< for numbers that must be positive
 
 class CaseReader;
 
-/// One table of the case. Getters return SI; where the file is at fault they note it and return NaN (0, "") so that
-/// later comparisons, written to be false for NaN, stay quiet about the same key.
+/// One table of the case. Getters return SI values. If the file is at fault, they note the fault and return NaN (0,
+/// ""). Later comparisons are written to be false for NaN, so that they do not report the same key again.
 class Section {
   public:
     Section(CaseReader& reader, const Node* node, std::string path, bool broken)
@@ -34,35 +34,36 @@ class Section {
     bool isString(std::string_view key) const;
     std::string path(std::string_view key) const;
 
-    /// Unit, bounds, words and default are those that the key was declared with (key.h). A `fallback` stands for a
-    /// default that follows from other keys; it is in the unit of the file (NaN: what it follows from is at fault). A
-    /// key with neither must be there. An undeclared key throws std::logic_error.
+    /// Unit, bounds, words and default are those that the key was declared with (key.h). A `fallback` is a default that
+    /// follows from other keys. It is in the unit of the file; NaN means that one of those other keys is at fault. A
+    /// key that has neither a default nor a fallback must be in the file. An undeclared key throws std::logic_error.
     double number(std::string_view key, std::optional<double> fallback = std::nullopt);
     std::int64_t integer(std::string_view key);
     bool boolean(std::string_view key);
     std::string string(std::string_view key, std::optional<std::string> fallback = std::nullopt);
-    /// Index of the chosen word; nothing when it is missing or not one of them.
+    /// Index of the chosen word. Returns nothing if the word is missing or is none of those to choose from.
     std::optional<std::size_t> choice(std::string_view key, std::optional<std::size_t> fallback = std::nullopt);
-    /// The same for a key that takes only this word where it holds a string: its number is read by number().
+    /// Checks a key that holds either a number or this one word: a string must be this word. number() reads the number.
     void onlyWord(std::string_view key, const std::string& word);
     Vec3 vector(std::string_view key, std::optional<Vec3> fallback = std::nullopt);
 
-    /// A table inside this one, the same object at every call; when it is not there, all its keys take their defaults
-    /// or are missing.
+    /// A table inside this one. Every call returns the same object. If the file lacks the table, each of its keys takes
+    /// its default or is missing.
     Section& table(std::string_view key);
     /// The same, but a missing table is one fault instead of one for each of its keys.
     Section& requiredTable(std::string_view key);
     /// The tables of [[key]]; none when the key is absent.
     std::vector<Section*> tables(std::string_view key);
 
-    /// The value as it stands, for what no getter above reads; null if there is none.
+    /// The value as it is in the file, for kinds of values that no getter above reads; null if there is none.
     const Node* node(std::string_view key);
 
-    /// Notes a value worked out elsewhere (in the unit of the file) for the resolved case.
+    /// Notes a value that was computed elsewhere (in the unit of the file) for the resolved case.
     void record(std::string_view key, double value);
     void record(std::string_view key, const Vec3& value);
     void record(std::string_view key, const std::string& value);
-    /// After a fault that decides which keys belong here: no more faults from this table but misspelt known keys.
+    /// To be called after a fault in the key that decides which keys belong here. From then on this table reports only
+    /// misspelt known keys.
     void abandon() { broken_ = abandoned_ = true; }
 
     /// Marks a key as known without reading it.
@@ -82,7 +83,7 @@ class Section {
     CaseReader& reader_;
     const Node* node_;
     std::string path_;
-    bool broken_;  ///< already reported; stay silent
+    bool broken_;  ///< the table's fault is already reported, so it reports no more
     bool abandoned_ = false;
     bool isItem_ = false;
     std::vector<std::string> known_;
@@ -91,17 +92,18 @@ class Section {
 
 class CaseReader {
   public:
-    /// `tables` declare every key that the file may hold, and outlive the reader.
+    /// `tables` declare every key that the file may hold. They must outlive the reader.
     CaseReader(std::string file, Node tree, std::span<const KeyTable> tables);
 
     Section& root() { return sections_.front(); }
 
-    /// Reports a fault of the key at `path` ("coil.radius_mm"), at its line, or at its table's when it is a default.
+    /// Reports a fault of the key at `path` ("coil.radius_mm"). The message names the line of the key, or the line of
+    /// its table if the value is a default.
     void fault(const std::string& path, std::string problem, std::string remedy);
     void add(Diagnostic fault) { faults_.push_back(std::move(fault)); }
 
     bool faulty() const { return !faults_.empty(); }
-    /// Reports the keys nobody asked for. Call once, after reading.
+    /// Reports the keys that were never asked for. Call once, after reading.
     void finish();
     /// Throws CaseError when there are faults.
     void throwIfFaulty() const;
@@ -109,7 +111,7 @@ class CaseReader {
     /// The case as TOML, every key as it was used.
     std::string resolved() const;
 
-    /// Folder against which the paths in the value at `path` are meant.
+    /// Folder to which a relative path in the value at `path` refers.
     std::filesystem::path folderOf(const std::string& path) const;
 
   private:

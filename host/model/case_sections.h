@@ -1,6 +1,6 @@
 #pragma once
-// The tables of a case file, read into a Case. Every key and its default stands in read_powder.cpp, read_apparatus.cpp
-// or read_field.cpp.
+// The tables of a case file, read into a Case. Every key is read in read_powder.cpp, read_apparatus.cpp or
+// read_field.cpp.
 
 #include <optional>
 
@@ -14,21 +14,23 @@ enum class Boundaries { Canister, List, None };
 // read_powder.cpp
 void readParticles(CaseReader& reader, Section& root, Case& c);
 void readContact(Section& root, Case& c);
-/// The box of the insertion grid: the canister above its coil, or as given. After boundaries and coil.
+/// Reads the box of the insertion grid. By default it is the canister above its coil. Call after readBoundaries and
+/// readCoil.
 void readRegion(Section& root, std::optional<Boundaries> kind, Case& c);
 
 // read_apparatus.cpp
-/// Nothing when the kind itself is at fault.
+/// Reads the boundaries. Returns nothing if their kind itself is at fault.
 std::optional<Boundaries> readBoundaries(CaseReader& reader, Section& root, Case& c);
 void readCoil(CaseReader& reader, Section& root, Case& c);
 void readSchedule(Section& root, Case& c);
-/// Time step and skin as far as the file states them; 0 stands for a value still to be worked out.
+/// Reads time step and skin if the file states them; 0 stands for a value that is computed later.
 void readTime(Section& root, Case& c);
 /// True when the file states a domain.
 bool readDomain(Section& root, Case& c);
 
 // read_field.cpp
-/// After boundaries and sensors. The mean diameter [m] is the kernels' default width; NaN if it is not known.
+/// Reads the fields. Call after boundaries and sensors. The mean diameter [m] is the default width of the kernels; NaN
+/// if it is not known.
 void readFields(CaseReader& reader, Section& root, double meanDiameter, Case& c);
 
 }  // namespace vkdose

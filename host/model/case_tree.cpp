@@ -27,7 +27,7 @@ Source makeSource(std::string name, const std::string& text) {
     return source;
 }
 
-/// Byte at which the column of toml++ begins, which counts characters.
+/// Byte at which a column of toml++ begins. (toml++ counts columns in characters.)
 std::size_t byteOf(const std::string& text, std::size_t column) {
     std::size_t at = 0;
     for (std::size_t seen = 1; at < text.size() && seen < column; ++seen) {
@@ -37,7 +37,7 @@ std::size_t byteOf(const std::string& text, std::size_t column) {
     return at;
 }
 
-/// The value's own characters where they stand on one line; "..." otherwise.
+/// The value as it was written, if it is on one line; otherwise "...".
 std::string written(const toml::source_region& region, const Source& source) {
     const std::size_t line = region.begin.line;
     if (line == 0 || line > source.lines.size() || region.end.line != region.begin.line) return "...";
@@ -77,7 +77,7 @@ Node convert(const toml::node& from, const Source& source, std::string key) {
         node.kind = Node::Kind::Table;
         for (const auto& [name, value] : *table)
             node.children.push_back(convert(value, source, std::string(name.str())));
-        // Keep the order of the file, not of the alphabet: faults are then told from top to bottom.
+        // Keep the order of the file, not of the alphabet, so that faults are reported from top to bottom.
         std::stable_sort(node.children.begin(), node.children.end(),
                          [](const Node& a, const Node& b) { return a.line < b.line; });
     } else if (const toml::array* array = from.as_array()) {
@@ -100,13 +100,14 @@ std::string readText(const std::filesystem::path& file, const Diagnostic& whoAsk
     throw CaseError({fault});
 }
 
-/// The parser takes apart what it has read by recursion, a level for every part of a dotted key and every bracket. It
-/// bounds the brackets itself (256); with this bound on the dots the deepest text stays far from the end of the stack.
+/// Largest number of dots. The parser works by recursion, one level for every part of a dotted key and for every
+/// bracket. It limits the brackets itself (256). With this limit on the dots, the deepest text stays far from the end
+/// of the stack.
 constexpr std::ptrdiff_t kMostDots = 64;
-/// A case is a few kilobytes.
+/// Longest text that is read. A case is only a few kilobytes long.
 constexpr std::size_t kMostBytes = 1U << 20U;
 
-/// Refuses what is no case before the parser sees it.
+/// Refuses a text that cannot be a case before the parser sees it.
 void requirePlain(const std::string& text, const std::string& name) {
     const char* remedy = "give the path of a case file";
     if (text.size() > kMostBytes)
@@ -123,7 +124,8 @@ void requirePlain(const std::string& text, const std::string& name) {
     }
 }
 
-/// The parser's complaint in the words of a case. It knows the grammar; what people mean by a slip it does not.
+/// Turns an error of the parser into a message in the words of a case. The parser knows only the grammar, not the
+/// mistakes that people usually make.
 Diagnostic syntaxFault(const toml::parse_error& error, const std::string& text, const std::string& name) {
     const std::string said(error.description());
     const auto at = static_cast<std::size_t>(error.source().begin.line);
@@ -186,7 +188,7 @@ Node readWithBase(const std::filesystem::path& file, const Diagnostic& whoAsks,
     return lower;
 }
 
-/// Removes from `lower` what keys of `upper` replace: keys that exclude one another, so that the upper layer wins.
+/// Removes from `lower` the keys that keys of `upper` exclude, so that the upper layer wins.
 void dropRivals(Node& lower, const Node& upper, std::string_view path) {
     for (const Key* key : keysOf(caseKeys(), path)) {
         const Node* winner = upper.child(key->name);
@@ -302,7 +304,8 @@ Node overrideTree(const std::vector<std::string>& overrides) {
         try {
             if (equals == std::string::npos)
                 throw CaseError({{kCommandLine, 0, text, "", "has no value", "write key.path=value"}});
-            // A path no rival has: two overrides that exclude each other are a fault to report, not to settle.
+            // "\n" is a path that no table has, so that no override removes another. Two overrides that exclude each
+            // other are a fault, which is reported later.
             mergeAt(all, overrideNode(trim(text.substr(0, equals)), trim(text.substr(equals + 1))), "\n");
         } catch (const CaseError& error) {
             faults.insert(faults.end(), error.faults().begin(), error.faults().end());

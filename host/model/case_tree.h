@@ -17,7 +17,7 @@ struct Node {
     Kind kind = Kind::Table;
     bool boolean = false;
     std::int64_t integer = 0;
-    double number = 0;  ///< of an Integer or a Float
+    double number = 0;  ///< the value of an Integer or a Float
     std::string string;
     std::vector<Node> children;  ///< of an Array or a Table
 
@@ -32,11 +32,13 @@ struct Node {
     void drop(std::string_view name);
 };
 
-/// Reads `file` as it stands; `base` is a key like any other. Throws CaseError when it cannot be read or is not TOML.
+/// Reads `file` alone, without its base: `base` is then a key like any other. Throws CaseError when the file cannot be
+/// read or is not TOML.
 Node readTreeAlone(const std::filesystem::path& file);
 
-/// Reads `file` and, below it, the file its key `base` names (relative to it). Throws CaseError when a file cannot be
-/// read or is not TOML, and when bases form a circle. `files` is given what was read, as canonical paths.
+/// Reads `file` and, as the layer below it, the file that its key `base` names (relative to `file`). Throws CaseError
+/// when a file cannot be read or is not TOML, and when bases form a circle. `files` receives the canonical paths of the
+/// files that were read.
 Node readTree(const std::filesystem::path& file, std::vector<std::filesystem::path>& files);
 
 /// The same for a text; `name` stands for the file in messages. Throws CaseError when it is not TOML or has a base.
@@ -49,16 +51,16 @@ Node overrideTree(const std::vector<std::string>& overrides);
 /// Whether `path` can name a key: words of letters, digits, _ and -, joined by dots.
 bool isKeyPath(std::string_view path);
 
-/// Puts `value` at `path` ("coil.speed_rpm"), making the tables on the way. False, and nothing changed, if something
-/// stands there already or on the way to it.
+/// Puts `value` at `path` ("coil.speed_rpm") and makes the tables on the way to it. If there is already a value at the
+/// path or on the way, nothing changes and the result is false.
 bool plant(Node& tree, const std::string& path, Node value);
 
-/// A text as a TOML string, and a value as TOML on one line; numbers as they were written.
+/// A text as a TOML string, and a value as TOML on one line. Numbers stay as they were written.
 std::string tomlString(const std::string& text);
 std::string valueText(const Node& value);
 
-/// Lays `upper` over `lower`, table by table. A key of `upper` also removes its rivals in `lower`: `pitch_mm` replaces
-/// `turns`, another `distribution` takes the old one's keys away.
+/// Lays `upper` over `lower`, table by table. A key of `upper` also removes the keys in `lower` that it excludes:
+/// `pitch_mm` removes `turns`, and another `distribution` removes the keys of the old one.
 void merge(Node& lower, Node upper);
 
 }  // namespace vkdose

@@ -15,9 +15,9 @@
 namespace vkdose {
 namespace {
 
-/// Volume fraction below which a settled cohesive bed does not stay (measured beds: about 0.46).
+/// Smallest volume fraction that a settled cohesive bed can keep (measured beds: about 0.46).
 constexpr double kLoosestBed = 0.35;
-/// More particles than this is a slip of a unit, not a case.
+/// More particles than this mean that a unit is wrong.
 constexpr double kMaxParticles = 5e6;
 
 double mm(double metres) {
@@ -40,7 +40,7 @@ void checkContact(CaseReader& reader, const Case& c) {
     }
 }
 
-/// At an overlap of two smaller radii equal spheres are in one place.
+/// Checks the limit of the overlap. At an overlap of twice the smaller radius, two equal spheres are in the same place.
 void checkOverlapLimit(CaseReader& reader, const Case& c) {
     if (c.world.maxOverlapRatio > 2)
         reader.fault("contact.max_overlap_ratio", "lets spheres pass through each other", "give at most 2");
@@ -82,7 +82,8 @@ const char* radiusKey(CaseReader& reader) {
     return reader.root().table("coil").has("clearance_mm") ? "coil.clearance_mm" : "coil.radius_mm";
 }
 
-/// The coil's radius against the wire within and the walls around. False if the wire cannot be wound there at all.
+/// Checks the coil's radius against the thickness of its wire and against the walls around it. Returns false if the
+/// wire cannot be wound there at all.
 bool checkCoilRadius(CaseReader& reader, const Case& c) {
     const geometry::Coil& coil = *c.world.coil;
     const bool byClearance = c.canister && reader.root().table("coil").has("clearance_mm");
@@ -90,13 +91,13 @@ bool checkCoilRadius(CaseReader& reader, const Case& c) {
     const char* around = "";
     if (c.canister) {
         const Canister& can = *c.canister;
-        // A coil that ends before the front wall need not pass the hole, but a clearance is measured from it too.
+        // A coil that ends before the front wall need not pass the hole. A clearance counts from the hole even then.
         const bool inHole = (byClearance || coil.zStart + coil.length > can.length) && can.outletDiameter < can.width;
         around = inHole ? "outlet" : "trough";
         room = (inHole ? can.outletDiameter : can.width) / 2;
     }
     const double outer = coil.radius + coil.wireRadius;
-    // The hole may be the one that is wrong.
+    // The message offers a wider hole too, because the hole may be the wrong value.
     const std::string orWider = std::string_view(around) == "outlet"
                                     ? fmt::format(", or an outlet_diameter_mm of at least {:.6g}", mm(2 * outer))
                                     : "";
@@ -119,7 +120,7 @@ bool checkCoilRadius(CaseReader& reader, const Case& c) {
 
 void checkCoil(CaseReader& reader, const Case& c) {
     const geometry::Coil& coil = *c.world.coil;
-    if (!checkCoilRadius(reader, c)) return;  // a wire that is far too thick is told once
+    if (!checkCoilRadius(reader, c)) return;  // a wire that is far too thick is reported only once
     if (coil.pitch <= 2 * coil.wireRadius)
         reader.fault(
             reader.root().table("coil").has("pitch_mm") ? "coil.pitch_mm" : "coil.turns",
@@ -151,14 +152,15 @@ void checkBox(CaseReader& reader, const char* path, const Box& box) {
                      "give the lower corner as low, the upper as high");
 }
 
-/// Compares the volume of the bed with the canister's, at the loosest packing that a bed keeps.
+/// Compares the volume of the bed with that of the canister. The bed is taken at the loosest packing that it can keep.
 void checkBed(CaseReader& reader, const Case& c) {
     const Canister& can = *c.canister;
     const double half = can.width / 2;
     const double below = can.flatFloor ? can.width * half : 0.5 * kPi * half * half;
     const double volume = can.length * (below + can.width * (can.height - half));
     const double bed = c.filling.mass / c.world.density / kLoosestBed;
-    // No powder is so light: with a density in g/cm3 the mass would seem to be at fault.
+    // No powder is lighter than this. A lower density was probably given in g/cm3; without this bound the message would
+    // blame the mass.
     constexpr double kLightest = 20;
     if (bed > volume && c.world.density < kLightest)
         reader.fault(
@@ -258,7 +260,8 @@ double coilDistance(const geometry::Coil& coil, const Vec3& x, double radius) {
     return far ? radius : geometry::closestPoint(coil, 0, x).distance;
 }
 
-/// Overlap with the walls and the coil. The grid must not overlap at all, a list a little: it may be a settled bed.
+/// Checks the overlap with the walls and the coil. Particles on the grid must not overlap at all. Listed ones may a
+/// little, because a list may be a settled bed.
 void checkWalls(CaseReader& reader, const Case& c, const Particles& p, const std::string& path, double allowed) {
     Few faults(reader, path);
     for (std::size_t i = 0; i < p.size(); ++i) {
@@ -278,7 +281,7 @@ void checkWalls(CaseReader& reader, const Case& c, const Particles& p, const std
     }
 }
 
-/// A particle that passes another within one step never meets it.
+/// Checks the way of a particle in one step: a particle that passes another within one step never touches it.
 void checkMotion(CaseReader& reader, const Case& c, const Particles& p, const std::string& path) {
     Few faults(reader, path);
     for (std::size_t i = 0; i < p.size(); ++i) {
@@ -300,7 +303,7 @@ void checkPairs(CaseReader& reader, const Particles& p, const std::string& path)
     });
 }
 
-/// The key that makes a surface. Those of a list come in the order of the file, planes first.
+/// The key that makes a surface. Surfaces that a file lists come in the order of the file, planes first.
 std::string surfaceKey(const Case& c, std::size_t surface) {
     if (c.canister) return "canister";
     const auto isPlane = [](const geometry::Surface& s) { return std::holds_alternative<geometry::Plane>(s); };

@@ -37,7 +37,7 @@ std::optional<std::string> faultOf(const FieldRequest& r) {
     if (!(r.width > 0)) return "the kernel has no width";
     if (double(r.grid.cells[0]) * r.grid.cells[1] * r.grid.cells[2] > double(kMostFieldPoints))
         return fmt::format("the grid has more than {} points: use fewer cells", kMostFieldPoints);
-    // A point must be in reach of whatever is in its cell: half a diagonal at most.
+    // A point must be in reach of every particle in its cell. The furthest is half a diagonal away.
     if (r.reach() < 0.87 * widest)
         return fmt::format("the kernel falls between the points of the grid: use cells of at most {:.6g} m",
                            r.reach() / 0.87);

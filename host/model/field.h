@@ -1,14 +1,15 @@
 #pragma once
-// Coarse-grained fields: what may be asked of a backend, and what it gives.
+// Coarse-grained fields: the requests to a backend, and its answers.
 //
 // A particle is smeared out over the points of a grid (the centres of its cells) by a kernel W of the distance:
 //
 //   density rho(r) = sum_i m_i W_i(r),  W_i(r) = w(|r - x_i|) / (sum over points r' of w(|r' - x_i|) dV).
 //
-// Each kernel is normalised over the points there are, so that the integral over the grid (the sum of rho dV) is the
-// mass of the particles in it, to rounding, however coarse the grid and wherever a face of it cuts the kernel: nothing
-// is smeared through a wall that is a face. A particle counts where its centre is: in the grid wholly, outside not at
-// all. In a direction with a single cell nothing is resolved, and the field is the mean over the grid's extent.
+// Each kernel is normalised over the points of the grid. The integral over the grid (the sum of rho dV) is therefore
+// the mass of the particles in it, to rounding. This holds for any coarseness of the grid, and also where a face of the
+// grid cuts the kernel: if the face is a wall, nothing is smeared through it. A particle counts wholly if its centre is
+// in the grid, and not at all if its centre is outside. A direction with a single cell is not resolved: there the field
+// is the mean over the grid's extent.
 //
 // Source: I. Goldhirsch, Stress, stress asymmetry and couple stress: from discrete particles to continuous fields,
 // Granular Matter 12 (2010) 239-252; with the paper's Gaussian kernel or Lucy's polynomial.
@@ -24,7 +25,7 @@
 
 namespace vkdose {
 
-/// Cells of a box; a point stands in the middle of each. Points count along x first, then y, then z.
+/// Cells of a box. A point is in the middle of each cell. Points are numbered along x first, then y, then z.
 struct FieldGrid {
     Vec3 low{0}, high{0};  ///< corners [m]
     std::array<std::uint32_t, 3> cells{1, 1, 1};
@@ -39,47 +40,49 @@ struct FieldGrid {
 
 enum class Kernel {
     Gaussian,  ///< exp(-r2/2w2), cut at three widths, where it has fallen to 1.1 %
-    Lucy       ///< (1 + 3 r/w) (1 - r/w)^3 within the width, which is its support; smooth to its second derivative
+    Lucy       ///< (1 + 3 r/w) (1 - r/w)^3 within the width, 0 beyond; smooth to its second derivative
 };
 
 struct FieldRequest {
     FieldGrid grid;
     Kernel kernel = Kernel::Gaussian;
     double width = 0;            ///< w [m]
-    bool contactStress = false;  ///< of all fields the one that costs most
+    bool contactStress = false;  ///< also compute the contact stress, the most expensive of the fields
 
     double reach() const { return kernel == Kernel::Gaussian ? 3 * width : width; }  ///< of the kernel [m]
-    /// The kernel without its norm, at a distance [m]; 1 at none.
+    /// The kernel at a distance [m], without its norm: 1 at distance 0.
     double shape(double distance) const;
     /// Points that one kernel may reach.
     double pointsInReach() const;
 };
 
 inline constexpr std::size_t kMostFieldPoints = 1'000'000;
-/// Points in reach of one kernel: more would end a loop on software devices, and no width needs so fine a grid.
+/// Most points in reach of one kernel. Software devices would end a loop over more points too early, and no width needs
+/// a grid so fine.
 inline constexpr double kMostPointsInReach = 60'000;
 
-/// The fault of a request, and its cure; nothing if the request can be met.
+/// The fault of a request, with its remedy. Returns nothing if the request can be met.
 std::optional<std::string> faultOf(const FieldRequest& request);
 
-/// The fields at one point. All are densities that add up, so that they can be averaged over time as they are; what is
-/// not (velocity, temperature, coordination) is a quotient of them.
+/// The fields at one point. All are densities that add up, so that they can be averaged over time. Velocity,
+/// temperature and coordination do not add up; they are quotients of these densities.
 struct FieldPoint {
     double density = 0;  ///< of mass [kg/m3]
     Vec3 momentum{0};    ///< [kg/m2 s]; half-step velocities
     double number = 0;   ///< of particles [1/m3]
-    double touches = 0;  ///< of touching neighbours, each counted by both [1/m3]
+    double touches = 0;  ///< of touching neighbours; both particles of a pair count each other [1/m3]
     /// sum_i m_i v'_i v'_i W_i with v' = v_i - V(r): xx, yy, zz, yz, zx, xy [Pa]. Pressure is positive.
     std::array<double, 6> kineticStress{};
-    /// sum over contacts of f_a l_b times the mean of W along l, row a, column b [Pa]; f acts on the particle to which
-    /// the branch l leads: from the other's centre, or from the wall. Pressure is positive. Without it: zero.
+    /// sum over contacts of f_a l_b times the mean of W along l, row a, column b [Pa]. The branch l leads from the
+    /// centre of the other particle, or from the wall, to the particle on which f acts. Pressure is positive. Zero if
+    /// the contact stress was not asked for.
     std::array<Vec3, 3> contactStress{Vec3(0), Vec3(0), Vec3(0)};
 
     Vec3 velocity() const;        ///< V = momentum / density [m/s]; NaN where there is no mass
     double temperature() const;   ///< granular: a third of v'.v' weighed with the mass [m2/s2]; NaN likewise
     double coordination() const;  ///< neighbours that touch a particle, mean [-]; NaN likewise
 
-    /// Numbers of a point, one after the other: for sums, records, files.
+    /// The fields of a point as a list of numbers, for sums, records and files.
     static constexpr std::size_t kNumbers = 21;
     std::array<double, kNumbers> numbers() const;
     static FieldPoint of(const double* numbers);
@@ -101,10 +104,10 @@ struct FieldSensor {
     std::string name;  ///< of its file
     Preset preset = Preset::None;
     FieldRequest request;
-    double interval = 0;   ///< between two that are kept, rounded to whole sensor intervals [s]
-    bool average = false;  ///< the mean of all sensor intervals since the one before, instead of the instant
-    bool stress = false;   ///< stresses, temperature and coordination are kept as well
-    /// Of the bed when dosing begins, for HeightProfile [m]; 0: as its density tells.
+    double interval = 0;   ///< time between two fields that are kept, rounded to whole sensor intervals [s]
+    bool average = false;  ///< keep the mean of all sensor intervals since the last field, not the instant
+    bool stress = false;   ///< keep stresses, temperature and coordination as well
+    /// Height of the bed when dosing begins, for HeightProfile [m]; 0: found from the density.
     double initialHeight = 0;
 };
 

@@ -10,8 +10,8 @@ namespace vkdose {
 /// Play between the largest spheres of the insertion grid, as a fraction of their diameter.
 inline constexpr double kGridGap = 0.02;
 
-/// Regular grid that fills a box layer by layer from below; the sites are at least 2 r_max (1 + kGridGap) apart and
-/// half of that away from the sides, so that no two spheres overlap wherever the jitter puts them.
+/// Regular grid that fills a box layer by layer from below. The sites are at least 2 r_max (1 + kGridGap) apart and
+/// half of that away from the sides. No two spheres then overlap, for any jitter.
 class InsertionGrid {
   public:
     InsertionGrid(const Box& region, double largestRadius);
@@ -20,8 +20,8 @@ class InsertionGrid {
     double capacity() const;               ///< number of sites, 0 if the region is too narrow
     double jitterAmplitude() const;        ///< per coordinate [m]
 
-    /// As far above the highest of the first `count` sites as the sides are from theirs: a lid there touches nothing,
-    /// whatever the rounding [m, y].
+    /// Height of the top of the first `count` sites [m, y]. It is as far above the highest of them as the sides of the
+    /// box are from the sites beside them, so that a lid there touches no particle in spite of rounding.
     double top(std::uint64_t count) const;
 
   private:

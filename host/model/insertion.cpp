@@ -17,7 +17,7 @@ double listedMass(const Particles& list, double density) {
     return mass;
 }
 
-/// Radii until one more would lead further from the target than it brings.
+/// Draws radii until one more would not bring the mass closer to the target.
 std::vector<double> drawRadii(const Case& c, Insertion& result) {
     const SizeDistribution& size = c.filling.size;
     std::vector<double> radii;
@@ -31,7 +31,8 @@ std::vector<double> drawRadii(const Case& c, Insertion& result) {
     return radii;
 }
 
-/// More sites in a row than any case can fill; keeps the counts of an open or absurd region representable.
+/// Most sites in a row, more than any case can fill. The limit keeps the number of sites of an open or absurd region
+/// representable.
 constexpr double kMaxSites = 1e9;
 
 /// Shift of site `index`, within the grid's play, so that the bed does not start out as a crystal.
@@ -59,7 +60,7 @@ Vec3 InsertionGrid::site(std::uint64_t index) const {
     const std::uint64_t column = index % columns_;
     const std::uint64_t row = index / columns_ % rows_;
     const std::uint64_t layer = index / columns_ / rows_;
-    // Sideways the sites spread over the whole region, upwards they are packed.
+    // Sideways the sites spread over the whole region. Upwards they are as close as possible.
     const auto across = [](double low, double high, std::uint64_t i, std::uint64_t n) {
         return n == 1 ? 0.5 * (low + high) : low + (high - low) * static_cast<double>(i) / static_cast<double>(n - 1);
     };

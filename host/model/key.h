@@ -34,7 +34,7 @@ struct Default {
     enum class Kind {
         Required,  ///< there is none: the key must be given
         Value,     ///< always the same, in the unit of the file
-        Told,      ///< follows from other keys: the reader works it out, `text` says how
+        Told,      ///< follows from other keys: the reader computes it, and `text` says how
     };
     Kind kind = Kind::Required;
     std::array<double, 3> value{};  ///< of a number, a whole number, a boolean or a vector
@@ -60,8 +60,9 @@ struct Key {
     /// Keys and tables of a lower layer that this one removes, separated by blanks; "*": all of its table.
     std::string_view losers{};
 
-    /// The same key, which in an upper layer (a case over its base, --set) removes these keys of the same table. A word
-    /// removes them only if it differs from the lower one: they belong to the old choice.
+    /// Returns this key with the addition that, in an upper layer (a case over its base, --set), it removes the keys
+    /// `others` of the same table from the lower layer. A word removes them only if it differs from the lower layer's
+    /// word, because they belong to the old choice.
     constexpr Key replacing(std::string_view others) const {
         Key key = *this;
         key.losers = others;
@@ -119,7 +120,7 @@ constexpr Key other(std::string_view name, Default standard, std::string_view me
 
 }  // namespace key
 
-/// The keys of one table of a file, or of several that take the same.
+/// The keys of one table of a file, or of several tables with the same keys.
 struct KeyTable {
     std::string_view paths;  ///< "contact contact.wall"; "": the top of the file; "plane[]": each [[plane]]
     std::span<const Key> keys;

@@ -1,5 +1,5 @@
 #pragma once
-// The one search for spheres that overlap, over all of them at one instant.
+// The only search of the host, outside the backends, for spheres that overlap. It covers all spheres at one instant.
 
 #include <algorithm>
 #include <cstddef>

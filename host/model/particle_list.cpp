@@ -19,7 +19,8 @@ namespace {
 
 constexpr std::size_t kMaxFaults = 20;
 const std::vector<std::string> kColumns{"x", "y", "z", "r", "vx", "vy", "vz", "wx", "wy", "wz"};
-/// The same columns as a run writes them to particles.csv, so that its end state can be the start of another case.
+/// The names of the columns in the particles.csv of a run. They are read too, so that the end state of a run can be the
+/// start of another case.
 const std::vector<std::string> kRunColumns{"x_m",    "y_m",    "z_m",      "radius_m", "vx_m_s",
                                            "vy_m_s", "vz_m_s", "wx_rad_s", "wy_rad_s", "wz_rad_s"};
 constexpr std::size_t kAbsent = std::numeric_limits<std::size_t>::max();
@@ -116,7 +117,7 @@ class ListReader {
                   "give one number for each column");
             return;
         }
-        if (status_ != kAbsent && fields[status_] != "active") {  // what a run dosed takes no part in the next
+        if (status_ != kAbsent && fields[status_] != "active") {  // dosed particles do not go on
             if (fields[status_] != "dosed" && fields[status_] != "lost")
                 fault("status", fields[status_], "is not known", "give active, dosed or lost");
             return;
@@ -143,7 +144,7 @@ class ListReader {
             fault(column, "", "is empty", "give a number");
             return 0;
         }
-        // from_chars knows no plus; what follows one must not be another sign.
+        // from_chars accepts no plus sign, so it is skipped. A minus must not follow it.
         if (text[start] == '+' && text.find('-', start) != start + 1) ++start;
         const auto [stop, code] = std::from_chars(text.data() + start, text.data() + end, value);
         if (code == std::errc::result_out_of_range)

@@ -10,8 +10,9 @@ namespace vkdose {
 /// Where a particle is in the ledger. A dosed or lost particle takes no further part in the motion.
 enum class Status : std::uint32_t { Active = 0, Dosed = 1, Lost = 2 };
 
-/// Particle state, one entry per particle in every array; the index is the particle's identity for the whole run.
-/// After n steps `velocity` and `spin` are those of the half step n - 1/2 (leapfrog), at n = 0 the initial ones.
+/// Particle state. Every array has one entry for each particle. The index identifies the particle for the whole run.
+/// After n steps `velocity` and `spin` are those of the half step n - 1/2 (leapfrog); at n = 0 they are the initial
+/// ones.
 struct Particles {
     std::vector<Vec3> position;  ///< [m]
     std::vector<Vec3> velocity;  ///< [m/s]

@@ -19,7 +19,7 @@ void addCanister(Case& c) {
     const Canister& can = *c.canister;
     const double half = can.width / 2;
     auto& surfaces = c.world.surfaces;
-    // The walls end at the front wall: beyond it the throat is all that a sphere touches.
+    // The walls end at the front wall, because beyond it a sphere touches only the throat.
     if (can.flatFloor) {
         surfaces.push_back(geometry::Plane{{-half, 0, 0}, {1, 0, 0}, can.length});
         surfaces.push_back(geometry::Plane{{half, 0, 0}, {-1, 0, 0}, can.length});
@@ -75,7 +75,7 @@ void readSurfaces(CaseReader& reader, Section& root, Case& c) {
                      "add [[plane]] or [[cylinder]], or write boundaries = \"none\"");
 }
 
-/// A table that the chosen boundaries leave without a use is a mistake worth telling.
+/// Reports tables that have no use with the chosen boundaries, because they are probably a mistake.
 void refuseUnused(CaseReader& reader, Section& root, Boundaries kind) {
     const auto refuse = [&](const char* key, const char* needed) {
         if (!root.has(key)) return;
@@ -104,7 +104,7 @@ std::optional<Boundaries> readBoundaries(CaseReader& reader, Section& root, Case
 
 namespace {
 
-/// The value of one of two keys of which exactly one must be given; the index of that key in `which`.
+/// Reads one of two keys, of which exactly one must be given. `which` receives the index of that key.
 double readEither(CaseReader& reader, Section& section, const char* first, const char* second, int& which) {
     which = section.has(second) && !section.has(first) ? 1 : 0;
     section.know(first);

@@ -34,7 +34,8 @@ Frame frameOf(Preset preset, const Canister& can, double width) {
     return {{-half, -half, 0}, {half, top, end}, {1, 1, 1}};
 }
 
-/// Cells as wide as the kernel's width; Lucy's, which ends there, half as wide.
+/// Default cells. They are as wide as the kernel's width, and half as wide for Lucy's kernel, which is zero beyond its
+/// width.
 Vec3 defaultCells(const Frame& frame, const FieldRequest& request) {
     const double cell = request.kernel == Kernel::Lucy ? request.width / 2 : request.width;
     Vec3 cells(1);

@@ -73,7 +73,7 @@ void readParticles(CaseReader& reader, Section& root, Case& c) {
         std::vector<Diagnostic> faults;
         const std::filesystem::path file = reader.folderOf("particles.list") / path;
         c.filling.list.emplace();
-        if (!section.isString("list")) return;  // told by now
+        if (!section.isString("list")) return;  // already reported
         if (!inputFile(file)) {
             reader.fault("particles.list", unreadable(file), "give the path of a CSV, relative to the case file");
             return;
@@ -143,7 +143,7 @@ Ratios readRatios(Section& section, const Ratios* parent) {
     r.k = key("k", &Ratios::k);
     r.k1 = key("k1_over_k", &Ratios::k1);
     r.kc = key("kc_over_k", &Ratios::kc);
-    // Without plasticity (k1 = k) the depth means nothing and may be left out.
+    // Without plasticity (k1 = k) the depth has no effect, so that it may be left out.
     r.plasticity = key("plasticity_depth", &Ratios::plasticity, r.k1 < 1 ? std::optional<double>() : 0.0);
     r.damping = key("damping", &Ratios::damping);
     r.mu = key("friction", &Ratios::mu);
@@ -172,7 +172,8 @@ void readContact(Section& root, Case& c) {
     const Ratios coil = readRatios(coilSection, &wall);
     const std::array<Ratios, kContactClasses> ratios{pair, wall, coil};
 
-    // While settling, adhesion has its own strength, except where a class was given one of its own.
+    // While the powder settles, adhesion has a strength of its own. A class whose table gives kc_over_k keeps that
+    // value by default.
     Section& settle = root.table("settle");
     const double pairKc = settle.number("kc_over_k", pair.kc);
     const double wallKc = settle.number("wall_kc_over_k", wallSection.has("kc_over_k") ? wall.kc : pairKc);

@@ -13,7 +13,8 @@
 namespace vkdose {
 namespace {
 
-/// The particles in cells of an edge, so that whoever is no further away than it lies in the 27 cells around.
+/// Sorts the particles into cubic cells. Every particle within one edge length of a point lies in the 27 cells around
+/// that point.
 class Cells {
   public:
     Cells(const Particles& particles, double edge) : edge_(edge) {
@@ -43,7 +44,7 @@ class Cells {
 
 /// A particle with more neighbours than a row holds, if there is one.
 std::optional<std::size_t> crowdedParticle(const Particles& p, double largest, double skin) {
-    // The device decides in single precision; who is so near the edge may count.
+    // The device computes in single precision, so that a particle just beyond the edge may count as a neighbour there.
     constexpr double kRounding = 1 + 1e-5;
     const Cells cells(p, (2 * largest + skin) * kRounding);
     for (std::size_t i = 0; i < p.size(); ++i) {
@@ -58,8 +59,8 @@ std::optional<std::size_t> crowdedParticle(const Particles& p, double largest, d
     return std::nullopt;
 }
 
-/// How many of the grid's particles can be within reach of one, whatever their sizes: their sites keep spheres of the
-/// largest radius apart, of which no packing fills more than 0.7405 of the space they lie in.
+/// Most particles of the grid, of any sizes, that can be within reach of one. The sites are so far apart that spheres
+/// of the largest radius do not overlap, and no packing of equal spheres fills more than 0.7405 of its space.
 double mostInGrid(double largest, double skin) {
     return 0.7405 * std::pow((3 * largest + skin) / largest, 3) - 1;
 }

@@ -2,7 +2,7 @@
 
 namespace vkdose {
 
-/// Others within reach and skin of one sphere that a row of a backend's neighbour list holds.
+/// Most entries of a row: other particles within reach and skin of one sphere.
 inline constexpr int kMaxNeighbours = 64;
 
 }  // namespace vkdose

@@ -13,14 +13,17 @@ namespace {
 /// Masses and moments of inertia outside these are not normal single-precision numbers, with room for a factor or two.
 constexpr double kSmallestFloat = 1e-36;
 constexpr double kLargestFloat = 1e36;
-/// A position is kept to 48 bits; so far out it is still known to 1e-7 of the radius, as an overlap must be.
+/// Largest distance over radius. A position is kept to 48 bits. At this distance it is still known to 1e-7 of the
+/// radius, the accuracy that an overlap needs.
 constexpr double kFarthestOverRadius = 1e7;
-/// Way in one step, in units of the smallest radius: a contact has to be met before it is passed.
+/// Longest way in one step, in units of the smallest radius. On a longer way a particle could pass another without
+/// touching it.
 constexpr double kLongestWay = 0.1;
-/// A longer list of neighbours than any row holds, but not yet every particle with every other.
+/// Widest skin. It gives more neighbours than any row holds, but does not yet pair every particle with every other.
 constexpr double kWidestSkin = 100;
 constexpr double kMostSteps = 1e15;
-/// A flatter coil is a disc, whose closest point is a search through as many turns as the ratio squared.
+/// A coil flatter than this is a disc. The search for its closest point would go through as many turns as the square of
+/// this ratio.
 constexpr double kFlattestCoil = 100;
 
 std::string sizeKey(const Case& c, const char* bound) {

@@ -48,11 +48,11 @@ double numberMoment(const SizeDistribution& size, int power) {
     return (fine.moment(power) + coarse.moment(power)) / (fine.moment(0) + coarse.moment(0));
 }
 
-/// Mean of r^power over a Normal or Lognormal cut at its bounds, by the trapezoid rule: a smooth integrand over at most
-/// 17 deviations in 2000 steps, right to 1e-5.
+/// Mean of r^power over a Normal or Lognormal that is cut at its bounds, by the trapezoid rule. The integrand is smooth
+/// and 2000 steps cover at most 17 deviations, so that the mean is right to 1e-5.
 double truncatedMoment(const SizeDistribution& size, int power) {
     constexpr int kSteps = 2000;
-    constexpr double kFarthest = 8.5;  // deviations; what lies beyond is less than a double's rounding
+    constexpr double kFarthest = 8.5;  // in deviations; the part beyond is less than a double's rounding
     const bool normal = size.kind == SizeDistribution::Kind::Normal;
     const auto deviations = [&](double r) {
         const double z = (normal ? r - size.radius : std::log(r / size.radius)) / size.deviation;
@@ -155,7 +155,8 @@ double finerVolume(const SizeDistribution& size, double radius) {
     return std::clamp(0.5 + slope * std::log(radius / size.r50), 0.0, 1.0);
 }
 
-// From the median to the end the volume is 0.5, to the quantile it is 0.4: 1.25 times the way in ln r.
+// Between the median and the end lies a volume of 0.5, between the median and the quantile 0.4. The end is therefore
+// 0.5 / 0.4 = 1.25 times as far from the median in ln r as the quantile.
 double finestRadius(const SizeDistribution& size) {
     return size.r50 * std::pow(size.r10 / size.r50, 1.25);
 }

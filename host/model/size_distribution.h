@@ -12,15 +12,15 @@ namespace vkdose {
 /// (loadCase refuses bounds that leave so little).
 double drawRadius(const SizeDistribution& size, std::uint64_t seed, std::uint64_t index, std::uint64_t& redrawn);
 
-/// Bounds of what can be drawn [m].
+/// Bounds of the radii that can be drawn [m].
 double smallestRadius(const SizeDistribution& size);
 double largestRadius(const SizeDistribution& size);
 
-/// Mean radius and mean cubed radius by number [m, m3] of what is drawn.
+/// Mean radius and mean cubed radius by number [m, m3] of the drawn particles.
 double meanRadius(const SizeDistribution& size);
 double meanCubedRadius(const SizeDistribution& size);
 
-/// Fraction of the draws that fall inside the bounds, 1 where nothing is drawn twice.
+/// Fraction of the draws that fall inside the bounds. It is 1 for distributions that never draw again.
 double acceptance(const SizeDistribution& size);
 
 /// Quantiles: fraction of the powder's volume finer than radius r, after scaling. Between d10 and d50 and between d50

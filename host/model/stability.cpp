@@ -49,7 +49,8 @@ std::vector<ContactMode> contactModes(const ContactLaw& law, double density, dou
         add(className(c) + " normal", p.k2Max, p.gamma, normal);
         // Sliding moves the surface: 1/m + a^2/I = 3.5/m for a full sphere of inertia 0.4 m a^2.
         if (p.mu > 0) add(className(c) + " sliding", p.kt, p.gammaT, normal / 3.5);
-        // Rolling: a_r^2/I with a_r <= 2 a, reached against a wall or a much larger sphere; half of it for "half".
+        // Rolling: a_r^2/I with a_r <= 2 a. The bound is reached against a wall or a much larger sphere. For "half" it
+        // is half as large.
         const double lever = law.rollingLever == RollingLever::Full ? 2 : 1;
         const double turning = 0.4 * mass / (lever * lever);
         if (p.muR > 0) add(className(c) + " rolling", p.kr, p.gammaR, turning);

@@ -1,6 +1,7 @@
 #pragma once
-// The fastest motions the explicit time step must resolve. Contacts oscillate along the normal, in sliding, rolling and
-// torsion; each mode is a spring on an effective mass. Bounds, taken for the smallest particle against the largest.
+// The fastest motions that the explicit time step must resolve. Contacts oscillate along the normal, in sliding,
+// rolling and torsion. Each mode is a spring on an effective mass. The numbers are bounds for the smallest particle
+// against the largest.
 
 #include <string>
 #include <vector>

@@ -19,15 +19,15 @@ struct Box {
     Vec3 high{1.0};
 };
 
-/// Overlap over smaller radius above which a run stops unless the case says otherwise: no contact law here was made
-/// for more.
+/// Overlap over smaller radius above which a run stops, unless the case gives another limit. The contact laws here are
+/// not made for larger overlaps.
 inline constexpr double kMaxOverlapRatio = 0.2;
 
-/// One member: a canister (or any set of surfaces) and its powder, without what changes from phase to phase of a run:
-/// the law of its contacts, which may be another while the powder settles, and the coil's speed.
+/// One member: a canister (or any set of surfaces) and its powder. It leaves out the two things that change from phase
+/// to phase of a run: the coil's speed, and the law of the contacts, which may be another while the powder settles.
 struct World {
-    /// Contact history is kept per (particle, surface). Walls that end at a front wall come before it, which is the
-    /// last: it takes over their contacts, and they its.
+    /// Contact history is kept per (particle, surface). A front wall is the last surface, so that walls that end at it
+    /// come before it. It takes over contacts from them, and they take over contacts from it.
     std::vector<geometry::Surface> surfaces;
     std::optional<geometry::Coil> coil;
     Vec3 gravity{0, -9.81, 0};
@@ -37,17 +37,18 @@ struct World {
     double maxOverlapRatio = kMaxOverlapRatio;
     bool energyBook = false;  ///< keep the energy book (Sensors::energy)
     Box domain;
-    /// A particle whose centre passes throatZ is in the throat, past outletZ it is dosed. Infinite: no outlet.
+    /// A particle is in the throat if its centre is past throatZ, and dosed if its centre is past outletZ. Infinite: no
+    /// outlet.
     double throatZ = std::numeric_limits<double>::infinity();
     double outletZ = std::numeric_limits<double>::infinity();
 };
 
-/// A world with the one law that holds in it from beginning to end, as in tests and benchmarks.
+/// A world together with a single contact law that holds from beginning to end, as in tests and benchmarks.
 struct RuledWorld : World {
     ContactLaw law;
 };
 
-/// Turns of the coil one sphere may touch at once: the slots a backend keeps contact history for.
+/// Most turns of the coil that one sphere may touch at once. A backend keeps contact history for as many slots.
 inline constexpr int kMaxCoilTouches = 4;
 
 }  // namespace vkdose

@@ -1,5 +1,5 @@
 #pragma once
-// One contact: where two bodies touch, how they move there, and the four laws put together.
+// One contact: the place where two bodies touch, their motion there, and the four laws put together.
 
 #include <optional>
 
@@ -49,7 +49,7 @@ Vec3 contactVelocity(const Body& i, const Vec3& leverI, const Body& j, const Vec
 /// The parts that a contact's force is made of, and the state of the elements that exert them.
 struct Parts {
     double hysteretic;           ///< along the normal, without damping [N]
-    double damping;              ///< ditto [N]
+    double damping;              ///< along the normal [N]
     Vec3 sliding;                ///< on i [N]
     Vec3 rolling;                ///< couple on i [N m]
     Vec3 torsion;                ///< couple on i [N m]
@@ -57,7 +57,8 @@ struct Parts {
     bool slides, rolls, twists;  ///< whether the slider slips
 };
 
-/// Forces and torques of a contact. On j act the opposite force and couple, and the force on its own lever.
+/// Forces and torques of a contact. The opposite force and the opposite couple act on j; the force acts there on j's
+/// own lever.
 struct Response {
     Vec3 force;    ///< on i [N]
     Vec3 torqueI;  ///< on i about its centre [N m]

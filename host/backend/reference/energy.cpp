@@ -12,8 +12,9 @@ struct Work {
     double sum() const { return hysteretic + damping + sliding + rolling + torsion; }
 };
 
-/// The work that the force `e` takes in half a step, at the place where the force acted: so contacts book exactly
-/// what particles feel: with the normal and levers of another step the balance would be of first order in dt.
+/// The work that the force `e` takes in half a step. It uses the normal and levers of the step in which the force
+/// acted, so that contacts book exactly the force that particles feel. With those of another step, the balance would
+/// only be of first order in dt.
 Work halfStepWork(const Exerted& e, const Body& i, const Body& j, double dt) {
     if (!e.touching) return {};
     const Vec3 velocity = contactVelocity(i, e.leverI, j, e.leverJ), spin = i.spin - j.spin;
@@ -29,9 +30,9 @@ Work operator+(const Work& a, const Work& b) {
             a.torsion + b.torsion};
 }
 
-/// Energy that the normal force loses: the area between its path and the overlap axis, less the stored part. A new
-/// contact comes from overlap zero and one that parts goes there, whatever the particles do beyond that within the
-/// step.
+/// Energy that the normal force loses: the area between its path and the overlap axis, less the stored part. The path
+/// of a new contact begins at overlap zero, and the path of a contact that parts ends there. Motion of the particles
+/// before or after that within the step does not count here.
 double lossByLaw(const Exerted& before, const Exerted& now, double taken) {
     const double stored = now.elastic.normal - before.elastic.normal;
     if (!before.touching) return now.parts.hysteretic * now.overlap / 2 - stored;

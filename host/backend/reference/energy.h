@@ -1,6 +1,6 @@
 #pragma once
-// The energy of a contact in a step: each part of its force takes some from the motion, stores some in its
-// spring and loses the rest (backend.h, EnergyBook, for the balance that this closes).
+// The energy of a contact in a step. Each part of its force takes some energy from the motion, stores some of it in its
+// spring and loses the rest. EnergyBook in backend.h gives the balance that this closes.
 
 #include "host/backend/backend.h"
 #include "host/backend/reference/contact.h"
@@ -16,8 +16,8 @@ struct Elastic {
 /// Energy stored by a contact that exerts `hysteretic` [N] with this history.
 Elastic elasticEnergy(const ContactParameters& p, double hysteretic, double reduced, const History& history);
 
-/// The force of a contact in a step and its place, kept until the next. Zero if it did not touch, and without an
-/// energy book only the force.
+/// The force of a contact in a step and its place, kept until the next step. It is zero if the contact did not touch.
+/// Without an energy book only the force is kept.
 struct Exerted {
     bool touching = false;
     Vec3 normal{0};
@@ -33,12 +33,12 @@ struct Exerted {
 /// `now` at its end (does not touch: it has parted). `i` and `j` move as they did during the step of `dt` [s].
 void bookContact(const Exerted& before, const Exerted& now, const Body& i, const Body& j, double dt, EnergyBook& book);
 
-/// Books the first of a contact that was loaded touching: what the normal spring stores came with the load; what a
-/// slider's dashpot sets up in its spring counts against friction, as in any new contact.
+/// Books the first step of a contact that touched when it was loaded. The energy in the normal spring came with the
+/// load. The energy that a slider's dashpot puts into its spring counts against friction, as in any new contact.
 void bookLoaded(const Exerted& now, EnergyBook& book);
 
-/// Books a contact that ends because `i` or `j` has left the motion; who has is to be given at rest, the one that
-/// stays moves as it did during the step.
+/// Books a contact that ends because `i` or `j` has left the motion. Pass the body that has left as at rest, and the
+/// body that stays as it moved during the step.
 void bookDeparture(const Exerted& before, const Body& i, const Body& j, double dt, EnergyBook& book);
 
 /// Adds the energy in the contact's springs.

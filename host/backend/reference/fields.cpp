@@ -18,7 +18,8 @@ class Smear {
     explicit Smear(const FieldRequest& request)
         : request_(request), cell_(request.grid.cell()), volume_(request.grid.cellVolume()) {}
 
-    /// The kernel around `x`, normalised over the grid; nothing if `x` is not in it. Valid until the next call.
+    /// The kernel around `x`, normalised over the grid. It is empty if `x` is not in the grid. Valid until the next
+    /// call.
     const std::vector<Weight>& around(const Vec3& x) {
         weights_.clear();
         const FieldGrid& g = request_.grid;
@@ -82,7 +83,7 @@ FieldPoints coarseGrain(const FieldRequest& request, double density, const Parti
             at.touches += touches[i] * w.value;
         }
     }
-    for (std::size_t i = 0; i < p.size(); ++i) {  // once the velocity from which they stray is known
+    for (std::size_t i = 0; i < p.size(); ++i) {  // a second loop, because it needs the velocity field
         if (p.status[i] != Status::Active) continue;
         for (const Weight& w : smear.around(p.position[i])) {
             FieldPoint& at = points[w.point];

@@ -1,5 +1,5 @@
 #pragma once
-// Coarse-grained fields (host/model/field.h) of particles and what acts along their branches, in double precision.
+// Coarse-grained fields (host/model/field.h) of particles and of the forces along their branches, in double precision.
 
 #include <cstdint>
 #include <vector>
@@ -9,17 +9,17 @@
 
 namespace vkdose::reference {
 
-/// A contact as the stress sees it.
+/// The part of a contact that the stress needs.
 struct Branch {
     std::uint32_t particle = 0;  ///< on which the force acts
-    std::uint32_t other = 0;     ///< the larger index of a pair; of no meaning with a wall
+    std::uint32_t other = 0;     ///< the larger index of a pair; meaningless with a wall
     bool pair = false;
     Vec3 centre{0};  ///< of the particle, when the force acted [m]
-    Vec3 along{0};   ///< to it from the other's centre, or from the wall [m]
-    Vec3 force{0};   ///< on it [N]
+    Vec3 along{0};   ///< from the centre of the other particle, or from the wall, to this centre [m]
+    Vec3 force{0};   ///< on the particle [N]
 };
 
-/// `density` of the particles [kg/m3].
+/// Computes the fields. `density` is that of the particles [kg/m3].
 FieldPoints coarseGrain(const FieldRequest& request, double density, const Particles& particles,
                         const std::vector<Branch>& branches);
 

@@ -48,7 +48,7 @@ void Forces::note(const Touch& touch, ContactClass kind, std::size_t particle, s
         loads_->deepest = {ratio, kind, static_cast<std::uint32_t>(particle), static_cast<std::uint32_t>(other)};
 }
 
-/// A wall turns about the origin, the fixed ones at no rate.
+/// A wall as a body. It turns about the origin; the rate of fixed walls is 0.
 Body Forces::wallBody(ContactClass kind) const {
     return {Vec3(0), Vec3(0), Vec3(0, 0, kind == ContactClass::ParticleCoil ? motion_.rate : 0), 0};
 }
@@ -72,7 +72,7 @@ void Forces::book(const Exerted& before, const Exerted& now, const Body& i, cons
     addElastic(now.elastic, loads_->energy);
 }
 
-/// A pair of the last step that no longer touches, or of which one or both are no longer in the motion.
+/// Ends a pair of the last step that no longer touches, or of which one or both particles have left the motion.
 void Forces::partPair(std::size_t i, const Known& known) {
     if (!world_->energyBook) return;
     const auto present = [&](std::size_t k) {
@@ -93,7 +93,7 @@ void Forces::partWall(std::size_t i, ContactClass kind, const Exerted& before) {
         loads_->energy.left += before.elastic.sum();
 }
 
-/// Contacts of particle i with those of larger index: each pair once.
+/// Contacts of particle i with particles of larger index, so that each pair counts once.
 void Forces::pairs(std::size_t i) {
     before_.swap(pairs_[i]);
     pairs_[i].clear();
@@ -127,7 +127,7 @@ void Forces::pairs(std::size_t i) {
     partThoseBefore(std::numeric_limits<std::uint32_t>::max());
 }
 
-/// Returns what the contact exerted; booking it is the caller's, who knows what it exerted before.
+/// Returns the force that the contact exerted. The caller books it, because it knows the force of the last step.
 Exerted Forces::wall(std::size_t i, ContactClass kind, std::uint32_t other, const Touch& touch, History& history) {
     const Response response = contactResponse(world_->law, kind, touch, springDt_, history);
     loads_->force[i] += response.force;
@@ -147,7 +147,8 @@ Exerted Forces::wall(std::size_t i, ContactClass kind, std::uint32_t other, cons
     return exerted;
 }
 
-/// Every fixed surface, in order: where particle i is to it, and what it remembers of the last step.
+/// Finds for every fixed surface, in order, the position of particle i relative to it and its history from the last
+/// step.
 void Forces::meetSurfaces(std::size_t i) {
     met_.clear();
     auto known = before_.cbegin();
@@ -162,8 +163,8 @@ void Forces::meetSurfaces(std::size_t i) {
     }
 }
 
-/// Where walls go on into the throat, two of them may overlap the sphere in what is one contact. The deeper one counts
-/// and goes on with the other's history unless it has its own.
+/// Where a wall continues into the throat, wall and front wall may both overlap the sphere although they form one
+/// contact. Only the deeper one counts. It takes over the history of the other one unless it has its own.
 void Forces::joinAtFront(std::size_t i) {
     const auto isFront = [&](const Met& m) {
         return std::holds_alternative<geometry::Front>(world_->surfaces[m.known.other]);
@@ -204,8 +205,8 @@ void Forces::surfaces(std::size_t i) {
     }
 }
 
-/// The slot of the turn that touched at `wireAngle` in the last step and has not been found yet in this one; the number
-/// of slots if there is none. The same turn moves far less than half a turn in a step.
+/// The slot of the turn that touched near `wireAngle` in the last step and has not been found yet in this one. Returns
+/// the number of slots if there is none. The wire angle of a turn changes by far less than half a turn in a step.
 std::size_t Forces::slotOf(const Turns& before, const Turns& now, double wireAngle) {
     std::size_t slot = 0;
     while (slot < before.size() &&
@@ -214,7 +215,7 @@ std::size_t Forces::slotOf(const Turns& before, const Turns& now, double wireAng
     return slot;
 }
 
-/// Each turn touched has its own history, in a slot that is its own for as long as it is touched.
+/// Each turn that particle i touches has its own history. It keeps the same slot as long as it is touched.
 void Forces::coil(std::size_t i) {
     const Turns before = turns_[i];
     Turns& now = turns_[i];
@@ -228,7 +229,7 @@ void Forces::coil(std::size_t i) {
 void Forces::touchTurns(std::size_t i, const Turns& before, Turns& now) {
     const std::vector<geometry::CoilTouch> found =
         geometry::touches(*world_->coil, motion_.angle, particles_->position[i], particles_->radius[i]);
-    std::array<bool, kMaxCoilTouches> taken{};  // slots spoken for, by a turn of the last step or a new one
+    std::array<bool, kMaxCoilTouches> taken{};  // slots in use by a turn of the last step or by a new one
     std::transform(before.begin(), before.end(), taken.begin(), [](const Turn& turn) { return turn.touching; });
 
     for (const geometry::CoilTouch& at : found) {

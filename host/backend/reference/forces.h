@@ -26,7 +26,7 @@ struct Loads {
     std::vector<Vec3> force;   ///< without gravity [N]
     std::vector<Vec3> torque;  ///< about the particle's centre [N m]
     double coilTorque = 0;     ///< about +z, on the coil [N m]
-    EnergyBook energy;         ///< what the contacts book in this step, and what they store; if the world asks for it
+    EnergyBook energy;         ///< energies that contacts book and store in this step; if the world asks for it
     Deepest deepest;
     std::vector<Branch> branches;  ///< of every contact
 };
@@ -42,8 +42,8 @@ class Forces {
     /// Forgets every contact.
     void reset(std::size_t particles);
 
-    /// Contact forces of all active particles; histories advance by `springDt` [s], those of contacts that have
-    /// parted vanish. Throws RunError when a particle touches more turns of the coil than there are slots for.
+    /// Contact forces of all active particles. Histories advance by `springDt` [s]. Histories of contacts that have
+    /// parted are dropped. Throws RunError when a particle touches more turns of the coil than there are slots.
     void evaluate(const RuledWorld& world, const Particles& particles, const Neighbours& neighbours,
                   const CoilMotion& coil, double springDt, Loads& loads);
 
@@ -61,16 +61,16 @@ class Forces {
         History history;
         Exerted exerted;
     };
-    /// A fixed surface in the step at work.
+    /// A fixed surface in the current step.
     struct Met {
-        bool continues = false;  ///< it touched at the last step, and `known` is what it remembers
+        bool continues = false;  ///< it touched at the last step, and `known` holds its history
         Known known;
         geometry::Closest closest{};
         bool touches = false;
     };
     struct Turn {
         bool touching = false;
-        double wireAngle = 0;  ///< where on the wire; tells the turns apart [rad]
+        double wireAngle = 0;  ///< the place on the wire, which tells the turns apart [rad]
         History history;
         Exerted exerted;
     };

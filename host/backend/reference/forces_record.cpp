@@ -83,7 +83,7 @@ void Forces::restore(const Record& record) {
         const bool coil = kind == static_cast<std::uint32_t>(ContactClass::ParticleCoil);
         if (particle >= pairs_.size() || kind >= kContactClasses || (coil && other >= kMaxCoilTouches))
             throw RecordError(fmt::format("contact {} is of a particle or turn that there is not", c));
-        // Saved in this order, so that every row is ascending again.
+        // The contacts were saved in ascending order, so that every row is ascending again.
         if (coil)
             turns_[particle][other] = {true, wireAngle[c], history, exerted};
         else

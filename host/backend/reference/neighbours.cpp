@@ -27,7 +27,7 @@ class CellGrid {
             constexpr double kMaxCells = 64;  // per axis: bounds the memory when a few particles are far apart
             const double cells = std::floor((high[d] - low[d]) / reach);
             count_[d] = cells >= 1 ? static_cast<int>(std::min(cells, kMaxCells)) : 1;
-            // A shade wider than the extent asks for, so that rounding cannot split a pair by two cells.
+            // The cells are slightly wider than the extent needs, so that rounding cannot put a pair two cells apart.
             edge_[d] = std::max(reach, (high[d] - low[d]) / count_[d]) * (1 + 1e-9);
         }
         cells_.resize(static_cast<std::size_t>(count_[0]) * count_[1] * count_[2]);

@@ -1,5 +1,5 @@
 #pragma once
-// Which pairs may touch: a list with a skin, good until some particle has moved half of it.
+// The pairs that may touch: a list with a skin. It is valid until some particle has moved half the skin.
 
 #include <cstdint>
 #include <vector>
@@ -10,10 +10,11 @@ namespace vkdose::reference {
 
 class Neighbours {
   public:
-    /// Forgets everything; the next `update` builds, and counts on from `builds`. `skin` [m].
+    /// Forgets everything. The next `update` builds the list, and the count of builds goes on from `builds`. `skin`
+    /// [m].
     void reset(double skin, std::uint64_t builds = 0);
 
-    /// Rebuilds the list if a particle has moved more than half the skin since the last build (or never was built).
+    /// Builds the list if a particle has moved more than half the skin since the last build, or if there is none yet.
     void update(const Particles& particles);
 
     /// Indices j > i, ascending, of the particles closer to i than a_i + a_j + skin at the last build.

@@ -6,7 +6,7 @@ namespace vkdose::reference {
 
 namespace {
 
-/// delta*: the overlap from which a contact is as stiff as it gets. Needs k1 < k2Max.
+/// delta*: the overlap from which a contact has its largest stiffness. Needs k1 < k2Max.
 double plasticLimit(const ContactParameters& p, double reduced) {
     return p.k2Max / (p.k2Max - p.k1) * p.plasticityDepth * reduced;
 }

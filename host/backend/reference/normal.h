@@ -10,11 +10,11 @@ namespace vkdose::reference {
 /// adhesive branch. Needs k1 <= k2Max; with k1 == k2Max the contact is a linear spring.
 double normalForce(const ContactParameters& p, double overlap, double reduced, double& maxOverlap);
 
-/// Slope k_2 of the line on which a contact with this history unloads [N/m]: f^2 / (2 k_2) is the energy that it gives
-/// back when f falls to zero.
+/// Slope k_2 of the line on which a contact with this history unloads [N/m]. The contact gives back the energy
+/// f^2 / (2 k_2) when f falls to zero.
 double unloadingStiffness(const ContactParameters& p, double reduced, double maxOverlap);
 
-/// Whether `force` [N], from `normalForce`, pulls as hard as the overlap allows.
+/// Whether `force` [N], from `normalForce`, is the largest pull that the overlap allows.
 bool onAdhesiveBranch(const ContactParameters& p, double overlap, double force);
 
 }  // namespace vkdose::reference

@@ -97,7 +97,7 @@ class ReferenceBackend final : public Backend {
     Neighbours neighbours_;
     Forces forces_;
     Loads loads_;
-    Particles before_;  ///< the state before the last step, velocities half a step before its forces; for the book
+    Particles before_;  ///< state before the last step; velocities are half a step before its forces; for the book
     EnergyBook book_;   ///< losses and works of the call so far
     std::uint64_t steps_ = 0;  ///< since load
     double angle_ = 0;         ///< of the coil since load [rad]
@@ -189,7 +189,7 @@ void ReferenceBackend::move(std::size_t i, double kick) {
     particles_.position[i] += world_.timeStep * particles_.velocity[i];
 }
 
-/// Takes a particle out of the motion that has been dosed or lost.
+/// Takes a particle out of the motion if it is dosed or lost.
 void ReferenceBackend::settleStatus(std::size_t i) {
     const Vec3& x = particles_.position[i];
     const bool broken = !finite(x) || !finite(particles_.velocity[i]) || !finite(particles_.spin[i]);
@@ -207,7 +207,8 @@ void ReferenceBackend::settleStatus(std::size_t i) {
     }
 }
 
-/// Adds what the contacts booked in this step, and what came with the load or went with particles that left.
+/// Adds the energies that contacts booked in this step, the energy that came with the load, and the energy that left
+/// with particles.
 void ReferenceBackend::bookStep(bool opening) {
     const EnergyBook& step = loads_.energy;
     book_.plastic += step.plastic;
@@ -222,7 +223,8 @@ void ReferenceBackend::bookStep(bool opening) {
     book_.loaded += step.loaded;
     for (std::size_t i = 0; i < particles_.size(); ++i) {
         if (before_.status[i] != Status::Active) continue;
-        if (opening) {  // half a kick: the velocity half a step before the forces is as far on the other side
+        if (opening) {
+            // The opening step made half a kick from v(0) to v(1/2). v(-1/2) is as far from v(0) on the other side.
             before_.velocity[i] = 2.0 * before_.velocity[i] - particles_.velocity[i];
             before_.spin[i] = 2.0 * before_.spin[i] - particles_.spin[i];
             book_.loaded += mechanicalEnergy(i).sum();

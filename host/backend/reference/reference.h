@@ -1,6 +1,6 @@
 #pragma once
-// The executable specification: physics.md in double precision, serial, to be read beside it. See backend.h for the
-// time step.
+// The executable specification: physics.md as a serial program in double precision. Read the two side by side. See
+// backend.h for the time step.
 
 #include <memory>
 

@@ -1,5 +1,5 @@
 #pragma once
-// Rolling resistance: the kinematics; the force element is sliding's (physics.md, "Rolling").
+// Rolling resistance: its kinematics. The force element is the one of sliding (physics.md, "Rolling").
 
 #include "host/core/vec.h"
 #include "host/model/material.h"
@@ -12,7 +12,7 @@ double rollingLever(RollingLever choice, double reduced);
 /// Rolling velocity -a_r n x (omega_i - omega_j) [m/s]; `spin` is the difference [rad/s].
 Vec3 rollingVelocity(double lever, const Vec3& n, const Vec3& spin);
 
-/// Torque on i of the pseudo force that resists rolling [N m]; on j the opposite.
+/// Torque on i of the pseudo force that resists rolling [N m]. The opposite torque acts on j.
 Vec3 rollingTorque(double lever, const Vec3& n, const Vec3& force);
 
 }  // namespace vkdose::reference

@@ -12,12 +12,12 @@ struct FrictionElement {
     double friction;   ///< mu [-]; 0 switches the element off
 };
 
-/// The spring turned into the plane normal to `n`, at its old length.
+/// The spring turned into the plane normal to `n`. It keeps its length.
 Vec3 intoTangentPlane(const Vec3& spring, const Vec3& n);
 
 /// Force that resists the tangential velocity `v` [N], at most friction * `bearing` (F_C [N]). `spring` [m] is turned
-/// into the plane normal to `n`, advanced by v dt and, where the slider slips, set to what the slider bears. `slips`
-/// tells whether it does.
+/// into the plane normal to `n` and advanced by v dt. If the slider slips, the spring is set so that spring
+/// and dashpot together exert this largest force. `slips` tells whether the slider slips.
 Vec3 frictionForce(const FrictionElement& element, double bearing, const Vec3& n, const Vec3& v, double dt,
                    Vec3& spring, bool* slips = nullptr);
 

@@ -16,13 +16,13 @@ struct DeviceRoom {
     std::uint32_t members = 0;  ///< rows of workgroups in a dispatch
 };
 
-/// Its limits now. A fifth of the free memory is left for pipelines, staging and other programs.
+/// The present limits of the device. A fifth of the free memory is left for pipelines, staging and other programs.
 DeviceRoom roomOn(const vk::Device& device);
 
-/// The room one canister takes where nothing limits it. Throws RunError if indices of 32 bits do not reach.
+/// The room that one canister takes on a device without limits. Throws RunError if it needs more than 32-bit indices.
 TableSizes roomOf(const World& world, const Particles& particles);
 
-/// Whether all of them, who can share tables, fit the device at once.
+/// Whether all these canisters fit the device at once. They must be able to share tables.
 bool fit(const std::vector<TableSizes>& canisters, const DeviceRoom& room);
 
 }  // namespace vkdose

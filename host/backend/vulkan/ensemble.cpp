@@ -161,7 +161,8 @@ void Ensemble::runBatch(std::uint32_t count, const std::vector<double>& coilRate
 
 void Ensemble::advance(std::uint32_t steps, const std::vector<double>& coilRates) {
     using clock = std::chrono::steady_clock;
-    // Long submissions starve the display and trip watchdogs, short ones waste time on the fence: aim between.
+    // Long submissions starve the display and trip watchdogs. Short ones waste time on the fence. The batch is adapted
+    // so that a submission takes a time between these two [s].
     constexpr double kShortest = 0.05, kLongest = 0.25;
     constexpr std::uint32_t kMostSteps = 4096;
     for (std::uint32_t done = 0; done < steps;) {

@@ -1,7 +1,7 @@
 #pragma once
-// Canisters that share one device: the same passes step all of them at once, each with its own part of every table, its
-// own parameters and coil. A member's results do not depend on the others, to the bit. A single canister is an
-// ensemble of one. For one thread at a time.
+// Canisters that share one device. The same passes step all of them at once. Each canister has its own part of every
+// table, its own parameters and its own coil. The results of a member do not depend on the others in any bit. A single
+// canister is an ensemble of one. Only one thread at a time may use an ensemble.
 
 #include <cstdint>
 #include <memory>
@@ -25,8 +25,8 @@ class Ensemble {
         Particles particles;
     };
 
-    /// Start over with these; all are live. Throws RunError if they do not fit the tables, or cannot share them
-    /// (roomForAll).
+    /// Start over with these canisters. All are live. Throws RunError if they do not fit the tables, or cannot share
+    /// them (roomForAll).
     void load(const std::vector<Canister>& canisters);
 
     /// The members that step from now on, ascending. Those left out keep their state.
@@ -34,14 +34,14 @@ class Ensemble {
 
     void setLaw(std::uint32_t member, const ContactLaw& law);
 
-    /// All live members together; `coilRates`: of every member [rad/s about +z]. A member's run error is kept
-    /// (`failure`), and its state is of no use from then on.
+    /// Advances all live members together. `coilRates` holds the rate of every member [rad/s about +z]. The run error
+    /// of a member is kept (`failure`), and its state is of no use from then on.
     void advance(std::uint32_t steps, const std::vector<double>& coilRates);
 
     /// The error that stopped this member.
     const std::optional<std::string>& failure(std::uint32_t member) const { return members_[member].failure; }
 
-    /// Of a live member; means over the last `steps`.
+    /// Sensors of a live member. Means are over the last `steps`.
     Sensors sense(std::uint32_t member, std::uint32_t steps);
 
     /// As in Backend, of a live member.
@@ -53,10 +53,10 @@ class Ensemble {
     /// As in Backend, of a live member.
     FieldPoints fields(std::uint32_t member, const FieldRequest& request);
 
-    /// Of an ensemble of one.
+    /// The profile of an ensemble of one.
     VulkanProfile profile(std::uint32_t steps, double coilRate);
 
-    /// Of all tables together [bytes]; once loaded.
+    /// Size of all tables together [bytes]. Call after `load`.
     std::uint64_t tableBytes() const { return passes_->bytes(); }
 
     const vk::Device& device() const { return device_; }
@@ -67,7 +67,7 @@ class Ensemble {
         Particles loaded;
         gpu::Member block{};
         std::uint64_t step = 0;
-        std::uint64_t turned = 0;  ///< of the coil since load [2^-64 turns]: however steps are cut into batches
+        std::uint64_t turned = 0;  ///< of the coil since load [2^-64 turns]; the same for any batches
         std::uint32_t row = 0;     ///< on the roster
         std::optional<std::string> failure;
     };

@@ -10,12 +10,14 @@ namespace vkdose {
 
 namespace {
 
-/// Particles that one dispatch adds up: the bits of inReach in shaders/pass/tile.glsl. Even with kMaxLinks contacts
-/// each, and the nodes of these, an invocation's loops stay below the 65,535 trips after which lavapipe ends them.
+/// Number of particles that one dispatch adds up. It is the number of bits of inReach in shaders/pass/tile.glsl. Even
+/// with kMaxLinks contacts for each particle, and the nodes of these contacts, the loops of an invocation stay below
+/// 65,535 trips, after which lavapipe ends them.
 constexpr std::uint32_t kSlice = 128;
 static_assert(kSlice * ((gpu::kMaxLinks + gpu::kMaxTurns) * (gpu::kFieldNodes + 1) + 2) < 65535);
 
-/// Points of a workgroup: a block as near to a cube as a power of two allows, no longer than the grid.
+/// The block of points for one workgroup. Its edges are powers of two; it is as close to a cube as they allow, and no
+/// longer than the grid.
 std::array<std::uint32_t, 3> tileOf(const FieldGrid& grid, std::uint32_t workgroup) {
     std::array<std::uint32_t, 3> tile{1, 1, 1};
     for (std::uint32_t points = 1; points < workgroup; points *= 2) {
@@ -40,7 +42,8 @@ gpu::FieldParams pack(const FieldRequest& r, std::uint32_t workgroup, double lar
     p.low = gpu::vec4(glm::vec3(g.low), float(r.reach()));
     p.size = gpu::vec4(glm::vec3(size), float(r.width));
     p.cell = gpu::vec4(glm::vec3(cell), float(g.cellVolume()));
-    // A branch is at most two radii long; a little more, because the particle has moved since the force acted.
+    // A branch is at most two radii long. The factor is a little larger, because the particle has moved since the force
+    // acted.
     p.along = gpu::vec4(g.resolved(0), g.resolved(1), g.resolved(2), float(2.1 * largestRadius));
     p.cells =
         gpu::uvec4(g.cells[0], g.cells[1], g.cells[2], r.kernel == Kernel::Gaussian ? gpu::kGaussian : gpu::kLucy);
@@ -79,7 +82,7 @@ struct FieldCounts {
 #include "shaders/shared/field_tables.h"
 };
 
-/// The tables of a step with those of the field passes in the place of some.
+/// The tables of a step, some of which are replaced by those of the field passes.
 std::vector<const vk::Buffer*> with(const FieldTables& own, std::vector<const vk::Buffer*> tables) {
 #define TABLE(number, name, element, count, title) tables[number] = &own.name;
 #include "shaders/shared/field_tables.h"

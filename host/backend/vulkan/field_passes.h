@@ -28,10 +28,10 @@ class FieldPasses {
     struct Moment {
         std::uint32_t row;       ///< of the member on the roster
         std::uint32_t source;    ///< the half of the state that is current
-        std::uint32_t lastStep;  ///< of the last batch: the step made last, which the coil's phase is counted from
+        std::uint32_t lastStep;  ///< the last step of the last batch, from which the coil's phase is counted
         double largestRadius;    ///< [m]
     };
-    /// Fields of a member; the request must be sound (faultOf). The device must be idle.
+    /// Fields of a member. The request must have no fault (faultOf). The device must be idle.
     FieldPoints compute(const FieldRequest& request, const Moment& moment);
 
   private:

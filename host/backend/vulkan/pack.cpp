@@ -16,7 +16,7 @@ namespace {
 using gpu::uvec4;
 using gpu::vec4;
 
-// The device counts as the host does.
+// The device uses the same numbers as the host.
 static_assert(gpu::kStatusActive == uint32_t(Status::Active) && gpu::kStatusDosed == uint32_t(Status::Dosed) &&
               gpu::kStatusLost == uint32_t(Status::Lost));
 static_assert(gpu::kParticleParticle == uint32_t(ContactClass::ParticleParticle) &&
@@ -79,7 +79,7 @@ gpu::SurfaceParams packed(uint32_t kind, const Vec3& point, double side, const V
 
 struct PackSurface {
     gpu::SurfaceParams operator()(const geometry::Plane& g) const {
-        // A plane that ends is parallel to z, so that any of its points will do.
+        // A plane that ends is parallel to z, so that the point may be moved along z to the end.
         if (g.end < geometry::kEndless)
             return packed(gpu::kPlane, Vec3(g.point.x, g.point.y, g.end), 1, g.normal, 0, 0);
         return packed(gpu::kPlane, g.point, 0, g.normal, 0, 0);
@@ -104,7 +104,8 @@ gpu::CoilParams packCoil(const geometry::Coil& c, double largest) {
                         "device's coil contact covers smaller ones; use --backend reference",
                         largest, c.radius));
     const double kappa = c.hand * 2 * kPi / c.pitch;
-    // Seen from the sphere's centre, the wire can only be touched within this angle; a little more for rounding.
+    // The sphere can touch the wire only within this angle as seen from its centre. It is a little larger because of
+    // rounding.
     const double widest = std::min(std::asin(reach / c.radius) * 1.0001 + 1e-6, kPi / 2);
     const double bound = std::abs(kappa) * reach + widest;
     const double turnsEachSide = std::ceil((bound + kPi) / (2 * kPi)) - 1;

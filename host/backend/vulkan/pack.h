@@ -10,7 +10,7 @@
 
 namespace vkdose {
 
-/// Everything of the only member, but the coil's phase. Throws RunError if the world does not fit the tables.
+/// All data of the only member except the coil's phase. Throws RunError if the world does not fit the tables.
 gpu::Member packMember(const World& world, const ContactLaw& law, const Particles& particles);
 
 /// Replaces the contact law of a packed member.
@@ -22,10 +22,10 @@ std::uint64_t turnsFixed(double angle);
 /// Coil rotation [2^-64 turns]: phase at the start of a batch and advance per step, both modulo a turn.
 void packPhase(std::uint64_t start, std::uint64_t perStep, gpu::Member& member);
 
-/// A member's part of one half of the state buffer (gpu::stateOffset): `share` slots from `first` on, those that no
-/// particle needs padding.
+/// Writes a member's part of one half of the state buffer (gpu::stateOffset): `share` slots from `first` on. Slots that
+/// no particle needs are padding.
 void packState(const Particles& particles, std::size_t share, std::size_t first, std::vector<gpu::vec4>& half);
-/// From a half that holds nothing else.
+/// Reads the particles from a half that holds only this member.
 Particles unpackState(const std::vector<gpu::vec4>& half, std::size_t slots, const Particles& loaded);
 
 }  // namespace vkdose

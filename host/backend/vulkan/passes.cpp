@@ -19,13 +19,13 @@ Access accessOn(const vk::Device& device, const TableSizes& s) {
     return {texel, texel && device.hasInt64()};
 }
 
-/// How the variants of a pass are chosen (shaders/passes.cmake).
+/// The macros that choose the variant of a pass (shaders/passes.cmake).
 unsigned macrosFor(const Access& access, const TableSizes& s) {
     return (access.texelReads ? spirv::TEXEL_READS : 0) | (access.packedStores ? spirv::PACKED_STORES : 0) |
            (s.energyBook ? spirv::ENERGY_BOOK : 0);
 }
 
-/// How many workgroups a pass of a step takes.
+/// The number of workgroups of a pass of a step.
 enum class Extent {
     OfStep,     ///< the device decides for each step: `arguments` are in its gpu::Dispatch
     OfLists,    ///< the device decides at every refresh: `arguments` are in gpu::Dispatches
@@ -118,7 +118,8 @@ void Passes::reset() {
 
 void Passes::setLive(std::uint32_t live) {
     const auto groups = [&](std::uint32_t n) { return gpu::uvec4(sizes.inRow(n), live, sizes.layers(n), 0); };
-    // Every step may ask for everything once more; from then on it is as many as there is work for.
+    // The first time, every step dispatches the largest number of workgroups. After that the device sets the number
+    // from the work there is.
     gpu::Dispatches d{};
     for (gpu::Dispatch& step : d.step) {
         step.cells = groups((sizes.cells + sizes.workgroup - 1) / sizes.workgroup);

@@ -17,7 +17,7 @@
 
 namespace vkdose {
 
-/// How the passes read and store, chosen for the device.
+/// The way in which passes read and store. It is chosen for the device.
 struct Access {
     bool texelReads = false;    ///< through texel-buffer views
     bool packedStores = false;  ///< 64 bits at a time; only with texelReads
@@ -44,16 +44,16 @@ class Passes : public Tables {
   public:
     Passes(const vk::Device& device, const TableSizes& sizes);
 
-    /// Records steps `first` ... `first + count - 1` of a batch; `source` is the half of the state they start from.
-    /// `times` gets a mark before the first step and one after each pass of every step (stepNames).
+    /// Records steps `first` ... `first + count - 1` of a batch. `source` is the half of the state from which they
+    /// start. `times` receives a mark before the first step and one after each pass of every step (stepNames).
     void recordSteps(vk::Commands& commands, std::uint32_t first, std::uint32_t count, std::uint32_t source,
                      bool opening, vk::Timestamps* times = nullptr) const;
-    /// Of the member in this row of the roster (gpu::Member).
+    /// Records the sensing of the member in this row of the roster (gpu::Member).
     void recordSensing(vk::Commands& commands, std::uint32_t source, std::uint32_t row = 0) const;
-    /// Needs an energy book and a step made; `opening` if it was the first.
+    /// Records the sensing of energy. It needs an energy book and at least one step; `opening` if that was the first.
     void recordEnergySensing(vk::Commands& commands, std::uint32_t source, bool opening, std::uint32_t row = 0) const;
 
-    /// A load without history: nothing is listed, and the first step builds rows and contact lists.
+    /// Prepares a load without history: nothing is listed, and the first step builds rows and contact lists.
     void reset();
 
     /// From now on the first `live` rows of the roster take part in a step.

@@ -1,6 +1,7 @@
 #pragma once
-// Lets runs that know nothing of each other share an Ensemble: each calls from a thread of its own, and when all who
-// are present want to go on, one of them advances the device for all, as far as the one who wants least.
+// Lets runs that know nothing of each other share an Ensemble. Each run calls from a thread of its own. When all runs
+// that are present want to advance, one of them advances the device for all, by the smallest number of steps that any
+// of them wants.
 
 #include <condition_variable>
 #include <exception>
@@ -15,17 +16,17 @@ class Rendezvous {
   public:
     Rendezvous(const VulkanOptions& options, std::size_t guests) : ensemble_(options), guests_(guests) {}
 
-    /// Returns when all who are present have loaded. Throws what Ensemble::load throws, at everyone.
+    /// Returns when all guests that are present have loaded. An exception of Ensemble::load is thrown to every guest.
     void load(std::size_t guest, const World& world, const ContactLaw& law, const Particles& particles);
 
-    /// Returns when the guest's steps are made; those of others may then still be under way. Throws RunError if this
-    /// guest's run has failed, what else the device throws at everyone.
+    /// Returns when the guest's steps are made. Steps of other guests may not be finished then. Throws RunError if the
+    /// run of this guest has failed. Any other exception of the device is thrown to every guest.
     void advance(std::size_t guest, std::uint32_t steps, double coilRate);
 
-    /// The others no longer wait for this guest.
+    /// Takes this guest out, so that the others no longer wait for it.
     void leave(std::size_t guest);
 
-    /// `use(ensemble, member)` while nobody else uses the device.
+    /// Calls `use(ensemble, member)` while no other guest uses the device.
     template <class Use>
     auto alone(std::size_t guest, Use use) {
         const std::lock_guard lock(mutex_);
@@ -40,7 +41,7 @@ class Rendezvous {
         std::uint32_t member = 0;  ///< of the ensemble, once loaded
         Wish wish = Wish::None;
         Ensemble::Canister canister;
-        std::uint32_t steps = 0;  ///< still to make
+        std::uint32_t steps = 0;  ///< number of steps still to make
         double coilRate = 0;
         std::exception_ptr problem;
     };

@@ -10,7 +10,7 @@ namespace {
 using gpu::uvec4;
 using gpu::vec4;
 
-/// Of each of `rows` rows of `stride` vectors, `count` from `first` on.
+/// Reads `count` vectors, from `first` on, of each of `rows` rows that are `stride` vectors long.
 std::vector<float> packed(const vk::Buffer& from, std::size_t rows, std::size_t stride, std::size_t first,
                           std::size_t count) {
     std::vector<float> values;
@@ -21,7 +21,7 @@ std::vector<float> packed(const vk::Buffer& from, std::size_t rows, std::size_t 
     return values;
 }
 
-/// Its inverse, into the device's table.
+/// The inverse of `packed`: writes the vectors into the device's table.
 void unpack(const std::vector<float>& values, std::size_t rows, std::size_t stride, std::size_t first,
             std::size_t count, vk::Buffer& to) {
     std::vector<vec4> part(count);
@@ -32,7 +32,7 @@ void unpack(const std::vector<float>& values, std::size_t rows, std::size_t stri
     }
 }
 
-/// Contacts that keep springs in a slot: who meets whom, and their histories.
+/// Saves the contacts that keep springs in a slot: their two bodies and their histories.
 void saveContacts(const Passes& passes, std::uint32_t member, Record& record) {
     std::vector<std::uint32_t> pairs, particles, others;
     std::vector<float> springs;
@@ -49,7 +49,7 @@ void saveContacts(const Passes& passes, std::uint32_t member, Record& record) {
     record.put("contact_history", std::move(springs));
 }
 
-/// Slots side by side, from `first` on.
+/// Consecutive slots, from `first` on.
 struct SlotRun {
     std::uint32_t first, room;
     std::vector<glm::uvec2> entries;
@@ -63,8 +63,9 @@ struct SlotRun {
     }
 };
 
-/// Lists the contacts that touched, as a refresh would have: the next one carries the histories on. Returns
-/// Control::listed for these lists: none of the coil, whose histories are the particles' own.
+/// Lists the contacts that touched in the way of a refresh, so that the next refresh carries their histories on.
+/// Returns Control::listed for these lists. It counts none of the coil, because the particles keep those histories
+/// themselves.
 uvec4 restoreContacts(Passes& passes, std::uint32_t member, std::size_t particles, const Record& record) {
     const TableSizes& t = passes.sizes;
     const auto& owner = record.get<std::uint32_t>("contact_particle");
@@ -191,7 +192,7 @@ void restoreState(Passes& passes, std::uint32_t member, std::size_t particles, s
                   const Record& record) {
     const std::size_t stride = passes.sizes.particles(), first = std::size_t(member) * passes.sizes.share;
     const std::size_t coilRows = passes.sizes.coilHistoryRows(), books = passes.sizes.energyBook ? gpu::kBookFields : 0;
-    // All is looked at before anything is written.
+    // The whole record is checked before anything is written.
     const auto& state = record.get<float>("state", 4 * particles * gpu::kFields);
     const auto& coil = record.get<float>("coil_history", 4 * particles * coilRows);
     static const std::vector<float> none;

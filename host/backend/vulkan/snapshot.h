@@ -1,6 +1,6 @@
 #pragma once
-// The device's state as a record, and back. Rows and lists are not stored: a restored load starts with lists of what
-// touched, and the refresh that opens every load carries these contacts' histories into the full ones.
+// The device's state as a record, and back. Rows and contact lists are not stored. A restored load starts with lists of
+// only the contacts that touched. The refresh that opens every load carries their histories into the full lists.
 
 #include <array>
 #include <vector>
@@ -18,8 +18,8 @@ struct SlotContact {
     std::array<gpu::vec4, 5> history;  ///< TableSizes::historyParts() of them
 };
 
-/// In order of particle, pairs before surfaces, other; particles are counted from the member's first. The device must
-/// be idle.
+/// The touching contacts of a member, in order of particle, then pairs before surfaces, then `other`. Particles are
+/// counted from the member's first. The device must be idle.
 std::vector<SlotContact> touchingSlots(const Passes& passes, std::uint32_t member);
 
 /// A contact with a turn of the coil.
@@ -29,15 +29,17 @@ struct TurnContact {
     std::array<gpu::vec4, 2> history;  ///< as `coilHistory` in shaders/shared/buffers.glsl begins
 };
 
-/// Of a member's first `particles`, in order of particle, turn. The device must be idle. Reads what is the member's, so
-/// that looking at every member of an ensemble costs no more than looking at as many runs.
+/// The touching turns of a member's first `particles`, in order of particle, then turn. The device must be idle. It
+/// reads only the member's part of the tables, so that reading every member of an ensemble costs no more than reading
+/// as many single runs.
 std::vector<TurnContact> touchingTurns(const Passes& passes, std::uint32_t member, std::size_t particles);
 
-/// State of a member's first `particles` slots, read from half `source`. The device must be idle, and the member sensed
-/// since its last step (the sensors' accumulators are not stored).
+/// Saves the state of a member's first `particles` slots, read from half `source`. The device must be idle. The member
+/// must have been sensed since its last step, because the sensors' accumulators are not stored.
 void saveState(const Passes& passes, std::uint32_t member, std::size_t particles, std::uint32_t source, Record& record);
 
-/// Writes it into half `source` of freshly loaded passes. Throws RecordError if it does not fit them.
+/// Writes the record into half `source` of passes that have just been loaded. Throws RecordError if it does not fit
+/// them.
 void restoreState(Passes& passes, std::uint32_t member, std::size_t particles, std::uint32_t source,
                   const Record& record);
 

@@ -30,8 +30,8 @@ std::uint32_t narrow(std::uint64_t n) {
     return std::uint32_t(n);
 }
 
-/// Neighbours of a particle within reach and skin, mean over a packing: a dense random one has ten within 1.2
-/// diameters, more with the cube of the reach. Twelve spheres of one size can touch one.
+/// Mean number of neighbours of a particle within reach and skin. In a dense random packing it is ten within 1.2
+/// diameters, and it grows with the cube of the reach. At most twelve spheres of one size can touch one of them.
 std::uint64_t meanRow(const World& world, const Crowd& crowd) {
     const double mean = std::ceil(10 * std::pow(1 + world.skin / (2 * crowd.meanRadius), 3) + 2);
     return std::uint64_t(std::clamp(mean, 12.0, double(gpu::kMaxRow)));
@@ -55,8 +55,8 @@ void TableSizes::growTo(const TableSizes& other) {
 
 namespace {
 
-/// The sizes that shaders/shared/tables.h counts with: of all members together, in 64 bits, because the tables are
-/// counted before it is known whether 32 bits number their elements.
+/// The sizes that shaders/shared/tables.h uses, for all members together. They have 64 bits, because the tables are
+/// counted before it is known whether 32 bits are enough to number their elements.
 struct TableCounts {
     std::uint64_t canisters, particles, groups, cellHeads, rowEntries, linkEntries, springSlots, coilSlots, slots,
         historyParts, coilHistoryRows, coils, energyBook;
@@ -172,7 +172,8 @@ TableSizes tableSizes(const World& world, const Crowd& crowd, const gpu::Member&
     const std::uint64_t pairs = std::min(7 * n / 2 + kFew, n * (n - 1) / 2 + 1);
     const std::uint64_t surfaces = std::min(2 * n + kFew, n * s.surfaces);
     s.pairSlots = narrow(roundUp(pairs, workgroup));
-    // Where two surfaces each do not fit the device, half a one will do: so large a bed is mostly bulk.
+    // If slots for two surfaces to a particle do not fit the device, slots for half a surface are enough, because most
+    // particles of so large a bed touch no surface.
     const bool fits = s.pairSlots + surfaces + workgroup <= most;
     s.surfaceSlots = narrow(roundUp(fits ? surfaces : std::min(surfaces, n / 2), workgroup));
     s.coilSlots = world.coil ? s.share : 0;

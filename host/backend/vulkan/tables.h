@@ -14,7 +14,7 @@
 
 namespace vkdose {
 
-/// Every member gets as much room as the one that needs most.
+/// Sizes of the tables. Every member gets as much room as the one that needs most.
 struct TableSizes {
     std::uint32_t members = 1;
     std::uint32_t workgroup = 64;
@@ -34,7 +34,7 @@ struct TableSizes {
     /// Whether canisters of these sizes can share tables: surfaces of the same kinds in the same order, an energy book
     /// for all or for none.
     bool shares(const TableSizes& other) const;
-    /// At least as much room for each member as `other` has.
+    /// Grows so that each member has at least as much room as in `other`.
     void growTo(const TableSizes& other);
 
     std::uint32_t groups() const { return share / workgroup; }
@@ -45,19 +45,21 @@ struct TableSizes {
     std::uint32_t particles() const { return members * share; }
     std::uint32_t springSlots() const { return members * (pairSlots + surfaceSlots); }
     std::uint32_t slots() const { return springSlots() + members * coilSlots; }
-    /// Entry of what turn `turn` exerts in coil slot `slot` of all members (turnForceIndex in shared/buffers.glsl).
+    /// Place of the force that turn `turn` exerts in coil slot `slot` of all members (turnForceIndex in
+    /// shared/buffers.glsl).
     std::size_t turnForceOffset(std::uint32_t turn, std::uint32_t slot) const {
         return slots() + std::size_t(turn) * members * coilSlots + slot;
     }
     std::uint32_t firstPairSlot(std::uint32_t member) const { return member * pairSlots; }
     std::uint32_t firstSurfaceSlot(std::uint32_t member) const { return members * pairSlots + member * surfaceSlots; }
-    /// Vectors of a contact's history (kParts in shared/buffers.glsl).
+    /// Number of vectors in a contact's history (kParts in shared/buffers.glsl).
     std::uint32_t historyParts() const { return energyBook ? 5 : 2; }
     /// Place of a contact's vector in the history (historyIndex in shared/buffers.glsl).
     std::size_t historyOffset(std::uint32_t part, std::uint32_t slot) const {
         return part < 2 ? 2ULL * slot + part : std::size_t(part) * springSlots() + slot;
     }
-    /// The largest index into a table, which must stay below 2^32: in vectors, or whatever the table is made of.
+    /// The largest index into any table, which must stay below 2^32. It counts the elements of the table, for example
+    /// vectors.
     std::uint64_t largestIndex() const;
     /// Of all tables together, and of the longest [bytes].
     std::uint64_t allBytes() const;
@@ -91,14 +93,14 @@ struct DeviceShape {
     std::uint64_t range = 1ULL << 27;  ///< longest buffer that can be bound [bytes]
 };
 
-/// For one member, if `members` of its kind share the tables. Rows and slots are shared by all particles of a member,
-/// so they are sized for the mean of a dense packing; a full table is reported by the device (kErrorTables). Throws
-/// RunError if indices of 32 bits do not reach.
+/// Sizes for one member if `members` of its kind share the tables. All particles of a member share its rows and slots,
+/// so that these are sized for the mean of a dense packing. The device reports a full table (kErrorTables). Throws
+/// RunError if indices of 32 bits are not enough.
 TableSizes tableSizes(const World& world, const Crowd& crowd, const gpu::Member& member, const DeviceShape& device,
                       std::uint32_t members = 1);
 
-/// Room for all of them. Throws RunError if they cannot share tables: their surfaces are of other kinds or in another
-/// order, or only some keep an energy book.
+/// Room for all these members. Throws RunError if they cannot share tables because their surfaces differ in kind or
+/// order, or because only some keep an energy book.
 TableSizes roomForAll(const std::vector<TableSizes>& members);
 
 }  // namespace vkdose

@@ -21,7 +21,7 @@ class VulkanBackend final : public Backend {
     ~VulkanBackend() override {
         try {
             ensemble_->leave(guest_);
-        } catch (...) {  // what goes wrong with the device is told to those who stay
+        } catch (...) {  // members that stay get the device's error
         }
     }
     VulkanBackend(const VulkanBackend&) = delete;

@@ -12,8 +12,8 @@ namespace vkdose {
 
 struct VulkanOptions {
     vk::DeviceChoice device;
-    /// How particle state is read: through texel-buffer views where the device's limit allows, or always from storage
-    /// buffers.
+    /// The way to read particle state: through texel-buffer views if the device's limit allows it (Automatic), or
+    /// always from storage buffers (Storage).
     enum class Reads { Automatic, Storage } reads = Reads::Automatic;
     std::uint32_t workgroup = 64;      ///< invocations; a power of two, at most 128
     std::uint32_t mostGroups = 65535;  ///< in one row of a dispatch, what every device can do; more go in layers
@@ -26,20 +26,22 @@ inline std::unique_ptr<Backend> makeVulkanBackend(const vk::DeviceChoice& device
     return makeVulkanBackend(VulkanOptions{device});
 }
 
-/// Backends of canisters that share the device's tables and step together, each to be used from a thread of its own:
-/// all must load before any can, `advance` returns when all who are still there have asked for as many steps, and one
-/// that is destroyed is no longer waited for. Results are those of a backend of its own, to the bit; the coil may turn
-/// at another rate and the schedule be another one for each. The surfaces must be of the same kinds, in the same order.
+/// Backends of canisters that share the device's tables and step together. Each must be used from a thread of its own,
+/// because they wait for each other: all must load before any can go on, and `advance` returns when all backends that
+/// still exist have asked for as many steps. A backend that is destroyed is no longer waited for. The results are the
+/// same, to the bit, as those of a single backend. Each canister may have its own rate of the coil and its own
+/// schedule. The surfaces must be of the same kinds, in the same order.
 std::vector<std::unique_ptr<Backend>> makeVulkanEnsemble(const VulkanOptions& options, std::size_t members);
 
-/// Messages the validation layer gave to a backend made by makeVulkanBackend; `validated` tells whether it listened.
+/// Messages that the validation layer gave to a backend made by makeVulkanBackend. `validated` tells whether the layer
+/// was active.
 struct ValidationReport {
     bool validated = false;
     std::vector<std::string> messages;
 };
 ValidationReport validationReport(const Backend& backend);
 
-/// How the device's time divides between the passes, and the size of its tables.
+/// The share of each pass in the device's time, and the size of the tables.
 struct VulkanProfile {
     struct Pass {
         std::string name;
@@ -56,17 +58,17 @@ struct VulkanProfile {
     bool texelReads = false;
 };
 
-/// Advances a loaded Vulkan backend by `steps` with a time mark after every pass, which costs some speed itself. Throws
-/// what `advance` throws; std::invalid_argument if the backend is another one.
+/// Advances a loaded Vulkan backend by `steps` with a time mark after every pass. The marks cost some speed. Throws the
+/// same errors as `advance`, and std::invalid_argument if the backend is not a Vulkan backend.
 VulkanProfile profile(Backend& backend, std::uint32_t steps, double coilRate);
 
-/// Bytes on the device of all tables of a loaded Vulkan backend and of those it shares them with.
-/// std::invalid_argument if the backend is another one.
+/// Bytes on the device of all tables of a loaded Vulkan backend, together with those of the backends that share them.
+/// Throws std::invalid_argument if the backend is not a Vulkan backend.
 double tableBytes(const Backend& backend);
 
-/// Bytes that one particle's step moves between kernels and tables if no cache holds anything, from the layout and the
-/// reads and writes of shaders/pass/pairs.comp, surfaces.comp and move.comp without energy book: an estimate. Arguments
-/// are means over particles.
+/// Estimate of the bytes that one particle's step moves between kernels and tables if no cache holds anything. It
+/// counts the reads and writes of shaders/pass/pairs.comp, surfaces.comp and move.comp without energy book, with the
+/// sizes of the layout. The arguments are means over particles.
 double stepBytes(double touching, double touchingWalls);
 
 }  // namespace vkdose
