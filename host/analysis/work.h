@@ -15,9 +15,9 @@ struct DriveWork {
     double massPerJoule(double mass) const;
 };
 
-/// From the time series: `angle` [rad] of the coil at every line, which turns in one sense only, whichever; `torque` [N
-/// m] of the drive, mean since the line before. The first line begins the stretch: its torque belongs to what was
-/// before. Both have the same length.
+/// Takes columns of the time series of the same length. `angle` [rad] is the coil's at every line; it turns in one
+/// sense only, either one. `torque` [N m] is the drive's, mean since the line before. The first line begins the
+/// stretch, so its torque is not used.
 DriveWork driveWork(std::span<const double> angle, std::span<const double> torque);
 
 }  // namespace vkdose
