@@ -17,8 +17,8 @@ struct Window {
     int to = std::numeric_limits<int>::max();
 };
 
-/// For experiments the paper takes the slope "before saturation" without saying where that is. Here it means: before 80
-/// % of `filled` [kg] is out.
+/// For experiments the paper takes the slope "before saturation" without saying where that is. Here it means:
+/// before 80 % of `filled` [kg] is out.
 Window beforeSaturation(double filled);
 
 struct Slope {

@@ -32,8 +32,8 @@ struct Arch {
 
 /// Looks for arches over the coil in the canister. It cuts the powder into slices two mean diameters thick along the
 /// coil and looks within half the coil's radius of its axis to either side. A void is a range of heights, from the
-/// floor up, without powder below some powder. It must be two mean diameters high and reach above the coil's axis.
-/// Returns the greatest void, or none. `particles` are those of one instant; dosed ones are left out.
+/// floor up, that holds no powder but has powder above it. It must be two mean diameters high and reach above the
+/// coil's axis. Returns the greatest void, or none. `particles` are those of one instant; dosed ones are left out.
 std::optional<Arch> archAbove(const geometry::Coil& coil, const Canister& canister, const Particles& particles);
 
 }  // namespace vkdose

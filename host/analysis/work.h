@@ -15,9 +15,9 @@ struct DriveWork {
     double massPerJoule(double mass) const;
 };
 
-/// Takes columns of the time series of the same length. `angle` [rad] is the coil's at every line; it turns in one
-/// sense only, either one. `torque` [N m] is the drive's, mean since the line before. The first line begins the
-/// stretch, so its torque is not used.
+/// Takes two columns of the time series of the same length. `angle` [rad] is that of the coil at every line. The coil
+/// must turn in one sense only, no matter which. `torque` [N m] is that of the drive, mean since the line before. The
+/// first line begins the stretch, so its torque belongs to the time before and is not used.
 DriveWork driveWork(std::span<const double> angle, std::span<const double> torque);
 
 }  // namespace vkdose
