@@ -34,9 +34,10 @@ inline double partingSpeed(const Particles& p, std::size_t pair) {
     return p.velocity[2 * pair + 1].x - p.velocity[2 * pair].x;
 }
 
-/// Restitution of two equal spheres under the adhesive law without damping. Loading to delta_max costs E = k1
-/// delta_max^2/2. The unloading line returns E/kappa. The way out along -k_c delta costs E chi (kappa - 1)^2/(kappa
-/// (kappa + chi)), with kappa = k2/k1 and chi = k_c/k1. If nothing is left, the spheres stick.
+/// Restitution of two equal spheres under the adhesive law without damping. Loading to delta_max costs
+/// E = k1 delta_max^2/2. The unloading line returns E/kappa. The way out along -k_c delta costs
+/// E chi (kappa - 1)^2/(kappa (kappa + chi)), with kappa = k2/k1 and chi = k_c/k1. If nothing is left, the spheres
+/// stick.
 struct HeadOn {
     double reducedMass = massOf(kRadius) / 2;
     double limit = kK2Max / (kK2Max - kK1) * kPlasticity * kRadius;  ///< delta* of equal spheres [m]

@@ -72,8 +72,8 @@ void wedgeBounce(Bench& bench) {
 
 // A sphere is laid upon both cylinders, damped along the normal only, and never slips. It comes to rest where per side
 // k d cos + k_t s sin bears half its weight. Here s is the way that the contact has slid, from geometry alone: at
-// height h it slides by sin = half/sqrt(half^2 + h^2) per unit of height, and the integral of this is half
-// asinh(h/half).
+// height h it slides by sin = half/sqrt(half^2 + h^2) per unit of height, and the integral of this is
+// half asinh(h/half).
 void wedgeRest(Bench& bench) {
     const double k = 5000, m = massOf(kRadius), gravity = 0.02 * kRadius * k / m;
     const ContactParameters law = gripping(k, 0.06);
@@ -178,8 +178,8 @@ struct Neck {
         return root(asked, start, kPi / 2);
     }
     /// The angle where no force presses the sphere on any more, after it has rolled and then slipped [rad]. While it
-    /// slips, w = v^2/(g orbit) obeys dw/dt = 2 sin t - 2 m (cos t - w) with m = mu wedging. The solution is w = p cos
-    /// t + q sin t + c exp(2 m t).
+    /// slips, w = v^2/(g orbit) obeys dw/dt = 2 sin t - 2 m (cos t - w) with m = mu wedging. The solution is
+    /// w = p cos t + q sin t + c exp(2 m t).
     double parting(double start, double mu) const {
         const double m = mu * wedging, p = (4 * m * m - 2) / (4 * m * m + 1), q = 2 * m * (p - 1);
         const double slips = slipping(start, mu);
