@@ -17,8 +17,8 @@ struct Window {
     int to = std::numeric_limits<int>::max();
 };
 
-/// For experiments the paper takes the slope "before saturation" without saying where that is. Here: before 80 % of
-/// `filled` [kg] is out.
+/// For experiments the paper takes the slope "before saturation" without saying where that is. Here it means:
+/// before 80 % of `filled` [kg] is out.
 Window beforeSaturation(double filled);
 
 struct Slope {
@@ -35,7 +35,7 @@ struct Slope {
 /// it would come out too small.)
 Slope betaOf(std::span<const double> cumulativeMass, const Window& window = {});
 
-/// Cumulative masses after the complete doses of a run [kg], what was dosed while settling included.
+/// Cumulative masses after the complete doses of a run [kg]. They include the powder dosed while settling.
 std::vector<double> cumulativeMasses(const std::vector<Dose>& doses);
 
 /// Mean over seeds [the unit of the values] and its standard error s/sqrt(n); values that are not finite are left out.

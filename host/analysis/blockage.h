@@ -1,5 +1,5 @@
 #pragma once
-// Blocked outlets and arches: powder that is there and does not come.
+// Blocked outlets and arches: powder is there and does not come out.
 
 #include <optional>
 #include <span>
@@ -18,8 +18,8 @@ struct BlockageRule {
 };
 
 /// The first of the doses that gave nothing (counted from 1), even if an avalanche freed the outlet later; none if the
-/// flow never stopped, or too few doses were made to tell. `cumulative` [kg] after dose 1, 2, ...; `before` [kg] is
-/// what had come out before the first.
+/// flow never stopped, or too few doses were made to tell. `cumulative` [kg] holds the masses after dose 1, 2, ...;
+/// `before` [kg] is the mass that had come out before the first dose.
 std::optional<int> blockedAt(std::span<const double> cumulative, double filled, const BlockageRule& rule = {},
                              double before = 0);
 
@@ -30,10 +30,10 @@ struct Arch {
     double length = 0;  ///< of all slices with a void, along the coil [m]
 };
 
-/// Looks for arches over the coil in the canister: in slices two mean diameters thick along the coil, within half the
-/// coil's radius of its axis to either side, any height from the floor up at which there is no powder although there is
-/// some above. A void must be two mean diameters high and reach above the coil's axis. None if there is no such void;
-/// the greatest otherwise. `particles` are those of one instant; dosed ones are left out.
+/// Looks for arches over the coil in the canister. It cuts the powder into slices two mean diameters thick along the
+/// coil and looks within half the coil's radius of its axis to either side. A void is a range of heights, from the
+/// floor up, that holds no powder but has powder above it. It must be two mean diameters high and reach above the
+/// coil's axis. Returns the greatest void, or none. `particles` are those of one instant; dosed ones are left out.
 std::optional<Arch> archAbove(const geometry::Coil& coil, const Canister& canister, const Particles& particles);
 
 }  // namespace vkdose

@@ -13,10 +13,11 @@ namespace {
 
 constexpr double kNothing = -std::numeric_limits<double>::infinity();
 
-/// Fewer mean spheres than this in a region say more about its edge than about the powder.
+/// With fewer mean spheres than this, a region says more about its edge than about the powder.
 constexpr double kLeastSpheres = 100;
 
-/// Side of the lattice of points that stands for a sphere: a part of it is known to about 1/16 of its diameter.
+/// Points along a side of the lattice that stands for a sphere. A part of a sphere is known to about 1/16 of its
+/// diameter.
 constexpr int kLattice = 16;
 
 /// Squares of `side` over the floor plan x in [-halfWidth, halfWidth], z in [begin, end], each with the top of the
@@ -58,8 +59,8 @@ class Surface {
     std::vector<double> top_;
 };
 
-/// Mass [kg] of the parts of active spheres for which `inside(point)` holds: each sphere as a lattice of points that
-/// together weigh what it weighs.
+/// Mass [kg] of the parts of active spheres for which `inside(point)` holds. Each sphere is a lattice of points that
+/// together weigh as much as the sphere.
 template <typename Inside>
 double massWithin(const Particles& p, double density, const Inside& inside) {
     std::vector<Vec3> lattice;

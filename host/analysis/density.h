@@ -17,17 +17,18 @@ struct BulkDensity {
     double volume = 0;   ///< of the region [m3]
 };
 
-/// In the bed. The region: over the whole floor plan of the canister but a mean diameter from every wall, from a mean
-/// diameter above the coil (above the axis without a coil) up to a mean diameter below the surface. The surface is that
-/// of columns two mean diameters square: the top of the highest sphere with its centre in the column. Spheres that the
-/// region cuts count in part. None if the region is smaller than a hundred mean spheres: then walls and surface decide.
+/// Bulk density in the bed. The region covers the floor plan of the canister up to a mean diameter from every wall. It
+/// reaches from a mean diameter above the coil (above the axis without a coil) to a mean diameter below the surface.
+/// The surface is found in columns two mean diameters square: it is the top of the highest sphere with its centre in
+/// the column. Spheres that the region cuts count in part. None if the region is smaller than a hundred mean spheres,
+/// because then walls and surface decide.
 std::optional<BulkDensity> bedDensity(const Particles& particles, double particleDensity, const Canister& canister,
                                       const geometry::Coil* coil);
 
-/// Between the coil's turns: the cylinder of the coil's outer radius within the canister, less the wire, over those
-/// slices along the axis (two mean diameters thick) whose surface lies a mean diameter above it, so that they are full
-/// or could be; voids under arches count as volume. Only the part of the coil beyond z = `from` [m]. None if no slice
-/// is covered.
+/// Bulk density between the coil's turns. The region is the cylinder of the coil's outer radius within the canister,
+/// less the wire, for the part of the coil beyond z = `from` [m]. It is cut into slices along the axis, two mean
+/// diameters thick. Only slices whose surface lies a mean diameter above the cylinder count, because they are full or
+/// could be. Voids under arches count as volume. None if no slice is covered.
 std::optional<BulkDensity> coilDensity(const Particles& particles, double particleDensity, const Canister& canister,
                                        const geometry::Coil& coil, double from = 0);
 

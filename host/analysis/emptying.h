@@ -12,8 +12,9 @@ namespace vkdose {
 /// counts the doses "when 99 percent of the total powder mass in the canister is dosed" (effect of initial mass).
 std::optional<int> dosesToFraction(std::span<const double> cumulative, double filled, double fraction = 0.99);
 
-/// The dose with which a stop rule on the mass holds, whatever else ended the run; none if it never does. `dosed` [kg]
-/// is what each dose gave. A dose lighter than rounding (1e-6 of `filled`, the ledger's tolerance) counts as none.
+/// The dose with which a stop rule on the mass holds, even if the run ended for another reason; none if it never does.
+/// `dosed` [kg] holds the mass of each dose. A dose lighter than rounding (1e-6 of `filled`, the ledger's tolerance)
+/// counts as none.
 std::optional<int> dosesToRule(std::span<const double> dosed, double filled, const StopRule& rule);
 
 }  // namespace vkdose

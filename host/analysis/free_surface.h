@@ -23,11 +23,11 @@ struct Strip {
 /// The height that stands for the width: the mean over it, or its highest point, as seen from the side.
 enum class Across { Mean, Highest };
 
-/// Over a spot of the floor plan the surface is the highest point of any sphere above it that is neither dosed nor lost
-/// (powder in flight counts; the coil is no powder). Where there is none it is the floor, for Highest its lowest point.
-/// The profile is the mean over each column of the mean or highest point over the part of the canister's width within
-/// the strip, taken on a lattice of an eighth of a column or finer. Throws std::invalid_argument without columns, or
-/// with a strip beside the canister.
+/// Over a spot of the floor plan the surface is the highest point of any sphere above it that is neither dosed nor
+/// lost. Powder in flight counts; the coil does not. Where there is no powder the surface is the floor, and for Highest
+/// the floor's lowest point. The surface is taken on a lattice of an eighth of a column or finer. Across the part of
+/// the canister's width within the strip, its mean or its highest point counts. The profile is the mean of these over
+/// each column. Throws std::invalid_argument without columns, or with a strip beside the canister.
 SurfaceProfile surfaceProfile(const Particles& particles, const Canister& canister, std::size_t columns, Across width,
                               const Strip& strip = {});
 

@@ -20,7 +20,7 @@ class Stops {
         within_.second += time;
         flow_.longestIn[to.dose] = std::max(flow_.longestIn[to.dose], within_.second);
         if (now_.time > flow_.longest.time) flow_.longest = now_;
-        // The rounding of the angle in the table is no part of a turn.
+        // The angle in the table is rounded. The rounding must not make a stop longer than a turn.
         if (now_.turns > 1 + 1e-6 && !flow_.stoppedAt) flow_.stoppedAt = now_.dose;
     }
     void end() {
@@ -31,8 +31,8 @@ class Stops {
 
   private:
     OutletFlow flow_;
-    OutletFlow::Stop now_;             ///< dose 0: it flows
-    std::pair<int, double> within_{};  ///< what of it lies in a dose [s]
+    OutletFlow::Stop now_;             ///< dose 0: the powder flows
+    std::pair<int, double> within_{};  ///< a dose, and the part of the stop that lies in it [s]
 };
 
 }  // namespace

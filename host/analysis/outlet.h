@@ -22,9 +22,9 @@ struct FlowSample {
 /// The lines of a run's timeseries.csv. Throws CaseError if a column is missing.
 std::vector<FlowSample> flowSamples(const Table& series);
 
-/// While the coil turns and more than a part of the fill is inside, the time between two lines in which nothing was
-/// dosed; on end, over rests too. So lengths are whole sensor intervals, and a stop is up to two of them longer than it
-/// is told.
+/// Stops of the outlet: times between two lines in which nothing was dosed, while the coil turns and more than a part
+/// of the fill is inside. Successive ones are added up, over rests too. Lengths are whole sensor intervals, and a stop
+/// may be up to two intervals longer than the length given here.
 struct OutletFlow {
     struct Stop {
         int dose = 0;      ///< in which it began; 0: there was none
@@ -32,15 +32,16 @@ struct OutletFlow {
         double time = 0;   ///< the coil turned [s]; rests do not count
         double turns = 0;  ///< of the coil in that time
     };
-    /// Rotation until something had come out [s], which is the coil's filling and no stop; none if nothing ever did:
-    /// then all of it is one.
+    /// Rotation until the first powder came out [s]. It counts as the coil's filling, not as a stop. None if no powder
+    /// ever came out: then the whole rotation is a stop.
     std::optional<double> lead;
     Stop longest;
     std::optional<int> stoppedAt;     ///< dose in which the first stop longer than a turn began
     std::map<int, double> longestIn;  ///< of each dose with a stop: the longest within its rotation [s]
 };
 
-/// `filled` is what the canister held [kg]; with the part `remaining` of it or less inside, it is empty, not blocked.
+/// `filled` is the mass that the canister held [kg]. With the part `remaining` of it or less inside, the canister is
+/// empty, not blocked.
 OutletFlow outletFlow(const std::vector<FlowSample>& samples, double filled, double remaining = 0.01);
 
 }  // namespace vkdose

@@ -1,5 +1,5 @@
 #pragma once
-// How deep each particle is pressed, from where everything stands.
+// How deep each particle is pressed in, from the positions alone.
 
 #include <vector>
 
@@ -8,9 +8,9 @@
 
 namespace vkdose {
 
-/// For each particle the deepest of its overlaps at this instant [-]: with another particle over the smaller radius of
-/// the two, with a surface or the coil (turned by `coilAngle` about +z [rad]) over its own. 0 if it touches nothing, is
-/// dosed or lost.
+/// For each particle the deepest of its overlaps at this instant [-]. An overlap with another particle is divided by
+/// the smaller radius of the two; one with a surface or the coil (turned by `coilAngle` about +z [rad]) by the
+/// particle's own. 0 if the particle touches nothing, is dosed or lost.
 std::vector<double> overlapRatios(const Particles& particles, const World& world, double coilAngle);
 
 }  // namespace vkdose

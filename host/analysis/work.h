@@ -15,9 +15,9 @@ struct DriveWork {
     double massPerJoule(double mass) const;
 };
 
-/// From the time series: `angle` [rad] of the coil at every line, which turns in one sense only, whichever; `torque` [N
-/// m] of the drive, mean since the line before. The first line begins the stretch: its torque belongs to what was
-/// before. Both have the same length.
+/// Takes two columns of the time series of the same length. `angle` [rad] is that of the coil at every line. The coil
+/// must turn in one sense only, no matter which. `torque` [N m] is that of the drive, mean since the line before. The
+/// first line begins the stretch, so its torque belongs to the time before and is not used.
 DriveWork driveWork(std::span<const double> angle, std::span<const double> torque);
 
 }  // namespace vkdose

@@ -34,7 +34,7 @@ class Shared {
         pthread_barrier_init(barrier(), &shared, unsigned(copies));
         pthread_barrierattr_destroy(&shared);
     }
-    // The barrier goes with its memory: destroying it would wait for a copy that died in it.
+    // The barrier is unmapped with its memory. Destroying it would wait for a copy that died in it.
     ~Shared() { munmap(memory_, bytes_); }
     Shared(const Shared&) = delete;
     Shared& operator=(const Shared&) = delete;
@@ -48,7 +48,7 @@ class Shared {
     void* memory_;
 };
 
-/// To the `copy`th of the processors this process may use.
+/// Pins this process to the `copy`th of the processors that it may use.
 void pin(int copy) {
     cpu_set_t allowed;
     if (sched_getaffinity(0, sizeof allowed, &allowed) != 0) return;
@@ -63,7 +63,7 @@ void pin(int copy) {
     }
 }
 
-/// The life of a copy; does not return, so that nothing of the caller's is torn down twice.
+/// The life of a copy. It does not return, so that no object of the caller's is destroyed twice.
 [[noreturn]] void live(int copy, int repeats, const Shared& shared,
                        const std::function<std::vector<double>(const Meet&)>& work) {
     int status = 1;
@@ -82,7 +82,7 @@ void pin(int copy) {
     _exit(status);
 }
 
-/// Whether all ended well. When one fails the others, who may be waiting for it, are ended.
+/// Whether all copies ended well. When one fails the others are ended, because they may be waiting for it.
 bool waitForAll(std::vector<pid_t> copies) {
     bool well = true;
     while (!copies.empty()) {
@@ -105,7 +105,7 @@ bool waitForAll(std::vector<pid_t> copies) {
 
 std::vector<double> sumOfCopies(int copies, int repeats, const std::function<std::vector<double>(const Meet&)>& work) {
     const Shared shared(copies, repeats);
-    std::fflush(stdout);  // or every copy prints it again
+    std::fflush(stdout);  // otherwise every copy prints it again
     std::vector<pid_t> started;
     for (int copy = 0; copy < copies; ++copy) {
         const pid_t id = fork();

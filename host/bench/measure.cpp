@@ -26,7 +26,7 @@ Lap timed(const std::function<void(std::uint32_t)>& advance, std::uint32_t steps
             double(std::clock() - processor) / CLOCKS_PER_SEC};
 }
 
-/// Steps that take about `seconds`. Twice as many at a time, until a lap says enough about the next.
+/// The number of steps that take about `seconds`. Doubles the steps until a lap is long enough to predict it.
 std::uint32_t stepsFor(double seconds, const std::function<void(std::uint32_t)>& advance) {
     std::uint32_t steps = kFewestSteps;
     for (;;) {

@@ -31,11 +31,11 @@ struct Speed {
     Spread coresBusy;           ///< processor time of this process over wall time; a device of its own counts nothing
 };
 
-/// Runs `advance` for some steps to warm up, and to find out how many make a repeat; then the repeats.
+/// Runs `advance` for some steps to warm up, and to find out how many steps make a repeat. Then runs the repeats.
 Speed time(const std::function<void(std::uint32_t steps)>& advance, std::size_t particles, std::uint32_t warmSteps,
            const Effort& effort);
 
-/// Contacts per particle; of a pair, both particles count it.
+/// Contacts per particle. A contact of a pair counts for both particles.
 struct Coordination {
     double touching = 0;  ///< other particles
     double walls = 0;     ///< surfaces and turns of the coil
@@ -57,7 +57,7 @@ struct Row {
     Speed speed;
     double listed = 0;  ///< neighbours in the list per particle
     Coordination coordination;
-    // Of a backend only.
+    // The following figures are those of a backend only.
     double contactsPerSecond = 0;  ///< pairs once, walls and coil
     double rebuildsPer1000 = 0;    ///< while timed
     double refreshesPer1000 = 0;   ///< of the contact lists, while profiled

@@ -1,6 +1,6 @@
 #pragma once
-// Dense packings for the benchmark, made from a seed in a second or two and then tiled, so that a million spheres cost
-// no more to relax than a few thousand.
+// Dense packings for the benchmark. A packing is made from a seed in a second or two and then tiled, so that a million
+// spheres cost no more to relax than a few thousand.
 
 #include <cstdint>
 
@@ -16,13 +16,14 @@ struct Packing {
     Vec3 size{0};
 };
 
-/// A cube of 3375 spheres between walls: radii drawn uniformly, centres from a shifted lattice pushed apart until the
-/// overlaps that are left balance each other, if their forces are as linear springs, all alike between spheres and
-/// twice as stiff at a wall. Without friction, gravity or history it is at rest. Same seed, same bits.
+/// A cube of 3375 spheres between walls. Radii are drawn uniformly. Centres start on a shifted lattice and are pushed
+/// apart until the forces of the overlaps that are left balance. The forces are those of linear springs, all alike
+/// between spheres and twice as stiff at a wall. Without friction, gravity or history the cube is at rest. The same
+/// seed gives the same bits.
 Packing relaxedTile(std::uint64_t seed);
 
-/// `nx` x `ny` x `nz` copies side by side, every other one mirrored: a sphere at a wall then meets its own image, by
-/// twice its overlap with the wall, and the whole is as much at rest as the tile.
+/// `nx` x `ny` x `nz` copies side by side, every other one mirrored. A sphere at a wall then meets its own image with
+/// twice its overlap with the wall, so the whole is as much at rest as the tile.
 Packing tiled(const Packing& tile, int nx, int ny, int nz);
 
 }  // namespace vkdose::bench

@@ -6,7 +6,8 @@
 #include <thread>
 #include <vector>
 
-// Compiled without vectorisation (CMakeLists.txt): what a compiler makes of it with AVX is another yardstick.
+// This file is compiled without vectorisation (CMakeLists.txt), because a loop that the compiler vectorises with AVX is
+// another yardstick.
 
 namespace vkdose::bench {
 
@@ -35,8 +36,8 @@ struct Near {
     V sliding{0}, rolling{0};
 };
 
-/// Every pair closer than the sum of radii + skin once, in the row of the smaller index. (A full list, with which both
-/// of a pair compute the contact and nobody adds to another's load, made 0.62 of the speed.)
+/// Lists every pair closer than the sum of radii + skin once, in the row of the smaller index. (With a full list both
+/// of a pair compute the contact and nobody adds to another's load. It reached 0.62 of the speed.)
 struct List {
     std::vector<std::uint32_t> start;
     std::vector<Near> near;
@@ -120,7 +121,7 @@ struct Law {
         return -kc * overlap;
     }
 
-    /// Adds what the contact does to i and to j.
+    /// Adds the force and torque of the contact to i and to j.
     void act(const Sphere& i, const Sphere& j, const Motion& u, const Motion& v, float dt, Near& near, Load& onI,
              Load& onJ) const {
         const V apart = i.at - j.at;
@@ -160,7 +161,7 @@ std::vector<Sphere> spheresOf(const Particles& p) {
 struct PlainLoop::Loop {
     std::vector<Sphere> sphere;
     std::vector<Motion> motion;
-    std::vector<std::vector<Load>> load;  // of each thread, so that nobody adds to what another is adding to
+    std::vector<std::vector<Load>> load;  // one for each thread, so that no two threads add to the same load
     List list;
     Law law;
     float dt;
@@ -177,7 +178,7 @@ struct PlainLoop::Loop {
         }
     }
 
-    /// The rows of a thread: as many pairs as the others have.
+    /// The first row of a thread. Every thread has rows with about the same number of pairs.
     std::size_t firstRow(std::size_t thread) const {
         const auto share = std::uint32_t(list.near.size() * thread / load.size());
         return std::size_t(std::lower_bound(list.start.begin(), list.start.end() - 1, share) - list.start.begin());

@@ -1,5 +1,5 @@
 #pragma once
-// Plain code on the same packing: the yardstick for speed on a processor. No part of the simulator.
+// Plain code on the same packing: the yardstick for speed on a processor. It is no part of the simulator.
 
 #include <cstdint>
 #include <memory>
@@ -10,10 +10,11 @@
 namespace vkdose::bench {
 
 /// A scalar single-precision loop with the contact law of the backends between the spheres: adhesive normal force with
-/// its history, damping, sliding and rolling springs; every pair once, leapfrog, threads that share the pairs and meet
-/// twice a step. It has less to do than a backend: no torsion (off in the paper), no walls, no coil, no gravity, and
-/// the list is built once. Nothing would hold the packing together, so the spheres are `inertia` times as heavy: the
-/// arithmetic is the same, and they hardly move. With 1 it computes what a backend does, from a start without contacts.
+/// its history, damping, sliding and rolling springs. It computes every pair once, with leapfrog, in threads that share
+/// the pairs and meet twice a step. It has less to do than a backend: no torsion (off in the paper), no walls, no coil,
+/// no gravity, and the list is built once. Nothing would hold the packing together, so the spheres are `inertia` times
+/// as heavy. The arithmetic is the same, and they hardly move. With `inertia` 1 it computes the same motion as a
+/// backend, from a start without contacts.
 class PlainLoop {
   public:
     PlainLoop(const RuledWorld& world, const Particles& particles, int threads, double inertia = 1e6);

@@ -1,5 +1,5 @@
 #pragma once
-// The result of the benchmark as people and programs read it.
+// The result of the benchmark in the forms that people and programs read.
 
 #include <string>
 #include <vector>
@@ -12,7 +12,8 @@ namespace vkdose::bench {
 std::string headLine();
 std::string tableLine(const Row& row);
 
-/// Where the time of a step goes and what it moves, indented below a line; empty for the plain loop or without figures.
+/// The time of each part of a step and the bytes it moves, indented below a line. Empty for the plain loop or without
+/// figures.
 std::string detailLines(const Row& row);
 
 /// Everything, in SI units; figures that were not measured are missing (JSON) or empty (CSV).

@@ -10,8 +10,8 @@ constexpr std::uint64_t kSeed = 1;
 constexpr double kTimeStep = 2.26e-6;  // the paper's [s]
 constexpr double kSkin = 0.75e-3;      // 0.6 of the mean radius, as a case has it by default [m]
 constexpr double kFallSpeed = 0.1;     // about that of the coil's rim [m/s]
-/// The contacts of a list of particles start without history; in so many steps (9 ms for the paper's case) they find
-/// it: sound crosses the bed some ten times.
+/// The contacts of a list of particles start without history. They find it in this number of steps (9 ms for the
+/// paper's case), in which sound crosses the bed some ten times.
 constexpr std::uint32_t kReliefSteps = 4000;
 
 /// The paper's parameters (physics.md), friction limited as in cases/paper-48g.toml.
@@ -35,7 +35,7 @@ RuledWorld paperWorld() {
     return world;
 }
 
-/// A second's work; all boxes are made of it.
+/// A tile takes a second's work, so all boxes are made of the same one.
 const Packing& tile() {
     static const Packing relaxed = relaxedTile(kSeed);
     return relaxed;
@@ -63,8 +63,8 @@ Workload box(int nx, int ny, int nz) {
 Workload freeFall() {
     const Packing& packing = tile();
     Workload w{paperWorld(), {}, 0, 64};
-    // Three times the distances: nothing touches, and no list reaches anyone. All at one speed: with gravity the rows
-    // would be rebuilt the more often the longer it runs.
+    // The distances are tripled, so that nothing touches and no list reaches anyone. All fall at one speed: with
+    // gravity the rows would be rebuilt more often the longer it runs.
     for (std::size_t i = 0; i < packing.particles.size(); ++i)
         w.particles.add(3.0 * packing.particles.position[i], packing.particles.radius[i], Vec3(0, -kFallSpeed, 0));
     w.world.gravity = Vec3(0);

@@ -17,16 +17,16 @@ struct Workload {
     std::uint32_t warmSteps = 64;  ///< before anything is timed
 };
 
-/// A workload by name, made when it is its turn: the large ones take a gigabyte.
+/// A workload by name. It is made only when its turn comes, because the large ones take a gigabyte.
 struct Plan {
     std::string name;
     bool quick;  ///< small enough for a test
     std::function<Workload()> make;
 };
 
-/// `free-fall` (no contacts, one speed), `bed-3k` ... `bed-1M` (boxes full of spheres that press on each other and are
-/// at rest, without gravity), and for a case with a list of settled particles `<name>-rest` and
-/// `<name>-turning`: its bed with the law of the doses, the coil still or at the case's speed.
+/// The workloads are `free-fall` (no contacts, one speed), `bed-3k` ... `bed-1M` (boxes full of spheres that press on
+/// each other and are at rest, without gravity), and, for a case with a list of settled particles, `<name>-rest` and
+/// `<name>-turning`. These two are its bed with the law of the doses, the coil still or at the case's speed.
 std::vector<Plan> plans(const std::optional<Case>& bed);
 
 }  // namespace vkdose::bench

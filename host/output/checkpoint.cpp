@@ -16,8 +16,8 @@ constexpr std::size_t kUserBlock = 512;
 constexpr std::string_view kMagic = "vkdose checkpoint";
 constexpr int kVersion = 5;  // 4: the same, but of runs whose throat had two walls; they must not go on with one
 
-/// FNV-1a, 64 bits: it has to catch accidents, not forgers. It belongs to the format: with another checksum, zlib's
-/// say, checkpoints that exist could not be read.
+/// FNV-1a, 64 bits: it has to catch accidents, not forgers. It belongs to the format. With another checksum (zlib's,
+/// say) existing checkpoints could not be read.
 std::uint64_t checksum(std::string_view bytes) {
     std::uint64_t hash = 0xcbf29ce484222325;
     for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3;
@@ -31,7 +31,7 @@ std::string head(std::string_view body) {
     return block;
 }
 
-/// The HDF5 part of a checkpoint, once its head has been believed.
+/// The HDF5 part of a checkpoint whose head has been checked.
 std::string_view body(const std::string& bytes, const std::string& name) {
     const auto refuse = [&](const std::string& why) { throw CheckpointError(fmt::format("{} {}", name, why)); };
     if (bytes.compare(0, kMagic.size(), kMagic) != 0) refuse("is not a checkpoint of vkdose");

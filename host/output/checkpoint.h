@@ -1,6 +1,6 @@
 #pragma once
-// The checkpoint file: an HDF5 file whose user block (its first 512 bytes, in plain text) names format, version, length
-// and checksum, so that a foreign, cut or damaged one is refused before anything in it is believed.
+// The checkpoint file: an HDF5 file with a user block (its first 512 bytes, in plain text) that names format, version,
+// length and checksum. The block lets vkdose refuse a foreign, cut or damaged file before it trusts anything in it.
 //
 //   /program /backend /case           texts: version of vkdose, description of the backend, the resolved case
 //   /run/*                            the runner's state          (RunCheckpoint::run)

@@ -42,7 +42,7 @@ CsvFile::CsvFile(std::filesystem::path path, const CsvMark& mark)
     cut_ = size > mark.bytes;
 }
 
-/// Reads up to the mark, and stays there.
+/// Reads up to the mark and stops there. Throws OutputError if the checksum differs.
 void CsvFile::requireSame(const CsvMark& mark) {
     std::array<char, 1U << 16> block{};
     for (std::uint64_t left = mark.bytes; left > 0;) {
@@ -56,7 +56,7 @@ void CsvFile::requireSame(const CsvMark& mark) {
             fmt::format("{} has been changed since the checkpoint was written: its first {} bytes are no "
                         "longer what they were; put the file back as it was, or start the run again",
                         path_.string(), mark.bytes));
-    // Between reading and writing a place has to be sought.
+    // C requires a seek between reading and writing.
     if (std::fseek(file_.get(), static_cast<long>(mark.bytes), SEEK_SET) != 0) fail();
 }
 

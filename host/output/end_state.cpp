@@ -34,14 +34,15 @@ Frame readEndState(const std::filesystem::path& folder, const Case& c) {
     Frame frame;
     frame.time = numberIn(summary, "simulated_time_s", file);
     frame.step = std::uint64_t(numberIn(summary, "steps", file));
-    // Older summaries have it positive when conveying. The coil only turns in that sense, which tells the sign.
+    // Older summaries give the angle as positive when conveying. The coil only turns in that sense, which tells the
+    // sign.
     frame.coilAngle = std::abs(numberIn(summary, "coil_angle_rad", file)) * Timeline(c).conveyingSense();
     const Json doses = summary.value("doses", Json::array());
     frame.dose = int(doses.size());
     frame.phase = frame.dose == 0 ? Phase::Settle : Phase::Rest;
     const Json ledger = summary.value("ledger", Json::object());
     if (ledger.value("canister_count", 1) + ledger.value("throat_count", 1) == 0)
-        return frame;  // a list of none is none
+        return frame;  // no particles are left, so none are read
     std::vector<Diagnostic> faults;
     frame.particles = readParticleList(list, faults);
     if (!faults.empty()) throw OutputError(faults.front().text());

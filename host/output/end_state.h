@@ -7,8 +7,8 @@
 
 namespace vkdose {
 
-/// The end of a run, of its output folder's particles.csv and summary.json, as a frame without contacts; what had been
-/// dosed by then is not among its particles. Throws OutputError if one of the files is missing or cannot be read.
+/// The end of a run as a frame without contacts, from particles.csv and summary.json of its output folder. Particles
+/// that had been dosed by then are not in it. Throws OutputError if one of the files is missing or cannot be read.
 Frame readEndState(const std::filesystem::path& folder, const Case& c);
 
 }  // namespace vkdose

@@ -161,7 +161,7 @@ std::vector<CsvMark> FieldFiles::store() {
     return marks;
 }
 
-/// From the list of what was kept, however many runs it took.
+/// The series is made from the list of the kept maps, because several runs may have written them.
 void FieldFiles::writeSeriesOf(const FieldSensor& s) const {
     std::vector<SeriesFile> files;
     try {
@@ -171,7 +171,7 @@ void FieldFiles::writeSeriesOf(const FieldSensor& s) const {
                 list.refuse(row, "file", "is no text in UTF-8", "put the file back as vkdose wrote it, or run anew");
             files.push_back({list.text(row, "file"), list.number(row, "time_s")});
         }
-    } catch (const CaseError& e) {  // somebody else has been at it
+    } catch (const CaseError& e) {  // somebody has changed the file
         throw OutputError(e.what());
     }
     writeSeries(folder_ / (s.name + kVolumeExtension + kSeriesExtension), files);

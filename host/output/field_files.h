@@ -1,7 +1,7 @@
 #pragma once
-// The fields of a run, in fields/ of its output folder: for every field NAME.csv, and for maps a file for each that was
-// kept, which NAME.csv lists: NAME_000000.csv, ... in two resolved directions, NAME_000000.hdf, ... in three, with
-// their times in NAME.hdf.series.
+// The fields of a run, in fields/ of its output folder. Every field has a NAME.csv. For a map NAME.csv lists the maps
+// that were kept, each a file of its own: NAME_000000.csv, ... in two resolved directions, NAME_000000.hdf, ... in
+// three, with their times in NAME.hdf.series.
 
 #include <cstdint>
 #include <filesystem>
@@ -22,12 +22,12 @@ class FieldFiles {
     /// Creates the folder and the files, if the case has fields. Throws OutputError.
     FieldFiles(const std::filesystem::path& run, const Case& c);
 
-    /// Goes on with files as they were when `store` told of them.
+    /// Goes on with files as they were when `store` returned `marks`.
     FieldFiles(const std::filesystem::path& run, const Case& c, const std::vector<CsvMark>& marks);
 
     void write(const FieldSample& f);
 
-    /// Makes everything written survive a crash, and brings the series up to date; the state of every NAME.csv.
+    /// Makes everything written survive a crash, and brings the series up to date. Returns the state of every NAME.csv.
     std::vector<CsvMark> store();
 
   private:

@@ -14,7 +14,7 @@ inline constexpr auto kFieldWhenColumns =
                                         "What the schedule asks for in the time before it: settle, rotate or rest."),
             column<&FieldSample::dose>("dose", "1", "Number of the dose, from 1; 0 while settling."));
 
-/// A point of the grid and what is there.
+/// A point of the grid and the values there.
 struct FieldRow {
     Vec3 place{0};  ///< [m]
     FieldPoint point;
@@ -39,7 +39,7 @@ inline constexpr auto kQuantityColumns = columns(
     column<&FieldRow::point, &FieldPoint::velocity, 1>("velocity_y_m_s", "m/s", "The same along y."),
     column<&FieldRow::point, &FieldPoint::velocity, 2>("velocity_z_m_s", "m/s", "The same along z."));
 
-/// Of a field with `stress`.
+/// Columns of a field with `stress`.
 inline constexpr auto kStressColumns =
     columns(column<&FieldRow::point, &FieldPoint::coordination>("coordination", "1",
                                                                 "Mean number of neighbours that a particle touches."),

@@ -31,20 +31,20 @@ double kineticEnergy(const Particles& p, std::size_t i, double density) {
     return 0.5 * sphereMass(density, p.radius[i]) * glm::dot(p.velocity[i], p.velocity[i]);
 }
 
-/// How a contact lies at the instant of the frame, a drift after its force acted.
+/// The geometry of a contact at the instant of the frame, which is a drift after its force acted.
 struct Geometry {
     Vec3 end;        ///< the other's centre, or the point of the wall [m]
     Vec3 normal;     ///< towards the particle
     double overlap;  ///< negative if the two have just parted [m]
 };
 
-/// Contacts of one particle with several turns of the coil do not say which: each is given the turn, of those still
-/// free, along whose normal its force is strongest.
+/// A coil contact does not say which turn of the coil it belongs to. A particle may touch several turns. Each of its
+/// contacts is given that turn, of those still free, along whose normal its force is strongest.
 class ContactGeometry {
   public:
     ContactGeometry(const Frame& frame, const World& world) : frame_(frame), world_(world) {}
 
-    /// Of the frame's contacts in their order.
+    /// Must be called for the frame's contacts in their order.
     Geometry of(const Contact& c) {
         const Particles& p = frame_.particles;
         const Vec3& x = p.position[c.particle];
@@ -83,7 +83,7 @@ class ContactGeometry {
 
     const Frame& frame_;
     const World& world_;
-    std::optional<std::uint32_t> particle_;  ///< whose turns these are
+    std::optional<std::uint32_t> particle_;  ///< the particle that these turns belong to
     std::vector<geometry::CoilTouch> turns_;
 };
 

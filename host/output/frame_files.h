@@ -14,15 +14,15 @@
 
 namespace vkdose {
 
-/// `member` tells the canisters of a study apart.
+/// `member` is the number that distinguishes the canisters of a study.
 std::string particlesFile(const Frame& frame, const World& world, std::uint32_t member);
 std::string contactsFile(const Frame& frame, const World& world);
 
-/// When a frame was, as the field data of its files.
+/// The time of a frame and its place in the schedule, as the field data of its files.
 std::vector<vtkhdf::Array> fieldsOf(const Frame& frame);
 
-/// Put back into `frame` what the two files hold, step, time, phase, dose and angle included. Throw hdf5::Error if they
-/// hold something else.
+/// Read the contents of the two files back into `frame`: step, time, phase, dose and angle too. Throw hdf5::Error if
+/// the files hold something else.
 void readParticlesFile(std::string bytes, Frame& frame);
 void readContactsFile(std::string bytes, Frame& frame);
 

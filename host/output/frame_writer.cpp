@@ -78,7 +78,7 @@ void FrameWriter::put(const Frame& frame) {
     await();
     try {
         writing_ = std::async(std::launch::async, [this, frame] { write(frame); });
-    } catch (const std::system_error&) {  // there is no thread to be had: the device waits
+    } catch (const std::system_error&) {  // no thread can be had: the device waits
         write(frame);
     }
 }

@@ -23,7 +23,7 @@ inline constexpr const char* kContactsFrame = "contacts";
 inline constexpr const char* kCoilFrame = "coil";
 inline constexpr const char* kWallsFile = "walls.hdf";
 
-/// "particles_000012.hdf": so named, the files of a kind are a series to ParaView.
+/// "particles_000012.hdf": by such names ParaView takes the files of a kind for a series.
 std::string frameFile(const char* kind, int number);
 
 /// A frame without its particles.
@@ -36,7 +36,7 @@ struct FrameEntry {
     double coilAngle = 0;  ///< as in Frame [rad]
 };
 
-/// frames.csv.
+/// The columns of frames.csv.
 inline constexpr auto kFrameColumns =
     columns(column<&FrameEntry::number>("frame", "1", "Number of the frame, from 0: that in the names of its files."),
             column<&FrameEntry::step>("step", "1", "Number of time steps made."),
@@ -46,22 +46,22 @@ inline constexpr auto kFrameColumns =
             column<&FrameEntry::dose>("dose", "1", "Number of the dose, from 1; 0 while settling."),
             column<&FrameEntry::coilAngle>("coil_angle_rad", "rad", kCoilAngleMeaning, kAllDigits));
 
-/// The frames that the text of a frames.csv lists; a line still being written does not count. Throws OutputError, which
-/// names `file`, if it is something else.
+/// The frames that the text of a frames.csv lists. A line still being written does not count. Throws OutputError, which
+/// names `file`, if the text is no such table.
 std::vector<FrameEntry> framesListed(const std::string& text, const std::filesystem::path& file);
 
-/// Index of the entry nearest to a time [s]; of the later of two equally near. There must be one.
+/// Index of the entry nearest to a time [s]. Of two equally near it is the later. There must be an entry.
 std::size_t nearestOf(const std::vector<FrameEntry>& entries, double time);
 
-/// Index of the last entry before the first dose, or of the first of all: the powder as it lay when the coil began to
-/// turn.
+/// Index of the last entry before the first dose: the powder as it lay when the coil began to turn. If there is none,
+/// index of the first entry.
 std::size_t settledOf(const std::vector<FrameEntry>& entries);
 
-/// Reads the frames of a run, one that still goes on included.
+/// Reads the frames of a run. The run may still go on.
 class Frames {
   public:
-    /// Of the run whose output folder this is; without any frames if it kept none. Throws OutputError if what is there
-    /// cannot be read.
+    /// Opens the frames of the run with this output folder; there are none if it kept none. Throws OutputError if the
+    /// files there cannot be read.
     explicit Frames(const std::filesystem::path& run);
 
     const std::vector<FrameEntry>& entries() const { return entries_; }

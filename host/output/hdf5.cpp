@@ -50,14 +50,15 @@ Handle inMemory() {
     return access;
 }
 
-/// HDF5 takes two files of one name for the same file, even where there is none; several threads write at once.
+/// Names for files in memory. HDF5 takes two files of one name for the same file, even where there is no file; and
+/// several threads write at once.
 std::string freshName() {
     static std::atomic<std::uint64_t> count{0};
     return "memory" + std::to_string(count++);
 }
 
-/// Properties for creating something, of class `kind`: without the time of day, so that the same data make the same
-/// bytes.
+/// Properties for creating something, of class `kind`. They leave out the time of day, so that the same data make the
+/// same bytes.
 Handle timeless(hid_t kind) {
     Handle how(H5Pcreate(kind), H5Pclose, "creation properties");
     check(H5Pset_obj_track_times(how, false), "creation properties");
@@ -80,13 +81,13 @@ Handle openDataset(hid_t file, const std::string& path) {
     return {H5Dopen2(file, path.c_str(), H5P_DEFAULT), H5Dclose, path};
 }
 
-/// How many elements a data set has. Throws where it claims more than its part of the file can hold, before anybody
-/// takes memory for them.
+/// The number of elements of a data set. Throws if the data set claims more elements than its part of the file can
+/// hold, before memory is taken for them.
 std::size_t length(hid_t dataset, const std::string& path) {
     const Handle space(H5Dget_space(dataset), H5Sclose, path);
     const hssize_t count = H5Sget_simple_extent_npoints(space);
     if (count < 0) throw Error("HDF5 failed at " + path);
-    constexpr double kMostPacked = 1032;  // deflate makes no more bytes of one
+    constexpr double kMostPacked = 1032;  // bytes that deflate makes of one, at most
     const Handle type(H5Dget_type(dataset), H5Tclose, path), file(H5Iget_file_id(dataset), H5Fclose, path);
     hsize_t whole = 0;
     check(H5Fget_filesize(file, &whole), path);

@@ -1,6 +1,6 @@
 #pragma once
-// The few things of HDF5 that are needed, with owners and errors. Files are built and read in memory, so that how they
-// reach the disk (in one move, checked) is decided elsewhere.
+// The few things of HDF5 that are needed, with owners and errors. Files are built and read in memory. Other code
+// decides how they reach the disk (in one move, checked).
 
 #include <hdf5.h>
 
@@ -12,7 +12,7 @@
 
 namespace vkdose::hdf5 {
 
-/// HDF5 refused; the text says at what.
+/// HDF5 refused. The text says in which operation.
 class Error : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
@@ -20,7 +20,7 @@ class Error : public std::runtime_error {
 /// Whether several threads may write and read at once, each files of its own.
 bool threadSafe();
 
-/// An HDF5 handle with what closes it.
+/// An HDF5 handle, and the function that closes it.
 class Handle {
   public:
     Handle(hid_t id, herr_t (*close)(hid_t), const std::string& what);

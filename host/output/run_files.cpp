@@ -23,8 +23,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// In the order in which they are removed: a removal that is cut short leaves what tells that a run is there, and
-/// which.
+/// The order is that of removal. If the removal is cut short, the files that remain still tell that a run is there, and
+/// which one.
 constexpr std::array kFiles{kCheckpointName, "summary.json", "particles.csv",
                             "doses.csv",     "case.toml",    "timeseries.csv"};
 
@@ -72,7 +72,7 @@ std::set<std::string> fieldsIn(const fs::path& folder) {
         if (fields == nullptr) return names;
         for (const Node& field : fields->children)
             if (const Node* name = field.child("name")) names.insert(name->string);
-    } catch (const CaseError&) {  // somebody else has been at it: then its fields are not ours to remove
+    } catch (const CaseError&) {  // somebody has changed the case: then its fields are not ours to remove
     }
     return names;
 }
@@ -84,7 +84,7 @@ bool holdsRun(const fs::path& folder) {
     const fs::path file = folder / "timeseries.csv";
     if (!fs::is_regular_file(file, code)) return false;
     const std::string header = csvHeader(kWhenColumns), start = startOf(file, header.size());
-    return start.empty() || start == header;  // empty: killed in its first moment
+    return start.empty() || start == header;  // empty: the run was killed in its first moment
 }
 
 std::vector<fs::path> filesOfRun(const fs::path& folder) {

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Why a folder that is not empty is not written into.
+/// The reason for not writing into a folder that is not empty.
 std::string occupied(const fs::path& folder) {
     const bool unfinished = fs::exists(folder / kCheckpointName), run = holdsRun(folder);
     return fmt::format("{} {}; {}choose another folder with --out{}", folder.string(),
@@ -31,21 +31,22 @@ std::string occupied(const fs::path& folder) {
                        run ? ", or --force to replace that run" : "");
 }
 
-/// Whether the folder holds nothing but this case: a sweep leaves it where a member is to run.
+/// Whether the folder holds nothing but this case. A sweep prepares the folder of a member like this.
 bool isPrepared(const fs::path& folder, const Case& c) {
     for (const auto& entry : fs::directory_iterator(folder))
         if (entry.path().stem() != "case" && entry.path().stem() != "case.toml") return false;
     return fileContent(folder / "case.toml") == c.resolved;
 }
 
-/// The files that a new run removes. A case that is there already stays: the run may be read from it.
+/// The files that a new run removes. A case.toml that already holds this case stays, because the run may be read from
+/// it.
 std::vector<fs::path> replacedIn(const fs::path& folder, const Case& c) {
     std::vector<fs::path> files = filesOfRun(folder);
     if (fileContent(folder / "case.toml") == c.resolved) std::erase(files, folder / "case.toml");
     return files;
 }
 
-/// Refuses what would lose a file that is no run's, or that the case is read from.
+/// Refuses the folder if the new run would lose a file that belongs to no run, or one that the case is read from.
 void requireNothingLost(const fs::path& folder, bool force, const Case& c) {
     std::error_code code;
     if (fs::is_empty(folder, code)) return;
@@ -57,7 +58,7 @@ void requireNothingLost(const fs::path& folder, bool force, const Case& c) {
                         file->string()));
 }
 
-/// The folders that have to be made for `folder`, itself first.
+/// The folders that must be made for `folder`; `folder` itself comes first.
 std::vector<fs::path> missingFolders(fs::path folder) {
     std::error_code code;
     std::vector<fs::path> missing;
@@ -85,7 +86,7 @@ RunFolder::RunFolder(fs::path folder, bool force, const Case& c, std::string bac
     requireNothingLost(folder_, force, c);
     const bool hadCase = fileContent(folder_ / "case.toml") == c.resolved;
     try {
-        removeRun(folder_, replacedIn(folder_, c));  // a stale summary would lie if this run is killed
+        removeRun(folder_, replacedIn(folder_, c));  // a stale summary would mislead if this run is killed
         const std::string energy = c.world.energyBook ? "," + csvHeader(kEnergyColumns) : "";
         timeSeries_.emplace(folder_ / "timeseries.csv", csvHeader(kSampleColumns) + energy);
         if (!hadCase) replaceFile(folder_ / "case.toml", c.resolved);
@@ -129,7 +130,7 @@ void RunFolder::onDose(const Dose& d) {
 }
 
 void RunFolder::onCheckpoint(const RunCheckpoint& checkpoint, double time) {
-    // The lines first, then the checkpoint that counts on them.
+    // The lines come first, because the checkpoint counts on them.
     const CsvMark timeSeries = timeSeries_->store(), doses = doses_->store();
     const CsvMark frames = frames_ ? frames_->store() : CsvMark();
     writeCheckpoint(folder_ / kCheckpointName, {VKDOSE_VERSION, backend_, caseText_, time, checkpoint, timeSeries,

@@ -23,15 +23,15 @@ class FolderError : public std::runtime_error {
 
 class RunFolder : public RunObserver {
   public:
-    /// Creates the folder and the files that stream. Throws FolderError if it holds anything and `force` is not set,
-    /// if another process is writing into it, or if it cannot be created. With `force` the files of a former run in it
-    /// are removed, others left alone; throws FolderError if there is no run, or if a file of the case is among them.
-    /// Throws OutputError if the files cannot be written; what had been made is then gone again. `backend` is the
-    /// description of what computes, `member` the number of the run in its study.
+    /// Creates the folder and the files that stream. Throws FolderError if the folder holds anything and `force` is not
+    /// set, if another process is writing into it, or if it cannot be created. With `force` the files of a former run
+    /// in it are removed and others are left alone. Then it throws FolderError if there is no run, or if a file of the
+    /// case is among those to be removed. Throws OutputError if the files cannot be written; everything made until then
+    /// is removed again. `backend` is the description of the backend, `member` the number of the run in its study.
     RunFolder(std::filesystem::path folder, bool force, const Case& c, std::string backend, std::uint32_t member = 0);
 
-    /// Goes on in a folder, held since before `from` was read, as it was when that was written: lines that came later
-    /// are cut off. Throws FolderError if a file has been shortened since.
+    /// Goes on in a folder as it was when `from` was written. The folder has been held since before `from` was read.
+    /// Lines that came later are cut off. Throws FolderError if a file has been shortened since.
     RunFolder(std::filesystem::path folder, FolderLock lock, const Checkpoint& from, const Case& c,
               std::string backend);
 
@@ -43,8 +43,8 @@ class RunFolder : public RunObserver {
     void onFrame(const Frame& frame) override { frames_->put(frame); }
     bool storesFrames() const override { return frames_.has_value(); }
 
-    /// Writes the end state and the summary. A run that is over needs no checkpoint any more: it is removed. Throws
-    /// OutputError if something cannot be written.
+    /// Writes the end state and the summary. Removes the checkpoint of a run that is over, because it needs none any
+    /// more. Throws OutputError if something cannot be written.
     void finish(const Case& c, const RunResult& result);
 
     const std::filesystem::path& path() const { return folder_; }

@@ -19,8 +19,8 @@ struct DoseArch {
     std::optional<Arch> arch;
 };
 
-/// Of the complete ones of `doses` that have a frame within half a frame interval of their end. None without a coil in
-/// a canister. Throws OutputError if a frame cannot be read.
+/// Arches at the ends of those complete ones of `doses` that have a frame within half a frame interval of their end.
+/// None without a coil in a canister. Throws OutputError if a frame cannot be read.
 std::vector<DoseArch> archesAtDoseEnds(const Frames& frames, const Case& c, const std::vector<Dose>& doses);
 
 struct RunHistory {

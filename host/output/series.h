@@ -1,5 +1,5 @@
 #pragma once
-// The times of files that belong together, as ParaView wants to be told.
+// The times of files that belong together, in the form that ParaView reads.
 
 #include <filesystem>
 #include <string>
@@ -14,7 +14,7 @@ struct SeriesFile {
     double time = 0;   ///< [s]
 };
 
-/// Replaces `file`, which ends in .series and is opened in place of the files it names. Throws OutputError.
+/// Replaces `file`. Its name ends in .series, and ParaView opens it in place of the files it names. Throws OutputError.
 void writeSeries(const std::filesystem::path& file, const std::vector<SeriesFile>& files);
 
 }  // namespace vkdose

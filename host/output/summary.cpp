@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// JSON knows no infinity and no NaN: such a figure does not exist.
+/// JSON knows no infinity and no NaN. Such a figure is written as null.
 Json number(double x) {
     return std::isfinite(x) ? Json(x) : Json(nullptr);
 }

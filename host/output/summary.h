@@ -1,5 +1,5 @@
 #pragma once
-// summary.json: what was run, on what, and what came out, for scripts.
+// summary.json: the case, the backend and the results of a run, for scripts.
 
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>

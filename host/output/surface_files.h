@@ -8,8 +8,8 @@
 
 namespace vkdose {
 
-/// The walls: of a canister as high as it is, of other boundaries as far as the domain reaches. Empty if there are
-/// none.
+/// The walls. Those of a canister are as high as the canister; other boundaries reach as far as the domain. Empty if
+/// there are no walls.
 std::string wallsFile(const Case& c);
 
 /// The coil as it has turned in this frame.

@@ -1,7 +1,7 @@
 #pragma once
-// The VTKHDF format, version 1.0, as far as it is needed: a file holds one unstructured grid or one image (a regular
-// grid) that vtkHDFReader of VTK 9.1 and later opens. What VTK reads lies in the group /VTKHDF; a data set
-// that has a unit has it as the attribute `unit`. The same data make the same bytes.
+// The part of the VTKHDF format, version 1.0, that is needed. A file holds one unstructured grid or one image (a
+// regular grid) that vtkHDFReader of VTK 9.1 and later opens. The data that VTK reads lie in the group /VTKHDF. A data
+// set that has a unit has it as the attribute `unit`. The same data make the same bytes.
 
 #include <array>
 #include <cstdint>
@@ -32,8 +32,8 @@ struct Grid {
     std::vector<Array> fieldData;            ///< of the whole
 };
 
-/// A regular grid along the axes. VTK 9.1 can read neither cell data of an image nor field data: there are none of the
-/// former, and the latter lie in a group /FieldData of their own.
+/// A regular grid along the axes. VTK 9.1 can read neither cell data nor field data of an image. So an image has no
+/// cell data, and its field data lie in a group /FieldData of their own.
 struct Image {
     std::array<std::uint32_t, 3> points{};  ///< along x, y, z
     Vec3 origin{0};                         ///< of the first point [m]
@@ -42,7 +42,7 @@ struct Image {
     std::vector<Array> fieldData;           ///< of the whole
 };
 
-/// The bytes of a file that holds it. Throws std::invalid_argument if an array has another length than it must.
+/// The bytes of a file that holds the data. Throws std::invalid_argument if an array has the wrong length.
 std::string file(const Grid& grid);
 std::string file(const Image& image);
 

@@ -32,14 +32,14 @@ Mask maskOf(const Picture& bits) {
     return mask;
 }
 
-/// Without the patches of fewer pixels.
+/// The mask without the patches of fewer pixels.
 Mask withoutPatches(const Mask& mask, double pixels, int connectivity) {
     const Picture bits = bitsOf(mask);
     Pix* kept = pixSelectByArea(bits.pix(), float(pixels), connectivity, L_SELECT_IF_GTE, nullptr);
     return maskOf(held(kept));
 }
 
-/// The pixels that hang together with the lowest `rows`.
+/// The pixels that are connected with the lowest `rows`.
 Mask reachingDown(const Mask& mask, int rows) {
     Mask lowest = mask;
     std::fill_n(lowest.value.begin(), std::ptrdiff_t(mask.width) * std::max(0, mask.height - rows), std::uint8_t(0));
@@ -47,7 +47,7 @@ Mask reachingDown(const Mask& mask, int rows) {
     return maskOf(held(pixSeedfillBinary(nullptr, seed.pix(), all.pix(), 8)));
 }
 
-/// Share of the pairs of neighbours, side by side or one above the other, that are of two kinds.
+/// Share of the pairs of neighbours, side by side or one above the other, whose pixels are of different kinds.
 double disorder(const Mask& mask) {
     double pairs = 0, different = 0;
     for (int y = 0; y < mask.height; ++y) {
@@ -89,7 +89,7 @@ Powder lowerKind(const Mask& dark) {
             rows[dark.at(x, y)] += y;
         }
     }
-    // Means compared without dividing: a kind may be missing.
+    // The means are compared without dividing, because a kind may be missing.
     return rows[1] * count[0] >= rows[0] * count[1] ? Powder::Dark : Powder::Light;
 }
 

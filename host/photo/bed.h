@@ -1,5 +1,5 @@
 #pragma once
-// A photograph in two colours: which of its pixels are the bed of powder.
+// Splits a photograph into two colours, and finds the pixels that are the bed of powder.
 
 #include "host/photo/photograph.h"
 
@@ -13,16 +13,16 @@ enum class Powder { Automatic, Dark, Light };
 /// 1 where `grey` is below `threshold`.
 Mask darkPixels(const Grey& grey, int threshold);
 
-/// Which of the two kinds lies lower on the average: never Automatic.
+/// The one of the two kinds that lies lower on the average. Never Automatic.
 Powder lowerKind(const Mask& dark);
 
-/// Throws PhotoError if the two kinds in `dark` cannot be told apart in `grey`: one is missing, their mean greys are
-/// less than 10 of 255 apart, or they are mixed like noise (more than a fifth of all neighbours differ; of pure noise
-/// 30 %).
+/// Throws PhotoError if the two kinds in `dark` cannot be told apart in `grey`. This is so if one is missing, if their
+/// mean greys are less than 10 of 255 apart, or if they are mixed like noise (more than a fifth of all neighbours
+/// differ; in pure noise 30 % do).
 void requireContrast(const Grey& grey, const Mask& dark);
 
-/// The bed: patches of powder that reach the picture's lower edge to within `speck` [pixels], diagonal neighbours
-/// joined, holes of less than speck x speck filled and patches of less left out.
+/// The bed: the patches of powder that reach the picture's lower edge to within `speck` [pixels]. Diagonal neighbours
+/// are joined. Holes of less than speck x speck pixels are filled, and patches of less are left out.
 Mask bedOf(const Mask& powder, int speck);
 
 /// 1 where `mask` is 0.

@@ -9,19 +9,21 @@ namespace vkdose::photo {
 
 namespace {
 
-/// Enough to fit the light; a photograph has a hundred times as many.
+/// This many pixels are enough to fit the light. A photograph has a hundred times as many.
 constexpr int kFitPixels = 40000;
-/// Of fitting the light and telling the kinds apart again; four or five suffice on every picture of the tests.
+/// Rounds of fitting the light and telling the kinds apart again. Four or five suffice on every picture of the tests.
 constexpr int kPasses = 10;
 /// Share of the pixels that the stretching makes black, and white.
 constexpr double kClipped = 0.005;
-/// Brightest over middle light that is believed; beyond, the polynomial fits something else.
+/// The largest ratio of the brightest to the middle light that is believed. Beyond it, the polynomial fits something
+/// else.
 constexpr double kMostLight = 4;
 
 constexpr int kTerms = 5;
 using Terms = std::array<double, kTerms>;
 
-/// Of the place (x, y) in a picture, each from -1 to 1. Without a constant, which is the brightness of the kinds.
+/// The polynomial's terms at the place (x, y) in a picture, with coordinates scaled to -1 ... 1. There is no constant
+/// term, because it is the brightness of the kinds.
 Terms termsAt(int x, int y, const Grey& grey) {
     const double u = 2.0 * x / std::max(grey.width - 1, 1) - 1, v = 2.0 * y / std::max(grey.height - 1, 1) - 1;
     return {u, v, u * u, u * v, v * v};
@@ -40,7 +42,7 @@ double underEvenLight(const Grey& grey, int x, int y, const Light& light) {
     return grey.at(x, y) / light.at(termsAt(x, y, grey));
 }
 
-/// Values that become black and white.
+/// The values that become black and white.
 struct Range {
     double low, high;
 };
@@ -79,8 +81,8 @@ Grey thinned(const Grey& grey) {
     return out;
 }
 
-/// Least squares of log(value) = log(brightness of the pixel's kind) + polynomial, weighted by the value squared, as
-/// the noise of a logarithm asks for.
+/// Least squares of log(value) = log(brightness of the pixel's kind) + polynomial. The weight is the value squared,
+/// because the noise of a logarithm falls with the value.
 Light fitted(const Grey& grey, const Grey& even) {
     constexpr int kUnknowns = kTerms + 2;
     Eigen::Matrix<double, kUnknowns, kUnknowns> normal = Eigen::Matrix<double, kUnknowns, kUnknowns>::Zero();
@@ -97,7 +99,7 @@ Light fitted(const Grey& grey, const Grey& even) {
             right += value * value * std::log(value) * row;
         }
     }
-    // A trace of preference for even light: a picture of one kind leaves an unknown undetermined.
+    // Adds a trace of preference for even light, because a picture of one kind leaves an unknown undetermined.
     normal.diagonal().array() += 1e-9 * normal.trace() + 1e-9;
     const Eigen::Matrix<double, kUnknowns, 1> solution = normal.ldlt().solve(right);
     Light light;

@@ -1,5 +1,5 @@
 #pragma once
-// Photographs: read, cut, greyed and written by Leptonica, whose own types end here.
+// Photographs. Leptonica reads, cuts, greys and writes them. Its own types end here.
 
 #include <cstdint>
 #include <filesystem>
@@ -11,7 +11,7 @@ struct Pix;
 
 namespace vkdose::photo {
 
-/// A photograph from which nothing can be read, or options that do not fit it. Says what would be right.
+/// A photograph from which nothing can be read, or options that do not fit it. The text says what would be right.
 class PhotoError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
@@ -50,17 +50,18 @@ class Picture {
     Pix* pix_;
 };
 
-/// Takes over what a call of Leptonica gave; null, which it gives only when memory is short, throws std::bad_alloc.
+/// Takes over the result of a call of Leptonica. Leptonica gives null only when memory is short; null throws
+/// std::bad_alloc.
 Picture held(Pix* pix);
 
-/// Pixels a picture may have; more are refused before any is read.
+/// The most pixels that a picture may have. A larger picture is refused before any pixel is read.
 inline constexpr double kMostPixels = 100e6;
 
-/// Reads a PNG, JPEG or TIFF (its first page), what is transparent as white. Throws PhotoError if there is none, or
-/// only a part of one.
+/// Reads a PNG, JPEG or TIFF (its first page). Transparent parts become white. Throws PhotoError if there is no
+/// picture, or only a part of one.
 Picture readPicture(const std::filesystem::path& file);
 
-/// All of it.
+/// The whole picture.
 Region whole(const Picture& picture);
 
 /// The region in grey, each pixel the median of the 3 x 3 around it, so that a camera's noise does not fray edges.

@@ -9,16 +9,16 @@
 
 namespace vkdose::photo {
 
-/// How a photograph is to be read.
+/// The options for reading a photograph.
 struct Reading {
-    std::optional<Region> region;  ///< else the whole picture
-    /// One of the two: the size of a pixel, or what the region's width stands for [mm].
+    std::optional<Region> region;  ///< if not given, the whole picture
+    /// One of the two is given: the size of a pixel, or the width that the region stands for [mm].
     std::optional<double> mmPerPixel, lengthMm;
     std::optional<int> threshold;  ///< of the picture's own greys, 1 ... 255, dark below; else even light and `otsu`
     Powder powder = Powder::Automatic;
     bool rearLeft = true;  ///< the rear wall is on the left
     double speckMm = 1;    ///< patches smaller than a square of this edge are dirt
-    /// Where the region's lower corner at the rear wall's side is: z from the rear wall, height over the canister's
+    /// Place of the region's lower corner at the rear wall's side: z from the rear wall, height over the canister's
     /// lowest point [mm].
     double cornerZMm = 0, cornerHeightMm = 0;
 };
@@ -32,7 +32,7 @@ struct SurfacePoint {
 struct Surface {
     std::vector<SurfacePoint> points;  ///< one for each column of the region
     Region region;
-    std::vector<std::optional<int>> edge;  ///< per column of the region: its highest row of the bed, from the top
+    std::vector<std::optional<int>> edge;  ///< per column of the region: the highest row of the bed, from the top
     Powder powder = Powder::Dark;
     double mmPerPixel = 0;
     int columnsCut = 0;  ///< where the bed reaches the region's upper edge, so that its height is not known
@@ -41,14 +41,15 @@ struct Surface {
 /// Row of the highest 1 in every column, from the top; none where there is none.
 std::vector<std::optional<int>> upperEdge(const Mask& mask);
 
-/// Finds the surface. A height is off by up to half a pixel, and by what the picture itself blurs. Throws PhotoError if
-/// the options make no sense or nothing is found.
+/// Finds the surface. A height is off by up to half a pixel, and by the blur of the picture. Throws PhotoError if the
+/// options make no sense or nothing is found.
 Surface surfaceOf(const Picture& picture, const Reading& reading);
 
 /// "z_mm,height_mm" and a line for each point; the height is empty where there is none.
 std::string csvText(const Surface& surface);
 
-/// The photograph with the region framed and the surface drawn over it, at most 1600 pixels wide: to be judged by eye.
+/// The photograph with the region framed and the surface drawn over it, at most 1600 pixels wide. It is there to be
+/// judged by eye.
 Picture checkPicture(const Picture& picture, const Surface& surface);
 
 }  // namespace vkdose::photo

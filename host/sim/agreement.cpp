@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// The larger of two differences, where NaN counts as infinitely large: std::max would drop it.
+/// The larger of two differences. NaN counts as infinitely large, because std::max would drop it.
 double worse(double a, double b) {
     return std::isnan(b) ? kInfinity : std::max(a, b);
 }
@@ -26,7 +26,7 @@ double rootMeanSquareSpeed(const Particles& p) {
     return active > 0 ? std::sqrt(sum / active) : 0;
 }
 
-/// A difference in units of a scale; without a scale only equality is small.
+/// A difference in units of a scale. Without a scale it is zero if the two are equal and infinite otherwise.
 double inUnits(double difference, double scale) {
     if (scale > 0) return difference / scale;
     return difference == 0 ? 0 : kInfinity;
@@ -53,10 +53,13 @@ bool turning(const Moment& m) {
     return m.phase == Phase::Rotate;
 }
 
-/// While the coil turns the powder sticks and slips, so that only means over the phase say anything. Floors: energies
-/// and torques: 2 % of the largest, the order of what one particle more or less in motion makes in a small packing.
-/// Height: a fiftieth of a radius. Contacts: each particle's number within 0.1. Overlap: 5 %, it is an extreme of a few
-/// hard contacts. Dosed mass: two particles, because they leave one by one and those near the edge may or may not.
+/// While the coil turns the powder sticks and slips, so that only means over the phase say anything. The floors are:
+/// - energies and torques: 2 % of the largest, the order of the change by one particle more or less in motion in a
+///   small packing;
+/// - height: a fiftieth of a radius;
+/// - contacts: 0.1 in the number of each particle;
+/// - overlap: 5 %, because it is an extreme of a few hard contacts;
+/// - dosed mass: two particles, because they leave one by one and those near the edge may or may not.
 std::vector<Quantity> quantities(const Scales& s) {
     const auto energy = [](const Moment& m) { return m.kineticEnergy; };
     const auto meanEnergy = [](const Moment& m) { return m.meanKineticEnergy; };

@@ -22,15 +22,15 @@ struct StateDifference {
 };
 StateDifference difference(const Particles& a, const Particles& b);
 
-/// Particle by particle, time after time. What a candidate may differ by:
-/// - It keeps velocities in single precision: every step rounds them by up to 2^-24 of themselves, and where the
+/// Compares particle by particle, time after time. The limit on a candidate's difference allows for three causes:
+/// - It keeps velocities in single precision. Every step rounds them by up to 2^-24 of themselves, and where the
 ///   acceleration is steady (a free fall) always to the same side. After n steps that is up to n 2^-24 of the velocity
-///   scale, and half of that times the distance travelled in position. kVelocityFloor covers what does not grow with
-///   n: mass and parameters are rounded to single precision once.
-/// - It keeps positions in two floats: loading them loses nothing that matters (kPositionFloor). The radii are
-///   rounded to single precision, so that the first touch comes early or late by up to kRadiusRounding.
-/// - Contacts amplify differences: not more than they amplified the fine twin's displacement.
-/// Once that limit exceeds kWidest (of a radius, of the velocity scale) the state is chaotic: it is no longer judged.
+///   scale, and half of that times the distance travelled in position. kVelocityFloor covers the part that does not
+///   grow with n: mass and parameters are rounded to single precision once.
+/// - It keeps positions in two floats. Loading them loses nothing that matters (kPositionFloor). The radii are rounded
+///   to single precision, so that the first touch comes early or late by up to kRadiusRounding.
+/// - Contacts amplify differences, but not more than they amplified the fine twin's displacement.
+/// Once the limit exceeds kWidest (of a radius, of the velocity scale) the state is chaotic and is no longer judged.
 class ParticleJudge {
   public:
     static constexpr double kVelocityFloor = 1e-6;
@@ -69,8 +69,9 @@ using History = std::vector<Moment>;
 
 /// Compares histories made at the same times. A quantity may differ by a floor (see the table in agreement.cpp) plus
 /// three times the largest spread of the rough twins. If that is more than the quantity's cap, agreement would mean
-/// nothing and the verdict is Undecided (unless the candidate differs by even more). A quantity that never exceeds
-/// its floor in any of them (hardly anything was dosed) has no row: every right and many a wrong program would agree.
+/// nothing, and the verdict is Undecided (unless the candidate differs by even more). A quantity that never exceeds its
+/// floor in any history (hardly anything was dosed) has no row, because many wrong programs would agree as well as the
+/// right ones.
 std::vector<QuantityRow> judgeQuantities(const History& reference, const std::vector<const History*>& twins,
                                          const History& candidate, const Scales& scales);
 

@@ -2,12 +2,14 @@
 // Two backends on the same case and the same particles, in lockstep: how far they differ, and whether that is more
 // than rounding and the chaos of a packing explain.
 //
-// A packing of spheres amplifies every difference. How much is not guessed but measured, by further runs of the
-// reference whose particles start displaced:
-// - the fine twin by up to kFineShift of the mean radius: how fast do small errors grow? The candidate makes a rounding
-//   error in every step; none of them grows faster. While they are small, particles are compared one by one.
-// - the rough twins by up to kRoughShift, a micrometre for a millimetre: no experiment could tell these fillings apart,
-//   so what differs between them says nothing about the powder. Energies, masses and torques may differ as much.
+// A packing of spheres amplifies every difference. The amplification is measured by further runs of the reference whose
+// particles start displaced:
+// - The fine twin is displaced by up to kFineShift of the mean radius. It shows how fast small errors grow. The
+//   candidate makes a rounding error in every step, and none of these errors grows faster. While they are small,
+//   particles are compared one by one.
+// - The rough twins are displaced by up to kRoughShift, a micrometre for a millimetre. No experiment could tell these
+//   fillings apart, so a difference between them says nothing about the powder. Energies, masses and torques may differ
+//   as much.
 
 #include <atomic>
 #include <cstdint>
@@ -25,7 +27,7 @@ namespace vkdose {
 inline constexpr double kFineShift = 1e-7;
 inline constexpr double kRoughShift = 1e-3;
 
-/// Undecided: the twins differ so much that a candidate that does not differ more proves nothing.
+/// Undecided: the twins differ so much that agreement of the candidate with the reference proves nothing.
 enum class Verdict { Agrees, Differs, Undecided };
 
 /// Particle by particle, at one time. Positions in mean radii, velocities in the velocity scale (the largest
@@ -59,8 +61,9 @@ struct Comparison {
     std::uint64_t steps = 0;
     bool interrupted = false;
 
-    /// Differs if anything does. Agrees only on evidence of both kinds: a state judged particle by particle, and a
-    /// quantity of the packing that chaos left to judge. Undecided otherwise.
+    /// The verdict is Differs if any row differs. It is Agrees only on evidence of both kinds: a state that was judged
+    /// particle by particle, and a quantity of the packing that chaos did not leave Undecided. Otherwise it is
+    /// Undecided.
     Verdict verdict() const;
     int undecided() const;  ///< quantities
 };

@@ -1,5 +1,6 @@
 #pragma once
-// The energy ledger: what was loaded and what the coil did is still there, was lost in a known way, or has left.
+// The energy ledger: all energy that was loaded or that the coil supplied is still there, was lost in a known way, or
+// has left.
 
 #include <tuple>
 
@@ -8,8 +9,8 @@
 
 namespace vkdose {
 
-/// Plain, so that it can be saved: all of it is `sum`, the books of all calls since load in one. Instantaneous
-/// energies are those of the last call, losses and works of all of them [J].
+/// A plain struct, so that it can be saved. Its only state is `sum`, the joined books of all calls since load [J]. In
+/// it instantaneous energies are those of the last call; losses and works are sums over all calls.
 struct EnergyLedger {
     EnergyBook sum;
 
@@ -81,7 +82,7 @@ inline constexpr auto kMomentumColumns = columns(
 inline constexpr auto kFlowColumns = std::tuple_cat(kLossColumns, kOutsideColumns, kLoadedColumns);
 /// A whole book, as a checkpoint holds it.
 inline constexpr auto kBookColumns = std::tuple_cat(kMotionColumns, kElasticColumns, kFlowColumns, kMomentumColumns);
-/// Of EnergyLedger, behind the other columns of timeseries.csv.
+/// Columns of EnergyLedger. They stand behind the other columns of timeseries.csv.
 inline constexpr auto kEnergyColumns =
     std::tuple_cat(within<&EnergyLedger::sum>(
                        std::tuple_cat(kMotionColumns, kElasticColumns, kLoadedColumns, kOutsideColumns, kLossColumns)),

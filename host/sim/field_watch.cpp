@@ -48,7 +48,7 @@ double surfaceHeight(const FieldGrid& grid, const FieldPoints& points) {
     for (const FieldPoint& p : points) most = std::max(most, p.density);
     if (most == 0) return 0;
     std::size_t k = points.size();
-    while (points[k - 1].density < most / 2) --k;                      // ends: the largest is among them
+    while (points[k - 1].density < most / 2) --k;                      // ends, because the largest is among them
     const double cell = grid.cell().y, at = (double(k) - 0.5) * cell;  // of the highest point above the half
     if (k == points.size()) return at;
     const double below = points[k - 1].density, above = points[k].density;

@@ -29,8 +29,8 @@ class FieldWatch {
   public:
     FieldWatch(const Case& c, const Timeline& timeline);
 
-    /// To be called at every sample of the run (a multiple of the sensor interval or the end of a phase). Returns what
-    /// is to be kept.
+    /// Must be called at every sample of the run (a multiple of the sensor interval or the end of a phase). Returns the
+    /// fields to be kept.
     std::vector<FieldSample> look(Backend& backend, std::uint64_t step, Phase phase, int dose);
 
     /// The averages under way and the profiles at the beginning, for a checkpoint.
@@ -55,8 +55,8 @@ class FieldWatch {
     std::vector<State> states_;
 };
 
-/// Height of a bed's surface above the grid's lower face, from its density over y: where, coming from above, it first
-/// reaches half of its largest value, interpolated [m]. Zero without powder.
+/// Height of a bed's surface above the grid's lower face [m], from its density over y. The surface is the place where,
+/// coming from above, the density first reaches half of its largest value (interpolated). Zero without powder.
 double surfaceHeight(const FieldGrid& grid, const FieldPoints& points);
 
 }  // namespace vkdose

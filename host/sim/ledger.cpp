@@ -37,7 +37,7 @@ void Ledger::close(const Sensors& sensors, double time) {
     const std::uint64_t dosed = sensors.count[static_cast<std::size_t>(Region::Dosed)];
     if (dosed < dosedBefore_) fail(fmt::format("{} particles were dosed already", dosedBefore_));
 
-    // Written so that NaN fails: every comparison must hold, none must merely not be broken.
+    // The tests are written so that NaN fails. They ask whether a condition holds, which is false for NaN.
     const bool sane = std::all_of(sensors.mass.begin(), sensors.mass.end(), [](double m) { return m >= 0; });
     if (!sane) fail("a mass is negative or not a number");
     const double mass = std::accumulate(sensors.mass.begin(), sensors.mass.end(), 0.0);

@@ -1,5 +1,5 @@
 #pragma once
-// The mass ledger: whatever was filled in is in the canister, in the throat or dosed, and nothing is lost.
+// The mass ledger: all powder that was filled in is in the canister, in the throat or dosed, and nothing is lost.
 
 #include <cstdint>
 
@@ -7,7 +7,7 @@
 
 namespace vkdose {
 
-/// Masses are sums in single precision on a device: this much of the filled mass may go missing to rounding.
+/// Masses are sums in single precision on a device. Rounding may lose up to this part of the filled mass.
 inline constexpr double kLedgerTolerance = 1e-6;
 
 class Ledger {

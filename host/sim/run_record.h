@@ -12,7 +12,7 @@ namespace vkdose {
 void put(Record& record, const std::string& name, const Sensors& sensors);
 void get(const Record& record, const std::string& name, Sensors& sensors);
 
-/// An energy ledger that may not be kept.
+/// An energy ledger; nothing if the run keeps none.
 void put(Record& record, const std::string& name, const std::optional<EnergyLedger>& ledger);
 void get(const Record& record, const std::string& name, std::optional<EnergyLedger>& ledger);
 

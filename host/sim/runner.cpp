@@ -14,8 +14,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Work of one `advance`: enough that the call costs nothing beside it, little enough that Ctrl-C and the progress
-/// bar answer within a second or so at the speeds of a CPU. A fixed number, so that the same case makes the same calls.
+/// Work of one `advance`. It is large enough that the call costs nothing beside it, and small enough that Ctrl-C and
+/// the progress bar answer within a second or so at the speeds of a CPU. It is a fixed number, so that the same case
+/// makes the same calls.
 constexpr double kParticleStepsPerCall = 4e6;
 
 std::uint64_t count(const Sensors& s, Region r) {
@@ -242,7 +243,7 @@ class Run {
         gathered_ = 0;
         impulse_ = 0;
         observer_.onSample(s);
-        result_.ledger.close(s.sensors, s.time);  // after the observer: a ledger that does not close is on record
+        result_.ledger.close(s.sensors, s.time);  // after the observer, so that a bad ledger is on record
         result_.last = s;
     }
 
@@ -292,7 +293,7 @@ class Run {
         return judge_.over(d.mass, d.particles, active_);
     }
 
-    /// After an error: what the last good sample knew stays, the dose under way is closed as incomplete.
+    /// After an error: keeps the values of the last good sample and closes the dose under way as incomplete.
     void fail(StopReason reason, const char* what) {
         result_.reason = reason;
         result_.error = what;
@@ -300,7 +301,8 @@ class Run {
         try {
             keepEndState();
         } catch (const std::runtime_error&) {
-            // The backend cannot give its state any more; `endState` stays false and the first error is the one told.
+            // The backend cannot give its state any more. `endState` stays false and the first error is the one
+            // reported.
         }
     }
 
@@ -353,7 +355,7 @@ class Run {
     FieldWatch fields_;
     RunResult result_;
 
-    /// Where it was gone on with.
+    /// The counts at the checkpoint from which the run goes on.
     struct {
         std::uint64_t steps = 0;
         double particleSteps = 0, wallTime = 0;
@@ -365,7 +367,7 @@ class Run {
     Timeline::Stretch stretch_{Phase::Settle, 0, 0, 0};
     bool dosing_ = false;
 
-    /// -1 in a run whose time series began with angles that are positive when conveying, as vkdose once wrote them: a
+    /// -1 in a run whose time series was begun by an older vkdose, which wrote angles as positive when conveying. A
     /// series keeps its sense to the end.
     double angleSign_ = 1;
 

@@ -25,9 +25,9 @@ struct Progress {
     int dose = 0;
     double time = 0;  ///< simulated [s]
     std::uint64_t step = 0;
-    std::uint64_t expectedSteps = 0;  ///< of the whole run, from the doses so far; 0 when nothing can be said
+    std::uint64_t expectedSteps = 0;  ///< of the whole run, estimated from the doses so far; 0 when nothing can be said
     bool phaseEnd = false;
-    // Since the run began or was gone on with: what was before says nothing of the machine it is on now.
+    // Counted since the run began or was resumed: earlier work says nothing about the machine that the run is on now.
     std::uint64_t steps = 0;
     double particleSteps = 0;  ///< active particles times steps
     double wallTime = 0;       ///< spent stepping [s]
@@ -39,7 +39,8 @@ struct RunCheckpoint {
     Record backend;
 };
 
-/// Told as a run goes on. What it throws ends the run; an OutputError says that a result could not be stored.
+/// Is told of events as a run goes on. An exception that it throws ends the run; an OutputError says that a result
+/// could not be stored.
 class RunObserver {
   public:
     virtual ~RunObserver() = default;
@@ -47,11 +48,11 @@ class RunObserver {
     virtual void onSample(const Sample&) {}
     virtual void onDose(const Dose&) {}
     virtual void onField(const FieldSample&) {}
-    /// At the intervals of the case and when the run is interrupted, if `storesCheckpoints`.
+    /// Called at the intervals of the case and when the run is interrupted, if `storesCheckpoints`.
     virtual void onCheckpoint(const RunCheckpoint&, double time) { (void)time; }
     virtual bool storesCheckpoints() const { return false; }
-    /// Where the case wants frames (Timeline::frameDue) and at the end of the run, if `storesFrames`. Of a run that
-    /// goes on from a checkpoint, those after it.
+    /// Called where the case wants frames (Timeline::frameDue) and at the end of the run, if `storesFrames`. A run that
+    /// goes on from a checkpoint gives only the frames after it.
     virtual void onFrame(const Frame&) {}
     virtual bool storesFrames() const { return false; }
 };
@@ -77,9 +78,10 @@ struct RunResult {
 };
 
 /// Runs `c` with the particles in `filled`. Setting `stop` ends the run at the next opportunity, keeping everything
-/// computed until then. Errors of the run, the device or the output after loading began end it likewise: `reason` and
-/// `error` tell. With `from`, goes on where that checkpoint of the same case was taken, as if never interrupted.
-/// Throws CaseError if the schedule makes no sense and RecordError if the checkpoint does not fit.
+/// computed until then. Errors of the run, the device or the output after loading began end it likewise; `reason` and
+/// `error` then tell the cause. With `from` the run goes on where that checkpoint of the same case was taken, as if it
+/// had never been interrupted. Throws CaseError if the schedule makes no sense and RecordError if the checkpoint does
+/// not fit.
 RunResult runFilled(const Case& c, Insertion filled, Derived derived, Backend& backend, RunObserver& observer,
                     const std::atomic<bool>& stop, const RunCheckpoint* from = nullptr);
 

@@ -45,18 +45,18 @@ inline constexpr auto kKineticColumns =
                                                "Kinetic energy of rotation of all particles that are not dosed."));
 inline constexpr auto kOverlapColumns = columns(column<&Sensors::maxOverlapRatio>(
     "max_overlap_ratio", "1", "Largest overlap over the smaller radius of the two, since the line before.", 6));
-/// In no file but the checkpoint.
+/// Only the checkpoint has these columns.
 inline constexpr auto kInnerSensorColumns =
     columns(column<&Sensors::coilTorque>("particle_torque_Nm", "N m", "Torque of the particles on the coil about +z."),
             column<&Sensors::throatMomentumZ>("throat_momentum_z_kg_m_s", "kg m/s", "Momentum along +z in the throat."),
             column<&Sensors::rebuilds>("rebuilds", "1", "Number of times that the neighbour list was built."));
-/// All of them, as a checkpoint holds them.
+/// All columns of the sensors, as a checkpoint holds them.
 inline constexpr auto kSensorColumns =
     std::tuple_cat(kMassColumns, kCountColumns, kKineticColumns, kInnerSensorColumns, kOverlapColumns);
 
-// The columns of a sample's own.
+// The columns that a sample has beside its sensors.
 inline constexpr auto kStepColumns = columns(column<&Sample::step>("step", "1", "Number of time steps made."));
-/// The same sense in every file.
+/// The angle has the same sense in every file.
 inline constexpr const char* kCoilAngleMeaning =
     "Angle that the coil has turned about +z by the right-hand rule; a right-handed coil conveys at falling angles.";
 inline constexpr auto kWhenColumns =
@@ -71,10 +71,10 @@ inline constexpr auto kDriveColumns = columns(
     column<&Sample::coilTorque>("coil_torque_Nm", "N m",
                                 "Torque of the drive, mean since the line before; positive when the powder resists."),
     column<&Sample::coilPower>("coil_power_W", "W", "Power of the drive, mean since the line before."));
-/// Those that a checkpoint holds beside the sensors and the energy.
+/// The columns that a checkpoint holds beside the sensors and the energy.
 inline constexpr auto kOwnSampleColumns = std::tuple_cat(kStepColumns, kWhenColumns, kDriveColumns);
 
-/// timeseries.csv; with an energy ledger kEnergyColumns follow.
+/// The columns of timeseries.csv; with an energy ledger kEnergyColumns follow.
 inline constexpr auto kSampleColumns =
     std::tuple_cat(kWhenColumns, within<&Sample::sensors>(picked<2, 0, 1, 3>(kMassColumns)),
                    within<&Sample::sensors>(picked<2, 0, 1, 3>(kCountColumns)),

@@ -15,7 +15,7 @@ namespace {
     throw CaseError({Diagnostic{"schedule", 0, key, fmt::format("{}", value), std::move(problem), std::move(remedy)}});
 }
 
-/// Nearest whole number of steps. A duration too short for one step would silently vanish: refused instead.
+/// Nearest whole number of steps. Refuses a duration too short for one step, because it would silently vanish.
 std::uint64_t wholeSteps(const char* key, double duration, double timeStep) {
     if (!(duration >= 0)) refuse(key, duration, "is not a duration", "give a time >= 0 in seconds");
     const double steps = std::round(duration / timeStep);

@@ -35,7 +35,7 @@ class Timeline {
         const ContactLaw* law = nullptr;  ///< of the contacts; lives as long as the timeline
     };
 
-    /// The stretch in which the step that follows `step` finished steps is made. Call only while !over(step).
+    /// The part of a phase in which the next step is made, after `step` finished steps. Call only while !over(step).
     Stretch at(std::uint64_t step) const;
 
     /// The next step after `step` at which sensors are read: a multiple of the sensor interval or the end of a phase.

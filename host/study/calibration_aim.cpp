@@ -14,7 +14,7 @@ namespace vkdose {
 
 namespace {
 
-/// Target and, unless given, tolerance from what a balance measured.
+/// Sets the target and, unless given, the tolerance from the readings of a balance.
 void readMeasured(CaseReader& reader, const std::filesystem::path& file, CalibrationAim& aim) {
     constexpr const char* kPath = "calibrate.measured";
     constexpr const char* kRemedy = "give a CSV with the columns dose and mass_g, or dose and cumulative_g";

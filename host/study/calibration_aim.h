@@ -14,11 +14,12 @@ class Section;
 struct FreeParameter {
     std::string key;
     double low = 0;   ///< in the unit of the key
-    double high = 0;  ///< ditto
+    double high = 0;  ///< in the unit of the key
 };
 
 struct CalibrationAim {
-    /// Grid: where the interpolated mass per dose of a sweep meets the target. Surrogate: a search, point after point.
+    /// Grid: finds where the interpolated mass per dose of a sweep meets the target. Surrogate: searches point after
+    /// point.
     enum class Method { Grid, Surrogate };
     Method method = Method::Grid;
     double target = 0;                      ///< mass per dose [kg]

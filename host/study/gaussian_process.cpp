@@ -11,9 +11,9 @@ namespace vkdose {
 namespace {
 
 // The logarithms that are fitted: a length for each coordinate, then the shared noise and the process's variance in
-// units of the observations' own. What is believed of them beforehand is normal about a value, and bounded: a length of
-// half the range, a variance like that of the observations, little noise. A few observations alone would now and then
-// be taken for a constant, known better than any of them.
+// units of the observations' own. The prior of each is normal about a value, and bounded: a length of half the range, a
+// variance like that of the observations, little noise. Without a prior, the process would sometimes take a few
+// observations for a constant and claim to know it better than any of them.
 struct Prior {
     double mean, deviation, low, high;
 };
@@ -80,7 +80,7 @@ double GaussianProcess::logPosterior(const std::vector<double>& logs) const {
     return sum;
 }
 
-/// Along the coordinates with halved steps, uphill.
+/// Climbs to a maximum: steps along each coordinate in turn, and halves the step when none goes up.
 std::vector<double> GaussianProcess::climbed(std::vector<double> logs) const {
     double here = logPosterior(logs);
     for (double step = 1.0; step > 0.05;) {
@@ -102,7 +102,7 @@ std::vector<double> GaussianProcess::climbed(std::vector<double> logs) const {
     return logs;
 }
 
-/// The best of several climbs: a few hundred small matrices each.
+/// The best of several climbs. Each climb costs a few hundred small matrices.
 std::vector<double> GaussianProcess::fitted() const {
     std::vector<double> best;
     double highest = -std::numeric_limits<double>::infinity();

@@ -7,13 +7,13 @@
 
 namespace vkdose {
 
-/// The value at a point as the process believes it.
+/// The value at a point as the process estimates it.
 struct Belief {
     double mean = 0;
     double deviation = 0;  ///< of the underlying value, without the noise of another observation
 };
 
-/// A value that was measured, and its standard error; an error of 0 is one that is not known.
+/// A value that was measured, and its standard error. An error of 0 means that it is not known.
 struct Measured {
     double value = 0;
     double error = 0;
@@ -21,9 +21,9 @@ struct Measured {
 
 class GaussianProcess {
   public:
-    /// At least two observations; coordinates in [0, 1]. Covariance: Matern 5/2, with a length for each coordinate. To
-    /// the known errors comes a noise that all observations share. Lengths, noise and the variance of the process are
-    /// the most probable ones, from the marginal likelihood and weak beliefs beforehand.
+    /// Takes at least two observations, with coordinates in [0, 1]. The covariance is Matern 5/2, with a length for
+    /// each coordinate. A noise that all observations share is added to the known errors. Lengths, noise and the
+    /// variance of the process are the most probable ones, from the marginal likelihood and weak prior beliefs.
     GaussianProcess(std::vector<std::vector<double>> points, const std::vector<Measured>& observations);
 
     Belief at(const std::vector<double>& point) const;
@@ -37,7 +37,7 @@ class GaussianProcess {
     std::vector<double> fitted() const;
 
     std::vector<std::vector<double>> points_;
-    double mean_ = 0, scale_ = 1;  ///< of the values: below they are in units of it, from the mean
+    double mean_ = 0, scale_ = 1;  ///< the values below are measured from the mean, in units of the scale
     Eigen::VectorXd values_;
     Eigen::VectorXd errors_;
     std::vector<double> lengths_;

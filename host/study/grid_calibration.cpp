@@ -41,7 +41,7 @@ CurvePoint pointOf(double along, const Found& found, const Scatter& scatter) {
     point.seeds = beta.count;
     point.rsd = rsd.mean;
     const double root = std::sqrt(double(beta.count));
-    // Of n doses a standard deviation, and so the RSD, is known to one part in sqrt(2 (n - 1)).
+    // A standard deviation of n doses, and so the RSD, is known to one part in sqrt(2 (n - 1)).
     const double single = rsd.mean / std::sqrt(2 * (found.doses.front() - 1));
     point.betaError = std::isfinite(scatter.beta) ? scatter.beta / root : found.betaError.front();
     point.rsdError = std::isfinite(scatter.rsd) ? scatter.rsd / root : single;
@@ -64,7 +64,8 @@ Crossing between(const CurvePoint& a, const CurvePoint& b, const CalibrationAim&
 void findCrossings(Curve& curve, const CalibrationAim& aim) {
     for (std::size_t i = 0; i + 1 < curve.points.size(); ++i) {
         const CurvePoint &a = curve.points[i], &b = curve.points[i + 1];
-        // Half open, so that a point on the target counts once; the last one has nobody after it.
+        // The interval is half open, so that a point on the target counts once. The last point has no interval after
+        // it.
         const bool endsOnIt = i + 2 == curve.points.size() && a.beta > aim.target && b.beta == aim.target;
         if ((a.beta >= aim.target) != (b.beta >= aim.target) || endsOnIt) curve.crossings.push_back(between(a, b, aim));
     }

@@ -1,6 +1,7 @@
 #pragma once
-// The paper's calibration: mass per dose against one parameter, a curve for each value of the others, and where the
-// curves cross the measured mass per dose (section "calibration and sensitivity studies").
+// The paper's calibration (section "calibration and sensitivity studies"): mass per dose against one parameter, with a
+// curve for each value of the other parameters. The crossings of the curves with the measured mass per dose are the
+// matches.
 
 #include <optional>
 #include <string>
@@ -12,12 +13,12 @@
 namespace vkdose {
 
 /// A point of a curve: all seeds together. Its errors are the scatter from seed to seed, pooled over all points of the
-/// sweep, over the root of the number of seeds; with a single seed those of its slope and of its standard deviation
-/// (NaN if there are too few doses).
+/// sweep, over the root of the number of seeds. With a single seed they are the errors of its slope and of its standard
+/// deviation (NaN if there are too few doses).
 struct CurvePoint {
     double along = 0;      ///< value of the interpolated key
     double beta = 0;       ///< mass per dose, mean over the seeds [kg]
-    double betaError = 0;  ///< standard error: see below [kg]
+    double betaError = 0;  ///< standard error, see above [kg]
     double rsd = 0;        ///< from dose to dose, mean over the seeds [-]
     double rsdError = 0;   ///< likewise [-]
     int seeds = 0;
@@ -26,7 +27,7 @@ struct CurvePoint {
 /// Where a curve meets the target, by linear interpolation.
 struct Crossing {
     double along = 0;
-    double alongError = 0;  ///< standard error: of the two points and the target; NaN if one is unknown
+    double alongError = 0;  ///< standard error, from those of the two points and the target; NaN if one is unknown
     double rsd = 0;
     double rsdError = 0;
 };
@@ -42,8 +43,8 @@ struct GridCalibration {
     std::vector<Curve> curves;
     int leftOut = 0;  ///< members that failed or have no mass per dose
     /// The curve whose lowest crossing is chosen. The paper chooses the parameters that match "and lead to the least
-    /// variability between successive doses", and of those the lowest k_c. Here: the crossings whose RSD is not above
-    /// the least one by more than the standard error of their difference, and of those the lowest.
+    /// variability between successive doses", and of those the lowest k_c. Here the candidates are the crossings whose
+    /// RSD exceeds the least one by no more than the standard error of their difference. The lowest of them is chosen.
     std::optional<std::size_t> choice;
 };
 

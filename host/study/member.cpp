@@ -25,7 +25,7 @@ Node treeOf(const std::vector<Setting>& settings) {
     return tree;
 }
 
-/// A value that stands in no line of the study.
+/// A value that no line of the study holds.
 Node ownNode(const Study& study, Node::Kind kind, std::string text) {
     Node node;
     node.kind = kind;
@@ -44,7 +44,7 @@ Node seedNode(const Study& study, std::uint64_t seed) {
     return node;
 }
 
-/// "friction = 0.5, turns = 8": which point a fault of several keys together belongs to.
+/// "friction = 0.5, turns = 8": the point at which several keys together make a fault.
 std::string pointText(const std::vector<Setting>& point) {
     std::string text;
     for (const Setting& s : point) text += (text.empty() ? "" : ", ") + s.key + " = " + valueText(s.value);

@@ -16,12 +16,13 @@ struct Member {
     std::vector<std::string> values;  ///< of Study::keys, as they stand in tables
     std::string caseText;             ///< the resolved case
     std::size_t particles = 0;
-    double expectedTime = 0;  ///< simulated time it will take by the closed forms [s]
-    double expectedWork = 0;  ///< particle-steps it will take likewise
+    double expectedTime = 0;  ///< simulated time that it will take by the closed forms [s]
+    double expectedWork = 0;  ///< particle-steps that it will take by the closed forms
 };
 
-/// Every combination of the axes for the first seed, the last axis fastest, then for the next seed: seeds that are
-/// appended later leave the numbers as they are. Throws CaseError with every fault of every member, each told once.
+/// Every combination of the axes for the first seed, the last axis fastest, then for the next seed. In this order seeds
+/// that are appended later leave the numbers as they are. Throws CaseError with every fault of every member, each
+/// reported once.
 std::vector<Member> membersOf(const Study& study);
 
 /// A member at a point of its own: a value for each of the keys, in their order. Throws CaseError.

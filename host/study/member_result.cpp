@@ -28,8 +28,8 @@ std::string field(const Json& summary, const char* pointer) {
     return value.is_number() ? value.dump() : "";
 }
 
-/// Mean torque of the drive over the complete doses [N m]: one that was cut short is in no statistics. Empty if there
-/// is none.
+/// Mean torque of the drive over the complete doses [N m]. A dose that was cut short is in no statistics. Empty if
+/// there is no complete dose.
 std::string meanTorque(const Table& doses) {
     double sum = 0;
     int count = 0;

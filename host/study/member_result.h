@@ -34,12 +34,12 @@ struct MemberColumn {
     const char* name;
     const char* unit;  ///< as in ColumnText
     const char* meaning;
-    const char* inSummary;  ///< where its value stands in summary.json, "/a/b"; or null, and
-    std::string (*own)(const MemberRemains&) = nullptr;  ///< what gives it
+    const char* inSummary;                               ///< its place in summary.json, "/a/b"; null: `own` gives it
+    std::string (*own)(const MemberRemains&) = nullptr;  ///< gives the value where `inSummary` is null
 };
 extern const std::span<const MemberColumn> kMemberColumns;
 
-/// Their names.
+/// The names of kMemberColumns.
 extern const Row kOutputColumns;
 
 /// "ok", "failed", "interrupted".
@@ -48,7 +48,7 @@ std::string statusText(MemberStatus status);
 /// The result that a run left in `folder`. A run that ended with 0 but left nothing readable has failed.
 MemberResult readResult(const std::filesystem::path& folder, const MemberEnd& end);
 
-/// The doses that a run noted in `folder`; an empty table if there are none, or they are not a run's.
+/// The doses that a run noted in `folder`. An empty table if there are none, or if the file is not a run's.
 Table dosesIn(const std::filesystem::path& folder);
 
 /// Whether the folder holds a run that is over, so that it need not be repeated.

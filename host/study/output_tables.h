@@ -7,7 +7,7 @@
 
 namespace vkdose {
 
-/// Those of a run, then those of a sweep.
+/// The tables of a run, then those of a sweep.
 std::vector<OutputTable> outputTables();
 
 }  // namespace vkdose

@@ -151,7 +151,7 @@ void checkCount(CaseReader& reader, const Study& study) {
                      "leave out points, or make several studies of it");
 }
 
-/// A search finds its points itself; a grid interpolates along an axis of numbers.
+/// A search finds its points itself, so it has no axes. A grid interpolates along an axis of numbers.
 void checkCalibration(CaseReader& reader, const Study& study) {
     const CalibrationAim& aim = *study.calibration;
     if (aim.method == CalibrationAim::Method::Surrogate) {
@@ -168,7 +168,7 @@ void checkCalibration(CaseReader& reader, const Study& study) {
                      "name the key of the axis to interpolate along");
 }
 
-/// A case has none of a study's tables, and would be a list of unknown keys.
+/// Refuses a case: it has none of a study's tables, and all its keys would be reported as unknown.
 void refuseCase(const std::filesystem::path& file, const Node& tree) {
     for (const char* name : {"axis", "seeds", "set", "calibrate"})
         if (tree.child(name) != nullptr) return;

@@ -43,7 +43,7 @@ struct Study {
 /// More members than this in one study are a slip.
 inline constexpr std::size_t kMostMembers = 10000;
 
-/// Throws CaseError with every fault found. The base case and the members are not looked at yet: see membersOf.
+/// Throws CaseError with every fault found. The base case and the members are not checked yet: see membersOf.
 Study readStudy(const std::filesystem::path& file);
 
 }  // namespace vkdose

@@ -17,7 +17,7 @@ namespace vkdose {
 namespace {
 
 constexpr int kCandidates = 4096;     // points of the range that are looked at for the next run
-constexpr double kTooNear = 1e-3;     // of the range: a run beside a former one tells nothing new
+constexpr double kTooNear = 1e-3;     // of the range: a run so near to a former one tells nothing new
 constexpr double kNothingNew = 1e-3;  // of the tolerance: an improvement not worth a run
 
 double density(double u) {
@@ -90,7 +90,8 @@ class Search {
         return true;
     }
 
-    /// Means and errors of all trials: each new one tells more about the scatter of the others.
+    /// Means and errors of all trials. They are made anew after each trial, because it tells more about the scatter of
+    /// all.
     void weigh() {
         std::vector<std::vector<double>> seeds;
         for (const Trial& trial : trials_) seeds.push_back(trial.values);
@@ -119,8 +120,8 @@ class Search {
         return {points, values};
     }
 
-    /// The tried point that is believed nearest to the target. A single observation may be near it by chance; what is
-    /// believed takes its neighbours into account.
+    /// The tried point that is believed nearest to the target. A single observation may be near it by chance, but the
+    /// process takes its neighbours into account.
     void judge(const GaussianProcess& process) {
         nearest_ = std::numeric_limits<double>::infinity();
         for (std::size_t i = 0; i < unit_.size(); ++i) {
@@ -153,7 +154,7 @@ class Search {
             most = here;
             best = u;
         }
-        // The candidates are a few thousandths apart; the last digits by halved steps.
+        // The candidates are a few thousandths apart. Halved steps find the best point between them.
         for (double step = 0.02; !best.empty() && step > 1e-4; step /= 2) {
             for (std::size_t i = 0; i < best.size(); ++i) {
                 for (const double sign : {-1.0, 1.0}) {
@@ -200,7 +201,8 @@ class Search {
 
 double expectedImprovement(double mean, double deviation, double best) {
     if (!(deviation > 0)) return std::max(0.0, best - std::abs(mean));
-    // Above and below the target apart: the integral of (best - y) p(y) from 0 to best, and the same mirrored.
+    // The values above and below the target are integrated apart: the integral of (best - y) p(y) from 0 to best, and
+    // the same mirrored.
     const auto half = [&](double m) {
         const double zero = -m / deviation, end = (best - m) / deviation;
         return (best - m) * (cumulative(end) - cumulative(zero)) + deviation * (density(end) - density(zero));

@@ -46,7 +46,7 @@ class Sweep {
   private:
     struct Running {
         const Member* member;
-        double before;  ///< what of it had been done when it was started [s]
+        double before;  ///< simulated time that it had reached when it was started [s]
     };
 
     static double share(const Member& m, double time) {
@@ -75,8 +75,8 @@ class Sweep {
         return work / double(std::max<std::size_t>(m.particles, 1));
     }
 
-    /// A checkpoint that cannot be read is given up when failed members are to run again, no sooner: the version that
-    /// wrote it may still go on from it.
+    /// A checkpoint that cannot be read is given up only when failed members are to run again. Until then the version
+    /// of vkdose that wrote it may still go on from it.
     bool canResume(const Member& m) const {
         const fs::path file = folder_.memberFolder(m.number) / kCheckpointName;
         if (!fs::exists(file)) return false;
@@ -99,7 +99,7 @@ class Sweep {
             observer_.onBusy(run);
             FolderLock::await(run);
         }
-        if (isOver(run)) {  // it ended, and we were killed before we could note it
+        if (isOver(run)) {  // the run ended, and we were killed before we could note it
             note(m, readResult(run, {m.number, 0, ""}));
             return;
         }

@@ -1,6 +1,6 @@
 #pragma once
-// Runs the members of a study, several at a time, and notes their results as they come. Knows neither processes nor
-// devices: that is the runner's.
+// Runs the members of a study, several at a time, and notes their results as they come. It knows neither processes nor
+// devices; these belong to the MemberRunner.
 
 #include <atomic>
 #include <filesystem>
@@ -21,22 +21,22 @@ struct MemberTask {
 /// A member that has not ended yet.
 struct WaitingMember {
     const Member* member = nullptr;
-    double steps = 0;  ///< it still has to make by the closed forms
+    double steps = 0;  ///< steps that it still has to make by the closed forms
 };
 
 /// Runs members one beside the other.
 class MemberRunner {
   public:
     virtual ~MemberRunner() = default;
-    /// How many at once, for people: "2 at a time".
+    /// The number of members that run at once, for people: "2 at a time".
     virtual std::string manner() const = 0;
-    /// Puts the members into the order in which it wants to start them; otherwise in that of their numbers.
+    /// Puts the members into the order in which it wants to start them. By default that is the order of their numbers.
     virtual void order(std::vector<WaitingMember>& members) { (void)members; }
-    /// Whether it can start this member now, beside those that run. Always, if none does.
+    /// Whether it can start this member now, beside those that run. Always true if none runs.
     virtual bool takes(const Member& member) const = 0;
-    /// Begins with a member and returns.
+    /// Starts a member and returns at once.
     virtual void start(const MemberTask& task) = 0;
-    /// A member that has ended; nothing if within a moment (a second or so) none has.
+    /// A member that has ended; nothing if none has ended within a moment (a second or so).
     virtual std::optional<MemberEnd> wait() = 0;
     /// Asks those that run to end soon and to keep what they have. They still have to be waited for.
     virtual void interrupt() = 0;
@@ -48,7 +48,7 @@ struct SweepProgress {
     int failed = 0;
     int running = 0;
     double fraction = 0;      ///< of the expected work of all members
-    double fractionHere = 0;  ///< of it, what this call has done
+    double fractionHere = 0;  ///< the part of it that this call has done
 };
 
 class SweepObserver {
@@ -56,9 +56,10 @@ class SweepObserver {
     virtual ~SweepObserver() = default;
     virtual void onMember(const Member&, const MemberResult&) {}
     virtual void onProgress(const SweepProgress&) {}
-    /// Another process, perhaps of a sweep that was killed, still writes into the folder of a member's run.
+    /// Is told when another process, perhaps of a sweep that was killed, still writes into the folder of a member's
+    /// run.
     virtual void onBusy(const std::filesystem::path&) {}
-    /// A member is started anew, because its checkpoint cannot be used: why.
+    /// Is told why a member's checkpoint cannot be used, so that the member is started anew.
     virtual void onAnew(const Member&, const std::string& why) { (void)why; }
 };
 
@@ -68,9 +69,9 @@ struct SweepOutcome {
     bool whole = false;  ///< every member has ended
 };
 
-/// Runs those of `members` that have not ended yet; failed ones again if `retryFailed`, and then anew where a
-/// checkpoint cannot be used. A member that fails does not keep the others from running. Setting `stop` ends the
-/// running ones so that they can be gone on with. Throws OutputError.
+/// Runs those of `members` that have not ended yet. With `retryFailed` it runs failed ones again, and starts a member
+/// anew if its checkpoint cannot be used. A member that fails does not keep the others from running. Setting `stop`
+/// ends the running ones so that they can be resumed. Throws OutputError.
 SweepOutcome runMembers(SweepFolder& folder, const std::vector<Member>& members, MemberRunner& runner,
                         SweepObserver& observer, const std::atomic<bool>& stop, bool retryFailed = false);
 

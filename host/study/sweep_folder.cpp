@@ -51,7 +51,8 @@ void dropRows(Table& table, const std::set<int>& kept) {
                                   study.string(), folder.string(), how));
 }
 
-/// The case as today's vkdose would write it: a key added since with its default makes no other case.
+/// The case as today's vkdose would write it. A key that was added since and has its default does not make it another
+/// case.
 std::string today(const fs::path& file) {
     try {
         return loadResolvedCase(fileContent(file).value_or(""), file).resolved;
@@ -60,8 +61,8 @@ std::string today(const fs::path& file) {
     }
 }
 
-/// Whether a sweep has begun in the folder: its table is there, or at least members and the base of this very study.
-/// Other files of these names may be the user's own.
+/// Whether a sweep has begun in the folder. The sign is its table, or at least members and the base of this very study,
+/// because other files of these names may be the user's own.
 bool isSweep(const fs::path& folder, const Case& base) {
     if (Table::salvage(folder / "members.csv").has("member")) return true;
     std::error_code code;
@@ -70,7 +71,7 @@ bool isSweep(const fs::path& folder, const Case& base) {
            (fileContent(file) == base.resolved || today(file) == base.resolved);
 }
 
-/// Whether nothing is in the folder but halves of files, of a sweep that was killed in its first moment.
+/// Whether the folder holds nothing but halves of files. A sweep that was killed in its first moment leaves them.
 bool holdsNothing(const fs::path& folder) {
     std::error_code code;
     for (const auto& entry : fs::directory_iterator(folder, code))
@@ -78,7 +79,7 @@ bool holdsNothing(const fs::path& folder) {
     return true;
 }
 
-/// Refuses to replace what the study is read from, unless by the same.
+/// Refuses to replace a file that the study is read from, unless the content stays the same.
 void requireNothingLost(const fs::path& folder, const Study& study, const Case& base) {
     std::vector<fs::path> read = base.files, written = SweepFolder::files(folder);
     read.push_back(study.file);
@@ -108,7 +109,7 @@ SweepFolder::SweepFolder(fs::path folder, const Study& study, const std::vector<
     if (error) throw FolderError(fmt::format("cannot create {}: {}", folder_.string(), error.message()));
     lock();
     read(study.keys());
-    // A search decides on its members as it goes; it asks requireSame when it comes to them.
+    // A search decides on its members as it goes. It calls requireSame when it comes to them.
     const bool search = study.calibration && study.calibration->method == CalibrationAim::Method::Surrogate;
     for (std::size_t i = 0; i < members_.rows(); ++i)
         if (!search && std::size_t(numberOf(members_.row(i))) >= members.size())
@@ -124,7 +125,7 @@ SweepFolder::SweepFolder(fs::path folder, const Study& study, const std::vector<
     gatherResults();
     requireNothingLost(folder_, study, base);
     try {
-        rewrite();  // first: they tell that a sweep is here
+        rewrite();  // the tables come first, because they tell that a sweep is here
         replaceFile(folder_ / "study.toml", study.text);
         replaceFile(folder_ / "base.toml", base.resolved);
     } catch (const OutputError&) {
@@ -165,12 +166,13 @@ void SweepFolder::read(const Row& keys) {
             if (members_.text(i, "status") == statusText(s)) status_[numberOf(members_.row(i))] = s;
 }
 
-/// Results and doses of the members that have ended, from their folders: the tables may have lost some, or been edited.
+/// Takes results and doses of the members that have ended from their folders, because the tables may have lost some, or
+/// been edited.
 void SweepFolder::gatherResults() {
     std::map<int, std::vector<Row>> noted;
     for (std::size_t k = 0; k < doses_.rows(); ++k) {
         std::vector<Row>& rows = noted[numberOf(doses_.row(k))];
-        if (rows.empty() || rows.back() != doses_.row(k)) rows.push_back(doses_.row(k));  // one line twice is one dose
+        if (rows.empty() || rows.back() != doses_.row(k)) rows.push_back(doses_.row(k));  // two equal lines: one dose
     }
     Table members(members_.names()), doses(doses_.names());
     for (std::size_t i = 0; i < members_.rows(); ++i) {
@@ -184,7 +186,7 @@ void SweepFolder::gatherResults() {
                            [](const std::string& kept, const std::string& row) { return kept.empty() ? row : kept; });
         members.add(member);
         const std::vector<Row>& table = noted[number];
-        if (found.doses.size() < table.size()) {  // the folder has lost some itself, or is gone
+        if (found.doses.size() < table.size()) {  // the folder itself has lost some, or is gone
             for (const Row& row : table) doses.add(row);
             continue;
         }
@@ -228,7 +230,7 @@ std::optional<MemberStatus> SweepFolder::status(int number) const {
 void SweepFolder::begin(const Member& member) const {
     const fs::path folder = memberFolder(member.number);
     createFolder(folder);
-    // One that an older vkdose left says the same (requireSame); what has begun with it goes on with it.
+    // A case.toml that an older vkdose left says the same (requireSame). A run that has begun with it goes on with it.
     const fs::path file = folder / "case.toml";
     if (fs::exists(folder / kCheckpointName) ? !fs::exists(file) : fileContent(file) != member.caseText)
         replaceFile(file, member.caseText);
@@ -241,7 +243,7 @@ void SweepFolder::forget(int number) {
 }
 
 void SweepFolder::add(const Member& member, const MemberResult& result) {
-    // The doses first: those of a member without a row are cut out when the sweep goes on.
+    // The doses come first. If the row is missing, its doses are cut out when the sweep goes on.
     for (const Row& dose : result.doses) {
         const Row row = joined(head(member), dose);
         dosesFile_->line(csvLine(row));

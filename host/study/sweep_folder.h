@@ -1,6 +1,6 @@
 #pragma once
-// The folder of a sweep: study.toml and base.toml for the record, members.csv and doses.csv as members end, and the
-// members' own run folders. A sweep that was interrupted, by whatever, goes on in it.
+// The folder of a sweep. It holds study.toml and base.toml for the record, members.csv and doses.csv, which grow as
+// members end, and the members' own run folders. A sweep that was interrupted for any reason goes on in it.
 
 #include <filesystem>
 #include <map>
@@ -17,15 +17,15 @@ namespace vkdose {
 
 class SweepFolder {
   public:
-    /// Creates the folder, or goes on in it. Rows that were torn, and doses of members without a row, are cut out of
-    /// the tables; so are the rows of interrupted members, who are yet to end. Doses are taken from the folders of
-    /// their members, whatever the table has lost or holds otherwise. Throws FolderError if another process is writing
-    /// into it, if it holds something else, if a file of the study is among those to be replaced, or if a member that
-    /// has begun in it is another case in `members`; OutputError if it cannot be written, and what had been made is
-    /// then gone again.
+    /// Creates the folder, or goes on in it. Going on, it cuts out of the tables rows that were torn, doses of members
+    /// without a row, and the rows of interrupted members, who are yet to end. It takes doses from the folders of their
+    /// members, even if the table has lost some or holds others. Throws FolderError if another process is writing into
+    /// the folder, if it holds something else, if a file of the study is among those to be replaced, or if a member
+    /// that has begun in it is another case in `members`. Throws OutputError if it cannot be written; everything made
+    /// until then is removed again.
     SweepFolder(std::filesystem::path folder, const Study& study, const std::vector<Member>& members);
 
-    /// The files of a sweep, beside its members' folders, that are in a folder.
+    /// The files of a sweep that are in a folder, without those of its members' folders.
     static std::vector<std::filesystem::path> files(const std::filesystem::path& folder);
 
     const std::filesystem::path& path() const { return folder_; }

@@ -1,5 +1,5 @@
 #pragma once
-// When to draw again, so that drawing costs no more than a share of the time.
+// Decides when to draw again, so that drawing costs no more than a share of the time.
 
 #include <algorithm>
 
@@ -10,7 +10,7 @@ class Pace {
     /// `share`: largest fraction of the time that drawing may take; `interval`: least time between two drawings [s].
     Pace(double share, double interval) : share_(share), interval_(interval) {}
 
-    /// Whether it is time at `now` [s].
+    /// Whether it is time to draw at `now` [s].
     bool due(double now) const { return now >= next_; }
 
     /// Tells that drawing took from `begin` to `end` [s]. The pause after it is chosen so that drawing takes at most

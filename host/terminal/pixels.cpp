@@ -15,7 +15,7 @@ std::string selecting(int what, const Colour& c) {
     return fmt::format("\033[{};2;{};{};{}m", what, c.red, c.green, c.blue);
 }
 
-/// Knows the colours selected, so that what does not change is not said again.
+/// Remembers the colours selected, so that it writes a code only when a colour changes.
 class Pen {
   public:
     void cell(std::string& line, const std::optional<Colour>& top, const std::optional<Colour>& bottom) {
@@ -79,7 +79,7 @@ std::string Canvas::colourLine(int row) const {
 }
 
 std::string Canvas::brailleLine(int row) const {
-    // Bit of the dot in column i and row j: Unicode numbers the upper three rows first, column by column.
+    // Bit of the dot in column i and row j. Unicode numbers the upper three rows first, column by column.
     static constexpr unsigned kDot[2][4] = {{0x01, 0x02, 0x04, 0x40}, {0x08, 0x10, 0x20, 0x80}};
     std::string line;
     for (int column = 0; column < columns_; ++column) {

@@ -1,6 +1,6 @@
 #pragma once
-// Pixels made of characters: two coloured halves of a cell where a terminal has 24-bit colour, else the eight dots of a
-// braille character. Either way a pixel is as wide as high if a cell is twice as high as wide.
+// Pixels made of characters. Where a terminal has 24-bit colour, they are two coloured halves of a cell, else the eight
+// dots of a braille character. Either way a pixel is as wide as high if a cell is twice as high as wide.
 
 #include <cstdint>
 #include <optional>
@@ -18,7 +18,7 @@ struct Colour {
 
 class Canvas {
   public:
-    /// Of so many character cells, all dark.
+    /// A canvas of so many character cells, all dark.
     Canvas(int columns, int rows, Style style);
 
     static int pixelsAcross(Style style) { return style == Style::Colour ? 1 : 2; }  ///< a cell
@@ -28,12 +28,12 @@ class Canvas {
     int width() const { return width_; }  ///< [pixels]
     int height() const { return height_; }
 
-    /// Lights a pixel, x to the right and y down from the upper left corner; one outside is nobody's.
+    /// Lights a pixel, x to the right and y down from the upper left corner. A pixel outside is ignored.
     void light(int x, int y, Colour colour);
     void darken(int x, int y);
     std::optional<Colour> at(int x, int y) const;
 
-    /// A line of text for each row of cells, UTF-8. Each has all its cells and leaves no colour behind.
+    /// A line of text for each row of cells, UTF-8. Each line has all its cells and leaves no colour set.
     std::vector<std::string> lines() const;
 
   private:

@@ -10,13 +10,13 @@ namespace vkdose::terminal {
 namespace {
 
 constexpr int kLeastColumns = 40;
-constexpr int kBesideColumns = 90;  ///< from here on the doses stand beside the bed, else below
+constexpr int kBesideColumns = 90;  ///< with this many columns or more the doses stand beside the bed, else below
 constexpr int kPanel = 46;          ///< columns of the doses beside the bed
 constexpr int kRowsBelow = 7;       ///< rows of the doses below it
 constexpr int kLeastViewRows = 5;
 constexpr int kLabel = 9, kFigure = 13;
 
-/// The last doses, the one under way included, in so many rows; nothing for a run without doses.
+/// The last doses, including the one under way, in so many rows. Nothing for a run without doses.
 std::vector<std::string> doseRows(const LiveState& s, int columns, int rows) {
     if (!(s.closedForm > 0) || rows < 2) return {};
     std::vector<Dose> shown = s.doses;
@@ -75,7 +75,7 @@ std::vector<std::string> screenLines(const Scene& scene, const LiveState& s, int
     const int last = style == Style::Colour ? 2 : 1;
     const int doseColumns = beside ? kPanel : columns;
     const int viewColumns = beside ? columns - kPanel - 2 : columns;
-    // Below the bed, room for doses to come is kept from the start, so that the bed keeps its size.
+    // Below the bed, rows for later doses are kept free from the start, so that the bed keeps its size.
     const int viewRows = rows - last - (beside || !(s.closedForm > 0) ? 0 : kRowsBelow);
 
     std::vector<std::string> lines;

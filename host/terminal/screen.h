@@ -12,13 +12,13 @@ namespace vkdose::terminal {
 struct LiveState {
     Frame frame;
     std::vector<Dose> doses;  ///< that are over
-    double underWay = 0;      ///< mass of the dose of `frame`, so far [kg]
+    double underWay = 0;      ///< mass dosed so far in the dose of `frame` [kg]
     double closedForm = 0;    ///< of a dose; 0: there is none [kg]
     std::string progress;     ///< one line of ASCII
 };
 
-/// The lines of the screen, none wider than `columns` and no more than `rows`: in short supply of either the bed goes
-/// first, then doses, never the progress.
+/// The lines of the screen, none wider than `columns` and no more than `rows`. If there is too little of either, the
+/// bed is left out first, then doses, never the progress.
 std::vector<std::string> screenLines(const Scene& scene, const LiveState& state, int columns, int rows, Style style);
 
 /// A bar of `cells` cells for `value` of `most`, to an eighth of a cell, with a mark at `mark` (none: 0). Each cell is

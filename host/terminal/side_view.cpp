@@ -13,7 +13,7 @@ constexpr Colour kCoilFront{235, 235, 240};
 constexpr Colour kCoilBack{120, 120, 130};
 constexpr Colour kRest{58, 86, 168}, kSlow{214, 204, 150}, kFast{242, 120, 30};
 constexpr double kHeadroom = 0.01;  ///< the height shown is a multiple of this [m]
-constexpr double kSmallDisc = 1.5;  ///< of fewer pixels' radius: without a rim
+constexpr double kSmallDisc = 1.5;  ///< a disc of a smaller radius in pixels has no rim
 
 Colour between(Colour a, Colour b, double share) {
     const auto mix = [share](std::uint8_t p, std::uint8_t q) {
@@ -72,7 +72,7 @@ struct Projection {
     double length(double metres) const { return metres * perMetre; }
 };
 
-/// A straight line along z or y, in the pixels beside it: to the left with `outZ` -1, below with `outY` 1.
+/// A straight line along z or y, drawn in the pixels beside it: to the left with `outZ` -1, below with `outY` 1.
 void wall(Canvas& canvas, const Projection& to, double z0, double y0, double z1, double y1, int outZ, int outY) {
     const auto px = [&](double z) { return int(std::lround(to.across(z))) + outZ; };
     const auto py = [&](double y) { return int(std::lround(to.down(y))) - 1 + outY; };
@@ -104,7 +104,7 @@ void drawCoil(Canvas& canvas, const Projection& to, const geometry::Coil& coil, 
     }
 }
 
-/// In colour a shaded disc; in dots its rim, with what lies behind it hidden.
+/// In colour a sphere is a shaded disc. In dots it is its rim, and what lies behind it is hidden.
 void drawSphere(Canvas& canvas, const Projection& to, const Vec3& x, double radius, Colour colour) {
     const double cx = to.across(x.z), cy = to.down(x.y), r = std::max(to.length(radius), 0.6);
     if (!(cx + r > 0 && cx - r < canvas.width() && cy + r > 0 && cy - r < canvas.height())) return;

@@ -1,6 +1,6 @@
 #pragma once
-// The bed from the side: z to the right, y up, seen through the wall at -x. Front spheres hide those behind; of the
-// coil the half in front is drawn over the powder, which would hide it.
+// The bed from the side: z to the right, y up, seen through the wall at -x. Front spheres hide those behind. The powder
+// would hide the coil, so the front half of the coil is drawn over it.
 
 #include <optional>
 
@@ -20,11 +20,12 @@ struct Scene {
 /// The scene of a case; `tipVelocity` is the coil's (Derived::tipVelocity), 0 for none [m/s].
 Scene sceneOf(const Case& c, double tipVelocity);
 
-/// Draws a frame into at most so many cells, no smaller than it has to be: canister and coil in length, in height up to
-/// the highest sphere, to the next centimetre.
+/// Draws a frame into at most so many cells, no smaller than necessary. It shows canister and coil in their length, and
+/// in height as far as the highest sphere, rounded up to the next centimetre.
 Canvas sideView(const Scene& scene, const Frame& frame, int columns, int rows, Style style);
 
-/// Blue at rest, pale in between, orange from `fast` on; by the root of the speed, so that creeping shows [m/s].
+/// Colour of a speed [m/s]: blue at rest, pale in between, orange from `fast` on. It follows the root of the speed, so
+/// that creeping shows.
 Colour speedColour(double speed, double fast);
 
 }  // namespace vkdose::terminal

@@ -11,7 +11,7 @@ namespace vkdose::verify {
 
 namespace {
 
-constexpr double kStiffness = 300;  // soft, so that steps are long and overlaps well above rounding [N/m]
+constexpr double kStiffness = 300;  // soft, so that steps are long and overlaps are well above rounding [N/m]
 constexpr double kStep = 2e-5;      // 1/30 of the half period of a sphere on the floor [s]
 
 ContactParameters grain(double mu, double rollingFriction) {
@@ -27,8 +27,8 @@ ContactParameters grain(double mu, double rollingFriction) {
 
 }  // namespace
 
-// Sphere i of n, counted from the floor, carries the weight of the n - i above it and its own: the contact below it is
-// pressed in by (n - i) m g/k, i from 0.
+// Sphere i of n, counted from the floor with i from 0, carries the weight of the spheres above it and its own: n - i in
+// all. The contact below it is therefore pressed in by (n - i) m g/k.
 void column(Bench& bench) {
     const int n = 6;
     Particles stack;
@@ -79,7 +79,7 @@ double weightOf(const Particles& p) {
     return mass * kGravity;
 }
 
-/// Force of every surface on the particles at rest: spring forces, as there is no velocity to damp.
+/// Force of every surface on the particles at rest. These are spring forces, because there is no velocity to damp.
 std::vector<Vec3> reactions(const RuledWorld& world, Trial& trial) {
     const ContactParameters& law = world.law.of(ContactClass::ParticleWall);
     std::vector<Vec3> force(world.surfaces.size(), Vec3(0));
@@ -92,14 +92,14 @@ std::vector<Vec3> reactions(const RuledWorld& world, Trial& trial) {
     return force;
 }
 
-/// How much of Lucy's kernel of width `width` around `y` lies above `level`.
+/// Part of Lucy's kernel of width `width` around `y` that lies above `level`.
 double shareAbove(double y, double level, double width) {
     const double s = std::clamp((y - level) / width, -1.0, 1.0), a = std::abs(s);
     return 0.5 + s * (1 - 2 * a * a + 2 * a * a * a - 0.6 * a * a * a * a) / 0.8;
 }
 
-/// The force that the powder bears at height `level` [N]: by the coarse-grained contact stress, and by the weight above
-/// less what the walls carry of it, both smeared out alike.
+/// The force that the powder bears at height `level` [N], in two ways: from the coarse-grained contact stress, and from
+/// the weight above less the part of it that the walls carry. Both are smeared out alike.
 struct Borne {
     double stress, weight;
 };
@@ -108,7 +108,8 @@ Borne borneAt(Bench& bench, const RuledWorld& world, Trial& trial, double half, 
     request.kernel = Kernel::Lucy;
     request.width = 4 * kRadius;
     request.contactStress = true;
-    // A single cell from wall to wall, and room for every kernel below and above; `level` in the middle of a cell.
+    // The grid has a single cell from wall to wall, and room for every kernel below and above. `level` is in the middle
+    // of a cell.
     const double h = request.width / 20, margin = half + kRadius;
     request.grid = {Vec3(-margin, level - 100.5 * h, -margin), Vec3(margin, level + 300.5 * h, margin), {1, 401, 1}};
     Borne borne{bench.backend().fields(request)[100].contactStress[1].y * 4 * margin * margin, 0};
@@ -125,9 +126,9 @@ Borne borneAt(Bench& bench, const RuledWorld& world, Trial& trial, double half, 
 
 }  // namespace
 
-// Floor and walls together bear the weight, and opposite walls push alike. Without friction the floor bears it all;
-// with friction the walls carry a part (Janssen), so that it bears less. The stress at half height bears what is above,
-// less what the walls carry of that.
+// Floor and walls together bear the weight, and opposite walls push alike. Without friction the floor bears it all.
+// With friction the walls carry a part (Janssen), so that the floor bears less. The stress at half height bears the
+// weight above, less the part of it that the walls carry.
 void bedWeight(Bench& bench) {
     const double half = 2.6 * kRadius;
     for (const double mu : {0.0, 0.5}) {

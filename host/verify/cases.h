@@ -1,5 +1,5 @@
 #pragma once
-// Every case, by family (= file). What each compares with what stands above its definition.
+// Every case, by family (= file). The comment above the definition of a case says what it compares with what.
 
 #include "host/verify/suite.h"
 
@@ -54,8 +54,9 @@ void wedgeRest(Bench& bench);
 void rollOff(Bench& bench);
 void neck(Bench& bench);
 
-/// Angle off the top at which a small sphere that rolls around the neck of two large fixed ones parts from them [rad],
-/// 0 if it has not after 0.3 s; `ratio` of the radii. The case `neck` for one ratio, large ones too.
+/// A small sphere rolls around the neck of two large fixed ones whose radii are `ratio` times its own. Returns the
+/// angle off the top at which it parts from them [rad], 0 if it has not parted after 0.3 s. This is the case `neck` for
+/// one ratio, large ones too.
 double partingFromNeck(Bench& bench, double ratio, double timeStep);
 
 }  // namespace vkdose::verify

@@ -18,8 +18,8 @@ constexpr double kTrough = 0.0115;  // half width [m]
 
 }  // namespace
 
-// Spheres at rest that the wire passes by a hundredth of a radius, and one on the axis: no torque and no motion,
-// exactly none.
+// The wire passes spheres at rest by a hundredth of a radius, and one sphere lies on the axis. There must be no torque
+// and no motion at all.
 void emptyCanister(Bench& bench) {
     RuledWorld world = space(spring(1000), 1e-5);
     const geometry::Coil coil = narrowCoil();
@@ -43,7 +43,7 @@ void emptyCanister(Bench& bench) {
 
 namespace {
 
-/// A sphere pressed against the wire, and what is known of the contact by construction.
+/// A sphere pressed against the wire, and the figures of the contact that are known by construction.
 struct Pressed {
     Vec3 centre;      ///< [m]
     Vec3 normal;      ///< from the wire's centre line to the sphere
@@ -58,7 +58,7 @@ std::vector<Pressed> aroundWire(const geometry::Coil& coil, double depth, double
         const double s = coil.length * (0.1 + 0.13 * i), psi = coil.hand * 2 * kPi * s / coil.pitch;
         const Vec3 radial(std::cos(psi), std::sin(psi), 0), round(-std::sin(psi), std::cos(psi), 0);
         const Vec3 along = glm::normalize(coil.hand * coil.radius * round + Vec3(0, 0, coil.pitch / (2 * kPi)));
-        // From straight outwards up to 67 degrees to either side: further in, another turn may be nearer.
+        // Places range from straight outwards up to 67 degrees to either side: further in, another turn may be nearer.
         const double around = (i - 3) * kPi / 8;
         Pressed p{};
         p.normal = std::cos(around) * radial + std::sin(around) * glm::cross(along, radial);
@@ -73,8 +73,8 @@ std::vector<Pressed> aroundWire(const geometry::Coil& coil, double depth, double
 
 }  // namespace
 
-// A sphere at rest, pressed against the wire: in the first step, with all springs at rest, friction is the smaller of
-// mu F_n and gamma_t v_t, along the velocity of the wire's surface Omega x r, and acts back on the drive.
+// A sphere at rest is pressed against the wire. In the first step all springs are at rest, so friction is the smaller
+// of mu F_n and gamma_t v_t. It points along the velocity of the wire's surface Omega x r, and acts back on the drive.
 void pressedAgainstWire(Bench& bench) {
     const geometry::Coil coil = narrowCoil();
     const double k = 5000, depth = 0.01 * kRadius, rate = -9.42, mu = 0.2, dt = 1e-6, m = massOf(kRadius);
@@ -117,8 +117,8 @@ void pressedAgainstWire(Bench& bench) {
     }
 }
 
-// Conveying uphill, so that the sphere stays at the wire that pushes it: it advances one pitch a turn, V_z = p Omega/2
-// pi. Without friction the drive does the work against gravity and no other: torque = m g_z p/2 pi.
+// The coil conveys uphill, so that the sphere stays at the wire that pushes it. The sphere advances one pitch a turn,
+// V_z = p Omega/2 pi. Without friction the drive works against gravity alone: torque = m g_z p/2 pi.
 void pushedAlongTrough(Bench& bench) {
     const geometry::Coil coil = narrowCoil();
     const double slope = 20 * kPi / 180, rate = geometry::conveyingRate(coil, 4 * kPi);

@@ -1,4 +1,4 @@
-// Collisions: what comes back along the normal and in the tangent plane.
+// Collisions: the rebound along the normal and in the tangent plane.
 
 #include <fmt/format.h>
 
@@ -86,8 +86,8 @@ Particles thrownAtFloor(double normal, const std::vector<double>& tangential) {
 
 }  // namespace
 
-// Slipping from first to last, friction's impulse is mu times that of the normal force: with theta from the normal
-// e_t = 1 - mu (1 + e)/tan(theta), and the spin is 5/2 mu (1 + e) v_n/a^2 times the mean lever.
+// The sphere slips from first to last. The impulse of friction is then mu times that of the normal force: with theta
+// from the normal e_t = 1 - mu (1 + e)/tan(theta), and the spin is 5/2 mu (1 + e) v_n/a^2 times the mean lever.
 void obliqueSliding(Bench& bench) {
     const double normal = 0.05, mu = 0.2;
     ContactParameters p = plastic(0, 0);
@@ -116,8 +116,8 @@ void obliqueSliding(Bench& bench) {
     }
 }
 
-// Never slipping, the surface speed follows its spring, of stiffness k_t on 2/7 of the mass, for the half period of
-// the normal spring: it comes back times cos(pi sqrt(7/2 k_t/k)).
+// The sphere never slips. Its surface speed follows the tangential spring, of stiffness k_t on 2/7 of the mass, for the
+// half period of the normal spring: it comes back times cos(pi sqrt(7/2 k_t/k)).
 void obliqueSticking(Bench& bench) {
     const double normal = 0.02, k = 5000, ratio = 0.5, tangential = 0.03;
     ContactParameters p = spring(k);
@@ -130,7 +130,7 @@ void obliqueSticking(Bench& bench) {
     const Tolerance tolerance{depth / 2, "the lever is a - delta/2: half the depth over the radius", tangential};
     const double factor = std::cos(kPi * std::sqrt(3.5 * ratio));
     bench.check("surface speed after", "m/s", factor * tangential, v.x + kRadius * w.z, tolerance);
-    // Friction acts on velocity and surface as 1 to 7/2.
+    // Friction changes the velocity and the speed of the surface in the ratio 1 to 7/2.
     bench.check("speed after", "m/s", tangential * (1 - (1 - factor) / 3.5), v.x, tolerance);
 }
 

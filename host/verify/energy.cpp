@@ -1,4 +1,5 @@
-// The energy ledger against closed forms: each loss where it is the only one, and the balance where all occur.
+// The energy ledger against closed forms: each loss in a case where it is the only one, and the balance where all
+// occur.
 
 #include <fmt/format.h>
 
@@ -28,8 +29,8 @@ double kineticEnergy(const Particles& p) {
 
 }  // namespace
 
-// Each pair loses 1 - e^2 of its energy: k1 delta_max^2/2 (1 - 1/kappa) on the way from loading to unloading line,
-// which is plastic, and the area under the adhesive branch, (1/kappa - e^2) of it.
+// Each pair loses 1 - e^2 of its energy. Of this k1 delta_max^2/2 (1 - 1/kappa) is the plastic loss on the way from
+// loading to unloading line, and the rest, (1/kappa - e^2) of the energy, is the area under the adhesive branch.
 void plasticLoss(Bench& bench) {
     const HeadOn law{.kc = 0.873 * kK2Max};
     const std::vector<double> speeds{0.2, 0.4, 0.6};
@@ -53,7 +54,8 @@ void plasticLoss(Bench& bench) {
     checkBalance(bench, trial.energy(), loaded, 1e-5);
 }
 
-// A linear spring with damping, from touch to parting half a period: e = exp(-gamma/(2 m12) t_c), all of it viscous.
+// A linear spring with damping; parting comes half a period after touch. Here e = exp(-gamma/(2 m12) t_c), and all of
+// the loss is viscous.
 void dampingLoss(Bench& bench) {
     const double k = 2000, gamma = 0.05, speed = 0.1, dt = 2e-8;
     RuledWorld world = space(spring(k, gamma), dt);
@@ -89,7 +91,8 @@ void frictionLoss(Bench& bench) {
     checkBalance(bench, trial.energy(), energy, 1e-4);
 }
 
-// Everything at once, and nothing from outside: what was loaded is motion, springs and losses, none of them negative.
+// All kinds of loss occur at once, and nothing acts from outside. The energy that was loaded is motion, springs and
+// losses, and no loss is negative.
 void clusterBalance(Bench& bench) {
     RuledWorld world = space(everyInteraction(), 1e-6);
     world.energyBook = true;

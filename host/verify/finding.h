@@ -5,16 +5,16 @@
 
 namespace vkdose::verify {
 
-/// How far a figure may be off, and why so far. `share` is in units of `scale`, a physical scale in the unit of the
-/// figure; 0 stands for the expected value itself.
+/// How far a figure may be off, and the reason for it. `share` is in units of `scale`, a physical scale in the unit of
+/// the figure; a scale of 0 stands for the expected value itself.
 struct Tolerance {
     double share;
     std::string reason;
     double scale = 0;
 };
 
-/// The worth of the expected value: derived (in closed form, by geometry, by another program), or merely of the right
-/// size, so that it tells a wild result from a sane one and no more.
+/// The worth of the expected value. It is derived (in closed form, by geometry, by another program), or merely of the
+/// right size: then it tells a wild result from a sane one and no more.
 enum class Kind { Known, Plausible };
 
 struct Check {

@@ -35,8 +35,9 @@ inline double partingSpeed(const Particles& p, std::size_t pair) {
 }
 
 /// Restitution of two equal spheres under the adhesive law without damping. Loading to delta_max costs
-/// E = k1 delta_max^2/2; the unloading line returns E/kappa, the way out along -k_c delta costs
-/// E chi (kappa - 1)^2/(kappa (kappa + chi)), with kappa = k2/k1 and chi = k_c/k1. Nothing is left: they stick.
+/// E = k1 delta_max^2/2. The unloading line returns E/kappa. The way out along -k_c delta costs
+/// E chi (kappa - 1)^2/(kappa (kappa + chi)), with kappa = k2/k1 and chi = k_c/k1. If nothing is left, the spheres
+/// stick.
 struct HeadOn {
     double reducedMass = massOf(kRadius) / 2;
     double limit = kK2Max / (kK2Max - kK1) * kPlasticity * kRadius;  ///< delta* of equal spheres [m]
@@ -53,9 +54,9 @@ struct HeadOn {
         return (1 + 1 / chi) / (kK2Max / kK1 - 1) * limit * std::sqrt(kK1 / reducedMass);
     }
 
-    /// Overlaps between which a pair that sticks swings for good, [m]. It turns back on the adhesive branch at `low`,
-    /// where the energy is used up, and from then on moves on the unloading line through that point: delta_max has
-    /// shrunk until k2 (delta - delta_0) = -k_c delta there, with k2 - k1 = slope delta_max.
+    /// Overlaps between which a pair that sticks swings for good [m]. The pair turns back on the adhesive branch at
+    /// `low`, where the energy is used up. From then on it moves on the unloading line through that point: delta_max
+    /// has shrunk until k2 (delta - delta_0) = -k_c delta there, with k2 - k1 = slope delta_max.
     struct Swing {
         double low, high, remembered;
     };

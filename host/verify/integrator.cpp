@@ -76,8 +76,8 @@ void bounce(Bench& bench) {
 
 namespace {
 
-/// Sphere on the floor, never leaving it: the error of the height after `periods`, in amplitudes, with `perPeriod`
-/// steps each. Strong gravity makes the overlap at rest large enough for an oscillation within it.
+/// A sphere on the floor that never leaves it: the error of its height after `periods` periods of `perPeriod` steps, in
+/// amplitudes. Strong gravity makes the overlap at rest large enough for an oscillation within it.
 double oscillatorError(Bench& bench, double gamma, double perPeriod, double periods) {
     const double k = 5000, m = massOf(kRadius), decay = gamma / (2 * m);
     const double w = std::sqrt(k / m - decay * decay);
@@ -93,7 +93,8 @@ double oscillatorError(Bench& bench, double gamma, double perPeriod, double peri
 }
 
 void checkOrder(Bench& bench, double gamma, double order, int coarsest, const std::string& why) {
-    // A quarter period past the turning point: the height is where it changes fastest, so that it shows the phase.
+    // The sphere is a quarter period past the turning point. The height changes fastest there, so that it shows the
+    // phase.
     double before = oscillatorError(bench, gamma, coarsest, 3.25);
     for (const int finer : {2 * coarsest, 4 * coarsest}) {
         const double now = oscillatorError(bench, gamma, finer, 3.25);
@@ -105,7 +106,7 @@ void checkOrder(Bench& bench, double gamma, double order, int coarsest, const st
 
 }  // namespace
 
-// Without damping the leapfrog is of second order: half the step, a quarter of the error.
+// Without damping the leapfrog is of second order: half the step gives a quarter of the error.
 void elasticOrder(Bench& bench) {
     checkOrder(bench, 0, 2, 48, "terms of the next order at these steps; rounding is far below");
 }

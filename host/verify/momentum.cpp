@@ -32,7 +32,7 @@ ContactParameters everyInteraction() {
     p.k1 = kK1;
     p.k2Max = kK2Max;
     p.kc = 0.873 * kK2Max;
-    p.plasticityDepth = kPlasticity / 10;  // so that what collides at these speeds sticks
+    p.plasticityDepth = kPlasticity / 10;  // small, so that spheres that collide at these speeds stick
     p.gamma = 0.0827;
     p.mu = p.muR = 0.5;
     p.muTo = 0.2;
@@ -59,7 +59,7 @@ Particles collapsingCluster() {
 }
 
 // The leapfrog conserves both exactly: x(n) x v(n-1/2) changes only by the torques of the contacts about the origin,
-// and both sides of a pair act at the same point. What is left is rounding. Both backends are given radii that single
+// and both sides of a pair act at the same point. Only rounding is left. Both backends are given radii that single
 // precision holds, so that masses agree.
 void isolatedCluster(Bench& bench) {
     const Particles cluster = collapsingCluster();
@@ -72,7 +72,7 @@ void isolatedCluster(Bench& bench) {
         most = std::max(most, trial.contacts().size());
     }
     const Momentum after(trial.now());
-    // Without this the rest would be about spheres that fly past each other.
+    // Checks that there were contacts. Without them the case would be about spheres that fly past each other.
     bench.plausible("most contacts at once, for each sphere", "-", 1,
                     static_cast<double>(most) / static_cast<double>(cluster.size()),
                     {0.5, "how many there are depends on the tumble; so many that it is one"});

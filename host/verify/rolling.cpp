@@ -42,9 +42,9 @@ void inclineRolls(Bench& bench) {
     bench.check("spin times radius", "m/s", speed, -trial.now().spin[0].z * kRadius, tolerance);
 }
 
-// Rolling friction bears a torque of at most a_r mu_r m g cos(tilt), gravity about the contact turns with
-// a m g sin(tilt): the sphere starts to roll at tan(tilt) = (a_r/a) mu_r, with a_r = 2 a ("full") or a ("half").
-// Beyond, it accelerates at 5/7 g (sin(tilt) - (a_r/a) mu_r cos(tilt)).
+// Rolling friction bears a torque of at most a_r mu_r m g cos(tilt). Gravity turns the sphere about the contact with
+// a m g sin(tilt). So the sphere starts to roll at tan(tilt) = (a_r/a) mu_r, with a_r = 2 a ("full") or a ("half").
+// Beyond that it accelerates at 5/7 g (sin(tilt) - (a_r/a) mu_r cos(tilt)).
 void rollingResistance(Bench& bench) {
     const double friction = 0.1, dt = 1e-5;
     for (const RollingLever lever : {RollingLever::Full, RollingLever::Half}) {

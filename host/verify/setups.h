@@ -30,8 +30,8 @@ RuledWorld space(const ContactParameters& p, double timeStep);
 /// The floor y = 0 under gravity that pulls by `gravity` [m/s2], `tilt` [rad] from the vertical towards +x.
 RuledWorld floor(const ContactParameters& p, double timeStep, double gravity = kGravity, double tilt = 0);
 
-/// Friction, rolling, torsion, damping, adhesion and plasticity all at once, and a cluster of 31 spheres thrown at its
-/// middle, so that they collide within a few milliseconds (momentum.cpp).
+/// Parameters with friction, rolling, torsion, damping, adhesion and plasticity all at once, and a cluster of 31
+/// spheres. The spheres are thrown at its middle, so that they collide within a few milliseconds (momentum.cpp).
 ContactParameters everyInteraction();
 Particles collapsingCluster();
 
@@ -41,12 +41,12 @@ class Trial {
     Trial(Bench& bench, const RuledWorld& world, const Particles& particles);
 
     Sensors advance(std::uint64_t steps, double coilRate = 0);
-    /// As many steps as come nearest to `seconds` from the load.
+    /// Advances to the step that is nearest to `seconds` from the load.
     Sensors advanceTo(double seconds, double coilRate = 0);
 
     /// Positions belong to `time()`, velocities and spins to `halfStep()`.
     const Particles& now() const { return now_; }
-    /// Of the calls so far, if the world keeps the book.
+    /// The ledger of the calls so far, if the world keeps the book.
     const EnergyLedger& energy() const { return energy_; }
     std::vector<Contact> contacts() const { return backend_->contacts(); }
     double time() const { return static_cast<double>(steps_) * timeStep_; }

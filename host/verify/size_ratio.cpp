@@ -1,8 +1,8 @@
 // Small spheres against large ones. Velocity Verlet takes the tangential step from the velocity of the half step before
-// and the normal of the full step; where the normal turns while the contact is pressed in, the spring gathers an error
+// and the normal of the full step. Where the normal turns while the contact is pressed in, the spring gathers an error
 // of first order, v_n times half the turn. Vyas, Ottino, Lueptow and Umbanhowar (2025, Comput. Phys. Commun. 310,
-// 109524) found that in other programs this holds small spheres between large ones that should not be held, from a size
-// ratio of about 3. These cases show what it is worth here.
+// 109524) found in other programs that, from a size ratio of about 3, this error holds small spheres between large ones
+// that should not be held. These cases show how large the error is here.
 
 #include <fmt/format.h>
 
@@ -26,8 +26,8 @@ ContactParameters gripping(double k, double gamma) {
 constexpr double kRatios[] = {1, 3, 5, 10};
 constexpr double kFar = 0.1;  // between scenes that share a world [m]
 
-/// Two fixed cylinders a small radius apart, and a small sphere upon both. In its plane that is a large sphere held
-/// fast.
+/// Two fixed cylinders a small radius apart, and a small sphere upon both. In the sphere's plane a cylinder is a large
+/// sphere held fast.
 struct Wedge {
     double half;                                                           ///< from the middle to an axis [m]
     double reach;                                                          ///< of both radii [m]
@@ -55,7 +55,7 @@ RuledWorld wedges(const ContactParameters& p, double timeStep, double gravity) {
 
 }  // namespace
 
-// Without damping and slipping the way down is the way up: spring forces depend on the height alone, so that the sphere
+// Without damping and slipping the way up repeats the way down. Spring forces depend on the height alone, so the sphere
 // comes back with the speed it had.
 void wedgeBounce(Bench& bench) {
     const double k = 5000, speed = 0.1;
@@ -70,9 +70,10 @@ void wedgeBounce(Bench& bench) {
                     {3e-4, "first-order error of the tangential spring, steps of 1/150 of the half period"});
 }
 
-// Laid upon both, damped along the normal only and never slipping, the sphere comes to rest where per side
-// k d cos + k_t s sin bears half its weight; s is the way the contact has slid, from geometry alone: at height h it
-// slides by sin = half/sqrt(half^2 + h^2) per unit of height, whose integral is half asinh(h/half).
+// A sphere is laid upon both cylinders, damped along the normal only, and never slips. It comes to rest where per side
+// k d cos + k_t s sin bears half its weight. Here s is the way that the contact has slid, from geometry alone: at
+// height h it slides by sin = half/sqrt(half^2 + h^2) per unit of height, and the integral of this is
+// half asinh(h/half).
 void wedgeRest(Bench& bench) {
     const double k = 5000, m = massOf(kRadius), gravity = 0.02 * kRadius * k / m;
     const ContactParameters law = gripping(k, 0.06);
@@ -149,8 +150,8 @@ namespace {
 
 constexpr double kNeckFriction = 0.5;
 
-/// The way around the neck between two large spheres that touch: a small one rolls there on two circles. Two rims of
-/// fixed tubes are these circles, so that the large spheres are held fast.
+/// The way around the neck between two large spheres that touch. A small sphere rolls there on two circles. The circles
+/// are two rims of fixed tubes, so that the large spheres are held fast.
 struct Neck {
     double orbit;    ///< of the small sphere's centre around the axis [m]
     double rim;      ///< radius of the circles it touches [m]
@@ -169,15 +170,15 @@ struct Neck {
     }
     /// v^2/(g orbit) of rolling from rest at `start` off the top.
     double rolling(double start, double angle) const { return 2 / inertia * (std::cos(start) - std::cos(angle)); }
-    /// Where rolling asks for more friction than `mu` times what presses [rad].
+    /// The angle where rolling needs more friction than `mu` times the force that presses [rad].
     double slipping(double start, double mu) const {
         const auto asked = [&](double t) {
             return (1 - 1 / inertia) * std::sin(t) - mu * wedging * (std::cos(t) - rolling(start, t));
         };
         return root(asked, start, kPi / 2);
     }
-    /// Where the sphere, which rolls and then slips, is no longer pressed on [rad]. While it slips, w = v^2/(g orbit)
-    /// obeys dw/dt = 2 sin t - 2 m (cos t - w) with m = mu wedging, which is solved by
+    /// The angle where no force presses the sphere on any more, after it has rolled and then slipped [rad]. While it
+    /// slips, w = v^2/(g orbit) obeys dw/dt = 2 sin t - 2 m (cos t - w) with m = mu wedging. The solution is
     /// w = p cos t + q sin t + c exp(2 m t).
     double parting(double start, double mu) const {
         const double m = mu * wedging, p = (4 * m * m - 2) / (4 * m * m + 1), q = 2 * m * (p - 1);
@@ -244,10 +245,10 @@ double partingFromNeck(Bench& bench, double ratio, double timeStep) {
     return descend(bench, {ratio}, kStart, timeStep, 0.2e-3)[0].parted;
 }
 
-// This is where the error gathers: v, half a step behind, points a little inwards, both contacts take that for sliding,
-// and their springs come to hold the small sphere at the neck. Rolling without slipping, v^2 = 2 g rho/(1 + 2/5
-// (a/b)^2) (cos t0 - cos t), with b from the centre to the line through both contacts; then it slips, and parts where
-// Neck::parting says. Larger ratios: README.md here, "Errors of the time step".
+// This is where the error gathers. The velocity v, half a step behind, points a little inwards. Both contacts take that
+// for sliding, and their springs come to hold the small sphere at the neck. Rolling without slipping, the sphere has
+// v^2 = 2 g rho/(1 + 2/5 (a/b)^2) (cos t0 - cos t), with b from the centre to the line through both contacts. Then it
+// slips, and parts at the angle Neck::parting. For larger ratios see README.md here, "Errors of the time step".
 void neck(Bench& bench) {
     const std::vector<double> ratios{1, 3, 5};
     const std::vector<Descent> descents = descend(bench, ratios, kStart, 2e-6, 0.05e-3);

@@ -33,7 +33,7 @@ void slipThenRoll(Bench& bench) {
     const RuledWorld world = floor(rough(mu), dt);
     Trial trial(bench, world, resting(world, start));
     const double rolls = 2.0 / 7 * start / (mu * kGravity);
-    // The spring first stretches to mu m g/k_t, which takes this part of the slipping.
+    // The spring first stretches to mu m g/k_t. This takes the following part of the slipping.
     const double stretched = mu * massOf(kRadius) * kGravity / (0.5 * kStiffness) / (start * rolls);
     const Tolerance tolerance{stretched + 2e-4, "stretch of the tangential spring, time step", start};
 
@@ -70,8 +70,8 @@ void inclineSlides(Bench& bench) {
                 tolerance);
 }
 
-// An adhesive sphere on the floor, pressed in by m g/k1: friction is mu m g with the limit on |f_n|, and (1 + k_c/k1)
-// times that with Luding's, which starts from the adhesive branch.
+// An adhesive sphere on the floor is pressed in by m g/k1. Friction is mu m g with the limit on |f_n|. With Luding's
+// limit, which starts from the adhesive branch, it is (1 + k_c/k1) times that.
 void coulombLimit(Bench& bench) {
     const double mu = 0.1, dt = 1e-5, chi = 2;
     ContactParameters p = rough(mu);

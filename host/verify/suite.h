@@ -12,7 +12,7 @@
 
 namespace vkdose::verify {
 
-/// The equipment of a case: a backend to load and advance as it likes, and a place for its findings.
+/// The equipment of a case: a backend that it may load and advance freely, and a place for its findings.
 class Bench {
   public:
     Bench(Backend& backend, std::string where) : backend_(&backend), where_(std::move(where)) {}
@@ -22,7 +22,7 @@ class Bench {
                const Tolerance& tolerance) {
         checks_.push_back({where_, quantity, unit, expected, got, tolerance, Kind::Known});
     }
-    /// A figure whose exact value nobody can know beforehand; it is counted apart.
+    /// Adds a figure whose exact value nobody can know beforehand. It is counted apart.
     void plausible(const std::string& quantity, const std::string& unit, double expected, double got,
                    const Tolerance& tolerance) {
         checks_.push_back({where_, quantity, unit, expected, got, tolerance, Kind::Plausible});
@@ -44,11 +44,11 @@ struct Scene {
 /// Every case of the suite, in order.
 std::vector<Scene> scenes();
 
-/// Those whose name contains `part`; all if it is empty.
+/// The cases whose name contains `part`; all if it is empty.
 std::vector<Scene> scenesNamed(const std::string& part);
 
-/// Plays one case. A run that ends in a RunError, and a case that checks nothing, is a check that fails. DeviceError
-/// passes through.
+/// Plays one case. A run that ends in a RunError counts as a check that fails, and so does a case that checks nothing.
+/// DeviceError passes through.
 std::vector<Check> play(const Scene& scene, Backend& backend);
 
 }  // namespace vkdose::verify

@@ -5,9 +5,9 @@
 
 namespace vkdose::verify {
 
-// The twisting speed is lever times omega, and lever times the force brakes it. Slipping, omega falls by
-// lever mu_to m g/I a second; sticking, it is a damped oscillator of stiffness lever^2 k_to and damping
-// lever^2 gamma_to on I. One sphere of each kind.
+// The twisting speed is lever times omega, and lever times the force brakes it. A sphere that slips loses lever mu_to m
+// g/I of omega a second. One that sticks is a damped oscillator of stiffness lever^2 k_to and damping lever^2 gamma_to
+// on I. There is one sphere of each kind.
 void spinDecay(Bench& bench) {
     const double k = 500, friction = 0.1, dt = 2e-6, lever = 2 * kRadius, m = massOf(kRadius);
     ContactParameters p = spring(k, 0.02);
@@ -17,7 +17,7 @@ void spinDecay(Bench& bench) {
     const double inertia = inertiaOf(kRadius), braking = lever * friction * m * kGravity / inertia;
     const double decay = lever * lever * p.gammaTo / (2 * inertia);
     const double w = std::sqrt(lever * lever * p.kTo / inertia - decay * decay);
-    // Half of the twist that would make the spring slip.
+    // This speed makes half of the twist at which the spring would slip.
     const double small = 0.5 * friction * m * kGravity / p.kTo / lever * w;
     const double large = braking * 10e-3;
 
