@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 
 #include "host/core/csv_table.h"
@@ -13,23 +14,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const char* verdictWord(Verdict::Kind kind) {
-    switch (kind) {
-        case Verdict::Kind::Matches:
-            return "matches";
-        case Verdict::Kind::Within:
-            return "within";
-        case Verdict::Kind::TrendHolds:
-            return "holds";
-        case Verdict::Kind::Contradicts:
-            return "contradicts";
-        case Verdict::Kind::NotRun:
-            return "not-run";
-        case Verdict::Kind::NotJudged:
-            return "not-judged";
-    }
-    return "not-judged";
-}
+/// The words of the page's style sheet for the verdicts, in the order of Verdict::Kind.
+constexpr std::array kVerdictWords{"matches", "within", "holds", "contradicts", "not-run", "not-judged"};
+static_assert(kVerdictWords.size() == std::size_t(Verdict::Kind::NotJudged) + 1);
 
 Json valueJson(const Setting& s) {
     return std::isnan(s.number) ? Json(s.text) : Json(s.number);
@@ -81,7 +68,7 @@ Json verdictsJson(const fs::path& file, const std::vector<StudyPoint>& studyPoin
                         {"section", e.section},
                         {"source", e.source},
                         {"found", v.found},
-                        {"kind", verdictWord(v.kind)},
+                        {"kind", kVerdictWords.at(std::size_t(v.kind))},
                         {"verdict", v.text}});
     }
     return list;
