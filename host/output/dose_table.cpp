@@ -6,9 +6,8 @@ std::vector<Dose> dosesOf(const Table& table) {
     std::vector<Dose> doses(table.rows());
     for (std::size_t i = 0; i < table.rows(); ++i)
         readRow(
-            kDoseColumns, doses[i],
-            [&](const char* name) { return table.has(name) ? table.text(i, name) : std::string(); },
-            [&](const char* name) { (void)(table.has(name) ? table.number(i, name) : 0); });
+            kDoseColumns, doses[i], [&](const char* name) { return table.text(i, name); },
+            [&](const char* name) { (void)table.number(i, name); });
     return doses;
 }
 

@@ -7,8 +7,8 @@
 
 namespace vkdose {
 
-/// The doses in a table with the columns of doses.csv. A column that an earlier vkdose did not write reads as NaN, 0 or
-/// false. Throws CaseError, which names the place, if a field is not a number.
+/// The doses in a table with the columns of doses.csv. Throws CaseError, which names the place, if a column is missing
+/// or a field is not a number.
 std::vector<Dose> dosesOf(const Table& table);
 
 }  // namespace vkdose

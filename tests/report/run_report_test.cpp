@@ -4,12 +4,15 @@
 #include "host/report/page.h"
 #include "host/report/run_figures.h"
 #include "host/report/source_hash.h"
+#include "tests/report/faults.h"
 #include "tests/report/folders.h"
 #include "tests/support/catch.h"
 
 using namespace vkdose;
 using namespace vkdose::report;
+using vkdose::test::faultOf;
 using vkdose::test::readCsv;
+using vkdose::test::readText;
 using vkdose::test::Sandbox;
 using vkdose::test::writeRun;
 
@@ -29,6 +32,17 @@ std::string fact(const Json& run, const std::string& name, const char* part = "v
 }
 
 }  // namespace
+
+TEST_CASE("doses without one of their columns are refused by its name") {
+    const Sandbox box;
+    const auto folder = writeRun(box, "why");
+    std::string doses = readText(folder / "doses.csv");
+    const std::string name = "closed_form_mass_kg";
+    doses.replace(doses.find(name), name.size(), "closed_form_mass_g");
+    box.write("run/doses.csv", doses);
+    CHECK_THAT(faultOf([&] { runJson(folder, {}); }),
+               Catch::Contains("doses.csv:1") && Catch::Contains("lacks the column closed_form_mass_kg"));
+}
 
 TEST_CASE("the page of a run carries the numbers of its doses.csv, to the last digit") {
     const Sandbox box;
