@@ -12,6 +12,6 @@ void main() {
     uint i = firstParticle() + invocation();
     vec4 p = readState(push.source, kPosition, i);
     if (p.w <= 0.0) return;
-    uint head = headIndex(cellSlot(cellOf(p.xyz, numerics().z)));
+    uint head = headIndex(self, cellSlot(cellOf(p.xyz, numerics().z)));
     cells[nextIndex(i)] = atomicExchange(cells[head], i);
 }

@@ -6,5 +6,5 @@
 void main() {
     openMember();
     bool mine = control.wanted.x != 0u && invocation() <= push.cellMask;
-    if (mine) cells[headIndex(invocation())] = kEmpty;
+    if (mine) cells[headIndex(self, invocation())] = kEmpty;
 }

@@ -83,7 +83,7 @@ void main() {
         coilHistory[at + push.particles] = h.rollingTorsion;
         force += f.force;
         torque += f.torque;
-        writeForce(turnForceIndex(turn, slot), vec4(f.force, 0.0));  // the host asks for single contacts
+        writeForce(forceOfTurn(turn, slot), vec4(f.force, 0.0));  // the host asks for single contacts
         coilTorque -= point.x * f.force.y - point.y * f.force.x + f.couple.z;
         overlap = max(overlap, o.depth / me.sphere.radius);
 #ifdef ENERGY_BOOK

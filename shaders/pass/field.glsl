@@ -8,16 +8,20 @@
     layout(std430, set = 0, binding = number) buffer name##Buffer { element name[]; };
 #define PARAMETERS(number, name, element, count, title) \
     layout(std430, set = 0, binding = number) readonly buffer name##Buffer { element name[]; };
+#define ROW(table, function, first, length) \
+    uint function(uint i) { return (first) + i; }
+#define ROWS(table, function, first, rows, length) \
+    uint function(uint row, uint i) { return (first) + row * (length) + i; }
+#define particles particleCount()
+#define forceEntries turnForceIndex(kMaxTurns, 0u)
 #include "shared/field_tables.h"
+#undef particles
+#undef forceEntries
 #define field fields[0]
 
 // Gauss-Legendre on [0, 1] (host/model/field.h).
 const vec4 kNodes = vec4(0.06943184420297371, 0.33000947820757187, 0.66999052179242813, 0.93056815579702629);
 const vec4 kShares = vec4(0.17392742256872693, 0.32607257743127307, 0.32607257743127307, 0.17392742256872693);
-
-uint weightIndex(uint contact, uint node) { return push.particles + kFieldNodes * contact + node; }
-
-uint touchesIndex(uint i) { return push.particles + kFieldNodes * turnForceIndex(kMaxTurns, springSlots()) + i; }
 
 /// Where a contact is found.
 struct Place {
@@ -41,7 +45,7 @@ Place memberContact(uint k) {
     k -= push.surfaceSlots;
     if (k >= kMaxTurns * push.coilSlots) return none;
     uint turn = k / push.coilSlots, slot = firstCoilSlot() + k % push.coilSlots;
-    return slot - firstCoilSlot() < control.listed.z ? Place(turnForceIndex(turn, slot), slot, turn) : none;
+    return slot - firstCoilSlot() < control.listed.z ? Place(forceOfTurn(turn, slot), slot, turn) : none;
 }
 
 vec3 offsetOf(uint side, uint i) {

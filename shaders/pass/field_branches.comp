@@ -40,7 +40,7 @@ void main() {
     } else if (ofPair(at.slot)) {
         Sphere b = sphereBefore(who.y);
         branch.xyz = (a.high - b.high) + (a.low - b.low);
-    } else if (at.slot < springSlots()) {
+    } else if (at.slot < springSlotCount()) {
         SurfaceParams p = readSurface(surfaceOf(who.y));
         Overlap o = surfaceOverlap(KIND_SET, uint(p.pointHigh.w), p, a);
         branch.xyz = (a.radius - o.depth) * o.normal;

@@ -13,7 +13,7 @@ void add(uint i) {
     float r = state[stateIndex(push.source, kPosition, i)].w;
     float m = gravity().w * (4.0 / 3.0 * 3.14159265358979) * r * r * r;
     vec3 stray = state[stateIndex(push.source, kVelocity, i)].xyz - mean;
-    float w = m * weights[i] * kernel(here - offsetOf(push.source, i));
+    float w = m * weights[particleWeightIndex(i)] * kernel(here - offsetOf(push.source, i));
     squares += w * stray * stray;
     mixed += w * stray.yzx * stray.zxy;
 }

@@ -15,7 +15,8 @@ void addBranch(uint contact, vec3 from) {
     if (branch.w == 0.0) return;
     float w = 0.0;
     for (uint node = 0u; node < kFieldNodes; ++node)
-        w += kShares[node] * weights[weightIndex(contact, node)] * kernel(here - (from - kNodes[node] * branch.xyz));
+        w += kShares[node] * weights[nodeWeightIndex(contact, node)] *
+             kernel(here - (from - kNodes[node] * branch.xyz));
     stress += outerProduct(branch.xyz * w, forces[contact].xyz);
 }
 
@@ -26,10 +27,10 @@ void addBranches(uint i) {
     for (uint k = 0u; k < range.w; ++k) {
         uint link = rows[linkIndex(range.z + k)], slot = link >> 1u;
         if ((link & 1u) == 1u) continue;
-        if (slot < springSlots())
+        if (slot < springSlotCount())
             addBranch(slot, from);
         else
-            for (uint turn = 0u; turn < kMaxTurns; ++turn) addBranch(turnForceIndex(turn, slot), from);
+            for (uint turn = 0u; turn < kMaxTurns; ++turn) addBranch(forceOfTurn(turn, slot), from);
     }
 }
 
@@ -37,7 +38,7 @@ void add(uint i) {
     float r = state[stateIndex(push.source, kPosition, i)].w;
     float m = gravity().w * (4.0 / 3.0 * 3.14159265358979) * r * r * r;
     vec3 velocity = state[stateIndex(push.source, kVelocity, i)].xyz;
-    float w = weights[i] * kernel(here - offsetOf(push.source, i));
+    float w = weights[particleWeightIndex(i)] * kernel(here - offsetOf(push.source, i));
     carriedMass += w * m * vec4(1.0, velocity);
     number += w * vec2(1.0, weights[touchesIndex(i)]);
     if (field.tile.w == 1u) addBranches(i);

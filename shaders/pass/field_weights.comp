@@ -43,7 +43,7 @@ void main() {
     if (k < push.share) {
         uint i = firstParticle() + k;
         bool active_ = uint(state[stateIndex(push.source, kSpin, i)].w) == kStatusActive;
-        weights[i] = active_ ? weightAt(offsetOf(push.source, i)) : 0.0;
+        weights[particleWeightIndex(i)] = active_ ? weightAt(offsetOf(push.source, i)) : 0.0;
         weights[touchesIndex(i)] = active_ ? touching(i) : 0.0;
         return;
     }
@@ -55,5 +55,5 @@ void main() {
     if (at.contact == kEmpty) return;
     vec4 branch = branches[at.contact];
     vec3 from = offsetOf(1u - push.source, entries[at.slot].x);
-    weights[weightIndex(at.contact, node)] = branch.w > 0.0 ? weightAt(from - kNodes[node] * branch.xyz) : 0.0;
+    weights[nodeWeightIndex(at.contact, node)] = branch.w > 0.0 ? weightAt(from - kNodes[node] * branch.xyz) : 0.0;
 }

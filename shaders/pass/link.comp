@@ -32,7 +32,7 @@ void main() {
 
     uint count = 0u, mine = own.x;
     for (uint s = 0u; s < range.y; ++s) {
-        uint j = rowsAt(range.x + s);
+        uint j = rowsAt(rowIndex(range.x + s));
         if (!nearPair(p, slack, readState(push.source, kPosition, j), slackOfParticle(j))) continue;
         uint slot = mine;
         if (j > i)
@@ -60,5 +60,5 @@ void main() {
     first += self * push.linkEntries;
     for (uint k = 0u; k < count; ++k) rows[linkIndex(first + k)] = links[k];
     ranges[rowRangeIndex(i)].zw = uvec2(first, count);
-    anchors[anchorIndex(kListAnchor, i)] = vec4(p.xyz, slack);
+    anchors[listAnchorIndex(i)] = vec4(p.xyz, slack);
 }

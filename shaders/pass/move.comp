@@ -27,8 +27,8 @@ void main() {
     vec4 residue = readState(push.source, kResidue, i);
     vec4 velocity4 = readState(push.source, kVelocity, i);
     vec4 spin4 = readState(push.source, kSpin, i);
-    vec3 rowAnchor = readAnchor(kRowAnchor, i).xyz;
-    vec4 listAnchor = readAnchor(kListAnchor, i);  // w: slack
+    vec3 rowAnchor = anchorsAt(rowAnchorIndex(i)).xyz;
+    vec4 listAnchor = anchorsAt(listAnchorIndex(i));  // w: slack
     uvec4 range = rangesAt(rowRangeIndex(i));
     bool moving = uint(spin4.w) == kStatusActive;
 
@@ -41,7 +41,7 @@ void main() {
 #endif
     for (uint k = 0u; k < range.w; ++k) {
         uint link = rowsAt(linkIndex(range.z + k));
-        vec4 f = forcesAt(link >> 1u), t = readTorque(link & 1u, link >> 1u);
+        vec4 f = forcesAt(link >> 1u), t = torquesAt(torqueIndex(link >> 1u, link & 1u));
         force += (link & 1u) == 0u ? f.xyz : -f.xyz;
         torque += t.xyz;
         overlap = max(overlap, f.w);

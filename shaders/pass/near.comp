@@ -51,7 +51,7 @@ void main() {
 
     pairs = 0u;
     for (uint s = 0u; s < range.y; ++s) {
-        uint j = rowsAt(range.x + s);
+        uint j = rowsAt(rowIndex(range.x + s));
         if (j > i && nearPair(p, slack, readState(push.source, kPosition, j), slackOfParticle(j))) {
             partners[pairs] = j;
             ++pairs;
@@ -87,7 +87,7 @@ void main() {
     for (uint k = 0u; k < range.w; ++k) {
         uint link = rowsAt(linkIndex(range.z + k)), slot = link >> 1u;
         if ((link & 1u) != 0u) continue;  // the other particle's
-        if (slot >= springSlots()) continue;
+        if (slot >= springSlotCount()) continue;
         uint to = comingSlot(slot, entriesAt(slot).y);
         if (to != kEmpty) {
             for (uint part = 0u; part < kParts; ++part) carried[historyIndex(part, to)] = readHistory(part, slot);

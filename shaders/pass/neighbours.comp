@@ -26,7 +26,7 @@ uint collect(uint i, vec4 p) {
     uint count = 0u, found = 0u, visits = 0u;
     for (int n = 0; n < 27; ++n) {
         ivec3 cell = home + ivec3(n % 3, (n / 3) % 3, n / 9) - 1;
-        uint j = cells[headIndex(cellSlot(cell))];
+        uint j = cells[headIndex(self, cellSlot(cell))];
         for (; j != kEmpty && visits <= kMostVisits; j = cells[nextIndex(j)]) {
             ++visits;
             if (j == i) continue;
@@ -61,8 +61,8 @@ void main() {
         count = 0u;
     }
     first += self * push.rowEntries;
-    for (uint s = 0u; s < count; ++s) rows[first + s] = row[s];
+    for (uint s = 0u; s < count; ++s) rows[rowIndex(first + s)] = row[s];
     ranges[rowRangeIndex(i)].xy = uvec2(first, count);
-    anchors[anchorIndex(kRowAnchor, i)] = p;
+    anchors[rowAnchorIndex(i)] = p;
     atomicMax(control.list.z, count);
 }

@@ -62,8 +62,6 @@ const uint kParts = 5u;
 #else
 const uint kParts = 2u;
 #endif
-const uint kRowAnchor = 0u;
-const uint kListAnchor = 1u;
 
 /// The member that this workgroup works for. A dispatch has a row of workgroups for each live member. A run on its own
 /// is an ensemble of one member; the compiler then removes all that depends on this.
@@ -108,38 +106,57 @@ bool opening() { return push.opening == 1u && choices().z == 1u; }
 /// By how much springs grow in this step: not at all in a member's first.
 float springStep() { return opening() ? 0.0 : numerics().x; }
 
+uint particleCount() { return push.particles; }
+uint rowEntryCount() { return push.rowEntries; }
+uint linkEntryCount() { return push.linkEntries; }
+uint coilSlotCount() { return MEMBERS * push.coilSlots; }
 uint firstParticle() { return self * push.share; }
 uint firstPairSlot() { return self * push.pairSlots; }
 uint firstSurfaceSlot() { return MEMBERS * push.pairSlots + self * push.surfaceSlots; }
-uint springSlots() { return MEMBERS * (push.pairSlots + push.surfaceSlots); }
-uint firstCoilSlot() { return springSlots() + self * push.coilSlots; }
-uint slotCount() { return springSlots() + MEMBERS * push.coilSlots; }
+uint springSlotCount() { return MEMBERS * (push.pairSlots + push.surfaceSlots); }
+uint firstCoilSlot() { return springSlotCount() + self * push.coilSlots; }
+uint slotCount() { return springSlotCount() + coilSlotCount(); }
 bool ofPair(uint slot) { return slot < MEMBERS * push.pairSlots; }
+
+// Where the elements of the tables are. shared/tables.h uses these names of sizes. Some are functions above, because a
+// macro's text cannot contain its own name.
+#define canisters MEMBERS
+#define particles particleCount()
+#define cellHeads (push.cellMask + 1u)
+#define rowEntries rowEntryCount()
+#define linkEntries linkEntryCount()
+#define springSlots springSlotCount()
+#define coilSlots coilSlotCount()
+#define slots slotCount()
+#define historyParts kParts
+#define TABLE(number, name, element, count, title)
+#define ROW(table, function, first, length) \
+    uint function(uint i) { return (first) + i; }
+#define ROWS(table, function, first, rows, length) \
+    uint function(uint row, uint i) { return (first) + row * (length) + i; }
+#include "shared/tables.h"
+#undef canisters
+#undef particles
+#undef cellHeads
+#undef rowEntries
+#undef linkEntries
+#undef springSlots
+#undef coilSlots
+#undef slots
+#undef historyParts
 
 uint stateIndex(uint side, uint field, uint i) {
     return side * kFields * push.particles + stateOffset(field, i, push.particles);
 }
-uint linkIndex(uint at) { return MEMBERS * push.rowEntries + at; }
-uint headIndex(uint cell) { return self * (push.cellMask + 1u) + cell; }
-uint nextIndex(uint i) { return MEMBERS * (push.cellMask + 1u) + i; }
-uint rowRangeIndex(uint i) { return i; }
-uint slotRangeIndex(uint i) { return push.particles + i; }
-uint historyIndex(uint part, uint slot) { return part < 2u ? 2u * slot + part : part * springSlots() + slot; }
-uint coilHistoryIndex(uint turn, uint part, uint i) { return (turn * kParts + part) * push.particles + i; }
-uint wireAngleIndex(uint i) { return coilHistoryIndex(kMaxTurns, 0u, i); }
-uint anchorIndex(uint which, uint i) { return which * push.particles + i; }
-uint comingEntryIndex(uint slot) { return slotCount() + slot; }
-uint turnForceIndex(uint turn, uint slot) {
-    return slotCount() + turn * MEMBERS * push.coilSlots + slot - springSlots();
+uint historyIndex(uint part, uint slot) {
+    return part < 2u ? springIndex(slot, part) : exertedIndex(part - 2u, slot);
 }
-uint torqueIndex(uint side, uint slot) { return 2u * slot + side; }
-uint bookIndex(uint field, uint i) { return field * push.particles + i; }
-uint slotBookIndex(uint field, uint slot) { return kBookFields * push.particles + field * slotCount() + slot; }
+/// Place of the force that a turn exerts in a slot of the coil.
+uint forceOfTurn(uint turn, uint slot) { return turnForceIndex(turn, slot - springSlotCount()); }
+uint coilHistoryIndex(uint turn, uint part, uint i) { return turnHistoryIndex(turn * kParts + part, i); }
 
 vec4 readState(uint side, uint field, uint i) { return stateAt(stateIndex(side, field, i)); }
 vec4 readHistory(uint part, uint slot) { return historyAt(historyIndex(part, slot)); }
-vec4 readAnchor(uint which, uint i) { return anchorsAt(anchorIndex(which, i)); }
-vec4 readTorque(uint side, uint slot) { return torquesAt(torqueIndex(side, slot)); }
 #ifdef TEXEL_READS
 SurfaceParams readSurface(uint s) {
     int at = int(kMemberVectors * self + kVectorSurface + 4u * s);
@@ -189,11 +206,11 @@ void writeHistory(uint slot, vec4 a, vec4 b) {
 }
 void writeForce(uint slot, vec4 force) { forces[slot] = force; }
 void writeTorques(uint slot, vec4 first, vec4 second) {
-    torques[torqueIndex(0u, slot)] = first;
-    torques[torqueIndex(1u, slot)] = second;
+    torques[torqueIndex(slot, 0u)] = first;
+    torques[torqueIndex(slot, 1u)] = second;
 }
 #endif
-void writeTorque(uint slot, vec4 first) { torques[torqueIndex(0u, slot)] = first; }
+void writeTorque(uint slot, vec4 first) { torques[torqueIndex(slot, 0u)] = first; }
 
 /// An error or another call (kErrorLost ...), for `decide` at the end of the step.
 void report(uint kind, uint particle) { atomicMin(control.call.x, kind << kCallShift | particle); }

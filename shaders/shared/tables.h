@@ -1,15 +1,21 @@
 // The tables on the device, one line each. GLSL (shared/buffers.glsl) and C++ (host/backend/vulkan/tables.h, passes.h)
-// take their bindings, sizes, views, reading functions and byte counts from these lines. A file that includes this one
-// defines TABLE before, and the kinds below where they differ from TABLE. shaders/README.md says who writes and reads
-// each table.
+// take their bindings, sizes, views, reading functions, index functions and byte counts from these lines. A file that
+// includes this one defines TABLE before, and the kinds below where they differ from TABLE. shaders/README.md says who
+// writes and reads each table.
 //
 //   TABLE(binding, name, element, count, title)                    elements, none of which is read through a view
 //   VIEWED(binding, name, element, count, title)                   read through a texel view on devices that gain by it
 //   PARAMETERS(binding, name, element, count, title)               records that no pass writes, viewed as vec4s
 //   HEADED(binding, name, element, count, title, head, headName)   elements after one record of another kind
 //
-// `count` is made of the sizes in host/backend/vulkan/tables.h, TableCounts, and of constants of layout.h. The title is
-// for messages and the manual.
+// Below a table that has several parts, or rows, there is a line for each part. The line makes a function that says
+// where in the table an element is. The parts follow one another and fill the table (tests/layout).
+//
+//   ROW(table, function, first, length)           function(i) = first + i
+//   ROWS(table, function, first, rows, length)    function(row, i) = first + row * length + i
+//
+// All numbers are made of the sizes in host/backend/vulkan/tables.h, TableCounts, and of constants of layout.h. The
+// title is for messages and the manual.
 #ifndef VIEWED
 #define VIEWED TABLE
 #endif
@@ -19,45 +25,68 @@
 #ifndef HEADED
 #define HEADED(binding, name, element, count, title, head, headName) TABLE(binding, name, element, count, title)
 #endif
+#ifndef ROW
+#define ROW(table, function, first, length)
+#endif
+#ifndef ROWS
+#define ROWS(table, function, first, rows, length)
+#endif
 
-// [2 halves][2 couples][particles][2 fields]: layout.h, stateOffset.
+// [2 halves][2 couples][particles][2 fields]: layout.h, stateOffset, says where an element is.
 VIEWED(0, state, vec4, 2 * particles * kFields, the particle state)
-// Rows: [canisters][rowEntries]: for every particle, the others within reach and skin, ascending. Then links:
-// [canisters][linkEntries]: for every particle, the contacts that it takes part in, ordered as other particles by
-// ascending index, surfaces, coil. A link is slot << 1, plus 1 for the contact's second body.
+// Rows: for every particle, the others within reach and skin, ascending. Links: for every particle, the contacts that
+// it takes part in, ordered as other particles by ascending index, surfaces, coil. A link is slot << 1, plus 1 for the
+// contact's second body.
 VIEWED(1, rows, uint, canisters * (rowEntries + linkEntries), the neighbour rows)
-// [particles]: row (first, count), links (first, count). Then [particles]: own pair slots (first, count), own surface
-// slots (first, count).
+ROW(rows, rowIndex, 0, canisters * rowEntries)
+ROW(rows, linkIndex, canisters * rowEntries, canisters * linkEntries)
+// Of each particle: row (first, count), links (first, count). Then: own pair slots (first, count), own surface slots
+// (first, count).
 VIEWED(2, ranges, uvec4, 2 * particles, the ranges of rows)
-// [pair and surface slots][2]: History of law/contact.glsl, zero while the two bodies do not touch. With the energy
-// book, [3][slots] follows: Exerted of law/energy.glsl.
+ROW(ranges, rowRangeIndex, 0, particles)
+ROW(ranges, slotRangeIndex, particles, particles)
+// Of each pair or surface slot: the two vectors of History (law/contact.glsl), zero while the two bodies do not touch.
+// With the energy book, then the vectors of Exerted (law/energy.glsl), each for all slots.
 VIEWED(3, history, vec4, historyParts * springSlots, the contact history)
-// [turns][parts][particles]: as the history above. Then [particles]: wire angle of each turn, kNoTurn if it is free.
-// Empty without a coil.
-VIEWED(4, coilHistory, vec4, coilHistoryRows * particles, the contact history with the coil)
+ROWS(history, springIndex, 0, springSlots, 2)
+ROWS(history, exertedIndex, 2 * springSlots, historyParts - 2, springSlots)
+// The history of each turn and particle, vector by vector (turn * historyParts + part). Then the wire angle of each
+// turn, kNoTurn if it is free. Empty without a coil.
+VIEWED(4, coilHistory, vec4, coils * (kMaxTurns * historyParts + 1) * particles, the contact history with the coil)
+ROWS(coilHistory, turnHistoryIndex, 0, coils * kMaxTurns * historyParts, particles)
+ROW(coilHistory, wireAngleIndex, kMaxTurns * historyParts * particles, coils * particles)
 PARAMETERS(5, members, Member, canisters, the parameters)
 HEADED(6, controls, Control, canisters, the control blocks, Dispatches, dispatches)
-// Heads: [canisters][cells]: the first particle of each cell, kEmpty if there is none. Then [particles]: the next in
-// its cell.
+// Of each canister's cells: the first particle, kEmpty if there is none. Then of each particle: the next in its cell.
 TABLE(7, cells, uint, canisters * cellHeads + particles, the cell table)
-// [particles]: high part of the position when the rows were built. Then [particles]: when the contacts were listed; w:
-// slack.
+ROWS(cells, headIndex, 0, canisters, cellHeads)
+ROW(cells, nextIndex, canisters * cellHeads, particles)
+// Of each particle: high part of the position when the rows were built. Then: when the contacts were listed; w: slack.
 VIEWED(8, anchors, vec4, 2 * particles, the anchors)
+ROW(anchors, rowAnchorIndex, 0, particles)
+ROW(anchors, listAnchorIndex, particles, particles)
 // [canisters][workgroups over a canister's particles].
 TABLE(9, records, GroupRecord, canisters * groups, the records of the sensors)
-// [slots]: the particle; then the other particle, or the surface with the number of its works in the bits above it
-// (kSurfaceBits). Then [slots]: the entries that a refresh prepares.
+// Of each slot: the particle; then the other particle, or the surface with the number of its works in the bits above it
+// (kSurfaceBits). Coming: the entries that a refresh prepares.
 VIEWED(10, entries, uvec2, 2 * slots, the contact lists)
-// [fields][particles]; then [fields][slots]: layout.h, kBookNormal. Empty without an energy book.
+ROW(entries, entryIndex, 0, slots)
+ROW(entries, comingEntryIndex, slots, slots)
+// Fields of each particle; then of each slot: layout.h, kBookNormal. Empty without an energy book.
 TABLE(11, books, vec4, energyBook * kBookFields * (particles + slots), the energy book)
+ROWS(books, bookIndex, 0, energyBook * kBookFields, particles)
+ROWS(books, slotBookIndex, kBookFields * particles, energyBook * kBookFields, slots)
 // [particles]: sum over the steps since the last sensing of the torque on the coil about +z [N m]. Empty without a
 // coil.
 TABLE(12, coilTorques, float, coils * particles, the torques on the coil)
-// [slots]: force on the first body [N]; w: overlap over the smaller radius. Then [turns][coil slots]: the force of each
-// turn.
+// Of each slot: force on the first body [N]; w: overlap over the smaller radius. Then of each turn and coil slot: the
+// force of the turn.
 VIEWED(13, forces, vec4, slots + kMaxTurns * coilSlots, the contact forces)
-// [slots][2]: torque on the first body [N m]; w: torque on the coil about +z [N m]. Torque on the second body.
+ROW(forces, forceIndex, 0, slots)
+ROWS(forces, turnForceIndex, slots, kMaxTurns, coilSlots)
+// Of each slot: torque on the first body [N m]; w: torque on the coil about +z [N m]. Torque on the second body.
 VIEWED(14, torques, vec4, 2 * slots, the contact torques)
+ROWS(torques, torqueIndex, 0, slots, 2)
 // As the history, of the slots that a refresh prepares.
 TABLE(15, carried, vec4, historyParts * springSlots, the carried history)
 
@@ -65,3 +94,5 @@ TABLE(15, carried, vec4, historyParts * springSlots, the carried history)
 #undef VIEWED
 #undef PARAMETERS
 #undef HEADED
+#undef ROW
+#undef ROWS

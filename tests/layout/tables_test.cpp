@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "host/backend/vulkan/tables.h"
 #include "shaders/shared/layout.h"
 #include "spirv/passes.h"
 #include "tests/support/catch.h"
@@ -32,6 +33,63 @@ const std::vector<Listed> kFieldListed{
 #define TABLE(binding, name, element, count, title) {binding, #name, #element, #title},
 #include "shaders/shared/field_tables.h"
 };
+
+struct Part {
+    std::string table, function;
+    std::uint64_t first, elements;
+};
+
+/// The parts of the tables, in the order of the list.
+struct Parts : TableCounts {
+    explicit Parts(const TableSizes& sizes) : TableCounts(sizes) {}
+
+    std::vector<Part> all() const {
+        using namespace gpu;
+        return {
+#define TABLE(binding, name, element, count, title)
+#define ROW(table, function, first, length) {#table, #function, function(0), length},
+#define ROWS(table, function, first, rows, length) {#table, #function, function(0, 0), (rows) * (length)},
+#include "shaders/shared/tables.h"
+        };
+    }
+};
+
+struct FieldParts {
+    std::uint64_t particles, forceEntries, points;
+
+    std::uint64_t weights() const {
+        using namespace gpu;
+#define TABLE(binding, name, element, count, title) \
+    if (std::string(#name) == "weights") return count;
+#include "shaders/shared/field_tables.h"
+        return 0;
+    }
+    std::vector<Part> all() const {
+        using namespace gpu;
+        return {
+#define TABLE(binding, name, element, count, title)
+#define ROW(table, function, first, length) {#table, #function, first, length},
+#define ROWS(table, function, first, rows, length) {#table, #function, first, (rows) * (length)},
+#include "shaders/shared/field_tables.h"
+        };
+    }
+};
+
+/// Sizes of which no two are equal and no sum is another.
+TableSizes oddSizes(bool coil, bool energyBook) {
+    TableSizes s;
+    s.members = 3;
+    s.workgroup = 64;
+    s.share = 1024;
+    s.cells = 2048;
+    s.rowEntries = 10007;
+    s.linkEntries = 20011;
+    s.pairSlots = 5 * 64;
+    s.surfaceSlots = 7 * 64;
+    s.coilSlots = coil ? 11 * 64 : 0;
+    s.energyBook = energyBook;
+    return s;
+}
 
 /// The names of the blocks and views that a pass really uses, by binding.
 class Used {
@@ -90,6 +148,53 @@ TEST_CASE("every binding of a pass is that of its table in the list, or of the t
                     met.insert(table.name);
                 }
     CHECK(met.size() >= gpu::kTables - 1);  // the energy book's sums are a matter of sense_energy
+}
+
+TEST_CASE("the parts of a table follow one another and fill it") {
+    for (const bool coil : {false, true})
+        for (const bool energyBook : {false, true}) {
+            const Parts parts(oddSizes(coil, energyBook));
+            std::map<std::string, std::uint64_t> end;
+            for (const Part& part : parts.all()) {
+                INFO(part.function << ", coil " << coil << ", energy book " << energyBook);
+                if (part.elements > 0) CHECK(part.first == end[part.table]);
+                end[part.table] += part.elements;
+            }
+            CHECK(end.size() == 10);
+            const auto shapes = parts.shapes();
+            for (std::size_t i = 0; i < kListed.size(); ++i)
+                if (end.count(kListed[i].name) == 1) {
+                    INFO(kListed[i].name << ", coil " << coil << ", energy book " << energyBook);
+                    CHECK(std::max<std::uint64_t>(1, end[kListed[i].name]) == shapes[i].elements);
+                }
+        }
+    const FieldParts fields{1024, 333, 4096};
+    std::uint64_t end = 0;
+    for (const Part& part : fields.all()) {
+        INFO(part.function);
+        CHECK(part.first == end);
+        end += part.elements;
+    }
+    CHECK(end == fields.weights());
+}
+
+TEST_CASE("an element of a table has its place by part, row and column") {
+    const Parts at(oddSizes(true, true));
+    const std::uint64_t particles = 3 * 1024, spring = 3 * 12 * 64, slots = spring + 3 * 11 * 64;
+    CHECK(at.linkIndex(5) == 3 * 10007 + 5);
+    CHECK(at.slotRangeIndex(7) == particles + 7);
+    CHECK(at.springIndex(9, 1) == 19);
+    CHECK(at.exertedIndex(2, 9) == 4 * spring + 9);
+    CHECK(at.turnHistoryIndex(6, 8) == 6 * particles + 8);
+    CHECK(at.wireAngleIndex(8) == 5 * gpu::kMaxTurns * particles + 8);
+    CHECK(at.headIndex(2, 4) == 2 * 2048 + 4);
+    CHECK(at.nextIndex(4) == 3 * 2048 + 4);
+    CHECK(at.listAnchorIndex(4) == particles + 4);
+    CHECK(at.comingEntryIndex(4) == slots + 4);
+    CHECK(at.bookIndex(2, 4) == 2 * particles + 4);
+    CHECK(at.slotBookIndex(1, 4) == gpu::kBookFields * particles + slots + 4);
+    CHECK(at.turnForceIndex(1, 4) == slots + 3 * 11 * 64 + 4);
+    CHECK(at.torqueIndex(4, 1) == 9);
 }
 
 TEST_CASE("a field pass uses no table whose place one of its own takes") {

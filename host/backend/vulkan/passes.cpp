@@ -13,7 +13,7 @@ namespace {
 
 Access accessOn(const vk::Device& device, const TableSizes& s) {
     std::uint64_t most = 0;
-    for (const TableShape& table : tableShapes(s))
+    for (const TableShape& table : TableCounts(s).shapes())
         if (table.view != VK_FORMAT_UNDEFINED) most = std::max(most, table.texels);
     const bool texel = s.texelReads && most <= device.limits().maxTexelBufferElements;
     return {texel, texel && device.hasInt64()};
@@ -58,12 +58,13 @@ constexpr std::array kStep{
 }  // namespace
 
 vk::Buffer Tables::make(const vk::Device& device, const TableSizes& sizes, const Access& access, std::size_t number) {
-    const TableShape table = tableShapes(sizes)[number];
+    const TableShape table = TableCounts(sizes).shapes()[number];
     return {device, table.title, table.bytes, access.texelReads ? table.view : VK_FORMAT_UNDEFINED};
 }
 
 Tables::Tables(const vk::Device& device, const TableSizes& s, const Access& a)
     : sizes(s),
+      at(s),
       access(a)
 #define TABLE(number, name, element, count, title) , name(make(device, s, a, number))
 #include "shaders/shared/tables.h"
@@ -107,7 +108,7 @@ void Passes::reset() {
     ranges.writeAll(none);
     if (sizes.coilSlots > 0) {
         const std::vector<gpu::vec4> angles(sizes.particles(), gpu::vec4(gpu::kNoTurn));
-        coilHistory.writeAll(angles, sizeof(gpu::vec4) * (sizes.coilHistoryRows() - 1) * sizes.particles());
+        coilHistory.writeAll(angles, sizeof(gpu::vec4) * at.wireAngleIndex(0));
     }
     gpu::Control fresh{};
     fresh.call = fresh.error = gpu::uvec4(gpu::kEmpty);

@@ -32,6 +32,7 @@ class Tables {
     VkDeviceSize bytes() const;                  ///< of all
 
     const TableSizes sizes;
+    const TableCounts at;  ///< where in a table an element is
     const Access access;
 #define TABLE(number, name, element, count, title) vk::Buffer name;
 #include "shaders/shared/tables.h"

@@ -56,10 +56,10 @@ struct SlotRun {
     std::array<std::vector<vec4>, 4> history;  ///< parts 0 and 1 together, 2, 3, 4
 
     void write(Passes& passes) const {
-        passes.entries.writeAll(entries, first * sizeof(glm::uvec2));
-        passes.history.writeAll(history[0], passes.sizes.historyOffset(0, first) * sizeof(vec4));
+        passes.entries.writeAll(entries, passes.at.entryIndex(first) * sizeof(glm::uvec2));
+        passes.history.writeAll(history[0], passes.at.springIndex(first, 0) * sizeof(vec4));
         for (std::uint32_t part = 2; part < passes.sizes.historyParts(); ++part)
-            passes.history.writeAll(history[part - 1], passes.sizes.historyOffset(part, first) * sizeof(vec4));
+            passes.history.writeAll(history[part - 1], passes.at.exertedIndex(part - 2, first) * sizeof(vec4));
     }
 };
 
@@ -97,8 +97,8 @@ uvec4 restoreContacts(Passes& passes, std::uint32_t member, std::size_t particle
     }
     pairs.write(passes);
     surfaces.write(passes);
-    passes.rows.writeAll(links, (std::uint64_t(t.members) * t.rowEntries + firstLink) * sizeof(std::uint32_t));
-    passes.ranges.writeAll(ranges, firstParticle * sizeof(uvec4));
+    passes.rows.writeAll(links, passes.at.linkIndex(firstLink) * sizeof(std::uint32_t));
+    passes.ranges.writeAll(ranges, passes.at.rowRangeIndex(firstParticle) * sizeof(uvec4));
     return {std::uint32_t(pairs.entries.size()), std::uint32_t(surfaces.entries.size()), 0U, 0U};
 }
 
@@ -110,12 +110,14 @@ std::vector<SlotContact> touchingSlots(const Passes& passes, std::uint32_t membe
     const std::uint32_t firstParticle = member * t.share;
     std::vector<SlotContact> found;
     const auto collect = [&](bool pair, std::uint32_t first, std::uint32_t count) {
-        const auto entries = passes.entries.readAll<glm::uvec2>(count, first * sizeof(glm::uvec2));
-        const auto forces = passes.forces.readAll<vec4>(count, first * sizeof(vec4));
+        const auto entries =
+            passes.entries.readAll<glm::uvec2>(count, passes.at.entryIndex(first) * sizeof(glm::uvec2));
+        const auto forces = passes.forces.readAll<vec4>(count, passes.at.forceIndex(first) * sizeof(vec4));
         std::array<std::vector<vec4>, 4> history;
-        history[0] = passes.history.readAll<vec4>(2ULL * count, t.historyOffset(0, first) * sizeof(vec4));
+        history[0] = passes.history.readAll<vec4>(2ULL * count, passes.at.springIndex(first, 0) * sizeof(vec4));
         for (std::uint32_t part = 2; part < t.historyParts(); ++part)
-            history[part - 1] = passes.history.readAll<vec4>(count, t.historyOffset(part, first) * sizeof(vec4));
+            history[part - 1] =
+                passes.history.readAll<vec4>(count, passes.at.exertedIndex(part - 2, first) * sizeof(vec4));
         for (std::size_t k = 0; k < count; ++k) {
             if (history[0][2 * k].w <= 0) continue;
             const std::uint32_t other =
@@ -144,10 +146,10 @@ std::vector<TurnForces> turnForces(const Passes& passes, std::uint32_t member, s
     const TableSizes& t = passes.sizes;
     const std::uint32_t count = passes.controlOf(member).listed.z, first = member * t.coilSlots;
     const auto entries =
-        passes.entries.readAll<glm::uvec2>(count, (t.springSlots() + std::size_t(first)) * sizeof(glm::uvec2));
+        passes.entries.readAll<glm::uvec2>(count, passes.at.entryIndex(t.springSlots() + first) * sizeof(glm::uvec2));
     std::vector<TurnForces> found(particles, TurnForces{});
     for (std::uint32_t turn = 0; turn < gpu::kMaxTurns; ++turn) {
-        const auto forces = passes.forces.readAll<vec4>(count, t.turnForceOffset(turn, first) * sizeof(vec4));
+        const auto forces = passes.forces.readAll<vec4>(count, passes.at.turnForceIndex(turn, first) * sizeof(vec4));
         for (std::size_t k = 0; k < count; ++k) found[entries[k].x - member * t.share][turn] = forces[k];
     }
     return found;
@@ -159,15 +161,16 @@ std::vector<TurnContact> touchingTurns(const Passes& passes, std::uint32_t membe
     const TableSizes& t = passes.sizes;
     std::vector<TurnContact> found;
     if (t.coilSlots == 0) return found;
-    const auto row = [&](std::uint32_t at) {
-        const std::uint64_t first = std::uint64_t(at) * t.particles() + std::uint64_t(member) * t.share;
-        return passes.coilHistory.readAll<vec4>(particles, first * sizeof(vec4));
+    const std::uint64_t firstParticle = std::uint64_t(member) * t.share;
+    const auto read = [&](std::uint64_t from) {
+        return passes.coilHistory.readAll<vec4>(particles, from * sizeof(vec4));
     };
-    const std::vector<vec4> angles = row(t.coilHistoryRows() - 1);
+    const std::vector<vec4> angles = read(passes.at.wireAngleIndex(firstParticle));
     const std::vector<TurnForces> forces = turnForces(passes, member, particles);
     std::array<std::array<std::vector<vec4>, 2>, gpu::kMaxTurns> history;
     for (std::uint32_t turn = 0; turn < gpu::kMaxTurns; ++turn)
-        for (std::uint32_t part = 0; part < 2; ++part) history[turn][part] = row(turn * t.historyParts() + part);
+        for (std::uint32_t part = 0; part < 2; ++part)
+            history[turn][part] = read(passes.at.turnHistoryIndex(turn * t.historyParts() + part, firstParticle));
     for (std::uint32_t i = 0; i < particles; ++i)
         for (std::uint32_t turn = 0; turn < gpu::kMaxTurns; ++turn)
             if (angles[i][int(turn)] != gpu::kNoTurn)
@@ -175,10 +178,19 @@ std::vector<TurnContact> touchingTurns(const Passes& passes, std::uint32_t membe
     return found;
 }
 
+namespace {
+
+/// Rows of the coil's history, with the wire angles as the last. All of them are as long as there are particles.
+std::size_t coilHistoryRows(const Passes& passes) {
+    return passes.sizes.coilSlots > 0 ? passes.at.wireAngleIndex(0) / passes.at.particles + 1 : 0;
+}
+
+}  // namespace
+
 void saveState(const Passes& passes, std::uint32_t member, std::size_t particles, std::uint32_t source,
                Record& record) {
     const std::size_t stride = passes.sizes.particles(), first = std::size_t(member) * passes.sizes.share;
-    const std::size_t coilRows = passes.sizes.coilHistoryRows(), couples = gpu::kFields / 2;
+    const std::size_t coilRows = coilHistoryRows(passes), couples = gpu::kFields / 2;
     record.put("state",
                packed(passes.state, couples, 2 * stride, source * couples * 2 * stride + 2 * first, 2 * particles));
     saveContacts(passes, member, record);
@@ -191,7 +203,7 @@ void saveState(const Passes& passes, std::uint32_t member, std::size_t particles
 void restoreState(Passes& passes, std::uint32_t member, std::size_t particles, std::uint32_t source,
                   const Record& record) {
     const std::size_t stride = passes.sizes.particles(), first = std::size_t(member) * passes.sizes.share;
-    const std::size_t coilRows = passes.sizes.coilHistoryRows(), books = passes.sizes.energyBook ? gpu::kBookFields : 0;
+    const std::size_t coilRows = coilHistoryRows(passes), books = passes.sizes.energyBook ? gpu::kBookFields : 0;
     // The whole record is checked before anything is written.
     const auto& state = record.get<float>("state", 4 * particles * gpu::kFields);
     const auto& coil = record.get<float>("coil_history", 4 * particles * coilRows);

@@ -53,31 +53,21 @@ void TableSizes::growTo(const TableSizes& other) {
         this->*size = std::max(this->*size, other.*size);
 }
 
+TableCounts::TableCounts(const TableSizes& s)
+    : canisters(s.members),
+      particles(canisters * s.share),
+      groups(s.groups()),
+      cellHeads(s.cells),
+      rowEntries(s.rowEntries),
+      linkEntries(s.linkEntries),
+      springSlots(canisters * (std::uint64_t(s.pairSlots) + s.surfaceSlots)),
+      coilSlots(canisters * s.coilSlots),
+      slots(springSlots + coilSlots),
+      historyParts(s.historyParts()),
+      coils(s.coilSlots > 0 ? 1 : 0),
+      energyBook(s.energyBook ? 1 : 0) {}
+
 namespace {
-
-/// The sizes that shaders/shared/tables.h uses, for all members together. They have 64 bits, because the tables are
-/// counted before it is known whether 32 bits are enough to number their elements.
-struct TableCounts {
-    std::uint64_t canisters, particles, groups, cellHeads, rowEntries, linkEntries, springSlots, coilSlots, slots,
-        historyParts, coilHistoryRows, coils, energyBook;
-
-    explicit TableCounts(const TableSizes& s)
-        : canisters(s.members),
-          particles(canisters * s.share),
-          groups(s.groups()),
-          cellHeads(s.cells),
-          rowEntries(s.rowEntries),
-          linkEntries(s.linkEntries),
-          springSlots(canisters * (std::uint64_t(s.pairSlots) + s.surfaceSlots)),
-          coilSlots(canisters * s.coilSlots),
-          slots(springSlots + coilSlots),
-          historyParts(s.historyParts()),
-          coilHistoryRows(s.coilHistoryRows()),
-          coils(s.coilSlots > 0 ? 1 : 0),
-          energyBook(s.energyBook ? 1 : 0) {}
-
-    std::array<TableShape, gpu::kTables> shapes() const;
-};
 
 /// Views of records show their vectors.
 template <class Element>
@@ -96,17 +86,6 @@ TableShape shape(const char* title, std::uint64_t count, bool viewed, std::size_
     return {title, elements, bytes + headBytes, viewed ? kViewOf<Element> : VK_FORMAT_UNDEFINED, bytes / texel};
 }
 
-std::array<TableShape, gpu::kTables> TableCounts::shapes() const {
-    using namespace gpu;
-    return {
-#define TABLE(number, name, element, count, title) shape<element>(#title, count, false),
-#define VIEWED(number, name, element, count, title) shape<element>(#title, count, true),
-#define PARAMETERS(number, name, element, count, title) shape<element>(#title, count, true),
-#define HEADED(number, name, element, count, title, head, headName) shape<element>(#title, count, false, sizeof(head)),
-#include "shaders/shared/tables.h"
-    };
-}
-
 constexpr bool numberedInOrder() {
     std::uint32_t next = 0;
     for (const std::uint32_t number : {
@@ -120,25 +99,32 @@ static_assert(numberedInOrder(), "the bindings in shaders/shared/tables.h are 0,
 
 }  // namespace
 
-std::array<TableShape, gpu::kTables> tableShapes(const TableSizes& sizes) {
-    return TableCounts(sizes).shapes();
+std::array<TableShape, gpu::kTables> TableCounts::shapes() const {
+    using namespace gpu;
+    return {
+#define TABLE(number, name, element, count, title) shape<element>(#title, count, false),
+#define VIEWED(number, name, element, count, title) shape<element>(#title, count, true),
+#define PARAMETERS(number, name, element, count, title) shape<element>(#title, count, true),
+#define HEADED(number, name, element, count, title, head, headName) shape<element>(#title, count, false, sizeof(head)),
+#include "shaders/shared/tables.h"
+    };
 }
 
 std::uint64_t TableSizes::largestIndex() const {
     std::uint64_t most = 0;  // a link is no larger either: a slot and a bit, as the torques are numbered
-    for (const TableShape& table : tableShapes(*this)) most = std::max(most, table.elements);
+    for (const TableShape& table : TableCounts(*this).shapes()) most = std::max(most, table.elements);
     return most - 1;
 }
 
 std::uint64_t TableSizes::allBytes() const {
     std::uint64_t sum = 0;
-    for (const TableShape& table : tableShapes(*this)) sum += table.bytes;
+    for (const TableShape& table : TableCounts(*this).shapes()) sum += table.bytes;
     return sum;
 }
 
 std::uint64_t TableSizes::longestBytes() const {
     std::uint64_t most = 0;
-    for (const TableShape& table : tableShapes(*this)) most = std::max(most, table.bytes);
+    for (const TableShape& table : TableCounts(*this).shapes()) most = std::max(most, table.bytes);
     return most;
 }
 

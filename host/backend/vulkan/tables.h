@@ -45,26 +45,16 @@ struct TableSizes {
     std::uint32_t particles() const { return members * share; }
     std::uint32_t springSlots() const { return members * (pairSlots + surfaceSlots); }
     std::uint32_t slots() const { return springSlots() + members * coilSlots; }
-    /// Place of the force that turn `turn` exerts in coil slot `slot` of all members (turnForceIndex in
-    /// shared/buffers.glsl).
-    std::size_t turnForceOffset(std::uint32_t turn, std::uint32_t slot) const {
-        return slots() + std::size_t(turn) * members * coilSlots + slot;
-    }
     std::uint32_t firstPairSlot(std::uint32_t member) const { return member * pairSlots; }
     std::uint32_t firstSurfaceSlot(std::uint32_t member) const { return members * pairSlots + member * surfaceSlots; }
     /// Number of vectors in a contact's history (kParts in shared/buffers.glsl).
     std::uint32_t historyParts() const { return energyBook ? 5 : 2; }
-    /// Place of a contact's vector in the history (historyIndex in shared/buffers.glsl).
-    std::size_t historyOffset(std::uint32_t part, std::uint32_t slot) const {
-        return part < 2 ? 2ULL * slot + part : std::size_t(part) * springSlots() + slot;
-    }
     /// The largest index into any table, which must stay below 2^32. It counts the elements of the table, for example
     /// vectors.
     std::uint64_t largestIndex() const;
     /// Of all tables together, and of the longest [bytes].
     std::uint64_t allBytes() const;
     std::uint64_t longestBytes() const;
-    std::uint32_t coilHistoryRows() const { return coilSlots > 0 ? gpu::kMaxTurns * historyParts() + 1 : 0; }
 };
 
 /// One table on the device, as shaders/shared/tables.h lists it.
@@ -76,8 +66,28 @@ struct TableShape {
     std::uint64_t texels;    ///< of the view
 };
 
-/// In the order of their bindings.
-std::array<TableShape, gpu::kTables> tableShapes(const TableSizes& sizes);
+/// The sizes that shaders/shared/tables.h uses, for all members together, and where in a table an element is. They have
+/// 64 bits, because the tables are counted before it is known whether 32 bits are enough to number their elements.
+struct TableCounts {
+    std::uint64_t canisters, particles, groups, cellHeads, rowEntries, linkEntries, springSlots, coilSlots, slots,
+        historyParts, coils, energyBook;
+
+    explicit TableCounts(const TableSizes& sizes);
+    std::array<TableShape, gpu::kTables> shapes() const;  ///< in the order of the bindings
+
+#define TABLE(number, name, element, count, title)
+#define ROW(table, function, first, length)         \
+    std::uint64_t function(std::uint64_t i) const { \
+        using namespace gpu;                        \
+        return (first) + i;                         \
+    }
+#define ROWS(table, function, first, rows, length)                     \
+    std::uint64_t function(std::uint64_t row, std::uint64_t i) const { \
+        using namespace gpu;                                           \
+        return (first) + row * (length) + i;                           \
+    }
+#include "shaders/shared/tables.h"
+};
 
 /// How many spheres, and how large on average [m].
 struct Crowd {
