@@ -29,11 +29,11 @@ ContactParameters grain(double mu, double rollingFriction) {
 
 // Sphere i of n, counted from the floor with i from 0, carries the weight of the spheres above it and its own: n - i in
 // all. The contact below it is therefore pressed in by (n - i) m g/k.
-void column(Bench& bench) {
+void column(Stage& stage) {
     const int n = 6;
     Particles stack;
     for (int i = 0; i < n; ++i) stack.add(Vec3(0, kRadius * (2 * i + 1), 0), kRadius);
-    Trial trial(bench, floor(grain(0.5, 0), kStep), stack);
+    Trial trial(stage, floor(grain(0.5, 0), kStep), stack);
     trial.advanceTo(0.3);
     const double one = massOf(kRadius) * kGravity / kStiffness;
     double below = -kRadius;  // the floor acts as a sphere's upper end at y = 0
@@ -41,7 +41,7 @@ void column(Bench& bench) {
         const double y = trial.now().position[i].y;
         const double overlap = below + 2 * kRadius - y;
         below = y;
-        bench.check(i == 0 ? "overlap with the floor"
+        stage.check(i == 0 ? "overlap with the floor"
                            : "overlap of spheres " + std::to_string(i) + " and " + std::to_string(i + 1),
                     "m", (n - i) * one, overlap,
                     {5e-4, "remaining motion, rounding, in units of one sphere's share", one});
@@ -103,7 +103,7 @@ double shareAbove(double y, double level, double width) {
 struct Borne {
     double stress, weight;
 };
-Borne borneAt(Bench& bench, const RuledWorld& world, Trial& trial, double half, double level) {
+Borne borneAt(Stage& stage, const RuledWorld& world, Trial& trial, double half, double level) {
     FieldRequest request;
     request.kernel = Kernel::Lucy;
     request.width = 4 * kRadius;
@@ -112,7 +112,7 @@ Borne borneAt(Bench& bench, const RuledWorld& world, Trial& trial, double half, 
     // of a cell.
     const double h = request.width / 20, margin = half + kRadius;
     request.grid = {Vec3(-margin, level - 100.5 * h, -margin), Vec3(margin, level + 300.5 * h, margin), {1, 401, 1}};
-    Borne borne{bench.backend().fields(request)[100].contactStress[1].y * 4 * margin * margin, 0};
+    Borne borne{stage.backend().fields(request)[100].contactStress[1].y * 4 * margin * margin, 0};
     const Particles& p = trial.now();
     for (std::size_t i = 0; i < p.size(); ++i)
         borne.weight += massOf(p.radius[i]) * kGravity * shareAbove(p.position[i].y, level, request.width);
@@ -129,13 +129,13 @@ Borne borneAt(Bench& bench, const RuledWorld& world, Trial& trial, double half, 
 // Floor and walls together bear the weight, and opposite walls push alike. Without friction the floor bears it all.
 // With friction the walls carry a part (Janssen), so that the floor bears less. The stress at half height bears the
 // weight above, less the part of it that the walls carry.
-void bedWeight(Bench& bench) {
+void bedWeight(Stage& stage) {
     const double half = 2.6 * kRadius;
     for (const double mu : {0.0, 0.5}) {
         RuledWorld world = floor(grain(mu, 0), kStep);
         world.surfaces = boxAround(half);
         const Particles bed = grid(2, mu > 0 ? 32 : 16);
-        Trial trial(bench, world, bed);
+        Trial trial(stage, world, bed);
         trial.advanceTo(0.6);
         const std::vector<Vec3> force = reactions(world, trial);
         const double weight = weightOf(bed);
@@ -143,28 +143,28 @@ void bedWeight(Bench& bench) {
         for (const Vec3& f : force) total += f;
         const Tolerance atRest{1e-3, "remaining motion, in units of the weight", weight};
         const std::string kind = mu > 0 ? ", rough" : ", smooth";
-        bench.check("borne by floor and walls" + kind, "N", weight, total.y, atRest);
-        bench.check("left to right" + kind, "N", 0, total.x, atRest);
-        bench.check("front to back" + kind, "N", 0, total.z, atRest);
+        stage.check("borne by floor and walls" + kind, "N", weight, total.y, atRest);
+        stage.check("left to right" + kind, "N", 0, total.x, atRest);
+        stage.check("front to back" + kind, "N", 0, total.z, atRest);
         double top = 0;
         for (const Vec3& x : trial.now().position) top = std::max(top, x.y);
-        const Borne middle = borneAt(bench, world, trial, half, 0.5 * top);
-        bench.check("borne at half height, as the stress says" + kind, "N", middle.weight, middle.stress, atRest);
+        const Borne middle = borneAt(stage, world, trial, half, 0.5 * top);
+        stage.check("borne at half height, as the stress says" + kind, "N", middle.weight, middle.stress, atRest);
         if (mu == 0)
-            bench.check("share of the floor, smooth", "-", 1, force[0].y / weight, {1e-3, "remaining motion", 1});
+            stage.check("share of the floor, smooth", "-", 1, force[0].y / weight, {1e-3, "remaining motion", 1});
         else
-            bench.plausible("share of the floor, rough", "-", 0.5, force[0].y / weight,
+            stage.plausible("share of the floor, rough", "-", 0.5, force[0].y / weight,
                             {0.4, "Janssen: less than all, more than nothing; which depends on the packing", 1});
     }
 }
 
 // Slope of the cone with the heap's mean height (above a layer) and mean distance from the axis: for a cone these are
 // h/4 and R/2, so that tan = 2 height/distance. Friction holds a heap up; without it there is none.
-void heap(Bench& bench) {
+void heap(Stage& stage) {
     for (const double mu : {0.0, 0.5}) {
         RuledWorld world = floor(grain(mu, mu > 0 ? 0.2 : 0), kStep);
         const Particles block = grid(5, 5);
-        Trial trial(bench, world, block);
+        Trial trial(stage, world, block);
         trial.advanceTo(0.6);
         Vec3 middle(0);
         for (const Vec3& x : trial.now().position) middle += x / static_cast<double>(block.size());
@@ -176,9 +176,9 @@ void heap(Bench& bench) {
         }
         const double slope = std::atan(2 * height / distance) * 180 / kPi;
         if (mu == 0)
-            bench.check("slope without friction", "deg", 0, slope, {0.5, "a single layer, sunk in a little", 1});
+            stage.check("slope without friction", "deg", 0, slope, {0.5, "a single layer, sunk in a little", 1});
         else
-            bench.plausible("slope with friction", "deg", 22, slope,
+            stage.plausible("slope with friction", "deg", 22, slope,
                             {10, "heaps of rough spheres stand at 15 to 30 degrees; this one is small", 1});
     }
 }

@@ -6,57 +6,57 @@
 namespace vkdose::verify {
 
 // integrator.cpp
-void freeFall(Bench& bench);
-void bounce(Bench& bench);
-void elasticOrder(Bench& bench);
-void dampedOrder(Bench& bench);
+void freeFall(Stage& stage);
+void bounce(Stage& stage);
+void elasticOrder(Stage& stage);
+void dampedOrder(Stage& stage);
 
 // collisions.cpp
-void headOnAdhesive(Bench& bench);
-void headOnDamped(Bench& bench);
-void obliqueSliding(Bench& bench);
-void obliqueSticking(Bench& bench);
+void headOnAdhesive(Stage& stage);
+void headOnDamped(Stage& stage);
+void obliqueSliding(Stage& stage);
+void obliqueSticking(Stage& stage);
 
 // sliding.cpp
-void slipThenRoll(Bench& bench);
-void inclineSlides(Bench& bench);
-void coulombLimit(Bench& bench);
+void slipThenRoll(Stage& stage);
+void inclineSlides(Stage& stage);
+void coulombLimit(Stage& stage);
 
 // rolling.cpp
-void inclineRolls(Bench& bench);
-void rollingResistance(Bench& bench);
+void inclineRolls(Stage& stage);
+void rollingResistance(Stage& stage);
 
 // torsion.cpp
-void spinDecay(Bench& bench);
+void spinDecay(Stage& stage);
 
 // coil.cpp
-void emptyCanister(Bench& bench);
-void pressedAgainstWire(Bench& bench);
-void pushedAlongTrough(Bench& bench);
+void emptyCanister(Stage& stage);
+void pressedAgainstWire(Stage& stage);
+void pushedAlongTrough(Stage& stage);
 
 // bed.cpp
-void column(Bench& bench);
-void bedWeight(Bench& bench);
-void heap(Bench& bench);
+void column(Stage& stage);
+void bedWeight(Stage& stage);
+void heap(Stage& stage);
 
 // momentum.cpp
-void isolatedCluster(Bench& bench);
+void isolatedCluster(Stage& stage);
 
 // energy.cpp
-void plasticLoss(Bench& bench);
-void dampingLoss(Bench& bench);
-void frictionLoss(Bench& bench);
-void clusterBalance(Bench& bench);
+void plasticLoss(Stage& stage);
+void dampingLoss(Stage& stage);
+void frictionLoss(Stage& stage);
+void clusterBalance(Stage& stage);
 
 // size_ratio.cpp
-void wedgeBounce(Bench& bench);
-void wedgeRest(Bench& bench);
-void rollOff(Bench& bench);
-void neck(Bench& bench);
+void wedgeBounce(Stage& stage);
+void wedgeRest(Stage& stage);
+void rollOff(Stage& stage);
+void neck(Stage& stage);
 
 /// A small sphere rolls around the neck of two large fixed ones whose radii are `ratio` times its own. Returns the
 /// angle off the top at which it parts from them [rad], 0 if it has not parted after 0.3 s. This is the case `neck` for
 /// one ratio, large ones too.
-double partingFromNeck(Bench& bench, double ratio, double timeStep);
+double partingFromNeck(Stage& stage, double ratio, double timeStep);
 
 }  // namespace vkdose::verify

@@ -20,7 +20,7 @@ constexpr double kTrough = 0.0115;  // half width [m]
 
 // The wire passes spheres at rest by a hundredth of a radius, and one sphere lies on the axis. There must be no torque
 // and no motion at all.
-void emptyCanister(Bench& bench) {
+void emptyCanister(Stage& stage) {
     RuledWorld world = space(spring(1000), 1e-5);
     const geometry::Coil coil = narrowCoil();
     world.coil = coil;
@@ -31,14 +31,14 @@ void emptyCanister(Bench& bench) {
         const double angle = 2 * kPi * i / 7;
         spheres.add(Vec3(clear * std::cos(angle), clear * std::sin(angle), coil.length * (0.1 + 0.13 * i)), kRadius);
     }
-    Trial trial(bench, world, spheres);
+    Trial trial(stage, world, spheres);
     const double dt = world.timeStep, rate = -50;
     const int steps = 12600;  // a turn: the wire passes every one of them
     const Sensors sensors = trial.advance(steps, rate);
-    bench.check("torque", "N m", 0, sensors.coilTorque, {0, "there is nothing to turn against", 1});
-    bench.check("energy of the spheres that it passes", "J", 0, sensors.kineticEnergy + sensors.rotationalEnergy,
+    stage.check("torque", "N m", 0, sensors.coilTorque, {0, "there is nothing to turn against", 1});
+    stage.check("energy of the spheres that it passes", "J", 0, sensors.kineticEnergy + sensors.rotationalEnergy,
                 {0, "nothing touches them", 1});
-    bench.check("angle turned", "rad", rate * steps * dt, bench.backend().coilAngle(), {1e-6, "rounding"});
+    stage.check("angle turned", "rad", rate * steps * dt, stage.backend().coilAngle(), {1e-6, "rounding"});
 }
 
 namespace {
@@ -75,7 +75,7 @@ std::vector<Pressed> aroundWire(const geometry::Coil& coil, double depth, double
 
 // A sphere at rest is pressed against the wire. In the first step all springs are at rest, so friction is the smaller
 // of mu F_n and gamma_t v_t. It points along the velocity of the wire's surface Omega x r, and acts back on the drive.
-void pressedAgainstWire(Bench& bench) {
+void pressedAgainstWire(Stage& stage) {
     const geometry::Coil coil = narrowCoil();
     const double k = 5000, depth = 0.01 * kRadius, rate = -9.42, mu = 0.2, dt = 1e-6, m = massOf(kRadius);
     const double normal = k * depth;
@@ -88,7 +88,7 @@ void pressedAgainstWire(Bench& bench) {
         const std::vector<Pressed> pressed = aroundWire(coil, depth, rate);
         Particles start;
         for (const Pressed& c : pressed) start.add(c.centre, kRadius);
-        Trial trial(bench, world, start);
+        Trial trial(stage, world, start);
         const Sensors sensors = trial.advance(1, rate);
 
         double worstForce = 0, worstDirection = 0, torque = 0, size = 0;
@@ -109,17 +109,17 @@ void pressedAgainstWire(Bench& bench) {
         // Overlap 12.5 um, and the phase of the wire in single precision: 3e-9 m.
         const Tolerance tolerance{5e-4, "phase of the wire in single precision: 3e-9 m of an overlap of 12.5e-6 m", 1};
         const std::string kind = slips ? "mu F_n" : "gamma_t v_t";
-        bench.check(fmt::format("friction over {}, worst of {} - 1", kind, start.size()), "-", 0, worstForce,
+        stage.check(fmt::format("friction over {}, worst of {} - 1", kind, start.size()), "-", 0, worstForce,
                     tolerance);
-        bench.check("direction off the wire's velocity, worst", "rad", 0, worstDirection, tolerance);
-        bench.check("torque on the coil, friction " + kind, "N m", torque, sensors.coilTorque,
+        stage.check("direction off the wire's velocity, worst", "rad", 0, worstDirection, tolerance);
+        stage.check("torque on the coil, friction " + kind, "N m", torque, sensors.coilTorque,
                     {tolerance.share, tolerance.reason, size});
     }
 }
 
 // The coil conveys uphill, so that the sphere stays at the wire that pushes it. The sphere advances one pitch a turn,
 // V_z = p Omega/2 pi. Without friction the drive works against gravity alone: torque = m g_z p/2 pi.
-void pushedAlongTrough(Bench& bench) {
+void pushedAlongTrough(Stage& stage) {
     const geometry::Coil coil = narrowCoil();
     const double slope = 20 * kPi / 180, rate = geometry::conveyingRate(coil, 4 * kPi);
     for (const double mu : {0.0, 0.3}) {
@@ -133,17 +133,17 @@ void pushedAlongTrough(Bench& bench) {
         world.surfaces = {geometry::Trough{kTrough}};
         Particles one;  // at the bottom, before the wire that passes it there
         one.add(Vec3(0, -(kTrough - kRadius), 0.75 * coil.pitch + 1.05 * (kRadius + coil.wireRadius)), kRadius);
-        Trial trial(bench, world, one);
+        Trial trial(stage, world, one);
         const double turn = 2 * kPi / std::abs(rate);
         trial.advanceTo(turn, rate);
         const double from = trial.now().position[0].z, since = trial.time();
         const Sensors sensors = trial.advanceTo(5 * turn, rate);
         const std::string kind = mu > 0 ? ", rough" : ", smooth";
-        bench.check("mean v_z over 4 turns" + kind, "m/s", coil.pitch * std::abs(rate) / (2 * kPi),
+        stage.check("mean v_z over 4 turns" + kind, "m/s", coil.pitch * std::abs(rate) / (2 * kPi),
                     (trial.now().position[0].z - from) / (trial.time() - since),
                     {5e-3, "the sphere sways at the bottom, by a fiftieth of the four pitches"});
         if (mu == 0)
-            bench.check("mean torque on the coil" + kind, "N m",
+            stage.check("mean torque on the coil" + kind, "N m",
                         massOf(kRadius) * kGravity * std::sin(slope) * coil.pitch / (2 * kPi), sensors.coilTorque,
                         {3e-3, "the sphere sways"});
     }

@@ -8,21 +8,21 @@
 namespace vkdose::verify {
 
 // y = y0 - g t^2/2 and v = -g t, which the leapfrog renders exactly.
-void freeFall(Bench& bench) {
+void freeFall(Stage& stage) {
     RuledWorld world = space(spring(1000), 1e-5);
     world.gravity = Vec3(0, -kGravity, 0);
     Particles one;
     const Vec3 start(0.3, 0.4, -0.2), push(0.05, 0, -0.02);
     one.add(start, kRadius, push);
-    Trial trial(bench, world, one);
+    Trial trial(stage, world, one);
     trial.advance(2000);
     const double t = trial.time(), fall = kGravity * t * t / 2;
     // Single precision: g dt is 6600 units in the last place of the final speed, so its rounding is worth 1/13000.
     const Tolerance tolerance{1e-4, "g dt is rounded to the last bit of a single-precision velocity"};
-    bench.check("way fallen", "m", fall, start.y - trial.now().position[0].y, tolerance);
-    bench.check("speed", "m/s", kGravity * trial.halfStep(), -trial.now().velocity[0].y, tolerance);
+    stage.check("way fallen", "m", fall, start.y - trial.now().position[0].y, tolerance);
+    stage.check("speed", "m/s", kGravity * trial.halfStep(), -trial.now().velocity[0].y, tolerance);
     const double drift = glm::length(push) * t;
-    bench.check("sideways drift", "m", drift, glm::length((trial.now().position[0] - start) * Vec3(1, 0, 1)),
+    stage.check("sideways drift", "m", drift, glm::length((trial.now().position[0] - start) * Vec3(1, 0, 1)),
                 {1e-6, "rounding"});
 }
 
@@ -50,11 +50,11 @@ struct Landing {
 
 // Three stages in closed form: fall from h, the damped oscillator with gravity until the overlap is zero again,
 // rebound.
-void bounce(Bench& bench) {
+void bounce(Stage& stage) {
     const double height = 1e-3, k = 2000, gamma = 0.035, dt = 1e-6;
     Particles one;
     one.add(Vec3(0, kRadius + height, 0), kRadius);
-    Trial trial(bench, floor(spring(k, gamma), dt), one);
+    Trial trial(stage, floor(spring(k, gamma), dt), one);
 
     const double fall = std::sqrt(2 * height / kGravity);
     const Landing landing{massOf(kRadius), k, gamma, kGravity * fall};
@@ -66,11 +66,11 @@ void bounce(Bench& bench) {
     const Sensors sensors = trial.advanceTo(fall + 2 * parting);
     const double share = gamma / massOf(kRadius) * dt;
     const Tolerance tolerance{share, "damping sets in and ends within a step: gamma dt/m"};
-    bench.check("deepest overlap", "m", landing.overlap(deepest), sensors.maxOverlapRatio * kRadius, tolerance);
+    stage.check("deepest overlap", "m", landing.overlap(deepest), sensors.maxOverlapRatio * kRadius, tolerance);
     const double up = rebound - kGravity * (trial.halfStep() - fall - parting);
-    bench.check("speed after the contact", "m/s", up, trial.now().velocity[0].y, tolerance);
+    stage.check("speed after the contact", "m/s", up, trial.now().velocity[0].y, tolerance);
     trial.advanceTo(fall + parting + rebound / kGravity);
-    bench.check("height of the rebound", "m", rebound * rebound / (2 * kGravity), trial.now().position[0].y - kRadius,
+    stage.check("height of the rebound", "m", rebound * rebound / (2 * kGravity), trial.now().position[0].y - kRadius,
                 {2 * share, "twice that of the speed"});
 }
 
@@ -78,13 +78,13 @@ namespace {
 
 /// A sphere on the floor that never leaves it: the error of its height after `periods` periods of `perPeriod` steps, in
 /// amplitudes. Strong gravity makes the overlap at rest large enough for an oscillation within it.
-double oscillatorError(Bench& bench, double gamma, double perPeriod, double periods) {
+double oscillatorError(Stage& stage, double gamma, double perPeriod, double periods) {
     const double k = 5000, m = massOf(kRadius), decay = gamma / (2 * m);
     const double w = std::sqrt(k / m - decay * decay);
     const double gravity = 0.01 * kRadius * k / m, rest = m * gravity / k, amplitude = rest / 2;
     Particles one;
     one.add(Vec3(0, kRadius - rest + amplitude, 0), kRadius);
-    Trial trial(bench, floor(spring(k, gamma), 2 * kPi / w / perPeriod, gravity), one);
+    Trial trial(stage, floor(spring(k, gamma), 2 * kPi / w / perPeriod, gravity), one);
     trial.advance(static_cast<std::uint64_t>(std::llround(periods * perPeriod)));
     const double t = trial.time();
     const double exact =
@@ -92,13 +92,13 @@ double oscillatorError(Bench& bench, double gamma, double perPeriod, double peri
     return (trial.now().position[0].y - exact) / amplitude;
 }
 
-void checkOrder(Bench& bench, double gamma, double order, int coarsest, const std::string& why) {
+void checkOrder(Stage& stage, double gamma, double order, int coarsest, const std::string& why) {
     // The sphere is a quarter period past the turning point. The height changes fastest there, so that it shows the
     // phase.
-    double before = oscillatorError(bench, gamma, coarsest, 3.25);
+    double before = oscillatorError(stage, gamma, coarsest, 3.25);
     for (const int finer : {2 * coarsest, 4 * coarsest}) {
-        const double now = oscillatorError(bench, gamma, finer, 3.25);
-        bench.check(fmt::format("order, from T/{} to T/{}", finer / 2, finer), "-", order, std::log2(before / now),
+        const double now = oscillatorError(stage, gamma, finer, 3.25);
+        stage.check(fmt::format("order, from T/{} to T/{}", finer / 2, finer), "-", order, std::log2(before / now),
                     {0.06, why, 1});
         before = now;
     }
@@ -107,14 +107,14 @@ void checkOrder(Bench& bench, double gamma, double order, int coarsest, const st
 }  // namespace
 
 // Without damping the leapfrog is of second order: half the step gives a quarter of the error.
-void elasticOrder(Bench& bench) {
-    checkOrder(bench, 0, 2, 48, "terms of the next order at these steps; rounding is far below");
+void elasticOrder(Stage& stage) {
+    checkOrder(stage, 0, 2, 48, "terms of the next order at these steps; rounding is far below");
 }
 
 // Damping is computed from the velocity half a step back: the scheme decays by sqrt(1 - gamma dt/m) a step instead of
 // exp(-gamma dt/2m), an error of first order.
-void dampedOrder(Bench& bench) {
-    checkOrder(bench, 0.04, 1, 96, "terms of the next order at these steps");
+void dampedOrder(Stage& stage) {
+    checkOrder(stage, 0.04, 1, 96, "terms of the next order at these steps");
 }
 
 }  // namespace vkdose::verify

@@ -61,11 +61,11 @@ Particles collapsingCluster() {
 // The leapfrog conserves both exactly: x(n) x v(n-1/2) changes only by the torques of the contacts about the origin,
 // and both sides of a pair act at the same point. Only rounding is left. Both backends are given radii that single
 // precision holds, so that masses agree.
-void isolatedCluster(Bench& bench) {
+void isolatedCluster(Stage& stage) {
     const Particles cluster = collapsingCluster();
     RuledWorld world = space(everyInteraction(), 1e-6);
     const Momentum before(cluster);
-    Trial trial(bench, world, cluster);
+    Trial trial(stage, world, cluster);
     std::size_t most = 0;
     for (int i = 0; i < 80; ++i) {
         trial.advance(250);
@@ -73,13 +73,13 @@ void isolatedCluster(Bench& bench) {
     }
     const Momentum after(trial.now());
     // Checks that there were contacts. Without them the case would be about spheres that fly past each other.
-    bench.plausible("most contacts at once, for each sphere", "-", 1,
+    stage.plausible("most contacts at once, for each sphere", "-", 1,
                     static_cast<double>(most) / static_cast<double>(cluster.size()),
                     {0.5, "how many there are depends on the tumble; so many that it is one"});
     const Tolerance tolerance{5e-7, "rounding in single precision over 20000 steps, in units of the sum of |m v|",
                               before.linearSize};
-    bench.check("drift of the momentum", "kg m/s", 0, glm::length(after.linear - before.linear), tolerance);
-    bench.check("drift of the angular momentum", "kg m2/s", 0, glm::length(after.angular - before.angular),
+    stage.check("drift of the momentum", "kg m/s", 0, glm::length(after.linear - before.linear), tolerance);
+    stage.check("drift of the angular momentum", "kg m2/s", 0, glm::length(after.angular - before.angular),
                 {tolerance.share, "the same, in units of the sum of |x||m v| + I|omega|", before.angularSize});
 }
 

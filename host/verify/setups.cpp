@@ -40,8 +40,8 @@ RuledWorld floor(const ContactParameters& p, double timeStep, double gravity, do
     return world;
 }
 
-Trial::Trial(Bench& bench, const RuledWorld& world, const Particles& particles)
-    : backend_(&bench.backend()), now_(particles), timeStep_(world.timeStep) {
+Trial::Trial(Stage& stage, const RuledWorld& world, const Particles& particles)
+    : backend_(&stage.backend()), now_(particles), timeStep_(world.timeStep) {
     backend_->load(world, particles);
 }
 

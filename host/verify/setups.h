@@ -38,7 +38,7 @@ Particles collapsingCluster();
 /// Loads a world and counts its steps.
 class Trial {
   public:
-    Trial(Bench& bench, const RuledWorld& world, const Particles& particles);
+    Trial(Stage& stage, const RuledWorld& world, const Particles& particles);
 
     Sensors advance(std::uint64_t steps, double coilRate = 0);
     /// Advances to the step that is nearest to `seconds` from the load.

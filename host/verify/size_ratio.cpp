@@ -57,16 +57,16 @@ RuledWorld wedges(const ContactParameters& p, double timeStep, double gravity) {
 
 // Without damping and slipping the way up repeats the way down. Spring forces depend on the height alone, so the sphere
 // comes back with the speed it had.
-void wedgeBounce(Bench& bench) {
+void wedgeBounce(Stage& stage) {
     const double k = 5000, speed = 0.1;
     Particles p;
     for (std::size_t i = 0; i < std::size(kRatios); ++i)
         p.add(Vec3(kFar * static_cast<double>(i), wedge(kRatios[i]).top() + 0.005 * kRadius, 0), kRadius,
               Vec3(0, -speed, 0));
-    Trial trial(bench, wedges(gripping(k, 0), 1e-6, 0), p);
+    Trial trial(stage, wedges(gripping(k, 0), 1e-6, 0), p);
     trial.advanceTo(2e-3);
     for (std::size_t i = 0; i < std::size(kRatios); ++i)
-        bench.check(fmt::format("speed kept at ratio {}", kRatios[i]), "-", 1, trial.now().velocity[i].y / speed,
+        stage.check(fmt::format("speed kept at ratio {}", kRatios[i]), "-", 1, trial.now().velocity[i].y / speed,
                     {3e-4, "first-order error of the tangential spring, steps of 1/150 of the half period"});
 }
 
@@ -74,13 +74,13 @@ void wedgeBounce(Bench& bench) {
 // k d cos + k_t s sin bears half its weight. Here s is the way that the contact has slid, from geometry alone: at
 // height h it slides by sin = half/sqrt(half^2 + h^2) per unit of height, and the integral of this is
 // half asinh(h/half).
-void wedgeRest(Bench& bench) {
+void wedgeRest(Stage& stage) {
     const double k = 5000, m = massOf(kRadius), gravity = 0.02 * kRadius * k / m;
     const ContactParameters law = gripping(k, 0.06);
     Particles p;
     for (std::size_t i = 0; i < std::size(kRatios); ++i)
         p.add(Vec3(kFar * static_cast<double>(i), wedge(kRatios[i]).top(), 0), kRadius);
-    Trial trial(bench, wedges(law, 2e-6, gravity), p);
+    Trial trial(stage, wedges(law, 2e-6, gravity), p);
     trial.advanceTo(30e-3);
     for (std::size_t i = 0; i < std::size(kRatios); ++i) {
         const Wedge w = wedge(kRatios[i]);
@@ -91,16 +91,16 @@ void wedgeRest(Bench& bench) {
             return 2 * (k * (w.reach - distance) * y + law.kt * slid * w.half) / distance - m * gravity;
         };
         const double rest = root(excess, 0.8 * w.top(), w.top());
-        bench.check(fmt::format("depth of rest at ratio {}", kRatios[i]), "m", w.top() - rest,
+        stage.check(fmt::format("depth of rest at ratio {}", kRatios[i]), "m", w.top() - rest,
                     w.top() - trial.now().position[i].y, {4e-4, "first-order error of the tangential spring"});
-        bench.check(fmt::format("sideways at ratio {}", kRatios[i]), "m", 0,
+        stage.check(fmt::format("sideways at ratio {}", kRatios[i]), "m", 0,
                     trial.now().position[i].x - kFar * static_cast<double>(i), {1e-6, "symmetry, in radii", kRadius});
     }
 }
 
 // A sphere rolling without slipping from rest at the angle t0 off the top of a cylinder: v^2 = 10/7 g (R + a)
 // (cos t0 - cos t). It parts where cos t = 10/17 cos t0.
-void rollOff(Bench& bench) {
+void rollOff(Stage& stage) {
     const double k = 5000, start = 10 * kPi / 180, dt = 5e-6,
                  sinking = massOf(kRadius) * kGravity * std::cos(start) / k;
     ContactParameters law = gripping(k, 0.02);
@@ -115,7 +115,7 @@ void rollOff(Bench& bench) {
         world.surfaces.push_back(cylinder(axes[i], kRatios[i] * kRadius));
         p.add(axes[i] + ((kRatios[i] + 1) * kRadius - sinking) * Vec3(std::sin(start), std::cos(start), 0), kRadius);
     }
-    Trial trial(bench, world, p);
+    Trial trial(stage, world, p);
 
     const auto speedAt = [&](std::size_t i, double angle) {
         const double drop = (kRatios[i] + 1) * kRadius * (std::cos(start) - std::cos(angle));
@@ -139,9 +139,9 @@ void rollOff(Bench& bench) {
         }
     }
     for (std::size_t i = 0; i < n; ++i) {
-        bench.check(fmt::format("speed on the way, worst error at ratio {}", kRatios[i]), "m/s", 0, worst[i],
+        stage.check(fmt::format("speed on the way, worst error at ratio {}", kRatios[i]), "m/s", 0, worst[i],
                     {3e-4, "stretch of the springs, in units of the speed at parting", speedAt(i, parting)});
-        bench.check(fmt::format("angle of parting at ratio {}", kRatios[i]), "deg", parting * 180 / kPi,
+        stage.check(fmt::format("angle of parting at ratio {}", kRatios[i]), "deg", parting * 180 / kPi,
                     parted[i] * 180 / kPi, {0.5, "looked at every 20 steps, up to 0.4 degrees apart", 1});
     }
 }
@@ -198,7 +198,7 @@ struct Descent {
 };
 
 /// Looks at the spheres every `interval` [s].
-std::vector<Descent> descend(Bench& bench, const std::vector<double>& ratios, double start, double dt,
+std::vector<Descent> descend(Stage& stage, const std::vector<double>& ratios, double start, double dt,
                              double interval) {
     ContactParameters law = spring(kK1, 0.02);
     law.mu = kNeckFriction;
@@ -216,7 +216,7 @@ std::vector<Descent> descend(Bench& bench, const std::vector<double>& ratios, do
                 geometry::Tube{axis(i) + Vec3(0, 0, base), Vec3(0, 0, 1), neck.rim, length, false});
         p.add(axis(i) + neck.orbit * Vec3(std::sin(start), std::cos(start), 0), kRadius);
     }
-    Trial trial(bench, world, p);
+    Trial trial(stage, world, p);
     std::vector<Descent> result(ratios.size());
     const auto held = [](const Descent& d) { return d.parted == 0; };
     while (trial.time() < 0.3 && std::any_of(result.begin(), result.end(), held)) {
@@ -241,22 +241,22 @@ constexpr double kStart = 10 * kPi / 180;  // off the top [rad]
 
 }  // namespace
 
-double partingFromNeck(Bench& bench, double ratio, double timeStep) {
-    return descend(bench, {ratio}, kStart, timeStep, 0.2e-3)[0].parted;
+double partingFromNeck(Stage& stage, double ratio, double timeStep) {
+    return descend(stage, {ratio}, kStart, timeStep, 0.2e-3)[0].parted;
 }
 
 // This is where the error gathers. The velocity v, half a step behind, points a little inwards. Both contacts take that
 // for sliding, and their springs come to hold the small sphere at the neck. Rolling without slipping, the sphere has
 // v^2 = 2 g rho/(1 + 2/5 (a/b)^2) (cos t0 - cos t), with b from the centre to the line through both contacts. Then it
 // slips, and parts at the angle Neck::parting. For larger ratios see README.md here, "Errors of the time step".
-void neck(Bench& bench) {
+void neck(Stage& stage) {
     const std::vector<double> ratios{1, 3, 5};
-    const std::vector<Descent> descents = descend(bench, ratios, kStart, 2e-6, 0.05e-3);
+    const std::vector<Descent> descents = descend(stage, ratios, kStart, 2e-6, 0.05e-3);
     for (std::size_t i = 0; i < ratios.size(); ++i) {
-        bench.check(fmt::format("speed over that of rolling, ratio {}", ratios[i]), "-", 1, descents[i].speedRatio,
+        stage.check(fmt::format("speed over that of rolling, ratio {}", ratios[i]), "-", 1, descents[i].speedRatio,
                     {2e-4, "stretch of the springs"});
         const double parting = Neck(ratios[i]).parting(kStart, kNeckFriction);
-        bench.check(fmt::format("angle of parting, ratio {}", ratios[i]), "deg", parting * 180 / kPi,
+        stage.check(fmt::format("angle of parting, ratio {}", ratios[i]), "deg", parting * 180 / kPi,
                     descents[i].parted * 180 / kPi,
                     {0.8,
                      "looked at every 0.2 degrees; where the normal turns, a spring's direction lags behind its slip, "

@@ -49,15 +49,15 @@ std::vector<Scene> scenesNamed(const std::string& part) {
 }
 
 std::vector<Check> play(const Scene& scene, Backend& backend) {
-    Bench bench(backend, scene.name);
+    Stage stage(backend, scene.name);
     const double nan = std::numeric_limits<double>::quiet_NaN();
     try {
-        scene.play(bench);
-        if (bench.checks().empty()) bench.check("checks made", "-", nan, 0, {0, "a case must check something"});
+        scene.play(stage);
+        if (stage.checks().empty()) stage.check("checks made", "-", nan, 0, {0, "a case must check something"});
     } catch (const RunError& e) {
-        bench.check("run", "-", 0, nan, {0, e.what()});
+        stage.check("run", "-", 0, nan, {0, e.what()});
     }
-    return bench.checks();
+    return stage.checks();
 }
 
 }  // namespace vkdose::verify

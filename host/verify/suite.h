@@ -12,10 +12,10 @@
 
 namespace vkdose::verify {
 
-/// The equipment of a case: a backend that it may load and advance freely, and a place for its findings.
-class Bench {
+/// Where a scene is played: a backend that it may load and advance freely, and a place for its findings.
+class Stage {
   public:
-    Bench(Backend& backend, std::string where) : backend_(&backend), where_(std::move(where)) {}
+    Stage(Backend& backend, std::string where) : backend_(&backend), where_(std::move(where)) {}
 
     Backend& backend() { return *backend_; }
     void check(const std::string& quantity, const std::string& unit, double expected, double got,
@@ -38,7 +38,7 @@ class Bench {
 struct Scene {
     std::string name;  ///< "family/case"
     std::string what;  ///< one line for people
-    std::function<void(Bench&)> play;
+    std::function<void(Stage&)> play;
 };
 
 /// Every case of the suite, in order.

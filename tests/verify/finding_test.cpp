@@ -51,13 +51,13 @@ TEST_CASE("what is not a number never passes") {
 
 TEST_CASE("a case that checks nothing fails, and so does one that breaks off") {
     test::FakeBackend backend;
-    const std::vector<Check> nothing = play({"a/b", "", [](Bench&) {}}, backend);
+    const std::vector<Check> nothing = play({"a/b", "", [](Stage&) {}}, backend);
     REQUIRE(nothing.size() == 1);
     CHECK_FALSE(nothing[0].passes());
 
     const std::vector<Check> broken = play({"a/b", "",
-                                            [](Bench& bench) {
-                                                bench.check("q", "-", 1, 1, {0, "same"});
+                                            [](Stage& stage) {
+                                                stage.check("q", "-", 1, 1, {0, "same"});
                                                 throw RunError("particle 3 is gone");
                                             }},
                                            backend);
@@ -96,10 +96,10 @@ TEST_CASE("the tables count failures and say null for what is not a number") {
 TEST_CASE("what is only plausible is counted apart from known answers, and fails like them") {
     test::FakeBackend backend;
     const std::vector<Check> checks = play({"a/b", "",
-                                            [](Bench& bench) {
-                                                bench.check("known", "-", 1, 1, {0, "same"});
-                                                bench.plausible("fair", "-", 1, 1.4, {0.5, "about one"});
-                                                bench.plausible("wild", "-", 1, 1.6, {0.5, "about one"});
+                                            [](Stage& stage) {
+                                                stage.check("known", "-", 1, 1, {0, "same"});
+                                                stage.plausible("fair", "-", 1, 1.4, {0.5, "about one"});
+                                                stage.plausible("wild", "-", 1, 1.6, {0.5, "about one"});
                                             }},
                                            backend);
     REQUIRE(checks.size() == 3);

@@ -14,8 +14,8 @@ namespace {
 /// [degrees]; 0 if it is held
 double parting(double ratio, double timeStep) {
     const auto backend = makeReferenceBackend();
-    Bench bench(*backend, "neck");
-    return partingFromNeck(bench, ratio, timeStep) * 180 / kPi;
+    Stage stage(*backend, "neck");
+    return partingFromNeck(stage, ratio, timeStep) * 180 / kPi;
 }
 
 }  // namespace
