@@ -23,6 +23,7 @@ struct MemberResult {
     MemberStatus status = MemberStatus::Failed;
     std::string error;
     Row outputs;             ///< of kOutputColumns
+    std::vector<bool> told;  ///< of each output: whether the run tells it; an empty output that is told has no value
     std::vector<Row> doses;  ///< rows of the run's doses.csv
 };
 
