@@ -6,12 +6,15 @@
 
 namespace vkdose {
 
-std::string shortened(const std::string& text) {
-    constexpr std::size_t kShown = 120;
-    if (text.size() <= kShown) return text;
-    std::size_t end = kShown;
+std::string shortened(const std::string& text, std::size_t shown) {
+    if (text.size() <= shown) return text;
+    std::size_t end = shown;
     while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0U) == 0x80U) --end;
     return text.substr(0, end) + "...";
+}
+
+std::string shortenedPath(const std::string& path) {
+    return shortened(path, 500);
 }
 
 bool isUtf8(std::string_view text) {
@@ -32,9 +35,10 @@ bool isUtf8(std::string_view text) {
 
 std::string Diagnostic::text() const {
     // A fault of the command line has no line; it reads as it was typed: "--set contact.friction = -1: ...".
-    std::string place = file.empty() ? "" : file + ": ";
-    if (file == kCommandLine) place = file + " ";
-    if (line > 0) place = fmt::format("{}:{}: ", file, line);
+    const std::string name = shortenedPath(file);
+    std::string place = name.empty() ? "" : name + ": ";
+    if (file == kCommandLine) place = name + " ";
+    if (line > 0) place = fmt::format("{}:{}: ", name, line);
     std::string what = shortened(key);
     if (!value.empty()) what += " = " + shortened(value);
     if (!what.empty()) what += ": ";

@@ -14,9 +14,11 @@ inline constexpr const char* kCommandLine = "--set";
 /// Whether `text` is well-formed UTF-8 (no overlong forms, no surrogates).
 bool isUtf8(std::string_view text);
 
-/// Shortens a text from outside for a message, but keeps enough to recognise it. The cut is made where a character of
-/// UTF-8 begins.
-std::string shortened(const std::string& text);
+/// Shortens a text from outside for a message, but keeps enough to recognise it: `shown` bytes. The cut is made where a
+/// character of UTF-8 begins.
+std::string shortened(const std::string& text, std::size_t shown = 120);
+/// The same for a path, of which more is kept.
+std::string shortenedPath(const std::string& path);
 
 /// One fault in an input file: where it stands, what it says and what would be right.
 struct Diagnostic {

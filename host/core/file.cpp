@@ -97,7 +97,8 @@ std::string readFault(const fs::path& file) {
 
 std::string unreadable(const fs::path& file) {
     std::error_code code;
-    return fs::exists(file, code) ? file.string() + " " + readFault(file) : "there is no file " + file.string();
+    const std::string name = shortenedPath(file.string());
+    return fs::exists(file, code) ? name + " " + readFault(file) : "there is no file " + name;
 }
 
 std::optional<std::string> fileContent(const fs::path& file) {

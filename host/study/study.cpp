@@ -200,7 +200,10 @@ Study readStudy(const std::filesystem::path& file) {
     study.text = fileContent(file).value_or("");
     study.name = root.string("name", file.stem().string());
     study.reason = root.string("reason");
-    study.base = file.parent_path() / root.string("base");
+    const std::string base = root.string("base");
+    study.base = file.parent_path() / base;
+    if (!base.empty() && !fileContent(study.base))
+        reader.fault("base", unreadable(study.base), "give the path of a case file, relative to the study's folder");
     readSeeds(reader, root, study);
     std::set<std::string> used;
     if (const Node* set = root.node("set")) {

@@ -24,12 +24,24 @@ std::vector<std::string> withoutItsOwn(std::vector<std::string> messages) {
     return messages;
 }
 
+/// Whether the layer has given the checks up, because the device cannot do what they need. Without them a test would
+/// judge nothing, so it is skipped.
+bool givenUp(const std::vector<std::string>& messages) {
+    for (const std::string& m : messages)
+        if (m.find("GPU-AV is being disabled") != std::string::npos) {
+            WARN("skipped: the layer's GPU-assisted checks need more than this device has: " << m);
+            return true;
+        }
+    return false;
+}
+
 }  // namespace
 
 TEST_CASE("GPU-assisted checks find an access outside a buffer") {
     const Assisted assisted;
     vk::Device device(testDevice());
     REQUIRE(device.validated());
+    if (givenUp(device.validationMessages())) return;
     Particles p;
     p.add({0, 0, 0}, 1e-3);
     const RuledWorld world = emptyWorld();
@@ -60,6 +72,7 @@ TEST_CASE("no pass reaches outside its buffers while a heap falls on the turning
         VulkanOptions options;
         options.reads = reads;
         const auto backend = test::gpu(options);
+        if (givenUp(validationReport(*backend).messages)) return;
         Particles p;
         for (int i = 0; i < 67; ++i)
             p.add({-6e-3 + 3e-3 * (i % 5), 0.0128 + 2.9e-3 * (i / 35), 3e-3 + 3e-3 * (i / 5 % 7)}, 1.4e-3, {0, -1, 0});
