@@ -76,9 +76,12 @@ void addResume(CLI::App& program, ResumeOptions& options) {
 
 void addCheck(CLI::App& program, CheckOptions& options) {
     CLI::App& command = *program.add_subcommand(
-        "check", "validate a case; print contact durations, time step, particle count, closed forms and run time");
+        "check", "validate a case; print its figures, and warnings of what was probably not meant");
     addCase(command, options.input);
-    command.add_flag("--measure", options.measure, "measure the device for about a second to estimate the run time");
+    auto* measure = command.add_flag("--measure", options.measure,
+                                     "measure the device for about a second to estimate the run time");
+    command.add_flag("--json", options.json, "print errors, warnings and figures as JSON, for other programs")
+        ->excludes(measure);
     addBackend(command, options.backend);
 }
 

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "host/advice/advice.h"
 #include "host/app/commands.h"
 #include "host/app/end_table.h"
 #include "host/app/exit_code.h"
@@ -35,6 +36,12 @@ std::unique_ptr<RunDisplay> makeDisplay(const Manner& manner, const ReadyRun& ru
     return std::make_unique<ProgressDisplay>();
 }
 
+/// Tells once what was probably not meant. It stops no run.
+void tellWarnings(const ReadyRun& run) {
+    for (const Warning& w : warningsOf(run.c, run.filled))
+        if (!w.accepted) fmt::print(stderr, "vkdose: warning: {}\n", w.line());
+}
+
 /// Runs, from the start or from a checkpoint, and tells how it ended.
 int playAloud(ReadyRun run, Backend& backend, RunFolder& folder, const Manner& manner) {
     const std::atomic<bool>& stop = watchInterrupts();
@@ -66,6 +73,7 @@ int runCommand(const RunOptions& options) {
     ReadyRun run = readyRun(options.input);
     run.member = options.member;
     const std::unique_ptr<Backend> backend = makeBackend(options.backend, run.filled.particles.size());
+    if (!options.quiet) tellWarnings(run);
     RunFolder folder = folderOf(run, options.out.empty() ? std::filesystem::path("out") / run.c.name : options.out,
                                 options.force, *backend);
     return playAloud(std::move(run), *backend, folder, {options.backend, options.quiet, options.live, options.parent});

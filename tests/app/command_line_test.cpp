@@ -127,6 +127,47 @@ TEST_CASE("check prints what the case implies") {
     CHECK(box.files().empty());
 }
 
+TEST_CASE("check warns, and other programs can read it") {
+    const Sandbox box;
+    const std::string slips = kMini + "--set settle.time_s=0.01 --set coil.speed_rpm=0";
+    const auto o = box.vkdose("check " + slips);
+    CHECK(o.code == 0);
+    CHECK_THAT(o.out, Catch::Contains("warning    settle.time_s = 0.01: ") && Catch::Contains("(settle-time)") &&
+                          Catch::Contains("warning    coil.speed_rpm = 0: ") &&
+                          Catch::Contains("accepted   contact.max_overlap_ratio = 0.2: "));
+    const auto read = nlohmann::json::parse(box.vkdose("check --json " + slips).out);
+    CHECK(read["case"] == "mini");
+    CHECK(read["errors"].empty());
+    REQUIRE(read["warnings"].size() == 3);
+    for (const auto& w : read["warnings"]) {
+        for (const char* part : {"name", "key", "value", "text", "cure"})
+            CHECK_FALSE(w[part].get<std::string>().empty());
+        CHECK(w["accepted"] == (w["name"] == "pinch"));
+    }
+    CHECK(read["figures"]["particles"] == 111);
+    CHECK(read["figures"]["dose_kg"] == 0);
+
+    const auto bad = box.vkdose("check --json " + kMini + "--set contact.k=-1 --set particles.density=-5");
+    CHECK(bad.code == 2);
+    const auto faults = nlohmann::json::parse(bad.out);
+    REQUIRE(faults["errors"].size() == 2);
+    CHECK(faults["errors"][0]["key"] == "particles.density");
+    CHECK(faults["errors"][0]["value"] == "-5");
+    CHECK(faults["warnings"].empty());
+}
+
+TEST_CASE("a run tells its warnings once") {
+    const Sandbox box;
+    const auto o = box.vkdose("run " + kShort + "--backend reference --out 'my run'");
+    CAPTURE(o.err);
+    REQUIRE(o.code == 0);
+    const std::string mark = "vkdose: warning: settle.time_s = 0.01: ";
+    const std::size_t at = o.err.find(mark);
+    REQUIRE(at != std::string::npos);
+    CHECK(o.err.find(mark, at + 1) == std::string::npos);
+    CHECK(o.err.find("(pinch)") == std::string::npos);  // mini accepts it
+}
+
 TEST_CASE("a device is for the vulkan backend only") {
     const Sandbox box;
     const auto o = box.vkdose("run " + kShort + "--backend reference --device 0 --out out");
