@@ -42,6 +42,15 @@ void tellWarnings(const ReadyRun& run) {
         if (!w.accepted) fmt::print(stderr, "vkdose: warning: {}\n", w.line());
 }
 
+/// The commands that go on from a run that is over.
+std::string nextText(const std::filesystem::path& folder) {
+    const std::string word = shellWord(folder.string());
+    return fmt::format(
+        "next     vkdose report {0}   (charts, tables, a player)\n"
+        "         vkdose render {0}   (a picture of its end)\n",
+        word);
+}
+
 /// Runs, from the start or from a checkpoint, and tells how it ended.
 int playAloud(ReadyRun run, Backend& backend, RunFolder& folder, const Manner& manner) {
     const std::atomic<bool>& stop = watchInterrupts();
@@ -61,6 +70,7 @@ int playAloud(ReadyRun run, Backend& backend, RunFolder& folder, const Manner& m
         fmt::print("{}output   {}\n", reportText(c, played.result, backend.description()),
                    printable(folder.path().string()));
         if (played.code == kInterrupted) fmt::print("resume   {}\n", wayOn(folder));
+        if (played.code == kOk) fmt::print("{}", nextText(folder.path()));
     }
     const bool clean = validationClean(manner.choice, backend);
     return played.error.empty() && !clean ? kDeviceError : played.code;
