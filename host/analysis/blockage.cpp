@@ -9,6 +9,17 @@
 
 namespace vkdose {
 
+BlockageRule blockageRule(const StopRule& stop, double closedForm) {
+    constexpr double kPaperDose = 4.2e-3;  // by the closed form, to which the paper's threshold belongs [kg]
+    BlockageRule rule;
+    if (stop.kind == StopRule::Kind::Experiment)
+        rule.threshold = stop.threshold;
+    else
+        rule.threshold *= closedForm / kPaperDose;
+    if (stop.kind != StopRule::Kind::None) rule.doses = stop.doses;
+    return rule;
+}
+
 std::optional<int> blockedAt(std::span<const double> cumulative, double filled, const BlockageRule& rule,
                              double before) {
     const auto after = [&](int dose) { return dose == 0 ? before : cumulative[dose - 1]; };

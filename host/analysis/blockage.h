@@ -10,12 +10,16 @@
 namespace vkdose {
 
 /// A canister counts as blocked after `doses` in a row that together give no more than `threshold`, while more than the
-/// part `remaining` of the fill is still inside. Threshold and doses are those of the paper's experiments.
+/// part `remaining` of the fill is still inside. The defaults are those of the paper's experiments.
 struct BlockageRule {
     double threshold = 0.15e-3;  ///< [kg]
     int doses = 3;
     double remaining = 0.01;  ///< [-]
 };
+
+/// The rule for a run: that of its `stop` if it is the experiment's. Another stop rule has no threshold of its own;
+/// then the paper's threshold is taken in proportion to the mass that a dose has by the closed form [kg].
+BlockageRule blockageRule(const StopRule& stop, double closedForm);
 
 /// The first of the doses that gave nothing (counted from 1), even if an avalanche freed the outlet later; none if the
 /// flow never stopped, or too few doses were made to tell. `cumulative` [kg] holds the masses after dose 1, 2, ...;

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 
-#include "host/analysis/blockage.h"
 #include "host/analysis/emptying.h"
 
 namespace vkdose {
 
-DosingFigures figuresOf(const std::vector<Dose>& doses, double filled) {
+DosingFigures figuresOf(const std::vector<Dose>& doses, double filled, const StopRule& stop) {
     DosingFigures f;
     // A canister of less than 19 g saturates within the paper's 15 g.
     f.window.cumulativeBelow = std::min(f.window.cumulativeBelow, beforeSaturation(filled).cumulativeBelow);
@@ -15,7 +14,8 @@ DosingFigures figuresOf(const std::vector<Dose>& doses, double filled) {
     f.beta = betaOf(cumulative, f.window);
     f.dosesTo99 = dosesToFraction(cumulative, filled);
     const double before = doses.empty() ? 0.0 : doses.front().cumulative - doses.front().mass;
-    f.blocked = blockedAt(cumulative, filled, {}, before);
+    f.rule = blockageRule(stop, doses.empty() ? 0.0 : doses.front().closedForm);
+    f.blocked = blockedAt(cumulative, filled, f.rule, before);
     return f;
 }
 

@@ -10,6 +10,7 @@
 #include "host/app/interrupt.h"
 #include "host/app/sweep_display.h"
 #include "host/app/sweep_setup.h"
+#include "host/app/text.h"
 #include "host/core/error.h"
 #include "host/core/file.h"
 #include "host/core/printable.h"
@@ -40,13 +41,16 @@ std::string pointText(const std::vector<std::string>& keys, const Row& values) {
 std::string curveText(const std::string& name, const Curve& curve, const CalibrationAim& aim, bool chosen) {
     std::string text = name + "\n";
     for (const CurvePoint& p : curve.points)
-        text += fmt::format("    {} {:<8.4g} beta {:<18} g   RSD {:<16} %   {} seed{}\n", aim.along, p.along,
-                            withError(p.beta, p.betaError, 1e3), withError(p.rsd, p.rsdError, 100), p.seeds,
-                            p.seeds == 1 ? "" : "s");
+        text += fmt::format("    {} {:<8.4g} beta {:<18} g   RSD {:<16} %   {}\n", aim.along, p.along,
+                            withError(p.beta, p.betaError, 1e3), withError(p.rsd, p.rsdError, 100),
+                            counted(p.seeds, "seed"));
     for (const Crossing& c : curve.crossings)
-        text += fmt::format("  meets the target at {} {}, RSD {} %{}\n", aim.along, withError(c.along, c.alongError),
-                            withError(c.rsd, c.rsdError, 100),
-                            chosen && &c == &curve.crossings.front() ? "   <- chosen" : "");
+        text +=
+            fmt::format("  {} {} {}, RSD {} %{}\n",
+                        c.off == 0 ? "meets the target at"
+                                   : fmt::format("is {:.2g} g off the target, within the tolerance, at", c.off * 1e3),
+                        aim.along, withError(c.along, c.alongError), withError(c.rsd, c.rsdError, 100),
+                        chosen && &c == &curve.crossings.front() ? "   <- chosen" : "");
     if (curve.crossings.empty()) text += "  does not meet the target\n";
     return text;
 }
@@ -80,9 +84,10 @@ int reportGrid(const Study& study, const SweepFolder& folder) {
     fmt::print("{}\n", targetText(aim));
     for (std::size_t i = 0; i < grid.curves.size(); ++i)
         fmt::print("{}", curveText(pointText(grid.keys, grid.curves[i].values), grid.curves[i], aim, grid.choice == i));
-    if (grid.leftOut > 0) fmt::print("{} members without a mass per dose are left out\n", grid.leftOut);
+    if (grid.leftOut > 0) fmt::print("left out: {} without a mass per dose\n", counted(grid.leftOut, "member"));
     if (!grid.choice) {
-        fmt::print(stderr, "vkdose: no curve meets the target; widen the axes\n");
+        fmt::print(stderr, "vkdose: no curve meets the target or comes within {:.2g} g of it; widen the axes\n",
+                   aim.tolerance * 1e3);
         return kDisagree;
     }
     const Curve& curve = grid.curves[*grid.choice];
@@ -150,8 +155,7 @@ class SearchRuns {
                     std::isnan(beta))
                     continue;
                 trial.values.push_back(beta);
-                const double error = table.number(row, "beta_standard_error_kg_per_dose");
-                trial.error = std::isnan(error) ? 0 : error;
+                trial.error = table.number(row, "beta_standard_error_kg_per_dose");
             }
         }
         return trial;
@@ -184,10 +188,14 @@ int reportSearch(const Study& study, const SweepFolder& folder, const SearchResu
         else
             fmt::print("no {} within its bounds is believed to meet it\n", aim.parameters[k].key);
     }
+    if (!result.met) {
+        fmt::print(stderr, "vkdose: no case is written; give a larger max_runs, other bounds or a wider tolerance_g\n");
+        return kDisagree;
+    }
     writeCase(study, folder, settingsAt(study, result.points[result.best]),
               fmt::format("beta is believed to be {} g a dose, the target is {:.4g} g",
                           withError(result.mean, result.deviation, 1e3), aim.target * 1e3));
-    return result.met ? kOk : kDisagree;
+    return kOk;
 }
 
 }  // namespace

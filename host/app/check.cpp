@@ -2,16 +2,23 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <nlohmann/json.hpp>
 
+#include "host/advice/advice.h"
+#include "host/advice/figures.h"
 #include "host/app/commands.h"
 #include "host/app/exit_code.h"
 #include "host/app/text.h"
 #include "host/core/printable.h"
+#include "host/model/stability.h"
 #include "host/sim/runner.h"
 
 namespace vkdose {
 
 namespace {
+
+using Json = nlohmann::ordered_json;
 
 /// Used where no speed is measured: about the speed of two cores of a server with a CPU driver and a settled bed.
 constexpr double kAssumedSpeed = 6e6;
@@ -35,6 +42,26 @@ double measuredSpeed(const Case& c, const Insertion& filled, Backend& backend) {
     return work / seconds;
 }
 
+/// A case with everything that check says of it.
+struct Checked {
+    Case c;
+    Insertion filled;
+    Derived derived;
+    Figures figures;
+    std::vector<Warning> warnings;
+};
+
+Checked checked(const CaseOptions& input) {
+    Case c = loadCase(input.file, input.overrides);
+    Insertion filled = insertParticles(c);
+    Derived derived = derive(c, filled);
+    Figures figures = figuresOf(c, filled);
+    std::vector<Warning> warnings = warningsOf(c, filled);
+    return {std::move(c), std::move(filled), std::move(derived), std::move(figures), std::move(warnings)};
+}
+
+// ---- text ---------------------------------------------------------------------------------------------------------
+
 void printFilling(const Insertion& filled) {
     const auto [low, high] = std::minmax_element(filled.particles.radius.begin(), filled.particles.radius.end());
     fmt::print("particles  {}, {:.4g} g", filled.particles.size(), filled.mass * 1e3);
@@ -44,12 +71,40 @@ void printFilling(const Insertion& filled) {
     fmt::print("\n");
 }
 
-void printTimeScales(const Derived& d) {
+void printContacts(const Derived& d, const Figures& f) {
     fmt::print("contact duration     mean pair on k1  stiffest pair on k2\n");
     for (const Derived::PairDuration& p : d.durations) {
         fmt::print("  {:<18} {:>13.4g} s  {:>17.4g} s\n", p.name, p.mean, p.stiffest);
     }
-    fmt::print("time step  {:.4g} s = 1/{:.3g} of the stiffest\n", d.timeStep, d.stiffest / d.timeStep);
+    fmt::print("restitution                mean    smallest     largest   (of damping alone, on k1)\n");
+    for (const Restitution& e : f.restitutions)
+        fmt::print("  {:<18} {:>10.3g}  {:>10.3g}  {:>10.3g}\n", className(e.kind), e.mean, e.smallest, e.largest);
+    fmt::print("time step  {:.4g} s = 1/{:.3g} of the stiffest; auto is {:.3g} s, limited by {}\n", d.timeStep,
+               d.stiffest / d.timeStep, f.automaticStep, f.stepLimit);
+}
+
+/// Fall, weight and adhesion of the bed, where they are known.
+void printBed(const Checked& all) {
+    const Figures& f = all.figures;
+    if (!(f.bedDepth > 0)) return;
+    fmt::print("bed        {:.3g} mm deep at a volume fraction of {}; the fill falls {:.3g} mm in {:.2g} s\n",
+               f.bedDepth * 1e3, kBedFraction, f.fall * 1e3, f.fallTime);
+    fmt::print("overlap    {:.2g} of the radius under the bed's weight, {:.2g} of the fall (limit {:.3g})\n",
+               f.overlapUnderBed, f.overlapOfFall, all.c.world.maxOverlapRatio);
+    fmt::print("Bond       {:.2g} under the bed's weight, at most {:.3g} (pull-off force over weight, mean pair)\n",
+               f.bondUnderBed, f.bondLargest);
+}
+
+void printGaps(const Checked& all) {
+    const Figures& f = all.figures;
+    const auto row = [&](const char* what, double width) {
+        if (width >= 0)
+            fmt::print("{} {:.3g} mm: {:.2g} mean spheres across, {:.2g} of the largest\n", what, width * 1e3,
+                       width / (2 * f.mean), width / (2 * f.largest));
+    };
+    row("coil gap  ", f.coilGap);
+    row("clearance ", f.coilClearance);
+    if (all.c.canister) row("outlet    ", all.c.canister->outletDiameter);
 }
 
 void printPredictions(const Derived& d) {
@@ -59,25 +114,12 @@ void printPredictions(const Derived& d) {
     fmt::print("doses      {:.3g} to empty the canister by the closed form\n", d.doses);
 }
 
-}  // namespace
-
-int checkCommand(const CheckOptions& options) {
-    const Case c = loadCase(options.input.file, options.input.overrides);
-    const Insertion filled = insertParticles(c);
-    const Derived d = derive(c, filled);
-    const Timeline timeline(c);
-    fmt::print("case       {}: {}\n", c.name, printableLines(c.reason));
-    printFilling(filled);
-    printTimeScales(d);
-    if (c.world.coil) printPredictions(d);
-    fmt::print("schedule   settle {} steps, rotate {}, rest {}; sensors every {} steps\n", timeline.settleSteps(),
-               timeline.rotateSteps(), timeline.restSteps(), timeline.sensorSteps());
-
-    const double work = d.steps * static_cast<double>(d.particles);
-    fmt::print("work       about {:.3g} million steps, {}particle-steps\n", d.steps * 1e-6, large(work));
+void printRunTime(const CheckOptions& options, const Checked& all) {
+    const double work = all.derived.steps * static_cast<double>(all.derived.particles);
+    fmt::print("work       about {:.3g} million steps, {}particle-steps\n", all.derived.steps * 1e-6, large(work));
     if (options.measure) {
-        const std::unique_ptr<Backend> backend = makeBackend(options.backend, filled.particles.size());
-        const double speed = measuredSpeed(c, filled, *backend);
+        const std::unique_ptr<Backend> backend = makeBackend(options.backend, all.filled.particles.size());
+        const double speed = measuredSpeed(all.c, all.filled, *backend);
         fmt::print(
             "run time   {} at {}particle-steps/s, measured on {}\n"
             "           with the fresh, loose filling; a settled bed touches more and takes up to about twice as "
@@ -87,6 +129,111 @@ int checkCommand(const CheckOptions& options) {
         fmt::print("run time   {} at an assumed {}particle-steps/s (--measure asks the device)\n",
                    duration(work / kAssumedSpeed), large(kAssumedSpeed));
     }
+}
+
+void printWarnings(const std::vector<Warning>& warnings) {
+    for (const Warning& w : warnings)
+        if (!w.accepted) fmt::print("warning    {}\n", w.line());
+    for (const Warning& w : warnings)
+        if (w.accepted) fmt::print("accepted   {}\n", w.line());
+}
+
+void printText(const CheckOptions& options, const Checked& all) {
+    const Timeline timeline(all.c);
+    fmt::print("case       {}: {}\n", all.c.name, printableLines(all.c.reason));
+    printFilling(all.filled);
+    printContacts(all.derived, all.figures);
+    printBed(all);
+    printGaps(all);
+    if (all.c.world.coil) printPredictions(all.derived);
+    fmt::print("schedule   settle {} steps, rotate {}, rest {}; sensors every {} steps\n", timeline.settleSteps(),
+               timeline.rotateSteps(), timeline.restSteps(), timeline.sensorSteps());
+    printRunTime(options, all);
+    printWarnings(all.warnings);
+}
+
+// ---- JSON ---------------------------------------------------------------------------------------------------------
+
+/// A number, or null for one that has no meaning in this case: JSON has neither NaN nor infinity.
+Json number(double value) {
+    return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json errorsOf(const CaseError& error) {
+    Json all = Json::array();
+    for (const Diagnostic& d : error.faults())
+        all.push_back({{"file", printable(d.file)},
+                       {"line", d.line},
+                       {"key", printable(d.key)},
+                       {"value", printable(d.value)},
+                       {"text", printable(d.problem)},
+                       {"cure", printable(d.remedy)}});
+    return all;
+}
+
+Json warningsJson(const std::vector<Warning>& warnings) {
+    Json all = Json::array();
+    for (const Warning& w : warnings)
+        all.push_back({{"name", w.name},
+                       {"key", w.key},
+                       {"value", printable(w.value)},
+                       {"text", printable(w.text)},
+                       {"cure", printable(w.cure)},
+                       {"accepted", w.accepted}});
+    return all;
+}
+
+Json figuresJson(const Checked& all) {
+    const Figures& f = all.figures;
+    const Derived& d = all.derived;
+    Json e = Json::object();
+    for (const Restitution& r : f.restitutions)
+        e[className(r.kind)] = {{"mean", r.mean}, {"smallest", r.smallest}, {"largest", r.largest}};
+    return {{"particles", d.particles},
+            {"fill_kg", number(d.fillMass)},
+            {"radius_min_m", number(f.smallest)},
+            {"radius_mean_m", number(f.mean)},
+            {"radius_max_m", number(f.largest)},
+            {"time_step_s", number(d.timeStep)},
+            {"automatic_step_s", number(f.automaticStep)},
+            {"step_limit", f.stepLimit},
+            {"restitution", e},
+            {"bed_depth_m", number(f.bedDepth)},
+            {"fall_m", number(f.fall)},
+            {"fall_s", number(f.fallTime)},
+            {"overlap_under_bed", number(f.overlapUnderBed)},
+            {"overlap_of_fall", number(f.overlapOfFall)},
+            {"bond_under_bed", number(f.bondUnderBed)},
+            {"bond_largest", number(f.bondLargest)},
+            {"coil_gap_m", number(f.coilGap)},
+            {"coil_clearance_m", number(f.coilClearance)},
+            {"dose_kg", number(d.massPerDose)},
+            {"doses", number(d.doses)},
+            {"steps", number(d.steps)},
+            {"simulated_s", number(f.runTime)}};
+}
+
+int checkAsJson(const CheckOptions& options) {
+    Json out{{"case", printable(options.input.file.string())}, {"errors", Json::array()}, {"warnings", Json::array()}};
+    ExitCode code = kOk;
+    try {
+        const Checked all = checked(options.input);
+        out["case"] = all.c.name;
+        out["warnings"] = warningsJson(all.warnings);
+        out["figures"] = figuresJson(all);
+    } catch (const CaseError& error) {
+        out["errors"] = errorsOf(error);
+        code = kBadInput;
+    }
+    fmt::print("{}\n", out.dump(2));
+    return code;
+}
+
+}  // namespace
+
+int checkCommand(const CheckOptions& options) {
+    if (options.json) return checkAsJson(options);
+    printText(options, checked(options.input));
     return kOk;
 }
 

@@ -12,6 +12,8 @@
 
 #include "host/app/commands.h"
 #include "host/app/exit_code.h"
+#include "host/app/find_case.h"
+#include "host/app/help.h"
 #include "host/app/manual.h"
 
 namespace vkdose {
@@ -19,7 +21,7 @@ namespace vkdose {
 namespace {
 
 void addCase(CLI::App& command, CaseOptions& input) {
-    command.add_option("case", input.file, "case file (TOML)")->required();
+    command.add_option("case", input.file, "case file (TOML), or the name of a case in the folder cases")->required();
     command
         .add_option("--set", input.overrides, "replace a value of the case: --set coil.speed_rpm=60; may be repeated")
         ->type_name("KEY=VALUE")
@@ -76,9 +78,12 @@ void addResume(CLI::App& program, ResumeOptions& options) {
 
 void addCheck(CLI::App& program, CheckOptions& options) {
     CLI::App& command = *program.add_subcommand(
-        "check", "validate a case; print contact durations, time step, particle count, closed forms and run time");
+        "check", "validate a case; print its figures, and warnings of what was probably not meant");
     addCase(command, options.input);
-    command.add_flag("--measure", options.measure, "measure the device for about a second to estimate the run time");
+    auto* measure = command.add_flag("--measure", options.measure,
+                                     "measure the device for about a second to estimate the run time");
+    command.add_flag("--json", options.json, "print errors, warnings and figures as JSON, for other programs")
+        ->excludes(measure);
     addBackend(command, options.backend);
 }
 
@@ -324,6 +329,19 @@ int guarded(const std::function<int()>& command) {
     }
 }
 
+/// The options with the file of a case that may have been given by its name.
+template <class Options>
+const Options& named(Options& options) {
+    options.input.file = findCase(options.input.file);
+    return options;
+}
+
+/// The same for a study.
+const SweepOptions& studied(SweepOptions& options) {
+    options.study = findCase(options.study);
+    return options;
+}
+
 int printed(const std::string& page) {
     fmt::print("{}", page);
     return kOk;
@@ -367,6 +385,8 @@ int commandLine(int argc, const char* const* argv) {
     addRender(program, render);
     ManualOptions manual;
     addManual(program, manual);
+    addExamples(program);
+    if (argc < 2) return printed(overview(program));
     try {
         program.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
@@ -375,15 +395,15 @@ int commandLine(int argc, const char* const* argv) {
         fmt::print(stderr, "{}", usageFault(program, e.what(), argc > 1 ? argv[1] : ""));
         return kBadInput;
     }
-    if (program.got_subcommand("run")) return guarded([&] { return runCommand(run); });
+    if (program.got_subcommand("run")) return guarded([&] { return runCommand(named(run)); });
     if (program.got_subcommand("resume")) return guarded([&] { return resumeCommand(resume); });
-    if (program.got_subcommand("check")) return guarded([&] { return checkCommand(check); });
-    if (program.got_subcommand("compare")) return guarded([&] { return compareCommand(compare); });
+    if (program.got_subcommand("check")) return guarded([&] { return checkCommand(named(check)); });
+    if (program.got_subcommand("compare")) return guarded([&] { return compareCommand(named(compare)); });
     if (program.got_subcommand("verify")) return guarded([&] { return verifyCommand(verification); });
     if (program.got_subcommand("bench")) return guarded([&] { return benchCommand(bench); });
-    if (program.got_subcommand("export-coil")) return guarded([&] { return exportCoilCommand(exportCoil); });
-    if (program.got_subcommand("sweep")) return guarded([&] { return sweepCommand(sweep); });
-    if (program.got_subcommand("calibrate")) return guarded([&] { return calibrateCommand(calibration); });
+    if (program.got_subcommand("export-coil")) return guarded([&] { return exportCoilCommand(named(exportCoil)); });
+    if (program.got_subcommand("sweep")) return guarded([&] { return sweepCommand(studied(sweep)); });
+    if (program.got_subcommand("calibrate")) return guarded([&] { return calibrateCommand(studied(calibration)); });
     if (program.got_subcommand("report")) return guarded([&] { return reportCommand(report); });
     if (program.got_subcommand("profile")) return guarded([&] { return profileCommand(profile); });
     if (program.got_subcommand("render")) return guarded([&] { return renderCommand(render); });

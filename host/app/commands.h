@@ -40,7 +40,8 @@ struct ResumeOptions {
 struct CheckOptions {
     CaseOptions input;
     BackendChoice backend;
-    bool measure = false;
+    bool measure = false;  ///< the device's speed
+    bool json = false;     ///< print errors, warnings and figures for other programs
 };
 
 struct CompareOptions {

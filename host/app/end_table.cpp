@@ -23,8 +23,8 @@ std::string doseTable(const std::vector<Dose>& doses) {
 }
 
 /// The figures by which the paper judges a run; those that need more doses are left out.
-std::string figureLines(const RunResult& r) {
-    const DosingFigures f = figuresOf(r.doses, r.ledger.filledMass());
+std::string figureLines(const RunResult& r, const StopRule& stop) {
+    const DosingFigures f = figuresOf(r.doses, r.ledger.filledMass(), stop);
     std::string text;
     if (f.beta.doses > 1) {
         text += fmt::format("beta     {:.3f} g/dose", f.beta.beta * 1e3);
@@ -34,7 +34,9 @@ std::string figureLines(const RunResult& r) {
     }
     if (f.dosesTo99) text += fmt::format("emptied  99 % of the fill is out after dose {}\n", *f.dosesTo99);
     if (f.blocked)
-        text += fmt::format("blocked  next to nothing comes from dose {} on, though powder is left\n", *f.blocked);
+        text += fmt::format(
+            "blocked  {} doses from dose {} on gave no more than {:.3g} g together, though powder is left\n",
+            f.rule.doses, *f.blocked, f.rule.threshold * 1e3);
     return text;
 }
 
@@ -91,7 +93,7 @@ std::string reportText(const Case& c, const RunResult& r, const std::string& bac
     } else if (s.doses == 1) {
         text += fmt::format("mean {:.3f} g (one dose: no standard deviation, no RSD)\n", s.mean * 1e3);
     }
-    text += figureLines(r) + ledgerLine(r);
+    text += figureLines(r, c.schedule.stop) + ledgerLine(r);
     if (r.last.energy) text += energyLine(*r.last.energy);
     text += overlapLine(r);
     text += fmt::format("stopped  {} at t = {:.4g} s\n", stopSentence(r.reason, c.schedule.stop), r.last.time);

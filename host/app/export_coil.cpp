@@ -14,6 +14,7 @@ namespace vkdose {
 int exportCoilCommand(const ExportCoilOptions& options) {
     const Case c = loadCase(options.input.file, options.input.overrides);
     keepInputs(c.files, {options.out});
+    requireSuffix(options.out, ".stl", "an STL mesh");
     if (!c.world.coil) throw UsageError("export-coil: the case has no coil");
     const std::vector<geometry::Triangle> mesh = geometry::coilMesh(*c.world.coil, options.around, options.perTurn);
     replaceFile(options.out, geometry::stlText(mesh));

@@ -132,7 +132,7 @@ std::string columnsPage(bool sweep) {
 }
 
 std::string usageFault(const CLI::App& program, const std::string& problem, const std::string& first) {
-    if (first.empty()) return "vkdose: give a command\n\n" + program.help();
+    if (first.empty()) return "vkdose: give a command\nRun `vkdose --help` for the commands.\n";
     std::vector<std::string> names;
     for (const CLI::App* command : commandsOf(program)) names.push_back(command->get_name());
     const bool known = std::find(names.begin(), names.end(), first) != names.end();

@@ -163,6 +163,7 @@ std::vector<std::size_t> chosenOf(const RenderOptions& options, const RunStates&
 int renderCommand(const RenderOptions& options) {
     const fs::path picture = options.out.empty() ? options.folder / "picture.png" : options.out;
     keepInputs(filesOfRun(options.folder), {picture, options.movie});
+    requireSuffix(picture, ".png", "a PNG picture");
     if (!options.movie.has_extension() && !options.movie.empty()) requireNoPictures(options.movie);
     const RunStates states(options.folder);
     if ((options.panels || !options.movie.empty()) && !states.hasFrames())

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "host/advice/advice.h"
 #include "host/app/commands.h"
 #include "host/app/end_table.h"
 #include "host/app/exit_code.h"
@@ -35,6 +36,21 @@ std::unique_ptr<RunDisplay> makeDisplay(const Manner& manner, const ReadyRun& ru
     return std::make_unique<ProgressDisplay>();
 }
 
+/// Tells once what was probably not meant. It stops no run.
+void tellWarnings(const ReadyRun& run) {
+    for (const Warning& w : warningsOf(run.c, run.filled))
+        if (!w.accepted) fmt::print(stderr, "vkdose: warning: {}\n", w.line());
+}
+
+/// The commands that go on from a run that is over.
+std::string nextText(const std::filesystem::path& folder) {
+    const std::string word = shellWord(folder.string());
+    return fmt::format(
+        "next     vkdose report {0}   (charts, tables, a player)\n"
+        "         vkdose render {0}   (a picture of its end)\n",
+        word);
+}
+
 /// Runs, from the start or from a checkpoint, and tells how it ended.
 int playAloud(ReadyRun run, Backend& backend, RunFolder& folder, const Manner& manner) {
     const std::atomic<bool>& stop = watchInterrupts();
@@ -54,6 +70,7 @@ int playAloud(ReadyRun run, Backend& backend, RunFolder& folder, const Manner& m
         fmt::print("{}output   {}\n", reportText(c, played.result, backend.description()),
                    printable(folder.path().string()));
         if (played.code == kInterrupted) fmt::print("resume   {}\n", wayOn(folder));
+        if (played.code == kOk) fmt::print("{}", nextText(folder.path()));
     }
     const bool clean = validationClean(manner.choice, backend);
     return played.error.empty() && !clean ? kDeviceError : played.code;
@@ -66,6 +83,7 @@ int runCommand(const RunOptions& options) {
     ReadyRun run = readyRun(options.input);
     run.member = options.member;
     const std::unique_ptr<Backend> backend = makeBackend(options.backend, run.filled.particles.size());
+    if (!options.quiet) tellWarnings(run);
     RunFolder folder = folderOf(run, options.out.empty() ? std::filesystem::path("out") / run.c.name : options.out,
                                 options.force, *backend);
     return playAloud(std::move(run), *backend, folder, {options.backend, options.quiet, options.live, options.parent});

@@ -55,7 +55,8 @@ int sweepCommand(const SweepOptions& options) {
     if (options.prepare) {
         SweepFolder folder(sweepFolder(options), study, members);
         for (const Member& member : members) folder.begin(member);
-        fmt::print("{} members to run in {}\n", members.size(), printable((folder.path() / "members").string()));
+        fmt::print("{} to run in {}\n", counted(members.size(), "member"),
+                   printable((folder.path() / "members").string()));
         return kOk;
     }
     if (!runner) runner = makeRunner(options);

@@ -26,7 +26,7 @@ std::string dosesText(const MemberResult& result) {
         return std::isnan(value) ? std::nullopt : std::optional(value);
     };
     const double doses = number("doses").value_or(0);
-    std::string text = fmt::format("{:.0f} dose{}", doses, doses == 1 ? "" : "s");
+    std::string text = counted(std::size_t(doses), "dose");
     if (const auto mean = number("mean_dose_kg")) text += fmt::format(", mean {:.3f} g", *mean * 1e3);
     if (const auto rsd = number("rsd")) text += fmt::format(", RSD {:.1f} %", *rsd * 100);
     if (const auto wall = number("wall_time_s")) text += fmt::format(", {}", duration(*wall));
@@ -50,8 +50,8 @@ std::string membersText(const Study& study, const std::vector<Member>& members) 
                             large(m.expectedWork), memberText(study, m));
         work += m.expectedWork;
     }
-    return text + fmt::format("{}: {} members, {}particle-steps by the closed forms\n", printable(study.name),
-                              members.size(), large(work));
+    return text + fmt::format("{}: {}, {}particle-steps by the closed forms\n", printable(study.name),
+                              counted(members.size(), "member"), large(work));
 }
 
 SweepDisplay::SweepDisplay(std::string command, const Study& study, bool quiet)
@@ -63,7 +63,7 @@ SweepDisplay::~SweepDisplay() {
 
 void SweepDisplay::begin(const std::vector<Member>& members, const std::string& manner) {
     if (quiet_) return;
-    fmt::print("{}: {} members, {}\n", printable(study_.name), members.size(), manner);
+    fmt::print("{}: {}, {}\n", printable(study_.name), counted(members.size(), "member"), manner);
     std::fflush(stdout);
 }
 
@@ -86,7 +86,8 @@ void SweepDisplay::onProgress(const SweepProgress& p) {
     last_ = now;
     const double spent = std::chrono::duration<double>(now - start_).count();
     const double left = p.fractionHere > 0 ? spent * (1 - p.fraction) / p.fractionHere : -1;
-    std::string text = fmt::format("{} of {} members done, {} running", p.ok + p.failed, p.members, p.running);
+    std::string text =
+        fmt::format("{} of {} done, {} running", p.ok + p.failed, counted(p.members, "member"), p.running);
     if (p.failed > 0) text += fmt::format(", {} failed", p.failed);
     text += fmt::format("; {:.0f} %, ETA {}", 100 * p.fraction, duration(left));
     // \033[K clears what a longer line before left behind. A failed write is ignored. A lost terminal needs no error
@@ -113,7 +114,7 @@ void SweepDisplay::finish(const SweepFolder& folder, const SweepOutcome& outcome
     if (!outcome.whole)
         fmt::print(stderr, "vkdose: interrupted; go on with `{}`\n", again);
     else if (outcome.failed > 0)
-        fmt::print(stderr, "vkdose: {} members failed; run them again with `{} --retry-failed`\n", outcome.failed,
+        fmt::print(stderr, "vkdose: {} failed; run again with `{} --retry-failed`\n", counted(outcome.failed, "member"),
                    again);
     if (quiet_) return;
     fmt::print("{} done, {} failed\noutput   {}\n", outcome.ok, outcome.failed, printable(folder.path().string()));

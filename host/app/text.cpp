@@ -23,4 +23,8 @@ std::string large(double x) {
     return fmt::format("{:.4g} G ", x / 1e9);
 }
 
+std::string counted(std::size_t count, const char* thing) {
+    return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
+}
+
 }  // namespace vkdose

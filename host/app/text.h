@@ -1,6 +1,7 @@
 #pragma once
 // Figures as people read them.
 
+#include <cstddef>
 #include <string>
 
 namespace vkdose {
@@ -10,5 +11,8 @@ std::string duration(double seconds);
 
 /// "8.31 M ", "950 k ", "1.2 G ", "12 ": to stand in front of a unit.
 std::string large(double x);
+
+/// "1 dose", "2 doses": `thing` with an s where it is not one.
+std::string counted(std::size_t count, const char* thing);
 
 }  // namespace vkdose

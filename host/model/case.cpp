@@ -112,6 +112,7 @@ Case interpret(const std::filesystem::path& file, Node tree, std::vector<std::fi
     c.name = root.string("name", file.stem().string());
     if (!root.has("name") || root.isString("name")) checkName(reader, c.name);
     c.reason = root.string("reason");
+    (void)root.string("accepted_warnings");  // host/advice takes it from the resolved case
     c.seed = static_cast<std::uint64_t>(root.integer("seed"));
     c.world.gravity = root.vector("gravity");
     c.bulkDensity = root.number("bulk_density");

@@ -22,6 +22,8 @@ constexpr Key kTop[] = {
          "name of the case and of its default output folder: at most 200 visible characters, no slash, no blank at "
          "either end"),
     text("reason", "", "why the case exists; it is printed"),
+    text("accepted_warnings", "",
+         "names of warnings of `vkdose check`, separated by blanks, that are expected here and not told by a run"),
     integer("seed", 0, kAnyCount, 1, "sets sizes and positions: the same seed gives the same particles"),
     vector("gravity", {1, "m/s2"}, {0, -9.81, 0}, "acceleration of gravity"),
     number("bulk_density", kDensity, kPositive, 471.0,

@@ -275,9 +275,14 @@ void checkWalls(CaseReader& reader, const Case& c, const Particles& p, const std
             distance = std::min(distance, toCoil);
         }
         const double overlap = p.radius[i] - distance;
+        // The bed that a run left lies around the coil as it stood at the run's end.
+        const char* turn = c.filling.list && what == "the coil"
+                               ? "; if a run left this bed, turn the coil to where it stood: add the coil_angle_rad of "
+                                 "the run's summary.json, in degrees, to coil.start_angle_deg"
+                               : "";
         if (overlap > allowed * p.radius[i])
             faults.add(fmt::format("{} overlaps {} by {:.3g} of its radius", named(p, i), what, overlap / p.radius[i]),
-                       fmt::format("keep the overlap below {}", allowed));
+                       fmt::format("keep the overlap below {}{}", allowed, turn));
     }
 }
 

@@ -91,8 +91,8 @@ Json doseCount(const std::optional<int>& dose) {
     return dose ? Json(*dose) : Json(nullptr);
 }
 
-Json analysis(const RunResult& r) {
-    const DosingFigures f = figuresOf(r.doses, r.ledger.filledMass());
+Json analysis(const Case& c, const RunResult& r) {
+    const DosingFigures f = figuresOf(r.doses, r.ledger.filledMass(), c.schedule.stop);
     Json j;
     j["beta_kg_per_dose"] = number(f.beta.beta);
     j["beta_standard_error_kg_per_dose"] = number(f.beta.standardError);
@@ -160,7 +160,7 @@ std::string summaryJson(const Case& c, const RunResult& r, const std::string& ba
                             {"mean_kg", s.doses > 0 ? number(s.mean) : Json(nullptr)},
                             {"standard_deviation_kg", s.doses > 1 ? number(s.deviation) : Json(nullptr)},
                             {"rsd", s.doses > 1 && s.mean > 0 ? number(s.relative) : Json(nullptr)}};
-    j["analysis"] = analysis(r);
+    j["analysis"] = analysis(c, r);
     j["outlet"] = outlet(history.outlet);
     j["arches"] = arches(history.arches);
     j["dosed_while_settling_kg"] = number(r.dosedWhileSettling);

@@ -39,7 +39,19 @@ std::string known(const Json& states) {
     return list;
 }
 
-Json photographJson(const Photograph& photograph, const Json& states) {
+/// A surface that is longer than the canister was measured with a wrong length.
+void requireWithin(const std::string& name, const std::vector<double>& z, double length) {
+    constexpr double kAllowed = 0.02;  // of the length: the edges of a photograph are not cut to the pixel
+    if (z.empty()) return;
+    const auto [low, high] = std::minmax_element(z.begin(), z.end());
+    if (*low >= -kAllowed * length && *high <= (1 + kAllowed) * length) return;
+    throw CaseError({{name, 0, "z_mm", "",
+                      fmt::format("runs from {:.4g} to {:.4g} mm, the canister from 0 to {:.4g} mm", *low * 1e3,
+                                  *high * 1e3, length * 1e3),
+                      "trace it again with the --roi and the --length-mm of the canister"}});
+}
+
+Json photographJson(const Photograph& photograph, const Json& states, double length) {
     const std::string name = photograph.file.string();
     const Table table = Table::read(photograph.file, LastLine::Whole);
     std::vector<double> z = table.column("z_mm"), height = table.column("height_mm");
@@ -47,6 +59,7 @@ Json photographJson(const Photograph& photograph, const Json& states) {
         if (!std::isfinite(x)) throw CaseError({{name, 0, "z_mm", "", "is missing in a row", "give a number in each"}});
         x *= 1e-3;
     }
+    requireWithin(name, z, length);
     for (double& x : height) x *= 1e-3;
     if (states.empty())
         throw CaseError({{name, 0, "--profile", "", "the run has no surface to stand beside",
@@ -94,7 +107,8 @@ Json surfaceJson(const Case& c, const FrameSource& frames, const std::optional<P
         if (columns > 0) states.push_back(stateJson(c, *end, columns, lastDose, NAN));
     }
     Json measured = Json::array();
-    for (const Photograph& photograph : photographs) measured.push_back(photographJson(photograph, states));
+    for (const Photograph& photograph : photographs)
+        measured.push_back(photographJson(photograph, states, c.canister ? c.canister->length : 0));
     if (states.empty()) return nullptr;
     std::vector<double> z;
     for (std::size_t i = 0; i < columns; ++i)

@@ -33,17 +33,20 @@ function doseCharts(parent, run) {
   const balance = e && {name: `experiment (${e.name})`, colour: "var(--s1)", dots: true, hollow: true};
   const whole = {label: "dose", whole: true, from: 0.5, to: Math.max(d3.max(d.dose) || 1, e ? d3.max(e.dose) : 1) + 0.5};
 
+  // The line of the closed form spans each dose, so that it shows with a single one too.
+  const spanned = (points, at) => points.length === 0 ? [] : [[points[0][0] - 0.5, at(points[0], -0.5)]].concat(points,
+    [[points[points.length - 1][0] + 0.5, at(points[points.length - 1], 0.5)]]);
   const ideal = closed.map(i => [d.dose[i], Math.min(run.filled_mass_kg, d.closed_form_mass_kg[i] * d.dose[i]) * gram]);
   chart(parent, {
     title: "Cumulative dosed mass", link: overDoses(run), x: whole, y: {label: "g"},
     level: {value: run.beta_below_kg * gram, name: `β is taken below ${short(run.beta_below_kg * gram)} g`},
-    series: [Object.assign({points: at(d.cumulative_mass_kg)}, measured), Object.assign({points: ideal}, predicted)]
+    series: [Object.assign({points: at(d.cumulative_mass_kg)}, measured), Object.assign({points: spanned(ideal, ([n, m], half) => Math.min(run.filled_mass_kg * gram, m * (n + half) / n))}, predicted)]
       .concat(e ? [Object.assign({points: zip(e.dose, e.cumulative_mass_kg, gram)}, balance)] : []),
   });
   chart(parent, {
     title: "Mass per dose", link: overDoses(run), x: whole, y: {label: "g"},
     series: [Object.assign({points: at(d.mass_kg)}, measured),
-             Object.assign({points: closed.map(i => [d.dose[i], d.closed_form_mass_kg[i] * gram])}, predicted)]
+             Object.assign({points: spanned(closed.map(i => [d.dose[i], d.closed_form_mass_kg[i] * gram]), p => p[1])}, predicted)]
       .concat(e ? [Object.assign({points: zip(e.dose, e.mass_kg, gram)}, balance)] : []),
   });
 }

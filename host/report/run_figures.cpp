@@ -56,7 +56,7 @@ class Facts {
                 fmt::format("RSD {:.1f} %", s.relative * 100));
         else if (s.doses == 1)
             add("mass per dose", fmt::format("{:.3f} g", s.mean * 1e3), "one dose: no standard deviation");
-        const DosingFigures f = figuresOf(run_.doses, filled_);
+        const DosingFigures f = figuresOf(run_.doses, filled_, run_.c.schedule.stop);
         if (f.beta.doses > 1) {
             const std::string error =
                 f.beta.doses > 2 ? fmt::format(" ± {:.3f}", f.beta.standardError * 1e3) : std::string();
@@ -74,23 +74,31 @@ class Facts {
         for (const Dose& d : run_.doses)
             if (d.complete) dosed.push_back(d.mass);
         if (dosed.empty()) return;
-        const DosingFigures f = figuresOf(run_.doses, filled_);
+        const DosingFigures f = figuresOf(run_.doses, filled_, run_.c.schedule.stop);
         const auto say = [&](const std::string& name, std::optional<int> dose, const std::string& note) {
             add(name, dose ? fmt::format("after dose {}", *dose) : "not reached", note);
         };
         say("99 % of the fill out", f.dosesTo99, "");
         StopRule rule;
-        say("experiment's stop rule", dosesToRule(dosed, filled_, rule), "three doses together give at most 0.15 g");
+        rule.threshold = f.rule.threshold;
+        rule.doses = f.rule.doses;
+        const std::string doses = fmt::format("{} dose{}", rule.doses, rule.doses == 1 ? "" : "s in a row");
+        const std::string little = fmt::format("{} together give at most {:.3g} g", doses, rule.threshold * 1e3);
+        say("experiment's stop rule", dosesToRule(dosed, filled_, rule), little);
         rule.kind = StopRule::Kind::Simulation;
-        say("simulation's stop rule", dosesToRule(dosed, filled_, rule), "three doses give nothing");
+        say("simulation's stop rule", dosesToRule(dosed, filled_, rule), doses + " give nothing");
         add("blocked", f.blocked ? fmt::format("from dose {} on", *f.blocked) : "no",
-            "three doses give at most 0.15 g, with more than 1 % of the fill inside");
+            little + ", with more than 1 % of the fill inside");
     }
 
     void drive() {
         const DriveWork w = driveWork(run_.series.column("coil_angle_rad"), run_.series.column("coil_torque_Nm"));
         if (!(w.turns > 0)) return;
-        const double dosed = run_.series.number(run_.series.rows() - 1, "dosed_mass_kg");
+        // The coil did nothing for what fell out while the powder settled.
+        double spilled = 0;
+        for (std::size_t i = 0; i < run_.series.rows() && run_.series.text(i, "phase") == "settle"; ++i)
+            spilled = run_.series.number(i, "dosed_mass_kg");
+        const double dosed = run_.series.number(run_.series.rows() - 1, "dosed_mass_kg") - spilled;
         add("mass per turn of the coil", fmt::format("{:.4g} g", w.massPerTurn(dosed) * 1e3),
             fmt::format("{:.4g} turns", w.turns));
         add("work of the drive", fmt::format("{:.4g} mJ", w.work * 1e3),

@@ -154,7 +154,8 @@ Json runJson(const fs::path& folder, const std::optional<fs::path>& experiment, 
     j["doses"] = dosesJson(doseTable, sources);
     j["series"] = seriesJson(series);
     j["rotations"] = rotations(series);
-    j["beta_below_kg"] = number(figuresOf(sources.doses, filledMass(sources)).window.cumulativeBelow);
+    j["beta_below_kg"] =
+        number(figuresOf(sources.doses, filledMass(sources), sources.c.schedule.stop).window.cumulativeBelow);
     j["filled_mass_kg"] = number(filledMass(sources));
     j["experiment"] = experiment ? experimentJson(*experiment) : Json(nullptr);
     const int lastDose = sources.doses.empty() ? 0 : sources.doses.back().index;

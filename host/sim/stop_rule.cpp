@@ -44,7 +44,8 @@ std::string stopSentence(StopReason reason, const StopRule& rule) {
         case StopReason::Empty:
             return "the canister is empty";
         case StopReason::Doses:
-            return fmt::format("the {} doses asked for are done", rule.maxDoses);
+            return rule.maxDoses == 1 ? std::string("the dose asked for is done")
+                                      : fmt::format("the {} doses asked for are done", rule.maxDoses);
         case StopReason::EndTime:
             return fmt::format("the end time {:.6g} s is reached", rule.endTime);
         case StopReason::Interrupted:

@@ -71,6 +71,17 @@ void findCrossings(Curve& curve, const CalibrationAim& aim) {
     }
 }
 
+/// A curve that only comes near the target meets it at its nearest point, if that is within the tolerance.
+void findNearest(Curve& curve, const CalibrationAim& aim) {
+    const auto off = [&](const CurvePoint& p) { return std::abs(p.beta - aim.target); };
+    const auto nearest = std::min_element(curve.points.begin(), curve.points.end(),
+                                          [&](const CurvePoint& a, const CurvePoint& b) { return off(a) < off(b); });
+    if (nearest == curve.points.end() || off(*nearest) > aim.tolerance) return;
+    // Without a crossing there is no slope through the target, and so no error of the place.
+    constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+    curve.crossings.push_back({nearest->along, kUnknown, nearest->rsd, nearest->rsdError, nearest->beta - aim.target});
+}
+
 std::optional<std::size_t> choose(const std::vector<Curve>& curves) {
     std::optional<std::size_t> steadiest, choice;
     const auto lowest = [&](std::size_t i) -> const Crossing& { return curves[i].crossings.front(); };
@@ -115,6 +126,7 @@ GridCalibration calibrateGrid(const Table& members, const std::vector<std::strin
         Curve curve{others, {}, {}};
         for (const auto& [along, found] : curves[others]) curve.points.push_back(pointOf(along, found, scatter));
         findCrossings(curve, aim);
+        if (curve.crossings.empty()) findNearest(curve, aim);
         result.curves.push_back(std::move(curve));
     }
     result.choice = choose(result.curves);

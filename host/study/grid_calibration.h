@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "host/study/calibration_aim.h"
 #include "host/core/csv_table.h"
+#include "host/study/calibration_aim.h"
 
 namespace vkdose {
 
@@ -24,12 +24,14 @@ struct CurvePoint {
     int seeds = 0;
 };
 
-/// Where a curve meets the target, by linear interpolation.
+/// Where a curve meets the target: between two points by linear interpolation, or, if it crosses the target nowhere, at
+/// its nearest point if that is within the tolerance.
 struct Crossing {
     double along = 0;
     double alongError = 0;  ///< standard error, from those of the two points and the target; NaN if one is unknown
     double rsd = 0;
     double rsdError = 0;
+    double off = 0;  ///< mass per dose there less the target; 0 where it is interpolated [kg]
 };
 
 struct Curve {

@@ -110,7 +110,9 @@ class Search {
         for (std::size_t i = 0; i < unit_.size(); ++i) {
             if (!std::isfinite(result_.values[i].value)) continue;
             points.push_back(unit_[i]);
-            values.push_back(result_.values[i]);
+            // The process takes a value of unknown error as it is.
+            const double error = result_.values[i].error;
+            values.push_back({result_.values[i].value, std::isfinite(error) ? error : 0});
         }
         if (points.size() < 2)
             throw RunError(

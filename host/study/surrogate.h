@@ -17,7 +17,7 @@ using Parameters = std::vector<double>;  ///< a value for each free parameter, i
 /// The masses per dose that runs at one point gave.
 struct Trial {
     std::vector<double> values;  ///< mass per dose, one for each seed; seeds without one are left out [kg]
-    double error = 0;            ///< standard error of a single seed's value [kg]; 0 if it is not known
+    double error = 0;            ///< standard error of a single seed's value [kg]; NaN if it is not known
 };
 
 /// Tries a few points. Returns nothing if the search was interrupted.
@@ -26,7 +26,7 @@ using TryPoints = std::function<std::optional<std::vector<Trial>>(const std::vec
 struct SearchResult {
     std::vector<Parameters> points;  ///< all points that were tried, in order
     /// Their masses per dose, mean over the seeds [kg], NaN where there is none. The errors are the scatter from seed
-    /// to seed, pooled over all points, or with a single seed the trial's own.
+    /// to seed, pooled over all points, or with a single seed the trial's own; NaN if neither is known.
     std::vector<Measured> values;
     std::size_t best = 0;  ///< index of the point whose mass is believed nearest to the target
     double mean = 0;       ///< mass per dose that is believed there [kg]

@@ -4,6 +4,7 @@
 #include <deque>
 #include <map>
 
+#include "host/core/exit_code.h"
 #include "host/core/folder_lock.h"
 #include "host/output/checkpoint.h"
 
@@ -113,7 +114,10 @@ class Sweep {
     void ended(const MemberEnd& end) {
         const Running& run = running_.at(end.number);
         const Member& m = *run.member;
-        doneHere_ += m.expectedWork - share(m, run.before);
+        // A run that was cut short has done what it reached; the progress must not climb to the whole of it.
+        const bool cut = end.code == kInterrupted;
+        const double done = cut ? share(m, timeReached(folder_.memberFolder(m.number))) : m.expectedWork;
+        doneHere_ += std::max(0.0, done - share(m, run.before));
         running_.erase(end.number);
         note(m, readResult(folder_.memberFolder(m.number), end));
     }

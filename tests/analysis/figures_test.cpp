@@ -24,21 +24,44 @@ std::vector<Dose> dosesOf(const std::vector<double>& masses, double settling) {
 }  // namespace
 
 TEST_CASE("the paper's window in a large canister, the saturation of a small one") {
-    const DosingFigures large = figuresOf(dosesOf({4e-3, 4e-3, 4e-3, 4e-3}, 0), 0.048);
+    const DosingFigures large = figuresOf(dosesOf({4e-3, 4e-3, 4e-3, 4e-3}, 0), 0.048, {});
     CHECK(large.beta.doses == 3);
     CHECK(nearRelative(large.beta.beta, 4e-3, 1e-12));
-    const DosingFigures small = figuresOf(dosesOf({4e-3, 4e-3, 1e-3, 1e-3}, 0), 0.010);
+    const DosingFigures small = figuresOf(dosesOf({4e-3, 4e-3, 1e-3, 1e-3}, 0), 0.010, {});
     CHECK(small.beta.doses == 1);  // 4 g; 8 g are not below 80 % of 10 g
     CHECK(small.dosesTo99 == 4);
 }
 
 TEST_CASE("what fell out while settling does not hide a blockage from the first dose on") {
-    CHECK(figuresOf(dosesOf({0, 0, 0}, 1e-3), 0.048).blocked == 1);
+    CHECK(figuresOf(dosesOf({0, 0, 0}, 1e-3), 0.048, {}).blocked == 1);
 }
 
 TEST_CASE("a run without doses has no figures") {
-    const DosingFigures f = figuresOf({}, 0.048);
+    const DosingFigures f = figuresOf({}, 0.048, {});
     CHECK(f.beta.doses == 0);
     CHECK_FALSE(f.dosesTo99);
     CHECK_FALSE(f.blocked);
+}
+
+TEST_CASE("next to nothing is what the case says, or the paper's share of a dose") {
+    // A device of milligrams: three doses of 5 mg are a flow, and of 0.1 mg none.
+    StopRule stop;
+    stop.threshold = 1e-6;
+    stop.doses = 2;
+    CHECK_FALSE(figuresOf(dosesOf({5e-6, 5e-6, 5e-6}, 0), 1e-3, stop).blocked);
+    CHECK(figuresOf(dosesOf({5e-6, 1e-7, 1e-7}, 0), 1e-3, stop).blocked == 2);
+    stop.threshold = 1e-4;
+    CHECK(figuresOf(dosesOf({5e-6, 5e-6, 5e-6}, 0), 1e-3, stop).blocked == 1);
+
+    // Without an experiment's rule: the threshold shrinks with the dose, and without a dose nothing is little.
+    StopRule none;
+    none.kind = StopRule::Kind::None;
+    none.threshold = 0;
+    CHECK(nearRelative(blockageRule(none, 4.2e-3).threshold, 0.15e-3, 1e-12));
+    CHECK(nearRelative(blockageRule(none, 4.2e-6).threshold, 0.15e-6, 1e-12));
+    CHECK(blockageRule(none, 0).threshold == 0);
+    CHECK(blockageRule(none, 1).doses == 3);
+    std::vector<Dose> doses = dosesOf({5e-6, 5e-6, 5e-6}, 0);
+    for (Dose& d : doses) d.closedForm = 5e-6;
+    CHECK_FALSE(figuresOf(doses, 1e-3, none).blocked);
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <csignal>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <thread>
 
 #include "tests/app/sandbox.h"
@@ -63,7 +64,7 @@ TEST_CASE("help and usage") {
         CHECK_THAT(help.out, Catch::Contains(word));
     CHECK(box.vkdose("run --help").code == 0);
     CHECK_THAT(box.vkdose("--version").out, Catch::StartsWith("vkdose "));
-    for (const char* bad : {"", "fly", "run", "run x.toml --backend cuda", "run x.toml --nonsense",
+    for (const char* bad : {"fly", "run", "run x.toml --backend cuda", "run x.toml --nonsense",
                             "compare x.toml --steps 5 --time 1", "compare x.toml --steps 0"}) {
         const auto o = box.vkdose(bad);
         CAPTURE(bad, o.err);
@@ -75,7 +76,48 @@ TEST_CASE("help and usage") {
     // The culprit by its name: the word that is no command, the command that lacks something.
     CHECK_THAT(box.vkdose("rnu x.toml").err, Catch::Contains("there is no command rnu; did you mean run?"));
     CHECK_THAT(box.vkdose("run").err, Catch::StartsWith("vkdose run: ") && Catch::Contains("`vkdose run --help`"));
-    CHECK_THAT(box.vkdose("").err, Catch::StartsWith("vkdose: give a command") && Catch::Contains("calibrate"));
+    const auto alone = box.vkdose("");
+    CHECK(alone.code == 0);
+    CHECK_THAT(alone.out, Catch::Contains("vkdose run quickstart") && Catch::Contains("calibrate"));
+}
+
+TEST_CASE("every command has examples, whose options it knows") {
+    const Sandbox box;
+    std::istringstream commands(box.vkdose("options --brief").out);
+    int found = 0;
+    for (std::string line; std::getline(commands, line);) {
+        const std::size_t at = line.find("`vkdose ");
+        if (at == std::string::npos) continue;
+        const std::string rest = line.substr(at + 8), name = rest.substr(0, rest.find_first_of(" `"));
+        CAPTURE(name);
+        ++found;
+        const std::string help = box.vkdose(name + " --help").out;
+        const std::size_t examples = help.find("Examples:");
+        REQUIRE(examples != std::string::npos);
+        CHECK_THAT(help.substr(examples), Catch::Contains("vkdose " + name));
+        std::istringstream words(help.substr(examples));
+        for (std::string word; words >> word;)
+            if (word.rfind("--", 0) == 0)
+                CHECK_THAT(help.substr(0, examples), Catch::Contains(word.substr(0, word.find('='))));
+    }
+    CHECK(found > 10);
+}
+
+TEST_CASE("a case or a study is found by its name") {
+    const Sandbox box;
+    CHECK_THAT(box.vkdose("check mini").out, Catch::Contains("case       mini"));
+    CHECK_THAT(box.vkdose("check mini.toml").out, Catch::Contains("case       mini"));
+    CHECK(box.vkdose("sweep coarse-none --dry-run").code == 2);
+    CHECK_THAT(box.vkdose("sweep strong-cohesion --dry-run").out, Catch::Contains("member 0000"));
+    CHECK_THAT(box.vkdose("check quickstrat").err, Catch::Contains("did you mean quickstart?"));
+    // A file of one's own comes first, and a folder of that name is none.
+    box.write("own", readText(VKDOSE_SOURCE_DIR "/cases/mini.toml") + "");
+    CHECK(box.vkdose("check own").code == 0);
+    fs::create_directories(box / "mini");
+    CHECK(box.vkdose("check mini").code == 0);
+    fs::create_directories(box / "cases");
+    box.write("cases/mini.toml", "base = \"" VKDOSE_SOURCE_DIR "/cases/mini.toml\"\nname = \"mine\"\n");
+    CHECK_THAT(box.vkdose("check mini").out, Catch::Contains("case       mine"));
 }
 
 TEST_CASE("a bad case is refused with exit code 2 and nothing written") {
@@ -125,6 +167,48 @@ TEST_CASE("check prints what the case implies") {
         CHECK_THAT(o.out, Catch::Contains(words));
     }
     CHECK(box.files().empty());
+}
+
+TEST_CASE("check warns, and other programs can read it") {
+    const Sandbox box;
+    const std::string slips = kMini + "--set settle.time_s=0.01 --set coil.speed_rpm=0";
+    const auto o = box.vkdose("check " + slips);
+    CHECK(o.code == 0);
+    CHECK_THAT(o.out, Catch::Contains("warning    settle.time_s = 0.01: ") && Catch::Contains("(settle-time)") &&
+                          Catch::Contains("warning    coil.speed_rpm = 0: ") &&
+                          Catch::Contains("accepted   contact.max_overlap_ratio = 0.2: "));
+    const auto read = nlohmann::json::parse(box.vkdose("check --json " + slips).out);
+    CHECK(read["case"] == "mini");
+    CHECK(read["errors"].empty());
+    REQUIRE(read["warnings"].size() == 3);
+    for (const auto& w : read["warnings"]) {
+        for (const char* part : {"name", "key", "value", "text", "cure"})
+            CHECK_FALSE(w[part].get<std::string>().empty());
+        CHECK(w["accepted"] == (w["name"] == "pinch"));
+    }
+    CHECK(read["figures"]["particles"] == 111);
+    CHECK(read["figures"]["dose_kg"] == 0);
+
+    const auto bad = box.vkdose("check --json " + kMini + "--set contact.k=-1 --set particles.density=-5");
+    CHECK(bad.code == 2);
+    const auto faults = nlohmann::json::parse(bad.out);
+    REQUIRE(faults["errors"].size() == 2);
+    CHECK(faults["errors"][0]["key"] == "particles.density");
+    CHECK(faults["errors"][0]["value"] == "-5");
+    CHECK(faults["warnings"].empty());
+}
+
+TEST_CASE("a run tells its warnings once, and ends with what to do next") {
+    const Sandbox box;
+    const auto o = box.vkdose("run " + kShort + "--backend reference --out 'my run'");
+    CAPTURE(o.err);
+    REQUIRE(o.code == 0);
+    const std::string mark = "vkdose: warning: settle.time_s = 0.01: ";
+    const std::size_t at = o.err.find(mark);
+    REQUIRE(at != std::string::npos);
+    CHECK(o.err.find(mark, at + 1) == std::string::npos);
+    CHECK(o.err.find("(pinch)") == std::string::npos);  // mini accepts it
+    CHECK_THAT(o.out, Catch::Contains("next     vkdose report 'my run'"));
 }
 
 TEST_CASE("a device is for the vulkan backend only") {
@@ -270,4 +354,8 @@ TEST_CASE("export-coil writes the coil of a case") {
     CHECK(outcome.out.find("3860 triangles in c.stl") != std::string::npos);  // 160 pieces of 24, two ends of 10
     CHECK(readText(box / "c.stl").find("solid coil\n") == 0);
     CHECK(box.vkdose("export-coil '" VKDOSE_SOURCE_DIR "/cases/paper-48g.toml' --out no/c.stl").code == 5);
+    const auto other = box.vkdose("export-coil " + kMini + "--out coil.obj");
+    CHECK(other.code == 2);
+    CHECK_THAT(other.err, Catch::Contains("writes an STL mesh; give a name that ends in .stl"));
+    CHECK_FALSE(fs::exists(box / "coil.obj"));
 }

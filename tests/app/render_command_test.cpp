@@ -146,6 +146,7 @@ TEST_CASE("render: what cannot be drawn is told, and nothing is written") {
     refused("run --color fill-layer", "kept no frames");
     refused("run --color heat", "heat");
     refused("run --view top", "top");
+    refused("run --out p.jpg", "writes a PNG picture; give a name that ends in .png");
     refused("run --size 10x10", "64 to 16384");
     refused("run --size 640", "--size 1280x720");
     refused("run --size 640x480x3", "--size 1280x720");

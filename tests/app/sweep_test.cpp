@@ -181,7 +181,7 @@ TEST_CASE("calibrate interpolates a finished sweep without running it again, and
     box.write("study.toml", study + "[calibrate]\ntarget_g_per_dose = 1000\ntolerance_g = 0.001\n");
     const auto far = box.vkdose("calibrate study.toml --backend reference --out out");
     CHECK(far.code == 1);
-    CHECK_THAT(far.err, Catch::Contains("no curve meets the target"));
+    CHECK_THAT(far.err, Catch::Contains("no curve meets the target or comes within 0.001 g of it"));
     CHECK(box.vkdose("calibrate none.toml").code == 2);
     box.write("plain.toml", kStudy);
     const auto plain = box.vkdose("calibrate plain.toml");
@@ -201,13 +201,14 @@ TEST_CASE("a search runs members until its target is met or its runs are used up
     CHECK(whole.code == 1);
     CHECK_THAT(whole.out, Catch::Contains("NOT met") && Catch::Contains("after 5 points"));
     CHECK(timeless(box / "whole").size() == 5);
+    CHECK_THAT(whole.err, Catch::Contains("no case is written"));
+    CHECK_FALSE(fs::exists(box / "whole/calibrated.toml"));
     const pid_t run = box.start({"calibrate", "study.toml", "--backend", "reference", "--out", "cut"});
     REQUIRE(reached(run, box / "cut/members/0003"));
     kill(run, SIGKILL);
     waitpid(run, nullptr, 0);
     CHECK(box.vkdose("calibrate study.toml --backend reference --out cut").code == 1);
     CHECK(timeless(box / "cut") == timeless(box / "whole"));
-    CHECK(readText(box / "cut/calibrated.toml") == readText(box / "whole/calibrated.toml"));
     CHECK(box.vkdose("sweep study.toml").code == 2);
 }
 

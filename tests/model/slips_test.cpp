@@ -51,6 +51,17 @@ TEST_CASE("a hole or a wire that does not fit is told once, with both ways out")
                Catch::Contains("so thick a wire cannot be wound in the trough"));
 }
 
+TEST_CASE("a bed in the way of the coil is told how to turn the coil") {
+    const Folder folder;
+    folder.write("list.csv", "x,y,z,r\n-0.0059,0,0.0035,0.0011\n");  // on the wire, half a turn from its beginning
+    std::string listed = replaced(kGoodCase, "mass_g = 0.9", "list = \"list.csv\"");
+    listed = replaced(listed,
+                      "[particles.size]\ndistribution = \"uniform\"\nradius_min_mm = 0.9\nradius_max_mm = 1.3\n", "");
+    CHECK_THAT(told(folder, listed), Catch::Contains("overlaps the coil") && Catch::Contains("coil.start_angle_deg"));
+    // Half a turn more, and the wire is on the other side.
+    CHECK(told(folder, replaced(listed, "turns = 3", "turns = 3\nstart_angle_deg = 180")) == "loads");
+}
+
 TEST_CASE("a study given as a case is told so") {
     const Folder folder;
     CHECK_THAT(told(folder, "base = \"x.toml\"\n"), Catch::Contains("there is no file"));

@@ -1,5 +1,6 @@
 // The pages in a browser: they draw what they should, and without errors. Skipped, and said so, where there is none.
 #include <iterator>
+#include <regex>
 #include <set>
 #include <sstream>
 
@@ -42,6 +43,21 @@ TEST_CASE("a browser draws the page of a run") {
     CHECK(dom.find("&lt;img src=x onerror=") != std::string::npos);  // as text
     CHECK(dom.find("<td class=\"number\">1.750</td>") != std::string::npos);
     CHECK(shown.find("NaN") == std::string::npos);  // none among the coordinates
+}
+
+TEST_CASE("a browser draws the line of the closed form for a single dose too") {
+    if (browserMissing()) return;
+    const Sandbox box;
+    const auto folder = writeRun(box, "why");
+    box.write("run/doses.csv", std::string(kDosesHeader) + "1,0.1,0.0015,0.0015,9,0.002,0.0016,1\n");
+    const std::string dom = drawn(box, runJson(folder, {}));
+    for (const char* title : {"<h3>Mass per dose", "<h3>Cumulative dosed mass"}) {
+        CAPTURE(title);
+        const std::size_t at = dom.find(title);
+        REQUIRE(at != std::string::npos);
+        const std::string figure = dom.substr(at, dom.find("</figure>", at) - at);
+        CHECK(std::regex_search(figure, std::regex("<path d=\"M[^\"]*L[^\"]*\" stroke-dasharray=\"6 4\"")));
+    }
 }
 
 TEST_CASE("a browser runs the page's own scripts and styles, and none that got into it") {

@@ -91,6 +91,19 @@ TEST_CASE("a photograph that does not fit is refused with what would be right") 
     CHECK_THAT(report(run(), {box.write("c.csv", "z_mm,height_mm\nx,2\n"), {}}), Catch::Contains("z_mm"));
 }
 
+TEST_CASE("a photograph that is longer than the canister is refused") {
+    const Sandbox box;
+    const auto report = [&](const std::string& rows) {
+        const auto csv = box.write("photo.csv", "z_mm,height_mm\n" + rows);
+        return faultOf([&] { surfaceJson(mini(), run(), {}, 0, {{csv, 1}}); });
+    };
+    CHECK_THAT(report("0,5\n20,6\n"),
+               Catch::Contains("runs from 0 to 20 mm, the canister from 0 to 16 mm") && Catch::Contains("--length-mm"));
+    CHECK_THAT(report("-4,5\n8,6\n"), Catch::Contains("runs from -4 to 8 mm"));
+    const auto csv = box.write("photo.csv", "z_mm,height_mm\n-0.1,5\n16.2,6\n");  // cut a little wide
+    CHECK(surfaceJson(mini(), run(), {}, 0, {{csv, 1}})["photographs"].size() == 1);
+}
+
 TEST_CASE("a photograph's dose stands after an @") {
     CHECK(photographOf("a/photo.csv").file == "a/photo.csv");
     CHECK(!photographOf("a/photo.csv").dose);

@@ -191,3 +191,22 @@ TEST_CASE("the page asks for nothing from elsewhere, and may not") {
     CHECK(html.find("@@") == html.rfind("@@") - 0);                           // no mark was left over
     CHECK(html.find("Redistributions of source code") != std::string::npos);  // D3's licence goes along
 }
+
+TEST_CASE("what fell out while settling is no work of the coil") {
+    const Sandbox box;
+    const auto folder = writeRun(box, "why");
+    const std::string before = readText(folder / "timeseries.csv");
+    const std::string settled = "0.1,settle,0,0,0,";
+    REQUIRE(before.find(settled) != std::string::npos);
+    std::string spilled = before;
+    spilled.replace(spilled.find(settled), settled.size(), "0.1,settle,0,0,0.0005,");
+    box.write("run/timeseries.csv", spilled);
+    CHECK(fact(runJson(folder, {}), "mass per turn of the coil") == "3 g");  // 3.5 g less 0.5 g, in one turn
+}
+
+TEST_CASE("the stop rules of a report are those of the case") {
+    const Sandbox box;
+    const Json data = runJson(writeRun(box, "why"), {});
+    CHECK_THAT(fact(data, "experiment's stop rule", "note"), Catch::Contains("at most 0.02 g"));  // mini's
+    CHECK_THAT(fact(data, "blocked", "note"), Catch::Contains("at most 0.02 g"));
+}

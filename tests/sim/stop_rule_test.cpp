@@ -86,4 +86,7 @@ TEST_CASE("every reason has a keyword and a sentence") {
         CHECK(stopSentence(reason, StopRule{}) != "unknown");
     }
     CHECK_THAT(stopSentence(StopReason::Experiment, StopRule{}), Catch::Contains("3 doses") && Catch::Contains("0.15"));
+    StopRule one;
+    one.maxDoses = 1;
+    CHECK(stopSentence(StopReason::Doses, one) == "the dose asked for is done");
 }

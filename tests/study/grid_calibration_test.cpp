@@ -164,3 +164,22 @@ TEST_CASE("members that failed or gave nothing are left out, without a crossing 
     CHECK(grid.curves[0].crossings.empty());
     CHECK_FALSE(grid.choice);
 }
+
+TEST_CASE("a curve that only comes within the tolerance of the target meets it at its nearest point") {
+    Members m;
+    m.add("0.5", 0, 3.0e-3);
+    m.add("0.5", 1, 3.6e-3);
+    m.add("0.5", 2, 3.2e-3);
+    const auto crossings = [&](double tolerance) {
+        return calibrateGrid(m.table, kKeys, aimAt(3.7e-3, tolerance)).curves[0].crossings;
+    };
+    CHECK(crossings(0.05e-3).empty());
+    const std::vector<Crossing> near = crossings(0.2e-3);
+    REQUIRE(near.size() == 1);
+    CHECK(near[0].along == 1);
+    CHECK(near[0].off == Approx(-0.1e-3));
+    CHECK(std::isnan(near[0].alongError));
+    CHECK(calibrateGrid(m.table, kKeys, aimAt(3.7e-3, 0.2e-3)).choice == 0U);
+    // Where a curve crosses the target, a nearer point does not count.
+    CHECK(calibrateGrid(m.table, kKeys, aimAt(3.3e-3, 0.2e-3)).curves[0].crossings.front().along == Approx(0.5));
+}

@@ -2,6 +2,7 @@
 #include "host/study/surrogate.h"
 
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "host/core/error.h"
@@ -261,4 +262,22 @@ TEST_CASE("a search repeats itself, keeps to its bounds and its number of runs, 
         return trials;
     }));
     CHECK(calls == 3);
+}
+
+TEST_CASE("an error that nobody knows is not told as none") {
+    CalibrationAim aim;
+    aim.method = CalibrationAim::Method::Surrogate;
+    aim.target = 0.5e-3;
+    aim.tolerance = 1e-5;
+    aim.maxRuns = 8;
+    aim.parameters = {{"contact.kc_over_k", 0, 1}};
+    const auto straight = [](const Parameters& p) { return 1e-3 * p[0]; };
+    const auto unknown = search(aim, each(straight, std::numeric_limits<double>::quiet_NaN()));
+    const auto exact = search(aim, each(straight, 0));
+    REQUIRE(unknown);
+    REQUIRE(exact);
+    for (const Measured& m : unknown->values) CHECK(std::isnan(m.error));
+    for (const Measured& m : exact->values) CHECK(m.error == 0);
+    CHECK(unknown->points == exact->points);  // the search takes the values as they are
+    CHECK(unknown->met);
 }

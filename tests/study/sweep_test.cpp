@@ -78,12 +78,12 @@ struct Sweeping {
     fs::path out = place.path() / "out";
 
     SweepOutcome run(MadeUpRuns& runs, const std::string& text = kGoodStudy, bool retry = false,
-                     const std::atomic<bool>& stop = kNoStop) const {
+                     const std::atomic<bool>& stop = kNoStop, SweepObserver* observer = nullptr) const {
         const Study study = place.study(text);
         const std::vector<Member> members = membersOf(study);
         SweepFolder folder(out, study, members);
         SweepObserver nobody;
-        const SweepOutcome outcome = runMembers(folder, members, runs, nobody, stop, retry);
+        const SweepOutcome outcome = runMembers(folder, members, runs, observer ? *observer : nobody, stop, retry);
         if (outcome.whole) folder.sort();
         return outcome;
     }
@@ -359,4 +359,20 @@ TEST_CASE("a sweep does not write into a folder that holds something else, or th
     const SweepFolder held(sweep.out, study, members);
     CHECK_THROWS_WITH(sweep.run(runs), Catch::Contains("another vkdose is sweeping"));
     CHECK(runs.started.empty());
+}
+
+TEST_CASE("progress does not climb over members that Ctrl-C cut short") {
+    struct Watch : SweepObserver {
+        void onProgress(const SweepProgress& p) override { fractions.push_back(p.fraction); }
+        std::vector<double> fractions;
+    } watch;
+    const Sweeping sweep;
+    MadeUpRuns runs(3);
+    std::atomic<bool> stop{false};
+    runs.onEnd = [&] { stop = true; };  // after the first of twelve
+    const SweepOutcome outcome = sweep.run(runs, kGoodStudy, false, stop, &watch);
+    CHECK_FALSE(outcome.whole);
+    REQUIRE(watch.fractions.size() == 3);  // one ended, two were cut short before they did anything
+    CHECK(watch.fractions[0] > 0);
+    CHECK(watch.fractions[2] == Approx(watch.fractions[0]));
 }

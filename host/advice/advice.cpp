@@ -1,0 +1,100 @@
+#include "host/advice/advice.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "host/advice/rules.h"
+#include "host/core/printable.h"
+#include "host/model/key.h"
+
+namespace vkdose {
+namespace {
+
+struct Rule {
+    const char* name;
+    Found (*find)(const Subject&);
+};
+
+/// The rules in the order in which a case is read: powder, device, schedule.
+constexpr std::array kRules{
+    Rule{"density", lightOrHeavyPowder},
+    Rule{"bulk-density", strangeBulkDensity},
+    Rule{"gravity", strangeGravity},
+    Rule{"few-spheres", fewSpheres},
+    Rule{"size-ratio", wideSizes},
+    Rule{"friction", strangeFriction},
+    Rule{"overdamped", overdampedContacts},
+    Rule{"restitution", strangeRestitution},
+    Rule{"overlap-weight", deepUnderWeight},
+    Rule{"overlap-fall", deepOfFall},
+    Rule{"coil-gap", narrowTurns},
+    Rule{"pinch", pinchedSpheres},
+    Rule{"coil-end", shortCoil},
+    Rule{"coil-start", lateCoil},
+    Rule{"coil-rear", coilThroughRear},
+    Rule{"coil-rest", coilAtRest},
+    Rule{"coil-speed", coilTooFast},
+    Rule{"outlet", narrowOutlet},
+    Rule{"fill-low", bareCoil},
+    Rule{"domain", tightDomain},
+    Rule{"settle-time", shortSettling},
+    Rule{"dose-length", longDose},
+    Rule{"dose-spheres", smallDose},
+    Rule{"stop-threshold", earlyStop},
+    Rule{"frames", fewFrames},
+    Rule{"sensors", fewSensors},
+    Rule{"time-step", shortStep},
+    Rule{"run-length", longRun},
+    Rule{"accepted", unknownAcceptance},
+};
+
+}  // namespace
+
+const Node* Subject::node(const std::string& key) const {
+    const Node* node = &tree;
+    for (std::size_t start = 0; node != nullptr && start <= key.size();) {
+        const std::size_t end = std::min(key.find('.', start), key.size());
+        node = node->child(key.substr(start, end - start));
+        start = end + 1;
+    }
+    return node;
+}
+
+std::string Subject::value(const std::string& key) const {
+    const Node* found = node(key);
+    return found == nullptr || found->kind == Node::Kind::Table ? "" : valueText(*found);
+}
+
+std::vector<std::string> Subject::accepted() const {
+    const Node* found = node("accepted_warnings");
+    return found == nullptr ? std::vector<std::string>() : wordsOf(found->string);
+}
+
+std::string Warning::line() const {
+    return fmt::format("{}{}: {}; {} ({})", key, value.empty() ? "" : " = " + printable(value), printable(text),
+                       printable(cure), name);
+}
+
+std::vector<Warning> warningsOf(const Case& c, const Insertion& filled) {
+    if (filled.particles.size() == 0) return {};
+    const Subject subject{c, filled, derive(c, filled), figuresOf(c, filled), readTreeText(c.resolved, "case.toml")};
+    const std::vector<std::string> accepted = subject.accepted();
+    std::vector<Warning> all;
+    for (const Rule& rule : kRules) {
+        const Found found = rule.find(subject);
+        if (!found) continue;
+        all.push_back({rule.name, found->key, subject.value(found->key), found->text, found->cure,
+                       std::find(accepted.begin(), accepted.end(), rule.name) != accepted.end()});
+    }
+    return all;
+}
+
+std::vector<std::string> warningNames() {
+    std::vector<std::string> names;
+    for (const Rule& rule : kRules) names.emplace_back(rule.name);
+    return names;
+}
+
+}  // namespace vkdose

@@ -1,0 +1,155 @@
+// Warnings about the canister and the coil.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "host/advice/rules.h"
+#include "host/model/key.h"
+
+namespace vkdose {
+namespace {
+
+/// A gap that holds fewer spheres than this side by side is easily bridged.
+constexpr double kSpheresInTurn = 1.5;
+/// The same for the outlet, by mean and by largest sphere. Arches of round grains stand over holes of up to some four
+/// or five of their diameters.
+constexpr double kSpheresInOutlet = 4;
+constexpr double kLargestInOutlet = 2.5;
+/// A limit below this ends a run in which a sphere is wedged between wire and wall.
+constexpr double kWedgedOverlap = 0.5;
+
+double mm(double metres) {
+    return metres * 1e3;
+}
+
+bool doses(const Subject& s) {
+    return s.c.world.coil && s.c.schedule.rotateTime > 0;
+}
+
+double coilEnd(const Subject& s) {
+    return s.c.world.coil->zStart + s.c.world.coil->length;
+}
+
+}  // namespace
+
+Found narrowTurns(const Subject& s) {
+    const double gap = s.f.coilGap;
+    const double needed = std::max(2 * s.f.largest, kSpheresInTurn * 2 * s.f.mean);
+    if (!doses(s) || !(gap < needed)) return {};
+    const double pitch = s.c.world.coil->pitch + needed - gap;
+    return Finding{s.given("coil.pitch_mm", "coil.turns"),
+                   fmt::format("the turns leave a gap of {:.3g} mm, {:.2g} mean spheres or {:.2g} of the largest side "
+                               "by side, so that powder can hardly enter the coil",
+                               mm(gap), gap / (2 * s.f.mean), gap / (2 * s.f.largest)),
+                   fmt::format("give a pitch of at least {:.3g} mm, a thinner wire or smaller spheres", mm(pitch))};
+}
+
+Found pinchedSpheres(const Subject& s) {
+    const double gap = s.f.coilClearance;
+    if (!doses(s) || !(gap < 2 * s.f.largest) || s.c.world.maxOverlapRatio >= kWedgedOverlap) return {};
+    const bool all = gap <= 2 * s.f.smallest;
+    return Finding{
+        "contact.max_overlap_ratio",
+        fmt::format(
+            "between coil and wall are {:.3g} mm, where {} can be wedged; that takes overlaps deeper "
+            "than {:.3g} of the radius, which end the run",
+            mm(gap),
+            all ? fmt::format("every sphere (diameter {:.3g} to {:.3g} mm)", mm(2 * s.f.smallest), mm(2 * s.f.largest))
+                : fmt::format("spheres of more than that (diameter up to {:.3g} mm)", mm(2 * s.f.largest)),
+            s.c.world.maxOverlapRatio),
+        fmt::format("give 1, as the paper's cases do, or a clearance above {:.3g} mm", mm(2 * s.f.largest))};
+}
+
+Found shortCoil(const Subject& s) {
+    if (!doses(s) || !s.c.canister || coilEnd(s) >= s.c.canister->length) return {};
+    const double missing = s.c.canister->length - coilEnd(s);
+    return Finding{
+        "coil.length_mm",
+        fmt::format("the coil ends {:.3g} mm before the front wall, so that powder is pushed and not carried "
+                    "out; the closed form of the dose does not hold",
+                    mm(missing)),
+        fmt::format("give {:.4g} to reach the front wall, {:.4g} to reach the end of the throat",
+                    mm(s.c.world.coil->length + missing),
+                    mm(s.c.world.coil->length + missing + s.c.canister->throatLength))};
+}
+
+Found lateCoil(const Subject& s) {
+    if (!doses(s) || !s.c.canister) return {};
+    const double start = s.c.world.coil->zStart;
+    const double length = s.c.canister->length;
+    if (start >= length)
+        return Finding{"coil.z_start_mm",
+                       fmt::format("the coil begins {:.3g} mm from the rear wall, beyond the front wall at {:.3g} mm, "
+                                   "and moves no powder of the canister",
+                                   mm(start), mm(length)),
+                       "give 0, at the rear wall"};
+    if (start <= 0.25 * length) return {};
+    return Finding{"coil.z_start_mm",
+                   fmt::format("the coil begins {:.3g} mm from the rear wall of a canister of {:.3g} mm; the powder "
+                               "behind it stays there",
+                               mm(start), mm(length)),
+                   "give 0, at the rear wall"};
+}
+
+Found coilThroughRear(const Subject& s) {
+    if (!s.c.world.coil || !s.c.canister || s.c.world.coil->zStart >= -s.c.world.coil->wireRadius) return {};
+    return Finding{
+        "coil.z_start_mm",
+        fmt::format("the coil begins {:.3g} mm behind the rear wall; only what is in front of it moves powder",
+                    mm(-s.c.world.coil->zStart)),
+        "give 0, at the rear wall"};
+}
+
+Found coilAtRest(const Subject& s) {
+    if (!doses(s) || s.c.schedule.coilSpeed > 0) return {};
+    return Finding{"coil.speed_rpm", "the coil does not turn during the doses", "give its speed in turns a minute"};
+}
+
+Found coilTooFast(const Subject& s) {
+    if (!doses(s)) return {};
+    const double omega = s.c.schedule.coilSpeed, down = glm::length(s.c.world.gravity);
+    const double froude = omega * omega * s.c.world.coil->radius / down;
+    if (!(froude > 1)) return {};
+    return Finding{
+        "coil.speed_rpm",
+        fmt::format("the wire's centripetal acceleration is {:.2g} times gravity, so that it flings the "
+                    "powder",
+                    froude),
+        fmt::format("stay below {:.3g} rpm; the key is in turns a minute", omega / std::sqrt(froude) * kRpm.perSI)};
+}
+
+Found narrowOutlet(const Subject& s) {
+    if (!s.c.canister || s.c.schedule.rotateTime == 0) return {};
+    const double hole = s.c.canister->outletDiameter;
+    const double needed = std::max(kSpheresInOutlet * 2 * s.f.mean, kLargestInOutlet * 2 * s.f.largest);
+    if (hole >= needed) return {};
+    return Finding{
+        "canister.outlet_diameter_mm",
+        fmt::format("the outlet is {:.2g} mean spheres or {:.2g} of the largest wide; arches of spheres close "
+                    "so narrow a hole",
+                    hole / (2 * s.f.mean), hole / (2 * s.f.largest)),
+        fmt::format("give at least {:.3g}, or spheres {:.2g} times smaller", mm(needed), needed / hole)};
+}
+
+Found bareCoil(const Subject& s) {
+    if (!doses(s) || !(s.f.bedTop < 0)) return {};
+    return Finding{"particles.mass_g",
+                   fmt::format("the settled powder stands {:.3g} mm below the coil's axis, so that no turn fills; the "
+                               "closed form of the dose takes them for full",
+                               mm(-s.f.bedTop)),
+                   "give more mass, or expect less than the closed form"};
+}
+
+Found tightDomain(const Subject& s) {
+    if (!s.c.canister) return {};
+    const Canister& can = *s.c.canister;
+    const Vec3 low{-can.width / 2, -can.width / 2, 0};
+    const Vec3 high{can.width / 2, s.f.bedTop, can.length + can.throatLength};
+    const Box& domain = s.c.world.domain;
+    if (!glm::any(glm::lessThan(low, domain.low)) && !glm::any(glm::greaterThan(high, domain.high))) return {};
+    return Finding{"domain",
+                   "is smaller than the canister with its powder; a sphere that leaves it is lost, which ends the run",
+                   "leave [domain] out, or let it reach beyond the walls and the throat"};
+}
+
+}  // namespace vkdose

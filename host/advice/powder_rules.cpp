@@ -1,0 +1,192 @@
+// Warnings about the particles, their contacts and gravity.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "host/advice/rules.h"
+#include "host/model/stability.h"
+
+namespace vkdose {
+namespace {
+
+constexpr double kWall = std::numeric_limits<double>::infinity();
+constexpr double kLightest = 50, kHeaviest = 23000;  ///< densities of materials: foams to platinum metals [kg/m3]
+/// The densities of the default's powder: in the bed (the default of bulk_density) and of its particles [kg/m3].
+constexpr double kCocoaBulk = 471, kCocoa = 1427;
+constexpr double kLoosest = 0.15, kDensest = 0.75;  ///< volume fractions of settled beds
+/// Coefficients of friction beyond this are angles.
+constexpr double kMostFriction = 1.5;
+constexpr double kLeastRestitution = 0.1, kMostRestitution = 0.95;
+/// Forces in a bed run along chains that bear several times the mean.
+constexpr double kChain = 5;
+constexpr double kDeepFall = 0.5;  ///< share of the largest overlap that one sphere's fall may take
+constexpr std::size_t kFewest = 60;
+constexpr double kWidest = 7;  ///< size ratio up to which the automatic step is exact (host/verify/README.md)
+
+std::string classKey(ContactClass kind, const char* key) {
+    constexpr std::array<const char*, kContactClasses> kTable{"contact", "contact.wall", "contact.coil"};
+    return fmt::format("{}.{}", kTable[static_cast<std::size_t>(kind)], key);
+}
+
+double partner(const Restitution& e, double radius) {
+    return e.kind == ContactClass::ParticleParticle ? radius : kWall;
+}
+
+/// The damping that would give mean spheres what the key was perhaps meant to say, or else one half.
+std::string dampingCure(const Subject& s, const Restitution& e) {
+    const ContactParameters& p = s.c.dosingLaw.of(e.kind);
+    const bool meant = p.gamma >= kLeastRestitution && p.gamma <= kMostRestitution;
+    const double wanted = meant ? p.gamma : 0.5;
+    const double damping = dampingFor(wanted, p, s.c.world.density, s.f.mean, partner(e, s.f.mean));
+    return fmt::format("damping is a dashpot in kg/s; {:.3g} gives mean spheres a restitution of {:.2g}", damping,
+                       wanted);
+}
+
+}  // namespace
+
+Found lightOrHeavyPowder(const Subject& s) {
+    const double density = s.c.world.density;
+    if (density >= kLightest && density <= kHeaviest) return {};
+    return Finding{
+        "particles.density",
+        fmt::format("particles of {:.4g} kg/m3 are {} than any material", density,
+                    density < kLightest ? "lighter" : "heavier"),
+        density < kLightest ? fmt::format("give kg/m3: {:.4g} g/cm3 is {:.4g}", density, density * 1e3) : "give kg/m3"};
+}
+
+Found strangeBulkDensity(const Subject& s) {
+    if (!s.c.world.coil || s.c.schedule.rotateTime == 0) return {};
+    const double density = s.c.world.density, fraction = s.c.bulkDensity / density;
+    const std::string cure =
+        fmt::format("give the density of the settled powder; spheres settle to about {:.3g}", kBedFraction * density);
+    if (s.c.bulkDensity == kCocoaBulk && std::abs(density / kCocoa - 1) > 0.02)
+        return Finding{
+            "bulk_density",
+            fmt::format("is that of cocoa, whose particles have {} kg/m3, while these have {:.4g}; the closed "
+                        "form of the dose is in proportion to it",
+                        kCocoa, density),
+            cure};
+    if (fraction >= kLoosest && fraction <= kDensest) return {};
+    return Finding{"bulk_density",
+                   fmt::format("is {:.3g} of the density of the particles; settled powders have {} to {}", fraction,
+                               kLoosest, kDensest),
+                   cure};
+}
+
+Found strangeGravity(const Subject& s) {
+    const Vec3 g = s.c.world.gravity;
+    const double size = glm::length(g);
+    if (size > 100)
+        return Finding{"gravity", fmt::format("is {:.3g} times the earth's", size / 9.81), "give m/s2: [0, -9.81, 0]"};
+    if (!s.c.canister) return {};  // without a canister there is no up and down
+    if (size < 0.5)
+        return Finding{"gravity", fmt::format("of {:.3g} m/s2 hardly moves the powder", size),
+                       "give m/s2: [0, -9.81, 0]"};
+    if (g.y > 0 && g.y >= std::max(std::abs(g.x), std::abs(g.z)))
+        return Finding{"gravity", "points upwards, out of the canister", "y is up: give [0, -9.81, 0]"};
+    if (-g.y < std::max(std::abs(g.x), std::abs(g.z)))
+        return Finding{"gravity",
+                       fmt::format("points along {}, so that the powder lies against a wall",
+                                   std::abs(g.x) > std::abs(g.z) ? "x, across the canister" : "z, the coil's axis"),
+                       "y is up: give [0, -9.81, 0]"};
+    return {};
+}
+
+Found strangeFriction(const Subject& s) {
+    struct Coefficient {
+        const char* key;
+        double ContactParameters::*value;
+    };
+    constexpr std::array<Coefficient, 3> kAll{{{"friction", &ContactParameters::mu},
+                                               {"rolling_friction", &ContactParameters::muR},
+                                               {"torsion_friction", &ContactParameters::muTo}}};
+    for (const ContactClass kind : contactClasses(s.c.world)) {
+        for (const Coefficient& k : kAll) {
+            const double value = s.c.dosingLaw.of(kind).*k.value;
+            if (!(value > kMostFriction)) continue;
+            return Finding{classKey(kind, k.key),
+                           fmt::format("a coefficient of {:.3g} bears {:.3g} times the normal force", value, value),
+                           value < 90 ? fmt::format("give the coefficient, not the angle: {:.3g} degrees are {:.3g}",
+                                                    value, std::tan(value * kPi / 180))
+                                      : "give a coefficient, as a rule below 1"};
+        }
+    }
+    return {};
+}
+
+Found overdampedContacts(const Subject& s) {
+    for (const Restitution& e : s.f.restitutions) {
+        if (e.mean > 0) continue;
+        return Finding{
+            classKey(e.kind, "damping"),
+            fmt::format("{} contacts of mean spheres are overdamped: they creep apart and never rebound, and "
+                        "their duration is infinite",
+                        className(e.kind)),
+            dampingCure(s, e)};
+    }
+    return {};
+}
+
+Found strangeRestitution(const Subject& s) {
+    for (const Restitution& e : s.f.restitutions) {
+        if (e.mean == 0) continue;  // overdamped, which is told already
+        const ContactParameters& p = s.c.dosingLaw.of(e.kind);
+        const bool elastic = e.mean > kMostRestitution && p.k1 == p.k2Max;
+        if (!elastic && e.mean >= kLeastRestitution && e.smallest > 0) continue;
+        return Finding{classKey(e.kind, "damping"),
+                       fmt::format("gives {} contacts of mean spheres a restitution of {:.2g}, of the smallest {:.2g}, "
+                                   "of the largest {:.2g}",
+                                   className(e.kind), e.mean, e.smallest, e.largest),
+                       dampingCure(s, e)};
+    }
+    return {};
+}
+
+Found deepUnderWeight(const Subject& s) {
+    const double limit = s.c.world.maxOverlapRatio;
+    if (!(kChain * s.f.overlapUnderBed > limit)) return {};
+    return Finding{"contact.k",
+                   fmt::format("under {:.3g} mm of powder mean spheres overlap by {:.2g} of their radius, in chains of "
+                               "force {} times that; the run ends at {:.3g}",
+                               s.f.bedDepth * 1e3, s.f.overlapUnderBed, kChain, limit),
+                   fmt::format("give at least {:.2g}", s.c.dosingLaw.of(ContactClass::ParticleParticle).k2Max * kChain *
+                                                           s.f.overlapUnderBed / limit)};
+}
+
+Found deepOfFall(const Subject& s) {
+    const double limit = s.c.world.maxOverlapRatio;
+    if (!(s.f.overlapOfFall > kDeepFall * limit)) return {};
+    const double growth = s.f.overlapOfFall / (kDeepFall * limit);
+    return Finding{
+        "contact.k",
+        fmt::format("the fill falls {:.3g} mm and arrives at {:.2g} m/s, where a largest sphere alone goes "
+                    "{:.2g} of its radius into the wall and several at once go deeper; the run ends at {:.3g}",
+                    s.f.fall * 1e3, s.f.fallSpeed, s.f.overlapOfFall, limit),
+        fmt::format("give at least {:.2g}, or a larger max_overlap_ratio",
+                    s.c.dosingLaw.of(ContactClass::ParticleWall).k2Max * growth * growth)};
+}
+
+Found fewSpheres(const Subject& s) {
+    const std::size_t count = s.filled.particles.size();
+    if (!s.c.canister || s.c.schedule.rotateTime == 0 || count >= kFewest) return {};
+    return Finding{
+        s.given("particles.mass_g", "particles.list"),
+        fmt::format("{} spheres are no powder: what they do depends on where each one lies", count),
+        fmt::format("give more mass, or spheres {:.2g} times smaller", std::cbrt(500.0 / static_cast<double>(count)))};
+}
+
+Found wideSizes(const Subject& s) {
+    const double ratio = s.f.largest / s.f.smallest;
+    if (!(ratio > kWidest) || s.c.world.timeStep < 0.6 * s.f.automaticStep) return {};
+    return Finding{
+        "time.step_s",
+        fmt::format("the largest sphere is {:.3g} times the smallest; above {} the automatic step is too long "
+                    "where a small one rolls between large ones",
+                    ratio, kWidest),
+        fmt::format("give {:.2g}, half of it, or narrower sizes", 0.5 * s.f.automaticStep)};
+}
+
+}  // namespace vkdose

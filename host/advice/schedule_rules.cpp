@@ -1,0 +1,127 @@
+// Warnings about times, doses and the ends of a run.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/advice/advice.h"
+#include "host/advice/rules.h"
+#include "host/model/case_reader.h"
+#include "host/model/overlaps.h"
+
+namespace vkdose {
+namespace {
+
+/// Times of the fall after which the kinetic energy of the shipped beds is down to some hundredths of the fall's.
+/// Their last motion ends after about twice as long.
+constexpr double kFalls = 2.5;
+constexpr double kSpheresInDose = 20;
+constexpr double kShortStep = 0.1;  ///< of the automatic step
+constexpr double kLongRun = 1e9;    ///< steps
+/// Steps of a small canister in a second on the fastest devices, in round figures.
+constexpr double kFastSteps = 1e4;
+
+/// Whether the particles come from a list and touch one another as those of a settled bed do.
+bool isBed(const Case& c) {
+    if (!c.filling.list) return false;
+    std::size_t contacts = 0;
+    forEachOverlap(*c.filling.list, [&](std::size_t, std::size_t, double) { ++contacts; });
+    return contacts >= c.filling.list->size();
+}
+
+bool doses(const Subject& s) {
+    return s.c.world.coil && s.c.schedule.rotateTime > 0;
+}
+
+}  // namespace
+
+Found shortSettling(const Subject& s) {
+    const double settle = s.c.schedule.settleTime, needed = kFalls * s.f.fallTime;
+    if (s.c.schedule.rotateTime == 0 || !(settle < needed) || isBed(s.c)) return {};
+    return Finding{"settle.time_s",
+                   fmt::format("the highest sphere falls {:.3g} mm, which takes {:.2g} s, and the bed moves about as "
+                               "long again and more; the coil turns before it rests",
+                               s.f.fall * 1e3, s.f.fallTime),
+                   fmt::format("give at least {:.2g}, better {:.2g}", needed, 2 * needed)};
+}
+
+Found longDose(const Subject& s) {
+    if (!doses(s) || !(s.derived.massPerDose > s.derived.fillMass)) return {};
+    return Finding{"dose.rotate_s",
+                   fmt::format("by the closed form a dose conveys {:.3g} g, more than the fill of {:.3g} g",
+                               s.derived.massPerDose * 1e3, s.derived.fillMass * 1e3),
+                   fmt::format("give less than {:.3g} s, or a slower coil",
+                               s.c.schedule.rotateTime * s.derived.fillMass / s.derived.massPerDose)};
+}
+
+Found smallDose(const Subject& s) {
+    if (!doses(s) || s.derived.massPerDose <= 0) return {};
+    const double sphere = s.filled.mass / static_cast<double>(s.filled.particles.size());
+    const double count = s.derived.massPerDose / sphere;
+    if (count >= kSpheresInDose) return {};
+    return Finding{"dose.rotate_s",
+                   fmt::format("by the closed form a dose is {:.2g} spheres, so that one sphere is {:.2g} % of it",
+                               count, 100 / count),
+                   fmt::format("turn {:.2g} times longer, or give spheres {:.2g} times smaller", kSpheresInDose / count,
+                               std::cbrt(kSpheresInDose / count))};
+}
+
+Found earlyStop(const Subject& s) {
+    const StopRule& stop = s.c.schedule.stop;
+    if (!doses(s) || stop.kind != StopRule::Kind::Experiment) return {};
+    const double expected = stop.doses * s.derived.massPerDose;
+    if (s.derived.massPerDose <= 0 || stop.threshold < 0.5 * expected) return {};
+    return Finding{
+        "stop.threshold_g",
+        fmt::format("the run ends when {} doses together give no more than this, and by the closed form they "
+                    "give {:.3g} g",
+                    stop.doses, expected * 1e3),
+        fmt::format("give about {:.2g}, a hundredth of a dose for each", 1e3 * expected / 100)};
+}
+
+Found fewFrames(const Subject& s) {
+    if (s.c.frames.interval == 0 || s.c.frames.interval <= s.f.runTime) return {};
+    return Finding{"frames.interval_s", fmt::format("is longer than the run, which takes some {:.3g} s", s.f.runTime),
+                   fmt::format("give about {:.2g}, for a hundred frames", s.f.runTime / 100)};
+}
+
+Found fewSensors(const Subject& s) {
+    const double rotate = s.c.schedule.rotateTime;
+    const double shortest = rotate > 0 ? rotate : s.f.runTime;
+    if (s.c.sensorInterval <= 0.5 * shortest) return {};
+    return Finding{"sensors.interval_s",
+                   fmt::format("leaves no more than a line or two of the time series in {} of {:.3g} s",
+                               rotate > 0 ? "a rotation" : "the run", shortest),
+                   fmt::format("give about {:.2g}", shortest / 50)};
+}
+
+Found shortStep(const Subject& s) {
+    if (s.c.world.timeStep >= kShortStep * s.f.automaticStep) return {};
+    return Finding{"time.step_s",
+                   fmt::format("is {:.2g} of what stability asks for, so that the run takes {:.2g} times as long",
+                               s.c.world.timeStep / s.f.automaticStep, s.f.automaticStep / s.c.world.timeStep),
+                   fmt::format("give \"auto\", which is {:.3g}", s.f.automaticStep)};
+}
+
+Found longRun(const Subject& s) {
+    if (!(s.derived.steps > kLongRun)) return {};
+    const bool settling = s.c.schedule.settleTime > 0.5 * s.f.runTime;
+    return Finding{settling ? "settle.time_s" : "dose.rotate_s",
+                   fmt::format("{:.3g} s of powder are {:.2g} steps, {:.2g} days even at {:.0f} steps a second",
+                               s.f.runTime, s.derived.steps, s.derived.steps / kFastSteps / 86400, kFastSteps),
+                   "give a shorter time, an end (stop.max_doses, stop.end_time_s), or larger and softer spheres"};
+}
+
+Found unknownAcceptance(const Subject& s) {
+    const std::vector<std::string> names = warningNames();
+    for (const std::string& word : s.accepted()) {
+        if (std::find(names.begin(), names.end(), word) != names.end()) continue;
+        const std::string meant = closestWord(word, names);
+        return Finding{"accepted_warnings", fmt::format("there is no warning {}", word),
+                       meant.empty() ? "give the name that stands behind a warning in brackets"
+                                     : fmt::format("did you mean {}?", meant)};
+    }
+    return {};
+}
+
+}  // namespace vkdose

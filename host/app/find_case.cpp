@@ -1,0 +1,72 @@
+#include "host/app/find_case.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+
+#include "host/app/backends.h"
+#include "host/core/printable.h"
+#include "host/model/case_reader.h"
+
+namespace vkdose {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Something to be read: a file, or a pipe, which its reader refuses by name.
+bool isThere(const fs::path& file) {
+    std::error_code code;
+    const fs::file_status status = fs::status(file, code);
+    return fs::exists(status) && !fs::is_directory(status);
+}
+
+/// `folder` and the folders in it, in the order of their names.
+std::vector<fs::path> places(const fs::path& folder) {
+    std::vector<fs::path> all;
+    std::error_code code;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, code))
+        if (entry.is_directory(code)) all.push_back(entry.path());
+    std::sort(all.begin(), all.end());
+    all.insert(all.begin(), folder);
+    return all;
+}
+
+/// The names that `folder` itself offers, without ".toml".
+void addNames(const fs::path& folder, std::vector<std::string>& names) {
+    std::error_code code;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, code))
+        if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+}
+
+}  // namespace
+
+std::vector<fs::path> caseFolders() {
+    std::error_code code;
+    const fs::path program = fs::read_symlink("/proc/self/exe", code).parent_path();
+    std::vector<fs::path> found;
+    for (const fs::path& folder : {fs::path("cases"), program / "../../cases", program / "../share/vkdose/cases"})
+        if (fs::is_directory(folder, code)) found.push_back(folder.lexically_normal());
+    return found;
+}
+
+fs::path findCase(const fs::path& name, const std::vector<fs::path>& folders) {
+    if (isThere(name) || name.is_absolute() || name.empty()) return name;
+    for (const fs::path& folder : folders) {
+        for (const fs::path& place : places(folder)) {
+            const fs::path plain = place / name;
+            for (const fs::path& file : {plain, fs::path(plain.string() + ".toml")})
+                if (isThere(file)) return file;
+        }
+    }
+    if (name.has_parent_path() || name.has_extension()) return name;
+    std::vector<std::string> names;
+    for (const fs::path& folder : folders) addNames(folder, names);
+    const std::string meant = closestWord(name.string(), names);
+    throw UsageError(fmt::format("there is neither a file {} nor a case of that name; {}", name.string(),
+                                 meant.empty() ? "give the path of a case file, or a name such as quickstart"
+                                               : fmt::format("did you mean {}?", meant)));
+}
+
+}  // namespace vkdose

@@ -1,0 +1,19 @@
+#pragma once
+// Cases and studies by name: `vkdose run quickstart` from any folder.
+
+#include <filesystem>
+#include <vector>
+
+namespace vkdose {
+
+/// The folders with cases that have a name: `cases` in the current folder, and the one that came with the program (in
+/// the project that it was built in, or beside its installation). Only those that exist.
+std::vector<std::filesystem::path> caseFolders();
+
+/// `name` if it is a file. Else the file of that name, with or without ".toml", in one of `folders` or in a folder
+/// within. Throws UsageError if a bare name is none of them; any other path is returned as it is, for its reader to
+/// report.
+std::filesystem::path findCase(const std::filesystem::path& name,
+                               const std::vector<std::filesystem::path>& folders = caseFolders());
+
+}  // namespace vkdose

@@ -1,0 +1,81 @@
+#include "host/app/help.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <map>
+
+namespace vkdose {
+
+namespace {
+
+const std::map<std::string, std::vector<std::string>>& examples() {
+    static const std::map<std::string, std::vector<std::string>> kAll{
+        {"run",
+         {"vkdose run quickstart                      # a case that comes with vkdose; it writes out/quickstart",
+          "vkdose run my.toml --set coil.speed_rpm=60 --out out/slow",
+          "vkdose run my.toml --live                  # with the bed on the terminal"}},
+        {"resume", {"vkdose resume out/quickstart"}},
+        {"check",
+         {"vkdose check my.toml                       # figures, and warnings of what was probably not meant",
+          "vkdose check my.toml --set settle.time_s=0.2",
+          "vkdose check my.toml --measure             # with the run time on this device",
+          "vkdose check my.toml --json                # for other programs"}},
+        {"devices", {"vkdose devices"}},
+        {"compare", {"vkdose compare mini --steps 200 --twins 1", "vkdose compare mini --time 0.05"}},
+        {"verify",
+         {"vkdose verify                              # every known answer, on the device",
+          "vkdose verify --backend reference --only collisions"}},
+        {"bench", {"vkdose bench --quick", "vkdose bench --device 0 --out out/bench"}},
+        {"export-coil",
+         {"vkdose export-coil quickstart --out coil.stl", "vkdose export-coil my.toml --around 24 --per-turn 60"}},
+        {"sweep",
+         {"vkdose sweep study.toml --dry-run          # its members, and nothing written",
+          "vkdose sweep study.toml --jobs 2",
+          "vkdose sweep study.toml --retry-failed     # goes on; failed members run again"}},
+        {"calibrate", {"vkdose calibrate study.toml                # with a table [calibrate] in the study"}},
+        {"report",
+         {"vkdose report out/quickstart               # writes out/quickstart/report.html",
+          "vkdose report out/quickstart --experiment balance.csv"}},
+        {"profile", {"vkdose profile bed.jpg --length-mm 60 --check traced.png"}},
+        {"render",
+         {"vkdose render out/quickstart               # the end of the run",
+          "vkdose render out/quickstart --panels --no-coil", "vkdose render out/quickstart --movie film.mp4"}},
+        {"keys", {"vkdose keys                                # of a case", "vkdose keys --study"}},
+        {"columns", {"vkdose columns", "vkdose columns --sweep"}},
+        {"options", {"vkdose options --brief"}},
+    };
+    return kAll;
+}
+
+}  // namespace
+
+std::vector<std::string> examplesOf(const std::string& command) {
+    const auto found = examples().find(command);
+    return found == examples().end() ? std::vector<std::string>() : found->second;
+}
+
+void addExamples(CLI::App& program) {
+    for (CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; })) {
+        std::string text = "Examples:";
+        for (const std::string& line : examplesOf(command->get_name())) text += "\n  " + line;
+        command->footer(text);
+    }
+}
+
+std::string overview(const CLI::App& program) {
+    std::string text =
+        "vkdose simulates the dosing of cohesive powder by a turning coil.\n\n"
+        "A first dose, in about two minutes:\n"
+        "  vkdose run quickstart        simulates a small canister and writes out/quickstart\n"
+        "  vkdose report out/quickstart writes a page of charts, tables and a player\n\n"
+        "A device of your own:\n"
+        "  vkdose check my.toml         what a case implies, with warnings of what was probably not meant\n"
+        "  vkdose keys                  every key of a case file\n\n"
+        "Commands:\n";
+    for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; }))
+        text += fmt::format("  {:<12} {}\n", command->get_name(), command->get_description());
+    return text + "\n`vkdose COMMAND --help` shows the options of a command, with examples.\n";
+}
+
+}  // namespace vkdose
