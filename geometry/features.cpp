@@ -7,30 +7,55 @@
 
 namespace vkdose::geometry {
 
+namespace {
+
+/// A place, and the index of the feature it belongs to.
+struct Member {
+    Closest place;
+    std::size_t feature;
+};
+
+}  // namespace
+
 std::vector<Feature> distinct(std::vector<Feature> places, const Vec3& centre, double radius) {
-    // The places behind a convex surface lie in its tangent plane at best. Rounding must not lift them above it.
+    // The places behind a convex surface lie in its tangent plane at best. Rounding must not lift them above it, nor
+    // part a ring of places of one depth.
     constexpr double kRounding = 1e-9;
     std::sort(places.begin(), places.end(), [](const Feature& a, const Feature& b) {
         return std::tie(a.distance, a.shape, a.key) < std::tie(b.distance, b.shape, b.key);
     });
-    std::vector<Feature> kept, met;  // `met` also holds the places that belong to a kept one
+    std::vector<Feature> kept;
+    std::vector<Member> members;
     for (const Feature& place : places) {
-        const bool known = std::any_of(met.begin(), met.end(), [&](const Feature& other) {
-            return glm::dot(other.normal, place.normal) >= kSameDirection;
-        });
-        const bool covered = !known && std::any_of(kept.begin(), kept.end(), [&](const Feature& deeper) {
-            return oneContact(deeper, place, radius * (1 + kRounding));
-        });
-        if (covered) continue;
-        met.push_back(place);
-        if (known) continue;
-        kept.push_back(place);
-        if (kept.size() > kMaxFeatures)
-            throw TooManyFeatures(
-                fmt::format("a sphere of radius {:.3g} m at ({:.6g}, {:.6g}, {:.6g}) touches one body "
-                            "in more than {} places",
-                            radius, centre.x, centre.y, centre.z, kMaxFeatures));
+        std::size_t mine = places.size();  // the deepest feature that it belongs to
+        for (const Member& m : members)
+            if (glm::dot(m.place.normal, place.normal) >= kSameDirection) mine = std::min(mine, m.feature);
+        if (mine == places.size()) {
+            const bool covered = std::any_of(kept.begin(), kept.end(), [&](const Feature& deeper) {
+                return oneContact(deeper, place, radius * (1 + kRounding));
+            });
+            if (covered) continue;
+            mine = kept.size();
+            kept.push_back(place);
+        }
+        members.push_back({place, mine});
+        // It joins features that are no deeper than itself: nothing lies between them.
+        for (std::size_t other = kept.size() - 1; other > mine; --other) {
+            if (place.distance - kept[other].distance > kRounding * radius) continue;
+            const bool joined = std::any_of(members.begin(), members.end(), [&](const Member& m) {
+                return m.feature == other && glm::dot(m.place.normal, place.normal) >= kSameDirection;
+            });
+            if (!joined) continue;
+            kept.erase(kept.begin() + std::ptrdiff_t(other));
+            for (Member& m : members)
+                if (m.feature >= other) m.feature = m.feature == other ? mine : m.feature - 1;
+        }
     }
+    if (kept.size() > kMaxFeatures)
+        throw TooManyFeatures(
+            fmt::format("a sphere of radius {:.3g} m at ({:.6g}, {:.6g}, {:.6g}) touches one body in "
+                        "{} places; at most {} are computed",
+                        radius, centre.x, centre.y, centre.z, kept.size(), kMaxFeatures));
     return kept;
 }
 

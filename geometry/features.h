@@ -27,8 +27,8 @@ class TooManyFeatures : public std::runtime_error {
 };
 
 /// The distinct ones of all places where a body touches a sphere of `radius` [m] about `centre`, deepest first, ties by
-/// key. Places are one feature if their directions are within 20 degrees, or lead to each other in such steps through
-/// places ever less deep: the sphere then lies in one hollow, however it is cut into facets. A place on or under the
+/// key. Places are one feature if their directions are within 20 degrees, or lead to each other in such steps without
+/// a rise between them: the sphere then lies in one hollow, however it is cut into facets. A place on or under the
 /// flat of a deeper contact (oneContact) is none either: so a convex body touches a sphere once. Throws
 /// TooManyFeatures.
 std::vector<Feature> distinct(std::vector<Feature> places, const Vec3& centre, double radius);

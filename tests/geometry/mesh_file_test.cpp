@@ -109,6 +109,7 @@ TEST_CASE("a hundred broken files and more are refused at the place of the fault
     const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
     for (const float bad : {nan, inf, -inf, 1e30F})
         for (const std::size_t at : {84U, 96U, 100U, 128U, 634U, 658U}) {
+            if (bad == 1e30F && (at == 84 || at == 634)) continue;  // of a normal only the direction has a meaning
             std::string binary = binaryStl(s);
             broken.push_back({"b.stl", binary.replace(at, 4, floatBytes(bad))});
         }

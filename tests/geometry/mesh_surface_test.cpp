@@ -163,7 +163,7 @@ TEST_CASE("a sphere beside a cylinder of 64 facets touches it once") {
     for (const double radius : {0.02, 0.15, 2.0}) {
         CAPTURE(radius);
         const double reach = 1 + radius;
-        checkCounts(prism(kSides, 1, true), radius, Vec3(-reach, -reach, 0.1), Vec3(reach, reach, 0.9), walls, 500);
+        checkCounts(prism(kSides, 1, true), radius, Vec3(-reach, -reach, 0.1), Vec3(reach, reach, 0.9), walls, 250);
     }
 }
 
@@ -180,7 +180,7 @@ TEST_CASE("a sphere inside a tube of 64 facets touches it once, even if it nearl
     for (const double radius : {0.02, 0.2, 0.6, 0.9}) {
         CAPTURE(radius);
         const double low = -1 + 0.7 * radius;
-        checkCounts(prism(kSides, 1, false), radius, Vec3(low, low, 0.1), Vec3(-low, -low, 0.9), walls, 500);
+        checkCounts(prism(kSides, 1, false), radius, Vec3(low, low, 0.1), Vec3(-low, -low, 0.9), walls, 250);
     }
 }
 
