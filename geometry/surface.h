@@ -32,7 +32,7 @@ struct Plane {
 /// planes x = -+halfWidth, joined tangentially. A sphere smaller than the profile has one contact with it, which
 /// keeps its history while it slides from the trough up the wall. The profile may end at z = `end`.
 struct Trough {
-    double halfWidth;
+    double halfWidth = 0;
     double end = kEndless;
 };
 

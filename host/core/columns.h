@@ -59,10 +59,10 @@ constexpr decltype(auto) follow(R&& row) {
 
 template <auto... Path>
 struct Column {
-    const char* name;
-    const char* unit;     ///< as in ColumnText
-    const char* meaning;  ///< one sentence
-    int digits = 9;       ///< significant digits of a number that is not whole, or kAllDigits
+    const char* name = "";
+    const char* unit = "";     ///< as in ColumnText
+    const char* meaning = "";  ///< one sentence
+    int digits = 9;            ///< significant digits of a number that is not whole, or kAllDigits
 
     /// Whether the value is computed from other members. It is then written, but neither stored nor read.
     static constexpr bool kComputed = (std::is_member_function_pointer_v<decltype(Path)> || ...);
@@ -129,7 +129,7 @@ std::string csvHeader(const std::tuple<C...>& table) {
 template <class T>
 std::string cellText(const T& value, int digits) {
     if constexpr (std::is_enum_v<T>)
-        return Words<T>::names.at(std::size_t(value));
+        return Words<T>::kNames.at(std::size_t(value));
     else if constexpr (std::is_same_v<T, bool>)
         return value ? "1" : "0";
     else if constexpr (std::is_floating_point_v<T>)
@@ -151,7 +151,7 @@ std::string csvRow(const std::tuple<C...>& table, const R& row) {
 template <class T>
 bool readCell(const std::string& text, T& value) {
     if constexpr (std::is_enum_v<T>) {
-        const auto& names = Words<T>::names;
+        const auto& names = Words<T>::kNames;
         for (std::size_t i = 0; i < names.size(); ++i) {
             if (names[i] != text) continue;
             value = T(i);

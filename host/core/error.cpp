@@ -6,9 +6,6 @@
 
 namespace vkdose {
 
-namespace {
-
-/// Shortens a text, but keeps enough to recognise it. The cut is made where a character of UTF-8 begins.
 std::string shortened(const std::string& text) {
     constexpr std::size_t kShown = 120;
     if (text.size() <= kShown) return text;
@@ -16,8 +13,6 @@ std::string shortened(const std::string& text) {
     while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0U) == 0x80U) --end;
     return text.substr(0, end) + "...";
 }
-
-}  // namespace
 
 bool isUtf8(std::string_view text) {
     const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U; };

@@ -14,6 +14,10 @@ inline constexpr const char* kCommandLine = "--set";
 /// Whether `text` is well-formed UTF-8 (no overlong forms, no surrogates).
 bool isUtf8(std::string_view text);
 
+/// Shortens a text from outside for a message, but keeps enough to recognise it. The cut is made where a character of
+/// UTF-8 begins.
+std::string shortened(const std::string& text);
+
 /// One fault in an input file: where it stands, what it says and what would be right.
 struct Diagnostic {
     std::string file;

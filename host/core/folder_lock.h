@@ -18,6 +18,8 @@ class FolderLock {
     /// Waits until no process holds the lock, or until a signal comes.
     static void await(const std::filesystem::path& folder);
 
+    FolderLock(const FolderLock&) = delete;
+    FolderLock& operator=(const FolderLock&) = delete;
     FolderLock(FolderLock&& other) noexcept;
     FolderLock& operator=(FolderLock&& other) noexcept;
     ~FolderLock();

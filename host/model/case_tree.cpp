@@ -127,11 +127,11 @@ void requirePlain(const std::string& text, const std::string& name) {
 /// Turns an error of the parser into a message in the words of a case. The parser knows only the grammar, not the
 /// mistakes that people usually make.
 Diagnostic syntaxFault(const toml::parse_error& error, const std::string& text, const std::string& name) {
-    const std::string said(error.description());
+    const std::string said = shortened(std::string(error.description()));
     const auto at = static_cast<std::size_t>(error.source().begin.line);
     Diagnostic fault{name, static_cast<int>(at), "", "", "not TOML: " + said, "see https://toml.io for the syntax"};
     const Source source = makeSource(name, text);
-    const std::string line = at >= 1 && at <= source.lines.size() ? source.lines[at - 1] : "";
+    const std::string line = at >= 1 && at <= source.lines.size() ? shortened(source.lines[at - 1]) : "";
     const auto says = [&](const char* words) { return said.find(words) != std::string::npos; };
     if (says("cannot redefine existing")) {
         fault.problem = fmt::format("not TOML: {} is there twice", said.substr(said.find("existing") + 9));

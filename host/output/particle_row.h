@@ -11,7 +11,7 @@ namespace vkdose {
 
 template <>
 struct Words<Status> {
-    static constexpr std::array<const char*, 3> names{"active", "dosed", "lost"};
+    static constexpr std::array<const char*, 3> kNames{"active", "dosed", "lost"};
 };
 
 struct ParticleRow {

@@ -14,10 +14,10 @@ namespace vkdose {
 enum class Phase { Settle, Rotate, Rest };
 template <>
 struct Words<Phase> {
-    static constexpr std::array<const char*, 3> names{"settle", "rotate", "rest"};
+    static constexpr std::array<const char*, 3> kNames{"settle", "rotate", "rest"};
 };
 inline std::string_view phaseName(Phase phase) {
-    return Words<Phase>::names.at(std::size_t(phase));
+    return Words<Phase>::kNames.at(std::size_t(phase));
 }
 
 class Timeline {
@@ -28,10 +28,10 @@ class Timeline {
 
     /// The part of one phase that starts at a step. Steps `step` ... `end` - 1 are made in it.
     struct Stretch {
-        Phase phase;
-        int dose;                         ///< 1 for the first; 0 while settling
-        std::uint64_t end;                ///< first step that is no longer in it
-        double rate;                      ///< of the coil about +z [rad/s]
+        Phase phase = Phase::Settle;
+        int dose = 0;                     ///< 1 for the first; 0 while settling
+        std::uint64_t end = 0;            ///< first step that is no longer in it
+        double rate = 0;                  ///< of the coil about +z [rad/s]
         const ContactLaw* law = nullptr;  ///< of the contacts; lives as long as the timeline
     };
 

@@ -132,8 +132,10 @@ MemberResult readResult(const fs::path& folder, const MemberEnd& end) {
         result.status = MemberStatus::Ok;
     }
     const MemberRemains remains{result.status, result.error, table};
-    for (const MemberColumn& c : kMemberColumns)
+    for (const MemberColumn& c : kMemberColumns) {
+        result.told.push_back(c.inSummary == nullptr || summary.contains(Json::json_pointer(c.inSummary)));
         result.outputs.push_back(c.inSummary != nullptr ? field(summary, c.inSummary) : c.own(remains));
+    }
     return result;
 }
 

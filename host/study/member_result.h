@@ -23,6 +23,7 @@ struct MemberResult {
     MemberStatus status = MemberStatus::Failed;
     std::string error;
     Row outputs;             ///< of kOutputColumns
+    std::vector<bool> told;  ///< of each output: whether the run tells it; an empty output that is told has no value
     std::vector<Row> doses;  ///< rows of the run's doses.csv
 };
 
@@ -31,10 +32,10 @@ struct MemberRemains;
 
 /// A column of members.csv behind member, seed and the keys of the axes.
 struct MemberColumn {
-    const char* name;
-    const char* unit;  ///< as in ColumnText
-    const char* meaning;
-    const char* inSummary;                               ///< its place in summary.json, "/a/b"; null: `own` gives it
+    const char* name = "";
+    const char* unit = "";  ///< as in ColumnText
+    const char* meaning = "";
+    const char* inSummary = nullptr;                     ///< its place in summary.json, "/a/b"; null: `own` gives it
     std::string (*own)(const MemberRemains&) = nullptr;  ///< gives the value where `inSummary` is null
 };
 extern const std::span<const MemberColumn> kMemberColumns;

@@ -181,12 +181,13 @@ void SweepFolder::gatherResults() {
         const MemberResult found = readResult(memberFolder(number), {number, 0, ""});
         const auto outputs = member.end() - std::ptrdiff_t(kOutputColumns.size());
         const Row head(member.begin(), outputs);
-        if (status(number) == MemberStatus::Ok && found.status == MemberStatus::Ok)
-            std::transform(found.outputs.begin(), found.outputs.end(), outputs, outputs,
-                           [](const std::string& kept, const std::string& row) { return kept.empty() ? row : kept; });
-        members.add(member);
         const std::vector<Row>& table = noted[number];
-        if (found.doses.size() < table.size()) {  // the folder itself has lost some, or is gone
+        const bool lost = found.doses.size() < table.size();  // the folder itself has lost some, or is gone
+        if (!lost && status(number) == MemberStatus::Ok && found.status == MemberStatus::Ok)
+            for (std::size_t k = 0; k < found.outputs.size(); ++k)
+                if (found.told[k]) outputs[std::ptrdiff_t(k)] = found.outputs[k];
+        members.add(member);
+        if (lost) {
             for (const Row& row : table) doses.add(row);
             continue;
         }

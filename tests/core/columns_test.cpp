@@ -11,7 +11,7 @@ using namespace vkdose;
 enum class Colour { Red, Green };
 template <>
 struct vkdose::Words<Colour> {
-    static constexpr std::array<const char*, 2> names{"red", "green"};
+    static constexpr std::array<const char*, 2> kNames{"red", "green"};
 };
 
 namespace {

@@ -65,6 +65,10 @@ TEST_CASE("slips of the syntax are told in words") {
                Catch::Contains("a comma in a number: mass_g = 0,9; write decimals with a point"));
     CHECK_THAT(told(folder, replaced(kGoodCase, "0.9\n", "0.9 g\n")),
                Catch::Contains("more than a value: mass_g = 0.9 g; give the value alone, without its unit"));
+    const std::string longLine = told(folder, "name = \"a\"" + std::string(10000, '"') + "\n");
+    CHECK_THAT(longLine, Catch::Contains("more than a value: name = \"a\"\"\"\""));
+    CHECK(longLine.size() < 500);
+    CHECK(told(folder, std::string(10000, 'a') + " = 1\n" + std::string(10000, 'a') + " = 2\n").size() < 500);
     CHECK_THAT(told(folder, "seed = 1\nseed = 2\n"), Catch::Contains("'seed' is there twice; keep one of the two"));
     CHECK_THAT(told(folder, "[coil]\n[stop]\n[coil]\n"), Catch::Contains("'coil' is there twice"));
     CHECK_THAT(told(folder, std::string("\xff\xfes\0e\0", 6)), Catch::Contains("the text is not UTF-8"));

@@ -49,7 +49,8 @@ class MadeUpRuns : public MemberRunner {
                                                  << csvRow(kDoseColumns, cut) << "\n";
         if (end.code == 0)
             std::ofstream(task.folder / "summary.json")
-                << R"({"error": null, "interrupted": false, "stop_reason": "dose_count", "simulated_time_s": 1.5})";
+                << R"({"error": null, "interrupted": false, "stop_reason": "dose_count", "simulated_time_s": 1.5,
+                    "analysis": {"blocked_at_dose": null}})";
         else
             writeCheckpoint(task.folder / kCheckpointName, Checkpoint{});
         if (end.code == 0) fs::remove(task.folder / kCheckpointName);
@@ -217,11 +218,26 @@ TEST_CASE("results that were edited in the table come back from the members' fol
     SECTION("nothing") {
         other.replace(at, time.size(), ",,");
     }
+    SECTION("a value where there is none") {
+        REQUIRE(other[at - 1] == ',');
+        other.insert(at, "3");
+    }
     std::ofstream(table) << other;
     MadeUpRuns nothing(1);
     CHECK(sweep.run(nothing).ok == 12);
     CHECK(nothing.started.empty());
     CHECK(readText(table) == good);
+}
+
+TEST_CASE("a result that a member's folder does not tell stays as the table has it") {
+    const Sweeping sweep;
+    MadeUpRuns runs(1);
+    (void)sweep.run(runs);
+    std::ofstream(sweep.out / "members" / "0011" / "summary.json") << R"({"error": null, "stop_reason": "dose_count"})";
+    const std::string good = readText(sweep.out / "members.csv");
+    MadeUpRuns nothing(1);
+    CHECK(sweep.run(nothing).ok == 12);
+    CHECK(readText(sweep.out / "members.csv") == good);
 }
 
 TEST_CASE("an interrupted sweep goes on with the members that had begun, from their checkpoints") {

@@ -1,6 +1,7 @@
 """Mutations: every file that a command reads is spoilt in some way. The command then refuses and names the file,
 or does its work: no signal, no hang, no internal error, no result without meaning."""
 
+import functools
 import glob
 import json
 import math
@@ -8,6 +9,7 @@ import os
 import shutil
 import signal
 import struct
+import subprocess
 import time
 import zlib
 
@@ -128,12 +130,33 @@ def whole_summary(text):
         return False
 
 
-def same_but_blanks(good, other, name):
-    """A case with more blank lines, or fewer, is the same case and stays as its owner left it."""
-    if os.path.basename(name) != "case.toml" or not os.path.isfile(os.path.join(other, name)):
+@functools.lru_cache
+def defaults(program):
+    """(key, value) of every key of a case that has a default, from the list that the program prints."""
+    rows = (line.split(" | ") for line in subprocess.run([program, "keys"], stdout=subprocess.PIPE, check=True, text=True)
+            .stdout.splitlines() if line.startswith("| `"))
+    return {(row[0].strip("| `"), row[2].strip("` ")) for row in rows}
+
+
+def lines_of(path):
+    """The lines of a case that say something, as words."""
+    lines = folders.bytes_of(path).decode("utf-8", "replace").split("\n")
+    return [line.split() for line in lines if line.strip()]
+
+
+def says_the_same(t, good, name):
+    """Whether the owner's case says what the good one says: the same lines but for blanks, and but for keys that have
+    their default. Such a case stays as its owner left it."""
+    other = t.path("out", name)
+    if os.path.basename(name) != "case.toml" or not os.path.isfile(other):
         return False
-    one, two = (folders.bytes_of(os.path.join(folder, name)).split() for folder in (good, other))
-    return one == two
+    left = lines_of(other)
+    for words in lines_of(os.path.join(good, name)):
+        if left and left[0] == words:
+            left.pop(0)
+        elif (words[0], " ".join(words[2:])) not in defaults(t.ground.program):
+            return False
+    return not left
 
 
 def judge_success(t, command, name, way, readable):
@@ -145,13 +168,13 @@ def judge_success(t, command, name, way, readable):
             t.found("exit 0 without a whole summary")
     elif command == "resume":
         good = t.ground.good("short", "reference")[0]
-        but = behind + [name] * (name.startswith(UNREAD) or same_but_blanks(good, t.path("out"), name))
+        but = behind + [name] * (name.startswith(UNREAD) or says_the_same(t, good, name))
         t.expect_same(good, t.path("out"), "resumed, exit 0, but", but)
     elif command == "sweep-on":
         but = list(behind)
         good = t.ground.good_sweep("reference")[0]
-        blanks = same_but_blanks(good, t.path("out"), name)
-        if blanks or way == "dangling" and name.startswith("members/") or way == "endless":
+        same = says_the_same(t, good, name)
+        if same or way == "dangling" and name.startswith("members/") or way == "endless":
             but.append(name)  # nobody writes the case of a member that has ended again, nor turns a device into a file
         t.expect_same(good, t.path("out"), "swept on, exit 0, but", but)
     else:
