@@ -7,9 +7,9 @@
 #include <variant>
 #include <vector>
 
-#include <glm/gtc/quaternion.hpp>
-
 #include "host/core/vec.h"
+// behind vec.h, which says how GLM is used
+#include <glm/gtc/quaternion.hpp>
 
 namespace vkdose::geometry {
 
