@@ -136,6 +136,30 @@ TEST_CASE("a sphere outside a block touches it once: faces, edges, corners, thin
         }
 }
 
+TEST_CASE("a sphere on the thin edge of a wedge touches it once: its other side does not shine through") {
+    const double rise = std::tan(kPi / 6);
+    const auto at = [&](int corner, double y) { return Vec3(corner == 0 ? 0 : 1, y, corner == 2 ? rise : 0); };
+    Facets wedge{{at(0, 0), at(1, 0), at(2, 0)}, {at(0, 1), at(2, 1), at(1, 1)}};
+    for (int i = 0; i < 3; ++i) {
+        const int j = (i + 1) % 3;
+        wedge.push_back({at(i, 0), at(j, 1), at(j, 0)});
+        wedge.push_back({at(i, 0), at(i, 1), at(j, 1)});
+    }
+    const Walls walls = [&](const Vec3& q) {
+        const Vec3 flat(q.x, 0, q.z);
+        double least = 1e9;
+        bool isOutside = false;
+        for (int i = 0; i < 3; ++i) {
+            const Vec3 p = at(i, 0), along = at((i + 1) % 3, 0) - p;
+            if (glm::cross(flat - p, along).y < 0) isOutside = true;
+            const double share = glm::clamp(glm::dot(flat - p, along) / glm::dot(along, along), 0.0, 1.0);
+            least = std::min(least, glm::length(flat - p - share * along));
+        }
+        return isOutside ? std::vector{least} : std::vector<double>{};
+    };
+    checkCounts(wedge, 0.25, {-0.25, 0.3, -0.25}, {0.6, 0.7, 0.6}, walls, 1000);
+}
+
 TEST_CASE("a sphere inside a block touches one, two or three walls") {
     const Walls walls = [](const Vec3& q) { return std::vector<double>{q.x, q.y, q.z, 1 - q.x, 1 - q.y, 1 - q.z}; };
     checkCounts(block(Vec3(0), Vec3(1)), 0.1, Vec3(0), Vec3(1), walls);
