@@ -9,9 +9,9 @@ namespace vkdose::geometry {
 
 namespace {
 
-/// A place, and the index of the feature it belongs to.
+/// The direction of a place, and the index of the feature it belongs to.
 struct Member {
-    Closest place;
+    Vec3 normal;
     std::size_t feature;
 };
 
@@ -29,7 +29,7 @@ std::vector<Feature> distinct(std::vector<Feature> places, const Vec3& centre, d
     for (const Feature& place : places) {
         std::size_t mine = places.size();  // the deepest feature that it belongs to
         for (const Member& m : members)
-            if (glm::dot(m.place.normal, place.normal) >= kSameDirection) mine = std::min(mine, m.feature);
+            if (glm::dot(m.normal, place.normal) >= kSameDirection) mine = std::min(mine, m.feature);
         if (mine == places.size()) {
             const bool covered = std::any_of(kept.begin(), kept.end(), [&](const Feature& deeper) {
                 return oneContact(deeper, place, radius * (1 + kRounding));
@@ -38,12 +38,12 @@ std::vector<Feature> distinct(std::vector<Feature> places, const Vec3& centre, d
             mine = kept.size();
             kept.push_back(place);
         }
-        members.push_back({place, mine});
+        members.push_back({place.normal, mine});
         // It joins features that are no deeper than itself: nothing lies between them.
         for (std::size_t other = kept.size() - 1; other > mine; --other) {
             if (place.distance - kept[other].distance > kRounding * radius) continue;
             const bool joined = std::any_of(members.begin(), members.end(), [&](const Member& m) {
-                return m.feature == other && glm::dot(m.place.normal, place.normal) >= kSameDirection;
+                return m.feature == other && glm::dot(m.normal, place.normal) >= kSameDirection;
             });
             if (!joined) continue;
             kept.erase(kept.begin() + std::ptrdiff_t(other));

@@ -71,9 +71,11 @@ class View {
     std::optional<double> inside() const {
         if (rho_ <= f_.innerRadius || rho_ >= f_.outerRadius) return std::nullopt;
         const double first = std::fmod(f_.hand * (phi_ - f_.startAngle), 2 * kPi);
-        for (double theta = first < 0 ? first + 2 * kPi : first; theta <= f_.angle; theta += 2 * kPi)
+        for (int turn = first < 0 ? 1 : 0;; ++turn) {
+            const double theta = first + 2 * kPi * turn;
+            if (theta > f_.angle) return std::nullopt;
             if (std::abs(q_.z - f_.height(theta)) < f_.thickness / 2) return theta;
-        return std::nullopt;
+        }
     }
 
     /// The blade angle at which the blade's middle has the height z, clamped to the blade.

@@ -15,7 +15,7 @@ inline constexpr std::uint32_t kNoFace = std::numeric_limits<std::uint32_t>::max
 
 /// Two vertices, and the one or two triangles that share them.
 struct MeshEdge {
-    std::array<std::uint32_t, 2> vertices;                 ///< ascending
+    std::array<std::uint32_t, 2> vertices{};               ///< ascending
     std::array<std::uint32_t, 2> faces{kNoFace, kNoFace};  ///< the second is kNoFace at an open edge
 };
 

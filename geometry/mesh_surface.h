@@ -42,8 +42,8 @@ class MeshSurface {
     enum class Part { Face, Edge, Vertex };
     struct Place {
         Feature feature;
-        Part part;
-        std::uint32_t index;  ///< of the triangle, edge or vertex
+        Part part = Part::Face;
+        std::uint32_t index = 0;  ///< of the triangle, edge or vertex
     };
 
     Place closestOn(std::uint32_t triangle, const Vec3& q) const;
