@@ -1,10 +1,7 @@
 #include "geometry/coil_mesh.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 namespace vkdose::geometry {
 
@@ -43,18 +40,6 @@ std::vector<Triangle> coilMesh(const Coil& coil, int around, int perTurn) {
     }
     for (int i = 1; i + 1 < around; ++i) mesh.push_back({last[0], last[i], last[i + 1]});
     return mesh;
-}
-
-std::string stlText(const std::vector<Triangle>& mesh) {
-    std::string text = "solid coil\n";
-    const auto out = std::back_inserter(text);
-    for (const auto& [a, b, c] : mesh) {
-        const Vec3 n = glm::normalize(glm::cross(b - a, c - a));
-        fmt::format_to(out, "facet normal {:.9g} {:.9g} {:.9g}\nouter loop\n", n.x, n.y, n.z);
-        for (const Vec3& v : {a, b, c}) fmt::format_to(out, "vertex {:.9g} {:.9g} {:.9g}\n", v.x, v.y, v.z);
-        fmt::format_to(out, "endloop\nendfacet\n");
-    }
-    return text + "endsolid coil\n";
 }
 
 }  // namespace vkdose::geometry

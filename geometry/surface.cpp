@@ -12,12 +12,6 @@ Vec3 direction(const Vec3& v, const Vec3& fallback) {
     return size > 0 ? v / size : fallback;
 }
 
-/// Some unit vector normal to the unit vector `axis`.
-Vec3 anyNormal(const Vec3& axis) {
-    const Vec3 other = std::abs(axis.x) < 0.5 ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
-    return glm::normalize(other - axis * glm::dot(axis, other));
-}
-
 /// A surface point seen from `q` when nothing lies behind it: an edge.
 Closest edge(const Vec3& point, const Vec3& q, const Vec3& fallback) {
     return {point, direction(q - point, fallback), glm::length(q - point)};
@@ -75,6 +69,11 @@ Closest closest(const Front& front, const Vec3& q) {
 
 }  // namespace
 
+Vec3 anyNormal(const Vec3& axis) {
+    const Vec3 other = std::abs(axis.x) < 0.5 ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
+    return glm::normalize(other - axis * glm::dot(axis, other));
+}
+
 Closest closestPoint(const Surface& surface, const Vec3& q) {
     return std::visit([&](const auto& s) { return closest(s, q); }, surface);
 }
@@ -85,16 +84,17 @@ bool endsAtFront(const Surface& surface) {
     return false;
 }
 
+bool oneContact(const Closest& deeper, const Closest& shallower, double radius) {
+    const double cosine = glm::dot(deeper.normal, shallower.normal);
+    // Heights are measured along the normal of the deeper contact. The sphere's centre is at its distance above that
+    // contact's plane. The closest point of the other contact is so much below the centre:
+    const double below = shallower.distance * cosine;
+    return cosine >= kSameDirection || deeper.distance - below < radius - deeper.distance;
+}
+
 Joint jointContact(const Closest& wall, const Closest& front, double radius) {
-    constexpr double kSameDirection = 0.9397;  // cos 20 degrees
     const bool wallDeeper = wall.distance <= front.distance;
-    const double deeper = wallDeeper ? wall.distance : front.distance;
-    const double shallower = wallDeeper ? front.distance : wall.distance;
-    const double cosine = glm::dot(wall.normal, front.normal);
-    // Heights are measured along the normal of the deeper contact. The sphere's centre is `deeper` above that contact's
-    // plane. The closest point of the other contact is shallower * cosine below the centre.
-    const double height = deeper - shallower * cosine;
-    if (cosine < kSameDirection && height >= radius - deeper) return Joint::Apart;
+    if (!oneContact(wallDeeper ? wall : front, wallDeeper ? front : wall, radius)) return Joint::Apart;
     return wallDeeper ? Joint::Wall : Joint::Front;
 }
 

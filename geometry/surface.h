@@ -16,6 +16,9 @@ struct Closest {
     double distance;  ///< signed: negative when the query point lies behind the surface [m]
 };
 
+/// Some unit vector normal to the unit vector `axis`.
+Vec3 anyNormal(const Vec3& axis);
+
 constexpr double kEndless = std::numeric_limits<double>::infinity();
 
 /// Half space; particles live where dot(q - point, normal) > 0. A plane that is parallel to z may end at z = `end`.
@@ -59,6 +62,14 @@ Closest closestPoint(const Surface& surface, const Vec3& q);
 /// Whether `surface` is a plane or trough that ends at a front wall, where it meets the rim of the hole.
 bool endsAtFront(const Surface& surface);
 
+/// Cosine of 20 degrees: places in directions that differ by less are one contact.
+inline constexpr double kSameDirection = 0.9397;
+
+/// Whether two places that touch a sphere of `radius` [m] act on it as one: their directions are within 20 degrees, or
+/// the shallower one lies no higher above the tangent plane of the deeper one than the overlap, so that the flat of the
+/// contact covers it.
+bool oneContact(const Closest& deeper, const Closest& shallower, double radius);
+
 /// The relation of a wall that ends at the front wall and the front wall itself, for a sphere that overlaps both.
 enum class Joint {
     Apart,  ///< two contacts, as in the corner between a side and the front wall
@@ -66,10 +77,9 @@ enum class Joint {
     Front   ///< one contact: that with the front wall, its rim or its throat
 };
 
-/// Only the deeper contact counts where two surfaces act on a sphere as one: they continue each other, or form a ledge
-/// that the flat of the contact covers. The first holds if their normals differ by at most 20 degrees. The second holds
-/// if the closest point of the shallower contact lies no higher above the tangent plane of the deeper one than the
-/// overlap. `radius` is that of the sphere [m]; both surfaces must touch it.
+/// Only the deeper contact counts where a wall and the front wall act on a sphere as one (oneContact): they continue
+/// each other, or form a ledge that the flat of the contact covers. `radius` is that of the sphere [m]; both surfaces
+/// must touch it.
 Joint jointContact(const Closest& wall, const Closest& front, double radius);
 
 }  // namespace vkdose::geometry

@@ -1,0 +1,225 @@
+#include "geometry/motion.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace vkdose::geometry {
+
+namespace {
+
+/// A motion at its own time: turned by `angle` about a line, then shifted.
+struct Displacement {
+    Vec3 axis{0, 0, 1}, through{0};
+    double angle = 0;         ///< [rad]
+    double angleRate = 0;     ///< [rad/s]
+    Vec3 shift{0}, speed{0};  ///< [m], [m/s]
+};
+
+double wave(double frequency, double phase, double t) {
+    // Whole periods are dropped first, as far as a double holds them.
+    return 2 * kPi * (frequency * t - std::floor(frequency * t)) + phase;
+}
+
+Displacement at(const Rest&, double) {
+    return {};
+}
+
+Displacement at(const Turn& m, double t) {
+    const double turns = m.rate / (2 * kPi) * t;
+    return {m.axis, m.through, 2 * kPi * (turns - std::round(turns)), m.rate, Vec3(0), Vec3(0)};
+}
+
+Displacement at(const Swing& m, double t) {
+    const double w = wave(m.frequency, m.phase, t);
+    return {m.axis,  m.through, m.amplitude * std::sin(w), m.amplitude * 2 * kPi * m.frequency * std::cos(w),
+            Vec3(0), Vec3(0)};
+}
+
+Displacement at(const Shake& m, double t) {
+    const double w = wave(m.frequency, m.phase, t);
+    Displacement d;
+    d.shift = m.amplitude * std::sin(w) * m.direction;
+    d.speed = m.amplitude * 2 * kPi * m.frequency * std::cos(w) * m.direction;
+    return d;
+}
+
+Displacement at(const Slide& m, double t) {
+    Displacement d;
+    d.shift = t * m.velocity;
+    d.speed = m.velocity;
+    return d;
+}
+
+Displacement at(const Table& m, double t) {
+    Displacement d;
+    d.axis = m.axis;
+    d.through = m.through;
+    if (m.rows.empty()) return d;
+    const auto next = std::upper_bound(m.rows.begin(), m.rows.end(), t,
+                                       [](double time, const Table::Row& row) { return time < row.time; });
+    if (next == m.rows.begin() || next == m.rows.end()) {
+        const Table::Row& row = next == m.rows.begin() ? m.rows.front() : m.rows.back();
+        d.angle = row.angle;
+        d.shift = row.shift;
+        return d;
+    }
+    const Table::Row &a = next[-1], &b = *next;
+    const double span = b.time - a.time, share = (t - a.time) / span;
+    d.angle = a.angle + share * (b.angle - a.angle);
+    d.shift = a.shift + share * (b.shift - a.shift);
+    d.angleRate = (b.angle - a.angle) / span;
+    d.speed = (b.shift - a.shift) / span;
+    return d;
+}
+
+Displacement displacement(const Motion& motion, double t) {
+    return std::visit([&](const auto& m) { return at(m, t); }, motion);
+}
+
+/// Largest rates of angle [rad/s] and shift [m/s] between two times of the motion's own clock.
+struct Rates {
+    double angle = 0, shift = 0;
+};
+
+Rates largestRates(const Motion& motion, double from, double to) {
+    if (const auto* turn = std::get_if<Turn>(&motion)) return {std::abs(turn->rate), 0};
+    if (const auto* slide = std::get_if<Slide>(&motion)) return {0, glm::length(slide->velocity)};
+    if (const auto* swing = std::get_if<Swing>(&motion))
+        return {std::abs(swing->amplitude * 2 * kPi * swing->frequency), 0};
+    if (const auto* shake = std::get_if<Shake>(&motion))
+        return {0, std::abs(shake->amplitude * 2 * kPi * shake->frequency)};
+    Rates rates;
+    if (const auto* table = std::get_if<Table>(&motion))
+        for (std::size_t i = 0; i + 1 < table->rows.size(); ++i) {
+            const Table::Row &a = table->rows[i], &b = table->rows[i + 1];
+            if (b.time <= from || a.time >= to) continue;
+            rates.angle = std::max(rates.angle, std::abs(b.angle - a.angle) / (b.time - a.time));
+            rates.shift = std::max(rates.shift, glm::length(b.shift - a.shift) / (b.time - a.time));
+        }
+    return rates;
+}
+
+bool finite(const Vec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+std::string axisFault(const Vec3& axis, const Vec3& through) {
+    if (!finite(axis) || !finite(through)) return "an axis is not finite";
+    if (std::abs(glm::length(axis) - 1) > 1e-9) return "an axis must be a unit vector";
+    return "";
+}
+
+std::string fault(const Rest&) {
+    return "";
+}
+
+std::string fault(const Turn& m) {
+    return std::isfinite(m.rate) ? axisFault(m.axis, m.through) : "the rate is not finite";
+}
+
+std::string fault(const Slide& m) {
+    return finite(m.velocity) ? "" : "the velocity is not finite";
+}
+
+std::string waveFault(double amplitude, double frequency, double phase) {
+    if (!std::isfinite(amplitude) || !std::isfinite(frequency) || !std::isfinite(phase))
+        return "amplitude, frequency and phase must be finite";
+    return frequency < 0 ? "the frequency must not be negative" : "";
+}
+
+std::string fault(const Swing& m) {
+    const std::string said = waveFault(m.amplitude, m.frequency, m.phase);
+    return said.empty() ? axisFault(m.axis, m.through) : said;
+}
+
+std::string fault(const Shake& m) {
+    const std::string said = waveFault(m.amplitude, m.frequency, m.phase);
+    return said.empty() ? axisFault(m.direction, Vec3(0)) : said;
+}
+
+std::string fault(const Table& m) {
+    if (m.rows.size() < 2) return "a table of motion needs two rows or more";
+    for (std::size_t i = 0; i < m.rows.size(); ++i) {
+        const Table::Row& row = m.rows[i];
+        if (!std::isfinite(row.time) || !std::isfinite(row.angle) || !finite(row.shift))
+            return fmt::format("row {} of the table is not finite", i + 1);
+        if (i > 0 && row.time <= m.rows[i - 1].time)
+            return fmt::format("row {} of the table is not later than the row before", i + 1);
+    }
+    return axisFault(m.axis, m.through);
+}
+
+}  // namespace
+
+FixedAngle FixedAngle::of(double radians) {
+    double turns = radians / (2 * kPi);
+    turns -= std::floor(turns);
+    // Two words, so that the double's 53 bits are kept and 1.0 never overflows the conversion.
+    const double high = std::floor(turns * 0x1p32), low = (turns * 0x1p32 - high) * 0x1p32;
+    return {(static_cast<std::uint64_t>(high) << 32U) + static_cast<std::uint64_t>(low)};
+}
+
+double FixedAngle::radians() const {
+    return static_cast<double>(static_cast<std::int64_t>(part)) * 0x1p-64 * (2 * kPi);
+}
+
+FixedAngle operator+(FixedAngle a, FixedAngle b) {
+    return {a.part + b.part};
+}
+
+FixedAngle operator*(FixedAngle a, std::uint64_t times) {
+    return {a.part * times};
+}
+
+double Schedule::elapsed(double time) const {
+    if (intervals.empty()) return time;
+    double sum = 0;
+    for (const Interval& i : intervals) sum += std::max(0.0, std::min(time, i.to) - i.from);
+    return sum;
+}
+
+bool Schedule::active(double time) const {
+    return intervals.empty() || std::any_of(intervals.begin(), intervals.end(),
+                                            [&](const Interval& i) { return time >= i.from && time < i.to; });
+}
+
+Pose Course::pose(double time) const {
+    const Displacement d = displacement(motion, schedule.elapsed(time));
+    const Rotation turned = glm::angleAxis(d.angle, d.axis);
+    return {turned * start.rotation, d.through + turned * (start.origin - d.through) + d.shift};
+}
+
+Moving Course::moving(double time) const {
+    if (!schedule.active(time)) return {};
+    const Displacement d = displacement(motion, schedule.elapsed(time));
+    return {d.speed, d.angleRate * d.axis, d.through + d.shift};
+}
+
+double wayBound(const Course& course, const Vec3& centre, double radius, double time, double duration) {
+    const double from = course.schedule.elapsed(time), to = course.schedule.elapsed(time + duration);
+    if (to <= from) return 0;
+    const Rates rates = largestRates(course.motion, from, to);
+    // The distance of a point from the axis stays what it is at the start.
+    const Displacement d = displacement(course.motion, 0);
+    const Vec3 from0 = course.start.toWorld(centre) - d.through;
+    const double lever = glm::length(from0 - glm::dot(from0, d.axis) * d.axis) + radius;
+    return (rates.angle * lever + rates.shift) * (to - from);
+}
+
+std::string motionFault(const Motion& motion) {
+    return std::visit([](const auto& m) { return fault(m); }, motion);
+}
+
+std::string scheduleFault(const Schedule& schedule) {
+    for (std::size_t i = 0; i < schedule.intervals.size(); ++i) {
+        const Schedule::Interval& now = schedule.intervals[i];
+        if (!(now.from < now.to)) return fmt::format("interval {} ends before it begins", i + 1);
+        if (i > 0 && now.from < schedule.intervals[i - 1].to)
+            return fmt::format("interval {} begins before the one before has ended", i + 1);
+    }
+    return "";
+}
+
+}  // namespace vkdose::geometry

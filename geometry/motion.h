@@ -1,0 +1,118 @@
+#pragma once
+// How a body moves: a closed form of time, so that a place and a velocity at any time follow from the time alone. A
+// restart, or a longer step, finds the body where it would have been.
+
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "host/core/vec.h"
+// behind vec.h, which says how GLM is used
+#include <glm/gtc/quaternion.hpp>
+
+namespace vkdose::geometry {
+
+using Rotation = glm::dquat;
+
+/// An angle as a fraction of a turn in 64-bit fixed point: [2^-64 turns]. Sums are exact, and whole turns drop out by
+/// themselves, so that a million turns lose no digit.
+struct FixedAngle {
+    std::uint64_t part = 0;
+
+    static FixedAngle of(double radians);  ///< of any finite angle, whole turns dropped
+    double radians() const;                ///< in [-pi, pi)
+    friend bool operator==(FixedAngle a, FixedAngle b) { return a.part == b.part; }
+};
+FixedAngle operator+(FixedAngle a, FixedAngle b);
+FixedAngle operator*(FixedAngle a, std::uint64_t times);
+
+/// Where a body is: a point x of its frame lies at rotation x + origin.
+struct Pose {
+    Rotation rotation{1, 0, 0, 0};
+    Vec3 origin{0};
+
+    Vec3 toWorld(const Vec3& x) const { return rotation * x + origin; }
+    Vec3 toBody(const Vec3& x) const { return glm::conjugate(rotation) * (x - origin); }
+    Vec3 directionToBody(const Vec3& n) const { return glm::conjugate(rotation) * n; }
+    Vec3 directionToWorld(const Vec3& n) const { return rotation * n; }
+};
+
+/// How it moves at that time: a point x of the world that is fixed to it has the velocity
+/// velocity + spin x (x - centre).
+struct Moving {
+    Vec3 velocity{0};  ///< [m/s]
+    Vec3 spin{0};      ///< [rad/s]
+    Vec3 centre{0};    ///< [m]
+
+    Vec3 at(const Vec3& x) const { return velocity + glm::cross(spin, x - centre); }
+};
+
+/// Axes are unit vectors, and they and the points stand in the world.
+struct Rest {};
+/// Turns about the line through `through` along `axis` at `rate` [rad/s].
+struct Turn {
+    Vec3 axis{0, 0, 1}, through{0};
+    double rate = 0;
+};
+/// Swings about a line by amplitude sin(2 pi frequency t + phase) [rad].
+struct Swing {
+    Vec3 axis{0, 0, 1}, through{0};
+    double amplitude = 0, frequency = 0, phase = 0;  ///< [rad], [Hz], [rad]
+};
+/// Shakes along a direction by amplitude sin(2 pi frequency t + phase) [m].
+struct Shake {
+    Vec3 direction{0, 0, 1};
+    double amplitude = 0, frequency = 0, phase = 0;  ///< [m], [Hz], [rad]
+};
+/// Goes along at `velocity` [m/s].
+struct Slide {
+    Vec3 velocity{0};
+};
+/// Follows a table: turned by angles about a line and moved by shifts, straight in between, at its first and last row
+/// before and after. Times ascend.
+struct Table {
+    struct Row {
+        double time = 0;   ///< [s]
+        double angle = 0;  ///< [rad]
+        Vec3 shift{0};     ///< [m]
+    };
+    Vec3 axis{0, 0, 1}, through{0};
+    std::vector<Row> rows;
+};
+
+using Motion = std::variant<Rest, Turn, Swing, Shake, Slide, Table>;
+
+/// When a motion goes on: in intervals [from, to) of the run's time [s], in order and apart. Outside of them the body
+/// stands where it is, and its own clock with it. No interval: always.
+struct Schedule {
+    struct Interval {
+        double from = 0, to = 0;
+    };
+    std::vector<Interval> intervals;
+
+    /// The time for which the motion has gone on until `time` [s].
+    double elapsed(double time) const;
+    bool active(double time) const;
+};
+
+/// A body's place in its case and its motion from there.
+struct Course {
+    Pose start;
+    Motion motion;
+    Schedule schedule;
+
+    Pose pose(double time) const;
+    Moving moving(double time) const;
+};
+
+/// Upper bound of the way that any point within `radius` [m] of `centre`, a point of the body's frame, goes from
+/// `time` to `time` + `duration` [m]. It may be used as a body's share of the slack.
+double wayBound(const Course& course, const Vec3& centre, double radius, double time, double duration);
+
+/// Why a motion cannot be: an axis that is no unit vector, times that do not ascend, numbers that are not finite. Empty
+/// if it can.
+std::string motionFault(const Motion& motion);
+std::string scheduleFault(const Schedule& schedule);
+
+}  // namespace vkdose::geometry
