@@ -148,6 +148,10 @@ constexpr Key kCoil[] = {
     number("start_angle_deg", kDegree, Bound::Any, 0.0, "of the wire's beginning, from +x towards +y"),
     word("hand", "right left", "right", "hand of the helix"),
     number("speed_rpm", kRpm, kNonNegative, kRequired, "speed during a dose, in the sense that conveys towards +z"),
+    boolean(
+        "surface_velocity", true,
+        "whether damping, friction and rolling resistance at the coil see its surface move. `false`: they see it at "
+        "rest, though the coil turns"),
 };
 
 constexpr Key kSettle[] = {

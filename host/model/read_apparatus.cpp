@@ -142,6 +142,7 @@ void readCoil(CaseReader& reader, Section& root, Case& c) {
     coil.startAngle = section.number("start_angle_deg");
     coil.hand = section.choice("hand") == std::size_t{1} ? -1 : 1;
     c.schedule.coilSpeed = section.number("speed_rpm");
+    c.world.coilSurfaceMoves = section.boolean("surface_velocity");
     c.world.coil = coil;
 }
 

@@ -75,10 +75,10 @@ void main() {
         History old = h;
 #endif
         vec3 point = me.sphere.high - touch.normal * (me.sphere.radius - 0.5 * touch.depth);
-        vec3 wall = coil.motion.x * vec3(-point.y, point.x, 0.0);
+        vec3 wall = coil.motion.y * vec3(-point.y, point.x, 0.0);
         Overlap o = Overlap(touch.depth, touch.normal);
         Response r;
-        WallForce f = meetWall(me, o, law, chosen, springDt, wall, vec3(0.0, 0.0, coil.motion.x), h, r);
+        WallForce f = meetWall(me, o, law, chosen, springDt, wall, vec3(0.0, 0.0, coil.motion.y), h, r);
         coilHistory[at] = h.slidingMax;
         coilHistory[at + push.particles] = h.rollingTorsion;
         force += f.force;

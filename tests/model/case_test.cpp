@@ -38,6 +38,7 @@ void checkSame(const Case& a, const Case& b) {
     CHECK(a.world.surfaces.size() == b.world.surfaces.size());
     CHECK(a.world.gravity == b.world.gravity);
     CHECK(a.world.density == b.world.density);
+    CHECK(a.world.coilSurfaceMoves == b.world.coilSurfaceMoves);
     CHECK(a.world.timeStep == b.world.timeStep);
     CHECK(a.world.skin == b.world.skin);
     CHECK(a.world.domain.low == b.world.domain.low);
@@ -238,6 +239,15 @@ TEST_CASE("settling adhesion: for every class without one of its own") {
     const Case d = loadCase(file, {"settle.kc_over_k=0.3", "settle.coil_kc_over_k=0"});
     CHECK(d.settlingLaw.of(ContactClass::ParticleWall).kc == Approx(600));
     CHECK(d.settlingLaw.of(ContactClass::ParticleCoil).kc == 0);
+}
+
+TEST_CASE("whether contacts see the coil's surface move is the case's choice, and survives being resolved") {
+    const Folder folder;
+    const auto file = folder.write("case.toml", kGoodCase);
+    CHECK(loadCase(file).world.coilSurfaceMoves);
+    const Case still = loadCase(file, {"coil.surface_velocity=false"});
+    CHECK_FALSE(still.world.coilSurfaceMoves);
+    checkSame(still, loadResolvedCase(still.resolved, file));
 }
 
 TEST_CASE("stop rules") {
