@@ -44,6 +44,13 @@ void printFilling(const Insertion& filled) {
     fmt::print("\n");
 }
 
+void printSoftening(const Case& c) {
+    const ContactParameters& p = c.dosingLaw.of(ContactClass::ParticleParticle);
+    fmt::print(
+        "softened   {:.4g} times: k = {:.5g} N/m, damping {:.4g} kg/s, plasticity_depth {:.4g} between particles\n",
+        c.softened, p.k2Max, p.gamma, p.plasticityDepth);
+}
+
 void printTimeScales(const Derived& d) {
     fmt::print("contact duration     mean pair on k1  stiffest pair on k2\n");
     for (const Derived::PairDuration& p : d.durations) {
@@ -68,6 +75,7 @@ int checkCommand(const CheckOptions& options) {
     const Timeline timeline(c);
     fmt::print("case       {}: {}\n", c.name, printableLines(c.reason));
     printFilling(filled);
+    if (c.softened > 1) printSoftening(c);
     printTimeScales(d);
     if (c.world.coil) printPredictions(d);
     fmt::print("schedule   settle {} steps, rotate {}, rest {}; sensors every {} steps\n", timeline.settleSteps(),

@@ -116,7 +116,7 @@ Case interpret(const std::filesystem::path& file, Node tree, std::vector<std::fi
     c.world.gravity = root.vector("gravity");
     c.bulkDensity = root.number("bulk_density");
     readParticles(reader, root, c);
-    readContact(root, c);
+    readContact(reader, root, c);
     const std::optional<Boundaries> kind = readBoundaries(reader, root, c);
     readCoil(reader, root, c);
     readRegion(root, kind, c);

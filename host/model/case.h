@@ -85,6 +85,7 @@ struct Case {
     World world;
     ContactLaw settlingLaw;            ///< of the contacts while the powder settles
     ContactLaw dosingLaw;              ///< from the first dose on
+    double softened = 1;               ///< by which factor both laws are softer than the file's parameters
     std::optional<Canister> canister;  ///< absent for free boundaries
     Filling filling;
     Schedule schedule;

@@ -86,6 +86,10 @@ constexpr Key kContactAlone[] = {
         "max_overlap_ratio", kPlain, kPositive, kMaxOverlapRatio,
         "overlap over smaller radius at which the run stops; at most 2. Particles pinched between coil and wall need "
         "more than the default (the paper's cases say 1)"),
+    number("soften", kPlain, kPositive, 1.0,
+           "s, at least 1: similar softer spheres. k is divided by s, γ by √s, φ_f multiplied by s, in every class. "
+           "Forces of a bed at rest stay, overlaps grow as s, and the time step of `\"auto\"` as √s. The resolved case "
+           "states the softer values and `soften = 1`"),
 };
 constexpr Key kContactClass[] = {
     number("k", {1, "N/m"}, kPositive, kRequired,
@@ -240,7 +244,7 @@ constexpr KeyTable kTables[] = {
      "`[contact]` holds the parameters between particles. `[contact.wall]` replaces single ones for the walls,\n"
      "`[contact.coil]` for the coil. The coil takes what it does not state from the wall, and the wall from "
      "`[contact]`."},
-    {"contact", kContactAlone, "These three hold for all contacts."},
+    {"contact", kContactAlone, "These hold for all contacts."},
     {"canister", kCanister, ""},
     {"plane[]", kPlane, "A wall without end, for `boundaries = \"list\"`."},
     {"cylinder[]", kCylinder, "A round wall, for `boundaries = \"list\"`."},

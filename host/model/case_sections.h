@@ -13,7 +13,7 @@ enum class Boundaries { Canister, List, None };
 
 // read_powder.cpp
 void readParticles(CaseReader& reader, Section& root, Case& c);
-void readContact(Section& root, Case& c);
+void readContact(CaseReader& reader, Section& root, Case& c);
 /// Reads the box of the insertion grid. By default it is the canister above its coil. Call after readBoundaries and
 /// readCoil.
 void readRegion(Section& root, std::optional<Boundaries> kind, Case& c);

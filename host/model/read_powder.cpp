@@ -113,6 +113,13 @@ namespace {
 struct Ratios {
     double k, k1, kc, plasticity, damping, mu, kt, dampingT, muR, kr, dampingR, muTo, kTo, dampingTo;
 
+    /// Similar spheres, `s` times as soft (physics.md, "Similar softer spheres").
+    void soften(double s) {
+        k /= s;
+        damping /= std::sqrt(s);
+        plasticity *= s;
+    }
+
     ContactParameters parameters(double adhesion) const {
         ContactParameters p;
         p.k2Max = k;
@@ -158,9 +165,30 @@ Ratios readRatios(Section& section, const Ratios* parent) {
     return r;
 }
 
+/// States the parameters of one class as they are, for the resolved case.
+void recordSoftened(Section& section, const Ratios& r) {
+    section.record("k", r.k);
+    section.record("damping", r.damping);
+    section.record("plasticity_depth", r.plasticity);
+}
+
+/// Reads by how much the spheres are to be softer, and makes them so.
+double readSoftness(CaseReader& reader, Section& contact, const std::array<Section*, kContactClasses>& sections,
+                    std::array<Ratios, kContactClasses>& ratios) {
+    const double s = contact.number("soften");
+    if (s < 1) reader.fault("contact.soften", "makes the spheres harder", "give 1 or more, or a larger k");
+    if (!(s > 1)) return 1;
+    for (std::size_t i = 0; i < ratios.size(); ++i) {
+        ratios[i].soften(s);
+        recordSoftened(*sections[i], ratios[i]);
+    }
+    contact.record("soften", 1.0);  // read again, the case is not softened a second time
+    return s;
+}
+
 }  // namespace
 
-void readContact(Section& root, Case& c) {
+void readContact(CaseReader& reader, Section& root, Case& c) {
     Section& contact = root.requiredTable("contact");
     c.dosingLaw.coulombLimit = static_cast<CoulombLimit>(contact.choice("coulomb_limit").value_or(0));
     c.dosingLaw.rollingLever = static_cast<RollingLever>(contact.choice("rolling_lever").value_or(0));
@@ -170,7 +198,8 @@ void readContact(Section& root, Case& c) {
     const Ratios wall = readRatios(wallSection, &pair);
     Section& coilSection = contact.table("coil");
     const Ratios coil = readRatios(coilSection, &wall);
-    const std::array<Ratios, kContactClasses> ratios{pair, wall, coil};
+    std::array<Ratios, kContactClasses> ratios{pair, wall, coil};
+    c.softened = readSoftness(reader, contact, {&contact, &wallSection, &coilSection}, ratios);
 
     // While the powder settles, adhesion has a strength of its own. A class whose table gives kc_over_k keeps that
     // value by default.
