@@ -55,7 +55,7 @@ void completeTime(Section& time, Case& c, const SizeRange& sizes) {
     const auto modes = contactModes(c.dosingLaw, c.world.density, sizes.smallest, contactClasses(c.world));
     if (c.world.timeStep == 0) {
         // Three digits are enough and read better in the resolved case.
-        const double exact = automaticTimeStep(modes);
+        const double exact = automaticTimeStep(modes, c.stepsPerContact);
         const double unit = std::pow(10.0, std::floor(std::log10(exact)) - 2);
         c.world.timeStep = std::stod(fmt::format("{:.2e}", std::floor(exact / unit) * unit));
         time.record("step_s", c.world.timeStep);
@@ -121,7 +121,7 @@ Case interpret(const std::filesystem::path& file, Node tree, std::vector<std::fi
     readCoil(reader, root, c);
     readRegion(root, kind, c);
     readSchedule(root, c);
-    readTime(root, c);
+    readTime(reader, root, c);
     readFields(reader, root, reader.faulty() ? std::numeric_limits<double>::quiet_NaN() : 2 * sizeRange(c).mean, c);
     const bool domainGiven = readDomain(root, c);
     reader.finish();

@@ -186,7 +186,14 @@ constexpr Key kStop[] = {
 constexpr Key kTime[] = {
     number("step_s", kSecond, kPositive, told("`\"auto\"`"),
            "time step. `\"auto\"`: 1/8 of the stiffest normal contact, 1/6 of any other, half of the fastest damping "
-           "time, whichever is least, cut to three digits"),
+           "time, whichever is least, cut to three digits")
+        .replacing("steps_per_contact"),
+    number(
+        "steps_per_contact", kPlain, kPositive,
+        told("8 in a normal contact and 6 in any other; of a stated `step_s` 5"),
+        "least number of time steps in half a period of the fastest motion of a contact: normal, sliding, rolling or "
+        "torsion. `\"auto\"` takes as many, a stated `step_s` with fewer is refused. At least 4")
+        .replacing("step_s"),
     number("skin_mm", kMillimetre, kPositive, told("0.6 of the mean radius"),
            "extra reach of the neighbour rows: larger means longer rows that are rebuilt less often"),
 };

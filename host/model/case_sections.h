@@ -24,7 +24,7 @@ std::optional<Boundaries> readBoundaries(CaseReader& reader, Section& root, Case
 void readCoil(CaseReader& reader, Section& root, Case& c);
 void readSchedule(Section& root, Case& c);
 /// Reads time step and skin if the file states them; 0 stands for a value that is computed later.
-void readTime(Section& root, Case& c);
+void readTime(CaseReader& reader, Section& root, Case& c);
 /// True when the file states a domain.
 bool readDomain(Section& root, Case& c);
 

@@ -59,10 +59,10 @@ std::vector<ContactMode> contactModes(const ContactLaw& law, double density, dou
     return modes;
 }
 
-double automaticTimeStep(const std::vector<ContactMode>& modes) {
+double automaticTimeStep(const std::vector<ContactMode>& modes, std::optional<double> stepsPerContact) {
     double step = std::numeric_limits<double>::infinity();
     for (const ContactMode& mode : modes) {
-        step = std::min(step, mode.duration / (isNormal(mode) ? 8 : 6));
+        step = std::min(step, mode.duration / stepsPerContact.value_or(isNormal(mode) ? 8 : 6));
         if (mode.decay > 0) step = std::min(step, 0.5 / mode.decay);
     }
     return step;

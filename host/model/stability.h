@@ -3,6 +3,7 @@
 // rolling and torsion. Each mode is a spring on an effective mass. The numbers are bounds for the smallest particle
 // against the largest.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,10 +27,16 @@ std::vector<ContactClass> contactClasses(const World& world);
 std::vector<ContactMode> contactModes(const ContactLaw& law, double density, double smallest,
                                       const std::vector<ContactClass>& used);
 
-/// A time step must not exceed this fraction of a mode's duration (stability alone would allow 2/pi of it).
+/// A time step must not exceed this fraction of a mode's duration, unless the case asks for fewer steps in it
+/// (stability of a single contact alone would allow 2/pi of it).
 inline constexpr double kUnstableFraction = 1.0 / 5;
 
-/// Time step for `step_s = "auto"`: 1/8 of the stiffest normal mode, 1/6 of any other, and half of a damping time.
-double automaticTimeStep(const std::vector<ContactMode>& modes);
+/// The fewest steps in the duration of the fastest mode that a case may ask for. A sphere with twelve contacts moves
+/// twice as fast as one with a single contact, and is stable with more than pi steps.
+inline constexpr double kFewestSteps = 4;
+
+/// Time step for `step_s = "auto"`: 1/`stepsPerContact` of the fastest mode, and half of a damping time. Without a
+/// number of steps 1/8 of the stiffest normal mode and 1/6 of any other.
+double automaticTimeStep(const std::vector<ContactMode>& modes, std::optional<double> stepsPerContact = {});
 
 }  // namespace vkdose

@@ -104,7 +104,7 @@ TEST_CASE("soften: friction, rolling and torsion of a slow motion are the same, 
             const double overlap = 2e-6;
             for (int n = 0; n < 40; ++n) {
                 // The springs advance by the motion times the time: s times the way, in so many steps of a second. The
-                // speeds of some um/s make the dashpots' part 1e-6 of the springs'.
+                // speeds of some 10 nm/s make the dashpots' part 1e-6 of the springs'.
                 const auto touch = [&](double wider) {
                     reference::Touch t{};
                     t.normal = Vec3(0, 1, 0);
