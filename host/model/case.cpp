@@ -52,7 +52,7 @@ void checkName(CaseReader& reader, const std::string& name) {
 }
 
 void completeTime(Section& time, Case& c, const SizeRange& sizes) {
-    const auto modes = contactModes(c.dosingLaw, c.world.density, sizes.smallest, contactClasses(c.world));
+    const auto modes = modesOf(c, sizes.smallest);
     if (c.world.timeStep == 0) {
         // Three digits are enough and read better in the resolved case.
         const double exact = automaticTimeStep(modes, c.stepsPerContact);

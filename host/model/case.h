@@ -10,6 +10,7 @@
 
 #include "host/model/case_tree.h"
 #include "host/model/field.h"
+#include "host/model/grid.h"
 #include "host/model/particles.h"
 #include "host/model/world.h"
 
@@ -32,7 +33,8 @@ struct Filling {
     double mass = 0;  ///< target [kg]; 0 with an explicit list
     SizeDistribution size;
     std::optional<Particles> list;
-    Box region;  ///< of the grid, open upwards in a canister (high.y infinite); unused with a list
+    double gridGap = kGridGap;  ///< play between the largest spheres of the grid, as a fraction of their diameter
+    Box region;                 ///< of the grid, open upwards in a canister (high.y infinite); unused with a list
 };
 
 /// The rules that end a run. The first one that is met ends it.

@@ -1,6 +1,7 @@
 #include "host/model/case_keys.h"
 
 #include "host/model/case.h"
+#include "host/model/grid.h"
 
 namespace vkdose {
 namespace {
@@ -39,7 +40,14 @@ constexpr Key kParticles[] = {
         .replacing("list"),
     text("list", told("none"),
          "a CSV of particles to start from in place of a fill; the path is relative to the case file")
-        .replacing("mass_g size region"),
+        .replacing("mass_g size region grid_gap drop_mm"),
+    number(
+        "grid_gap", kPlain, kPositive, kGridGap,
+        "free way between the largest spheres of the grid that the fill starts from, in their diameters. The larger it "
+        "is, the looser and the more irregular is the start, and the longer the fall"),
+    number(
+        "drop_mm", kMillimetre, kNonNegative, 0.0,
+        "height of the grid's lowest spheres over the coil, or over the floor's axis without one; in a canister only"),
 };
 
 constexpr Key kUniform[] = {
@@ -166,6 +174,9 @@ constexpr Key kSettle[] = {
            "adhesion between particle and wall while settling"),
     number("coil_kc_over_k", kPlain, kNonNegative, told("the coil's own, or the wall's above"),
            "adhesion between particle and coil while settling"),
+    number("damping_factor", kPlain, kPositive, 1.0,
+           "γ of the normal direction while settling over that of `[contact]`. More of it makes the impacts of the "
+           "filling shallower, and may need a shorter time step"),
 };
 constexpr Key kDose[] = {
     number("rotate_s", kSecond, kNonNegative, 0.0,

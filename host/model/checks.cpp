@@ -201,7 +201,7 @@ void checkGrid(CaseReader& reader, const Case& c, double largest) {
                          : "give less mass or larger meso-particles");
         return;
     }
-    const double capacity = InsertionGrid(f.region, largest).capacity();
+    const double capacity = InsertionGrid(f.region, largest, f.gridGap).capacity();
     const auto count = static_cast<double>(drawnParticles(c));
     if (count == 0)
         reader.fault("particles.mass_g", "is less than half of the first particle drawn", "give more mass");
@@ -341,7 +341,7 @@ void checkSurfaces(CaseReader& reader, const Case& c, double radius) {
 
 void checkTimeStep(CaseReader& reader, const Case& c, double smallestRadius) {
     const double dt = c.world.timeStep;
-    const auto modes = contactModes(c.dosingLaw, c.world.density, smallestRadius, contactClasses(c.world));
+    const auto modes = modesOf(c, smallestRadius);
     const std::string automatic =
         fmt::format("give at most {:.3g} s, or \"auto\"", automaticTimeStep(modes, c.stepsPerContact));
     const double longest = c.stepsPerContact ? 1 / *c.stepsPerContact : kUnstableFraction;

@@ -86,18 +86,21 @@ void readParticles(CaseReader& reader, Section& root, Case& c) {
     }
     section.know("list");
     c.filling.mass = section.number("mass_g");
+    c.filling.gridGap = section.number("grid_gap");
     c.filling.size = readSize(section.requiredTable("size"));
 }
 
 void readRegion(Section& root, std::optional<Boundaries> kind, Case& c) {
     Section& particles = root.table("particles");
-    if (!kind) particles.know("region");
+    if (!kind)
+        for (const char* key : {"region", "drop_mm"}) particles.know(key);
     if (!kind || c.filling.list) return;
     if (kind == Boundaries::Canister) {
         const Canister& can = *c.canister;
         // "the initial position of the lowest particle is higher than the diameter of the coil" (paper)
         double floor = can.flatFloor ? -can.width / 2 : 0.0;
         if (c.world.coil) floor = c.world.coil->radius + c.world.coil->wireRadius;
+        floor += particles.number("drop_mm");
         c.filling.region = {{-can.width / 2, floor, 0}, {can.width / 2, kInfinity, can.length}};
         return;
     }
@@ -208,11 +211,13 @@ void readContact(CaseReader& reader, Section& root, Case& c) {
     const double wallKc = settle.number("wall_kc_over_k", wallSection.has("kc_over_k") ? wall.kc : pairKc);
     const double coilKc = settle.number("coil_kc_over_k", coilSection.has("kc_over_k") ? coil.kc : wallKc);
     const std::array<double, kContactClasses> settling{pairKc, wallKc, coilKc};
+    const double damping = settle.number("damping_factor");
 
     c.settlingLaw = c.dosingLaw;
     for (std::size_t i = 0; i < ratios.size(); ++i) {
         c.dosingLaw.classes[i] = ratios[i].parameters(ratios[i].kc);
         c.settlingLaw.classes[i] = ratios[i].parameters(settling[i]);
+        c.settlingLaw.classes[i].gamma *= damping;
     }
 }
 

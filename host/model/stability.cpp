@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "host/core/vec.h"
+#include "host/model/case.h"
 #include "host/model/particles.h"
 
 namespace vkdose {
@@ -56,6 +57,14 @@ std::vector<ContactMode> contactModes(const ContactLaw& law, double density, dou
         if (p.muR > 0) add(className(c) + " rolling", p.kr, p.gammaR, turning);
         if (p.muTo > 0) add(className(c) + " torsion", p.kTo, p.gammaTo, turning);
     }
+    return modes;
+}
+
+std::vector<ContactMode> modesOf(const Case& c, double smallest) {
+    const std::vector<ContactClass> used = contactClasses(c.world);
+    std::vector<ContactMode> modes = contactModes(c.dosingLaw, c.world.density, smallest, used);
+    const auto settling = contactModes(c.settlingLaw, c.world.density, smallest, used);
+    modes.insert(modes.end(), settling.begin(), settling.end());
     return modes;
 }
 

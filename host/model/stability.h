@@ -11,6 +11,8 @@
 
 namespace vkdose {
 
+struct Case;
+
 struct ContactMode {
     std::string name;     ///< "particle-wall rolling"
     double duration = 0;  ///< half a period without damping, pi sqrt(m/k) [s]
@@ -26,6 +28,9 @@ std::vector<ContactClass> contactClasses(const World& world);
 /// Every mode of every class in `used`, for particles no smaller than `smallest` [m].
 std::vector<ContactMode> contactModes(const ContactLaw& law, double density, double smallest,
                                       const std::vector<ContactClass>& used);
+
+/// The modes of a case under both of its laws: damping may be stronger while the powder settles.
+std::vector<ContactMode> modesOf(const Case& c, double smallest);
 
 /// A time step must not exceed this fraction of a mode's duration, unless the case asks for fewer steps in it
 /// (stability of a single contact alone would allow 2/pi of it).

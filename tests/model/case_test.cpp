@@ -272,6 +272,23 @@ TEST_CASE("softer spheres: every class, settling included, once and not again wh
                       Catch::Contains("contact.soften = 0.5: makes the spheres harder"));
 }
 
+TEST_CASE("damping while settling: a factor on the dashpot of the normal direction, which may need a shorter step") {
+    const Folder folder;
+    const auto file = folder.write("case.toml", kGoodCase);
+    const Case usual = loadCase(file), damped = loadCase(file, {"settle.damping_factor=3"});
+    checkSameLaw(usual.dosingLaw, damped.dosingLaw);
+    for (int i = 0; i < kContactClasses; ++i) {
+        const ContactParameters &p = usual.settlingLaw.classes[i], &q = damped.settlingLaw.classes[i];
+        CHECK(q.gamma == 3 * p.gamma);
+        CHECK(std::vector<double>{q.gammaT, q.gammaR, q.gammaTo} == std::vector<double>{p.gammaT, p.gammaR, p.gammaTo});
+        CHECK(q.k2Max == p.k2Max);
+        CHECK(q.kc == p.kc);
+    }
+    checkSame(damped, loadResolvedCase(damped.resolved, file));
+    const Case overdamped = loadCase(file, {"settle.damping_factor=60"});
+    CHECK(overdamped.world.timeStep < 0.2 * usual.world.timeStep);
+}
+
 TEST_CASE("whether contacts see the coil's surface move is the case's choice, and survives being resolved") {
     const Folder folder;
     const auto file = folder.write("case.toml", kGoodCase);
