@@ -164,6 +164,10 @@ constexpr Key kCoil[] = {
         "surface_velocity", true,
         "whether damping, friction and rolling resistance at the coil see its surface move. `false`: they see it at "
         "rest, though the coil turns"),
+    boolean(
+        "wire_curvature", false,
+        "whether the reduced size a* of a contact with the coil counts the wire's curvature, as that of a sphere of "
+        "its thickness. `false`: the wire is as flat as a wall"),
 };
 
 constexpr Key kSettle[] = {

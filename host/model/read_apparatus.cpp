@@ -144,6 +144,7 @@ void readCoil(CaseReader& reader, Section& root, Case& c) {
     coil.hand = section.choice("hand") == std::size_t{1} ? -1 : 1;
     c.schedule.coilSpeed = section.number("speed_rpm");
     c.world.coilSurfaceMoves = section.boolean("surface_velocity");
+    c.world.coilWireCurved = section.boolean("wire_curvature");
     c.world.coil = coil;
 }
 

@@ -31,6 +31,7 @@ struct World {
     std::vector<geometry::Surface> surfaces;
     std::optional<geometry::Coil> coil;
     bool coilSurfaceMoves = true;  ///< contacts see the velocity of the coil's surface; false: they see it at rest
+    bool coilWireCurved = false;   ///< a* counts the wire's radius; false: the wire is as flat as a wall
     Vec3 gravity{0, -9.81, 0};
     double density = 0;   ///< of the particles [kg/m3]
     double timeStep = 0;  ///< [s]

@@ -44,6 +44,7 @@ RuledWorld dosingWorld() {
                       geometry::Front{16e-3, 8e-3, 3e-3}};
     world.coil = geometry::Coil{6.5e-3, 6e-3, 0.9e-3, 19e-3};
     world.coilSurfaceMoves = false;
+    world.coilWireCurved = true;
     world.domain = {Vec3(-0.02), Vec3(0.02, 0.1, 0.05)};
     world.throatZ = 16e-3;
     world.outletZ = 19e-3;
@@ -97,13 +98,42 @@ TEST_CASE("surface velocity: without damping and friction nothing sees it, and b
     CHECK(glm::length(ends[0].velocity[0]) > 0.01);
 }
 
+TEST_CASE("wire curvature: a sphere at the wire gets stiff earlier and rolls on a shorter lever") {
+    // Pressed so deep that a flat wire is still plastic, 1.25 phi_f 2 a = 156 um, and a curved one, 69 um, is not.
+    const double overlap = 100e-6, b = 1e-3, curved = 2 * kRadius * b / (kRadius + b);
+    const ContactParameters p = paperParameters();
+    REQUIRE(1.25 * p.plasticityDepth * curved < overlap);
+    for (const bool isCurved : {false, true}) {
+        RuledWorld world = coilWorld(true);
+        world.coilWireCurved = isCurved;
+        Particles one = pressedIn(*world.coil, overlap);
+        one.spin[0] = Vec3(0, 0, 100);
+        auto backend = makeReferenceBackend();
+        backend->load(world, one);
+        backend->advance(1, 0);
+        const double limit = 1.25 * p.plasticityDepth * curved;
+        const double flat = p.k1 * overlap, stiff = p.k1 * limit + p.k2Max * (overlap - limit);
+        const Contact c = backend->contacts().at(0);
+        const Vec3 n = glm::normalize(one.position[0] - geometry::closestPoint(*world.coil, 0, one.position[0]).point);
+        CHECK(near(glm::dot(c.force, n), isCurved ? stiff : flat, flat, 1e-6));
+        // The second step's rolling spring has grown by a_r |n x omega| dt.
+        backend->advance(1, 0);
+        const double lever = isCurved ? curved : 2 * kRadius;
+        const double way = lever * glm::length(glm::cross(n, backend->particles().spin[0])) * world.timeStep;
+        CHECK(nearRelative(glm::length(backend->contacts().at(0).rolling), way, 0.05));
+    }
+}
+
 TEST_CASE("surface velocity: a coil seen at rest still conveys at V_z") {
     RuledWorld world = freeWorld(spring(1000), 1e-5);
     for (ContactParameters& p : world.law.classes) {
+        p.k1 = 500;
+        p.plasticityDepth = 0.05;
         p.gamma = 0.02;
         p.mu = 0.3;
-        p.kt = 200;
-        p.gammaT = 5e-3;
+        p.kt = p.kr = 200;
+        p.gammaT = p.gammaR = 5e-3;
+        p.muR = 0.05;
     }
     world.gravity = Vec3(0, -kGravity, 0);
     const double half = 11.5e-3;
@@ -143,7 +173,8 @@ TEST_CASE("surface velocity: the energy book closes with a coil seen at rest, an
     CHECK(b.coilWork > 0.1 * b.loaded);
     // The book takes each step's mean of two torques; the sum of the torques differs by half a step at either end.
     CHECK(near(b.coilWork, byTorque, byTorque, 1e-2));
-    for (const double loss : {b.plastic, b.adhesive, b.viscous, b.sliding}) CHECK(loss > 1e-4 * ledger.losses());
+    // The laws of damping and friction see another velocity than the books, so that their losses may have either sign.
+    for (const double loss : {b.plastic, b.adhesive}) CHECK(loss > 1e-4 * ledger.losses());
     // The spring of the normal force is charged by the true approach of wire and sphere, seen or not. Charged by what
     // the law sees, the loss by the time step would be no small part any more.
     CHECK(near(b.numerical, 0, b.plastic + b.adhesive + b.viscous, 2e-3));

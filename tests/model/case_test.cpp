@@ -39,6 +39,7 @@ void checkSame(const Case& a, const Case& b) {
     CHECK(a.world.gravity == b.world.gravity);
     CHECK(a.world.density == b.world.density);
     CHECK(a.world.coilSurfaceMoves == b.world.coilSurfaceMoves);
+    CHECK(a.world.coilWireCurved == b.world.coilWireCurved);
     CHECK(a.world.timeStep == b.world.timeStep);
     CHECK(a.world.skin == b.world.skin);
     CHECK(a.world.domain.low == b.world.domain.low);
@@ -295,6 +296,8 @@ TEST_CASE("whether contacts see the coil's surface move is the case's choice, an
     CHECK(loadCase(file).world.coilSurfaceMoves);
     const Case still = loadCase(file, {"coil.surface_velocity=false"});
     CHECK_FALSE(still.world.coilSurfaceMoves);
+    CHECK_FALSE(still.world.coilWireCurved);
+    CHECK(loadCase(file, {"coil.wire_curvature=true"}).world.coilWireCurved);
     checkSame(still, loadResolvedCase(still.resolved, file));
 }
 
