@@ -71,6 +71,13 @@ void printFilling(const Insertion& filled) {
     fmt::print("\n");
 }
 
+void printSoftening(const Case& c) {
+    const ContactParameters& p = c.dosingLaw.of(ContactClass::ParticleParticle);
+    fmt::print(
+        "softened   {:.4g} times: k = {:.5g} N/m, damping {:.4g} kg/s, plasticity_depth {:.4g} between particles\n",
+        c.softened, p.k2Max, p.gamma, p.plasticityDepth);
+}
+
 void printContacts(const Derived& d, const Figures& f) {
     fmt::print("contact duration     mean pair on k1  stiffest pair on k2\n");
     for (const Derived::PairDuration& p : d.durations) {
@@ -142,6 +149,7 @@ void printText(const CheckOptions& options, const Checked& all) {
     const Timeline timeline(all.c);
     fmt::print("case       {}: {}\n", all.c.name, printableLines(all.c.reason));
     printFilling(all.filled);
+    if (all.c.softened > 1) printSoftening(all.c);
     printContacts(all.derived, all.figures);
     printBed(all);
     printGaps(all);

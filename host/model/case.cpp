@@ -52,10 +52,10 @@ void checkName(CaseReader& reader, const std::string& name) {
 }
 
 void completeTime(Section& time, Case& c, const SizeRange& sizes) {
-    const auto modes = contactModes(c.dosingLaw, c.world.density, sizes.smallest, contactClasses(c.world));
+    const auto modes = modesOf(c, sizes.smallest);
     if (c.world.timeStep == 0) {
         // Three digits are enough and read better in the resolved case.
-        const double exact = automaticTimeStep(modes);
+        const double exact = automaticTimeStep(modes, c.stepsPerContact);
         const double unit = std::pow(10.0, std::floor(std::log10(exact)) - 2);
         c.world.timeStep = std::stod(fmt::format("{:.2e}", std::floor(exact / unit) * unit));
         time.record("step_s", c.world.timeStep);
@@ -117,12 +117,12 @@ Case interpret(const std::filesystem::path& file, Node tree, std::vector<std::fi
     c.world.gravity = root.vector("gravity");
     c.bulkDensity = root.number("bulk_density");
     readParticles(reader, root, c);
-    readContact(root, c);
+    readContact(reader, root, c);
     const std::optional<Boundaries> kind = readBoundaries(reader, root, c);
     readCoil(reader, root, c);
     readRegion(root, kind, c);
     readSchedule(root, c);
-    readTime(root, c);
+    readTime(reader, root, c);
     readFields(reader, root, reader.faulty() ? std::numeric_limits<double>::quiet_NaN() : 2 * sizeRange(c).mean, c);
     const bool domainGiven = readDomain(root, c);
     reader.finish();

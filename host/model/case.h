@@ -10,6 +10,7 @@
 
 #include "host/model/case_tree.h"
 #include "host/model/field.h"
+#include "host/model/grid.h"
 #include "host/model/particles.h"
 #include "host/model/world.h"
 
@@ -32,7 +33,8 @@ struct Filling {
     double mass = 0;  ///< target [kg]; 0 with an explicit list
     SizeDistribution size;
     std::optional<Particles> list;
-    Box region;  ///< of the grid, open upwards in a canister (high.y infinite); unused with a list
+    double gridGap = kGridGap;  ///< play between the largest spheres of the grid, as a fraction of their diameter
+    Box region;                 ///< of the grid, open upwards in a canister (high.y infinite); unused with a list
 };
 
 /// The rules that end a run. The first one that is met ends it.
@@ -83,9 +85,11 @@ struct Case {
     std::string reason;
     std::uint64_t seed = 1;
     World world;
-    ContactLaw settlingLaw;            ///< of the contacts while the powder settles
-    ContactLaw dosingLaw;              ///< from the first dose on
-    std::optional<Canister> canister;  ///< absent for free boundaries
+    ContactLaw settlingLaw;                 ///< of the contacts while the powder settles
+    ContactLaw dosingLaw;                   ///< from the first dose on
+    std::optional<double> stepsPerContact;  ///< least number of time steps in the fastest mode (stability.h), if stated
+    double softened = 1;                    ///< by which factor both laws are softer than the file's parameters
+    std::optional<Canister> canister;       ///< absent for free boundaries
     Filling filling;
     Schedule schedule;
     double sensorInterval = 0;  ///< [s], a whole number of steps after loading
@@ -133,8 +137,10 @@ struct Derived {
         double stiffest;   ///< the smallest on k2Max, undamped (the shorter, so the safe figure) [s]
     };
     std::vector<PairDuration> durations;
-    double stiffest = 0;  ///< smallest of all [s]
-    double timeStep = 0;  ///< [s]
+    double stiffest = 0;      ///< smallest of all [s]
+    double fastestMode = 0;   ///< half a period of the fastest motion of a contact, rolling and others included [s]
+    std::string fastestName;  ///< of that motion: "particle-wall rolling"
+    double timeStep = 0;      ///< [s]
     std::size_t particles = 0;
     double fillMass = 0;      ///< inserted [kg]
     double pushVelocity = 0;  ///< V_z = p Omega / 2 pi [m/s]

@@ -1,6 +1,7 @@
 #include "host/model/case_keys.h"
 
 #include "host/model/case.h"
+#include "host/model/grid.h"
 
 namespace vkdose {
 namespace {
@@ -41,7 +42,14 @@ constexpr Key kParticles[] = {
         .replacing("list"),
     text("list", told("none"),
          "a CSV of particles to start from in place of a fill; the path is relative to the case file")
-        .replacing("mass_g size region"),
+        .replacing("mass_g size region grid_gap drop_mm"),
+    number(
+        "grid_gap", kPlain, kPositive, kGridGap,
+        "free way between the largest spheres of the grid that the fill starts from, in their diameters. The larger it "
+        "is, the looser and the more irregular is the start, and the longer the fall"),
+    number(
+        "drop_mm", kMillimetre, kNonNegative, 0.0,
+        "height of the grid's lowest spheres over the coil, or over the floor's axis without one; in a canister only"),
 };
 
 constexpr Key kUniform[] = {
@@ -88,6 +96,10 @@ constexpr Key kContactAlone[] = {
         "max_overlap_ratio", kPlain, kPositive, kMaxOverlapRatio,
         "overlap over smaller radius at which the run stops; at most 2. Particles pinched between coil and wall need "
         "more than the default (the paper's cases say 1)"),
+    number("soften", kPlain, kPositive, 1.0,
+           "s, at least 1: similar softer spheres. k is divided by s, γ by √s, φ_f multiplied by s, in every class. "
+           "Forces of a bed at rest stay, overlaps grow as s, and the time step of `\"auto\"` as √s. The resolved case "
+           "states the softer values and `soften = 1`"),
 };
 constexpr Key kContactClass[] = {
     number("k", {1, "N/m"}, kPositive, kRequired,
@@ -150,6 +162,14 @@ constexpr Key kCoil[] = {
     number("start_angle_deg", kDegree, Bound::Any, 0.0, "of the wire's beginning, from +x towards +y"),
     word("hand", "right left", "right", "hand of the helix"),
     number("speed_rpm", kRpm, kNonNegative, kRequired, "speed during a dose, in the sense that conveys towards +z"),
+    boolean(
+        "surface_velocity", true,
+        "whether damping, friction and rolling resistance at the coil see its surface move. `false`: they see it at "
+        "rest, though the coil turns"),
+    boolean(
+        "wire_curvature", false,
+        "whether the reduced size a* of a contact with the coil counts the wire's curvature, as that of a sphere of "
+        "its thickness. `false`: the wire is as flat as a wall"),
 };
 
 constexpr Key kSettle[] = {
@@ -160,6 +180,9 @@ constexpr Key kSettle[] = {
            "adhesion between particle and wall while settling"),
     number("coil_kc_over_k", kPlain, kNonNegative, told("the coil's own, or the wall's above"),
            "adhesion between particle and coil while settling"),
+    number("damping_factor", kPlain, kPositive, 1.0,
+           "γ of the normal direction while settling over that of `[contact]`. More of it makes the impacts of the "
+           "filling shallower, and may need a shorter time step"),
 };
 constexpr Key kDose[] = {
     number("rotate_s", kSecond, kNonNegative, 0.0,
@@ -180,7 +203,14 @@ constexpr Key kStop[] = {
 constexpr Key kTime[] = {
     number("step_s", kSecond, kPositive, told("`\"auto\"`"),
            "time step. `\"auto\"`: 1/8 of the stiffest normal contact, 1/6 of any other, half of the fastest damping "
-           "time, whichever is least, cut to three digits"),
+           "time, whichever is least, cut to three digits")
+        .replacing("steps_per_contact"),
+    number(
+        "steps_per_contact", kPlain, kPositive,
+        told("8 in a normal contact and 6 in any other; of a stated `step_s` 5"),
+        "least number of time steps in half a period of the fastest motion of a contact: normal, sliding, rolling or "
+        "torsion. `\"auto\"` takes as many, a stated `step_s` with fewer is refused. At least 4")
+        .replacing("step_s"),
     number("skin_mm", kMillimetre, kPositive, told("0.6 of the mean radius"),
            "extra reach of the neighbour rows: larger means longer rows that are rebuilt less often"),
 };
@@ -238,7 +268,7 @@ constexpr KeyTable kTables[] = {
      "`[contact]` holds the parameters between particles. `[contact.wall]` replaces single ones for the walls,\n"
      "`[contact.coil]` for the coil. The coil takes what it does not state from the wall, and the wall from "
      "`[contact]`."},
-    {"contact", kContactAlone, "These three hold for all contacts."},
+    {"contact", kContactAlone, "These hold for all contacts."},
     {"canister", kCanister, ""},
     {"plane[]", kPlane, "A wall without end, for `boundaries = \"list\"`."},
     {"cylinder[]", kCylinder, "A round wall, for `boundaries = \"list\"`."},

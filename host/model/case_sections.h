@@ -13,7 +13,7 @@ enum class Boundaries { Canister, List, None };
 
 // read_powder.cpp
 void readParticles(CaseReader& reader, Section& root, Case& c);
-void readContact(Section& root, Case& c);
+void readContact(CaseReader& reader, Section& root, Case& c);
 /// Reads the box of the insertion grid. By default it is the canister above its coil. Call after readBoundaries and
 /// readCoil.
 void readRegion(Section& root, std::optional<Boundaries> kind, Case& c);
@@ -24,7 +24,7 @@ std::optional<Boundaries> readBoundaries(CaseReader& reader, Section& root, Case
 void readCoil(CaseReader& reader, Section& root, Case& c);
 void readSchedule(Section& root, Case& c);
 /// Reads time step and skin if the file states them; 0 stands for a value that is computed later.
-void readTime(Section& root, Case& c);
+void readTime(CaseReader& reader, Section& root, Case& c);
 /// True when the file states a domain.
 bool readDomain(Section& root, Case& c);
 

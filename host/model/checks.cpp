@@ -201,7 +201,7 @@ void checkGrid(CaseReader& reader, const Case& c, double largest) {
                          : "give less mass or larger meso-particles");
         return;
     }
-    const double capacity = InsertionGrid(f.region, largest).capacity();
+    const double capacity = InsertionGrid(f.region, largest, f.gridGap).capacity();
     const auto count = static_cast<double>(drawnParticles(c));
     if (count == 0)
         reader.fault("particles.mass_g", "is less than half of the first particle drawn", "give more mass");
@@ -346,8 +346,10 @@ void checkSurfaces(CaseReader& reader, const Case& c, double radius) {
 
 void checkTimeStep(CaseReader& reader, const Case& c, double smallestRadius) {
     const double dt = c.world.timeStep;
-    const auto modes = contactModes(c.dosingLaw, c.world.density, smallestRadius, contactClasses(c.world));
-    const std::string automatic = fmt::format("give at most {:.3g} s, or \"auto\"", automaticTimeStep(modes));
+    const auto modes = modesOf(c, smallestRadius);
+    const std::string automatic =
+        fmt::format("give at most {:.3g} s, or \"auto\"", automaticTimeStep(modes, c.stepsPerContact));
+    const double longest = c.stepsPerContact ? 1 / *c.stepsPerContact : kUnstableFraction;
     const ContactMode* stiffest = nullptr;
     const ContactMode* damped = nullptr;
     for (const ContactMode& mode : modes) {
@@ -355,9 +357,12 @@ void checkTimeStep(CaseReader& reader, const Case& c, double smallestRadius) {
         if (damped == nullptr || mode.decay > damped->decay) damped = &mode;
     }
     if (stiffest == nullptr) return;  // no contact, no limit
-    if (dt > kUnstableFraction * stiffest->duration)
+    if (dt > longest * stiffest->duration)
         reader.fault("time.step_s",
-                     fmt::format("the time step {:.4g} s is unstable: the stiffest contact ({}) lasts {:.4g} s", dt,
+                     fmt::format("the time step {:.4g} s is {}: the stiffest contact ({}) lasts {:.4g} s", dt,
+                                 dt > kUnstableFraction * stiffest->duration
+                                     ? "unstable"
+                                     : fmt::format("more than 1/{:.4g} of it", *c.stepsPerContact),
                                  stiffest->name, stiffest->duration),
                      automatic);
     else if (dt * damped->decay > 1)

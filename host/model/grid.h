@@ -7,14 +7,14 @@
 
 namespace vkdose {
 
-/// Play between the largest spheres of the insertion grid, as a fraction of their diameter.
+/// Play between the largest spheres of the insertion grid, as a fraction of their diameter, unless the case says more.
 inline constexpr double kGridGap = 0.02;
 
-/// Regular grid that fills a box layer by layer from below. The sites are at least 2 r_max (1 + kGridGap) apart and
+/// Regular grid that fills a box layer by layer from below. The sites are at least 2 r_max (1 + gap) apart and
 /// half of that away from the sides. No two spheres then overlap, for any jitter.
 class InsertionGrid {
   public:
-    InsertionGrid(const Box& region, double largestRadius);
+    InsertionGrid(const Box& region, double largestRadius, double gap);
 
     Vec3 site(std::uint64_t index) const;  ///< index < capacity()
     double capacity() const;               ///< number of sites, 0 if the region is too narrow
@@ -25,6 +25,7 @@ class InsertionGrid {
     double top(std::uint64_t count) const;
 
   private:
+    double gap_;
     double pitch_;
     Vec3 low_;
     Vec3 high_;

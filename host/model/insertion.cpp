@@ -45,8 +45,11 @@ Vec3 jitter(std::uint64_t seed, std::uint64_t index, double amplitude) {
 
 }  // namespace
 
-InsertionGrid::InsertionGrid(const Box& region, double largestRadius)
-    : pitch_(2 * largestRadius * (1 + kGridGap)), low_(region.low + 0.5 * pitch_), high_(region.high - 0.5 * pitch_) {
+InsertionGrid::InsertionGrid(const Box& region, double largestRadius, double gap)
+    : gap_(gap),
+      pitch_(2 * largestRadius * (1 + gap)),
+      low_(region.low + 0.5 * pitch_),
+      high_(region.high - 0.5 * pitch_) {
     const Vec3 room = (high_ - low_) / pitch_;
     const auto sites = [](double n) {  // the tolerance lets a region of exactly n pitches hold n
         return n < -1e-9 ? 0.0 : std::min(std::floor(n + 1e-9) + 1, kMaxSites);
@@ -73,7 +76,7 @@ double InsertionGrid::capacity() const {
 }
 
 double InsertionGrid::jitterAmplitude() const {
-    return 0.25 * pitch_ * kGridGap / (1 + kGridGap);
+    return 0.25 * pitch_ * gap_ / (1 + gap_);
 }
 
 double InsertionGrid::top(std::uint64_t count) const {
@@ -102,7 +105,7 @@ Insertion insertParticles(const Case& c) {
         result.cutBelow = finerVolume(size, size.radiusMin);
         result.cutAbove = 1 - finerVolume(size, size.radiusMax);
     }
-    const InsertionGrid grid(c.filling.region, largestRadius(size));
+    const InsertionGrid grid(c.filling.region, largestRadius(size), c.filling.gridGap);
     const std::vector<double> radii = drawRadii(c, result);
     if (static_cast<double>(radii.size()) > grid.capacity())
         throw std::logic_error("the grid is too small for the filling");  // loadCase refuses such a case

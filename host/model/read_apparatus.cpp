@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "host/model/case_sections.h"
+#include "host/model/stability.h"
 
 namespace vkdose {
 namespace {
@@ -142,6 +143,8 @@ void readCoil(CaseReader& reader, Section& root, Case& c) {
     coil.startAngle = section.number("start_angle_deg");
     coil.hand = section.choice("hand") == std::size_t{1} ? -1 : 1;
     c.schedule.coilSpeed = section.number("speed_rpm");
+    c.world.coilSurfaceMoves = section.boolean("surface_velocity");
+    c.world.coilWireCurved = section.boolean("wire_curvature");
     c.world.coil = coil;
 }
 
@@ -189,14 +192,22 @@ void readSchedule(Section& root, Case& c) {
     c.checkpoint.simulated = checkpoint.number("time_s");
 }
 
-void readTime(Section& root, Case& c) {
+void readTime(CaseReader& reader, Section& root, Case& c) {
     Section& time = root.table("time");
     if (time.isString("step_s"))
         time.onlyWord("step_s", "auto");
     else if (time.has("step_s"))
         c.world.timeStep = time.number("step_s");
+    if (time.has("steps_per_contact")) {
+        c.stepsPerContact = time.number("steps_per_contact");
+        if (c.stepsPerContact < kFewestSteps)
+            reader.fault("time.steps_per_contact",
+                         "is unstable: a sphere with many contacts moves twice as fast as one",
+                         fmt::format("give at least {}", kFewestSteps));
+    }
     if (time.has("skin_mm")) c.world.skin = time.number("skin_mm");
     time.know("step_s");
+    time.know("steps_per_contact");
     time.know("skin_mm");
 }
 

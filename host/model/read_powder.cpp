@@ -86,18 +86,21 @@ void readParticles(CaseReader& reader, Section& root, Case& c) {
     }
     section.know("list");
     c.filling.mass = section.number("mass_g");
+    c.filling.gridGap = section.number("grid_gap");
     c.filling.size = readSize(section.requiredTable("size"));
 }
 
 void readRegion(Section& root, std::optional<Boundaries> kind, Case& c) {
     Section& particles = root.table("particles");
-    if (!kind) particles.know("region");
+    if (!kind)
+        for (const char* key : {"region", "drop_mm"}) particles.know(key);
     if (!kind || c.filling.list) return;
     if (kind == Boundaries::Canister) {
         const Canister& can = *c.canister;
         // "the initial position of the lowest particle is higher than the diameter of the coil" (paper)
         double floor = can.flatFloor ? -can.width / 2 : 0.0;
         if (c.world.coil) floor = c.world.coil->radius + c.world.coil->wireRadius;
+        floor += particles.number("drop_mm");
         c.filling.region = {{-can.width / 2, floor, 0}, {can.width / 2, kInfinity, can.length}};
         return;
     }
@@ -112,6 +115,13 @@ namespace {
 /// Contact parameters as ratios, the way the file has them.
 struct Ratios {
     double k, k1, kc, plasticity, damping, mu, kt, dampingT, muR, kr, dampingR, muTo, kTo, dampingTo;
+
+    /// Similar spheres, `s` times as soft (physics.md, "Similar softer spheres").
+    void soften(double s) {
+        k /= s;
+        damping /= std::sqrt(s);
+        plasticity *= s;
+    }
 
     ContactParameters parameters(double adhesion) const {
         ContactParameters p;
@@ -158,9 +168,30 @@ Ratios readRatios(Section& section, const Ratios* parent) {
     return r;
 }
 
+/// States the parameters of one class as they are, for the resolved case.
+void recordSoftened(Section& section, const Ratios& r) {
+    section.record("k", r.k);
+    section.record("damping", r.damping);
+    section.record("plasticity_depth", r.plasticity);
+}
+
+/// Reads by how much the spheres are to be softer, and makes them so.
+double readSoftness(CaseReader& reader, Section& contact, const std::array<Section*, kContactClasses>& sections,
+                    std::array<Ratios, kContactClasses>& ratios) {
+    const double s = contact.number("soften");
+    if (s < 1) reader.fault("contact.soften", "makes the spheres harder", "give 1 or more, or a larger k");
+    if (!(s > 1)) return 1;
+    for (std::size_t i = 0; i < ratios.size(); ++i) {
+        ratios[i].soften(s);
+        recordSoftened(*sections[i], ratios[i]);
+    }
+    contact.record("soften", 1.0);  // read again, the case is not softened a second time
+    return s;
+}
+
 }  // namespace
 
-void readContact(Section& root, Case& c) {
+void readContact(CaseReader& reader, Section& root, Case& c) {
     Section& contact = root.requiredTable("contact");
     c.dosingLaw.coulombLimit = static_cast<CoulombLimit>(contact.choice("coulomb_limit").value_or(0));
     c.dosingLaw.rollingLever = static_cast<RollingLever>(contact.choice("rolling_lever").value_or(0));
@@ -170,7 +201,8 @@ void readContact(Section& root, Case& c) {
     const Ratios wall = readRatios(wallSection, &pair);
     Section& coilSection = contact.table("coil");
     const Ratios coil = readRatios(coilSection, &wall);
-    const std::array<Ratios, kContactClasses> ratios{pair, wall, coil};
+    std::array<Ratios, kContactClasses> ratios{pair, wall, coil};
+    c.softened = readSoftness(reader, contact, {&contact, &wallSection, &coilSection}, ratios);
 
     // While the powder settles, adhesion has a strength of its own. A class whose table gives kc_over_k keeps that
     // value by default.
@@ -179,11 +211,13 @@ void readContact(Section& root, Case& c) {
     const double wallKc = settle.number("wall_kc_over_k", wallSection.has("kc_over_k") ? wall.kc : pairKc);
     const double coilKc = settle.number("coil_kc_over_k", coilSection.has("kc_over_k") ? coil.kc : wallKc);
     const std::array<double, kContactClasses> settling{pairKc, wallKc, coilKc};
+    const double damping = settle.number("damping_factor");
 
     c.settlingLaw = c.dosingLaw;
     for (std::size_t i = 0; i < ratios.size(); ++i) {
         c.dosingLaw.classes[i] = ratios[i].parameters(ratios[i].kc);
         c.settlingLaw.classes[i] = ratios[i].parameters(settling[i]);
+        c.settlingLaw.classes[i].gamma *= damping;
     }
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "host/core/vec.h"
+#include "host/model/case.h"
 #include "host/model/particles.h"
 
 namespace vkdose {
@@ -59,10 +60,18 @@ std::vector<ContactMode> contactModes(const ContactLaw& law, double density, dou
     return modes;
 }
 
-double automaticTimeStep(const std::vector<ContactMode>& modes) {
+std::vector<ContactMode> modesOf(const Case& c, double smallest) {
+    const std::vector<ContactClass> used = contactClasses(c.world);
+    std::vector<ContactMode> modes = contactModes(c.dosingLaw, c.world.density, smallest, used);
+    const auto settling = contactModes(c.settlingLaw, c.world.density, smallest, used);
+    modes.insert(modes.end(), settling.begin(), settling.end());
+    return modes;
+}
+
+double automaticTimeStep(const std::vector<ContactMode>& modes, std::optional<double> stepsPerContact) {
     double step = std::numeric_limits<double>::infinity();
     for (const ContactMode& mode : modes) {
-        step = std::min(step, mode.duration / (isNormal(mode) ? 8 : 6));
+        step = std::min(step, mode.duration / stepsPerContact.value_or(isNormal(mode) ? 8 : 6));
         if (mode.decay > 0) step = std::min(step, 0.5 / mode.decay);
     }
     return step;

@@ -3,12 +3,15 @@
 // rolling and torsion. Each mode is a spring on an effective mass. The numbers are bounds for the smallest particle
 // against the largest.
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "host/model/world.h"
 
 namespace vkdose {
+
+struct Case;
 
 struct ContactMode {
     std::string name;     ///< "particle-wall rolling"
@@ -26,10 +29,19 @@ std::vector<ContactClass> contactClasses(const World& world);
 std::vector<ContactMode> contactModes(const ContactLaw& law, double density, double smallest,
                                       const std::vector<ContactClass>& used);
 
-/// A time step must not exceed this fraction of a mode's duration (stability alone would allow 2/pi of it).
+/// The modes of a case under both of its laws: damping may be stronger while the powder settles.
+std::vector<ContactMode> modesOf(const Case& c, double smallest);
+
+/// A time step must not exceed this fraction of a mode's duration, unless the case asks for fewer steps in it
+/// (stability of a single contact alone would allow 2/pi of it).
 inline constexpr double kUnstableFraction = 1.0 / 5;
 
-/// Time step for `step_s = "auto"`: 1/8 of the stiffest normal mode, 1/6 of any other, and half of a damping time.
-double automaticTimeStep(const std::vector<ContactMode>& modes);
+/// The fewest steps in the duration of the fastest mode that a case may ask for. A sphere with twelve contacts moves
+/// twice as fast as one with a single contact, and is stable with more than pi steps.
+inline constexpr double kFewestSteps = 4;
+
+/// Time step for `step_s = "auto"`: 1/`stepsPerContact` of the fastest mode, and half of a damping time. Without a
+/// number of steps 1/8 of the stiffest normal mode and 1/6 of any other.
+double automaticTimeStep(const std::vector<ContactMode>& modes, std::optional<double> stepsPerContact = {});
 
 }  // namespace vkdose

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "host/analysis/figures.h"
+#include "host/analysis/settled_figures.h"
 #include "host/core/file.h"
 
 namespace vkdose {
@@ -129,6 +130,24 @@ Json arches(const std::vector<DoseArch>& list) {
     return j;
 }
 
+Json spread(const Spread& s) {
+    return {{"p10", number(s.low)}, {"median", number(s.median)}, {"p90", number(s.high)}};
+}
+
+Json settled(const Case& c, const std::optional<SettledBed>& bed) {
+    if (!bed) return nullptr;
+    const SettledFigures f = settledFigures(c, *bed);
+    Json j;
+    j["time_s"] = number(bed->time);
+    j["pairs"] = f.pairs;
+    j["coordination"] = number(f.coordination);
+    j["pull_off_over_weight"] = spread(f.pullOff);
+    j["overlap_ratio"] = spread(f.overlap);
+    j["largest_overlap_ratio"] = spread(f.largestOverlap);
+    j["bulk_density_kg_m3"] = f.bulk ? number(f.bulk->density) : Json(nullptr);
+    return j;
+}
+
 Json energy(const EnergyLedger& ledger) {
     Json j;
     putColumns(kLoadedColumns, ledger.sum, j);
@@ -163,6 +182,7 @@ std::string summaryJson(const Case& c, const RunResult& r, const std::string& ba
     j["analysis"] = analysis(c, r);
     j["outlet"] = outlet(history.outlet);
     j["arches"] = arches(history.arches);
+    j["settled"] = settled(c, r.settled);
     j["dosed_while_settling_kg"] = number(r.dosedWhileSettling);
     j["closed_form"] = closedForms(r.derived);
     j["ledger"] = ledger(r);

@@ -27,6 +27,7 @@ class Facts {
         outlet();
         stops();
         arches();
+        settled();
         bed();
         return std::move(list_);
     }
@@ -153,6 +154,28 @@ class Facts {
         if (looked > 0)
             add("arches over the coil, at the doses' ends", fmt::format("{} of {}", found, looked),
                 found > 0 ? fmt::format("the highest {:.3g} mm", highest * 1e3) : "");
+    }
+
+    /// From the summary, because the files of a run hold no contacts of that time.
+    void settled() {
+        if (!run_.summary.is_object() || !run_.summary.contains("settled")) return;
+        const Json& s = run_.summary["settled"];
+        if (!s.is_object()) return;
+        const auto spread = [&](const char* key, const std::string& name, const std::string& note) {
+            const Json points = s.value(key, Json());
+            if (!points.is_object()) return;
+            for (const char* point : {"p10", "median", "p90"})
+                if (!points.value(point, Json()).is_number()) return;
+            add(name,
+                fmt::format("{:.3g}, 80 % from {:.3g} to {:.3g}", points["median"].get<double>(),
+                            points["p10"].get<double>(), points["p90"].get<double>()),
+                note);
+        };
+        if (s.value("bulk_density_kg_m3", Json()).is_number())
+            add("bulk density of the bed, settled", fmt::format("{:.4g} kg/m³", s["bulk_density_kg_m3"].get<double>()));
+        spread("pull_off_over_weight", "pull-off over weight, settled", "median over pairs; of the lighter sphere");
+        spread("overlap_ratio", "overlap over radius, settled", "median over pairs; of the smaller sphere");
+        spread("largest_overlap_ratio", "largest overlap so far over radius, settled", "likewise");
     }
 
     void bed() {

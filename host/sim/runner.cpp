@@ -102,6 +102,7 @@ class Run {
         put(r, "dosed_before", dosedBefore_);
         put(r, "doses", result_.doses);
         put(r, "last", result_.last);
+        put(r, result_.settled);
         r.put("radius", result_.filled.particles.radius);
         fields_.save(r);
         result_.ledger.save(r);
@@ -134,6 +135,7 @@ class Run {
         get(r, "dosed_before", dosedBefore_);
         get(r, "doses", result_.doses);
         get(r, "last", result_.last);
+        get(r, result_.filled.particles, result_.settled);
         fields_.restore(r);
         result_.ledger.restore(r);
         judge_.restore(r);
@@ -175,6 +177,8 @@ class Run {
                 for (const FieldSample& f : fields_.look(backend_, step_, stretch_.phase, stretch_.dose))
                     observer_.onField(f);
             }
+            if (step_ == timeline_.settleSteps())
+                result_.settled = settledBed(case_, timeline_.time(step_), backend_.particles(), backend_.contacts());
             if (step_ == stretch_.end && phaseEnded()) {
                 if (timeline_.keepsFrames() && !timeline_.frameDue(step_)) frame();
                 keepEndState();

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "host/sim/frame.h"
 #include "host/sim/ledger.h"
 #include "host/sim/sample.h"
+#include "host/sim/settled_bed.h"
 #include "host/sim/stop_rule.h"
 #include "host/sim/timeline.h"
 
@@ -62,8 +64,9 @@ struct RunResult {
     Derived derived;
     std::vector<Dose> doses;
     DoseStatistics statistics;
-    double dosedWhileSettling = 0;  ///< [kg]
-    Sample last;                    ///< the last sample; step 0 if there was none
+    double dosedWhileSettling = 0;      ///< [kg]
+    std::optional<SettledBed> settled;  ///< when the settling was over, if there was any
+    Sample last;                        ///< the last sample; step 0 if there was none
     StopReason reason = StopReason::Settled;
     std::string error;  ///< what stopped the run, for RunError, DeviceError and OutputError
     Ledger ledger{0, 0};

@@ -49,6 +49,8 @@ void main() {
         candidates |= touch.depth > 0.0 ? 1u << k : 0u;
     }
 
+    float a = me.sphere.radius, wire = coil.radius.z;
+    float reduced = coil.motion.w != 0.0 ? 2.0 * a * wire / (a + wire) : 2.0 * a;
     vec3 force = vec3(0.0), torque = vec3(0.0);
     float coilTorque = 0.0, overlap = 0.0;
     uint met = 0u;
@@ -75,10 +77,10 @@ void main() {
         History old = h;
 #endif
         vec3 point = me.sphere.high - touch.normal * (me.sphere.radius - 0.5 * touch.depth);
-        vec3 wall = coil.motion.x * vec3(-point.y, point.x, 0.0);
+        vec3 wall = coil.motion.y * vec3(-point.y, point.x, 0.0);
         Overlap o = Overlap(touch.depth, touch.normal);
         Response r;
-        WallForce f = meetWall(me, o, law, chosen, springDt, wall, vec3(0.0, 0.0, coil.motion.x), h, r);
+        WallForce f = meetWall(me, o, reduced, law, chosen, springDt, wall, vec3(0.0, 0.0, coil.motion.y), h, r);
         coilHistory[at] = h.slidingMax;
         coilHistory[at + push.particles] = h.rollingTorsion;
         force += f.force;
@@ -87,11 +89,11 @@ void main() {
         coilTorque -= point.x * f.force.y - point.y * f.force.x + f.couple.z;
         overlap = max(overlap, o.depth / me.sphere.radius);
 #ifdef ENERGY_BOOK
-        bookCoil(law, springDt, coil.motion.x, i, turn, me, o, r, known, true, old, h);
+        bookCoil(law, springDt, coil.motion.x, reduced, i, turn, me, o, r, known, true, old, h);
 #endif
     }
 #ifdef ENERGY_BOOK
-    partCoil(law, springDt, coil.motion.x, i, me, was, met);
+    partCoil(law, springDt, coil.motion.x, reduced, i, me, was, met);
     closeCoilBook(slot);
 #endif
     for (uint t = 0u; t < kMaxTurns; ++t)

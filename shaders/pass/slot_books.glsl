@@ -67,9 +67,9 @@ vec3 wallVelocity(Exerted e, Body me, vec3 centre, float rate) {
     return (me.velocity - rate * vec3(-point.y, point.x, 0.0)) - lever * cross(me.spin, e.normal.xyz);
 }
 
-Book bookWall(ContactParams law, float springDt, float rate, Body me, Exerted before, Response r, bool known,
+Book bookWall(ContactParams law, float springDt, float rate, float reduced, Body me, Exerted before, Response r, bool known,
               bool touching, vec4 stored, Exerted now, History old) {
-    vec4 storedBefore = elasticEnergy(law, 0.0, 2.0 * me.sphere.radius, old);
+    vec4 storedBefore = elasticEnergy(law, 0.0, reduced, old);
     storedBefore.x = before.couple.w;
     vec3 spin = me.spin - vec3(0.0, 0.0, rate);
     vec3 came = me.sphere.high - springDt * me.velocity;  // where it was when `before` acted
@@ -85,13 +85,14 @@ void bookSurface(ContactParams law, float springDt, uint slot, Body me, Overlap 
     bool known = old.slidingMax.w > 0.0;
     Exerted now = kNothing;
     vec4 stored = vec4(0.0);
+    float reduced = 2.0 * me.sphere.radius;
     if (touching) {
-        stored = elasticEnergy(law, r.hysteretic, 2.0 * me.sphere.radius, h);
+        stored = elasticEnergy(law, r.hysteretic, reduced, h);
         now = exertedNow(o, r, stored);
     }
     keepExerted(slot, now);
     Book booked = Book(vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
-    if (known || touching) booked = bookWall(law, springDt, 0.0, me, before, r, known, touching, stored, now, old);
+    if (known || touching) booked = bookWall(law, springDt, 0.0, reduced, me, before, r, known, touching, stored, now, old);
     writeBook(slot, booked);
 }
 
@@ -99,7 +100,7 @@ Book coilBook;
 
 void openCoilBook() { coilBook = Book(vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0)); }
 
-void bookCoil(ContactParams law, float springDt, float rate, uint i, uint turn, Body me, Overlap o, Response r,
+void bookCoil(ContactParams law, float springDt, float rate, float reduced, uint i, uint turn, Body me, Overlap o, Response r,
               bool known, bool touching, History old, History h) {
     uint at = coilHistoryIndex(turn, 2u, i);
     Exerted before = kNothing, now = kNothing;
@@ -108,13 +109,13 @@ void bookCoil(ContactParams law, float springDt, float rate, uint i, uint turn, 
             Exerted(coilHistoryAt(at), coilHistoryAt(at + push.particles), coilHistoryAt(at + 2u * push.particles));
     vec4 stored = vec4(0.0);
     if (touching) {
-        stored = elasticEnergy(law, r.hysteretic, 2.0 * me.sphere.radius, h);
+        stored = elasticEnergy(law, r.hysteretic, reduced, h);
         now = exertedNow(o, r, stored);
         coilHistory[at] = now.normal;
         coilHistory[at + push.particles] = now.rest;
         coilHistory[at + 2u * push.particles] = now.couple;
     }
-    Book b = bookWall(law, springDt, rate, me, before, r, known, touching, stored, now, old);
+    Book b = bookWall(law, springDt, rate, reduced, me, before, r, known, touching, stored, now, old);
     coilBook.normal += b.normal;
     coilBook.sliders += b.sliders;
     coilBook.flow += b.flow;
@@ -122,12 +123,12 @@ void bookCoil(ContactParams law, float springDt, float rate, uint i, uint turn, 
 }
 
 /// Turns that touched at the last step (`was`) and do not any more (not in `met`).
-void partCoil(ContactParams law, float springDt, float rate, uint i, Body me, vec4 was, uint met) {
+void partCoil(ContactParams law, float springDt, float rate, float reduced, uint i, Body me, vec4 was, uint met) {
     for (uint t = 0u; t < kMaxTurns; ++t) {
         if (was[t] == kNoTurn || (met & (1u << t)) != 0u) continue;
         uint at = coilHistoryIndex(t, 0u, i);
         History old = History(coilHistoryAt(at), coilHistoryAt(at + push.particles));
-        bookCoil(law, springDt, rate, i, t, me, kNoOverlap, kNoResponse, true, false, old, old);
+        bookCoil(law, springDt, rate, reduced, i, t, me, kNoOverlap, kNoResponse, true, false, old, old);
     }
 }
 

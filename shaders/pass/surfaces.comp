@@ -90,7 +90,8 @@ void main() {
         bool touching = o.depth > 0.0;
         History h = memory.history;
         Response r;
-        WallForce f = meetWall(me, o, law, chosen, springDt, vec3(0.0), vec3(0.0), h, r);
+        float reduced = 2.0 * me.sphere.radius;
+        WallForce f = meetWall(me, o, reduced, law, chosen, springDt, vec3(0.0), vec3(0.0), h, r);
         writeHistory(slot, touching ? h.slidingMax : vec4(0.0), touching ? h.rollingTorsion : vec4(0.0));
         writeForce(slot, touching ? vec4(f.force, o.depth / me.sphere.radius) : vec4(0.0));
         writeTorque(slot, touching ? vec4(f.torque, 0.0) : vec4(0.0));

@@ -108,7 +108,8 @@ struct CoilParams {
     vec4 reach;   // x: largest angle off the wire at which a sphere can touch it [rad]; y: turns to try on each side;
                   // z, w: zStart high, low [m]
     uvec4 phase;  // start of the batch: high, low word of the angle in 2^-64 turns; advance per step: high, low
-    vec4 motion;  // x: rotation rate about +z [rad/s]; z: 1 if there is a coil
+    vec4 motion;  // x: rotation rate about +z, y: the rate that contacts see [rad/s]; z: 1 if there is a coil;
+                  // w: 1 if contacts count the wire's curvature
 };
 
 struct Member {

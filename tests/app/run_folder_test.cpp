@@ -115,6 +115,12 @@ TEST_CASE("the folder of a run parses back to what was computed") {
     CHECK(summary["analysis"]["doses_to_99_percent"].is_null());
     CHECK(summary["analysis"]["blocked_at_dose"].is_null());
     CHECK_THAT(reportText(c, r, "fake"), Catch::Contains("beta     1.500 g/dose +- 1.500, the slope over 3 doses"));
+    // The fake has one contact, of a particle with itself: two radii deep.
+    CHECK(summary["settled"]["time_s"].get<double>() == Approx(0.1));
+    CHECK(summary["settled"]["pairs"] == 1);
+    CHECK(summary["settled"]["coordination"].get<double>() == Approx(0.2));
+    CHECK(summary["settled"]["overlap_ratio"]["median"].get<double>() == Approx(2));
+    CHECK(summary["settled"]["bulk_density_kg_m3"].is_null());
     CHECK(summary["ledger"]["dosed_count"] == 5);
     CHECK(summary["ledger"]["lost_count"] == 0);
     CHECK(summary["ledger"]["closings"] == r.ledger.closings());

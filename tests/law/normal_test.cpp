@@ -1,6 +1,7 @@
 // The normal law against its closed forms.
 
 #include "host/backend/reference/normal.h"
+#include "host/model/pull_off.h"
 
 #include "tests/law/setups.h"
 #include "tests/support/catch.h"
@@ -79,6 +80,23 @@ TEST_CASE("normal: the adhesive branch is -kc delta and pulls delta_max back to 
             CHECK(nearRelative(history, overlap * (k2 + p.kc) / (k2 - p.k1), kRounding));
         }
     }
+}
+
+TEST_CASE("normal: the pull-off force is the strongest that the law exerts on the way out") {
+    for (const double kcRatio : {0.0, 0.3, 0.873, 10.0})
+        for (const double fraction : {0.05, 0.5, 1.0, 2.0}) {
+            const ContactParameters p = paperParameters(kcRatio);
+            const double largest = fraction * plasticLimit(p);
+            double history = 0, strongest = 0;
+            normalForce(p, largest, kReduced, history);
+            for (int n = 1000000; n > 0; --n)
+                strongest = std::max(strongest, -normalForce(p, n * 1e-6 * largest, kReduced, history));
+            CAPTURE(kcRatio, fraction);
+            // A step of a millionth of the overlap misses the corner by as much on k2.
+            CHECK(near(strongest, pullOff(p, kReduced, largest), p.k2Max * largest, 2e-6));
+            CHECK((strongest > 0) == (kcRatio > 0));
+        }
+    CHECK(pullOff(spring(1000), kReduced, 1e-5) == 0);
 }
 
 TEST_CASE("normal: one stiffness is a linear spring, whatever the plasticity depth and kc") {

@@ -38,6 +38,8 @@ void checkSame(const Case& a, const Case& b) {
     CHECK(a.world.surfaces.size() == b.world.surfaces.size());
     CHECK(a.world.gravity == b.world.gravity);
     CHECK(a.world.density == b.world.density);
+    CHECK(a.world.coilSurfaceMoves == b.world.coilSurfaceMoves);
+    CHECK(a.world.coilWireCurved == b.world.coilWireCurved);
     CHECK(a.world.timeStep == b.world.timeStep);
     CHECK(a.world.skin == b.world.skin);
     CHECK(a.world.domain.low == b.world.domain.low);
@@ -238,6 +240,65 @@ TEST_CASE("settling adhesion: for every class without one of its own") {
     const Case d = loadCase(file, {"settle.kc_over_k=0.3", "settle.coil_kc_over_k=0"});
     CHECK(d.settlingLaw.of(ContactClass::ParticleWall).kc == Approx(600));
     CHECK(d.settlingLaw.of(ContactClass::ParticleCoil).kc == 0);
+}
+
+TEST_CASE("softer spheres: every class, settling included, once and not again when the resolved case is read") {
+    const Folder folder;
+    const auto file = folder.write(
+        "case.toml",
+        replaced(kGoodCase, "[contact.wall]\n", "[contact.coil]\nk = 3000.0\n[contact.wall]\ndamping = 0.03\n"));
+    const Case hard = loadCase(file), soft = loadCase(file, {"contact.soften=4"});
+    CHECK(hard.softened == 1);
+    CHECK(soft.softened == 4);
+    for (int i = 0; i < kContactClasses; ++i)
+        for (const auto law : {&Case::dosingLaw, &Case::settlingLaw}) {
+            const ContactParameters &p = (hard.*law).classes[i], &q = (soft.*law).classes[i];
+            CHECK(std::vector<double>{q.k1, q.k2Max, q.kc, q.kt, q.kr, q.kTo} ==
+                  std::vector<double>{p.k1 / 4, p.k2Max / 4, p.kc / 4, p.kt / 4, p.kr / 4, p.kTo / 4});
+            CHECK(std::vector<double>{q.gamma, q.gammaT, q.gammaR, q.gammaTo} ==
+                  std::vector<double>{p.gamma / 2, p.gammaT / 2, p.gammaR / 2, p.gammaTo / 2});
+            CHECK(q.plasticityDepth == 4 * p.plasticityDepth);
+            CHECK(std::vector<double>{q.mu, q.muR, q.muTo} == std::vector<double>{p.mu, p.muR, p.muTo});
+        }
+    CHECK(soft.dosingLaw.of(ContactClass::ParticleCoil).k2Max == 750);
+    // The step is cut to three digits.
+    CHECK(soft.world.timeStep == Approx(2 * hard.world.timeStep).epsilon(0.011));
+    CHECK(soft.world.maxOverlapRatio == hard.world.maxOverlapRatio);
+    const Case again = loadResolvedCase(soft.resolved, file);
+    CHECK(again.softened == 1);
+    checkSame(soft, again);
+    CHECK_THAT(soft.resolved, Catch::Contains("k = 500") && Catch::Contains("soften = 1\n"));
+    CHECK(loadCase(file, {"contact.soften=1"}).resolved == hard.resolved);
+    CHECK_THROWS_WITH(loadCase(file, {"contact.soften=0.5"}),
+                      Catch::Contains("contact.soften = 0.5: makes the spheres harder"));
+}
+
+TEST_CASE("damping while settling: a factor on the dashpot of the normal direction, which may need a shorter step") {
+    const Folder folder;
+    const auto file = folder.write("case.toml", kGoodCase);
+    const Case usual = loadCase(file), damped = loadCase(file, {"settle.damping_factor=3"});
+    checkSameLaw(usual.dosingLaw, damped.dosingLaw);
+    for (int i = 0; i < kContactClasses; ++i) {
+        const ContactParameters &p = usual.settlingLaw.classes[i], &q = damped.settlingLaw.classes[i];
+        CHECK(q.gamma == 3 * p.gamma);
+        CHECK(std::vector<double>{q.gammaT, q.gammaR, q.gammaTo} == std::vector<double>{p.gammaT, p.gammaR, p.gammaTo});
+        CHECK(q.k2Max == p.k2Max);
+        CHECK(q.kc == p.kc);
+    }
+    checkSame(damped, loadResolvedCase(damped.resolved, file));
+    const Case overdamped = loadCase(file, {"settle.damping_factor=60"});
+    CHECK(overdamped.world.timeStep < 0.2 * usual.world.timeStep);
+}
+
+TEST_CASE("whether contacts see the coil's surface move is the case's choice, and survives being resolved") {
+    const Folder folder;
+    const auto file = folder.write("case.toml", kGoodCase);
+    CHECK(loadCase(file).world.coilSurfaceMoves);
+    const Case still = loadCase(file, {"coil.surface_velocity=false"});
+    CHECK_FALSE(still.world.coilSurfaceMoves);
+    CHECK_FALSE(still.world.coilWireCurved);
+    CHECK(loadCase(file, {"coil.wire_curvature=true"}).world.coilWireCurved);
+    checkSame(still, loadResolvedCase(still.resolved, file));
 }
 
 TEST_CASE("stop rules") {

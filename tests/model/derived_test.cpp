@@ -1,6 +1,7 @@
 #include <cmath>
 #include <limits>
 
+#include "host/core/error.h"
 #include "host/model/case.h"
 #include "host/model/stability.h"
 #include "tests/model/case_files.h"
@@ -77,6 +78,60 @@ TEST_CASE("the automatic time step resolves the stiffest contact") {
     // Four times the sliding stiffness is the stiffer motion: half the normal mode's time, of which a sixth.
     const Case sliding = loadCase(file, {"contact.kt_over_k=1.142857"});
     CHECK(sliding.world.timeStep == Approx(d.stiffest / 2 / 6).epsilon(0.011));
+}
+
+TEST_CASE("the number of steps in the fastest motion of a contact is the case's choice, within what is stable") {
+    const Folder folder;
+    const auto file = folder.write("case.toml", kGoodCase);
+    const auto derived = [&](const std::vector<std::string>& overrides, const std::filesystem::path& from) {
+        const Case c = loadCase(from, overrides);
+        return derive(c, insertParticles(c));
+    };
+    for (const double steps : {4.0, 6.0, 20.0}) {
+        const Derived d = derived({"time.steps_per_contact=" + std::to_string(steps)}, file);
+        CAPTURE(steps, d.fastestName);
+        // Cut to three digits. In this soft case no damping is faster.
+        CHECK(d.timeStep <= d.fastestMode / steps);
+        CHECK(d.timeStep > 0.989 * d.fastestMode / steps);
+    }
+    // In the paper's case rolling against a wall is faster than any normal contact, and with four steps in it the
+    // dashpot of rolling, half of whose time is 3.09e-6 s, decides. A step that the base states gives way.
+    const Derived paper = derived({"time.steps_per_contact=4"}, shippedCase("paper-48g.toml"));
+    CHECK_THAT(paper.fastestName, Catch::EndsWith(" rolling"));
+    CHECK(paper.fastestMode == Approx(1.45e-5).epsilon(0.005));
+    CHECK(paper.timeStep == Approx(3.08e-6).epsilon(0.01));
+    CHECK(derived({"time.steps_per_contact=6"}, shippedCase("paper-48g.toml")).timeStep ==
+          Approx(1.45e-5 / 6).epsilon(0.01));
+    // A resolved case with a step of this kind is read again as it is.
+    const Case four = loadCase(file, {"time.steps_per_contact=4"});
+    CHECK(loadResolvedCase(four.resolved, file).world.timeStep == four.world.timeStep);
+
+    const auto refused = [&](const std::vector<std::string>& overrides) {
+        try {
+            loadCase(file, overrides);
+        } catch (const CaseError& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    CHECK_THAT(refused({"time.steps_per_contact=3.9"}),
+               Catch::Contains("time.steps_per_contact = 3.9: is unstable") && Catch::Contains("give at least 4"));
+    // Both stated in one file: the step is held against the number.
+    const Folder other;
+    const auto both = [&](double part, double steps) {
+        const double step = derived({}, file).fastestMode * part;
+        const auto stated = other.write("case.toml", kGoodCase + "[time]\nstep_s = " + std::to_string(step * 1e9) +
+                                                         "e-9\nsteps_per_contact = " + std::to_string(steps) + "\n");
+        try {
+            loadCase(stated);
+        } catch (const CaseError& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    CHECK(both(1 / 4.1, 4) == "");
+    CHECK_THAT(both(1 / 3.9, 4), Catch::Contains("time.step_s") && Catch::Contains("is unstable"));
+    CHECK_THAT(both(1 / 7.9, 8), Catch::Contains("time.step_s") && Catch::Contains("more than 1/8 of it"));
 }
 
 TEST_CASE("contact modes: sliding of a full sphere has 2/7 of its mass") {

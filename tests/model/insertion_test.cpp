@@ -38,6 +38,32 @@ double massOf(const Particles& p, double density) {
 
 }  // namespace
 
+TEST_CASE("how loose and how high the filling starts is the case's choice") {
+    const Folder folder;
+    const auto file = folder.write("case.toml", kGoodCase);
+    const Particles usual = insertParticles(loadCase(file)).particles;
+    const auto lowest = [](const Particles& p) {
+        double y = std::numeric_limits<double>::infinity();
+        for (const Vec3& x : p.position) y = std::min(y, x.y);
+        return y;
+    };
+    const Particles dropped = insertParticles(loadCase(file, {"particles.drop_mm=7"})).particles;
+    REQUIRE(dropped.size() == usual.size());
+    for (std::size_t i = 0; i < usual.size(); ++i) {
+        REQUIRE(dropped.radius[i] == usual.radius[i]);
+        REQUIRE(dropped.position[i].y - usual.position[i].y == Approx(7e-3).epsilon(1e-9));
+    }
+    const Case loose = loadCase(file, {"particles.grid_gap=0.6"});
+    const Insertion filled = insertParticles(loose);
+    CHECK(filled.particles.radius == usual.radius);
+    CHECK(smallestGap(filled.particles) > 0);
+    CHECK(filled.fillHeight > 1.5 * insertParticles(loadCase(file)).fillHeight);
+    // The lowest layer lies half a pitch over the coil, shifted by no more than a quarter of the play.
+    const double pitch = 2.6e-3 * 1.6, coilTop = 6.7e-3;
+    CHECK(std::abs(lowest(filled.particles) - coilTop - pitch / 2) <= 0.25 * 0.6 * 2.6e-3);
+    CHECK(insertParticles(loadResolvedCase(loose.resolved, file)).particles.position == filled.particles.position);
+}
+
 TEST_CASE("the paper's filling: mass, number, room") {
     const Case c = loadCase(shippedCase("paper-48g.toml"));
     const Insertion filled = insertParticles(c);

@@ -121,7 +121,14 @@ TEST_CASE("the end state adds densities and arches, the summary how it ended") {
     box.write("run/summary.json", R"({"arches": [{"dose": 1, "height_m": 0.0}, {"dose": 2, "height_m": 0.012}]})");
     const Json arched = runJson(folder, {});
     CHECK(fact(arched, "arches over the coil, at the doses' ends") == "1 of 2");
+    CHECK(fact(arched, "pull-off over weight, settled") == "no such fact");
     CHECK(fact(arched, "arches over the coil, at the doses' ends", "note") == "the highest 12 mm");
+    box.write("run/summary.json", R"({"settled": {"bulk_density_kg_m3": 512.3, "overlap_ratio": {"p10": null},
+        "pull_off_over_weight": {"p10": 20.0, "median": 300.0, "p90": 4500.0}}})");
+    const Json settled = runJson(folder, {});
+    CHECK(fact(settled, "bulk density of the bed, settled") == "512.3 kg/m³");
+    CHECK(fact(settled, "pull-off over weight, settled") == "300, 80 % from 20 to 4.5e+03");
+    CHECK(fact(settled, "overlap over radius, settled") == "no such fact");
     CHECK(arched["doses"]["arch_m"] == Json({0.0, 0.012, nullptr, nullptr}));
     // An interrupted run that was resumed and goes on: neither its summary nor its end state hold any more.
     box.write("run/summary.json", R"({"stop_sentence": "interrupted", "simulated_time_s": 0.6})");

@@ -155,6 +155,33 @@ TEST_CASE("spheres pressed against the coil wherever it is") {
     CHECK(most >= 2);  // two turns were touched at once somewhere
 }
 
+TEST_CASE("spheres against a coil whose surface they see at rest, or whose wire they see curved") {
+    RuledWorld w = canisterWorld();
+    w.surfaces.clear();
+    w.gravity = Vec3(0);
+    const Particles p = aroundTheWire(*w.coil, single(0.9e-3));
+    auto usual = makeReferenceBackend(), other = makeReferenceBackend();
+    usual->load(w, p);
+    SECTION("at rest") {
+        w.coilSurfaceMoves = false;
+    }
+    SECTION("curved") {
+        w.coilWireCurved = true;
+    }
+    other->load(w, p);
+    usual->advance(30, -9.42);
+    other->advance(30, -9.42);
+    CHECK(differences(*usual, *other, kSpeed).velocity > 0.01);  // a mix-up would show
+    // Tolerances as for any sphere pressed against the coil, above.
+    const Differences d = run(w, p, 60, -9.42);
+    CHECK(d.unmatched == 0);
+    CHECK(d.position < 1e-4);
+    CHECK(d.velocity < 5e-3);
+    CHECK(d.maxOverlap < 5e-4);
+    CHECK(d.spring < 1e-4);
+    CHECK(run(w, p, 5, -9.42).force < 4e-3);
+}
+
 TEST_CASE("the comparison of two backends sees what it is there to see") {
     Particles p = thrown({0.02, -0.01, 0.03}, {0, -1, 0}, single(1.25e-3), {0.1, 0, 0.05});
     RuledWorld w = emptyWorld();

@@ -232,9 +232,15 @@ void Forces::touchTurns(std::size_t i, const Turns& before, Turns& now) {
     std::array<bool, kMaxCoilTouches> taken{};  // slots in use by a turn of the last step or by a new one
     std::transform(before.begin(), before.end(), taken.begin(), [](const Turn& turn) { return turn.touching; });
 
+    const double seen = world_->coilSurfaceMoves ? motion_.rate : 0;  // by the law; the books see the true motion
+
     for (const geometry::CoilTouch& at : found) {
-        const std::optional<Touch> touch = touchWall(body(i), at.normal, at.distance, motion_.rate);
+        std::optional<Touch> touch = touchWall(body(i), at.normal, at.distance, seen);
         if (!touch) continue;
+        if (world_->coilWireCurved) {
+            const double a = particles_->radius[i], b = world_->coil->wireRadius;
+            touch->reduced = 2 * a * b / (a + b);
+        }
         std::size_t slot = slotOf(before, now, at.wireAngle);
         const bool continues = slot < before.size();
         if (!continues) {

@@ -137,6 +137,7 @@ void Ensemble::runBatch(std::uint32_t count, const std::vector<double>& coilRate
         perStep.push_back(turnsFixed(coilRates[index] * m.world.timeStep));
         packPhase(turnsFixed(m.world.coil ? m.world.coil->startAngle : 0.0) + m.turned, perStep.back(), m.block);
         m.block.coil.motion.x = float(coilRates[index]);
+        m.block.coil.motion.y = m.world.coilSurfaceMoves ? m.block.coil.motion.x : 0.0f;
         m.block.choices.z = m.step == 0 ? 1.0f : 0.0f;
         opening = opening || m.step == 0;
     }

@@ -155,6 +155,7 @@ gpu::Member packMember(const World& world, const ContactLaw& law, const Particle
     }
     const double largest = largestRadius(particles);
     if (world.coil) m.coil = packCoil(*world.coil, largest);
+    m.coil.motion.w = world.coilWireCurved ? 1.0f : 0.0f;
     const auto finite = [](double x) { return float(std::clamp(x, -1e30, 1e30)); };
     m.gravity = vec4(glm::vec3(world.gravity), float(world.density));
     m.domainLow = vec4(glm::vec3(world.domain.low), finite(world.throatZ));

@@ -1,0 +1,59 @@
+#include "host/sim/settled_bed.h"
+
+#include <algorithm>
+
+#include "host/model/pull_off.h"
+
+namespace vkdose {
+
+SettledBed settledBed(const Case& c, double time, const Particles& particles, const std::vector<Contact>& contacts) {
+    SettledBed bed{time, particles, {}, {}, {}};
+    const ContactParameters& law = c.dosingLaw.of(ContactClass::ParticleParticle);
+    const double gravity = glm::length(c.world.gravity);
+    for (const Contact& contact : contacts) {
+        if (contact.kind != ContactClass::ParticleParticle) continue;
+        const double a = particles.radius.at(contact.particle), b = particles.radius.at(contact.other);
+        const double smaller = std::min(a, b), weight = sphereMass(c.world.density, smaller) * gravity;
+        const double apart = glm::distance(particles.position[contact.particle], particles.position[contact.other]);
+        bed.pullOff.push_back(pullOff(law, 2 * a * b / (a + b), contact.maxOverlap) / weight);
+        // A contact is listed where it touched in the last step, and may have parted by its end.
+        bed.overlap.push_back(std::max(0.0, a + b - apart) / smaller);
+        bed.largestOverlap.push_back(contact.maxOverlap / smaller);
+    }
+    return bed;
+}
+
+void put(Record& record, const std::optional<SettledBed>& bed) {
+    if (!bed) return;
+    std::vector<double> place;
+    std::vector<std::uint32_t> status;
+    for (std::size_t i = 0; i < bed->particles.size(); ++i) {
+        const Vec3& x = bed->particles.position[i];
+        place.insert(place.end(), {x.x, x.y, x.z});
+        status.push_back(static_cast<std::uint32_t>(bed->particles.status[i]));
+    }
+    record.putOne("settled_time", bed->time);
+    record.put("settled_position", std::move(place));
+    record.put("settled_status", std::move(status));
+    record.put("settled_pull_off", bed->pullOff);
+    record.put("settled_overlap", bed->overlap);
+    record.put("settled_largest_overlap", bed->largestOverlap);
+}
+
+void get(const Record& record, const Particles& filled, std::optional<SettledBed>& bed) {
+    bed.reset();
+    if (!record.arrays().contains("settled_time")) return;
+    SettledBed read{record.one<double>("settled_time"), filled, {}, {}, {}};
+    const auto& place = record.get<double>("settled_position", 3 * filled.size());
+    const auto& status = record.get<std::uint32_t>("settled_status", filled.size());
+    for (std::size_t i = 0; i < filled.size(); ++i) {
+        read.particles.position[i] = {place[3 * i], place[3 * i + 1], place[3 * i + 2]};
+        read.particles.status[i] = static_cast<Status>(status[i]);
+    }
+    read.pullOff = record.get<double>("settled_pull_off");
+    read.overlap = record.get<double>("settled_overlap", read.pullOff.size());
+    read.largestOverlap = record.get<double>("settled_largest_overlap", read.pullOff.size());
+    bed = std::move(read);
+}
+
+}  // namespace vkdose
