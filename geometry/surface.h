@@ -11,9 +11,9 @@ namespace vkdose::geometry {
 
 /// Closest point of a surface to a query point.
 struct Closest {
-    Vec3 point;       ///< on the surface [m]
-    Vec3 normal;      ///< unit, from the surface towards the free side
-    double distance;  ///< signed: negative when the query point lies behind the surface [m]
+    Vec3 point{0};        ///< on the surface [m]
+    Vec3 normal{0};       ///< unit, from the surface towards the free side
+    double distance = 0;  ///< signed: negative when the query point lies behind the surface [m]
 };
 
 /// Some unit vector normal to the unit vector `axis`.

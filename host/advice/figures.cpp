@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include "host/model/pull_off.h"
 #include "host/model/size_distribution.h"
 #include "host/model/stability.h"
 
@@ -67,8 +68,8 @@ void addBed(Figures& f, const Case& c, const Insertion& filled) {
     f.overlapUnderBed = load / pair.k1 / f.mean;
     f.overlapOfFall = f.fallSpeed * std::sqrt(sphereMass(c.world.density, f.largest) / wall.k1) / f.largest;
     const double weight = sphereMass(c.world.density, f.mean) * down;
-    f.bondUnderBed = pullOff(pair, f.mean, load) / weight;
-    f.bondLargest = pullOff(pair, f.mean, std::numeric_limits<double>::infinity()) / weight;
+    f.bondUnderBed = pullOffUnder(pair, f.mean, load) / weight;
+    f.bondLargest = pullOffUnder(pair, f.mean, std::numeric_limits<double>::infinity()) / weight;
 }
 
 void addCoil(Figures& f, const Case& c) {
@@ -85,13 +86,13 @@ void addCoil(Figures& f, const Case& c) {
 
 void addStep(Figures& f, const Case& c) {
     f.automaticStep = std::numeric_limits<double>::infinity();
-    for (const ContactMode& mode : contactModes(c.dosingLaw, c.world.density, f.smallest, contactClasses(c.world))) {
+    for (const ContactMode& mode : modesOf(c, f.smallest)) {
         ContactMode undamped = mode;
         undamped.decay = 0;
-        const double step = automaticTimeStep({mode});
+        const double step = automaticTimeStep({mode}, c.stepsPerContact);
         if (!(step < f.automaticStep)) continue;
         f.automaticStep = step;
-        f.stepLimit = (step < automaticTimeStep({undamped}) ? "damping of the " : "") + mode.name;
+        f.stepLimit = (step < automaticTimeStep({undamped}, c.stepsPerContact) ? "damping of the " : "") + mode.name;
     }
 }
 
@@ -107,12 +108,8 @@ double dampingFor(double e, const ContactParameters& p, double density, double a
     return -2 * log / std::hypot(kPi, log) * std::sqrt(p.k1 * massOfPair(density, a, b));
 }
 
-double pullOff(const ContactParameters& p, double reduced, double load) {
-    if (p.k1 >= p.k2Max) return 0;
-    const double limit = p.k2Max / (p.k2Max - p.k1) * p.plasticityDepth * reduced;
-    const double overlap = std::min(load / p.k1, limit);
-    const double k2 = p.k1 + (p.k2Max - p.k1) * overlap / limit;
-    return p.kc * (k2 - p.k1) / (k2 + p.kc) * overlap;
+double pullOffUnder(const ContactParameters& p, double reduced, double load) {
+    return pullOff(p, reduced, load / p.k1);
 }
 
 Figures figuresOf(const Case& c, const Insertion& filled) {

@@ -51,6 +51,6 @@ double dampingFor(double e, const ContactParameters& p, double density, double a
 
 /// Strongest pull [N] of a contact with this reduced size [m] that was loaded by `load` [N]: k_c delta_min of
 /// physics.md. An infinite load stands for one beyond the plastic limit.
-double pullOff(const ContactParameters& p, double reduced, double load);
+double pullOffUnder(const ContactParameters& p, double reduced, double load);
 
 }  // namespace vkdose

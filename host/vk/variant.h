@@ -1,6 +1,7 @@
 #pragma once
 // The ways in which one pass is compiled (shaders/passes.cmake).
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <span>
@@ -15,11 +16,9 @@ struct Variant {
 /// Among the variants whose macros are all `wanted`, the code of the one with the most macros. Each pass has a plain
 /// variant without macros, so there always is one.
 constexpr std::span<const std::uint32_t> pick(std::span<const Variant> variants, unsigned wanted) {
-    const Variant* best = nullptr;
-    for (const Variant& v : variants)
-        if ((v.macros & ~wanted) == 0 && (best == nullptr || std::popcount(v.macros) > std::popcount(best->macros)))
-            best = &v;
-    return best->code;
+    const auto rank = [wanted](const Variant& v) { return (v.macros & ~wanted) == 0 ? std::popcount(v.macros) : -1; };
+    const auto lower = [&rank](const Variant& a, const Variant& b) { return rank(a) < rank(b); };
+    return std::max_element(variants.begin(), variants.end(), lower)->code;
 }
 
 }  // namespace vkdose::vk

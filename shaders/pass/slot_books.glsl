@@ -67,8 +67,8 @@ vec3 wallVelocity(Exerted e, Body me, vec3 centre, float rate) {
     return (me.velocity - rate * vec3(-point.y, point.x, 0.0)) - lever * cross(me.spin, e.normal.xyz);
 }
 
-Book bookWall(ContactParams law, float springDt, float rate, float reduced, Body me, Exerted before, Response r, bool known,
-              bool touching, vec4 stored, Exerted now, History old) {
+Book bookWall(ContactParams law, float springDt, float rate, float reduced, Body me, Exerted before, Response r,
+              bool known, bool touching, vec4 stored, Exerted now, History old) {
     vec4 storedBefore = elasticEnergy(law, 0.0, reduced, old);
     storedBefore.x = before.couple.w;
     vec3 spin = me.spin - vec3(0.0, 0.0, rate);
@@ -92,7 +92,8 @@ void bookSurface(ContactParams law, float springDt, uint slot, Body me, Overlap 
     }
     keepExerted(slot, now);
     Book booked = Book(vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
-    if (known || touching) booked = bookWall(law, springDt, 0.0, reduced, me, before, r, known, touching, stored, now, old);
+    if (known || touching)
+        booked = bookWall(law, springDt, 0.0, reduced, me, before, r, known, touching, stored, now, old);
     writeBook(slot, booked);
 }
 
@@ -100,8 +101,8 @@ Book coilBook;
 
 void openCoilBook() { coilBook = Book(vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0)); }
 
-void bookCoil(ContactParams law, float springDt, float rate, float reduced, uint i, uint turn, Body me, Overlap o, Response r,
-              bool known, bool touching, History old, History h) {
+void bookCoil(ContactParams law, float springDt, float rate, float reduced, uint i, uint turn, Body me, Overlap o,
+              Response r, bool known, bool touching, History old, History h) {
     uint at = coilHistoryIndex(turn, 2u, i);
     Exerted before = kNothing, now = kNothing;
     if (known)

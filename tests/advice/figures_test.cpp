@@ -74,12 +74,12 @@ TEST_CASE("the pull-off force is the strongest pull of the contact law") {
     for (const double part : {0.1, 0.5, 1.0}) {
         CAPTURE(part);
         // The overlap is walked in 1e5 steps.
-        CHECK(pullOff(p, a, part * limit * p.k1) == Approx(pulledApart(p, a, part * limit)).epsilon(1e-3));
+        CHECK(pullOffUnder(p, a, part * limit * p.k1) == Approx(pulledApart(p, a, part * limit)).epsilon(1e-3));
     }
-    CHECK(pullOff(p, a, kWall) == Approx(pulledApart(p, a, limit)).epsilon(1e-3));
+    CHECK(pullOffUnder(p, a, kWall) == Approx(pulledApart(p, a, limit)).epsilon(1e-3));
     ContactParameters elastic = p;
     elastic.k1 = p.k2Max;
-    CHECK(pullOff(elastic, a, kWall) == 0);
+    CHECK(pullOffUnder(elastic, a, kWall) == 0);
 }
 
 TEST_CASE("the settled bed fills the canister to its volume") {

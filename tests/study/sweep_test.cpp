@@ -50,7 +50,8 @@ class MadeUpRuns : public MemberRunner {
         if (end.code == 0)
             std::ofstream(task.folder / "summary.json")
                 << R"({"error": null, "interrupted": false, "stop_reason": "dose_count", "simulated_time_s": 1.5,
-                    "analysis": {"blocked_at_dose": null}})";
+                    "analysis": {"blocked_at_dose": null},
+                    "settled": {"bulk_density_kg_m3": null, "pull_off_over_weight": {"median": null}}})";
         else
             writeCheckpoint(task.folder / kCheckpointName, Checkpoint{});
         if (end.code == 0) fs::remove(task.folder / kCheckpointName);

@@ -10,7 +10,7 @@ namespace vkdose {
 
 /// The tables of shaders/shared/field_tables.h, each under its name, for grids of up to `points`.
 struct FieldTables {
-    FieldTables(const vk::Device& device, const Tables& tables, std::size_t points);
+    FieldTables(const vk::Device& device, const Tables& tables, std::size_t n);
 
     const std::size_t points;
 #define TABLE(number, name, element, count, title) vk::Buffer name;

@@ -73,7 +73,7 @@ Tables::Tables(const vk::Device& device, const TableSizes& s, const Access& a)
 
 std::vector<const vk::Buffer*> Tables::all() const {
     return {
-#define TABLE(number, name, element, count, title) &name,
+#define TABLE(number, name, element, count, title) &(name),
 #include "shaders/shared/tables.h"
     };
 }
