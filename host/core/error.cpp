@@ -42,7 +42,9 @@ std::string Diagnostic::text() const {
     std::string what = shortened(key);
     if (!value.empty()) what += " = " + shortened(value);
     if (!what.empty()) what += ": ";
-    return printable(place + what + problem + (remedy.empty() ? "" : "; " + remedy));
+    constexpr std::size_t kLongest = 1000;  // they may quote what a file says
+    return printable(place + what + shortened(problem, kLongest) +
+                     (remedy.empty() ? "" : "; " + shortened(remedy, kLongest)));
 }
 
 namespace {
