@@ -299,6 +299,7 @@ TEST_CASE("a folder that is missing is told as that") {
     CHECK_THAT(o.err, Catch::Contains("there is no folder no") && !Catch::Contains("make room"));
 }
 
+// NOLINTBEGIN(misc-misleading-bidirectional): these names are meant to mislead.
 TEST_CASE("names that deceive are refused, those that are only odd are handled") {
     const Sandbox box;
     const std::string mini = readText(VKDOSE_SOURCE_DIR "/cases/mini.toml");
@@ -325,3 +326,4 @@ TEST_CASE("names that deceive are refused, those that are only odd are handled")
         CHECK_THAT(again.err, !Catch::Contains("\u202e"));
     }
 }
+// NOLINTEND(misc-misleading-bidirectional)

@@ -9,6 +9,7 @@
 using namespace vkdose;
 using namespace vkdose::test;
 
+// NOLINTBEGIN(misc-misleading-bidirectional): these texts are meant to mislead.
 TEST_CASE("what commands a terminal, turns the direction or cannot be seen is shown as its number") {
     CHECK(printable("plain, grün, 粉末, שלום") == "plain, grün, 粉末, שלום");
     CHECK(printable("a\x1b[31m\nb\x7f") == "a\\x1b[31m\\x0ab\\x7f");
@@ -33,3 +34,4 @@ TEST_CASE("a path in a command that is told can be typed as it stands") {
         CHECK(printable(shellWord(name)) == shellWord(name));
     }
 }
+// NOLINTEND(misc-misleading-bidirectional)

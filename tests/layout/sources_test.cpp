@@ -111,7 +111,7 @@ TEST_CASE("no line of GLSL, C++ or CMake is over 120 characters") {
             for (const auto& entry : fs::recursive_directory_iterator(root)) sources.push_back(entry.path());
         for (const fs::path& source : sources) {
             static const std::set<std::string> ours{".cpp", ".h", ".comp", ".glsl", ".cmake"};
-            if (ours.count(source.extension().string()) == 0 && source.filename() != "CMakeLists.txt") continue;
+            if (!ours.contains(source.extension().string()) && source.filename() != "CMakeLists.txt") continue;
             INFO(source);
             CHECK(wideLines(readText(source)) == std::vector<std::size_t>{});
             ++files;

@@ -180,20 +180,21 @@ TEST_CASE("the parts of a table follow one another and fill it") {
 
 TEST_CASE("an element of a table has its place by part, row and column") {
     const Parts at(oddSizes(true, true));
-    const std::uint64_t particles = 3 * 1024, spring = 3 * 12 * 64, slots = spring + 3 * 11 * 64;
+    const std::uint64_t particles = 3ULL * 1024, spring = 3ULL * 12 * 64, coil = 3ULL * 11 * 64;
+    const std::uint64_t slots = spring + coil;
     CHECK(at.linkIndex(5) == 3 * 10007 + 5);
     CHECK(at.slotRangeIndex(7) == particles + 7);
     CHECK(at.springIndex(9, 1) == 19);
     CHECK(at.exertedIndex(2, 9) == 4 * spring + 9);
     CHECK(at.turnHistoryIndex(6, 8) == 6 * particles + 8);
-    CHECK(at.wireAngleIndex(8) == 5 * gpu::kMaxTurns * particles + 8);
+    CHECK(at.wireAngleIndex(8) == 5 * particles * gpu::kMaxTurns + 8);
     CHECK(at.headIndex(2, 4) == 2 * 2048 + 4);
     CHECK(at.nextIndex(4) == 3 * 2048 + 4);
     CHECK(at.listAnchorIndex(4) == particles + 4);
     CHECK(at.comingEntryIndex(4) == slots + 4);
     CHECK(at.bookIndex(2, 4) == 2 * particles + 4);
     CHECK(at.slotBookIndex(1, 4) == gpu::kBookFields * particles + slots + 4);
-    CHECK(at.turnForceIndex(1, 4) == slots + 3 * 11 * 64 + 4);
+    CHECK(at.turnForceIndex(1, 4) == slots + coil + 4);
     CHECK(at.torqueIndex(4, 1) == 9);
 }
 

@@ -163,7 +163,7 @@ std::vector<std::string> deadLinks(const Page& page, const std::vector<Page>& al
         }
         if (anchor.empty()) continue;
         const Page* target = pageAt(all, file);
-        if (target == nullptr || target->anchors.count(anchor) == 0) tell(link, "has no such anchor");
+        if (target == nullptr || !target->anchors.contains(anchor)) tell(link, "has no such anchor");
     }
     return dead;
 }
@@ -190,7 +190,7 @@ std::vector<std::string> unreachable(const std::vector<Page>& all) {
     }
     std::vector<std::string> missing;
     for (const Page& page : all)
-        if (reached.count(page.file) == 0) missing.push_back(page.file.string());
+        if (!reached.contains(page.file)) missing.push_back(page.file.string());
     return missing;
 }
 

@@ -37,7 +37,7 @@ std::string withKey(const std::string& text, const std::string& header, const st
 
 /// A case in which the keys of the table have a use; of the sizes that of distribution `kind`.
 std::string caseFor(const KeyTable& table, const std::string& kind) {
-    const std::string filled = replaced(kFreeCase, "list = \"two.csv\"",
+    std::string filled = replaced(kFreeCase, "list = \"two.csv\"",
                                         "mass_g = 0.1\n[particles.size]\ndistribution = \"fixed\"\nradius_mm = 1");
     if (table.paths == "particles.region") return filled;
     if (table.paths == "plane[]" || table.paths == "cylinder[]")
