@@ -174,10 +174,13 @@ void SweepFolder::gatherResults() {
         std::vector<Row>& rows = noted[numberOf(doses_.row(k))];
         if (rows.empty() || rows.back() != doses_.row(k)) rows.push_back(doses_.row(k));  // two equal lines: one dose
     }
+    std::map<int, std::size_t> last;  // a member that stands there twice is one, with the status of its last row
+    for (std::size_t i = 0; i < members_.rows(); ++i) last[numberOf(members_.row(i))] = i;
     Table members(members_.names()), doses(doses_.names());
     for (std::size_t i = 0; i < members_.rows(); ++i) {
         Row member = members_.row(i);
         const int number = numberOf(member);
+        if (last[number] != i) continue;
         const MemberResult found = readResult(memberFolder(number), {number, 0, ""});
         const auto outputs = member.end() - std::ptrdiff_t(kOutputColumns.size());
         const Row head(member.begin(), outputs);

@@ -219,6 +219,10 @@ TEST_CASE("results that were edited in the table come back from the members' fol
     SECTION("nothing") {
         other.replace(at, time.size(), ",,");
     }
+    SECTION("a row twice") {
+        const std::size_t row = other.rfind('\n', at);
+        other.insert(row, other.substr(row, other.find('\n', at) - row));
+    }
     SECTION("a value where there is none") {
         REQUIRE(other[at - 1] == ',');
         other.insert(at, "3");
