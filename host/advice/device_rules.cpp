@@ -22,10 +22,6 @@ double mm(double metres) {
     return metres * 1e3;
 }
 
-bool doses(const Subject& s) {
-    return s.c.world.coil && s.c.schedule.rotateTime > 0;
-}
-
 double coilEnd(const Subject& s) {
     return s.c.world.coil->zStart + s.c.world.coil->length;
 }
@@ -35,7 +31,7 @@ double coilEnd(const Subject& s) {
 Found narrowTurns(const Subject& s) {
     const double gap = s.f.coilGap;
     const double needed = std::max(2 * s.f.largest, kSpheresInTurn * 2 * s.f.mean);
-    if (!doses(s) || !(gap < needed)) return {};
+    if (!s.doses() || !(gap < needed)) return {};
     const double pitch = s.c.world.coil->pitch + needed - gap;
     return Finding{s.given("coil.pitch_mm", "coil.turns"),
                    fmt::format("the turns leave a gap of {:.3g} mm, {:.2g} mean spheres or {:.2g} of the largest side "
@@ -46,7 +42,7 @@ Found narrowTurns(const Subject& s) {
 
 Found pinchedSpheres(const Subject& s) {
     const double gap = s.f.coilClearance;
-    if (!doses(s) || !(gap < 2 * s.f.largest) || s.c.world.maxOverlapRatio >= kWedgedOverlap) return {};
+    if (!s.doses() || !(gap < 2 * s.f.largest) || s.c.world.maxOverlapRatio >= kWedgedOverlap) return {};
     const bool all = gap <= 2 * s.f.smallest;
     return Finding{
         "contact.max_overlap_ratio",
@@ -61,7 +57,7 @@ Found pinchedSpheres(const Subject& s) {
 }
 
 Found shortCoil(const Subject& s) {
-    if (!doses(s) || !s.c.canister || coilEnd(s) >= s.c.canister->length) return {};
+    if (!s.doses() || !s.c.canister || coilEnd(s) >= s.c.canister->length) return {};
     const double missing = s.c.canister->length - coilEnd(s);
     return Finding{
         "coil.length_mm",
@@ -74,7 +70,7 @@ Found shortCoil(const Subject& s) {
 }
 
 Found lateCoil(const Subject& s) {
-    if (!doses(s) || !s.c.canister) return {};
+    if (!s.doses() || !s.c.canister) return {};
     const double start = s.c.world.coil->zStart;
     const double length = s.c.canister->length;
     if (start >= length)
@@ -101,12 +97,12 @@ Found coilThroughRear(const Subject& s) {
 }
 
 Found coilAtRest(const Subject& s) {
-    if (!doses(s) || s.c.schedule.coilSpeed > 0) return {};
+    if (!s.doses() || s.c.schedule.coilSpeed > 0) return {};
     return Finding{"coil.speed_rpm", "the coil does not turn during the doses", "give its speed in turns a minute"};
 }
 
 Found coilTooFast(const Subject& s) {
-    if (!doses(s)) return {};
+    if (!s.doses()) return {};
     const double omega = s.c.schedule.coilSpeed, down = glm::length(s.c.world.gravity);
     const double froude = omega * omega * s.c.world.coil->radius / down;
     if (!(froude > 1)) return {};
@@ -132,7 +128,7 @@ Found narrowOutlet(const Subject& s) {
 }
 
 Found bareCoil(const Subject& s) {
-    if (!doses(s) || !(s.f.bedTop < 0)) return {};
+    if (!s.doses() || !(s.f.bedTop < 0)) return {};
     return Finding{"particles.mass_g",
                    fmt::format("the settled powder stands {:.3g} mm below the coil's axis, so that no turn fills; the "
                                "closed form of the dose takes them for full",

@@ -15,13 +15,6 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kWall = std::numeric_limits<double>::infinity();
 
-double massOfPair(double density, double a, double b) {
-    const double ma = sphereMass(density, a);
-    if (std::isinf(b)) return ma;
-    const double mb = sphereMass(density, b);
-    return ma * mb / (ma + mb);
-}
-
 /// Cross-section of the canister below the height y over the coil's axis [m2].
 double crossSection(const Canister& can, double y) {
     const double half = can.width / 2;
@@ -99,13 +92,13 @@ void addStep(Figures& f, const Case& c) {
 }  // namespace
 
 double restitution(const ContactParameters& p, double density, double a, double b) {
-    const double zeta = p.gamma / (2 * std::sqrt(p.k1 * massOfPair(density, a, b)));
+    const double zeta = p.gamma / (2 * std::sqrt(p.k1 * reducedMass(density, a, b)));
     return zeta < 1 ? std::exp(-kPi * zeta / std::sqrt(1 - zeta * zeta)) : 0;
 }
 
 double dampingFor(double e, const ContactParameters& p, double density, double a, double b) {
     const double log = std::log(e);
-    return -2 * log / std::hypot(kPi, log) * std::sqrt(p.k1 * massOfPair(density, a, b));
+    return -2 * log / std::hypot(kPi, log) * std::sqrt(p.k1 * reducedMass(density, a, b));
 }
 
 double pullOffUnder(const ContactParameters& p, double reduced, double load) {

@@ -17,6 +17,8 @@ struct Subject {
     Figures f;
     Node tree;  ///< of the resolved case
 
+    /// Whether a coil turns in doses.
+    bool doses() const { return c.world.coil && c.schedule.rotateTime > 0; }
     /// The value at "coil.pitch_mm", or null.
     const Node* node(const std::string& key) const;
     /// The value at "coil.pitch_mm" as the resolved case has it; empty if it has none.

@@ -29,10 +29,6 @@ bool isBed(const Case& c) {
     return contacts >= c.filling.list->size();
 }
 
-bool doses(const Subject& s) {
-    return s.c.world.coil && s.c.schedule.rotateTime > 0;
-}
-
 }  // namespace
 
 Found shortSettling(const Subject& s) {
@@ -46,7 +42,7 @@ Found shortSettling(const Subject& s) {
 }
 
 Found longDose(const Subject& s) {
-    if (!doses(s) || !(s.derived.massPerDose > s.derived.fillMass)) return {};
+    if (!s.doses() || !(s.derived.massPerDose > s.derived.fillMass)) return {};
     return Finding{"dose.rotate_s",
                    fmt::format("by the closed form a dose conveys {:.3g} g, more than the fill of {:.3g} g",
                                s.derived.massPerDose * 1e3, s.derived.fillMass * 1e3),
@@ -55,7 +51,7 @@ Found longDose(const Subject& s) {
 }
 
 Found smallDose(const Subject& s) {
-    if (!doses(s) || s.derived.massPerDose <= 0) return {};
+    if (!s.doses() || s.derived.massPerDose <= 0) return {};
     const double sphere = s.filled.mass / static_cast<double>(s.filled.particles.size());
     const double count = s.derived.massPerDose / sphere;
     if (count >= kSpheresInDose) return {};
@@ -68,7 +64,7 @@ Found smallDose(const Subject& s) {
 
 Found earlyStop(const Subject& s) {
     const StopRule& stop = s.c.schedule.stop;
-    if (!doses(s) || stop.kind != StopRule::Kind::Experiment) return {};
+    if (!s.doses() || stop.kind != StopRule::Kind::Experiment) return {};
     const double expected = stop.doses * s.derived.massPerDose;
     if (s.derived.massPerDose <= 0 || stop.threshold < 0.5 * expected) return {};
     return Finding{

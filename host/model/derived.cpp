@@ -11,14 +11,6 @@
 namespace vkdose {
 namespace {
 
-double reducedMass(double density, double a, double b) {
-    const double volume = 4.0 / 3.0 * kPi;
-    const double ma = density * volume * a * a * a;
-    if (std::isinf(b)) return ma;
-    const double mb = density * volume * b * b * b;
-    return ma * mb / (ma + mb);
-}
-
 struct Sizes {
     double mean;
     double smallest;

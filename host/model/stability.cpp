@@ -17,6 +17,14 @@ bool isNormal(const ContactMode& mode) {
 
 }  // namespace
 
+double reducedMass(double density, double a, double b) {
+    const double volume = 4.0 / 3.0 * kPi;
+    const double ma = density * volume * a * a * a;
+    if (std::isinf(b)) return ma;
+    const double mb = density * volume * b * b * b;
+    return ma * mb / (ma + mb);
+}
+
 std::string className(ContactClass c) {
     switch (c) {
         case ContactClass::ParticleParticle:

@@ -13,6 +13,9 @@ namespace vkdose {
 
 struct Case;
 
+/// Reduced mass of two spheres of radii a and b [m], b = infinity for a wall [kg].
+double reducedMass(double density, double a, double b);
+
 struct ContactMode {
     std::string name;     ///< "particle-wall rolling"
     double duration = 0;  ///< half a period without damping, pi sqrt(m/k) [s]

@@ -1,5 +1,5 @@
 #pragma once
-// The bed as it lies when the settling is over: what its filling has made of it, before the coil turns.
+// The bed at the end of settling, before the coil turns.
 
 #include <cstddef>
 #include <optional>
