@@ -137,10 +137,8 @@ struct Derived {
         double stiffest;   ///< the smallest on k2Max, undamped (the shorter, so the safe figure) [s]
     };
     std::vector<PairDuration> durations;
-    double stiffest = 0;      ///< smallest of all [s]
-    double fastestMode = 0;   ///< half a period of the fastest motion of a contact, rolling and others included [s]
-    std::string fastestName;  ///< of that motion: "particle-wall rolling"
-    double timeStep = 0;      ///< [s]
+    double stiffest = 0;  ///< smallest of all [s]
+    double timeStep = 0;  ///< [s]
     std::size_t particles = 0;
     double fillMass = 0;      ///< inserted [kg]
     double pushVelocity = 0;  ///< V_z = p Omega / 2 pi [m/s]

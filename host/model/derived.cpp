@@ -60,13 +60,6 @@ Derived derive(const Case& c, const Insertion& filled) {
         d.durations.push_back({className(kind), mean, stiffest});
         d.stiffest = std::min(d.stiffest, stiffest);
     }
-    const auto modes = modesOf(c, sizes.smallest);
-    const auto fastest = std::min_element(
-        modes.begin(), modes.end(), [](const ContactMode& a, const ContactMode& b) { return a.duration < b.duration; });
-    if (fastest != modes.end()) {
-        d.fastestMode = fastest->duration;
-        d.fastestName = fastest->name;
-    }
     d.timeStep = c.world.timeStep;
     d.particles = filled.particles.size();
     d.fillMass = filled.mass;
