@@ -1,5 +1,7 @@
 #include "host/model/rigid_body.h"
 
+#include <optional>
+
 namespace vkdose {
 
 geometry::Pose RigidBody::pose(double time, double driveAngle) const {
@@ -13,6 +15,32 @@ geometry::Moving RigidBody::moving(double time, double driveAngle, double driveR
     moving.velocity *= driveRate;
     moving.spin *= driveRate;
     return moving;
+}
+
+namespace {
+
+/// The line about which a motion turns; null if it turns about none.
+struct Line {
+    const Vec3 *axis, *through;
+};
+
+std::optional<Line> turnedAbout(const geometry::Motion& motion) {
+    if (const auto* m = std::get_if<geometry::Turn>(&motion)) return Line{&m->axis, &m->through};
+    if (const auto* m = std::get_if<geometry::Swing>(&motion)) return Line{&m->axis, &m->through};
+    if (const auto* m = std::get_if<geometry::Table>(&motion)) return Line{&m->axis, &m->through};
+    return std::nullopt;
+}
+
+}  // namespace
+
+Vec3 RigidBody::axis() const {
+    const auto line = turnedAbout(course.motion);
+    return line ? *line->axis : Vec3(0, 0, 1);
+}
+
+Vec3 RigidBody::pivot(const geometry::Pose& pose) const {
+    const auto line = turnedAbout(course.motion);
+    return line ? *line->through : pose.origin;
 }
 
 }  // namespace vkdose

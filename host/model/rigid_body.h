@@ -27,6 +27,10 @@ struct RigidBody {
     geometry::Pose pose(double time, double driveAngle) const;
     /// How it moves there. `driveRate` [rad/s].
     geometry::Moving moving(double time, double driveAngle, double driveRate) const;
+    /// The direction of the axis about which the body's torque is told: that of its motion, or +z.
+    Vec3 axis() const;
+    /// A point on that axis, in the world: on the axis of its motion, or the origin of its frame.
+    Vec3 pivot(const geometry::Pose& pose) const;
 };
 
 /// Most bodies of a world.

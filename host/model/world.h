@@ -32,8 +32,8 @@ struct World {
     std::vector<geometry::Surface> surfaces;
     std::optional<geometry::Coil> coil;
     std::vector<RigidBody> bodies;  ///< beside surfaces and coil; at most kMaxBodies
-    bool coilSurfaceMoves = true;  ///< contacts see the velocity of the coil's surface; false: they see it at rest
-    bool coilWireCurved = false;   ///< a* counts the wire's radius; false: the wire is as flat as a wall
+    bool coilSurfaceMoves = true;   ///< contacts see the velocity of the coil's surface; false: they see it at rest
+    bool coilWireCurved = false;    ///< a* counts the wire's radius; false: the wire is as flat as a wall
     Vec3 gravity{0, -9.81, 0};
     double density = 0;   ///< of the particles [kg/m3]
     double timeStep = 0;  ///< [s]
