@@ -145,6 +145,8 @@ gpu::Member packMember(const World& world, const ContactLaw& law, const Particle
     if (world.surfaces.size() > gpu::kMaxSurfaces)
         throw RunError(fmt::format("{} surfaces; the Vulkan backend holds {}", world.surfaces.size(),
                                    uint32_t(gpu::kMaxSurfaces)));
+    if (!world.bodies.empty())
+        throw RunError("the Vulkan backend does not compute with bodies yet: run this case with --backend reference");
     gpu::Member m{};
     packLaw(law, m);
     m.choices.z = 1.0f;
