@@ -171,6 +171,7 @@ struct Setup {
     Vec3 low{0}, high{0};
     double depthError = 1e-6;  ///< allowed error of an overlap, as a fraction of it
     double turnError = 2e-6;   ///< allowed error of a direction [rad]
+    double error = 1e-13;      ///< allowed error of an overlap beside that [m]
 };
 
 struct Tally {
@@ -247,7 +248,7 @@ Tally compare(Narrow& narrow, const Setup& setup, std::size_t spheres, unsigned 
                     return glm::dot(f.normal, world[k].normal) > glm::dot(g.normal, world[k].normal);
                 });
             const double depth = radius - world[k].distance;
-            const double allowed = setup.depthError * depth + 1e-13 * (1 + 1 / radius * 1e-3);
+            const double allowed = setup.depthError * depth + setup.error;
             tally.worstDepth = std::max(tally.worstDepth, std::abs(nearest->distance - world[k].distance) / allowed);
             tally.worstTurn = std::max(tally.worstTurn, glm::length(nearest->normal - world[k].normal));
         }
@@ -327,6 +328,26 @@ TEST_CASE("the device finds the features of exact shapes as the host does") {
         {"room", {Block{Vec3(-4e-3), Vec3(5e-3), true}}, 1e-3, Vec3(-3.3e-3), Vec3(4.3e-3)},
         {"tube from inside", {Tube{{0, 0, 0}, tilted, 8e-3, 15e-3, true}}, 1e-3, Vec3(-8e-3), Vec3(14e-3)},
         {"tube from outside", {Tube{{0, 0, 0}, tilted, 8e-3, 15e-3, false}}, 1e-3, Vec3(-8e-3), Vec3(14e-3)},
+        {"trough with an end", {Trough{8e-3, 10e-3}}, 1e-3, Vec3(-8e-3, -8e-3, 2e-3), Vec3(8e-3, 8e-3, 10.5e-3)},
+        {"front wall and throat", {Front{5e-3, 6e-3, 4e-3}}, 1e-3, Vec3(-9e-3, -9e-3, 3e-3), Vec3(9e-3, 9e-3, 4.7e-3)},
+        {"throat", {Front{5e-3, 6e-3, 4e-3}}, 1e-3, Vec3(-5.5e-3, -5.5e-3, 3e-3), Vec3(5.5e-3, 5.5e-3, 10e-3)},
+        // Angles around the wire's axis are good to some units in the last place of pi: 1e-6 rad at 10 mm.
+        {"wire",
+         {Coil{10e-3, 9e-3, 1e-3, 40e-3, 2e-3, 0.7, 1}},
+         1e-3,
+         Vec3(-13e-3, -13e-3, 0),
+         Vec3(13e-3, 13e-3, 44e-3),
+         1e-6,
+         1e-5,
+         1.5e-8},
+        {"tight wire",
+         {Coil{10e-3, 2.6e-3, 0.5e-3, 20e-3, 0, -2, -1}},
+         1e-3,
+         Vec3(-12e-3, -12e-3, -1e-3),
+         Vec3(12e-3, 12e-3, 21e-3),
+         1e-6,
+         1e-5,
+         1.5e-8},
         {"endless tube", {Tube{{0, 0, 0}, tilted, 8e-3, kEndless, true}}, 1e-3, Vec3(-12e-3), Vec3(14e-3)},
     };
     Narrow narrow;
