@@ -77,10 +77,6 @@ struct PackSurface {
 
 }  // namespace
 
-gpu::SurfaceParams packSurface(const geometry::Surface& surface) {
-    return std::visit(PackSurface{}, surface);
-}
-
 gpu::CoilParams packCoil(const geometry::Coil& c, double largest) {
     const double reach = largest + c.wireRadius;
     if (reach >= c.radius)
@@ -138,7 +134,7 @@ gpu::Member packMember(const World& world, const ContactLaw& law, const Particle
     for (std::size_t i = 0; i < world.surfaces.size(); ++i) {
         if (std::holds_alternative<geometry::Front>(world.surfaces[i]) && i + 1 < world.surfaces.size())
             throw std::logic_error("the front wall must be the last surface");
-        m.surface[i] = packSurface(world.surfaces[i]);
+        m.surface[i] = std::visit(PackSurface{}, world.surfaces[i]);
     }
     const double largest = largestRadius(particles);
     if (world.coil) m.coil = packCoil(*world.coil, largest);
