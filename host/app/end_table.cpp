@@ -93,6 +93,7 @@ std::string reportText(const Case& c, const RunResult& r, const std::string& bac
     } else if (s.doses == 1) {
         text += fmt::format("mean {:.3f} g (one dose: no standard deviation, no RSD)\n", s.mean * 1e3);
     }
+    if (r.settling) text += fmt::format("settled  {}\n", settlingSentence(*r.settling, c.schedule));
     text += figureLines(r, c.schedule.stop) + ledgerLine(r);
     if (r.last.energy) text += energyLine(*r.last.energy);
     text += overlapLine(r);

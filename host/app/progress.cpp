@@ -65,6 +65,11 @@ void ProgressDisplay::onProgress(const Progress& p) {
     last_ = now;
 }
 
+void ProgressDisplay::onSettled(const Settling& settling, const Schedule& schedule) {
+    close();
+    say(fmt::format("settled: {}\n", settlingSentence(settling, schedule)));
+}
+
 void ProgressDisplay::onDose(const Dose& d) {
     close();
     say(fmt::format("dose {}: {:.3f} g{}, cumulative {:.3f} g\n", d.index, d.mass * 1e3,

@@ -50,10 +50,12 @@ struct StopRule {
 };
 
 struct Schedule {
-    double settleTime = 0;  ///< [s]
-    double rotateTime = 0;  ///< t_d [s]; 0: no doses, the run is the settling
-    double restTime = 0;    ///< [s]
-    double coilSpeed = 0;   ///< conveying speed >= 0 [rad/s]
+    double settleTime = 0;         ///< [s]; with `untilRest` the longest
+    bool untilRest = false;        ///< the settling ends as soon as the bed rests
+    double restSpeedRatio = 0.01;  ///< speed of a bed at rest, over that of a fall from the fill's height [-]
+    double rotateTime = 0;         ///< t_d [s]; 0: no doses, the run is the settling
+    double restTime = 0;           ///< [s]
+    double coilSpeed = 0;          ///< conveying speed >= 0 [rad/s]
     StopRule stop;
 };
 

@@ -173,7 +173,14 @@ constexpr Key kCoil[] = {
 };
 
 constexpr Key kSettle[] = {
-    number("time_s", kSecond, kNonNegative, 0.0, "duration of settling, with the coil at rest"),
+    number("time_s", kSecond, kNonNegative, 0.0,
+           "duration of settling, with the coil at rest; with `until_rest` the longest one"),
+    boolean("until_rest", false,
+            "settling ends as soon as the bed rests. A run whose bed still moves after `time_s` goes on and tells it"),
+    number(
+        "rest_speed_ratio", kPlain, kPositive, 0.01,
+        "a bed rests when the root mean square speed of its spheres has stayed below this fraction of v for the time "
+        "that the fall takes. v is the speed after a fall from the top of the fill to its bottom"),
     number("kc_over_k", kPlain, kNonNegative, told("that of `[contact]`"),
            "adhesion while settling; a weaker one makes the bed homogeneous"),
     number("wall_kc_over_k", kPlain, kNonNegative, told("the wall's own, or `kc_over_k` above"),

@@ -136,6 +136,13 @@ void checkSchedule(CaseReader& reader, const Case& c) {
         reader.fault("dose.rest_s", "there is no dose to rest after", "give rotate_s > 0, or settle.time_s instead");
     if (s.rotateTime == 0 && s.settleTime == 0)
         reader.fault("settle.time_s", "there is nothing to run", "give settle.time_s or dose.rotate_s > 0");
+    if (s.untilRest && s.settleTime == 0)
+        reader.fault("settle.until_rest", "there is no time to come to rest in",
+                     "give settle.time_s, the longest time that settling may take");
+    if (s.untilRest && glm::length(c.world.gravity) == 0)
+        reader.fault("settle.until_rest", "nothing falls without gravity", "give gravity, or until_rest = false");
+    if (s.restSpeedRatio >= 1)
+        reader.fault("settle.rest_speed_ratio", "calls a falling powder a bed at rest", "give about 0.01");
     if (s.rotateTime > 0 && s.stop.kind == StopRule::Kind::None && s.stop.maxDoses == std::numeric_limits<int>::max() &&
         std::isinf(s.stop.endTime))
         reader.fault("stop.rule", "the run would never end", "give max_doses or end_time_s, or another rule");

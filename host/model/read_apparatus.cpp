@@ -177,6 +177,8 @@ void readStop(Section& root, Case& c) {
 void readSchedule(Section& root, Case& c) {
     Section& settle = root.table("settle");
     c.schedule.settleTime = settle.number("time_s");
+    c.schedule.untilRest = settle.boolean("until_rest");
+    c.schedule.restSpeedRatio = settle.number("rest_speed_ratio");
     Section& dose = root.table("dose");
     c.schedule.rotateTime = dose.number("rotate_s");
     c.schedule.restTime = dose.number("rest_s");

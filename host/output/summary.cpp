@@ -148,6 +148,19 @@ Json settled(const Case& c, const std::optional<SettledBed>& bed) {
     return j;
 }
 
+Json settling(const Case& c, const std::optional<Settling>& s) {
+    if (!s) return nullptr;
+    Json j;
+    j["until_rest"] = c.schedule.untilRest;
+    j["longest_s"] = number(c.schedule.settleTime);
+    j["time_s"] = number(s->time);
+    j["at_rest"] = s->atRest;
+    j["speed_m_s"] = number(s->speed);
+    j["fall_speed_m_s"] = number(s->fallSpeed);
+    j["spilled_kg"] = number(s->spilled);
+    return j;
+}
+
 Json energy(const EnergyLedger& ledger) {
     Json j;
     putColumns(kLoadedColumns, ledger.sum, j);
@@ -182,6 +195,7 @@ std::string summaryJson(const Case& c, const RunResult& r, const std::string& ba
     j["analysis"] = analysis(c, r);
     j["outlet"] = outlet(history.outlet);
     j["arches"] = arches(history.arches);
+    j["settling"] = settling(c, r.settling);
     j["settled"] = settled(c, r.settled);
     j["dosed_while_settling_kg"] = number(r.dosedWhileSettling);
     j["closed_form"] = closedForms(r.derived);

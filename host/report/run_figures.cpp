@@ -21,6 +21,7 @@ class Facts {
 
     Json list() {
         how();
+        settling();
         masses();
         emptying();
         drive();
@@ -47,6 +48,23 @@ class Facts {
         if (s.contains("stop_sentence")) add("ended", s.value("stop_sentence", std::string()));
         if (s.contains("error") && s["error"].is_string()) add("error", s["error"].get<std::string>());
         if (s.contains("backend")) add("computed on", s.value("backend", std::string()));
+    }
+
+    /// How the settling ended, and the mass that fell out meanwhile.
+    void settling() {
+        if (!run_.summary.is_object() || !run_.summary.contains("settling")) return;
+        const Json& s = run_.summary["settling"];
+        for (const char* key : {"time_s", "speed_m_s", "fall_speed_m_s", "spilled_kg"})
+            if (!s.is_object() || !s.value(key, Json()).is_number()) return;
+        const double time = s["time_s"].get<double>(), speed = s["speed_m_s"].get<double>();
+        const double fall = s["fall_speed_m_s"].get<double>(), spilled = s["spilled_kg"].get<double>();
+        const bool rested = s.value("at_rest", Json(false)) == Json(true);
+        const std::string still =
+            fmt::format("{:.2g} % of the speed after a fall from the fill's top", fall > 0 ? 100 * speed / fall : 0.0);
+        add("bed when settling ended", fmt::format("{} at t = {:.4g} s", rested ? "at rest" : "not at rest", time),
+            s.value("until_rest", Json(false)) == Json(true) && !rested ? still + "; the longest time was over"
+                                                                        : still);
+        add("fallen out while settling", fmt::format("{:.3f} g", spilled * 1e3), "in no dose");
     }
 
     void masses() {

@@ -39,6 +39,7 @@ class Run {
           stop_(stop),
           timeline_(c),
           judge_(c.schedule.stop),
+          rest_(c, filled.particles),
           fields_(c, timeline_) {
         result_.filled = std::move(filled);
         result_.derived = std::move(derived);
@@ -103,6 +104,8 @@ class Run {
         put(r, "doses", result_.doses);
         put(r, "last", result_.last);
         put(r, result_.settled);
+        put(r, result_.settling);
+        rest_.save(r);
         r.put("radius", result_.filled.particles.radius);
         fields_.save(r);
         result_.ledger.save(r);
@@ -136,6 +139,9 @@ class Run {
         get(r, "doses", result_.doses);
         get(r, "last", result_.last);
         get(r, result_.filled.particles, result_.settled);
+        get(r, result_.settling);
+        if (result_.settling) timeline_.endSettling(result_.settling->step);
+        rest_.restore(r);
         fields_.restore(r);
         result_.ledger.restore(r);
         judge_.restore(r);
@@ -173,6 +179,7 @@ class Run {
             advance(timeline_.nextSample(step_));
             if (step_ == sampleStep_) {
                 sample();
+                if (stretch_.phase == Phase::Settle) watchRest();
                 if (timeline_.frameDue(step_)) frame();
                 for (const FieldSample& f : fields_.look(backend_, step_, stretch_.phase, stretch_.dose))
                     observer_.onField(f);
@@ -249,6 +256,21 @@ class Run {
         observer_.onSample(s);
         result_.ledger.close(s.sensors, s.time);  // after the observer, so that a bad ledger is on record
         result_.last = s;
+    }
+
+    /// Ends the settling if the case lets the bed's rest do so, and notes how it ended.
+    void watchRest() {
+        const Sensors& s = result_.last.sensors;
+        const bool rests = rest_.rests(s, step_);
+        if (rests && case_.schedule.untilRest && step_ < timeline_.settleSteps()) {
+            timeline_.endSettling(step_);
+            stretch_.end = step_;
+            report();  // that the phase has ended
+        }
+        if (step_ != timeline_.settleSteps()) return;
+        result_.settling =
+            Settling{step_, rests, timeline_.time(step_), meanSpeed(s), rest_.fall().speed, mass(s, Region::Dosed)};
+        observer_.onSettled(*result_.settling, case_.schedule);
     }
 
     void frame() {
@@ -356,6 +378,7 @@ class Run {
     const std::atomic<bool>& stop_;
     Timeline timeline_;
     DoseJudge judge_;
+    RestWatch rest_;
     FieldWatch fields_;
     RunResult result_;
 

@@ -41,11 +41,16 @@ Timeline::Timeline(const Case& c) : timeStep_(c.world.timeStep), settlingLaw_(c.
     if (c.frames.interval > 0)
         frame_ = sensor_ * std::max<std::uint64_t>(1, wholeSteps("frame_interval", c.frames.interval,
                                                                  static_cast<double>(sensor_) * timeStep_));
-    end_ = hasDoses() ? endTime_ : std::min(endTime_, settle_);
+    endSettling(settle_);
     if (c.world.coil) {
         rate_ = geometry::conveyingRate(*c.world.coil, c.schedule.coilSpeed);
         sense_ = geometry::conveyingRate(*c.world.coil, 1.0) < 0 ? -1.0 : 1.0;
     }
+}
+
+void Timeline::endSettling(std::uint64_t step) {
+    settle_ = step;
+    end_ = hasDoses() ? endTime_ : std::min(endTime_, settle_);
 }
 
 Timeline::Stretch Timeline::at(std::uint64_t step) const {

@@ -38,6 +38,9 @@ class Timeline {
     /// The part of a phase in which the next step is made, after `step` finished steps. Call only while !over(step).
     Stretch at(std::uint64_t step) const;
 
+    /// Ends the settling after `step` finished steps, before its longest time. Call only while settling.
+    void endSettling(std::uint64_t step);
+
     /// The next step after `step` at which sensors are read: a multiple of the sensor interval or the end of a phase.
     std::uint64_t nextSample(std::uint64_t step) const;
 
@@ -58,7 +61,7 @@ class Timeline {
 
     bool hasDoses() const { return cycle() > 0; }
     double time(std::uint64_t step) const { return static_cast<double>(step) * timeStep_; }
-    std::uint64_t settleSteps() const { return settle_; }
+    std::uint64_t settleSteps() const { return settle_; }  ///< once it has ended; before, the longest
     std::uint64_t rotateSteps() const { return rotate_; }
     std::uint64_t restSteps() const { return rest_; }
     std::uint64_t sensorSteps() const { return sensor_; }
