@@ -154,8 +154,13 @@ void printText(const CheckOptions& options, const Checked& all) {
     printBed(all);
     printGaps(all);
     if (all.c.world.coil) printPredictions(all.derived);
-    fmt::print("schedule   settle {} steps, rotate {}, rest {}; sensors every {} steps\n", timeline.settleSteps(),
+    const Schedule& s = all.c.schedule;
+    fmt::print("schedule   settle {}{} steps, rotate {}{}, rest {}; sensors every {} steps\n",
+               s.untilRest ? "until at rest, at most " : "", timeline.settleSteps(), s.targetMass > 0 ? "at most " : "",
                timeline.rotateSteps(), timeline.restSteps(), timeline.sensorSteps());
+    if (s.targetMass > 0)
+        fmt::print("target     {:.4g} g a dose, in {} speed{}\n", s.targetMass * 1e3, s.stages.size() + 1,
+                   s.stages.empty() ? "" : "s");
     printRunTime(options, all);
     printWarnings(all.warnings);
 }

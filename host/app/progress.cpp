@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <string>
 
+#include "host/analysis/targets.h"
 #include "host/app/text.h"
 
 namespace vkdose {
@@ -72,8 +73,9 @@ void ProgressDisplay::onSettled(const Settling& settling, const Schedule& schedu
 
 void ProgressDisplay::onDose(const Dose& d) {
     close();
-    say(fmt::format("dose {}: {:.3f} g{}, cumulative {:.3f} g\n", d.index, d.mass * 1e3,
-                    d.complete ? "" : " (incomplete)", d.cumulative * 1e3));
+    say(fmt::format("dose {}: {:.3f} g{}, cumulative {:.3f} g{}\n", d.index, d.mass * 1e3,
+                    d.complete ? "" : " (incomplete)", d.cumulative * 1e3,
+                    d.target > 0 || d.stoppedBy == StopCause::Torque ? "; " + targetText(d) : ""));
 }
 
 /// A failed write is ignored. A lost terminal needs no error here, because its closing interrupts the run.

@@ -9,6 +9,7 @@ namespace {
 using namespace key;
 
 constexpr Unit kDensity{1, "kg/m3"};
+constexpr Unit kMillinewtonMetre{1e3, "mN m"};
 constexpr Bound kPositive = Bound::Positive;
 constexpr Bound kNonNegative = Bound::NonNegative;
 constexpr std::int64_t kAnyCount = std::numeric_limits<std::int64_t>::max();
@@ -193,8 +194,27 @@ constexpr Key kSettle[] = {
 };
 constexpr Key kDose[] = {
     number("rotate_s", kSecond, kNonNegative, 0.0,
-           "time the coil turns in a dose; 0: no doses, the run is the settling"),
+           "time the coil turns in a dose, ramps included; 0: no doses, the run is the settling")
+        .replacing("mass_g max_rotate_s stage"),
+    number("mass_g", kGram, kPositive, told("none"),
+           "target of a dose: the coil is told to stop at the first sensor interval that finds as much dosed. In place "
+           "of `rotate_s`")
+        .replacing("rotate_s"),
+    number("max_rotate_s", kSecond, kPositive, told("required with `mass_g`"),
+           "the longest time that the coil turns for `mass_g`, ramps included"),
+    number("ramp_s", kSecond, kNonNegative, 0.0,
+           "time of each change of the coil's speed, from 0 and to 0 too; in 32 steps"),
+    number("reverse_turns", kPlain, kNonNegative, 0.0,
+           "turns that the coil makes backwards after each rotation, at `coil.speed_rpm`"),
+    number("max_torque_mNm", kMillinewtonMetre, kPositive, told("none"),
+           "largest torque of the drive either way, mean over a sensor interval while the coil conveys"),
+    word("at_max_torque", "dose run", "dose",
+         "what a larger torque ends: the rotation of the `\"dose\"`, or the `\"run\"`"),
     number("rest_s", kSecond, kNonNegative, 0.0, "rest after each rotation, part of the dose"),
+};
+constexpr Key kStage[] = {
+    number("speed_rpm", kRpm, kNonNegative, kRequired, "speed of the coil in this stage"),
+    number("until", kPlain, kPositive, kRequired, "fraction of `mass_g` at which the stage ends; at most 1"),
 };
 constexpr Key kStop[] = {
     word("rule", "none experiment simulation", told("`\"experiment\"`; without doses `\"none\"`"),
@@ -283,6 +303,8 @@ constexpr KeyTable kTables[] = {
      "A round wire on a helix, closed by round caps, turns as a rigid body. Without this table there is no coil."},
     {"settle", kSettle, "The run begins with the coil at rest."},
     {"dose", kDose, "Then the coil turns and rests, dose after dose."},
+    {"dose.stage[]", kStage,
+     "Coarse stages of a dose to a mass, by rising `until`. After the last one the coil turns at `coil.speed_rpm`."},
     {"stop", kStop, "A run ends when one of these conditions holds, or when the canister is empty."},
     {"time", kTime, ""},
     {"sensors", kSensors, ""},

@@ -9,6 +9,7 @@
 #include "host/analysis/density.h"
 #include "host/analysis/emptying.h"
 #include "host/analysis/outlet.h"
+#include "host/analysis/targets.h"
 #include "host/analysis/work.h"
 
 namespace vkdose::report {
@@ -75,6 +76,13 @@ class Facts {
                 fmt::format("RSD {:.1f} %", s.relative * 100));
         else if (s.doses == 1)
             add("mass per dose", fmt::format("{:.3f} g", s.mean * 1e3), "one dose: no standard deviation");
+        const TargetFigures t = targetFigures(run_.doses);
+        if (t.doses > 0) {
+            add("target of a dose", fmt::format("{:.3f} g, met to {:+.3f} g", t.target * 1e3, t.error * 1e3),
+                fmt::format("{} of {} doses stopped by their mass, in {:.3g} s", t.byMass, t.doses, t.rotation));
+            add("overshoot after the stop", fmt::format("{:.3f} g", t.overshoot * 1e3),
+                fmt::format("{:.3f} g at the stop", t.stopMass * 1e3));
+        }
         const DosingFigures f = figuresOf(run_.doses, filled_, run_.c.schedule.stop);
         if (f.beta.doses > 1) {
             const std::string error =

@@ -44,7 +44,7 @@ void RestWatch::save(Record& record) const {
 }
 
 void RestWatch::restore(const Record& record) {
-    slowSince_ = record.arrays().contains("slow_since") ? record.one<std::uint64_t>("slow_since") : kNever;
+    slowSince_ = record.one<std::uint64_t>("slow_since");
 }
 
 std::string settlingSentence(const Settling& s, const Schedule& schedule) {

@@ -35,7 +35,6 @@ class RestWatch {
     const FillFall& fall() const { return fall_; }
 
     void save(Record& record) const;
-    /// A record without this state was stored by a version that did not watch. The watch then begins anew.
     void restore(const Record& record);
 
   private:
@@ -60,8 +59,7 @@ struct Settling {
 /// "at rest at t = 0.31 s; 0.083 g had fallen out by then, which is in no dose": for people. `schedule` is the case's.
 std::string settlingSentence(const Settling& settling, const Schedule& schedule);
 
-/// For a checkpoint. Nothing is read if the settling had not ended, or a version that did not note it stored the
-/// record.
+/// For a checkpoint. Nothing is read if the settling had not ended.
 void put(Record& record, const std::optional<Settling>& settling);
 void get(const Record& record, std::optional<Settling>& settling);
 

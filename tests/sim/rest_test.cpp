@@ -175,21 +175,3 @@ TEST_CASE("a run that goes on from a checkpoint finds its bed at rest at the sam
         CHECK(r.doses.at(0).startTime == whole.doses.at(0).startTime);
     }
 }
-
-TEST_CASE("a checkpoint of a version that did not watch the bed can be gone on from") {
-    Case c = restCase();
-    c.schedule.untilRest = false;
-    c.checkpoint.simulated = 0.3;
-    FakeBackend backend;
-    Teller notes;
-    playFill(c, backend, notes);
-    Record old;
-    for (const auto& [name, array] : notes.kept.at(0).run.arrays())
-        if (name != "slow_since" && name != "settling_counts" && name != "settling_figures")
-            std::visit([&old, &name = name](const auto& values) { old.put(name, values); }, array);
-    FakeBackend again;
-    const RunCheckpoint from{old, notes.kept.at(0).backend};
-    Teller rest;
-    playFill(c, again, rest, &from);
-    CHECK(again.step == backend.step);
-}

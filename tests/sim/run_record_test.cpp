@@ -82,14 +82,21 @@ TEST_CASE("samples and doses are stored in the order of their columns") {
     d.coilTorque = 6;
     d.closedForm = 7;
     d.complete = true;
+    d.target = 8;
+    d.stopMass = 9;
+    d.rotation = 10;
+    d.stoppedBy = StopCause::Mass;
+    d.endTime = 11;
     put(record, "doses", std::vector<Dose>{d, d});
-    CHECK(record.get<std::uint64_t>("doses_counts") == Counts{1, 4, 1, 1, 4, 1});
-    CHECK(record.get<double>("doses_figures") == Figures{2, 3, 5, 6, 7, 2, 3, 5, 6, 7});
+    CHECK(record.get<std::uint64_t>("doses_counts") == Counts{1, 4, 1, 2, 1, 4, 1, 2});
+    CHECK(record.get<double>("doses_figures") == Figures{2, 3, 5, 6, 7, 8, 9, 10, 11, 2, 3, 5, 6, 7, 8, 9, 10, 11});
     std::vector<Dose> doses;
     get(record, "doses", doses);
     REQUIRE(doses.size() == 2);
     CHECK(doses[1].closedForm == 7);
     CHECK(doses[1].complete);
-    record.put("doses_figures", Figures(12));  // one figure more in each, as of another vkdose
+    CHECK(doses[1].stoppedBy == StopCause::Mass);
+    CHECK(doses[1].endTime == 11);
+    record.put("doses_figures", Figures(20));  // one figure more in each, as of another vkdose
     CHECK_THROWS_AS(get(record, "doses", doses), RecordError);
 }
