@@ -35,20 +35,20 @@ TEST_CASE("an energy book is stored as state, springs, losses, works and momenta
     double next = 1;
     for (double* x : {&b.kinetic, &b.rotational, &b.potential, &b.elasticNormal, &b.elasticSliding, &b.elasticRolling,
                       &b.elasticTorsion, &b.plastic, &b.adhesive, &b.viscous, &b.sliding, &b.rolling, &b.torsion,
-                      &b.numerical, &b.coilWork, &b.left, &b.loaded})
+                      &b.numerical, &b.coilWork, &b.bodyWork, &b.left, &b.loaded})
         *x = next++;
-    b.momentum = Vec3(18, 19, 20);
-    b.angularMomentum = Vec3(21, 22, 23);
+    b.momentum = Vec3(19, 20, 21);
+    b.angularMomentum = Vec3(22, 23, 24);
     Record record;
     put(record, "energy", ledger);
-    Figures all(23);
+    Figures all(24);
     for (std::size_t i = 0; i < all.size(); ++i) all[i] = double(i + 1);
     CHECK(record.get<double>("energy") == all);
     std::optional<EnergyLedger> back;
     get(record, "energy", back);
     REQUIRE(back);
-    CHECK(back->sum.loaded == 17);
-    CHECK(back->sum.angularMomentum == Vec3(21, 22, 23));
+    CHECK(back->sum.loaded == 18);
+    CHECK(back->sum.angularMomentum == Vec3(22, 23, 24));
     put(record, "energy", std::optional<EnergyLedger>());
     get(record, "energy", back);
     CHECK_FALSE(back);
