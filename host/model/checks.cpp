@@ -162,6 +162,8 @@ void checkDoses(CaseReader& reader, const Case& c) {
         reader.fault("dose.ramp_s", "the coil has no time to speed up and to slow down again",
                      fmt::format("give at most half of {}, {:.6g} s", s.targetMass > 0 ? "max_rotate_s" : "rotate_s",
                                  s.rotateTime / 2));
+    if (std::isfinite(s.maxTorque) && !c.world.coil)
+        reader.fault("dose.max_torque_mNm", "there is no coil, and only a coil's torque is measured", "remove it");
     if (s.rotateTime == 0 && s.reverseTurns > 0)
         reader.fault("dose.reverse_turns", "there is no dose to turn back after", "give rotate_s > 0");
     if (doses && s.reverseTurns > 0 && s.coilSpeed == 0)
@@ -174,9 +176,9 @@ void checkDoses(CaseReader& reader, const Case& c) {
 void checkSchedule(CaseReader& reader, const Case& c) {
     const Schedule& s = c.schedule;
     checkDoses(reader, c);
-    if (s.rotateTime > 0 && !c.world.coil)
+    if (s.rotateTime > 0 && !c.world.coil && !followsDrive(c.world.bodies))
         reader.fault(s.targetMass > 0 ? "dose.mass_g" : "dose.rotate_s", "there is no coil to turn",
-                     "add [coil] or set rotate_s = 0");
+                     "add [coil], or a [[body]] with motion.follows = \"drive\", or set rotate_s = 0");
     if (s.rotateTime == 0 && s.restTime > 0)
         reader.fault("dose.rest_s", "there is no dose to rest after", "give rotate_s > 0, or settle.time_s instead");
     if (s.rotateTime == 0 && s.settleTime == 0)
@@ -325,6 +327,15 @@ void checkWalls(CaseReader& reader, const Case& c, const Particles& p, const std
             const double toCoil = coilDistance(*c.world.coil, p.position[i], p.radius[i]);
             if (toCoil < distance) what = "the coil";
             distance = std::min(distance, toCoil);
+        }
+        for (const RigidBody& body : c.world.bodies) {
+            const Vec3 inBody = body.pose(0, 0).toBody(p.position[i]);
+            for (const geometry::Shape& shape : body.shapes)
+                for (const geometry::Feature& place : geometry::places(shape, inBody, p.radius[i]))
+                    if (place.distance < distance) {
+                        distance = place.distance;
+                        what = fmt::format("body \"{}\"", body.name);
+                    }
         }
         const double overlap = p.radius[i] - distance;
         // The bed that a run left lies around the coil as it stood at the run's end.

@@ -71,9 +71,9 @@ void readSurfaces(CaseReader& reader, Section& root, Case& c) {
         shape.inside = tube->boolean("inside");
         c.world.surfaces.push_back(shape);
     }
-    if (c.world.surfaces.empty() && !reader.faulty())
+    if (c.world.surfaces.empty() && !root.has("body") && !reader.faulty())
         reader.fault("boundaries", "the list is empty",
-                     "add [[plane]] or [[cylinder]], or write boundaries = \"none\"");
+                     "add [[plane]], [[cylinder]] or [[body]], or write boundaries = \"none\"");
 }
 
 /// Reports tables that have no use with the chosen boundaries, because they are probably a mistake.
@@ -152,7 +152,8 @@ namespace {
 
 // ---- time ---------------------------------------------------------------------------------------------------------
 
-void readDose(CaseReader& reader, Section& dose, Schedule& s) {
+void readDose(CaseReader& reader, Section& dose, Case& c) {
+    Schedule& s = c.schedule;
     for (const char* key : {"rotate_s", "mass_g", "max_rotate_s", "max_torque_mNm"}) dose.know(key);
     const bool toMass = dose.has("mass_g");
     if (!toMass || dose.has("rotate_s")) s.rotateTime = dose.number("rotate_s");
@@ -170,6 +171,8 @@ void readDose(CaseReader& reader, Section& dose, Schedule& s) {
     if (dose.has("max_torque_mNm")) s.maxTorque = dose.number("max_torque_mNm");
     s.torqueEndsRun = dose.choice("at_max_torque") == std::size_t{1};
     s.restTime = dose.number("rest_s");
+    if (!c.world.coil && followsDrive(c.world.bodies)) s.coilSpeed = dose.number("speed_rpm");
+    dose.know("speed_rpm");
 }
 
 void readStop(Section& root, Case& c) {
@@ -199,7 +202,7 @@ void readSchedule(CaseReader& reader, Section& root, Case& c) {
     c.schedule.settleTime = settle.number("time_s");
     c.schedule.untilRest = settle.boolean("until_rest");
     c.schedule.restSpeedRatio = settle.number("rest_speed_ratio");
-    readDose(reader, root.table("dose"), c.schedule);
+    readDose(reader, root.table("dose"), c);
     readStop(root, c);
     Section& sensors = root.table("sensors");
     c.sensorInterval = sensors.number("interval_s");

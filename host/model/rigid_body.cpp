@@ -1,5 +1,6 @@
 #include "host/model/rigid_body.h"
 
+#include <algorithm>
 #include <optional>
 
 namespace vkdose {
@@ -41,6 +42,10 @@ Vec3 RigidBody::axis() const {
 Vec3 RigidBody::pivot(const geometry::Pose& pose) const {
     const auto line = turnedAbout(course.motion);
     return line ? *line->through : pose.origin;
+}
+
+bool followsDrive(const std::vector<RigidBody>& bodies) {
+    return std::any_of(bodies.begin(), bodies.end(), [](const RigidBody& b) { return b.clock == Clock::Drive; });
 }
 
 }  // namespace vkdose

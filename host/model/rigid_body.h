@@ -33,6 +33,9 @@ struct RigidBody {
     Vec3 pivot(const geometry::Pose& pose) const;
 };
 
+/// Whether one of the bodies follows the drive.
+bool followsDrive(const std::vector<RigidBody>& bodies);
+
 /// Most bodies of a world.
 inline constexpr std::size_t kMaxBodies = 16;
 

@@ -98,7 +98,7 @@ Timeline::Piece Timeline::pieceAt(const Change& change, std::uint64_t step) cons
 }
 
 double Timeline::rateOf(double speed) const {
-    return coil_ ? geometry::conveyingRate(*coil_, speed) : 0.0;
+    return coil_ ? geometry::conveyingRate(*coil_, speed) : speed;  // of bodies that follow the drive
 }
 
 Timeline::Stretch Timeline::at(std::uint64_t step) const {
