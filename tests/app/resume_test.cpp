@@ -158,7 +158,7 @@ TEST_CASE("killed at random moments, a run that settles until at rest and doses 
     for (const char* key : {"settle.until_rest=true", "settle.rest_speed_ratio=0.99", "settle.time_s=0.4",
                             "dose.mass_g=0.001", "dose.max_rotate_s=0.4", "dose.ramp_s=0.01", "dose.reverse_turns=0.1",
                             "dose.rest_s=0.01", "dose.stage=[{speed_rpm=240.0, until=0.5}]", "dose.max_torque_mNm=100",
-                            "stop.max_doses=1", "checkpoint.time_s=0.02"}) {
+                            "stop.max_doses=1", "checkpoint.time_s=0.005"}) {
         options.emplace_back("--set");
         options.emplace_back(key);
     }
