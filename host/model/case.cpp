@@ -123,7 +123,7 @@ Case interpret(const std::filesystem::path& file, Node tree, std::vector<std::fi
     readBodies(reader, root, reader.faulty() ? std::numeric_limits<double>::quiet_NaN() : sizeRange(c).largest, c);
     alignWithDrive(c);
     readRegion(root, kind, c);
-    readSchedule(root, c);
+    readSchedule(reader, root, c);
     readTime(reader, root, c);
     readFields(reader, root, reader.faulty() ? std::numeric_limits<double>::quiet_NaN() : 2 * sizeRange(c).mean, c);
     const bool domainGiven = readDomain(root, c);

@@ -49,12 +49,31 @@ struct StopRule {
     double endTime = std::numeric_limits<double>::infinity();  ///< simulated time, settling included [s]
 };
 
+/// A part of a dose to a mass, with a speed of its own.
+struct DoseStage {
+    double speed = 0;  ///< conveying speed >= 0 [rad/s]
+    double until = 0;  ///< fraction of the target at which it ends
+};
+
 struct Schedule {
-    double settleTime = 0;  ///< [s]
-    double rotateTime = 0;  ///< t_d [s]; 0: no doses, the run is the settling
+    double settleTime = 0;         ///< [s]; with `untilRest` the longest
+    bool untilRest = false;        ///< the settling ends as soon as the bed rests
+    double restSpeedRatio = 0.01;  ///< speed of a bed at rest, over that of a fall from the fill's height [-]
+    double rotateTime = 0;  ///< t_d, ramps included [s]; 0: no doses, the run is the settling; to a mass: the longest
     double restTime = 0;    ///< [s]
-    double coilSpeed = 0;   ///< conveying speed >= 0 [rad/s]
+    double coilSpeed = 0;   ///< conveying speed >= 0 [rad/s]; with stages that after the last one
+    double targetMass = 0;  ///< the coil is told to stop once a dose has as much [kg]; 0: it turns for `rotateTime`
+    std::vector<DoseStage> stages;  ///< by rising `until`
+    double rampTime = 0;            ///< every change of the coil's speed takes so long [s]
+    double reverseTurns = 0;        ///< by which the coil turns back after each rotation, at `coilSpeed`
+    double maxTorque = std::numeric_limits<double>::infinity();  ///< of the drive, mean over a sensor interval [N m]
+    bool torqueEndsRun = false;                                  ///< a larger one ends the run, not only the rotation
     StopRule stop;
+
+    double fastestSpeed() const;  ///< of all stages and of `coilSpeed` [rad/s]
+    double reverseTime() const;   ///< of turning back, ramps included [s]
+    /// Whether every dose turns for the same time at one speed.
+    bool isPlain() const;
 };
 
 /// Dimensions of the canister, kept beside the surfaces made from them for predictions and messages [m].
@@ -143,7 +162,8 @@ struct Derived {
     double fillMass = 0;      ///< inserted [kg]
     double pushVelocity = 0;  ///< V_z = p Omega / 2 pi [m/s]
     double tipVelocity = 0;   ///< V_t = Omega r_c [m/s]
-    double massPerDose = 0;   ///< rho_b p pi r_c^2 n_t [kg]
+    double massPerTurn = 0;   ///< rho_b p pi r_c^2 [kg]
+    double massPerDose = 0;   ///< the same times the turns of a dose, n_t; at most the target of a dose to a mass [kg]
     double doses = 0;         ///< m_tot / m_dose
     double steps = 0;         ///< until the predicted last dose plus the stop rule's
 };

@@ -9,6 +9,7 @@ namespace {
 using namespace key;
 
 constexpr Unit kDensity{1, "kg/m3"};
+constexpr Unit kMillinewtonMetre{1e3, "mN m"};
 constexpr Bound kPositive = Bound::Positive;
 constexpr Bound kNonNegative = Bound::NonNegative;
 constexpr std::int64_t kAnyCount = std::numeric_limits<std::int64_t>::max();
@@ -231,7 +232,14 @@ constexpr Key kMotion[] = {
 };
 
 constexpr Key kSettle[] = {
-    number("time_s", kSecond, kNonNegative, 0.0, "duration of settling, with the coil at rest"),
+    number("time_s", kSecond, kNonNegative, 0.0,
+           "duration of settling, with the coil at rest; with `until_rest` the longest one"),
+    boolean("until_rest", false,
+            "settling ends as soon as the bed rests. A run whose bed still moves after `time_s` goes on and tells it"),
+    number(
+        "rest_speed_ratio", kPlain, kPositive, 0.01,
+        "a bed rests when the root mean square speed of its spheres has stayed below this fraction of v for the time "
+        "that the fall takes. v is the speed after a fall from the top of the fill to its bottom"),
     number("kc_over_k", kPlain, kNonNegative, told("that of `[contact]`"),
            "adhesion while settling; a weaker one makes the bed homogeneous"),
     number("wall_kc_over_k", kPlain, kNonNegative, told("the wall's own, or `kc_over_k` above"),
@@ -244,10 +252,29 @@ constexpr Key kSettle[] = {
 };
 constexpr Key kDose[] = {
     number("rotate_s", kSecond, kNonNegative, 0.0,
-           "time the coil turns in a dose; 0: no doses, the run is the settling"),
+           "time the coil turns in a dose, ramps included; 0: no doses, the run is the settling")
+        .replacing("mass_g max_rotate_s stage"),
+    number("mass_g", kGram, kPositive, told("none"),
+           "target of a dose: the coil is told to stop at the first sensor interval that finds as much dosed. In place "
+           "of `rotate_s`")
+        .replacing("rotate_s"),
+    number("max_rotate_s", kSecond, kPositive, told("required with `mass_g`"),
+           "the longest time that the coil turns for `mass_g`, ramps included"),
+    number("ramp_s", kSecond, kNonNegative, 0.0,
+           "time of each change of the coil's speed, from 0 and to 0 too; in 32 steps"),
+    number("reverse_turns", kPlain, kNonNegative, 0.0,
+           "turns that the coil makes backwards after each rotation, at `coil.speed_rpm`"),
+    number("max_torque_mNm", kMillinewtonMetre, kPositive, told("none"),
+           "largest torque of the drive either way, mean over a sensor interval while the coil conveys"),
+    word("at_max_torque", "dose run", "dose",
+         "what a larger torque ends: the rotation of the `\"dose\"`, or the `\"run\"`"),
     number("rest_s", kSecond, kNonNegative, 0.0, "rest after each rotation, part of the dose"),
     number("speed_rpm", kRpm, kNonNegative, told("required if bodies follow the drive and there is no coil"),
            "speed of the drive that bodies follow, where there is no coil"),
+};
+constexpr Key kStage[] = {
+    number("speed_rpm", kRpm, kNonNegative, kRequired, "speed of the coil in this stage"),
+    number("until", kPlain, kPositive, kRequired, "fraction of `mass_g` at which the stage ends; at most 1"),
 };
 constexpr Key kStop[] = {
     word("rule", "none experiment simulation", told("`\"experiment\"`; without doses `\"none\"`"),
@@ -342,6 +369,8 @@ constexpr KeyTable kTables[] = {
      "How the body moves; without this table it rests. Axes and points stand in the frame of the case."},
     {"settle", kSettle, "The run begins with the coil at rest."},
     {"dose", kDose, "Then the coil turns and rests, dose after dose."},
+    {"dose.stage[]", kStage,
+     "Coarse stages of a dose to a mass, by rising `until`. After the last one the coil turns at `coil.speed_rpm`."},
     {"stop", kStop, "A run ends when one of these conditions holds, or when the canister is empty."},
     {"time", kTime, ""},
     {"sensors", kSensors, ""},

@@ -22,7 +22,7 @@ void readRegion(Section& root, std::optional<Boundaries> kind, Case& c);
 /// Reads the boundaries. Returns nothing if their kind itself is at fault.
 std::optional<Boundaries> readBoundaries(CaseReader& reader, Section& root, Case& c);
 void readCoil(CaseReader& reader, Section& root, Case& c);
-void readSchedule(Section& root, Case& c);
+void readSchedule(CaseReader& reader, Section& root, Case& c);
 /// Reads time step and skin if the file states them; 0 stands for a value that is computed later.
 void readTime(CaseReader& reader, Section& root, Case& c);
 /// True when the file states a domain.
