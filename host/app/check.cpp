@@ -11,6 +11,7 @@
 #include "host/app/exit_code.h"
 #include "host/app/text.h"
 #include "host/core/printable.h"
+#include "host/model/bed_weight.h"
 #include "host/model/stability.h"
 #include "host/sim/runner.h"
 
@@ -78,6 +79,10 @@ void printSoftening(const Case& c) {
         c.softened, p.k2Max, p.gamma, p.plasticityDepth);
 }
 
+void printDerivations(const Case& c) {
+    for (const std::string& line : c.derivations) fmt::print("derived    {}\n", printable(line));
+}
+
 void printContacts(const Derived& d, const Figures& f) {
     fmt::print("contact duration     mean pair on k1  stiffest pair on k2\n");
     for (const Derived::PairDuration& p : d.durations) {
@@ -96,8 +101,10 @@ void printBed(const Checked& all) {
     if (!(f.bedDepth > 0)) return;
     fmt::print("bed        {:.3g} mm deep at a volume fraction of {}; the fill falls {:.3g} mm in {:.2g} s\n",
                f.bedDepth * 1e3, kBedFraction, f.fall * 1e3, f.fallTime);
-    fmt::print("overlap    {:.2g} of the radius under the bed's weight, {:.2g} of the fall (limit {:.3g})\n",
-               f.overlapUnderBed, f.overlapOfFall, all.c.world.maxOverlapRatio);
+    fmt::print(
+        "overlap    {:.2g} of the radius under the bed's weight, {:.2g} in its chains of force, {:.2g} of the fall "
+        "(limit {:.3g})\n",
+        f.overlapUnderBed, kChain * f.overlapUnderBed, f.overlapOfFall, all.c.world.maxOverlapRatio);
     fmt::print("Bond       {:.2g} under the bed's weight, at most {:.3g} (pull-off force over weight, mean pair)\n",
                f.bondUnderBed, f.bondLargest);
 }
@@ -154,6 +161,7 @@ void printText(const CheckOptions& options, const Checked& all) {
     fmt::print("case       {}: {}\n", all.c.name, printableLines(all.c.reason));
     printFilling(all.filled);
     if (all.c.softened > 1) printSoftening(all.c);
+    printDerivations(all.c);
     printContacts(all.derived, all.figures);
     printBed(all);
     printGaps(all);
@@ -238,6 +246,9 @@ int checkAsJson(const CheckOptions& options) {
         out["case"] = all.c.name;
         out["warnings"] = warningsJson(all.warnings);
         out["figures"] = figuresJson(all);
+        Json derivations = Json::array();
+        for (const std::string& line : all.c.derivations) derivations.push_back(printable(line));
+        out["derived"] = derivations;
     } catch (const CaseError& error) {
         out["errors"] = errorsOf(error);
         code = kBadInput;

@@ -16,16 +16,23 @@
 
 namespace vkdose {
 
+/// A sieve, after scaling.
+struct SievePoint {
+    double radius = 0;  ///< half of its opening [m]
+    double finer = 0;   ///< fraction of the powder's volume that passes it
+};
+
 /// Sizes of the inserted particles (radii, metres).
 struct SizeDistribution {
-    enum class Kind { Uniform, Fixed, Normal, Lognormal, Quantiles };
+    enum class Kind { Uniform, Fixed, Normal, Lognormal, Quantiles, Sieve };
     Kind kind = Kind::Fixed;
     double radius = 0;     ///< Fixed: the radius; Normal: the mean; Lognormal: the median
     double deviation = 0;  ///< Normal: standard deviation [m]; Lognormal: of ln(radius) [-]
     double radiusMin = 0;  ///< Uniform: bounds; the others: truncation (draws outside are drawn again)
     double radiusMax = 0;
     double r10 = 0, r50 = 0, r90 = 0;  ///< Quantiles (by volume) after scaling: radii of the meso-particles
-    double scaleUp = 1;                ///< Quantiles: factor from the powder's sizes to the meso-particles'
+    std::vector<SievePoint> sieve;     ///< Sieve: from fine to coarse, from 0 to 1
+    double scaleUp = 1;                ///< Quantiles, Sieve: factor from the powder's sizes to the meso-particles'
 };
 
 /// The origin of the particles: drawn and put on a grid, or listed in a CSV.
@@ -114,8 +121,11 @@ struct Case {
     double sensorInterval = 0;  ///< [s], a whole number of steps after loading
     CheckpointInterval checkpoint;
     FrameStorage frames;
-    std::vector<FieldSensor> fields;           ///< taken while the run goes on
-    double bulkDensity = 471;                  ///< rho_b for the closed form [kg/m3]
+    std::vector<FieldSensor> fields;  ///< taken while the run goes on
+    double bulkDensity = 471;         ///< rho_b for the closed form [kg/m3]
+    /// Values that follow from others that the file gives in their place, in words: "contact: damping = 0.02 kg/s from
+    /// restitution = 0.5 of slow impacts".
+    std::vector<std::string> derivations;
     std::string resolved;                      ///< the case as TOML with every default and --set applied
     std::vector<std::filesystem::path> files;  ///< read for this case: the case file, its bases, the particle list
 };
@@ -137,8 +147,8 @@ struct Insertion {
     double mass = 0;            ///< of all particles [kg]
     double targetMass = 0;      ///< [kg]
     std::uint64_t redrawn = 0;  ///< draws outside the truncation bounds (Normal, Lognormal)
-    double cutBelow = 0;        ///< Quantiles: mass fraction of the powder finer than the lower bound [-]
-    double cutAbove = 0;        ///< Quantiles: mass fraction coarser than the upper bound [-]
+    double cutBelow = 0;        ///< Quantiles, Sieve: mass fraction of the powder finer than the lower bound [-]
+    double cutAbove = 0;        ///< Quantiles, Sieve: mass fraction coarser than the upper bound [-]
     double fillHeight = 0;      ///< top of the grid, or of a list's highest sphere [m, y]
 };
 Insertion insertParticles(const Case& c);

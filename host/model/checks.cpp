@@ -56,8 +56,8 @@ void checkSize(CaseReader& reader, const SizeDistribution& s) {
         reader.fault("particles.size.d50_um", "the quantiles do not increase", "give d10_um < d50_um < d90_um");
         return;
     }
-    if (s.kind == Kind::Quantiles && s.radiusMin <= s.radiusMax &&
-        finerVolume(s, s.radiusMax) - finerVolume(s, s.radiusMin) <= 0)
+    const bool ofPowder = s.kind == Kind::Quantiles || (s.kind == Kind::Sieve && !s.sieve.empty());
+    if (ofPowder && s.radiusMin <= s.radiusMax && finerVolume(s, s.radiusMax) - finerVolume(s, s.radiusMin) <= 0)
         reader.fault("particles.size.radius_min_mm", "the bounds leave nothing of the scaled powder",
                      fmt::format("keep them between {:.4g} and {:.4g} mm", mm(finestRadius(s)), mm(coarsestRadius(s))));
     const bool drawnAgain = s.kind == Kind::Normal || s.kind == Kind::Lognormal;
@@ -252,6 +252,8 @@ void checkGrid(CaseReader& reader, const Case& c, double largest) {
         reader.fault("particles.mass_g", fmt::format("takes about {:.2g} particles", expected),
                      f.size.kind == SizeDistribution::Kind::Quantiles
                          ? "give less mass or a larger scale_up; d10_um, d50_um and d90_um are in micrometres"
+                     : f.size.kind == SizeDistribution::Kind::Sieve
+                         ? "give less mass, a larger scale_up, or a radius_min_mm that leaves the finest out"
                          : "give less mass or larger meso-particles");
         return;
     }

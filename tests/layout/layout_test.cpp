@@ -77,7 +77,7 @@ const std::map<std::string, Layout>& hostLayouts() {
          {{FIELD(StepPush, stepInBatch), FIELD(StepPush, source), FIELD(StepPush, opening), FIELD(StepPush, firstRow),
            FIELD(StepPush, live), FIELD(StepPush, particles), FIELD(StepPush, share), FIELD(StepPush, cellMask),
            FIELD(StepPush, rowEntries), FIELD(StepPush, linkEntries), FIELD(StepPush, pairSlots),
-           FIELD(StepPush, surfaceSlots), FIELD(StepPush, coilSlots), FIELD(StepPush, slice)},
+           FIELD(StepPush, surfaceSlots), FIELD(StepPush, coilSlots), FIELD(StepPush, bodySlots), FIELD(StepPush, slice)},
           sizeof(StepPush)}},
         {"PictureParams",
          {{FIELD(PictureParams, right), FIELD(PictureParams, up), FIELD(PictureParams, towards),
