@@ -15,6 +15,7 @@
 #include "host/app/find_case.h"
 #include "host/app/help.h"
 #include "host/app/manual.h"
+#include "host/app/new_answers.h"
 
 namespace vkdose {
 
@@ -53,6 +54,23 @@ void addShow(CLI::App& command, bool& quiet, bool& live) {
     auto* silent = command.add_flag("--quiet", quiet, "print errors only");
     command.add_flag("--live", live, "show the bed and the doses on the terminal while the run goes on")
         ->excludes(silent);
+}
+
+void addNew(CLI::App& program, NewOptions& options) {
+    CLI::App& command =
+        *program.add_subcommand("new", "write a commented case from a device and a powder, or ask for them");
+    command.add_option("file", options.file, "case to write (TOML); it must not be there yet")
+        ->required()
+        ->type_name("FILE");
+    const auto questions = newQuestions();
+    options.answers.resize(questions.size());
+    for (std::size_t i = 0; i < questions.size(); ++i) {
+        const NewQuestion& q = questions[i];
+        const std::string standard = q.standard == nullptr ? "" : fmt::format(" (default: {})", q.standard);
+        command.add_option(q.option, options.answers[i], q.meaning + standard)->type_name(q.form);
+    }
+    command.add_flag("--ask", options.ask,
+                     "ask for what is not given; without any option this is done on a terminal anyway");
 }
 
 void addRun(CLI::App& program, RunOptions& options) {
@@ -354,6 +372,7 @@ int commandLine(int argc, const char* const* argv) {
     CLI::App program("Simulates the dosing of cohesive powder by a turning coil (discrete element method).", "vkdose");
     program.set_version_flag("--version", "vkdose " VKDOSE_VERSION);
     program.require_subcommand(1);
+    NewOptions made;
     RunOptions run;
     ResumeOptions resume;
     CheckOptions check;
@@ -366,6 +385,7 @@ int commandLine(int argc, const char* const* argv) {
     ReportOptions report;
     ProfileOptions profile;
     RenderOptions render;
+    addNew(program, made);
     addRun(program, run);
     addResume(program, resume);
     addCheck(program, check);
@@ -395,6 +415,7 @@ int commandLine(int argc, const char* const* argv) {
         fmt::print(stderr, "{}", usageFault(program, e.what(), argc > 1 ? argv[1] : ""));
         return kBadInput;
     }
+    if (program.got_subcommand("new")) return guarded([&] { return newCommand(made); });
     if (program.got_subcommand("run")) return guarded([&] { return runCommand(named(run)); });
     if (program.got_subcommand("resume")) return guarded([&] { return resumeCommand(resume); });
     if (program.got_subcommand("check")) return guarded([&] { return checkCommand(named(check)); });

@@ -18,6 +18,12 @@ struct CaseOptions {
     std::vector<std::string> overrides;  ///< "key.path=value"
 };
 
+struct NewOptions {
+    std::filesystem::path file;
+    std::vector<std::string> answers;  ///< to newQuestions(), in their order; empty: not given
+    bool ask = false;                  ///< for what is not given, even if nobody sits at a terminal
+};
+
 struct RunOptions {
     CaseOptions input;
     BackendChoice backend;
@@ -122,6 +128,7 @@ struct RenderOptions {
     std::optional<double> from, to;  ///< ends of the colour bar, in its unit
 };
 
+int newCommand(const NewOptions& options);
 int runCommand(const RunOptions& options);
 int resumeCommand(const ResumeOptions& options);
 int checkCommand(const CheckOptions& options);
