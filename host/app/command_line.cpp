@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "host/app/command_table.h"
 #include "host/app/commands.h"
 #include "host/app/exit_code.h"
 #include "host/app/find_case.h"
@@ -201,11 +202,18 @@ CLI::App& addSweep(CLI::App& program, const char* name, const char* what, SweepO
 }
 
 void addReport(CLI::App& program, ReportOptions& options) {
-    CLI::App& command = *program.add_subcommand("report", "write an HTML report of a run or a sweep");
-    command.add_option("source", options.source, "output folder of a run or a sweep, or a study's file")
+    CLI::App& command = *program.add_subcommand(
+        "report", "write an HTML report of a run or a sweep, or of several runs beside each other");
+    command
+        .add_option("source", options.sources,
+                    "output folder of a run or a sweep, or a study's file; several folders of runs are compared")
         ->required()
         ->type_name("DIR|STUDY");
-    command.add_option("--out", options.out, "page to write (default: report.html in the folder)")->type_name("FILE");
+    command
+        .add_option(
+            "--out", options.out,
+            "page to write (default: report.html in the folder; of several runs comparison.html in the current one)")
+        ->type_name("FILE");
     command.add_option("--experiment", options.experiment, "readings of a balance (CSV), shown beside a run's doses")
         ->type_name("FILE");
     command.add_option("--expected", options.expected, "table of published results (TOML), by which a sweep is judged")
@@ -336,6 +344,20 @@ void addManual(CLI::App& program, ManualOptions& options) {
     all.add_flag("--brief", options.brief, "list the commands alone, a line each");
 }
 
+/// The commands that print what shells and man(1) read.
+void addShells(CLI::App& program, ShellOptions& options) {
+    CLI::App& completion =
+        *program.add_subcommand("completion", "print the completion of the command line for a shell");
+    completion.add_option("shell", options.shell, "the shell")->check(CLI::IsMember({"bash", "zsh", "fish"}));
+    completion.add_option("--names", options.names, "print the names of what can be given")
+        ->check(CLI::IsMember({"case", "study"}))
+        ->group("");
+    CLI::App& man = *program.add_subcommand("man", "print the page for man(1), of vkdose or of a command");
+    man.add_option("command", options.command, "a command of vkdose; without one the page that lists them");
+    man.add_option("--out", options.out, "folder to write all the pages into, vkdose.1 and one for each command")
+        ->type_name("DIR");
+}
+
 /// Runs `command`; every error becomes lines on stderr and an exit code.
 int guarded(const std::function<int()>& command) {
     try {
@@ -405,6 +427,8 @@ int commandLine(int argc, const char* const* argv) {
     addRender(program, render);
     ManualOptions manual;
     addManual(program, manual);
+    ShellOptions shells;
+    addShells(program, shells);
     addExamples(program);
     if (argc < 2) return printed(overview(program));
     try {
@@ -431,6 +455,9 @@ int commandLine(int argc, const char* const* argv) {
     if (program.got_subcommand("keys")) return guarded([&] { return printed(keysPage(manual.study)); });
     if (program.got_subcommand("columns")) return guarded([&] { return printed(columnsPage(manual.sweep)); });
     if (program.got_subcommand("options")) return guarded([&] { return printed(optionsPage(program, manual.brief)); });
+    if (program.got_subcommand("completion"))
+        return guarded([&] { return completionCommand(commandTexts(program), shells); });
+    if (program.got_subcommand("man")) return guarded([&] { return manCommand(commandTexts(program), shells); });
     return guarded([] { return devicesCommand(); });
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 #include <string>
 
 #include "host/app/backends.h"
@@ -31,6 +32,17 @@ std::vector<fs::path> places(const fs::path& folder) {
     std::sort(all.begin(), all.end());
     all.insert(all.begin(), folder);
     return all;
+}
+
+/// Whether a file is a study, or else a case; neither for what is neither.
+bool isKind(const fs::path& file, bool study) {
+    try {
+        const Node tree = readTreeAlone(file);
+        const bool varies = tree.child("axis") != nullptr || tree.child("calibrate") != nullptr;
+        return study ? varies : !varies && (tree.child("particles") != nullptr || tree.child("base") != nullptr);
+    } catch (const CaseError&) {
+        return false;
+    }
 }
 
 /// The names that `folder` itself offers, without ".toml".
@@ -67,6 +79,17 @@ fs::path findCase(const fs::path& name, const std::vector<fs::path>& folders) {
     throw UsageError(fmt::format("there is neither a file {} nor a case of that name; {}", name.string(),
                                  meant.empty() ? "give the path of a case file, or a name such as quickstart"
                                                : fmt::format("did you mean {}?", meant)));
+}
+
+std::vector<std::string> namesOfCases(bool studies, const std::vector<fs::path>& folders) {
+    std::set<std::string> names;
+    std::error_code code;
+    for (const fs::path& folder : folders)
+        for (const fs::path& place : places(folder))
+            for (const fs::directory_entry& entry : fs::directory_iterator(place, code))
+                if (entry.path().extension() == ".toml" && isKind(entry.path(), studies))
+                    names.insert(entry.path().stem().string());
+    return {names.begin(), names.end()};
 }
 
 }  // namespace vkdose

@@ -41,7 +41,8 @@ const std::map<std::string, std::vector<std::string>>& examples() {
         {"calibrate", {"vkdose calibrate study.toml                # with a table [calibrate] in the study"}},
         {"report",
          {"vkdose report out/quickstart               # writes out/quickstart/report.html",
-          "vkdose report out/quickstart --experiment balance.csv"}},
+          "vkdose report out/quickstart --experiment balance.csv",
+          "vkdose report out/slow out/fast             # writes comparison.html"}},
         {"profile", {"vkdose profile bed.jpg --length-mm 60 --check traced.png"}},
         {"render",
          {"vkdose render out/quickstart               # the end of the run",
@@ -49,6 +50,11 @@ const std::map<std::string, std::vector<std::string>>& examples() {
         {"keys", {"vkdose keys                                # of a case", "vkdose keys --study"}},
         {"columns", {"vkdose columns", "vkdose columns --sweep"}},
         {"options", {"vkdose options --brief"}},
+        {"completion",
+         {"source <(vkdose completion bash)           # in ~/.bashrc",
+          "vkdose completion zsh > ~/.zfunc/_vkdose   # a folder of $fpath",
+          "vkdose completion fish > ~/.config/fish/completions/vkdose.fish"}},
+        {"man", {"vkdose man run | man -l -", "vkdose man --out ~/.local/share/man/man1"}},
     };
     return kAll;
 }
