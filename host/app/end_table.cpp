@@ -65,20 +65,24 @@ std::string overlapLine(const RunResult& r) {
     return text + "\n";
 }
 
-/// Shares are relative to the coil's work if the coil did any, else to the losses.
+/// Shares are relative to the work of coil and bodies if they did any, else to the losses.
 std::string energyLine(const EnergyLedger& ledger) {
     const EnergyBook& b = ledger.sum;
-    const bool turned = b.coilWork != 0;
-    const double whole = turned ? b.coilWork : ledger.losses();
+    const double work = b.coilWork + b.bodyWork;
+    const double whole = work != 0 ? work : ledger.losses();
+    const std::string bodies = b.bodyWork != 0 ? fmt::format(" + body work {:.4g} mJ", b.bodyWork * 1e3) : "";
     const auto share = [whole](double x) { return whole != 0 ? 100 * x / whole : 0.0; };
     return fmt::format(
-        "energy   coil work {:.4g} mJ + loaded {:.4g} mJ = present {:.4g} + left {:.4g} + plastic {:.4g} + adhesive "
+        "energy   coil work {:.4g} mJ{} + loaded {:.4g} mJ = present {:.4g} + left {:.4g} + plastic {:.4g} + adhesive "
         "{:.4g} "
         "+ viscous {:.4g} + sliding {:.4g} + rolling {:.4g} + torsion {:.4g} + numerical {:.4g} ({:.2g} %) + residual "
         "{:.2g} ({:.2g} % of the {})\n",
-        b.coilWork * 1e3, b.loaded * 1e3, ledger.present() * 1e3, b.left * 1e3, b.plastic * 1e3, b.adhesive * 1e3,
-        b.viscous * 1e3, b.sliding * 1e3, b.rolling * 1e3, b.torsion * 1e3, b.numerical * 1e3, share(b.numerical),
-        ledger.residual() * 1e3, share(ledger.residual()), turned ? "coil's work" : "losses");
+        b.coilWork * 1e3, bodies, b.loaded * 1e3, ledger.present() * 1e3, b.left * 1e3, b.plastic * 1e3,
+        b.adhesive * 1e3, b.viscous * 1e3, b.sliding * 1e3, b.rolling * 1e3, b.torsion * 1e3, b.numerical * 1e3,
+        share(b.numerical), ledger.residual() * 1e3, share(ledger.residual()),
+        work == 0         ? "losses"
+        : b.bodyWork == 0 ? "coil's work"
+                          : "work");
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ inline constexpr int kRegions = 4;
 /// product of the half-step velocities around it, m/2 v(n-1/2).v(n+1/2). With these, the leapfrog obeys an exact
 /// balance (exact apart from rounding):
 ///
-///   change of (motion + potential + elastic) = loaded + coilWork - all losses - left,
+///   change of (motion + potential + elastic) = loaded + coilWork + bodyWork - all losses - left,
 ///
 /// The reason is that summation by parts turns the work of a contact force into (F(n-1) + F(n))/2 . v(n-1/2) dt. Each
 /// contact books this work for every part of its force, with its own relative motion as the velocity.
@@ -49,8 +49,16 @@ struct EnergyBook {
            torsion = 0;    ///< by slipping sliders, and by springs that snap when a contact opens
     double numerical = 0;  ///< by the time step: between the true start or end of a contact and the nearest step
     double coilWork = 0;   ///< done by the coil on the particles
+    double bodyWork = 0;   ///< done by moving bodies on the particles
     double left = 0;       ///< taken along by particles that were dosed or lost, energy of their contacts included
     double loaded = 0;     ///< of the loaded state, contacts included; booked in the call that makes the first step
+};
+
+/// What the particles do to a body of World::bodies during a call.
+struct BodyLoad {
+    Vec3 force{0};      ///< on the body, mean over the call [N]
+    double torque = 0;  ///< on the body about its axis (RigidBody::axis), mean over the call [N m]
+    double work = 0;    ///< that the body did on the particles in the call: force by velocity, step by step [J]
 };
 
 /// Reduced on the device at the end of an `advance`.
@@ -59,14 +67,16 @@ struct Sensors {
     std::array<double, kRegions> mass{};          ///< [kg]
     double kineticEnergy = 0;                     ///< translational, active particles, half-step velocities [J]
     double rotationalEnergy = 0;                  ///< [J]
-    double coilTorque = 0;       ///< torque about +z that the particles exert on the coil, mean over the call [N m]
-    double throatMomentumZ = 0;  ///< sum of m v_z in the throat; divided by the mass there: outlet velocity [kg m/s]
-    double maxOverlapRatio = 0;  ///< largest overlap over smaller radius seen during the call [-]
-    std::uint64_t rebuilds = 0;  ///< neighbour-list builds since load
+    double coilTorque = 0;         ///< torque about +z that the particles exert on the coil, mean over the call [N m]
+    std::vector<BodyLoad> bodies;  ///< of each of the world's bodies
+    double throatMomentumZ = 0;    ///< sum of m v_z in the throat; divided by the mass there: outlet velocity [kg m/s]
+    double maxOverlapRatio = 0;    ///< largest overlap over smaller radius seen during the call [-]
+    std::uint64_t rebuilds = 0;    ///< neighbour-list builds since load
     std::optional<EnergyBook> energy;  ///< if the world asks for it and a step has been made since load
 };
 
-/// One touching contact and its history. For a wall `other` is the index of the surface, for the coil the turn slot.
+/// One touching contact and its history. For a wall `other` is the index of the surface, for the coil the turn slot,
+/// for one of World::bodies the number of surfaces plus the index of the body.
 struct Contact {
     ContactClass kind = ContactClass::ParticleParticle;
     std::uint32_t particle = 0;  ///< the smaller index of a pair

@@ -120,6 +120,8 @@ Case interpret(const std::filesystem::path& file, Node tree, std::vector<std::fi
     readContact(reader, root, c);
     const std::optional<Boundaries> kind = readBoundaries(reader, root, c);
     readCoil(reader, root, c);
+    readBodies(reader, root, reader.faulty() ? std::numeric_limits<double>::quiet_NaN() : sizeRange(c).largest, c);
+    alignWithDrive(c);
     readRegion(root, kind, c);
     readSchedule(root, c);
     readTime(reader, root, c);

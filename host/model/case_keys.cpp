@@ -172,6 +172,64 @@ constexpr Key kCoil[] = {
         "its thickness. `false`: the wire is as flat as a wall"),
 };
 
+constexpr Key kBody[] = {
+    text("name", kRequired, "of the body, in messages and tables: letters, digits, `-` and `_`"),
+    word("shape", "mesh plane box ball cylinder cone disc trough wire screw", "mesh",
+         "in the body's own frame: a plane through the origin; a box or a ball about it; all others around the z axis, "
+         "from z = 0 on")
+        .replacing("*"),
+    word("contact", "wall coil", "wall",
+         "whose contact parameters it has: those of `[contact.wall]` or `[contact.coil]`"),
+    vector("at", kMetre, {0, 0, 0}, "where the origin of its frame is at the start"),
+    vector("rotation_axis", kPlain, {0, 0, 1}, "direction of the axis about which its frame is turned at the start"),
+    number("rotation_deg", kDegree, Bound::Any, 0.0, "the angle of that turn"),
+};
+constexpr Key kBodyMesh[] = {
+    text("mesh", kRequired, "an STL, OBJ or PLY file; the path is relative to the case file"),
+    text("unit", kRequired, "of the lengths in the file: `\"m\"`, `\"cm\"`, `\"mm\"`, `\"um\"`, `\"inch\"`"),
+};
+constexpr Key kBodyShape[] = {
+    vector("normal", kPlain, {0, 1, 0}, "`plane`: points to the side of the particles"),
+    vector("size_mm", kMillimetre, kRequired, "`box`: its three edges"),
+    boolean("inside", false, "`box`: whether it is a room with the particles inside"),
+    number("radius_mm", kMillimetre, kPositive, kRequired,
+           "`ball`, `cylinder`, `disc`, `screw`: outer radius; `cone`: radius at z = 0; `wire`: of its centre line"),
+    number("end_radius_mm", kMillimetre, kNonNegative, kRequired, "`cone`: radius at its other end"),
+    number("hole_radius_mm", kMillimetre, kNonNegative, 0.0, "`disc`: of the hole in its middle"),
+    number("length_mm", kMillimetre, kPositive, kRequired, "`cylinder`, `cone`, `wire`, `screw`: along z"),
+    boolean("ends", false, "`cylinder`: whether a disc closes each end"),
+    number("width_mm", kMillimetre, kPositive, kRequired, "`trough`: between its sides; it has no ends"),
+    number("pitch_mm", kMillimetre, kPositive, kRequired, "`wire`, `screw`: length of one turn"),
+    number("pitch_end_mm", kMillimetre, kPositive, told("`pitch_mm`"), "`screw`: at its end; it changes evenly"),
+    number("wire_diameter_mm", kMillimetre, kPositive, kRequired, "`wire`: its thickness"),
+    number("shaft_radius_mm", kMillimetre, kPositive, kRequired, "`screw`: of the shaft that carries the blade"),
+    number("thickness_mm", kMillimetre, kPositive, kRequired, "`screw`: of the blade, along z"),
+    word("hand", "right left", "right", "`wire`, `screw`: hand of the helix"),
+};
+constexpr Key kMotion[] = {
+    word("kind", "turn swing shake slide table", kRequired,
+         "`turn`: about an axis at a speed; `swing`: to and fro about it; `shake`: to and fro along it; `slide`: along "
+         "a "
+         "line; `table`: as a file says")
+        .replacing("*"),
+    word("follows", "time drive", "time",
+         "`\"time\"`: the body moves by itself; `\"drive\"`: it turns while powder is dosed, with the coil's speed or "
+         "with `dose.speed_rpm`"),
+    vector("axis", kPlain, {0, 0, 1}, "direction of the axis"),
+    vector("through", kMetre, {0, 0, 0}, "a point of the axis"),
+    number("speed_rpm", kRpm, Bound::Any, kRequired, "`turn` by time: speed about the axis, negative the other way"),
+    number("turns_per_turn", kPlain, Bound::Any, 1.0, "`turn` by the drive: its turns for one of the drive"),
+    number("amplitude_deg", kDegree, kPositive, kRequired, "`swing`: to each side"),
+    number("amplitude_mm", kMillimetre, kPositive, kRequired, "`shake`: to each side"),
+    number("frequency_hz", {1, "1/s"}, kPositive, kRequired, "`swing`, `shake`: how often to and fro in a second"),
+    number("phase_deg", kDegree, Bound::Any, 0.0, "`swing`, `shake`: of the sine at the start"),
+    vector("velocity", {1, "m/s"}, kRequired, "`slide`: of the body"),
+    text("file", kRequired,
+         "`table`: a CSV with the columns `time_s`, and `angle_deg`, `x`, `y`, `z` (m) or some of them"),
+    number("from_s", kSecond, kNonNegative, 0.0, "by time: the body stands until then"),
+    number("to_s", kSecond, kPositive, told("for ever"), "by time: and from then on"),
+};
+
 constexpr Key kSettle[] = {
     number("time_s", kSecond, kNonNegative, 0.0, "duration of settling, with the coil at rest"),
     number("kc_over_k", kPlain, kNonNegative, told("that of `[contact]`"),
@@ -188,6 +246,8 @@ constexpr Key kDose[] = {
     number("rotate_s", kSecond, kNonNegative, 0.0,
            "time the coil turns in a dose; 0: no doses, the run is the settling"),
     number("rest_s", kSecond, kNonNegative, 0.0, "rest after each rotation, part of the dose"),
+    number("speed_rpm", kRpm, kNonNegative, told("required if bodies follow the drive and there is no coil"),
+           "speed of the drive that bodies follow, where there is no coil"),
 };
 constexpr Key kStop[] = {
     word("rule", "none experiment simulation", told("`\"experiment\"`; without doses `\"none\"`"),
@@ -274,6 +334,12 @@ constexpr KeyTable kTables[] = {
     {"cylinder[]", kCylinder, "A round wall, for `boundaries = \"list\"`."},
     {"coil", kCoil,
      "A round wire on a helix, closed by round caps, turns as a rigid body. Without this table there is no coil."},
+    {"body[]", kBody,
+     "A body of your own: a mesh, or an exact shape. It has a place, and may move. Keys for all bodies:"},
+    {"body[]", kBodyMesh, "A mesh from a CAD program, `shape = \"mesh\"`:"},
+    {"body[]", kBodyShape, "The other shapes take those of these keys that name them:"},
+    {"body[].motion", kMotion,
+     "How the body moves; without this table it rests. Axes and points stand in the frame of the case."},
     {"settle", kSettle, "The run begins with the coil at rest."},
     {"dose", kDose, "Then the coil turns and rests, dose after dose."},
     {"stop", kStop, "A run ends when one of these conditions holds, or when the canister is empty."},

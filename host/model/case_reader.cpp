@@ -392,13 +392,25 @@ void CaseReader::throwIfFaulty() const {
 
 std::string CaseReader::resolved() const {
     std::string text;
-    for (const Section& section : sections_) {
-        if (section.used_.empty()) continue;
+    const auto write = [&](const Section& section) {
+        if (section.used_.empty()) return;
+        std::string path = section.path_;
+        if (const std::size_t index = path.find('['); index != std::string::npos)
+            path.erase(index, path.find(']') + 1 - index);
         if (section.isItem_)
-            text += fmt::format("\n[[{}]]\n", section.path_.substr(0, section.path_.find('[')));
-        else if (!section.path_.empty())
-            text += fmt::format("\n[{}]\n", section.path_);
+            text += fmt::format("\n[[{}]]\n", path);
+        else if (!path.empty())
+            text += fmt::format("\n[{}]\n", path);
         for (const auto& [key, value] : section.used_) text += fmt::format("{} = {}\n", key, value);
+    };
+    for (const Section& section : sections_) {
+        const bool inItem = section.path_.find("].") != std::string::npos;
+        if (inItem) continue;
+        write(section);
+        if (!section.isItem_) continue;
+        // A table inside an item belongs to the item that stands before it.
+        for (const Section& inside : sections_)
+            if (inside.path_.starts_with(section.path_ + ".")) write(inside);
     }
     return text;
 }

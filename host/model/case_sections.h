@@ -1,6 +1,6 @@
 #pragma once
-// The tables of a case file, read into a Case. Every key is read in read_powder.cpp, read_apparatus.cpp or
-// read_field.cpp.
+// The tables of a case file, read into a Case. Every key is read in read_powder.cpp, read_apparatus.cpp,
+// read_bodies.cpp or read_field.cpp.
 
 #include <optional>
 
@@ -27,6 +27,13 @@ void readSchedule(Section& root, Case& c);
 void readTime(CaseReader& reader, Section& root, Case& c);
 /// True when the file states a domain.
 bool readDomain(Section& root, Case& c);
+
+// read_bodies.cpp
+/// Reads the bodies. The largest radius [m] is the reach of a mesh; NaN if it is not known. Call after the particles.
+void readBodies(CaseReader& reader, Section& root, double largestRadius, Case& c);
+/// The angle of the drive is that of the coil, which may turn in the negative sense. A body's own turn is positive
+/// about its axis while powder is dosed. Call after readBodies and readCoil.
+void alignWithDrive(Case& c);
 
 // read_field.cpp
 /// Reads the fields. Call after boundaries and sensors. The mean diameter [m] is the default width of the kernels; NaN

@@ -130,8 +130,9 @@ void checkCoil(CaseReader& reader, const Case& c) {
 
 void checkSchedule(CaseReader& reader, const Case& c) {
     const Schedule& s = c.schedule;
-    if (s.rotateTime > 0 && !c.world.coil)
-        reader.fault("dose.rotate_s", "there is no coil to turn", "add [coil] or set rotate_s = 0");
+    if (s.rotateTime > 0 && !c.world.coil && !followsDrive(c.world.bodies))
+        reader.fault("dose.rotate_s", "there is no coil to turn",
+                     "add [coil], or a [[body]] with motion.follows = \"drive\", or set rotate_s = 0");
     if (s.rotateTime == 0 && s.restTime > 0)
         reader.fault("dose.rest_s", "there is no dose to rest after", "give rotate_s > 0, or settle.time_s instead");
     if (s.rotateTime == 0 && s.settleTime == 0)
@@ -273,6 +274,15 @@ void checkWalls(CaseReader& reader, const Case& c, const Particles& p, const std
             const double toCoil = coilDistance(*c.world.coil, p.position[i], p.radius[i]);
             if (toCoil < distance) what = "the coil";
             distance = std::min(distance, toCoil);
+        }
+        for (const RigidBody& body : c.world.bodies) {
+            const Vec3 inBody = body.pose(0, 0).toBody(p.position[i]);
+            for (const geometry::Shape& shape : body.shapes)
+                for (const geometry::Feature& place : geometry::places(shape, inBody, p.radius[i]))
+                    if (place.distance < distance) {
+                        distance = place.distance;
+                        what = fmt::format("body \"{}\"", body.name);
+                    }
         }
         const double overlap = p.radius[i] - distance;
         // The bed that a run left lies around the coil as it stood at the run's end.

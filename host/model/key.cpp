@@ -24,7 +24,7 @@ std::string heading(std::string_view paths) {
     if (paths.empty()) return "At the top of the file";
     std::string text;
     for (const std::string& path : wordsOf(paths)) {
-        const bool list = path.find('[') != std::string::npos;
+        const bool list = path.ends_with(']');
         const std::string name = withoutIndex(path);
         text += (text.empty() ? "" : ", ") + (list ? "`[[" + name + "]]`" : "`[" + name + "]`");
     }

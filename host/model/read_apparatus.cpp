@@ -71,9 +71,9 @@ void readSurfaces(CaseReader& reader, Section& root, Case& c) {
         shape.inside = tube->boolean("inside");
         c.world.surfaces.push_back(shape);
     }
-    if (c.world.surfaces.empty() && !reader.faulty())
+    if (c.world.surfaces.empty() && !root.has("body") && !reader.faulty())
         reader.fault("boundaries", "the list is empty",
-                     "add [[plane]] or [[cylinder]], or write boundaries = \"none\"");
+                     "add [[plane]], [[cylinder]] or [[body]], or write boundaries = \"none\"");
 }
 
 /// Reports tables that have no use with the chosen boundaries, because they are probably a mistake.
@@ -180,6 +180,8 @@ void readSchedule(Section& root, Case& c) {
     Section& dose = root.table("dose");
     c.schedule.rotateTime = dose.number("rotate_s");
     c.schedule.restTime = dose.number("rest_s");
+    if (!c.world.coil && followsDrive(c.world.bodies)) c.schedule.coilSpeed = dose.number("speed_rpm");
+    dose.know("speed_rpm");
     readStop(root, c);
     Section& sensors = root.table("sensors");
     c.sensorInterval = sensors.number("interval_s");

@@ -39,8 +39,12 @@ std::string className(ContactClass c) {
 
 std::vector<ContactClass> contactClasses(const World& world) {
     std::vector<ContactClass> classes{ContactClass::ParticleParticle};
-    if (!world.surfaces.empty()) classes.push_back(ContactClass::ParticleWall);
-    if (world.coil) classes.push_back(ContactClass::ParticleCoil);
+    const auto hasBody = [&](ContactClass kind) {
+        return std::any_of(world.bodies.begin(), world.bodies.end(),
+                           [&](const RigidBody& b) { return b.kind == kind; });
+    };
+    if (!world.surfaces.empty() || hasBody(ContactClass::ParticleWall)) classes.push_back(ContactClass::ParticleWall);
+    if (world.coil || hasBody(ContactClass::ParticleCoil)) classes.push_back(ContactClass::ParticleCoil);
     return classes;
 }
 

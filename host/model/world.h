@@ -10,6 +10,7 @@
 #include "geometry/surface.h"
 #include "host/core/vec.h"
 #include "host/model/material.h"
+#include "host/model/rigid_body.h"
 
 namespace vkdose {
 
@@ -30,8 +31,9 @@ struct World {
     /// come before it. It takes over contacts from them, and they take over contacts from it.
     std::vector<geometry::Surface> surfaces;
     std::optional<geometry::Coil> coil;
-    bool coilSurfaceMoves = true;  ///< contacts see the velocity of the coil's surface; false: they see it at rest
-    bool coilWireCurved = false;   ///< a* counts the wire's radius; false: the wire is as flat as a wall
+    std::vector<RigidBody> bodies;  ///< beside surfaces and coil; at most kMaxBodies
+    bool coilSurfaceMoves = true;   ///< contacts see the velocity of the coil's surface; false: they see it at rest
+    bool coilWireCurved = false;    ///< a* counts the wire's radius; false: the wire is as flat as a wall
     Vec3 gravity{0, -9.81, 0};
     double density = 0;   ///< of the particles [kg/m3]
     double timeStep = 0;  ///< [s]

@@ -21,7 +21,7 @@ double EnergyLedger::losses() const {
 }
 
 double EnergyLedger::residual() const {
-    return sum.loaded + sum.coilWork - losses() - sum.left - present();
+    return sum.loaded + sum.coilWork + sum.bodyWork - losses() - sum.left - present();
 }
 
 }  // namespace vkdose

@@ -1,6 +1,6 @@
 #pragma once
-// The energy ledger: all energy that was loaded or that the coil supplied is still there, was lost in a known way, or
-// has left.
+// The energy ledger: all energy that was loaded or that coil and bodies supplied is still there, was lost in a known
+// way, or has left.
 
 #include <tuple>
 
@@ -20,7 +20,7 @@ struct EnergyLedger {
     double elastic() const;  ///< in all springs [J]
     double present() const;  ///< motion, potential and elastic energy [J]
     double losses() const;   ///< of all kinds, the time step's own included [J]
-    /// loaded + coil work - losses - left - present [J]: zero but for rounding if everything was booked.
+    /// loaded + coil work + body work - losses - left - present [J]: zero but for rounding if everything was booked.
     double residual() const;
 };
 
@@ -61,12 +61,13 @@ inline constexpr auto kLoadedColumns = columns(
     column<&EnergyBook::loaded>("loaded_J", "J", "Energy of the state that was loaded, its contacts included."));
 inline constexpr auto kOutsideColumns = columns(
     column<&EnergyBook::coilWork>("coil_work_J", "J", "Work of the coil on the particles since the start."),
+    column<&EnergyBook::bodyWork>("body_work_J", "J", "Work of moving bodies on the particles since the start."),
     column<&EnergyBook::left>("left_J", "J",
                               "Energy that dosed particles have taken away since the start, their contacts included."));
 inline constexpr auto kResidualColumns = columns(
     column<&EnergyLedger::residual>("residual_J", "J",
-                                    "loaded + coil work - losses - left - motion - potential - elastic: zero but for "
-                                    "rounding."));
+                                    "loaded + coil work + body work - losses - left - motion - potential - elastic: "
+                                    "zero but for rounding."));
 inline constexpr auto kMomentumColumns = columns(
     column<&EnergyBook::momentum, 0>("momentum_x_kg_m_s", "kg m/s",
                                      "Momentum along x of all particles that are not dosed, half a step before."),

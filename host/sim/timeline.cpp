@@ -45,6 +45,8 @@ Timeline::Timeline(const Case& c) : timeStep_(c.world.timeStep), settlingLaw_(c.
     if (c.world.coil) {
         rate_ = geometry::conveyingRate(*c.world.coil, c.schedule.coilSpeed);
         sense_ = geometry::conveyingRate(*c.world.coil, 1.0) < 0 ? -1.0 : 1.0;
+    } else {
+        rate_ = c.schedule.coilSpeed;
     }
 }
 

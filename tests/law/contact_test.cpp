@@ -84,18 +84,19 @@ TEST_CASE("contact: a wall has the velocity of its turning, a fixed one none") {
     const Body a = sphere(Vec3(0, -10e-3, 5e-3), Vec3(0), Vec3(0));
     const double overlap = 1e-6, rate = -9.0;
     const Vec3 n(0, 1, 0);
-    const std::optional<Touch> touch = touchWall(a, n, kRadius - overlap, rate);
+    const vkdose::geometry::Moving turning{Vec3(0), Vec3(0, 0, rate), Vec3(0)}, fixed{};
+    const std::optional<Touch> touch = touchWall(a, n, kRadius - overlap, turning);
     REQUIRE(touch);
     const double arm = 10e-3 + kRadius - overlap / 2;  // of the contact point from the coil's axis
     CHECK(near(touch->velocity, -Vec3(rate * arm, 0, 0), rate * -arm, kRounding));
     CHECK(near(touch->spin, Vec3(0, 0, -rate), 9, kRounding));
     CHECK(nearRelative(touch->reduced, 2 * kRadius, kRounding));
-    CHECK(touchWall(a, n, kRadius - overlap, 0)->velocity == Vec3(0));
-    CHECK_FALSE(touchWall(a, n, kRadius, rate));
-    CHECK_FALSE(touchWall(a, n, std::nan(""), rate));
+    CHECK(touchWall(a, n, kRadius - overlap, fixed)->velocity == Vec3(0));
+    CHECK_FALSE(touchWall(a, n, kRadius, turning));
+    CHECK_FALSE(touchWall(a, n, std::nan(""), turning));
     // A sphere that turns with the coil as one rigid body feels no relative motion at all.
     const Body carried = sphere(a.position, glm::cross(Vec3(0, 0, rate), a.position), Vec3(0, 0, rate));
-    CHECK(near(touchWall(carried, n, kRadius - overlap, rate)->velocity, Vec3(0), 0.1, kRounding));
+    CHECK(near(touchWall(carried, n, kRadius - overlap, turning)->velocity, Vec3(0), 0.1, kRounding));
 }
 
 TEST_CASE("contact: what limits friction, both readings") {

@@ -116,7 +116,7 @@ Impact oracleLoop(const Row& row) {
         b.spin += dt / 2 / inertia * r.torqueI;
     };
     const auto response = [&]() {
-        const auto touch = touchWall(b, Vec3(0, 1, 0), b.position.y, 0);
+        const auto touch = touchWall(b, Vec3(0, 1, 0), b.position.y, geometry::Moving{});
         impact.touching = touch.has_value();
         impact.peak = std::max(impact.peak, kRadius - b.position.y);
         if (touch) return contactResponse(law, ContactClass::ParticleWall, *touch, dt, history);

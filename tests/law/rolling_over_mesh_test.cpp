@@ -54,7 +54,7 @@ struct Roller {
                 c.history.sliding = turnedAlong(c.history.sliding, before[old[i]], now[i]);
                 c.history.rolling = turnedAlong(c.history.rolling, before[old[i]], now[i]);
             }
-            const auto touch = touchWall(sphere, found[i].normal, found[i].distance, 0);
+            const auto touch = touchWall(sphere, found[i].normal, found[i].distance, geometry::Moving{});
             if (!touch) continue;
             const auto response = contactResponse(law, ContactClass::ParticleWall, *touch, dt, c.history);
             force += response.force;

@@ -36,16 +36,30 @@ std::string withKey(const std::string& text, const std::string& header, const st
 }
 
 /// A case in which the keys of the table have a use; of the sizes that of distribution `kind`.
-std::string caseFor(const KeyTable& table, const std::string& kind) {
+std::string caseFor(const KeyTable& table, const std::string& kind, const Key& key) {
     std::string filled = replaced(kFreeCase, "list = \"two.csv\"",
-                                        "mass_g = 0.1\n[particles.size]\ndistribution = \"fixed\"\nradius_mm = 1");
+                                  "mass_g = 0.1\n[particles.size]\ndistribution = \"fixed\"\nradius_mm = 1");
     if (table.paths == "particles.region") return filled;
     if (table.paths == "plane[]" || table.paths == "cylinder[]")
         return replaced(filled, "boundaries = \"none\"", "boundaries = \"list\"");
+    // A key of some shapes or motions begins its meaning with the first of them.
+    const std::string_view meaning = key.meaning;
+    const bool ofOne = meaning.starts_with('`') && !meaning.starts_with("`\"");
+    const std::string of(ofOne ? meaning.substr(1, meaning.find('`', 1) - 1) : "plane");
+    if (table.paths == "body[]" && (key.name == "mesh" || key.name == "unit"))
+        return kGoodCase + "[[body]]\nname = \"b\"\nmesh = \"a.stl\"\nunit = \"mm\"\n";
+    if (table.paths == "body[]") return kGoodCase + "[[body]]\nname = \"b\"\nshape = \"" + of + "\"\n";
+    if (table.paths == "body[].motion")
+        return kGoodCase + "[[body]]\nname = \"b\"\nshape = \"plane\"\n[body.motion]\nkind = \"" +
+               (ofOne ? of : "turn") + "\"\n" + (key.name == "turns_per_turn" ? "follows = \"drive\"\n" : "");
+    if (table.paths == "dose" && key.name == "speed_rpm")  // there is no coil
+        return filled +
+               "[[body]]\nname = \"b\"\nshape = \"plane\"\n[body.motion]\nkind = \"turn\"\n"
+               "follows = \"drive\"\n";
     if (table.paths == "field[]") return kGoodCase + "[[field]]\npreset = \"height-profile\"\n";
     if (table.paths != "particles.size") return kGoodCase;
     std::string text = withKey(kGoodCase, "[particles.size]", "distribution", "\"" + kind + "\"");
-    for (const char* key : {"radius_min_mm", "radius_max_mm"}) text = withKey(text, "[particles.size]", key, "1");
+    for (const char* bound : {"radius_min_mm", "radius_max_mm"}) text = withKey(text, "[particles.size]", bound, "1");
     return text;
 }
 
@@ -54,7 +68,9 @@ std::vector<std::string> headersOf(const KeyTable& table) {
     std::vector<std::string> headers;
     for (const std::string& path : wordsOf(table.paths)) {
         const std::size_t bracket = path.find("[]");
-        headers.push_back(bracket == std::string::npos ? "[" + path + "]" : "[[" + path.substr(0, bracket) + "]]");
+        std::string plain = path;
+        if (bracket != std::string::npos) plain.erase(bracket, 2);
+        headers.push_back(path.ends_with("[]") ? "[[" + plain + "]]" : "[" + plain + "]");
     }
     return headers;
 }
@@ -71,7 +87,8 @@ TEST_CASE("every declared key is read: a date for its value is a fault of that k
                 const std::string name(key.name);
                 const Folder folder;
                 folder.write("two.csv", "x,y,z,r\n0,0,0,1e-3\n0,5e-3,0,1e-3\n");
-                const auto file = folder.write("case.toml", withKey(caseFor(table, kind), header, name, "1979-05-27"));
+                const auto file =
+                    folder.write("case.toml", withKey(caseFor(table, kind, key), header, name, "1979-05-27"));
                 CAPTURE(header, kind, name);
                 ++keys;
                 try {

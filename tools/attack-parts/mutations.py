@@ -146,15 +146,18 @@ def lines_of(path):
 
 def says_the_same(t, good, name):
     """Whether the owner's case says what the good one says: the same lines but for blanks, and but for keys that have
-    their default. Such a case stays as its owner left it."""
+    their default. The keys behind the preset of a field have it too. Such a case stays as its owner
+    left it."""
     other = t.path("out", name)
     if os.path.basename(name) != "case.toml" or not os.path.isfile(other):
         return False
     left = lines_of(other)
+    preset = False
     for words in lines_of(os.path.join(good, name)):
+        preset = words[0] == "preset" or preset and not words[0].startswith("[")
         if left and left[0] == words:
             left.pop(0)
-        elif (words[0], " ".join(words[2:])) not in defaults(t.ground.program):
+        elif not preset and (words[0], " ".join(words[2:])) not in defaults(t.ground.program):
             return False
     return not left
 

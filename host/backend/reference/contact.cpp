@@ -28,7 +28,7 @@ std::optional<Touch> touchSphere(const Body& i, const Body& j) {
     return touch;
 }
 
-std::optional<Touch> touchWall(const Body& i, const Vec3& normal, double distance, double rate) {
+std::optional<Touch> touchWall(const Body& i, const Vec3& normal, double distance, const geometry::Moving& wall) {
     const double overlap = i.radius - distance;
     if (!(overlap > 0)) return std::nullopt;
 
@@ -39,10 +39,8 @@ std::optional<Touch> touchWall(const Body& i, const Vec3& normal, double distanc
     touch.smaller = i.radius;
     touch.leverI = -(i.radius - overlap / 2) * normal;
     touch.leverJ = Vec3(0);
-    const Vec3 wallSpin(0, 0, rate);
-    const Vec3 point = i.position + touch.leverI;
-    touch.velocity = (i.velocity + glm::cross(i.spin, touch.leverI)) - glm::cross(wallSpin, point);
-    touch.spin = i.spin - wallSpin;
+    touch.velocity = (i.velocity + glm::cross(i.spin, touch.leverI)) - wall.at(i.position + touch.leverI);
+    touch.spin = i.spin - wall.spin;
     return touch;
 }
 

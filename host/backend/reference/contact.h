@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "geometry/motion.h"
 #include "host/core/vec.h"
 #include "host/model/material.h"
 
@@ -39,9 +40,8 @@ struct Touch {
 /// Contact of two spheres; nothing unless they overlap.
 std::optional<Touch> touchSphere(const Body& i, const Body& j);
 
-/// Contact with a wall at `distance` from the centre of `i` along `normal`. The wall turns about the z axis at
-/// `rate` [rad/s]; a fixed one has rate 0.
-std::optional<Touch> touchWall(const Body& i, const Vec3& normal, double distance, double rate);
+/// Contact with a wall at `distance` from the centre of `i` along `normal`. The wall moves as `wall` says.
+std::optional<Touch> touchWall(const Body& i, const Vec3& normal, double distance, const geometry::Moving& wall);
 
 /// Velocity of i relative to j at the ends of their levers [m/s].
 Vec3 contactVelocity(const Body& i, const Vec3& leverI, const Body& j, const Vec3& leverJ);

@@ -69,6 +69,13 @@ void bookContact(const Exerted& before, const Exerted& now, const Body& i, const
     book.coilWork -= dt / 2 * j.spin.z * (before.coilTorque + now.coilTorque);
 }
 
+double halfStepGiven(const Exerted& e, const Body& j, double dt) {
+    if (!e.touching) return 0;
+    return dt / 2 *
+           (glm::dot(e.force, j.velocity + glm::cross(j.spin, e.leverJ)) +
+            glm::dot(e.parts.rolling + e.parts.torsion, j.spin));
+}
+
 void bookLoaded(const Exerted& now, EnergyBook& book) {
     book.loaded += now.elastic.normal;
     book.sliding -= now.elastic.sliding;

@@ -22,12 +22,15 @@ struct Exerted {
     bool touching = false;
     Vec3 normal{0};
     double overlap = 0;         ///< [m]
-    Vec3 leverI{0}, leverJ{0};  ///< for a wall, which turns about the origin, leverJ is the contact point [m]
+    Vec3 leverI{0}, leverJ{0};  ///< for a wall leverJ leads to the contact point from the wall's centre of turning [m]
     Parts parts{};
     Elastic elastic;
     double coilTorque = 0;  ///< on the coil about +z [N m]
     Vec3 force{0};          ///< on i [N]
 };
+
+/// What a wall did to a particle in the half step after it exerted `e`, while it moved as `j` [J].
+double halfStepGiven(const Exerted& e, const Body& j, double dt);
 
 /// Books the step of a contact that exerted `before` at the step's start (does not touch: a new contact) and exerts
 /// `now` at its end (does not touch: it has parted). `i` and `j` move as they did during the step of `dt` [s].

@@ -15,26 +15,30 @@ void Forces::reset(std::size_t particles) {
     pairs_.assign(particles, {});
     surfaces_.assign(particles, {});
     turns_.assign(particles, {});
+    onBodies_.assign(particles, {});
 }
 
 void Forces::evaluate(const RuledWorld& world, const Particles& particles, const Neighbours& neighbours,
-                      const CoilMotion& coilMotion, double springDt, Loads& loads) {
+                      const Drive& drive, double springDt, Loads& loads) {
     world_ = &world;
     particles_ = &particles;
     neighbours_ = &neighbours;
-    motion_ = coilMotion;
+    drive_ = drive;
     springDt_ = springDt;
     loads_ = &loads;
     loads.force.assign(particles.size(), Vec3(0));
     loads.torque.assign(particles.size(), Vec3(0));
     loads.coilTorque = 0;
+    loads.bodies.assign(world.bodies.size(), {});
     loads.deepest = {};
     loads.energy = {};
     loads.branches.clear();
+    placeBodies();
     for (std::size_t i = 0; i < particles.size(); ++i) {
         pairs(i);
         surfaces(i);
         coil(i);
+        bodies(i);
     }
 }
 
@@ -48,9 +52,9 @@ void Forces::note(const Touch& touch, ContactClass kind, std::size_t particle, s
         loads_->deepest = {ratio, kind, static_cast<std::uint32_t>(particle), static_cast<std::uint32_t>(other)};
 }
 
-/// A wall as a body. It turns about the origin; the rate of fixed walls is 0.
+/// A wall or the coil as a body. It turns about the origin; the rate of fixed walls is 0.
 Body Forces::wallBody(ContactClass kind) const {
-    return {Vec3(0), Vec3(0), Vec3(0, 0, kind == ContactClass::ParticleCoil ? motion_.rate : 0), 0};
+    return {Vec3(0), Vec3(0), Vec3(0, 0, kind == ContactClass::ParticleCoil ? drive_.rate : 0), 0};
 }
 
 Exerted Forces::exertedBy(ContactClass kind, const Touch& touch, const Response& response,
@@ -127,8 +131,9 @@ void Forces::pairs(std::size_t i) {
     partThoseBefore(std::numeric_limits<std::uint32_t>::max());
 }
 
-/// Returns the force that the contact exerted. The caller books it, because it knows the force of the last step.
-Exerted Forces::wall(std::size_t i, ContactClass kind, std::uint32_t other, const Touch& touch, History& history) {
+/// The caller books the force, because it knows that of the last step.
+Forces::Pushed Forces::wall(std::size_t i, ContactClass kind, std::uint32_t other, const Touch& touch,
+                            History& history) {
     const Response response = contactResponse(world_->law, kind, touch, springDt_, history);
     loads_->force[i] += response.force;
     loads_->torque[i] += response.torqueI;
@@ -136,15 +141,10 @@ Exerted Forces::wall(std::size_t i, ContactClass kind, std::uint32_t other, cons
     loads_->branches.push_back(
         {static_cast<std::uint32_t>(i), other, false, particles_->position[i], toWall, response.force});
     note(touch, kind, i, other);
-    Exerted exerted = exertedBy(kind, touch, response, history);
     const Vec3 point = particles_->position[i] + touch.leverI;
-    exerted.leverJ = point;
-    if (kind == ContactClass::ParticleCoil) {
-        // The coil bears the opposite force at the contact point, and the opposite couple.
-        exerted.coilTorque = -(glm::cross(point, response.force) + response.couple).z;
-        loads_->coilTorque += exerted.coilTorque;
-    }
-    return exerted;
+    Pushed pushed{exertedBy(kind, touch, response, history), point, response.couple};
+    pushed.exerted.leverJ = point;
+    return pushed;
 }
 
 /// Finds for every fixed surface, in order, the position of particle i relative to it and its history from the last
@@ -193,13 +193,13 @@ void Forces::surfaces(std::size_t i) {
     joinAtFront(i);
     for (const Met& met : met_) {
         std::optional<Touch> touch;
-        if (met.touches) touch = touchWall(body(i), met.closest.normal, met.closest.distance, 0);
+        if (met.touches) touch = touchWall(body(i), met.closest.normal, met.closest.distance, geometry::Moving{});
         if (!touch) {
             if (met.continues) partWall(i, ContactClass::ParticleWall, met.known.exerted);
             continue;
         }
         History history = met.known.history;
-        const Exerted now = wall(i, ContactClass::ParticleWall, met.known.other, *touch, history);
+        const Exerted now = wall(i, ContactClass::ParticleWall, met.known.other, *touch, history).exerted;
         book(met.known.exerted, now, body(i), wallBody(ContactClass::ParticleWall));
         surfaces_[i].push_back({met.known.other, history, now});
     }
@@ -228,11 +228,12 @@ void Forces::coil(std::size_t i) {
 
 void Forces::touchTurns(std::size_t i, const Turns& before, Turns& now) {
     const std::vector<geometry::CoilTouch> found =
-        geometry::touches(*world_->coil, motion_.angle, particles_->position[i], particles_->radius[i]);
+        geometry::touches(*world_->coil, drive_.angle, particles_->position[i], particles_->radius[i]);
     std::array<bool, kMaxCoilTouches> taken{};  // slots in use by a turn of the last step or by a new one
     std::transform(before.begin(), before.end(), taken.begin(), [](const Turn& turn) { return turn.touching; });
 
-    const double seen = world_->coilSurfaceMoves ? motion_.rate : 0;  // by the law; the books see the true motion
+    // What the law sees; the books see the true motion.
+    const geometry::Moving seen{Vec3(0), Vec3(0, 0, world_->coilSurfaceMoves ? drive_.rate : 0), Vec3(0)};
 
     for (const geometry::CoilTouch& at : found) {
         std::optional<Touch> touch = touchWall(body(i), at.normal, at.distance, seen);
@@ -255,7 +256,12 @@ void Forces::touchTurns(std::size_t i, const Turns& before, Turns& now) {
         const Turn old = continues ? before[slot] : Turn{};
         Turn& turn = now[slot];
         turn = {true, at.wireAngle, old.history, {}};
-        turn.exerted = wall(i, ContactClass::ParticleCoil, static_cast<std::uint32_t>(slot), *touch, turn.history);
+        const Pushed pushed =
+            wall(i, ContactClass::ParticleCoil, static_cast<std::uint32_t>(slot), *touch, turn.history);
+        turn.exerted = pushed.exerted;
+        // The coil bears the opposite force at the contact point, and the opposite couple.
+        turn.exerted.coilTorque = -(glm::cross(pushed.point, pushed.exerted.force) + pushed.couple).z;
+        loads_->coilTorque += turn.exerted.coilTorque;
         book(old.exerted, turn.exerted, body(i), wallBody(ContactClass::ParticleCoil));
     }
 }
@@ -276,6 +282,9 @@ std::vector<Contact> Forces::contacts() const {
         for (std::size_t slot = 0; slot < turns_[i].size(); ++slot)
             if (turns_[i][slot].touching)
                 add(ContactClass::ParticleCoil, i, slot, turns_[i][slot].history, turns_[i][slot].exerted);
+    for (std::size_t i = 0; i < onBodies_.size(); ++i)
+        for (const OnBody& c : onBodies_[i])
+            add(world_->bodies[c.body].kind, i, world_->surfaces.size() + c.body, c.history, c.exerted);
     return list;
 }
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "host/backend/backend.h"
@@ -23,18 +24,20 @@ struct Deepest {
 
 /// Forces and torques of the contacts on the particles and the coil at one instant.
 struct Loads {
-    std::vector<Vec3> force;   ///< without gravity [N]
-    std::vector<Vec3> torque;  ///< about the particle's centre [N m]
-    double coilTorque = 0;     ///< about +z, on the coil [N m]
-    EnergyBook energy;         ///< energies that contacts book and store in this step; if the world asks for it
+    std::vector<Vec3> force;       ///< without gravity [N]
+    std::vector<Vec3> torque;      ///< about the particle's centre [N m]
+    double coilTorque = 0;         ///< about +z, on the coil [N m]
+    std::vector<BodyLoad> bodies;  ///< of the world's bodies; `work` in this step
+    EnergyBook energy;             ///< energies that contacts book and store in this step; if the world asks for it
     Deepest deepest;
     std::vector<Branch> branches;  ///< of every contact
 };
 
-/// Where the coil is at that instant.
-struct CoilMotion {
-    double angle;  ///< since load, about +z [rad]
+/// The drive at that instant: it turns the coil, and bodies follow it. And the time, which other bodies follow.
+struct Drive {
+    double angle;  ///< of the coil since load, about +z [rad]
     double rate;   ///< [rad/s]
+    double time;   ///< since load [s]
 };
 
 class Forces {
@@ -43,9 +46,10 @@ class Forces {
     void reset(std::size_t particles);
 
     /// Contact forces of all active particles. Histories advance by `springDt` [s]. Histories of contacts that have
-    /// parted are dropped. Throws RunError when a particle touches more turns of the coil than there are slots.
-    void evaluate(const RuledWorld& world, const Particles& particles, const Neighbours& neighbours,
-                  const CoilMotion& coil, double springDt, Loads& loads);
+    /// parted are dropped. Throws RunError when a particle touches more turns of the coil than there are slots, or a
+    /// body in too many places.
+    void evaluate(const RuledWorld& world, const Particles& particles, const Neighbours& neighbours, const Drive& drive,
+                  double springDt, Loads& loads);
 
     /// Every contact touching at the last `evaluate`, by class, particle, other.
     std::vector<Contact> contacts() const;
@@ -75,6 +79,24 @@ class Forces {
         Exerted exerted;
     };
     using Turns = std::array<Turn, kMaxCoilTouches>;
+    /// A contact with one feature of a body.
+    struct OnBody {
+        std::uint32_t body = 0;
+        Vec3 direction{0};  ///< from the body to the particle, in the body's frame; unit
+        History history;
+        Exerted exerted;
+    };
+    /// What a wall did to a particle, and the particle to the wall.
+    struct Pushed {
+        Exerted exerted;
+        Vec3 point;   ///< of contact [m]
+        Vec3 couple;  ///< on the particle [N m]
+    };
+    /// A body at this instant.
+    struct Placed {
+        geometry::Pose pose;
+        geometry::Moving moving;  ///< during the step before; in the opening step, at the instant
+    };
 
     void pairs(std::size_t i);
     void surfaces(std::size_t i);
@@ -82,7 +104,12 @@ class Forces {
     void joinAtFront(std::size_t i);
     void coil(std::size_t i);
     void touchTurns(std::size_t i, const Turns& before, Turns& now);
-    Exerted wall(std::size_t i, ContactClass kind, std::uint32_t other, const Touch& touch, History& history);
+    void placeBodies();
+    void bodies(std::size_t i);
+    void touchBody(std::size_t i, std::uint32_t b, std::span<const OnBody> before);
+    void loadBody(std::uint32_t b, const Pushed& pushed);
+    void bookBody(std::size_t i, std::uint32_t b, const Exerted& before, const Exerted& now);
+    Pushed wall(std::size_t i, ContactClass kind, std::uint32_t other, const Touch& touch, History& history);
     Exerted exertedBy(ContactClass kind, const Touch& touch, const Response& response, const History& history) const;
     void book(const Exerted& before, const Exerted& now, const Body& i, const Body& j);
     void partPair(std::size_t i, const Known& known);
@@ -94,6 +121,9 @@ class Forces {
 
     std::vector<std::vector<Known>> pairs_, surfaces_;  ///< per particle, ascending in `other`
     std::vector<Turns> turns_;                          ///< per particle
+    std::vector<std::vector<OnBody>> onBodies_;         ///< per particle, ascending in `body`
+    std::vector<OnBody> beforeOnBodies_;                ///< scratch: those of one particle at the last step
+    std::vector<Placed> placed_;                        ///< scratch: the bodies
     std::vector<Known> before_;                         ///< scratch: a row as it was at the last step
     std::vector<Met> met_;                              ///< scratch: the surfaces of one particle
 
@@ -101,7 +131,7 @@ class Forces {
     const RuledWorld* world_ = nullptr;
     const Particles* particles_ = nullptr;
     const Neighbours* neighbours_ = nullptr;
-    CoilMotion motion_{};
+    Drive drive_{};
     double springDt_ = 0;  ///< 0 in the opening step
     Loads* loads_ = nullptr;
 };

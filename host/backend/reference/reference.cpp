@@ -14,8 +14,8 @@ namespace vkdose {
 
 namespace {
 
-using reference::CoilMotion;
 using reference::Deepest;
+using reference::Drive;
 using reference::Forces;
 using reference::Loads;
 using reference::Neighbours;
@@ -28,7 +28,12 @@ bool inside(const Box& box, const Vec3& x) {
     return glm::all(glm::greaterThanEqual(x, box.low)) && glm::all(glm::lessThanEqual(x, box.high));
 }
 
-std::string nameOf(const Deepest& deepest) {
+std::string nameOf(const Deepest& deepest, const World& world) {
+    const bool onBody = deepest.kind != ContactClass::ParticleParticle && deepest.other >= world.surfaces.size() &&
+                        deepest.other - world.surfaces.size() < world.bodies.size();
+    if (onBody)
+        return fmt::format("particle {} and body \"{}\"", deepest.particle,
+                           world.bodies[deepest.other - world.surfaces.size()].name);
     switch (deepest.kind) {
         case ContactClass::ParticleParticle:
             return fmt::format("particles {} and {}", deepest.particle, deepest.other);
@@ -146,16 +151,23 @@ void ReferenceBackend::restore(const Record& record) {
 
 Sensors ReferenceBackend::advance(std::uint32_t steps, double coilRate) {
     double torque = 0, deepest = 0;
+    std::vector<BodyLoad> bodies(world_.bodies.size());
     const double start = angle_;
     book_ = {};
     for (std::uint32_t n = 0; n < steps; ++n) {
         step(coilRate);
         angle_ = start + coilRate * world_.timeStep * (n + 1);  // a product, so that rounding does not pile up
         torque += loads_.coilTorque;
+        for (std::size_t b = 0; b < bodies.size(); ++b) {
+            bodies[b].force += loads_.bodies[b].force / double(steps);
+            bodies[b].torque += loads_.bodies[b].torque / double(steps);
+            bodies[b].work += loads_.bodies[b].work;
+        }
         deepest = std::max(deepest, loads_.deepest.ratio);
     }
     Sensors sensors = sense();
     sensors.coilTorque = steps > 0 ? torque / steps : 0;
+    sensors.bodies = std::move(bodies);
     sensors.maxOverlapRatio = deepest;
     if (world_.energyBook && steps_ > 0) sensors.energy = senseEnergy();
     return sensors;
@@ -166,7 +178,8 @@ void ReferenceBackend::step(double coilRate) {
     const bool opening = steps_ == 0;
     const double dt = world_.timeStep;
     neighbours_.update(particles_);
-    forces_.evaluate(world_, particles_, neighbours_, CoilMotion{angle_, coilRate}, opening ? 0 : dt, loads_);
+    forces_.evaluate(world_, particles_, neighbours_, Drive{angle_, coilRate, static_cast<double>(steps_) * dt},
+                     opening ? 0 : dt, loads_);
     refuseDeepOverlap();
     if (world_.energyBook) before_ = particles_;
 
@@ -219,6 +232,7 @@ void ReferenceBackend::bookStep(bool opening) {
     book_.torsion += step.torsion;
     book_.numerical += step.numerical;
     book_.coilWork += step.coilWork;
+    book_.bodyWork += step.bodyWork;
     book_.left += step.left;
     book_.loaded += step.loaded;
     for (std::size_t i = 0; i < particles_.size(); ++i) {
@@ -266,7 +280,7 @@ void ReferenceBackend::refuseDeepOverlap() const {
         throw RunError(
             fmt::format("{} overlap by {:.1f} % of the smaller radius in {}, more than the {:.0f} % a contact "
                         "law covers: use a smaller time step or stiffer contacts (k1, k2)",
-                        nameOf(deepest), 100 * deepest.ratio, when(), 100 * world_.maxOverlapRatio));
+                        nameOf(deepest, world_), 100 * deepest.ratio, when(), 100 * world_.maxOverlapRatio));
 }
 
 Sensors ReferenceBackend::sense() const {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "host/backend/vulkan/split.h"
 #include "host/core/error.h"
 
 namespace vkdose {
@@ -25,28 +26,6 @@ static_assert(gpu::kParticleParticle == uint32_t(ContactClass::ParticleParticle)
 static_assert(gpu::kCoulombLuding == uint32_t(CoulombLimit::Luding) &&
               gpu::kCoulombAbsolute == uint32_t(CoulombLimit::Absolute));
 static_assert(gpu::kLeverFull == uint32_t(RollingLever::Full) && gpu::kLeverHalf == uint32_t(RollingLever::Half));
-
-/// A double as the unevaluated sum of two floats.
-struct Split {
-    float high, low;
-    explicit Split(double x) {
-        // GCC 12.2's vectoriser folds x - double(float(x)) to zero at -O2; through memory it cannot.
-        volatile float rounded = float(x);
-        high = rounded;
-        low = float(x - double(high));
-    }
-};
-
-struct Split3 {
-    glm::vec3 high{0}, low{0};
-    explicit Split3(const Vec3& v) {
-        for (int i = 0; i < 3; ++i) {
-            Split s(v[i]);
-            high[i] = s.high;
-            low[i] = s.low;
-        }
-    }
-};
 
 double largestRadius(const Particles& p) {
     return p.radius.empty() ? 0.0 : *std::max_element(p.radius.begin(), p.radius.end());
@@ -96,6 +75,12 @@ struct PackSurface {
     }
 };
 
+}  // namespace
+
+gpu::SurfaceParams packSurface(const geometry::Surface& surface) {
+    return std::visit(PackSurface{}, surface);
+}
+
 gpu::CoilParams packCoil(const geometry::Coil& c, double largest) {
     const double reach = largest + c.wireRadius;
     if (reach >= c.radius)
@@ -124,8 +109,6 @@ gpu::CoilParams packCoil(const geometry::Coil& c, double largest) {
     return p;
 }
 
-}  // namespace
-
 std::uint64_t turnsFixed(double angle) {
     double turns = angle / (2 * kPi);
     turns -= std::floor(turns);
@@ -145,13 +128,15 @@ gpu::Member packMember(const World& world, const ContactLaw& law, const Particle
     if (world.surfaces.size() > gpu::kMaxSurfaces)
         throw RunError(fmt::format("{} surfaces; the Vulkan backend holds {}", world.surfaces.size(),
                                    uint32_t(gpu::kMaxSurfaces)));
+    if (!world.bodies.empty())
+        throw RunError("the Vulkan backend does not compute with bodies yet: run this case with --backend reference");
     gpu::Member m{};
     packLaw(law, m);
     m.choices.z = 1.0f;
     for (std::size_t i = 0; i < world.surfaces.size(); ++i) {
         if (std::holds_alternative<geometry::Front>(world.surfaces[i]) && i + 1 < world.surfaces.size())
             throw std::logic_error("the front wall must be the last surface");
-        m.surface[i] = std::visit(PackSurface{}, world.surfaces[i]);
+        m.surface[i] = packSurface(world.surfaces[i]);
     }
     const double largest = largestRadius(particles);
     if (world.coil) m.coil = packCoil(*world.coil, largest);

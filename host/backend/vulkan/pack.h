@@ -19,6 +19,12 @@ void packLaw(const ContactLaw& law, gpu::Member& member);
 /// An angle [rad] in 64-bit fixed point [2^-64 turns], whole turns dropped.
 std::uint64_t turnsFixed(double angle);
 
+/// A fixed surface.
+gpu::SurfaceParams packSurface(const geometry::Surface& surface);
+/// The coil, for spheres of radius up to `largest` [m]; without its rotation. Throws RunError if the device cannot
+/// compute with it.
+gpu::CoilParams packCoil(const geometry::Coil& coil, double largest);
+
 /// Coil rotation [2^-64 turns]: phase at the start of a batch and advance per step, both modulo a turn.
 void packPhase(std::uint64_t start, std::uint64_t perStep, gpu::Member& member);
 

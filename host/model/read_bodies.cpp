@@ -1,0 +1,293 @@
+// The bodies: [[body]] with its shape or mesh, its place and [body.motion].
+#include <fmt/format.h>
+
+#include <cmath>
+#include <set>
+
+#include "geometry/mesh.h"
+#include "host/core/csv_table.h"
+#include "host/core/file.h"
+#include "host/core/printable.h"
+#include "host/model/case_sections.h"
+
+namespace vkdose {
+namespace {
+
+using geometry::Shape;
+
+const Vec3 kAlong(0, 0, 1);
+constexpr const char* kNameLetters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_";
+
+/// What is needed to read one body.
+struct BodyReader {
+    CaseReader& reader;
+    Section& section;
+    double largestRadius;  ///< of the particles [m]; NaN while the case is at fault
+    Case& c;
+
+    void fault(std::string_view key, std::string problem, std::string remedy) const {
+        reader.fault(section.path(key), std::move(problem), std::move(remedy));
+    }
+};
+
+Vec3 unitVector(CaseReader& reader, Section& section, const char* key) {
+    const Vec3 v = section.vector(key);
+    const double length = glm::length(v);
+    if (length == 0) reader.fault(section.path(key), "has no direction", "give a vector that is not zero");
+    return v / length;
+}
+
+/// A wall between two circles around the body's z axis.
+geometry::Cone around(double z, double radius, double endRadius, double length) {
+    return {Vec3(0, 0, z), kAlong, radius, endRadius, length};
+}
+
+std::vector<Shape> withEnds(geometry::Cone wall, bool ends) {
+    std::vector<Shape> shapes{wall};
+    if (!ends) return shapes;
+    shapes.emplace_back(around(0, 0, wall.baseRadius, 0));
+    shapes.emplace_back(around(wall.length, 0, wall.endRadius, 0));
+    return shapes;
+}
+
+std::vector<Shape> readScrew(const BodyReader& b) {
+    Section& s = b.section;
+    geometry::Flight flight;
+    const double length = s.number("length_mm");
+    flight.innerRadius = s.number("shaft_radius_mm");
+    flight.outerRadius = s.number("radius_mm");
+    flight.thickness = s.number("thickness_mm");
+    flight.pitchStart = s.number("pitch_mm");
+    flight.pitchEnd = s.number("pitch_end_mm", flight.pitchStart * kMillimetre.perSI);
+    flight.hand = s.choice("hand") == std::size_t{1} ? -1 : 1;
+    // The height of the blade's middle is the mean pitch times the turns.
+    flight.angle = 2 * kPi * length / ((flight.pitchStart + flight.pitchEnd) / 2);
+    if (flight.outerRadius <= flight.innerRadius)
+        b.fault("radius_mm", "is no larger than the shaft's", "give a larger one, or a smaller shaft_radius_mm");
+    if (flight.thickness >= std::min(flight.pitchStart, flight.pitchEnd))
+        b.fault("thickness_mm", "leaves nothing free between the turns", "give less than the pitch");
+    std::vector<Shape> shapes{flight};
+    for (const Shape& part : withEnds(around(0, flight.innerRadius, flight.innerRadius, length), true))
+        shapes.push_back(part);
+    return shapes;
+}
+
+std::vector<Shape> readWire(const BodyReader& b) {
+    Section& s = b.section;
+    geometry::Coil wire;
+    wire.length = s.number("length_mm");
+    wire.radius = s.number("radius_mm");
+    wire.pitch = s.number("pitch_mm");
+    wire.wireRadius = s.number("wire_diameter_mm") / 2;
+    wire.hand = s.choice("hand") == std::size_t{1} ? -1 : 1;
+    if (wire.radius <= wire.wireRadius)
+        b.fault("radius_mm", "is no larger than the wire's own radius", "give a larger one, or a thinner wire");
+    if (wire.pitch <= 2 * wire.wireRadius)
+        b.fault("pitch_mm", "lets the turns overlap", "give more than wire_diameter_mm");
+    return {wire};
+}
+
+std::vector<Shape> readMeshShape(const BodyReader& b) {
+    Section& s = b.section;
+    const std::string name = s.string("mesh"), unit = s.string("unit");
+    if (!s.isString("mesh") || !s.isString("unit")) return {};
+    const std::optional<double> metres = geometry::metresIn(unit);
+    if (!metres) {
+        b.fault("unit", "is not known", fmt::format("give one of {}", geometry::lengthUnits()));
+        return {};
+    }
+    const std::filesystem::path file = b.reader.folderOf(s.path("mesh")) / name;
+    if (!inputFile(file)) {
+        b.fault("mesh", unreadable(file), "give the path of an STL, OBJ or PLY file, relative to the case file");
+        return {};
+    }
+    try {
+        geometry::CheckedMesh checked = geometry::makeMesh(geometry::readMeshFile(file, *metres));
+        const Vec3 size = checked.facts.high - checked.facts.low;
+        // Meshes know no unit. Nothing that doses powder is that large.
+        constexpr double kLargest = 5;
+        const double longest = std::max({size.x, size.y, size.z});
+        if (longest > kLargest)
+            b.fault("unit", fmt::format("makes the mesh {:.4g} m long", longest),
+                    fmt::format("the file is probably in {}: write unit = \"{}\"", unit == "mm" ? "um" : "mm",
+                                unit == "mm" ? "um" : "mm"));
+        s.record("mesh", std::filesystem::absolute(file).lexically_normal().string());
+        b.c.files.push_back(file);
+        if (!(b.largestRadius > 0)) return {};
+        return {std::make_shared<const geometry::MeshSurface>(std::move(checked.mesh), b.largestRadius)};
+    } catch (const geometry::MeshError& e) {
+        b.fault("mesh", e.what(), "mend the mesh");
+        return {};
+    }
+}
+
+enum class Kind { Mesh, Plane, Box, Ball, Cylinder, Cone, Disc, Trough, Wire, Screw };
+
+std::vector<Shape> readShape(const BodyReader& b, Kind kind) {
+    Section& s = b.section;
+    switch (kind) {
+        case Kind::Mesh:
+            return readMeshShape(b);
+        case Kind::Plane:
+            return {geometry::Plane{Vec3(0), unitVector(b.reader, s, "normal")}};
+        case Kind::Box: {
+            const Vec3 half = s.vector("size_mm") / 2.0 / kMillimetre.perSI;
+            if (!(half.x > 0 && half.y > 0 && half.z > 0) && !std::isnan(half.x))
+                b.fault("size_mm", "has a side that is not positive", "give three lengths > 0");
+            return {geometry::Block{-half, half, s.boolean("inside")}};
+        }
+        case Kind::Ball:
+            return {geometry::Ball{Vec3(0), s.number("radius_mm")}};
+        case Kind::Cylinder: {
+            const double radius = s.number("radius_mm"), length = s.number("length_mm");
+            return withEnds(around(0, radius, radius, length), s.boolean("ends"));
+        }
+        case Kind::Cone: {
+            const double radius = s.number("radius_mm"), end = s.number("end_radius_mm");
+            return {around(0, radius, end, s.number("length_mm"))};
+        }
+        case Kind::Disc: {
+            const double radius = s.number("radius_mm"), hole = s.number("hole_radius_mm");
+            if (hole >= radius) b.fault("hole_radius_mm", "is no smaller than the disc", "give less than radius_mm");
+            return {around(0, hole, radius, 0)};
+        }
+        case Kind::Trough:
+            return {geometry::Trough{s.number("width_mm") / 2}};
+        case Kind::Wire:
+            return readWire(b);
+        case Kind::Screw:
+            return readScrew(b);
+    }
+    return {};
+}
+
+geometry::Pose readPlace(const BodyReader& b) {
+    Section& s = b.section;
+    const Vec3 at = s.vector("at"), axis = unitVector(b.reader, s, "rotation_axis");
+    return {glm::angleAxis(s.number("rotation_deg"), axis), at};
+}
+
+/// The columns of a table of motion; all but the time may be left out.
+std::vector<geometry::Table::Row> readMotionTable(CaseReader& reader, Section& s) {
+    const std::string name = s.string("file");
+    if (!s.isString("file")) return {};
+    const std::filesystem::path file = reader.folderOf(s.path("file")) / name;
+    if (!inputFile(file)) {
+        reader.fault(s.path("file"), unreadable(file), "give the path of a CSV, relative to the case file");
+        return {};
+    }
+    s.record("file", std::filesystem::absolute(file).lexically_normal().string());
+    std::vector<geometry::Table::Row> rows;
+    try {
+        const Table table = Table::read(file, LastLine::Whole);
+        for (const std::string& column : table.names())
+            if (column != "time_s" && column != "angle_deg" && column != "x" && column != "y" && column != "z")
+                reader.fault(s.path("file"), fmt::format("has a column \"{}\"", printable(column)),
+                             "name the columns time_s, angle_deg, x, y, z; lengths in m");
+        const auto at = [&](std::size_t row, const char* column) {
+            return table.has(column) ? table.number(row, column) : 0.0;
+        };
+        for (std::size_t i = 0; i < table.rows(); ++i)
+            rows.push_back(
+                {table.number(i, "time_s"), at(i, "angle_deg") / kDegree.perSI, {at(i, "x"), at(i, "y"), at(i, "z")}});
+    } catch (const CaseError& e) {
+        for (const Diagnostic& d : e.faults()) reader.add(d);
+    }
+    return rows;
+}
+
+enum class MotionKind { Turn, Swing, Shake, Slide, Table };
+
+geometry::Motion readMotionOf(CaseReader& reader, Section& s, MotionKind kind, Clock clock) {
+    switch (kind) {
+        case MotionKind::Turn: {
+            const Vec3 axis = unitVector(reader, s, "axis"), through = s.vector("through");
+            return geometry::Turn{axis, through,
+                                  clock == Clock::Drive ? s.number("turns_per_turn") : s.number("speed_rpm")};
+        }
+        case MotionKind::Swing: {
+            const Vec3 axis = unitVector(reader, s, "axis"), through = s.vector("through");
+            const double amplitude = s.number("amplitude_deg"), frequency = s.number("frequency_hz");
+            return geometry::Swing{axis, through, amplitude, frequency, s.number("phase_deg")};
+        }
+        case MotionKind::Shake: {
+            const Vec3 axis = unitVector(reader, s, "axis");
+            const double amplitude = s.number("amplitude_mm"), frequency = s.number("frequency_hz");
+            return geometry::Shake{axis, amplitude, frequency, s.number("phase_deg")};
+        }
+        case MotionKind::Slide:
+            return geometry::Slide{s.vector("velocity")};
+        case MotionKind::Table: {
+            const Vec3 axis = unitVector(reader, s, "axis"), through = s.vector("through");
+            return geometry::Table{axis, through, readMotionTable(reader, s)};
+        }
+    }
+    return geometry::Rest{};
+}
+
+void readMotion(CaseReader& reader, Section& body, RigidBody& made) {
+    if (!body.has("motion")) {
+        body.know("motion");
+        return;
+    }
+    Section& s = body.table("motion");
+    const auto kind = s.choice("kind");
+    const auto follows = s.choice("follows");
+    if (!kind || !follows) return s.abandon();
+    made.clock = static_cast<Clock>(*follows);
+    if (made.clock == Clock::Drive && static_cast<MotionKind>(*kind) != MotionKind::Turn) {
+        reader.fault(s.path("follows"), "only a turn can follow the drive",
+                     "write kind = \"turn\", or follows = \"time\"");
+        return s.abandon();
+    }
+    made.course.motion = readMotionOf(reader, s, static_cast<MotionKind>(*kind), made.clock);
+    if (made.clock == Clock::Time) {
+        const double from = s.number("from_s");
+        const double to = s.has("to_s") ? s.number("to_s") : geometry::kEndless;
+        s.know("to_s");
+        if (to <= from) reader.fault(s.path("to_s"), "is not later than from_s", "give a later time");
+        if (from > 0 || to < geometry::kEndless) made.course.schedule.intervals = {{from, to}};
+    }
+    if (reader.faulty()) return;
+    if (const std::string why = geometry::motionFault(made.course.motion); !why.empty())
+        reader.fault(s.path("kind"), why, "mend the motion");
+}
+
+}  // namespace
+
+void readBodies(CaseReader& reader, Section& root, double largestRadius, Case& c) {
+    std::set<std::string> names;
+    for (Section* section : root.tables("body")) {
+        const BodyReader b{reader, *section, largestRadius, c};
+        RigidBody body;
+        body.name = section->string("name");
+        const bool fit = !body.name.empty() && body.name.size() <= 60 &&
+                         body.name.find_first_not_of(kNameLetters) == std::string::npos;
+        if (section->isString("name") && !fit)
+            b.fault("name", "is no name of a body", "give letters, digits, - and _");
+        else if (!names.insert(body.name).second)
+            b.fault("name", "stands there twice", "give each body a name of its own");
+        const auto shape = section->choice("shape");
+        if (shape)
+            body.shapes = readShape(b, static_cast<Kind>(*shape));
+        else
+            section->abandon();
+        body.kind =
+            section->choice("contact") == std::size_t{1} ? ContactClass::ParticleCoil : ContactClass::ParticleWall;
+        body.course.start = readPlace(b);
+        readMotion(reader, *section, body);
+        c.world.bodies.push_back(std::move(body));
+    }
+    if (c.world.bodies.size() > kMaxBodies)
+        reader.fault("body", fmt::format("there are {}", c.world.bodies.size()),
+                     fmt::format("give at most {}; one mesh may hold several parts that move together", kMaxBodies));
+}
+
+void alignWithDrive(Case& c) {
+    if (!c.world.coil || geometry::conveyingRate(*c.world.coil, 1.0) > 0) return;
+    for (RigidBody& body : c.world.bodies)
+        if (auto* turn = std::get_if<geometry::Turn>(&body.course.motion); turn && body.clock == Clock::Drive)
+            turn->rate = -turn->rate;
+}
+
+}  // namespace vkdose

@@ -1,0 +1,51 @@
+#include "host/model/rigid_body.h"
+
+#include <algorithm>
+#include <optional>
+
+namespace vkdose {
+
+geometry::Pose RigidBody::pose(double time, double driveAngle) const {
+    return course.pose(clock == Clock::Time ? time : driveAngle);
+}
+
+geometry::Moving RigidBody::moving(double time, double driveAngle, double driveRate) const {
+    if (clock == Clock::Time) return course.moving(time);
+    // The course gives the motion per radian of the drive.
+    geometry::Moving moving = course.moving(driveAngle);
+    moving.velocity *= driveRate;
+    moving.spin *= driveRate;
+    return moving;
+}
+
+namespace {
+
+/// The line about which a motion turns; null if it turns about none.
+struct Line {
+    const Vec3 *axis, *through;
+};
+
+std::optional<Line> turnedAbout(const geometry::Motion& motion) {
+    if (const auto* m = std::get_if<geometry::Turn>(&motion)) return Line{&m->axis, &m->through};
+    if (const auto* m = std::get_if<geometry::Swing>(&motion)) return Line{&m->axis, &m->through};
+    if (const auto* m = std::get_if<geometry::Table>(&motion)) return Line{&m->axis, &m->through};
+    return std::nullopt;
+}
+
+}  // namespace
+
+Vec3 RigidBody::axis() const {
+    const auto line = turnedAbout(course.motion);
+    return line ? *line->axis : Vec3(0, 0, 1);
+}
+
+Vec3 RigidBody::pivot(const geometry::Pose& pose) const {
+    const auto line = turnedAbout(course.motion);
+    return line ? *line->through : pose.origin;
+}
+
+bool followsDrive(const std::vector<RigidBody>& bodies) {
+    return std::any_of(bodies.begin(), bodies.end(), [](const RigidBody& b) { return b.clock == Clock::Drive; });
+}
+
+}  // namespace vkdose

@@ -1,0 +1,119 @@
+// In which distinct features does a body touch a sphere? The twin of `touched` in geometry/shape.h.
+//
+// The including file defines, before it includes this one:
+//
+//   uvec4 geometryAt(uint i)    vector i of the table `geometry` (shared/geometry.h), of the member at work
+//   SHAPE_KINDS                 a constant with a bit for each kind of shape that there is (packBodies tells which).
+//                               If it is a specialisation constant, kinds that are absent cost nothing.
+//
+// and calls, with `body` the number of the body and `centre` in the body's frame (law/pose.glsl):
+//
+//   bool mayTouch(body, centre, reach)          a coarse test with a sphere around the body
+//   bool mayBeNear(body, centre, reach)         a closer one: whether a shape may come within `reach` of the centre
+//   uint touchedFeatures(body, centre, radius)  the number of features; they stand in features[0], features[1], ...
+//
+// A number above kMaxBodyFeatures is an error: some features could not be told. `reach` must not be more than that for
+// which the table was packed.
+#ifndef VKDOSE_LAW_FEATURES_GLSL
+#define VKDOSE_LAW_FEATURES_GLSL
+
+#include "law/mesh.glsl"
+#include "law/places.glsl"
+#include "law/shape.glsl"
+
+#define HAS_SHAPE(kind) ((SHAPE_KINDS & (1u << (kind))) != 0u)
+
+const uint kExactShapes = (1u << kShapePlane) | (1u << kShapeTrough) | (1u << kShapeTube) | (1u << kShapeFront) |
+                          (1u << kShapeCone) | (1u << kShapeBall) | (1u << kShapeBlock);
+
+/// Whether a point is within `reach` of the sphere in vector `at`.
+bool withinSphere(uint at, vec3 centre, float reach) {
+    vec4 around = realsAt(at);
+    vec3 d = centre - around.xyz;
+    float far = around.w + reach;
+    return dot(d, d) < far * far;
+}
+
+bool mayTouch(uint body, Two3 centre, float reach) {
+    return withinSphere(kBodyVectors * body + 1u, centre.high, reach);
+}
+
+ShapeData shapeData(uint shape) {
+    return ShapeData(realsAt(shape + 2u), realsAt(shape + 3u), realsAt(shape + 4u), realsAt(shape + 5u),
+                     realsAt(shape + 6u), realsAt(shape + 7u));
+}
+
+/// Overlap with a shape that has a single closest point.
+Overlap exactOverlap(uint kind, ShapeData s, Two3 centre, float radius) {
+    Overlap o = Overlap(-1.0, vec3(0.0));
+    if (HAS_SHAPE(kShapePlane) && kind == kShapePlane) o = planeShape(s, centre, radius);
+    if (HAS_SHAPE(kShapeTrough) && kind == kShapeTrough) o = troughShape(s, centre, radius);
+    if (HAS_SHAPE(kShapeTube) && kind == kShapeTube) o = tubeShape(s, centre, radius);
+    if (HAS_SHAPE(kShapeFront) && kind == kShapeFront) o = frontShape(s, centre, radius);
+    if (HAS_SHAPE(kShapeCone) && kind == kShapeCone) o = coneShape(s, centre, radius);
+    if (HAS_SHAPE(kShapeBall) && kind == kShapeBall) o = ballShape(s, centre, radius);
+    if (HAS_SHAPE(kShapeBlock) && kind == kShapeBlock) o = blockShape(s, centre, radius);
+    return o;
+}
+
+void wirePlaces(ShapeData s, uint tag, Two3 centre, float radius) {
+    CoilParams wire = wireOf(s);
+    CoilView view = coilView(wire, s.v7.x, Sphere(centre.high, centre.low, radius));
+    uint candidates = coilCandidates(wire, view);
+    for (uint k = 0u; k < candidates; ++k) {
+        CoilTouch touch = coilCandidate(wire, view, k);
+        if (touch.failed) placesLost = true;
+        if (touch.depth > 0.0) addPlace(touch.depth, touch.normal, tag + uint(abs(touch.wireAngle) / kTwoPi + 0.5));
+    }
+}
+
+/// Whether any shape of the body may have a point within `reach` of the centre. Never wrongly false.
+bool mayBeNear(uint body, Two3 centre, float reach) {
+    uvec2 shapes = geometryAt(kBodyVectors * body).xy;
+    bool near = false;
+    for (uint n = 0u; n < shapes.y && !near; ++n) {
+        uint shape = shapes.x + kShapeVectors * n;
+        uvec4 head = geometryAt(shape);
+        if (!withinSphere(shape + 1u, centre.high, reach)) continue;
+        if (HAS_SHAPE(kShapeMesh) && head.x == kShapeMesh) near = mayTouchMesh(shape, head, centre.high, reach);
+        if (HAS_SHAPE(kShapeWire) && head.x == kShapeWire) {
+            ShapeData s = shapeData(shape);
+            near = nearCoil(wireOf(s), s.v7.x, Sphere(centre.high, centre.low, reach), 0.0);
+        }
+        if (HAS_SHAPE(kShapeRoom) && head.x == kShapeRoom) {
+            ShapeData s = shapeData(shape);
+            for (uint wall = 0u; wall < 6u; ++wall) near = near || roomWall(s, wall, centre, reach).depth > 0.0;
+        }
+        if ((SHAPE_KINDS & kExactShapes) != 0u)
+            near = near || exactOverlap(head.x, shapeData(shape), centre, reach).depth > 0.0;
+    }
+    return near;
+}
+
+uint touchedFeatures(uint body, Two3 centre, float radius) {
+    uvec2 shapes = geometryAt(kBodyVectors * body).xy;
+    clearPlaces();
+    uint n = 0u;
+    for (; n < shapes.y; ++n) {
+        uint shape = shapes.x + kShapeVectors * n;
+        uvec4 head = geometryAt(shape);
+        if (!withinSphere(shape + 1u, centre.high, radius)) continue;
+        if (HAS_SHAPE(kShapeMesh) && head.x == kShapeMesh) meshPlaces(shape, head, centre, radius);
+        if (HAS_SHAPE(kShapeWire) && head.x == kShapeWire) wirePlaces(shapeData(shape), head.y, centre, radius);
+        if (HAS_SHAPE(kShapeRoom) && head.x == kShapeRoom) {
+            ShapeData s = shapeData(shape);
+            for (uint wall = 0u; wall < 6u; ++wall) {
+                Overlap o = roomWall(s, wall, centre, radius);
+                if (o.depth > 0.0) addPlace(o.depth, o.normal, head.y + wall);
+            }
+        }
+        if ((SHAPE_KINDS & kExactShapes) != 0u) {
+            Overlap o = exactOverlap(head.x, shapeData(shape), centre, radius);
+            if (o.depth > 0.0) addPlace(o.depth, o.normal, head.y);
+        }
+    }
+    if (n < shapes.y) placesLost = true;
+    return distinctFeatures(radius);
+}
+
+#endif

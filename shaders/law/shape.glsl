@@ -1,0 +1,154 @@
+// Closest points on the exact shapes of bodies (geometry/shape.h, surface.h), as overlap and normal for a sphere, in
+// the frame of the body. Distances are formed in two-float arithmetic from the nearest point of the shape, so that an
+// overlap has the relative error of a single float, however large the shape is.
+//
+// What vectors 2 to 7 of a shape's record hold:
+//
+//   plane, tube, cone  2: point, length   3: low part of both   4: axis   5: its low part
+//                      6: radius, low part, radius at the end, low part   7: wall in the half plane: across, low part,
+//                      along, low part; for a tube: 1 if touched from inside, 1 if endless
+//                      plane: the axis is the normal; length: z of its end, and 7: 1 if it ends
+//   ball               2: centre    3: low part   6: radius, low part
+//   block, room        2: low corner   3: low part   4: high corner   5: low part
+//   trough, front      2 to 5: SurfaceParams (shared/layout.h)
+//   wire               2 to 6: CoilParams (ditto); 7: the angle of its start in turns
+#ifndef VKDOSE_LAW_SHAPE_GLSL
+#define VKDOSE_LAW_SHAPE_GLSL
+
+#include "law/coil.glsl"
+#include "law/surface.glsl"
+#include "law/twoproduct.glsl"
+#include "shared/geometry.h"
+
+/// The vectors of an exact shape.
+struct ShapeData {
+    vec4 v2, v3, v4, v5, v6, v7;
+};
+
+/// Overlap with a point at the offset (x, y) in a half plane, both as two floats, and the unit direction from it there.
+vec3 overlapInPlane(vec2 x, vec2 y, float radius, vec2 fallback) {
+    Two3 off = Two3(vec3(x.x, y.x, 0.0), vec3(x.y, y.y, 0.0));
+    float away = length(off.high);
+    float depth = differenceOfSquares(vec2(radius, 0.0), off) / (radius + away);
+    return vec3(depth, away > 0.0 ? off.high.xy / away : fallback);
+}
+
+/// Some unit vector square to a unit vector: geometry/surface.h, anyNormal.
+vec3 anyNormal(vec3 axis) {
+    vec3 other = abs(axis.x) < 0.5 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0);
+    return normalize(other - axis * dot(axis, other));
+}
+
+/// A point seen from an axis.
+struct AxisView {
+    vec2 along;  // from the axis' origin, two floats [m]
+    vec2 rho;    // distance from the axis, two floats [m]
+    vec3 outward;
+};
+
+AxisView axisView(ShapeData s, Two3 centre) {
+    Two3 axis = Two3(s.v4.xyz, s.v5.xyz);
+    Two3 d = twoDifference(centre.high, centre.low, s.v2.xyz, s.v3.xyz);
+    AxisView view;
+    view.along = twoDot(d, axis);
+    Two3 off = twoLess(d, view.along, axis);
+    view.rho = twoLength(off);
+    view.outward = view.rho.x > 0.0 ? off.high / view.rho.x : anyNormal(axis.high);
+    return view;
+}
+
+Overlap planeShape(ShapeData s, Two3 centre, float radius) {
+    Two3 d = twoDifference(centre.high, centre.low, s.v2.xyz, s.v3.xyz);
+    vec2 height = twoDot(d, Two3(s.v4.xyz, s.v5.xyz));
+    precise float depth = (radius - height.x) - height.y;
+    precise float past = centre.high.z - s.v2.w;
+    precise float pastLow = centre.low.z - s.v3.w;
+    if (s.v7.x == 0.0 || past + pastLow <= 0.0) return Overlap(depth, s.v4.xyz);
+    vec3 edge = overlapInPlane(height, quickSum(past, pastLow), radius, vec2(0.0, 1.0));
+    return Overlap(edge.x, s.v4.xyz * edge.y + vec3(0.0, 0.0, edge.z));
+}
+
+Overlap tubeShape(ShapeData s, Two3 centre, float radius) {
+    AxisView view = axisView(s, centre);
+    vec2 off = twoAdd(view.rho, -s.v6.xy);
+    vec2 beyond = twoAdd(view.along, -vec2(s.v2.w, s.v3.w));
+    if (view.along.x < 0.0) beyond = view.along;
+    bool endless = s.v7.y != 0.0;
+    if (!endless && (view.along.x < 0.0 || beyond.x > 0.0)) {
+        vec3 rim = overlapInPlane(off, beyond, radius, vec2(0.0, 1.0));
+        return Overlap(rim.x, view.outward * rim.y + s.v4.xyz * rim.z);
+    }
+    float side = s.v7.x == 0.0 ? -1.0 : 1.0;  // 1: from inside
+    precise float depth = (radius + side * off.x) + side * off.y;
+    return Overlap(depth, -side * view.outward);
+}
+
+/// In the half plane of the centre the wall of a cone is a segment.
+Overlap coneShape(ShapeData s, Two3 centre, float radius) {
+    AxisView view = axisView(s, centre);
+    Two3 wall = Two3(vec3(s.v7.xz, 0.0), vec3(s.v7.yw, 0.0));
+    vec2 off = twoAdd(view.rho, -s.v6.xy);
+    Two3 d = Two3(vec3(off.x, view.along.x, 0.0), vec3(off.y, view.along.y, 0.0));
+    vec2 past = twoDot(d, wall), size = vec2(s.v2.w, s.v3.w);
+    vec2 beyond = twoAdd(past, -size);
+    if (past.x < 0.0) past = vec2(0.0);
+    if (beyond.x > 0.0) past = size;
+    Two3 left = twoLess(d, past, wall);
+    vec3 o = overlapInPlane(vec2(left.high.x, left.low.x), vec2(left.high.y, left.low.y), radius,
+                            vec2(wall.high.y, -wall.high.x));
+    return Overlap(o.x, view.outward * o.y + s.v4.xyz * o.z);
+}
+
+Overlap ballShape(ShapeData s, Two3 centre, float radius) {
+    Two3 d = twoDifference(centre.high, centre.low, s.v2.xyz, s.v3.xyz);
+    vec2 sum = twoSum(s.v6.x, radius);
+    sum.y += s.v6.y;
+    float away = length(d.high);
+    return Overlap(differenceOfSquares(sum, d) / (sum.x + away), away > 0.0 ? d.high / away : vec3(0.0, 0.0, 1.0));
+}
+
+/// Of a solid block. Inside it, the way out is the nearest face.
+Overlap blockShape(ShapeData s, Two3 centre, float radius) {
+    Two3 above = twoDifference(centre.high, centre.low, s.v2.xyz, s.v3.xyz);
+    Two3 below = twoDifference(centre.high, centre.low, s.v4.xyz, s.v5.xyz);
+    bvec3 under = lessThan(above.high, vec3(0.0)), over = greaterThan(below.high, vec3(0.0));
+    Two3 off = Two3(mix(mix(vec3(0.0), below.high, over), above.high, under),
+                    mix(mix(vec3(0.0), below.low, over), above.low, under));
+    float away = length(off.high);
+    if (away > 0.0)
+        return Overlap(differenceOfSquares(vec2(radius, 0.0), off) / (radius + away), off.high / away);
+    vec3 low = above.high, high = -below.high;
+    float least = min(min(min(low.x, high.x), min(low.y, high.y)), min(low.z, high.z));
+    vec3 normal = low.x == least    ? vec3(-1.0, 0.0, 0.0)
+                  : high.x == least ? vec3(1.0, 0.0, 0.0)
+                  : low.y == least  ? vec3(0.0, -1.0, 0.0)
+                  : high.y == least ? vec3(0.0, 1.0, 0.0)
+                  : low.z == least  ? vec3(0.0, 0.0, -1.0)
+                                    : vec3(0.0, 0.0, 1.0);
+    return Overlap(radius + least, normal);
+}
+
+/// Wall `n` of a room: x, y, z, each low and high.
+Overlap roomWall(ShapeData s, uint n, Two3 centre, float radius) {
+    bool high = (n & 1u) != 0u;
+    Two3 d = high ? twoDifference(s.v4.xyz, s.v5.xyz, centre.high, centre.low)
+                  : twoDifference(centre.high, centre.low, s.v2.xyz, s.v3.xyz);
+    vec3 normal = vec3(n / 2u == 0u, n / 2u == 1u, n / 2u == 2u);
+    precise float depth = (radius - d.high[n / 2u]) - d.low[n / 2u];
+    return Overlap(depth, high ? -normal : normal);
+}
+
+SurfaceParams surfaceOf(ShapeData s) { return SurfaceParams(s.v2, s.v3, s.v4, s.v5); }
+
+Overlap troughShape(ShapeData s, Two3 centre, float radius) {
+    Sphere a = Sphere(centre.high, centre.low, radius);
+    return upToEnd(surfaceOf(s), a, troughOverlap(surfaceOf(s), a));
+}
+
+Overlap frontShape(ShapeData s, Two3 centre, float radius) {
+    return frontOverlap(surfaceOf(s), Sphere(centre.high, centre.low, radius));
+}
+
+CoilParams wireOf(ShapeData s) { return CoilParams(s.v2, s.v3, s.v4, floatBitsToUint(s.v5), s.v6); }
+
+#endif

@@ -1,0 +1,71 @@
+// The table of bodies, `geometry`, seen by both sides: C++ (host/backend/vulkan/pack_bodies.cpp writes it) and GLSL
+// (law/features.glsl reads it). It is a table of uvec4; floats stand in it as bits. Places in it count vectors from its
+// beginning. Nothing in it changes while a body moves: lengths are in metres, in the frame of the body.
+//
+// First come the bodies, kBodyVectors each, in their order. Then for each body its shapes, kShapeVectors each, and
+// behind them what its meshes need.
+//
+//   body    0: first shape, number of shapes        1: a sphere around it: centre, radius
+//   shape   0: kind, first tag, for a mesh: heads, lists        1: a sphere around it: centre, radius
+//           2 to 7: by kind, see the functions of law/shape.glsl and law/mesh.glsl
+//
+// A tag is a number of a place where a body is touched: the tags of a shape start at its first tag, so that tags order
+// places as shape and key do (geometry/features.h).
+#ifndef VKDOSE_SHARED_GEOMETRY_H
+#define VKDOSE_SHARED_GEOMETRY_H
+
+#ifdef __cplusplus
+#include <glm/glm.hpp>
+namespace vkdose::gpu {
+using glm::uint;
+using glm::uvec4;
+using glm::vec4;
+#define SHARED_CONST inline constexpr uint
+#define SHARED_REAL inline constexpr float
+#else
+#define SHARED_CONST const uint
+#define SHARED_REAL const float
+#endif
+
+SHARED_CONST kBodyVectors = 2u;
+SHARED_CONST kShapeVectors = 8u;
+SHARED_CONST kMaxBodyFeatures = 8u;  // geometry::kMaxFeatures
+SHARED_REAL kEverywhere = 1e15f;     // radius of the sphere around a shape without an end [m]
+SHARED_REAL kEndlessLength = 1e15f;  // [m]
+
+// Kinds of shapes. The first four are those of the fixed surfaces (layout.h: kPlane, kTrough, kTube, kFront).
+SHARED_CONST kShapePlane = 0u;
+SHARED_CONST kShapeTrough = 1u;
+SHARED_CONST kShapeTube = 2u;
+SHARED_CONST kShapeFront = 3u;
+SHARED_CONST kShapeCone = 4u;
+SHARED_CONST kShapeBall = 5u;
+SHARED_CONST kShapeBlock = 6u;
+SHARED_CONST kShapeRoom = 7u;
+SHARED_CONST kShapeWire = 8u;
+SHARED_CONST kShapeMesh = 9u;
+
+// Vectors of the parts of a mesh.
+SHARED_CONST kTriangleVectors = 7u;
+SHARED_CONST kEdgeVectors = 5u;
+SHARED_CONST kVertexVectors = 2u;
+// Most triangles in one cell of a mesh's grid, and most edges at one of its vertices: software devices end loops.
+SHARED_CONST kMostInCell = 8192u;
+SHARED_CONST kMostAtVertex = 8192u;
+
+/// Where a body is and how it moves at one time.
+struct BodyMotion {
+    vec4 toBodyHigh[3];  // xyz: rows of the rotation from the world to the body; w: origin of the body in the world [m]
+    vec4 toBodyLow[3];   // what is left of each number
+    vec4 velocity;       // xyz [m/s]
+    vec4 spin;           // xyz [rad/s]
+    vec4 centre;         // xyz: a point x fixed to the body has velocity + spin x (x - centre) [m]
+};
+SHARED_CONST kMotionVectors = 9u;
+
+#ifdef __cplusplus
+#undef SHARED_CONST
+#undef SHARED_REAL
+}  // namespace vkdose::gpu
+#endif
+#endif

@@ -1,0 +1,244 @@
+// Bodies of a case: every shape and motion from its keys, the resolved case, and faults with their places.
+
+#include "geometry/tessellate.h"
+#include "host/core/error.h"
+#include "tests/model/case_files.h"
+#include "tests/support/catch.h"
+#include "tests/support/near.h"
+
+using namespace vkdose;
+using namespace vkdose::test;
+using Catch::Contains;
+
+namespace {
+
+/// A case with a few spheres around (0, 30 mm, 0), and these bodies.
+std::string withBodies(const std::string& bodies) {
+    return R"(boundaries = "none"
+[particles]
+density = 1427.0
+mass_g = 0.2
+[particles.size]
+distribution = "fixed"
+radius_mm = 1.25
+[particles.region]
+low = [-0.008, 0.022, -0.008]
+high = [0.008, 0.038, 0.008]
+[contact]
+k = 2000.0
+k1_over_k = 0.2
+kc_over_k = 0.5
+plasticity_depth = 0.05
+damping = 0.02
+friction = 0.5
+[settle]
+time_s = 0.1
+)" + bodies;
+}
+
+struct Read {
+    Folder folder;
+    Case load(const std::string& bodies) { return loadCase(folder.write("case.toml", withBodies(bodies))); }
+    std::string fault(const std::string& bodies) {
+        try {
+            load(bodies);
+        } catch (const CaseError& e) {
+            return e.what();
+        }
+        return "no fault";
+    }
+    void mesh() {
+        folder.write("block.stl", geometry::stlText(geometry::tessellated(geometry::Block{Vec3(-10), Vec3(10)}, 5,
+                                                                          Vec3(-100), Vec3(100))));
+    }
+};
+
+}  // namespace
+
+TEST_CASE("bodies: every shape comes from its keys, and the resolved case gives the same") {
+    Read read;
+    read.mesh();
+    const std::string text = R"(
+[[body]]
+name = "floor"
+shape = "plane"
+at = [0, -0.02, 0]
+[[body]]
+name = "block"
+mesh = "block.stl"
+unit = "mm"
+contact = "coil"
+rotation_axis = [0, 2, 0]
+rotation_deg = 90
+[[body]]
+name = "box"
+shape = "box"
+size_mm = [100, 200, 300]
+inside = true
+[[body]]
+name = "ball"
+shape = "ball"
+radius_mm = 5
+[[body]]
+name = "drum"
+shape = "cylinder"
+radius_mm = 50
+length_mm = 100
+ends = true
+at = [0, 0, -0.05]
+[body.motion]
+kind = "turn"
+speed_rpm = 60
+from_s = 0.5
+to_s = 2.0
+[[body]]
+name = "hopper"
+shape = "cone"
+radius_mm = 5
+end_radius_mm = 50
+length_mm = 60
+[[body]]
+name = "lid"
+shape = "disc"
+radius_mm = 30
+hole_radius_mm = 5
+[[body]]
+name = "gutter"
+shape = "trough"
+width_mm = 120
+[[body]]
+name = "wire"
+shape = "wire"
+radius_mm = 8
+pitch_mm = 5
+wire_diameter_mm = 1
+length_mm = 20
+hand = "left"
+[[body]]
+name = "screw"
+shape = "screw"
+radius_mm = 9
+shaft_radius_mm = 3
+thickness_mm = 1
+pitch_mm = 8
+pitch_end_mm = 12
+length_mm = 40
+[body.motion]
+kind = "swing"
+axis = [1, 0, 0]
+amplitude_deg = 5
+frequency_hz = 2
+phase_deg = 90
+)";
+    const Case c = read.load(text);
+    const auto& bodies = c.world.bodies;
+    REQUIRE(bodies.size() == 10);
+    CHECK(bodies[0].course.start.origin.y == -0.02);
+    CHECK(bodies[1].kind == ContactClass::ParticleCoil);
+    const auto mesh = std::get<std::shared_ptr<const geometry::MeshSurface>>(bodies[1].shapes.at(0));
+    CHECK(mesh->mesh().vertices.size() == 8);
+    CHECK(mesh->reach() >= 1.25e-3);
+    CHECK(near(bodies[1].pose(0, 0).toWorld(Vec3(0, 0, 1)), Vec3(1, 0, 0), 1, 1e-12));
+    CHECK(near(std::get<geometry::Block>(bodies[2].shapes.at(0)).high, Vec3(0.05, 0.1, 0.15), 0.1, 1e-12));
+    CHECK(std::get<geometry::Ball>(bodies[3].shapes.at(0)).radius == Approx(5e-3));
+    CHECK(bodies[4].shapes.size() == 3);
+    CHECK(glm::length(bodies[4].moving(0.4, 0, 0).spin) == 0);
+    CHECK(bodies[4].moving(1, 0, 0).spin.z == Approx(2 * kPi));
+    CHECK(glm::length(bodies[4].moving(2.5, 0, 0).spin) == 0);
+    CHECK(std::get<geometry::Cone>(bodies[5].shapes.at(0)).endRadius == Approx(0.05));
+    CHECK(std::get<geometry::Cone>(bodies[6].shapes.at(0)).baseRadius == Approx(5e-3));
+    CHECK(std::get<geometry::Trough>(bodies[7].shapes.at(0)).halfWidth == Approx(0.06));
+    CHECK(std::get<geometry::Coil>(bodies[8].shapes.at(0)).hand == -1);
+    const auto flight = std::get<geometry::Flight>(bodies[9].shapes.at(0));
+    CHECK(flight.height(flight.angle) == Approx(0.04));
+    CHECK(flight.angle == Approx(2 * kPi * 4));
+    CHECK(bodies[9].shapes.size() == 4);  // the blade, the shaft and its ends
+    const auto swing = std::get<geometry::Swing>(bodies[9].course.motion);
+    CHECK(swing.amplitude == Approx(5 * kPi / 180));
+
+    const Case again = loadResolvedCase(c.resolved, "case.toml");
+    CHECK(again.resolved == c.resolved);
+    REQUIRE(again.world.bodies.size() == 10);
+    CHECK(again.world.bodies[4].moving(1, 0, 0).spin.z == Approx(2 * kPi));
+}
+
+TEST_CASE("bodies: one that follows the drive turns about its axis while powder is dosed, whatever the coil's hand") {
+    for (const char* hand : {"right", "left"}) {
+        const Folder folder;
+        const std::string text =
+            replaced(kGoodCase, "speed_rpm = 120.0", "speed_rpm = 120.0\nhand = \"" + std::string(hand) + "\"") +
+            "[[body]]\nname = \"agitator\"\nshape = \"ball\"\nradius_mm = 1\nat = [0, 0.2, 0]\n"
+            "[body.motion]\nkind = \"turn\"\nfollows = \"drive\"\nturns_per_turn = 0.5\n";
+        const Case c = loadCase(folder.write("case.toml", text));
+        const double rate = geometry::conveyingRate(*c.world.coil, c.schedule.coilSpeed);
+        CAPTURE(hand, rate);
+        CHECK(c.world.bodies.at(0).moving(0, 0, rate).spin.z == Approx(0.5 * 120 * 2 * kPi / 60));
+    }
+    Read read;
+    const std::string driven =
+        "[[body]]\nname = \"drum\"\nshape = \"cylinder\"\nradius_mm = 50\nlength_mm = 20\n"
+        "[body.motion]\nkind = \"turn\"\nfollows = \"drive\"\n[stop]\nmax_doses = 1\n";
+    CHECK(read.load(driven + "[dose]\nrotate_s = 1\nspeed_rpm = 30\n").schedule.coilSpeed == Approx(kPi));
+    CHECK_THAT(read.fault(driven + "[dose]\nrotate_s = 1\n"), Contains("dose.speed_rpm: is missing"));
+    CHECK_THAT(read.fault("[dose]\nrotate_s = 1\nspeed_rpm = 30\n[stop]\nmax_doses = 1\n"),
+               Contains("follows = \"drive\""));
+}
+
+TEST_CASE("bodies: a table of motion comes from its file") {
+    Read read;
+    read.folder.write("way.csv", "time_s,angle_deg,y\n0,0,0\n1,90,0.01\n2,90,0.03\n");
+    const std::string body =
+        "[[body]]\nname = \"flap\"\nshape = \"disc\"\nradius_mm = 5\n[body.motion]\n"
+        "kind = \"table\"\nfile = \"way.csv\"\n";
+    const RigidBody flap = read.load(body).world.bodies.at(0);
+    CHECK(near(flap.pose(1.5, 0).origin, Vec3(0, 0.02, 0), 0.01, 1e-12));
+    CHECK(near(flap.pose(0.5, 0).directionToWorld(Vec3(1, 0, 0)), Vec3(std::sqrt(0.5), std::sqrt(0.5), 0), 1, 1e-12));
+    read.folder.write("way.csv", "time_s,angle\n0,0\n1,1\n");
+    CHECK_THAT(read.fault(body), Contains("has a column \"angle\"") && Contains("time_s, angle_deg, x, y, z"));
+    read.folder.write("way.csv", "time_s,angle_deg\n1,0\n1,1\n");
+    CHECK_THAT(read.fault(body), Contains("row 2 of the table is not later"));
+    CHECK_THAT(read.fault(replaced(body, "way.csv", "gone.csv")), Contains("there is no file"));
+}
+
+TEST_CASE("bodies: faults name the key, the value and what would be right") {
+    Read read;
+    read.mesh();
+    const auto body = [](const std::string& keys) { return "[[body]]\nname = \"thing\"\n" + keys; };
+    struct Fault {
+        std::string keys, said;
+    };
+    const std::string mesh = "mesh = \"block.stl\"\nunit = \"mm\"\n";
+    for (const Fault& f : {
+             Fault{"shape = \"blob\"\n", "body[0].shape"},
+             Fault{"mesh = \"block.stl\"\n", "body[0].unit: is missing"},
+             Fault{"mesh = \"block.stl\"\nunit = \"ft\"\n", "give one of m, cm, mm"},
+             Fault{"mesh = \"block.stl\"\nunit = \"m\"\n", "the file is probably in mm"},
+             Fault{"mesh = \"gone.stl\"\nunit = \"mm\"\n", "there is no file"},
+             Fault{"shape = \"ball\"\nradius_mm = 0\n", "is zero"},
+             Fault{"shape = \"ball\"\nradius_mm = 3\nlength_mm = 3\n", "unknown key"},
+             Fault{"shape = \"box\"\nsize_mm = [1, 2, 0]\n", "a side that is not positive"},
+             Fault{"shape = \"disc\"\nradius_mm = 3\nhole_radius_mm = 4\n", "give less than radius_mm"},
+             Fault{"shape = \"wire\"\nradius_mm = 3\nlength_mm = 9\nwire_diameter_mm = 2\npitch_mm = 1\n",
+                   "lets the turns overlap"},
+             Fault{"shape = \"screw\"\nradius_mm = 3\nshaft_radius_mm = 4\nlength_mm = 9\nthickness_mm = 1\npitch_mm = "
+                   "6\n",
+                   "is no larger than the shaft's"},
+             Fault{mesh + "rotation_axis = [0, 0, 0]\n", "has no direction"},
+             Fault{mesh + "[body.motion]\nkind = \"slide\"\nvelocity = [0, 0, 1]\nfollows = \"drive\"\n",
+                   "only a turn can follow the drive"},
+             Fault{mesh + "[body.motion]\nkind = \"turn\"\nspeed_rpm = 3\nfrom_s = 2\nto_s = 1\n",
+                   "is not later than from_s"},
+             Fault{mesh + "at = [0, 0.0135, 0]\n", "overlaps body \"thing\""},
+             Fault{mesh + "[[body]]\nname = \"thing\"\nshape = \"plane\"\n", "body[1].name"},
+         }) {
+        CAPTURE(f.keys);
+        CHECK_THAT(read.fault(body(f.keys)), Contains(f.said));
+    }
+    CHECK_THAT(read.fault("[[body]]\nname = \"a b\"\nshape = \"plane\"\n"), Contains("is no name of a body"));
+    std::string many;
+    for (int i = 0; i < 17; ++i)
+        many += "[[body]]\nname = \"b" + std::to_string(i) + "\"\nshape = \"plane\"\nat = [0, -1, 0]\n";
+    CHECK_THAT(read.fault(many), Contains("give at most 16"));
+    read.folder.write("block.stl", "solid cut\nfacet normal 0 0 1\n");
+    CHECK_THAT(read.fault(body(mesh)), Contains("body[0].mesh") && Contains("block.stl:"));
+}

@@ -1,0 +1,378 @@
+// The device's answer to "which distinct features of a body does this sphere touch?" against the host's in double
+// precision: for random spheres at every shape, at meshes cut in odd ways, with bodies that are turned.
+//
+// In a few places the answer hangs on the last digits: a contact that barely touches, two directions 20 degrees apart.
+// A sphere whose answer in double precision changes when it is moved or grown by a ten-millionth of its radius is left
+// out, and these are counted.
+
+#include <algorithm>
+#include <numeric>
+#include <random>
+
+#include "geometry/tessellate.h"
+#include "host/backend/vulkan/pack_bodies.h"
+#include "host/backend/vulkan/split.h"
+#include "host/core/error.h"
+#include "host/vk/commands.h"
+#include "host/vk/pipeline.h"
+#include "spirv/body_features.spv.h"
+#include "spirv/body_features_texel.spv.h"
+#include "tests/geometry/mesh_samples.h"
+#include "tests/geometry/shatter.h"
+#include "tests/support/gpu.h"
+#include "tests/support/near.h"
+
+using namespace vkdose;
+using namespace vkdose::geometry;
+using namespace vkdose::test;
+
+namespace {
+
+using Facets = std::vector<Triangle>;
+
+struct Answer {
+    std::uint32_t count = 0;
+    bool mayTouch = false, mayBeNear = false;
+    std::vector<Feature> features;  ///< normal in the world; distance
+};
+
+struct Query {
+    Vec3 centre{0};  ///< in the world [m]
+    double radius = 0;
+    std::uint32_t body = 0;
+};
+
+/// A sphere's place as the device gets it.
+Vec3 rounded(const Vec3& v) {
+    const Split3 s(v);
+    return Vec3(s.high) + Vec3(s.low);
+}
+
+/// Runs tests/pass/body_features.comp.
+class Narrow {
+  public:
+    static constexpr std::size_t kQueries = 4096, kBodies = 4;
+
+    std::vector<Answer> ask(const PackedBodies& bodies, const std::vector<Pose>& poses,
+                            const std::vector<Query>& queries) {
+        REQUIRE(bodies.table.size() <= kVectors);
+        REQUIRE(queries.size() <= kQueries);
+        geometry_.writeAll(bodies.table);
+        std::vector<gpu::BodyMotion> motions;
+        for (const Pose& pose : poses) motions.push_back(packMotion(pose, {}));
+        motions_.writeAll(motions);
+        std::vector<gpu::vec4> centres;
+        for (const Query& q : queries) {
+            const Split3 s(q.centre);
+            centres.emplace_back(s.high, float(q.radius));
+            centres.emplace_back(s.low, float(q.body));
+        }
+        queries_.writeAll(centres);
+        vk::Commands commands(device_);
+        commands.begin();
+        bindings_.bind(commands.handle());
+        pipeline_.bind(commands.handle());
+        const auto count = std::uint32_t(queries.size());
+        bindings_.push(commands.handle(), &count);
+        commands.dispatch((count + 63) / 64, 1, 1);
+        commands.hostBarrier();
+        commands.submit();
+        for (const std::string& message : device_.validationMessages()) FAIL_CHECK(message);
+        return answers(queries);
+    }
+
+    const vk::Device& device() const { return device_; }
+
+  private:
+    static constexpr std::size_t kVectors = 1 << 20;
+
+    std::vector<Answer> answers(const std::vector<Query>& queries) const {
+        const auto counts = counts_.readAll<gpu::uvec4>(queries.size());
+        const auto places = places_.readAll<gpu::vec4>(queries.size() * kMaxFeatures);
+        std::vector<Answer> all;
+        for (std::size_t q = 0; q < queries.size(); ++q) {
+            Answer a{counts[q].x, counts[q].y != 0, counts[q].z != 0, {}};
+            for (std::size_t k = 0; k < std::min<std::size_t>(a.count, kMaxFeatures); ++k) {
+                const gpu::vec4 p = places[q * kMaxFeatures + k];
+                Feature f;
+                f.normal = Vec3(glm::vec3(p));
+                f.distance = queries[q].radius - double(p.w);
+                a.features.push_back(f);
+            }
+            all.push_back(std::move(a));
+        }
+        return all;
+    }
+
+    vk::Device device_{testDevice()};
+    vk::Buffer geometry_{device_, "geometry", kVectors * sizeof(gpu::uvec4)};
+    vk::Buffer motions_{device_, "motions", kBodies * sizeof(gpu::BodyMotion)};
+    vk::Buffer queries_{device_, "queries", 2 * kQueries * sizeof(gpu::vec4)};
+    vk::Buffer counts_{device_, "counts", kQueries * sizeof(gpu::uvec4)};
+    vk::Buffer places_{device_, "places", kQueries * kMaxFeatures * sizeof(gpu::vec4)};
+    vk::BindingSet bindings_{device_, {&geometry_, &motions_, &queries_, &counts_, &places_}, 4};
+    vk::Pipeline pipeline_{device_, bindings_, body_features_spv, std::vector{0xffffffffU}};
+};
+
+/// Whether two answers have the same features, whatever their order: depths within `depth` [m], directions within
+/// `direction`.
+bool alike(const std::vector<Feature>& a, const std::vector<Feature>& b, double depth, double direction) {
+    if (a.size() != b.size()) return false;
+    std::vector<bool> taken(b.size(), false);
+    for (const Feature& f : a) {
+        bool found = false;
+        for (std::size_t k = 0; k < b.size() && !found; ++k) {
+            found = !taken[k] && std::abs(f.distance - b[k].distance) <= depth &&
+                    glm::length(f.normal - b[k].normal) <= direction;
+            if (found) taken[k] = true;
+        }
+        if (!found) return false;
+    }
+    return true;
+}
+
+/// Whether the answer hangs on the last digits.
+bool onEdge(const std::vector<Shape>& shapes, const Vec3& q, double radius, const std::vector<Feature>& answer) {
+    constexpr double kNudge = 1e-7;
+    const auto changes = [&](const Vec3& off, double grown) {
+        // Edges and corners turn a direction by the nudge; nothing else may turn it by more.
+        return !alike(answer, touched(shapes, q + kNudge * radius * off, radius * (1 + kNudge * grown)),
+                      10 * kNudge * radius, 1e-4);
+    };
+    for (int d = 0; d < 3; ++d) {
+        Vec3 off(0);
+        for (const double step : {-1.0, 1.0}) {
+            off[d] = step;
+            if (changes(off, 0)) return true;
+        }
+    }
+    return changes(Vec3(0), 1) || changes(Vec3(0), -1);
+}
+
+/// A body and where the spheres around it are, in its frame.
+struct Setup {
+    std::string name;
+    std::vector<Shape> shapes;
+    double radius = 0;  ///< of the spheres [m]
+    Vec3 low{0}, high{0};
+    double depthError = 1e-6;  ///< allowed error of an overlap, as a fraction of it
+    double turnError = 2e-6;   ///< allowed error of a direction [rad]
+};
+
+struct Tally {
+    std::size_t asked = 0, met = 0, several = 0, left = 0, wrongNumber = 0, wrongPlace = 0, wrongOrder = 0, missed = 0,
+                farNear = 0;
+    double worstDepth = 0;  ///< error of an overlap, as a fraction of what is allowed
+    double worstTurn = 0;   ///< error of a direction
+};
+
+Vec3 within(std::mt19937_64& random, const Vec3& low, const Vec3& high) {
+    std::uniform_real_distribution<double> unit(0, 1);
+    const double x = unit(random), y = unit(random), z = unit(random);
+    return low + (high - low) * Vec3(x, y, z);
+}
+
+Pose anyPose(std::mt19937_64& random) {
+    std::normal_distribution<double> normal;
+    const double w = normal(random), x = normal(random), y = normal(random), z = normal(random);
+    return {glm::normalize(Rotation(w, x, y, z)), within(random, Vec3(-0.1), Vec3(0.1))};
+}
+
+RigidBody bodyOf(std::vector<Shape> shapes) {
+    RigidBody body;
+    body.name = "part";
+    body.shapes = std::move(shapes);
+    return body;
+}
+
+/// `spheres` that touch by up to a fifth of their radius, and a tenth as many that do not.
+Tally compare(Narrow& narrow, const Setup& setup, std::size_t spheres, unsigned seed = 11) {
+    std::mt19937_64 random(seed);
+    const Pose pose = anyPose(random);
+    const double radius = double(float(setup.radius));
+    std::vector<Query> queries;
+    std::vector<std::vector<Feature>> expected;
+    std::vector<Vec3> centres;
+    Tally tally;
+    std::size_t others = 0;
+    for (std::size_t n = 0; n < 200 * spheres && queries.size() < spheres; ++n) {
+        const Vec3 world = rounded(pose.toWorld(within(random, setup.low, setup.high)));
+        const Vec3 q = pose.toBody(world);
+        const std::vector<Feature> found = touched(setup.shapes, q, radius);
+        const bool touches = !found.empty() && found.front().distance > 0.8 * radius;
+        if (!touches && (!found.empty() || 10 * others++ > queries.size())) continue;
+        queries.push_back({world, radius, 0});
+        expected.push_back(found);
+        centres.push_back(q);
+    }
+    const PackedBodies packed = packBodies({bodyOf(setup.shapes)}, radius * 1.05);
+    const std::vector<Answer> answers = narrow.ask(packed, {pose}, queries);
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+        ++tally.asked;
+        if (onEdge(setup.shapes, centres[i], radius, expected[i])) {
+            ++tally.left;
+            continue;
+        }
+        const Answer& a = answers[i];
+        if (!expected[i].empty()) ++tally.met;
+        if (expected[i].size() > 1) ++tally.several;
+        if (!expected[i].empty() && !(a.mayTouch && a.mayBeNear)) ++tally.missed;
+        if (expected[i].empty() && a.mayBeNear) ++tally.farNear;
+        if (a.count != expected[i].size()) {
+            ++tally.wrongNumber;
+            continue;
+        }
+        std::vector<Feature> world = expected[i];
+        for (Feature& f : world) f.normal = pose.directionToWorld(f.normal);
+        if (!alike(world, a.features, 0.01 * radius, 0.01)) ++tally.wrongPlace;
+        for (std::size_t k = 0; k < world.size(); ++k) {
+            if (k > 0 && a.features[k].distance < a.features[k - 1].distance) ++tally.wrongOrder;
+            // The nearest in direction is the same feature.
+            const auto nearest = std::min_element(
+                a.features.begin(), a.features.end(), [&](const Feature& f, const Feature& g) {
+                    return glm::dot(f.normal, world[k].normal) > glm::dot(g.normal, world[k].normal);
+                });
+            const double depth = radius - world[k].distance;
+            const double allowed = setup.depthError * depth + 1e-13 * (1 + 1 / radius * 1e-3);
+            tally.worstDepth =
+                std::max(tally.worstDepth, std::abs(nearest->distance - world[k].distance) / allowed);
+            tally.worstTurn = std::max(tally.worstTurn, glm::length(nearest->normal - world[k].normal));
+        }
+    }
+    return tally;
+}
+
+void check(Narrow& narrow, const Setup& setup, std::size_t spheres, std::size_t atLeast) {
+    const Tally t = compare(narrow, setup, spheres);
+    CAPTURE(setup.name, setup.radius, t.asked, t.met, t.several, t.left, t.wrongNumber, t.wrongPlace, t.wrongOrder,
+            t.missed, t.farNear, t.worstDepth, t.worstTurn);
+    CHECK(t.met >= atLeast);
+    CHECK(t.left * 100 <= t.asked);
+    CHECK(t.wrongNumber == 0);
+    CHECK(t.wrongPlace == 0);
+    CHECK(t.wrongOrder == 0);
+    CHECK(t.missed == 0);
+    CHECK(t.worstDepth <= 1);
+    CHECK(t.worstTurn <= setup.turnError);
+}
+
+std::shared_ptr<const MeshSurface> meshOf(const Facets& facets, double reach) {
+    return std::make_shared<MeshSurface>(makeMesh(soupOf(facets, "facets"), 1e-10).mesh, reach);
+}
+
+/// A block between two corners, seen from outside.
+Facets block(const Vec3& low, const Vec3& high) {
+    Facets surface;
+    const Sample s = cube();
+    for (const auto& t : s.triangles) {
+        Triangle corners;
+        for (int i = 0; i < 3; ++i) corners[i] = low + (high - low) * s.points[t[i]];
+        surface.push_back(corners);
+    }
+    return surface;
+}
+
+Facets sheet(const Vec3& corner, const Vec3& u, const Vec3& v) {
+    return {{corner, corner + u, corner + u + v}, {corner, corner + u + v, corner + v}};
+}
+
+/// The wall of a prism with 64 sides.
+Facets tube(double radius, double length) {
+    Facets surface;
+    constexpr int kSides = 64;
+    const auto at = [&](int i, double z) {
+        const double angle = 2 * kPi * (i % kSides) / kSides;
+        return Vec3(radius * std::cos(angle), radius * std::sin(angle), z);
+    };
+    for (int i = 0; i < kSides; ++i) {
+        surface.push_back({at(i, 0), at(i + 1, 0), at(i + 1, length)});
+        surface.push_back({at(i, 0), at(i + 1, length), at(i, length)});
+    }
+    return surface;
+}
+
+}  // namespace
+
+TEST_CASE("the device finds the features of exact shapes as the host does") {
+    const Vec3 tilted = glm::normalize(Vec3(1, 2, 3));
+    const std::vector<Setup> setups{
+        {"plane", {Plane{{0.02, 0.03, -0.01}, tilted}}, 1e-3, Vec3(-0.03), Vec3(0.05)},
+        {"plane with an end", {Plane{{0, -2e-3, 0}, {0, 1, 0}, 5e-3}}, 1e-3, Vec3(-3e-3, -3.5e-3, 3e-3), Vec3(7e-3)},
+        {"disc with a hole", {Cone{{1e-3, 0, 0}, tilted, 4e-3, 10e-3, 0}}, 1e-3, Vec3(-12e-3), Vec3(12e-3)},
+        {"cylinder", {Cone{{0, 0, 0}, tilted, 8e-3, 8e-3, 15e-3}}, 1e-3, Vec3(-12e-3), Vec3(20e-3)},
+        {"hopper", {Cone{{0.01, 0.02, 0}, {0, -1, 0}, 50e-3, 4e-3, 60e-3}}, 1e-3, Vec3(-0.05, -0.06, -0.05),
+         Vec3(0.07, 0.03, 0.05)},
+        {"hopper's outlet", {Cone{{0, 0, 0}, {0, -1, 0}, 20e-3, 3e-3, 30e-3}}, 4e-3, Vec3(-3e-3, -34e-3, -3e-3),
+         Vec3(3e-3, -24e-3, 3e-3)},
+        {"ball", {Ball{{1e-3, 2e-3, 3e-3}, 6e-3}}, 1e-3, Vec3(-8e-3), Vec3(10e-3)},
+        {"solid block", {Block{Vec3(-4e-3), Vec3(5e-3), false}}, 1e-3, Vec3(-6e-3), Vec3(7e-3)},
+        {"room", {Block{Vec3(-4e-3), Vec3(5e-3), true}}, 1e-3, Vec3(-3.3e-3), Vec3(4.3e-3)},
+        {"tube from inside", {Tube{{0, 0, 0}, tilted, 8e-3, 15e-3, true}}, 1e-3, Vec3(-8e-3), Vec3(14e-3)},
+        {"tube from outside", {Tube{{0, 0, 0}, tilted, 8e-3, 15e-3, false}}, 1e-3, Vec3(-8e-3), Vec3(14e-3)},
+        {"endless tube", {Tube{{0, 0, 0}, tilted, 8e-3, kEndless, true}}, 1e-3, Vec3(-12e-3), Vec3(14e-3)},
+    };
+    Narrow narrow;
+    for (const Setup& setup : setups) check(narrow, setup, 2000, 1000);
+}
+
+TEST_CASE("the device finds the features of meshes as the host does, however they are cut") {
+    struct Way {
+        const char* name;
+        Facets facets;
+        double radius;
+        Vec3 low, high;
+    };
+    // Bodies of a tenth of a metre, spheres from a fiftieth of the body to four times its size.
+    constexpr double kSize = 0.1;
+    const auto around = [&](const char* name, const Facets& facets, double radius, const Vec3& high) {
+        return Way{name, facets, radius, Vec3(-radius), high + radius};
+    };
+    std::vector<Way> ways;
+    for (const double radius : {1e-3, 0.02, 0.3})
+        ways.push_back(around("plate", sheet(Vec3(0), {kSize, 0, 0}, {0, kSize, 0}), radius, {kSize, kSize, 0}));
+    for (const double radius : {2e-3, 0.03, 0.4}) {
+        ways.push_back(around("block", block(Vec3(0), Vec3(kSize)), radius, Vec3(kSize)));
+        ways.push_back(around("thin blade", block(Vec3(0), {kSize, kSize, 1e-3}), radius, {kSize, kSize, 1e-3}));
+    }
+    ways.push_back(around("rod", block(Vec3(0), {2e-3, 1e-3, kSize}), 1e-3, {2e-3, 1e-3, kSize}));
+    ways.push_back({"room", block(Vec3(0), Vec3(kSize)), 0.01, Vec3(0.008), Vec3(kSize - 0.008)});
+    ways.push_back({"corner of a room", block(Vec3(0), Vec3(kSize)), 0.01, Vec3(0.008), Vec3(0.012)});
+    for (const double radius : {2e-3, 0.02, 0.09})
+        ways.push_back({"tube", tube(kSize, kSize), radius, Vec3(-kSize + 0.7 * radius, -kSize + 0.7 * radius, 0.01),
+                        Vec3(kSize - 0.7 * radius, kSize - 0.7 * radius, 0.09)});
+    Narrow narrow;
+    for (const Way& way : ways) {
+        int number = 0;
+        for (const Mesh& mesh : tenTriangulations(way.facets)) {
+            const Setup setup{fmt::format("{}, triangulation {}", way.name, number++),
+                              {std::make_shared<MeshSurface>(mesh, way.radius * 1.1)},
+                              way.radius,
+                              way.low,
+                              way.high};
+            check(narrow, setup, 300, 150);
+        }
+    }
+}
+
+TEST_CASE("the device joins the shapes of a body as the host does, and finds curved meshes") {
+    const Flight screw{3e-3, 10e-3, 1e-3, 9e-3, 9e-3, 8 * kPi, 2e-3, 0.4, 1};
+    const Cone hopper{{0, 0, 0}, {0, -1, 0}, 20e-3, 3e-3, 30e-3};
+    const auto meshed = [](const Shape& shape, double facet, double reach) {
+        return meshOf(tessellated(shape, facet, Vec3(-1), Vec3(1)), reach);
+    };
+    const Cone wall{{0, 0, 0}, {0, 0, 1}, 0.01, 0.01, 0.03}, floor{{0, 0, 0}, {0, 0, 1}, 0, 0.01, 0},
+        lid{{0, 0, 0.03}, {0, 0, 1}, 0, 0.01, 0};
+    const std::vector<Setup> setups{
+        {"rod of three cones", {wall, floor, lid}, 2.5e-3, Vec3(-0.013, -0.013, -3e-3), Vec3(0.013, 0.013, 0.033)},
+        {"pot", {wall, floor}, 2e-3, Vec3(-9e-3, -9e-3, 1.5e-3), Vec3(9e-3, 9e-3, 8e-3)},
+        {"screw with its shaft", {meshed(screw, 1e-3, 1.1e-3), Tube{{0, 0, 0}, {0, 0, 1}, 3e-3, 50e-3, false}}, 1e-3,
+         Vec3(-12e-3, -12e-3, 1e-3), Vec3(12e-3, 12e-3, 40e-3)},
+        {"fine screw", {meshed(screw, 0.4e-3, 1.4e-3)}, 1.25e-3, Vec3(-12e-3, -12e-3, 1e-3), Vec3(12e-3, 12e-3, 40e-3)},
+        {"hopper's outlet", {meshed(hopper, 1e-3, 4.4e-3)}, 4e-3, Vec3(-1e-3, -30e-3, -1e-3), Vec3(1e-3, -25e-3, 1e-3)},
+        {"two meshes and a plane", {meshed(Ball{Vec3(0), 5e-3}, 1e-3, 2e-3), Plane{{0, 0, 4e-3}, {0, 0, -1}},
+                                    meshOf(block(Vec3(6e-3, -5e-3, -5e-3), Vec3(8e-3, 5e-3, 5e-3)), 2e-3)},
+         1.8e-3, Vec3(-7e-3), Vec3(7e-3, 7e-3, 4e-3)},
+    };
+    Narrow narrow;
+    for (const Setup& setup : setups) check(narrow, setup, 2000, 1000);
+}
