@@ -1,6 +1,7 @@
 #include "host/app/command_table.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cctype>
 #include <sstream>
 
@@ -11,6 +12,16 @@ namespace {
 std::string upper(std::string text) {
     for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
     return text;
+}
+
+/// The words of "free|easy|cohesive"; none of "DIR|STUDY", which are kinds of things.
+std::vector<std::string> wordsIn(const std::string& value) {
+    const bool words = value.find('|') != std::string::npos &&
+                       std::all_of(value.begin(), value.end(), [](char c) { return c == '|' || std::islower(c) != 0; });
+    std::vector<std::string> list;
+    std::istringstream stream(words ? value : "");
+    for (std::string word; std::getline(stream, word, '|');) list.push_back(word);
+    return list;
 }
 
 /// A check's text as people write it: "INT in [1 - 16]" is 1 to 16. "{dark,light}" become the words.
@@ -40,6 +51,8 @@ OptionText textOf(const CLI::Option& option) {
     const std::string type = option.get_type_name();
     const std::size_t colon = type.find(':');
     if (option.get_items_expected_max() > 0) text.value = type.substr(0, colon);
+    text.words = wordsIn(text.value);
+    if (!text.words.empty()) text.value = "KIND";
     if (colon != std::string::npos) readCheck(text, type.substr(colon + 1));
     text.meaning = option.get_description();
     text.standard = option.get_default_str();

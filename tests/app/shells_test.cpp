@@ -53,6 +53,7 @@ TEST_CASE("completion: bash completes commands, options, words, files and names 
     CHECK(offered(box, "vkdose run --b") == std::vector<std::string>{"--backend"});
     CHECK(offered(box, "vkdose run --backend ''") == std::vector<std::string>{"reference", "vulkan"});
     CHECK(offered(box, "vkdose render out --view c") == std::vector<std::string>{"cut"});
+    CHECK(offered(box, "vkdose new my.toml --flow ''") == std::vector<std::string>{"cohesive", "easy", "free"});
     CHECK(has(offered(box, "vkdose run q"), "quickstart"));
     CHECK(has(offered(box, "vkdose check paper-48g-w"), "paper-48g-wide"));
     CHECK(has(offered(box, "vkdose sweep strong"), "strong-cohesion"));
