@@ -71,7 +71,8 @@ void wirePlaces(ShapeData s, uint tag, Two3 centre, float radius) {
 bool mayBeNear(uint body, Two3 centre, float reach) {
     uvec2 shapes = geometryAt(kBodyVectors * body).xy;
     bool near = false;
-    for (uint n = 0u; n < shapes.y && !near; ++n) {
+    uint n = 0u;
+    for (; n < shapes.y && !near; ++n) {
         uint shape = shapes.x + kShapeVectors * n;
         uvec4 head = geometryAt(shape);
         if (!withinSphere(shape + 1u, centre.high, reach)) continue;
@@ -87,7 +88,7 @@ bool mayBeNear(uint body, Two3 centre, float reach) {
         if ((SHAPE_KINDS & kExactShapes) != 0u)
             near = near || exactOverlap(head.x, shapeData(shape), centre, reach).depth > 0.0;
     }
-    return near;
+    return near || n < shapes.y;
 }
 
 uint touchedFeatures(uint body, Two3 centre, float radius) {

@@ -2,12 +2,13 @@
 // of the centre on a face, if it lies in it; on an edge, if the direction to the centre leads into neither face; a
 // vertex, if it leads along none of its edges.
 //
-// Most triangles of a cell are out of reach. So the work is done in rounds of three steps, each for what the one before
-// has left over: a coarse test of triangles, in plain floats; for a few of them a closer look, still in plain floats,
-// which tells the parts that may be a place; for these parts the exact computation. What is in doubt goes on to the
-// next step: `margin` is more than the error of the plain floats. The exact tests overlap by kSquare, so that a place
+// Most triangles of a cell are out of reach. So the work is done in three steps, each for what the one before has left
+// over: a coarse test of 32 triangles, in plain floats; for a few of them a closer look, still in plain floats, which
+// tells the parts that may be a place; for these parts the exact computation. What is in doubt goes on to the next
+// step: `margin` is more than the error of the plain floats. The exact tests overlap by kSquare, so that a place
 // between two parts is found by one of them at least; found by both, it is one feature. Each edge and vertex belongs to
-// one of its triangles, so that it is looked at once.
+// one of its triangles, so that it is looked at once. What a step leaves over is kept as bits of a word: lavapipe takes
+// minutes to compile arrays with many readers.
 //
 // The including file defines uvec4 geometryAt(uint i): vector i of the table `geometry`.
 //
@@ -33,8 +34,9 @@
 #include "law/twoproduct.glsl"
 
 const float kSquare = 1e-6;  // directions count as square to each other to this
-const uint kPending = 8u;    // triangles of a round
-const uint kNotAFace = 0xffffffffu;
+const uint kRound = 32u;     // triangles of a round, one bit of a word each
+// Places that one triangle adds at most. A face and its parts at once are places only where they are nearly the same.
+const uint kMostOfTriangle = 3u;
 
 vec4 realsAt(uint i) { return uintBitsToFloat(geometryAt(i)); }
 
@@ -64,6 +66,17 @@ bool mayReach(uint triangle, vec3 centre, float reach) {
 
 uint nthTriangle(uint lists, uint list, uint n) { return geometryAt(lists + list + n / 4u)[n & 3u]; }
 
+/// Of four triangles of a list, from number n on, a bit for each that may have a point within `reach` of a point.
+uint reachAmongFour(uint lists, uvec2 list, uint n, uint triangles, vec3 centre, float reach) {
+    uvec4 at = triangles + kTriangleVectors * geometryAt(lists + list.x + n / 4u);
+    uint last = list.y - 1u;
+    uint left = mayReach(at.x, centre, reach) ? 1u : 0u;
+    if (n + 1u <= last && mayReach(at.y, centre, reach)) left |= 2u;
+    if (n + 2u <= last && mayReach(at.z, centre, reach)) left |= 4u;
+    if (n + 3u <= last && mayReach(at.w, centre, reach)) left |= 8u;
+    return left;
+}
+
 /// An edge of a triangle as plain floats see it from the centre.
 struct EdgeView {
     float side;    // how far inside the triangle the foot lies, from the edge [m]
@@ -80,8 +93,15 @@ EdgeView edgeView(vec3 fromBegin, vec3 edge, vec3 normal) {
     return EdgeView(dot(cross(normal, e), fromBegin), past, past - size, dot(off, off));
 }
 
-/// An edge's share in the answer. Where the foot on face number `face` lies beyond the edge, strikes that face out.
-void edgePlace(uint edges, uint word, uint face, uint firstTag, Two3 centre, float radius) {
+/// A place to be: it is one if `depth` > 0.
+struct MeshPlace {
+    float depth;
+    vec3 direction;
+    float intoOwn;  // of an edge: how far the direction leads into the face that asks
+};
+
+/// Of an edge, as its triangle's word names it.
+MeshPlace edgePlace(uint edges, uint word, Two3 centre, float radius) {
     uint at = edges + kEdgeVectors * (word >> 2);
     vec4 begin = realsAt(at), beginLow = realsAt(at + 1u), along = realsAt(at + 2u), alongLow = realsAt(at + 3u);
     vec4 first = realsAt(at + 4u);
@@ -95,12 +115,11 @@ void edgePlace(uint edges, uint word, uint face, uint firstTag, Two3 centre, flo
     vec3 u = away > 0.0 ? off.high / away : normalize(cross(first.xyz, e.high));
     float depth = differenceOfSquares(vec2(radius, 0.0), off) / (radius + away);
     float intoFirst = dot(u, first.xyz), intoSecond = dot(u, second);
-    if (face != kNotAFace && ((word & 1u) == 0u ? intoFirst : intoSecond) < -kSquare) dropPlace(face);
     bool isPlace = (word & 2u) != 0u && past.x > 0.0 && beyond < 0.0 && max(intoFirst, intoSecond) <= kSquare;
-    if (isPlace && depth > 0.0) addPlace(depth, u, firstTag + (word >> 2));
+    return MeshPlace(isPlace ? depth : -1.0, u, (word & 1u) == 0u ? intoFirst : intoSecond);
 }
 
-void vertexPlace(uint vertices, uint number, uint firstTag, Two3 centre, float radius) {
+MeshPlace vertexPlace(uint vertices, uint number, Two3 centre, float radius) {
     uint at = vertices + kVertexVectors * number;
     uvec4 place = geometryAt(at), placeLow = geometryAt(at + 1u);
     Two3 d = twoDifference(centre.high, centre.low, uintBitsToFloat(place.xyz), uintBitsToFloat(placeLow.xyz));
@@ -110,65 +129,88 @@ void vertexPlace(uint vertices, uint number, uint firstTag, Two3 centre, float r
     uint k = 0u;
     for (; k < placeLow.w && isPlace; ++k) isPlace = dot(realsAt(place.w + k).xyz, d.high) <= kSquare * away;
     if (isPlace && k < placeLow.w) placesLost = true;
-    if (isPlace) addPlace(depth, away > 0.0 ? d.high / away : vec3(0.0, 0.0, 1.0), firstTag + number);
+    return MeshPlace(isPlace ? depth : -1.0, away > 0.0 ? d.high / away : vec3(0.0, 0.0, 1.0), 0.0);
+}
+
+// Parts of a triangle, as bits: three edges, three corners, the face.
+const uint kPartCorner = 8u;
+const uint kPartFace = 64u;
+
+/// Adds the places of a triangle's parts. `at` is its record, `tags` are the first ones of faces, edges and vertices.
+void trianglePlaces(uint at, uint triangle, uvec3 starts, uvec3 tags, Two3 centre, float radius, float margin) {
+    uvec4 v1 = geometryAt(at + 1u), v2 = geometryAt(at + 2u), v3 = geometryAt(at + 3u);
+    uvec4 v4 = geometryAt(at + 4u), v5 = geometryAt(at + 5u), v6 = geometryAt(at + 6u);
+    Two3 d = twoDifference(centre.high, centre.low, uintBitsToFloat(v2.xyz), uintBitsToFloat(v3.xyz));
+    vec3 normal = uintBitsToFloat(v1.xyz);
+    vec3 to1 = uintBitsToFloat(v5.xyz), to2 = uintBitsToFloat(v6.xyz);
+    vec3 from1 = d.high - to1, from2 = d.high - to2;
+    EdgeView a = edgeView(d.high, to1, normal), b = edgeView(from1, to2 - to1, normal);
+    EdgeView c = edgeView(from2, -to2, normal);
+    float reach2 = (radius + margin) * (radius + margin);
+
+    vec2 height = twoDot(d, Two3(normal, uintBitsToFloat(v4.xyz)));
+    float up = height.x < 0.0 ? -1.0 : 1.0;
+    precise float depth = (radius - up * height.x) - up * height.y;
+    bool face = depth > 0.0 && min(min(a.side, b.side), c.side) > -margin;
+    uint parts = face ? kPartFace : 0u;
+    // Edges where the foot may be outside, with a place within reach, or where the face is in doubt.
+    bvec3 own = bvec3((v2.w & 2u) != 0u && a.past > -margin && a.beyond < margin && a.away2 < reach2,
+                      (v3.w & 2u) != 0u && b.past > -margin && b.beyond < margin && b.away2 < reach2,
+                      (v4.w & 2u) != 0u && c.past > -margin && c.beyond < margin && c.away2 < reach2);
+    if (a.side < margin && (own.x || face)) parts |= 1u;
+    if (b.side < margin && (own.y || face)) parts |= 2u;
+    if (c.side < margin && (own.z || face)) parts |= 4u;
+    // Corners that the centre lies beyond, as both their edges see it.
+    if ((v5.w & 1u) != 0u && a.past < margin && c.beyond > -margin && dot(d.high, d.high) < reach2)
+        parts |= kPartCorner;
+    if ((v6.w & 1u) != 0u && b.past < margin && a.beyond > -margin && dot(from1, from1) < reach2)
+        parts |= kPartCorner << 1;
+    if ((v1.w & 1u) != 0u && c.past < margin && b.beyond > -margin && dot(from2, from2) < reach2)
+        parts |= kPartCorner << 2;
+
+    // The face comes last, when its edges have had their say.
+    bool inFace = true;
+    for (uint n = 0u; n < 7u && parts != 0u; ++n) {
+        uint part = parts & (~parts + 1u);
+        parts &= ~part;
+        MeshPlace place = MeshPlace(depth, up * normal, 0.0);
+        uint tag = tags.x + triangle;
+        if (part < kPartCorner) {
+            uint word = part == 1u ? v2.w : part == 2u ? v3.w : v4.w;
+            place = edgePlace(starts.y, word, centre, radius);
+            tag = tags.y + (word >> 2);
+            inFace = inFace && place.intoOwn >= -kSquare;
+        } else if (part < kPartFace) {
+            uint number = (part == kPartCorner ? v5.w : part == 2u * kPartCorner ? v6.w : v1.w) >> 1;
+            place = vertexPlace(starts.z, number, centre, radius);
+            tag = tags.z + number;
+        } else if (!inFace) {
+            place.depth = -1.0;
+        }
+        if (place.depth > 0.0) addPlace(place.depth, place.direction, tag);
+    }
 }
 
 /// Adds the places of the mesh to the list. `shape` is its record, `head` the first vector of it.
 void meshPlaces(uint shape, uvec4 head, Two3 centre, float radius) {
     float margin = uintBitsToFloat(geometryAt(shape + 3u).w);
-    uvec4 starts = geometryAt(shape + 4u);
-    uint firstEdge = head.y + geometryAt(shape + 5u).x, firstVertex = firstEdge + geometryAt(shape + 5u).y;
+    uvec3 starts = geometryAt(shape + 4u).xyz;
+    uvec2 numbers = geometryAt(shape + 5u).xy;
+    uvec3 tags = uvec3(head.y, head.y + numbers.x, head.y + numbers.x + numbers.y);
     uvec2 list = cellList(shape, head.z, centre.high);
-    float reach = radius + margin, reach2 = reach * reach;
-
-    uint pending[kPending];
-    uvec2 pendingEdges[3u * kPending];  // word, face to strike out
-    uint pendingVertices[3u * kPending];
+    float reach = radius + margin;
     uint n = 0u;
-    for (uint round = 0u; round < kMostInCell && n < list.y; ++round) {
-        uint triangles = 0u, edges = 0u, vertices = 0u;
-        for (; n < list.y && triangles < kPending; ++n) {
-            uint t = nthTriangle(head.w, list.x, n);
-            if (mayReach(starts.x + kTriangleVectors * t, centre.high, reach)) pending[triangles++] = t;
+    for (; n < list.y; n += kRound) {
+        uint left = 0u, end = min(n + kRound, list.y);
+        for (uint k = n; k < end; k += 4u)
+            left |= reachAmongFour(head.w, list, k, starts.x, centre.high, reach) << (k - n);
+        for (uint k = n; k < end && left != 0u; ++k) {
+            uint bit = left & (~left + 1u);
+            left &= ~bit;
+            uint t = nthTriangle(head.w, list.x, n + uint(findLSB(bit)));
+            if (placeCount + kMostOfTriangle > kMostPlaces) thinPlaces();
+            trianglePlaces(starts.x + kTriangleVectors * t, t, starts, tags, centre, radius, margin);
         }
-        for (uint k = 0u; k < triangles; ++k) {
-            uint t = pending[k], at = starts.x + kTriangleVectors * t;
-            uvec4 v1 = geometryAt(at + 1u), v2 = geometryAt(at + 2u), v3 = geometryAt(at + 3u);
-            uvec4 v4 = geometryAt(at + 4u), v5 = geometryAt(at + 5u), v6 = geometryAt(at + 6u);
-            Two3 d = twoDifference(centre.high, centre.low, uintBitsToFloat(v2.xyz), uintBitsToFloat(v3.xyz));
-            vec3 normal = uintBitsToFloat(v1.xyz);
-            vec3 to1 = uintBitsToFloat(v5.xyz), to2 = uintBitsToFloat(v6.xyz);
-            vec3 from1 = d.high - to1, from2 = d.high - to2;
-            EdgeView a = edgeView(d.high, to1, normal), b = edgeView(from1, to2 - to1, normal);
-            EdgeView c = edgeView(from2, -to2, normal);
-
-            vec2 height = twoDot(d, Two3(normal, uintBitsToFloat(v4.xyz)));
-            float up = height.x < 0.0 ? -1.0 : 1.0;
-            precise float depth = (radius - up * height.x) - up * height.y;
-            bool face = depth > 0.0 && min(min(a.side, b.side), c.side) > -margin;
-            if (face) addPlace(depth, up * normal, head.y + t);
-
-            // Edges where the foot may be outside, with a place within reach, or where the face is in doubt.
-            uvec3 words = uvec3(v2.w, v3.w, v4.w);
-            bvec3 outside = lessThan(vec3(a.side, b.side, c.side), vec3(margin));
-            vec3 past = vec3(a.past, b.past, c.past), beyond = vec3(a.beyond, b.beyond, c.beyond);
-            vec3 away2 = vec3(a.away2, b.away2, c.away2);
-            for (uint i = 0u; i < 3u; ++i) {
-                bool own = (words[i] & 2u) != 0u && past[i] > -margin && beyond[i] < margin && away2[i] < reach2;
-                if (outside[i] && (own || face)) pendingEdges[edges++] = uvec2(words[i], face ? head.y + t : kNotAFace);
-            }
-            // Corners that the centre lies beyond, as both their edges see it.
-            if ((v5.w & 1u) != 0u && a.past < margin && c.beyond > -margin && dot(d.high, d.high) < reach2)
-                pendingVertices[vertices++] = v5.w >> 1;
-            if ((v6.w & 1u) != 0u && b.past < margin && a.beyond > -margin && dot(from1, from1) < reach2)
-                pendingVertices[vertices++] = v6.w >> 1;
-            if ((v1.w & 1u) != 0u && c.past < margin && b.beyond > -margin && dot(from2, from2) < reach2)
-                pendingVertices[vertices++] = v1.w >> 1;
-        }
-        for (uint k = 0u; k < edges; ++k)
-            edgePlace(starts.y, pendingEdges[k].x, pendingEdges[k].y, firstEdge, centre, radius);
-        for (uint k = 0u; k < vertices; ++k)
-            vertexPlace(starts.z, pendingVertices[k], firstVertex, centre, radius);
     }
     if (n < list.y) placesLost = true;
 }
@@ -178,10 +220,10 @@ bool mayTouchMesh(uint shape, uvec4 head, vec3 centre, float reach) {
     float margin = uintBitsToFloat(geometryAt(shape + 3u).w);
     uint triangles = geometryAt(shape + 4u).x;
     uvec2 list = cellList(shape, head.z, centre);
-    bool may = false;
-    for (uint n = 0u; n < list.y && !may; ++n)
-        may = mayReach(triangles + kTriangleVectors * nthTriangle(head.w, list.x, n), centre, reach + margin);
-    return may;
+    uint found = 0u, n = 0u;
+    for (; n < list.y && found == 0u; n += 4u)
+        found = reachAmongFour(head.w, list, n, triangles, centre, reach + margin);
+    return found != 0u || n < list.y;
 }
 
 #endif

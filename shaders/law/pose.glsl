@@ -1,5 +1,5 @@
-// From the world to the frame of a body and back (shared/geometry.h, BodyMotion). A centre goes to the body in two-float
-// arithmetic, so that an overlap found there is as good as one found in the world.
+// From the world to the frame of a body and back (shared/geometry.h, BodyMotion). A centre goes to the body in
+// two-float arithmetic, so that an overlap found there is as good as one found in the world.
 #ifndef VKDOSE_LAW_POSE_GLSL
 #define VKDOSE_LAW_POSE_GLSL
 

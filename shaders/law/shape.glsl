@@ -115,8 +115,7 @@ Overlap blockShape(ShapeData s, Two3 centre, float radius) {
     Two3 off = Two3(mix(mix(vec3(0.0), below.high, over), above.high, under),
                     mix(mix(vec3(0.0), below.low, over), above.low, under));
     float away = length(off.high);
-    if (away > 0.0)
-        return Overlap(differenceOfSquares(vec2(radius, 0.0), off) / (radius + away), off.high / away);
+    if (away > 0.0) return Overlap(differenceOfSquares(vec2(radius, 0.0), off) / (radius + away), off.high / away);
     vec3 low = above.high, high = -below.high;
     float least = min(min(min(low.x, high.x), min(low.y, high.y)), min(low.z, high.z));
     vec3 normal = low.x == least    ? vec3(-1.0, 0.0, 0.0)

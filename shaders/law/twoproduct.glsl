@@ -14,7 +14,8 @@ vec2 quickSum(float high, float low) {
 
 /// a b of each component, and its rounding error. Splitting at 12 bits makes the partial products exact.
 Two3 twoProduct(vec3 a, vec3 b) {
-    vec3 aTop = uintBitsToFloat(floatBitsToUint(a) & 0xfffff000u), bTop = uintBitsToFloat(floatBitsToUint(b) & 0xfffff000u);
+    vec3 aTop = uintBitsToFloat(floatBitsToUint(a) & 0xfffff000u),
+         bTop = uintBitsToFloat(floatBitsToUint(b) & 0xfffff000u);
     precise vec3 p = a * b;
     precise vec3 aRest = a - aTop;
     precise vec3 bRest = b - bTop;

@@ -50,8 +50,8 @@ SHARED_CONST kTriangleVectors = 7u;
 SHARED_CONST kEdgeVectors = 5u;
 SHARED_CONST kVertexVectors = 2u;
 // Most triangles in one cell of a mesh's grid, and most edges at one of its vertices: software devices end loops.
-SHARED_CONST kMostInCell = 8192u;
-SHARED_CONST kMostAtVertex = 8192u;
+SHARED_CONST kMostInCell = 4096u;
+SHARED_CONST kMostAtVertex = 4096u;
 
 /// Where a body is and how it moves at one time.
 struct BodyMotion {

@@ -11,19 +11,35 @@ struct Query {
     vec4 low;   // w: number of the body
 };
 
-layout(std430, set = 0, binding = 0) readonly buffer GeometryBuffer { uvec4 geometry[]; };
-layout(std430, set = 0, binding = 1) readonly buffer MotionBuffer { BodyMotion motions[]; };
-layout(std430, set = 0, binding = 2) readonly buffer QueryBuffer { Query queries[]; };
-layout(std430, set = 0, binding = 3) writeonly buffer CountBuffer { uvec4 counts[]; };
-layout(std430, set = 0, binding = 4) writeonly buffer FeatureBuffer { vec4 answers[]; };  // direction in the world, depth
-layout(push_constant) uniform Push { uint queryCount; };
+layout(std430, set = 0, binding = 0) readonly buffer GeometryBuffer {
+    uvec4 geometry[];
+};
+layout(std430, set = 0, binding = 1) readonly buffer MotionBuffer {
+    BodyMotion motions[];
+};
+layout(std430, set = 0, binding = 2) readonly buffer QueryBuffer {
+    Query queries[];
+};
+layout(std430, set = 0, binding = 3) writeonly buffer CountBuffer {
+    uvec4 counts[];
+};
+layout(std430, set = 0, binding = 4) writeonly buffer FeatureBuffer {
+    vec4 answers[];
+};  // direction in the world, depth
+layout(push_constant) uniform Push {
+    uint queryCount;
+};
 
 #ifdef TEXEL_READS
 #extension GL_EXT_samplerless_texture_functions : require
 layout(set = 0, binding = 5) uniform utextureBuffer geometryView;
-uvec4 geometryAt(uint i) { return texelFetch(geometryView, int(i)); }
+uvec4 geometryAt(uint i) {
+    return texelFetch(geometryView, int(i));
+}
 #else
-uvec4 geometryAt(uint i) { return geometry[i]; }
+uvec4 geometryAt(uint i) {
+    return geometry[i];
+}
 #endif
 
 #include "law/features.glsl"

@@ -6,7 +6,7 @@
 // out, and these are counted.
 
 #include <algorithm>
-#include <numeric>
+#include <map>
 #include <random>
 
 #include "geometry/tessellate.h"
@@ -15,7 +15,7 @@
 #include "host/core/error.h"
 #include "host/vk/commands.h"
 #include "host/vk/pipeline.h"
-#include "spirv/body_features.spv.h"
+
 #include "spirv/body_features_texel.spv.h"
 #include "tests/geometry/mesh_samples.h"
 #include "tests/geometry/shatter.h"
@@ -71,7 +71,7 @@ class Narrow {
         vk::Commands commands(device_);
         commands.begin();
         bindings_.bind(commands.handle());
-        pipeline_.bind(commands.handle());
+        pipeline(bodies.kinds).bind(commands.handle());
         const auto count = std::uint32_t(queries.size());
         bindings_.push(commands.handle(), &count);
         commands.dispatch((count + 63) / 64, 1, 1);
@@ -84,7 +84,16 @@ class Narrow {
     const vk::Device& device() const { return device_; }
 
   private:
-    static constexpr std::size_t kVectors = 1 << 20;
+    static constexpr std::size_t kVectors = 1 << 21;
+
+    const vk::Pipeline& pipeline(std::uint32_t kinds) {
+        const auto known = pipelines_.find(kinds);
+        if (known != pipelines_.end()) return known->second;
+        return pipelines_
+            .emplace(std::piecewise_construct, std::forward_as_tuple(kinds),
+                     std::forward_as_tuple(device_, bindings_, body_features_texel_spv, std::vector{kinds}))
+            .first->second;
+    }
 
     std::vector<Answer> answers(const std::vector<Query>& queries) const {
         const auto counts = counts_.readAll<gpu::uvec4>(queries.size());
@@ -105,13 +114,13 @@ class Narrow {
     }
 
     vk::Device device_{testDevice()};
-    vk::Buffer geometry_{device_, "geometry", kVectors * sizeof(gpu::uvec4)};
+    vk::Buffer geometry_{device_, "geometry", kVectors * sizeof(gpu::uvec4), VK_FORMAT_R32G32B32A32_UINT};
     vk::Buffer motions_{device_, "motions", kBodies * sizeof(gpu::BodyMotion)};
     vk::Buffer queries_{device_, "queries", 2 * kQueries * sizeof(gpu::vec4)};
     vk::Buffer counts_{device_, "counts", kQueries * sizeof(gpu::uvec4)};
-    vk::Buffer places_{device_, "places", kQueries * kMaxFeatures * sizeof(gpu::vec4)};
+    vk::Buffer places_{device_, "places", kQueries* kMaxFeatures * sizeof(gpu::vec4)};
     vk::BindingSet bindings_{device_, {&geometry_, &motions_, &queries_, &counts_, &places_}, 4};
-    vk::Pipeline pipeline_{device_, bindings_, body_features_spv, std::vector{0xffffffffU}};
+    std::map<std::uint32_t, vk::Pipeline> pipelines_;  // by the kinds of shapes
 };
 
 /// Whether two answers have the same features, whatever their order: depths within `depth` [m], directions within
@@ -228,14 +237,13 @@ Tally compare(Narrow& narrow, const Setup& setup, std::size_t spheres, unsigned 
         for (std::size_t k = 0; k < world.size(); ++k) {
             if (k > 0 && a.features[k].distance < a.features[k - 1].distance) ++tally.wrongOrder;
             // The nearest in direction is the same feature.
-            const auto nearest = std::min_element(
-                a.features.begin(), a.features.end(), [&](const Feature& f, const Feature& g) {
+            const auto nearest =
+                std::min_element(a.features.begin(), a.features.end(), [&](const Feature& f, const Feature& g) {
                     return glm::dot(f.normal, world[k].normal) > glm::dot(g.normal, world[k].normal);
                 });
             const double depth = radius - world[k].distance;
             const double allowed = setup.depthError * depth + 1e-13 * (1 + 1 / radius * 1e-3);
-            tally.worstDepth =
-                std::max(tally.worstDepth, std::abs(nearest->distance - world[k].distance) / allowed);
+            tally.worstDepth = std::max(tally.worstDepth, std::abs(nearest->distance - world[k].distance) / allowed);
             tally.worstTurn = std::max(tally.worstTurn, glm::length(nearest->normal - world[k].normal));
         }
     }
@@ -300,9 +308,15 @@ TEST_CASE("the device finds the features of exact shapes as the host does") {
         {"plane with an end", {Plane{{0, -2e-3, 0}, {0, 1, 0}, 5e-3}}, 1e-3, Vec3(-3e-3, -3.5e-3, 3e-3), Vec3(7e-3)},
         {"disc with a hole", {Cone{{1e-3, 0, 0}, tilted, 4e-3, 10e-3, 0}}, 1e-3, Vec3(-12e-3), Vec3(12e-3)},
         {"cylinder", {Cone{{0, 0, 0}, tilted, 8e-3, 8e-3, 15e-3}}, 1e-3, Vec3(-12e-3), Vec3(20e-3)},
-        {"hopper", {Cone{{0.01, 0.02, 0}, {0, -1, 0}, 50e-3, 4e-3, 60e-3}}, 1e-3, Vec3(-0.05, -0.06, -0.05),
+        {"hopper",
+         {Cone{{0.01, 0.02, 0}, {0, -1, 0}, 50e-3, 4e-3, 60e-3}},
+         1e-3,
+         Vec3(-0.05, -0.06, -0.05),
          Vec3(0.07, 0.03, 0.05)},
-        {"hopper's outlet", {Cone{{0, 0, 0}, {0, -1, 0}, 20e-3, 3e-3, 30e-3}}, 4e-3, Vec3(-3e-3, -34e-3, -3e-3),
+        {"hopper's outlet",
+         {Cone{{0, 0, 0}, {0, -1, 0}, 20e-3, 3e-3, 30e-3}},
+         4e-3,
+         Vec3(-3e-3, -34e-3, -3e-3),
          Vec3(3e-3, -24e-3, 3e-3)},
         {"ball", {Ball{{1e-3, 2e-3, 3e-3}, 6e-3}}, 1e-3, Vec3(-8e-3), Vec3(10e-3)},
         {"solid block", {Block{Vec3(-4e-3), Vec3(5e-3), false}}, 1e-3, Vec3(-6e-3), Vec3(7e-3)},
@@ -344,6 +358,8 @@ TEST_CASE("the device finds the features of meshes as the host does, however the
     for (const Way& way : ways) {
         int number = 0;
         for (const Mesh& mesh : tenTriangulations(way.facets)) {
+            // All of it is within reach of a sphere that is as large.
+            if (way.radius > 0.5 * kSize && mesh.triangles.size() > gpu::kMostInCell) continue;
             const Setup setup{fmt::format("{}, triangulation {}", way.name, number++),
                               {std::make_shared<MeshSurface>(mesh, way.radius * 1.1)},
                               way.radius,
@@ -356,7 +372,6 @@ TEST_CASE("the device finds the features of meshes as the host does, however the
 
 TEST_CASE("the device joins the shapes of a body as the host does, and finds curved meshes") {
     const Flight screw{3e-3, 10e-3, 1e-3, 9e-3, 9e-3, 8 * kPi, 2e-3, 0.4, 1};
-    const Cone hopper{{0, 0, 0}, {0, -1, 0}, 20e-3, 3e-3, 30e-3};
     const auto meshed = [](const Shape& shape, double facet, double reach) {
         return meshOf(tessellated(shape, facet, Vec3(-1), Vec3(1)), reach);
     };
@@ -365,13 +380,18 @@ TEST_CASE("the device joins the shapes of a body as the host does, and finds cur
     const std::vector<Setup> setups{
         {"rod of three cones", {wall, floor, lid}, 2.5e-3, Vec3(-0.013, -0.013, -3e-3), Vec3(0.013, 0.013, 0.033)},
         {"pot", {wall, floor}, 2e-3, Vec3(-9e-3, -9e-3, 1.5e-3), Vec3(9e-3, 9e-3, 8e-3)},
-        {"screw with its shaft", {meshed(screw, 1e-3, 1.1e-3), Tube{{0, 0, 0}, {0, 0, 1}, 3e-3, 50e-3, false}}, 1e-3,
-         Vec3(-12e-3, -12e-3, 1e-3), Vec3(12e-3, 12e-3, 40e-3)},
+        {"screw with its shaft",
+         {meshed(screw, 1e-3, 1.1e-3), Tube{{0, 0, 0}, {0, 0, 1}, 3e-3, 50e-3, false}},
+         1e-3,
+         Vec3(-12e-3, -12e-3, 1e-3),
+         Vec3(12e-3, 12e-3, 40e-3)},
         {"fine screw", {meshed(screw, 0.4e-3, 1.4e-3)}, 1.25e-3, Vec3(-12e-3, -12e-3, 1e-3), Vec3(12e-3, 12e-3, 40e-3)},
-        {"hopper's outlet", {meshed(hopper, 1e-3, 4.4e-3)}, 4e-3, Vec3(-1e-3, -30e-3, -1e-3), Vec3(1e-3, -25e-3, 1e-3)},
-        {"two meshes and a plane", {meshed(Ball{Vec3(0), 5e-3}, 1e-3, 2e-3), Plane{{0, 0, 4e-3}, {0, 0, -1}},
-                                    meshOf(block(Vec3(6e-3, -5e-3, -5e-3), Vec3(8e-3, 5e-3, 5e-3)), 2e-3)},
-         1.8e-3, Vec3(-7e-3), Vec3(7e-3, 7e-3, 4e-3)},
+        {"two meshes and a plane",
+         {meshed(Ball{Vec3(0), 5e-3}, 1e-3, 2e-3), Plane{{0, 0, 4e-3}, {0, 0, -1}},
+          meshOf(block(Vec3(6e-3, -5e-3, -5e-3), Vec3(8e-3, 5e-3, 5e-3)), 2e-3)},
+         1.8e-3,
+         Vec3(-7e-3),
+         Vec3(7e-3, 7e-3, 4e-3)},
     };
     Narrow narrow;
     for (const Setup& setup : setups) check(narrow, setup, 2000, 1000);

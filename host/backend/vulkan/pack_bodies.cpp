@@ -90,8 +90,7 @@ class Packer {
 
     /// A little larger, so that rounding leaves nothing outside.
     static uvec4 sphere(const Around& around) {
-        return bits(glm::vec3(around.centre),
-                    float(around.radius * (1 + 1e-6) + 1e-6 * glm::length(around.centre)));
+        return bits(glm::vec3(around.centre), float(around.radius * (1 + 1e-6) + 1e-6 * glm::length(around.centre)));
     }
 
     static Around aroundAll(const std::vector<Around>& parts) {
@@ -198,14 +197,14 @@ class Packer {
         set(6, p.motion);
         const double turns = wire.startAngle / (2 * kPi);
         set(7, vec4(float(turns - std::round(turns)), 0, 0, 0));
-        return {Vec3(0, 0, wire.zStart + wire.length / 2),
-                std::hypot(wire.radius, wire.length / 2) + wire.wireRadius};
+        return {Vec3(0, 0, wire.zStart + wire.length / 2), std::hypot(wire.radius, wire.length / 2) + wire.wireRadius};
     }
 
     Around pack(const geometry::Flight&) {
-        throw RunError(fmt::format("body \"{}\": the device has no screw flight; use a mesh of it, or --backend "
-                                   "reference",
-                                   name_));
+        throw RunError(
+            fmt::format("body \"{}\": the device has no screw flight; use a mesh of it, or --backend "
+                        "reference",
+                        name_));
     }
 
     Around pack(const std::shared_ptr<const MeshSurface>& surface) {
@@ -229,9 +228,10 @@ class Packer {
         for (std::size_t c = 0; c < cells; ++c) {
             const uint32_t count = grid.first[c + 1] - grid.first[c];
             if (count > gpu::kMostInCell)
-                throw RunError(fmt::format("body \"{}\": {} triangles of its mesh are within reach of one place; the "
-                                           "device holds {}. Use a coarser mesh, or --backend reference",
-                                           name_, count, uint32_t(gpu::kMostInCell)));
+                throw RunError(
+                    fmt::format("body \"{}\": {} triangles of its mesh are within reach of one place; the "
+                                "device holds {}. Use a coarser mesh, or --backend reference",
+                                name_, count, uint32_t(gpu::kMostInCell)));
             const auto half = glm::length_t(2 * (c % 2));
             table_[heads + c / 2][half] = index(table_.size() - lists);
             table_[heads + c / 2][half + 1] = count;
@@ -279,9 +279,7 @@ class Packer {
             const auto& faces = mesh.edges[edges[i]].faces;
             return edges[i] << 2 | (faces[0] == t ? 2u : 1u);
         };
-        const auto cornerWord = [&](int i) {
-            return corners[i] << 1 | (owners[corners[i]] == t ? 1u : 0u);
-        };
+        const auto cornerWord = [&](int i) { return corners[i] << 1 | (owners[corners[i]] == t ? 1u : 0u); };
         const Vec3 &a = mesh.vertices[corners[0]], &b = mesh.vertices[corners[1]], &c = mesh.vertices[corners[2]];
         const Split3 start(a), normal(surface.normals()[t]);
         const Around around = aroundTriangle(a, b, c);
@@ -313,17 +311,17 @@ class Packer {
         for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
             const uint32_t first = mesh.firstNeighbour[v], count = mesh.firstNeighbour[v + 1] - first;
             if (count > gpu::kMostAtVertex)
-                throw RunError(fmt::format("body \"{}\": {} edges of its mesh meet at one vertex; the device follows "
-                                           "{}. Cut the mesh otherwise, or use --backend reference",
-                                           name_, count, uint32_t(gpu::kMostAtVertex)));
+                throw RunError(
+                    fmt::format("body \"{}\": {} edges of its mesh meet at one vertex; the device follows "
+                                "{}. Cut the mesh otherwise, or use --backend reference",
+                                name_, count, uint32_t(gpu::kMostAtVertex)));
             const Split3 place(mesh.vertices[v]);
             table_.push_back(bits(place.high, index(directions + first)));
             table_.push_back(bits(place.low, count));
         }
         for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
             for (uint32_t n = mesh.firstNeighbour[v]; n < mesh.firstNeighbour[v + 1]; ++n)
-                table_.push_back(
-                    bits(glm::vec3(glm::normalize(mesh.vertices[mesh.neighbours[n]] - mesh.vertices[v]))));
+                table_.push_back(bits(glm::vec3(glm::normalize(mesh.vertices[mesh.neighbours[n]] - mesh.vertices[v]))));
     }
 
     /// Of each vertex, the first of its triangles.
