@@ -45,13 +45,6 @@ bool isKind(const fs::path& file, bool study) {
     }
 }
 
-/// The names that `folder` itself offers, without ".toml".
-void addNames(const fs::path& folder, std::vector<std::string>& names) {
-    std::error_code code;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder, code))
-        if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
-}
-
 }  // namespace
 
 std::vector<fs::path> caseFolders() {
@@ -73,8 +66,8 @@ fs::path findCase(const fs::path& name, const std::vector<fs::path>& folders) {
         }
     }
     if (name.has_parent_path() || name.has_extension()) return name;
-    std::vector<std::string> names;
-    for (const fs::path& folder : folders) addNames(folder, names);
+    std::vector<std::string> names = namesOfCases(false, folders), studies = namesOfCases(true, folders);
+    names.insert(names.end(), studies.begin(), studies.end());
     const std::string meant = closestWord(name.string(), names);
     throw UsageError(fmt::format("there is neither a file {} nor a case of that name; {}", name.string(),
                                  meant.empty() ? "give the path of a case file, or a name such as quickstart"
