@@ -11,6 +11,7 @@
 #include "host/app/measures.h"
 #include "host/app/new_answers.h"
 #include "host/app/new_design.h"
+#include "host/app/text.h"
 #include "host/core/file.h"
 #include "host/core/printable.h"
 
@@ -111,6 +112,9 @@ void tell(const NewDesign& d, const Case& c, const std::filesystem::path& file) 
                lengthText(d.wire.value));
     fmt::print("powder     {} in {} spheres of {} to {}\n", massText(filled.mass), filled.particles.size(),
                lengthText(2 * d.size.radiusMin), lengthText(2 * d.size.radiusMax));
+    const double steps = derive(c, filled).steps;
+    fmt::print("work       about {:.3g} million steps, {}particle-steps (vkdose check --measure tells the time)\n",
+               steps * 1e-6, large(steps * static_cast<double>(filled.particles.size())));
     std::string assumed;
     for (const std::string& what : d.assumed) assumed += (assumed.empty() ? "" : ", ") + what;
     if (!assumed.empty()) fmt::print("assumed    {}\n", assumed);

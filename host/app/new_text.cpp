@@ -140,7 +140,7 @@ void writeSchedule(CaseText& out, const NewDesign& d) {
     out.table("stop");
     out.word("rule", "experiment", "ends also when 3 doses together give no more than threshold_g");
     out.line("threshold_g", figureText(1e3 * rounded(0.03 * d.massPerDose, 1)), "a hundredth of three doses");
-    out.line("max_doses", fmt::format("{}", d.doses), "");
+    out.line("max_doses", fmt::format("{}", d.doses), "dose 1 also fills the throat, so that it gives less");
     out.table("time");
     out.word("step_s", "auto", "as long as the stiffest contact allows");
     out.table("sensors");

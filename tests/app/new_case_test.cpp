@@ -85,7 +85,8 @@ TEST_CASE("new: three devices give cases that check has nothing against") {
         const auto made = box.vkdose("new my.toml " + device.options);
         CAPTURE(made.err);
         REQUIRE(made.code == 0);
-        CHECK_THAT(made.out, Catch::Contains("vkdose check my.toml") && !Catch::Contains("warning"));
+        CHECK_THAT(made.out, Catch::Contains("vkdose check my.toml") && Catch::Contains("particle-steps") &&
+                                 !Catch::Contains("warning"));
         const auto check = checked(box, "my.toml");
         std::vector<std::string> names;
         for (const auto& w : check["warnings"]) {
