@@ -74,7 +74,7 @@ void writeCase(const Study& study, const SweepFolder& folder, const std::vector<
     const std::filesystem::path file = folder.path() / "calibrated.toml";
     const std::string reason = fmt::format("Calibrated by {}: {}", study.name, how);
     replaceFile(file, caseAt(study, point, study.file.stem().string() + "-calibrated", reason));
-    fmt::print("calibrated {}\n", printable(file.string()));
+    fmt::print("calibrated {}\nnext       vkdose run {}\n", printable(file.string()), shellWord(file.string()));
 }
 
 /// After the sweep: the table, and the case at the crossing that is chosen.

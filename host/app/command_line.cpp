@@ -10,11 +10,13 @@
 #include <string>
 #include <vector>
 
+#include "host/app/command_table.h"
 #include "host/app/commands.h"
 #include "host/app/exit_code.h"
 #include "host/app/find_case.h"
 #include "host/app/help.h"
 #include "host/app/manual.h"
+#include "host/app/new_answers.h"
 
 namespace vkdose {
 
@@ -53,6 +55,23 @@ void addShow(CLI::App& command, bool& quiet, bool& live) {
     auto* silent = command.add_flag("--quiet", quiet, "print errors only");
     command.add_flag("--live", live, "show the bed and the doses on the terminal while the run goes on")
         ->excludes(silent);
+}
+
+void addNew(CLI::App& program, NewOptions& options) {
+    CLI::App& command =
+        *program.add_subcommand("new", "write a commented case from a device and a powder, or ask for them");
+    command.add_option("file", options.file, "case to write (TOML); it must not be there yet")
+        ->required()
+        ->type_name("FILE");
+    const auto questions = newQuestions();
+    options.answers.resize(questions.size());
+    for (std::size_t i = 0; i < questions.size(); ++i) {
+        const NewQuestion& q = questions[i];
+        const std::string standard = q.standard == nullptr ? "" : fmt::format(" (default: {})", q.standard);
+        command.add_option(q.option, options.answers[i], q.meaning + standard)->type_name(q.form);
+    }
+    command.add_flag("--ask", options.ask,
+                     "ask for what is not given; without any option this is done on a terminal anyway");
 }
 
 void addRun(CLI::App& program, RunOptions& options) {
@@ -183,11 +202,18 @@ CLI::App& addSweep(CLI::App& program, const char* name, const char* what, SweepO
 }
 
 void addReport(CLI::App& program, ReportOptions& options) {
-    CLI::App& command = *program.add_subcommand("report", "write an HTML report of a run or a sweep");
-    command.add_option("source", options.source, "output folder of a run or a sweep, or a study's file")
+    CLI::App& command = *program.add_subcommand(
+        "report", "write an HTML report of a run or a sweep, or of several runs beside each other");
+    command
+        .add_option("source", options.sources,
+                    "output folder of a run or a sweep, or a study's file; several folders of runs are compared")
         ->required()
         ->type_name("DIR|STUDY");
-    command.add_option("--out", options.out, "page to write (default: report.html in the folder)")->type_name("FILE");
+    command
+        .add_option(
+            "--out", options.out,
+            "page to write (default: report.html in the folder; of several runs comparison.html in the current one)")
+        ->type_name("FILE");
     command.add_option("--experiment", options.experiment, "readings of a balance (CSV), shown beside a run's doses")
         ->type_name("FILE");
     command.add_option("--expected", options.expected, "table of published results (TOML), by which a sweep is judged")
@@ -318,6 +344,20 @@ void addManual(CLI::App& program, ManualOptions& options) {
     all.add_flag("--brief", options.brief, "list the commands alone, a line each");
 }
 
+/// The commands that print what shells and man(1) read.
+void addShells(CLI::App& program, ShellOptions& options) {
+    CLI::App& completion =
+        *program.add_subcommand("completion", "print the completion of the command line for a shell");
+    completion.add_option("shell", options.shell, "the shell")->check(CLI::IsMember({"bash", "zsh", "fish"}));
+    completion.add_option("--names", options.names, "print the names of what can be given")
+        ->check(CLI::IsMember({"case", "study"}))
+        ->group("");
+    CLI::App& man = *program.add_subcommand("man", "print the page for man(1), of vkdose or of a command");
+    man.add_option("command", options.command, "a command of vkdose; without one the page that lists them");
+    man.add_option("--out", options.out, "folder to write all the pages into, vkdose.1 and one for each command")
+        ->type_name("DIR");
+}
+
 /// Runs `command`; every error becomes lines on stderr and an exit code.
 int guarded(const std::function<int()>& command) {
     try {
@@ -354,6 +394,7 @@ int commandLine(int argc, const char* const* argv) {
     CLI::App program("Simulates the dosing of cohesive powder by a turning coil (discrete element method).", "vkdose");
     program.set_version_flag("--version", "vkdose " VKDOSE_VERSION);
     program.require_subcommand(1);
+    NewOptions made;
     RunOptions run;
     ResumeOptions resume;
     CheckOptions check;
@@ -366,6 +407,7 @@ int commandLine(int argc, const char* const* argv) {
     ReportOptions report;
     ProfileOptions profile;
     RenderOptions render;
+    addNew(program, made);
     addRun(program, run);
     addResume(program, resume);
     addCheck(program, check);
@@ -385,6 +427,8 @@ int commandLine(int argc, const char* const* argv) {
     addRender(program, render);
     ManualOptions manual;
     addManual(program, manual);
+    ShellOptions shells;
+    addShells(program, shells);
     addExamples(program);
     if (argc < 2) return printed(overview(program));
     try {
@@ -395,6 +439,7 @@ int commandLine(int argc, const char* const* argv) {
         fmt::print(stderr, "{}", usageFault(program, e.what(), argc > 1 ? argv[1] : ""));
         return kBadInput;
     }
+    if (program.got_subcommand("new")) return guarded([&] { return newCommand(made); });
     if (program.got_subcommand("run")) return guarded([&] { return runCommand(named(run)); });
     if (program.got_subcommand("resume")) return guarded([&] { return resumeCommand(resume); });
     if (program.got_subcommand("check")) return guarded([&] { return checkCommand(named(check)); });
@@ -410,6 +455,9 @@ int commandLine(int argc, const char* const* argv) {
     if (program.got_subcommand("keys")) return guarded([&] { return printed(keysPage(manual.study)); });
     if (program.got_subcommand("columns")) return guarded([&] { return printed(columnsPage(manual.sweep)); });
     if (program.got_subcommand("options")) return guarded([&] { return printed(optionsPage(program, manual.brief)); });
+    if (program.got_subcommand("completion"))
+        return guarded([&] { return completionCommand(commandTexts(program), shells); });
+    if (program.got_subcommand("man")) return guarded([&] { return manCommand(commandTexts(program), shells); });
     return guarded([] { return devicesCommand(); });
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "host/app/backends.h"
+#include "host/app/command_table.h"
 #include "host/photo/profile.h"
 
 namespace vkdose {
@@ -16,6 +17,12 @@ namespace vkdose {
 struct CaseOptions {
     std::filesystem::path file;
     std::vector<std::string> overrides;  ///< "key.path=value"
+};
+
+struct NewOptions {
+    std::filesystem::path file;
+    std::vector<std::string> answers;  ///< to newQuestions(), in their order; empty: not given
+    bool ask = false;                  ///< for what is not given, even if nobody sits at a terminal
 };
 
 struct RunOptions {
@@ -93,8 +100,8 @@ struct SweepOptions {
 };
 
 struct ReportOptions {
-    std::filesystem::path source;                     ///< folder of a run or a sweep, or a study's file
-    std::filesystem::path out;                        ///< empty: report.html in the folder
+    std::vector<std::filesystem::path> sources;  ///< folder of a run or a sweep, or a study's file; or several runs
+    std::filesystem::path out;                   ///< empty: report.html in the folder, of several comparison.html
     std::optional<std::filesystem::path> experiment;  ///< a balance's readings
     std::optional<std::filesystem::path> expected;    ///< published results
     std::vector<std::string> profiles;                ///< surfaces measured on photographs, "FILE" or "FILE@DOSE"
@@ -122,6 +129,15 @@ struct RenderOptions {
     std::optional<double> from, to;  ///< ends of the colour bar, in its unit
 };
 
+/// What `vkdose completion` and `vkdose man` print.
+struct ShellOptions {
+    std::string shell;
+    std::string names;  ///< instead: the names of "case" or "study"
+    std::string command;
+    std::filesystem::path out;
+};
+
+int newCommand(const NewOptions& options);
 int runCommand(const RunOptions& options);
 int resumeCommand(const ResumeOptions& options);
 int checkCommand(const CheckOptions& options);
@@ -135,5 +151,8 @@ int calibrateCommand(const SweepOptions& options);
 int reportCommand(const ReportOptions& options);
 int profileCommand(const ProfileOptions& options);
 int renderCommand(const RenderOptions& options);
+
+int completionCommand(const std::vector<CommandText>& commands, const ShellOptions& options);
+int manCommand(const std::vector<CommandText>& commands, const ShellOptions& options);
 
 }  // namespace vkdose

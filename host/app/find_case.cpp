@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 #include <string>
 
 #include "host/app/backends.h"
@@ -33,11 +34,15 @@ std::vector<fs::path> places(const fs::path& folder) {
     return all;
 }
 
-/// The names that `folder` itself offers, without ".toml".
-void addNames(const fs::path& folder, std::vector<std::string>& names) {
-    std::error_code code;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder, code))
-        if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+/// Whether a file is a study, or else a case; neither for what is neither.
+bool isKind(const fs::path& file, bool study) {
+    try {
+        const Node tree = readTreeAlone(file);
+        const bool varies = tree.child("axis") != nullptr || tree.child("calibrate") != nullptr;
+        return study ? varies : !varies && (tree.child("particles") != nullptr || tree.child("base") != nullptr);
+    } catch (const CaseError&) {
+        return false;
+    }
 }
 
 }  // namespace
@@ -61,12 +66,23 @@ fs::path findCase(const fs::path& name, const std::vector<fs::path>& folders) {
         }
     }
     if (name.has_parent_path() || name.has_extension()) return name;
-    std::vector<std::string> names;
-    for (const fs::path& folder : folders) addNames(folder, names);
+    std::vector<std::string> names = namesOfCases(false, folders), studies = namesOfCases(true, folders);
+    names.insert(names.end(), studies.begin(), studies.end());
     const std::string meant = closestWord(name.string(), names);
     throw UsageError(fmt::format("there is neither a file {} nor a case of that name; {}", name.string(),
                                  meant.empty() ? "give the path of a case file, or a name such as quickstart"
                                                : fmt::format("did you mean {}?", meant)));
+}
+
+std::vector<std::string> namesOfCases(bool studies, const std::vector<fs::path>& folders) {
+    std::set<std::string> names;
+    std::error_code code;
+    for (const fs::path& folder : folders)
+        for (const fs::path& place : places(folder))
+            for (const fs::directory_entry& entry : fs::directory_iterator(place, code))
+                if (entry.path().extension() == ".toml" && isKind(entry.path(), studies))
+                    names.insert(entry.path().stem().string());
+    return {names.begin(), names.end()};
 }
 
 }  // namespace vkdose

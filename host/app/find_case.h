@@ -2,6 +2,7 @@
 // Cases and studies by name: `vkdose run quickstart` from any folder.
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace vkdose {
@@ -15,5 +16,8 @@ std::vector<std::filesystem::path> caseFolders();
 /// report.
 std::filesystem::path findCase(const std::filesystem::path& name,
                                const std::vector<std::filesystem::path>& folders = caseFolders());
+
+/// The names by which `findCase` finds the cases in these folders, or the studies; each once, in order.
+std::vector<std::string> namesOfCases(bool studies, const std::vector<std::filesystem::path>& folders = caseFolders());
 
 }  // namespace vkdose

@@ -11,6 +11,11 @@ namespace {
 
 const std::map<std::string, std::vector<std::string>>& examples() {
     static const std::map<std::string, std::vector<std::string>> kAll{
+        {"new",
+         {"vkdose new my.toml                         # asks for the device and the powder",
+          "vkdose new my.toml --canister 80x30x100mm --coil 6x5mm",
+          "vkdose new my.toml --canister 80x30x100mm --coil 5mm --outlet 20mm --fill 48g --bulk-density 471kg/m3 "
+          "--sizes 60/90/130um --flow cohesive"}},
         {"run",
          {"vkdose run quickstart                      # a case that comes with vkdose; it writes out/quickstart",
           "vkdose run my.toml --set coil.speed_rpm=60 --out out/slow",
@@ -36,7 +41,8 @@ const std::map<std::string, std::vector<std::string>>& examples() {
         {"calibrate", {"vkdose calibrate study.toml                # with a table [calibrate] in the study"}},
         {"report",
          {"vkdose report out/quickstart               # writes out/quickstart/report.html",
-          "vkdose report out/quickstart --experiment balance.csv"}},
+          "vkdose report out/quickstart --experiment balance.csv",
+          "vkdose report out/slow out/fast             # writes comparison.html"}},
         {"profile", {"vkdose profile bed.jpg --length-mm 60 --check traced.png"}},
         {"render",
          {"vkdose render out/quickstart               # the end of the run",
@@ -44,6 +50,11 @@ const std::map<std::string, std::vector<std::string>>& examples() {
         {"keys", {"vkdose keys                                # of a case", "vkdose keys --study"}},
         {"columns", {"vkdose columns", "vkdose columns --sweep"}},
         {"options", {"vkdose options --brief"}},
+        {"completion",
+         {"source <(vkdose completion bash)           # in ~/.bashrc",
+          "vkdose completion zsh > ~/.zfunc/_vkdose   # a folder of $fpath",
+          "vkdose completion fish > ~/.config/fish/completions/vkdose.fish"}},
+        {"man", {"vkdose man run | man -l -", "vkdose man --out ~/.local/share/man/man1"}},
     };
     return kAll;
 }
@@ -70,6 +81,7 @@ std::string overview(const CLI::App& program) {
         "  vkdose run quickstart        simulates a small canister and writes out/quickstart\n"
         "  vkdose report out/quickstart writes a page of charts, tables and a player\n\n"
         "A device of your own:\n"
+        "  vkdose new my.toml           asks for a device and a powder, and writes a case with its reasons\n"
         "  vkdose check my.toml         what a case implies, with warnings of what was probably not meant\n"
         "  vkdose keys                  every key of a case file\n\n"
         "Commands:\n";

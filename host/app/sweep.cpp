@@ -46,7 +46,8 @@ int sweepCommand(const SweepOptions& options) {
     // Everything that can be refused is refused before anything is written.
     const Study study = readStudy(options.study);
     if (study.calibration && study.calibration->method == CalibrationAim::Method::Surrogate)
-        throw UsageError(fmt::format("{} is a search, not a sweep; use vkdose calibrate", options.study.string()));
+        throw UsageError(fmt::format("{} is a search, not a sweep; use `vkdose calibrate {}`", options.study.string(),
+                                     shellWord(options.study.string())));
     const std::vector<Member> members = membersOf(study);
     if (options.dryRun) {
         fmt::print("{}", membersText(study, members));

@@ -118,6 +118,7 @@ void SweepDisplay::finish(const SweepFolder& folder, const SweepOutcome& outcome
                    again);
     if (quiet_) return;
     fmt::print("{} done, {} failed\noutput   {}\n", outcome.ok, outcome.failed, printable(folder.path().string()));
+    if (outcome.ok > 0) fmt::print("next     vkdose report {}\n", shellWord(folder.path().string()));
 }
 
 void SweepDisplay::close() {

@@ -10,6 +10,7 @@
 #include "host/report/page.h"
 #include "host/report/player_data.h"
 #include "host/report/run_report.h"
+#include "host/report/runs_report.h"
 #include "host/report/study_report.h"
 #include "host/study/sweep_folder.h"
 
@@ -36,10 +37,35 @@ void requireFolder(const fs::path& folder) {
             fmt::format("report: {} holds neither a run (case.toml) nor a sweep (members.csv)", folder.string()));
 }
 
+/// One page about several runs.
+int compareRuns(const ReportOptions& options) {
+    if (options.experiment || options.expected || !options.profiles.empty())
+        throw UsageError("report: --experiment, --expected and --profile belong to the report of one run or sweep");
+    std::vector<fs::path> read;
+    for (std::size_t i = 0; i < options.sources.size(); ++i) {
+        const fs::path& folder = options.sources[i];
+        requireFolder(folder);
+        if (report::isSweep(folder))
+            throw UsageError(fmt::format(
+                "report: {} is a sweep; it has a report of its own, or name its members' folders", folder.string()));
+        for (std::size_t j = 0; j < i; ++j)
+            if (fs::equivalent(folder, options.sources[j]))
+                throw UsageError(fmt::format("report: {} is named twice", folder.string()));
+        for (const fs::path& file : filesOfRun(folder))
+            if (file.filename() != "report.html") read.push_back(file);
+    }
+    const fs::path file = options.out.empty() ? "comparison.html" : options.out;
+    keepInputs(read, {file});
+    replaceFile(file, report::page(report::runsJson(options.sources)));
+    fmt::print("{}\n", printable(file.string()));
+    return kOk;
+}
+
 }  // namespace
 
 int reportCommand(const ReportOptions& options) {
-    const fs::path folder = folderOf(options.source);
+    if (options.sources.size() > 1) return compareRuns(options);
+    const fs::path folder = folderOf(options.sources.front());
     requireFolder(folder);
     const bool sweep = report::isSweep(folder);
     if (sweep && options.experiment)
@@ -53,7 +79,7 @@ int reportCommand(const ReportOptions& options) {
     const fs::path file = options.out.empty() ? folder / "report.html" : options.out;
     std::vector<fs::path> read = sweep ? SweepFolder::files(folder) : filesOfRun(folder);
     std::erase(read, folder / "report.html");
-    read.push_back(options.source);
+    read.push_back(options.sources.front());
     if (options.experiment) read.push_back(*options.experiment);
     if (options.expected) read.push_back(*options.expected);
     for (const report::Photograph& p : photographs) read.push_back(p.file);

@@ -110,6 +110,7 @@ TEST_CASE("a case or a study is found by its name") {
     CHECK(box.vkdose("sweep coarse-none --dry-run").code == 2);
     CHECK_THAT(box.vkdose("sweep strong-cohesion --dry-run").out, Catch::Contains("member 0000"));
     CHECK_THAT(box.vkdose("check quickstrat").err, Catch::Contains("did you mean quickstart?"));
+    CHECK_THAT(box.vkdose("sweep strong-cohesoin").err, Catch::Contains("did you mean strong-cohesion?"));
     // A file of one's own comes first, and a folder of that name is none.
     box.write("own", readText(VKDOSE_SOURCE_DIR "/cases/mini.toml") + "");
     CHECK(box.vkdose("check own").code == 0);

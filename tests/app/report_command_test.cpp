@@ -65,6 +65,26 @@ TEST_CASE("report: of a run with frames the page has the player, and the surface
     CHECK_THAT(readText(box / "bare/report.html"), !Catch::Contains("three.js"));
 }
 
+TEST_CASE("report: several runs go into one page, in the current folder or where it is told to") {
+    const Sandbox box;
+    writeRun(box, "one", "a");
+    writeRun(box, "two", "my b");
+    writeSweep(box);
+    auto outcome = box.vkdose("report a 'my b'");
+    CHECK(outcome.code == kOk);
+    CHECK(outcome.out == "comparison.html\n");
+    CHECK_THAT(readText(box / "comparison.html"), Catch::Contains("<title>a, my b</title>"));
+    CHECK(box.vkdose("report a 'my b' --out there.html").code == kOk);
+    CHECK(readText(box / "there.html") == readText(box / "comparison.html"));
+    std::filesystem::remove(box / "comparison.html");
+    for (const char* bad : {"a a/", "a sweep", "a nowhere", "a 'my b' --experiment x.csv"}) {
+        CAPTURE(bad);
+        CHECK(box.vkdose(std::string("report ") + bad).code == kBadInput);
+    }
+    CHECK(box.vkdose("report a 'my b' --out a/doses.csv").code == kBadInput);
+    CHECK_FALSE(std::filesystem::exists(box / "comparison.html"));
+}
+
 TEST_CASE("report: what cannot be reported on is refused, and nothing is written") {
     const Sandbox box;
     writeRun(box, "why");

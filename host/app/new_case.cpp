@@ -1,0 +1,143 @@
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <iostream>
+
+#include "host/advice/advice.h"
+#include "host/app/commands.h"
+#include "host/app/exit_code.h"
+#include "host/app/inputs.h"
+#include "host/app/measures.h"
+#include "host/app/new_answers.h"
+#include "host/app/new_design.h"
+#include "host/app/text.h"
+#include "host/core/file.h"
+#include "host/core/printable.h"
+
+namespace vkdose {
+
+namespace {
+
+constexpr const char* kExample = "vkdose new my.toml --canister 80x30x100mm --coil 6x5mm --fill 48g";
+
+/// Asks until the answer can be understood; an empty one takes what holds without.
+void ask(const NewQuestion& q, NewAnswers& answers) {
+    for (;;) {
+        fmt::print("{}\n  ", q.meaning);
+        if (q.standard == nullptr)
+            fmt::print("(such as {}): ", q.example);
+        else
+            fmt::print("(such as {}; empty: {}): ", q.example, q.standard);
+        std::fflush(stdout);
+        std::string line;
+        if (!std::getline(std::cin, line))
+            throw UsageError(fmt::format("new: the answers end before {}; nothing was written", q.option));
+        const bool empty = line.find_first_not_of(" \t\r") == std::string::npos;
+        if (empty && q.standard != nullptr) return;
+        if (empty) continue;
+        try {
+            q.take(answers, q, line);
+            return;
+        } catch (const UsageError& e) {
+            fmt::print("  {}\n", e.what());
+        }
+    }
+}
+
+NewAnswers answersTo(const NewOptions& options) {
+    const auto questions = newQuestions();
+    NewAnswers answers;
+    bool any = false;
+    for (std::size_t i = 0; i < questions.size(); ++i) {
+        if (options.answers[i].empty()) continue;
+        questions[i].take(answers, questions[i], options.answers[i]);
+        any = true;
+    }
+    if (options.ask || (!any && ::isatty(STDIN_FILENO) == 1)) {
+        fmt::print("A device and its powder, in a few questions; units are written with the numbers.\n\n");
+        for (std::size_t i = 0; i < questions.size(); ++i)
+            if (questions[i].asked && options.answers[i].empty()) ask(questions[i], answers);
+        fmt::print("\n");
+    }
+    if (!answers.canister) throw UsageError(fmt::format("new: --canister is needed: `{}`, or --ask", kExample));
+    if (!answers.turns && !answers.pitch)
+        throw UsageError(fmt::format("new: --coil is needed: `{}`, or --ask", kExample));
+    return answers;
+}
+
+/// The case of a design. What does not fit together is told by its key, because there is no file yet.
+Case caseOf(const NewDesign& design, const std::filesystem::path& file) {
+    try {
+        return loadResolvedCase(newCaseText(design), file);
+    } catch (const CaseError& e) {
+        std::string text = "new: these do not fit together, and nothing was written";
+        for (const Diagnostic& d : e.faults())
+            text += fmt::format("\n{}{}{}: {}; {}", printable(d.key), d.value.empty() ? "" : " = ", printable(d.value),
+                                printable(d.problem), printable(d.remedy));
+        throw UsageError(text);
+    }
+}
+
+void requireNewFile(const std::filesystem::path& file) {
+    std::error_code code;
+    if (std::filesystem::exists(std::filesystem::symlink_status(file, code)))
+        throw UsageError(fmt::format("new: {} is there already; give another name", printable(file.string())));
+    const std::string suffix = file.extension().string();
+    if (suffix != ".toml" || !file.has_filename())
+        throw UsageError(fmt::format("new {}: a case is a TOML file; give a name that ends in .toml, such as my.toml",
+                                     printable(file.string())));
+}
+
+/// Writes a file that was not there: never over another one, even if that has come in the meantime.
+void writeNew(const std::filesystem::path& file, const std::string& text) {
+    ::close(openOutput(file, O_WRONLY | O_CREAT | O_EXCL));
+    try {
+        replaceFile(file, text);
+    } catch (const OutputError&) {
+        ::unlink(file.c_str());
+        throw;
+    }
+}
+
+void tell(const NewDesign& d, const Case& c, const std::filesystem::path& file) {
+    const Insertion filled = insertParticles(c);
+    fmt::print("wrote      {}\n", printable(file.string()));
+    fmt::print("canister   {} along the coil, {} wide, {} high; outlet {}, throat {}\n", lengthText(d.length.value),
+               lengthText(d.width.value), lengthText(d.height.value), lengthText(d.outlet.value),
+               lengthText(d.throat.value));
+    fmt::print("coil       {} turns of {}, from {} to {} behind the rear wall, wire {}\n",
+               figureText(d.coilLength.value / d.pitch.value, 4), lengthText(d.pitch.value),
+               lengthText(d.coilStart.value), lengthText(d.coilStart.value + d.coilLength.value),
+               lengthText(d.wire.value));
+    fmt::print("powder     {} in {} spheres of {} to {}\n", massText(filled.mass), filled.particles.size(),
+               lengthText(2 * d.size.radiusMin), lengthText(2 * d.size.radiusMax));
+    const double steps = derive(c, filled).steps;
+    fmt::print("work       about {:.3g} million steps, {}particle-steps (vkdose check --measure tells the time)\n",
+               steps * 1e-6, large(steps * static_cast<double>(filled.particles.size())));
+    std::string assumed;
+    for (const std::string& what : d.assumed) assumed += (assumed.empty() ? "" : ", ") + what;
+    if (!assumed.empty()) fmt::print("assumed    {}\n", assumed);
+    for (const std::string& note : d.notes) fmt::print("note       {}\n", note);
+    for (const Warning& w : warningsOf(c, filled))
+        if (!w.accepted) fmt::print("warning    {}\n", w.line());
+    const std::string word = shellWord(file.string());
+    fmt::print(
+        "next       vkdose check {0}   (what it implies, and how long it takes)\n"
+        "           vkdose run {0}\n",
+        word);
+}
+
+}  // namespace
+
+int newCommand(const NewOptions& options) {
+    requireNewFile(options.file);
+    NewDesign design = designOf(answersTo(options));
+    fitContacts(design, caseOf(design, options.file));
+    const Case c = caseOf(design, options.file);
+    writeNew(options.file, newCaseText(design));
+    tell(design, c, options.file);
+    return kOk;
+}
+
+}  // namespace vkdose

@@ -1,0 +1,294 @@
+#include "host/app/new_design.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/advice/figures.h"
+#include "host/app/backends.h"
+#include "host/app/measures.h"
+#include "host/core/vec.h"
+#include "host/model/size_distribution.h"
+
+namespace vkdose {
+
+namespace {
+
+constexpr double kAssumedBulk = 500;  // kg/m3, as many food and pharmaceutical powders have
+constexpr int kUsualSpheres = 3000;
+constexpr int kMostSpheres = 4'500'000;
+/// Spheres across the gap between two turns and across the outlet, so that they do not arch; a little more than
+/// `vkdose check` asks for (host/advice/device_rules.cpp).
+constexpr double kLargestInTurn = 2.1, kMeanInTurn = 1.6, kLargestInOutlet = 2.6, kMeanInOutlet = 4.2;
+constexpr double kSpheresInDose = 40;
+/// Largest over smallest sphere, as in the paper's case. Finer ones would be most of the spheres and little of the
+/// mass, and the grid that the fill falls from has a place of the largest's size for each.
+constexpr double kWidestSizes = 3;
+constexpr double kGravity = 9.81;
+
+constexpr const char* kGiven = "given";
+
+/// Puts an answer into its place, or what was assumed in its stead, which the user is told.
+class Choice {
+  public:
+    explicit Choice(NewDesign& design) : design_(design) {}
+
+    Reasoned operator()(const std::optional<double>& given, double standard, const std::string& why) const {
+        return given ? Reasoned{*given, kGiven} : Reasoned{standard, why};
+    }
+    void assumed(bool missing, const std::string& what) const {
+        if (missing) design_.assumed.push_back(what);
+    }
+
+  private:
+    NewDesign& design_;
+};
+
+void designCanister(NewDesign& d, const NewAnswers& a) {
+    const auto& size = a.canister.value();
+    d.length = {size[0], "given; along the coil, from the rear wall to the outlet's wall"};
+    d.width = {size[1], "given; inside"};
+    d.height = {size[2], "given; from the lowest point of the floor"};
+    d.flatFloor = a.flatFloor;
+    const Choice choose(d);
+    d.outlet = choose(a.outlet, d.width.value, "assumed: as wide as the canister");
+    choose.assumed(!a.outlet, fmt::format("an outlet of {} (--outlet)", lengthText(d.outlet.value)));
+    if (d.height.value <= d.width.value / 2)
+        throw UsageError(fmt::format(
+            "--canister: its height of {} ends below the coil's axis, half its width of {} above the floor; "
+            "write length x width x height: 80x30x100mm",
+            lengthText(d.height.value), lengthText(d.width.value)));
+    if (d.outlet.value > d.width.value)
+        throw UsageError(fmt::format("--outlet: {} is wider than the canister; give at most {}",
+                                     lengthText(d.outlet.value), lengthText(d.width.value)));
+}
+
+std::string windings(double turns, double pitch) {
+    return fmt::format("{} turns of {}", figureText(turns, 4), lengthText(pitch));
+}
+
+/// A coil of so many turns and this pitch: it ends with the throat, and the throat is as long as it reaches.
+void placeGivenCoil(NewDesign& d, const NewAnswers& a) {
+    const double own = *a.turns * *a.pitch, beyond = own - d.length.value;
+    const Choice choose(d);
+    const bool reaches = beyond > 1e-9 && beyond <= 0.5 * d.length.value;
+    d.throat = reaches ? choose(a.throat, beyond, "assumed: as far as the coil reaches beyond the outlet's wall")
+                       : choose(a.throat, rounded(*a.pitch, 2), "assumed: a pitch");
+    const double room = d.length.value + d.throat.value;
+    if (own > room * (1 + 1e-9))
+        throw UsageError(
+            fmt::format("--coil: {} are {} long, canister and throat together {}; give {}x{} to end with the throat, "
+                        "or {} to leave "
+                        "the turns to vkdose",
+                        windings(*a.turns, *a.pitch), lengthText(own), lengthText(room), figureText(room / *a.pitch, 4),
+                        figureText(*a.pitch * 1e3, 6) + "mm", figureText(*a.pitch * 1e3, 6) + "mm"));
+    d.pitch = {*a.pitch, "given"};
+    d.coilLength = {own, fmt::format("given: {}", windings(*a.turns, *a.pitch))};
+    d.coilStart = {room - own, "so that the coil ends with the throat"};
+    if (d.coilStart.value <= 0.25 * d.length.value) return;
+    d.accepted.emplace_back("coil-start");
+    d.notes.push_back(
+        fmt::format("{} are {} long, canister and throat {}: the coil begins {} from the rear wall, and the powder "
+                    "behind it stays. A coil from the rear wall on has {} turns of that pitch (--coil {}mm), or that "
+                    "many turns of {} (--coil {}turns).",
+                    windings(*a.turns, *a.pitch), lengthText(own), lengthText(room), lengthText(d.coilStart.value),
+                    figureText(room / *a.pitch), figureText(*a.pitch * 1e3, 6), lengthText(room / *a.turns),
+                    figureText(*a.turns, 6)));
+}
+
+/// A coil from the rear wall to the throat's end, by its pitch or by its turns.
+void fitCoil(NewDesign& d, const NewAnswers& a) {
+    const double pitch = a.pitch ? *a.pitch : d.length.value / std::max(1.0, *a.turns - 1);
+    d.throat = Choice(d)(a.throat, rounded(pitch, 2), "assumed: a pitch");
+    const double room = d.length.value + d.throat.value;
+    d.coilLength = {room, "from the rear wall to the throat's end"};
+    d.coilStart = {0, "at the rear wall"};
+    d.pitch = a.pitch ? Reasoned{*a.pitch, kGiven}
+                      : Reasoned{room / *a.turns,
+                                 fmt::format("given: {} turns over the coil's length", figureText(*a.turns, 4))};
+}
+
+void designCoil(NewDesign& d, const NewAnswers& a) {
+    if (a.turns && a.pitch)
+        placeGivenCoil(d, a);
+    else
+        fitCoil(d, a);
+    const Choice choose(d);
+    const double room = std::min(d.width.value, d.outlet.value);
+    choose.assumed(!a.throat, fmt::format("a throat of {} (--throat)", lengthText(d.throat.value)));
+    d.wire = choose(a.wire, rounded(std::min(d.pitch.value / 5, room / 10), 2), "assumed: a fifth of the pitch");
+    d.clearance = choose(a.clearance, rounded(0.02 * room, 2), "assumed: 2 % of the outlet's diameter");
+    choose.assumed(!a.wire, fmt::format("a wire of {} (--wire)", lengthText(d.wire.value)));
+    choose.assumed(!a.clearance, fmt::format("{} between wire and wall (--clearance)", lengthText(d.clearance.value)));
+    if (d.wire.value >= d.pitch.value)
+        throw UsageError(
+            fmt::format("--wire: turns of {} touch one another at a pitch of {}; give a thinner wire or a "
+                        "larger pitch",
+                        lengthText(d.wire.value), lengthText(d.pitch.value)));
+    if (room / 2 - d.clearance.value - 1.5 * d.wire.value <= 0)
+        throw UsageError(
+            fmt::format("--wire, --clearance: a wire of {} and a clearance of {} leave no coil in a hole of "
+                        "{}",
+                        lengthText(d.wire.value), lengthText(d.clearance.value), lengthText(room)));
+}
+
+/// From the axis to the wire's centre line.
+double coilRadius(const NewDesign& d) {
+    return std::min(d.width.value, d.outlet.value) / 2 - d.clearance.value - d.wire.value / 2;
+}
+
+/// Volume of the canister up to the height `h` above its floor, where that is above the coil's axis.
+double volumeUpTo(const NewDesign& d, double h) {
+    const double w = d.width.value;
+    return d.length.value * (d.flatFloor ? w * h : kPi * w * w / 8 + w * (h - w / 2));
+}
+
+void designFill(NewDesign& d, const NewAnswers& a) {
+    const Choice choose(d);
+    const double ofDensity = a.density ? rounded(kBedFraction * *a.density, 2) : kAssumedBulk;
+    d.bulkDensity = choose(a.bulkDensity, ofDensity,
+                           a.density ? fmt::format("assumed: {} of the density, as spheres settle", kBedFraction)
+                                     : "assumed; weigh a known volume of the settled powder");
+    choose.assumed(!a.bulkDensity, fmt::format("{} kg/m3 (--bulk-density)", figureText(d.bulkDensity.value)));
+    d.density = choose(
+        a.density, rounded(d.bulkDensity.value / kBedFraction, 3),
+        fmt::format("of the simulated spheres: their bed (volume fraction {}) has the bulk density", kBedFraction));
+    // The default of the program is that of cocoa, which check asks about; here somebody has said it.
+    if (a.bulkDensity && *a.bulkDensity == 471 && std::abs(d.density.value / 1427 - 1) > 0.02)
+        d.accepted.emplace_back("bulk-density");
+    const double high = std::max(0.55 * d.width.value, std::min(1.5 * d.width.value, 0.7 * d.height.value));
+    d.fill = choose(a.fill, rounded(d.bulkDensity.value * volumeUpTo(d, std::min(high, 0.9 * d.height.value)), 2),
+                    "assumed: a bed up to half a width over the coil, at most 0.7 of the height");
+    choose.assumed(!a.fill, fmt::format("a fill of {} (--fill)", massText(d.fill.value)));
+    const double takes = d.fill.value / d.bulkDensity.value, holds = volumeUpTo(d, d.height.value);
+    if (takes > 0.95 * holds)
+        throw UsageError(fmt::format("--fill: {} of {} kg/m3 take {} cm3, the canister holds {} cm3; give at most {}",
+                                     massText(d.fill.value), figureText(d.bulkDensity.value), figureText(takes * 1e6),
+                                     figureText(holds * 1e6),
+                                     massText(roundedDown(0.95 * holds * d.bulkDensity.value, 2))));
+}
+
+void designDose(NewDesign& d, const NewAnswers& a) {
+    const Choice choose(d);
+    // Half of the speed at which the wire's centripetal acceleration equals gravity.
+    const double fast = 0.5 * std::sqrt(kGravity / coilRadius(d));
+    d.speed = choose(a.speed, std::min(2 * kPi, 2 * kPi / 60 * roundedDown(fast * 60 / (2 * kPi), 2)), "assumed");
+    choose.assumed(!a.speed, fmt::format("{} rpm (--speed)", figureText(d.speed.value * 60 / (2 * kPi))));
+    const double perTurn = d.bulkDensity.value * d.pitch.value * kPi * coilRadius(d) * coilRadius(d);
+    const double turns = std::min(2.0, 0.25 * d.fill.value / perTurn);
+    d.rotate = choose(a.rotate, rounded(turns * 2 * kPi / d.speed.value, 2),
+                      turns < 2 ? "assumed: a quarter of the fill by the closed form" : "assumed: two turns");
+    choose.assumed(!a.rotate, fmt::format("{} s of turning (--rotate)", figureText(d.rotate.value)));
+    d.massPerDose = perTurn * d.rotate.value * d.speed.value / (2 * kPi);
+    d.rest = {roundedUp(2 * std::sqrt(2 * d.outlet.value / kGravity), 1),
+              "twice the time of a fall through the outlet's height, so that the dose comes to an end"};
+    d.doses = a.doses.value_or(3);
+}
+
+/// The distribution of the powder itself; without sizes that of spheres with a diameter of 1 m, to be scaled.
+SizeDistribution ownSizes(const NewAnswers& a) {
+    SizeDistribution s;
+    if (a.sizes.size() == 3) {
+        s.kind = SizeDistribution::Kind::Quantiles;
+        s.r10 = a.sizes[0] / 2;
+        s.r50 = a.sizes[1] / 2;
+        s.r90 = a.sizes[2] / 2;
+        s.radiusMax = coarsestRadius(s);
+        s.radiusMin = std::max(finestRadius(s), s.radiusMax / kWidestSizes);
+    } else {
+        const double radius = a.sizes.empty() ? 0.5 : a.sizes[0] / 2;
+        s.kind = SizeDistribution::Kind::Uniform;
+        s.radiusMin = 0.8 * radius;
+        s.radiusMax = 1.2 * radius;
+    }
+    return s;
+}
+
+SizeDistribution scaled(SizeDistribution s, double factor) {
+    for (double* r : {&s.radiusMin, &s.radiusMax, &s.r10, &s.r50, &s.r90}) *r *= factor;
+    s.scaleUp *= factor;
+    return s;
+}
+
+struct Limit {
+    double scale;  ///< the largest with which the spheres are still small enough
+    const char* why;
+};
+
+/// What the device asks of the spheres.
+Limit largestScale(const NewDesign& d, const SizeDistribution& own) {
+    const double mean = 2 * meanRadius(own), largest = 2 * largestRadius(own);
+    const double round = 2 * kPi * coilRadius(d);
+    const double gap = d.pitch.value * round / std::hypot(round, d.pitch.value) - d.wire.value;
+    const double sphere = d.density.value * 4.0 / 3.0 * kPi * meanCubedRadius(own);
+    const std::vector<Limit> limits{
+        {std::min(gap / (kLargestInTurn * largest), gap / (kMeanInTurn * mean)), "the gap between the turns"},
+        {std::min(d.outlet.value / (kLargestInOutlet * largest), d.outlet.value / (kMeanInOutlet * mean)),
+         "the outlet"},
+        {(0.9 * coilRadius(d) - d.wire.value / 2) / (largest / 2), "the coil's diameter"},
+        {std::cbrt(d.massPerDose / (kSpheresInDose * sphere)), "the dose, which should be many spheres"}};
+    return *std::min_element(limits.begin(), limits.end(),
+                             [](const Limit& a, const Limit& b) { return a.scale < b.scale; });
+}
+
+void designSpheres(NewDesign& d, const NewAnswers& a) {
+    const SizeDistribution own = ownSizes(a);
+    const int budget = a.spheres.value_or(kUsualSpheres);
+    const double unit = d.fill.value / (d.density.value * 4.0 / 3.0 * kPi * meanCubedRadius(own));
+    const Limit limit = largestScale(d, own);
+    double scale = std::cbrt(unit / budget);
+    std::string why = fmt::format("so large that the fill is {} {} spheres", a.spheres ? "the given" : "about", budget);
+    if (scale > limit.scale) {
+        scale = limit.scale;
+        why = fmt::format("as large as {} allows; the fill is then some {:.0f} spheres", limit.why,
+                          rounded(unit / std::pow(scale, 3), 2));
+    }
+    if (!a.sizes.empty() && scale < 1) {
+        scale = 1;
+        why = fmt::format("as they are; the fill is {:.0f} spheres", rounded(unit, 2));
+        if (limit.scale < 1)
+            d.notes.push_back(
+                fmt::format("The powder itself is too coarse for {}: the spheres will arch, as the powder "
+                            "may.",
+                            limit.why));
+    }
+    const double count = unit / std::pow(scale, 3);
+    if (count > kMostSpheres)
+        throw UsageError(
+            fmt::format("--fill: {} in spheres as small as {} asks for ({}) are {:.2g} million; give less, "
+                        "or a wider pitch, outlet or coil",
+                        massText(d.fill.value), limit.why, lengthText(2 * scale * largestRadius(own)), count * 1e-6));
+    if (!a.sizes.empty() && scale > 1) scale = std::max(1.0, roundedDown(scale, 3));
+    d.size = scaled(own, scale);
+    d.sizeWhy = why;
+    Choice(d).assumed(a.sizes.empty(), fmt::format("spheres of {} to {} (--sizes, --spheres)",
+                                                   lengthText(2 * d.size.radiusMin), lengthText(2 * d.size.radiusMax)));
+}
+
+void designFlow(NewDesign& d, const NewAnswers& a) {
+    d.flow = a.flow.value_or(Flow::Easy);
+    d.flowGiven = a.flow.has_value();
+    Choice(d).assumed(!a.flow, "a powder that flows easily (--flow)");
+    d.k1OverK = d.flow == Flow::Free ? 1 : 0.2;
+    d.rollingFriction = d.flow == Flow::Free ? 0.05 : d.flow == Flow::Easy ? 0.2 : 0.5;
+}
+
+}  // namespace
+
+NewDesign designOf(const NewAnswers& answers) {
+    NewDesign d;
+    designCanister(d, answers);
+    designCoil(d, answers);
+    designFill(d, answers);
+    designDose(d, answers);
+    designSpheres(d, answers);
+    designFlow(d, answers);
+    // First guesses, with which the case loads.
+    d.stiffness.value = 1000;
+    d.damping.value = 1e-6;
+    d.settle.value = 1;
+    return d;
+}
+
+}  // namespace vkdose

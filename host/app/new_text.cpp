@@ -1,0 +1,181 @@
+// A new case as commented TOML.
+#include <fmt/format.h>
+
+#include <sstream>
+
+#include "host/app/measures.h"
+#include "host/app/new_design.h"
+#include "host/core/vec.h"
+#include "host/model/size_distribution.h"
+
+namespace vkdose {
+
+namespace {
+
+constexpr std::size_t kComment = 30;  // column of the comments
+constexpr std::size_t kWidth = 118;
+
+std::string withSuffix(const Reasoned& value, const char* suffix) {
+    return value.why + suffix;
+}
+
+/// Lines of a case, each with its reason behind it.
+class CaseText {
+  public:
+    void table(const std::string& name) { text_ += fmt::format("\n[{}]\n", name); }
+    void remark(const std::string& text) { wrapped("", text); }
+    void line(const std::string& key, const std::string& value, const std::string& why) {
+        const std::string setting = key + " = " + value;
+        if (why.empty())
+            text_ += setting + "\n";
+        else
+            wrapped(fmt::format("{:<{}} ", setting, kComment - 1), why);
+    }
+    /// A value, in the unit of its key: `perSI` of them are one in SI.
+    void line(const std::string& key, const Reasoned& v, double perSI) {
+        line(key, figureText(v.value * perSI, 6), v.why);
+    }
+    void flag(const std::string& key, bool value, const std::string& why) { line(key, value ? "true" : "false", why); }
+    void word(const std::string& key, const std::string& value, const std::string& why) {
+        line(key, "\"" + value + "\"", why);
+    }
+    const std::string& text() const { return text_; }
+
+  private:
+    /// `text` as a comment behind `front`, in as many lines as it takes.
+    void wrapped(const std::string& front, const std::string& text) {
+        std::string row = front + "#";
+        const std::string indent(front.size(), ' ');
+        std::istringstream words(text);
+        for (std::string word; words >> word;) {
+            if (row.size() + 1 + word.size() > kWidth) {
+                text_ += row + "\n";
+                row = indent + "#";
+            }
+            row += " " + word;
+        }
+        text_ += row + "\n";
+    }
+
+    std::string text_;
+};
+
+void writeParticles(CaseText& out, const NewDesign& d) {
+    out.table("particles");
+    out.line("density", d.density, 1);
+    out.line("mass_g", d.fill, 1e3);
+    out.table("particles.size");
+    const SizeDistribution& s = d.size;
+    if (s.kind == SizeDistribution::Kind::Uniform) {
+        out.word("distribution", "uniform", "diameters spread by a fifth, against a crystal");
+        out.line("radius_min_mm", figureText(s.radiusMin * 1e3), d.sizeWhy);
+        out.line("radius_max_mm", figureText(s.radiusMax * 1e3), "");
+        return;
+    }
+    out.word("distribution", "quantiles", "");
+    out.line("d10_um", figureText(2e6 * s.r10 / s.scaleUp, 6), "given; diameters by volume");
+    out.line("d50_um", figureText(2e6 * s.r50 / s.scaleUp, 6), "");
+    out.line("d90_um", figureText(2e6 * s.r90 / s.scaleUp, 6), "");
+    out.line("scale_up", figureText(s.scaleUp), d.sizeWhy);
+    if (s.radiusMin > finestRadius(s))
+        out.line(
+            "radius_min_mm", figureText(roundedUp(s.radiusMin * 1e3, 3)),
+            fmt::format("a third of the largest: finer spheres would be most of them; {} % of the mass are finer and "
+                        "become coarser ones",
+                        figureText(100 * finerVolume(s, s.radiusMin), 2)));
+}
+
+void writeContacts(CaseText& out, const NewDesign& d) {
+    const bool free = d.flow == Flow::Free;
+    out.table("contact");
+    out.remark(
+        fmt::format("{} powder that flows {}: start values. Calibrate friction and adhesion with a measured dose "
+                    "or heap (vkdose calibrate).",
+                    d.flowGiven ? "Given: a" : "Assumed: a",
+                    free                   ? "freely"
+                    : d.flow == Flow::Easy ? "easily"
+                                           : "badly (cohesive)"));
+    out.line("k", figureText(d.stiffness.value), d.stiffness.why);
+    out.line("k1_over_k", figureText(d.k1OverK),
+             free ? "elastic" : "loading is plastic, which keeps contacts together");
+    if (!free) out.line("plasticity_depth", "0.05", "of the radius");
+    out.line("kc_over_k", figureText(d.adhesion.value), d.adhesion.why);
+    out.line("damping", figureText(d.damping.value), d.damping.why);
+    out.line("friction", figureText(d.friction), "assumed; between particles");
+    out.line("rolling_friction", figureText(d.rollingFriction), "assumed; stands for the shape of the grains");
+    out.word("coulomb_limit", "absolute", "friction of the force that a contact bears");
+    out.line("max_overlap_ratio", "1", "spheres are wedged between coil and wall; the report tells how deep");
+    out.table("contact.wall");
+    out.line("friction", "0.3", "assumed; of the powder on the wall and, as there is no [contact.coil], on the coil");
+}
+
+void writeDevice(CaseText& out, const NewDesign& d) {
+    out.table("canister");
+    out.line("length_mm", d.length, 1e3);
+    out.line("width_mm", d.width, 1e3);
+    out.line("height_mm", d.height, 1e3);
+    out.word("floor", d.flatFloor ? "flat" : "trough", d.flatFloor ? "given" : "a half-cylinder around the coil");
+    out.line("outlet_diameter_mm", d.outlet, 1e3);
+    out.line("throat_length_mm", d.throat, 1e3);
+    out.flag("lid", true, "keeps a sphere inside that the coil flings up");
+    out.table("coil");
+    out.line("pitch_mm", d.pitch, 1e3);
+    out.line("length_mm", d.coilLength, 1e3);
+    out.line("z_start_mm", d.coilStart, 1e3);
+    out.line("wire_diameter_mm", d.wire, 1e3);
+    out.line("clearance_mm", d.clearance, 1e3);
+    out.line("speed_rpm", d.speed, 60 / (2 * kPi));
+}
+
+void writeSchedule(CaseText& out, const NewDesign& d) {
+    out.table("settle");
+    out.line("time_s", d.settle, 1);
+    out.table("dose");
+    out.line(
+        "rotate_s",
+        Reasoned{d.rotate.value,
+                 withSuffix(d.rotate, fmt::format("; by the closed form {} a dose", massText(d.massPerDose)).c_str())},
+        1);
+    out.line("rest_s", d.rest, 1);
+    out.table("stop");
+    out.word("rule", "experiment", "ends also when 3 doses together give no more than threshold_g");
+    out.line("threshold_g", figureText(1e3 * rounded(0.03 * d.massPerDose, 1)), "a hundredth of three doses");
+    out.line("max_doses", fmt::format("{}", d.doses), "dose 1 also fills the throat, so that it gives less");
+    out.table("time");
+    out.word("step_s", "auto", "as long as the stiffest contact allows");
+    out.table("sensors");
+    const double interval = rounded(d.rotate.value / 100, 1);
+    out.line("interval_s", figureText(interval), "a hundredth of a rotation");
+    out.table("frames");
+    out.line("interval_s", figureText(10 * interval), "the report's player shows these; 0 keeps none");
+}
+
+}  // namespace
+
+std::string newCaseText(const NewDesign& d) {
+    CaseText out;
+    out.remark(
+        "Written by `vkdose new`. Behind each value stands its reason: \"given\", a rule, or \"assumed\" where you "
+        "should put what you know. The keys name their units; what has none is in SI. `vkdose keys` explains "
+        "every key, `vkdose check` what the case implies.");
+    for (const std::string& note : d.notes) out.remark(note);
+    out.word("reason",
+             fmt::format("A canister of {} x {} x {} with a coil of {} pitch, filled with {}; written by vkdose new",
+                         lengthText(d.length.value), lengthText(d.width.value), lengthText(d.height.value),
+                         lengthText(d.pitch.value), massText(d.fill.value)),
+             "");
+    out.line("seed", "1", "another seed is another filling of the same powder");
+    if (!d.accepted.empty()) {
+        std::string names;
+        for (const std::string& name : d.accepted) names += (names.empty() ? "" : " ") + name;
+        out.word("accepted_warnings", names, "of vkdose check: what it warns of was given");
+    }
+    out.line("bulk_density", Reasoned{d.bulkDensity.value, "kg/m3; " + d.bulkDensity.why}, 1);
+    writeParticles(out, d);
+    writeContacts(out, d);
+    writeDevice(out, d);
+    writeSchedule(out, d);
+    return out.text();
+}
+
+}  // namespace vkdose

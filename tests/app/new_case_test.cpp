@@ -1,0 +1,202 @@
+// `vkdose new`: from a device and a powder to a case that runs.
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "host/app/backends.h"
+#include "host/app/measures.h"
+#include "host/model/case.h"
+#include "tests/app/sandbox.h"
+#include "tests/support/catch.h"
+
+using namespace vkdose;
+using namespace vkdose::test;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// The device that the manual shows, one of milligrams and one of kilograms, with powders that flow differently.
+const std::string kTechnologist = "--canister 80x30x100mm --coil 6x5mm";
+const std::string kTiny =
+    "--canister 8x5x12mm --coil 1.5mm --fill 60mg --bulk-density 0.35g/cm3 --sizes 40/80/140um --flow cohesive";
+const std::string kLarge =
+    "--canister 400x250x500mm --coil 6x80mm --outlet 20cm --wire 10mm --fill 12kg --bulk-density 650kg/m3 "
+    "--sizes 1.5mm --flow free";
+
+nlohmann::json checked(const Sandbox& box, const std::string& file) {
+    const auto o = box.vkdose("check --json " + file);
+    CAPTURE(o.err);
+    REQUIRE(o.code == 0);
+    return nlohmann::json::parse(o.out);
+}
+
+std::string refusal(Measure kind, const std::string& text) {
+    try {
+        measuresOf(kind, "--it", text, 'x', "5mm");
+    } catch (const UsageError& e) {
+        return e.what();
+    }
+    return "not refused";
+}
+
+}  // namespace
+
+TEST_CASE("measures are read with their units, and nothing is guessed") {
+    CHECK(measuresOf(Measure::Length, "", "80 x 30x100mm", 'x', "") == std::vector<double>{0.08, 0.03, 0.1});
+    const auto mixed = measuresOf(Measure::Length, "", "8cmx30mmx0.1m", 'x', "");
+    CHECK(mixed[0] == Approx(0.08));
+    CHECK(mixed[1] == Approx(0.03));
+    CHECK(measureOf(Measure::Mass, "", "2.5kg", "") == 2.5);
+    CHECK(measureOf(Measure::Mass, "", "60 mg", "") == Approx(60e-6));
+    CHECK(measureOf(Measure::Density, "", "0.5 g/cm3", "") == Approx(500));
+    CHECK(measureOf(Measure::Speed, "", "60rpm", "") == Approx(6.283185307));
+    CHECK(countOf("", "12", 20, "") == 12);
+    for (const char* bad : {"", "mm", "80", "80x30", "-5mm", "0mm", "5 furlongs", "nanmm", "1e9m", "80xmm", "5mmx"})
+        CHECK_THAT(refusal(Measure::Length, bad), Catch::StartsWith("--it") && Catch::Contains("; write 5mm"));
+    CHECK_THAT(refusal(Measure::Length, "7,5mm"), Catch::Contains("a decimal point is meant, not a comma"));
+    CHECK_THAT(refusal(Measure::Length, "80"), Catch::Contains("lacks the unit (mm, cm, m, um)"));
+    CHECK_THROWS_AS(countOf("", "2.5", 20, ""), UsageError);
+}
+
+TEST_CASE("figures are rounded to digits that can be read") {
+    CHECK(figureText(0.012345) == "0.0123");
+    CHECK(figureText(1234.0) == "1230");
+    CHECK(roundedUp(1.201, 2) == 1.3);
+    CHECK(roundedUp(1.2, 2) == 1.2);
+    CHECK(roundedUp(0.1 * 3, 1) == 0.3);  // 0.30000000000000004
+    CHECK(roundedDown(0.1999, 2) == 0.19);
+    CHECK(lengthText(0.03) == "30 mm");
+    CHECK(lengthText(9e-5) == "90 um");
+    CHECK(massText(6e-5) == "60 mg");
+    CHECK(massText(12) == "12 kg");
+}
+
+TEST_CASE("new: three devices give cases that check has nothing against") {
+    const Sandbox box;
+    struct Device {
+        std::string options;
+        double fill;
+        std::vector<std::string> accepted;
+    };
+    for (const Device& device :
+         {Device{kTechnologist, 0.05, {"coil-start"}}, Device{kTiny, 60e-6, {}}, Device{kLarge, 12, {}}}) {
+        CAPTURE(device.options);
+        fs::remove(box / "my.toml");
+        const auto made = box.vkdose("new my.toml " + device.options);
+        CAPTURE(made.err);
+        REQUIRE(made.code == 0);
+        CHECK_THAT(made.out, Catch::Contains("vkdose check my.toml") && Catch::Contains("particle-steps") &&
+                                 !Catch::Contains("warning"));
+        const auto check = checked(box, "my.toml");
+        std::vector<std::string> names;
+        for (const auto& w : check["warnings"]) {
+            CHECK(w["accepted"] == true);
+            names.push_back(w["name"]);
+        }
+        CHECK(names == device.accepted);
+        const auto& f = check["figures"];
+        CHECK(f["fill_kg"].get<double>() == Approx(device.fill).epsilon(0.02));
+        CHECK(f["particles"] > 1000);
+        CHECK(f["particles"] < 30000);
+        // The targets of the contacts, by the figures of check.
+        CHECK(std::max(f["overlap_under_bed"].get<double>() / 0.005, f["overlap_of_fall"].get<double>() / 0.3) ==
+              Approx(1).epsilon(0.05));
+        CHECK(f["restitution"]["particle-particle"]["mean"].get<double>() == Approx(0.5).epsilon(0.05));
+    }
+}
+
+TEST_CASE("new: the coil is placed as its turns and pitch say") {
+    const Sandbox box;
+    const auto coilOf = [&](const std::string& coil) {
+        fs::remove(box / "my.toml");
+        const auto o = box.vkdose("new my.toml --canister 80x30x100mm " + coil);
+        CAPTURE(coil, o.err);
+        REQUIRE(o.code == 0);
+        return loadCase(box / "my.toml");
+    };
+    Case c = coilOf("--coil 6x5mm");
+    CHECK(c.world.coil->pitch == Approx(5e-3));
+    CHECK(c.world.coil->length == Approx(30e-3));
+    CHECK(c.world.coil->zStart + c.world.coil->length == Approx(c.canister->length + c.canister->throatLength));
+    CHECK_THAT(readText(box / "my.toml"), Catch::Contains("the powder") && Catch::Contains("behind it stays"));
+    c = coilOf("--coil '18 x 5mm'");  // 90 mm: the throat is what reaches beyond the canister
+    CHECK(c.canister->throatLength == Approx(10e-3));
+    CHECK(c.world.coil->zStart == Approx(0).margin(1e-9));
+    c = coilOf("--coil 10mm --throat 20mm");
+    CHECK(c.world.coil->length == Approx(100e-3));
+    c = coilOf("--coil 5turns --throat 20mm");
+    CHECK(c.world.coil->pitch == Approx(20e-3));
+}
+
+TEST_CASE("new: what is ambiguous or contradictory is refused with what would be right, and nothing is written") {
+    const Sandbox box;
+    const auto refused = [&](const std::string& options, const std::string& why) {
+        const auto o = box.vkdose("new my.toml " + options);
+        CAPTURE(options, o.err);
+        CHECK(o.code == 2);
+        CHECK_THAT(o.err, Catch::Contains(why));
+    };
+    const std::string device = "--canister 80x30x100mm ";
+    refused("", "--canister is needed");
+    refused(device, "--coil is needed");
+    refused("--canister 80x30mm --coil 5mm", "it is not clear which lengths these are; give all three: 80x30x100mm");
+    refused("--canister 80x30x100 --coil 5mm", "lacks the unit");
+    refused(device + "--coil 6", "could be turns or a pitch; write 6x5mm");
+    refused(device + "--coil 6x5", "lacks the unit");
+    refused(device + "--coil 6mmx5mm", "is no number of turns");
+    refused(device + "--coil 60x5mm", "300 mm long, canister and throat together 85 mm; give 17x5mm");
+    refused(device + "--coil 5mm --outlet 40mm", "wider than the canister");
+    refused(device + "--coil 5mm --wire 6mm", "touch one another");
+    refused(device + "--coil 5mm --fill 5kg", "the canister holds 2");
+    refused(device + "--coil 5mm --sizes 90/60/130um", "must increase");
+    refused(device + "--coil 5mm --flow sticky", "write free, easy or cohesive");
+    refused(device + "--coil 5mm --speed 60", "lacks the unit");
+    CHECK(box.files().empty());
+}
+
+TEST_CASE("new: it never replaces a file, and says how to name one") {
+    const Sandbox box;
+    box.write("my.toml", "mine");
+    CHECK_THAT(box.vkdose("new my.toml " + kLarge).err, Catch::Contains("my.toml is there already"));
+    CHECK(readText(box / "my.toml") == "mine");
+    fs::create_symlink("nowhere", box / "link.toml");
+    CHECK(box.vkdose("new link.toml " + kLarge).code == 2);
+    CHECK_THAT(box.vkdose("new my.csv " + kLarge).err, Catch::Contains("ends in .toml"));
+    CHECK(box.vkdose("new no/folder.toml " + kLarge).code == 5);
+    CHECK(box.files().size() == 2);
+}
+
+TEST_CASE("new: the dialogue asks again until it understands, and gives the case of the same options") {
+    const Sandbox box;
+    // canister, coil, outlet, wire, fill, bulk density, sizes, flow, speed, rotate, doses, spheres
+    box.write("answers", "80x30\n80x30x100mm\n\n6\n6turns\n\n\n48 g\n500kg/m3\n\ncohesive\n90rpm\n\n5\n\n");
+    const std::string from = "' new my.toml --ask < answers > said.txt 2>&1";
+    REQUIRE(std::system(("cd '" + box.path().string() + "' && '" VKDOSE_BINARY_DIR "/vkdose" + from).c_str()) == 0);
+    const std::string said = readText(box / "said.txt");
+    CHECK_THAT(said, Catch::Contains("lacks the unit") && Catch::Contains("could be turns or a pitch"));
+    REQUIRE(box.vkdose("new same.toml --canister 80x30x100mm --coil 6turns --fill 48g --bulk-density 500kg/m3 --flow "
+                       "cohesive --speed 90rpm --doses 5")
+                .code == 0);
+    CHECK(readText(box / "my.toml") == readText(box / "same.toml"));
+    const auto ended = box.vkdose("new other.toml --ask");
+    CHECK(ended.code == 2);
+    CHECK_THAT(ended.err, Catch::Contains("the answers end before --canister; nothing was written"));
+    CHECK_FALSE(fs::exists(box / "other.toml"));
+}
+
+TEST_CASE("new: a case of few spheres runs and doses") {
+    const Sandbox box;
+    REQUIRE(box.vkdose("new 'my case.toml' " + kLarge + " --spheres 250 --rotate 1s --doses 1").code == 0);
+    const auto run = box.vkdose("run 'my case.toml' --backend reference");
+    CAPTURE(run.err);
+    REQUIRE(run.code == 0);
+    const auto doses = readCsv(box / "out/my case/doses.csv");
+    REQUIRE(doses.size() == 2);
+    CHECK(std::stod(doses[1][2]) > 0.1);  // kg
+    // The command that comes next can be pasted, though its path holds a blank.
+    const std::size_t at = run.out.find("vkdose report ");
+    REQUIRE(at != std::string::npos);
+    const std::size_t end = run.out.find("   (", at);
+    CHECK(box.vkdose(run.out.substr(at + 7, end - at - 7)).code == 0);
+    CHECK(fs::exists(box / "out/my case/report.html"));
+}
