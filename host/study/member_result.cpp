@@ -146,19 +146,23 @@ MemberResult readResult(const fs::path& folder, const MemberEnd& end) {
     return result;
 }
 
-Table dosesIn(const fs::path& folder) {
-    const Table table = Table::salvage(folder / "doses.csv");
-    if (table.names() == columnNames(kDoseColumns)) return table;
-    Table now;
-    if (table.names() != columnNames(kPlainDoseColumns)) return now;
-    // An older vkdose wrote it.
-    now = Table(columnNames(kDoseColumns));
-    for (std::size_t i = 0; i < table.rows(); ++i) {
-        Row row = table.row(i);
-        forEachColumn(kStopColumns, [&](const auto& c) { row.push_back(cellText(c.of(std::as_const(kUntold)), 9)); });
+Table withStopColumns(const Table& older) {
+    Row names = older.names(), stop = columnNames(kStopColumns), untold;
+    forEachColumn(kStopColumns, [&](const auto& c) { untold.push_back(cellText(c.of(kUntold), 9)); });
+    names.insert(names.end(), stop.begin(), stop.end());
+    Table now(std::move(names));
+    for (std::size_t i = 0; i < older.rows(); ++i) {
+        Row row = older.row(i);
+        row.insert(row.end(), untold.begin(), untold.end());
         now.add(std::move(row));
     }
     return now;
+}
+
+Table dosesIn(const fs::path& folder) {
+    Table table = Table::salvage(folder / "doses.csv");
+    if (table.names() == columnNames(kPlainDoseColumns)) table = withStopColumns(table);
+    return table.names() == columnNames(kDoseColumns) ? table : Table();
 }
 
 bool isOver(const fs::path& folder) {

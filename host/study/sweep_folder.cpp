@@ -154,6 +154,8 @@ void SweepFolder::read(const Row& keys) {
     doses_ = Table::salvage(folder_ / "doses.csv");
     const Row membersHeader = joined(joined({"member", "seed"}, keys), kOutputColumns);
     const Row dosesHeader = joined(joined({"member", "seed"}, keys), columnNames(kDoseColumns));
+    if (doses_.names() == joined(joined({"member", "seed"}, keys), columnNames(kPlainDoseColumns)))
+        doses_ = withStopColumns(doses_);  // an older vkdose wrote it
     for (const auto& [name, table, header] :
          {std::tuple("members.csv", &members_, &membersHeader), std::tuple("doses.csv", &doses_, &dosesHeader)})
         if (!table->names().empty() && table->names() != *header)

@@ -5,6 +5,8 @@
 #include <deque>
 #include <fstream>
 #include <map>
+#include <sstream>
+#include <tuple>
 
 #include "host/output/checkpoint.h"
 #include "host/output/run_folder.h"
@@ -191,6 +193,16 @@ TEST_CASE("doses that the table has lost come back from the members' folders") {
     }
     SECTION("a line twice") {
         std::ofstream(table) << good + good.substr(good.rfind('\n', good.size() - 2) + 1);
+    }
+    SECTION("by an older vkdose, without the columns of the stop, a member's folder gone") {
+        std::istringstream lines(good);
+        std::ofstream older(table);
+        for (std::string line; std::getline(lines, line);) {
+            for (std::size_t k = 0; k < std::tuple_size_v<decltype(kStopColumns)>; ++k) line.resize(line.rfind(','));
+            older << line << "\n";
+        }
+        older.close();
+        fs::remove_all(sweep.out / "members/0003");
     }
     SECTION("a member's folder gone, the table whole") {
         fs::remove_all(sweep.out / "members/0003");
