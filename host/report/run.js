@@ -114,7 +114,8 @@ function surfaceChart(parent, run) {
 }
 
 function doseTable(main, d) {
-  const g = x => (isNumber(x) ? (x * gram).toFixed(3) : "");
+  // Below a tenth of a gram three significant digits, because doses can be milligrams.
+  const g = x => (!isNumber(x) ? "" : x === 0 || Math.abs(x * gram) >= 0.1 ? (x * gram).toFixed(3) : String(Number((x * gram).toPrecision(3))));
   table(main, [["dose", true], ["begins at [s]", true], ["mass [g]", true], ["cumulative [g]", true], ["particles", true],
                ["torque [mN m]", true], ["closed form [g]", true], ["longest stop [s]", true], ["arch [mm]", true], ["", false]],
         d.dose.map((n, i) => [n, short(d.start_time_s[i]), g(d.mass_kg[i]), g(d.cumulative_mass_kg[i]), d.particles[i],
