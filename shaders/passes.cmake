@@ -18,6 +18,7 @@ set(passes
     "pass/pairs texel packed energy texel_energy packed_energy"
     "pass/surfaces texel packed energy texel_energy packed_energy"
     "pass/coil texel packed energy texel_energy packed_energy"
+    "pass/bodies texel packed"
     "pass/move texel packed energy texel_energy packed_energy"
     "pass/decide"
     "pass/sense"

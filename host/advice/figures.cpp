@@ -5,8 +5,9 @@
 #include <limits>
 #include <numeric>
 
+#include "host/model/bed_weight.h"
 #include "host/model/pull_off.h"
-#include "host/model/size_distribution.h"
+#include "host/model/restitution.h"
 #include "host/model/stability.h"
 
 namespace vkdose {
@@ -14,26 +15,6 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kWall = std::numeric_limits<double>::infinity();
-
-/// Cross-section of the canister below the height y over the coil's axis [m2].
-double crossSection(const Canister& can, double y) {
-    const double half = can.width / 2;
-    if (can.flatFloor) return can.width * std::max(0.0, y + half);
-    if (y >= 0) return 0.5 * kPi * half * half + can.width * y;
-    if (y <= -half) return 0;
-    return half * half * std::acos(-y / half) + y * std::sqrt(half * half - y * y);
-}
-
-/// Height at which the powder stands once it has settled [m, y].
-double settledTop(const Canister& can, double volume) {
-    double low = -can.width / 2;
-    double high = low + can.width + volume / (can.length * can.width);
-    for (int i = 0; i < 60; ++i) {
-        const double middle = 0.5 * (low + high);
-        (crossSection(can, middle) * can.length < volume ? low : high) = middle;
-    }
-    return high;
-}
 
 void addSizes(Figures& f, const std::vector<double>& radii) {
     const auto [low, high] = std::minmax_element(radii.begin(), radii.end());
@@ -48,16 +29,15 @@ void addBed(Figures& f, const Case& c, const Insertion& filled) {
     f.bedTop = f.bedDepth = f.fall = f.fallTime = f.fallSpeed = f.overlapUnderBed = f.overlapOfFall = kNaN;
     f.bondUnderBed = f.bondLargest = kNaN;
     if (!c.canister || !(down > 0)) return;
-    f.bedTop = settledTop(*c.canister, filled.mass / c.world.density / kBedFraction);
-    f.bedDepth = f.bedTop + c.canister->width / 2;
+    f.bedDepth = bedDepth(*c.canister, filled.mass, c.world.density);
+    f.bedTop = f.bedDepth - c.canister->width / 2;
     f.fall = std::max(0.0, filled.fillHeight - f.bedTop);
     f.fallTime = std::sqrt(2 * f.fall / down);
     f.fallSpeed = down * f.fallTime;
 
     const ContactParameters& pair = c.dosingLaw.of(ContactClass::ParticleParticle);
     const ContactParameters& wall = c.dosingLaw.of(ContactClass::ParticleWall);
-    // A contact bears the bed's pressure on the square that a sphere takes up.
-    const double load = c.world.density * kBedFraction * down * f.bedDepth * 4 * f.mean * f.mean;
+    const double load = loadUnderBed(c.world.density, down, f.bedDepth, f.mean);
     f.overlapUnderBed = load / pair.k1 / f.mean;
     f.overlapOfFall = f.fallSpeed * std::sqrt(sphereMass(c.world.density, f.largest) / wall.k1) / f.largest;
     const double weight = sphereMass(c.world.density, f.mean) * down;
@@ -90,20 +70,6 @@ void addStep(Figures& f, const Case& c) {
 }
 
 }  // namespace
-
-double restitution(const ContactParameters& p, double density, double a, double b) {
-    const double zeta = p.gamma / (2 * std::sqrt(p.k1 * reducedMass(density, a, b)));
-    return zeta < 1 ? std::exp(-kPi * zeta / std::sqrt(1 - zeta * zeta)) : 0;
-}
-
-double dampingFor(double e, const ContactParameters& p, double density, double a, double b) {
-    const double log = std::log(e);
-    return -2 * log / std::hypot(kPi, log) * std::sqrt(p.k1 * reducedMass(density, a, b));
-}
-
-double pullOffUnder(const ContactParameters& p, double reduced, double load) {
-    return pullOff(p, reduced, load / p.k1);
-}
 
 Figures figuresOf(const Case& c, const Insertion& filled) {
     Figures f;

@@ -8,9 +8,6 @@
 
 namespace vkdose {
 
-/// Volume fraction at which a bed is expected to settle (measured beds of the shipped cases: about 0.46).
-inline constexpr double kBedFraction = 0.46;
-
 /// Restitution that damping alone gives to collisions on the loading line k1 [-]; 0 if overdamped.
 struct Restitution {
     ContactClass kind;
@@ -41,16 +38,5 @@ struct Figures {
 };
 
 Figures figuresOf(const Case& c, const Insertion& filled);
-
-/// Restitution of the spheres a and b (infinite: a wall) on k1, damping alone: exp(-pi zeta/sqrt(1 - zeta^2)) with
-/// zeta = gamma/(2 sqrt(k1 m12)).
-double restitution(const ContactParameters& p, double density, double a, double b);
-
-/// The damping gamma [kg/s] that gives this restitution, 0 < e < 1, to the spheres a and b on k1.
-double dampingFor(double e, const ContactParameters& p, double density, double a, double b);
-
-/// Strongest pull [N] of a contact with this reduced size [m] that was loaded by `load` [N]: k_c delta_min of
-/// physics.md. An infinite load stands for one beyond the plastic limit.
-double pullOffUnder(const ContactParameters& p, double reduced, double load);
 
 }  // namespace vkdose

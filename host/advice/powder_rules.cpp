@@ -7,6 +7,8 @@
 #include <limits>
 
 #include "host/advice/rules.h"
+#include "host/model/bed_weight.h"
+#include "host/model/restitution.h"
 #include "host/model/stability.h"
 
 namespace vkdose {
@@ -20,8 +22,6 @@ constexpr double kLoosest = 0.15, kDensest = 0.75;  ///< volume fractions of set
 /// Coefficients of friction beyond this are angles.
 constexpr double kMostFriction = 1.5;
 constexpr double kLeastRestitution = 0.1, kMostRestitution = 0.95;
-/// Forces in a bed run along chains that bear several times the mean.
-constexpr double kChain = 5;
 constexpr double kDeepFall = 0.5;  ///< share of the largest overlap that one sphere's fall may take
 constexpr std::size_t kFewest = 60;
 constexpr double kWidest = 7;  ///< size ratio up to which the automatic step is exact (host/verify/README.md)
@@ -41,8 +41,10 @@ std::string dampingCure(const Subject& s, const Restitution& e) {
     const bool meant = p.gamma >= kLeastRestitution && p.gamma <= kMostRestitution;
     const double wanted = meant ? p.gamma : 0.5;
     const double damping = dampingFor(wanted, p, s.c.world.density, s.f.mean, partner(e, s.f.mean));
-    return fmt::format("damping is a dashpot in kg/s; {:.3g} gives mean spheres a restitution of {:.2g}", damping,
-                       wanted);
+    return fmt::format(
+        "damping is a dashpot in kg/s; {:.3g} gives mean spheres a restitution of {:.2g}; or give "
+        "restitution = {:.2g} in its place",
+        damping, wanted, wanted);
 }
 
 }  // namespace

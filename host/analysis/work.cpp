@@ -19,10 +19,12 @@ double DriveWork::massPerJoule(double mass) const {
 
 DriveWork driveWork(std::span<const double> angle, std::span<const double> torque) {
     DriveWork sum;
+    double sense = 0;  // the coil's first turn conveys; a turn back against the powder is work as well
     for (std::size_t i = 1; i < std::min(angle.size(), torque.size()); ++i) {
-        const double turned = std::abs(angle[i] - angle[i - 1]);
-        sum.turns += turned / (2 * kPi);
-        sum.work += torque[i] * turned;
+        const double turned = angle[i] - angle[i - 1];
+        if (sense == 0 && turned != 0) sense = turned > 0 ? 1 : -1;
+        sum.turns += std::abs(turned) / (2 * kPi);
+        sum.work += torque[i] * turned * sense;
     }
     return sum;
 }

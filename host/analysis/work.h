@@ -15,9 +15,10 @@ struct DriveWork {
     double massPerJoule(double mass) const;
 };
 
-/// Takes two columns of the time series of the same length. `angle` [rad] is that of the coil at every line. The coil
-/// must turn in one sense only, no matter which. `torque` [N m] is that of the drive, mean since the line before. The
-/// first line begins the stretch, so its torque belongs to the time before and is not used.
+/// Takes two columns of the time series of the same length. `angle` [rad] is that of the coil at every line. The coil's
+/// first turn conveys, no matter in which sense; a turn back counts as a turn too. `torque` [N m] is that of the drive,
+/// mean since the line before. The first line begins the stretch, so its torque belongs to the time before and is not
+/// used.
 DriveWork driveWork(std::span<const double> angle, std::span<const double> torque);
 
 }  // namespace vkdose

@@ -11,6 +11,7 @@
 #include "host/app/exit_code.h"
 #include "host/app/text.h"
 #include "host/core/printable.h"
+#include "host/model/bed_weight.h"
 #include "host/model/stability.h"
 #include "host/sim/runner.h"
 
@@ -78,6 +79,10 @@ void printSoftening(const Case& c) {
         c.softened, p.k2Max, p.gamma, p.plasticityDepth);
 }
 
+void printDerivations(const Case& c) {
+    for (const std::string& line : c.derivations) fmt::print("derived    {}\n", printable(line));
+}
+
 void printContacts(const Derived& d, const Figures& f) {
     fmt::print("contact duration     mean pair on k1  stiffest pair on k2\n");
     for (const Derived::PairDuration& p : d.durations) {
@@ -96,8 +101,10 @@ void printBed(const Checked& all) {
     if (!(f.bedDepth > 0)) return;
     fmt::print("bed        {:.3g} mm deep at a volume fraction of {}; the fill falls {:.3g} mm in {:.2g} s\n",
                f.bedDepth * 1e3, kBedFraction, f.fall * 1e3, f.fallTime);
-    fmt::print("overlap    {:.2g} of the radius under the bed's weight, {:.2g} of the fall (limit {:.3g})\n",
-               f.overlapUnderBed, f.overlapOfFall, all.c.world.maxOverlapRatio);
+    fmt::print(
+        "overlap    {:.2g} of the radius under the bed's weight, {:.2g} in its chains of force, {:.2g} of the fall "
+        "(limit {:.3g})\n",
+        f.overlapUnderBed, kChain * f.overlapUnderBed, f.overlapOfFall, all.c.world.maxOverlapRatio);
     fmt::print("Bond       {:.2g} under the bed's weight, at most {:.3g} (pull-off force over weight, mean pair)\n",
                f.bondUnderBed, f.bondLargest);
 }
@@ -114,10 +121,14 @@ void printGaps(const Checked& all) {
     if (all.c.canister) row("outlet    ", all.c.canister->outletDiameter);
 }
 
-void printPredictions(const Derived& d) {
+void printPredictions(const Derived& d, const Schedule& schedule) {
     fmt::print("push V_z   {:.4g} mm/s (p Omega / 2 pi)\n", d.pushVelocity * 1e3);
     fmt::print("tip V_t    {:.4g} mm/s (Omega r_c)\n", d.tipVelocity * 1e3);
-    fmt::print("per dose   {:.4g} g by the closed form (rho_b p pi r_c^2 n_t)\n", d.massPerDose * 1e3);
+    if (schedule.targetMass > 0)
+        fmt::print("per dose   {:.4g} g, which are {:.3g} turns by the closed form (rho_b p pi r_c^2 n_t)\n",
+                   d.massPerDose * 1e3, d.massPerDose / d.massPerTurn);
+    else
+        fmt::print("per dose   {:.4g} g by the closed form (rho_b p pi r_c^2 n_t)\n", d.massPerDose * 1e3);
     fmt::print("doses      {:.3g} to empty the canister by the closed form\n", d.doses);
 }
 
@@ -150,12 +161,18 @@ void printText(const CheckOptions& options, const Checked& all) {
     fmt::print("case       {}: {}\n", all.c.name, printableLines(all.c.reason));
     printFilling(all.filled);
     if (all.c.softened > 1) printSoftening(all.c);
+    printDerivations(all.c);
     printContacts(all.derived, all.figures);
     printBed(all);
     printGaps(all);
-    if (all.c.world.coil) printPredictions(all.derived);
-    fmt::print("schedule   settle {} steps, rotate {}, rest {}; sensors every {} steps\n", timeline.settleSteps(),
+    if (all.c.world.coil) printPredictions(all.derived, all.c.schedule);
+    const Schedule& s = all.c.schedule;
+    fmt::print("schedule   settle {}{} steps, rotate {}{}, rest {}; sensors every {} steps\n",
+               s.untilRest ? "until at rest, at most " : "", timeline.settleSteps(), s.targetMass > 0 ? "at most " : "",
                timeline.rotateSteps(), timeline.restSteps(), timeline.sensorSteps());
+    if (s.targetMass > 0)
+        fmt::print("target     {:.4g} g a dose, in {} speed{}\n", s.targetMass * 1e3, s.stages.size() + 1,
+                   s.stages.empty() ? "" : "s");
     printRunTime(options, all);
     printWarnings(all.warnings);
 }
@@ -229,6 +246,9 @@ int checkAsJson(const CheckOptions& options) {
         out["case"] = all.c.name;
         out["warnings"] = warningsJson(all.warnings);
         out["figures"] = figuresJson(all);
+        Json derivations = Json::array();
+        for (const std::string& line : all.c.derivations) derivations.push_back(printable(line));
+        out["derived"] = derivations;
     } catch (const CaseError& error) {
         out["errors"] = errorsOf(error);
         code = kBadInput;

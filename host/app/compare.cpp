@@ -97,6 +97,11 @@ int compareCommand(const CompareOptions& options) {
     fmt::print("{}: {} particles, {} steps ({:.4g} s): {} against {}, {} + 1 perturbed twins\n\n", c.name,
                filled.particles.size(), steps, timeline.time(steps), candidate->description(), reference->description(),
                options.twins);
+    const Schedule& s = c.schedule;
+    if (s.untilRest || s.targetMass > 0 || std::isfinite(s.maxTorque))
+        fmt::print(
+            "All make the steps of the longest times: nothing that a run reads from its sensors ends a phase "
+            "here.\n\n");
     std::fflush(stdout);
 
     const bool terminal = isatty(fileno(stderr)) == 1;

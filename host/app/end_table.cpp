@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <iterator>
 
 #include "host/analysis/figures.h"
+#include "host/analysis/targets.h"
 #include "host/app/text.h"
 
 namespace vkdose {
@@ -19,6 +21,25 @@ std::string doseTable(const std::vector<Dose>& doses) {
                             d.coilTorque * 1e3, grams(d.closedForm), d.complete ? "" : "  incomplete, not in the mean");
     }
     return text;
+}
+
+/// What stopped the coil, of doses that not only the time can stop.
+std::string stopTable(const std::vector<Dose>& doses) {
+    std::string text = fmt::format("{:>5} {:>10} {:>14} {:>16} {:>15}  stopped by\n", "dose", "target [g]",
+                                   "at stop [g]", "overshoot [g]", "turned [s]");
+    for (const Dose& d : doses)
+        text += fmt::format("{:>5} {:>10.3f} {:>14.3f} {:>16.3f} {:>15.3f}  {}\n", d.index, d.target * 1e3,
+                            d.stopMass * 1e3, d.overshoot() * 1e3, d.rotation, cellText(d.stoppedBy, kAllDigits));
+    return text;
+}
+
+std::string targetLine(const std::vector<Dose>& doses) {
+    const TargetFigures f = targetFigures(doses);
+    if (f.doses == 0) return "";
+    return fmt::format(
+        "target   {:.3f} g; {} of {} doses stopped by their mass, on average {:+.3f} g from the target ({:.3f} g fell "
+        "after the stop) in {:.3g} s\n",
+        f.target * 1e3, f.byMass, f.doses, f.error * 1e3, f.overshoot * 1e3, f.rotation);
 }
 
 /// The figures by which the paper judges a run; those that need more doses are left out.
@@ -89,6 +110,8 @@ std::string energyLine(const EnergyLedger& ledger) {
 std::string reportText(const Case& c, const RunResult& r, const std::string& backend) {
     std::string text;
     if (!r.doses.empty()) text += doseTable(r.doses);
+    const bool controlled = c.schedule.targetMass > 0 || std::isfinite(c.schedule.maxTorque);
+    if (controlled && !r.doses.empty()) text += stopTable(r.doses);
     const DoseStatistics& s = r.statistics;
     if (s.doses > 1) {
         text += fmt::format("mean {} g, standard deviation {} g, RSD {:.1f} % over {} doses\n", grams(s.mean),
@@ -96,6 +119,8 @@ std::string reportText(const Case& c, const RunResult& r, const std::string& bac
     } else if (s.doses == 1) {
         text += fmt::format("mean {} g (one dose: no standard deviation, no RSD)\n", grams(s.mean));
     }
+    text += targetLine(r.doses);
+    if (r.settling) text += fmt::format("settled  {}\n", settlingSentence(*r.settling, c.schedule));
     text += figureLines(r, c.schedule.stop) + ledgerLine(r);
     if (r.last.energy) text += energyLine(*r.last.energy);
     text += overlapLine(r);

@@ -20,6 +20,9 @@ class Fanout : public RunObserver {
         if (display_) display_->onProgress(p);
     }
     void onSample(const Sample& s) override { folder_.onSample(s); }
+    void onSettled(const Settling& settling, const Schedule& schedule) override {
+        if (display_) display_->onSettled(settling, schedule);
+    }
     void onDose(const Dose& d) override {
         folder_.onDose(d);
         if (display_) display_->onDose(d);

@@ -23,6 +23,7 @@ class ProgressDisplay : public RunDisplay {
     ProgressDisplay& operator=(const ProgressDisplay&) = delete;
 
     void onProgress(const Progress& progress) override;
+    void onSettled(const Settling& settling, const Schedule& schedule) override;
     void onDose(const Dose& dose) override;
 
     void close() final;

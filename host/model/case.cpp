@@ -117,13 +117,14 @@ Case interpret(const std::filesystem::path& file, Node tree, std::vector<std::fi
     c.world.gravity = root.vector("gravity");
     c.bulkDensity = root.number("bulk_density");
     readParticles(reader, root, c);
-    readContact(reader, root, c);
+    placeContact(root);
     const std::optional<Boundaries> kind = readBoundaries(reader, root, c);
     readCoil(reader, root, c);
     readBodies(reader, root, reader.faulty() ? std::numeric_limits<double>::quiet_NaN() : sizeRange(c).largest, c);
     alignWithDrive(c);
+    readContact(reader, root, reader.faulty() ? std::numeric_limits<double>::quiet_NaN() : sizeRange(c).mean, c);
     readRegion(root, kind, c);
-    readSchedule(root, c);
+    readSchedule(reader, root, c);
     readTime(reader, root, c);
     readFields(reader, root, reader.faulty() ? std::numeric_limits<double>::quiet_NaN() : 2 * sizeRange(c).mean, c);
     const bool domainGiven = readDomain(root, c);

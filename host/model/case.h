@@ -16,16 +16,23 @@
 
 namespace vkdose {
 
+/// A sieve, after scaling.
+struct SievePoint {
+    double radius = 0;  ///< half of its opening [m]
+    double finer = 0;   ///< fraction of the powder's volume that passes it
+};
+
 /// Sizes of the inserted particles (radii, metres).
 struct SizeDistribution {
-    enum class Kind { Uniform, Fixed, Normal, Lognormal, Quantiles };
+    enum class Kind { Uniform, Fixed, Normal, Lognormal, Quantiles, Sieve };
     Kind kind = Kind::Fixed;
     double radius = 0;     ///< Fixed: the radius; Normal: the mean; Lognormal: the median
     double deviation = 0;  ///< Normal: standard deviation [m]; Lognormal: of ln(radius) [-]
     double radiusMin = 0;  ///< Uniform: bounds; the others: truncation (draws outside are drawn again)
     double radiusMax = 0;
     double r10 = 0, r50 = 0, r90 = 0;  ///< Quantiles (by volume) after scaling: radii of the meso-particles
-    double scaleUp = 1;                ///< Quantiles: factor from the powder's sizes to the meso-particles'
+    std::vector<SievePoint> sieve;     ///< Sieve: from fine to coarse, from 0 to 1
+    double scaleUp = 1;                ///< Quantiles, Sieve: factor from the powder's sizes to the meso-particles'
 };
 
 /// The origin of the particles: drawn and put on a grid, or listed in a CSV.
@@ -49,12 +56,31 @@ struct StopRule {
     double endTime = std::numeric_limits<double>::infinity();  ///< simulated time, settling included [s]
 };
 
+/// A part of a dose to a mass, with a speed of its own.
+struct DoseStage {
+    double speed = 0;  ///< conveying speed >= 0 [rad/s]
+    double until = 0;  ///< fraction of the target at which it ends
+};
+
 struct Schedule {
-    double settleTime = 0;  ///< [s]
-    double rotateTime = 0;  ///< t_d [s]; 0: no doses, the run is the settling
+    double settleTime = 0;         ///< [s]; with `untilRest` the longest
+    bool untilRest = false;        ///< the settling ends as soon as the bed rests
+    double restSpeedRatio = 0.01;  ///< speed of a bed at rest, over that of a fall from the fill's height [-]
+    double rotateTime = 0;  ///< t_d, ramps included [s]; 0: no doses, the run is the settling; to a mass: the longest
     double restTime = 0;    ///< [s]
-    double coilSpeed = 0;   ///< conveying speed >= 0 [rad/s]
+    double coilSpeed = 0;   ///< conveying speed >= 0 [rad/s]; with stages that after the last one
+    double targetMass = 0;  ///< the coil is told to stop once a dose has as much [kg]; 0: it turns for `rotateTime`
+    std::vector<DoseStage> stages;  ///< by rising `until`
+    double rampTime = 0;            ///< every change of the coil's speed takes so long [s]
+    double reverseTurns = 0;        ///< by which the coil turns back after each rotation, at `coilSpeed`
+    double maxTorque = std::numeric_limits<double>::infinity();  ///< of the drive, mean over a sensor interval [N m]
+    bool torqueEndsRun = false;                                  ///< a larger one ends the run, not only the rotation
     StopRule stop;
+
+    double fastestSpeed() const;  ///< of all stages and of `coilSpeed` [rad/s]
+    double reverseTime() const;   ///< of turning back, ramps included [s]
+    /// Whether every dose turns for the same time at one speed.
+    bool isPlain() const;
 };
 
 /// Dimensions of the canister, kept beside the surfaces made from them for predictions and messages [m].
@@ -95,8 +121,11 @@ struct Case {
     double sensorInterval = 0;  ///< [s], a whole number of steps after loading
     CheckpointInterval checkpoint;
     FrameStorage frames;
-    std::vector<FieldSensor> fields;           ///< taken while the run goes on
-    double bulkDensity = 471;                  ///< rho_b for the closed form [kg/m3]
+    std::vector<FieldSensor> fields;  ///< taken while the run goes on
+    double bulkDensity = 471;         ///< rho_b for the closed form [kg/m3]
+    /// Values that follow from others that the file gives in their place, in words: "contact: damping = 0.02 kg/s from
+    /// restitution = 0.5 of slow impacts".
+    std::vector<std::string> derivations;
     std::string resolved;                      ///< the case as TOML with every default and --set applied
     std::vector<std::filesystem::path> files;  ///< read for this case: the case file, its bases, the particle list
 };
@@ -118,8 +147,8 @@ struct Insertion {
     double mass = 0;            ///< of all particles [kg]
     double targetMass = 0;      ///< [kg]
     std::uint64_t redrawn = 0;  ///< draws outside the truncation bounds (Normal, Lognormal)
-    double cutBelow = 0;        ///< Quantiles: mass fraction of the powder finer than the lower bound [-]
-    double cutAbove = 0;        ///< Quantiles: mass fraction coarser than the upper bound [-]
+    double cutBelow = 0;        ///< Quantiles, Sieve: mass fraction of the powder finer than the lower bound [-]
+    double cutAbove = 0;        ///< Quantiles, Sieve: mass fraction coarser than the upper bound [-]
     double fillHeight = 0;      ///< top of the grid, or of a list's highest sphere [m, y]
 };
 Insertion insertParticles(const Case& c);
@@ -143,7 +172,8 @@ struct Derived {
     double fillMass = 0;      ///< inserted [kg]
     double pushVelocity = 0;  ///< V_z = p Omega / 2 pi [m/s]
     double tipVelocity = 0;   ///< V_t = Omega r_c [m/s]
-    double massPerDose = 0;   ///< rho_b p pi r_c^2 n_t [kg]
+    double massPerTurn = 0;   ///< rho_b p pi r_c^2 [kg]
+    double massPerDose = 0;   ///< the same times the turns of a dose, n_t; at most the target of a dose to a mass [kg]
     double doses = 0;         ///< m_tot / m_dose
     double steps = 0;         ///< until the predicted last dose plus the stop rule's
 };

@@ -9,6 +9,7 @@ namespace {
 using namespace key;
 
 constexpr Unit kDensity{1, "kg/m3"};
+constexpr Unit kMillinewtonMetre{1e3, "mN m"};
 constexpr Bound kPositive = Bound::Positive;
 constexpr Bound kNonNegative = Bound::NonNegative;
 constexpr std::int64_t kAnyCount = std::numeric_limits<std::int64_t>::max();
@@ -53,7 +54,7 @@ constexpr Key kParticles[] = {
 };
 
 constexpr Key kUniform[] = {
-    word("distribution", "uniform fixed normal lognormal quantiles", kRequired, "the kind of distribution")
+    word("distribution", "uniform fixed normal lognormal quantiles sieve", kRequired, "the kind of distribution")
         .replacing("*"),
     number("radius_min_mm", kMillimetre, kPositive, kRequired, "smallest radius"),
     number("radius_max_mm", kMillimetre, kPositive, kRequired, "largest radius"),
@@ -84,6 +85,28 @@ constexpr Key kQuantiles[] = {
            "largest radius, after `scale_up`"),
 };
 
+constexpr Key kSieve[] = {
+    number("scale_up", kPlain, kPositive, 1.0, "size of a simulated meso-particle over that of a grain of the powder"),
+    other(
+        "openings_um", told("this or `sieves`"),
+        "openings of the sieves in µm, from fine to coarse or the other way. The first of the fine end is the diameter "
+        "of the finest grains, which the pan holds; the coarsest lets all of the powder pass")
+        .replacing("sieves derived"),
+    other("passing_percent", told("this or `retained`"),
+          "percent of the mass that passes each; 0 at the finest, 100 at the coarsest")
+        .replacing("retained sieves derived"),
+    other("retained", told("this or `passing_percent`"),
+          "mass that lies on each, in any unit; that of the pan at the finest, 0 at the coarsest")
+        .replacing("passing_percent sieves derived"),
+    text("sieves", told("in place of the table here"),
+         "a CSV with the columns `opening_um` and `passing_percent` or `retained`; the path is relative to the case "
+         "file")
+        .replacing("openings_um passing_percent retained derived"),
+    number("radius_min_mm", kMillimetre, kPositive, told("of the finest grains"), "smallest radius, after `scale_up`"),
+    number("radius_max_mm", kMillimetre, kPositive, told("of the coarsest sieve"), "largest radius, after `scale_up`"),
+    text("derived", told("none"), "the number distribution that the spheres are drawn from; the resolved case has it"),
+};
+
 constexpr Key kRegion[] = {
     vector("low", kMetre, kRequired, "lower corner of the box that is filled"),
     vector("high", kMetre, kRequired, "upper corner"),
@@ -102,13 +125,41 @@ constexpr Key kContactAlone[] = {
            "states the softer values and `soften = 1`"),
 };
 constexpr Key kContactClass[] = {
-    number("k", {1, "N/m"}, kPositive, kRequired,
-           "k̂₂, the largest stiffness of unloading; all other stiffnesses are ratios to it"),
-    number("k1_over_k", kPlain, kPositive, kRequired, "k₁/k, stiffness of plastic loading; at most 1"),
-    number("kc_over_k", kPlain, kNonNegative, kRequired, "k_c/k, adhesion, during the doses"),
+    number("k", {1, "N/m"}, kPositive, told("this or one of the next two"),
+           "k̂₂, the largest stiffness of unloading; all other stiffnesses are ratios to it")
+        .replacing("contact_duration_s overlap_under_bed derived"),
+    number("contact_duration_s", kSecond, kPositive, told("in place of `k`"),
+           "k so that a contact on k₁ lasts so long, damping counted: the first column of `vkdose check`")
+        .replacing("k overlap_under_bed derived"),
+    number(
+        "overlap_under_bed", kPlain, kPositive, told("in place of `k`"),
+        "k so that the largest overlap under the bed's weight is this fraction of the mean radius. It is that of mean "
+        "spheres at the floor in a chain of force, which bears 5 times the mean. Needs `[canister]`")
+        .replacing("k contact_duration_s derived"),
+    number("k1_over_k", kPlain, kPositive, kRequired, "k₁/k, stiffness of plastic loading; at most 1")
+        .replacing("derived"),
+    number("kc_over_k", kPlain, kNonNegative, told("this or `bond_number`"), "k_c/k, adhesion, during the doses")
+        .replacing("bond_number bond_load derived"),
+    number("bond_number", kPlain, kNonNegative, told("in place of `kc_over_k`"),
+           "k_c so that the strongest pull of a contact is so many weights of a mean sphere")
+        .replacing("kc_over_k derived"),
+    word("bond_load", "limit bed", "limit",
+         "the load after which the contact pulls so: `\"limit\"`: one beyond the plastic limit, after which it pulls "
+         "as strongly as it ever can; `\"bed\"`: the mean force at the floor under the bed's weight"),
     number("plasticity_depth", kPlain, kNonNegative, told("required if k₁ < k"),
-           "φ_f, the overlap relative to the radius at which k₂ reaches k"),
-    number("damping", {1, "kg/s"}, kNonNegative, kRequired, "γ, of the normal direction; a dashpot, not a restitution"),
+           "φ_f, the overlap relative to the radius at which k₂ reaches k")
+        .replacing("derived"),
+    number("damping", {1, "kg/s"}, kNonNegative, told("this or `restitution`"),
+           "γ, of the normal direction; a dashpot, not a restitution")
+        .replacing("restitution restitution_speed derived"),
+    number("restitution", kPlain, kNonNegative, told("in place of `damping`"),
+           "γ so that a head-on impact rebounds with this share of its speed; above 0 and at most 1")
+        .replacing("damping derived"),
+    number("restitution_speed", {1, "m/s"}, kNonNegative, 0.0,
+           "speed of the impact with that `restitution`. 0: the limit of slow impacts, in which damping alone takes "
+           "energy. Above: plasticity and adhesion count too"),
+    text("derived", told("none"),
+         "how `vkdose` came to values of this table; the resolved case has it, and nothing else reads it"),
     number("friction", kPlain, kNonNegative, kRequired, "μ, a coefficient, not an angle"),
     number("kt_over_k", kPlain, kPositive, kTwoSevenths, "k_t/k, stiffness of sliding"),
     number("damping_t_ratio", kPlain, kNonNegative, kTwoSevenths, "γ_t/γ, damping of sliding"),
@@ -231,7 +282,14 @@ constexpr Key kMotion[] = {
 };
 
 constexpr Key kSettle[] = {
-    number("time_s", kSecond, kNonNegative, 0.0, "duration of settling, with the coil at rest"),
+    number("time_s", kSecond, kNonNegative, 0.0,
+           "duration of settling, with the coil at rest; with `until_rest` the longest one"),
+    boolean("until_rest", false,
+            "settling ends as soon as the bed rests. A run whose bed still moves after `time_s` goes on and tells it"),
+    number(
+        "rest_speed_ratio", kPlain, kPositive, 0.01,
+        "a bed rests when the root mean square speed of its spheres has stayed below this fraction of v for the time "
+        "that the fall takes. v is the speed after a fall from the top of the fill to its bottom"),
     number("kc_over_k", kPlain, kNonNegative, told("that of `[contact]`"),
            "adhesion while settling; a weaker one makes the bed homogeneous"),
     number("wall_kc_over_k", kPlain, kNonNegative, told("the wall's own, or `kc_over_k` above"),
@@ -244,10 +302,29 @@ constexpr Key kSettle[] = {
 };
 constexpr Key kDose[] = {
     number("rotate_s", kSecond, kNonNegative, 0.0,
-           "time the coil turns in a dose; 0: no doses, the run is the settling"),
+           "time the coil turns in a dose, ramps included; 0: no doses, the run is the settling")
+        .replacing("mass_g max_rotate_s stage"),
+    number("mass_g", kGram, kPositive, told("none"),
+           "target of a dose: the coil is told to stop at the first sensor interval that finds as much dosed. In place "
+           "of `rotate_s`")
+        .replacing("rotate_s"),
+    number("max_rotate_s", kSecond, kPositive, told("required with `mass_g`"),
+           "the longest time that the coil turns for `mass_g`, ramps included"),
+    number("ramp_s", kSecond, kNonNegative, 0.0,
+           "time of each change of the coil's speed, from 0 and to 0 too; in 32 steps"),
+    number("reverse_turns", kPlain, kNonNegative, 0.0,
+           "turns that the coil makes backwards after each rotation, at `coil.speed_rpm`"),
+    number("max_torque_mNm", kMillinewtonMetre, kPositive, told("none"),
+           "largest torque of the drive either way, mean over a sensor interval while the coil conveys"),
+    word("at_max_torque", "dose run", "dose",
+         "what a larger torque ends: the rotation of the `\"dose\"`, or the `\"run\"`"),
     number("rest_s", kSecond, kNonNegative, 0.0, "rest after each rotation, part of the dose"),
     number("speed_rpm", kRpm, kNonNegative, told("required if bodies follow the drive and there is no coil"),
            "speed of the drive that bodies follow, where there is no coil"),
+};
+constexpr Key kStage[] = {
+    number("speed_rpm", kRpm, kNonNegative, kRequired, "speed of the coil in this stage"),
+    number("until", kPlain, kPositive, kRequired, "fraction of `mass_g` at which the stage ends; at most 1"),
 };
 constexpr Key kStop[] = {
     word("rule", "none experiment simulation", told("`\"experiment\"`; without doses `\"none\"`"),
@@ -323,11 +400,17 @@ constexpr KeyTable kTables[] = {
     {"particles.size", kNormal, "Normal radii, `\"normal\"`. A draw outside the bounds is drawn again:"},
     {"particles.size", kLognormal, "Lognormal radii, `\"lognormal\"`. A draw outside the bounds is drawn again:"},
     {"particles.size", kQuantiles, "Measured quantiles of the volume, `\"quantiles\"`:"},
+    {"particles.size", kSieve,
+     "A sieve analysis, `\"sieve\"`. Between two sieves the mass is spread evenly over the logarithm of the size:"},
     {"particles.region", kRegion, "The box to fill, where `boundaries` is `\"list\"` or `\"none\"`."},
     {"contact contact.wall contact.coil", kContactClass,
      "`[contact]` holds the parameters between particles. `[contact.wall]` replaces single ones for the walls,\n"
      "`[contact.coil]` for the coil. The coil takes what it does not state from the wall, and the wall from "
-     "`[contact]`."},
+     "`[contact]`. What is given in place of `k`, `kc_over_k` or `damping` holds for two spheres of the mean radius; "
+     "at\n"
+     "a wall and at the coil for one such sphere. It is inherited as it is given: with one `restitution` each class "
+     "gets\n"
+     "the damping that its own mass needs."},
     {"contact", kContactAlone, "These hold for all contacts."},
     {"canister", kCanister, ""},
     {"plane[]", kPlane, "A wall without end, for `boundaries = \"list\"`."},
@@ -342,6 +425,8 @@ constexpr KeyTable kTables[] = {
      "How the body moves; without this table it rests. Axes and points stand in the frame of the case."},
     {"settle", kSettle, "The run begins with the coil at rest."},
     {"dose", kDose, "Then the coil turns and rests, dose after dose."},
+    {"dose.stage[]", kStage,
+     "Coarse stages of a dose to a mass, by rising `until`. After the last one the coil turns at `coil.speed_rpm`."},
     {"stop", kStop, "A run ends when one of these conditions holds, or when the canister is empty."},
     {"time", kTime, ""},
     {"sensors", kSensors, ""},

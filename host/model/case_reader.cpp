@@ -320,6 +320,16 @@ void Section::record(std::string_view key, const std::string& value) {
     write(key, tomlString(value));
 }
 
+void Section::record(std::string_view key, const std::vector<double>& values) {
+    std::vector<std::string> items;
+    for (const double value : values) items.push_back(numeral(value));
+    write(key, "[" + listed(items) + "]");
+}
+
+void Section::forget(std::string_view key) {
+    std::erase_if(used_, [&](const auto& entry) { return entry.first == key; });
+}
+
 void Section::finish() {
     if (node_ == nullptr) return;
     for (const Node& child : node_->children) {

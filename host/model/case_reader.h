@@ -62,6 +62,9 @@ class Section {
     void record(std::string_view key, double value);
     void record(std::string_view key, const Vec3& value);
     void record(std::string_view key, const std::string& value);
+    void record(std::string_view key, const std::vector<double>& values);
+    /// Leaves a key that was read out of the resolved case, which states what became of it.
+    void forget(std::string_view key);
     /// To be called after a fault in the key that decides which keys belong here. From then on this table reports only
     /// misspelt known keys.
     void abandon() { broken_ = abandoned_ = true; }

@@ -1,6 +1,6 @@
 #pragma once
-// The tables of a case file, read into a Case. Every key is read in read_powder.cpp, read_apparatus.cpp,
-// read_bodies.cpp or read_field.cpp.
+// The tables of a case file, read into a Case. Every key is read in read_powder.cpp, read_sieve.cpp, read_contact.cpp,
+// read_apparatus.cpp, read_bodies.cpp or read_field.cpp.
 
 #include <optional>
 
@@ -13,16 +13,29 @@ enum class Boundaries { Canister, List, None };
 
 // read_powder.cpp
 void readParticles(CaseReader& reader, Section& root, Case& c);
-void readContact(CaseReader& reader, Section& root, Case& c);
 /// Reads the box of the insertion grid. By default it is the canister above its coil. Call after readBoundaries and
 /// readCoil.
 void readRegion(Section& root, std::optional<Boundaries> kind, Case& c);
+
+// read_sieve.cpp
+/// Reads the table of a sieve analysis into `size.sieve`, which stays empty after a fault. `size.scaleUp` is read
+/// already. A file that it reads is added to `files`.
+void readSieve(CaseReader& reader, Section& section, SizeDistribution& size, std::vector<std::filesystem::path>& files);
+/// The number distribution that such a table makes, in words.
+std::string sieveDerivation(const SizeDistribution& size);
+
+// read_contact.cpp
+/// Gives the tables that readContact reads their place in the resolved case, before those of the apparatus.
+void placeContact(Section& root);
+/// Reads contacts and the adhesion of settling. Call after readParticles, readBoundaries and readCoil: parameters may
+/// follow from the weight of the bed. The mean radius of the particles [m] is NaN if it is not known.
+void readContact(CaseReader& reader, Section& root, double meanRadius, Case& c);
 
 // read_apparatus.cpp
 /// Reads the boundaries. Returns nothing if their kind itself is at fault.
 std::optional<Boundaries> readBoundaries(CaseReader& reader, Section& root, Case& c);
 void readCoil(CaseReader& reader, Section& root, Case& c);
-void readSchedule(Section& root, Case& c);
+void readSchedule(CaseReader& reader, Section& root, Case& c);
 /// Reads time step and skin if the file states them; 0 stands for a value that is computed later.
 void readTime(CaseReader& reader, Section& root, Case& c);
 /// True when the file states a domain.

@@ -56,8 +56,8 @@ void checkSize(CaseReader& reader, const SizeDistribution& s) {
         reader.fault("particles.size.d50_um", "the quantiles do not increase", "give d10_um < d50_um < d90_um");
         return;
     }
-    if (s.kind == Kind::Quantiles && s.radiusMin <= s.radiusMax &&
-        finerVolume(s, s.radiusMax) - finerVolume(s, s.radiusMin) <= 0)
+    const bool ofPowder = s.kind == Kind::Quantiles || (s.kind == Kind::Sieve && !s.sieve.empty());
+    if (ofPowder && s.radiusMin <= s.radiusMax && finerVolume(s, s.radiusMax) - finerVolume(s, s.radiusMin) <= 0)
         reader.fault("particles.size.radius_min_mm", "the bounds leave nothing of the scaled powder",
                      fmt::format("keep them between {:.4g} and {:.4g} mm", mm(finestRadius(s)), mm(coarsestRadius(s))));
     const bool drawnAgain = s.kind == Kind::Normal || s.kind == Kind::Lognormal;
@@ -128,15 +128,68 @@ void checkCoil(CaseReader& reader, const Case& c) {
             fmt::format("wind fewer than {:.4g} turns", coil.length / (2 * coil.wireRadius)));
 }
 
+double fillMass(const Case& c) {
+    if (!c.filling.list) return c.filling.mass;
+    double mass = 0;
+    for (const double r : c.filling.list->radius) mass += sphereMass(c.world.density, r);
+    return mass;
+}
+
+void checkStages(CaseReader& reader, const Schedule& s) {
+    double before = 0;
+    for (std::size_t k = 0; k < s.stages.size(); ++k) {
+        const std::string key = fmt::format("dose.stage[{}].until", k);
+        if (s.stages[k].until > 1)
+            reader.fault(key, "is beyond the target", "give a fraction of mass_g, at most 1");
+        else if (s.stages[k].until <= before)
+            reader.fault(key, fmt::format("does not come after {:.6g}, where the stage before it ends", before),
+                         "list the stages by rising fractions");
+        before = s.stages[k].until;
+    }
+}
+
+void checkDoses(CaseReader& reader, const Case& c) {
+    const Schedule& s = c.schedule;
+    const bool doses = s.rotateTime > 0;
+    if (s.targetMass > fillMass(c))
+        reader.fault("dose.mass_g", fmt::format("is more than the fill of {:.4g} g", fillMass(c) * 1e3),
+                     "give less, or fill in more");
+    if (!s.stages.empty() && s.targetMass == 0 && !reader.root().table("dose").has("mass_g"))
+        reader.fault("dose.stage", "the stages are fractions of a mass that is not given",
+                     "give dose.mass_g and dose.max_rotate_s");
+    checkStages(reader, s);
+    if (doses && 2 * s.rampTime > s.rotateTime)
+        reader.fault("dose.ramp_s", "the coil has no time to speed up and to slow down again",
+                     fmt::format("give at most half of {}, {:.6g} s", s.targetMass > 0 ? "max_rotate_s" : "rotate_s",
+                                 s.rotateTime / 2));
+    if (std::isfinite(s.maxTorque) && !c.world.coil)
+        reader.fault("dose.max_torque_mNm", "there is no coil, and only a coil's torque is measured", "remove it");
+    if (s.rotateTime == 0 && s.reverseTurns > 0)
+        reader.fault("dose.reverse_turns", "there is no dose to turn back after", "give rotate_s > 0");
+    if (doses && s.reverseTurns > 0 && s.coilSpeed == 0)
+        reader.fault("dose.reverse_turns", "a coil that stands cannot turn back", "give coil.speed_rpm > 0");
+    else if (doses && s.reverseTurns > 0 && s.reverseTime() < 2 * s.rampTime)
+        reader.fault("dose.reverse_turns", "the coil cannot turn so little with these ramps",
+                     fmt::format("give at least {:.3g}, or a shorter ramp_s", s.rampTime * s.coilSpeed / (2 * kPi)));
+}
+
 void checkSchedule(CaseReader& reader, const Case& c) {
     const Schedule& s = c.schedule;
+    checkDoses(reader, c);
     if (s.rotateTime > 0 && !c.world.coil && !followsDrive(c.world.bodies))
-        reader.fault("dose.rotate_s", "there is no coil to turn",
+        reader.fault(s.targetMass > 0 ? "dose.mass_g" : "dose.rotate_s", "there is no coil to turn",
                      "add [coil], or a [[body]] with motion.follows = \"drive\", or set rotate_s = 0");
     if (s.rotateTime == 0 && s.restTime > 0)
         reader.fault("dose.rest_s", "there is no dose to rest after", "give rotate_s > 0, or settle.time_s instead");
     if (s.rotateTime == 0 && s.settleTime == 0)
         reader.fault("settle.time_s", "there is nothing to run", "give settle.time_s or dose.rotate_s > 0");
+    if (s.untilRest && s.settleTime == 0)
+        reader.fault("settle.until_rest", "there is no time to come to rest in",
+                     "give settle.time_s, the longest time that settling may take");
+    if (s.untilRest && glm::length(c.world.gravity) == 0)
+        reader.fault("settle.until_rest", "nothing falls without gravity", "give gravity, or until_rest = false");
+    if (s.restSpeedRatio >= 1)
+        reader.fault("settle.rest_speed_ratio", "calls a falling powder a bed at rest", "give about 0.01");
     if (s.rotateTime > 0 && s.stop.kind == StopRule::Kind::None && s.stop.maxDoses == std::numeric_limits<int>::max() &&
         std::isinf(s.stop.endTime))
         reader.fault("stop.rule", "the run would never end", "give max_doses or end_time_s, or another rule");
@@ -199,6 +252,8 @@ void checkGrid(CaseReader& reader, const Case& c, double largest) {
         reader.fault("particles.mass_g", fmt::format("takes about {:.2g} particles", expected),
                      f.size.kind == SizeDistribution::Kind::Quantiles
                          ? "give less mass or a larger scale_up; d10_um, d50_um and d90_um are in micrometres"
+                     : f.size.kind == SizeDistribution::Kind::Sieve
+                         ? "give less mass, a larger scale_up, or a radius_min_mm that leaves the finest out"
                          : "give less mass or larger meso-particles");
         return;
     }

@@ -11,6 +11,12 @@
 namespace vkdose {
 namespace {
 
+/// Time that the coil is expected to turn in a dose, ramps included [s].
+double turningTime(const Schedule& s, double massPerTurn) {
+    const double rate = massPerTurn * s.coilSpeed / (2 * kPi);
+    return s.targetMass > 0 && rate > 0 ? std::min(s.rotateTime, s.targetMass / rate + s.rampTime) : s.rotateTime;
+}
+
 struct Sizes {
     double mean;
     double smallest;
@@ -23,19 +29,33 @@ Sizes sizesOf(const Case& c) {
             *std::min_element(r.begin(), r.end())};
 }
 
-double predictedSteps(const Case& c, double doses) {
+double predictedSteps(const Case& c, double doses, double massPerTurn) {
     const Schedule& s = c.schedule;
     double time = s.settleTime;
     if (s.rotateTime > 0) {
         double count = std::isfinite(doses) ? std::ceil(doses) : 0;
         if (s.stop.kind != StopRule::Kind::None) count += s.stop.doses;
         count = std::min(count, static_cast<double>(s.stop.maxDoses));
-        time += count * (s.rotateTime + s.restTime);
+        time += count * (turningTime(s, massPerTurn) + s.reverseTime() + s.restTime);
     }
     return std::ceil(std::min(time, s.stop.endTime) / c.world.timeStep);
 }
 
 }  // namespace
+
+double Schedule::fastestSpeed() const {
+    double fastest = coilSpeed;
+    for (const DoseStage& stage : stages) fastest = std::max(fastest, stage.speed);
+    return fastest;
+}
+
+double Schedule::reverseTime() const {
+    return reverseTurns > 0 ? reverseTurns * 2 * kPi / coilSpeed + rampTime : 0;
+}
+
+bool Schedule::isPlain() const {
+    return targetMass == 0 && rampTime == 0 && !std::isfinite(maxTorque);
+}
 
 double contactDuration(const ContactParameters& p, double density, double a, double b, double k) {
     const double m12 = reducedMass(density, a, b);
@@ -65,13 +85,16 @@ Derived derive(const Case& c, const Insertion& filled) {
     d.fillMass = filled.mass;
     if (c.world.coil) {
         const geometry::Coil& coil = *c.world.coil;
-        const double turns = c.schedule.coilSpeed * c.schedule.rotateTime / (2 * kPi);
+        const Schedule& s = c.schedule;
+        const double turns = s.coilSpeed * (s.rotateTime - s.rampTime) / (2 * kPi);
         d.pushVelocity = coil.pitch * c.schedule.coilSpeed / (2 * kPi);
         d.tipVelocity = c.schedule.coilSpeed * coil.radius;
-        d.massPerDose = c.bulkDensity * coil.pitch * kPi * coil.radius * coil.radius * turns;
+        d.massPerTurn = c.bulkDensity * coil.pitch * kPi * coil.radius * coil.radius;
+        d.massPerDose = d.massPerTurn * turns;
+        if (s.targetMass > 0) d.massPerDose = std::min(d.massPerDose, s.targetMass);
         d.doses = d.massPerDose > 0 ? d.fillMass / d.massPerDose : 0;
     }
-    d.steps = predictedSteps(c, d.doses);
+    d.steps = predictedSteps(c, d.doses, d.massPerTurn);
     return d;
 }
 

@@ -101,7 +101,7 @@ Insertion insertParticles(const Case& c) {
     }
     const SizeDistribution& size = c.filling.size;
     result.targetMass = c.filling.mass;
-    if (size.kind == SizeDistribution::Kind::Quantiles) {
+    if (size.kind == SizeDistribution::Kind::Quantiles || size.kind == SizeDistribution::Kind::Sieve) {
         result.cutBelow = finerVolume(size, size.radiusMin);
         result.cutAbove = 1 - finerVolume(size, size.radiusMax);
     }

@@ -3,13 +3,42 @@
 #include <algorithm>
 
 namespace vkdose {
+namespace {
+
+/// A contact on its adhesive side: the overlap that acts, and by how much it is stiffer there, k_2 - k_1.
+struct Pressed {
+    double acting, stiffer;
+
+    Pressed(const ContactParameters& p, double reduced, double maxOverlap) {
+        const double limit = p.k2Max / (p.k2Max - p.k1) * p.plasticityDepth * reduced;
+        acting = std::min(maxOverlap, limit);
+        stiffer = (p.k2Max - p.k1) * (limit > 0 ? acting / limit : 1);
+    }
+};
+
+}  // namespace
 
 double pullOff(const ContactParameters& p, double reduced, double maxOverlap) {
     if (p.k2Max <= p.k1) return 0;  // one stiffness: no adhesive branch
-    const double limit = p.k2Max / (p.k2Max - p.k1) * p.plasticityDepth * reduced;
-    const double acting = std::min(maxOverlap, limit);
-    const double stiffer = (p.k2Max - p.k1) * (limit > 0 ? acting / limit : 1);  // k_2 - k_1
-    return p.kc * stiffer / (p.k1 + stiffer + p.kc) * acting;
+    const Pressed c(p, reduced, maxOverlap);
+    return p.kc * c.stiffer / (p.k1 + c.stiffer + p.kc) * c.acting;
+}
+
+double pullOffUnder(const ContactParameters& p, double reduced, double load) {
+    return pullOff(p, reduced, load / p.k1);
+}
+
+double strongestPull(const ContactParameters& p, double reduced, double load) {
+    if (p.k2Max <= p.k1) return 0;
+    const Pressed c(p, reduced, load / p.k1);
+    return c.stiffer * c.acting;
+}
+
+std::optional<double> adhesionFor(double force, const ContactParameters& p, double reduced, double load) {
+    if (force == 0) return 0.0;
+    if (!(force < strongestPull(p, reduced, load))) return {};
+    const Pressed c(p, reduced, load / p.k1);
+    return force * (p.k1 + c.stiffer) / (c.stiffer * c.acting - force);
 }
 
 }  // namespace vkdose

@@ -152,6 +152,29 @@ namespace {
 
 // ---- time ---------------------------------------------------------------------------------------------------------
 
+void readDose(CaseReader& reader, Section& dose, Case& c) {
+    Schedule& s = c.schedule;
+    for (const char* key : {"rotate_s", "mass_g", "max_rotate_s", "max_torque_mNm"}) dose.know(key);
+    const bool toMass = dose.has("mass_g");
+    if (!toMass || dose.has("rotate_s")) s.rotateTime = dose.number("rotate_s");
+    if (toMass && dose.has("rotate_s"))
+        reader.fault(dose.path("rotate_s"), "is a fixed time, but mass_g doses to a mass",
+                     "give mass_g and max_rotate_s, or rotate_s alone");
+    if (toMass) s.targetMass = dose.number("mass_g");
+    if (toMass || dose.has("max_rotate_s")) s.rotateTime = dose.number("max_rotate_s");
+    if (!toMass && dose.has("max_rotate_s"))
+        reader.fault(dose.path("max_rotate_s"), "has no use without mass_g", "give mass_g, or rotate_s in its place");
+    for (Section* stage : dose.tables("stage"))
+        s.stages.push_back({stage->number("speed_rpm"), stage->number("until")});
+    s.rampTime = dose.number("ramp_s");
+    s.reverseTurns = dose.number("reverse_turns");
+    if (dose.has("max_torque_mNm")) s.maxTorque = dose.number("max_torque_mNm");
+    s.torqueEndsRun = dose.choice("at_max_torque") == std::size_t{1};
+    s.restTime = dose.number("rest_s");
+    if (!c.world.coil && followsDrive(c.world.bodies)) s.coilSpeed = dose.number("speed_rpm");
+    dose.know("speed_rpm");
+}
+
 void readStop(Section& root, Case& c) {
     const bool doses = c.schedule.rotateTime > 0;
     Section& section = root.table("stop");
@@ -174,14 +197,12 @@ void readStop(Section& root, Case& c) {
 
 }  // namespace
 
-void readSchedule(Section& root, Case& c) {
+void readSchedule(CaseReader& reader, Section& root, Case& c) {
     Section& settle = root.table("settle");
     c.schedule.settleTime = settle.number("time_s");
-    Section& dose = root.table("dose");
-    c.schedule.rotateTime = dose.number("rotate_s");
-    c.schedule.restTime = dose.number("rest_s");
-    if (!c.world.coil && followsDrive(c.world.bodies)) c.schedule.coilSpeed = dose.number("speed_rpm");
-    dose.know("speed_rpm");
+    c.schedule.untilRest = settle.boolean("until_rest");
+    c.schedule.restSpeedRatio = settle.number("rest_speed_ratio");
+    readDose(reader, root.table("dose"), c);
     readStop(root, c);
     Section& sensors = root.table("sensors");
     c.sensorInterval = sensors.number("interval_s");

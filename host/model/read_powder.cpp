@@ -1,8 +1,7 @@
-// The tables [particles], [contact] and the adhesion of [settle].
+// The table [particles].
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -15,10 +14,19 @@ namespace vkdose {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-// ---- particles ----------------------------------------------------------------------------------------------------
+/// Says what number distribution the sieves make. An older text, in a resolved case, gives way to it.
+void recordDerivation(Section& section, const SizeDistribution& size, Case& c) {
+    if (section.has("derived")) (void)section.string("derived");
+    section.know("derived");
+    if (size.sieve.empty() || !(size.radiusMin < size.radiusMax)) return;  // told elsewhere
+    const std::string words = sieveDerivation(size);
+    section.record("derived", words);
+    c.derivations.push_back("particles.size: " + words);
+}
 
-SizeDistribution readSize(Section& section) {
+SizeDistribution readSize(CaseReader& reader, Section& section, Case& c) {
     using Kind = SizeDistribution::Kind;
     SizeDistribution size;
     const auto bounds = [&](double low, double high) {  // defaults, in metres
@@ -56,6 +64,12 @@ SizeDistribution readSize(Section& section) {
             size.r90 = 0.5 * size.scaleUp * section.number("d90_um");
             bounds(finestRadius(size), coarsestRadius(size));
             break;
+        case Kind::Sieve:
+            size.scaleUp = section.number("scale_up");
+            readSieve(reader, section, size, c.files);
+            bounds(size.sieve.empty() ? kNaN : finestRadius(size), size.sieve.empty() ? kNaN : coarsestRadius(size));
+            recordDerivation(section, size, c);
+            break;
     }
     return size;
 }
@@ -87,7 +101,7 @@ void readParticles(CaseReader& reader, Section& root, Case& c) {
     section.know("list");
     c.filling.mass = section.number("mass_g");
     c.filling.gridGap = section.number("grid_gap");
-    c.filling.size = readSize(section.requiredTable("size"));
+    c.filling.size = readSize(reader, section.requiredTable("size"), c);
 }
 
 void readRegion(Section& root, std::optional<Boundaries> kind, Case& c) {
@@ -106,119 +120,6 @@ void readRegion(Section& root, std::optional<Boundaries> kind, Case& c) {
     }
     Section& region = particles.requiredTable("region");
     c.filling.region = {region.vector("low"), region.vector("high")};
-}
-
-namespace {
-
-// ---- contact ------------------------------------------------------------------------------------------------------
-
-/// Contact parameters as ratios, the way the file has them.
-struct Ratios {
-    double k, k1, kc, plasticity, damping, mu, kt, dampingT, muR, kr, dampingR, muTo, kTo, dampingTo;
-
-    /// Similar spheres, `s` times as soft (physics.md, "Similar softer spheres").
-    void soften(double s) {
-        k /= s;
-        damping /= std::sqrt(s);
-        plasticity *= s;
-    }
-
-    ContactParameters parameters(double adhesion) const {
-        ContactParameters p;
-        p.k2Max = k;
-        p.k1 = k1 * k;
-        p.kc = adhesion * k;
-        p.plasticityDepth = plasticity;
-        p.gamma = damping;
-        p.mu = mu;
-        p.kt = kt * k;
-        p.gammaT = dampingT * damping;
-        p.muR = muR;
-        p.kr = kr * k;
-        p.gammaR = dampingR * damping;
-        p.muTo = muTo;
-        p.kTo = kTo * k;
-        p.gammaTo = dampingTo * damping;
-        return p;
-    }
-};
-
-/// Reads one class; keys that are not there come from `parent`, or from the defaults when there is none.
-Ratios readRatios(Section& section, const Ratios* parent) {
-    const auto key = [&](const char* name, double Ratios::*member, std::optional<double> fallback = {}) {
-        if (parent != nullptr) fallback = parent->*member;
-        return section.number(name, fallback);
-    };
-    Ratios r{};
-    r.k = key("k", &Ratios::k);
-    r.k1 = key("k1_over_k", &Ratios::k1);
-    r.kc = key("kc_over_k", &Ratios::kc);
-    // Without plasticity (k1 = k) the depth has no effect, so that it may be left out.
-    r.plasticity = key("plasticity_depth", &Ratios::plasticity, r.k1 < 1 ? std::optional<double>() : 0.0);
-    r.damping = key("damping", &Ratios::damping);
-    r.mu = key("friction", &Ratios::mu);
-    r.kt = key("kt_over_k", &Ratios::kt);
-    r.dampingT = key("damping_t_ratio", &Ratios::dampingT);
-    r.muR = key("rolling_friction", &Ratios::muR);
-    r.kr = key("kr_over_k", &Ratios::kr);
-    r.dampingR = key("damping_r_ratio", &Ratios::dampingR);
-    r.muTo = key("torsion_friction", &Ratios::muTo);
-    r.kTo = key("kto_over_k", &Ratios::kTo);
-    r.dampingTo = key("damping_to_ratio", &Ratios::dampingTo);
-    return r;
-}
-
-/// States the parameters of one class as they are, for the resolved case.
-void recordSoftened(Section& section, const Ratios& r) {
-    section.record("k", r.k);
-    section.record("damping", r.damping);
-    section.record("plasticity_depth", r.plasticity);
-}
-
-/// Reads by how much the spheres are to be softer, and makes them so.
-double readSoftness(CaseReader& reader, Section& contact, const std::array<Section*, kContactClasses>& sections,
-                    std::array<Ratios, kContactClasses>& ratios) {
-    const double s = contact.number("soften");
-    if (s < 1) reader.fault("contact.soften", "makes the spheres harder", "give 1 or more, or a larger k");
-    if (!(s > 1)) return 1;
-    for (std::size_t i = 0; i < ratios.size(); ++i) {
-        ratios[i].soften(s);
-        recordSoftened(*sections[i], ratios[i]);
-    }
-    contact.record("soften", 1.0);  // read again, the case is not softened a second time
-    return s;
-}
-
-}  // namespace
-
-void readContact(CaseReader& reader, Section& root, Case& c) {
-    Section& contact = root.requiredTable("contact");
-    c.dosingLaw.coulombLimit = static_cast<CoulombLimit>(contact.choice("coulomb_limit").value_or(0));
-    c.dosingLaw.rollingLever = static_cast<RollingLever>(contact.choice("rolling_lever").value_or(0));
-    c.world.maxOverlapRatio = contact.number("max_overlap_ratio");
-    const Ratios pair = readRatios(contact, nullptr);
-    Section& wallSection = contact.table("wall");
-    const Ratios wall = readRatios(wallSection, &pair);
-    Section& coilSection = contact.table("coil");
-    const Ratios coil = readRatios(coilSection, &wall);
-    std::array<Ratios, kContactClasses> ratios{pair, wall, coil};
-    c.softened = readSoftness(reader, contact, {&contact, &wallSection, &coilSection}, ratios);
-
-    // While the powder settles, adhesion has a strength of its own. A class whose table gives kc_over_k keeps that
-    // value by default.
-    Section& settle = root.table("settle");
-    const double pairKc = settle.number("kc_over_k", pair.kc);
-    const double wallKc = settle.number("wall_kc_over_k", wallSection.has("kc_over_k") ? wall.kc : pairKc);
-    const double coilKc = settle.number("coil_kc_over_k", coilSection.has("kc_over_k") ? coil.kc : wallKc);
-    const std::array<double, kContactClasses> settling{pairKc, wallKc, coilKc};
-    const double damping = settle.number("damping_factor");
-
-    c.settlingLaw = c.dosingLaw;
-    for (std::size_t i = 0; i < ratios.size(); ++i) {
-        c.dosingLaw.classes[i] = ratios[i].parameters(ratios[i].kc);
-        c.settlingLaw.classes[i] = ratios[i].parameters(settling[i]);
-        c.settlingLaw.classes[i].gamma *= damping;
-    }
 }
 
 }  // namespace vkdose

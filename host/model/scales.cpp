@@ -46,10 +46,12 @@ void checkMasses(CaseReader& reader, const Case& c, const SizeRange& radii) {
 
 void checkSteps(CaseReader& reader, const Case& c) {
     const Schedule& s = c.schedule;
-    const std::array<std::pair<const char*, double>, 4> durations{{{"settle.time_s", s.settleTime},
-                                                                   {"dose.rotate_s", s.rotateTime},
-                                                                   {"dose.rest_s", s.restTime},
-                                                                   {"stop.end_time_s", s.stop.endTime}}};
+    const std::array<std::pair<const char*, double>, 5> durations{
+        {{"settle.time_s", s.settleTime},
+         {s.targetMass > 0 ? "dose.max_rotate_s" : "dose.rotate_s", s.rotateTime},
+         {"dose.ramp_s", s.rampTime},
+         {"dose.rest_s", s.restTime},
+         {"stop.end_time_s", s.stop.endTime}}};
     for (const auto& [key, duration] : durations) {
         const double steps = std::round(duration / c.world.timeStep);
         if (duration > 0 && steps < 1)
@@ -67,11 +69,13 @@ void checkWays(CaseReader& reader, const Case& c, double smallest) {
         reader.fault("gravity", "moves the smallest sphere by more than a tenth of its radius in a time step",
                      "give gravity in m/s2, or a shorter time.step_s");
     if (!c.world.coil) return;
-    const double rim = c.schedule.coilSpeed * (c.world.coil->radius + c.world.coil->wireRadius);
+    const double fastest = c.schedule.fastestSpeed();
+    const double rim = fastest * (c.world.coil->radius + c.world.coil->wireRadius);
     if (rim * dt > longest)
-        reader.fault("coil.speed_rpm", "moves the wire by more than a tenth of the smallest radius in a time step",
+        reader.fault(fastest > c.schedule.coilSpeed ? "dose.stage" : "coil.speed_rpm",
+                     "moves the wire by more than a tenth of the smallest radius in a time step",
                      fmt::format("give at most {:.3g} rpm, or a shorter time.step_s",
-                                 c.schedule.coilSpeed * kRpm.perSI * longest / (rim * dt)));
+                                 fastest * kRpm.perSI * longest / (rim * dt)));
 }
 
 }  // namespace

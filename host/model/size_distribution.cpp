@@ -1,8 +1,8 @@
 #include "host/model/size_distribution.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "host/core/random.h"
@@ -11,6 +11,7 @@ namespace vkdose {
 namespace {
 
 constexpr std::uint32_t kMaxAttempts = 100000;
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 double normalCdf(double z) {
     return 0.5 * std::erfc(-z / std::sqrt(2.0));
@@ -36,16 +37,31 @@ struct Stretch {
     }
 };
 
-/// The two slopes of the volume distribution, cut at the truncation bounds. An empty stretch has low == high.
-std::array<Stretch, 2> stretches(const SizeDistribution& size) {
+/// The stretches of the volume distribution, cut at the truncation bounds: the two slopes of the quantiles, or one
+/// between two sieves. An empty stretch has low == high, or no slope.
+std::vector<Stretch> stretches(const SizeDistribution& size) {
     const auto cut = [&](double r) { return std::clamp(r, size.radiusMin, size.radiusMax); };
-    return {Stretch{cut(finestRadius(size)), cut(size.r50), 0.4 / std::log(size.r50 / size.r10)},
-            Stretch{cut(size.r50), cut(coarsestRadius(size)), 0.4 / std::log(size.r90 / size.r50)}};
+    if (size.kind == SizeDistribution::Kind::Quantiles)
+        return {Stretch{cut(finestRadius(size)), cut(size.r50), 0.4 / std::log(size.r50 / size.r10)},
+                Stretch{cut(size.r50), cut(coarsestRadius(size)), 0.4 / std::log(size.r90 / size.r50)}};
+    std::vector<Stretch> all;
+    for (std::size_t i = 0; i + 1 < size.sieve.size(); ++i) {
+        const SievePoint &low = size.sieve[i], &high = size.sieve[i + 1];
+        all.push_back(
+            {cut(low.radius), cut(high.radius), (high.finer - low.finer) / std::log(high.radius / low.radius)});
+    }
+    return all;
+}
+
+double sumOfMoments(const std::vector<Stretch>& all, int power) {
+    double sum = 0;
+    for (const Stretch& s : all) sum += s.moment(power);
+    return sum;
 }
 
 double numberMoment(const SizeDistribution& size, int power) {
-    const auto [fine, coarse] = stretches(size);
-    return (fine.moment(power) + coarse.moment(power)) / (fine.moment(0) + coarse.moment(0));
+    const std::vector<Stretch> all = stretches(size);
+    return sumOfMoments(all, power) / sumOfMoments(all, 0);
 }
 
 /// Mean of r^power over a Normal or Lognormal that is cut at its bounds, by the trapezoid rule. The integrand is smooth
@@ -72,11 +88,22 @@ double truncatedMoment(const SizeDistribution& size, int power) {
     return sum / weights;
 }
 
-double drawQuantiles(const SizeDistribution& size, double u) {
-    const auto [fine, coarse] = stretches(size);
-    const double share = fine.moment(0) / (fine.moment(0) + coarse.moment(0));
-    const double r = u < share ? fine.quantile(u / share) : coarse.quantile((u - share) / (1 - share));
-    return std::clamp(r, size.radiusMin, size.radiusMax);  // pow may be off by the last bit
+/// A draw from the number distribution that the stretches of the volume make, `u` from 0 to 1.
+double drawByVolume(const SizeDistribution& size, double u) {
+    const std::vector<Stretch> all = stretches(size);
+    const double number = sumOfMoments(all, 0);
+    double below = 0;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const double share = all[i].moment(0) / number, end = i + 1 == all.size() ? 1 : below + share;
+        if (share > 0 && (u < end || i + 1 == all.size()))  // pow may be off by the last bit
+            return std::clamp(all[i].quantile((u - below) / (end - below)), size.radiusMin, size.radiusMax);
+        below = end;
+    }
+    return largestRadius(size);
+}
+
+bool byVolume(const SizeDistribution& size) {
+    return size.kind == SizeDistribution::Kind::Quantiles || size.kind == SizeDistribution::Kind::Sieve;
 }
 
 }  // namespace
@@ -86,7 +113,7 @@ double drawRadius(const SizeDistribution& size, std::uint64_t seed, std::uint64_
     for (std::uint32_t attempt = 0; attempt < kMaxAttempts; ++attempt) {
         const auto [u, v] = uniforms(seed, Stream::Radius, index, attempt);
         if (size.kind == SizeDistribution::Kind::Uniform) return size.radiusMin + u * (size.radiusMax - size.radiusMin);
-        if (size.kind == SizeDistribution::Kind::Quantiles) return drawQuantiles(size, u);
+        if (byVolume(size)) return drawByVolume(size, u);
         const double gauss = std::sqrt(-2 * std::log(u)) * std::cos(2 * kPi * v);  // Box and Muller
         const double r = size.kind == SizeDistribution::Kind::Normal ? size.radius + size.deviation * gauss
                                                                      : size.radius * std::exp(size.deviation * gauss);
@@ -98,13 +125,13 @@ double drawRadius(const SizeDistribution& size, std::uint64_t seed, std::uint64_
 
 double smallestRadius(const SizeDistribution& size) {
     if (size.kind == SizeDistribution::Kind::Fixed) return size.radius;
-    if (size.kind == SizeDistribution::Kind::Quantiles) return std::max(size.radiusMin, finestRadius(size));
+    if (byVolume(size)) return std::max(size.radiusMin, finestRadius(size));
     return size.radiusMin;
 }
 
 double largestRadius(const SizeDistribution& size) {
     if (size.kind == SizeDistribution::Kind::Fixed) return size.radius;
-    if (size.kind == SizeDistribution::Kind::Quantiles) return std::min(size.radiusMax, coarsestRadius(size));
+    if (byVolume(size)) return std::min(size.radiusMax, coarsestRadius(size));
     return size.radiusMax;
 }
 
@@ -116,6 +143,7 @@ double meanRadius(const SizeDistribution& size) {
         case SizeDistribution::Kind::Lognormal:
             return truncatedMoment(size, 1);
         case SizeDistribution::Kind::Quantiles:
+        case SizeDistribution::Kind::Sieve:
             return numberMoment(size, 1);
         default:
             return size.radius;
@@ -133,6 +161,7 @@ double meanCubedRadius(const SizeDistribution& size) {
         case SizeDistribution::Kind::Lognormal:
             return truncatedMoment(size, 3);
         case SizeDistribution::Kind::Quantiles:
+        case SizeDistribution::Kind::Sieve:
             return numberMoment(size, 3);
         default:
             return r * r * r;
@@ -150,6 +179,15 @@ double acceptance(const SizeDistribution& size) {
 }
 
 double finerVolume(const SizeDistribution& size, double radius) {
+    if (size.kind == SizeDistribution::Kind::Sieve) {
+        const auto above = std::find_if(size.sieve.begin(), size.sieve.end(),
+                                        [&](const SievePoint& point) { return point.radius >= radius; });
+        if (above == size.sieve.end()) return 1;
+        if (above == size.sieve.begin()) return 0;
+        const SievePoint &low = *(above - 1), &high = *above;
+        const double part = std::log(radius / low.radius) / std::log(high.radius / low.radius);
+        return low.finer + part * (high.finer - low.finer);
+    }
     const double neighbour = radius < size.r50 ? size.r10 : size.r90;
     const double slope = 0.4 / std::abs(std::log(size.r50 / neighbour));
     return std::clamp(0.5 + slope * std::log(radius / size.r50), 0.0, 1.0);
@@ -158,10 +196,21 @@ double finerVolume(const SizeDistribution& size, double radius) {
 // Between the median and the end lies a volume of 0.5, between the median and the quantile 0.4. The end is therefore
 // 0.5 / 0.4 = 1.25 times as far from the median in ln r as the quantile.
 double finestRadius(const SizeDistribution& size) {
+    if (size.kind == SizeDistribution::Kind::Sieve) return size.sieve.empty() ? kNaN : size.sieve.front().radius;
     return size.r50 * std::pow(size.r10 / size.r50, 1.25);
 }
 double coarsestRadius(const SizeDistribution& size) {
+    if (size.kind == SizeDistribution::Kind::Sieve) return size.sieve.empty() ? kNaN : size.sieve.back().radius;
     return size.r50 * std::pow(size.r90 / size.r50, 1.25);
+}
+
+std::vector<NumberClass> numberClasses(const SizeDistribution& size) {
+    const std::vector<Stretch> all = stretches(size);
+    const double number = sumOfMoments(all, 0);
+    std::vector<NumberClass> classes;
+    for (const Stretch& s : all)
+        if (s.moment(0) > 0) classes.push_back({s.low, s.high, s.moment(0) / number});
+    return classes;
 }
 
 }  // namespace vkdose

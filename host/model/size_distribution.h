@@ -2,6 +2,7 @@
 // Drawing radii. The number of a draw, not the order of calls, decides its value (core/random.h).
 
 #include <cstdint>
+#include <vector>
 
 #include "host/model/case.h"
 
@@ -23,11 +24,18 @@ double meanCubedRadius(const SizeDistribution& size);
 /// Fraction of the draws that fall inside the bounds. It is 1 for distributions that never draw again.
 double acceptance(const SizeDistribution& size);
 
-/// Quantiles: fraction of the powder's volume finer than radius r, after scaling. Between d10 and d50 and between d50
-/// and d90 the volume is spread evenly over ln r; both slopes go on beyond, to 0 and to 1.
+/// Quantiles, Sieve: fraction of the powder's volume finer than radius r, after scaling. Between d10 and d50 and
+/// between d50 and d90 the volume is spread evenly over ln r; both slopes go on beyond, to 0 and to 1. Between two
+/// sieves it is spread evenly over ln r.
 double finerVolume(const SizeDistribution& size, double radius);
 /// Radii where `finerVolume` reaches 0 and 1: the natural truncation [m].
 double finestRadius(const SizeDistribution& size);
 double coarsestRadius(const SizeDistribution& size);
+
+/// Quantiles, Sieve: the number of particles between two radii [m], over that of all that are drawn.
+struct NumberClass {
+    double low = 0, high = 0, share = 0;
+};
+std::vector<NumberClass> numberClasses(const SizeDistribution& size);
 
 }  // namespace vkdose

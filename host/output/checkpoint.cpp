@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kUserBlock = 512;
 constexpr std::string_view kMagic = "vkdose checkpoint";
-constexpr int kVersion = 5;  // 4: the same, but of runs whose throat had two walls; they must not go on with one
+constexpr int kVersion = 6;  // 5: doses without what stopped the coil, and a schedule without decisions
 
 /// FNV-1a, 64 bits: it has to catch accidents, not forgers. It belongs to the format. With another checksum (zlib's,
 /// say) existing checkpoints could not be read.

@@ -34,9 +34,10 @@ Frame readEndState(const std::filesystem::path& folder, const Case& c) {
     Frame frame;
     frame.time = numberIn(summary, "simulated_time_s", file);
     frame.step = std::uint64_t(numberIn(summary, "steps", file));
-    // Older summaries give the angle as positive when conveying. The coil only turns in that sense, which tells the
-    // sign.
-    frame.coilAngle = std::abs(numberIn(summary, "coil_angle_rad", file)) * Timeline(c).conveyingSense();
+    frame.coilAngle = numberIn(summary, "coil_angle_rad", file);
+    // Summaries without this key may be so old that they give the angle as positive when conveying. In their time the
+    // coil only turned in that sense, which tells the sign.
+    if (!summary.contains("settling")) frame.coilAngle = std::abs(frame.coilAngle) * Timeline(c).conveyingSense();
     const Json doses = summary.value("doses", Json::array());
     frame.dose = int(doses.size());
     frame.phase = frame.dose == 0 ? Phase::Settle : Phase::Rest;

@@ -10,8 +10,8 @@ namespace vkdose {
 /// When a field was taken.
 inline constexpr auto kFieldWhenColumns =
     columns(column<&FieldSample::time>("time_s", "s", "Simulated time; of an average the end of its time."),
-            column<&FieldSample::phase>("phase", "",
-                                        "What the schedule asks for in the time before it: settle, rotate or rest."),
+            column<&FieldSample::phase>(
+                "phase", "", "What the schedule asks for in the time before it: settle, rotate, reverse or rest."),
             column<&FieldSample::dose>("dose", "1", "Number of the dose, from 1; 0 while settling."));
 
 /// A point of the grid and the values there.

@@ -37,14 +37,14 @@ struct FrameEntry {
 };
 
 /// The columns of frames.csv.
-inline constexpr auto kFrameColumns =
-    columns(column<&FrameEntry::number>("frame", "1", "Number of the frame, from 0: that in the names of its files."),
-            column<&FrameEntry::step>("step", "1", "Number of time steps made."),
-            column<&FrameEntry::time>("time_s", "s", "Simulated time.", kAllDigits),
-            column<&FrameEntry::phase>(
-                "phase", "", "What the schedule asks for in the time before the frame: settle, rotate or rest."),
-            column<&FrameEntry::dose>("dose", "1", "Number of the dose, from 1; 0 while settling."),
-            column<&FrameEntry::coilAngle>("coil_angle_rad", "rad", kCoilAngleMeaning, kAllDigits));
+inline constexpr auto kFrameColumns = columns(
+    column<&FrameEntry::number>("frame", "1", "Number of the frame, from 0: that in the names of its files."),
+    column<&FrameEntry::step>("step", "1", "Number of time steps made."),
+    column<&FrameEntry::time>("time_s", "s", "Simulated time.", kAllDigits),
+    column<&FrameEntry::phase>(
+        "phase", "", "What the schedule asks for in the time before the frame: settle, rotate, reverse or rest."),
+    column<&FrameEntry::dose>("dose", "1", "Number of the dose, from 1; 0 while settling."),
+    column<&FrameEntry::coilAngle>("coil_angle_rad", "rad", kCoilAngleMeaning, kAllDigits));
 
 /// The frames that the text of a frames.csv lists. A line still being written does not count. Throws OutputError, which
 /// names `file`, if the text is no such table.

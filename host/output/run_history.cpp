@@ -9,7 +9,8 @@ std::vector<DoseArch> archesAtDoseEnds(const Frames& frames, const Case& c, cons
     if (!c.world.coil || !c.canister || frames.entries().empty()) return arches;
     const double reach = c.frames.interval / 2 * (1 + 1e-9);  // half way between two frames counts
     for (const Dose& d : doses) {
-        const double end = d.startTime + c.schedule.rotateTime + c.schedule.restTime;
+        const double planned = d.startTime + c.schedule.rotateTime + c.schedule.restTime;
+        const double end = std::isfinite(d.endTime) ? d.endTime : planned;  // an older table does not tell it
         const FrameEntry& entry = frames.entries()[nearestOf(frames.entries(), end)];
         if (!d.complete || std::abs(entry.time - end) > reach) continue;
         arches.push_back({d.index, entry.time, archAbove(*c.world.coil, *c.canister, frames.read(entry).particles)});

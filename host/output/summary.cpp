@@ -8,6 +8,7 @@
 
 #include "host/analysis/figures.h"
 #include "host/analysis/settled_figures.h"
+#include "host/analysis/targets.h"
 #include "host/core/file.h"
 
 namespace vkdose {
@@ -34,6 +35,10 @@ Json inputs(const Case& c, const RunResult& r) {
     j["settle_time_s"] = number(c.schedule.settleTime);
     j["rotate_time_s"] = number(c.schedule.rotateTime);
     j["rest_time_s"] = number(c.schedule.restTime);
+    if (c.schedule.targetMass > 0) j["dose_target_kg"] = number(c.schedule.targetMass);
+    if (c.schedule.rampTime > 0) j["ramp_time_s"] = number(c.schedule.rampTime);
+    if (c.schedule.reverseTurns > 0) j["reverse_turns"] = number(c.schedule.reverseTurns);
+    if (std::isfinite(c.schedule.maxTorque)) j["max_torque_Nm"] = number(c.schedule.maxTorque);
     j["coil_speed_rad_s"] = number(c.schedule.coilSpeed);
     j["sensor_interval_s"] = number(c.sensorInterval);
     return j;
@@ -104,6 +109,21 @@ Json analysis(const Case& c, const RunResult& r) {
     return j;
 }
 
+/// Null without doses to a mass.
+Json targets(const std::vector<Dose>& doses) {
+    const TargetFigures f = targetFigures(doses);
+    if (f.doses == 0) return nullptr;
+    Json j;
+    j["doses"] = f.doses;
+    j["stopped_by_mass"] = f.byMass;
+    j["mean_target_kg"] = number(f.target);
+    j["mean_stop_mass_kg"] = number(f.stopMass);
+    j["mean_overshoot_kg"] = number(f.overshoot);
+    j["mean_error_kg"] = number(f.error);
+    j["mean_rotation_s"] = number(f.rotation);
+    return j;
+}
+
 Json outlet(const OutletFlow& flow) {
     const OutletFlow::Stop& stop = flow.longest;
     Json j;
@@ -148,6 +168,19 @@ Json settled(const Case& c, const std::optional<SettledBed>& bed) {
     return j;
 }
 
+Json settling(const Case& c, const std::optional<Settling>& s) {
+    if (!s) return nullptr;
+    Json j;
+    j["until_rest"] = c.schedule.untilRest;
+    j["longest_s"] = number(c.schedule.settleTime);
+    j["time_s"] = number(s->time);
+    j["at_rest"] = s->atRest;
+    j["speed_m_s"] = number(s->speed);
+    j["fall_speed_m_s"] = number(s->fallSpeed);
+    j["spilled_kg"] = number(s->spilled);
+    return j;
+}
+
 Json energy(const EnergyLedger& ledger) {
     Json j;
     putColumns(kLoadedColumns, ledger.sum, j);
@@ -179,9 +212,11 @@ std::string summaryJson(const Case& c, const RunResult& r, const std::string& ba
                             {"mean_kg", s.doses > 0 ? number(s.mean) : Json(nullptr)},
                             {"standard_deviation_kg", s.doses > 1 ? number(s.deviation) : Json(nullptr)},
                             {"rsd", s.doses > 1 && s.mean > 0 ? number(s.relative) : Json(nullptr)}};
+    j["targets"] = targets(r.doses);
     j["analysis"] = analysis(c, r);
     j["outlet"] = outlet(history.outlet);
     j["arches"] = arches(history.arches);
+    j["settling"] = settling(c, r.settling);
     j["settled"] = settled(c, r.settled);
     j["dosed_while_settling_kg"] = number(r.dosedWhileSettling);
     j["closed_form"] = closedForms(r.derived);

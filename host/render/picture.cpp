@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -143,7 +144,8 @@ Box contentOf(const Case& c, const Frame& frame) {
 }
 
 std::string stateText(const Frame& frame) {
-    const char* doing = frame.phase == Phase::Rotate ? ", turning" : frame.phase == Phase::Rest ? ", resting" : "";
+    constexpr std::array<const char*, 4> kDoing{"", ", turning", ", resting", ", turning back"};
+    const char* doing = kDoing.at(std::size_t(frame.phase));
     if (frame.dose == 0) return fmt::format("{:.2f} s", frame.time);
     return fmt::format("{:.2f} s, dose {}{}", frame.time, frame.dose, doing);
 }

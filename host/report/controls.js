@@ -32,7 +32,7 @@ function slider(parent, label, most, changed) {
   return element;
 }
 
-const kPhases = ["settling", "the coil turns", "at rest"];
+const kPhases = ["settling", "the coil turns", "at rest", "the coil turns back"];
 
 /// The moment of a picture as text: time [s], dose (0: none so far) and number of the phase.
 const momentText = (time, dose, phase) => `t = ${time.toFixed(3)} s${dose > 0 ? `, dose ${dose}` : ""}, ${kPhases[phase]}`;

@@ -99,7 +99,7 @@ function plane(holder, map, quantities, top) {
   };
 }
 
-const kPhaseNames = ["settle", "rotate", "rest"];
+const kPhaseNames = ["settle", "rotate", "rest", "reverse"];
 
 function mapControls(box, run, map, levels) {
   const times = map.time_s, quantities = fieldQuantities(map, levels), state = box.querySelector(".state");

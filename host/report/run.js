@@ -116,6 +116,11 @@ function surfaceChart(parent, run) {
 function doseTable(main, d) {
   // Below a tenth of a gram three significant digits, because doses can be milligrams.
   const g = x => (!isNumber(x) ? "" : x === 0 || Math.abs(x * gram) >= 0.1 ? (x * gram).toFixed(3) : String(Number((x * gram).toPrecision(3))));
+  if ((d.target_mass_kg || []).some(x => x > 0) || d.stopped_by.includes("torque"))
+    table(main, [["dose", true], ["target [g]", true], ["mass [g]", true], ["at the stop [g]", true], ["overshoot [g]", true],
+                 ["turned [s]", true], ["stopped by", false]],
+          d.dose.map((n, i) => [n, g(d.target_mass_kg[i]), g(d.mass_kg[i]), g(d.stop_mass_kg[i]), g(d.overshoot_kg[i]),
+                                short(d.rotation_s[i]), d.stopped_by[i]]));
   table(main, [["dose", true], ["begins at [s]", true], ["mass [g]", true], ["cumulative [g]", true], ["particles", true],
                ["torque [mN m]", true], ["closed form [g]", true], ["longest stop [s]", true], ["arch [mm]", true], ["", false]],
         d.dose.map((n, i) => [n, short(d.start_time_s[i]), g(d.mass_kg[i]), g(d.cumulative_mass_kg[i]), d.particles[i],

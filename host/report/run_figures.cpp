@@ -9,6 +9,7 @@
 #include "host/analysis/density.h"
 #include "host/analysis/emptying.h"
 #include "host/analysis/outlet.h"
+#include "host/analysis/targets.h"
 #include "host/analysis/work.h"
 
 namespace vkdose::report {
@@ -27,6 +28,7 @@ class Facts {
 
     Json list() {
         how();
+        settling();
         masses();
         emptying();
         drive();
@@ -55,6 +57,23 @@ class Facts {
         if (s.contains("backend")) add("computed on", s.value("backend", std::string()));
     }
 
+    /// How the settling ended, and the mass that fell out meanwhile.
+    void settling() {
+        if (!run_.summary.is_object() || !run_.summary.contains("settling")) return;
+        const Json& s = run_.summary["settling"];
+        for (const char* key : {"time_s", "speed_m_s", "fall_speed_m_s", "spilled_kg"})
+            if (!s.is_object() || !s.value(key, Json()).is_number()) return;
+        const double time = s["time_s"].get<double>(), speed = s["speed_m_s"].get<double>();
+        const double fall = s["fall_speed_m_s"].get<double>(), spilled = s["spilled_kg"].get<double>();
+        const bool rested = s.value("at_rest", Json(false)) == Json(true);
+        const std::string still =
+            fmt::format("{:.2g} % of the speed after a fall from the fill's top", fall > 0 ? 100 * speed / fall : 0.0);
+        add("bed when settling ended", fmt::format("{} at t = {:.4g} s", rested ? "at rest" : "not at rest", time),
+            s.value("until_rest", Json(false)) == Json(true) && !rested ? still + "; the longest time was over"
+                                                                        : still);
+        add("fallen out while settling", fmt::format("{:.3f} g", spilled * 1e3), "in no dose");
+    }
+
     void masses() {
         const DoseStatistics s = statistics(run_.doses);
         if (s.doses > 0) add("complete doses", fmt::format("{}", s.doses));
@@ -63,6 +82,13 @@ class Facts {
                 fmt::format("RSD {:.1f} %", s.relative * 100));
         else if (s.doses == 1)
             add("mass per dose", fmt::format("{} g", grams(s.mean)), "one dose: no standard deviation");
+        const TargetFigures t = targetFigures(run_.doses);
+        if (t.doses > 0) {
+            add("target of a dose", fmt::format("{:.3f} g, met to {:+.3f} g", t.target * 1e3, t.error * 1e3),
+                fmt::format("{} of {} doses stopped by their mass, in {:.3g} s", t.byMass, t.doses, t.rotation));
+            add("overshoot after the stop", fmt::format("{} g", grams(t.overshoot)),
+                fmt::format("{} g at the stop", grams(t.stopMass)));
+        }
         const DosingFigures f = figuresOf(run_.doses, filled_, run_.c.schedule.stop);
         if (f.beta.doses > 1) {
             const std::string error = f.beta.doses > 2 ? " ± " + grams(f.beta.standardError) : std::string();

@@ -91,7 +91,10 @@ Json summaryOf(const fs::path& folder, const Table& series) {
 Json dosesJson(const Table& table, const RunSources& run) {
     const std::vector<Dose>& doses = run.doses;
     Json j;
-    for (const std::string& name : table.names()) j[name] = numbers(table.column(name));
+    for (const std::string& name : table.names())
+        if (name != "stopped_by") j[name] = numbers(table.column(name));
+    j["stopped_by"] = Json::array();
+    for (const Dose& d : doses) j["stopped_by"].push_back(cellText(d.stoppedBy, kAllDigits));
     std::vector<int> complete;
     for (const Dose& d : doses) complete.push_back(d.complete ? 1 : 0);
     j["complete"] = complete;

@@ -30,14 +30,16 @@ Particles twinOf(const Particles& original, double shift, std::uint64_t seed, st
 }
 
 /// Steps at which all stop to be compared: 1, 2, 3, 5, 7, 10, 15, ... for the first contacts, two hundred evenly
-/// spread ones for the packing, and every end of a phase (so that no interval holds two phases).
+/// spread ones for the packing, and every end of a phase or of a piece of a ramp (so that no interval holds two
+/// speeds).
 std::vector<std::uint64_t> checkpoints(const Timeline& timeline, std::uint64_t steps) {
     std::set<std::uint64_t> at;
     for (std::uint64_t decade = 1; decade < steps; decade *= 10) {
         for (const std::uint64_t tenths : {10, 15, 20, 30, 50, 70}) at.insert(tenths * decade / 10);
     }
     for (std::uint64_t i = 1; i <= 200; ++i) at.insert(steps * i / 200);
-    for (std::uint64_t s = 0; s < steps && !timeline.over(s); s = timeline.at(s).end) at.insert(timeline.at(s).end);
+    for (std::uint64_t s = 0; s < steps && !timeline.over(s); s = timeline.at(s).pieceEnd)
+        at.insert(timeline.at(s).pieceEnd);
     at.insert(steps);
     at.erase(0);
     at.erase(at.upper_bound(steps), at.end());

@@ -1,12 +1,22 @@
 #pragma once
-// A dose: one turning of the coil and the rest after it.
+// A dose: one turning of the coil, forth and perhaps back, and the rest after it.
 
+#include <array>
 #include <cstdint>
+#include <limits>
+#include <tuple>
 #include <vector>
 
 #include "host/core/columns.h"
 
 namespace vkdose {
+
+/// What told the coil to stop.
+enum class StopCause { None, Time, Mass, Torque };
+template <>
+struct Words<StopCause> {
+    static constexpr std::array<const char*, 4> kNames{"none", "time", "mass", "torque"};
+};
 
 struct Dose {
     int index = 0;         ///< 1 for the first
@@ -17,9 +27,17 @@ struct Dose {
     double coilTorque = 0;  ///< drive torque, mean over its rotation [N m]
     double closedForm = 0;  ///< rho_b p pi r_c^2 n_t [kg]; 0 without a coil
     bool complete = false;  ///< false if the run ended within it: then it is in no statistics
+    double target = 0;      ///< [kg]; 0: it is a dose by time
+    double stopMass = std::numeric_limits<double>::quiet_NaN();  ///< dosed when the coil was told to stop [kg]
+    double rotation = std::numeric_limits<double>::quiet_NaN();  ///< from its start until then [s]
+    StopCause stoppedBy = StopCause::None;
+    double endTime = std::numeric_limits<double>::quiet_NaN();  ///< [s]
+
+    double overshoot() const { return mass - stopMass; }  ///< dosed after the coil was told to stop [kg]
 };
 
-inline constexpr auto kDoseColumns = columns(
+/// Older tables of doses hold these columns only.
+inline constexpr auto kPlainDoseColumns = columns(
     column<&Dose::index>("dose", "1", "Number of the dose, from 1."),
     column<&Dose::startTime>("start_time_s", "s", "Simulated time at which its rotation began."),
     column<&Dose::mass>("mass_kg", "kg", "Mass dosed from the start of its rotation to the end of its rest."),
@@ -30,6 +48,18 @@ inline constexpr auto kDoseColumns = columns(
     column<&Dose::closedForm>("closed_form_mass_kg", "kg",
                               "Mass per dose by the closed form: bulk density times the volume that the coil sweeps."),
     column<&Dose::complete>("complete", "1", "1; 0 if the run ended within the dose, which is in no statistics then."));
+
+/// How the coil was stopped.
+inline constexpr auto kStopColumns =
+    columns(column<&Dose::target>("target_mass_kg", "kg", "Mass that the dose was to have; 0 in a dose by time."),
+            column<&Dose::stopMass>("stop_mass_kg", "kg", "Mass dosed from its start until the coil was told to stop."),
+            column<&Dose::overshoot>("overshoot_kg", "kg",
+                                     "Mass dosed after the coil was told to stop, to the end of the dose's rest."),
+            column<&Dose::rotation>("rotation_s", "s", "Time from its start until the coil was told to stop."),
+            column<&Dose::stoppedBy>("stopped_by", "",
+                                     "What told the coil to stop: time, mass or torque; none if the run ended before."),
+            column<&Dose::endTime>("end_time_s", "s", "Simulated time at which the dose ended."));
+inline constexpr auto kDoseColumns = std::tuple_cat(kPlainDoseColumns, kStopColumns);
 
 struct DoseStatistics {
     int doses = 0;         ///< complete ones

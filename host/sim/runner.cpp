@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "host/core/error.h"
+#include "host/sim/dose_book.h"
 #include "host/sim/run_record.h"
 
 namespace vkdose {
@@ -39,6 +40,8 @@ class Run {
           stop_(stop),
           timeline_(c),
           judge_(c.schedule.stop),
+          rest_(c, filled.particles),
+          book_(c, derived, timeline_.conveyingSense()),
           fields_(c, timeline_) {
         result_.filled = std::move(filled);
         result_.derived = std::move(derived);
@@ -87,22 +90,24 @@ class Run {
         restore(from.run);
         backend_.load(case_.world, dosing_ ? case_.dosingLaw : case_.settlingLaw, result_.particles);
         backend_.restore(from.backend);
-        if (result_.last.coilAngle * backend_.coilAngle() < 0) angleSign_ = -1;
         before_ = {step_, result_.particleSteps, result_.wallTime};
     }
 
     Record save() const {
         Record r;
-        r.put("progress", std::vector<std::uint64_t>{step_, active_, dosing_ ? 1U : 0U, gathered_, doseSteps_});
-        r.put("sums", std::vector<double>{impulse_, doseImpulse_, result_.dosedWhileSettling, result_.maxOverlapRatio,
-                                          result_.maxOverlapTime, result_.particleSteps, result_.wallTime});
+        r.put("progress", std::vector<std::uint64_t>{step_, active_, dosing_ ? 1U : 0U, gathered_, varied_ ? 1U : 0U});
+        r.put("sums",
+              std::vector<double>{impulse_, powerSum_, rate_, result_.dosedWhileSettling, result_.maxOverlapRatio,
+                                  result_.maxOverlapTime, result_.particleSteps, result_.wallTime});
         put(r, "now", now_);
         put(r, "energy", energy_);
-        put(r, "dose", std::vector<Dose>{dose_});
-        put(r, "dosed_before", dosedBefore_);
+        timeline_.save(r);
+        book_.save(r);
         put(r, "doses", result_.doses);
         put(r, "last", result_.last);
         put(r, result_.settled);
+        put(r, result_.settling);
+        rest_.save(r);
         r.put("radius", result_.filled.particles.radius);
         fields_.save(r);
         result_.ledger.save(r);
@@ -118,24 +123,25 @@ class Run {
         active_ = progress[1];
         dosing_ = progress[2] != 0;
         gathered_ = progress[3];
-        doseSteps_ = progress[4];
-        const auto& sums = r.get<double>("sums", 7);
+        varied_ = progress[4] != 0;
+        const auto& sums = r.get<double>("sums", 8);
         impulse_ = sums[0];
-        doseImpulse_ = sums[1];
-        result_.dosedWhileSettling = sums[2];
-        result_.maxOverlapRatio = sums[3];
-        result_.maxOverlapTime = sums[4];
-        result_.particleSteps = sums[5];
-        result_.wallTime = sums[6];
+        powerSum_ = sums[1];
+        rate_ = sums[2];
+        result_.dosedWhileSettling = sums[3];
+        result_.maxOverlapRatio = sums[4];
+        result_.maxOverlapTime = sums[5];
+        result_.particleSteps = sums[6];
+        result_.wallTime = sums[7];
         get(r, "now", now_);
         get(r, "energy", energy_);
-        std::vector<Dose> underWay;
-        get(r, "dose", underWay);
-        dose_ = underWay.at(0);
-        get(r, "dosed_before", dosedBefore_);
+        timeline_.restore(r);
+        book_.restore(r);
         get(r, "doses", result_.doses);
         get(r, "last", result_.last);
         get(r, result_.filled.particles, result_.settled);
+        get(r, result_.settling);
+        rest_.restore(r);
         fields_.restore(r);
         result_.ledger.restore(r);
         judge_.restore(r);
@@ -163,40 +169,45 @@ class Run {
             if (stop_) {
                 checkpoint();
                 sample();
-                if (dose_.index > 0) closeDose(false);
+                if (book_.underWay()) closeDose(false);
                 keepEndState();
                 return StopReason::Interrupted;
             }
             stretch_ = timeline_.at(step_);
             if (stretch_.phase != Phase::Settle && !dosing_) beginDosing();
-            if (stretch_.phase == Phase::Rotate && dose_.index != stretch_.dose) openDose();
+            if (stretch_.phase == Phase::Rotate && book_.index() != stretch_.dose)
+                book_.open(stretch_.dose, timeline_.time(step_), result_.last.sensors);
             advance(timeline_.nextSample(step_));
+            bool endsRun = false;
             if (step_ == sampleStep_) {
                 sample();
+                endsRun = control();
+                if (stretch_.phase == Phase::Settle) watchRest();
                 if (timeline_.frameDue(step_)) frame();
                 for (const FieldSample& f : fields_.look(backend_, step_, stretch_.phase, stretch_.dose))
                     observer_.onField(f);
             }
             if (step_ == timeline_.settleSteps())
                 result_.settled = settledBed(case_, timeline_.time(step_), backend_.particles(), backend_.contacts());
-            if (step_ == stretch_.end && phaseEnded()) {
+            if (endsRun || (step_ == stretch_.end && phaseEnded())) {
                 if (timeline_.keepsFrames() && !timeline_.frameDue(step_)) frame();
+                if (endsRun) closeDose(false);
                 keepEndState();
-                return judge_.reason();
+                return endsRun ? StopReason::Torque : judge_.reason();
             }
             if (checkpointDue()) checkpoint();
         }
-        if (dose_.index > 0) closeDose(false);
+        if (book_.underWay()) closeDose(false);
         keepEndState();
         return timeline_.cutByEndTime(step_) ? StopReason::EndTime : StopReason::Settled;
     }
 
-    /// One call of the backend, towards the next sample.
+    /// One call of the backend, towards the next sample. The coil turns at one rate in it.
     void advance(std::uint64_t sampleStep) {
         sampleStep_ = sampleStep;
         const double perCall = kParticleStepsPerCall / static_cast<double>(std::max<std::uint64_t>(active_, 1));
         const auto limit = static_cast<std::uint64_t>(std::clamp(perCall, 64.0, 1e6));
-        const std::uint64_t n = std::min(sampleStep_ - step_, limit);
+        const std::uint64_t n = std::min({sampleStep_ - step_, stretch_.pieceEnd - step_, limit});
         const auto begin = Clock::now();
         const Sensors s = backend_.advance(static_cast<std::uint32_t>(n), stretch_.rate);
         result_.wallTime += std::chrono::duration<double>(Clock::now() - begin).count();
@@ -221,12 +232,12 @@ class Run {
         const double overlap = gathered_ > 0 ? std::max(now_.maxOverlapRatio, s.maxOverlapRatio) : s.maxOverlapRatio;
         now_ = s;
         now_.maxOverlapRatio = overlap;
+        varied_ = gathered_ > 0 && (varied_ || stretch_.rate != rate_);
+        rate_ = stretch_.rate;
+        powerSum_ = gathered_ > 0 ? powerSum_ - impulse * rate_ : -impulse * rate_;
         gathered_ += n;
         impulse_ += impulse;
-        if (stretch_.phase == Phase::Rotate) {
-            doseImpulse_ += impulse;
-            doseSteps_ += n;
-        }
+        if (stretch_.phase == Phase::Rotate) book_.turn(impulse, n, stretch_.rate);
     }
 
     void sample() {
@@ -236,11 +247,12 @@ class Run {
         s.time = timeline_.time(step_);
         s.phase = stretch_.phase;
         s.dose = stretch_.dose;
-        s.coilAngle = angleSign_ * backend_.coilAngle();
+        s.coilAngle = backend_.coilAngle();
         s.sensors = now_;
         s.sensors.coilTorque = impulse_ / static_cast<double>(gathered_);
         s.coilTorque = driveTorque(s.sensors.coilTorque);
-        s.coilPower = s.coilTorque * std::abs(stretch_.rate);
+        const double speed = stretch_.phase == Phase::Reverse ? -std::abs(rate_) : std::abs(rate_);
+        s.coilPower = varied_ ? powerSum_ / static_cast<double>(gathered_) : s.coilTorque * speed;
         const double throat = mass(now_, Region::Throat);
         s.outletVelocity = throat > 0 ? now_.throatMomentumZ / throat : std::numeric_limits<double>::quiet_NaN();
         s.energy = energy_;
@@ -249,6 +261,21 @@ class Run {
         observer_.onSample(s);
         result_.ledger.close(s.sensors, s.time);  // after the observer, so that a bad ledger is on record
         result_.last = s;
+    }
+
+    /// Ends the settling if the case lets the bed's rest do so, and notes how it ended.
+    void watchRest() {
+        const Sensors& s = result_.last.sensors;
+        const bool rests = rest_.rests(s, step_);
+        if (rests && case_.schedule.untilRest && step_ < timeline_.settleSteps()) {
+            timeline_.endSettling(step_);
+            stretch_.end = step_;
+            report();  // that the phase has ended
+        }
+        if (step_ != timeline_.settleSteps()) return;
+        result_.settling =
+            Settling{step_, rests, timeline_.time(step_), meanSpeed(s), rest_.fall().speed, mass(s, Region::Dosed)};
+        observer_.onSettled(*result_.settling, case_.schedule);
     }
 
     void frame() {
@@ -266,32 +293,27 @@ class Run {
         result_.dosedWhileSettling = mass(result_.last.sensors, Region::Dosed);
     }
 
-    void openDose() {
-        dose_ = Dose{};
-        dose_.index = stretch_.dose;
-        dose_.startTime = timeline_.time(step_);
-        dose_.closedForm = result_.derived.massPerDose;
-        dosedBefore_ = result_.last.sensors;
-        doseImpulse_ = 0;
-        doseSteps_ = 0;
+    /// Lets the dose under way change the coil's speed or stop it. Returns true if that ends the run.
+    bool control() {
+        if (stretch_.phase != Phase::Rotate || !book_.conveys()) return false;
+        const DoseBook::Order order = book_.look(result_.last, step_ == stretch_.stop);
+        if (order.speed) timeline_.changeSpeed(step_, *order.speed);
+        if (!order.stop) return false;
+        if (step_ < stretch_.stop) {
+            timeline_.stopTurning(step_);
+            stretch_ = timeline_.at(step_ - 1);
+        }
+        return *order.stop == StopCause::Torque && case_.schedule.torqueEndsRun;
     }
 
     void closeDose(bool complete) {
-        const Sensors& s = result_.last.sensors;
-        dose_.complete = complete;
-        dose_.cumulative = mass(s, Region::Dosed);
-        dose_.mass = dose_.cumulative - mass(dosedBefore_, Region::Dosed);
-        dose_.particles = count(s, Region::Dosed) - count(dosedBefore_, Region::Dosed);
-        dose_.coilTorque = doseSteps_ > 0 ? driveTorque(doseImpulse_ / static_cast<double>(doseSteps_)) : 0;
-        result_.doses.push_back(std::exchange(dose_, Dose{}));
+        result_.doses.push_back(book_.close(complete, result_.last.sensors, timeline_.time(step_)));
         observer_.onDose(result_.doses.back());
     }
 
     /// Returns true if the phase that ended completes a dose and the judge says it was the last one.
     bool phaseEnded() {
-        if (stretch_.phase == Phase::Settle) return false;
-        const std::uint64_t cycle = timeline_.rotateSteps() + timeline_.restSteps();
-        if ((step_ - timeline_.settleSteps()) % cycle != 0) return false;
+        if (!stretch_.closesDose) return false;
         closeDose(true);
         const Dose& d = result_.doses.back();
         return judge_.over(d.mass, d.particles, active_);
@@ -301,7 +323,7 @@ class Run {
     void fail(StopReason reason, const char* what) {
         result_.reason = reason;
         result_.error = what;
-        if (dose_.index > 0) closeDose(false);
+        if (book_.underWay()) closeDose(false);
         try {
             keepEndState();
         } catch (const std::runtime_error&) {
@@ -344,10 +366,20 @@ class Run {
             const double left = result_.filled.mass - result_.dosedWhileSettling - dosed;
             doses = std::min(doses, done + std::max(1.0, std::ceil(left / perDose)));
         }
-        const std::uint64_t steps = timeline_.stepsUntilDose(doses);
+        const std::uint64_t steps =
+            case_.schedule.targetMass > 0 ? stepsToMass(doses) : timeline_.stepsUntilDose(doses);
         const bool unknown =
             perDose <= 0 && rule.maxDoses == std::numeric_limits<int>::max() && !std::isfinite(rule.endTime);
         return unknown ? 0 : std::max(steps, step_);
+    }
+
+    /// The same for `doses` doses to a mass, which take as long as those before them (before the first: as expected).
+    std::uint64_t stepsToMass(double doses) const {
+        if (result_.doses.empty()) return static_cast<std::uint64_t>(result_.derived.steps);
+        const double settled = timeline_.time(timeline_.settleSteps());
+        const double each = (result_.doses.back().endTime - settled) / static_cast<double>(result_.doses.size());
+        const double time = std::min(settled + doses * each, case_.schedule.stop.endTime);
+        return static_cast<std::uint64_t>(time / case_.world.timeStep);
     }
 
     const Case& case_;
@@ -356,6 +388,8 @@ class Run {
     const std::atomic<bool>& stop_;
     Timeline timeline_;
     DoseJudge judge_;
+    RestWatch rest_;
+    DoseBook book_;
     FieldWatch fields_;
     RunResult result_;
 
@@ -371,44 +405,20 @@ class Run {
     Timeline::Stretch stretch_{Phase::Settle, 0, 0, 0};
     bool dosing_ = false;
 
-    /// -1 in a run whose time series was begun by an older vkdose, which wrote angles as positive when conveying. A
-    /// series keeps its sense to the end.
-    double angleSign_ = 1;
-
     Sensors now_;                 ///< of the last call, joined with the calls since the last sample
     std::uint64_t gathered_ = 0;  ///< steps since the last sample
     double impulse_ = 0;          ///< torque times steps since the last sample
+    double rate_ = 0;             ///< of the coil in the last call [rad/s about +z]
+    bool varied_ = false;         ///< it was another since the last sample
+    double powerSum_ = 0;         ///< power of the drive times steps since the last sample
 
     std::optional<EnergyLedger> energy_;  ///< since the start of the run, if the case asks for it
-
-    Dose dose_;            ///< under way; index 0: none
-    Sensors dosedBefore_;  ///< at its start
-    double doseImpulse_ = 0;
-    std::uint64_t doseSteps_ = 0;
 
     Clock::time_point checkpointed_;  ///< last checkpoint, or start of the run
     double checkpointTime_ = 0;       ///< the same in simulated time [s]
 };
 
 }  // namespace
-
-DoseStatistics statistics(const std::vector<Dose>& doses) {
-    DoseStatistics s;
-    double sum = 0, squares = 0;
-    for (const Dose& d : doses) {
-        if (!d.complete) continue;
-        ++s.doses;
-        sum += d.mass;
-    }
-    if (s.doses == 0) return s;
-    s.mean = sum / s.doses;
-    for (const Dose& d : doses) {
-        if (d.complete) squares += (d.mass - s.mean) * (d.mass - s.mean);
-    }
-    if (s.doses > 1) s.deviation = std::sqrt(squares / (s.doses - 1));
-    if (s.mean > 0) s.relative = s.deviation / s.mean;
-    return s;
-}
 
 RunResult runFilled(const Case& c, Insertion filled, Derived derived, Backend& backend, RunObserver& observer,
                     const std::atomic<bool>& stop, const RunCheckpoint* from) {

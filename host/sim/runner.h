@@ -14,6 +14,7 @@
 #include "host/sim/field_watch.h"
 #include "host/sim/frame.h"
 #include "host/sim/ledger.h"
+#include "host/sim/rest_watch.h"
 #include "host/sim/sample.h"
 #include "host/sim/settled_bed.h"
 #include "host/sim/stop_rule.h"
@@ -48,6 +49,7 @@ class RunObserver {
     virtual ~RunObserver() = default;
     virtual void onProgress(const Progress&) {}
     virtual void onSample(const Sample&) {}
+    virtual void onSettled(const Settling&, const Schedule&) {}
     virtual void onDose(const Dose&) {}
     virtual void onField(const FieldSample&) {}
     /// Called at the intervals of the case and when the run is interrupted, if `storesCheckpoints`.
@@ -65,7 +67,8 @@ struct RunResult {
     std::vector<Dose> doses;
     DoseStatistics statistics;
     double dosedWhileSettling = 0;      ///< [kg]
-    std::optional<SettledBed> settled;  ///< when the settling was over, if there was any
+    std::optional<Settling> settling;   ///< once it is over, if there was any
+    std::optional<SettledBed> settled;  ///< the bed at that time
     Sample last;                        ///< the last sample; step 0 if there was none
     StopReason reason = StopReason::Settled;
     std::string error;  ///< what stopped the run, for RunError, DeviceError and OutputError

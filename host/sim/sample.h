@@ -59,12 +59,12 @@ inline constexpr auto kStepColumns = columns(column<&Sample::step>("step", "1", 
 /// The angle has the same sense in every file.
 inline constexpr const char* kCoilAngleMeaning =
     "Angle that the coil has turned about +z by the right-hand rule; a right-handed coil conveys at falling angles.";
-inline constexpr auto kWhenColumns =
-    columns(column<&Sample::time>("time_s", "s", "Simulated time."),
-            column<&Sample::phase>("phase", "",
-                                   "What the schedule asks for in the time before this line: settle, rotate or rest."),
-            column<&Sample::dose>("dose", "1", "Number of the dose, from 1; 0 while settling."),
-            column<&Sample::coilAngle>("coil_angle_rad", "rad", kCoilAngleMeaning));
+inline constexpr auto kWhenColumns = columns(
+    column<&Sample::time>("time_s", "s", "Simulated time."),
+    column<&Sample::phase>("phase", "",
+                           "What the schedule asks for in the time before this line: settle, rotate, reverse or rest."),
+    column<&Sample::dose>("dose", "1", "Number of the dose, from 1; 0 while settling."),
+    column<&Sample::coilAngle>("coil_angle_rad", "rad", kCoilAngleMeaning));
 inline constexpr auto kDriveColumns = columns(
     column<&Sample::outletVelocity>("outlet_velocity_m_s", "m/s",
                                     "Mean velocity along +z of the mass in the throat; nan while it is empty."),

@@ -20,6 +20,8 @@ std::string stopKeyword(StopReason reason) {
             return "dose_count";
         case StopReason::EndTime:
             return "end_time";
+        case StopReason::Torque:
+            return "torque";
         case StopReason::Interrupted:
             return "interrupted";
         case StopReason::RunError:
@@ -48,6 +50,8 @@ std::string stopSentence(StopReason reason, const StopRule& rule) {
                                       : fmt::format("the {} doses asked for are done", rule.maxDoses);
         case StopReason::EndTime:
             return fmt::format("the end time {:.6g} s is reached", rule.endTime);
+        case StopReason::Torque:
+            return "the drive needed more than dose.max_torque_mNm";
         case StopReason::Interrupted:
             return "interrupted; everything computed until then is kept";
         case StopReason::RunError:

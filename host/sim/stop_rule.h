@@ -18,6 +18,7 @@ enum class StopReason {
     Empty,        ///< neither canister nor throat holds a particle
     Doses,        ///< the number of doses asked for
     EndTime,      ///< the simulated time asked for
+    Torque,       ///< the drive's torque was too large, and the case says that this ends the run
     Interrupted,  ///< by the user
     RunError,
     DeviceError,

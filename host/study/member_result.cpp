@@ -44,6 +44,9 @@ std::string meanTorque(const Table& doses) {
     return count > 0 ? cellText(sum / count, 9) : "";
 }
 
+/// What a table without columns of the stop tells about it.
+const Dose kUntold;
+
 std::string errorText(const MemberEnd& end, const Json& summary) {
     std::string error = field(summary, "/error");
     if (error.empty()) error = end.said;
@@ -144,8 +147,18 @@ MemberResult readResult(const fs::path& folder, const MemberEnd& end) {
 }
 
 Table dosesIn(const fs::path& folder) {
-    Table table = Table::salvage(folder / "doses.csv");
-    return table.names() == columnNames(kDoseColumns) ? table : Table();
+    const Table table = Table::salvage(folder / "doses.csv");
+    if (table.names() == columnNames(kDoseColumns)) return table;
+    Table now;
+    if (table.names() != columnNames(kPlainDoseColumns)) return now;
+    // An older vkdose wrote it.
+    now = Table(columnNames(kDoseColumns));
+    for (std::size_t i = 0; i < table.rows(); ++i) {
+        Row row = table.row(i);
+        forEachColumn(kStopColumns, [&](const auto& c) { row.push_back(cellText(c.of(std::as_const(kUntold)), 9)); });
+        now.add(std::move(row));
+    }
+    return now;
 }
 
 bool isOver(const fs::path& folder) {

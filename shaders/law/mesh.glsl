@@ -136,56 +136,70 @@ MeshPlace vertexPlace(uint vertices, uint number, Two3 centre, float radius) {
 const uint kPartCorner = 8u;
 const uint kPartFace = 64u;
 
-/// Adds the places of a triangle's parts. `at` is its record, `tags` are the first ones of faces, edges and vertices.
-void trianglePlaces(uint at, uint triangle, uvec3 starts, uvec3 tags, Two3 centre, float radius, float margin) {
+/// The parts of a triangle that may be a place, as plain floats tell, and those edges that decide about its face.
+uint partsInReach(uint at, Two3 centre, float radius, float margin) {
     uvec4 v1 = geometryAt(at + 1u), v2 = geometryAt(at + 2u), v3 = geometryAt(at + 3u);
-    uvec4 v4 = geometryAt(at + 4u), v5 = geometryAt(at + 5u), v6 = geometryAt(at + 6u);
-    Two3 d = twoDifference(centre.high, centre.low, uintBitsToFloat(v2.xyz), uintBitsToFloat(v3.xyz));
+    uvec4 v5 = geometryAt(at + 5u), v6 = geometryAt(at + 6u);
+    uint word2 = geometryAt(at + 4u).w;
+    vec3 d = twoDifference(centre.high, centre.low, uintBitsToFloat(v2.xyz), uintBitsToFloat(v3.xyz)).high;
     vec3 normal = uintBitsToFloat(v1.xyz);
     vec3 to1 = uintBitsToFloat(v5.xyz), to2 = uintBitsToFloat(v6.xyz);
-    vec3 from1 = d.high - to1, from2 = d.high - to2;
-    EdgeView a = edgeView(d.high, to1, normal), b = edgeView(from1, to2 - to1, normal);
-    EdgeView c = edgeView(from2, -to2, normal);
-    float reach2 = (radius + margin) * (radius + margin);
+    vec3 from1 = d - to1, from2 = d - to2;
+    EdgeView a = edgeView(d, to1, normal), b = edgeView(from1, to2 - to1, normal), c = edgeView(from2, -to2, normal);
+    float reach = radius + margin, reach2 = reach * reach;
 
-    vec2 height = twoDot(d, Two3(normal, uintBitsToFloat(v4.xyz)));
-    float up = height.x < 0.0 ? -1.0 : 1.0;
-    precise float depth = (radius - up * height.x) - up * height.y;
-    bool face = depth > 0.0 && min(min(a.side, b.side), c.side) > -margin;
+    bool face = abs(dot(normal, d)) < reach && min(min(a.side, b.side), c.side) > -margin;
     uint parts = face ? kPartFace : 0u;
     // Edges where the foot may be outside, with a place within reach, or where the face is in doubt.
     bvec3 own = bvec3((v2.w & 2u) != 0u && a.past > -margin && a.beyond < margin && a.away2 < reach2,
                       (v3.w & 2u) != 0u && b.past > -margin && b.beyond < margin && b.away2 < reach2,
-                      (v4.w & 2u) != 0u && c.past > -margin && c.beyond < margin && c.away2 < reach2);
+                      (word2 & 2u) != 0u && c.past > -margin && c.beyond < margin && c.away2 < reach2);
     if (a.side < margin && (own.x || face)) parts |= 1u;
     if (b.side < margin && (own.y || face)) parts |= 2u;
     if (c.side < margin && (own.z || face)) parts |= 4u;
     // Corners that the centre lies beyond, as both their edges see it.
-    if ((v5.w & 1u) != 0u && a.past < margin && c.beyond > -margin && dot(d.high, d.high) < reach2)
-        parts |= kPartCorner;
+    if ((v5.w & 1u) != 0u && a.past < margin && c.beyond > -margin && dot(d, d) < reach2) parts |= kPartCorner;
     if ((v6.w & 1u) != 0u && b.past < margin && a.beyond > -margin && dot(from1, from1) < reach2)
         parts |= kPartCorner << 1;
     if ((v1.w & 1u) != 0u && c.past < margin && b.beyond > -margin && dot(from2, from2) < reach2)
         parts |= kPartCorner << 2;
+    return parts;
+}
 
+MeshPlace facePlace(uint at, Two3 centre, float radius) {
+    vec3 normal = realsAt(at + 1u).xyz, corner = realsAt(at + 2u).xyz, cornerLow = realsAt(at + 3u).xyz;
+    Two3 d = twoDifference(centre.high, centre.low, corner, cornerLow);
+    vec2 height = twoDot(d, Two3(normal, realsAt(at + 4u).xyz));
+    float up = height.x < 0.0 ? -1.0 : 1.0;
+    precise float depth = (radius - up * height.x) - up * height.y;
+    return MeshPlace(depth, up * normal, 0.0);
+}
+
+/// Adds the places of some parts of a triangle. `at` is its record, `tags` are the first ones of faces, edges,
+/// vertices.
+void trianglePlaces(uint at, uint triangle, uint parts, uvec3 starts, uvec3 tags, Two3 centre, float radius) {
+    uvec3 edges = uvec3(geometryAt(at + 2u).w, geometryAt(at + 3u).w, geometryAt(at + 4u).w);
+    uvec3 corners = uvec3(geometryAt(at + 5u).w, geometryAt(at + 6u).w, geometryAt(at + 1u).w);
     // The face comes last, when its edges have had their say.
     bool inFace = true;
     for (uint n = 0u; n < 7u && parts != 0u; ++n) {
         uint part = parts & (~parts + 1u);
         parts &= ~part;
-        MeshPlace place = MeshPlace(depth, up * normal, 0.0);
-        uint tag = tags.x + triangle;
+        MeshPlace place;
+        uint tag;
         if (part < kPartCorner) {
-            uint word = part == 1u ? v2.w : part == 2u ? v3.w : v4.w;
+            uint word = part == 1u ? edges.x : part == 2u ? edges.y : edges.z;
             place = edgePlace(starts.y, word, centre, radius);
             tag = tags.y + (word >> 2);
             inFace = inFace && place.intoOwn >= -kSquare;
         } else if (part < kPartFace) {
-            uint number = (part == kPartCorner ? v5.w : part == 2u * kPartCorner ? v6.w : v1.w) >> 1;
+            uint number = (part == kPartCorner ? corners.x : part == 2u * kPartCorner ? corners.y : corners.z) >> 1;
             place = vertexPlace(starts.z, number, centre, radius);
             tag = tags.z + number;
-        } else if (!inFace) {
-            place.depth = -1.0;
+        } else {
+            place = facePlace(at, centre, radius);
+            tag = tags.x + triangle;
+            if (!inFace) place.depth = -1.0;
         }
         if (place.depth > 0.0) addPlace(place.depth, place.direction, tag);
     }
@@ -204,12 +218,20 @@ void meshPlaces(uint shape, uvec4 head, Two3 centre, float radius) {
         uint left = 0u, end = min(n + kRound, list.y);
         for (uint k = n; k < end; k += 4u)
             left |= reachAmongFour(head.w, list, k, starts.x, centre.high, reach) << (k - n);
+        uint touching = 0u;
         for (uint k = n; k < end && left != 0u; ++k) {
             uint bit = left & (~left + 1u);
             left &= ~bit;
+            uint at = starts.x + kTriangleVectors * nthTriangle(head.w, list.x, n + uint(findLSB(bit)));
+            if (partsInReach(at, centre, radius, margin) != 0u) touching |= bit;
+        }
+        for (uint k = n; k < end && touching != 0u; ++k) {
+            uint bit = touching & (~touching + 1u);
+            touching &= ~bit;
             uint t = nthTriangle(head.w, list.x, n + uint(findLSB(bit)));
+            uint at = starts.x + kTriangleVectors * t;
             if (placeCount + kMostOfTriangle > kMostPlaces) thinPlaces();
-            trianglePlaces(starts.x + kTriangleVectors * t, t, starts, tags, centre, radius, margin);
+            trianglePlaces(at, t, partsInReach(at, centre, radius, margin), starts, tags, centre, radius);
         }
     }
     if (n < list.y) placesLost = true;

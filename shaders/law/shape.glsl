@@ -7,16 +7,16 @@
 //   plane, tube, cone  2: point, length   3: low part of both   4: axis   5: its low part
 //                      6: radius, low part, radius at the end, low part   7: wall in the half plane: across, low part,
 //                      along, low part; for a tube: 1 if touched from inside, 1 if endless
-//                      plane: the axis is the normal; length: z of its end, and 7: 1 if it ends
+//                      plane: the axis is the normal; 7: 1 if it ends, at the z of its point
 //   ball               2: centre    3: low part   6: radius, low part
 //   block, room        2: low corner   3: low part   4: high corner   5: low part
-//   trough, front      2 to 5: SurfaceParams (shared/layout.h)
-//   wire               2 to 6: CoilParams (ditto); 7: the angle of its start in turns
+//   trough             2: -, -, z of its end   3: low part   6: half width, low part   7: 1 if it ends
+//   front              2: -, -, z, length of the throat   3: low part of both   6: radius of the hole, low part
+//   wire               2 to 6: CoilParams (shared/layout.h); 7: the angle of its start in turns
 #ifndef VKDOSE_LAW_SHAPE_GLSL
 #define VKDOSE_LAW_SHAPE_GLSL
 
 #include "law/coil.glsl"
-#include "law/surface.glsl"
 #include "law/twoproduct.glsl"
 #include "shared/geometry.h"
 
@@ -55,17 +55,6 @@ AxisView axisView(ShapeData s, Two3 centre) {
     view.rho = twoLength(off);
     view.outward = view.rho.x > 0.0 ? off.high / view.rho.x : anyNormal(axis.high);
     return view;
-}
-
-Overlap planeShape(ShapeData s, Two3 centre, float radius) {
-    Two3 d = twoDifference(centre.high, centre.low, s.v2.xyz, s.v3.xyz);
-    vec2 height = twoDot(d, Two3(s.v4.xyz, s.v5.xyz));
-    precise float depth = (radius - height.x) - height.y;
-    precise float past = centre.high.z - s.v2.w;
-    precise float pastLow = centre.low.z - s.v3.w;
-    if (s.v7.x == 0.0 || past + pastLow <= 0.0) return Overlap(depth, s.v4.xyz);
-    vec3 edge = overlapInPlane(height, quickSum(past, pastLow), radius, vec2(0.0, 1.0));
-    return Overlap(edge.x, s.v4.xyz * edge.y + vec3(0.0, 0.0, edge.z));
 }
 
 Overlap tubeShape(ShapeData s, Two3 centre, float radius) {
@@ -137,15 +126,51 @@ Overlap roomWall(ShapeData s, uint n, Two3 centre, float radius) {
     return Overlap(depth, high ? -normal : normal);
 }
 
-SurfaceParams surfaceOf(ShapeData s) { return SurfaceParams(s.v2, s.v3, s.v4, s.v5); }
+/// A wall along z that may end at v2.z. `distance` is that to the same wall without an end, `normal` its normal there.
+Overlap wallWithEnd(ShapeData s, Two3 centre, vec2 distance, vec3 normal, float radius) {
+    vec2 past = twoAdd(vec2(centre.high.z, centre.low.z), -vec2(s.v2.z, s.v3.z));
+    precise float depth = (radius - distance.x) - distance.y;
+    if (s.v7.x == 0.0 || past.x <= 0.0) return Overlap(depth, normal);
+    vec3 edge = overlapInPlane(distance, past, radius, vec2(0.0, 1.0));
+    return Overlap(edge.x, normal * edge.y + vec3(0.0, 0.0, edge.z));
+}
+
+/// Distance from the z axis, and the direction away from it.
+AxisView viewFromZ(Two3 centre) {
+    vec2 rho = twoLength(Two3(vec3(centre.high.xy, 0.0), vec3(centre.low.xy, 0.0)));
+    vec3 outward = rho.x > 0.0 ? vec3(centre.high.xy / rho.x, 0.0) : vec3(1.0, 0.0, 0.0);
+    return AxisView(vec2(centre.high.z, centre.low.z), rho, outward);
+}
+
+Overlap planeShape(ShapeData s, Two3 centre, float radius) {
+    Two3 d = twoDifference(centre.high, centre.low, s.v2.xyz, s.v3.xyz);
+    vec2 height = twoDot(d, Two3(s.v4.xyz, s.v5.xyz));
+    return wallWithEnd(s, centre, height, s.v4.xyz, radius);
+}
 
 Overlap troughShape(ShapeData s, Two3 centre, float radius) {
-    Sphere a = Sphere(centre.high, centre.low, radius);
-    return upToEnd(surfaceOf(s), a, troughOverlap(surfaceOf(s), a));
+    AxisView view = viewFromZ(centre);
+    float side = centre.high.x >= 0.0 ? 1.0 : -1.0;
+    bool above = centre.high.y >= 0.0;
+    vec2 off = above ? side * vec2(centre.high.x, centre.low.x) : view.rho;
+    return wallWithEnd(s, centre, twoAdd(s.v6.xy, -off), above ? vec3(-side, 0.0, 0.0) : -view.outward, radius);
 }
 
 Overlap frontShape(ShapeData s, Two3 centre, float radius) {
-    return frontOverlap(surfaceOf(s), Sphere(centre.high, centre.low, radius));
+    AxisView view = viewFromZ(centre);
+    vec3 z = vec3(0.0, 0.0, 1.0);
+    vec2 past = twoAdd(view.along, -vec2(s.v2.z, s.v3.z)), beyond = twoAdd(past, -vec2(s.v2.w, s.v3.w));
+    vec2 off = twoAdd(view.rho, -s.v6.xy);
+    precise float wall = (radius + past.x) + past.y;
+    precise float throat = (radius + off.x) + off.y;
+    if (past.x < 0.0 && off.x >= 0.0) return Overlap(wall, -z);
+    if (past.x < 0.0 || beyond.x > 0.0) {
+        vec3 rim = overlapInPlane(off, past.x < 0.0 ? past : beyond, radius, vec2(0.0, past.x < 0.0 ? -1.0 : 1.0));
+        return Overlap(rim.x, view.outward * rim.y + z * rim.z);
+    }
+    // A centre inside the wall leaves by the nearer face.
+    if (off.x > 0.0 && wall < throat) return Overlap(wall, -z);
+    return Overlap(throat, -view.outward);
 }
 
 CoilParams wireOf(ShapeData s) { return CoilParams(s.v2, s.v3, s.v4, floatBitsToUint(s.v5), s.v6); }

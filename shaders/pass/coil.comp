@@ -102,5 +102,5 @@ void main() {
     if (trouble != kEmpty) report(trouble, i);
     writeForce(slot, vec4(force, overlap));
     writeTorque(slot, vec4(torque, coilTorque));
-    coilTorques[i] += coilTorque;
+    coilTorques[coilTorqueIndex(i)] += coilTorque;
 }

@@ -5,29 +5,31 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shared/buffers.glsl"
 
-shared uvec3 most[gl_WorkGroupSize.x];
+shared uvec4 most[gl_WorkGroupSize.x];
 
 void commit() {
     // A full table is reported; until the host hears of it nothing may reach outside.
     control.listed = uvec4(min(control.coming.xyz, uvec3(push.pairSlots, push.surfaceSlots, push.coilSlots)), 0u);
     control.coming = uvec4(0u);
+    control.body = uvec4(min(control.body.y, push.bodySlots), 0u, 0u, 0u);
     control.drift = vec4(0.0);
     control.list.w += 1u;
 }
 
 void main() {
     uint lane = gl_LocalInvocationID.x;
-    most[lane] = uvec3(0u);
+    most[lane] = uvec4(0u);
     for (uint row = lane; row < push.live; row += gl_WorkGroupSize.x) {
         openRow(row);
         if (control.wanted.y != 0u) commit();
-        most[lane] = max(most[lane], control.listed.xyz);
+        most[lane] = max(most[lane], uvec4(control.listed.xyz, control.body.x));
     }
     barrier();
     if (lane != 0u) return;
     for (uint other = 1u; other < gl_WorkGroupSize.x; ++other) most[0] = max(most[0], most[other]);
-    uvec3 groups = (most[0] + gl_WorkGroupSize.x - 1u) / gl_WorkGroupSize.x;
+    uvec4 groups = (most[0] + gl_WorkGroupSize.x - 1u) / gl_WorkGroupSize.x;
     dispatches.pairs.xz = spread(groups.x);
     dispatches.surfaces.xz = spread(groups.y);
     dispatches.coil.xz = spread(groups.z);
+    dispatches.bodies.xz = spread(groups.w);
 }

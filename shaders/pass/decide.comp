@@ -15,6 +15,12 @@ bool coilDrifts() {
     return control.drift.x > coilSlack();
 }
 
+bool bodiesDrift() {
+    if (BODIES == 0u) return false;
+    control.drift.y += member.choices.w;
+    return control.drift.y > bodySlack();
+}
+
 void decide(uint next) {
     uint kind = control.call.x >> kCallShift;
     if (kind < kErrors && control.error.x == kEmpty)
@@ -25,7 +31,8 @@ void decide(uint next) {
         control.list.x = 0u;
         control.list.y += 1u;
     }
-    bool drifts = coilDrifts(), rebuild = kind == kCallRebuild, refresh = rebuild || drifts || kind == kCallRefresh;
+    bool coil = coilDrifts(), bodies = bodiesDrift(), drifts = coil || bodies, rebuild = kind == kCallRebuild,
+         refresh = rebuild || drifts || kind == kCallRefresh;
     control.wanted = uvec4(rebuild ? 1u : 0u, refresh ? 1u : 0u, 0u, 0u);
     uvec2 groups = spread(push.share / gl_WorkGroupSize.x);
     if (rebuild) {

@@ -13,6 +13,12 @@ void adopt(uint slot) {
     for (uint part = 0u; part < kParts; ++part) history[historyIndex(part, slot)] = carried[historyIndex(part, slot)];
 }
 
+void adoptBody(uint slot) {
+    entries[slot] = entries[comingEntryIndex(slot)];
+    for (uint part = 0u; part < kBodyHistory; ++part)
+        history[placeHistoryIndex(slot, 0u, part)] = carried[placeHistoryIndex(slot, 0u, part)];
+}
+
 /// The slot of the pair (j, i) among those that j owns.
 uint slotOfOwner(uint j, uint i) {
     uvec4 own = rangesAt(slotRangeIndex(j));
@@ -48,6 +54,10 @@ void main() {
         links[count] = range.z << 1u;
         ++count;
     }
+    uvec4 ofBodies = uvec4(0u);
+    if (BODIES > 0u) ofBodies = rangesAt(bodyRangeIndex(i));
+    for (uint k = 0u; k < ofBodies.y; ++k, ++count) links[count] = (ofBodies.x + k) << 1u;
+    for (uint k = 0u; k < ofBodies.y; ++k) adoptBody(ofBodies.x + k);
     for (uint k = 0u; k < own.y; ++k) adopt(own.x + k);
     for (uint k = 0u; k < own.w; ++k) adopt(own.z + k);
     if (range.z != kEmpty) entries[range.z] = entries[comingEntryIndex(range.z)];

@@ -8,13 +8,14 @@
 // the rows' skin, so nearly every slot is a touching contact, which keeps all lanes of `pairs` busy.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/buffers.glsl"
+#include "pass/bodies.glsl"
 #include "pass/margin.glsl"
 #ifdef ENERGY_BOOK
 #include "pass/books.glsl"
 #endif
 
 uint partners[kMaxRow];
-uint pairs, surfaces, firstPair, firstSurface;
+uint pairs, surfaces, bodies, firstPair, firstSurface, firstBody;
 
 /// The coming slot of the contact that is in `slot` now; kEmpty if its two bodies are no longer near.
 uint comingSlot(uint slot, uint other) {
@@ -26,6 +27,48 @@ uint comingSlot(uint slot, uint other) {
         to = firstSurface + bitCount(surfaces & ((1u << surfaceOf(other)) - 1u));
     }
     return to;
+}
+
+/// The bodies within reach, a bit each. A body and the particle may both go their slack, and the body a step more
+/// before it is told that it has.
+uint nearBodies(uint i, float radius, float slack) {
+    uint near = 0u;
+    if (radius <= 0.0) return near;
+    float reach = radius + slack + bodySlack() + 2.0 * member.choices.w + 1e-7;
+    vec3 high = readState(push.source, kPosition, i).xyz, low = readState(push.source, kResidue, i).xyz;
+    for (uint b = 0u; b < member.bodies.x; ++b) {
+        Two3 centre = toBody(motionOf(b), high, low);
+        if (mayTouch(b, centre, reach) && mayBeNear(b, centre, reach)) near |= 1u << b;
+    }
+    return near;
+}
+
+/// Lists the bodies, and carries on what the particle remembers of them.
+void listBodies(uint i, uvec4 range) {
+    uint count = bitCount(bodies);
+    firstBody = atomicAdd(control.body.y, count);
+    if (firstBody + count > push.bodySlots) {
+        report(kErrorTables, i);
+        bodies = 0u;
+        count = 0u;
+    }
+    firstBody += firstBodySlot();
+    uint to = firstBody;
+    for (uint left = bodies; left != 0u; left &= left - 1u, ++to) {
+        entries[comingEntryIndex(to)] = uvec2(i, findLSB(left));
+        for (uint part = 0u; part < kBodyHistory; ++part) carried[placeHistoryIndex(to, 0u, part)] = vec4(0.0);
+    }
+    uint first = springSlotCount() + coilSlotCount();
+    for (uint k = 0u; k < range.w; ++k) {
+        uint slot = rowsAt(linkIndex(range.z + k)) >> 1u;
+        if (slot < first) continue;
+        uint body = entriesAt(slot).y;
+        if ((bodies >> body & 1u) == 0u) continue;
+        to = firstBody + bitCount(bodies & ((1u << body) - 1u));
+        for (uint part = 0u; part < kBodyHistory; ++part)
+            carried[placeHistoryIndex(to, 0u, part)] = historyAt(placeHistoryIndex(slot, 0u, part));
+    }
+    ranges[bodyRangeIndex(i)] = uvec4(firstBody, count, 0u, 0u);
 }
 
 void prepare(uint slot, uint i, uint other) {
@@ -95,6 +138,10 @@ void main() {
 #ifdef ENERGY_BOOK
         if (to == kEmpty) bookDeparture(i, slot);
 #endif
+    }
+    if (BODIES > 0u) {
+        bodies = nearBodies(i, p.w, slack);
+        listBodies(i, range);
     }
     if (p.w < 0.0 && hasCoil()) {
 #ifdef ENERGY_BOOK

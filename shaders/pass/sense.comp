@@ -28,8 +28,8 @@ void main() {
     uvec4 here = uvec4(equal(uvec4(region), regions));
     float coilTorque = 0.0;
     if (hasCoil()) {
-        coilTorque = coilTorques[i];
-        coilTorques[i] = 0.0;
+        coilTorque = coilTorques[coilTorqueIndex(i)];
+        coilTorques[coilTorqueIndex(i)] = 0.0;
     }
     count[lane] = here;
     mass[lane] = m * vec4(here);

@@ -1,6 +1,6 @@
-// Slack: the distance that a particle, or the wire of the coil, may go before the contact lists are made anew. It grows
-// with the speed of the particle. One slack for all is worse: in a canister being emptied, the particles that fall from
-// the outlet ask for new lists every 30 steps, and the bed at rest lists twice as many contacts as touch.
+// Slack: the distance that a particle, the wire of the coil, or a body, may go before the contact lists are made anew.
+// It grows with the speed of the particle. One slack for all is worse: in a canister being emptied, the particles that
+// fall from the outlet ask for new lists every 30 steps, and the bed at rest lists twice as many contacts as touch.
 #ifndef VKDOSE_PASS_SLACK_GLSL
 #define VKDOSE_PASS_SLACK_GLSL
 
@@ -12,5 +12,7 @@ float slackOf(vec3 velocity) {
 }
 
 float coilSlack() { return kCoilSlack * slackUnit(); }
+
+float bodySlack() { return kBodySlack * slackUnit(); }
 
 #endif

@@ -16,6 +16,8 @@ layout(constant_id = 3) const uint KIND_SET = 0u;  // bit k: there is a surface 
 layout(constant_id = 4) const uint MEMBERS = 1u;  // canisters that share the buffers, each with its part of every table
 layout(constant_id = 5) const uint MOST_GROUPS = 65535u;  // workgroups in a row of a dispatch; more go in layers
 layout(constant_id = 6) const uint FRONT = 0u;            // the front wall among the surfaces, if there is one
+layout(constant_id = 7) const uint BODIES = 0u;           // most bodies of a member
+layout(constant_id = 8) const uint SHAPE_KINDS = 0u;      // bit k: a body has a shape of kind k (shared/geometry.h)
 
 layout(push_constant) uniform Push { StepPush push; };
 
@@ -115,7 +117,10 @@ uint firstPairSlot() { return self * push.pairSlots; }
 uint firstSurfaceSlot() { return MEMBERS * push.pairSlots + self * push.surfaceSlots; }
 uint springSlotCount() { return MEMBERS * (push.pairSlots + push.surfaceSlots); }
 uint firstCoilSlot() { return springSlotCount() + self * push.coilSlots; }
-uint slotCount() { return springSlotCount() + coilSlotCount(); }
+uint coilTables() { return push.coilSlots > 0u ? 1u : 0u; }
+uint bodySlotCount() { return MEMBERS * push.bodySlots; }
+uint firstBodySlot() { return springSlotCount() + coilSlotCount() + self * push.bodySlots; }
+uint slotCount() { return springSlotCount() + coilSlotCount() + bodySlotCount(); }
 bool ofPair(uint slot) { return slot < MEMBERS * push.pairSlots; }
 
 // Where the elements of the tables are. shared/tables.h uses these names of sizes. Some are functions above, because a
@@ -127,6 +132,10 @@ bool ofPair(uint slot) { return slot < MEMBERS * push.pairSlots; }
 #define linkEntries linkEntryCount()
 #define springSlots springSlotCount()
 #define coilSlots coilSlotCount()
+#define bodySlots bodySlotCount()
+#define coils coilTables()
+#define bodies BODIES
+#define bodied (BODIES > 0u ? 1u : 0u)
 #define slots slotCount()
 #define historyParts kParts
 #define TABLE(number, name, element, count, title)
@@ -142,6 +151,10 @@ bool ofPair(uint slot) { return slot < MEMBERS * push.pairSlots; }
 #undef linkEntries
 #undef springSlots
 #undef coilSlots
+#undef bodySlots
+#undef coils
+#undef bodies
+#undef bodied
 #undef slots
 #undef historyParts
 
@@ -153,6 +166,13 @@ uint historyIndex(uint part, uint slot) {
 }
 /// Place of the force that a turn exerts in a slot of the coil.
 uint forceOfTurn(uint turn, uint slot) { return turnForceIndex(turn, slot - springSlotCount()); }
+/// Vector `part` of the history of place `touch` in a body slot: 0, 1: History; 2: direction in the frame of the body.
+uint placeHistoryIndex(uint slot, uint touch, uint part) {
+    return bodyHistoryIndex(slot - springSlotCount() - coilSlotCount(), 3u * touch + part);
+}
+uint forceOfPlace(uint slot, uint touch) {
+    return bodyForceIndex(slot - springSlotCount() - coilSlotCount(), touch);
+}
 uint coilHistoryIndex(uint turn, uint part, uint i) { return turnHistoryIndex(turn * kParts + part, i); }
 
 vec4 readState(uint side, uint field, uint i) { return stateAt(stateIndex(side, field, i)); }

@@ -35,8 +35,13 @@ SHARED_CONST kMaxTurns = 4u;  // of the coil that one particle touches at once
 SHARED_CONST kSurfaceBits = 5u;
 SHARED_CONST kUnrolledSurfaces = 8u;  // surfaces whose kind is a specialisation constant; more go through a slower loop
 SHARED_CONST kMaxRow = 64u;           // neighbours per particle
-SHARED_CONST kMaxLinks = 96u;         // contacts per particle: a row, every surface, the coil
+SHARED_CONST kMaxLinks = 112u;        // contacts per particle: a row, every surface, the coil, every body
 SHARED_CONST kEmpty = 0xffffffffu;    // end of a cell's list
+SHARED_CONST kMaxBodyTouches = 4u;    // places of one body that one particle touches at once
+SHARED_CONST kBodyHistory = 3u * kMaxBodyTouches;  // vectors of a body slot in the history
+// What a particle and a body do: force on the particle [N], its moment about the origin of the world [N m], work of the
+// body on the particle [J], each summed over the steps since the last sensing.
+SHARED_CONST kBodyLoads = 7u;
 SHARED_REAL kNoTurn = 1e30f;          // wire angle in the place of a coil turn that is not touched
 // Slack: how far a particle may move before the contact lists are made anew. Its unit is half the skin of the rows. A
 // particle at rest needs next to none; a falling one gets room for a while.
@@ -44,6 +49,7 @@ SHARED_REAL kLeastSlack = 0.0067f;
 SHARED_REAL kMostSlack = 0.2f;
 SHARED_REAL kSlackSteps = 256.0f;  // steps at the present speed
 SHARED_REAL kCoilSlack = 0.03f;    // of the coil's wire
+SHARED_REAL kBodySlack = 0.03f;    // of any point of a body
 
 // --- particle state: vec4 state[2 halves][2 couples][particles][2 fields] -------------------------------------------
 // The halves take turns as source and destination. Two fields side by side are 32 bytes, which a device with 64-bit
@@ -120,14 +126,17 @@ struct Member {
     vec4 domainLow;   // xyz [m]; w: throatZ [m]
     vec4 domainHigh;  // xyz [m]; w: outletZ [m]
     vec4 numerics;    // time step [s], skin [m], cell size [m], largest allowed overlap ratio
-    vec4 choices;     // Coulomb limit (kCoulombLuding ...), rolling lever (kLeverFull ...), 1 before any step
+    vec4 choices;     // Coulomb limit (kCoulombLuding ...), rolling lever (kLeverFull ...), 1 before any step; w: the
+                      // longest way of any body in a step of this batch [m]
     uvec4 roster;     // x: in block n, the member that row n of a dispatch works for
+    uvec4 bodies;     // x: how many; y: where they begin in `geometry`; z: where their motions begin in `motions`; w:
+                      // from one step's motions to the next one's
 };
 // Where in a member some of its vectors are.
 SHARED_CONST kVectorSurface = 12u;
 SHARED_CONST kVectorCoil = kVectorSurface + 4u * kMaxSurfaces;
 SHARED_CONST kVectorGravity = kVectorCoil + 5u;
-SHARED_CONST kMemberVectors = kVectorGravity + 6u;
+SHARED_CONST kMemberVectors = kVectorGravity + 7u;
 
 // --- control block: decisions and reports of the device -----------------------------------------------------------
 // Calls of particles in order of urgency: errors first (causes before their effects), then rebuild, then refresh. A
@@ -140,9 +149,10 @@ SHARED_CONST kErrorOverlap = 4u;
 SHARED_CONST kErrorLost = 5u;
 SHARED_CONST kErrorTurns = 6u;
 SHARED_CONST kErrorNewton = 7u;
-SHARED_CONST kErrors = 8u;
-SHARED_CONST kCallRebuild = 8u;  // of the rows, and so of the contact lists
-SHARED_CONST kCallRefresh = 9u;  // of the contact lists
+SHARED_CONST kErrorFeatures = 8u;
+SHARED_CONST kErrors = 9u;
+SHARED_CONST kCallRebuild = 9u;   // of the rows, and so of the contact lists
+SHARED_CONST kCallRefresh = 10u;  // of the contact lists
 SHARED_CONST kCallShift = 27u;
 SHARED_CONST kMostParticles = 1u << kCallShift;
 
@@ -157,7 +167,8 @@ struct Dispatches {    // for all members together: as many workgroups as the on
     Dispatch step[2];  // of even and odd steps: `decide` clears that of its step and fills the other
     uvec4 pairs;       // workgroups over the entries of the contact lists: pairs ...
     uvec4 surfaces;    // ... contacts with surfaces ...
-    uvec4 coil;        // ... particles near the coil
+    uvec4 coil;        // ... particles near the coil ...
+    uvec4 bodies;      // ... particles near a body
 };
 
 struct Control {   // a member's
@@ -165,7 +176,8 @@ struct Control {   // a member's
     uvec4 listed;  // entries of the contact lists in use: pairs, surfaces, coil
     uvec4 coming;  // entries taken so far by the refresh at work: pairs, surfaces, coil, links
     uvec4 list;   // x: entries of the rows in use; y: rebuilds since load; z: longest row ever; w: refreshes since load
-    vec4 drift;   // x: way of the coil's wire since the last refresh, along the axis [m]
+    uvec4 body;   // entries of the list of particles near bodies: x: in use, y: taken so far by the refresh at work
+    vec4 drift;   // since the last refresh: x: way of the coil's wire along the axis, y: longest way of a body [m]
     uvec4 call;   // x: the most urgent call of this step; kEmpty: none
     uvec4 error;  // the first: x: step of the batch, y: kind, z: particle; x is kEmpty while there is none
 };
@@ -238,7 +250,8 @@ struct StepPush {
     uint linkEntries;   // ... and in the links behind the rows of all
     uint pairSlots;     // contact slots, multiples of the workgroup size: first the pairs of all members ...
     uint surfaceSlots;  // ... then the surfaces ...
-    uint coilSlots;     // ... then the coil
+    uint coilSlots;     // ... then the coil ...
+    uint bodySlots;     // ... then the bodies
     uint slice;         // first particle of the member that a field pass adds up
 };
 

@@ -36,20 +36,23 @@
 VIEWED(0, state, vec4, 2 * particles * kFields, the particle state)
 // Rows: for every particle, the others within reach and skin, ascending. Links: for every particle, the contacts that
 // it takes part in, ordered as other particles by ascending index, surfaces, coil. A link is slot << 1, plus 1 for the
-// contact's second body.
+// contact's second body. Bodies (host/model/rigid_body.h) come last.
 VIEWED(1, rows, uint, canisters * (rowEntries + linkEntries), the neighbour rows)
 ROW(rows, rowIndex, 0, canisters * rowEntries)
 ROW(rows, linkIndex, canisters * rowEntries, canisters * linkEntries)
 // Of each particle: row (first, count), links (first, count). Then: own pair slots (first, count), own surface slots
-// (first, count).
-VIEWED(2, ranges, uvec4, 2 * particles, the ranges of rows)
+// (first, count). Then, if there are bodies: own body slots (first, count).
+VIEWED(2, ranges, uvec4, (2 + bodied) * particles, the ranges of rows)
 ROW(ranges, rowRangeIndex, 0, particles)
 ROW(ranges, slotRangeIndex, particles, particles)
+ROW(ranges, bodyRangeIndex, 2 * particles, bodied * particles)
 // Of each pair or surface slot: the two vectors of History (law/contact.glsl), zero while the two bodies do not touch.
-// With the energy book, then the vectors of Exerted (law/energy.glsl), each for all slots.
-VIEWED(3, history, vec4, historyParts * springSlots, the contact history)
+// With the energy book, then the vectors of Exerted (law/energy.glsl), each for all slots. Then of each body slot, for
+// each place that is touched: History, and the direction from the body to the particle, in the frame of the body.
+VIEWED(3, history, vec4, historyParts * springSlots + kBodyHistory * bodySlots, the contact history)
 ROWS(history, springIndex, 0, springSlots, 2)
 ROWS(history, exertedIndex, 2 * springSlots, historyParts - 2, springSlots)
+ROWS(history, bodyHistoryIndex, historyParts * springSlots, bodySlots, kBodyHistory)
 // The history of each turn and particle, vector by vector (turn * historyParts + part). Then the wire angle of each
 // turn, kNoTurn if it is free. Empty without a coil.
 VIEWED(4, coilHistory, vec4, coils * (kMaxTurns * historyParts + 1) * particles, the contact history with the coil)
@@ -68,7 +71,7 @@ ROW(anchors, listAnchorIndex, particles, particles)
 // [canisters][workgroups over a canister's particles].
 TABLE(9, records, GroupRecord, canisters * groups, the records of the sensors)
 // Of each slot: the particle; then the other particle, or the surface with the number of its works in the bits above it
-// (kSurfaceBits). Coming: the entries that a refresh prepares.
+// (kSurfaceBits), or the body. Coming: the entries that a refresh prepares.
 VIEWED(10, entries, uvec2, 2 * slots, the contact lists)
 ROW(entries, entryIndex, 0, slots)
 ROW(entries, comingEntryIndex, slots, slots)
@@ -76,19 +79,22 @@ ROW(entries, comingEntryIndex, slots, slots)
 TABLE(11, books, vec4, energyBook * kBookFields * (particles + slots), the energy book)
 ROWS(books, bookIndex, 0, energyBook * kBookFields, particles)
 ROWS(books, slotBookIndex, kBookFields * particles, energyBook * kBookFields, slots)
-// [particles]: sum over the steps since the last sensing of the torque on the coil about +z [N m]. Empty without a
-// coil.
-TABLE(12, coilTorques, float, coils * particles, the torques on the coil)
+// Sums over the steps since the last sensing. Of each particle: the torque on the coil about +z [N m]; empty without a
+// coil. Then what it does to each body: kBodyLoads numbers.
+TABLE(12, coilTorques, float, (coils + kBodyLoads * bodies) * particles, the torques on the coil)
+ROW(coilTorques, coilTorqueIndex, 0, coils * particles)
+ROWS(coilTorques, bodyLoadIndex, coils * particles, kBodyLoads * bodies, particles)
 // Of each slot: force on the first body [N]; w: overlap over the smaller radius. Then of each turn and coil slot: the
-// force of the turn.
-VIEWED(13, forces, vec4, slots + kMaxTurns * coilSlots, the contact forces)
+// force of the turn. Then of each body slot and place: the force there.
+VIEWED(13, forces, vec4, slots + kMaxTurns * coilSlots + kMaxBodyTouches * bodySlots, the contact forces)
 ROW(forces, forceIndex, 0, slots)
 ROWS(forces, turnForceIndex, slots, kMaxTurns, coilSlots)
+ROWS(forces, bodyForceIndex, slots + kMaxTurns * coilSlots, bodySlots, kMaxBodyTouches)
 // Of each slot: torque on the first body [N m]; w: torque on the coil about +z [N m]. Torque on the second body.
 VIEWED(14, torques, vec4, 2 * slots, the contact torques)
 ROWS(torques, torqueIndex, 0, slots, 2)
 // As the history, of the slots that a refresh prepares.
-TABLE(15, carried, vec4, historyParts * springSlots, the carried history)
+TABLE(15, carried, vec4, historyParts * springSlots + kBodyHistory * bodySlots, the carried history)
 
 #undef TABLE
 #undef VIEWED

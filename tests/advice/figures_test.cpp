@@ -5,6 +5,9 @@
 #include <limits>
 
 #include "host/backend/reference/normal.h"
+#include "host/model/bed_weight.h"
+#include "host/model/pull_off.h"
+#include "host/model/restitution.h"
 #include "tests/model/case_files.h"
 #include "tests/support/catch.h"
 

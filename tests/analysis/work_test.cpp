@@ -25,6 +25,14 @@ TEST_CASE("turns and work of the drive by hand") {
     CHECK(nearRelative(w.massPerJoule(3e-3), 3e-3 / (3e-3 * kPi), 1e-12));
 }
 
+TEST_CASE("a turn back against the powder is work of the drive as well") {
+    // A turn at 2 mN m, a quarter back: the powder resists that with 1 mN m, which is -1 for a conveying drive.
+    const std::vector<double> angle{0, 2 * kPi, 1.5 * kPi}, torque{0, 2e-3, -1e-3};
+    const DriveWork w = driveWork(angle, torque);
+    CHECK(nearRelative(w.turns, 1.25, 1e-12));
+    CHECK(nearRelative(w.work, 2e-3 * 2 * kPi + 1e-3 * 0.5 * kPi, 1e-12));
+}
+
 TEST_CASE("without turning there is neither mass per turn nor per energy") {
     const DriveWork w = driveWork(std::vector<double>{1}, std::vector<double>{2});
     CHECK(w.turns == 0);

@@ -17,7 +17,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Of the mini canister: members of different lengths, one that fails, and one whose floor is of another kind.
+/// Of the mini canister: members of different lengths, one that fails, and one whose floor is of another kind. Ramps
+/// cut the calls of some; the torque, as soon as there is any, stops the coil of two at a step of their own.
 const std::string kStudy = R"(base = ")" VKDOSE_SOURCE_DIR R"(/cases/mini.toml"
 [set]
 settle.time_s = 0.01
@@ -27,12 +28,13 @@ sensors.interval_s = 0.003
 checkpoint.time_s = 0.006
 frames.interval_s = 0.02
 [[axis]]
-keys = ["contact.friction", "stop.max_doses", "contact.max_overlap_ratio", "canister.floor"]
-values = [[0.2, 1, 0.2, "trough"], [0.3, 2, 0.2, "trough"], [0.3, 1, 1e-9, "trough"], [0.4, 2, 0.2, "flat"],
-          [0.4, 1, 0.2, "trough"]]
+keys = ["contact.friction", "stop.max_doses", "contact.max_overlap_ratio", "canister.floor", "dose.ramp_s",
+        "dose.max_torque_mNm"]
+values = [[0.2, 1, 0.2, "trough", 0, 1e-9], [0.3, 2, 0.2, "trough", 0.01, 1000], [0.3, 1, 1e-9, "trough", 0, 1000],
+          [0.4, 2, 0.2, "flat", 0.005, 1e-9], [0.4, 1, 0.2, "trough", 0, 1000]]
 )";
 
-constexpr std::size_t kStatus = 6, kError = 7;  // columns of members.csv
+constexpr std::size_t kStatus = 8, kError = 9;  // columns of members.csv
 const std::string kFails = "2";                 // the member
 
 /// Device and threads as everywhere in the tests; a sweep in processes of the same study, against which all is held.

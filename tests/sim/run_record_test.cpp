@@ -35,20 +35,20 @@ TEST_CASE("an energy book is stored as state, springs, losses, works and momenta
     double next = 1;
     for (double* x : {&b.kinetic, &b.rotational, &b.potential, &b.elasticNormal, &b.elasticSliding, &b.elasticRolling,
                       &b.elasticTorsion, &b.plastic, &b.adhesive, &b.viscous, &b.sliding, &b.rolling, &b.torsion,
-                      &b.numerical, &b.coilWork, &b.left, &b.loaded})
+                      &b.numerical, &b.coilWork, &b.bodyWork, &b.left, &b.loaded})
         *x = next++;
-    b.momentum = Vec3(18, 19, 20);
-    b.angularMomentum = Vec3(21, 22, 23);
+    b.momentum = Vec3(19, 20, 21);
+    b.angularMomentum = Vec3(22, 23, 24);
     Record record;
     put(record, "energy", ledger);
-    Figures all(23);
+    Figures all(24);
     for (std::size_t i = 0; i < all.size(); ++i) all[i] = double(i + 1);
     CHECK(record.get<double>("energy") == all);
     std::optional<EnergyLedger> back;
     get(record, "energy", back);
     REQUIRE(back);
-    CHECK(back->sum.loaded == 17);
-    CHECK(back->sum.angularMomentum == Vec3(21, 22, 23));
+    CHECK(back->sum.loaded == 18);
+    CHECK(back->sum.angularMomentum == Vec3(22, 23, 24));
     put(record, "energy", std::optional<EnergyLedger>());
     get(record, "energy", back);
     CHECK_FALSE(back);
@@ -82,14 +82,21 @@ TEST_CASE("samples and doses are stored in the order of their columns") {
     d.coilTorque = 6;
     d.closedForm = 7;
     d.complete = true;
+    d.target = 8;
+    d.stopMass = 9;
+    d.rotation = 10;
+    d.stoppedBy = StopCause::Mass;
+    d.endTime = 11;
     put(record, "doses", std::vector<Dose>{d, d});
-    CHECK(record.get<std::uint64_t>("doses_counts") == Counts{1, 4, 1, 1, 4, 1});
-    CHECK(record.get<double>("doses_figures") == Figures{2, 3, 5, 6, 7, 2, 3, 5, 6, 7});
+    CHECK(record.get<std::uint64_t>("doses_counts") == Counts{1, 4, 1, 2, 1, 4, 1, 2});
+    CHECK(record.get<double>("doses_figures") == Figures{2, 3, 5, 6, 7, 8, 9, 10, 11, 2, 3, 5, 6, 7, 8, 9, 10, 11});
     std::vector<Dose> doses;
     get(record, "doses", doses);
     REQUIRE(doses.size() == 2);
     CHECK(doses[1].closedForm == 7);
     CHECK(doses[1].complete);
-    record.put("doses_figures", Figures(12));  // one figure more in each, as of another vkdose
+    CHECK(doses[1].stoppedBy == StopCause::Mass);
+    CHECK(doses[1].endTime == 11);
+    record.put("doses_figures", Figures(20));  // one figure more in each, as of another vkdose
     CHECK_THROWS_AS(get(record, "doses", doses), RecordError);
 }

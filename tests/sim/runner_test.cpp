@@ -408,28 +408,3 @@ TEST_CASE("a run that goes on tells its pace by what it did itself") {
     CHECK(after.progress.back().particleSteps == whole - done);
     CHECK(notes.progress.back().steps == notes.progress.back().step);
 }
-
-TEST_CASE("a run whose angles were once written as positive when conveying keeps that sense when it goes on") {
-    Case c = smallCase();
-    c.world.coil->hand = 1;  // conveys at falling angles
-    c.checkpoint.wall = 0;
-    c.checkpoint.simulated = 0.001;
-    FakeBackend backend;
-    Keeper notes;
-    play(c, backend, notes);
-    for (const bool former : {false, true}) {
-        RunCheckpoint from = notes.kept.back();
-        REQUIRE(from.run.get<double>("last")[1] < 0);
-        if (former) {
-            std::vector<double> last = from.run.get<double>("last");
-            last[1] = -last[1];
-            from.run.put("last", last);
-        }
-        FakeBackend second;
-        Notebook after;
-        const std::atomic<bool> stop{false};
-        runFilled(c, smallFilling(), {}, second, after, stop, &from);
-        REQUIRE_FALSE(after.samples.empty());
-        for (const Sample& s : after.samples) CHECK((s.coilAngle > 0) == former);
-    }
-}

@@ -67,11 +67,17 @@ class Ensemble {
         Particles loaded;
         gpu::Member block{};
         std::uint64_t step = 0;
-        std::uint64_t turned = 0;  ///< of the coil since load [2^-64 turns]; the same for any batches
-        std::uint32_t row = 0;     ///< on the roster
+        std::uint64_t turned = 0;       ///< of the coil since load [2^-64 turns]; the same for any batches
+        std::int64_t drive = 0;         ///< of the drive since load [kDrive turns]; likewise
+        bool moves = false;             ///< one of its bodies
+        std::vector<gpu::vec4> around;  ///< of each body: a sphere around it in its own frame: centre, radius [m]
+        std::uint32_t row = 0;          ///< on the roster
         std::optional<std::string> failure;
     };
 
+    void makeBodies(TableSizes& sizes);
+    void writeMotions(std::uint32_t count, const std::vector<double>& coilRates);
+    std::vector<BodyLoad> takeLoads(std::uint32_t member, std::uint32_t steps);
     void writeBlocks();
     void runBatch(std::uint32_t count, const std::vector<double>& coilRates, vk::Timestamps* times = nullptr);
     void keepError(std::uint32_t member, const gpu::uvec4& error, std::uint64_t firstStep);
@@ -79,6 +85,8 @@ class Ensemble {
 
     VulkanOptions options_;
     vk::Device device_;
+    std::unique_ptr<BodyTables> bodies_;  ///< null if no member has bodies
+    std::uint32_t mostBatch_ = 0;         ///< steps for which there is room in the motions of the bodies
     std::unique_ptr<Passes> passes_;
     std::unique_ptr<FieldPasses> fieldPasses_;  ///< made when fields are asked for; after the tables they read
     std::vector<MemberState> members_;

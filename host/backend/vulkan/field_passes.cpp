@@ -14,7 +14,9 @@ namespace {
 /// with kMaxLinks contacts for each particle, and the nodes of these contacts, the loops of an invocation stay below
 /// 65,535 trips, after which lavapipe ends them.
 constexpr std::uint32_t kSlice = 128;
-static_assert(kSlice * ((gpu::kMaxLinks + gpu::kMaxTurns) * (gpu::kFieldNodes + 1) + 2) < 65535);
+constexpr std::uint32_t kWithNodes = gpu::kMaxRow + gpu::kMaxSurfaces + gpu::kMaxTurns;  // those with bodies have none
+static_assert(kSlice * (kWithNodes * (gpu::kFieldNodes + 1) + kMaxBodies + 2) < 65535);
+static_assert(gpu::kMaxRow + gpu::kMaxSurfaces + 1 + kMaxBodies <= gpu::kMaxLinks);
 
 /// The block of points for one workgroup. Its edges are powers of two; it is as close to a cube as they allow, and no
 /// longer than the grid.

@@ -77,10 +77,6 @@ struct PackSurface {
 
 }  // namespace
 
-gpu::SurfaceParams packSurface(const geometry::Surface& surface) {
-    return std::visit(PackSurface{}, surface);
-}
-
 gpu::CoilParams packCoil(const geometry::Coil& c, double largest) {
     const double reach = largest + c.wireRadius;
     if (reach >= c.radius)
@@ -128,15 +124,17 @@ gpu::Member packMember(const World& world, const ContactLaw& law, const Particle
     if (world.surfaces.size() > gpu::kMaxSurfaces)
         throw RunError(fmt::format("{} surfaces; the Vulkan backend holds {}", world.surfaces.size(),
                                    uint32_t(gpu::kMaxSurfaces)));
-    if (!world.bodies.empty())
-        throw RunError("the Vulkan backend does not compute with bodies yet: run this case with --backend reference");
+    if (!world.bodies.empty() && world.energyBook)
+        throw RunError(
+            "the Vulkan backend keeps no energy book of contacts with bodies: set sensors.energy = false, or use "
+            "--backend reference");
     gpu::Member m{};
     packLaw(law, m);
     m.choices.z = 1.0f;
     for (std::size_t i = 0; i < world.surfaces.size(); ++i) {
         if (std::holds_alternative<geometry::Front>(world.surfaces[i]) && i + 1 < world.surfaces.size())
             throw std::logic_error("the front wall must be the last surface");
-        m.surface[i] = packSurface(world.surfaces[i]);
+        m.surface[i] = std::visit(PackSurface{}, world.surfaces[i]);
     }
     const double largest = largestRadius(particles);
     if (world.coil) m.coil = packCoil(*world.coil, largest);

@@ -130,7 +130,8 @@ class Packer {
     Around pack(const geometry::Plane& plane) {
         const bool ends = plane.end < geometry::kEndless;
         head(gpu::kShapePlane, 1);
-        setPair(2, plane.point, ends ? plane.end : 0);
+        // A plane that ends is parallel to z, so that the point may be moved along z to the end.
+        setPair(2, ends ? Vec3(plane.point.x, plane.point.y, plane.end) : plane.point);
         setPair(4, plane.normal);
         set(7, vec4(ends ? 1.0f : 0.0f, 0, 0, 0));
         return kAroundEndless;
@@ -175,17 +176,21 @@ class Packer {
         return {0.5 * (block.low + block.high), 0.5 * glm::length(block.high - block.low)};
     }
 
-    Around packFixed(uint32_t kind, const geometry::Surface& surface) {
-        head(kind, 1);
-        const gpu::SurfaceParams p = packSurface(surface);
-        set(2, p.pointHigh);
-        set(3, p.pointLow);
-        set(4, p.axis);
-        set(5, p.radius);
+    Around pack(const geometry::Trough& trough) {
+        const bool ends = trough.end < geometry::kEndless;
+        head(gpu::kShapeTrough, 1);
+        setPair(2, Vec3(0, 0, ends ? trough.end : 0));
+        setScalars(6, trough.halfWidth, 0);
+        set(7, vec4(ends ? 1.0f : 0.0f, 0, 0, 0));
         return kAroundEndless;
     }
-    Around pack(const geometry::Trough& trough) { return packFixed(gpu::kShapeTrough, trough); }
-    Around pack(const geometry::Front& front) { return packFixed(gpu::kShapeFront, front); }
+
+    Around pack(const geometry::Front& front) {
+        head(gpu::kShapeFront, 1);
+        setPair(2, Vec3(0, 0, front.z), front.throatLength);
+        setScalars(6, front.holeRadius, 0);
+        return kAroundEndless;
+    }
 
     Around pack(const geometry::Coil& wire) {
         head(gpu::kShapeWire, uint32_t(wire.length / wire.pitch) + 3);

@@ -38,6 +38,8 @@ struct StepPass {
     std::span<const vk::Variant> variants;
     Extent extent;
     VkDeviceSize arguments = 0;
+    bool readsBodies = false;  ///< binds the tables of shaders/shared/body_tables.h, if there are bodies
+    bool forBodies = false;    ///< has nothing to do without bodies
 };
 
 /// A step: each pass waits for the one before.
@@ -45,12 +47,13 @@ constexpr std::array kStep{
     StepPass{"clear", spirv::clear, Extent::OfStep, offsetof(gpu::Dispatch, cells)},
     StepPass{"bin", spirv::bin, Extent::OfStep, offsetof(gpu::Dispatch, particles)},
     StepPass{"neighbours", spirv::neighbours, Extent::OfStep, offsetof(gpu::Dispatch, particles)},
-    StepPass{"near", spirv::near, Extent::OfStep, offsetof(gpu::Dispatch, refresh)},
+    StepPass{"near", spirv::near, Extent::OfStep, offsetof(gpu::Dispatch, refresh), true},
     StepPass{"link", spirv::link, Extent::OfStep, offsetof(gpu::Dispatch, refresh)},
     StepPass{"commit_lists", spirv::commit_lists, Extent::OfStep, offsetof(gpu::Dispatch, settle)},
     StepPass{"pairs", spirv::pairs, Extent::OfLists, offsetof(gpu::Dispatches, pairs)},
     StepPass{"surfaces", spirv::surfaces, Extent::OfLists, offsetof(gpu::Dispatches, surfaces)},
     StepPass{"coil", spirv::coil, Extent::OfLists, offsetof(gpu::Dispatches, coil)},
+    StepPass{"bodies", spirv::bodies, Extent::OfLists, offsetof(gpu::Dispatches, bodies), true, true},
     StepPass{"move", spirv::move, Extent::Particles},
     StepPass{"decide", spirv::decide, Extent::One},
 };
@@ -84,13 +87,33 @@ VkDeviceSize Tables::bytes() const {
     return sum;
 }
 
-Passes::Passes(const vk::Device& device, const TableSizes& s)
+BodyTables::BodyTables(const vk::Device& device, const std::vector<gpu::uvec4>& shapes, std::size_t count)
+    : geometry(device, "the shapes of the bodies", shapes.size() * sizeof(gpu::uvec4)),
+      motions(device, "the motions of the bodies", count * sizeof(gpu::BodyMotion)) {
+    geometry.writeAll(shapes);
+}
+
+namespace {
+
+/// The tables of a step, some of which are replaced by those of the bodies.
+std::vector<const vk::Buffer*> with(const BodyTables& own, std::vector<const vk::Buffer*> tables) {
+#define TABLE(number, name, element, count, title) tables[number] = &own.name;
+#include "shaders/shared/body_tables.h"
+    return tables;
+}
+
+}  // namespace
+
+Passes::Passes(const vk::Device& device, const TableSizes& s, const BodyTables* bodies)
     : Tables(device, s, accessOn(device, s)),
       bindings_(device, all(), sizeof(gpu::StepPush)),
       sense_(device, bindings_, vk::pick(spirv::sense, macrosFor(access, s)), constants(s)),
       senseEnergy_(device, bindings_, vk::pick(spirv::sense_energy, macrosFor(access, s)), constants(s)) {
+    if (bodies != nullptr)
+        bodyBindings_ = std::make_unique<vk::BindingSet>(device, with(*bodies, all()), sizeof(gpu::StepPush));
     for (const StepPass& pass : kStep)
-        step_.emplace_back(device, bindings_, vk::pick(pass.variants, macrosFor(access, s)), constants(s));
+        step_.emplace_back(device, pass.readsBodies && bodyBindings_ ? *bodyBindings_ : bindings_,
+                           vk::pick(pass.variants, macrosFor(access, s)), constants(s));
 }
 
 std::vector<const char*> Passes::stepNames() {
@@ -99,12 +122,13 @@ std::vector<const char*> Passes::stepNames() {
     return names;
 }
 
-std::array<std::uint32_t, 7> Passes::constants(const TableSizes& s) {
-    return {s.workgroup, s.surfaces, s.surfaceKinds, s.kindSet, s.members, s.mostGroups, s.front};
+std::array<std::uint32_t, 9> Passes::constants(const TableSizes& s) {
+    return {s.workgroup,  s.surfaces, s.surfaceKinds, s.kindSet,   s.members,
+            s.mostGroups, s.front,    s.bodies,       s.shapeKinds};
 }
 
 void Passes::reset() {
-    const std::vector<gpu::uvec4> none(2ull * sizes.particles(), gpu::uvec4(0U));
+    const std::vector<gpu::uvec4> none((sizes.bodies > 0 ? 3ULL : 2ULL) * sizes.particles(), gpu::uvec4(0U));
     ranges.writeAll(none);
     if (sizes.coilSlots > 0) {
         const std::vector<gpu::vec4> angles(sizes.particles(), gpu::vec4(gpu::kNoTurn));
@@ -130,6 +154,7 @@ void Passes::setLive(std::uint32_t live) {
     d.pairs = groups(sizes.pairSlots / sizes.workgroup);
     d.surfaces = groups(sizes.surfaceSlots / sizes.workgroup);
     d.coil = groups(sizes.coilSlots / sizes.workgroup);
+    d.bodies = groups(sizes.bodySlots / sizes.workgroup);
     controls.write(0, &d, sizeof d);
     live_ = live;
 }
@@ -160,6 +185,7 @@ gpu::StepPush Passes::push(std::uint32_t step, std::uint32_t source, bool openin
     p.pairSlots = sizes.pairSlots;
     p.surfaceSlots = sizes.surfaceSlots;
     p.coilSlots = sizes.coilSlots;
+    p.bodySlots = sizes.bodySlots;
     return p;
 }
 
@@ -190,9 +216,14 @@ void Passes::recordSteps(vk::Commands& commands, std::uint32_t first, std::uint3
         const gpu::StepPush p = push(n, source, opening);
         bindings_.push(c, &p);
         for (std::size_t k = 0; k < kStep.size(); ++k) {
-            step_[k].bind(c);
-            dispatch(commands, k, source);
-            commands.barrier();
+            const bool ofBodies = kStep[k].readsBodies && bodyBindings_ != nullptr;
+            if (ofBodies) bodyBindings_->bind(c);
+            if (sizes.bodies > 0 || !kStep[k].forBodies) {
+                step_[k].bind(c);
+                dispatch(commands, k, source);
+                commands.barrier();
+            }
+            if (ofBodies) bindings_.bind(c);
             if (times != nullptr) times->mark(commands);
         }
     }

@@ -13,6 +13,7 @@
 #include "host/vk/device.h"
 #include "host/vk/pipeline.h"
 #include "host/vk/timestamps.h"
+#include "shaders/shared/geometry.h"
 #include "shaders/shared/layout.h"
 
 namespace vkdose {
@@ -41,9 +42,20 @@ class Tables {
     static vk::Buffer make(const vk::Device& device, const TableSizes& sizes, const Access& access, std::size_t number);
 };
 
+/// The tables of shaders/shared/body_tables.h.
+class BodyTables {
+  public:
+    /// `geometry`: of all members, one after another. `motions`: room for so many.
+    BodyTables(const vk::Device& device, const std::vector<gpu::uvec4>& geometry, std::size_t motions);
+
+#define TABLE(number, name, element, count, title) vk::Buffer name;
+#include "shaders/shared/body_tables.h"
+};
+
 class Passes : public Tables {
   public:
-    Passes(const vk::Device& device, const TableSizes& sizes);
+    /// `bodies` outlives this; null without bodies.
+    Passes(const vk::Device& device, const TableSizes& sizes, const BodyTables* bodies = nullptr);
 
     /// Records steps `first` ... `first + count - 1` of a batch. `source` is the half of the state from which they
     /// start. `times` receives a mark before the first step and one after each pass of every step (stepNames).
@@ -67,7 +79,7 @@ class Passes : public Tables {
     /// The push constants of every dispatch, for the roster's first row.
     gpu::StepPush push(std::uint32_t step, std::uint32_t source, bool opening) const;
     /// Specialisation constants of every pass over tables of this size.
-    static std::array<std::uint32_t, 7> constants(const TableSizes& sizes);
+    static std::array<std::uint32_t, 9> constants(const TableSizes& sizes);
 
     /// The passes of a step, in their order.
     static std::vector<const char*> stepNames();
@@ -82,7 +94,8 @@ class Passes : public Tables {
 
     std::uint32_t live_ = 0;
     vk::BindingSet bindings_;
-    std::deque<vk::Pipeline> step_;  ///< of a step, in their order
+    std::unique_ptr<vk::BindingSet> bodyBindings_;  ///< of the passes that read the bodies
+    std::deque<vk::Pipeline> step_;                 ///< of a step, in their order
     vk::Pipeline sense_, senseEnergy_;
 };
 

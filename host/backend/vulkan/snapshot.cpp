@@ -49,6 +49,61 @@ void saveContacts(const Passes& passes, std::uint32_t member, Record& record) {
     record.put("contact_history", std::move(springs));
 }
 
+/// Saves the contacts with bodies.
+void saveBodies(const Passes& passes, std::uint32_t member, Record& record) {
+    if (passes.sizes.bodies == 0) return;
+    std::vector<std::uint32_t> particles, bodies;
+    std::vector<float> springs;
+    for (const PlaceContact& c : touchingPlaces(passes, member)) {
+        particles.push_back(c.particle);
+        bodies.push_back(c.body);
+        for (const vec4& part : c.history)
+            for (int k = 0; k < 4; ++k) springs.push_back(part[k]);
+    }
+    record.put("body_particle", std::move(particles));
+    record.put("body_number", std::move(bodies));
+    record.put("body_history", std::move(springs));
+}
+
+/// The slots of the bodies as a record has them.
+struct BodySlots {
+    std::vector<glm::uvec2> entries;
+    std::vector<vec4> history;                   ///< gpu::kBodyHistory for each entry
+    std::vector<std::vector<std::uint32_t>> of;  ///< the slots of each particle
+};
+
+BodySlots bodySlotsOf(const Passes& passes, std::uint32_t member, std::size_t particles, const Record& record) {
+    const TableSizes& t = passes.sizes;
+    BodySlots slots;
+    slots.of.resize(particles);
+    if (t.bodies == 0) return slots;
+    const auto& owner = record.get<std::uint32_t>("body_particle");
+    const auto& body = record.get<std::uint32_t>("body_number", owner.size());
+    const auto& springs = record.get<float>("body_history", 12 * owner.size());
+    std::size_t touches = 0;  // in the slot that was begun last
+    for (std::size_t c = 0; c < owner.size(); ++c) {
+        if (owner[c] >= particles || body[c] >= t.bodies)
+            throw RecordError("body_particle or body_number names what there is not");
+        const bool same = c > 0 && owner[c] == owner[c - 1] && body[c] == body[c - 1];
+        if (c > 0 && std::pair(owner[c], body[c]) < std::pair(owner[c - 1], body[c - 1]))
+            throw RecordError("body_particle is not in order");
+        if (!same) {
+            if (slots.entries.size() == t.bodySlots) throw RecordError("there are too many contacts with bodies");
+            slots.of[owner[c]].push_back(t.firstBodySlot(member) + std::uint32_t(slots.entries.size()));
+            slots.entries.emplace_back(member * t.share + owner[c], body[c]);
+            slots.history.resize(slots.history.size() + gpu::kBodyHistory, vec4(0.0f));
+            touches = 0;
+        }
+        if (touches == gpu::kMaxBodyTouches) throw RecordError("a body is touched in too many places");
+        vec4* place = &slots.history[slots.history.size() - gpu::kBodyHistory + 3 * touches++];
+        for (std::size_t part = 0; part < 3; ++part) {
+            const float* v = &springs[12 * c + 4 * part];
+            place[part] = vec4(v[0], v[1], v[2], v[3]);
+        }
+    }
+    return slots;
+}
+
 /// Consecutive slots, from `first` on.
 struct SlotRun {
     std::uint32_t first, room;
@@ -64,10 +119,12 @@ struct SlotRun {
 };
 
 /// Lists the contacts that touched in the way of a refresh, so that the next refresh carries their histories on.
-/// Returns Control::listed for these lists. It counts none of the coil, because the particles keep those histories
-/// themselves.
-uvec4 restoreContacts(Passes& passes, std::uint32_t member, std::size_t particles, const Record& record) {
+/// Sets Control::listed and Control::body for these lists. They count none of the coil, because the particles keep
+/// those histories themselves.
+void restoreContacts(Passes& passes, std::uint32_t member, std::size_t particles, const Record& record,
+                     gpu::Control& control) {
     const TableSizes& t = passes.sizes;
+    const BodySlots bodies = bodySlotsOf(passes, member, particles, record);
     const auto& owner = record.get<std::uint32_t>("contact_particle");
     const std::size_t count = owner.size(), parts = t.historyParts();
     const auto& isPair = record.get<std::uint32_t>("contact_is_pair", count);
@@ -76,8 +133,7 @@ uvec4 restoreContacts(Passes& passes, std::uint32_t member, std::size_t particle
     const std::uint32_t firstParticle = member * t.share, firstLink = member * t.linkEntries;
     SlotRun pairs{t.firstPairSlot(member), t.pairSlots, {}, {}};
     SlotRun surfaces{t.firstSurfaceSlot(member), t.surfaceSlots, {}, {}};
-    std::vector<std::uint32_t> links;
-    std::vector<uvec4> ranges(t.share, uvec4(0U));
+    std::vector<std::vector<std::uint32_t>> slotsOf(particles);
     for (std::size_t c = 0; c < count; ++c) {
         const bool pair = isPair[c] != 0;
         if (owner[c] >= particles || other[c] >= (pair ? particles : t.surfaces))
@@ -85,21 +141,31 @@ uvec4 restoreContacts(Passes& passes, std::uint32_t member, std::size_t particle
         if (c > 0 && owner[c] < owner[c - 1]) throw RecordError("contact_particle is not in order");
         SlotRun& run = pair ? pairs : surfaces;
         if (run.entries.size() == run.room) throw RecordError("there are too many contacts");
-        links.push_back((run.first + std::uint32_t(run.entries.size())) << 1);
+        slotsOf[owner[c]].push_back(run.first + std::uint32_t(run.entries.size()));
         run.entries.emplace_back(firstParticle + owner[c], pair ? firstParticle + other[c] : other[c]);
         for (std::size_t part = 0; part < parts; ++part) {
             const float* v = &springs[4 * (parts * c + part)];
             run.history[part < 2 ? 0 : part - 1].emplace_back(v[0], v[1], v[2], v[3]);
         }
-        uvec4& range = ranges[owner[c]];
-        if (range.w == 0) range.z = firstLink + std::uint32_t(links.size() - 1);
-        ++range.w;
     }
+    std::vector<std::uint32_t> links;
+    std::vector<uvec4> ranges(t.share, uvec4(0U));
+    for (std::size_t i = 0; i < particles; ++i) {
+        ranges[i].z = firstLink + std::uint32_t(links.size());
+        for (const auto& slots : {slotsOf[i], bodies.of[i]})
+            for (const std::uint32_t slot : slots) links.push_back(slot << 1);
+        ranges[i].w = firstLink + std::uint32_t(links.size()) - ranges[i].z;
+    }
+    if (links.size() > t.linkEntries) throw RecordError("there are too many contacts");
     pairs.write(passes);
     surfaces.write(passes);
     passes.rows.writeAll(links, passes.at.linkIndex(firstLink) * sizeof(std::uint32_t));
     passes.ranges.writeAll(ranges, passes.at.rowRangeIndex(firstParticle) * sizeof(uvec4));
-    return {std::uint32_t(pairs.entries.size()), std::uint32_t(surfaces.entries.size()), 0U, 0U};
+    const std::uint32_t first = t.firstBodySlot(member);
+    passes.entries.writeAll(bodies.entries, passes.at.entryIndex(first) * sizeof(glm::uvec2));
+    passes.history.writeAll(bodies.history, passes.at.bodyHistoryIndex(member * t.bodySlots, 0) * sizeof(vec4));
+    control.listed = {std::uint32_t(pairs.entries.size()), std::uint32_t(surfaces.entries.size()), 0U, 0U};
+    control.body = {std::uint32_t(bodies.entries.size()), 0U, 0U, 0U};
 }
 
 }  // namespace
@@ -157,6 +223,32 @@ std::vector<TurnForces> turnForces(const Passes& passes, std::uint32_t member, s
 
 }  // namespace
 
+std::vector<PlaceContact> touchingPlaces(const Passes& passes, std::uint32_t member) {
+    const TableSizes& t = passes.sizes;
+    std::vector<PlaceContact> found;
+    if (t.bodies == 0) return found;
+    const std::uint32_t count = passes.controlOf(member).body.x, first = t.firstBodySlot(member);
+    const std::uint64_t row = std::uint64_t(member) * t.bodySlots;
+    const auto entries = passes.entries.readAll<glm::uvec2>(count, passes.at.entryIndex(first) * sizeof(glm::uvec2));
+    const auto history = passes.history.readAll<vec4>(std::size_t(gpu::kBodyHistory) * count,
+                                                      passes.at.bodyHistoryIndex(row, 0) * sizeof(vec4));
+    const auto forces = passes.forces.readAll<vec4>(std::size_t(gpu::kMaxBodyTouches) * count,
+                                                    passes.at.bodyForceIndex(row, 0) * sizeof(vec4));
+    for (std::size_t k = 0; k < count; ++k)
+        for (std::size_t touch = 0; touch < gpu::kMaxBodyTouches; ++touch) {
+            const vec4* place = &history[gpu::kBodyHistory * k + 3 * touch];
+            if (place[0].w <= 0) continue;
+            found.push_back({entries[k].x - member * t.share,
+                             entries[k].y,
+                             forces[gpu::kMaxBodyTouches * k + touch],
+                             {place[0], place[1], place[2]}});
+        }
+    std::stable_sort(found.begin(), found.end(), [](const PlaceContact& a, const PlaceContact& b) {
+        return std::tuple(a.particle, a.body) < std::tuple(b.particle, b.body);
+    });
+    return found;
+}
+
 std::vector<TurnContact> touchingTurns(const Passes& passes, std::uint32_t member, std::size_t particles) {
     const TableSizes& t = passes.sizes;
     std::vector<TurnContact> found;
@@ -194,6 +286,7 @@ void saveState(const Passes& passes, std::uint32_t member, std::size_t particles
     record.put("state",
                packed(passes.state, couples, 2 * stride, source * couples * 2 * stride + 2 * first, 2 * particles));
     saveContacts(passes, member, record);
+    saveBodies(passes, member, record);
     record.put("coil_history", packed(passes.coilHistory, coilRows, stride, first, particles));
     if (passes.sizes.energyBook)
         record.put("energy_book", packed(passes.books, gpu::kBookFields, stride, first, particles));
@@ -210,13 +303,12 @@ void restoreState(Passes& passes, std::uint32_t member, std::size_t particles, s
     static const std::vector<float> none;
     const auto& book = books > 0 ? record.get<float>("energy_book", 4 * particles * books) : none;
     const auto rebuilds = record.one<std::uint32_t>("rebuilds");
-    const uvec4 listed = restoreContacts(passes, member, particles, record);
+    gpu::Control control = passes.controlOf(member);
+    restoreContacts(passes, member, particles, record, control);
     const std::size_t couples = gpu::kFields / 2;
     unpack(state, couples, 2 * stride, source * couples * 2 * stride + 2 * first, 2 * particles, passes.state);
     unpack(coil, coilRows, stride, first, particles, passes.coilHistory);
     unpack(book, books, stride, first, particles, passes.books);
-    gpu::Control control = passes.controlOf(member);
-    control.listed = listed;  // a snapshot may be taken again before any step
     control.list = uvec4(0U, rebuilds, 0U, 0U);
     passes.setControl(member, control);
 }

@@ -34,6 +34,16 @@ struct TurnContact {
 /// as many single runs.
 std::vector<TurnContact> touchingTurns(const Passes& passes, std::uint32_t member, std::size_t particles);
 
+/// A contact with a body, at one of the places where it touches.
+struct PlaceContact {
+    std::uint32_t particle, body;
+    gpu::vec4 force;
+    std::array<gpu::vec4, 3> history;  ///< as `history` in shaders/shared/tables.h: the third is the direction
+};
+
+/// The touching contacts with bodies, in order of particle, then body, then place. The device must be idle.
+std::vector<PlaceContact> touchingPlaces(const Passes& passes, std::uint32_t member);
+
 /// Saves the state of a member's first `particles` slots, read from half `source`. The device must be idle. The member
 /// must have been sensed since its last step, because the sensors' accumulators are not stored.
 void saveState(const Passes& passes, std::uint32_t member, std::size_t particles, std::uint32_t source, Record& record);

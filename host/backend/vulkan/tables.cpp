@@ -49,8 +49,10 @@ bool TableSizes::shares(const TableSizes& other) const {
 
 void TableSizes::growTo(const TableSizes& other) {
     for (const auto size : {&TableSizes::share, &TableSizes::cells, &TableSizes::rowEntries, &TableSizes::linkEntries,
-                            &TableSizes::pairSlots, &TableSizes::surfaceSlots, &TableSizes::coilSlots})
+                            &TableSizes::pairSlots, &TableSizes::surfaceSlots, &TableSizes::coilSlots,
+                            &TableSizes::bodySlots, &TableSizes::bodies})
         this->*size = std::max(this->*size, other.*size);
+    shapeKinds |= other.shapeKinds;
 }
 
 TableCounts::TableCounts(const TableSizes& s)
@@ -62,10 +64,13 @@ TableCounts::TableCounts(const TableSizes& s)
       linkEntries(s.linkEntries),
       springSlots(canisters * (std::uint64_t(s.pairSlots) + s.surfaceSlots)),
       coilSlots(canisters * s.coilSlots),
-      slots(springSlots + coilSlots),
+      slots(springSlots + coilSlots + canisters * s.bodySlots),
       historyParts(s.historyParts()),
       coils(s.coilSlots > 0 ? 1 : 0),
-      energyBook(s.energyBook ? 1 : 0) {}
+      energyBook(s.energyBook ? 1 : 0),
+      bodySlots(canisters * s.bodySlots),
+      bodies(s.bodies),
+      bodied(s.bodies > 0 ? 1 : 0) {}
 
 namespace {
 
@@ -163,8 +168,11 @@ TableSizes tableSizes(const World& world, const Crowd& crowd, const gpu::Member&
     const bool fits = s.pairSlots + surfaces + workgroup <= most;
     s.surfaceSlots = narrow(roundUp(fits ? surfaces : std::min(surfaces, n / 2), workgroup));
     s.coilSlots = world.coil ? s.share : 0;
+    s.bodies = std::uint32_t(world.bodies.size());
+    // A sphere is seldom near more than two bodies, and few are near any.
+    s.bodySlots = narrow(roundUp(std::min(2 * n + kFew, n * s.bodies), workgroup));
     s.rowEntries = narrow(std::max<std::uint64_t>(1, std::min(n * meanRow(world, crowd) + kFew, n * n)));
-    s.linkEntries = narrow(2ULL * s.pairSlots + s.surfaceSlots + s.coilSlots);
+    s.linkEntries = narrow(2ULL * s.pairSlots + s.surfaceSlots + s.coilSlots + s.bodySlots);
     narrow(s.largestIndex());
     return s;
 }

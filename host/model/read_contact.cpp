@@ -1,0 +1,242 @@
+// The table [contact] and the adhesion of [settle].
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+#include "host/model/bed_weight.h"
+#include "host/model/case_sections.h"
+#include "host/model/contact_targets.h"
+#include "host/model/particles.h"
+#include "host/model/restitution.h"
+#include "host/model/stability.h"
+
+namespace vkdose {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// One class of contacts as its table states it, together with what it takes from the class above it.
+struct Stated {
+    Ratios ratios{};
+    ContactTargets targets;
+};
+
+void refuseBoth(CaseReader& reader, const Section& section, const char* key, const char* other) {
+    if (section.has(key) && section.has(other))
+        reader.fault(section.path(key), fmt::format("stands beside {}, which says the same otherwise", other),
+                     fmt::format("give {} or {}, not both", key, other));
+}
+
+/// A target that the table states; its value is left out of the resolved case, which has what it led to.
+std::optional<double> target(Section& section, const char* key) {
+    if (!section.has(key)) {
+        section.know(key);
+        return {};
+    }
+    const double value = section.number(key);
+    section.forget(key);
+    return value;
+}
+
+void readStiffness(CaseReader& reader, Section& section, ContactTargets& t) {
+    refuseBoth(reader, section, "contact_duration_s", "k");
+    refuseBoth(reader, section, "overlap_under_bed", "k");
+    refuseBoth(reader, section, "overlap_under_bed", "contact_duration_s");
+    const auto duration = target(section, "contact_duration_s"), overlap = target(section, "overlap_under_bed");
+    if (!section.has("k") && !duration && !overlap) return;
+    t.duration = duration;
+    t.overlap = overlap;
+}
+
+void readAdhesion(CaseReader& reader, Section& section, ContactTargets& t) {
+    refuseBoth(reader, section, "bond_number", "kc_over_k");
+    const auto bond = target(section, "bond_number");
+    if (section.has("kc_over_k") || bond) {
+        t.bond = bond;
+        t.bondUnderBed = false;
+    }
+    if (!section.has("bond_load")) {
+        section.know("bond_load");
+        return;
+    }
+    t.bondUnderBed = section.choice("bond_load") == 1;
+    section.forget("bond_load");
+    if (!t.bond)
+        reader.fault(section.path("bond_load"), "says after which load a bond_number holds, and there is none",
+                     "give bond_number, or leave it out");
+}
+
+void readDamping(CaseReader& reader, Section& section, ContactTargets& t) {
+    refuseBoth(reader, section, "restitution", "damping");
+    const auto restitution = target(section, "restitution");
+    if (section.has("damping") || restitution) {
+        t.restitution = restitution;
+        t.speed = 0;
+    }
+    if (restitution && *restitution == 0)
+        reader.fault(section.path("restitution"), "is that of contacts that creep apart and never rebound",
+                     "give a number > 0, 0.05 for hardly any rebound");
+    if (restitution && *restitution > 1)
+        reader.fault(section.path("restitution"), "lets spheres rebound faster than they came",
+                     "give a number > 0 and <= 1");
+    const auto speed = target(section, "restitution_speed");
+    if (speed) t.speed = *speed;
+    if (speed && !t.restitution)
+        reader.fault(section.path("restitution_speed"), "says at which speed a restitution holds, and there is none",
+                     "give restitution, or leave it out");
+}
+
+/// Reads one class; keys that are not there come from `parent`, or from the defaults when there is none. A parameter
+/// that a target will set has no value in the file. Until then it stands at one that keeps its place in the resolved
+/// case.
+Stated readClass(CaseReader& reader, Section& section, const Stated* parent) {
+    static constexpr double kUnset = 1;
+    Stated stated;
+    if (parent != nullptr) stated.targets = parent->targets;
+    ContactTargets& t = stated.targets;
+    readStiffness(reader, section, t);
+    readAdhesion(reader, section, t);
+    readDamping(reader, section, t);
+
+    const auto key = [&](const char* name, double Ratios::*member, std::optional<double> fallback = {}) {
+        if (parent != nullptr) fallback = parent->ratios.*member;
+        return section.number(name, fallback);
+    };
+    const auto unless = [](bool set) { return set ? std::optional<double>(kUnset) : std::nullopt; };
+    Ratios& r = stated.ratios;
+    r.k = key("k", &Ratios::k, unless(t.duration || t.overlap));
+    r.k1 = key("k1_over_k", &Ratios::k1);
+    r.kc = key("kc_over_k", &Ratios::kc, unless(t.bond.has_value()));
+    // Without plasticity (k1 = k) the depth has no effect, so that it may be left out.
+    r.plasticity = key("plasticity_depth", &Ratios::plasticity, r.k1 < 1 ? std::optional<double>() : 0.0);
+    r.damping = key("damping", &Ratios::damping, unless(t.restitution.has_value()));
+    r.mu = key("friction", &Ratios::mu);
+    r.kt = key("kt_over_k", &Ratios::kt);
+    r.dampingT = key("damping_t_ratio", &Ratios::dampingT);
+    r.muR = key("rolling_friction", &Ratios::muR);
+    r.kr = key("kr_over_k", &Ratios::kr);
+    r.dampingR = key("damping_r_ratio", &Ratios::dampingR);
+    r.muTo = key("torsion_friction", &Ratios::muTo);
+    r.kTo = key("kto_over_k", &Ratios::kTo);
+    r.dampingTo = key("damping_to_ratio", &Ratios::dampingTo);
+    return stated;
+}
+
+/// States the parameters of one class as they are, for the resolved case.
+void recordChanged(Section& section, const Ratios& r) {
+    section.record("k", r.k);
+    section.record("kc_over_k", r.kc);
+    section.record("damping", r.damping);
+    section.record("plasticity_depth", r.plasticity);
+}
+
+/// Reads by how much the spheres are to be softer.
+double readSoftness(CaseReader& reader, Section& contact) {
+    const double s = contact.number("soften");
+    if (s < 1) reader.fault("contact.soften", "makes the spheres harder", "give 1 or more, or a larger k");
+    if (!(s > 1)) return 1;
+    contact.record("soften", 1.0);  // read again, the case is not softened a second time
+    return s;
+}
+
+double fillMass(const Case& c) {
+    if (!c.filling.list) return c.filling.mass;
+    double mass = 0;
+    for (const double r : c.filling.list->radius) mass += sphereMass(c.world.density, r);
+    return mass;
+}
+
+/// The contact of mean spheres that the targets of a class are meant for.
+MeanContact meanContact(const Case& c, ContactClass kind, double radius) {
+    MeanContact m;
+    const double density = c.world.density;
+    const double other = kind == ContactClass::ParticleParticle ? radius : kInfinity;
+    const bool round = kind == ContactClass::ParticleCoil && c.world.coil && c.world.coilWireCurved;
+    m.radius = radius;
+    m.mass = reducedMass(density, radius, other);
+    m.reduced = reducedSize(radius, round ? c.world.coil->wireRadius : other);
+    m.weight = sphereMass(density, radius) * glm::length(c.world.gravity);
+    const double down = -c.world.gravity.y;
+    if (c.canister && down > 0)
+        m.load = loadUnderBed(density, down, bedDepth(*c.canister, fillMass(c), density), radius);
+    return m;
+}
+
+/// What became of the targets, in words: "damping = 0.0825 kg/s from restitution = 0.45".
+std::string derivation(const ContactTargets& t, const Ratios& r) {
+    std::string text;
+    const auto add = [&](const std::string& what) { text += (text.empty() ? "" : "; ") + what; };
+    if (t.duration) add(fmt::format("k = {:.6g} N/m from contact_duration_s = {:.6g}", r.k, *t.duration));
+    if (t.overlap) add(fmt::format("k = {:.6g} N/m from overlap_under_bed = {:.6g}", r.k, *t.overlap));
+    if (t.bond)
+        add(fmt::format("kc_over_k = {:.6g} from bond_number = {:.6g} after {}", r.kc, *t.bond,
+                        t.bondUnderBed ? "the bed's weight" : "a load beyond the plastic limit"));
+    if (t.restitution)
+        add(fmt::format("damping = {:.6g} kg/s from restitution = {:.6g} {}", r.damping, *t.restitution,
+                        t.speed > 0 ? fmt::format("at {:.6g} m/s", t.speed) : "of slow impacts"));
+    return text;
+}
+
+constexpr std::array<const char*, kContactClasses> kClassPaths{"contact", "contact.wall", "contact.coil"};
+
+}  // namespace
+
+void placeContact(Section& root) {
+    Section& contact = root.requiredTable("contact");
+    contact.table("wall");
+    contact.table("coil");
+    root.table("settle");
+}
+
+void readContact(CaseReader& reader, Section& root, double meanRadius, Case& c) {
+    Section& contact = root.requiredTable("contact");
+    c.dosingLaw.coulombLimit = static_cast<CoulombLimit>(contact.choice("coulomb_limit").value_or(0));
+    c.dosingLaw.rollingLever = static_cast<RollingLever>(contact.choice("rolling_lever").value_or(0));
+    c.world.maxOverlapRatio = contact.number("max_overlap_ratio");
+    const std::array<Section*, kContactClasses> sections{&contact, &contact.table("wall"), &contact.table("coil")};
+    std::array<Stated, kContactClasses> stated;
+    for (std::size_t i = 0; i < stated.size(); ++i)
+        stated[i] = readClass(reader, *sections[i], i == 0 ? nullptr : &stated[i - 1]);
+    c.softened = readSoftness(reader, contact);
+    std::string missedAbove;
+    for (std::size_t i = 0; i < stated.size(); ++i) {
+        Ratios& r = stated[i].ratios;
+        const ContactTargets& targets = stated[i].targets;
+        const auto missed = meetTargets(targets, meanContact(c, static_cast<ContactClass>(i), meanRadius), r);
+        // A target that a class takes from the class above it is told there, if it is missed there too.
+        const bool told = missed && missedAbove == missed->key && !sections[i]->has(missed->key);
+        if (missed && !told) reader.fault(sections[i]->path(missed->key), missed->problem, missed->remedy);
+        missedAbove = missed ? missed->key : "";
+        std::string words;
+        if (sections[i]->has("derived")) words = sections[i]->string("derived");
+        if (targets.any()) words = derivation(targets, r);
+        if (c.softened > 1) r.soften(c.softened);
+        if (c.softened > 1 && !words.empty()) words += fmt::format("; then softened {:.6g} times", c.softened);
+        if (c.softened > 1 || targets.any()) recordChanged(*sections[i], r);
+        if (words.empty()) continue;
+        sections[i]->record("derived", words);
+        c.derivations.push_back(fmt::format("{}: {}", kClassPaths[i], words));
+    }
+
+    // While the powder settles, adhesion has a strength of its own. A class whose table gives its adhesion keeps it by
+    // default, and so does every class where the case says nothing of adhesion while settling.
+    const auto own = [&](std::size_t i) { return sections[i]->has("kc_over_k") || sections[i]->has("bond_number"); };
+    Section& settle = root.table("settle");
+    const bool pairStated = settle.has("kc_over_k"), wallStated = settle.has("wall_kc_over_k");
+    const double pairKc = settle.number("kc_over_k", stated[0].ratios.kc);
+    const double wallKc = settle.number("wall_kc_over_k", own(1) || !pairStated ? stated[1].ratios.kc : pairKc);
+    const bool settleStates = pairStated || wallStated;
+    const double coilKc = settle.number("coil_kc_over_k", own(2) || !settleStates ? stated[2].ratios.kc : wallKc);
+    const std::array<double, kContactClasses> settling{pairKc, wallKc, coilKc};
+    const double damping = settle.number("damping_factor");
+
+    c.settlingLaw = c.dosingLaw;
+    for (std::size_t i = 0; i < stated.size(); ++i) {
+        c.dosingLaw.classes[i] = stated[i].ratios.parameters(stated[i].ratios.kc);
+        c.settlingLaw.classes[i] = stated[i].ratios.parameters(settling[i]);
+        c.settlingLaw.classes[i].gamma *= damping;
+    }
+}
+
+}  // namespace vkdose

@@ -1,0 +1,102 @@
+#include "host/sim/dose_book.h"
+
+#include <cmath>
+#include <utility>
+
+#include "host/sim/run_record.h"
+
+namespace vkdose {
+
+namespace {
+
+constexpr std::size_t kDosed = static_cast<std::size_t>(Region::Dosed);
+
+}  // namespace
+
+DoseBook::DoseBook(const Case& c, const Derived& derived, double sense)
+    : schedule_(c.schedule),
+      timeStep_(c.world.timeStep),
+      massPerDose_(derived.massPerDose),
+      massPerTurn_(derived.massPerTurn),
+      sense_(sense) {}
+
+void DoseBook::open(int index, double time, const Sensors& now) {
+    dose_ = Dose{};
+    dose_.index = index;
+    dose_.startTime = time;
+    dose_.target = schedule_.targetMass;
+    before_ = now;
+    torqueSum_ = angle_ = 0;
+    steps_ = stages_ = 0;
+}
+
+void DoseBook::turn(double torqueSum, std::uint64_t steps, double rate) {
+    torqueSum_ += torqueSum;
+    steps_ += steps;
+    angle_ += std::abs(rate) * timeStep_ * static_cast<double>(steps);
+}
+
+double DoseBook::dosed(const Sensors& now) const {
+    return now.mass[kDosed] - before_.mass[kDosed];
+}
+
+void DoseBook::noteStop(StopCause cause, const Sensors& now, double time) {
+    dose_.stoppedBy = cause;
+    dose_.stopMass = dosed(now);
+    dose_.rotation = time - dose_.startTime;
+}
+
+DoseBook::Order DoseBook::look(const Sample& sample, bool last) {
+    const double mass = dosed(sample.sensors), target = schedule_.targetMass;
+    Order order;
+    if (std::abs(sample.coilTorque) > schedule_.maxTorque)
+        order.stop = StopCause::Torque;
+    else if (target > 0 && mass >= target)
+        order.stop = StopCause::Mass;
+    else if (last)
+        order.stop = StopCause::Time;
+    if (order.stop) {
+        noteStop(*order.stop, sample.sensors, sample.time);
+        return order;
+    }
+    const std::uint64_t before = stages_;
+    while (stages_ < schedule_.stages.size() && mass >= schedule_.stages[stages_].until * target) ++stages_;
+    if (stages_ != before)
+        order.speed = stages_ < schedule_.stages.size() ? schedule_.stages[stages_].speed : schedule_.coilSpeed;
+    return order;
+}
+
+Dose DoseBook::close(bool complete, const Sensors& now, double time) {
+    if (dose_.stoppedBy == StopCause::None) noteStop(StopCause::None, now, time);
+    dose_.complete = complete;
+    dose_.cumulative = now.mass[kDosed];
+    dose_.mass = dosed(now);
+    dose_.particles = now.count[kDosed] - before_.count[kDosed];
+    // The torque that the drive must supply to convey against the powder's on the coil.
+    dose_.coilTorque = steps_ > 0 ? -torqueSum_ / static_cast<double>(steps_) * sense_ + 0.0 : 0;
+    dose_.closedForm = schedule_.isPlain() ? massPerDose_ : massPerTurn_ * angle_ / (2 * kPi);
+    dose_.endTime = time;
+    return std::exchange(dose_, Dose{});
+}
+
+void DoseBook::save(Record& record) const {
+    put(record, "dose", std::vector<Dose>{dose_});
+    put(record, "dosed_before", before_);
+    record.put("dose_turning", std::vector<double>{torqueSum_, angle_});
+    record.put("dose_steps", std::vector<std::uint64_t>{steps_, stages_});
+}
+
+void DoseBook::restore(const Record& record) {
+    std::vector<Dose> underWay;
+    get(record, "dose", underWay);
+    dose_ = underWay.at(0);
+    get(record, "dosed_before", before_);
+    const auto& sums = record.get<double>("dose_turning", 2);
+    const auto& counts = record.get<std::uint64_t>("dose_steps", 2);
+    torqueSum_ = sums[0];
+    angle_ = sums[1];
+    steps_ = counts[0];
+    stages_ = counts[1];
+}
+
+}  // namespace vkdose

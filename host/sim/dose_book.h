@@ -1,0 +1,57 @@
+#pragma once
+// The dose under way: what is summed over it, and what tells the coil to change its speed or to stop.
+
+#include <optional>
+
+#include "host/backend/backend.h"
+#include "host/core/record.h"
+#include "host/model/case.h"
+#include "host/sim/dose.h"
+#include "host/sim/sample.h"
+
+namespace vkdose {
+
+class DoseBook {
+  public:
+    /// `sense`: +1 or -1, that of the conveying coil about +z.
+    DoseBook(const Case& c, const Derived& derived, double sense);
+
+    bool underWay() const { return dose_.index > 0; }
+    int index() const { return dose_.index; }
+    /// Whether the coil conveys and has not been told to stop.
+    bool conveys() const { return underWay() && dose_.stoppedBy == StopCause::None; }
+
+    /// Begins a dose at `time` [s]; `now` are the latest sensors.
+    void open(int index, double time, const Sensors& now);
+    /// Adds `steps` of its rotation: the sum of the particles' torque on the coil over them [N m], at this rate of the
+    /// coil [rad/s about +z].
+    void turn(double torqueSum, std::uint64_t steps, double rate);
+
+    /// What a sample of the rotation decides. `last`: the longest time of the rotation is over.
+    struct Order {
+        std::optional<StopCause> stop;
+        std::optional<double> speed;  ///< conveying, to change to [rad/s]
+    };
+    Order look(const Sample& sample, bool last);
+
+    /// Ends the dose with the latest sensors at `time` [s].
+    Dose close(bool complete, const Sensors& now, double time);
+
+    void save(Record& record) const;
+    void restore(const Record& record);
+
+  private:
+    double dosed(const Sensors& now) const;
+    void noteStop(StopCause cause, const Sensors& now, double time);
+
+    const Schedule& schedule_;
+    double timeStep_, massPerDose_, massPerTurn_, sense_;
+    Dose dose_;                 ///< index 0: none is under way
+    Sensors before_;            ///< at its start
+    double torqueSum_ = 0;      ///< times steps
+    std::uint64_t steps_ = 0;   ///< of its rotation
+    double angle_ = 0;          ///< by which the coil conveyed [rad]
+    std::uint64_t stages_ = 0;  ///< that are over
+};
+
+}  // namespace vkdose

@@ -1,0 +1,127 @@
+#version 450
+// bodies: computes the contacts with bodies in this step, one particle and one body near it per invocation.
+// Reads the source half of the state, entries, history, the shapes and motions of the bodies; writes history, forces
+// and torques, which `move` gathers, and the sums of what the particle does to the body, which the host reads.
+//
+// Each place where the body is touched is a contact. It goes on with the contact of the last step whose direction in
+// the frame of the body is nearest to its own, within 45 degrees, and the springs turn with it (geometry/matching.h).
+#extension GL_GOOGLE_include_directive : require
+#include "shared/buffers.glsl"
+#include "pass/bodies.glsl"
+#include "pass/wall.glsl"
+
+const float kFarthest = 0.70710678;  // cosine of 45 degrees
+
+/// The contacts of the last step.
+History old[kMaxBodyTouches];
+vec3 oldDirection[kMaxBodyTouches];
+/// The one that each place goes on with; kEmpty: none.
+uint goesOn[kMaxBodyTouches];
+
+void recall(uint slot) {
+    for (uint k = 0u; k < kMaxBodyTouches; ++k) {
+        old[k] = History(historyAt(placeHistoryIndex(slot, k, 0u)), historyAt(placeHistoryIndex(slot, k, 1u)));
+        oldDirection[k] = historyAt(placeHistoryIndex(slot, k, 2u)).xyz;
+        goesOn[k] = kEmpty;
+    }
+}
+
+/// The nearest pairs come first, ties by the index now, then by that before.
+void match(uint count) {
+    uint takenNow = 0u, takenBefore = 0u;
+    for (uint round = 0u; round < count; ++round) {
+        float nearest = kFarthest;
+        uint now = kEmpty, before = kEmpty;
+        for (uint n = 0u; n < count; ++n)
+            for (uint o = 0u; o < kMaxBodyTouches; ++o) {
+                float cosine = dot(features[n].direction, oldDirection[o]);
+                bool free = (takenNow >> n & 1u) == 0u && (takenBefore >> o & 1u) == 0u && old[o].slidingMax.w > 0.0;
+                if (free && cosine > nearest) {
+                    nearest = cosine;
+                    now = n;
+                    before = o;
+                }
+            }
+        if (now == kEmpty) return;
+        goesOn[now] = before;
+        takenNow |= 1u << now;
+        takenBefore |= 1u << before;
+    }
+}
+
+/// The vector turned as the unit vector `from` must be to become `to`, on the shortest way.
+vec3 turnedAlong(vec3 v, vec3 from, vec3 to) {
+    vec3 axis = cross(from, to);
+    float cosine = dot(from, to);
+    return cosine * v + cross(axis, v) + axis * (dot(axis, v) / (1.0 + cosine));
+}
+
+void load(uint body, uint i, uint number, float value) {
+    coilTorques[bodyLoadIndex(kBodyLoads * body + number, i)] += value;
+}
+
+void main() {
+    openMember();
+    ContactParams ofWall = lawOf(kParticleWall), ofCoil = lawOf(kParticleCoil);  // before any branch, as in `pairs`
+    uvec4 chosen = choices();
+    float springDt = springStep();
+    if (invocation() >= control.body.x) return;
+    uint slot = firstBodySlot() + invocation();
+    uvec2 who = entriesAt(slot);
+    uint i = who.x, body = who.y;
+    Body me = readBody(i);
+    BodyMotion motion = motionOf(body);
+    ContactParams law = ofWall;
+    if (motion.velocity.w == float(kParticleCoil)) law = ofCoil;
+
+    float radius = me.sphere.radius;
+    uint count = touchedFeatures(body, toBody(motion, me.sphere.high, me.sphere.low), radius);
+    if (count > kMaxBodyTouches) {
+        report(kErrorFeatures, i);
+        count = kMaxBodyTouches;
+    }
+    recall(slot);
+    match(count);
+
+    vec3 force = vec3(0.0), torque = vec3(0.0), moment = vec3(0.0);
+    float overlap = 0.0, work = 0.0;
+    for (uint k = 0u; k < kMaxBodyTouches; ++k) {
+        bool touching = k < count;
+        BodyFeature feature = features[k];
+        vec3 normal = directionToWorld(motion, feature.direction);
+        History h = History(vec4(0.0), vec4(0.0));
+        if (touching && goesOn[k] != kEmpty) {
+            h = old[goesOn[k]];
+            vec3 from = directionToWorld(motion, oldDirection[goesOn[k]]);
+            h.slidingMax.xyz = turnedAlong(h.slidingMax.xyz, from, normal);
+            h.rollingTorsion.xyz = turnedAlong(h.rollingTorsion.xyz, from, normal);
+        }
+        vec3 point = me.sphere.high - normal * (radius - 0.5 * feature.depth);
+        vec3 wall = bodyVelocity(motion, point);
+        Response r;
+        WallForce f = WallForce(vec3(0.0), vec3(0.0), vec3(0.0));
+        if (touching)
+            f = meetWall(me, Overlap(feature.depth, normal), 2.0 * radius, law, chosen, springDt, wall, motion.spin.xyz,
+                         h, r);
+        history[placeHistoryIndex(slot, k, 0u)] = h.slidingMax;
+        history[placeHistoryIndex(slot, k, 1u)] = h.rollingTorsion;
+        history[placeHistoryIndex(slot, k, 2u)] = vec4(touching ? feature.direction : vec3(0.0), 0.0);
+        writeForce(forceOfPlace(slot, k), vec4(f.force, 0.0));  // the host asks for single contacts
+        force += f.force;
+        torque += f.torque;
+        if (touching) {
+            moment += cross(point, f.force) + f.couple;
+            work += springDt * (dot(f.force, wall) + dot(f.couple, motion.spin.xyz));
+            overlap = max(overlap, feature.depth / radius);
+        }
+    }
+    writeForce(slot, vec4(force, overlap));
+    writeTorque(slot, vec4(torque, 0.0));
+    if (overlap > 0.0) {
+        for (uint d = 0u; d < 3u; ++d) {
+            load(body, i, d, force[d]);
+            load(body, i, 3u + d, moment[d]);
+        }
+        load(body, i, 6u, work);
+    }
+}

@@ -1,0 +1,18 @@
+// The bodies of the member at work: their shapes and where they are in this step.
+#ifndef VKDOSE_PASS_BODIES_GLSL
+#define VKDOSE_PASS_BODIES_GLSL
+
+#include "shared/geometry.h"
+
+#define TABLE(number, name, element, count, title) \
+    layout(std430, set = 0, binding = number) readonly buffer name##Buffer { element name[]; };
+#include "shared/body_tables.h"
+
+uvec4 geometryAt(uint i) { return geometry[member.bodies.y + i]; }
+
+#include "law/features.glsl"
+#include "law/pose.glsl"
+
+BodyMotion motionOf(uint body) { return motions[member.bodies.z + push.stepInBatch * member.bodies.w + body]; }
+
+#endif

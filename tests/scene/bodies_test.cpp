@@ -1,0 +1,162 @@
+// Bodies on the device: the same motion as in the reference, the same bits after a restart, in other batches and beside
+// other canisters, and the loads.
+
+#include <cmath>
+#include <thread>
+
+#include "geometry/tessellate.h"
+#include "tests/scene/beds.h"
+#include "tests/support/catch.h"
+#include "tests/support/records.h"
+
+using namespace vkdose;
+using namespace vkdose::test;
+
+namespace {
+
+constexpr double kDrumRate = 12;  // [rad/s]
+
+RigidBody bodyOf(const char* name, std::vector<geometry::Shape> shapes, geometry::Motion motion = geometry::Rest{},
+                 Clock clock = Clock::Time) {
+    return {name, std::move(shapes), {geometry::Pose{}, std::move(motion), {}}, clock, ContactClass::ParticleWall};
+}
+
+std::shared_ptr<const geometry::MeshSurface> meshOf(const geometry::Shape& shape, double facet) {
+    const auto triangles = geometry::tessellated(shape, facet, Vec3(-1), Vec3(1));
+    return std::make_shared<const geometry::MeshSurface>(geometry::makeMesh(geometry::soupOf(triangles, "test")).mesh,
+                                                         2e-3);
+}
+
+/// A drum about z that turns, with a block of triangles in it that shakes, and a coil that follows the drive.
+RuledWorld deviceWorld() {
+    RuledWorld w = emptyWorld();
+    w.domain = {Vec3(-0.03, -0.03, -0.01), Vec3(0.03, 0.03, 0.02)};
+    const Vec3 z(0, 0, 1);
+    w.bodies.push_back(bodyOf("drum",
+                              {geometry::Cone{Vec3(0), z, 20e-3, 20e-3, 10e-3}, geometry::Cone{Vec3(0), z, 0, 20e-3, 0},
+                               geometry::Cone{Vec3(0, 0, 10e-3), z, 0, 20e-3, 0}},
+                              geometry::Turn{z, Vec3(0), kDrumRate}));
+    RigidBody block = bodyOf("block", {meshOf(geometry::Block{Vec3(-3e-3), Vec3(3e-3)}, 2e-3)},
+                             geometry::Shake{Vec3(0, 1, 0), 0.2e-3, 80, 0.3});
+    block.course.start = {glm::angleAxis(0.6, glm::normalize(Vec3(1, 2, 3))), Vec3(6e-3, -14e-3, 5e-3)};
+    block.kind = ContactClass::ParticleCoil;
+    w.bodies.push_back(std::move(block));
+    w.bodies.push_back(bodyOf("stirrer", {geometry::Ball{Vec3(-14e-3, 0, 5e-3), 3e-3}}, geometry::Turn{z, Vec3(0), 0.7},
+                              Clock::Drive));
+    return w;
+}
+
+/// Spheres in layers, clear of the bodies.
+Particles layers(int count) {
+    Particles p;
+    for (int i = 0; i < count; ++i) {
+        const Vec3 at((i % 5 - 2) * 2.9e-3 + 0.1e-3 * (i % 3), -6.5e-3 + (i / 15) * 2.8e-3,
+                      2.1e-3 + (i / 5 % 3) * 2.8e-3);
+        p.add(at, single(1.25e-3 - 0.01e-3 * (i % 7)), Vec3(0.1, -0.3, 0.02 * (i % 3 - 1)), Vec3(i % 5, 2, -3));
+    }
+    return p;
+}
+
+constexpr double kDrive = -9.0000001;
+
+}  // namespace
+
+TEST_CASE("bodies: one sphere meets each, on the device as in the reference") {
+    const RuledWorld w = deviceWorld();
+    struct Throw {
+        const char* at;
+        Vec3 from, velocity;
+    };
+    for (const Throw& t : {Throw{"drum", {-12e-3, -13.9e-3, 5e-3}, {-0.2, -0.4, 0.02}},
+                           Throw{"drum's corner", {-17.3e-3, -5e-3, 1.3e-3}, {-0.5, -0.05, -0.3}},
+                           Throw{"block", {6e-3, -8.2e-3, 5e-3}, {0.01, -0.4, 0.03}},
+                           Throw{"stirrer", {-14e-3, 4.4e-3, 5.2e-3}, {0.05, -0.4, 0}}}) {
+        CAPTURE(t.at);
+        Particles p;
+        p.add(t.from, single(1.25e-3), t.velocity, Vec3(40, -30, 60));
+        auto device = gpu();
+        auto reference = makeReferenceBackend();
+        device->load(w, p);
+        reference->load(w, p);
+        bool met = false;
+        for (int call = 0; call < 12; ++call) {
+            const Sensors a = device->advance(100, kDrive), b = reference->advance(100, kDrive);
+            met = met || b.maxOverlapRatio > 1e-4;
+            REQUIRE(a.bodies.size() == 3);
+            for (std::size_t k = 0; k < 3; ++k) {
+                const double scale = std::max(1e-3, glm::length(b.bodies[k].force));
+                CHECK(near(a.bodies[k].force, b.bodies[k].force, scale, 2e-3));
+                CHECK(near(a.bodies[k].torque, b.bodies[k].torque, scale * 0.02, 2e-3));
+                CHECK(near(a.bodies[k].work, b.bodies[k].work, scale * 1e-4, 2e-3));
+            }
+        }
+        CHECK(met);
+        const Differences d = differences(*device, *reference, 0.5);
+        CHECK(d.unmatched == 0);
+        CHECK(d.position < 1e-4);
+        CHECK(d.velocity < 1e-3);
+        CHECK(d.spin < 1e-3);
+        requireClean(*device);
+    }
+}
+
+TEST_CASE("bodies: a heap in a turning drum stays close to the reference") {
+    const RuledWorld w = deviceWorld();
+    const Particles p = layers(60);
+    auto device = gpu();
+    auto reference = makeReferenceBackend();
+    device->load(w, p);
+    reference->load(w, p);
+    const Sensors a = device->advance(3000, kDrive), b = reference->advance(3000, kDrive);
+    CHECK(b.maxOverlapRatio > 1e-3);
+    CHECK(near(a.kineticEnergy, b.kineticEnergy, b.kineticEnergy, 1e-2));
+    CHECK(differences(*device, *reference, 0.5).position < 0.05);
+    for (std::size_t k = 0; k < 3; ++k) CHECK(near(a.bodies[k].work, b.bodies[k].work, b.kineticEnergy, 1e-2));
+    CHECK(std::abs(b.bodies[1].work) > 1e-3 * b.kineticEnergy);
+    requireClean(*device);
+}
+
+TEST_CASE("bodies: a restart, other batches and other canisters change no bit") {
+    const RuledWorld w = deviceWorld();
+    const Particles p = layers(60);
+    VulkanOptions small;
+    small.batch = 7;
+    const auto whole = gpu(), other = gpu(small), second = gpu();
+    for (Backend* b : {whole.get(), other.get(), second.get()}) b->load(w, p);
+    const Sensors one = whole->advance(2501, kDrive), same = other->advance(2501, kDrive);
+    CHECK(sameBits(whole->particles(), other->particles()));
+    CHECK(one.bodies.at(0).torque == same.bodies.at(0).torque);
+
+    const Record taken = whole->snapshot();
+    second->restore(taken);
+    checkSameArrays(taken, second->snapshot());
+    for (int call = 0; call < 2; ++call) {
+        whole->advance(701, kDrive);
+        second->advance(701, kDrive);
+        CHECK(sameBits(whole->particles(), second->particles()));
+        CHECK(sameBits(whole->contacts(), second->contacts()));
+    }
+    bool onBody = false;
+    for (const Contact& c : whole->contacts()) onBody = onBody || c.kind == ContactClass::ParticleCoil;
+    CHECK(onBody);
+
+    // Beside a canister with fewer bodies and other particles.
+    auto members = gpuEnsemble(2);
+    RuledWorld fewer = w;
+    fewer.bodies.pop_back();
+    fewer.bodies[0].shapes.emplace_back(geometry::Ball{Vec3(0, 15e-3, 5e-3), 1e-3});
+    std::thread first([&] {
+        members[0]->load(fewer, layers(33));
+        members[0]->advance(2501, 0);
+        members[0].reset();  // nobody waits for it any more
+    });
+    members[1]->load(w, p);
+    members[1]->advance(2501, kDrive);
+    const Particles together = members[1]->particles();
+    requireClean(*members[1]);
+    first.join();
+    whole->load(w, p);
+    whole->advance(2501, kDrive);
+    CHECK(sameBits(together, whole->particles()));
+    requireClean(*whole);
+}

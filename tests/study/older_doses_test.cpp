@@ -1,0 +1,25 @@
+// The doses of a member that an older vkdose ran stand in the table of today's columns.
+#include "host/sim/dose.h"
+#include "host/study/member_result.h"
+#include "tests/support/catch.h"
+#include "tests/support/folder.h"
+
+using namespace vkdose;
+using test::Folder;
+
+TEST_CASE("an older table of doses gets the columns of the stop, without figures") {
+    const Folder folder;
+    Dose d;
+    d.index = 1;
+    d.mass = 3e-3;
+    const auto file =
+        folder.write("doses.csv", csvHeader(kPlainDoseColumns) + "\n" + csvRow(kPlainDoseColumns, d) + "\n");
+    const Table table = dosesIn(file.parent_path());
+    CHECK(table.names() == columnNames(kDoseColumns));
+    REQUIRE(table.rows() == 1);
+    CHECK(table.number(0, "mass_kg") == 3e-3);
+    CHECK(table.text(0, "stop_mass_kg") == "nan");
+    CHECK(table.text(0, "stopped_by") == "none");
+    folder.write("doses.csv", "dose,mass_kg\n1,2\n");
+    CHECK(dosesIn(file.parent_path()).names().empty());
+}
