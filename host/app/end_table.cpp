@@ -17,9 +17,8 @@ std::string doseTable(const std::vector<Dose>& doses) {
     std::string text = fmt::format("{:>5} {:>10} {:>14} {:>16} {:>15}\n", "dose", "mass [g]", "cumulative [g]",
                                    "torque [mN m]", "closed form [g]");
     for (const Dose& d : doses) {
-        text +=
-            fmt::format("{:>5} {:>10.3f} {:>14.3f} {:>16.3f} {:>15.3f}{}\n", d.index, d.mass * 1e3, d.cumulative * 1e3,
-                        d.coilTorque * 1e3, d.closedForm * 1e3, d.complete ? "" : "  incomplete, not in the mean");
+        text += fmt::format("{:>5} {:>10} {:>14} {:>16.3f} {:>15}{}\n", d.index, grams(d.mass), grams(d.cumulative),
+                            d.coilTorque * 1e3, grams(d.closedForm), d.complete ? "" : "  incomplete, not in the mean");
     }
     return text;
 }
@@ -48,8 +47,8 @@ std::string figureLines(const RunResult& r, const StopRule& stop) {
     const DosingFigures f = figuresOf(r.doses, r.ledger.filledMass(), stop);
     std::string text;
     if (f.beta.doses > 1) {
-        text += fmt::format("beta     {:.3f} g/dose", f.beta.beta * 1e3);
-        if (f.beta.doses > 2) text += fmt::format(" +- {:.3f}", f.beta.standardError * 1e3);
+        text += fmt::format("beta     {} g/dose", grams(f.beta.beta));
+        if (f.beta.doses > 2) text += fmt::format(" +- {}", grams(f.beta.standardError));
         text += fmt::format(", the slope over {} doses with less than {:.3g} g out\n", f.beta.doses,
                             f.window.cumulativeBelow * 1e3);
     }
@@ -65,12 +64,12 @@ std::string ledgerLine(const RunResult& r) {
     const Sensors& s = r.last.sensors;
     const auto entry = [&s](Region region) {
         const auto i = static_cast<std::size_t>(region);
-        return fmt::format("{:.3f} g ({})", s.mass[i] * 1e3, s.count[i]);
+        return fmt::format("{} g ({})", grams(s.mass[i]), s.count[i]);
     };
     const bool closed = r.ledger.closings() > 0 && r.reason != StopReason::RunError;
     return fmt::format(
-        "ledger   canister {} + throat {} + dosed {} + lost {} = filled {:.3f} g ({}): {}\n", entry(Region::Canister),
-        entry(Region::Throat), entry(Region::Dosed), entry(Region::Lost), r.ledger.filledMass() * 1e3,
+        "ledger   canister {} + throat {} + dosed {} + lost {} = filled {} g ({}): {}\n", entry(Region::Canister),
+        entry(Region::Throat), entry(Region::Dosed), entry(Region::Lost), grams(r.ledger.filledMass()),
         r.ledger.filledCount(),
         closed ? fmt::format("closed {} times, worst error {:.1e}", r.ledger.closings(), r.ledger.worstMassError())
                : std::string("as of the last sample"));
@@ -115,10 +114,10 @@ std::string reportText(const Case& c, const RunResult& r, const std::string& bac
     if (controlled && !r.doses.empty()) text += stopTable(r.doses);
     const DoseStatistics& s = r.statistics;
     if (s.doses > 1) {
-        text += fmt::format("mean {:.3f} g, standard deviation {:.3f} g, RSD {:.1f} % over {} doses\n", s.mean * 1e3,
-                            s.deviation * 1e3, s.relative * 100, s.doses);
+        text += fmt::format("mean {} g, standard deviation {} g, RSD {:.1f} % over {} doses\n", grams(s.mean),
+                            grams(s.deviation), s.relative * 100, s.doses);
     } else if (s.doses == 1) {
-        text += fmt::format("mean {:.3f} g (one dose: no standard deviation, no RSD)\n", s.mean * 1e3);
+        text += fmt::format("mean {} g (one dose: no standard deviation, no RSD)\n", grams(s.mean));
     }
     text += targetLine(r.doses);
     if (r.settling) text += fmt::format("settled  {}\n", settlingSentence(*r.settling, c.schedule));

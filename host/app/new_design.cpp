@@ -9,6 +9,7 @@
 #include "host/app/backends.h"
 #include "host/app/measures.h"
 #include "host/core/vec.h"
+#include "host/model/bed_weight.h"
 #include "host/model/size_distribution.h"
 
 namespace vkdose {
@@ -271,6 +272,8 @@ void designFlow(NewDesign& d, const NewAnswers& a) {
     d.flowGiven = a.flow.has_value();
     Choice(d).assumed(!a.flow, "a powder that flows easily (--flow)");
     d.k1OverK = d.flow == Flow::Free ? 1 : 0.2;
+    // Starting points for a calibration.
+    d.bond = d.flow == Flow::Free ? 0 : d.flow == Flow::Easy ? 5 : 50;
     d.rollingFriction = d.flow == Flow::Free ? 0.05 : d.flow == Flow::Easy ? 0.2 : 0.5;
 }
 
@@ -286,7 +289,6 @@ NewDesign designOf(const NewAnswers& answers) {
     designFlow(d, answers);
     // First guesses, with which the case loads.
     d.stiffness.value = 1000;
-    d.damping.value = 1e-6;
     d.settle.value = 1;
     return d;
 }

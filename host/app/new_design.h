@@ -28,8 +28,7 @@ struct NewDesign {
     bool flowGiven = false;
     Reasoned stiffness;             ///< k of the contacts [N/m]
     double k1OverK = 1;             ///< 1: elastic
-    Reasoned adhesion;              ///< kc/k [-]
-    Reasoned damping;               ///< [kg/s]
+    double bond = 0;                ///< strongest pull of a contact over the weight of a mean sphere [-]
     double friction = 0.5;          ///< between particles [-]
     double rollingFriction = 0;     ///< likewise [-]
     Reasoned settle, rotate, rest;  ///< [s]

@@ -99,8 +99,11 @@ void writeContacts(CaseText& out, const NewDesign& d) {
     out.line("k1_over_k", figureText(d.k1OverK),
              free ? "elastic" : "loading is plastic, which keeps contacts together");
     if (!free) out.line("plasticity_depth", "0.05", "of the radius");
-    out.line("kc_over_k", figureText(d.adhesion.value), d.adhesion.why);
-    out.line("damping", figureText(d.damping.value), d.damping.why);
+    if (free)
+        out.line("kc_over_k", "0", "no adhesion");
+    else
+        out.line("bond_number", figureText(d.bond), "a contact pressed hard holds so many weights of a mean sphere");
+    out.line("restitution", "0.5", "of mean spheres, at slow impacts; it gives the damping");
     out.line("friction", figureText(d.friction), "assumed; between particles");
     out.line("rolling_friction", figureText(d.rollingFriction), "assumed; stands for the shape of the grains");
     out.word("coulomb_limit", "absolute", "friction of the force that a contact bears");
@@ -129,6 +132,7 @@ void writeDevice(CaseText& out, const NewDesign& d) {
 
 void writeSchedule(CaseText& out, const NewDesign& d) {
     out.table("settle");
+    out.flag("until_rest", true, "dose 1 begins when the bed rests");
     out.line("time_s", d.settle, 1);
     out.table("dose");
     out.line(

@@ -73,9 +73,8 @@ void ProgressDisplay::onSettled(const Settling& settling, const Schedule& schedu
 
 void ProgressDisplay::onDose(const Dose& d) {
     close();
-    say(fmt::format("dose {}: {:.3f} g{}, cumulative {:.3f} g{}\n", d.index, d.mass * 1e3,
-                    d.complete ? "" : " (incomplete)", d.cumulative * 1e3,
-                    d.target > 0 || d.stoppedBy == StopCause::Torque ? "; " + targetText(d) : ""));
+    say(fmt::format("dose {}: {} g{}, cumulative {} g{}\n", d.index, grams(d.mass), d.complete ? "" : " (incomplete)",
+                    grams(d.cumulative), d.target > 0 || d.stoppedBy == StopCause::Torque ? "; " + targetText(d) : ""));
 }
 
 /// A failed write is ignored. A lost terminal needs no error here, because its closing interrupts the run.

@@ -8,6 +8,7 @@
 #include "host/app/live_display.h"
 #include "host/app/play.h"
 #include "host/app/progress.h"
+#include "host/app/text.h"
 #include "host/core/printable.h"
 #include "host/sim/run_record.h"
 
@@ -57,7 +58,7 @@ int playAloud(ReadyRun run, Backend& backend, RunFolder& folder, const Manner& m
     if (manner.parent != 0) endWithParent(manner.parent);
     const Case c = run.c;
     if (!manner.quiet) {
-        fmt::print("{}: {} particles, {:.3f} g, on {}\n", c.name, run.filled.particles.size(), run.filled.mass * 1e3,
+        fmt::print("{}: {} particles, {} g, on {}\n", c.name, run.filled.particles.size(), grams(run.filled.mass),
                    backend.description());
         std::fflush(stdout);
     }

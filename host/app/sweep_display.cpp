@@ -27,7 +27,7 @@ std::string dosesText(const MemberResult& result) {
     };
     const double doses = number("doses").value_or(0);
     std::string text = counted(std::size_t(doses), "dose");
-    if (const auto mean = number("mean_dose_kg")) text += fmt::format(", mean {:.3f} g", *mean * 1e3);
+    if (const auto mean = number("mean_dose_kg")) text += fmt::format(", mean {} g", grams(*mean));
     if (const auto rsd = number("rsd")) text += fmt::format(", RSD {:.1f} %", *rsd * 100);
     if (const auto wall = number("wall_time_s")) text += fmt::format(", {}", duration(*wall));
     return text;

@@ -16,6 +16,12 @@ namespace vkdose::report {
 
 namespace {
 
+/// Below a tenth of a gram three significant digits, because doses can be milligrams.
+std::string grams(double kilograms) {
+    const double g = kilograms * 1e3;
+    return std::abs(g) >= 0.1 || g == 0 ? fmt::format("{:.3f}", g) : fmt::format("{:.3g}", g);
+}
+
 class Facts {
   public:
     explicit Facts(const RunSources& run) : run_(run), filled_(filledMass(run)) {}
@@ -41,7 +47,7 @@ class Facts {
 
     void how() {
         const Json& s = run_.summary;
-        add("fill", fmt::format("{:.3f} g", filled_ * 1e3), fmt::format("seed {}", run_.c.seed));
+        add("fill", fmt::format("{} g", grams(filled_)), fmt::format("seed {}", run_.c.seed));
         if (!s.is_object()) {
             add("state", "still running, or ended without a summary", "the figures are those so far");
             return;
@@ -72,27 +78,26 @@ class Facts {
         const DoseStatistics s = statistics(run_.doses);
         if (s.doses > 0) add("complete doses", fmt::format("{}", s.doses));
         if (s.doses > 1)
-            add("mass per dose", fmt::format("{:.3f} g, standard deviation {:.3f} g", s.mean * 1e3, s.deviation * 1e3),
+            add("mass per dose", fmt::format("{} g, standard deviation {} g", grams(s.mean), grams(s.deviation)),
                 fmt::format("RSD {:.1f} %", s.relative * 100));
         else if (s.doses == 1)
-            add("mass per dose", fmt::format("{:.3f} g", s.mean * 1e3), "one dose: no standard deviation");
+            add("mass per dose", fmt::format("{} g", grams(s.mean)), "one dose: no standard deviation");
         const TargetFigures t = targetFigures(run_.doses);
         if (t.doses > 0) {
             add("target of a dose", fmt::format("{:.3f} g, met to {:+.3f} g", t.target * 1e3, t.error * 1e3),
                 fmt::format("{} of {} doses stopped by their mass, in {:.3g} s", t.byMass, t.doses, t.rotation));
-            add("overshoot after the stop", fmt::format("{:.3f} g", t.overshoot * 1e3),
-                fmt::format("{:.3f} g at the stop", t.stopMass * 1e3));
+            add("overshoot after the stop", fmt::format("{} g", grams(t.overshoot)),
+                fmt::format("{} g at the stop", grams(t.stopMass)));
         }
         const DosingFigures f = figuresOf(run_.doses, filled_, run_.c.schedule.stop);
         if (f.beta.doses > 1) {
-            const std::string error =
-                f.beta.doses > 2 ? fmt::format(" ± {:.3f}", f.beta.standardError * 1e3) : std::string();
-            add("β", fmt::format("{:.3f}{} g/dose", f.beta.beta * 1e3, error),
+            const std::string error = f.beta.doses > 2 ? " ± " + grams(f.beta.standardError) : std::string();
+            add("β", fmt::format("{}{} g/dose", grams(f.beta.beta), error),
                 fmt::format("slope over {} doses with less than {:.3g} g out", f.beta.doses,
                             f.window.cumulativeBelow * 1e3));
         }
         if (!run_.doses.empty() && run_.doses.front().closedForm > 0)
-            add("closed form", fmt::format("{:.3f} g/dose", run_.doses.front().closedForm * 1e3),
+            add("closed form", fmt::format("{} g/dose", grams(run_.doses.front().closedForm)),
                 fmt::format("ρ_b p π r_c² n_t with ρ_b = {:.4g} kg/m³", run_.c.bulkDensity));
     }
 
@@ -219,7 +224,7 @@ class Facts {
         if (const auto d = coilDensity(*run_.particles, w.density, *run_.c.canister, *coil, last)) {
             const double turns = run_.c.schedule.coilSpeed * run_.c.schedule.rotateTime / (2 * kPi);
             add("the same, in the last turn before the outlet", fmt::format("{:.4g} kg/m³", d->density),
-                fmt::format("closed form with it: {:.3f} g/dose", closedFormMass(d->density, *coil, turns) * 1e3));
+                fmt::format("closed form with it: {} g/dose", grams(closedFormMass(d->density, *coil, turns))));
         }
         if (const auto arch = archAbove(*coil, *run_.c.canister, *run_.particles))
             add("arch over the coil, at the end", fmt::format("{:.3g} mm high", arch->height * 1e3),

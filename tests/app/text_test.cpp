@@ -12,6 +12,16 @@
 using namespace vkdose;
 using namespace vkdose::test;
 
+TEST_CASE("masses of milligrams keep their digits") {
+    CHECK(grams(3.7021e-3) == "3.702");
+    CHECK(grams(12.0) == "12000.000");
+    CHECK(grams(0.1e-3) == "0.100");
+    CHECK(grams(0.04413e-3) == "0.0441");
+    CHECK(grams(-4.413e-7) == "-0.000441");
+    CHECK(grams(0) == "0.000");
+    CHECK(grams(1e-15) == "0.000000000");
+}
+
 TEST_CASE("durations read as people say them") {
     CHECK(duration(0.04) == "0.0 s");
     CHECK(duration(9.94) == "9.9 s");
