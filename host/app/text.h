@@ -12,7 +12,8 @@ std::string duration(double seconds);
 /// "8.31 M ", "950 k ", "1.2 G ", "12 ": to stand in front of a unit.
 std::string large(double x);
 
-/// A mass in grams without the unit: "3.702"; below a tenth of a gram three significant digits, because doses can be milligrams.
+/// A mass in grams without the unit: "3.702"; below a tenth of a gram three significant digits, because doses can be
+/// milligrams.
 std::string grams(double kilograms);
 
 /// "1 dose", "2 doses": `thing` with an s where it is not one.

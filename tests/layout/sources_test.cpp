@@ -98,6 +98,24 @@ TEST_CASE("tests take Catch2 from tests/support/catch.h, under names that both i
     CHECK(files >= 100);
 }
 
+TEST_CASE("no name of a test holds a semicolon or begins with a minus, which the runner would take for its own") {
+    std::size_t names = 0;
+    for (const auto& entry : fs::recursive_directory_iterator(VKDOSE_SOURCE_DIR "/tests")) {
+        if (entry.path().extension() != ".cpp") continue;
+        std::istringstream text(readText(entry.path()));
+        for (std::string line; std::getline(text, line);) {
+            const std::string_view start = "TEST_CASE(\"";
+            if (line.rfind(start, 0) != 0) continue;
+            INFO(entry.path() << ": " << line);
+            const std::string name = line.substr(start.size(), line.rfind('"') - start.size());
+            CHECK(name.find(';') == std::string::npos);
+            CHECK(name.front() != '-');
+            ++names;
+        }
+    }
+    CHECK(names > 700);
+}
+
 TEST_CASE("no line of GLSL, C++ or CMake is over 120 characters") {
     const std::string fits(120, 'x'), umlauts = std::string(119, 'x') + "\u00e4";
     CHECK(wideLines(fits + "\n" + umlauts + "\n").empty());

@@ -102,7 +102,7 @@ TEST_CASE("power is the mean of torque times speed where the speed changes betwe
     CHECK(notes.samples[4].coilPower == Approx(0.5 * 4 / 2));  // of a ramp from 0 to 4
 }
 
-TEST_CASE("a dose to a mass stops at the first sample that finds it; what falls later is overshoot") {
+TEST_CASE("a dose to a mass stops at the first sample that finds it, and what falls later is overshoot") {
     const Case c = massCase();
     FakeBackend backend;
     backend.dosed = [](std::uint64_t step) {
@@ -128,7 +128,7 @@ TEST_CASE("a dose to a mass stops at the first sample that finds it; what falls 
     CHECK(speedAt(backend, 300) == 0);
 }
 
-TEST_CASE("a dose that does not reach its mass stops at its longest time; the next one begins anew") {
+TEST_CASE("a dose that does not reach its mass stops at its longest time, and the next one begins anew") {
     Case c = massCase();
     c.schedule.stop.maxDoses = 2;
     FakeBackend backend;

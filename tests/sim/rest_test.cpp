@@ -88,7 +88,7 @@ TEST_CASE("a bed rests when it has been slow for the time of the fall, and not b
     CHECK_FALSE(watch.rests(movingAt(std::numeric_limits<double>::quiet_NaN()), 200));
 }
 
-TEST_CASE("settling until at rest ends at the sample that finds the bed at rest; the doses follow") {
+TEST_CASE("settling until at rest ends at the sample that finds the bed at rest, and the doses follow") {
     FakeBackend backend;
     calm(backend, 200, 270);
     backend.dosed = [](std::uint64_t step) { return step < 200 ? 0 : step < 400 ? 2 : 5; };
