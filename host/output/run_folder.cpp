@@ -78,6 +78,18 @@ void makeFolder(const fs::path& folder) {
 
 }  // namespace
 
+namespace {
+
+/// The columns of the bodies, each named by its body.
+std::string bodyHeader(const World& world) {
+    std::string header;
+    for (const RigidBody& body : world.bodies)
+        forEachColumn(kBodyColumns, [&](const auto& c) { header += fmt::format(",{}.{}", body.name, c.name); });
+    return header;
+}
+
+}  // namespace
+
 RunFolder::RunFolder(fs::path folder, bool force, const Case& c, std::string backend, std::uint32_t member)
     : folder_(std::move(folder)), backend_(std::move(backend)), caseText_(c.resolved), member_(member) {
     const std::vector<fs::path> made = missingFolders(folder_);
@@ -88,7 +100,7 @@ RunFolder::RunFolder(fs::path folder, bool force, const Case& c, std::string bac
     try {
         removeRun(folder_, replacedIn(folder_, c));  // a stale summary would mislead if this run is killed
         const std::string energy = c.world.energyBook ? "," + csvHeader(kEnergyColumns) : "";
-        timeSeries_.emplace(folder_ / "timeseries.csv", csvHeader(kSampleColumns) + energy);
+        timeSeries_.emplace(folder_ / "timeseries.csv", csvHeader(kSampleColumns) + energy + bodyHeader(c.world));
         if (!hadCase) replaceFile(folder_ / "case.toml", c.resolved);
         doses_.emplace(folder_ / "doses.csv", csvHeader(kDoseColumns));
         if (c.frames.interval > 0) frames_.emplace(folder_, c, member_);
@@ -120,7 +132,9 @@ RunFolder::RunFolder(fs::path folder, FolderLock lock, const Checkpoint& from, c
 }
 
 void RunFolder::onSample(const Sample& s) {
-    timeSeries_->line(csvRow(kSampleColumns, s) + (s.energy ? "," + csvRow(kEnergyColumns, *s.energy) : ""));
+    std::string line = csvRow(kSampleColumns, s) + (s.energy ? "," + csvRow(kEnergyColumns, *s.energy) : "");
+    for (const BodySample& body : s.bodies) line += "," + csvRow(kBodyColumns, body);
+    timeSeries_->line(line);
     timeSeries_->flush();
 }
 

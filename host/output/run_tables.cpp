@@ -20,6 +20,10 @@ std::vector<OutputTable> runTables() {
         {"timeseries.csv", "A line for every sensor interval and for the end of every phase.",
          columnTexts(kSampleColumns)},
         {"timeseries.csv, with sensors.energy", "These columns follow in the same line.", columnTexts(kEnergyColumns)},
+        {"timeseries.csv, with bodies",
+         "These columns follow in the same line, for each `[[body]]`. The name of the body and a dot stand before "
+         "each.",
+         columnTexts(kBodyColumns)},
         {"doses.csv", "A line for every dose.", columnTexts(kDoseColumns)},
         {"particles.csv", "A line for every particle, at the end of the run.", columnTexts(kParticleColumns)},
         {"frames/frames.csv", "A line for every frame.", columnTexts(kFrameColumns)},

@@ -217,6 +217,8 @@ std::string summaryJson(const Case& c, const RunResult& r, const std::string& ba
     j["outlet"] = outlet(history.outlet);
     j["arches"] = arches(history.arches);
     j["settling"] = settling(c, r.settling);
+    for (std::size_t b = 0; b < r.last.bodies.size(); ++b)
+        j["bodies"].push_back({{"name", c.world.bodies.at(b).name}, {"work_J", number(r.last.bodies[b].work)}});
     j["settled"] = settled(c, r.settled);
     j["dosed_while_settling_kg"] = number(r.dosedWhileSettling);
     j["closed_form"] = closedForms(r.derived);

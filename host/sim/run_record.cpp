@@ -67,12 +67,14 @@ void put(Record& record, const std::string& name, const Sample& s) {
     put(record, name + "_energy", s.energy);
     put(record, name + "_sensors", s.sensors);
     putRows(record, name + "_state", name, kOwnSampleColumns, std::vector<Sample>{s});
+    record.put(name + "_bodies", numbersOf(s.bodies));
 }
 
 void get(const Record& record, const std::string& name, Sample& s) {
     get(record, name + "_energy", s.energy);
     get(record, name + "_sensors", s.sensors);
     getRow(record, name + "_state", name, kOwnSampleColumns, s);
+    s.bodies = samplesOf(record.get<double>(name + "_bodies"));
 }
 
 void put(Record& record, const std::string& name, const std::vector<Dose>& doses) {

@@ -100,6 +100,7 @@ class Run {
               std::vector<double>{impulse_, powerSum_, rate_, result_.dosedWhileSettling, result_.maxOverlapRatio,
                                   result_.maxOverlapTime, result_.particleSteps, result_.wallTime});
         put(r, "now", now_);
+        loads_.save(r);
         put(r, "energy", energy_);
         timeline_.save(r);
         book_.save(r);
@@ -125,6 +126,7 @@ class Run {
         gathered_ = progress[3];
         varied_ = progress[4] != 0;
         const auto& sums = r.get<double>("sums", 8);
+        loads_.restore(r);
         impulse_ = sums[0];
         powerSum_ = sums[1];
         rate_ = sums[2];
@@ -237,6 +239,7 @@ class Run {
         powerSum_ = gathered_ > 0 ? powerSum_ - impulse * rate_ : -impulse * rate_;
         gathered_ += n;
         impulse_ += impulse;
+        loads_.add(s.bodies, n);
         if (stretch_.phase == Phase::Rotate) book_.turn(impulse, n, stretch_.rate);
     }
 
@@ -256,6 +259,7 @@ class Run {
         const double throat = mass(now_, Region::Throat);
         s.outletVelocity = throat > 0 ? now_.throatMomentumZ / throat : std::numeric_limits<double>::quiet_NaN();
         s.energy = energy_;
+        s.bodies = loads_.take(gathered_, case_.world.timeStep);
         gathered_ = 0;
         impulse_ = 0;
         observer_.onSample(s);
@@ -407,10 +411,11 @@ class Run {
 
     Sensors now_;                 ///< of the last call, joined with the calls since the last sample
     std::uint64_t gathered_ = 0;  ///< steps since the last sample
-    double impulse_ = 0;          ///< torque times steps since the last sample
-    double rate_ = 0;             ///< of the coil in the last call [rad/s about +z]
-    bool varied_ = false;         ///< it was another since the last sample
-    double powerSum_ = 0;         ///< power of the drive times steps since the last sample
+    BodyLoads loads_{case_.world.bodies.size()};
+    double impulse_ = 0;   ///< torque times steps since the last sample
+    double rate_ = 0;      ///< of the coil in the last call [rad/s about +z]
+    bool varied_ = false;  ///< it was another since the last sample
+    double powerSum_ = 0;  ///< power of the drive times steps since the last sample
 
     std::optional<EnergyLedger> energy_;  ///< since the start of the run, if the case asks for it
 

@@ -7,6 +7,7 @@
 
 #include "host/backend/backend.h"
 #include "host/core/columns.h"
+#include "host/sim/body_loads.h"
 #include "host/sim/energy_ledger.h"
 #include "host/sim/timeline.h"
 
@@ -25,6 +26,7 @@ struct Sample {
     double coilTorque = 0;               ///< the drive's: positive when the powder resists conveying [N m]
     double coilPower = 0;                ///< drive torque times speed [W]
     std::optional<EnergyLedger> energy;  ///< if the case asks for it
+    std::vector<BodySample> bodies;      ///< of the world's bodies, in their order
 };
 
 // The columns of the sensors, by regions in the order of Region.

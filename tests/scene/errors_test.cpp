@@ -33,6 +33,23 @@ TEST_CASE("a particle that leaves the domain is named with its place and time") 
     requireRunError(w, p, 200, "left the domain");
 }
 
+TEST_CASE("a backend that could not load a world has no state to give, and loads another") {
+    RuledWorld w = emptyWorld();
+    w.surfaces.assign(29, geometry::Plane{{0, -1, 0}, {0, 1, 0}});  // more than a device holds
+    Particles p;
+    p.add({0, 0, 0}, 1e-3);
+    auto device = gpu();
+    CHECK_THROWS_WITH(device->load(w, p), Contains("29 surfaces"));
+    CHECK_THROWS_AS(device->particles(), RunError);
+    CHECK_THROWS_AS(device->contacts(), RunError);
+    CHECK_THROWS_AS(device->advance(1, 0), RunError);
+    w.surfaces.resize(1);
+    device->load(w, p);
+    device->advance(1, 0);
+    CHECK(device->particles().size() == 1);
+    requireClean(*device);
+}
+
 TEST_CASE("a velocity that is not a number is reported, not carried on") {
     Particles p;
     p.add({0, 0, 0}, 1e-3, {std::nan(""), 0, 0});

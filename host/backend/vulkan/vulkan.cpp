@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "host/backend/vulkan/rendezvous.h"
+#include "host/core/error.h"
 
 namespace vkdose {
 
@@ -12,6 +13,7 @@ namespace {
 class VulkanBackend final : public Backend {
     template <class Use>
     auto alone(Use use) const {
+        requireLoaded();
         return ensemble_->alone(guest_, use);
     }
 
@@ -28,7 +30,9 @@ class VulkanBackend final : public Backend {
     VulkanBackend& operator=(const VulkanBackend&) = delete;
 
     void load(const World& world, const ContactLaw& law, const Particles& particles) override {
+        loaded_ = false;
         ensemble_->load(guest_, world, law, particles);
+        loaded_ = true;
         timeStep_ = world.timeStep;
         angle_ = 0;
     }
@@ -36,6 +40,7 @@ class VulkanBackend final : public Backend {
         alone([&](Ensemble& e, std::uint32_t member) { e.setLaw(member, law); });
     }
     Sensors advance(std::uint32_t steps, double coilRate) override {
+        requireLoaded();
         ensemble_->advance(guest_, steps, coilRate);
         angle_ += coilRate * timeStep_ * steps;  // a product, so that rounding does not pile up
         return alone([&](Ensemble& e, std::uint32_t member) { return e.sense(member, steps); });
@@ -66,7 +71,7 @@ class VulkanBackend final : public Backend {
         return alone([](Ensemble& e, std::uint32_t) { return double(e.tableBytes()); });
     }
     ValidationReport validation() const {
-        return alone([](Ensemble& e, std::uint32_t) {
+        return ensemble_->alone(guest_, [](Ensemble& e, std::uint32_t) {
             return ValidationReport{e.device().validated(), e.device().validationMessages()};
         });
     }
@@ -77,8 +82,13 @@ class VulkanBackend final : public Backend {
     }
 
   private:
+    void requireLoaded() const {
+        if (!loaded_) throw RunError("the device holds no particles: the world could not be loaded");
+    }
+
     std::shared_ptr<Rendezvous> ensemble_;
     std::size_t guest_;
+    bool loaded_ = false;
     double timeStep_ = 0;
     double angle_ = 0;  // of the coil since load, for people
 };

@@ -1,0 +1,53 @@
+#pragma once
+// What the particles do to the bodies of a world between two samples, and the work of each body since the start.
+
+#include <cstdint>
+#include <vector>
+
+#include "host/backend/backend.h"
+#include "host/core/columns.h"
+#include "host/core/record.h"
+
+namespace vkdose {
+
+/// Of one body in one line of the time series.
+struct BodySample {
+    Vec3 force{0};      ///< on the body, mean since the last sample [N]
+    double torque = 0;  ///< on the body about its axis, likewise [N m]
+    double power = 0;   ///< of the body on the particles, likewise [W]
+    double work = 0;    ///< of the body on the particles since the start [J]
+};
+
+/// The columns of timeseries.csv for each body, behind all others. The name of the body and a dot stand before each.
+inline constexpr auto kBodyColumns = columns(
+    column<&BodySample::force, 0>("force_x_N", "N", "Force of the particles on the body along x, mean."),
+    column<&BodySample::force, 1>("force_y_N", "N", "The same along y."),
+    column<&BodySample::force, 2>("force_z_N", "N", "The same along z."),
+    column<&BodySample::torque>("torque_Nm", "N m",
+                                "Torque of the particles on the body, mean: about the axis of its motion, without one "
+                                "about z through its place."),
+    column<&BodySample::power>("power_W", "W", "Power of the body on the particles, mean."),
+    column<&BodySample::work>("work_J", "J", "Work of the body on the particles since the start."));
+
+/// All numbers of the samples, one after another, and back.
+std::vector<double> numbersOf(const std::vector<BodySample>& samples);
+std::vector<BodySample> samplesOf(const std::vector<double>& numbers);
+
+/// Joins the calls of a backend between two samples.
+class BodyLoads {
+  public:
+    explicit BodyLoads(std::size_t bodies) : sums_(bodies) {}
+
+    void add(const std::vector<BodyLoad>& call, std::uint64_t steps);
+    /// The sample of all calls since the last one, which together made `steps` of `timeStep` [s].
+    std::vector<BodySample> take(std::uint64_t steps, double timeStep);
+
+    /// For a checkpoint, and back. Throws RecordError if the record has other bodies.
+    void save(Record& record) const;
+    void restore(const Record& record);
+
+  private:
+    std::vector<BodySample> sums_;  ///< force and torque times steps; power holds the work since the last sample [J]
+};
+
+}  // namespace vkdose
