@@ -6,13 +6,14 @@
 set(macros_texel TEXEL_READS)                 # reads through texel-buffer views
 set(macros_packed TEXEL_READS PACKED_STORES)  # and stores 64 bits at a time
 set(macros_energy ENERGY_BOOK)                # keeps the energy book
+set(macros_bodies WITH_BODIES)                # looks for bodies
 
 # Every pass, and its variants beside the plain one.
 set(passes
     "pass/clear"
     "pass/bin texel"
     "pass/neighbours texel"
-    "pass/near texel energy texel_energy"
+    "pass/near texel energy texel_energy bodies texel_bodies"
     "pass/link texel energy texel_energy"
     "pass/commit_lists"
     "pass/pairs texel packed energy texel_energy packed_energy"

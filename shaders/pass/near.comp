@@ -8,14 +8,16 @@
 // the rows' skin, so nearly every slot is a touching contact, which keeps all lanes of `pairs` busy.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/buffers.glsl"
-#include "pass/bodies.glsl"
 #include "pass/margin.glsl"
+#ifdef WITH_BODIES
+#include "pass/bodies.glsl"
+#endif
 #ifdef ENERGY_BOOK
 #include "pass/books.glsl"
 #endif
 
 uint partners[kMaxRow];
-uint pairs, surfaces, bodies, firstPair, firstSurface, firstBody;
+uint pairs, surfaces, firstPair, firstSurface;
 
 /// The coming slot of the contact that is in `slot` now; kEmpty if its two bodies are no longer near.
 uint comingSlot(uint slot, uint other) {
@@ -28,6 +30,9 @@ uint comingSlot(uint slot, uint other) {
     }
     return to;
 }
+
+#ifdef WITH_BODIES
+uint bodies, firstBody;
 
 /// The bodies within reach, a bit each. A body and the particle may both go their slack, and the body a step more
 /// before it is told that it has.
@@ -70,6 +75,7 @@ void listBodies(uint i, uvec4 range) {
     }
     ranges[bodyRangeIndex(i)] = uvec4(firstBody, count, 0u, 0u);
 }
+#endif
 
 void prepare(uint slot, uint i, uint other) {
     entries[comingEntryIndex(slot)] = uvec2(i, other);
@@ -139,10 +145,10 @@ void main() {
         if (to == kEmpty) bookDeparture(i, slot);
 #endif
     }
-    if (BODIES > 0u) {
-        bodies = nearBodies(i, p.w, slack);
-        listBodies(i, range);
-    }
+#ifdef WITH_BODIES
+    bodies = nearBodies(i, p.w, slack);
+    listBodies(i, range);
+#endif
     if (p.w < 0.0 && hasCoil()) {
 #ifdef ENERGY_BOOK
         bookDepartureFromCoil(i);

@@ -38,6 +38,8 @@ TEST_CASE("each pass is compiled as the device and the energy book want it") {
     CHECK(same(vk::pick(bin, TEXEL_READS | PACKED_STORES | ENERGY_BOOK), bin_texel_spv));
     CHECK(same(vk::pick(near, TEXEL_READS | PACKED_STORES | ENERGY_BOOK), near_texel_energy_spv));
     CHECK(same(vk::pick(near, ENERGY_BOOK), near_energy_spv));
+    CHECK(same(vk::pick(near, TEXEL_READS | PACKED_STORES | WITH_BODIES), near_texel_bodies_spv));
+    CHECK(same(vk::pick(near, WITH_BODIES), near_bodies_spv));
     CHECK(same(vk::pick(pairs, 0), pairs_spv));
     CHECK(same(vk::pick(pairs, TEXEL_READS), pairs_texel_spv));
     CHECK(same(vk::pick(pairs, TEXEL_READS | ENERGY_BOOK), pairs_texel_energy_spv));

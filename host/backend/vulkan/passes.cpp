@@ -22,7 +22,7 @@ Access accessOn(const vk::Device& device, const TableSizes& s) {
 /// The macros that choose the variant of a pass (shaders/passes.cmake).
 unsigned macrosFor(const Access& access, const TableSizes& s) {
     return (access.texelReads ? spirv::TEXEL_READS : 0) | (access.packedStores ? spirv::PACKED_STORES : 0) |
-           (s.energyBook ? spirv::ENERGY_BOOK : 0);
+           (s.energyBook ? spirv::ENERGY_BOOK : 0) | (s.bodies > 0 ? spirv::WITH_BODIES : 0);
 }
 
 /// The number of workgroups of a pass of a step.
@@ -111,9 +111,12 @@ Passes::Passes(const vk::Device& device, const TableSizes& s, const BodyTables* 
       senseEnergy_(device, bindings_, vk::pick(spirv::sense_energy, macrosFor(access, s)), constants(s)) {
     if (bodies != nullptr)
         bodyBindings_ = std::make_unique<vk::BindingSet>(device, with(*bodies, all()), sizeof(gpu::StepPush));
-    for (const StepPass& pass : kStep)
-        step_.emplace_back(device, pass.readsBodies && bodyBindings_ ? *bodyBindings_ : bindings_,
-                           vk::pick(pass.variants, macrosFor(access, s)), constants(s));
+    for (const StepPass& pass : kStep) {
+        std::optional<vk::Pipeline>& made = step_.emplace_back();
+        if (pass.forBodies && !bodyBindings_) continue;  // drivers take their time with it
+        made.emplace(device, pass.readsBodies && bodyBindings_ ? *bodyBindings_ : bindings_,
+                     vk::pick(pass.variants, macrosFor(access, s)), constants(s));
+    }
 }
 
 std::vector<const char*> Passes::stepNames() {
@@ -218,8 +221,8 @@ void Passes::recordSteps(vk::Commands& commands, std::uint32_t first, std::uint3
         for (std::size_t k = 0; k < kStep.size(); ++k) {
             const bool ofBodies = kStep[k].readsBodies && bodyBindings_ != nullptr;
             if (ofBodies) bodyBindings_->bind(c);
-            if (sizes.bodies > 0 || !kStep[k].forBodies) {
-                step_[k].bind(c);
+            if (step_[k]) {
+                step_[k]->bind(c);
                 dispatch(commands, k, source);
                 commands.barrier();
             }

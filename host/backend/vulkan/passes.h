@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <deque>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "host/backend/vulkan/tables.h"
@@ -95,7 +96,7 @@ class Passes : public Tables {
     std::uint32_t live_ = 0;
     vk::BindingSet bindings_;
     std::unique_ptr<vk::BindingSet> bodyBindings_;  ///< of the passes that read the bodies
-    std::deque<vk::Pipeline> step_;                 ///< of a step, in their order
+    std::deque<std::optional<vk::Pipeline>> step_;  ///< of a step, in their order; none that is for bodies without
     vk::Pipeline sense_, senseEnergy_;
 };
 
