@@ -23,7 +23,7 @@ struct Coil {
 /// A local minimum of the distance to the wire. There is one per turn in reach. `wireAngle` = hand * 2 pi s / pitch
 /// identifies the turn: it changes continuously as the contact moves, and differs by about 2 pi between two turns.
 struct CoilTouch : Closest {
-    double wireAngle;
+    double wireAngle = 0;
 };
 
 /// Every local minimum of the distance from `q` to the wire surface that is less than `reach`, ends included, in

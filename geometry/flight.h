@@ -28,7 +28,7 @@ struct Flight {
 
 /// A local minimum of the distance to the blade, at blade angle `theta`: one per turn in reach.
 struct FlightTouch : Closest {
-    double theta;
+    double theta = 0;
 };
 
 /// Every local minimum of the distance from `q` that is less than `reach`, by theta. For a centre inside the blade the

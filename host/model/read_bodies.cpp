@@ -147,9 +147,9 @@ std::vector<Shape> readShape(const BodyReader& b, Kind kind) {
             return {around(0, radius, end, s.number("length_mm"))};
         }
         case Kind::Disc: {
-            const double radius = s.number("radius_mm"), hole = s.number("hole_radius_mm");
-            if (hole >= radius) b.fault("hole_radius_mm", "is no smaller than the disc", "give less than radius_mm");
-            return {around(0, hole, radius, 0)};
+            const double outer = s.number("radius_mm"), hole = s.number("hole_radius_mm");
+            if (hole >= outer) b.fault("hole_radius_mm", "is no smaller than the disc", "give less than radius_mm");
+            return {around(0, hole, outer, 0)};
         }
         case Kind::Trough:
             return {geometry::Trough{s.number("width_mm") / 2}};
