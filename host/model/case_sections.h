@@ -32,6 +32,8 @@ void placeContact(Section& root);
 void readContact(CaseReader& reader, Section& root, double meanRadius, Case& c);
 
 // read_apparatus.cpp
+/// A direction from the file as a unit vector; a zero vector is a fault.
+Vec3 readDirection(CaseReader& reader, Section& section, const char* key);
 /// Reads the boundaries. Returns nothing if their kind itself is at fault.
 std::optional<Boundaries> readBoundaries(CaseReader& reader, Section& root, Case& c);
 void readCoil(CaseReader& reader, Section& root, Case& c);

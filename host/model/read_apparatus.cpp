@@ -48,14 +48,6 @@ void readCanister(Section& root, Case& c) {
     addCanister(c);
 }
 
-/// A direction from the file as a unit vector; a zero vector is a fault.
-Vec3 readDirection(CaseReader& reader, Section& section, const char* key) {
-    const Vec3 v = section.vector(key);
-    const double length = glm::length(v);
-    if (length == 0) reader.fault(section.path(key), "has no direction", "give a vector that is not zero");
-    return v / length;
-}
-
 void readSurfaces(CaseReader& reader, Section& root, Case& c) {
     for (Section* plane : root.tables("plane")) {
         const Vec3 point = plane->vector("point");
@@ -90,6 +82,13 @@ void refuseUnused(CaseReader& reader, Section& root, Boundaries kind) {
 }
 
 }  // namespace
+
+Vec3 readDirection(CaseReader& reader, Section& section, const char* key) {
+    const Vec3 v = section.vector(key);
+    const double length = glm::length(v);
+    if (length == 0) reader.fault(section.path(key), "has no direction", "give a vector that is not zero");
+    return v / length;
+}
 
 std::optional<Boundaries> readBoundaries(CaseReader& reader, Section& root, Case& c) {
     const auto index = root.choice("boundaries");

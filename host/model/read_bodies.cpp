@@ -30,13 +30,6 @@ struct BodyReader {
     }
 };
 
-Vec3 unitVector(CaseReader& reader, Section& section, const char* key) {
-    const Vec3 v = section.vector(key);
-    const double length = glm::length(v);
-    if (length == 0) reader.fault(section.path(key), "has no direction", "give a vector that is not zero");
-    return v / length;
-}
-
 /// A wall between two circles around the body's z axis.
 geometry::Cone around(double z, double radius, double endRadius, double length) {
     return {Vec3(0, 0, z), kAlong, radius, endRadius, length};
@@ -129,7 +122,7 @@ std::vector<Shape> readShape(const BodyReader& b, Kind kind) {
         case Kind::Mesh:
             return readMeshShape(b);
         case Kind::Plane:
-            return {geometry::Plane{Vec3(0), unitVector(b.reader, s, "normal")}};
+            return {geometry::Plane{Vec3(0), readDirection(b.reader, s, "normal")}};
         case Kind::Box: {
             const Vec3 half = s.vector("size_mm") / 2.0 / kMillimetre.perSI;
             if (!(half.x > 0 && half.y > 0 && half.z > 0) && !std::isnan(half.x))
@@ -163,7 +156,7 @@ std::vector<Shape> readShape(const BodyReader& b, Kind kind) {
 
 geometry::Pose readPlace(const BodyReader& b) {
     Section& s = b.section;
-    const Vec3 at = s.vector("at"), axis = unitVector(b.reader, s, "rotation_axis");
+    const Vec3 at = s.vector("at"), axis = readDirection(b.reader, s, "rotation_axis");
     return {glm::angleAxis(s.number("rotation_deg"), axis), at};
 }
 
@@ -201,24 +194,24 @@ enum class MotionKind { Turn, Swing, Shake, Slide, Table };
 geometry::Motion readMotionOf(CaseReader& reader, Section& s, MotionKind kind, Clock clock) {
     switch (kind) {
         case MotionKind::Turn: {
-            const Vec3 axis = unitVector(reader, s, "axis"), through = s.vector("through");
+            const Vec3 axis = readDirection(reader, s, "axis"), through = s.vector("through");
             return geometry::Turn{axis, through,
                                   clock == Clock::Drive ? s.number("turns_per_turn") : s.number("speed_rpm")};
         }
         case MotionKind::Swing: {
-            const Vec3 axis = unitVector(reader, s, "axis"), through = s.vector("through");
+            const Vec3 axis = readDirection(reader, s, "axis"), through = s.vector("through");
             const double amplitude = s.number("amplitude_deg"), frequency = s.number("frequency_hz");
             return geometry::Swing{axis, through, amplitude, frequency, s.number("phase_deg")};
         }
         case MotionKind::Shake: {
-            const Vec3 axis = unitVector(reader, s, "axis");
+            const Vec3 axis = readDirection(reader, s, "axis");
             const double amplitude = s.number("amplitude_mm"), frequency = s.number("frequency_hz");
             return geometry::Shake{axis, amplitude, frequency, s.number("phase_deg")};
         }
         case MotionKind::Slide:
             return geometry::Slide{s.vector("velocity")};
         case MotionKind::Table: {
-            const Vec3 axis = unitVector(reader, s, "axis"), through = s.vector("through");
+            const Vec3 axis = readDirection(reader, s, "axis"), through = s.vector("through");
             return geometry::Table{axis, through, readMotionTable(reader, s)};
         }
     }

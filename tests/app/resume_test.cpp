@@ -119,6 +119,22 @@ int endAfter(pid_t child, const fs::path& file, int checkpoints, int spins, int 
     return status;
 }
 
+/// Runs a case into the folder "cut", kills it at random moments and resumes it until it ends well. Counts the kills.
+int killedUntilItEnds(const Sandbox& box, const std::vector<std::string>& options, const std::string& backend,
+                      unsigned seed) {
+    std::mt19937 random(seed);
+    const fs::path file = box / "cut" / kCheckpointName;
+    pid_t child = box.start(joined({"run", "--backend", backend, "--out", "cut"}, options));
+    for (int kills = 0;; ++kills) {
+        const int status = endAfter(child, file, 1 + int(random() % 8), int(random() % 5000000), SIGKILL);
+        if (WIFEXITED(status)) {
+            CHECK(WEXITSTATUS(status) == 0);
+            return kills;
+        }
+        child = box.start({"resume", "--quiet", "cut"});
+    }
+}
+
 /// A finished checkpoint of a run of a few hundred steps, to be spoilt.
 fs::path interrupted(const Sandbox& box) {
     const pid_t child = box.start(joined({"run", "--backend", "reference", "--out", "out"}, kDoses));
@@ -133,19 +149,7 @@ TEST_CASE("killed again and again at random moments, a run ends with the same bi
     const Sandbox box;
     REQUIRE(box.vkdose("run " + words(kDoses) + "--out whole --backend " + backend).code == 0);
 
-    std::mt19937 random(3);
-    const fs::path file = box / "cut" / kCheckpointName;
-    pid_t child = box.start(joined({"run", "--backend", backend, "--out", "cut"}, kDoses));
-    int kills = 0;
-    for (;;) {
-        const int status = endAfter(child, file, 1 + int(random() % 8), int(random() % 5000000), SIGKILL);
-        if (WIFEXITED(status)) {
-            CHECK(WEXITSTATUS(status) == 0);
-            break;
-        }
-        ++kills;
-        child = box.start({"resume", "--quiet", "cut"});
-    }
+    const int kills = killedUntilItEnds(box, kDoses, backend, 3);
     CAPTURE(backend);
     CHECK(kills >= 3);
     checkSame(box / "whole", box / "cut");
@@ -174,19 +178,7 @@ TEST_CASE("killed at random moments, a run that settles until at rest and doses 
     CHECK(summary["doses"][0]["stop_mass_kg"].get<double>() >= 1e-6);
     CHECK(summary["doses"][0]["rotation_s"].get<double>() < 0.38);
 
-    std::mt19937 random(5);
-    const fs::path file = box / "cut" / kCheckpointName;
-    pid_t child = box.start(joined({"run", "--backend", backend, "--out", "cut"}, options));
-    int kills = 0;
-    for (;;) {
-        const int status = endAfter(child, file, 1 + int(random() % 8), int(random() % 5000000), SIGKILL);
-        if (WIFEXITED(status)) {
-            CHECK(WEXITSTATUS(status) == 0);
-            break;
-        }
-        ++kills;
-        child = box.start({"resume", "--quiet", "cut"});
-    }
+    const int kills = killedUntilItEnds(box, options, backend, 5);
     CHECK(kills >= 3);
     for (const char* name : {"case.toml", "timeseries.csv", "doses.csv", "particles.csv"}) {
         CAPTURE(name);
