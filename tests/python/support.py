@@ -12,7 +12,9 @@ sys.path.insert(0, str(ROOT / "host" / "python"))
 try:
     import h5py  # noqa: E402, F401
     import jsonschema  # noqa: E402, F401
+    import matplotlib  # noqa: E402, F401
     import pandas  # noqa: E402, F401
+    import scipy  # noqa: E402, F401
 
     import vkdose  # noqa: E402
 except ModuleNotFoundError as lack:

@@ -149,7 +149,20 @@ class Results(InFolder):
         contacts = last.contacts
         self.assertGreater(len(contacts["ends"]), 10)
         self.assertTrue(all(len(values) == len(contacts["ends"]) for values in contacts.values()))
-        self.assertEqual(list(result.fields()), [])
+        self.assertEqual(result.fields, [])
+
+    def test_fields(self):
+        fields = [{"preset": "outlet"}, {"preset": "mid-plane", "interval_s": 0.1}]
+        result = run(short(field=fields)).wait()
+        self.assertEqual(result.fields, ["mid-plane", "outlet"])
+        self.assertLess(set(result.field("outlet").time_s), set(result.timeseries.time_s))  # which has ends of phases too
+        grid = result.field("mid-plane").set_index(["time_s", "y_m", "z_m"])
+        times, heights, lengths = (len(level) for level in grid.index.levels)
+        self.assertEqual(len(grid), times * heights * lengths)
+        # The plane is thin, so its mass is less than the canister's, but there is some.
+        self.assertGreater(grid.density_kg_m3.max(), 100)
+        with self.assertRaises(vkdose.InputError):
+            result.field("none")
 
     def test_a_report_and_a_picture_of_a_notebook(self):
         result = run(short()).wait()

@@ -5,8 +5,9 @@ from __future__ import annotations
 import html
 import json
 import os
+import re
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Iterator, Mapping, Optional, Union
+from typing import TYPE_CHECKING, Any, Mapping, Optional, Union
 
 from .errors import InputError
 from .program import call
@@ -110,10 +111,34 @@ class Result:
             return []
         return [Frame(index.parent, row) for row in _table(index).to_dict("records")]
 
-    def fields(self) -> Iterator[Path]:
-        """The files of the fields that the case asks for."""
+    @property
+    def fields(self) -> list[str]:
+        """Names of the fields that the case asks for."""
+        # NAME.csv; the maps that it lists are NAME_000000.csv.
+        files = (self.folder / "fields").glob("*.csv")
+        return sorted(file.stem for file in files if not re.fullmatch(r".*_\d{6}", file.stem))
+
+    def field(self, name: str) -> "pandas.DataFrame":
+        """A row for each time and point of a field: time_s, phase, dose, the place (y_m, z_m ...), density_kg_m3 ...
+
+        ``field(name).set_index(["time_s", "y_m", "z_m"]).to_xarray()`` makes a grid of it. Fields in three directions
+        are files for ParaView, which this does not read.
+        """
+        import pandas
+
         folder = self.folder / "fields"
-        return iter(sorted(folder.iterdir())) if folder.is_dir() else iter(())
+        table = _table(folder / f"{name}.csv")
+        if "file" not in table:
+            return table
+        maps = []
+        for row in table.to_dict("records"):
+            if not row["file"].endswith(".csv"):
+                raise InputError(f"{folder / row['file']} is a file for ParaView, not a table")
+            one = _table(folder / row.pop("file"))
+            for place, column in enumerate(row):
+                one.insert(place, column, row[column])
+            maps.append(one)
+        return pandas.concat(maps, ignore_index=True)
 
     def report(self, out: Optional[Union[str, "os.PathLike[str]"]] = None) -> Path:
         """Writes the HTML report (default: report.html in the folder) and returns its path."""
