@@ -239,7 +239,10 @@ Json figuresJson(const Checked& all) {
 }
 
 int checkAsJson(const CheckOptions& options) {
-    Json out{{"case", printable(options.input.file.string())}, {"errors", Json::array()}, {"warnings", Json::array()}};
+    Json out{{"case", printable(options.input.file.string())},
+             {"file", std::filesystem::absolute(options.input.file).string()},
+             {"errors", Json::array()},
+             {"warnings", Json::array()}};
     ExitCode code = kOk;
     try {
         const Checked all = checked(options.input);

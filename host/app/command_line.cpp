@@ -15,6 +15,7 @@
 #include "host/app/exit_code.h"
 #include "host/app/find_case.h"
 #include "host/app/help.h"
+#include "host/app/key_schema.h"
 #include "host/app/manual.h"
 #include "host/app/new_answers.h"
 
@@ -51,10 +52,14 @@ void addParent(CLI::App& command, int& parent) {
     command.add_option("--parent", parent, "end, as by Ctrl-C, when this process does")->group("");
 }
 
-void addShow(CLI::App& command, bool& quiet, bool& live) {
+void addShow(CLI::App& command, bool& quiet, bool& live, bool& events) {
     auto* silent = command.add_flag("--quiet", quiet, "print errors only");
     command.add_flag("--live", live, "show the bed and the doses on the terminal while the run goes on")
         ->excludes(silent);
+    command
+        .add_flag("--events", events, "print phases, samples, doses and warnings as JSON, a line for each, and no text")
+        ->excludes("--quiet")
+        ->excludes("--live");
 }
 
 void addNew(CLI::App& program, NewOptions& options) {
@@ -81,7 +86,7 @@ void addRun(CLI::App& program, RunOptions& options) {
         ->type_name("DIR");
     command.add_flag("--force", options.force,
                      "replace a former run in the output folder: its files, and none that vkdose did not write");
-    addShow(command, options.quiet, options.live);
+    addShow(command, options.quiet, options.live, options.events);
     command.add_option("--member", options.member, "number of the run in a study")->group("");
     addParent(command, options.parent);
     addBackend(command, options.backend);
@@ -90,7 +95,7 @@ void addRun(CLI::App& program, RunOptions& options) {
 void addResume(CLI::App& program, ResumeOptions& options) {
     CLI::App& command = *program.add_subcommand("resume", "go on with an interrupted run from its checkpoint");
     command.add_option("dir", options.folder, "output folder of the run")->required()->type_name("DIR");
-    addShow(command, options.quiet, options.live);
+    addShow(command, options.quiet, options.live, options.events);
     addParent(command, options.parent);
     addDevice(command, options.backend);
 }
@@ -331,6 +336,7 @@ void addRender(CLI::App& program, RenderOptions& options) {
 /// The commands that print parts of the manual.
 struct ManualOptions {
     bool study = false;
+    bool schema = false;
     bool sweep = false;
     bool brief = false;
 };
@@ -338,6 +344,7 @@ struct ManualOptions {
 void addManual(CLI::App& program, ManualOptions& options) {
     CLI::App& keys = *program.add_subcommand("keys", "list every key of a case file: unit, default, bounds, meaning");
     keys.add_flag("--study", options.study, "list the keys of a study file instead");
+    keys.add_flag("--schema", options.schema, "print them as a JSON Schema, by which an editor completes and checks");
     CLI::App& columns = *program.add_subcommand("columns", "list every column of the files that a run leaves");
     columns.add_flag("--sweep", options.sweep, "list the columns of a sweep's tables instead");
     CLI::App& all = *program.add_subcommand("options", "list every command with its options");
@@ -452,7 +459,8 @@ int commandLine(int argc, const char* const* argv) {
     if (program.got_subcommand("report")) return guarded([&] { return reportCommand(report); });
     if (program.got_subcommand("profile")) return guarded([&] { return profileCommand(profile); });
     if (program.got_subcommand("render")) return guarded([&] { return renderCommand(render); });
-    if (program.got_subcommand("keys")) return guarded([&] { return printed(keysPage(manual.study)); });
+    if (program.got_subcommand("keys"))
+        return guarded([&] { return printed(manual.schema ? keySchema(manual.study) : keysPage(manual.study)); });
     if (program.got_subcommand("columns")) return guarded([&] { return printed(columnsPage(manual.sweep)); });
     if (program.got_subcommand("options")) return guarded([&] { return printed(optionsPage(program, manual.brief)); });
     if (program.got_subcommand("completion"))

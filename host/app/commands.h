@@ -32,6 +32,7 @@ struct RunOptions {
     bool force = false;
     bool quiet = false;
     bool live = false;         ///< the bed on the terminal
+    bool events = false;       ///< JSON lines on stdout in place of all text there
     int parent = 0;            ///< process with which this one ends, as by Ctrl-C; 0: none
     std::uint32_t member = 0;  ///< number in a study
 };
@@ -40,8 +41,9 @@ struct ResumeOptions {
     std::filesystem::path folder;
     BackendChoice backend;  ///< its backend is the checkpoint's
     bool quiet = false;
-    bool live = false;  ///< as above
-    int parent = 0;     ///< as above
+    bool live = false;    ///< as above
+    bool events = false;  ///< as above
+    int parent = 0;       ///< as above
 };
 
 struct CheckOptions {

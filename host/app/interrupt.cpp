@@ -52,6 +52,10 @@ const std::atomic<bool>& watchInterrupts() {
     return interrupted;
 }
 
+void interruptSelf() {
+    interrupted = true;
+}
+
 void endWithParent(int parent) {
     prctl(PR_SET_PDEATHSIG, SIGINT);
     if (getppid() != parent) interrupted = true;  // it had ended before we asked

@@ -8,6 +8,9 @@ namespace vkdose {
 /// of the backend. A second Ctrl-C ends the program at once.
 const std::atomic<bool>& watchInterrupts();
 
+/// Sets that flag, as a first Ctrl-C does.
+void interruptSelf();
+
 /// From now on this process is interrupted, as by Ctrl-C, when the process `parent` that started it ends. Call after
 /// watchInterrupts.
 void endWithParent(int parent);

@@ -19,7 +19,10 @@ class Fanout : public RunObserver {
     void onProgress(const Progress& p) override {
         if (display_) display_->onProgress(p);
     }
-    void onSample(const Sample& s) override { folder_.onSample(s); }
+    void onSample(const Sample& s) override {
+        folder_.onSample(s);
+        if (display_) display_->onSample(s);
+    }
     void onSettled(const Settling& settling, const Schedule& schedule) override {
         if (display_) display_->onSettled(settling, schedule);
     }

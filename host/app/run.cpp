@@ -3,6 +3,7 @@
 #include "host/advice/advice.h"
 #include "host/app/commands.h"
 #include "host/app/end_table.h"
+#include "host/app/events_display.h"
 #include "host/app/exit_code.h"
 #include "host/app/interrupt.h"
 #include "host/app/live_display.h"
@@ -20,7 +21,8 @@ namespace {
 struct Manner {
     const BackendChoice& choice;
     bool quiet = false;
-    bool live = false;  ///< the bed on the terminal
+    bool live = false;    ///< the bed on the terminal
+    bool events = false;  ///< JSON on stdout, and no text
     int parent = 0;
 };
 
@@ -35,6 +37,22 @@ std::unique_ptr<RunDisplay> makeDisplay(const Manner& manner, const ReadyRun& ru
     }
     if (manner.live) fmt::print(stderr, "vkdose: no --live, because {}; going on with plain progress\n", why);
     return std::make_unique<ProgressDisplay>();
+}
+
+/// The case, its warnings and every event of the run as JSON, in place of all text.
+int playAsEvents(ReadyRun run, Backend& backend, RunFolder& folder, const Manner& manner) {
+    const std::atomic<bool>& stop = watchInterrupts();
+    if (manner.parent != 0) endWithParent(manner.parent);
+    const Case c = run.c;
+    EventsDisplay events(c);
+    events.begin(run.filled, folder.path(), backend.description(), run.from ? run.from->time : 0);
+    for (const Warning& w : warningsOf(run.c, run.filled)) events.warn(w);
+    const Played played = play(std::move(run), backend, folder, &events, stop);
+    const bool clean = validationClean(manner.choice, backend);
+    const ExitCode code = played.error.empty() && !clean ? kDeviceError : played.code;
+    events.end(played.result, code, played.error, folder.path());
+    if (!played.error.empty()) fmt::print(stderr, "vkdose: {}\n", printable(played.error));
+    return code;
 }
 
 /// Tells once what was probably not meant. It stops no run.
@@ -54,6 +72,7 @@ std::string nextText(const std::filesystem::path& folder) {
 
 /// Runs, from the start or from a checkpoint, and tells how it ended.
 int playAloud(ReadyRun run, Backend& backend, RunFolder& folder, const Manner& manner) {
+    if (manner.events) return playAsEvents(std::move(run), backend, folder, manner);
     const std::atomic<bool>& stop = watchInterrupts();
     if (manner.parent != 0) endWithParent(manner.parent);
     const Case c = run.c;
@@ -84,10 +103,11 @@ int runCommand(const RunOptions& options) {
     ReadyRun run = readyRun(options.input);
     run.member = options.member;
     const std::unique_ptr<Backend> backend = makeBackend(options.backend, run.filled.particles.size());
-    if (!options.quiet) tellWarnings(run);
+    if (!options.quiet && !options.events) tellWarnings(run);
     RunFolder folder = folderOf(run, options.out.empty() ? std::filesystem::path("out") / run.c.name : options.out,
                                 options.force, *backend);
-    return playAloud(std::move(run), *backend, folder, {options.backend, options.quiet, options.live, options.parent});
+    return playAloud(std::move(run), *backend, folder,
+                     {options.backend, options.quiet, options.live, options.events, options.parent});
 }
 
 int resumeCommand(const ResumeOptions& options) {
@@ -100,7 +120,8 @@ int resumeCommand(const ResumeOptions& options) {
                    "the same bits\n",
                    run.from->program, run.from->backend, VKDOSE_VERSION, backend->description());
     RunFolder folder = folderOf(run, options.folder, true, *backend);
-    return playAloud(std::move(run), *backend, folder, {choice, options.quiet, options.live, options.parent});
+    return playAloud(std::move(run), *backend, folder,
+                     {choice, options.quiet, options.live, options.events, options.parent});
 }
 
 }  // namespace vkdose

@@ -1,15 +1,14 @@
 #include "host/output/summary.h"
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <tuple>
-#include <type_traits>
 #include <utility>
 
 #include "host/analysis/figures.h"
 #include "host/analysis/settled_figures.h"
 #include "host/analysis/targets.h"
 #include "host/core/file.h"
+#include "host/output/json_row.h"
 
 namespace vkdose {
 
@@ -17,9 +16,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// JSON knows no infinity and no NaN. Such a figure is written as null.
 Json number(double x) {
-    return std::isfinite(x) ? Json(x) : Json(nullptr);
+    return jsonNumber(x);
 }
 
 Json inputs(const Case& c, const RunResult& r) {
@@ -52,23 +50,6 @@ Json closedForms(const Derived& d) {
     j["doses"] = number(d.doses);
     j["stiffest_contact_duration_s"] = number(d.stiffest);
     return j;
-}
-
-/// A value of a row: a number, a word, true or false.
-template <class T>
-Json value(const T& x) {
-    if constexpr (std::is_enum_v<T>)
-        return cellText(x, kAllDigits);
-    else if constexpr (std::is_floating_point_v<T>)
-        return number(x);
-    else
-        return x;
-}
-
-/// The columns of a row as members of an object, by their names.
-template <class... C, class R>
-void putColumns(const std::tuple<C...>& table, const R& row, Json& object) {
-    forEachColumn(table, [&](const auto& c) { object[c.name] = value(c.of(row)); });
 }
 
 Json doseList(const std::vector<Dose>& doses) {

@@ -1,0 +1,91 @@
+#include "host/app/events_display.h"
+
+#include <csignal>
+
+#include "host/app/interrupt.h"
+#include "host/output/json_row.h"
+
+namespace vkdose {
+
+using Json = nlohmann::ordered_json;
+
+EventsDisplay::EventsDisplay(const Case& c, std::FILE* stream) : case_(c), stream_(stream) {
+    std::signal(SIGPIPE, SIG_IGN);  // a reader that has gone becomes a failed write
+}
+
+void EventsDisplay::begin(const Insertion& filled, const std::filesystem::path& output, const std::string& backend,
+                          double from) {
+    say({{"event", "run"},
+         {"case", case_.name},
+         {"particles", filled.particles.size()},
+         {"filled_kg", jsonNumber(filled.mass)},
+         {"output", std::filesystem::absolute(output).string()},
+         {"backend", backend},
+         {"version", VKDOSE_VERSION},
+         {"from_s", jsonNumber(from)}});
+}
+
+void EventsDisplay::warn(const Warning& w) {
+    say({{"event", "warning"},
+         {"name", w.name},
+         {"key", w.key},
+         {"value", w.value},
+         {"text", w.text},
+         {"cure", w.cure},
+         {"accepted", w.accepted}});
+}
+
+void EventsDisplay::onProgress(const Progress& p) {
+    if (p.phase == phase_ && p.dose == dose_) return;
+    phase_ = p.phase;
+    dose_ = p.dose;
+    say({{"event", "phase"},
+         {"phase", phaseName(p.phase)},
+         {"dose", p.dose},
+         {"time_s", jsonNumber(p.time)},
+         {"step", p.step},
+         {"expected_steps", p.expectedSteps}});
+}
+
+void EventsDisplay::onSample(const Sample& sample) {
+    Json event{{"event", "sample"}};
+    putColumns(kSampleColumns, sample, event);
+    if (sample.energy) putColumns(kEnergyColumns, *sample.energy, event);
+    for (std::size_t b = 0; b < sample.bodies.size(); ++b)
+        putColumns(kBodyColumns, sample.bodies[b], event["bodies"][case_.world.bodies.at(b).name]);
+    say(event);
+}
+
+void EventsDisplay::onSettled(const Settling& settling, const Schedule&) {
+    say({{"event", "settled"},
+         {"time_s", jsonNumber(settling.time)},
+         {"at_rest", settling.atRest},
+         {"speed_m_s", jsonNumber(settling.speed)},
+         {"fall_speed_m_s", jsonNumber(settling.fallSpeed)},
+         {"spilled_kg", jsonNumber(settling.spilled)}});
+}
+
+void EventsDisplay::onDose(const Dose& dose) {
+    Json event{{"event", "dose"}};
+    putColumns(kDoseColumns, dose, event);
+    say(event);
+}
+
+void EventsDisplay::end(const RunResult& result, ExitCode code, const std::string& error,
+                        const std::filesystem::path& output) {
+    say({{"event", "end"},
+         {"stop_reason", stopKeyword(result.reason)},
+         {"stop_sentence", stopSentence(result.reason, case_.schedule.stop)},
+         {"code", static_cast<int>(code)},
+         {"error", error.empty() ? Json(nullptr) : Json(error)},
+         {"output", std::filesystem::absolute(output).string()}});
+}
+
+void EventsDisplay::say(const Json& event) {
+    if (!heard_) return;
+    const std::string line = event.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+    heard_ = std::fputs(line.c_str(), stream_) >= 0 && std::fflush(stream_) == 0;
+    if (!heard_) interruptSelf();
+}
+
+}  // namespace vkdose

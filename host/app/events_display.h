@@ -1,0 +1,50 @@
+#pragma once
+// A run as JSON on stdout, a line for each event, for other programs.
+
+#include <cstdio>
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "host/advice/advice.h"
+#include "host/app/exit_code.h"
+#include "host/app/progress.h"
+
+namespace vkdose {
+
+/// Writes one JSON object on a line for each event; its member "event" says which. Numbers that do not exist are null.
+///
+///     run      case, particles, filled_kg, output, backend, version, from_s (simulated time of the checkpoint, or 0)
+///     warning  name, key, value, text, cure, accepted
+///     phase    phase, dose, time_s, step, expected_steps (of the whole run; 0: not known)
+///     sample   the columns of timeseries.csv; "bodies": the columns of each body, by their names
+///     settled  time_s, at_rest, speed_m_s, fall_speed_m_s, spilled_kg
+///     dose     the columns of doses.csv
+///     end      stop_reason, stop_sentence, code (exit code of the program), error or null, output
+///
+/// If nobody reads any longer, the run is interrupted as by Ctrl-C and can be resumed.
+class EventsDisplay : public RunDisplay {
+  public:
+    explicit EventsDisplay(const Case& c, std::FILE* stream = stdout);
+
+    void begin(const Insertion& filled, const std::filesystem::path& output, const std::string& backend, double from);
+    void warn(const Warning& warning);
+    void onProgress(const Progress& progress) override;
+    void onSample(const Sample& sample) override;
+    void onSettled(const Settling& settling, const Schedule& schedule) override;
+    void onDose(const Dose& dose) override;
+    void end(const RunResult& result, ExitCode code, const std::string& error, const std::filesystem::path& output);
+    void close() override {}
+
+  private:
+    void say(const nlohmann::ordered_json& event);
+
+    const Case& case_;
+    std::FILE* stream_;
+    Phase phase_ = Phase::Settle;
+    int dose_ = -1;  ///< of the last phase told; -1: none
+    bool heard_ = true;
+};
+
+}  // namespace vkdose

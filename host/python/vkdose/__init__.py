@@ -1,0 +1,49 @@
+"""vkdose from Python: cases, runs, studies and their results.
+
+    import vkdose
+
+    with vkdose.Case("mini", {"coil.speed_rpm": 60}).run() as run:
+        for dose in run.doses():
+            print(dose["dose"], dose["mass_kg"])
+        result = run.wait()
+    result.timeseries.plot("time_s", "dosed_mass_kg")
+
+Everything is computed by the installed program, in processes of its own.
+"""
+
+from .case import Case, Check
+from .errors import (
+    CaseWarning,
+    DeviceError,
+    Fault,
+    InputError,
+    Interrupted,
+    OutputError,
+    RunError,
+    VkdoseError,
+)
+from .program import program, version
+from .results import Frame, Result, SweepResult
+from .run import Run, resume
+from .study import Study
+
+__all__ = [
+    "Case",
+    "CaseWarning",
+    "Check",
+    "DeviceError",
+    "Fault",
+    "Frame",
+    "InputError",
+    "Interrupted",
+    "OutputError",
+    "Result",
+    "Run",
+    "RunError",
+    "Study",
+    "SweepResult",
+    "VkdoseError",
+    "program",
+    "resume",
+    "version",
+]

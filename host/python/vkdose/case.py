@@ -1,0 +1,163 @@
+"""A case: one device with its powder and schedule."""
+
+from __future__ import annotations
+
+import json
+import os
+import tempfile
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Iterator, Mapping, Optional, Union
+
+import tomli_w
+
+from .errors import CaseWarning, Fault, InputError, error_for
+from .program import Process
+from .run import Run
+
+Source = Union[str, "os.PathLike[str]", Mapping[str, Any]]
+
+
+@dataclass(frozen=True)
+class Check:
+    """What ``vkdose check`` says of a case.
+
+    ``figures`` holds numbers in SI units, with the unit in the name ("time_step_s"). None stands for a number that
+    does not exist in this case. It is empty if there are errors.
+    """
+
+    errors: tuple[Fault, ...]
+    warnings: tuple[CaseWarning, ...]
+    figures: Mapping[str, Any]
+    file: str
+
+    @property
+    def ok(self) -> bool:
+        """Whether the case can be run. Warnings do not stop a run."""
+        return not self.errors
+
+
+def _value(value: Any) -> str:
+    """A value as TOML on one line, as ``--set`` takes it."""
+    if isinstance(value, Mapping):
+        return "{" + ", ".join(f"{_value(str(key))} = {_value(part)}" for key, part in value.items()) + "}"
+    if isinstance(value, (list, tuple)):
+        return "[" + ", ".join(_value(part) for part in value) + "]"
+    return tomli_w.dumps({"v": value}).partition("=")[2].strip()
+
+
+class Case:
+    """A case from a file, the name of a case that comes with vkdose, or a dict with the tables of a case file.
+
+    ``changes`` are laid over it: {"coil.speed_rpm": 60}. A dict with a ``base`` starts from that case, by its file or
+    its name. Relative paths in a dict start from the current folder.
+
+        Case("mini", {"seed": 2})
+        Case({"base": "mini", "coil": {"speed_rpm": 60}})
+    """
+
+    def __init__(self, source: Source, changes: Optional[Mapping[str, Any]] = None) -> None:
+        own: dict[str, Any] = {}
+        if isinstance(source, Mapping):
+            source = placed(source)
+            if "base" in source:
+                own = flat({key: value for key, value in source.items() if key != "base"})
+                source = source["base"]
+        self.source = source
+        self.changes: dict[str, Any] = {**own, **(changes or {})}
+
+    def __repr__(self) -> str:
+        return f"Case({self.source!r}, {self.changes!r})"
+
+    def with_(self, changes: Mapping[str, Any]) -> "Case":
+        """Returns this case with further changes. They win over earlier ones."""
+        return Case(self.source, {**self.changes, **changes})
+
+    def _sets(self) -> list[str]:
+        return [part for key, value in self.changes.items() for part in ("--set", f"{key}={_value(value)}")]
+
+    @contextmanager
+    def arguments(self) -> Iterator[list[str]]:
+        """The arguments of the command line that name this case. Those of a dict hold inside the ``with`` only."""
+        if not isinstance(self.source, Mapping):
+            yield [os.fspath(self.source), *self._sets()]
+            return
+        with written(self.source, "case") as file:
+            yield [str(file), *self._sets()]
+
+    def check(self) -> Check:
+        """Validates the case. Raises InputError if there is no such case at all."""
+        with self.arguments() as case:
+            process = Process(["check", *case, "--json"])
+            text = "".join(process.lines())
+            code = process.wait()
+        if not text:
+            raise error_for(code, process.said)
+        found = json.loads(text)
+        return Check(
+            errors=tuple(Fault(**fault) for fault in found["errors"]),
+            warnings=tuple(CaseWarning(**warning) for warning in found["warnings"]),
+            figures=found.get("figures", {}),
+            file=found["file"],
+        )
+
+    def run(
+        self,
+        out: Optional[Union[str, "os.PathLike[str]"]] = None,
+        *,
+        force: bool = False,
+        backend: Optional[str] = None,
+        device: Optional[str] = None,
+    ) -> Run:
+        """Starts a run and returns at once.
+
+        ``out`` is the output folder (default: out/NAME). ``force`` replaces a former run there. ``backend`` is
+        "vulkan" or "reference", ``device`` the index of a Vulkan device or part of its name.
+
+        Raises InputError, with every fault in ``faults``, if the case is wrong; DeviceError if there is no device;
+        OutputError if the folder cannot be written.
+        """
+        options = ["--force"] if force else []
+        for name, value in (("--out", out), ("--backend", backend), ("--device", device)):
+            if value is not None:
+                options += [name, os.fspath(value)]
+        with self.arguments() as case:
+            run = Run(["run", *case, *options])
+            try:
+                run.started()  # the program has read the case file by then
+            except InputError as error:
+                faults = self.check().errors
+                raise InputError(str(error), faults) from None
+        return run
+
+
+@contextmanager
+def written(tables: Mapping[str, Any], name: str) -> Iterator[Path]:
+    """A file with these tables, for the time of the ``with``."""
+    with tempfile.TemporaryDirectory(prefix="vkdose-") as folder:
+        file = Path(folder) / f"{tables.get('name', name)}.toml"
+        file.write_text(tomli_w.dumps(tables), encoding="utf-8")
+        yield file
+
+
+def flat(tables: Mapping[str, Any], above: str = "") -> dict[str, Any]:
+    """{"coil": {"speed_rpm": 60}} as {"coil.speed_rpm": 60}."""
+    keys: dict[str, Any] = {}
+    for key, value in tables.items():
+        if isinstance(value, Mapping):
+            keys.update(flat(value, f"{above}{key}."))
+        else:
+            keys[above + key] = value
+    return keys
+
+
+def placed(value: Any, key: str = "") -> Any:
+    """The tables of a case with the paths of files made absolute: a case file counts them from its own folder."""
+    if isinstance(value, Mapping):
+        return {k: placed(v, k) for k, v in value.items()}
+    if isinstance(value, list):
+        return [placed(v, key) for v in value]
+    if key in ("base", "list", "mesh", "measured") and isinstance(value, (str, os.PathLike)):
+        return str(Path(value).resolve()) if Path(value).is_file() else os.fspath(value)
+    return value

@@ -1,0 +1,196 @@
+"""What a run left in its output folder."""
+
+from __future__ import annotations
+
+import html
+import json
+import os
+import re
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Mapping, Optional, Union
+
+from .errors import InputError
+from .program import call
+
+if TYPE_CHECKING:
+    import numpy
+    import pandas
+
+
+def _table(file: Path) -> "pandas.DataFrame":
+    import pandas
+
+    if not file.is_file():
+        raise InputError(f"{file} is not there")
+    return pandas.read_csv(file, float_precision="round_trip")
+
+
+class Frame:
+    """The powder at one time. Arrays are read from the file when they are asked for.
+
+    ``number``, ``time`` [s], ``phase`` and ``dose`` say which frame it is.
+    """
+
+    def __init__(self, folder: Path, row: Mapping[str, Any]) -> None:
+        self._folder = folder
+        self.number = int(row["frame"])
+        self.time = float(row["time_s"])
+        self.phase = str(row["phase"])
+        self.dose = int(row["dose"])
+
+    def _read(self, kind: str) -> dict[str, "numpy.ndarray"]:
+        import h5py
+
+        file = self._folder / f"{kind}_{self.number:06d}.hdf"
+        if not file.is_file():
+            raise InputError(f"{file} is not there; does the case ask for these frames?")
+        with h5py.File(file) as stored:
+            root = stored["VTKHDF"]
+            points = root["Points"][...]
+            if kind == "contacts":  # a line for each
+                lines = root["Connectivity"][...].reshape(-1, 2)
+                return {"ends": points[lines]} | {name: values[...] for name, values in root["CellData"].items()}
+            return {"position": points} | {name: values[...] for name, values in root["PointData"].items()}
+
+    @property
+    def particles(self) -> dict[str, "numpy.ndarray"]:
+        """Arrays by name, a row for each particle: "position" (n, 3) [m], "radius" [m], "velocity" (n, 3) [m/s] ..."""
+        return self._read("particles")
+
+    @property
+    def contacts(self) -> dict[str, "numpy.ndarray"]:
+        """Arrays by name, a row for each contact: "ends" (n, 2, 3) [m], what the line of the contact joins, and its
+        forces and springs. Only there with ``frames.contacts`` in the case."""
+        return self._read("contacts")
+
+    @property
+    def positions(self) -> "numpy.ndarray":
+        """Centres of the particles, (n, 3) [m]."""
+        return self.particles["position"]
+
+    def __repr__(self) -> str:
+        return f"Frame {self.number}: t = {self.time:.4g} s, {self.phase}, dose {self.dose}"
+
+
+class Result:
+    """The output folder of a run. Everything is read when it is asked for."""
+
+    def __init__(self, folder: Union[str, "os.PathLike[str]"]) -> None:
+        self.folder = Path(folder)
+        if not (self.folder / "summary.json").is_file():
+            raise InputError(f"{self.folder} holds no run that has ended: there is no summary.json")
+
+    def __repr__(self) -> str:
+        return f"Result({str(self.folder)!r})"
+
+    @property
+    def summary(self) -> dict[str, Any]:
+        """summary.json: inputs, doses, figures, ledger, speed. A number that does not exist is None."""
+        return json.loads((self.folder / "summary.json").read_text(encoding="utf-8"))
+
+    @property
+    def doses(self) -> "pandas.DataFrame":
+        """A row for each dose, with the columns of doses.csv."""
+        return _table(self.folder / "doses.csv")
+
+    @property
+    def timeseries(self) -> "pandas.DataFrame":
+        """A row for each sensor interval, with the columns of timeseries.csv."""
+        return _table(self.folder / "timeseries.csv")
+
+    @property
+    def particles(self) -> "pandas.DataFrame":
+        """The end state, a row for each particle."""
+        return _table(self.folder / "particles.csv")
+
+    @property
+    def frames(self) -> list[Frame]:
+        """The frames in the order of time; none if the case asks for none."""
+        index = self.folder / "frames" / "frames.csv"
+        if not index.is_file():
+            return []
+        return [Frame(index.parent, row) for row in _table(index).to_dict("records")]
+
+    @property
+    def fields(self) -> list[str]:
+        """Names of the fields that the case asks for."""
+        # NAME.csv; the maps that it lists are NAME_000000.csv.
+        files = (self.folder / "fields").glob("*.csv")
+        return sorted(file.stem for file in files if not re.fullmatch(r".*_\d{6}", file.stem))
+
+    def field(self, name: str) -> "pandas.DataFrame":
+        """A row for each time and point of a field: time_s, phase, dose, the place (y_m, z_m ...), density_kg_m3 ...
+
+        ``field(name).set_index(["time_s", "y_m", "z_m"]).to_xarray()`` makes a grid of it. Fields in three directions
+        are files for ParaView, which this does not read.
+        """
+        import pandas
+
+        folder = self.folder / "fields"
+        table = _table(folder / f"{name}.csv")
+        if "file" not in table:
+            return table
+        maps = []
+        for row in table.to_dict("records"):
+            if not row["file"].endswith(".csv"):
+                raise InputError(f"{folder / row['file']} is a file for ParaView, not a table")
+            one = _table(folder / row.pop("file"))
+            for place, column in enumerate(row):
+                one.insert(place, column, row[column])
+            maps.append(one)
+        return pandas.concat(maps, ignore_index=True)
+
+    def report(self, out: Optional[Union[str, "os.PathLike[str]"]] = None) -> Path:
+        """Writes the HTML report (default: report.html in the folder) and returns its path."""
+        page = Path(out) if out is not None else self.folder / "report.html"
+        call("report", str(self.folder), "--out", str(page))
+        return page
+
+    def picture(self, out: Optional[Union[str, "os.PathLike[str]"]] = None, *options: str) -> Path:
+        """Draws a PNG (default: picture.png in the folder) and returns its path. ``options`` are those of ``vkdose render``."""
+        file = Path(out) if out is not None else self.folder / "picture.png"
+        call("render", str(self.folder), "--out", str(file), *options)
+        return file
+
+    def _repr_html_(self) -> str:
+        """The report, in a frame of its own in a notebook."""
+        page = html.escape(self.report().read_text(encoding="utf-8"), quote=True)
+        return f'<iframe srcdoc="{page}" style="width: 100%; height: 40em; border: 0"></iframe>'
+
+
+class SweepResult:
+    """The folder of a sweep or of a calibration. Everything is read when it is asked for."""
+
+    def __init__(self, folder: Union[str, "os.PathLike[str]"]) -> None:
+        self.folder = Path(folder)
+        if not (self.folder / "members.csv").is_file():
+            raise InputError(f"{self.folder} holds no sweep: there is no members.csv")
+
+    def __repr__(self) -> str:
+        return f"SweepResult({str(self.folder)!r})"
+
+    @property
+    def members(self) -> "pandas.DataFrame":
+        """A row for each member: its values, its figures, how it ended."""
+        return _table(self.folder / "members.csv")
+
+    @property
+    def doses(self) -> "pandas.DataFrame":
+        """A row for each dose of each member."""
+        return _table(self.folder / "doses.csv")
+
+    def member(self, number: int) -> Result:
+        """The result of one member, by its number in ``members``."""
+        return Result(self.folder / "members" / f"{number:04d}")
+
+    def report(self, out: Optional[Union[str, "os.PathLike[str]"]] = None) -> Path:
+        """Writes the HTML report (default: report.html in the folder) and returns its path."""
+        page = Path(out) if out is not None else self.folder / "report.html"
+        call("report", str(self.folder), "--out", str(page))
+        return page
+
+    @property
+    def calibrated(self) -> Optional[Path]:
+        """The case that a calibration found, ready to run; None if it met no target."""
+        file = self.folder / "calibrated.toml"
+        return file if file.is_file() else None

@@ -1,0 +1,91 @@
+"""Studies: a case, what is varied of it, and seeds."""
+
+from __future__ import annotations
+
+import os
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any, Iterator, Mapping, Optional, Union
+
+from .case import Case, Source, placed, written
+from .errors import error_for
+from .program import Process
+from .results import SweepResult
+
+
+class Study:
+    """A study from a file, its name, or a dict with the tables of a study file.
+
+        Study({"base": "mini", "seeds": 2, "axis": [{"key": "coil.speed_rpm", "values": [60, 90]}]})
+    """
+
+    def __init__(self, source: Source) -> None:
+        self.source = source
+
+    def __repr__(self) -> str:
+        return f"Study({self.source!r})"
+
+    @contextmanager
+    def _file(self) -> Iterator[str]:
+        if isinstance(self.source, Mapping):
+            study = placed(self.source)
+            # A study file names its base case by a path; a dict may name one that comes with vkdose.
+            if "base" in study and not Path(study["base"]).is_file():
+                study["base"] = Case(study["base"]).check().file
+            with written(study, "study") as file:
+                yield str(file)
+        else:
+            yield os.fspath(self.source)
+
+    def _name(self) -> str:
+        if isinstance(self.source, Mapping):
+            return str(self.source.get("name", "study"))
+        return Path(self.source).stem
+
+    def _play(self, command: str, out: Any, jobs: Optional[int], options: Mapping[str, Optional[str]]) -> SweepResult:
+        folder = Path(out) if out is not None else Path("out") / self._name()
+        with self._file() as study:
+            arguments = [command, study, "--quiet", "--out", str(folder)]
+            if jobs is not None:
+                arguments += ["--jobs", str(jobs)]
+            for name, value in options.items():
+                if value is not None:
+                    arguments += [f"--{name}", value]
+            process = Process(arguments)
+            try:
+                for _ in process.lines():
+                    pass
+            except BaseException:
+                process.interrupt()
+                process.wait()
+                raise
+            code = process.wait()
+        if code not in (0, 1):  # 1: a member failed, or a target was not met; the tables say so
+            raise error_for(code, process.said)
+        return SweepResult(folder)
+
+    def sweep(
+        self,
+        out: Optional[Union[str, "os.PathLike[str]"]] = None,
+        *,
+        jobs: Optional[int] = None,
+        backend: Optional[str] = None,
+        device: Optional[str] = None,
+    ) -> SweepResult:
+        """Runs every member that has not ended yet, and waits. ``jobs`` members run at once (default: one a core).
+
+        Members that fail do not raise; ``members`` tells how each ended. Ctrl-C interrupts the sweep, and a second
+        call goes on with it.
+        """
+        return self._play("sweep", out, jobs, {"backend": backend, "device": device})
+
+    def calibrate(
+        self,
+        out: Optional[Union[str, "os.PathLike[str]"]] = None,
+        *,
+        jobs: Optional[int] = None,
+        backend: Optional[str] = None,
+        device: Optional[str] = None,
+    ) -> SweepResult:
+        """Looks for the parameters that dose the measured mass; the study needs a table ``calibrate``. See ``sweep``."""
+        return self._play("calibrate", out, jobs, {"backend": backend, "device": device})

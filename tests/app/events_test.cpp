@@ -1,0 +1,98 @@
+// `vkdose run --events`: the run as JSON lines, for other programs.
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/app/sandbox.h"
+#include "tests/support/catch.h"
+
+using namespace vkdose::test;
+using Json = nlohmann::json;
+
+namespace {
+
+const std::string kShort = VKDOSE_SOURCE_DIR
+    "/cases/mini.toml --set settle.time_s=0.05 --set dose.rotate_s=0.1 --set dose.rest_s=0.02 --set "
+    "stop.max_doses=2 --backend reference ";
+
+std::vector<Json> eventsIn(const std::string& text, const std::string& kind = "") {
+    std::vector<Json> events;
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line);) {
+        const Json event = Json::parse(line);
+        if (kind.empty() || event["event"] == kind) events.push_back(event);
+    }
+    return events;
+}
+
+std::vector<std::string> linesOf(const std::string& text) {
+    std::vector<std::string> lines;
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line);) lines.push_back(line);
+    return lines;
+}
+
+}  // namespace
+
+TEST_CASE("the events of a run are its warnings, phases, samples and doses, and nothing else is printed") {
+    const Sandbox box;
+    const auto o = box.vkdose("run " + kShort + "--events --out run");
+    REQUIRE(o.code == 0);
+    CHECK(o.err.empty());
+    const std::vector<Json> events = eventsIn(o.out);
+    REQUIRE(events.size() > 10);
+    CHECK(events.front()["event"] == "run");
+    CHECK(events.front()["particles"] == 111);
+    CHECK(events.front()["from_s"] == 0);
+    CHECK(events.back()["event"] == "end");
+    CHECK(events.back()["code"] == 0);
+    CHECK(events.back()["error"].is_null());
+    CHECK(events.back()["stop_reason"] == "dose_count");
+
+    std::vector<std::string> phases;
+    for (const Json& e : eventsIn(o.out, "phase"))
+        phases.push_back(e["phase"].get<std::string>() + std::to_string(e["dose"].get<int>()));
+    CHECK(phases == std::vector<std::string>{"settle0", "rotate1", "rest1", "rotate2", "rest2"});
+    CHECK_FALSE(eventsIn(o.out, "warning").empty());
+    CHECK(eventsIn(o.out, "settled").size() == 1);
+
+    // The tables of the folder say the same.
+    const std::vector<Json> samples = eventsIn(o.out, "sample"), doses = eventsIn(o.out, "dose");
+    CHECK(samples.size() + 1 == linesOf(readText(box / "run/timeseries.csv")).size());
+    const Json summary = Json::parse(readText(box / "run/summary.json"));
+    REQUIRE(doses.size() == summary["doses"].size());
+    for (std::size_t i = 0; i < doses.size(); ++i)
+        for (const auto& [column, value] : summary["doses"][i].items()) CHECK(doses[i][column] == value);
+    CHECK(samples.back()["time_s"] == summary["simulated_time_s"]);
+}
+
+TEST_CASE("a run whose events nobody reads any longer is interrupted, and resumes to the same bytes") {
+    const Sandbox box;
+    REQUIRE(box.vkdose("run " + kShort + "--quiet --out whole").code == 0);
+    // The reader goes after three lines. The code is that of the program, not of head.
+    const std::string command = "cd '" + box.path().string() + "' && bash -c \"'" VKDOSE_BINARY_DIR "/vkdose' run " +
+                                kShort +
+                                "--events --force --out cut 2>/dev/null | head -n 3 >/dev/null; exit "
+                                "\\${PIPESTATUS[0]}\"";
+    const int status = std::system(command.c_str());
+    REQUIRE(WIFEXITED(status));
+    CHECK(WEXITSTATUS(status) == 130);
+    CHECK(Json::parse(readText(box / "cut/summary.json"))["interrupted"] == true);
+    const auto resumed = box.vkdose("resume cut --events");
+    CHECK(resumed.code == 0);
+    CHECK(eventsIn(resumed.out).front()["from_s"] > 0);
+    for (const char* file : {"timeseries.csv", "doses.csv", "particles.csv"})
+        CHECK(readText(box / "cut" / file) == readText(box / "whole" / file));
+}
+
+TEST_CASE("the events of a run that fails end with the error") {
+    const Sandbox box;
+    const auto o = box.vkdose("run " + kShort + "--set contact.max_overlap_ratio=0.001 --events --out run");
+    CHECK(o.code == 3);
+    const Json end = eventsIn(o.out).back();
+    CHECK(end["event"] == "end");
+    CHECK(end["code"] == 3);
+    CHECK_THAT(end["error"].get<std::string>(), Catch::Contains("overlap"));
+    CHECK_THAT(o.err, Catch::Contains("overlap"));
+    CHECK(box.vkdose("run " + kShort + "--events --quiet").code == 2);
+}

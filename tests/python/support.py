@@ -1,0 +1,52 @@
+"""What the tests of the Python package share."""
+
+import os
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "host" / "python"))
+
+try:
+    import h5py  # noqa: E402, F401
+    import jsonschema  # noqa: E402, F401
+    import matplotlib  # noqa: E402, F401
+    import pandas  # noqa: E402, F401
+    import scipy  # noqa: E402, F401
+
+    import vkdose  # noqa: E402
+except ModuleNotFoundError as lack:
+    if lack.name == "vkdose":
+        raise
+    print(f"skipped: no Python module {lack.name} (tools/packages-python)")
+    sys.exit(77)
+
+# A run of a second.
+SHORT = {
+    "settle.time_s": 0.05,
+    "dose.rotate_s": 0.1,
+    "dose.rest_s": 0.02,
+    "stop.max_doses": 2,
+}
+
+
+class InFolder(unittest.TestCase):
+    """Each test has a folder of its own, which is the current one."""
+
+    def setUp(self):
+        before = os.getcwd()
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.addCleanup(os.chdir, before)
+        os.chdir(folder.name)
+
+
+def short(**changes):
+    return vkdose.Case("mini", {**SHORT, **changes})
+
+
+def run(case, out="run"):
+    """A run on the reference, which is the same everywhere."""
+    return case.run(out, backend="reference")

@@ -1,0 +1,197 @@
+"""Cases and runs from Python."""
+
+import os
+import signal
+import subprocess
+import sys
+import textwrap
+import unittest
+from pathlib import Path
+
+from support import ROOT, SHORT, InFolder, run, short  # first: it tells what is missing
+
+import numpy
+import vkdose
+
+
+class Cases(InFolder):
+    def test_a_check_gives_figures_and_warnings(self):
+        check = vkdose.Case("mini", {"coil.speed_rpm": 0}).check()
+        self.assertTrue(check.ok)
+        self.assertEqual(check.figures["particles"], 111)
+        names = {warning.name: warning for warning in check.warnings}
+        self.assertTrue(names["pinch"].accepted)
+        self.assertFalse(any(w.accepted for w in check.warnings if w.key == "coil.speed_rpm"))
+        self.assertEqual(Path(check.file), ROOT / "cases" / "mini.toml")
+
+    def test_every_fault_of_a_case_is_an_object(self):
+        bad = vkdose.Case("mini", {"contact.k": -1, "particles.density": -5})
+        check = bad.check()
+        self.assertFalse(check.ok)
+        self.assertEqual([(f.key, f.value) for f in check.errors], [("particles.density", "-5"), ("contact.k", "-1")])
+        with self.assertRaises(vkdose.InputError) as caught:
+            bad.run("run")
+        self.assertEqual(caught.exception.faults, check.errors)
+        self.assertFalse(Path("run").exists())
+
+    def test_a_fault_of_a_file_names_its_line(self):
+        Path("bad.toml").write_text('base = "gone.toml"\n[coil]\nspeed_rmp = 60\n', encoding="utf-8")
+        faults = vkdose.Case("bad.toml").check().errors
+        self.assertTrue(any(f.file.endswith("bad.toml") and f.line > 0 for f in faults))
+
+    def test_no_such_case(self):
+        with self.assertRaisesRegex(vkdose.InputError, "did you mean mini"):
+            vkdose.Case("mimi").check()
+
+    def test_a_dict_is_a_case_with_or_without_a_base(self):
+        figures = vkdose.Case({"base": "mini", "particles": {"mass_g": 0.5}}).check().figures
+        self.assertEqual(figures, vkdose.Case("mini", {"particles.mass_g": 0.5}).check().figures)
+        own = vkdose.Case({"boundaries": "none", "particles": {"mass_g": 1}}).check()
+        self.assertIn("particles.density", [f.key for f in own.errors])
+        Path("sub").mkdir()
+        Path("sub/my.toml").write_text(f'base = "{ROOT}/cases/mini.toml"\n', encoding="utf-8")
+        self.assertTrue(vkdose.Case({"base": "sub/my.toml", "seed": 2}).check().ok)
+
+    def test_changes_of_every_kind(self):
+        case = vkdose.Case("mini").with_(
+            {"seed": 3, "sensors.energy": True, "gravity": [0, -1.62, 0], "field": [{"preset": "outlet"}]}
+        )
+        self.assertEqual(case.check().errors, ())
+
+
+class Runs(InFolder):
+    def test_doses_come_while_the_run_goes_on(self):
+        with run(short()) as going:
+            self.assertEqual(going.started()["case"], "mini")
+            doses = list(going.doses())
+            result = going.wait()
+        self.assertEqual([dose["dose"] for dose in doses], [1, 2])
+        self.assertEqual([dose["mass_kg"] for dose in doses], [dose["mass_kg"] for dose in result.summary["doses"]])
+        numpy.testing.assert_allclose(result.doses.mass_kg, [dose["mass_kg"] for dose in doses], rtol=1e-8)
+        self.assertEqual(result.folder, Path("run").resolve())
+
+    def test_the_bits_are_those_of_the_command_line(self):
+        run(short()).wait()
+        settings = [part for key, value in SHORT.items() for part in ("--set", f"{key}={value}")]
+        subprocess.run(
+            [vkdose.program(), "run", "mini", *settings, "--backend", "reference", "--quiet", "--out", "plain"],
+            check=True,
+        )
+        for file in ("timeseries.csv", "doses.csv", "particles.csv"):
+            self.assertEqual(Path("run", file).read_bytes(), Path("plain", file).read_bytes())
+
+    def test_a_run_that_is_left_can_be_resumed_to_the_same_bits(self):
+        run(short(), "whole").wait()
+        with run(short(), "left") as going:
+            next(going.samples())
+        self.assertFalse(going.running)
+        with self.assertRaises(vkdose.Interrupted):
+            going.wait()
+        self.assertTrue(vkdose.Result("left").summary["interrupted"])
+        vkdose.resume("left").wait()
+        for file in ("timeseries.csv", "doses.csv", "particles.csv"):
+            self.assertEqual(Path("left", file).read_bytes(), Path("whole", file).read_bytes())
+        with self.assertRaises(vkdose.InputError):
+            vkdose.resume("left")
+
+    def test_a_run_ends_with_the_python_that_started_it(self):
+        script = f"""
+            import os, signal, sys
+            sys.path.insert(0, {str(ROOT / "host" / "python")!r})
+            import vkdose
+            run = vkdose.Case("mini", {{"stop.max_doses": 1000000}}).run("run", backend="reference")
+            next(run.samples())
+            print(run._process._process.pid, flush=True)
+            os.kill(os.getpid(), signal.SIGKILL)
+        """
+        parent = subprocess.run([sys.executable, "-c", textwrap.dedent(script)], stdout=subprocess.PIPE, text=True)
+        self.assertEqual(parent.returncode, -signal.SIGKILL)
+        child = int(parent.stdout)
+        while os.path.exists(f"/proc/{child}"):  # it goes; the runner's limit on the time of a test would tell if not
+            with open(f"/proc/{child}/stat", encoding="utf-8") as state:
+                if state.read().rpartition(")")[2].split()[0] == "Z":
+                    break
+        self.assertTrue(vkdose.Result("run").summary["interrupted"])
+
+    def test_errors_of_a_run_are_exceptions(self):
+        with self.assertRaisesRegex(vkdose.RunError, "overlap"):
+            run(short(**{"contact.max_overlap_ratio": 0.001})).wait()
+        self.assertIn("overlap", vkdose.Result("run").summary["error"])
+        with self.assertRaises(vkdose.InputError):
+            run(short())  # the folder holds a run
+        run(short(), "other").wait()
+        with self.assertRaises(vkdose.DeviceError):
+            short().run("third", device="no such device")
+
+    def test_no_program(self):
+        os.environ["VKDOSE"], before = "/nowhere/vkdose", os.environ.get("VKDOSE")
+        try:
+            with self.assertRaises(FileNotFoundError):
+                vkdose.version()
+        finally:
+            if before is None:
+                del os.environ["VKDOSE"]
+            else:
+                os.environ["VKDOSE"] = before
+
+
+class Results(InFolder):
+    def test_tables_and_frames(self):
+        result = run(short(**{"frames.interval_s": 0.1, "frames.contacts": True})).wait()
+        self.assertEqual(len(result.timeseries), len(Path("run/timeseries.csv").read_text("utf-8").splitlines()) - 1)
+        last = result.frames[-1]
+        self.assertAlmostEqual(last.time, result.summary["simulated_time_s"])
+        self.assertEqual(last.positions.shape, (111, 3))
+        # The end state and the last frame are the same powder.
+        ends = result.particles
+        order = numpy.argsort(last.particles["id"])
+        numpy.testing.assert_allclose(last.positions[order], ends[["x_m", "y_m", "z_m"]], atol=1e-7)
+        contacts = last.contacts
+        self.assertGreater(len(contacts["ends"]), 10)
+        self.assertTrue(all(len(values) == len(contacts["ends"]) for values in contacts.values()))
+        self.assertEqual(result.fields, [])
+
+    def test_fields(self):
+        fields = [{"preset": "outlet"}, {"preset": "mid-plane", "interval_s": 0.1}]
+        result = run(short(field=fields)).wait()
+        self.assertEqual(result.fields, ["mid-plane", "outlet"])
+        self.assertLess(set(result.field("outlet").time_s), set(result.timeseries.time_s))  # which has ends of phases too
+        grid = result.field("mid-plane").set_index(["time_s", "y_m", "z_m"])
+        times, heights, lengths = (len(level) for level in grid.index.levels)
+        self.assertEqual(len(grid), times * heights * lengths)
+        # The plane is thin, so its mass is less than the canister's, but there is some.
+        self.assertGreater(grid.density_kg_m3.max(), 100)
+        with self.assertRaises(vkdose.InputError):
+            result.field("none")
+
+    def test_a_report_and_a_picture_of_a_notebook(self):
+        result = run(short()).wait()
+        self.assertIn("<html", result.report().read_text(encoding="utf-8")[:200])
+        self.assertIn("srcdoc", result._repr_html_()[:100])
+
+    def test_a_folder_without_a_run(self):
+        with self.assertRaises(vkdose.InputError):
+            vkdose.Result(".")
+
+
+class Studies(InFolder):
+    def test_a_sweep_of_a_dict(self):
+        study = vkdose.Study(
+            {"base": "mini", "set": dict(SHORT), "seeds": 2, "axis": [{"key": "coil.speed_rpm", "values": [60, 90]}]}
+        )
+        swept = study.sweep("swept", backend="reference")
+        self.assertEqual(len(swept.members), 4)
+        self.assertEqual(sorted(set(swept.members["coil.speed_rpm"])), [60, 90])
+        self.assertEqual(len(swept.doses), 8)
+        self.assertEqual(len(swept.member(0).doses), 2)
+        self.assertIsNone(swept.calibrated)
+        again = study.sweep("swept", backend="reference")  # all have ended
+        self.assertTrue(again.members.equals(swept.members))
+
+    def test_a_wrong_study_is_refused(self):
+        with self.assertRaisesRegex(vkdose.InputError, "coil.sped_rpm"):
+            vkdose.Study({"base": "mini", "axis": [{"key": "coil.sped_rpm", "values": [60, 90]}]}).sweep()
+
+
+if __name__ == "__main__":
+    unittest.main()
