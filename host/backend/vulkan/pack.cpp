@@ -105,15 +105,6 @@ gpu::CoilParams packCoil(const geometry::Coil& c, double largest) {
     return p;
 }
 
-std::uint64_t turnsFixed(double angle) {
-    double turns = angle / (2 * kPi);
-    turns -= std::floor(turns);
-    // Two words, so that the double's 53 bits are kept and 1.0 never overflows the conversion.
-    const double high = std::floor(turns * 4294967296.0);
-    const double low = (turns * 4294967296.0 - high) * 4294967296.0;
-    return (uint64_t(high) << 32) + uint64_t(low);
-}
-
 void packLaw(const ContactLaw& law, gpu::Member& member) {
     for (int i = 0; i < kContactClasses; ++i) member.contact[i] = packContact(law.classes[i]);
     member.choices.x = float(law.coulombLimit);
