@@ -100,6 +100,45 @@ TEST_CASE("bodies: one sphere meets each, on the device as in the reference") {
     }
 }
 
+TEST_CASE("bodies: a screw that turns moves spheres on the device as in the reference") {
+    RuledWorld w = emptyWorld();
+    w.domain = {Vec3(-0.03, -0.03, -0.01), Vec3(0.03, 0.03, 0.04)};
+    const Vec3 z(0, 0, 1);
+    const geometry::Flight flight{3e-3, 9e-3, 1e-3, 8e-3, 10e-3, 6 * kPi, 0, 0.3, 1};
+    const double length = flight.height(flight.angle);
+    w.bodies.push_back(
+        bodyOf("screw", {flight, geometry::Cone{Vec3(0), z, 3e-3, 3e-3, length}}, geometry::Turn{z, Vec3(0), -150}));
+    w.bodies.push_back(bodyOf("tube", {geometry::Tube{Vec3(0, 0, -0.02), z, 10e-3, 0.08, true}}));
+    Particles p;
+    for (double height = 2e-3; p.size() < 6; height += 0.1e-3) {  // where they are clear of the blade
+        const auto i = int(p.size());
+        const Vec3 at(0.4e-3 * i - 1e-3, -7e-3, height);
+        const bool apart = i == 0 || at.z - p.position.back().z > 2.6e-3;
+        if (apart && geometry::touched(w.bodies[0].shapes, at, 1.3e-3).empty())
+            p.add(at, single(1.25e-3), Vec3(0.05 * i, -0.1, -0.1), Vec3(3, i, -2));
+    }
+    auto device = gpu();
+    auto reference = makeReferenceBackend();
+    device->load(w, p);
+    reference->load(w, p);
+    double work = 0, error = 0, torque = 0;
+    for (int call = 0; call < 20; ++call) {
+        const Sensors a = device->advance(100, 0), b = reference->advance(100, 0);
+        work = std::max(work, std::abs(b.bodies.at(0).work));
+        error = std::max(error, std::abs(a.bodies.at(0).work - b.bodies.at(0).work));
+        torque = std::max(torque, std::abs(a.bodies.at(0).torque - b.bodies.at(0).torque) /
+                                      (9e-3 * std::max(1e-3, glm::length(b.bodies.at(0).force))));
+    }
+    CHECK(work > 1e-8);
+    CHECK(error < 2e-3 * work);
+    CHECK(torque < 2e-3);
+    const Differences d = differences(*device, *reference, 0.5);
+    CHECK(d.unmatched == 0);
+    CHECK(d.position < 1e-3);
+    CHECK(d.velocity < 1e-2);
+    requireClean(*device);
+}
+
 TEST_CASE("bodies: a heap in a turning drum stays close to the reference") {
     const RuledWorld w = deviceWorld();
     const Particles p = layers(60);
