@@ -266,10 +266,6 @@ Sensors Ensemble::sense(std::uint32_t member, std::uint32_t steps) {
 
 FieldPoints Ensemble::fields(std::uint32_t member, const FieldRequest& request) {
     if (const std::optional<std::string> fault = faultOf(request)) throw RunError(*fault);
-    if (request.contactStress && bodies_)
-        throw RunError(
-            "the Vulkan backend computes no contact stress beside bodies: set field.stress = false, or use "
-            "--backend reference");
     if (!fieldPasses_ || !fieldPasses_->holds(request))
         fieldPasses_ = std::make_unique<FieldPasses>(device_, *passes_, request.grid.points());
     const MemberState& m = members_[member];
@@ -302,6 +298,7 @@ EnergyBook Ensemble::readEnergy(std::uint32_t member) const {
         b.momentum += Vec3(glm::vec3(r.momentum));
         b.potential += double(r.momentum.w);
         b.angularMomentum += Vec3(glm::vec3(r.angular));
+        b.bodyWork += double(r.angular.w);
     }
     return b;
 }

@@ -115,10 +115,6 @@ gpu::Member packMember(const World& world, const ContactLaw& law, const Particle
     if (world.surfaces.size() > gpu::kMaxSurfaces)
         throw RunError(fmt::format("{} surfaces; the Vulkan backend holds {}", world.surfaces.size(),
                                    uint32_t(gpu::kMaxSurfaces)));
-    if (!world.bodies.empty() && world.energyBook)
-        throw RunError(
-            "the Vulkan backend keeps no energy book of contacts with bodies: set sensors.energy = false, or use "
-            "--backend reference");
     gpu::Member m{};
     packLaw(law, m);
     m.choices.z = 1.0f;
