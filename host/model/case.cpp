@@ -35,6 +35,14 @@ SizeRange sizeRange(const Case& c) {
     return range;
 }
 
+/// The largest distance from a centre at which a backend asks for a mesh: within the skin [m]. The factor covers the
+/// rounding of a skin that is read back.
+double meshReach(const Case& c) {
+    const SizeRange sizes = sizeRange(c);
+    const double skin = c.world.skin > 0 ? c.world.skin : kUsualSkin * sizes.mean;
+    return (sizes.largest + skin) * (1 + 1e-12);
+}
+
 /// The name becomes the name of a folder and is written into the summary, which is UTF-8. It has to be checked even by
 /// default: then it is the name of the case file, which may be anything.
 void checkName(CaseReader& reader, const std::string& name) {
@@ -120,12 +128,12 @@ Case interpret(const std::filesystem::path& file, Node tree, std::vector<std::fi
     placeContact(root);
     const std::optional<Boundaries> kind = readBoundaries(reader, root, c);
     readCoil(reader, root, c);
-    readBodies(reader, root, reader.faulty() ? std::numeric_limits<double>::quiet_NaN() : sizeRange(c).largest, c);
+    readTime(reader, root, c);
+    readBodies(reader, root, reader.faulty() ? std::numeric_limits<double>::quiet_NaN() : meshReach(c), c);
     alignWithDrive(c);
     readContact(reader, root, reader.faulty() ? std::numeric_limits<double>::quiet_NaN() : sizeRange(c).mean, c);
     readRegion(root, kind, c);
     readSchedule(reader, root, c);
-    readTime(reader, root, c);
     readFields(reader, root, reader.faulty() ? std::numeric_limits<double>::quiet_NaN() : 2 * sizeRange(c).mean, c);
     const bool domainGiven = readDomain(root, c);
     reader.finish();

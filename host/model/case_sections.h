@@ -44,8 +44,9 @@ void readTime(CaseReader& reader, Section& root, Case& c);
 bool readDomain(Section& root, Case& c);
 
 // read_bodies.cpp
-/// Reads the bodies. The largest radius [m] is the reach of a mesh; NaN if it is not known. Call after the particles.
-void readBodies(CaseReader& reader, Section& root, double largestRadius, Case& c);
+/// Reads the bodies. `meshReach` [m] is that for which meshes are made (MeshSurface); NaN if it is not known. Call
+/// after the particles.
+void readBodies(CaseReader& reader, Section& root, double meshReach, Case& c);
 /// The angle of the drive is that of the coil, which may turn in the negative sense. A body's own turn is positive
 /// about its axis while powder is dosed. Call after readBodies and readCoil.
 void alignWithDrive(Case& c);

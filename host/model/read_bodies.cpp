@@ -22,7 +22,7 @@ constexpr const char* kNameLetters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOP
 struct BodyReader {
     CaseReader& reader;
     Section& section;
-    double largestRadius;  ///< of the particles [m]; NaN while the case is at fault
+    double meshReach;  ///< [m]; NaN while the case is at fault
     Case& c;
 
     void fault(std::string_view key, std::string problem, std::string remedy) const {
@@ -106,8 +106,8 @@ std::vector<Shape> readMeshShape(const BodyReader& b) {
                                 unit == "mm" ? "um" : "mm"));
         s.record("mesh", std::filesystem::absolute(file).lexically_normal().string());
         b.c.files.push_back(file);
-        if (!(b.largestRadius > 0)) return {};
-        return {std::make_shared<const geometry::MeshSurface>(std::move(checked.mesh), b.largestRadius)};
+        if (!(b.meshReach > 0)) return {};
+        return {std::make_shared<const geometry::MeshSurface>(std::move(checked.mesh), b.meshReach)};
     } catch (const geometry::MeshError& e) {
         b.fault("mesh", e.what(), "mend the mesh");
         return {};
@@ -248,10 +248,10 @@ void readMotion(CaseReader& reader, Section& body, RigidBody& made) {
 
 }  // namespace
 
-void readBodies(CaseReader& reader, Section& root, double largestRadius, Case& c) {
+void readBodies(CaseReader& reader, Section& root, double meshReach, Case& c) {
     std::set<std::string> names;
     for (Section* section : root.tables("body")) {
-        const BodyReader b{reader, *section, largestRadius, c};
+        const BodyReader b{reader, *section, meshReach, c};
         RigidBody body;
         body.name = section->string("name");
         const bool fit = !body.name.empty() && body.name.size() <= 60 &&

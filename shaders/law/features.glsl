@@ -17,6 +17,7 @@
 #ifndef VKDOSE_LAW_FEATURES_GLSL
 #define VKDOSE_LAW_FEATURES_GLSL
 
+#include "law/flight.glsl"
 #include "law/mesh.glsl"
 #include "law/places.glsl"
 #include "law/shape.glsl"
@@ -77,6 +78,7 @@ bool mayBeNear(uint body, Two3 centre, float reach) {
         uvec4 head = geometryAt(shape);
         if (!withinSphere(shape + 1u, centre.high, reach)) continue;
         if (HAS_SHAPE(kShapeMesh) && head.x == kShapeMesh) near = mayTouchMesh(shape, head, centre.high, reach);
+        if (HAS_SHAPE(kShapeFlight) && head.x == kShapeFlight) near = mayTouchFlight(shape, centre, reach);
         if (HAS_SHAPE(kShapeWire) && head.x == kShapeWire) {
             ShapeData s = shapeData(shape);
             near = nearCoil(wireOf(s), s.v7.x, Sphere(centre.high, centre.low, reach), 0.0);
@@ -100,6 +102,7 @@ uint touchedFeatures(uint body, Two3 centre, float radius) {
         uvec4 head = geometryAt(shape);
         if (!withinSphere(shape + 1u, centre.high, radius)) continue;
         if (HAS_SHAPE(kShapeMesh) && head.x == kShapeMesh) meshPlaces(shape, head, centre, radius);
+        if (HAS_SHAPE(kShapeFlight) && head.x == kShapeFlight) flightPlaces(shape, head.y, centre, radius);
         if (HAS_SHAPE(kShapeWire) && head.x == kShapeWire) wirePlaces(shapeData(shape), head.y, centre, radius);
         if (HAS_SHAPE(kShapeRoom) && head.x == kShapeRoom) {
             ShapeData s = shapeData(shape);

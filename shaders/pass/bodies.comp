@@ -9,12 +9,18 @@
 #include "shared/buffers.glsl"
 #include "pass/bodies.glsl"
 #include "pass/wall.glsl"
+#ifdef ENERGY_BOOK
+#include "pass/slot_books.glsl"
+#endif
 
 const float kFarthest = 0.70710678;  // cosine of 45 degrees
 
 /// The contacts of the last step.
 History old[kMaxBodyTouches];
 vec3 oldDirection[kMaxBodyTouches];
+#ifdef ENERGY_BOOK
+Exerted oldExerted[kMaxBodyTouches];
+#endif
 /// The one that each place goes on with; kEmpty: none.
 uint goesOn[kMaxBodyTouches];
 
@@ -23,6 +29,10 @@ void recall(uint slot) {
         old[k] = History(historyAt(placeHistoryIndex(slot, k, 0u)), historyAt(placeHistoryIndex(slot, k, 1u)));
         oldDirection[k] = historyAt(placeHistoryIndex(slot, k, 2u)).xyz;
         goesOn[k] = kEmpty;
+#ifdef ENERGY_BOOK
+        oldExerted[k] = Exerted(historyAt(placeHistoryIndex(slot, k, 3u)), historyAt(placeHistoryIndex(slot, k, 4u)),
+                                historyAt(placeHistoryIndex(slot, k, 5u)));
+#endif
     }
 }
 
@@ -84,13 +94,18 @@ void main() {
     match(count);
 
     vec3 force = vec3(0.0), torque = vec3(0.0), moment = vec3(0.0);
-    float overlap = 0.0, work = 0.0;
+    float overlap = 0.0, work = 0.0, booked = 0.0;
+#ifdef ENERGY_BOOK
+    WallMotion moving = WallMotion(motion.velocity.xyz, motion.spin.xyz, motion.centre.xyz);
+    uint parted = (1u << kMaxBodyTouches) - 1u;  // contacts of the last step with which no place goes on
+    openSlotBook();
+#endif
     for (uint k = 0u; k < kMaxBodyTouches; ++k) {
-        bool touching = k < count;
+        bool touching = k < count, known = touching && goesOn[k] != kEmpty;
         BodyFeature feature = features[k];
         vec3 normal = directionToWorld(motion, feature.direction);
         History h = History(vec4(0.0), vec4(0.0));
-        if (touching && goesOn[k] != kEmpty) {
+        if (known) {
             h = old[goesOn[k]];
             vec3 from = directionToWorld(motion, oldDirection[goesOn[k]]);
             h.slidingMax.xyz = turnedAlong(h.slidingMax.xyz, from, normal);
@@ -99,6 +114,9 @@ void main() {
         vec3 point = me.sphere.high - normal * (radius - 0.5 * feature.depth);
         vec3 wall = bodyVelocity(motion, point);
         Response r;
+#ifdef ENERGY_BOOK
+        History before = h;
+#endif
         WallForce f = WallForce(vec3(0.0), vec3(0.0), vec3(0.0));
         if (touching)
             f = meetWall(me, Overlap(feature.depth, normal), 2.0 * radius, law, chosen, springDt, wall, motion.spin.xyz,
@@ -106,7 +124,17 @@ void main() {
         history[placeHistoryIndex(slot, k, 0u)] = h.slidingMax;
         history[placeHistoryIndex(slot, k, 1u)] = h.rollingTorsion;
         history[placeHistoryIndex(slot, k, 2u)] = vec4(touching ? feature.direction : vec3(0.0), 0.0);
-        writeForce(forceOfPlace(slot, k), vec4(f.force, 0.0));  // the host asks for single contacts
+        // The host asks for single contacts, and `field_branches` for their overlaps.
+        writeForce(forceOfPlace(slot, k), vec4(f.force, touching ? feature.depth : 0.0));
+#ifdef ENERGY_BOOK
+        Exerted was = kNothing;
+        if (known) {
+            was = oldExerted[goesOn[k]];
+            parted &= ~(1u << goesOn[k]);
+        }
+        if (touching)
+            bookPlace(law, springDt, moving, slot, k, me, Overlap(feature.depth, normal), r, known, was, before, h);
+#endif
         force += f.force;
         torque += f.torque;
         if (touching) {
@@ -116,7 +144,14 @@ void main() {
         }
     }
     writeForce(slot, vec4(force, overlap));
-    writeTorque(slot, vec4(torque, 0.0));
+#ifdef ENERGY_BOOK
+    for (uint k = 0u; k < kMaxBodyTouches; ++k)
+        if ((parted >> k & 1u) != 0u && old[k].slidingMax.w > 0.0)
+            partPlace(law, springDt, moving, me, oldExerted[k], old[k]);
+    writeBook(slot, slotBook);
+    booked = slotBook.flow.w;
+#endif
+    writeTorque(slot, vec4(torque, booked));
     if (overlap > 0.0) {
         for (uint d = 0u; d < 3u; ++d) {
             load(body, i, d, force[d]);

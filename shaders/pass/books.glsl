@@ -43,10 +43,10 @@ void bookDepartureFromCoil(uint i) {
 }
 
 /// Adds to the particle's book the books of its own contacts in this step (fields as in shared/layout.h), the coil's
-/// work, the energy that came with the load and the energy that leaves with the particle. Velocities are those before
-/// and after the kick.
+/// and the bodies' work, the energy that came with the load and the energy that leaves with the particle. Velocities
+/// are those before and after the kick.
 void bookStep(uint i, vec4 normal, vec4 sliders, vec3 centre, float r, float mass, vec3 velocity, vec3 spin,
-              vec3 newVelocity, vec3 newSpin, float coilTorque, bool leaves) {
+              vec3 newVelocity, vec3 newSpin, float coilTorque, float bodyWork, bool leaves) {
     bool first = opening();
     float springDt = springStep();
     vec4 flow = books[bookIndex(kBookFlow, i)];
@@ -56,6 +56,7 @@ void bookStep(uint i, vec4 normal, vec4 sliders, vec3 centre, float r, float mas
     flow.x += sliders.w + (first ? motion : 0.0);
     if (leaves) flow.y += motion;
     flow.z = leaves ? 0.0 : coilTorque;
+    flow.w += bodyWork;
     books[bookIndex(kBookNormal, i)] += normal;
     books[bookIndex(kBookSliders, i)] += vec4(sliders.xyz, coilWork);
     books[bookIndex(kBookFlow, i)] = flow;

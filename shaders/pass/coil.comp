@@ -56,7 +56,7 @@ void main() {
     uint met = 0u;
     vec4 was = angles;
 #ifdef ENERGY_BOOK
-    openCoilBook();
+    openSlotBook();
 #endif
     for (; candidates != 0u; candidates &= candidates - 1u) {
         CoilTouch touch = coilCandidate(coil, view, findLSB(candidates));
@@ -94,7 +94,7 @@ void main() {
     }
 #ifdef ENERGY_BOOK
     partCoil(law, springDt, coil.motion.x, reduced, i, me, was, met);
-    closeCoilBook(slot);
+    writeBook(slot, slotBook);
 #endif
     for (uint t = 0u; t < kMaxTurns; ++t)
         if ((met & (1u << t)) == 0u) angles[t] = kNoTurn;

@@ -1,10 +1,14 @@
 #version 450
 // field_branches: the branch of every contact that touched in the last step, one contact per invocation.
 // Reads the state before that step (the half that is not the source), entries, forces, the turns of the coil that are
-// touched, and the coil as it stood in step stepInBatch of the last batch. Writes the branches (pass/field.glsl).
+// touched, history, and coil and bodies as they stood in step stepInBatch of the last batch. Writes the branches
+// (pass/field.glsl).
 #extension GL_GOOGLE_include_directive : require
 #include "shared/buffers.glsl"
 #include "law/coil.glsl"
+#ifdef WITH_BODIES
+#include "pass/bodies.glsl"
+#endif
 #include "pass/field.glsl"
 
 Sphere sphereBefore(uint i) {
@@ -27,6 +31,14 @@ vec4 fromCoil(Sphere a, float angle) {
     return branch;
 }
 
+#ifdef WITH_BODIES
+vec4 fromBody(float radius, Place at, uint body) {
+    float depth = forces[at.contact].w;
+    vec3 normal = directionToWorld(motionOf(body), history[placeHistoryIndex(at.slot, at.part, 2u)].xyz);
+    return depth > 0.0 ? vec4((radius - depth) * normal, 1.0) : vec4(0.0);
+}
+#endif
+
 void main() {
     openMember();
     uint k = invocation();
@@ -44,8 +56,12 @@ void main() {
         SurfaceParams p = readSurface(surfaceOf(who.y));
         Overlap o = surfaceOverlap(KIND_SET, uint(p.pointHigh.w), p, a);
         branch.xyz = (a.radius - o.depth) * o.normal;
+    } else if (at.slot < springSlotCount() + coilSlotCount()) {
+        branch = fromCoil(a, coilHistory[wireAngleIndex(who.x)][at.part]);
     } else {
-        branch = fromCoil(a, coilHistory[wireAngleIndex(who.x)][at.turn]);
+#ifdef WITH_BODIES
+        branch = fromBody(a.radius, at, who.y);
+#endif
     }
     branches[at.contact] = branch;
 }

@@ -15,8 +15,8 @@ void addBranch(uint contact, vec3 from) {
     if (branch.w == 0.0) return;
     float w = 0.0;
     for (uint node = 0u; node < kFieldNodes; ++node)
-        w += kShares[node] * weights[nodeWeightIndex(contact, node)] *
-             kernel(here - (from - kNodes[node] * branch.xyz));
+        w +=
+            kShares[node] * weights[nodeWeightIndex(contact, node)] * kernel(here - (from - kNodes[node] * branch.xyz));
     stress += outerProduct(branch.xyz * w, forces[contact].xyz);
 }
 
@@ -29,8 +29,10 @@ void addBranches(uint i) {
         if ((link & 1u) == 1u) continue;
         if (slot < springSlotCount())
             addBranch(slot, from);
-        else
+        else if (slot < springSlotCount() + coilSlotCount())
             for (uint turn = 0u; turn < kMaxTurns; ++turn) addBranch(forceOfTurn(turn, slot), from);
+        else
+            for (uint place = 0u; place < kMaxBodyTouches; ++place) addBranch(forceOfPlace(slot, place), from);
     }
 }
 

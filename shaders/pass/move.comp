@@ -36,7 +36,7 @@ void main() {
     vec3 force = vec3(0.0), torque = vec3(0.0);
     float overlap = 0.0;
 #ifdef ENERGY_BOOK
-    float coilTorque = 0.0;
+    float coilTorque = 0.0, bodyWork = 0.0;
     vec4 normal = vec4(0.0), sliders = vec4(0.0);
 #endif
     for (uint k = 0u; k < range.w; ++k) {
@@ -46,7 +46,9 @@ void main() {
         torque += t.xyz;
         overlap = max(overlap, f.w);
 #ifdef ENERGY_BOOK
-        coilTorque += t.w;
+        bool ofBody = link >> 1u >= springSlotCount() + coilSlotCount();
+        coilTorque += ofBody ? 0.0 : t.w;
+        bodyWork += ofBody ? t.w : 0.0;
         if ((link & 1u) == 0u) {
             normal += books[slotBookIndex(kBookNormal, link >> 1u)];
             sliders += books[slotBookIndex(kBookSliders, link >> 1u)];
@@ -84,7 +86,7 @@ void main() {
 #ifdef ENERGY_BOOK
     if (moving)
         bookStep(i, normal, sliders, position.xyz, r, mass, velocity4.xyz, spin4.xyz, velocity, spin, coilTorque,
-                 leaves);
+                 bodyWork, leaves);
 #endif
 
     uint to = 1u - push.source;

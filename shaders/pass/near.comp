@@ -34,6 +34,21 @@ uint comingSlot(uint slot, uint other) {
 #ifdef WITH_BODIES
 uint bodies, firstBody;
 
+#ifdef ENERGY_BOOK
+/// What bookDeparture is for contacts with walls.
+void bookDepartureFromBody(uint i, uint slot, uint body) {
+    bool ofCoil = motionOf(body).velocity.w == float(kParticleCoil);
+    for (uint k = 0u; k < kMaxBodyTouches; ++k) {
+        vec4 springs = historyAt(placeHistoryIndex(slot, k, 0u));
+        if (springs.w <= 0.0) continue;
+        History h = History(springs, historyAt(placeHistoryIndex(slot, k, 1u)));
+        vec4 stored = elasticEnergy(lawOf(ofCoil ? kParticleCoil : kParticleWall), 0.0, 1.0, h);
+        stored.x = historyAt(placeHistoryIndex(slot, k, 5u)).w;
+        books[bookIndex(kBookFlow, i)].y += dot(stored, vec4(1.0));
+    }
+}
+#endif
+
 /// The bodies within reach, a bit each. A body and the particle may both go their slack, and the body a step more
 /// before it is told that it has.
 uint nearBodies(uint i, float radius, float slack) {
@@ -68,7 +83,12 @@ void listBodies(uint i, uvec4 range) {
         uint slot = rowsAt(linkIndex(range.z + k)) >> 1u;
         if (slot < first) continue;
         uint body = entriesAt(slot).y;
-        if ((bodies >> body & 1u) == 0u) continue;
+        if ((bodies >> body & 1u) == 0u) {
+#ifdef ENERGY_BOOK
+            bookDepartureFromBody(i, slot, body);
+#endif
+            continue;
+        }
         to = firstBody + bitCount(bodies & ((1u << body) - 1u));
         for (uint part = 0u; part < kBodyHistory; ++part)
             carried[placeHistoryIndex(to, 0u, part)] = historyAt(placeHistoryIndex(slot, 0u, part));

@@ -41,10 +41,10 @@ void main() {
         EnergyRecord(books[bookIndex(kBookNormal, i)], books[bookIndex(kBookSliders, i)],
                      vec4(flow.xy, 0.5 * m * dot(oldVelocity, velocity), 0.5 * inertia * dot(oldSpin, spin.xyz)),
                      elastic, vec4(m * velocity, -m * dot(gravity.xyz, start)),
-                     vec4(m * cross(position.xyz, velocity) + inertia * spin.xyz, 0.0));
+                     vec4(m * cross(position.xyz, velocity) + inertia * spin.xyz, flow.w));
     books[bookIndex(kBookNormal, i)] = vec4(0.0);
     books[bookIndex(kBookSliders, i)] = vec4(0.0);
-    books[bookIndex(kBookFlow, i)] = vec4(0.0, 0.0, flow.zw);
+    books[bookIndex(kBookFlow, i)] = vec4(0.0, 0.0, flow.z, 0.0);
 
     for (uint width = gl_WorkGroupSize.x / 2u; width > 0u; width /= 2u) {
         barrier();

@@ -59,24 +59,49 @@ void bookPair(ContactParams law, float springDt, uint slot, Body a, Body b, Over
     writeBook(slot, booked);
 }
 
-/// Velocity of the particle relative to a wall that turns at `rate` about the z axis, at the contact of `e`, when the
-/// particle's centre was at `centre`.
-vec3 wallVelocity(Exerted e, Body me, vec3 centre, float rate) {
-    float lever = me.sphere.radius - 0.5 * e.rest.w;
-    vec3 point = centre - lever * e.normal.xyz;
-    return (me.velocity - rate * vec3(-point.y, point.x, 0.0)) - lever * cross(me.spin, e.normal.xyz);
+/// How a wall moves: as BodyMotion in shared/geometry.h.
+struct WallMotion {
+    vec3 velocity;
+    vec3 spin;
+    vec3 centre;
+};
+const WallMotion kWallAtRest = WallMotion(vec3(0.0), vec3(0.0), vec3(0.0));
+
+WallMotion turningCoil(float rate) { return WallMotion(vec3(0.0), vec3(0.0, 0.0, rate), vec3(0.0)); }
+
+/// Velocity of the wall at the contact of `e`, when the particle's centre was at `centre`.
+vec3 wallVelocity(WallMotion wall, Exerted e, Body me, vec3 centre) {
+    vec3 point = centre - (me.sphere.radius - 0.5 * e.rest.w) * e.normal.xyz;
+    return wall.velocity + cross(wall.spin, point - wall.centre);
 }
 
-Book bookWall(ContactParams law, float springDt, float rate, float reduced, Body me, Exerted before, Response r,
+/// Velocity of the particle relative to that.
+vec3 fromWall(vec3 wall, Exerted e, Body me) {
+    return (me.velocity - wall) - (me.sphere.radius - 0.5 * e.rest.w) * cross(me.spin, e.normal.xyz);
+}
+
+/// What a wall that moves does to the particle in half a step by the force `e` [J].
+float halfStepGiven(Exerted e, vec3 velocity, vec3 spin, float dt) {
+    vec3 force = e.normal.xyz * e.normal.w + e.rest.xyz;
+    return 0.5 * dt * (dot(force, velocity) + dot(e.couple.xyz, spin));
+}
+
+/// The book of a contact with a wall in this step; flow.w: work of the wall.
+Book bookWall(ContactParams law, float springDt, WallMotion wall, float reduced, Body me, Exerted before, Response r,
               bool known, bool touching, vec4 stored, Exerted now, History old) {
     vec4 storedBefore = elasticEnergy(law, 0.0, reduced, old);
     storedBefore.x = before.couple.w;
-    vec3 spin = me.spin - vec3(0.0, 0.0, rate);
-    vec3 came = me.sphere.high - springDt * me.velocity;  // where it was when `before` acted
-    Work x = halfStepWork(before, wallVelocity(before, me, came, rate), spin, springDt);
-    Work y = halfStepWork(now, wallVelocity(now, me, me.sphere.high, rate), spin, springDt);
+    vec3 spin = me.spin - wall.spin;
+    // Where both were when `before` acted.
+    vec3 came = me.sphere.high - springDt * me.velocity;
+    WallMotion wallBefore = WallMotion(wall.velocity, wall.spin, wall.centre - springDt * wall.velocity);
+    vec3 first = wallVelocity(wallBefore, before, me, came), second = wallVelocity(wall, now, me, me.sphere.high);
+    Work x = halfStepWork(before, fromWall(first, before, me), spin, springDt);
+    Work y = halfStepWork(now, fromWall(second, now, me), spin, springDt);
     if (opening()) return bookLoaded(stored);
-    return bookContact(before, now, known, touching, storedBefore, stored, x, y, law.normal.z, r.slips);
+    Book b = bookContact(before, now, known, touching, storedBefore, stored, x, y, law.normal.z, r.slips);
+    b.flow.w = halfStepGiven(before, first, wall.spin, springDt) + halfStepGiven(now, second, wall.spin, springDt);
+    return b;
 }
 
 /// `before` is what the contact exerted in the last step, `old` and `h` its history before and after this one.
@@ -93,13 +118,21 @@ void bookSurface(ContactParams law, float springDt, uint slot, Body me, Overlap 
     keepExerted(slot, now);
     Book booked = Book(vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
     if (known || touching)
-        booked = bookWall(law, springDt, 0.0, reduced, me, before, r, known, touching, stored, now, old);
+        booked = bookWall(law, springDt, kWallAtRest, reduced, me, before, r, known, touching, stored, now, old);
     writeBook(slot, booked);
 }
 
-Book coilBook;
+/// The book of a slot that has several contacts.
+Book slotBook;
 
-void openCoilBook() { coilBook = Book(vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0)); }
+void openSlotBook() { slotBook = Book(vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0)); }
+
+void addToSlotBook(Book b) {
+    slotBook.normal += b.normal;
+    slotBook.sliders += b.sliders;
+    slotBook.flow += b.flow;
+    slotBook.elastic += b.elastic;
+}
 
 void bookCoil(ContactParams law, float springDt, float rate, float reduced, uint i, uint turn, Body me, Overlap o,
               Response r, bool known, bool touching, History old, History h) {
@@ -116,11 +149,8 @@ void bookCoil(ContactParams law, float springDt, float rate, float reduced, uint
         coilHistory[at + push.particles] = now.rest;
         coilHistory[at + 2u * push.particles] = now.couple;
     }
-    Book b = bookWall(law, springDt, rate, reduced, me, before, r, known, touching, stored, now, old);
-    coilBook.normal += b.normal;
-    coilBook.sliders += b.sliders;
-    coilBook.flow += b.flow;
-    coilBook.elastic += b.elastic;
+    addToSlotBook(
+        bookWall(law, springDt, turningCoil(rate), reduced, me, before, r, known, touching, stored, now, old));
 }
 
 /// Turns that touched at the last step (`was`) and do not any more (not in `met`).
@@ -133,6 +163,22 @@ void partCoil(ContactParams law, float springDt, float rate, float reduced, uint
     }
 }
 
-void closeCoilBook(uint slot) { writeBook(slot, coilBook); }
+/// A place on a body that is touched: it goes on with what `before` exerted, unless that is kNothing.
+void bookPlace(ContactParams law, float springDt, WallMotion wall, uint slot, uint place, Body me, Overlap o,
+               Response r, bool known, Exerted before, History old, History h) {
+    float reduced = 2.0 * me.sphere.radius;
+    vec4 stored = elasticEnergy(law, r.hysteretic, reduced, h);
+    Exerted now = exertedNow(o, r, stored);
+    history[placeHistoryIndex(slot, place, 3u)] = now.normal;
+    history[placeHistoryIndex(slot, place, 4u)] = now.rest;
+    history[placeHistoryIndex(slot, place, 5u)] = now.couple;
+    addToSlotBook(bookWall(law, springDt, wall, reduced, me, before, r, known, true, stored, now, old));
+}
+
+/// A place that was touched in the last step and is not any more.
+void partPlace(ContactParams law, float springDt, WallMotion wall, Body me, Exerted before, History old) {
+    addToSlotBook(bookWall(law, springDt, wall, 2.0 * me.sphere.radius, me, before, kNoResponse, true, false, vec4(0.0),
+                           kNothing, old));
+}
 
 #endif

@@ -64,6 +64,8 @@ const uint kParts = 5u;
 #else
 const uint kParts = 2u;
 #endif
+const uint kPlaceParts = kParts + 1u;                     // of a place on a body
+const uint kBodyHistory = kMaxBodyTouches * kPlaceParts;  // of a body slot
 
 /// The member that this workgroup works for. A dispatch has a row of workgroups for each live member. A run on its own
 /// is an ensemble of one member; the compiler then removes all that depends on this.
@@ -138,6 +140,7 @@ bool ofPair(uint slot) { return slot < MEMBERS * push.pairSlots; }
 #define bodied (BODIES > 0u ? 1u : 0u)
 #define slots slotCount()
 #define historyParts kParts
+#define bodyHistory kBodyHistory
 #define TABLE(number, name, element, count, title)
 #define ROW(table, function, first, length) \
     uint function(uint i) { return (first) + i; }
@@ -157,22 +160,20 @@ bool ofPair(uint slot) { return slot < MEMBERS * push.pairSlots; }
 #undef bodied
 #undef slots
 #undef historyParts
+#undef bodyHistory
 
 uint stateIndex(uint side, uint field, uint i) {
     return side * kFields * push.particles + stateOffset(field, i, push.particles);
 }
-uint historyIndex(uint part, uint slot) {
-    return part < 2u ? springIndex(slot, part) : exertedIndex(part - 2u, slot);
-}
+uint historyIndex(uint part, uint slot) { return part < 2u ? springIndex(slot, part) : exertedIndex(part - 2u, slot); }
 /// Place of the force that a turn exerts in a slot of the coil.
 uint forceOfTurn(uint turn, uint slot) { return turnForceIndex(turn, slot - springSlotCount()); }
-/// Vector `part` of the history of place `touch` in a body slot: 0, 1: History; 2: direction in the frame of the body.
+/// Vector `part` of the history of place `touch` in a body slot: 0, 1: History; 2: direction in the frame of the body;
+/// with an energy book 3, 4, 5: Exerted.
 uint placeHistoryIndex(uint slot, uint touch, uint part) {
-    return bodyHistoryIndex(slot - springSlotCount() - coilSlotCount(), 3u * touch + part);
+    return bodyHistoryIndex(slot - springSlotCount() - coilSlotCount(), kPlaceParts * touch + part);
 }
-uint forceOfPlace(uint slot, uint touch) {
-    return bodyForceIndex(slot - springSlotCount() - coilSlotCount(), touch);
-}
+uint forceOfPlace(uint slot, uint touch) { return bodyForceIndex(slot - springSlotCount() - coilSlotCount(), touch); }
 uint coilHistoryIndex(uint turn, uint part, uint i) { return turnHistoryIndex(turn * kParts + part, i); }
 
 vec4 readState(uint side, uint field, uint i) { return stateAt(stateIndex(side, field, i)); }

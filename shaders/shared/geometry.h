@@ -3,11 +3,11 @@
 // beginning. Nothing in it changes while a body moves: lengths are in metres, in the frame of the body.
 //
 // First come the bodies, kBodyVectors each, in their order. Then for each body its shapes, kShapeVectors each, and
-// behind them what its meshes need.
+// behind them what its meshes and screws need.
 //
 //   body    0: first shape, number of shapes        1: a sphere around it: centre, radius
 //   shape   0: kind, first tag, for a mesh: heads, lists        1: a sphere around it: centre, radius
-//           2 to 7: by kind, see the functions of law/shape.glsl and law/mesh.glsl
+//           2 to 7: by kind, see law/shape.glsl, law/flight.glsl and law/mesh.glsl
 //
 // A tag is a number of a place where a body is touched: the tags of a shape start at its first tag, so that tags order
 // places as shape and key do (geometry/features.h).
@@ -44,6 +44,7 @@ SHARED_CONST kShapeBlock = 6u;
 SHARED_CONST kShapeRoom = 7u;
 SHARED_CONST kShapeWire = 8u;
 SHARED_CONST kShapeMesh = 9u;
+SHARED_CONST kShapeFlight = 10u;
 
 // Vectors of the parts of a mesh.
 SHARED_CONST kTriangleVectors = 7u;
@@ -52,6 +53,7 @@ SHARED_CONST kVertexVectors = 2u;
 // Most triangles in one cell of a mesh's grid, and most edges at one of its vertices: software devices end loops.
 SHARED_CONST kMostInCell = 4096u;
 SHARED_CONST kMostAtVertex = 4096u;
+SHARED_CONST kMostFlightTurns = 64u;  // of a screw that one sphere reaches
 
 /// Where a body is and how it moves at one time.
 struct BodyMotion {

@@ -38,7 +38,6 @@ SHARED_CONST kMaxRow = 64u;           // neighbours per particle
 SHARED_CONST kMaxLinks = 112u;        // contacts per particle: a row, every surface, the coil, every body
 SHARED_CONST kEmpty = 0xffffffffu;    // end of a cell's list
 SHARED_CONST kMaxBodyTouches = 4u;    // places of one body that one particle touches at once
-SHARED_CONST kBodyHistory = 3u * kMaxBodyTouches;  // vectors of a body slot in the history
 // What a particle and a body do: force on the particle [N], its moment about the origin of the world [N m], work of the
 // body on the particle [J], each summed over the steps since the last sensing.
 SHARED_CONST kBodyLoads = 7u;
@@ -196,7 +195,8 @@ struct SensorRecord {
 SHARED_CONST kBookNormal = 0u;  // plastic, adhesive, viscous, numerical loss
 // sliding, rolling, torsion loss; of a particle: work of the coil, of a contact: loaded
 SHARED_CONST kBookSliders = 1u;
-SHARED_CONST kBookFlow = 2u;     // of a particle: loaded, left; z: torque on the coil in the last step [N m]
+// of a particle: loaded, left; z: torque on the coil in the last step [N m]; w: work of the bodies
+SHARED_CONST kBookFlow = 2u;
 SHARED_CONST kBookElastic = 2u;  // of a contact: energy of its normal, sliding, rolling, torsion springs
 SHARED_CONST kBookFields = 3u;
 
@@ -206,7 +206,7 @@ struct EnergyRecord {
     vec4 flow;      // loaded, left, kinetic, rotational energy
     vec4 elastic;   // as kBookElastic, of the contacts that the particles own
     vec4 momentum;  // xyz [kg m/s]; w: potential energy
-    vec4 angular;   // xyz: angular momentum about the origin [kg m2/s]
+    vec4 angular;   // xyz: angular momentum about the origin [kg m2/s]; w: work of the bodies
 };
 
 struct GroupRecord {  // one per workgroup

@@ -48,11 +48,12 @@ ROW(ranges, slotRangeIndex, particles, particles)
 ROW(ranges, bodyRangeIndex, 2 * particles, bodied * particles)
 // Of each pair or surface slot: the two vectors of History (law/contact.glsl), zero while the two bodies do not touch.
 // With the energy book, then the vectors of Exerted (law/energy.glsl), each for all slots. Then of each body slot, for
-// each place that is touched: History, and the direction from the body to the particle, in the frame of the body.
-VIEWED(3, history, vec4, historyParts * springSlots + kBodyHistory * bodySlots, the contact history)
+// each place that is touched: History, the direction from the body to the particle in the frame of the body, and with
+// the energy book Exerted.
+VIEWED(3, history, vec4, historyParts * springSlots + bodyHistory * bodySlots, the contact history)
 ROWS(history, springIndex, 0, springSlots, 2)
 ROWS(history, exertedIndex, 2 * springSlots, historyParts - 2, springSlots)
-ROWS(history, bodyHistoryIndex, historyParts * springSlots, bodySlots, kBodyHistory)
+ROWS(history, bodyHistoryIndex, historyParts * springSlots, bodySlots, bodyHistory)
 // The history of each turn and particle, vector by vector (turn * historyParts + part). Then the wire angle of each
 // turn, kNoTurn if it is free. Empty without a coil.
 VIEWED(4, coilHistory, vec4, coils * (kMaxTurns * historyParts + 1) * particles, the contact history with the coil)
@@ -85,16 +86,17 @@ TABLE(12, coilTorques, float, (coils + kBodyLoads * bodies) * particles, the tor
 ROW(coilTorques, coilTorqueIndex, 0, coils * particles)
 ROWS(coilTorques, bodyLoadIndex, coils * particles, kBodyLoads * bodies, particles)
 // Of each slot: force on the first body [N]; w: overlap over the smaller radius. Then of each turn and coil slot: the
-// force of the turn. Then of each body slot and place: the force there.
+// force of the turn. Then of each body slot and place: the force there; w: overlap [m].
 VIEWED(13, forces, vec4, slots + kMaxTurns * coilSlots + kMaxBodyTouches * bodySlots, the contact forces)
 ROW(forces, forceIndex, 0, slots)
 ROWS(forces, turnForceIndex, slots, kMaxTurns, coilSlots)
 ROWS(forces, bodyForceIndex, slots + kMaxTurns * coilSlots, bodySlots, kMaxBodyTouches)
-// Of each slot: torque on the first body [N m]; w: torque on the coil about +z [N m]. Torque on the second body.
+// Of each slot: torque on the first body [N m]; w: torque on the coil about +z [N m]; of a body slot with the energy
+// book the work of the body in the step [J]. Torque on the second body.
 VIEWED(14, torques, vec4, 2 * slots, the contact torques)
 ROWS(torques, torqueIndex, 0, slots, 2)
 // As the history, of the slots that a refresh prepares.
-TABLE(15, carried, vec4, historyParts * springSlots + kBodyHistory * bodySlots, the carried history)
+TABLE(15, carried, vec4, historyParts * springSlots + bodyHistory * bodySlots, the carried history)
 
 #undef TABLE
 #undef VIEWED

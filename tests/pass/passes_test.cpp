@@ -213,11 +213,11 @@ TEST_CASE("the sensor records add up to the host's sums") {
 TEST_CASE("the coil's phase keeps its turns in fixed point") {
     gpu::Member m{};
     const double perStep = 2 * kPi * 1.5 * 2.26e-6;
-    packPhase(turnsFixed(-2 * kPi * 0.25), turnsFixed(perStep), m);
+    packPhase(geometry::FixedAngle::of(-2 * kPi * 0.25).part, geometry::FixedAngle::of(perStep).part, m);
     CHECK(m.coil.phase.x == 0xc0000000u);  // minus a quarter turn is three quarters
     const double turns = (double(m.coil.phase.z) + double(m.coil.phase.w) / 4294967296.0) / 4294967296.0;
     CHECK(nearRelative(turns * 15e6, 1.5 * 2.26e-6 * 15e6, 1e-13));  // over a whole run
-    packPhase(0, turnsFixed(-perStep), m);
+    packPhase(0, geometry::FixedAngle::of(-perStep).part, m);
     const double back = (double(m.coil.phase.z) + double(m.coil.phase.w) / 4294967296.0) / 4294967296.0;
     CHECK(nearRelative(1 - back, 1.5 * 2.26e-6, 1e-10));
 }

@@ -4,62 +4,12 @@
 #include <cmath>
 #include <thread>
 
-#include "geometry/tessellate.h"
-#include "tests/scene/beds.h"
+#include "tests/scene/body_beds.h"
 #include "tests/support/catch.h"
 #include "tests/support/records.h"
 
 using namespace vkdose;
 using namespace vkdose::test;
-
-namespace {
-
-constexpr double kDrumRate = 12;  // [rad/s]
-
-RigidBody bodyOf(const char* name, std::vector<geometry::Shape> shapes, geometry::Motion motion = geometry::Rest{},
-                 Clock clock = Clock::Time) {
-    return {name, std::move(shapes), {geometry::Pose{}, std::move(motion), {}}, clock, ContactClass::ParticleWall};
-}
-
-std::shared_ptr<const geometry::MeshSurface> meshOf(const geometry::Shape& shape, double facet) {
-    const auto triangles = geometry::tessellated(shape, facet, Vec3(-1), Vec3(1));
-    return std::make_shared<const geometry::MeshSurface>(geometry::makeMesh(geometry::soupOf(triangles, "test")).mesh,
-                                                         2e-3);
-}
-
-/// A drum about z that turns, with a block of triangles in it that shakes, and a coil that follows the drive.
-RuledWorld deviceWorld() {
-    RuledWorld w = emptyWorld();
-    w.domain = {Vec3(-0.03, -0.03, -0.01), Vec3(0.03, 0.03, 0.02)};
-    const Vec3 z(0, 0, 1);
-    w.bodies.push_back(bodyOf("drum",
-                              {geometry::Cone{Vec3(0), z, 20e-3, 20e-3, 10e-3}, geometry::Cone{Vec3(0), z, 0, 20e-3, 0},
-                               geometry::Cone{Vec3(0, 0, 10e-3), z, 0, 20e-3, 0}},
-                              geometry::Turn{z, Vec3(0), kDrumRate}));
-    RigidBody block = bodyOf("block", {meshOf(geometry::Block{Vec3(-3e-3), Vec3(3e-3)}, 2e-3)},
-                             geometry::Shake{Vec3(0, 1, 0), 0.2e-3, 80, 0.3});
-    block.course.start = {glm::angleAxis(0.6, glm::normalize(Vec3(1, 2, 3))), Vec3(6e-3, -14e-3, 5e-3)};
-    block.kind = ContactClass::ParticleCoil;
-    w.bodies.push_back(std::move(block));
-    w.bodies.push_back(bodyOf("stirrer", {geometry::Ball{Vec3(-14e-3, 0, 5e-3), 3e-3}}, geometry::Turn{z, Vec3(0), 0.7},
-                              Clock::Drive));
-    return w;
-}
-
-/// Spheres in layers, clear of the bodies.
-Particles layers(int count) {
-    Particles p;
-    for (int i = 0; i < count; ++i) {
-        const Vec3 at((i % 5 - 2) * 2.9e-3 + 0.1e-3 * (i % 3), -6.5e-3 + (i / 15) * 2.8e-3,
-                      2.1e-3 + (i / 5 % 3) * 2.8e-3);
-        p.add(at, single(1.25e-3 - 0.01e-3 * (i % 7)), Vec3(0.1, -0.3, 0.02 * (i % 3 - 1)), Vec3(i % 5, 2, -3));
-    }
-    return p;
-}
-
-constexpr double kDrive = -9.0000001;
-
-}  // namespace
 
 TEST_CASE("bodies: one sphere meets each, on the device as in the reference") {
     const RuledWorld w = deviceWorld();
@@ -98,6 +48,45 @@ TEST_CASE("bodies: one sphere meets each, on the device as in the reference") {
         CHECK(d.spin < 1e-3);
         requireClean(*device);
     }
+}
+
+TEST_CASE("bodies: a screw that turns moves spheres on the device as in the reference") {
+    RuledWorld w = emptyWorld();
+    w.domain = {Vec3(-0.03, -0.03, -0.01), Vec3(0.03, 0.03, 0.04)};
+    const Vec3 z(0, 0, 1);
+    const geometry::Flight flight{3e-3, 9e-3, 1e-3, 8e-3, 10e-3, 6 * kPi, 0, 0.3, 1};
+    const double length = flight.height(flight.angle);
+    w.bodies.push_back(
+        bodyOf("screw", {flight, geometry::Cone{Vec3(0), z, 3e-3, 3e-3, length}}, geometry::Turn{z, Vec3(0), -150}));
+    w.bodies.push_back(bodyOf("tube", {geometry::Tube{Vec3(0, 0, -0.02), z, 10e-3, 0.08, true}}));
+    Particles p;
+    for (double height = 2e-3; p.size() < 6; height += 0.1e-3) {  // where they are clear of the blade
+        const auto i = int(p.size());
+        const Vec3 at(0.4e-3 * i - 1e-3, -7e-3, height);
+        const bool apart = i == 0 || at.z - p.position.back().z > 2.6e-3;
+        if (apart && geometry::touched(w.bodies[0].shapes, at, 1.3e-3).empty())
+            p.add(at, single(1.25e-3), Vec3(0.05 * i, -0.1, -0.1), Vec3(3, i, -2));
+    }
+    auto device = gpu();
+    auto reference = makeReferenceBackend();
+    device->load(w, p);
+    reference->load(w, p);
+    double work = 0, error = 0, torque = 0;
+    for (int call = 0; call < 20; ++call) {
+        const Sensors a = device->advance(100, 0), b = reference->advance(100, 0);
+        work = std::max(work, std::abs(b.bodies.at(0).work));
+        error = std::max(error, std::abs(a.bodies.at(0).work - b.bodies.at(0).work));
+        torque = std::max(torque, std::abs(a.bodies.at(0).torque - b.bodies.at(0).torque) /
+                                      (9e-3 * std::max(1e-3, glm::length(b.bodies.at(0).force))));
+    }
+    CHECK(work > 1e-8);
+    CHECK(error < 2e-3 * work);
+    CHECK(torque < 2e-3);
+    const Differences d = differences(*device, *reference, 0.5);
+    CHECK(d.unmatched == 0);
+    CHECK(d.position < 1e-3);
+    CHECK(d.velocity < 1e-2);
+    requireClean(*device);
 }
 
 TEST_CASE("bodies: a heap in a turning drum stays close to the reference") {

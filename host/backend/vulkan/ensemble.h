@@ -75,9 +75,13 @@ class Ensemble {
         std::optional<std::string> failure;
     };
 
+    // ensemble_bodies.cpp
+    /// How far the drive goes in a step [kDrive turns].
+    static std::int64_t drivePerStep(double rate, double dt);
     void makeBodies(TableSizes& sizes);
     void writeMotions(std::uint32_t count, const std::vector<double>& coilRates);
     std::vector<BodyLoad> takeLoads(std::uint32_t member, std::uint32_t steps);
+
     void writeBlocks();
     void runBatch(std::uint32_t count, const std::vector<double>& coilRates, vk::Timestamps* times = nullptr);
     void keepError(std::uint32_t member, const gpu::uvec4& error, std::uint64_t firstStep);

@@ -12,10 +12,12 @@ namespace {
 
 /// Number of particles that one dispatch adds up. It is the number of bits of inReach in shaders/pass/tile.glsl. Even
 /// with kMaxLinks contacts for each particle, and the nodes of these contacts, the loops of an invocation stay below
-/// 65,535 trips, after which lavapipe ends them.
-constexpr std::uint32_t kSlice = 128;
-constexpr std::uint32_t kWithNodes = gpu::kMaxRow + gpu::kMaxSurfaces + gpu::kMaxTurns;  // those with bodies have none
-static_assert(kSlice * (kWithNodes * (gpu::kFieldNodes + 1) + kMaxBodies + 2) < 65535);
+/// 65,535 trips, after which lavapipe ends them. Beside bodies there may be more contacts, so that slices are shorter.
+constexpr std::uint32_t kSlice = 128, kSliceBesideBodies = 64;
+constexpr std::uint32_t kContacts = gpu::kMaxRow + gpu::kMaxSurfaces + gpu::kMaxTurns;
+constexpr std::uint32_t kOnBodies = kMaxBodies * gpu::kMaxBodyTouches;
+static_assert(kSlice * (kContacts * (gpu::kFieldNodes + 1) + 2) < 65535);
+static_assert(kSliceBesideBodies * ((kContacts + kOnBodies) * (gpu::kFieldNodes + 1) + kMaxBodies + 2) < 65535);
 static_assert(gpu::kMaxRow + gpu::kMaxSurfaces + 1 + kMaxBodies <= gpu::kMaxLinks);
 
 /// The block of points for one workgroup. Its edges are powers of two; it is as close to a cube as they allow, and no
@@ -36,10 +38,10 @@ std::array<std::uint32_t, 3> tileOf(const FieldGrid& grid, std::uint32_t workgro
     return tile;
 }
 
-gpu::FieldParams pack(const FieldRequest& r, std::uint32_t workgroup, double largestRadius) {
+gpu::FieldParams pack(const FieldRequest& r, const TableSizes& sizes, double largestRadius) {
     const FieldGrid& g = r.grid;
     const Vec3 cell = g.cell(), size = g.high - g.low;
-    const std::array<std::uint32_t, 3> tile = tileOf(g, workgroup);
+    const std::array<std::uint32_t, 3> tile = tileOf(g, sizes.workgroup);
     gpu::FieldParams p{};
     p.low = gpu::vec4(glm::vec3(g.low), float(r.reach()));
     p.size = gpu::vec4(glm::vec3(size), float(r.width));
@@ -51,7 +53,7 @@ gpu::FieldParams pack(const FieldRequest& r, std::uint32_t workgroup, double lar
         gpu::uvec4(g.cells[0], g.cells[1], g.cells[2], r.kernel == Kernel::Gaussian ? gpu::kGaussian : gpu::kLucy);
     p.tile = gpu::uvec4(tile[0], tile[1], tile[2], r.contactStress ? 1 : 0);
     for (int d = 0; d < 3; ++d) p.tiles[d] = (p.cells[d] + p.tile[d] - 1) / p.tile[d];
-    p.tiles.w = kSlice;
+    p.tiles.w = sizes.bodies > 0 ? kSliceBesideBodies : kSlice;
     return p;
 }
 
@@ -91,6 +93,10 @@ std::vector<const vk::Buffer*> with(const FieldTables& own, std::vector<const vk
     return tables;
 }
 
+unsigned macrosFor(const TableSizes& s) {
+    return (s.energyBook ? spirv::ENERGY_BOOK : 0) | (s.bodies > 0 ? spirv::WITH_BODIES : 0);
+}
+
 }  // namespace
 
 FieldTables::FieldTables(const vk::Device& device, const Tables& tables, std::size_t n)
@@ -107,7 +113,10 @@ FieldPasses::FieldPasses(const vk::Device& device, const Passes& p, std::size_t 
       passes_(p),
       own_(device, p, points),
       bindings_(device, with(own_, p.all()), sizeof(gpu::StepPush)),
-      branches_(device, bindings_, vk::pick(spirv::field_branches, 0), Passes::constants(p.sizes)),
+      branchBindings_(device, p.bodies != nullptr ? with(*p.bodies, with(own_, p.all())) : with(own_, p.all()),
+                      sizeof(gpu::StepPush)),
+      branches_(device, branchBindings_, vk::pick(spirv::field_branches, macrosFor(p.sizes)),
+                Passes::constants(p.sizes)),
       weigh_(device, bindings_, vk::pick(spirv::field_weights, 0), Passes::constants(p.sizes)),
       sums_(device, bindings_, vk::pick(spirv::field_sums, 0), Passes::constants(p.sizes)),
       kinetic_(device, bindings_, vk::pick(spirv::field_kinetic, 0), Passes::constants(p.sizes)) {}
@@ -120,18 +129,23 @@ void FieldPasses::dispatch(vk::Commands& commands, const vk::Pipeline& pass, std
 
 FieldPoints FieldPasses::compute(const FieldRequest& request, const Moment& moment) {
     const TableSizes& s = passes_.sizes;
-    const gpu::FieldParams params = pack(request, s.workgroup, moment.largestRadius);
+    const gpu::FieldParams params = pack(request, s, moment.largestRadius);
     own_.fields.write(0, &params, sizeof params);
-    const std::uint32_t contacts = s.pairSlots + s.surfaceSlots + gpu::kMaxTurns * s.coilSlots;
+    const std::uint32_t contacts =
+        s.pairSlots + s.surfaceSlots + gpu::kMaxTurns * s.coilSlots + gpu::kMaxBodyTouches * s.bodySlots;
     const std::uint32_t tiles = params.tiles.x * params.tiles.y * params.tiles.z;
 
     vk::Commands commands(device_);
     commands.begin();
-    bindings_.bind(commands.handle());
     gpu::StepPush push = passes_.push(moment.lastStep, moment.source, false);
     push.firstRow = moment.row;
+    if (request.contactStress) {
+        branchBindings_.bind(commands.handle());
+        branchBindings_.push(commands.handle(), &push);
+        dispatch(commands, branches_, contacts / s.workgroup);
+    }
+    bindings_.bind(commands.handle());
     bindings_.push(commands.handle(), &push);
-    if (request.contactStress) dispatch(commands, branches_, contacts / s.workgroup);
     const std::uint32_t places = s.share + (request.contactStress ? gpu::kFieldNodes * contacts : 0);
     dispatch(commands, weigh_, places / s.workgroup);
     for (const vk::Pipeline* pass : {&sums_, &kinetic_})

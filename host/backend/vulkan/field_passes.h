@@ -40,7 +40,7 @@ class FieldPasses {
     const vk::Device& device_;
     const Passes& passes_;
     FieldTables own_;
-    vk::BindingSet bindings_;
+    vk::BindingSet bindings_, branchBindings_;  ///< the second has the tables of the bodies, if there are any
     vk::Pipeline branches_, weigh_, sums_, kinetic_;
 };
 

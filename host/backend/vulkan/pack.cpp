@@ -105,15 +105,6 @@ gpu::CoilParams packCoil(const geometry::Coil& c, double largest) {
     return p;
 }
 
-std::uint64_t turnsFixed(double angle) {
-    double turns = angle / (2 * kPi);
-    turns -= std::floor(turns);
-    // Two words, so that the double's 53 bits are kept and 1.0 never overflows the conversion.
-    const double high = std::floor(turns * 4294967296.0);
-    const double low = (turns * 4294967296.0 - high) * 4294967296.0;
-    return (uint64_t(high) << 32) + uint64_t(low);
-}
-
 void packLaw(const ContactLaw& law, gpu::Member& member) {
     for (int i = 0; i < kContactClasses; ++i) member.contact[i] = packContact(law.classes[i]);
     member.choices.x = float(law.coulombLimit);
@@ -124,10 +115,6 @@ gpu::Member packMember(const World& world, const ContactLaw& law, const Particle
     if (world.surfaces.size() > gpu::kMaxSurfaces)
         throw RunError(fmt::format("{} surfaces; the Vulkan backend holds {}", world.surfaces.size(),
                                    uint32_t(gpu::kMaxSurfaces)));
-    if (!world.bodies.empty() && world.energyBook)
-        throw RunError(
-            "the Vulkan backend keeps no energy book of contacts with bodies: set sensors.energy = false, or use "
-            "--backend reference");
     gpu::Member m{};
     packLaw(law, m);
     m.choices.z = 1.0f;

@@ -16,9 +16,6 @@ gpu::Member packMember(const World& world, const ContactLaw& law, const Particle
 /// Replaces the contact law of a packed member.
 void packLaw(const ContactLaw& law, gpu::Member& member);
 
-/// An angle [rad] in 64-bit fixed point [2^-64 turns], whole turns dropped.
-std::uint64_t turnsFixed(double angle);
-
 /// The coil, for spheres of radius up to `largest` [m]; without its rotation. Throws RunError if the device cannot
 /// compute with it.
 gpu::CoilParams packCoil(const geometry::Coil& coil, double largest);

@@ -205,11 +205,30 @@ class Packer {
         return {Vec3(0, 0, wire.zStart + wire.length / 2), std::hypot(wire.radius, wire.length / 2) + wire.wireRadius};
     }
 
-    Around pack(const geometry::Flight&) {
-        throw RunError(
-            fmt::format("body \"{}\": the device has no screw flight; use a mesh of it, or --backend "
-                        "reference",
-                        name_));
+    Around pack(const geometry::Flight& f) {
+        const double turns = f.angle / (2 * kPi), change = (f.pitchEnd - f.pitchStart) / turns;
+        const double least = std::min(f.pitchStart, f.pitchEnd), most = std::max(f.pitchStart, f.pitchEnd);
+        if ((2 * reach_ + f.thickness) / least + 3 > double(gpu::kMostFlightTurns))
+            throw RunError(
+                fmt::format("body \"{}\": a sphere can reach {:.0f} turns of the screw; the device holds {}. Use a "
+                            "larger pitch, smaller spheres, or --backend reference",
+                            name_, (2 * reach_ + f.thickness) / least + 3, uint32_t(gpu::kMostFlightTurns)));
+        head(gpu::kShapeFlight, uint32_t(turns) + 2);
+        setScalars(2, f.innerRadius, f.outerRadius);
+        const bool simple = least * least >= reach_ * std::abs(change);
+        set(3, vec4(float(f.thickness / 2), float(change / 2), float(f.hand), simple ? 1.0f : 0.0f));
+        const double whole = std::floor(turns), start = f.startAngle / (2 * kPi);
+        table_[shape_ + 4] =
+            uvec4(index(table_.size()), uint32_t(whole) + 3, uint32_t(whole), bits(float(turns - whole)));
+        set(5, vec4(float(start - std::round(start)), float(f.pitchStart), float(change),
+                    float(f.height(f.angle) - f.zStart)));
+        set(6, vec4(float(f.zStart), float((most + std::abs(change)) / (2 * kPi)), 0, 0));
+        for (double n = -1; n <= whole + 1; ++n) {
+            const Split z(f.height(2 * kPi * n));
+            table_.push_back(bits(vec4(z.high, z.low, float(2 * kPi * f.slope(2 * kPi * n)), 0)));
+        }
+        const double height = f.height(f.angle) - f.zStart;
+        return {Vec3(0, 0, f.zStart + height / 2), std::hypot(f.outerRadius, (height + f.thickness) / 2)};
     }
 
     Around pack(const std::shared_ptr<const MeshSurface>& surface) {

@@ -93,19 +93,15 @@ BodyTables::BodyTables(const vk::Device& device, const std::vector<gpu::uvec4>& 
     geometry.writeAll(shapes);
 }
 
-namespace {
-
-/// The tables of a step, some of which are replaced by those of the bodies.
-std::vector<const vk::Buffer*> with(const BodyTables& own, std::vector<const vk::Buffer*> tables) {
-#define TABLE(number, name, element, count, title) tables[number] = &own.name;
+std::vector<const vk::Buffer*> with(const BodyTables& bodies, std::vector<const vk::Buffer*> tables) {
+#define TABLE(number, name, element, count, title) tables[number] = &bodies.name;
 #include "shaders/shared/body_tables.h"
     return tables;
 }
 
-}  // namespace
-
-Passes::Passes(const vk::Device& device, const TableSizes& s, const BodyTables* bodies)
+Passes::Passes(const vk::Device& device, const TableSizes& s, const BodyTables* bodyTables)
     : Tables(device, s, accessOn(device, s)),
+      bodies(bodyTables),
       bindings_(device, all(), sizeof(gpu::StepPush)),
       sense_(device, bindings_, vk::pick(spirv::sense, macrosFor(access, s)), constants(s)),
       senseEnergy_(device, bindings_, vk::pick(spirv::sense_energy, macrosFor(access, s)), constants(s)) {

@@ -53,10 +53,15 @@ class BodyTables {
 #include "shaders/shared/body_tables.h"
 };
 
+/// The tables of a step, some of which are replaced by those of the bodies.
+std::vector<const vk::Buffer*> with(const BodyTables& bodies, std::vector<const vk::Buffer*> tables);
+
 class Passes : public Tables {
   public:
+    const BodyTables* const bodies;  ///< null without bodies
+
     /// `bodies` outlives this; null without bodies.
-    Passes(const vk::Device& device, const TableSizes& sizes, const BodyTables* bodies = nullptr);
+    Passes(const vk::Device& device, const TableSizes& sizes, const BodyTables* bodyTables = nullptr);
 
     /// Records steps `first` ... `first + count - 1` of a batch. `source` is the half of the state from which they
     /// start. `times` receives a mark before the first step and one after each pass of every step (stepNames).

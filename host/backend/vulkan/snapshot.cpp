@@ -57,8 +57,8 @@ void saveBodies(const Passes& passes, std::uint32_t member, Record& record) {
     for (const PlaceContact& c : touchingPlaces(passes, member)) {
         particles.push_back(c.particle);
         bodies.push_back(c.body);
-        for (const vec4& part : c.history)
-            for (int k = 0; k < 4; ++k) springs.push_back(part[k]);
+        for (std::size_t part = 0; part < passes.sizes.placeParts(); ++part)
+            for (int k = 0; k < 4; ++k) springs.push_back(c.history[part][k]);
     }
     record.put("body_particle", std::move(particles));
     record.put("body_number", std::move(bodies));
@@ -68,7 +68,7 @@ void saveBodies(const Passes& passes, std::uint32_t member, Record& record) {
 /// The slots of the bodies as a record has them.
 struct BodySlots {
     std::vector<glm::uvec2> entries;
-    std::vector<vec4> history;                   ///< gpu::kBodyHistory for each entry
+    std::vector<vec4> history;                   ///< TableSizes::bodyHistory() for each entry
     std::vector<std::vector<std::uint32_t>> of;  ///< the slots of each particle
 };
 
@@ -79,7 +79,8 @@ BodySlots bodySlotsOf(const Passes& passes, std::uint32_t member, std::size_t pa
     if (t.bodies == 0) return slots;
     const auto& owner = record.get<std::uint32_t>("body_particle");
     const auto& body = record.get<std::uint32_t>("body_number", owner.size());
-    const auto& springs = record.get<float>("body_history", 12 * owner.size());
+    const std::size_t parts = t.placeParts();
+    const auto& springs = record.get<float>("body_history", 4 * parts * owner.size());
     std::size_t touches = 0;  // in the slot that was begun last
     for (std::size_t c = 0; c < owner.size(); ++c) {
         if (owner[c] >= particles || body[c] >= t.bodies)
@@ -91,13 +92,13 @@ BodySlots bodySlotsOf(const Passes& passes, std::uint32_t member, std::size_t pa
             if (slots.entries.size() == t.bodySlots) throw RecordError("there are too many contacts with bodies");
             slots.of[owner[c]].push_back(t.firstBodySlot(member) + std::uint32_t(slots.entries.size()));
             slots.entries.emplace_back(member * t.share + owner[c], body[c]);
-            slots.history.resize(slots.history.size() + gpu::kBodyHistory, vec4(0.0f));
+            slots.history.resize(slots.history.size() + t.bodyHistory(), vec4(0.0f));
             touches = 0;
         }
         if (touches == gpu::kMaxBodyTouches) throw RecordError("a body is touched in too many places");
-        vec4* place = &slots.history[slots.history.size() - gpu::kBodyHistory + 3 * touches++];
-        for (std::size_t part = 0; part < 3; ++part) {
-            const float* v = &springs[12 * c + 4 * part];
+        vec4* place = &slots.history[slots.history.size() - t.bodyHistory() + parts * touches++];
+        for (std::size_t part = 0; part < parts; ++part) {
+            const float* v = &springs[4 * (parts * c + part)];
             place[part] = vec4(v[0], v[1], v[2], v[3]);
         }
     }
@@ -230,18 +231,17 @@ std::vector<PlaceContact> touchingPlaces(const Passes& passes, std::uint32_t mem
     const std::uint32_t count = passes.controlOf(member).body.x, first = t.firstBodySlot(member);
     const std::uint64_t row = std::uint64_t(member) * t.bodySlots;
     const auto entries = passes.entries.readAll<glm::uvec2>(count, passes.at.entryIndex(first) * sizeof(glm::uvec2));
-    const auto history = passes.history.readAll<vec4>(std::size_t(gpu::kBodyHistory) * count,
+    const auto history = passes.history.readAll<vec4>(std::size_t(t.bodyHistory()) * count,
                                                       passes.at.bodyHistoryIndex(row, 0) * sizeof(vec4));
     const auto forces = passes.forces.readAll<vec4>(std::size_t(gpu::kMaxBodyTouches) * count,
                                                     passes.at.bodyForceIndex(row, 0) * sizeof(vec4));
     for (std::size_t k = 0; k < count; ++k)
         for (std::size_t touch = 0; touch < gpu::kMaxBodyTouches; ++touch) {
-            const vec4* place = &history[gpu::kBodyHistory * k + 3 * touch];
+            const vec4* place = &history[t.bodyHistory() * k + t.placeParts() * touch];
             if (place[0].w <= 0) continue;
-            found.push_back({entries[k].x - member * t.share,
-                             entries[k].y,
-                             forces[gpu::kMaxBodyTouches * k + touch],
-                             {place[0], place[1], place[2]}});
+            PlaceContact c{entries[k].x - member * t.share, entries[k].y, forces[gpu::kMaxBodyTouches * k + touch], {}};
+            std::copy_n(place, t.placeParts(), c.history.begin());
+            found.push_back(c);
         }
     std::stable_sort(found.begin(), found.end(), [](const PlaceContact& a, const PlaceContact& b) {
         return std::tuple(a.particle, a.body) < std::tuple(b.particle, b.body);

@@ -38,7 +38,7 @@ std::vector<TurnContact> touchingTurns(const Passes& passes, std::uint32_t membe
 struct PlaceContact {
     std::uint32_t particle, body;
     gpu::vec4 force;
-    std::array<gpu::vec4, 3> history;  ///< as `history` in shaders/shared/tables.h: the third is the direction
+    std::array<gpu::vec4, 6> history;  ///< TableSizes::placeParts() of them; the third is the direction
 };
 
 /// The touching contacts with bodies, in order of particle, then body, then place. The device must be idle.

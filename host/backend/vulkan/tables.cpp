@@ -70,7 +70,8 @@ TableCounts::TableCounts(const TableSizes& s)
       energyBook(s.energyBook ? 1 : 0),
       bodySlots(canisters * s.bodySlots),
       bodies(s.bodies),
-      bodied(s.bodies > 0 ? 1 : 0) {}
+      bodied(s.bodies > 0 ? 1 : 0),
+      bodyHistory(s.bodyHistory()) {}
 
 namespace {
 

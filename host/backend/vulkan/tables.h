@@ -54,6 +54,9 @@ struct TableSizes {
     }
     /// Number of vectors in a contact's history (kParts in shared/buffers.glsl).
     std::uint32_t historyParts() const { return energyBook ? 5 : 2; }
+    /// The same of a place on a body, and of a body slot (kPlaceParts, kBodyHistory).
+    std::uint32_t placeParts() const { return historyParts() + 1; }
+    std::uint32_t bodyHistory() const { return gpu::kMaxBodyTouches * placeParts(); }
     /// The largest index into any table, which must stay below 2^32. It counts the elements of the table, for example
     /// vectors.
     std::uint64_t largestIndex() const;
@@ -75,7 +78,7 @@ struct TableShape {
 /// 64 bits, because the tables are counted before it is known whether 32 bits are enough to number their elements.
 struct TableCounts {
     std::uint64_t canisters, particles, groups, cellHeads, rowEntries, linkEntries, springSlots, coilSlots, slots,
-        historyParts, coils, energyBook, bodySlots, bodies, bodied;
+        historyParts, coils, energyBook, bodySlots, bodies, bodied, bodyHistory;
 
     explicit TableCounts(const TableSizes& sizes);
     std::array<TableShape, gpu::kTables> shapes() const;  ///< in the order of the bindings

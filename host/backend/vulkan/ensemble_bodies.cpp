@@ -1,0 +1,129 @@
+// The bodies of an ensemble: their shapes, where they are in each step of a batch, and what bears on them.
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+
+#include "host/backend/vulkan/ensemble.h"
+#include "host/backend/vulkan/pack_bodies.h"
+
+namespace vkdose {
+
+namespace {
+
+/// The unit of the drive's angle [turns]. Its sums are exact, so that a body stands where it does whatever the batches.
+constexpr double kDrive = 0x1p-44;
+
+double driveAngle(std::int64_t drive) {
+    return 2 * kPi * kDrive * double(drive);
+}
+
+/// The sphere around body `b` of a packed table: centre and radius [m].
+gpu::vec4 aroundOf(const PackedBodies& packed, std::size_t b) {
+    return std::bit_cast<gpu::vec4>(packed.table[gpu::kBodyVectors * b + 1]);
+}
+
+/// What all motions of bodies may take together [bytes].
+constexpr std::size_t kMostMotionBytes = 16U << 20U;
+
+/// Bound of the way of any point of the body that a particle can meet, in a step that begins at `time` [s] and
+/// `angle` of the drive [rad].
+double longestWay(const World& world, const RigidBody& body, const gpu::vec4& around, double time, double angle,
+                  double rate) {
+    const geometry::Pose pose = body.pose(time, angle);
+    const Box& room = world.domain;
+    Vec3 centre = Vec3(glm::vec3(around));
+    double radius = double(around.w);
+    const double reach = glm::length(room.high - room.low) / 2;
+    if (radius > reach) {  // what is outside of the domain does not matter
+        centre = pose.toBody((room.low + room.high) / 2.0);
+        radius = reach;
+    }
+    const bool byTime = body.clock == Clock::Time;
+    const double from = byTime ? time : angle, span = byTime ? world.timeStep : std::abs(rate) * world.timeStep;
+    return geometry::wayBound(body.course, centre, radius, byTime || rate > 0 ? from : from - span, span);
+}
+
+}  // namespace
+
+std::int64_t Ensemble::drivePerStep(double rate, double dt) {
+    return std::llround(rate * dt / (2 * kPi) / kDrive);
+}
+
+/// Packs the bodies of all members, and makes room for their motions in a batch.
+void Ensemble::makeBodies(TableSizes& sizes) {
+    if (sizes.bodies == 0) return;
+    std::vector<gpu::uvec4> geometry;
+    std::uint32_t motions = 0;  // of one step
+    for (MemberState& m : members_) {
+        const double largest = *std::max_element(m.loaded.radius.begin(), m.loaded.radius.end());
+        // Spheres and bodies may go their slack, and the skin is more than that (pass/near.comp). A body that goes
+        // farther than the skin in a step would need longer reach; the time steps here are far too short for that.
+        const PackedBodies packed = packBodies(m.world.bodies, largest + m.world.skin);
+        m.moves = std::any_of(m.world.bodies.begin(), m.world.bodies.end(), [](const RigidBody& b) {
+            return !std::holds_alternative<geometry::Rest>(b.course.motion);
+        });
+        m.block.bodies = gpu::uvec4(m.world.bodies.size(), geometry.size(), 0, 0);
+        for (std::size_t b = 0; b < m.world.bodies.size(); ++b) m.around.push_back(aroundOf(packed, b));
+        geometry.insert(geometry.end(), packed.table.begin(), packed.table.end());
+        sizes.shapeKinds |= packed.kinds;
+        motions += std::uint32_t(m.world.bodies.size());
+    }
+    mostBatch_ = std::uint32_t(std::max<std::size_t>(1, kMostMotionBytes / (motions * sizeof(gpu::BodyMotion))));
+    mostBatch_ = std::min(mostBatch_, 1024U);
+    bodies_ = std::make_unique<BodyTables>(device_, geometry, std::size_t(mostBatch_) * motions);
+}
+
+/// Where the bodies of all live members are in each step of the next batch.
+void Ensemble::writeMotions(std::uint32_t count, const std::vector<double>& coilRates) {
+    if (!bodies_) return;
+    std::vector<gpu::BodyMotion> motions;
+    for (const std::uint32_t index : live_) {
+        MemberState& m = members_[index];
+        const std::vector<RigidBody>& bodies = m.world.bodies;
+        const double rate = coilRates[index], dt = m.world.timeStep;
+        const std::int64_t perStep = drivePerStep(rate, dt);
+        m.block.bodies.z = std::uint32_t(motions.size());
+        m.block.bodies.w = m.moves ? std::uint32_t(bodies.size()) : 0;
+        double way = 0;
+        for (std::uint32_t n = 0; n < (m.moves ? count : 1); ++n) {
+            const double time = double(m.step + n) * dt, angle = driveAngle(m.drive + perStep * n);
+            const double back = m.step + n == 0 ? 0 : dt / 2;  // velocities are those half a step before
+            for (std::size_t b = 0; b < bodies.size(); ++b) {
+                motions.push_back(
+                    packMotion(bodies[b].pose(time, angle), bodies[b].moving(time - back, angle - rate * back, rate)));
+                motions.back().velocity.w = float(bodies[b].kind);
+                way = std::max(way, longestWay(m.world, bodies[b], m.around[b], time, angle, rate));
+            }
+        }
+        m.block.choices.w = float(way);
+    }
+    bodies_->motions.writeAll(motions);
+}
+
+/// The loads on the bodies since the last sensing, which start anew.
+std::vector<BodyLoad> Ensemble::takeLoads(std::uint32_t member, std::uint32_t steps) {
+    const MemberState& m = members_[member];
+    std::vector<BodyLoad> loads;
+    const std::size_t n = m.loaded.size();
+    const double share = steps > 0 ? 1.0 / steps : 0.0;
+    const std::vector<float> none(n, 0.0F);
+    for (std::uint32_t b = 0; b < m.world.bodies.size(); ++b) {
+        std::array<double, gpu::kBodyLoads> sums{};
+        for (std::uint32_t k = 0; k < gpu::kBodyLoads; ++k) {
+            const std::uint64_t at =
+                passes_->at.bodyLoadIndex(gpu::kBodyLoads * b + k, std::uint64_t(member) * passes_->sizes.share);
+            for (const float value : passes_->coilTorques.readAll<float>(n, at * sizeof(float)))
+                sums[k] += double(value);
+            passes_->coilTorques.writeAll(none, at * sizeof(float));
+        }
+        const RigidBody& body = m.world.bodies[b];
+        const Vec3 force = -share * Vec3(sums[0], sums[1], sums[2]), moment = -share * Vec3(sums[3], sums[4], sums[5]);
+        const Vec3 pivot = body.pivot(body.pose(double(m.step) * m.world.timeStep, driveAngle(m.drive)));
+        loads.push_back({force, glm::dot(body.axis(), moment - glm::cross(pivot, force)), sums[6]});
+    }
+    return loads;
+}
+
+}  // namespace vkdose
