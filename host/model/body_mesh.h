@@ -12,6 +12,8 @@ namespace vkdose {
 
 /// Corners of a full circle, unless a caller wants more or fewer.
 inline constexpr int kCornersAround = 64;
+/// The same of a wire's cross-section.
+inline constexpr int kWireAround = 10;
 
 /// Whether the shape goes on for ever: a plane, a trough, a tube without ends.
 bool isEndless(const geometry::Shape& shape);
@@ -19,13 +21,15 @@ bool isEndless(const geometry::Shape& shape);
 /// thickness does not.
 bool isSolid(const geometry::Shape& shape);
 
-/// A shape of a body in the frame of the body [m]. Round parts get `around` corners to a turn, a wire a sixth of them
+/// A shape of a body in the frame of the body [m]. Round parts get `around` corners to a turn, a wire `wireAround`
 /// around itself. A mesh stays as it is. An endless shape is cut off at `room`, which is in the frame of the body too.
-std::vector<geometry::Triangle> shapeMesh(const geometry::Shape& shape, const Box& room, int around = kCornersAround);
+std::vector<geometry::Triangle> shapeMesh(const geometry::Shape& shape, const Box& room, int around = kCornersAround,
+                                          int wireAround = kWireAround);
 
 /// All shapes of a body in its own frame. `room` is a box of the world. It cuts off endless shapes of the body in its
 /// place at the start, turned with it: no corner of the room is left out.
-std::vector<geometry::Triangle> bodyMesh(const RigidBody& body, const Box& room, int around = kCornersAround);
+std::vector<geometry::Triangle> bodyMesh(const RigidBody& body, const Box& room, int around = kCornersAround,
+                                         int wireAround = kWireAround);
 
 /// What is drawn of a body, in its own frame: the shapes that have an end.
 Skin bodySkin(const RigidBody& body);
