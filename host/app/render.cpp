@@ -50,7 +50,7 @@ class Renderer {
           caster_(device_) {
         spec_.view = *render::viewNamed(options.view);
         spec_.coil = !options.noCoil;
-        spec_.bodies = render::bodiesOf(states.setup());
+        spec_.bodies = bodiesOf(states.setup());
         std::tie(spec_.width, spec_.height) = sizeOf(options.size);
         if (quantity_ == render::Quantity::FillLayer) {
             if (!states.hasFrames())
@@ -67,7 +67,7 @@ class Renderer {
             const Frame frame = states.read(entry);
             const Box box = render::contentOf(states.setup(), frame, spec_.bodies);
             const Vec3 towards = render::cameraFor(spec_.view, box, kSmallest, kSmallest).towards;
-            render::lookThrough(spec_.bodies, states.setup(), frame, towards, box);
+            lookThrough(spec_.bodies, states.setup(), frame, towards, box);
             content_ = content_ ? render::united(*content_, box) : box;
             if (!fill_) {
                 const std::vector<double> more = valuesOf(frame);

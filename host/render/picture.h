@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "host/render/bodies.h"
+#include "host/analysis/drawn_bodies.h"
 #include "host/render/canvas.h"
 #include "host/render/quantity.h"
 #include "host/render/ray_caster.h"

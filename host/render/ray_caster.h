@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "geometry/coil.h"
-#include "host/render/bodies.h"
+#include "host/analysis/drawn_bodies.h"
 #include "host/render/camera.h"
 #include "host/vk/device.h"
 #include "host/vk/pipeline.h"

@@ -338,18 +338,18 @@ TEST_CASE("the body that holds the powder is seen through, one that stands in it
     floor.shapes = {geometry::Plane{{0, -5e-3, 0}, {0, 1, 0}}};
     c.world.bodies = {drum, rod, floor};
     const Frame f = someFrame();
-    std::vector<render::DrawnBody> bodies = render::bodiesOf(c);
+    std::vector<DrawnBody> bodies = bodiesOf(c);
     const Box content = render::contentOf(c, f, bodies);
     // As large as the drum, with a margin; the floor goes on for ever and takes no part.
     CHECK(near(content.high.y, 20e-3, 20e-3, 0.15));
     CHECK(near(content.low.z, -20e-3, 20e-3, 0.15));
-    render::lookThrough(bodies, c, f, {-1, 0, 0}, content);
+    lookThrough(bodies, c, f, {-1, 0, 0}, content);
     CHECK(bodies[0].seeThrough);
     CHECK(bodies[1].hidden == 1);
     CHECK_FALSE(bodies[1].seeThrough);
     CHECK_FALSE(bodies[2].seeThrough);
-    std::vector<render::DrawnBody> below = render::bodiesOf(c);
-    render::lookThrough(below, c, f, {0, -1, 0}, content);
+    std::vector<DrawnBody> below = bodiesOf(c);
+    lookThrough(below, c, f, {0, -1, 0}, content);
     CHECK(below[2].seeThrough);
 
     Studio studio;

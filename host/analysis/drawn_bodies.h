@@ -7,7 +7,7 @@
 #include "host/model/skin.h"
 #include "host/sim/frame.h"
 
-namespace vkdose::render {
+namespace vkdose {
 
 /// A body of the case. Its skin is in its own frame.
 struct DrawnBody {
@@ -28,4 +28,4 @@ void lookThrough(std::vector<DrawnBody>& bodies, const Case& c, const Frame& fra
 
 geometry::Pose poseOf(const DrawnBody& body, const Case& c, const Frame& frame);
 
-}  // namespace vkdose::render
+}  // namespace vkdose

@@ -1,10 +1,10 @@
-#include "host/render/bodies.h"
+#include "host/analysis/drawn_bodies.h"
 
 #include <algorithm>
 
 #include "host/model/body_mesh.h"
 
-namespace vkdose::render {
+namespace vkdose {
 
 using geometry::Triangle;
 
@@ -74,4 +74,4 @@ void lookThrough(std::vector<DrawnBody>& bodies, const Case& c, const Frame& fra
     }
 }
 
-}  // namespace vkdose::render
+}  // namespace vkdose
