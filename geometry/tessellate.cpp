@@ -18,7 +18,8 @@ int pieces(double length, double facet, int least) {
 
 class Tessellator {
   public:
-    Tessellator(double facet, const Vec3& low, const Vec3& high) : facet_(facet), low_(low), high_(high) {}
+    Tessellator(double facet, const Vec3& low, const Vec3& high, StraightLines straight)
+        : facet_(facet), low_(low), high_(high), straight_(straight) {}
 
     void add(const Plane& s) { addWall(s, facet_); }
     void add(const Trough& s) { addWall(s, s.halfWidth); }
@@ -34,7 +35,7 @@ class Tessellator {
         const Vec3 side = anyNormal(c.axis), other = glm::cross(c.axis, side);
         const int around = pieces(2 * kPi * std::max(c.baseRadius, c.endRadius), facet_, 3);
         // A cone is straight along its wall, but triangles as long as wide stay near it at its thin end.
-        const int along = pieces(std::hypot(c.endRadius - c.baseRadius, c.length), facet_, 1);
+        const int along = straightPieces(std::hypot(c.endRadius - c.baseRadius, c.length));
         std::vector<Corners> rings;
         for (int k = 0; k <= along; ++k) {
             const double share = double(k) / along;
@@ -90,7 +91,7 @@ class Tessellator {
     void add(const Flight& f) {
         const double outermost = std::hypot(2 * kPi * f.outerRadius, std::max(f.pitchStart, f.pitchEnd));
         const int along = pieces(outermost * f.angle / (2 * kPi), facet_, 1);
-        const int across = pieces(f.outerRadius - f.innerRadius, facet_, 1);
+        const int across = straightPieces(f.outerRadius - f.innerRadius);
         std::vector<Corners> sections;
         for (int k = 0; k <= along; ++k) sections.push_back(section(f, f.angle * k / along, across));
         for (std::size_t k = 0; k + 1 < sections.size(); ++k) strip(sections[k], sections[k + 1], f.hand < 0);
@@ -106,6 +107,10 @@ class Tessellator {
     std::vector<Triangle> mesh() { return std::move(mesh_); }
 
   private:
+    int straightPieces(double length) const {
+        return straight_ == StraightLines::Whole ? 1 : pieces(length, facet_, 1);
+    }
+
     void put(const Vec3& a, const Vec3& b, const Vec3& c) {
         if (a != b && b != c && c != a) mesh_.push_back({a, b, c});
     }
@@ -158,13 +163,15 @@ class Tessellator {
 
     double facet_;
     Vec3 low_, high_;
+    StraightLines straight_;
     std::vector<Triangle> mesh_;
 };
 
 }  // namespace
 
-std::vector<Triangle> tessellated(const Shape& shape, double facet, const Vec3& low, const Vec3& high) {
-    Tessellator tessellator(facet, low, high);
+std::vector<Triangle> tessellated(const Shape& shape, double facet, const Vec3& low, const Vec3& high,
+                                  StraightLines straight) {
+    Tessellator tessellator(facet, low, high, straight);
     std::visit([&](const auto& s) { tessellator.add(s); }, shape);
     return tessellator.mesh();
 }

@@ -7,18 +7,24 @@
 
 namespace vkdose {
 
-std::vector<double> overlapRatios(const Particles& particles, const World& world, double coilAngle) {
+std::vector<double> overlapRatios(const Particles& particles, const World& world, double coilAngle, double time) {
     std::vector<double> ratio(particles.size(), 0.0);
     forEachOverlap(particles, [&](std::size_t i, std::size_t j, double deep) {
         ratio[i] = std::max(ratio[i], deep);
         ratio[j] = std::max(ratio[j], deep);
     });
+    std::vector<geometry::Pose> poses;
+    for (const RigidBody& body : world.bodies) poses.push_back(body.pose(time, coilAngle));
     for (std::size_t i = 0; i < particles.size(); ++i) {
         if (particles.status[i] != Status::Active) continue;
         const Vec3& x = particles.position[i];
         const double a = particles.radius[i];
         for (const geometry::Surface& surface : world.surfaces)
             ratio[i] = std::max(ratio[i], 1 - geometry::closestPoint(surface, x).distance / a);
+        for (std::size_t b = 0; b < world.bodies.size(); ++b)
+            for (const geometry::Shape& shape : world.bodies[b].shapes)
+                for (const geometry::Feature& place : geometry::places(shape, poses[b].toBody(x), a))
+                    ratio[i] = std::max(ratio[i], 1 - place.distance / a);
         if (!world.coil) continue;
         for (const geometry::CoilTouch& touch : geometry::touches(*world.coil, coilAngle, x, a))
             ratio[i] = std::max(ratio[i], 1 - touch.distance / a);

@@ -168,15 +168,22 @@ void addBench(CLI::App& program, BenchOptions& options) {
         ->capture_default_str();
 }
 
-void addExportCoil(CLI::App& program, ExportCoilOptions& options) {
-    CLI::App& command =
-        *program.add_subcommand("export-coil", "write the coil of a case as an STL mesh, for other programs");
+void addExportBody(CLI::App& program, ExportBodyOptions& options) {
+    CLI::App& command = *program.add_subcommand(
+        "export-body", "write coil and bodies of a case as a binary STL mesh, for other programs");
     addCase(command, options.input);
-    command.add_option("--out", options.out, "mesh to write, in metres")->type_name("FILE")->capture_default_str();
-    command.add_option("--around", options.around, "corners of the wire's cross-section")
+    command.add_option("name", options.names, "names of bodies, or `coil`; without a name all are written");
+    command.add_option("--out", options.out, "mesh to write")->type_name("FILE")->capture_default_str();
+    command.add_option("--unit", options.unit, "unit of the mesh's lengths, which STL itself cannot tell")
+        ->check(CLI::IsMember({"mm", "m", "um", "cm", "inch"}))
+        ->capture_default_str();
+    command.add_option("--time", options.time, "time at which moving bodies are shown [s]")->capture_default_str();
+    command.add_option("--angle", options.angle, "angle of the drive at which coil and driven bodies are shown [deg]")
+        ->capture_default_str();
+    command.add_option("--around", options.around, "corners of a wire's cross-section")
         ->check(CLI::Range(3, 1000))
         ->capture_default_str();
-    command.add_option("--per-turn", options.perTurn, "straight pieces of a turn")
+    command.add_option("--per-turn", options.perTurn, "straight pieces of a full turn, of round bodies too")
         ->check(CLI::Range(4, 10000))
         ->capture_default_str();
 }
@@ -408,7 +415,7 @@ int commandLine(int argc, const char* const* argv) {
     CompareOptions compare;
     VerifyOptions verification;
     BenchOptions bench;
-    ExportCoilOptions exportCoil;
+    ExportBodyOptions exportBody;
     SweepOptions sweep;
     SweepOptions calibration;
     ReportOptions report;
@@ -422,7 +429,7 @@ int commandLine(int argc, const char* const* argv) {
     addCompare(program, compare);
     addVerify(program, verification);
     addBench(program, bench);
-    addExportCoil(program, exportCoil);
+    addExportBody(program, exportBody);
     addSweep(program, "sweep", "run every member of a study: a base case, axes, seeds", sweep)
         .add_flag("--mpi", sweep.mpi, "run a member on each rank of an MPI job (needs a build with VKDOSE_MPI)")
         ->excludes("--ensemble");
@@ -453,7 +460,7 @@ int commandLine(int argc, const char* const* argv) {
     if (program.got_subcommand("compare")) return guarded([&] { return compareCommand(named(compare)); });
     if (program.got_subcommand("verify")) return guarded([&] { return verifyCommand(verification); });
     if (program.got_subcommand("bench")) return guarded([&] { return benchCommand(bench); });
-    if (program.got_subcommand("export-coil")) return guarded([&] { return exportCoilCommand(named(exportCoil)); });
+    if (program.got_subcommand("export-body")) return guarded([&] { return exportBodyCommand(named(exportBody)); });
     if (program.got_subcommand("sweep")) return guarded([&] { return sweepCommand(studied(sweep)); });
     if (program.got_subcommand("calibrate")) return guarded([&] { return calibrateCommand(studied(calibration)); });
     if (program.got_subcommand("report")) return guarded([&] { return reportCommand(report); });

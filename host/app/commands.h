@@ -81,11 +81,15 @@ struct BenchOptions {
     bool quick = false;  ///< the small workloads, a fraction of a second each: does it work at all
 };
 
-struct ExportCoilOptions {
+struct ExportBodyOptions {
     CaseOptions input;
-    std::filesystem::path out = "coil.stl";
-    int around = 8;    ///< corners of the wire
-    int perTurn = 20;  ///< pieces of a turn
+    std::vector<std::string> names;  ///< of bodies, or "coil"; empty: all
+    std::filesystem::path out = "body.stl";
+    std::string unit = "mm";
+    double time = 0;   ///< [s]
+    double angle = 0;  ///< of the drive [degrees]
+    int around = 10;   ///< corners of a wire
+    int perTurn = 64;  ///< pieces of a turn
 };
 
 struct SweepOptions {
@@ -147,7 +151,7 @@ int devicesCommand();
 int compareCommand(const CompareOptions& options);
 int verifyCommand(const VerifyOptions& options);
 int benchCommand(const BenchOptions& options);
-int exportCoilCommand(const ExportCoilOptions& options);
+int exportBodyCommand(const ExportBodyOptions& options);
 int sweepCommand(const SweepOptions& options);
 int calibrateCommand(const SweepOptions& options);
 int reportCommand(const ReportOptions& options);

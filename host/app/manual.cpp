@@ -90,7 +90,8 @@ std::string usageFault(const CLI::App& program, const std::string& problem, cons
     for (const CommandText& command : commandTexts(program)) names.push_back(command.name);
     const bool known = std::find(names.begin(), names.end(), first) != names.end();
     if (!known && first.front() != '-') {
-        const std::string meant = closestWord(first, names);
+        // The name that export-body had before it wrote bodies.
+        const std::string meant = first == "export-coil" ? "export-body" : closestWord(first, names);
         return fmt::format("vkdose: there is no command {}; {}\nRun `vkdose --help` for the commands.\n",
                            printable(first), meant.empty() ? "see the list" : fmt::format("did you mean {}?", meant));
     }

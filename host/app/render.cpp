@@ -50,6 +50,7 @@ class Renderer {
           caster_(device_) {
         spec_.view = *render::viewNamed(options.view);
         spec_.coil = !options.noCoil;
+        spec_.bodies = bodiesOf(states.setup());
         std::tie(spec_.width, spec_.height) = sizeOf(options.size);
         if (quantity_ == render::Quantity::FillLayer) {
             if (!states.hasFrames())
@@ -64,7 +65,9 @@ class Renderer {
             fill_ ? render::valuesOf(quantity_, states.setup(), fillFrame(), fillPointer()) : std::vector<double>();
         for (const std::size_t entry : chosen) {
             const Frame frame = states.read(entry);
-            const Box box = render::contentOf(states.setup(), frame);
+            const Box box = render::contentOf(states.setup(), frame, spec_.bodies);
+            const Vec3 towards = render::cameraFor(spec_.view, box, kSmallest, kSmallest).towards;
+            lookThrough(spec_.bodies, states.setup(), frame, towards, box);
             content_ = content_ ? render::united(*content_, box) : box;
             if (!fill_) {
                 const std::vector<double> more = valuesOf(frame);

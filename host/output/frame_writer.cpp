@@ -38,19 +38,21 @@ std::vector<const char*> kindsOf(const Case& c) {
     std::vector<const char*> kinds{kParticlesFrame};
     if (c.frames.contacts) kinds.push_back(kContactsFrame);
     if (c.world.coil) kinds.push_back(kCoilFrame);
+    if (bodiesMove(c.world)) kinds.push_back(kBodiesFrame);
     return kinds;
 }
 
 std::string content(const char* kind, const Frame& frame, const World& world, std::uint32_t member) {
     const std::string_view name = kind;
     if (name == kParticlesFrame) return particlesFile(frame, world, member);
+    if (name == kBodiesFrame) return bodiesFile(frame, world);
     return name == kContactsFrame ? contactsFile(frame, world) : coilFile(frame, *world.coil);
 }
 
 /// Removes the files of frames from `number` on.
 void removeFrom(const fs::path& folder, int number) {
     std::error_code ignored;
-    for (const char* kind : {kParticlesFrame, kContactsFrame, kCoilFrame})
+    for (const char* kind : {kParticlesFrame, kContactsFrame, kCoilFrame, kBodiesFrame})
         for (int n = number; fs::remove(folder / frameFile(kind, n), ignored); ++n) {
         }
 }

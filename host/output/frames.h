@@ -21,6 +21,7 @@ inline constexpr const char* kFrameExtension = ".hdf";  ///< the one by which Pa
 inline constexpr const char* kParticlesFrame = "particles";
 inline constexpr const char* kContactsFrame = "contacts";
 inline constexpr const char* kCoilFrame = "coil";
+inline constexpr const char* kBodiesFrame = "bodies";
 inline constexpr const char* kWallsFile = "walls.hdf";
 
 /// "particles_000012.hdf": by such names ParaView takes the files of a kind for a series.

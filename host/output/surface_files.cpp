@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "geometry/surface_mesh.h"
+#include "host/model/body_mesh.h"
 #include "host/output/frame_files.h"
 #include "host/output/vtkhdf.h"
 
@@ -30,11 +31,36 @@ vtkhdf::Grid triangles(const std::vector<geometry::Triangle>& mesh) {
     return grid;
 }
 
+bool moves(const RigidBody& body) {
+    return !std::holds_alternative<geometry::Rest>(body.course.motion);
+}
+
+/// Collects triangles, and whose they are.
+struct Collection {
+    std::vector<geometry::Triangle> mesh;
+    std::vector<std::uint32_t> owner;
+
+    void add(const std::vector<geometry::Triangle>& more, std::size_t whose) {
+        mesh.insert(mesh.end(), more.begin(), more.end());
+        owner.resize(mesh.size(), static_cast<std::uint32_t>(whose));
+    }
+    void add(const World& world, bool moving, double time, double driveAngle) {
+        for (std::size_t b = 0; b < world.bodies.size(); ++b) {
+            const RigidBody& body = world.bodies[b];
+            if (moves(body) == moving) add(placed(bodyMesh(body, world.domain), body.pose(time, driveAngle)), b + 1);
+        }
+    }
+    vtkhdf::Grid grid(const World& world) {
+        vtkhdf::Grid grid = triangles(mesh);
+        if (!world.bodies.empty()) grid.cellData = {{"body", "", 1, std::move(owner)}};
+        return grid;
+    }
+};
+
 }  // namespace
 
 std::string wallsFile(const Case& c) {
     const World& w = c.world;
-    if (w.surfaces.empty()) return "";
     Vec3 low = w.domain.low, high = w.domain.high;
     if (c.canister) {
         const double half = c.canister->width / 2;
@@ -43,7 +69,22 @@ std::string wallsFile(const Case& c) {
         for (const geometry::Surface& s : w.surfaces)  // a lid may lie higher
             if (const auto* plane = std::get_if<geometry::Plane>(&s)) high.y = std::max(high.y, plane->point.y);
     }
-    return vtkhdf::file(triangles(geometry::surfaceMesh(w.surfaces, low, high)));
+    Collection walls;
+    walls.add(geometry::surfaceMesh(w.surfaces, low, high), 0);
+    walls.add(w, false, 0, 0);
+    return walls.mesh.empty() ? "" : vtkhdf::file(walls.grid(w));
+}
+
+bool bodiesMove(const World& world) {
+    return std::any_of(world.bodies.begin(), world.bodies.end(), moves);
+}
+
+std::string bodiesFile(const Frame& frame, const World& world) {
+    Collection bodies;
+    bodies.add(world, true, frame.time, frame.coilAngle);
+    vtkhdf::Grid grid = bodies.grid(world);
+    grid.fieldData = fieldsOf(frame);
+    return vtkhdf::file(grid);
 }
 
 std::string coilFile(const Frame& frame, const geometry::Coil& coil) {

@@ -150,6 +150,10 @@ std::vector<Line> outlineOf(const Case& c, const Vec3& towards, const Box& conte
             if (const auto* plane = std::get_if<geometry::Plane>(&s)) addPlane(*plane, content, lines);
         }
     }
+    return left(std::move(lines), cut);
+}
+
+std::vector<Line> left(std::vector<Line> lines, const std::optional<CutPlane>& cut) {
     if (!cut) return lines;
     std::vector<Line> kept;
     for (const Line& line : lines) addKept(line, *cut, kept);

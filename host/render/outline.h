@@ -15,4 +15,7 @@ using Line = std::vector<Vec3>;  ///< points of a polyline [m]
 /// edges in the part that is taken away are left out.
 std::vector<Line> outlineOf(const Case& c, const Vec3& towards, const Box& content, const std::optional<CutPlane>& cut);
 
+/// The parts of lines that a cut leaves; all without a cut.
+std::vector<Line> left(std::vector<Line> lines, const std::optional<CutPlane>& cut);
+
 }  // namespace vkdose::render

@@ -38,7 +38,21 @@ double powderTop(const Particles& p) {
     return tops[stray];
 }
 
-Scene sceneOf(const Case& c, const PictureSpec& spec, const Panel& panel) {
+/// All skins of a body in their place.
+std::vector<Skin> skinsOf(const DrawnBody& body, const Case& c, const Frame& frame, const Box& content) {
+    const geometry::Pose pose = poseOf(body, c, frame);
+    return {placed(body.skin, pose), placed(endlessSkin(c.world.bodies[body.index], pose, content), pose)};
+}
+
+/// Edges of the body, and of one that is seen through also the lines where it turns away from the viewer.
+std::vector<Line> linesOf(const Skin& skin, bool seeThrough, const Vec3& towards) {
+    std::vector<Line> lines;
+    for (const Edge& e : skin.edges)
+        if (e.sharp() || (seeThrough && e.onLimb(towards))) lines.push_back({e.from, e.to});
+    return lines;
+}
+
+Scene sceneOf(const Case& c, const PictureSpec& spec, const Box& content, const Panel& panel) {
     const Particles& p = panel.frame->particles;
     Scene scene;
     scene.cut = cutOf(spec.view);
@@ -50,6 +64,9 @@ Scene sceneOf(const Case& c, const PictureSpec& spec, const Panel& panel) {
         scene.radius.push_back(p.radius[i]);
         scene.colour.push_back(spec.scale.colour(panel.values[i]));
     }
+    for (const DrawnBody& body : spec.bodies)
+        for (const Skin& skin : skinsOf(body, c, *panel.frame, content))
+            for (const Facet& facet : skin.facets) scene.facets.push_back({facet, body.seeThrough});
     return scene;
 }
 
@@ -80,12 +97,16 @@ void drawSeen(Canvas& canvas, const Line& line, const Camera& camera, const Imag
 
 void drawPanel(Canvas& canvas, RayCaster& caster, const Case& c, const PictureSpec& spec, const Layout& l,
                const Box& content, const Panel& panel, Canvas::Point corner) {
-    const Image image = caster.draw(sceneOf(c, spec, panel), l.camera);
+    const Image image = caster.draw(sceneOf(c, spec, content, panel), l.camera);
     canvas.image(image, int(corner.x), int(corner.y));
     canvas.clip(corner.x, corner.y, image.width, image.height);
     const double thickness = std::max(1.0, l.text / 14);
-    for (const Line& line : outlineOf(c, l.camera.towards, content, cutOf(spec.view)))
-        drawSeen(canvas, line, l.camera, image, corner, thickness);
+    const auto drawLine = [&](const Line& line) { drawSeen(canvas, line, l.camera, image, corner, thickness); };
+    for (const Line& line : outlineOf(c, l.camera.towards, content, cutOf(spec.view))) drawLine(line);
+    for (const DrawnBody& body : spec.bodies)
+        for (const Skin& skin : skinsOf(body, c, *panel.frame, content))
+            for (const Line& line : left(linesOf(skin, body.seeThrough, l.camera.towards), cutOf(spec.view)))
+                drawLine(line);
     canvas.unclip();
     const double fitting = (image.width + 0.5 * l.text) / canvas.textWidth(panel.title, l.text);
     const double size = l.panels.size() > 1 ? l.text * std::clamp(fitting, 0.5, 1.0) : l.text;
@@ -122,7 +143,7 @@ Box united(const Box& a, const Box& b) {
     return {glm::min(a.low, b.low), glm::max(a.high, b.high)};
 }
 
-Box contentOf(const Case& c, const Frame& frame) {
+Box contentOf(const Case& c, const Frame& frame, const std::vector<DrawnBody>& bodies) {
     constexpr double kInfinite = std::numeric_limits<double>::infinity();
     Box coil{Vec3(kInfinite), Vec3(-kInfinite)};
     if (const auto& k = c.world.coil) {
@@ -138,6 +159,9 @@ Box contentOf(const Case& c, const Frame& frame) {
         box = coil;
         include(box, {-half, -half, 0}, {half, top, c.canister->length + c.canister->throatLength});
     }
+    for (const DrawnBody& body : bodies)
+        for (const Facet& facet : placed(body.skin, poseOf(body, c, frame)).facets)
+            for (const Vec3& corner : facet.corners) include(box, corner, corner);
     if (!(box.low.x <= box.high.x)) box = {Vec3(-1e-3), Vec3(1e-3)};
     const Vec3 margin(0.02 * glm::length(box.high - box.low));
     return {box.low - margin, box.high + margin};

@@ -1,9 +1,10 @@
 #pragma once
-// A whole picture: powder, coil and canister, once or in several panels, with colour bar, scale bar and time.
+// A whole picture: powder, coil, bodies and canister, once or in several panels, with colour bar, scale bar and time.
 
 #include <string>
 #include <vector>
 
+#include "host/analysis/drawn_bodies.h"
 #include "host/render/canvas.h"
 #include "host/render/quantity.h"
 #include "host/render/ray_caster.h"
@@ -14,7 +15,8 @@ struct PictureSpec {
     View view = View::Side;
     Scale scale;
     bool coil = true;
-    int width = 0, height = 0;  ///< [pixels]; 0: as large as what is to be seen takes, even numbers
+    std::vector<DrawnBody> bodies;  ///< those that are to be seen
+    int width = 0, height = 0;      ///< [pixels]; 0: as large as what is to be seen takes, even numbers
 };
 
 /// One state of the powder.
@@ -25,8 +27,9 @@ struct Panel {
 };
 
 /// The part of a frame to be seen, with a margin: the canister and its coil, up to the height that all powder but a
-/// stray hundredth reaches. Without a canister it is the particles and the coil.
-Box contentOf(const Case& c, const Frame& frame);
+/// stray hundredth reaches. Without a canister it is the particles and the coil. Bodies are seen whole, but for those
+/// without an end.
+Box contentOf(const Case& c, const Frame& frame, const std::vector<DrawnBody>& bodies = {});
 /// Of several frames.
 Box united(const Box& a, const Box& b);
 

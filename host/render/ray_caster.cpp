@@ -23,7 +23,8 @@ constexpr std::uint32_t kRays = 3;    // per pixel and direction
 constexpr int kJointsPerTurn = 128;   // chords then leave the wire's centre line by 0.0003 of its radius
 const Vec3 kLight(-0.45, 0.6, 0.66);  // from the left, above and the viewer: right, up, towards
 
-/// The origin lies amid the spheres and the coil, so that floats have their smallest rounding errors there.
+/// The origin lies amid the spheres, or amid the bodies where there are none, so that floats have their smallest
+/// rounding errors there.
 Vec3 originOf(const Scene& scene) {
     Vec3 low(0), high(0);
     if (!scene.centre.empty()) low = high = scene.centre[0];
@@ -31,6 +32,7 @@ Vec3 originOf(const Scene& scene) {
         low = glm::min(low, c);
         high = glm::max(high, c);
     }
+    if (scene.centre.empty() && !scene.facets.empty()) return scene.facets[0].facet.corners[0];
     return 0.5 * (low + high);
 }
 
@@ -51,7 +53,8 @@ vec4 packed(const Vec3& v, double w) {
     return {glm::vec3(v), float(w)};
 }
 
-gpu::PictureParams paramsOf(const Scene& scene, const Camera& camera, const Vec3& origin, const Grid& grid) {
+gpu::PictureParams paramsOf(const Scene& scene, const Camera& camera, const Vec3& origin, const Grid& grid,
+                            std::size_t joints) {
     gpu::PictureParams p{};
     p.right = packed(camera.right, camera.pixel);
     p.up = packed(camera.up, camera.eye);
@@ -63,9 +66,20 @@ gpu::PictureParams paramsOf(const Scene& scene, const Camera& camera, const Vec3
     p.box = vec4(grid.low, grid.edge);
     if (scene.coil)
         p.wire = vec4(float(-origin.x), float(-origin.y), float(scene.coil->radius), float(scene.coil->wireRadius));
-    p.cells = uvec4(grid.cells, 0);
+    p.cells = uvec4(grid.cells, scene.centre.size() + joints);
     p.size = uvec4(camera.width, camera.height, scene.centre.size(), kRays);
     return p;
+}
+
+/// Corners of a triangle, the first with its kind, and its normals there.
+std::vector<vec4> packed(const std::vector<SceneFacet>& facets, const Vec3& origin) {
+    std::vector<vec4> values;
+    for (const SceneFacet& f : facets) {
+        const double kind = f.seeThrough ? gpu::kSeeThrough : f.facet.solid ? gpu::kSolid : gpu::kSheet;
+        for (const Vec3& corner : f.facet.corners) values.push_back(packed(corner - origin, kind));
+        for (const Vec3& normal : f.facet.normals) values.push_back(packed(normal, 0));
+    }
+    return values;
 }
 
 /// A buffer of these values. If there are none, a buffer that nothing reads.
@@ -100,20 +114,26 @@ Image RayCaster::draw(const Scene& scene, const Camera& camera) {
         paint.push_back(packed(linearLight(scene.colour[i]), 0));
     }
     if (scene.coil) joints = jointsOf(*scene.coil, scene.coilAngle, origin);
-    const Grid grid = gridOf(spheres, joints, scene.coil ? float(scene.coil->wireRadius) : 0.0f);
+    std::vector<Corners> triangles;
+    for (const SceneFacet& f : scene.facets) {
+        const geometry::Triangle& t = f.facet.corners;
+        triangles.push_back({glm::vec3(t[0] - origin), glm::vec3(t[1] - origin), glm::vec3(t[2] - origin)});
+    }
+    const Grid grid = gridOf(spheres, joints, scene.coil ? float(scene.coil->wireRadius) : 0.0f, triangles);
 
-    const std::vector<gpu::PictureParams> params{paramsOf(scene, camera, origin, grid)};
+    const std::vector<gpu::PictureParams> params{paramsOf(scene, camera, origin, grid, joints.size())};
     const auto paramsBuffer = filled(device_, "the picture's parameters", params);
     const auto sphereBuffer = filled(device_, "the picture's spheres", spheres);
     const auto paintBuffer = filled(device_, "the picture's colours", paint);
     const auto jointBuffer = filled(device_, "the picture's wire", joints);
+    const auto facetBuffer = filled(device_, "the picture's bodies", packed(scene.facets, origin));
     const auto cellBuffer = filled(device_, "the picture's cells", grid.parts);
     const auto entryBuffer = filled(device_, "the picture's grid", grid.entries);
     const std::size_t pixels = std::size_t(camera.width) * camera.height;
     const vk::Buffer picture(device_, "the picture", pixels * sizeof(glm::uvec2));
     const vk::BindingSet bindings(device_,
                                   {paramsBuffer.get(), sphereBuffer.get(), paintBuffer.get(), jointBuffer.get(),
-                                   cellBuffer.get(), entryBuffer.get(), &picture},
+                                   cellBuffer.get(), entryBuffer.get(), &picture, facetBuffer.get()},
                                   sizeof(std::uint32_t));
     if (!pipeline_)
         pipeline_.emplace(device_, bindings, std::span<const std::uint32_t>(cast_spv),

@@ -1,5 +1,5 @@
 #pragma once
-// Draws spheres and a coil on a Vulkan device, by rays in a compute pass: no window, no graphics queue.
+// Draws spheres, a coil and bodies on a Vulkan device, by rays in a compute pass: no window, no graphics queue.
 
 #include <cstdint>
 #include <memory>
@@ -7,11 +7,18 @@
 #include <vector>
 
 #include "geometry/coil.h"
+#include "host/analysis/drawn_bodies.h"
 #include "host/render/camera.h"
 #include "host/vk/device.h"
 #include "host/vk/pipeline.h"
 
 namespace vkdose::render {
+
+/// A triangle of a body in the world.
+struct SceneFacet {
+    Facet facet;
+    bool seeThrough = false;
+};
 
 /// All that can be seen.
 struct Scene {
@@ -20,6 +27,7 @@ struct Scene {
     std::vector<Vec3> colour;    ///< sRGB, 0 ... 1
     std::optional<geometry::Coil> coil;
     double coilAngle = 0;  ///< rotation about +z since its start [rad]
+    std::vector<SceneFacet> facets;
     std::optional<CutPlane> cut;
 };
 
@@ -30,7 +38,8 @@ struct Image {
     };
     int width = 0, height = 0;
     std::vector<Pixel> pixels;  ///< row by row from the top
-    std::vector<float> depth;   ///< of the nearest thing in the pixel, as Camera::Place::depth [m]; -1e30: nothing
+    /// Of the nearest thing in the pixel that is not seen through, as Camera::Place::depth [m]; -1e30: nothing.
+    std::vector<float> depth;
 
     const Pixel& at(int x, int y) const { return pixels[std::size_t(y) * width + x]; }
     float depthAt(int x, int y) const { return depth[std::size_t(y) * width + x]; }

@@ -66,6 +66,9 @@ function canvas(holder, outerWidth, outerHeight, margin, label) {
   return {plot, width: outerWidth - margin.left - margin.right, height: outerHeight - margin.top - margin.bottom};
 }
 
+/// The text of a tick; what is zero but for rounding is zero.
+const tickText = scale => t => short(Math.abs(t) < 1e-9 * Math.abs(scale.domain()[1] - scale.domain()[0]) ? 0 : t);
+
 function axes(c, spec, x, y) {
   const grid = c.plot.append("g");
   y.ticks(5).forEach(t => grid.append("line").attr({class: "grid", x1: 0, x2: c.width, y1: y(t), y2: y(t)}));
@@ -73,9 +76,9 @@ function axes(c, spec, x, y) {
   if (spec.x.categories) below.tickValues(spec.x.categories.map((_, i) => i)).tickFormat(i => spec.x.categories[i]);
   else if (spec.x.whole)
     below.tickValues(x.ticks(Math.min(10, c.width / 40)).filter(t => t === Math.round(t))).tickFormat(d3.format("d"));
-  else below.ticks(Math.max(3, Math.min(8, c.width / 70))).tickFormat(short);
+  else below.ticks(Math.max(3, Math.min(8, c.width / 70))).tickFormat(tickText(x));
   c.plot.append("g").attr({class: "axis", transform: `translate(0,${c.height})`}).call(below);
-  c.plot.append("g").attr("class", "axis").call(d3.svg.axis().scale(y).orient("left").ticks(5).outerTickSize(0).tickFormat(short));
+  c.plot.append("g").attr("class", "axis").call(d3.svg.axis().scale(y).orient("left").ticks(5).outerTickSize(0).tickFormat(tickText(y)));
   c.plot.append("text").attr({x: c.width, y: c.height + 34, "text-anchor": "end"}).text(spec.x.label);
   c.plot.append("text").attr({x: -44, y: -10}).text(spec.y.label);
 }

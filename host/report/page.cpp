@@ -55,8 +55,8 @@ std::vector<std::string> scriptsOf(bool player) {
     std::vector<std::string> scripts{parts::kD3};
     if (player) {
         scripts.emplace_back(parts::kThree);
-        scripts.push_back(std::string(parts::kPlayerFrames) + parts::kPlayerColours + parts::kPlayerScene +
-                          parts::kPlayer);
+        scripts.push_back(std::string(parts::kPlayerFrames) + parts::kPlayerColours + parts::kPlayerBodies +
+                          parts::kPlayerScene + parts::kPlayer);
     }
     scripts.push_back(std::string(parts::kCharts) + parts::kRamp + parts::kControls + parts::kStream + parts::kFields +
                       parts::kRun + parts::kRuns + parts::kStudy + parts::kMain);

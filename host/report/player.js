@@ -177,7 +177,7 @@ function playerFigure(parent, player) {
   const stage = add(box, "div", null, "stage"), canvas = add(stage, "canvas");
   canvas.tabIndex = 0;
   canvas.setAttribute("role", "application");
-  canvas.setAttribute("aria-label", "powder and coil; arrow keys turn, plus and minus zoom, space plays");
+  canvas.setAttribute("aria-label", "powder, coil and bodies; arrow keys turn, plus and minus zoom, space plays");
   const legend = addLegend(box);
   const load = async () => {
     const frames = await readFrames(player);

@@ -10,6 +10,7 @@
 #include "host/analysis/overlap.h"
 #include "host/core/error.h"
 #include "host/report/deflate.h"
+#include "host/report/player_bodies.h"
 #include "host/report/thinning.h"
 
 namespace vkdose::report {
@@ -91,7 +92,7 @@ class Encoder {
                               fmt::format("particles in the frame at {} s, {} in the first", frame.time, gone_.size()),
                               "give the frames of one run"}});
         if (frames_ == 0) addRadii(p);
-        addParticles(p, overlapRatios(p, case_.world, frame.coilAngle));
+        addParticles(p, overlapRatios(p, case_.world, frame.coilAngle, frame.time));
         addSurface(p);
         ++frames_;
     }
@@ -195,6 +196,15 @@ Json framesJson(const std::vector<FrameEntry>& entries) {
     return j;
 }
 
+Json bodiesOfFrames(const Case& c, const std::vector<FrameEntry>& entries, const Frame& settled) {
+    std::vector<double> times, angles;
+    for (const FrameEntry& entry : entries) {
+        times.push_back(entry.time);
+        angles.push_back(entry.coilAngle);
+    }
+    return bodiesJson(c, times, angles, settled);
+}
+
 }  // namespace
 
 FrameSource framesOf(const std::filesystem::path& run) {
@@ -205,9 +215,12 @@ FrameSource framesOf(const std::filesystem::path& run) {
 Json playerJson(const Case& c, const FrameSource& frames, std::size_t columns, std::size_t mostCharacters) {
     if (frames.entries.empty()) return nullptr;
     if (!c.canister) columns = 0;
-    const std::size_t particles = frames.read(frames.entries.front()).particles.size();
+    const Frame settled = frames.read(frames.entries[settledOf(frames.entries)]);
+    const std::size_t particles = settled.particles.size();
     const std::size_t most = std::min(kMostFrames, std::max<std::size_t>(2, kMostMemory / (8 * particles + 1)));
     std::size_t stride = 1 + (frames.entries.size() - 1) / (most - 1);
+    const std::size_t taken = bodiesOfFrames(c, {}, settled).dump().size();
+    mostCharacters -= std::min(mostCharacters, taken);
     while (true) {
         const std::vector<FrameEntry> entries = thinned(frames.entries, stride);
         const bool least = entries.size() <= 2;
@@ -222,6 +235,7 @@ Json playerJson(const Case& c, const FrameSource& frames, std::size_t columns, s
             j["columns"] = columns;
             j["radius_m"] = numbers(encoder.radiusRange());
             j["frames"] = framesJson(entries);
+            j["bodies"] = bodiesOfFrames(c, entries, settled);
             j["stored"] = frames.entries.size();
             j["every"] = stride;
             j["stream"] = std::move(stream);

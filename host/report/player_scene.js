@@ -1,4 +1,4 @@
-// Powder, coil and canister in WebGL, on three.js. Lengths in millimetres, the case's axes. A particle is a square that
+// Powder, coil, bodies and canister in WebGL, on three.js. Lengths in millimetres, the case's axes. A particle is a square that
 // faces the eye, on which the fragment shader finds the sphere, and the section where the cut goes through it.
 
 const kSphereVertex = `
@@ -123,8 +123,9 @@ function sphereObject(player, frames, uniforms) {
   return mesh;
 }
 
-/// The corners [mm] of what the first view shows: the canister up to the settled powder, or where particles are.
-function viewBox(player, frames) {
+/// The corners [mm] of what the first view shows: the canister up to the settled powder, or where particles are, and the
+/// bodies.
+function viewBox(player, frames, bodies) {
   const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
   const include = (x, r) => x.forEach((v, k) => {
     low[k] = Math.min(low[k], v - r);
@@ -140,6 +141,7 @@ function viewBox(player, frames) {
     include([-500 * can.width, -500 * can.width, 0], 0);
     include([500 * can.width, -500 * can.width, 1e3 * (can.length + can.throat)], 0);
   }
+  forBodyCorners(bodies, settled, x => include(x, 0));
   return low[0] < high[0] ? {low, high} : {low: player.low.map(x => 1e3 * x), high: player.high.map(x => 1e3 * x)};
 }
 
@@ -150,7 +152,8 @@ class PowderScene {
     if (!context) throw new Error("this browser offers no WebGL 2");
     this.renderer = new THREE.WebGLRenderer({canvas, context, alpha: true, preserveDrawingBuffer: true});
     this.player = player;
-    this.box = viewBox(player, frames);
+    this.bodies = (player.bodies || []).map(bodyObject);
+    this.box = viewBox(player, frames, this.bodies);
     this.uniforms = {
       low: {value: new THREE.Vector3(...player.low.map(x => 1e3 * x))},
       extent: {value: new THREE.Vector3(...player.low.map((x, k) => 1e3 * (player.high[k] - x)))},
@@ -164,6 +167,7 @@ class PowderScene {
     this.scene.add(this.camera, new THREE.AmbientLight(0xffffff, 0.45));
     if (player.canister) this.scene.add(outline(player.canister));
     if (player.coil) this.scene.add(this.coil = coilObject(player.coil));
+    this.bodies.forEach(body => this.scene.add(body));
     this.scene.add(this.spheres = sphereObject(player, frames, this.uniforms));
     this.cutOff();
     this.resetView();
@@ -172,6 +176,7 @@ class PowderScene {
   show(f, quantity) {
     this.spheres.fill(f, quantity);
     if (this.coil) this.coil.rotation.z = this.player.frames.coil_angle_rad[f];
+    this.bodies.forEach(body => body.show(f));
     this.draw();
   }
 

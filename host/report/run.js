@@ -51,6 +51,22 @@ function doseCharts(parent, run) {
   });
 }
 
+/// Force, torque and power of each body over time.
+function bodyCharts(parent, run, time) {
+  const s = run.series, note = "Of the particles on the body, mean between two lines of the time series.";
+  const drawn = (title, unit, scale, curves, told) => chart(parent, {
+    title, link: overTime(run), x: time, y: {label: unit}, bands: run.rotations, note: told,
+    series: curves.map(([name, values, colour]) => ({name, points: zip(s.time_s, values, scale), colour, thin: true})),
+  });
+  (s.bodies || []).forEach(b => {
+    drawn(`Force on ${b.name}`, "N", 1, [["along x", b.force_x_N, "var(--s0)"], ["along y", b.force_y_N, "var(--s1)"],
+                                         ["along z", b.force_z_N, "var(--s2)"]], note);
+    drawn(`Torque on ${b.name}`, "mN m", milli, [["about its axis", b.torque_Nm, "var(--s0)"]], note);
+    if (b.power_W.some(p => p !== 0))
+      drawn(`Power of ${b.name}`, "mW", milli, [["on the particles", b.power_W, "var(--s3)"]], "Mean between two lines of the time series.");
+  });
+}
+
 function timeCharts(parent, run) {
   const s = run.series, turning = "Shaded: the coil turns; numbered by dose.";
   const time = {label: "time [s]", from: 0, to: d3.max(s.time_s)};
@@ -62,6 +78,7 @@ function timeCharts(parent, run) {
   curve("Power of the drive", "mW", "torque times speed", s.coil_power_W, milli, "var(--s3)");
   curve("Outlet velocity", "mm/s", "mean v_z of the mass in the throat", s.outlet_velocity_m_s, milli, "var(--s2)",
         turning + " No curve where the throat is empty; what falls out while settling may leave the frame.");
+  bodyCharts(parent, run, time);
 
   let below = s.time_s.map(() => 0);
   const layers = [["dosed", s.dosed_mass_kg, "var(--s0)"], ["throat", s.throat_mass_kg, "var(--s4)"],

@@ -48,6 +48,21 @@ std::vector<double> thinned(const std::vector<double>& values, std::size_t size,
     return few;
 }
 
+/// The loads of each body, whose columns begin with its name and a dot.
+Json bodySeries(const Table& series, std::size_t size) {
+    Json bodies = Json::array();
+    constexpr std::string_view kLast = ".torque_Nm";
+    for (const std::string& column : series.names()) {
+        if (!column.ends_with(kLast)) continue;
+        const std::string name = column.substr(0, column.size() - kLast.size());
+        Json j{{"name", name}};
+        for (const char* load : {"force_x_N", "force_y_N", "force_z_N", "torque_Nm", "power_W"})
+            j[load] = numbers(thinned(series.column(name + "." + load), size, true));
+        bodies.push_back(std::move(j));
+    }
+    return bodies;
+}
+
 Json seriesJson(const Table& series) {
     const std::size_t size = (series.rows() + kMostLines - 1) / kMostLines;
     Json j;
@@ -55,6 +70,7 @@ Json seriesJson(const Table& series) {
         j[name] = numbers(thinned(series.column(name), std::max<std::size_t>(size, 1), false));
     for (const char* name : {"outlet_velocity_m_s", "coil_torque_Nm", "coil_power_W"})
         j[name] = numbers(thinned(series.column(name), std::max<std::size_t>(size, 1), true));
+    j["bodies"] = bodySeries(series, std::max<std::size_t>(size, 1));
     return j;
 }
 

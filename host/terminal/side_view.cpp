@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "host/model/body_mesh.h"
+
 namespace vkdose::terminal {
 
 namespace {
@@ -36,7 +38,16 @@ struct Extent {
     }
 };
 
-Extent extentOf(const Scene& scene, const Particles& p) {
+/// The edges of the bodies that are seen from the side, in their place.
+std::vector<Edge> edgesOf(const Scene& scene, const Frame& frame) {
+    std::vector<Edge> edges;
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+        for (const Edge& e : placed(scene.skins[i], scene.bodies[i].pose(frame.time, frame.coilAngle)).edges)
+            if (e.sharp() || e.onLimb({-1, 0, 0})) edges.push_back(e);
+    return edges;
+}
+
+Extent extentOf(const Scene& scene, const Particles& p, const std::vector<Edge>& edges) {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     Extent e{kInfinity, -kInfinity, kInfinity, -kInfinity};
     if (const auto& k = scene.canister) {
@@ -49,6 +60,8 @@ Extent extentOf(const Scene& scene, const Particles& p) {
         e.yLow = std::min(e.yLow, -coil->radius - coil->wireRadius);
         e.yHigh = std::max(e.yHigh, coil->radius + coil->wireRadius);
     }
+    for (const Edge& edge : edges)
+        for (const Vec3& x : {edge.from, edge.to}) e.hold(x.z, x.y, 0);
     for (std::size_t i = 0; i < p.size(); ++i) {
         if (p.status[i] != Status::Active) continue;
         if (scene.canister)
@@ -104,6 +117,17 @@ void drawCoil(Canvas& canvas, const Projection& to, const geometry::Coil& coil, 
     }
 }
 
+void drawEdges(Canvas& canvas, const Projection& to, const std::vector<Edge>& edges) {
+    for (const Edge& e : edges) {
+        const double across = to.length(std::hypot(e.to.z - e.from.z, e.to.y - e.from.y));
+        const int pieces = std::clamp(int(2 * across), 1, 10000);
+        for (int i = 0; i <= pieces; ++i) {
+            const Vec3 x = e.from + (e.to - e.from) * (double(i) / pieces);
+            canvas.light(int(std::floor(to.across(x.z))), int(std::floor(to.down(x.y))), kWall);
+        }
+    }
+}
+
 /// In colour a sphere is a shaded disc. In dots it is its rim, and what lies behind it is hidden.
 void drawSphere(Canvas& canvas, const Projection& to, const Vec3& x, double radius, Colour colour) {
     const double cx = to.across(x.z), cy = to.down(x.y), r = std::max(to.length(radius), 0.6);
@@ -136,7 +160,11 @@ void drawPowder(Canvas& canvas, const Projection& to, const Particles& p, double
 }  // namespace
 
 Scene sceneOf(const Case& c, double tipVelocity) {
-    Scene scene{c.canister, c.world.coil};
+    Scene scene;
+    scene.canister = c.canister;
+    scene.coil = c.world.coil;
+    scene.bodies = c.world.bodies;
+    for (const RigidBody& body : scene.bodies) scene.skins.push_back(bodySkin(body));
     if (tipVelocity > 0) scene.fast = tipVelocity;
     return scene;
 }
@@ -148,7 +176,8 @@ Colour speedColour(double speed, double fast) {
 }
 
 Canvas sideView(const Scene& scene, const Frame& frame, int columns, int rows, Style style) {
-    const Extent extent = extentOf(scene, frame.particles);
+    const std::vector<Edge> edges = edgesOf(scene, frame);
+    const Extent extent = extentOf(scene, frame.particles, edges);
     const int across = Canvas::pixelsAcross(style), down = Canvas::pixelsDown(style);
     const double perMetre = std::min((columns * across - 2) / (extent.zHigh - extent.zLow),
                                      (rows * down - 2) / (extent.yHigh - extent.yLow));
@@ -163,6 +192,7 @@ Canvas sideView(const Scene& scene, const Frame& frame, int columns, int rows, S
     drawPowder(canvas, to, frame.particles, scene.fast);
     if (scene.canister) drawCanister(canvas, to, *scene.canister);
     if (scene.coil) drawCoil(canvas, to, *scene.coil, frame.coilAngle, true);
+    drawEdges(canvas, to, edges);
     return canvas;
 }
 

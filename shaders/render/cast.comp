@@ -1,10 +1,11 @@
 #version 450
-// cast: a picture of spheres and of a coil, one pixel per invocation, by rays through a uniform grid.
-// Reads the picture's parameters, spheres with their colours, the joints of the coil's wire and the grid; writes for
-// every pixel its colour, how much of it is covered, and how near to the viewer.
+// cast: a picture of spheres, of a coil and of bodies, one pixel per invocation, by rays through a uniform grid.
+// Reads the picture's parameters, spheres with their colours, the joints of the coil's wire, the bodies' triangles and
+// the grid; writes for every pixel its colour, how much of it is covered, and how near to the viewer.
 //
-// A cell of the grid is a range of `entries` in three parts: spheres and pieces of wire that a ray through the cell can
-// meet, and spheres near enough to take light from a point in it. No loop is longer than a row of cells or such a part.
+// A cell of the grid is a range of `entries` in four parts: spheres, pieces of wire and triangles that a ray through
+// the cell can meet, and spheres near enough to take light from a point in it. No loop is longer than a row of cells or
+// such a part.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/picture.h"
 
@@ -14,9 +15,12 @@ layout(std430, set = 0, binding = 0) readonly buffer ParamsBuffer { PictureParam
 layout(std430, set = 0, binding = 1) readonly buffer SphereBuffer { vec4 spheres[]; };  // centre, radius
 layout(std430, set = 0, binding = 2) readonly buffer PaintBuffer { vec4 paint[]; };     // of a sphere: linear RGB
 layout(std430, set = 0, binding = 3) readonly buffer JointBuffer { vec4 joints[]; };    // centre line; w: angle [rad]
-layout(std430, set = 0, binding = 4) readonly buffer CellBuffer { uvec4 cells[]; };  // begin, ends of the three parts
+layout(std430, set = 0, binding = 4) readonly buffer CellBuffer { uvec4 cells[]; };  // ends of the four parts
 layout(std430, set = 0, binding = 5) readonly buffer EntryBuffer { uint entries[]; };
 layout(std430, set = 0, binding = 6) writeonly buffer PictureBuffer { uvec2 picture[]; };  // RGBA8 (sRGB), depth bits
+layout(std430, set = 0, binding = 7) readonly buffer FacetBuffer {
+    vec4 facets[];  // of a triangle: three corners (w: kind), three normals there
+};
 
 const float kNever = 1e30;
 const uint kNothing = 0xffffffffu;
@@ -24,6 +28,8 @@ const float kReach = 2.5;                    // of a sphere's shade, in radii; h
 const float kSky = 0.55;                     // light that comes from everywhere, over that of the colour map
 const float kSun = 0.75;                     // and from one side
 const vec3 kSteel = vec3(0.36, 0.38, 0.41);  // linear
+const vec3 kPane = vec3(0.20, 0.25, 0.32);   // a wall that is seen through
+const uint kFacetVectors = 6u;
 
 struct Ray {
     vec3 origin;
@@ -32,9 +38,12 @@ struct Ray {
 
 struct Hit {
     float far;
-    uint what;  // a sphere, or after these a piece of wire
+    uint what;  // a sphere, or after these a piece of wire, or after these a triangle
     bool face;  // cut open
 };
+
+/// How much light comes through the walls that are seen through, on the ray's way to its hit.
+float clear = 1.0;
 
 /// Ray through a place in the picture, in pixels from its top left corner.
 Ray rayThrough(vec2 place) {
@@ -73,12 +82,40 @@ float enterWire(Ray ray, vec3 a, vec3 b, float radius) {
     return place >= 0.0 && place <= way ? nearest + far : ends;
 }
 
+/// Two vectors square to a ray's way, which depend on nothing else.
+void across(vec3 way, out vec3 u, out vec3 v) {
+    u = normalize(abs(way.x) < 0.7 ? vec3(0.0, way.z, -way.y) : vec3(-way.z, 0.0, way.x));
+    v = cross(way, u);
+}
+
+/// Where a ray meets a triangle; `share` are the parts of its corners there. Seen along the ray, the sides turn the
+/// same way round the place. A side gives two triangles the same number with opposite signs, so nothing shines through.
+float meetTriangle(Ray ray, uint i, out vec3 share) {
+    vec3 u, v;
+    across(ray.way, u, v);
+    vec3 a = facets[kFacetVectors * i].xyz - ray.origin, b = facets[kFacetVectors * i + 1u].xyz - ray.origin,
+         c = facets[kFacetVectors * i + 2u].xyz - ray.origin;
+    precise vec2 A = vec2(dot(a, u), dot(a, v)), B = vec2(dot(b, u), dot(b, v)), C = vec2(dot(c, u), dot(c, v));
+    precise vec3 side = vec3(B.x * C.y - C.x * B.y, C.x * A.y - A.x * C.y, A.x * B.y - B.x * A.y);
+    float sum = side.x + side.y + side.z;
+    bool outside = any(lessThan(side, vec3(0.0))) && any(greaterThan(side, vec3(0.0)));
+    if (outside || sum == 0.0) return kNever;
+    share = side / sum;
+    return dot(share, vec3(dot(a, ray.way), dot(b, ray.way), dot(c, ray.way)));
+}
+
+vec3 facetNormal(uint i) {
+    vec3 a = facets[kFacetVectors * i].xyz;
+    return cross(facets[kFacetVectors * i + 1u].xyz - a, facets[kFacetVectors * i + 2u].xyz - a);
+}
+
 vec3 onWire(vec3 p, vec3 a, vec3 b) {
     vec3 way = b - a;
     return a + clamp(dot(p - a, way) / dot(way, way), 0.0, 1.0) * way;
 }
 
 uint cellAt(ivec3 c) { return (uint(c.z) * params.cells.y + uint(c.y)) * params.cells.x + uint(c.x); }
+uint beginOf(uint cell) { return cell == 0u ? 0u : cells[cell - 1u].w; }
 ivec3 cellOf(vec3 p) {
     return clamp(ivec3(floor((p - params.box.xyz) / params.box.w)), ivec3(0), ivec3(params.cells.xyz) - 1);
 }
@@ -90,8 +127,9 @@ bool isCut() { return dot(params.cut.xyz, params.cut.xyz) > 0.0; }
 Hit openedAt(vec3 point, float far) {
     Hit hit = Hit(kNever, kNothing, false);
     float deepest = 0.0;
-    uvec4 part = cells[cellAt(cellOf(point))];
-    for (uint e = part.x; e < part.y; ++e) {
+    uint cell = cellAt(cellOf(point));
+    uvec4 part = cells[cell];
+    for (uint e = beginOf(cell); e < part.x; ++e) {
         vec4 s = spheres[entries[e]];
         float depth = dot(point - s.xyz, point - s.xyz) - s.w * s.w;
         if (depth < deepest) {
@@ -99,11 +137,32 @@ Hit openedAt(vec3 point, float far) {
             hit = Hit(far, entries[e], true);
         }
     }
-    for (uint e = part.y; e < part.z; ++e) {
+    for (uint e = part.x; e < part.y; ++e) {
         vec3 off = point - onWire(point, joints[entries[e]].xyz, joints[entries[e] + 1u].xyz);
         if (dot(off, off) < params.wire.w * params.wire.w) hit = Hit(far, params.size.z + entries[e], true);
     }
     return hit;
+}
+
+/// The first triangle on a ray's way in a cell. Light is taken by the walls that are seen through, and lie in the cell
+/// before the hit: from `from` on, up to `edge`.
+void meetFacets(Ray ray, uint begin, uint end, float from, float edge, inout Hit hit) {
+    vec3 share;
+    bool panes = false;
+    for (uint e = begin; e < end; ++e) {
+        bool pane = facets[kFacetVectors * entries[e]].w == kSeeThrough;
+        panes = panes || pane;
+        float far = pane ? kNever : meetTriangle(ray, entries[e], share);
+        if (far >= from && far < hit.far) hit = Hit(far, params.cells.w + entries[e], false);
+    }
+    for (uint e = begin; e < end && panes; ++e) {
+        bool pane = facets[kFacetVectors * entries[e]].w == kSeeThrough;
+        float far = pane ? meetTriangle(ray, entries[e], share) : kNever;
+        if (far < from || far >= min(edge, hit.far)) continue;
+        // A thin wall takes more light where it is seen aslant.
+        float slope = abs(dot(ray.way, normalize(facetNormal(entries[e]))));
+        clear *= 1.0 - (0.07 + 0.4 * pow(1.0 - slope, 3.0));
+    }
 }
 
 /// The first thing on a ray's way, cell by cell.
@@ -128,19 +187,23 @@ Hit firstHit(Ray ray) {
     vec3 stride = params.box.w / abs(way);
     vec3 next = (params.box.xyz + params.box.w * vec3(cell + max(turn, 0)) - ray.origin) / way;
     bool under = hit.what == kNothing;
+    float from = enter;
     uint most = params.cells.x + params.cells.y + params.cells.z;
     for (uint n = 0u; n < most && under; ++n) {
-        uvec4 part = cells[cellAt(cell)];
-        for (uint e = part.x; e < part.y; ++e) {
+        uint number = cellAt(cell);
+        uvec4 part = cells[number];
+        for (uint e = beginOf(number); e < part.x; ++e) {
             vec4 s = spheres[entries[e]];
             float far = enterSphere(ray, s.xyz, s.w);
             if (far >= enter && far < hit.far) hit = Hit(far, entries[e], false);
         }
-        for (uint e = part.y; e < part.z; ++e) {
+        for (uint e = part.x; e < part.y; ++e) {
             float far = enterWire(ray, joints[entries[e]].xyz, joints[entries[e] + 1u].xyz, params.wire.w);
             if (far >= enter && far < hit.far) hit = Hit(far, params.size.z + entries[e], false);
         }
         float edge = min(min(next.x, next.y), next.z);
+        meetFacets(ray, part.y, part.z, from, edge, hit);
+        from = edge;
         bvec3 axis = next.x <= edge   ? bvec3(true, false, false)
                      : next.y <= edge ? bvec3(false, true, false)
                                       : bvec3(false, false, true);
@@ -148,6 +211,12 @@ Hit firstHit(Ray ray) {
         next += mix(vec3(0.0), stride, axis);
         bool within = all(greaterThanEqual(cell, ivec3(0))) && all(lessThan(cell, ivec3(params.cells.xyz)));
         under = within && hit.far > edge;
+    }
+    // A solid that is first seen from within was opened by the cut.
+    if (opened && hit.what != kNothing && hit.what >= params.cells.w) {
+        uint i = hit.what - params.cells.w;
+        bool within = facets[kFacetVectors * i].w == kSolid && dot(facetNormal(i), ray.way) > 0.0;
+        if (within) hit = Hit(enter, hit.what, true);
     }
     return hit;
 }
@@ -169,6 +238,15 @@ float openness(vec3 p, vec3 normal) {
     return open;
 }
 
+/// The side of a body that is seen, smooth between its corners.
+vec3 bodyNormal(Ray ray, uint i) {
+    vec3 share = vec3(1.0, 0.0, 0.0);
+    meetTriangle(ray, i, share);
+    vec3 normal = normalize(mat3(facets[kFacetVectors * i + 3u].xyz, facets[kFacetVectors * i + 4u].xyz,
+                                 facets[kFacetVectors * i + 5u].xyz) * share);
+    return dot(facetNormal(i), ray.way) > 0.0 ? -normal : normal;
+}
+
 vec3 wireNormal(vec3 p, uint piece) {
     // The angle is interpolated between the joints, and the centre line follows from it, so that there are no facets.
     vec4 a = joints[piece], b = joints[piece + 1u];
@@ -180,8 +258,8 @@ vec3 wireNormal(vec3 p, uint piece) {
 
 /// A cut surface is flat and bright, with a dark rim.
 vec3 shadeFace(vec3 p, Hit hit) {
-    bool wire = hit.what >= params.size.z;
-    if (wire) return 1.35 * kSteel;
+    bool steel = hit.what >= params.size.z;
+    if (steel) return 1.35 * kSteel;
     vec4 s = spheres[hit.what];
     float h = dot(params.cut.xyz, s.xyz) - params.cut.w;
     float disc = sqrt(max(s.w * s.w - h * h, 0.0)), off = length(p - (s.xyz - h * params.cut.xyz));
@@ -191,13 +269,15 @@ vec3 shadeFace(vec3 p, Hit hit) {
 vec3 shade(Ray ray, Hit hit) {
     vec3 p = ray.origin + hit.far * ray.way;
     if (hit.face) return shadeFace(p, hit);
-    bool wire = hit.what >= params.size.z;
-    vec3 normal = wire ? wireNormal(p, hit.what - params.size.z) : (p - spheres[hit.what].xyz) / spheres[hit.what].w;
-    vec3 colour = wire ? kSteel : paint[hit.what].rgb;
+    bool body = hit.what >= params.cells.w, steel = hit.what >= params.size.z;
+    vec3 normal = body    ? bodyNormal(ray, hit.what - params.cells.w)
+                  : steel ? wireNormal(p, hit.what - params.size.z)
+                          : (p - spheres[hit.what].xyz) / spheres[hit.what].w;
+    vec3 colour = steel ? kSteel : paint[hit.what].rgb;
     float open = openness(p, normal), sun = max(dot(normal, params.light.xyz), 0.0);
     vec3 seen = colour * (kSky * open + kSun * sun * (0.5 + 0.5 * open));
     float gleam = pow(max(dot(normal, normalize(params.light.xyz - ray.way)), 0.0), 40.0);
-    return seen + (wire ? 0.35 * gleam * open : 0.0);
+    return seen + (steel ? 0.35 * gleam * open : 0.0);
 }
 
 vec3 encoded(vec3 c) {  // sRGB, IEC 61966-2-1
@@ -210,16 +290,20 @@ void main() {
     if (at.x >= params.size.x || at.y >= params.size.y) return;
     uint side = params.size.w;
     vec3 sum = vec3(0.0);
-    float hits = 0.0, depth = -kNever;
+    float cover = 0.0, depth = -kNever;
     for (uint k = 0u; k < side * side; ++k) {
         Ray ray = rayThrough(vec2(at) + (vec2(k % side, k / side) + 0.5) / float(side));
+        clear = 1.0;
         Hit hit = firstHit(ray);
-        if (hit.what != kNothing) {
-            sum += shade(ray, hit);
-            hits += 1.0;
+        sum += (1.0 - clear) * kPane;
+        if (hit.what == kNothing) {
+            cover += 1.0 - clear;
+        } else {
+            sum += clear * shade(ray, hit);
+            cover += 1.0;
             depth = max(depth, dot(ray.origin + hit.far * ray.way - params.target.xyz, params.towards.xyz));
         }
     }
-    vec4 colour = vec4(encoded(sum / max(hits, 1.0)), hits / float(side * side));
+    vec4 colour = vec4(encoded(cover > 0.0 ? sum / cover : vec3(0.0)), cover / float(side * side));
     picture[at.y * params.size.x + at.x] = uvec2(packUnorm4x8(colour), floatBitsToUint(depth));
 }

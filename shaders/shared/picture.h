@@ -8,7 +8,16 @@
 namespace vkdose::gpu {
 using glm::uvec4;
 using glm::vec4;
+#define PICTURE_CONST inline constexpr float
+#else
+#define PICTURE_CONST const float
 #endif
+
+// Kinds of triangles: a wall without thickness; the surface of a solid, which a cut shows as a section; one that is
+// seen through.
+PICTURE_CONST kSheet = 0.0f;
+PICTURE_CONST kSolid = 1.0f;
+PICTURE_CONST kSeeThrough = 2.0f;
 
 struct PictureParams {
     vec4 right;  // xyz: unit vector to the right in the picture; w: size of a pixel in the plane through the target [m]
@@ -20,7 +29,7 @@ struct PictureParams {
     vec4 cut;   // xyz: unit normal of the half space that is taken away, zero for none; w: where it begins along it [m]
     vec4 box;   // xyz: low corner of the grid; w: edge of a cell [m]
     vec4 wire;  // xy: the coil's axis; z: radius of the wire's centre line; w: of the wire [m]
-    uvec4 cells;  // xyz: of the grid
+    uvec4 cells;  // xyz: of the grid; w: spheres and joints of the wire together
     uvec4 size;   // xy: of the picture in pixels; z: spheres; w: rays per pixel and direction
 };
 

@@ -347,15 +347,23 @@ TEST_CASE("compare does not say that backends agree where chaos leaves nothing o
     CHECK_THAT(o.out, Catch::Contains("\nUNDECIDED: ") && !Catch::Contains("backends agree"));
 }
 
-TEST_CASE("export-coil writes the coil of a case") {
+TEST_CASE("export-body writes the coil of a case") {
     const Sandbox box;
-    const auto outcome = box.vkdose("export-coil '" VKDOSE_SOURCE_DIR "/cases/paper-48g.toml' --out c.stl --around 12");
+    const std::string paper = "export-body '" VKDOSE_SOURCE_DIR "/cases/paper-48g.toml' ";
+    const auto outcome = box.vkdose(paper + "--out c.stl --around 12 --per-turn 20");
     INFO(outcome.out << outcome.err);
     REQUIRE(outcome.code == 0);
-    CHECK(outcome.out.find("3860 triangles in c.stl") != std::string::npos);  // 160 pieces of 24, two ends of 10
-    CHECK(readText(box / "c.stl").find("solid coil\n") == 0);
-    CHECK(box.vkdose("export-coil '" VKDOSE_SOURCE_DIR "/cases/paper-48g.toml' --out no/c.stl").code == 5);
-    const auto other = box.vkdose("export-coil " + kMini + "--out coil.obj");
+    // 160 pieces of 24, two ends of 10
+    CHECK_THAT(outcome.out, Catch::Contains("coil: 3860 triangles in c.stl, lengths in mm"));
+    CHECK(fs::file_size(box / "c.stl") == 84 + 50 * 3860);
+    CHECK(box.vkdose(paper + "--out no/c.stl").code == 5);
+    const auto none = box.vkdose(paper + "screw");
+    CHECK(none.code == 2);
+    CHECK_THAT(none.err, Catch::Contains("no \"screw\"; give one of: coil"));
+    const auto old = box.vkdose("export-coil " + kMini);
+    CHECK(old.code == 2);
+    CHECK_THAT(old.err, Catch::Contains("export-body"));
+    const auto other = box.vkdose("export-body " + kMini + "--out coil.obj");
     CHECK(other.code == 2);
     CHECK_THAT(other.err, Catch::Contains("writes an STL mesh; give a name that ends in .stl"));
     CHECK_FALSE(fs::exists(box / "coil.obj"));

@@ -153,9 +153,9 @@ TEST_CASE("what a command reads it does not replace") {
     box.write("members.csv", "member,seed\n");  // as if a sweep had been there
     checkRefused(box, "sweep study.toml --backend reference --out .", "");
     fs::remove(box / "members.csv");
-    checkRefused(box, "export-coil base.toml --out base.toml", "base.toml is read by this command");
+    checkRefused(box, "export-body base.toml --out base.toml", "base.toml is read by this command");
     fs::create_symlink("base.toml", box / "link");
-    checkRefused(box, "export-coil base.toml --out link", "link is read by this command");
+    checkRefused(box, "export-body base.toml --out link", "link is read by this command");
     checkRefused(box, "report run --out run/timeseries.csv", "run/timeseries.csv is read by this command");
     checkRefused(box, "report run --experiment b.csv --out b.csv", "b.csv is read by this command");
     checkRefused(box, "render run --out run/particles.csv", "run/particles.csv is read by this command");
@@ -206,7 +206,7 @@ TEST_CASE("a pipe is not waited for, whatever it is given for") {
                                            "check p",
                                            "check base.toml",
                                            "check list.toml",
-                                           "export-coil p",
+                                           "export-body p",
                                            "compare p",
                                            "sweep p",
                                            "sweep study.toml",
@@ -227,7 +227,7 @@ TEST_CASE("a pipe is not waited for, whatever it is given for") {
         CHECK(o.code == 2);
         CHECK_FALSE(o.err.empty());
     }
-    const std::vector<std::string> writing{"export-coil " + kMini + "--out p", "report run --out p",
+    const std::vector<std::string> writing{"export-body " + kMini + "--out p", "report run --out p",
                                            "render run --out p", "render run --movie p.mp4"};
     pipeAt(box / "p.mp4");
     for (const std::string& command : writing) {
@@ -255,7 +255,7 @@ TEST_CASE("a link to a result stays, and a pipe that is read gets it") {
     const Sandbox box;
     box.write("mesh.stl", "old");
     fs::create_symlink("mesh.stl", box / "link.stl");
-    REQUIRE(box.vkdose("export-coil " + kMini + "--out link.stl").code == 0);
+    REQUIRE(box.vkdose("export-body " + kMini + "--out link.stl").code == 0);
     CHECK(fs::is_symlink(box / "link.stl"));
     const std::string mesh = readText(box / "mesh.stl");
     CHECK_THAT(mesh, Catch::StartsWith("solid coil\n"));
@@ -265,7 +265,7 @@ TEST_CASE("a link to a result stays, and a pipe that is read gets it") {
     REQUIRE(box.vkdose("report run --out link.html").code == 0);
     CHECK(fs::is_symlink(box / "link.html"));
     CHECK_THAT(readText(box / "page.html"), Catch::StartsWith("<!DOCTYPE html>"));
-    const auto o = box.vkdose("export-coil " + kMini + "--out pipe", "mkfifo pipe; (cat pipe > got &); exec 3<>pipe; ");
+    const auto o = box.vkdose("export-body " + kMini + "--out pipe", "mkfifo pipe; (cat pipe > got &); exec 3<>pipe; ");
     CAPTURE(o.err);
     CHECK(o.code == 0);
     CHECK(fs::is_fifo(box / "pipe"));
@@ -294,7 +294,7 @@ TEST_CASE("a disk that is full at the start of a run is told as such, and nothin
 
 TEST_CASE("a folder that is missing is told as that") {
     const Sandbox box;
-    const auto o = box.vkdose("export-coil " + kMini + "--out no/c.stl");
+    const auto o = box.vkdose("export-body " + kMini + "--out no/c.stl");
     CHECK(o.code == 5);
     CHECK_THAT(o.err, Catch::Contains("there is no folder no") && !Catch::Contains("make room"));
 }

@@ -7,7 +7,9 @@
 #include <thread>
 
 #include "host/core/error.h"
+#include "host/core/file.h"
 #include "host/output/frame_writer.h"
+#include "host/output/hdf5.h"
 #include "host/output/run_files.h"
 #include "tests/app/sandbox.h"
 #include "tests/support/catch.h"
@@ -288,4 +290,52 @@ TEST_CASE("a list of frames with a line of any length is told with its place, an
         CHECK_THAT(said, Catch::StartsWith(list.string() + ":2: xxx") && Catch::EndsWith(": is no frame of a run"));
         CHECK(said.size() < list.string().size() + 200);
     }
+}
+
+TEST_CASE("frames hold the bodies: those at rest beside the walls, those that move in their place") {
+    const Sandbox box;
+    Case c = smallWorld();
+    RigidBody still, lift;
+    still.shapes = {geometry::Block{Vec3(-0.05), Vec3(-0.04), false}};
+    lift.shapes = {geometry::Block{Vec3(-0.002), Vec3(0.002), false}};
+    lift.course.motion = geometry::Slide{{0, 0.01, 0}};
+    lift.kind = ContactClass::ParticleCoil;  // the coil has contacts of the same class
+    c.world.bodies = {still, lift};
+    Frame f;
+    f.time = 0.5;  // the lift's upper side is at y = 7 mm then
+    f.particles.add({0, 0.0079, 0}, 1e-3);
+    f.particles.add({-0.045, -0.0393, -0.045}, 1e-3);
+    f.particles.add({0, -0.0093, 0}, 1e-3);
+    f.contacts = {{ContactClass::ParticleCoil, 0, 2, 0, Vec3(0), Vec3(0), 0, {0, 0.1, 0}},
+                  {ContactClass::ParticleWall, 1, 1, 0, Vec3(0), Vec3(0), 0, {0, 0.1, 0}},
+                  {ContactClass::ParticleWall, 2, 0, 0, Vec3(0), Vec3(0), 0, {0, 0.1, 0}}};
+    {
+        FrameWriter writer(box.path(), c, 0);
+        writer.put(f);
+        writer.store();
+    }
+    const auto read = [&](const char* file) { return hdf5::Reader(*fileContent(box / "frames" / file)); };
+    const hdf5::Reader contacts = read("contacts_000000.hdf");
+    const auto ends = contacts.array<double>("/VTKHDF/Points");
+    const auto overlap = contacts.array<double>("/VTKHDF/CellData/overlap");
+    REQUIRE(ends.size() == 18);
+    // Single precision; a micrometre is a thousandth of the radius.
+    for (const auto& [at, y] : {std::pair(4, 0.007), std::pair(10, -0.04), std::pair(16, -0.01)})
+        CHECK(std::abs(ends[std::size_t(at)] - y) < 1e-6);
+    CHECK(std::abs(overlap[0] - 0.1e-3) < 1e-6);
+    CHECK(std::abs(overlap[1] - 0.3e-3) < 1e-6);
+
+    const auto moving = read("bodies_000000.hdf").array<double>("/VTKHDF/Points");
+    double low = 1, high = -1;
+    for (std::size_t i = 1; i < moving.size(); i += 3) {
+        low = std::min(low, moving[i]);
+        high = std::max(high, moving[i]);
+    }
+    CHECK(std::abs(low - 0.003) < 1e-6);
+    CHECK(std::abs(high - 0.007) < 1e-6);
+    CHECK(read("bodies_000000.hdf").array<std::uint32_t>("/VTKHDF/CellData/body") == std::vector<std::uint32_t>(12, 2));
+    const auto owners = read("walls.hdf").array<std::uint32_t>("/VTKHDF/CellData/body");
+    CHECK(std::count(owners.begin(), owners.end(), 1U) == 12);
+    CHECK(std::count(owners.begin(), owners.end(), 0U) > 0);
+    CHECK(std::count(owners.begin(), owners.end(), 2U) == 0);
 }

@@ -2,6 +2,7 @@
 
 #include "tests/render/scenes.h"
 
+#include "host/model/body_mesh.h"
 #include "host/render/colour.h"
 #include "tests/support/near.h"
 
@@ -261,4 +262,74 @@ TEST_CASE("the same scene gives the same bits, and an empty one an empty picture
     const Image empty = studio.draw({}, camera);
     CHECK(std::all_of(empty.pixels.begin(), empty.pixels.end(), [](const Image::Pixel& p) { return p.cover == 0; }));
     CHECK(std::all_of(empty.depth.begin(), empty.depth.end(), [](float d) { return d < -1e29f; }));
+}
+
+namespace {
+
+void addBody(Scene& scene, const geometry::Shape& shape, bool seeThrough, int around = 64) {
+    for (const Facet& f : skinOf(shapeMesh(shape, {}, around), isSolid(shape)).facets)
+        scene.facets.push_back({f, seeThrough});
+}
+
+}  // namespace
+
+TEST_CASE("a body of triangles covers what its shape covers, without a gap between them") {
+    Studio studio;
+    const double pixel = 20e-6, radius = 1.5e-3;
+    const Camera camera = frontCamera(201, 177, pixel);
+    Scene scene;
+    addBody(scene, geometry::Ball{Vec3(0.2e-3, -0.1e-3, 0.3e-3), radius}, false, 96);
+    const Image image = studio.draw(scene, camera);
+    double area = 0;
+    for (const Image::Pixel& p : image.pixels) area += p.cover / 255.0;
+    // A polygon of 96 corners in place of the circle lacks (2 pi / 96)^2 / 6 of its area.
+    CHECK(nearRelative(area * pixel * pixel, kPi * radius * radius, 2e-3));
+    const Camera::Place middle = camera.project({0.2e-3, -0.1e-3, 0});
+    int gaps = 0;
+    for (int y = 0; y < camera.height; ++y)
+        for (int x = 0; x < camera.width; ++x)
+            if (std::hypot(x + 0.5 - middle.x, y + 0.5 - middle.y) < radius / pixel - 2)
+                gaps += image.at(x, y).cover != 255;
+    CHECK(gaps == 0);
+    CHECK(near(image.depthAt(int(middle.x), int(middle.y)), 0.3e-3 + radius, radius, 2e-3));
+}
+
+TEST_CASE("a body hides what is behind it, unless it is seen through, and then dims it in the pixels it covers") {
+    Studio studio;
+    const Camera camera = frontCamera(101, 77, 50e-6);
+    const geometry::Block wall{{0, -1e-3, 3e-3}, {1.5e-3, 1e-3, 4e-3}, false};  // before the right half of the sphere
+    Scene scene;
+    addSphere(scene, Vec3(0), kRadius, {1, 0, 0});
+    const Image bare = studio.draw(scene, camera);
+    Scene hidden = scene, dimmed = scene;
+    addBody(hidden, wall, false);
+    addBody(dimmed, wall, true);
+    const Image behind = studio.draw(hidden, camera), through = studio.draw(dimmed, camera);
+    CHECK(near(behind.depthAt(60, 38), 4e-3, 1e-3, 1e-4));
+    CHECK(behind.at(60, 38).red - behind.at(60, 38).green < 20);
+    // Two walls of the pane, seen from the front, take 7 % each.
+    const double left = 0.93 * 0.93;
+    for (const int x : {55, 60, 65}) {
+        const double before = render::linearLight(colourOf(bare.at(x, 38))).x;
+        const double after = render::linearLight(colourOf(through.at(x, 38))).x;
+        CHECK(near(after, left * before + (1 - left) * 0.2, 1, 0.02));
+        CHECK(through.depthAt(x, 38) == bare.depthAt(x, 38));
+    }
+    CHECK(through.at(40, 38).red == bare.at(40, 38).red);
+    CHECK(near(through.at(78, 38).cover / 255.0, 1 - left, 1, 0.01));  // beside the sphere: the pane alone
+}
+
+TEST_CASE("a cut shows a solid body as a flat section, a wall as a line") {
+    Studio studio;
+    Camera camera = frontCamera(101, 77, 50e-6);
+    Scene scene;
+    scene.cut = render::CutPlane{{0, 0, 1}, 0.2e-3};
+    addBody(scene, geometry::Ball{Vec3(0), kRadius}, false);
+    const Image ball = studio.draw(scene, camera);
+    CHECK(near(ball.depthAt(50, 38), 0.2e-3, 1e-3, 1e-3));
+    CHECK(near(ball.depthAt(60, 38), 0.2e-3, 1e-3, 1e-3));
+    scene.facets.clear();
+    addBody(scene, geometry::Cone{{0, 0, -1e-3}, {0, 0, 1}, kRadius, kRadius, 2e-3}, false);
+    const Image tube = studio.draw(scene, camera);
+    CHECK(tube.at(50, 38).cover == 0);
 }

@@ -325,3 +325,45 @@ TEST_CASE("boundaries that are no canister are drawn as far as the powder reache
             CHECK(x.y <= 0.03 + 1e-9);
         }
 }
+
+TEST_CASE("the body that holds the powder is seen through, one that stands in it is not") {
+    Case c = mini();
+    c.canister.reset();
+    c.world.surfaces.clear();
+    c.world.coil.reset();
+    RigidBody drum, rod, floor;
+    drum.shapes = {geometry::Cone{{0, 0, -20e-3}, {0, 0, 1}, 20e-3, 20e-3, 60e-3}};
+    rod.shapes = {geometry::Ball{Vec3(0, 12e-3, 3e-3), 1e-3}};  // hides one of three particles from the side
+    rod.course.start.origin = {-8e-3, 0, 0};
+    floor.shapes = {geometry::Plane{{0, -5e-3, 0}, {0, 1, 0}}};
+    c.world.bodies = {drum, rod, floor};
+    const Frame f = someFrame();
+    std::vector<DrawnBody> bodies = bodiesOf(c);
+    const Box content = render::contentOf(c, f, bodies);
+    // As large as the drum, with a margin; the floor goes on for ever and takes no part.
+    CHECK(near(content.high.y, 20e-3, 20e-3, 0.15));
+    CHECK(near(content.low.z, -20e-3, 20e-3, 0.15));
+    lookThrough(bodies, c, f, {-1, 0, 0}, content);
+    CHECK(bodies[0].seeThrough);
+    CHECK(bodies[1].hidden == 1);
+    CHECK_FALSE(bodies[1].seeThrough);
+    CHECK_FALSE(bodies[2].seeThrough);
+    std::vector<DrawnBody> below = bodiesOf(c);
+    lookThrough(below, c, f, {0, -1, 0}, content);
+    CHECK(below[2].seeThrough);
+
+    Studio studio;
+    PictureSpec spec;
+    spec.bodies = bodies;
+    spec.scale = scaleFor(Quantity::Speed, c, {});
+    const std::vector<Panel> panels{{&f, valuesOf(Quantity::Speed, c, f, nullptr), ""}};
+    const Canvas canvas = drawPicture(studio.caster(), c, spec, content, panels);
+    const Layout layout = layoutOf(spec, content, 1);
+    const auto at = [&](const Vec3& x) {
+        const render::Camera::Place p = layout.camera.project(x);
+        return canvas.colourAt(int(layout.panels[0].x + p.x), int(layout.panels[0].y + p.y));
+    };
+    CHECK(isGrey(at({-9e-3, 12e-3, 3e-3})));  // the rod
+    CHECK_FALSE(isGrey(at(f.particles.position[2])));
+    CHECK(at({0, -4e-3, 0}).x > 0.75);  // nothing but the drum's pane
+}

@@ -1,6 +1,7 @@
 // The player in a browser, on a scene whose picture is known.
 #include "host/core/error.h"
 #include "host/report/free_surface_report.h"
+#include "host/report/player_bodies.h"
 #include "tests/report/browser.h"
 #include "tests/report/folders.h"
 #include "tests/report/frames.h"
@@ -135,4 +136,36 @@ TEST_CASE("without WebGL the page says so and shows the rest") {
                Catch::Contains("cannot be shown here: this browser offers no WebGL 2"));
     CHECK(dom.find("data-state=\"ready\"") != std::string::npos);
     CHECK(count(dom, "<figure") == 8);  // the player's, two of doses, the surface, torque, power, velocity, the ledger
+}
+
+TEST_CASE("the player shows a body where its motion has brought it") {
+    if (browserMissing()) return;
+    const Sandbox box;
+    Json data = dataOf(box);
+    data["player"]["coil"] = nullptr;
+    // A ball that goes from the rear to the outlet: 3 mm along in the first frame, 18 mm in the second.
+    Case c = loadCase(VKDOSE_SOURCE_DIR "/cases/mini.toml");
+    RigidBody ball;
+    ball.name = "ball";
+    ball.shapes = {geometry::Ball{Vec3(0, 2e-3, 0), 2e-3}};
+    ball.course.motion = geometry::Slide{{0, 0, 0.06}};
+    c.world.bodies = {ball};
+    data["player"]["bodies"] = bodiesJson(c, {0.05, 0.3, 0.5}, {0, 0, 0}, scene()[0]);
+    CHECK_FALSE(data["player"]["bodies"][0]["pane"]);
+    const Json seen = probed(drawn(box, data, kWebGl, readProbe("player_probe.js")));
+    REQUIRE(seen["state"] == "ready");
+    REQUIRE(area(seen["first"], "steel") > 200);
+    // The picture shows about 25 mm from left to right.
+    const double way = seen["moved"]["steel"]["x"].get<double>() - seen["first"]["steel"]["x"].get<double>();
+    CHECK(way > 0.4);
+    CHECK(way < 0.8);
+
+    // A box around all of it is a pane: blue shows through.
+    c.world.bodies[0].shapes = {geometry::Block{{-8e-3, -8e-3, -1e-3}, {8e-3, 8e-3, 22e-3}, true}};
+    c.world.bodies[0].course.motion = geometry::Rest{};
+    data["player"]["bodies"] = bodiesJson(c, {0.05, 0.3, 0.5}, {0, 0, 0}, scene()[0]);
+    CHECK(data["player"]["bodies"][0]["pane"]);
+    const Json through = probed(drawn(box, data, kWebGl, readProbe("player_probe.js")));
+    REQUIRE(through["state"] == "ready");
+    CHECK(area(through["first"], "blue") > 100);
 }

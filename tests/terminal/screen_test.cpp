@@ -1,6 +1,7 @@
 // The picture of a run on a terminal, counted in pixels and characters.
 
 #include "host/terminal/screen.h"
+#include "host/model/body_mesh.h"
 
 #include <cmath>
 
@@ -102,6 +103,36 @@ TEST_CASE("spheres in front hide those behind, and only active ones are drawn") 
     std::swap(f.particles.position[0], f.particles.position[1]);
     const Canvas swapped = sideView(s, f, 72, 60, Style::Colour);
     CHECK(swapped.at(31, y)->blue > swapped.at(31, y)->red);
+}
+
+TEST_CASE("a body is its edges, in the place where its motion has brought it") {
+    // A box of 20 mm, turned by 45 degrees about x after a second: its silhouette is a square on its corner. The
+    // picture is as wide as the body.
+    Scene s;
+    RigidBody body;
+    body.shapes = {geometry::Block{Vec3(-0.01), Vec3(0.01), false}};
+    body.course.motion = geometry::Turn{{1, 0, 0}, Vec3(0), kPi / 4};
+    s.bodies = {body};
+    s.skins = {bodySkin(body)};
+    Frame f = frame();
+    // Whether a pixel at this place, or beside it, is lit; the body reaches to `half` in z and y, 59 pixels in all.
+    const auto lit = [&](double time, double half, double z, double y) {
+        f.time = time;
+        const Canvas canvas = sideView(s, f, 61, 61, Style::Colour);
+        const double perMetre = 59 / (2 * half);
+        const int px = int(1 + (z + half) * perMetre), py = int(canvas.height() - 1 - (y + half) * perMetre);
+        for (const int d : {-1, 0, 1})
+            if (canvas.at(px, py + d)) return true;
+        return false;
+    };
+    const double half = std::sqrt(2) * 0.01;
+    for (const double share : {0.2, 0.4, 0.6, 0.8}) {
+        CHECK(lit(1, half, -share * half, (share - 1) * half));
+        CHECK(lit(1, half, share * half, (share - 1) * half));
+        CHECK_FALSE(lit(1, half, -share * half, 0));
+        CHECK(lit(0, 0.01, -share * 0.01, -0.01));
+        CHECK_FALSE(lit(0, 0.01, -share * 0.01, (share - 1) * 0.01));
+    }
 }
 
 TEST_CASE("the coil is a sine line that turns with its angle") {

@@ -155,7 +155,7 @@ def things(t, own):
     else:
         os.mkdir(at)
     own.keep(at)
-    command = t.rng.choice((["report", "out"], ["render", "out", "--size", "64x64"], ["export-coil", "out/case.toml"]))
+    command = t.rng.choice((["report", "out"], ["render", "out", "--size", "64x64"], ["export-body", "out/case.toml"]))
     t.vkdose(*command, "--out", "thing")
     own.judge(f"`{command[0]} --out` onto a {thing}")
 

@@ -27,7 +27,7 @@ TARGETS = (
     ("run", ["case.toml"] * 6 + ["list.csv"] * 3 + ["case-list.toml"]),
     ("check", ["case.toml"] * 2 + ["list.csv"]),
     ("compare", ["case.toml"]),
-    ("export-coil", ["case.toml"]),
+    ("export-body", ["case.toml"]),
     ("resume", [CHECKPOINT] * 6 + OF_A_RUN + OF_A_RUN[:3] + ["fields/outlet.csv"]),
     ("report", OF_A_RUN + OF_A_RUN[1:3] + ["summary.json"] * 2 + ["particles.csv", "frames/contacts_000001.hdf"]),
     ("report", ["experiment.csv", "profile.csv"] * 2),
@@ -74,13 +74,13 @@ def prepare(t, command, name):
     """Makes the folder for the command. Returns the words of the command and the path of the file to be spoilt."""
     ground = t.ground
     device = ["--backend", "vulkan" if t.rng.random() < 0.1 else "reference"]
-    if command in ("run", "check", "compare", "export-coil"):
+    if command in ("run", "check", "compare", "export-body"):
         folders.write(t.path("case.toml"), ground.case_text("short"))
         list_case(t)
         case = "case.toml" if name == "case.toml" else "case-list.toml"
         words = {"run": ["run", case, "--out", "out", "--quiet", *device], "check": ["check", case, *device],
                  "compare": ["compare", case, "--steps", "50", "--twins", "1"],
-                 "export-coil": ["export-coil", case, "--out", "coil.stl"]}[command]
+                 "export-body": ["export-body", case, "--out", "coil.stl"]}[command]
         return words, t.path(name)
     if command == "profile":
         folders.write(t.path(name), photo())
@@ -182,7 +182,7 @@ def judge_success(t, command, name, way, readable):
         t.expect_same(good, t.path("out"), "swept on, exit 0, but", but)
     else:
         made = {"report": "out/report.html", "report-sweep": "out/report.html", "render": "out/picture.png",
-                "profile": "profile.csv", "export-coil": "coil.stl"}.get(command)
+                "profile": "profile.csv", "export-body": "coil.stl"}.get(command)
         content = folders.bytes_of(t.path(made)).rstrip() if made and os.path.exists(t.path(made)) else b""
         if made and (not content or made.endswith("html") and not content.endswith(b"</html>")):
             t.found(f"exit 0 without a whole {made}")
