@@ -42,8 +42,8 @@ struct World {
     double maxOverlapRatio = kMaxOverlapRatio;
     bool energyBook = false;  ///< keep the energy book (Sensors::energy)
     Box domain;
-    /// A particle is in the throat if its centre is past throatZ, and dosed if its centre is past outletZ or in a region
-    /// that deletes. Infinite: no throat, no such plane.
+    /// A particle is in the throat if its centre is past throatZ. It is dosed if its centre is past outletZ or in a
+    /// region that deletes. Infinite: no throat, no such plane.
     double throatZ = std::numeric_limits<double>::infinity();
     double outletZ = std::numeric_limits<double>::infinity();
     std::vector<CountRegion> regions;  ///< at most kMaxRegions
