@@ -180,16 +180,4 @@ TriangleSoup soupOf(const std::vector<Triangle>& mesh, const std::string& name) 
     return soup.finish();
 }
 
-std::string stlText(const std::vector<Triangle>& mesh, const std::string& title) {
-    std::string text = "solid " + title + "\n";
-    const auto out = std::back_inserter(text);
-    for (const auto& [a, b, c] : mesh) {
-        const Vec3 n = glm::normalize(glm::cross(b - a, c - a));
-        fmt::format_to(out, "facet normal {:.9g} {:.9g} {:.9g}\nouter loop\n", n.x, n.y, n.z);
-        for (const Vec3& v : {a, b, c}) fmt::format_to(out, "vertex {:.9g} {:.9g} {:.9g}\n", v.x, v.y, v.z);
-        fmt::format_to(out, "endloop\nendfacet\n");
-    }
-    return text + "endsolid " + title + "\n";
-}
-
 }  // namespace vkdose::geometry

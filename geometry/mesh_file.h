@@ -49,7 +49,4 @@ TriangleSoup readMesh(std::string_view content, const std::string& name, double 
 /// Triangles that a program made, as if they came from a file called `name`; places are their numbers.
 TriangleSoup soupOf(const std::vector<Triangle>& mesh, const std::string& name);
 
-/// The triangles as text in the STL format [m].
-std::string stlText(const std::vector<Triangle>& mesh, const std::string& title = "coil");
-
 }  // namespace vkdose::geometry

@@ -39,6 +39,8 @@ constexpr std::array kRules{
     Rule{"outlet", narrowOutlet},
     Rule{"fill-low", bareCoil},
     Rule{"domain", tightDomain},
+    Rule{"region", unreachableRegion},
+    Rule{"no-outlet", noOutlet},
     Rule{"settle-time", shortSettling},
     Rule{"dose-length", longDose},
     Rule{"dose-spheres", smallDose},

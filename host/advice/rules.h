@@ -49,6 +49,10 @@ Found narrowOutlet(const Subject& s);
 Found bareCoil(const Subject& s);
 Found tightDomain(const Subject& s);
 
+// region_rules.cpp: where powder is dosed or counted
+Found unreachableRegion(const Subject& s);
+Found noOutlet(const Subject& s);
+
 // powder_rules.cpp: particles, contacts and gravity
 Found lightOrHeavyPowder(const Subject& s);
 Found strangeBulkDensity(const Subject& s);

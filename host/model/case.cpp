@@ -131,6 +131,7 @@ Case interpret(const std::filesystem::path& file, Node tree, std::vector<std::fi
     readTime(reader, root, c);
     readBodies(reader, root, reader.faulty() ? std::numeric_limits<double>::quiet_NaN() : meshReach(c), c);
     alignWithDrive(c);
+    readRegions(reader, root, c);
     readContact(reader, root, reader.faulty() ? std::numeric_limits<double>::quiet_NaN() : sizeRange(c).mean, c);
     readRegion(root, kind, c);
     readSchedule(reader, root, c);

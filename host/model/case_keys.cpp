@@ -281,6 +281,16 @@ constexpr Key kMotion[] = {
     number("to_s", kSecond, kPositive, told("for ever"), "by time: and from then on"),
 };
 
+constexpr Key kCountRegion[] = {
+    text("name", kRequired, "of the region, in messages and tables: letters, digits, `-` and `_`"),
+    word("kind", "beyond box", kRequired, "`beyond`: all that lies beyond a plane; `box`: all in a box").replacing("*"),
+    boolean("deletes", true, "a sphere whose centre comes into it is dosed; `false`: it is counted and goes on"),
+    vector("point", kMetre, kRequired, "`beyond`: of the plane"),
+    vector("normal", kPlain, kRequired, "`beyond`: points away from the powder, to the side that counts"),
+    vector("low", kMetre, kRequired, "`box`: its low corner"),
+    vector("high", kMetre, kRequired, "`box`: its high corner"),
+};
+
 constexpr Key kSettle[] = {
     number("time_s", kSecond, kNonNegative, 0.0,
            "duration of settling, with the coil at rest; with `until_rest` the longest one"),
@@ -423,6 +433,9 @@ constexpr KeyTable kTables[] = {
     {"body[]", kBodyShape, "The other shapes take those of these keys that name them:"},
     {"body[].motion", kMotion,
      "How the body moves; without this table it rests. Axes and points stand in the frame of the case."},
+    {"region[]", kCountRegion,
+     "Where powder is dosed or counted, a table for each. Without a region that deletes, powder is dosed behind the "
+     "throat of a canister, and nowhere else."},
     {"settle", kSettle, "The run begins with the coil at rest."},
     {"dose", kDose, "Then the coil turns and rests, dose after dose."},
     {"dose.stage[]", kStage,

@@ -51,6 +51,13 @@ void readBodies(CaseReader& reader, Section& root, double meshReach, Case& c);
 /// about its axis while powder is dosed. Call after readBodies and readCoil.
 void alignWithDrive(Case& c);
 
+/// Whether a name may stand before the name of a column: letters, digits, - and _, at most 60.
+bool isColumnName(const std::string& name);
+
+// read_regions.cpp
+/// Reads the regions. Call after readBoundaries, whose outlet they may replace.
+void readRegions(CaseReader& reader, Section& root, Case& c);
+
 // read_field.cpp
 /// Reads the fields. Call after boundaries and sensors. The mean diameter [m] is the default width of the kernels; NaN
 /// if it is not known.

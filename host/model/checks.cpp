@@ -305,6 +305,8 @@ void checkDomain(CaseReader& reader, const Case& c, const Particles& p, const st
             faults.add(named(p, i) + " is outside the domain", "move it or widen [domain]");
         else if (x.z > c.world.outletZ)
             faults.add(named(p, i) + " is past the outlet", "place it in the canister");
+        else if (c.world.doses(x))
+            faults.add(named(p, i) + " is in a region that deletes", "place it outside, or set deletes = false");
     }
 }
 

@@ -248,15 +248,17 @@ void readMotion(CaseReader& reader, Section& body, RigidBody& made) {
 
 }  // namespace
 
+bool isColumnName(const std::string& name) {
+    return !name.empty() && name.size() <= 60 && name.find_first_not_of(kNameLetters) == std::string::npos;
+}
+
 void readBodies(CaseReader& reader, Section& root, double meshReach, Case& c) {
     std::set<std::string> names;
     for (Section* section : root.tables("body")) {
         const BodyReader b{reader, *section, meshReach, c};
         RigidBody body;
         body.name = section->string("name");
-        const bool fit = !body.name.empty() && body.name.size() <= 60 &&
-                         body.name.find_first_not_of(kNameLetters) == std::string::npos;
-        if (section->isString("name") && !fit)
+        if (section->isString("name") && !isColumnName(body.name))
             b.fault("name", "is no name of a body", "give letters, digits, - and _");
         else if (!names.insert(body.name).second)
             b.fault("name", "stands there twice", "give each body a name of its own");

@@ -10,6 +10,7 @@
 #include "geometry/surface.h"
 #include "host/core/vec.h"
 #include "host/model/material.h"
+#include "host/model/region.h"
 #include "host/model/rigid_body.h"
 
 namespace vkdose {
@@ -41,10 +42,17 @@ struct World {
     double maxOverlapRatio = kMaxOverlapRatio;
     bool energyBook = false;  ///< keep the energy book (Sensors::energy)
     Box domain;
-    /// A particle is in the throat if its centre is past throatZ, and dosed if its centre is past outletZ. Infinite: no
-    /// outlet.
+    /// A particle is in the throat if its centre is past throatZ. It is dosed if its centre is past outletZ or in a
+    /// region that deletes. Infinite: no throat, no such plane.
     double throatZ = std::numeric_limits<double>::infinity();
     double outletZ = std::numeric_limits<double>::infinity();
+    std::vector<CountRegion> regions;  ///< at most kMaxRegions
+
+    bool doses(const Vec3& x) const {
+        for (const CountRegion& region : regions)
+            if (region.deletes && region.holds(x)) return true;
+        return x.z > outletZ;
+    }
 };
 
 /// A world together with a single contact law that holds from beginning to end, as in tests and benchmarks.

@@ -88,6 +88,20 @@ std::string bodyHeader(const World& world) {
     return header;
 }
 
+/// The columns of the regions, likewise.
+std::string regionHeader(const World& world) {
+    std::string header;
+    for (const CountRegion& region : world.regions)
+        forEachColumn(kRegionColumns, [&](const auto& c) { header += fmt::format(",{}.{}", region.name, c.name); });
+    return header;
+}
+
+std::string regionRow(const std::vector<RegionCount>& regions) {
+    std::string row;
+    for (const RegionCount& region : regions) row += "," + csvRow(kRegionColumns, region);
+    return row;
+}
+
 }  // namespace
 
 RunFolder::RunFolder(fs::path folder, bool force, const Case& c, std::string backend, std::uint32_t member)
@@ -100,9 +114,10 @@ RunFolder::RunFolder(fs::path folder, bool force, const Case& c, std::string bac
     try {
         removeRun(folder_, replacedIn(folder_, c));  // a stale summary would mislead if this run is killed
         const std::string energy = c.world.energyBook ? "," + csvHeader(kEnergyColumns) : "";
-        timeSeries_.emplace(folder_ / "timeseries.csv", csvHeader(kSampleColumns) + energy + bodyHeader(c.world));
+        timeSeries_.emplace(folder_ / "timeseries.csv",
+                            csvHeader(kSampleColumns) + energy + bodyHeader(c.world) + regionHeader(c.world));
         if (!hadCase) replaceFile(folder_ / "case.toml", c.resolved);
-        doses_.emplace(folder_ / "doses.csv", csvHeader(kDoseColumns));
+        doses_.emplace(folder_ / "doses.csv", csvHeader(kDoseColumns) + regionHeader(c.world));
         if (c.frames.interval > 0) frames_.emplace(folder_, c, member_);
         fields_.emplace(folder_, c);
     } catch (const OutputError&) {
@@ -133,12 +148,12 @@ RunFolder::RunFolder(fs::path folder, FolderLock lock, const Checkpoint& from, c
 void RunFolder::onSample(const Sample& s) {
     std::string line = csvRow(kSampleColumns, s) + (s.energy ? "," + csvRow(kEnergyColumns, *s.energy) : "");
     for (const BodySample& body : s.bodies) line += "," + csvRow(kBodyColumns, body);
-    timeSeries_->line(line);
+    timeSeries_->line(line + regionRow(s.regions));
     timeSeries_->flush();
 }
 
 void RunFolder::onDose(const Dose& d) {
-    doses_->line(csvRow(kDoseColumns, d));
+    doses_->line(csvRow(kDoseColumns, d) + regionRow(d.regions));
     doses_->flush();
 }
 

@@ -24,6 +24,10 @@ std::vector<OutputTable> runTables() {
          "These columns follow in the same line, for each `[[body]]`. The name of the body and a dot stand before "
          "each.",
          columnTexts(kBodyColumns)},
+        {"timeseries.csv and doses.csv, with regions",
+         "These columns follow in the same line, for each `[[region]]`. The name of the region and a dot stand before "
+         "each.",
+         columnTexts(kRegionColumns)},
         {"doses.csv", "A line for every dose.", columnTexts(kDoseColumns)},
         {"particles.csv", "A line for every particle, at the end of the run.", columnTexts(kParticleColumns)},
         {"frames/frames.csv", "A line for every frame.", columnTexts(kFrameColumns)},

@@ -200,6 +200,10 @@ std::string summaryJson(const Case& c, const RunResult& r, const std::string& ba
     j["settling"] = settling(c, r.settling);
     for (std::size_t b = 0; b < r.last.bodies.size(); ++b)
         j["bodies"].push_back({{"name", c.world.bodies.at(b).name}, {"work_J", number(r.last.bodies[b].work)}});
+    for (std::size_t i = 0; i < r.last.regions.size(); ++i)
+        j["regions"].push_back({{"name", c.world.regions.at(i).name},
+                                {"mass_kg", number(r.last.regions[i].mass)},
+                                {"particles", r.last.regions[i].particles}});
     j["settled"] = settled(c, r.settled);
     j["dosed_while_settling_kg"] = number(r.dosedWhileSettling);
     j["closed_form"] = closedForms(r.derived);

@@ -33,9 +33,9 @@ FrameSource framesOf(const std::filesystem::path& run);
 inline constexpr std::size_t kMostCharacters = 22'000'000;
 
 /// The player's data, `player` of runJson: the part that is the same in all frames, the frames' times, phases, doses
-/// and coil angles, the bodies (player_bodies.h), and the stream. If all frames take more than `mostCharacters`, or more than the page can hold in
-/// memory or number, only every n-th frame and the last one are taken, and the page says so. `columns`: of the surface,
-/// in a case with a canister.
+/// and coil angles, the bodies (player_bodies.h), and the stream. If all frames take more than `mostCharacters`, or
+/// more than the page can hold in memory or number, only every n-th frame and the last one are taken, and the page says
+/// so. `columns`: of the surface, in a case with a canister.
 Json playerJson(const Case& c, const FrameSource& frames, std::size_t columns,
                 std::size_t mostCharacters = kMostCharacters);
 

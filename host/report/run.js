@@ -67,6 +67,17 @@ function bodyCharts(parent, run, time) {
   });
 }
 
+/// The mass that has come into each region since the start.
+function regionChart(parent, run, time) {
+  const s = run.series, regions = s.regions || [];
+  if (regions.length === 0) return;
+  chart(parent, {
+    title: "Mass that came into regions", link: overTime(run), x: time, y: {label: "g"}, bands: run.rotations,
+    series: regions.map((r, i) => ({name: r.name, points: zip(s.time_s, r.mass_kg, gram), colour: colour(i, regions.length), thin: true})),
+    note: "Each particle counts once for a region, since the start of the run.",
+  });
+}
+
 function timeCharts(parent, run) {
   const s = run.series, turning = "Shaded: the coil turns; numbered by dose.";
   const time = {label: "time [s]", from: 0, to: d3.max(s.time_s)};
@@ -79,6 +90,7 @@ function timeCharts(parent, run) {
   curve("Outlet velocity", "mm/s", "mean v_z of the mass in the throat", s.outlet_velocity_m_s, milli, "var(--s2)",
         turning + " No curve where the throat is empty; what falls out while settling may leave the frame.");
   bodyCharts(parent, run, time);
+  regionChart(parent, run, time);
 
   let below = s.time_s.map(() => 0);
   const layers = [["dosed", s.dosed_mass_kg, "var(--s0)"], ["throat", s.throat_mass_kg, "var(--s4)"],

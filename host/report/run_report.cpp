@@ -63,6 +63,17 @@ Json bodySeries(const Table& series, std::size_t size) {
     return bodies;
 }
 
+/// What has come into each region, whose columns begin with its name and a dot.
+Json regionSeries(const Table& series, std::size_t size) {
+    Json regions = Json::array();
+    constexpr std::string_view kMass = ".mass_kg";
+    for (const std::string& column : series.names())
+        if (column.ends_with(kMass))
+            regions.push_back({{"name", column.substr(0, column.size() - kMass.size())},
+                               {"mass_kg", numbers(thinned(series.column(column), size, false))}});
+    return regions;
+}
+
 Json seriesJson(const Table& series) {
     const std::size_t size = (series.rows() + kMostLines - 1) / kMostLines;
     Json j;
@@ -71,6 +82,7 @@ Json seriesJson(const Table& series) {
     for (const char* name : {"outlet_velocity_m_s", "coil_torque_Nm", "coil_power_W"})
         j[name] = numbers(thinned(series.column(name), std::max<std::size_t>(size, 1), true));
     j["bodies"] = bodySeries(series, std::max<std::size_t>(size, 1));
+    j["regions"] = regionSeries(series, std::max<std::size_t>(size, 1));
     return j;
 }
 

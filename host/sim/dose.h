@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "host/core/columns.h"
+#include "host/sim/region_count.h"
 
 namespace vkdose {
 
@@ -32,6 +33,8 @@ struct Dose {
     double rotation = std::numeric_limits<double>::quiet_NaN();  ///< from its start until then [s]
     StopCause stoppedBy = StopCause::None;
     double endTime = std::numeric_limits<double>::quiet_NaN();  ///< [s]
+
+    std::vector<RegionCount> regions;  ///< into each of the world's regions; not kept in a checkpoint
 
     double overshoot() const { return mass - stopMass; }  ///< dosed after the coil was told to stop [kg]
 };

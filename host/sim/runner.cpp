@@ -7,6 +7,7 @@
 
 #include "host/core/error.h"
 #include "host/sim/dose_book.h"
+#include "host/sim/region_book.h"
 #include "host/sim/run_record.h"
 
 namespace vkdose {
@@ -101,6 +102,7 @@ class Run {
                                   result_.maxOverlapTime, result_.particleSteps, result_.wallTime});
         put(r, "now", now_);
         loads_.save(r);
+        regions_.save(r);
         put(r, "energy", energy_);
         timeline_.save(r);
         book_.save(r);
@@ -127,6 +129,7 @@ class Run {
         varied_ = progress[4] != 0;
         const auto& sums = r.get<double>("sums", 8);
         loads_.restore(r);
+        regions_.restore(r);
         impulse_ = sums[0];
         powerSum_ = sums[1];
         rate_ = sums[2];
@@ -141,6 +144,7 @@ class Run {
         book_.restore(r);
         get(r, "doses", result_.doses);
         get(r, "last", result_.last);
+        result_.last.regions = regions_.counts();
         get(r, result_.filled.particles, result_.settled);
         get(r, result_.settling);
         rest_.restore(r);
@@ -177,8 +181,7 @@ class Run {
             }
             stretch_ = timeline_.at(step_);
             if (stretch_.phase != Phase::Settle && !dosing_) beginDosing();
-            if (stretch_.phase == Phase::Rotate && book_.index() != stretch_.dose)
-                book_.open(stretch_.dose, timeline_.time(step_), result_.last.sensors);
+            if (stretch_.phase == Phase::Rotate && book_.index() != stretch_.dose) openDose();
             advance(timeline_.nextSample(step_));
             bool endsRun = false;
             if (step_ == sampleStep_) {
@@ -260,6 +263,8 @@ class Run {
         s.outletVelocity = throat > 0 ? now_.throatMomentumZ / throat : std::numeric_limits<double>::quiet_NaN();
         s.energy = energy_;
         s.bodies = loads_.take(gathered_, case_.world.timeStep);
+        if (!regions_.empty()) regions_.look(backend_.particles());
+        s.regions = regions_.counts();
         gathered_ = 0;
         impulse_ = 0;
         observer_.onSample(s);
@@ -310,8 +315,14 @@ class Run {
         return *order.stop == StopCause::Torque && case_.schedule.torqueEndsRun;
     }
 
+    void openDose() {
+        book_.open(stretch_.dose, timeline_.time(step_), result_.last.sensors);
+        regions_.openDose();
+    }
+
     void closeDose(bool complete) {
         result_.doses.push_back(book_.close(complete, result_.last.sensors, timeline_.time(step_)));
+        result_.doses.back().regions = regions_.sinceDose();
         observer_.onDose(result_.doses.back());
     }
 
@@ -412,6 +423,7 @@ class Run {
     Sensors now_;                 ///< of the last call, joined with the calls since the last sample
     std::uint64_t gathered_ = 0;  ///< steps since the last sample
     BodyLoads loads_{case_.world.bodies.size()};
+    RegionBook regions_{case_.world};
     double impulse_ = 0;   ///< torque times steps since the last sample
     double rate_ = 0;      ///< of the coil in the last call [rad/s about +z]
     bool varied_ = false;  ///< it was another since the last sample

@@ -9,6 +9,7 @@
 #include "host/core/columns.h"
 #include "host/sim/body_loads.h"
 #include "host/sim/energy_ledger.h"
+#include "host/sim/region_count.h"
 #include "host/sim/timeline.h"
 
 namespace vkdose {
@@ -27,6 +28,7 @@ struct Sample {
     double coilPower = 0;                ///< drive torque times speed [W]
     std::optional<EnergyLedger> energy;  ///< if the case asks for it
     std::vector<BodySample> bodies;      ///< of the world's bodies, in their order
+    std::vector<RegionCount> regions;    ///< of the world's regions likewise, since the start of the run
 };
 
 // The columns of the sensors, by regions in the order of Region.

@@ -17,6 +17,20 @@ bool finite(vec3 v) { return !(any(isnan(v)) || any(isinf(v))); }
 
 bool beyond(vec3 way, float limit) { return dot(way, way) > limit * limit; }
 
+/// Whether a particle has come past the outlet, or into a region that deletes.
+bool isDosed(vec3 x, float outletZ) {
+    bool dosed = x.z > outletZ;
+    for (uint k = 0u; k < kMaxRegionOutlets; ++k) {
+        vec4 first = outletVector(2u * k);
+        if (first.w == 0.0) break;
+        vec4 second = outletVector(2u * k + 1u);
+        bool beyond = dot(first.xyz, x) > second.w;
+        bool within = all(greaterThan(x, first.xyz)) && all(lessThan(x, second.xyz));
+        dosed = dosed || (first.w == 1.0 ? beyond : within);
+    }
+    return dosed;
+}
+
 void main() {
     openMember();
     uint i = firstParticle() + invocation();
@@ -70,7 +84,7 @@ void main() {
 
     bool sound = finite(high) && finite(velocity) && finite(spin);
     bool outside = any(lessThan(high, bottom.xyz)) || any(greaterThan(high, top.xyz));
-    uint now = !sound ? kStatusLost : high.z > top.w ? kStatusDosed : outside ? kStatusLost : kStatusActive;
+    uint now = !sound ? kStatusLost : isDosed(high, top.w) ? kStatusDosed : outside ? kStatusLost : kStatusActive;
     bool leaves = moving && now != kStatusActive;
 
     // Lists may be made from the rows at any time, so the rows must always hold all that is within the slack.

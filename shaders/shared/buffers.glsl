@@ -92,6 +92,7 @@ vec4 gravity() { return OF_MEMBER(gravity, kVectorGravity); }
 vec4 domainLow() { return OF_MEMBER(domainLow, kVectorGravity + 1u); }
 vec4 domainHigh() { return OF_MEMBER(domainHigh, kVectorGravity + 2u); }
 vec4 numerics() { return OF_MEMBER(numerics, kVectorGravity + 3u); }
+vec4 outletVector(uint k) { return OF_MEMBER(outlets[k], kVectorOutlets + k); }
 uvec4 choices() { return uvec4(OF_MEMBER(choices, kVectorGravity + 4u)); }
 
 bool hasCoil() { return member.coil.motion.z != 0.0; }

@@ -29,6 +29,7 @@ SHARED_CONST kFirstView = kTables;
 
 // --- limits -------------------------------------------------------------------------------------------------------
 SHARED_CONST kMaxSurfaces = 28u;
+SHARED_CONST kMaxRegionOutlets = 4u;  // vkdose::kMaxOutlets
 SHARED_CONST kMaxTurns = 4u;  // of the coil that one particle touches at once
 // The entry of a contact with a surface holds the surface in these bits. The bits above hold the number of slots that
 // its invocation works on.
@@ -130,12 +131,16 @@ struct Member {
     uvec4 roster;     // x: in block n, the member that row n of a dispatch works for
     uvec4 bodies;     // x: how many; y: where they begin in `geometry`; z: where their motions begin in `motions`; w:
                       // from one step's motions to the next one's
+    vec4 outlets[2u * kMaxRegionOutlets];  // of a region that deletes: first vector's w: 0 none, and none behind it; 1
+                                           // beyond a plane: its normal, then its place along it in w [m]; 2 a box: its
+                                           // low, then its high corner [m]
 };
 // Where in a member some of its vectors are.
 SHARED_CONST kVectorSurface = 12u;
 SHARED_CONST kVectorCoil = kVectorSurface + 4u * kMaxSurfaces;
 SHARED_CONST kVectorGravity = kVectorCoil + 5u;
-SHARED_CONST kMemberVectors = kVectorGravity + 7u;
+SHARED_CONST kVectorOutlets = kVectorGravity + 7u;
+SHARED_CONST kMemberVectors = kVectorOutlets + 2u * kMaxRegionOutlets;
 
 // --- control block: decisions and reports of the device -----------------------------------------------------------
 // Calls of particles in order of urgency: errors first (causes before their effects), then rebuild, then refresh. A

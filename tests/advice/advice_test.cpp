@@ -68,6 +68,9 @@ const std::vector<Slip> kSlips{
     {{"canister.outlet_diameter_mm=10", "coil.radius_mm=3.5", "dose.rotate_s=6"}, "outlet", {"2.3 of the largest"}},
     {{"particles.mass_g=3"}, "fill-low", {"particles.mass_g = 3", "below the coil's axis"}},
     {{"domain.low=[-0.02, -0.005, -0.01]", "domain.high=[0.02, 0.2, 0.06]"}, "domain", {"is lost"}},
+    {{"region=[{name = \"moon\", kind = \"beyond\", deletes = false, point = [0, 100, 0], normal = [0, 1, 0]}]"},
+     "region",
+     {"region.moon: no sphere can reach it", "widen [domain]"}},
     {{"settle.time_s=0.05"}, "settle-time", {"settle.time_s = 0.05", "43.8 mm", "0.094 s", "at least 0.24"}},
     {{"dose.rotate_s=1e9"}, "dose-length", {"more than the fill of 13 g"}, false},
     {{"dose.rotate_s=0.1"}, "dose-spheres", {"spheres, so that one sphere is"}},
@@ -98,7 +101,7 @@ TEST_CASE("each slip has its warning with figures and a cure") {
 }
 
 TEST_CASE("every rule is shown by a slip") {
-    std::set<std::string> shown, all;
+    std::set<std::string> shown{"no-outlet"}, all;  // that one takes a case without a canister
     for (const Slip& slip : kSlips) shown.insert(slip.name);
     for (const std::string& name : warningNames()) all.insert(name);
     CHECK(all.size() == warningNames().size());
@@ -120,6 +123,51 @@ TEST_CASE("a shipped case has no warning but those it accepts, and accepts none 
         CHECK(warnings.size() == acceptedBy(c).size());
     }
     CHECK(cases > 10);
+}
+
+TEST_CASE("doses without a canister take a region that deletes") {
+    const test::Folder folder;
+    const auto warned = [&](const std::string& region) {
+        folder.write("case.toml", R"(boundaries = "none"
+[particles]
+density = 1427.0
+mass_g = 0.1
+[particles.size]
+distribution = "fixed"
+radius_mm = 1.25
+[particles.region]
+low = [-0.008, -0.01, 0.001]
+high = [0.008, 0.008, 0.009]
+[contact]
+k = 8000.0
+k1_over_k = 0.2
+kc_over_k = 0.0
+plasticity_depth = 0.05
+damping = 0.03
+friction = 0.5
+[[body]]
+name = "drum"
+shape = "cylinder"
+radius_mm = 15
+length_mm = 10
+[body.motion]
+kind = "turn"
+follows = "drive"
+[settle]
+time_s = 0.06
+[dose]
+rotate_s = 0.05
+speed_rpm = 30
+)" + region);
+        const Case c = loadCase(folder.path() / "case.toml");
+        const std::vector<std::string> names = namesOf(warningsOf(c, insertParticles(c)));
+        return std::count(names.begin(), names.end(), "no-outlet") == 1;
+    };
+    const std::string region =
+        "[[region]]\nname = \"front\"\nkind = \"beyond\"\npoint = [0, 0, 0.011]\nnormal = [0, 0, 1]\n";
+    CHECK(warned(""));
+    CHECK(warned(region + "deletes = false\n"));
+    CHECK_FALSE(warned(region));
 }
 
 TEST_CASE("an accepted warning stays, marked as such") {

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "geometry/mesh_file.h"
 #include "tests/app/sandbox.h"
 #include "tests/support/catch.h"
 
@@ -143,4 +144,61 @@ TEST_CASE("what a device does not do with bodies is refused by name") {
     const auto energy = box.vkdose("run drum.toml --quiet --backend vulkan --set sensors.energy=true");
     CHECK(energy.code == 3);
     CHECK_THAT(energy.err + energy.out, Contains("energy book") && Contains("--backend reference"));
+}
+
+TEST_CASE("export-body writes bodies where their motion has brought them, in the unit asked for") {
+    const Sandbox box;
+    box.write("drum.toml", kDrum);
+    // The post turns twice for each turn of the drive: an eighth of one brings it from +x, -2 mm to a quarter farther.
+    const auto o = box.vkdose("export-body drum.toml post --angle 45 --unit cm --out post.stl");
+    INFO(o.out << o.err);
+    REQUIRE(o.code == 0);
+    const vkdose::geometry::TriangleSoup soup = vkdose::geometry::readMeshFile(box / "post.stl", 1e-2);
+    vkdose::Vec3 low(1), high(-1);
+    for (const vkdose::Vec3& x : soup.points) {
+        low = glm::min(low, x);
+        high = glm::max(high, x);
+    }
+    // Single precision; 64 corners to a turn leave out 0.0012 of the radius at most.
+    const vkdose::Vec3 expectedLow(0.002 - 1.2e-3, 0.0105 - 1.2e-3, 0),
+        expectedHigh(0.002 + 1.2e-3, 0.0105 + 1.2e-3, 0.01);
+    CHECK(glm::length(low - expectedLow) < 3e-6);
+    CHECK(glm::length(high - expectedHigh) < 3e-6);
+    const auto all = box.vkdose("export-body drum.toml --out all.stl");
+    CHECK_THAT(all.out, Contains("drum, post: "));
+    const auto none = box.vkdose("export-body drum.toml coil");
+    CHECK(none.code == 2);
+    CHECK_THAT(none.err, Contains("no \"coil\"; give one of: drum, post"));
+}
+
+TEST_CASE("what comes into a region is in the time series, the doses and the summary") {
+    for (const std::string backend : {"reference", "vulkan"}) {
+        CAPTURE(backend);
+        const Sandbox box;
+        // The drum is open and a little aslant: what comes low in it counts, and what has passed its ends is dosed.
+        std::string text = "gravity = [0, -8, 5]\n" + kDrum;
+        text.replace(text.find("ends = true"), 11, "ends = false");
+        box.write("drum.toml", text +
+                                   "[[region]]\nname = \"low\"\nkind = \"box\"\nlow = [-0.02, -0.02, -0.1]\n"
+                                   "high = [0.02, -0.01, 0.1]\ndeletes = false\n"
+                                   "[[region]]\nname = \"rear\"\nkind = \"beyond\"\npoint = [0, 0, -0.001]\n"
+                                   "normal = [0, 0, -1]\n"
+                                   "[[region]]\nname = \"front\"\nkind = \"beyond\"\npoint = [0, 0, 0.011]\n"
+                                   "normal = [0, 0, 1]\n");
+        const auto o = box.vkdose("run drum.toml --quiet --out run --backend " + backend);
+        INFO(o.out << o.err);
+        REQUIRE(o.code == 0);
+        const auto series = readCsv(box / "run/timeseries.csv"), doses = readCsv(box / "run/doses.csv");
+        const auto last = [&](const char* name) { return std::stod(series.back()[column(series, name)]); };
+        CHECK(last("low.count") > 0);
+        CHECK(last("rear.mass_kg") + last("front.mass_kg") == Approx(last("dosed_mass_kg")).epsilon(1e-6));
+        CHECK(last("dosed_count") > 0);
+        const double inDose = std::stod(doses.back()[column(doses, "rear.mass_kg")]) +
+                              std::stod(doses.back()[column(doses, "front.mass_kg")]);
+        CHECK(inDose == Approx(std::stod(doses.back()[column(doses, "mass_kg")])).epsilon(1e-6));
+        const auto summary = nlohmann::json::parse(readText(box / "run/summary.json"));
+        REQUIRE(summary["regions"].size() == 3);
+        CHECK(summary["regions"][0]["name"] == "low");
+        CHECK(summary["regions"][0]["particles"] == last("low.count"));
+    }
 }

@@ -1,9 +1,9 @@
 // The mesh is the coil, and closed.
 
 #include "geometry/coil_mesh.h"
+#include "geometry/mesh_writer.h"
 
 #include <map>
-#include <sstream>
 #include <tuple>
 
 #include "tests/support/catch.h"
@@ -66,21 +66,15 @@ TEST_CASE("the corners of the coil's mesh lie on the wire") {
     }
 }
 
-TEST_CASE("the STL text holds the triangles") {
+TEST_CASE("the bytes of an STL file hold the triangles, in the unit asked for") {
     const std::vector<Triangle> mesh = coilMesh(coil(1), 3, 4);
-    std::istringstream text(stlText(mesh));
-    std::string word;
-    std::size_t corners = 0, facets = 0;
-    while (text >> word) {
-        if (word == "facet") ++facets;
-        if (word != "vertex") continue;
-        Vec3 v;
-        text >> v.x >> v.y >> v.z;
-        REQUIRE(corners < 3 * mesh.size());
-        CHECK(test::near(v, mesh[corners / 3][corners % 3], 1e-3, 1e-6));
-        ++corners;
-    }
-    CHECK(facets == mesh.size());
-    CHECK(corners == 3 * mesh.size());
-    CHECK(word == "coil");
+    const std::string bytes = stlBytes(mesh, "a coil", 1e-3);
+    CHECK(bytes.size() == 84 + 50 * mesh.size());
+    CHECK(bytes.substr(0, 7) == "a coil ");
+    const TriangleSoup soup = readMesh(bytes, "coil.stl", 1e-3);
+    REQUIRE(soup.triangles.size() == mesh.size());
+    for (std::size_t t = 0; t < mesh.size(); ++t)
+        for (std::size_t k = 0; k < 3; ++k)
+            CHECK(test::near(soup.points[soup.triangles[t][k]], mesh[t][k], 0.08, 1.1e-7));  // single precision
+    CHECK_THROWS_AS(stlBytes({{Vec3(0), Vec3(1e30), Vec3(0, 1, 0)}}, "", 1e-30), MeshError);
 }

@@ -47,7 +47,7 @@ const std::map<std::string, Layout>& hostLayouts() {
         {"Member",
          {{FIELD(Member, contact), FIELD(Member, surface), FIELD(Member, coil), FIELD(Member, gravity),
            FIELD(Member, domainLow), FIELD(Member, domainHigh), FIELD(Member, numerics), FIELD(Member, choices),
-           FIELD(Member, roster), FIELD(Member, bodies)},
+           FIELD(Member, roster), FIELD(Member, bodies), FIELD(Member, outlets)},
           sizeof(Member)}},
         {"Dispatch",
          {{FIELD(Dispatch, cells), FIELD(Dispatch, particles), FIELD(Dispatch, refresh), FIELD(Dispatch, settle)},

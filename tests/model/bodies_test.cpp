@@ -1,5 +1,6 @@
 // Bodies of a case: every shape and motion from its keys, the resolved case, and faults with their places.
 
+#include "geometry/mesh_writer.h"
 #include "geometry/tessellate.h"
 #include "host/core/error.h"
 #include "tests/model/case_files.h"
@@ -48,8 +49,9 @@ struct Read {
         return "no fault";
     }
     void mesh() {
-        folder.write("block.stl", geometry::stlText(geometry::tessellated(geometry::Block{Vec3(-10), Vec3(10)}, 5,
-                                                                          Vec3(-100), Vec3(100))));
+        folder.write("block.stl", geometry::stlBytes(geometry::tessellated(geometry::Block{Vec3(-10), Vec3(10)}, 5,
+                                                                           Vec3(-100), Vec3(100)),
+                                                     "block", 1));
     }
 };
 

@@ -206,7 +206,7 @@ void ReferenceBackend::move(std::size_t i, double kick) {
 void ReferenceBackend::settleStatus(std::size_t i) {
     const Vec3& x = particles_.position[i];
     const bool broken = !finite(x) || !finite(particles_.velocity[i]) || !finite(particles_.spin[i]);
-    if (!broken && x.z > world_.outletZ) {
+    if (!broken && world_.doses(x)) {
         particles_.status[i] = Status::Dosed;
     } else if (broken || !inside(world_.domain, x)) {
         particles_.status[i] = Status::Lost;

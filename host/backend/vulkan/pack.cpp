@@ -75,6 +75,20 @@ struct PackSurface {
     }
 };
 
+static_assert(gpu::kMaxRegionOutlets == kMaxOutlets);
+
+void packOutlets(const World& world, gpu::Member& m) {
+    std::size_t k = 0;
+    for (const CountRegion& region : world.regions) {
+        if (!region.deletes) continue;
+        if (k == gpu::kMaxRegionOutlets) throw RunError(fmt::format("more than {} regions that delete", k));
+        const bool box = region.kind == CountRegion::Kind::Box;
+        m.outlets[2 * k] = vec4(glm::vec3(box ? region.low : region.normal), box ? 2.0f : 1.0f);
+        m.outlets[2 * k + 1] = vec4(glm::vec3(region.high), float(glm::dot(region.point, region.normal)));
+        ++k;
+    }
+}
+
 }  // namespace
 
 gpu::CoilParams packCoil(const geometry::Coil& c, double largest) {
@@ -130,6 +144,7 @@ gpu::Member packMember(const World& world, const ContactLaw& law, const Particle
     m.gravity = vec4(glm::vec3(world.gravity), float(world.density));
     m.domainLow = vec4(glm::vec3(world.domain.low), finite(world.throatZ));
     m.domainHigh = vec4(glm::vec3(world.domain.high), finite(world.outletZ));
+    packOutlets(world, m);
     m.numerics =
         vec4(float(world.timeStep), float(world.skin), float(2 * largest + world.skin), float(world.maxOverlapRatio));
     return m;

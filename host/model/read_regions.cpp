@@ -1,0 +1,50 @@
+// The regions where powder is dosed or counted: [[region]].
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <set>
+
+#include "host/model/case_sections.h"
+
+namespace vkdose {
+
+void readRegions(CaseReader& reader, Section& root, Case& c) {
+    std::set<std::string> names;
+    std::size_t outlets = 0;
+    for (Section* section : root.tables("region")) {
+        Section& s = *section;
+        CountRegion region;
+        region.name = s.string("name");
+        if (s.isString("name") && !isColumnName(region.name))
+            reader.fault(s.path("name"), "is no name of a region", "give letters, digits, - and _");
+        else if (!names.insert(region.name).second)
+            reader.fault(s.path("name"), "stands there twice", "give each region a name of its own");
+        const auto kind = s.choice("kind");
+        region.deletes = s.boolean("deletes");
+        outlets += region.deletes ? 1 : 0;
+        if (!kind) {
+            s.abandon();
+        } else if (*kind == 0) {
+            region.point = s.vector("point");
+            region.normal = readDirection(reader, s, "normal");
+        } else {
+            region.kind = CountRegion::Kind::Box;
+            region.low = s.vector("low");
+            region.high = s.vector("high");
+            if (glm::any(glm::lessThanEqual(region.high, region.low)))
+                reader.fault(s.path("high"), "is not beyond low on every axis", "exchange low and high, or enlarge it");
+        }
+        c.world.regions.push_back(std::move(region));
+    }
+    if (c.world.regions.size() > kMaxRegions)
+        reader.fault("region", fmt::format("there are {}", c.world.regions.size()),
+                     fmt::format("give at most {}", kMaxRegions));
+    if (outlets > kMaxOutlets)
+        reader.fault("region", fmt::format("{} of them delete", outlets),
+                     fmt::format("let at most {} delete, and count in the others", kMaxOutlets));
+    // A region that deletes stands in the place of the plane behind the throat.
+    if (outlets > 0) c.world.outletZ = std::numeric_limits<double>::infinity();
+}
+
+}  // namespace vkdose
