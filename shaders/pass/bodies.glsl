@@ -6,7 +6,17 @@
 
 #define TABLE(number, name, element, count, title) \
     layout(std430, set = 0, binding = number) readonly buffer name##Buffer { element name[]; };
+#define WRITTEN(number, name, element, count, title) \
+    layout(std430, set = 0, binding = number) buffer name##Buffer { element name[]; };
 #include "shared/body_tables.h"
+
+/// Where the triangles near a body slot begin in `nearby`, and whether there is room for them.
+uint nearbyStart;
+bool openNearby(uint slot) {
+    nearbyStart = kNearbyWords * (slot - springSlotCount() - coilSlotCount());
+    return (SHAPE_KINDS & (1u << kShapeMesh)) != 0u && nearbyStart + kNearbyWords <= uint(nearby.length());
+}
+uint nearbyAt(uint i) { return nearby[nearbyStart + 1u + i]; }
 
 uvec4 geometryAt(uint i) { return geometry[member.bodies.y + i]; }
 

@@ -87,9 +87,12 @@ VkDeviceSize Tables::bytes() const {
     return sum;
 }
 
-BodyTables::BodyTables(const vk::Device& device, const std::vector<gpu::uvec4>& shapes, std::size_t count)
+BodyTables::BodyTables(const vk::Device& device, const std::vector<gpu::uvec4>& shapes, std::size_t motionCount,
+                       std::size_t slots)
     : geometry(device, "the shapes of the bodies", shapes.size() * sizeof(gpu::uvec4)),
-      motions(device, "the motions of the bodies", count * sizeof(gpu::BodyMotion)) {
+      nearby(device, "the triangles near each particle",
+             std::max<std::size_t>(1, slots) * gpu::kNearbyWords * sizeof(std::uint32_t)),
+      motions(device, "the motions of the bodies", motionCount * sizeof(gpu::BodyMotion)) {
     geometry.writeAll(shapes);
 }
 
