@@ -144,6 +144,8 @@ MeshPlace vertexPlace(uint vertices, uint number, Two3 centre, float radius) {
 // Parts of a triangle, as bits: three edges, three corners, the face.
 const uint kPartCorner = 8u;
 const uint kPartFace = 64u;
+const uint kPartBits = 7u;
+const uint kPartsInWord = 4u;  // of so many triangles
 
 /// The parts of a triangle that may be a place, as plain floats tell, and those edges that decide about its face.
 uint partsInReach(uint at, Two3 centre, float radius, float margin) {
@@ -231,20 +233,26 @@ void meshPlaces(uint shape, uvec4 head, Two3 centre, float radius) {
             if (mayReach(starts.x + kTriangleVectors * nearbyAt(k), centre.high, reach)) left |= 1u << (k - n);
         for (uint k = n; k < end && !known; k += 4u)
             left |= reachAmongFour(head.w, list, k, starts.x, centre.high, reach) << (k - n);
-        uint touching = 0u;
+        // A few at a time, so that their parts find room in one word.
         for (uint k = n; k < end && left != 0u; ++k) {
-            uint bit = left & (~left + 1u);
-            left &= ~bit;
-            uint at = starts.x + kTriangleVectors * nthListed(known, head.w, list.x, n + uint(findLSB(bit)));
-            if (partsInReach(at, centre, radius, margin) != 0u) touching |= bit;
+            uint touching = 0u, parts = 0u, taken = 0u;
+            for (; left != 0u && taken < kPartsInWord; left &= left - 1u) {
+                uint bit = left & (~left + 1u);
+                uint at = starts.x + kTriangleVectors * nthListed(known, head.w, list.x, n + uint(findLSB(bit)));
+                uint here = partsInReach(at, centre, radius, margin);
+                parts |= here << (kPartBits * taken);
+                if (here == 0u) continue;
+                touching |= bit;
+                ++taken;
+            }
+            for (; touching != 0u; touching &= touching - 1u, parts >>= kPartBits) {
+                uint t = nthListed(known, head.w, list.x, n + uint(findLSB(touching)));
+                uint here = parts & ((1u << kPartBits) - 1u);
+                trianglePlaces(starts.x + kTriangleVectors * t, t, here, starts, tags, centre, radius);
+            }
+            if (touching != 0u) placesLost = true;
         }
-        for (uint k = n; k < end && touching != 0u; ++k) {
-            uint bit = touching & (~touching + 1u);
-            touching &= ~bit;
-            uint t = nthListed(known, head.w, list.x, n + uint(findLSB(bit)));
-            uint at = starts.x + kTriangleVectors * t;
-            trianglePlaces(at, t, partsInReach(at, centre, radius, margin), starts, tags, centre, radius);
-        }
+        if (left != 0u) placesLost = true;
     }
     if (n < list.y) placesLost = true;
 }

@@ -85,6 +85,7 @@ void main() {
     if (motion.velocity.w == float(kParticleCoil)) law = ofCoil;
 
     float radius = me.sphere.radius;
+    openBodies();
     if (openNearby(slot)) nearbyCount = nearby[nearbyStart];
     uint count = touchedFeatures(body, toBody(motion, me.sphere.high, me.sphere.low), radius);
     if (count > kMaxBodyTouches) {

@@ -198,6 +198,7 @@ void main() {
 #endif
     }
 #ifdef WITH_BODIES
+    openBodies();
     float bodyReach = reachOfBodies(p.w, slack);
     bodies = nearBodies(i, p.w, bodyReach);
     listBodies(i, range, bodyReach);
