@@ -3,6 +3,7 @@
 // The including file defines, before it includes this one:
 //
 //   uvec4 geometryAt(uint i)    vector i of the table `geometry` (shared/geometry.h), of the member at work
+//   uint nearbyAt(uint i)       a triangle near the sphere (law/mesh.glsl); not called unless nearbyCount is set
 //   SHAPE_KINDS                 a constant with a bit for each kind of shape that there is (packBodies tells which).
 //                               If it is a specialisation constant, kinds that are absent cost nothing.
 //

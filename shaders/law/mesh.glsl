@@ -10,7 +10,8 @@
 // one of its triangles, so that it is looked at once. What a step leaves over is kept as bits of a word: lavapipe takes
 // minutes to compile arrays with many readers.
 //
-// The including file defines uvec4 geometryAt(uint i): vector i of the table `geometry`.
+// The including file defines uvec4 geometryAt(uint i): vector i of the table `geometry`; and uint nearbyAt(uint i):
+// triangle i of those near the sphere, if it sets `nearbyCount`.
 //
 //   shape     2: low corner of the grid, 1 / edge of a cell      3: numbers of cells, margin [m]
 //             4: triangles, edges, vertices, - (where their records begin)      5: numbers of triangles, of edges
@@ -35,8 +36,9 @@
 
 const float kSquare = 1e-6;  // directions count as square to each other to this
 const uint kRound = 32u;     // triangles of a round, one bit of a word each
-// Places that one triangle adds at most. A face and its parts at once are places only where they are nearly the same.
-const uint kMostOfTriangle = 3u;
+// So many triangles are all that can be near the sphere: nearbyAt has them. kWholeCell: those of its cell may be.
+const uint kWholeCell = 0xffffffffu;
+uint nearbyCount = kWholeCell;
 
 vec4 realsAt(uint i) { return uintBitsToFloat(geometryAt(i)); }
 
@@ -65,6 +67,13 @@ bool mayReach(uint triangle, vec3 centre, float reach) {
 }
 
 uint nthTriangle(uint lists, uint list, uint n) { return geometryAt(lists + list + n / 4u)[n & 3u]; }
+
+uint nthListed(bool known, uint lists, uint list, uint n) {
+    uint t = 0u;
+    if (known) t = nearbyAt(n);
+    if (!known) t = nthTriangle(lists, list, n);
+    return t;
+}
 
 /// Of four triangles of a list, from number n on, a bit for each that may have a point within `reach` of a point.
 uint reachAmongFour(uint lists, uvec2 list, uint n, uint triangles, vec3 centre, float reach) {
@@ -135,6 +144,8 @@ MeshPlace vertexPlace(uint vertices, uint number, Two3 centre, float radius) {
 // Parts of a triangle, as bits: three edges, three corners, the face.
 const uint kPartCorner = 8u;
 const uint kPartFace = 64u;
+const uint kPartBits = 7u;
+const uint kPartsInWord = 4u;  // of so many triangles
 
 /// The parts of a triangle that may be a place, as plain floats tell, and those edges that decide about its face.
 uint partsInReach(uint at, Two3 centre, float radius, float margin) {
@@ -211,28 +222,37 @@ void meshPlaces(uint shape, uvec4 head, Two3 centre, float radius) {
     uvec3 starts = geometryAt(shape + 4u).xyz;
     uvec2 numbers = geometryAt(shape + 5u).xy;
     uvec3 tags = uvec3(head.y, head.y + numbers.x, head.y + numbers.x + numbers.y);
-    uvec2 list = cellList(shape, head.z, centre.high);
+    bool known = nearbyCount != kWholeCell;
+    uvec2 list = uvec2(0u, nearbyCount);
+    if (!known) list = cellList(shape, head.z, centre.high);
     float reach = radius + margin;
     uint n = 0u;
     for (; n < list.y; n += kRound) {
         uint left = 0u, end = min(n + kRound, list.y);
-        for (uint k = n; k < end; k += 4u)
+        for (uint k = n; k < end && known; ++k)
+            if (mayReach(starts.x + kTriangleVectors * nearbyAt(k), centre.high, reach)) left |= 1u << (k - n);
+        for (uint k = n; k < end && !known; k += 4u)
             left |= reachAmongFour(head.w, list, k, starts.x, centre.high, reach) << (k - n);
-        uint touching = 0u;
+        // A few at a time, so that their parts find room in one word.
         for (uint k = n; k < end && left != 0u; ++k) {
-            uint bit = left & (~left + 1u);
-            left &= ~bit;
-            uint at = starts.x + kTriangleVectors * nthTriangle(head.w, list.x, n + uint(findLSB(bit)));
-            if (partsInReach(at, centre, radius, margin) != 0u) touching |= bit;
+            uint touching = 0u, parts = 0u, taken = 0u;
+            for (; left != 0u && taken < kPartsInWord; left &= left - 1u) {
+                uint bit = left & (~left + 1u);
+                uint at = starts.x + kTriangleVectors * nthListed(known, head.w, list.x, n + uint(findLSB(bit)));
+                uint here = partsInReach(at, centre, radius, margin);
+                parts |= here << (kPartBits * taken);
+                if (here == 0u) continue;
+                touching |= bit;
+                ++taken;
+            }
+            for (; touching != 0u; touching &= touching - 1u, parts >>= kPartBits) {
+                uint t = nthListed(known, head.w, list.x, n + uint(findLSB(touching)));
+                uint here = parts & ((1u << kPartBits) - 1u);
+                trianglePlaces(starts.x + kTriangleVectors * t, t, here, starts, tags, centre, radius);
+            }
+            if (touching != 0u) placesLost = true;
         }
-        for (uint k = n; k < end && touching != 0u; ++k) {
-            uint bit = touching & (~touching + 1u);
-            touching &= ~bit;
-            uint t = nthTriangle(head.w, list.x, n + uint(findLSB(bit)));
-            uint at = starts.x + kTriangleVectors * t;
-            if (placeCount + kMostOfTriangle > kMostPlaces) thinPlaces();
-            trianglePlaces(at, t, partsInReach(at, centre, radius, margin), starts, tags, centre, radius);
-        }
+        if (left != 0u) placesLost = true;
     }
     if (n < list.y) placesLost = true;
 }

@@ -1,7 +1,7 @@
 #version 450
 // bodies: computes the contacts with bodies in this step, one particle and one body near it per invocation.
-// Reads the source half of the state, entries, history, the shapes and motions of the bodies; writes history, forces
-// and torques, which `move` gathers, and the sums of what the particle does to the body, which the host reads.
+// Reads the source half of the state, entries, history, the shapes and motions of the bodies, `nearby`; writes history,
+// forces and torques, which `move` gathers, and the sums of what the particle does to the body, which the host reads.
 //
 // Each place where the body is touched is a contact. It goes on with the contact of the last step whose direction in
 // the frame of the body is nearest to its own, within 45 degrees, and the springs turn with it (geometry/matching.h).
@@ -85,6 +85,8 @@ void main() {
     if (motion.velocity.w == float(kParticleCoil)) law = ofCoil;
 
     float radius = me.sphere.radius;
+    openBodies();
+    if (openNearby(slot)) nearbyCount = nearby[nearbyStart];
     uint count = touchedFeatures(body, toBody(motion, me.sphere.high, me.sphere.low), radius);
     if (count > kMaxBodyTouches) {
         report(kErrorFeatures, i);

@@ -5,10 +5,29 @@
 #include "shared/geometry.h"
 
 #define TABLE(number, name, element, count, title) \
+    const uint name##Binding = number;             \
     layout(std430, set = 0, binding = number) readonly buffer name##Buffer { element name[]; };
+#define WRITTEN(number, name, element, count, title) \
+    layout(std430, set = 0, binding = number) buffer name##Buffer { element name[]; };
 #include "shared/body_tables.h"
 
-uvec4 geometryAt(uint i) { return geometry[member.bodies.y + i]; }
+/// Where the triangles near a body slot begin in `nearby`, and whether there is room for them.
+uint nearbyStart;
+bool openNearby(uint slot) {
+    nearbyStart = kNearbyWords * (slot - springSlotCount() - coilSlotCount());
+    return (SHAPE_KINDS & (1u << kShapeMesh)) != 0u && nearbyStart + kNearbyWords <= uint(nearby.length());
+}
+uint nearbyAt(uint i) { return nearby[nearbyStart + 1u + i]; }
+
+/// Where the member's shapes begin: call openBodies first.
+uint geometryBegin;
+void openBodies() { geometryBegin = member.bodies.y; }
+#ifdef TEXEL_READS
+layout(set = 0, binding = kFirstView + geometryBinding) uniform utextureBuffer geometryView;
+uvec4 geometryAt(uint i) { return texelFetch(geometryView, int(geometryBegin + i)); }
+#else
+uvec4 geometryAt(uint i) { return geometry[geometryBegin + i]; }
+#endif
 
 #include "law/features.glsl"
 #include "law/pose.glsl"

@@ -49,22 +49,52 @@ void bookDepartureFromBody(uint i, uint slot, uint body) {
 }
 #endif
 
-/// The bodies within reach, a bit each. A body and the particle may both go their slack, and the body a step more
-/// before it is told that it has.
-uint nearBodies(uint i, float radius, float slack) {
+/// How near a body must be. A body and the particle may both go their slack, and the body a step more before it is told
+/// that it has.
+float reachOfBodies(float radius, float slack) { return radius + slack + bodySlack() + 2.0 * member.choices.w + 1e-7; }
+
+Two3 centreOn(uint body, uint i) {
+    return toBody(motionOf(body), readState(push.source, kPosition, i).xyz, readState(push.source, kResidue, i).xyz);
+}
+
+/// The bodies within reach, a bit each.
+uint nearBodies(uint i, float radius, float reach) {
     uint near = 0u;
     if (radius <= 0.0) return near;
-    float reach = radius + slack + bodySlack() + 2.0 * member.choices.w + 1e-7;
-    vec3 high = readState(push.source, kPosition, i).xyz, low = readState(push.source, kResidue, i).xyz;
     for (uint b = 0u; b < member.bodies.x; ++b) {
-        Two3 centre = toBody(motionOf(b), high, low);
+        Two3 centre = centreOn(b, i);
         if (mayTouch(b, centre, reach) && mayBeNear(b, centre, reach)) near |= 1u << b;
     }
     return near;
 }
 
+/// Keeps the triangles that the slot's particle can touch before the next refresh.
+void listTriangles(uint slot, uint body, Two3 centre, float reach) {
+    if (!openNearby(slot)) return;
+    uint kept = 0u, meshes = 0u;
+    uvec2 shapes = geometryAt(kBodyVectors * body).xy;
+    for (uint s = 0u; s < shapes.y; ++s) {
+        uint shape = shapes.x + kShapeVectors * s;
+        uvec4 head = geometryAt(shape);
+        if (head.x != kShapeMesh) continue;
+        ++meshes;
+        float margin = uintBitsToFloat(geometryAt(shape + 3u).w);
+        uint triangles = geometryAt(shape + 4u).x;
+        uvec2 list = cellList(shape, head.z, centre.high);
+        uint k = 0u;
+        for (; k < list.y && kept < kNearbyWords; ++k) {
+            uint t = nthTriangle(head.w, list.x, k);
+            if (!mayReach(triangles + kTriangleVectors * t, centre.high, reach + margin)) continue;
+            if (kept + 1u < kNearbyWords) nearby[nearbyStart + 1u + kept] = t;
+            ++kept;
+        }
+        if (k < list.y) kept = kNearbyWords;
+    }
+    nearby[nearbyStart] = meshes == 1u && kept < kNearbyWords ? kept : kWholeCell;
+}
+
 /// Lists the bodies, and carries on what the particle remembers of them.
-void listBodies(uint i, uvec4 range) {
+void listBodies(uint i, uvec4 range, float reach) {
     uint count = bitCount(bodies);
     firstBody = atomicAdd(control.body.y, count);
     if (firstBody + count > push.bodySlots) {
@@ -75,7 +105,9 @@ void listBodies(uint i, uvec4 range) {
     firstBody += firstBodySlot();
     uint to = firstBody;
     for (uint left = bodies; left != 0u; left &= left - 1u, ++to) {
-        entries[comingEntryIndex(to)] = uvec2(i, findLSB(left));
+        uint body = uint(findLSB(left));
+        entries[comingEntryIndex(to)] = uvec2(i, body);
+        listTriangles(to, body, centreOn(body, i), reach);
         for (uint part = 0u; part < kBodyHistory; ++part) carried[placeHistoryIndex(to, 0u, part)] = vec4(0.0);
     }
     uint first = springSlotCount() + coilSlotCount();
@@ -166,8 +198,10 @@ void main() {
 #endif
     }
 #ifdef WITH_BODIES
-    bodies = nearBodies(i, p.w, slack);
-    listBodies(i, range);
+    openBodies();
+    float bodyReach = reachOfBodies(p.w, slack);
+    bodies = nearBodies(i, p.w, bodyReach);
+    listBodies(i, range, bodyReach);
 #endif
     if (p.w < 0.0 && hasCoil()) {
 #ifdef ENERGY_BOOK

@@ -55,6 +55,8 @@ SHARED_CONST kMostInCell = 4096u;
 SHARED_CONST kMostAtVertex = 4096u;
 SHARED_CONST kMostFlightTurns = 64u;  // of a screw that one sphere reaches
 
+SHARED_CONST kNearbyWords = 32u;  // of a body slot in the table `nearby`
+
 /// Where a body is and how it moves at one time.
 struct BodyMotion {
     vec4 toBodyHigh[3];  // xyz: rows of the rotation from the world to the body; w: origin of the body in the world [m]

@@ -42,6 +42,10 @@ uvec4 geometryAt(uint i) {
 }
 #endif
 
+uint nearbyAt(uint i) {
+    return 0u;
+}
+
 #include "law/features.glsl"
 #include "law/pose.glsl"
 

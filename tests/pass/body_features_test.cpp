@@ -453,6 +453,28 @@ TEST_CASE("the device joins the shapes of a body as the host does, and finds cur
     for (const Setup& setup : setups) check(narrow, setup, 2000, 1000);
 }
 
+TEST_CASE("the device joins a ring of facets around a sphere as the host does") {
+    // Spheres stuck in the outlet of a hopper, and in a tube that is hardly wider than they are: each touches facets
+    // all around.
+    const auto meshed = [](const Shape& shape, double facet, double reach) {
+        return meshOf(tessellated(shape, facet, Vec3(-1), Vec3(1)), reach);
+    };
+    const Cone hopper{{0, 0, 0}, {0, -1, 0}, 20e-3, 3e-3, 30e-3}, funnel{{0, 0, 0}, {0, -1, 0}, 6e-3, 3e-3, 30e-3};
+    const Cone snug{{0, 0, 0}, {0, 0, 1}, 4e-3, 4e-3, 12e-3};
+    const auto stuck = [&](const char* name, const Cone& cone, double facet, double wander) {
+        const Shape mesh = meshed(cone, facet, 4.4e-3);
+        return Setup{name, {mesh}, 4e-3, Vec3(-wander, -33e-3, -wander), Vec3(wander, -24e-3, wander)};
+    };
+    const std::vector<Setup> setups{
+        stuck("outlet", hopper, 2.5e-3, 0.1e-3),
+        stuck("outlet, fine mesh", hopper, 1.6e-3, 0.1e-3),
+        stuck("steep funnel", funnel, 0.8e-3, 0.1e-3),
+        {"snug tube", {meshed(snug, 0.8e-3, 4.4e-3)}, 4e-3, Vec3(-0.2e-3, -0.2e-3, 2e-3), Vec3(0.2e-3, 0.2e-3, 10e-3)},
+    };
+    Narrow narrow;
+    for (const Setup& setup : setups) check(narrow, setup, 500, 200);
+}
+
 TEST_CASE("the device tells when a sphere touches more places than it computes") {
     Facets spikes;  // nine far apart on a great circle, pointing inwards
     for (int i = 0; i < 9; ++i) {

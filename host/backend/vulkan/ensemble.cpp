@@ -42,8 +42,9 @@ const char* text(std::uint32_t error) {
             return "left the domain: close the boundaries around it (canister.lid = true if it flew out at the top) or "
                    "use a smaller time step";
         case gpu::kErrorFeatures:
-            return "touches one body in more than four places: use smaller spheres, a smoother body, or --backend "
-                   "reference";
+            return "touches one body in more than four places, or more than 128 facets of its mesh at once: use "
+                   "smaller "
+                   "spheres, a smoother body, a coarser mesh, or --backend reference";
         case gpu::kErrorTurns:
             return "touches more turns of the coil than there are slots: use a larger pitch";
         default:

@@ -72,7 +72,13 @@ void Ensemble::makeBodies(TableSizes& sizes) {
     }
     mostBatch_ = std::uint32_t(std::max<std::size_t>(1, kMostMotionBytes / (motions * sizeof(gpu::BodyMotion))));
     mostBatch_ = std::min(mostBatch_, 1024U);
-    bodies_ = std::make_unique<BodyTables>(device_, geometry, std::size_t(mostBatch_) * motions);
+    // A slot beyond what the device can bind keeps no triangles: its particle looks at all of its cell.
+    std::size_t slots = 0;
+    if ((sizes.shapeKinds & 1U << gpu::kShapeMesh) != 0)
+        slots =
+            std::min<std::size_t>(std::size_t(sizes.members) * sizes.bodySlots,
+                                  device_.limits().maxStorageBufferRange / (gpu::kNearbyWords * sizeof(std::uint32_t)));
+    bodies_ = std::make_unique<BodyTables>(device_, geometry, std::size_t(mostBatch_) * motions, slots);
 }
 
 /// Where the bodies of all live members are in each step of the next batch.

@@ -11,8 +11,8 @@ namespace vkdose {
 
 namespace {
 
-Access accessOn(const vk::Device& device, const TableSizes& s) {
-    std::uint64_t most = 0;
+Access accessOn(const vk::Device& device, const TableSizes& s, const BodyTables* bodies) {
+    std::uint64_t most = bodies != nullptr ? bodies->geometry.size() / sizeof(gpu::uvec4) : 0;
     for (const TableShape& table : TableCounts(s).shapes())
         if (table.view != VK_FORMAT_UNDEFINED) most = std::max(most, table.texels);
     const bool texel = s.texelReads && most <= device.limits().maxTexelBufferElements;
@@ -87,9 +87,14 @@ VkDeviceSize Tables::bytes() const {
     return sum;
 }
 
-BodyTables::BodyTables(const vk::Device& device, const std::vector<gpu::uvec4>& shapes, std::size_t count)
-    : geometry(device, "the shapes of the bodies", shapes.size() * sizeof(gpu::uvec4)),
-      motions(device, "the motions of the bodies", count * sizeof(gpu::BodyMotion)) {
+BodyTables::BodyTables(const vk::Device& device, const std::vector<gpu::uvec4>& shapes, std::size_t motionCount,
+                       std::size_t slots)
+    : geometry(
+          device, "the shapes of the bodies", shapes.size() * sizeof(gpu::uvec4),
+          shapes.size() <= device.limits().maxTexelBufferElements ? VK_FORMAT_R32G32B32A32_UINT : VK_FORMAT_UNDEFINED),
+      nearby(device, "the triangles near each particle",
+             std::max<std::size_t>(1, slots) * gpu::kNearbyWords * sizeof(std::uint32_t)),
+      motions(device, "the motions of the bodies", motionCount * sizeof(gpu::BodyMotion)) {
     geometry.writeAll(shapes);
 }
 
@@ -100,7 +105,7 @@ std::vector<const vk::Buffer*> with(const BodyTables& bodies, std::vector<const 
 }
 
 Passes::Passes(const vk::Device& device, const TableSizes& s, const BodyTables* bodyTables)
-    : Tables(device, s, accessOn(device, s)),
+    : Tables(device, s, accessOn(device, s, bodyTables)),
       bodies(bodyTables),
       bindings_(device, all(), sizeof(gpu::StepPush)),
       sense_(device, bindings_, vk::pick(spirv::sense, macrosFor(access, s)), constants(s)),

@@ -46,8 +46,10 @@ class Tables {
 /// The tables of shaders/shared/body_tables.h.
 class BodyTables {
   public:
-    /// `geometry`: of all members, one after another. `motions`: room for so many.
-    BodyTables(const vk::Device& device, const std::vector<gpu::uvec4>& geometry, std::size_t motions);
+    /// `shapes`: of all members, one after another. `motionCount`: room for so many. `slots`: of all members, whose
+    /// nearby triangles are kept.
+    BodyTables(const vk::Device& device, const std::vector<gpu::uvec4>& shapes, std::size_t motionCount,
+               std::size_t slots);
 
 #define TABLE(number, name, element, count, title) vk::Buffer name;
 #include "shaders/shared/body_tables.h"
