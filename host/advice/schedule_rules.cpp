@@ -44,7 +44,7 @@ Found shortSettling(const Subject& s) {
 }
 
 Found longDose(const Subject& s) {
-    if (!s.doses() || !(s.derived.massPerDose > s.derived.fillMass)) return {};
+    if (!(s.derived.massPerDose > s.derived.fillMass)) return {};
     return Finding{"dose.rotate_s",
                    fmt::format("by the closed form a dose conveys {:.3g} g, more than the fill of {:.3g} g",
                                s.derived.massPerDose * 1e3, s.derived.fillMass * 1e3),
@@ -71,7 +71,7 @@ Found shortLongestTime(const Subject& s) {
 }
 
 Found smallDose(const Subject& s) {
-    if (!s.doses() || s.derived.massPerDose <= 0) return {};
+    if (s.derived.massPerDose <= 0) return {};
     const double sphere = s.filled.mass / static_cast<double>(s.filled.particles.size());
     const double count = s.derived.massPerDose / sphere;
     if (count >= kSpheresInDose) return {};
@@ -84,7 +84,7 @@ Found smallDose(const Subject& s) {
 
 Found earlyStop(const Subject& s) {
     const StopRule& stop = s.c.schedule.stop;
-    if (!s.doses() || stop.kind != StopRule::Kind::Experiment) return {};
+    if (stop.kind != StopRule::Kind::Experiment) return {};
     const double expected = stop.doses * s.derived.massPerDose;
     if (s.derived.massPerDose <= 0 || stop.threshold < 0.5 * expected) return {};
     return Finding{

@@ -232,6 +232,34 @@ TEST_CASE("bodies: the fill of a canister starts above what the drive turns") {
     }
 }
 
+TEST_CASE("bodies: a screw and a mesh have the closed form of what they carry") {
+    const auto derivedOf = [](const std::string& file, const std::vector<std::string>& overrides = {}) {
+        const Case c = loadCase(shippedCase(file), overrides);
+        return derive(c, insertParticles(c));
+    };
+    // By hand: bulk density, pitch, swept section less the spring's own volume over its length; two turns.
+    const double spring = 530 * 5e-3 * (kPi * 5.7e-3 * 5.7e-3 - 0.2211e-6 / 35e-3);
+    CHECK(derivedOf("devices/mesh-lactose.toml").massPerTurn == Approx(spring).epsilon(0.02));
+    CHECK(derivedOf("devices/mesh-lactose.toml").massPerDose == Approx(2 * spring).epsilon(0.02));
+    CHECK(derivedOf("devices/mesh-lactose.toml").pushVelocity == Approx(5e-3).epsilon(0.02));
+    // Pitch less blade, between shaft and rim; three turns.
+    const double screw = 450 * 7e-3 * kPi * (6e-3 * 6e-3 - 2.5e-3 * 2.5e-3);
+    CHECK(derivedOf("devices/auger-milk.toml").massPerDose == Approx(3 * screw).epsilon(0.05));
+    const auto exact = [](const std::string& hand) {
+        const Folder folder;
+        const Case c = loadCase(folder.write(
+            "case.toml", kGoodCase.substr(0, kGoodCase.find("[coil]")) +
+                             "[[body]]\nname = \"screw\"\nshape = \"screw\"\nradius_mm = 6\nshaft_radius_mm = 2.5\n"
+                             "thickness_mm = 1\npitch_mm = 8\nlength_mm = 21\nhand = \"" +
+                             hand +
+                             "\"\n[body.motion]\nkind = \"turn\"\nfollows = \"drive\"\n[settle]\ntime_s = 0.1\n"
+                             "[dose]\nrotate_s = 0.3\nspeed_rpm = 60\n"));
+        return derive(c, insertParticles(c)).massPerTurn / c.bulkDensity;
+    };
+    CHECK(exact("left") == Approx(screw / 450).epsilon(0.05));
+    CHECK(exact("right") == 0);  // it carries powder to the rear wall
+}
+
 TEST_CASE("bodies: one that stands in the fill is refused with what would be right") {
     Read read;
     const std::string ball = "[[body]]\nname = \"pin\"\nshape = \"ball\"\nradius_mm = 2\nat = [0, 0.024, 0]\n";
