@@ -18,6 +18,12 @@ constexpr double kLargestInOutlet = 2.5;
 /// A limit below this ends a run in which a sphere is wedged between wire and wall.
 constexpr double kWedgedOverlap = 0.5;
 
+/// Angles of repose [degrees]: hardly any powder without adhesion is steeper; free-flowing ones are about so steep.
+constexpr double kSteepest = 45, kUsualSlope = 30;
+/// Strongest pull over weight of a sphere above which adhesion holds powder in an open throat. With 5 a sixteenth of
+/// the fill of cases/devices/bulk-sugar.toml ran out while it settled, with 50 nothing of tiny-drug.toml.
+constexpr double kHeldByBond = 10;
+
 double mm(double metres) {
     return metres * 1e3;
 }
@@ -125,6 +131,36 @@ Found narrowOutlet(const Subject& s) {
                     "so narrow a hole",
                     hole / (2 * s.f.mean), hole / (2 * s.f.largest)),
         fmt::format("give at least {:.3g}, or spheres {:.2g} times smaller", mm(needed), needed / hole)};
+}
+
+Found openThroat(const Subject& s) {
+    // The blade of a screw closes the throat, as nothing of cases/devices/auger-milk.toml ran out while it settled.
+    if (!s.c.canister || !s.doses() || !(s.f.bondLargest <= kHeldByBond)) return {};
+    const Canister& can = *s.c.canister;
+    const double slope = std::atan2(can.outletDiameter, can.throatLength) * 180 / kPi;
+    if (!(slope > kSteepest)) return {};
+    return Finding{
+        "canister.throat_length_mm",
+        fmt::format("powder that hardly sticks (Bond number at most {:.2g}) runs out through the throat by itself, at "
+                    "rest and beside what the coil conveys: from the hole's top to the throat's end the "
+                    "slope is {:.2g} degrees, steeper than such powder lies",
+                    s.f.bondLargest, slope),
+        fmt::format("give a throat of {:.3g} or more, which the first turns fill, a narrower outlet, or expect it",
+                    mm(can.outletDiameter / std::tan(kUsualSlope * kPi / 180)))};
+}
+
+Found emptyThroat(const Subject& s) {
+    if (!s.doses() || !s.c.canister || s.c.schedule.targetMass > 0) return {};
+    const double throat = s.c.canister->throatLength, pitch = s.c.world.coil->pitch;
+    const double turns = s.c.schedule.coilSpeed * s.c.schedule.rotateTime / (2 * kPi);
+    if (!(turns > 0) || turns * pitch >= 0.5 * throat) return {};
+    return Finding{
+        "canister.throat_length_mm",
+        fmt::format("the throat is empty at first, and a dose of {:.2g} turns pushes the powder by {:.3g} mm; "
+                    "the first {:.0f} doses fill the throat and give little",
+                    turns, mm(turns * pitch), std::ceil(throat / (turns * pitch)) - 1),
+        fmt::format("leave these doses out of the mean, turn at least {:.2g} s, or give a shorter throat",
+                    s.c.schedule.rotateTime * throat / (turns * pitch))};
 }
 
 Found bareCoil(const Subject& s) {

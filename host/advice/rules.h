@@ -46,6 +46,8 @@ Found coilThroughRear(const Subject& s);
 Found coilAtRest(const Subject& s);
 Found coilTooFast(const Subject& s);
 Found narrowOutlet(const Subject& s);
+Found openThroat(const Subject& s);
+Found emptyThroat(const Subject& s);
 Found bareCoil(const Subject& s);
 Found tightDomain(const Subject& s);
 
@@ -65,9 +67,18 @@ Found deepOfFall(const Subject& s);
 Found fewSpheres(const Subject& s);
 Found wideSizes(const Subject& s);
 
+// body_rules.cpp: bodies
+Found bodyBackwards(const Subject& s);
+Found bodyInWall(const Subject& s);
+Found bodiesCross(const Subject& s);
+Found shortBody(const Subject& s);
+Found bodyOutOfScale(const Subject& s);
+Found sphereInBody(const Subject& s);
+
 // schedule_rules.cpp: times, doses and the ends of a run
 Found shortSettling(const Subject& s);
 Found longDose(const Subject& s);
+Found shortLongestTime(const Subject& s);
 Found smallDose(const Subject& s);
 Found earlyStop(const Subject& s);
 Found fewFrames(const Subject& s);

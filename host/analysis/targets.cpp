@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "host/core/grams.h"
+
 namespace vkdose {
 
 TargetFigures targetFigures(const std::vector<Dose>& doses) {
@@ -22,8 +24,8 @@ TargetFigures targetFigures(const std::vector<Dose>& doses) {
 }
 
 std::string targetText(const Dose& d) {
-    return fmt::format("target {:.3f} g, {:.3f} g at the stop after {:.3g} s, overshoot {:.3f} g; stopped by {}",
-                       d.target * 1e3, d.stopMass * 1e3, d.rotation, d.overshoot() * 1e3,
+    return fmt::format("target {} g, {} g at the stop after {:.3g} s, overshoot {} g; stopped by {}", grams(d.target),
+                       grams(d.stopMass), d.rotation, grams(d.overshoot()),
                        Words<StopCause>::kNames.at(std::size_t(d.stoppedBy)));
 }
 

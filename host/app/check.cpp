@@ -21,9 +21,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Used where no speed is measured: about the speed of two cores of a server with a CPU driver and a settled bed.
-constexpr double kAssumedSpeed = 6e6;
-
 /// The freshly filled grid has no contacts yet, so it runs faster than the bed it becomes.
 double measuredSpeed(const Case& c, const Insertion& filled, Backend& backend) {
     using Clock = std::chrono::steady_clock;
@@ -121,14 +118,16 @@ void printGaps(const Checked& all) {
     if (all.c.canister) row("outlet    ", all.c.canister->outletDiameter);
 }
 
-void printPredictions(const Derived& d, const Schedule& schedule) {
+void printPredictions(const Derived& d, const Schedule& schedule, bool coil) {
+    const char* form =
+        coil ? "rho_b p pi r_c^2 n_t" : "rho_b times the way and the free section of the body that carries most";
     fmt::print("push V_z   {:.4g} mm/s (p Omega / 2 pi)\n", d.pushVelocity * 1e3);
     fmt::print("tip V_t    {:.4g} mm/s (Omega r_c)\n", d.tipVelocity * 1e3);
     if (schedule.targetMass > 0)
-        fmt::print("per dose   {:.4g} g, which are {:.3g} turns by the closed form (rho_b p pi r_c^2 n_t)\n",
-                   d.massPerDose * 1e3, d.massPerDose / d.massPerTurn);
+        fmt::print("per dose   {:.4g} g, which are {:.3g} turns by the closed form ({})\n", d.massPerDose * 1e3,
+                   d.massPerDose / d.massPerTurn, form);
     else
-        fmt::print("per dose   {:.4g} g by the closed form (rho_b p pi r_c^2 n_t)\n", d.massPerDose * 1e3);
+        fmt::print("per dose   {:.4g} g by the closed form ({})\n", d.massPerDose * 1e3, form);
     fmt::print("doses      {:.3g} to empty the canister by the closed form\n", d.doses);
 }
 
@@ -165,7 +164,7 @@ void printText(const CheckOptions& options, const Checked& all) {
     printContacts(all.derived, all.figures);
     printBed(all);
     printGaps(all);
-    if (all.c.world.coil) printPredictions(all.derived, all.c.schedule);
+    if (all.derived.massPerTurn > 0) printPredictions(all.derived, all.c.schedule, all.c.world.coil.has_value());
     const Schedule& s = all.c.schedule;
     fmt::print("schedule   settle {}{} steps, rotate {}{}, rest {}; sensors every {} steps\n",
                s.untilRest ? "until at rest, at most " : "", timeline.settleSteps(), s.targetMass > 0 ? "at most " : "",

@@ -28,8 +28,8 @@ std::string stopTable(const std::vector<Dose>& doses) {
     std::string text = fmt::format("{:>5} {:>10} {:>14} {:>16} {:>15}  stopped by\n", "dose", "target [g]",
                                    "at stop [g]", "overshoot [g]", "turned [s]");
     for (const Dose& d : doses)
-        text += fmt::format("{:>5} {:>10.3f} {:>14.3f} {:>16.3f} {:>15.3f}  {}\n", d.index, d.target * 1e3,
-                            d.stopMass * 1e3, d.overshoot() * 1e3, d.rotation, cellText(d.stoppedBy, kAllDigits));
+        text += fmt::format("{:>5} {:>10} {:>14} {:>16} {:>15.3f}  {}\n", d.index, grams(d.target), grams(d.stopMass),
+                            grams(d.overshoot()), d.rotation, cellText(d.stoppedBy, kAllDigits));
     return text;
 }
 
@@ -37,9 +37,9 @@ std::string targetLine(const std::vector<Dose>& doses) {
     const TargetFigures f = targetFigures(doses);
     if (f.doses == 0) return "";
     return fmt::format(
-        "target   {:.3f} g; {} of {} doses stopped by their mass, on average {:+.3f} g from the target ({:.3f} g fell "
+        "target   {} g; {} of {} doses stopped by their mass, on average {} g from the target ({} g fell "
         "after the stop) in {:.3g} s\n",
-        f.target * 1e3, f.byMass, f.doses, f.error * 1e3, f.overshoot * 1e3, f.rotation);
+        grams(f.target), f.byMass, f.doses, signedGrams(f.error), grams(f.overshoot), f.rotation);
 }
 
 /// The figures by which the paper judges a run; those that need more doses are left out.

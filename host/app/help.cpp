@@ -15,7 +15,8 @@ const std::map<std::string, std::vector<std::string>>& examples() {
          {"vkdose new my.toml                         # asks for the device and the powder",
           "vkdose new my.toml --canister 80x30x100mm --coil 6x5mm",
           "vkdose new my.toml --canister 80x30x100mm --coil 5mm --outlet 20mm --fill 48g --bulk-density 471kg/m3 "
-          "--sizes 60/90/130um --flow cohesive"}},
+          "--sizes 60/90/130um --flow cohesive",
+          "vkdose new my.toml --canister 30x12x25mm --mesh spring.stl --unit mm --dose 0.3g"}},
         {"run",
          {"vkdose run quickstart                      # a case that comes with vkdose; it writes out/quickstart",
           "vkdose run my.toml --set coil.speed_rpm=60 --out out/slow",

@@ -4,6 +4,7 @@
 
 #include <cctype>
 
+#include "geometry/mesh_file.h"
 #include "host/app/backends.h"
 #include "host/app/measures.h"
 #include "host/core/printable.h"
@@ -101,6 +102,14 @@ void takeFloor(NewAnswers& a, const NewQuestion& q, const std::string& text) {
     a.flatFloor = word == "flat";
 }
 
+void takeUnit(NewAnswers& a, const NewQuestion& q, const std::string& text) {
+    const std::string word = lower(text);
+    if (!geometry::metresIn(word))
+        throw UsageError(fmt::format("{} {}: is no unit of length; give one of {}", q.option, printable(text),
+                                     geometry::lengthUnits()));
+    a.meshUnit = word;
+}
+
 template <std::optional<double> NewAnswers::*member, Measure kind>
 void take(NewAnswers& answers, const NewQuestion& q, const std::string& text) {
     answers.*member = measureOf(kind, q.option, text, q.example);
@@ -113,6 +122,11 @@ constexpr std::array kQuestions{
                 "coil: turns and pitch (6x5mm), the pitch alone (5mm) or the turns alone (6turns) of one from wall to "
                 "throat",
                 nullptr, "6x5mm", true, takeCoil},
+    NewQuestion{"--mesh", "FILE",
+                "in place of a coil: a screw or spring as an STL, OBJ or PLY, which turns along the canister", "a coil",
+                "auger.stl", false, [](NewAnswers& a, const NewQuestion&, const std::string& text) { a.mesh = text; }},
+    NewQuestion{"--unit", "UNIT", "of the lengths in the mesh's file, which does not tell it: m, cm, mm, um, inch",
+                "none; a mesh needs it", "mm", false, takeUnit},
     NewQuestion{"--outlet", "LENGTH", "diameter of the outlet", "the canister's width", "20mm", true,
                 take<&NewAnswers::outlet, Measure::Length>},
     NewQuestion{"--throat", "LENGTH", "length of the throat behind the outlet; powder that passes it is dosed",
@@ -141,6 +155,8 @@ constexpr std::array kQuestions{
                 take<&NewAnswers::speed, Measure::Speed>},
     NewQuestion{"--rotate", "TIME", "time that the coil turns in a dose", "two turns, at most a quarter of the fill",
                 "2s", true, take<&NewAnswers::rotate, Measure::Time>},
+    NewQuestion{"--dose", "MASS", "mass to dose to, in place of a time: the coil stops when it is out", "by time",
+                "2mg", false, take<&NewAnswers::dose, Measure::Mass>},
     NewQuestion{"--doses", "INT", "doses after which the run ends", "3", "10", true,
                 [](NewAnswers& a, const NewQuestion& q, const std::string& text) {
                     a.doses = countOf(q.option, text, 1000000, "10");

@@ -18,6 +18,7 @@ struct NewAnswers {
     std::optional<double> outlet, throat;           ///< diameter of the hole, length behind it [m]
     bool flatFloor = false;
     std::optional<double> turns, pitch;     ///< of the coil: one of them or both; pitch in [m]
+    std::string mesh, meshUnit;             ///< in place of a coil: the file of a screw or spring, and its unit
     std::optional<double> wire, clearance;  ///< thickness, gap to the wall [m]
     std::optional<double> fill;             ///< [kg]
     std::optional<double> bulkDensity;      ///< of the settled powder [kg/m3]
@@ -25,6 +26,7 @@ struct NewAnswers {
     std::vector<double> sizes;              ///< diameters by volume: d50, or d10, d50, d90 [m]
     std::optional<Flow> flow;
     std::optional<double> speed, rotate;  ///< [rad/s], [s]
+    std::optional<double> dose;           ///< mass to dose to [kg]
     std::optional<int> doses, spheres;
 };
 

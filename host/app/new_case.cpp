@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "host/advice/advice.h"
+#include "host/app/backends.h"
 #include "host/app/commands.h"
 #include "host/app/exit_code.h"
 #include "host/app/inputs.h"
@@ -61,8 +62,15 @@ NewAnswers answersTo(const NewOptions& options) {
         fmt::print("\n");
     }
     if (!answers.canister) throw UsageError(fmt::format("new: --canister is needed: `{}`, or --ask", kExample));
-    if (!answers.turns && !answers.pitch)
-        throw UsageError(fmt::format("new: --coil is needed: `{}`, or --ask", kExample));
+    if (answers.mesh.empty() != answers.meshUnit.empty())
+        throw UsageError(answers.mesh.empty() ? "new: --unit is that of a mesh; give --mesh FILE too"
+                                              : "new: a mesh does not tell its unit; give --unit too, as a rule mm");
+    if (!answers.mesh.empty() && (answers.turns || answers.pitch || answers.wire || answers.clearance))
+        throw UsageError("new: --mesh stands in place of --coil, --wire and --clearance; give one or the other");
+    if (answers.dose && answers.rotate)
+        throw UsageError("new: --dose turns until the mass is out, --rotate for a time; give one or the other");
+    if (answers.mesh.empty() && !answers.turns && !answers.pitch)
+        throw UsageError(fmt::format("new: --coil or --mesh is needed: `{}`, or --ask", kExample));
     return answers;
 }
 
@@ -106,15 +114,23 @@ void tell(const NewDesign& d, const Case& c, const std::filesystem::path& file) 
     fmt::print("canister   {} along the coil, {} wide, {} high; outlet {}, throat {}\n", lengthText(d.length.value),
                lengthText(d.width.value), lengthText(d.height.value), lengthText(d.outlet.value),
                lengthText(d.throat.value));
-    fmt::print("coil       {} turns of {}, from {} to {} behind the rear wall, wire {}\n",
-               figureText(d.coilLength.value / d.pitch.value, 4), lengthText(d.pitch.value),
-               lengthText(d.coilStart.value), lengthText(d.coilStart.value + d.coilLength.value),
-               lengthText(d.wire.value));
+    if (d.mesh)
+        fmt::print("mesh       {}, from {} to {} behind the rear wall\n", printable(d.mesh->file.string()),
+                   lengthText(d.coilStart.value), lengthText(d.coilStart.value + d.coilLength.value));
+    else
+        fmt::print("coil       {} turns of {}, from {} to {} behind the rear wall, wire {}\n",
+                   figureText(d.coilLength.value / d.pitch.value, 4), lengthText(d.pitch.value),
+                   lengthText(d.coilStart.value), lengthText(d.coilStart.value + d.coilLength.value),
+                   lengthText(d.wire.value));
     fmt::print("powder     {} in {} spheres of {} to {}\n", massText(filled.mass), filled.particles.size(),
                lengthText(2 * d.size.radiusMin), lengthText(2 * d.size.radiusMax));
     const double steps = derive(c, filled).steps;
-    fmt::print("work       about {:.3g} million steps, {}particle-steps (vkdose check --measure tells the time)\n",
-               steps * 1e-6, large(steps * static_cast<double>(filled.particles.size())));
+    const double work = steps * static_cast<double>(filled.particles.size());
+    fmt::print(
+        "work       about {:.3g} million steps, {}particle-steps: {} at {}particle-steps/s (vkdose check --measure "
+        "asks "
+        "the device)\n",
+        steps * 1e-6, large(work), duration(work / kAssumedSpeed), large(kAssumedSpeed));
     std::string assumed;
     for (const std::string& what : d.assumed) assumed += (assumed.empty() ? "" : ", ") + what;
     if (!assumed.empty()) fmt::print("assumed    {}\n", assumed);
@@ -132,7 +148,7 @@ void tell(const NewDesign& d, const Case& c, const std::filesystem::path& file) 
 
 int newCommand(const NewOptions& options) {
     requireNewFile(options.file);
-    NewDesign design = designOf(answersTo(options));
+    NewDesign design = designOf(answersTo(options), options.file);
     fitContacts(design, caseOf(design, options.file));
     const Case c = caseOf(design, options.file);
     writeNew(options.file, newCaseText(design));

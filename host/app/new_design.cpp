@@ -27,6 +27,13 @@ constexpr double kSpheresInDose = 40;
 /// mass, and the grid that the fill falls from has a place of the largest's size for each.
 constexpr double kWidestSizes = 3;
 constexpr double kGravity = 9.81;
+/// Volume fraction of a settled bed with the contacts of a free-flowing powder below: 0.563 in
+/// cases/devices/free-beads.
+constexpr double kFreeBedFraction = 0.56;
+/// More spheres than were asked for, by this factor, are told.
+constexpr double kTellSpheres = 1.2;
+/// A dose to a mass may take so many times as long as by the closed form.
+constexpr double kDoseTime = 3;
 
 constexpr const char* kGiven = "given";
 
@@ -145,16 +152,22 @@ double volumeUpTo(const NewDesign& d, double h) {
     return d.length.value * (d.flatFloor ? w * h : kPi * w * w / 8 + w * (h - w / 2));
 }
 
+/// Volume fraction at which spheres of such a powder settle: rolling resistance and adhesion keep a bed loose.
+double bedFractionOf(const NewAnswers& a) {
+    return a.flow == Flow::Free ? kFreeBedFraction : kBedFraction;
+}
+
 void designFill(NewDesign& d, const NewAnswers& a) {
     const Choice choose(d);
-    const double ofDensity = a.density ? rounded(kBedFraction * *a.density, 2) : kAssumedBulk;
+    const double fraction = bedFractionOf(a);
+    const double ofDensity = a.density ? rounded(fraction * *a.density, 2) : kAssumedBulk;
     d.bulkDensity = choose(a.bulkDensity, ofDensity,
-                           a.density ? fmt::format("assumed: {} of the density, as spheres settle", kBedFraction)
+                           a.density ? fmt::format("assumed: {} of the density, as spheres settle", fraction)
                                      : "assumed; weigh a known volume of the settled powder");
     choose.assumed(!a.bulkDensity, fmt::format("{} kg/m3 (--bulk-density)", figureText(d.bulkDensity.value)));
-    d.density = choose(
-        a.density, rounded(d.bulkDensity.value / kBedFraction, 3),
-        fmt::format("of the simulated spheres: their bed (volume fraction {}) has the bulk density", kBedFraction));
+    d.density =
+        choose(a.density, rounded(d.bulkDensity.value / fraction, 3),
+               fmt::format("of the simulated spheres: their bed (volume fraction {}) has the bulk density", fraction));
     // The default of the program is that of cocoa, which check asks about; here somebody has said it.
     if (a.bulkDensity && *a.bulkDensity == 471 && std::abs(d.density.value / 1427 - 1) > 0.02)
         d.accepted.emplace_back("bulk-density");
@@ -170,21 +183,42 @@ void designFill(NewDesign& d, const NewAnswers& a) {
                                      massText(roundedDown(0.95 * holds * d.bulkDensity.value, 2))));
 }
 
+/// By the closed form [kg]; 0 for a mesh that conveys nothing.
+double massPerTurn(const NewDesign& d) {
+    if (d.mesh) {
+        const double section = kPi * d.mesh->radius * d.mesh->radius - d.mesh->solid;
+        return d.bulkDensity.value * d.mesh->advance * std::max(0.0, section);
+    }
+    return d.bulkDensity.value * d.pitch.value * kPi * coilRadius(d) * coilRadius(d);
+}
+
+void designDoseToMass(NewDesign& d, double mass, double perTurn) {
+    if (mass > d.fill.value)
+        throw UsageError(fmt::format("--dose: {} is more than the fill of {}; give less, or a larger --fill",
+                                     massText(mass), massText(d.fill.value)));
+    d.target = d.massPerDose = mass;
+    const double turns = perTurn > 0 ? mass / perTurn : 2;
+    d.expectedTurning = turns * 2 * kPi / d.speed.value;
+    d.rotate = {roundedUp(kDoseTime * d.expectedTurning, 2),
+                perTurn > 0 ? fmt::format("at the longest: {} times the {} turns of the closed form", kDoseTime,
+                                          figureText(turns))
+                            : "assumed: some turns, as the mesh does not tell what a turn conveys"};
+}
+
 void designDose(NewDesign& d, const NewAnswers& a) {
     const Choice choose(d);
     // Half of the speed at which the wire's centripetal acceleration equals gravity.
     const double fast = 0.5 * std::sqrt(kGravity / coilRadius(d));
     d.speed = choose(a.speed, std::min(2 * kPi, 2 * kPi / 60 * roundedDown(fast * 60 / (2 * kPi), 2)), "assumed");
     choose.assumed(!a.speed, fmt::format("{} rpm (--speed)", figureText(d.speed.value * 60 / (2 * kPi))));
-    const double perTurn = d.bulkDensity.value * d.pitch.value * kPi * coilRadius(d) * coilRadius(d);
-    const double turns = std::min(2.0, 0.25 * d.fill.value / perTurn);
+    const double perTurn = massPerTurn(d);
+    if (a.dose) return designDoseToMass(d, *a.dose, perTurn);
+    const double turns = perTurn > 0 ? std::min(2.0, 0.25 * d.fill.value / perTurn) : 2.0;
     d.rotate = choose(a.rotate, rounded(turns * 2 * kPi / d.speed.value, 2),
                       turns < 2 ? "assumed: a quarter of the fill by the closed form" : "assumed: two turns");
     choose.assumed(!a.rotate, fmt::format("{} s of turning (--rotate)", figureText(d.rotate.value)));
+    d.expectedTurning = d.rotate.value;
     d.massPerDose = perTurn * d.rotate.value * d.speed.value / (2 * kPi);
-    d.rest = {roundedUp(2 * std::sqrt(2 * d.outlet.value / kGravity), 1),
-              "twice the time of a fall through the outlet's height, so that the dose comes to an end"};
-    d.doses = a.doses.value_or(3);
 }
 
 /// The distribution of the powder itself; without sizes that of spheres with a diameter of 1 m, to be scaled.
@@ -260,6 +294,14 @@ void designSpheres(NewDesign& d, const NewAnswers& a) {
             fmt::format("--fill: {} in spheres as small as {} asks for ({}) are {:.2g} million; give less, "
                         "or a wider pitch, outlet or coil",
                         massText(d.fill.value), limit.why, lengthText(2 * scale * largestRadius(own)), count * 1e-6));
+    if (a.spheres && count > kTellSpheres * budget)
+        d.notes.push_back(fmt::format(
+            "{} spheres were asked for, and there are about {:.0f}: {} allows none larger than {}.{}", budget,
+            rounded(count, 2), scale < limit.scale ? "the powder itself" : limit.why,
+            lengthText(2 * scale * largestRadius(own)),
+            a.sizes.size() == 3 ? fmt::format(" With one size in place of three (--sizes {}) there are fewer.",
+                                              figureText(a.sizes[1] * 1e6) + "um")
+                                : ""));
     if (!a.sizes.empty() && scale > 1) scale = std::max(1.0, roundedDown(scale, 3));
     d.size = scaled(own, scale);
     d.sizeWhy = why;
@@ -279,12 +321,18 @@ void designFlow(NewDesign& d, const NewAnswers& a) {
 
 }  // namespace
 
-NewDesign designOf(const NewAnswers& answers) {
+NewDesign designOf(const NewAnswers& answers, const std::filesystem::path& file) {
     NewDesign d;
     designCanister(d, answers);
-    designCoil(d, answers);
+    if (answers.mesh.empty())
+        designCoil(d, answers);
+    else
+        designMesh(d, answers, file);
     designFill(d, answers);
     designDose(d, answers);
+    d.rest = {roundedUp(2 * std::sqrt(2 * d.outlet.value / kGravity), 1),
+              "twice the time of a fall through the outlet's height, so that the dose comes to an end"};
+    d.doses = answers.doses.value_or(3);
     designSpheres(d, answers);
     designFlow(d, answers);
     // First guesses, with which the case loads.

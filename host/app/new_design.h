@@ -1,6 +1,8 @@
 #pragma once
 // What follows from the answers to `vkdose new`: a case with a reason for each of its values.
 
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,7 +17,20 @@ struct Reasoned {
     std::string why;
 };
 
+/// A mesh that turns in place of the coil. Its longest direction lies along the canister's axis.
+struct NewMesh {
+    std::filesystem::path file;  ///< as the case names it: relative to the case's folder
+    std::string unit;
+    Vec3 at{0}, rotationAxis{0, 0, 1};  ///< [m]
+    double rotation = 0;                ///< [degrees]
+    double turnsPerTurn = 1;            ///< the sense in which it conveys to the outlet
+    double radius = 0, length = 0;      ///< [m]
+    double advance = 0;                 ///< of the powder per turn, by the mesh's form [m]; 0: it conveys none
+    double solid = 0;                   ///< cross-section that the mesh itself takes up, mean over its length [m2]
+};
+
 struct NewDesign {
+    std::optional<NewMesh> mesh;
     Reasoned length, width, height, outlet, throat;  ///< of the canister [m]
     bool flatFloor = false;
     Reasoned pitch, coilLength, coilStart, wire, clearance;  ///< of the coil [m]
@@ -34,14 +49,20 @@ struct NewDesign {
     Reasoned settle, rotate, rest;  ///< [s]
     int doses = 3;
     double massPerDose = 0;             ///< by the closed form [kg]
+    double expectedTurning = 0;         ///< time of a dose by the closed form [s]
+    double target = 0;                  ///< mass to dose to [kg]; 0: doses by time
     std::vector<std::string> assumed;   ///< options that would replace what was assumed
     std::vector<std::string> notes;     ///< what the device may not have been meant to be
     std::vector<std::string> accepted;  ///< warnings of `vkdose check` that follow from what was given
 };
 
-/// Everything but the contacts and the time to settle, for which there are first guesses. Throws UsageError where the
-/// answers contradict each other.
-NewDesign designOf(const NewAnswers& answers);
+/// `file` is the case to be written. Everything but the contacts and the time to settle, for which there are first
+/// guesses. Throws UsageError where the answers contradict each other.
+NewDesign designOf(const NewAnswers& answers, const std::filesystem::path& file);
+
+/// Reads the mesh of `a` and lays it into the canister: throat, pitch, wire and clearance of the design become those of
+/// a coil of its size. Throws UsageError.
+void designMesh(NewDesign& d, const NewAnswers& a, const std::filesystem::path& file);
 
 /// Chooses the contacts and the time to settle by the closed forms of `vkdose check`. `trial` is the design's case.
 void fitContacts(NewDesign& design, const Case& trial);

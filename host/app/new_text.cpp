@@ -23,6 +23,7 @@ std::string withSuffix(const Reasoned& value, const char* suffix) {
 class CaseText {
   public:
     void table(const std::string& name) { text_ += fmt::format("\n[{}]\n", name); }
+    void list(const std::string& name) { text_ += fmt::format("\n[[{}]]\n", name); }
     void remark(const std::string& text) { wrapped("", text); }
     void line(const std::string& key, const std::string& value, const std::string& why) {
         const std::string setting = key + " = " + value;
@@ -37,7 +38,9 @@ class CaseText {
     }
     void flag(const std::string& key, bool value, const std::string& why) { line(key, value ? "true" : "false", why); }
     void word(const std::string& key, const std::string& value, const std::string& why) {
-        line(key, "\"" + value + "\"", why);
+        std::string quoted = "\"";
+        for (const char c : value) quoted += c == '"' || c == '\\' ? std::string{'\\', c} : std::string{c};
+        line(key, quoted + "\"", why);
     }
     const std::string& text() const { return text_; }
 
@@ -109,7 +112,35 @@ void writeContacts(CaseText& out, const NewDesign& d) {
     out.word("coulomb_limit", "absolute", "friction of the force that a contact bears");
     out.line("max_overlap_ratio", "1", "spheres are wedged between coil and wall; the report tells how deep");
     out.table("contact.wall");
-    out.line("friction", "0.3", "assumed; of the powder on the wall and, as there is no [contact.coil], on the coil");
+    out.line("friction", "0.3",
+             fmt::format("assumed; of the powder on the wall and, as there is no [contact.coil], on the {}",
+                         d.mesh ? "mesh" : "coil"));
+}
+
+std::string vectorText(const Vec3& v) {
+    return fmt::format("[{}, {}, {}]", figureText(v.x, 6), figureText(v.y, 6), figureText(v.z, 6));
+}
+
+void writeMesh(CaseText& out, const NewDesign& d) {
+    const NewMesh& m = *d.mesh;
+    out.list("body");
+    out.word("name", "mesh", "in messages and tables");
+    out.word("mesh", m.file.generic_string(), "given; relative to this file");
+    out.word("unit", m.unit, "given; of the file's lengths");
+    out.line("at", vectorText(m.at), "m; its axis on that of the canister, its end at the throat's end");
+    if (m.rotation != 0) {
+        out.line("rotation_axis", vectorText(m.rotationAxis), "lays its longest direction along the canister");
+        out.line("rotation_deg", figureText(m.rotation), "");
+    }
+    out.word("contact", "coil", "of the contact parameters those of [contact.coil], or else of the wall");
+    out.table("body.motion");
+    out.word("kind", "turn", "");
+    out.word("follows", "drive", "it turns while powder is dosed");
+    out.line("axis", "[0, 0, 1]", "the canister's axis; z points to the outlet");
+    out.line("turns_per_turn", figureText(m.turnsPerTurn),
+             m.advance > 0
+                 ? fmt::format("the sense in which its form conveys to the outlet, {} a turn", lengthText(m.advance))
+                 : "assumed; its form conveys nothing along the axis");
 }
 
 void writeDevice(CaseText& out, const NewDesign& d) {
@@ -121,6 +152,7 @@ void writeDevice(CaseText& out, const NewDesign& d) {
     out.line("outlet_diameter_mm", d.outlet, 1e3);
     out.line("throat_length_mm", d.throat, 1e3);
     out.flag("lid", true, "keeps a sphere inside that the coil flings up");
+    if (d.mesh) return writeMesh(out, d);
     out.table("coil");
     out.line("pitch_mm", d.pitch, 1e3);
     out.line("length_mm", d.coilLength, 1e3);
@@ -135,11 +167,16 @@ void writeSchedule(CaseText& out, const NewDesign& d) {
     out.flag("until_rest", true, "dose 1 begins when the bed rests");
     out.line("time_s", d.settle, 1);
     out.table("dose");
-    out.line(
-        "rotate_s",
-        Reasoned{d.rotate.value,
-                 withSuffix(d.rotate, fmt::format("; by the closed form {} a dose", massText(d.massPerDose)).c_str())},
-        1);
+    if (d.mesh) out.line("speed_rpm", d.speed, 60 / (2 * kPi));
+    if (d.target > 0) {
+        out.line("mass_g", figureText(d.target * 1e3), "given; the coil stops when it is out");
+        out.line("max_rotate_s", d.rotate, 1);
+    } else
+        out.line("rotate_s",
+                 Reasoned{d.rotate.value,
+                          withSuffix(d.rotate,
+                                     fmt::format("; by the closed form {} a dose", massText(d.massPerDose)).c_str())},
+                 1);
     out.line("rest_s", d.rest, 1);
     out.table("stop");
     out.word("rule", "experiment", "ends also when 3 doses together give no more than threshold_g");
@@ -148,8 +185,10 @@ void writeSchedule(CaseText& out, const NewDesign& d) {
     out.table("time");
     out.word("step_s", "auto", "as long as the stiffest contact allows");
     out.table("sensors");
-    const double interval = rounded(d.rotate.value / 100, 1);
-    out.line("interval_s", figureText(interval), "a hundredth of a rotation");
+    const double interval = rounded(d.expectedTurning / 100, 1);
+    out.line("interval_s", figureText(interval),
+             d.target > 0 ? "a hundredth of the expected rotation, which the coil ends at such an interval"
+                          : "a hundredth of a rotation");
     out.table("frames");
     out.line("interval_s", figureText(10 * interval), "the report's player shows these; 0 keeps none");
 }
@@ -164,9 +203,10 @@ std::string newCaseText(const NewDesign& d) {
         "every key, `vkdose check` what the case implies.");
     for (const std::string& note : d.notes) out.remark(note);
     out.word("reason",
-             fmt::format("A canister of {} x {} x {} with a coil of {} pitch, filled with {}; written by vkdose new",
+             fmt::format("A canister of {} x {} x {} with {} {}, filled with {}; written by vkdose new",
                          lengthText(d.length.value), lengthText(d.width.value), lengthText(d.height.value),
-                         lengthText(d.pitch.value), massText(d.fill.value)),
+                         d.mesh ? "the mesh" : "a coil of pitch",
+                         d.mesh ? d.mesh->file.filename().string() : lengthText(d.pitch.value), massText(d.fill.value)),
              "");
     out.line("seed", "1", "another seed is another filling of the same powder");
     if (!d.accepted.empty()) {

@@ -24,12 +24,6 @@ std::string large(double x) {
     return fmt::format("{:.4g} G ", x / 1e9);
 }
 
-std::string grams(double kilograms) {
-    const double g = kilograms * 1e3;
-    if (!(std::abs(g) < 0.1) || g == 0) return fmt::format("{:.3f}", g);
-    return fmt::format("{:.{}f}", g, std::min(9, 2 - static_cast<int>(std::floor(std::log10(std::abs(g))))));
-}
-
 std::string counted(std::size_t count, const char* thing) {
     return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
 }

@@ -134,6 +134,7 @@ Case interpret(const std::filesystem::path& file, Node tree, std::vector<std::fi
     readRegions(reader, root, c);
     readContact(reader, root, reader.faulty() ? std::numeric_limits<double>::quiet_NaN() : sizeRange(c).mean, c);
     readRegion(root, kind, c);
+    if (!reader.faulty()) fillAboveDriven(root, c);
     readSchedule(reader, root, c);
     readFields(reader, root, reader.faulty() ? std::numeric_limits<double>::quiet_NaN() : 2 * sizeRange(c).mean, c);
     const bool domainGiven = readDomain(root, c);

@@ -48,9 +48,10 @@ constexpr Key kParticles[] = {
         "grid_gap", kPlain, kPositive, kGridGap,
         "free way between the largest spheres of the grid that the fill starts from, in their diameters. The larger it "
         "is, the looser and the more irregular is the start, and the longer the fall"),
-    number(
-        "drop_mm", kMillimetre, kNonNegative, 0.0,
-        "height of the grid's lowest spheres over the coil, or over the floor's axis without one; in a canister only"),
+    number("drop_mm", kMillimetre, kNonNegative, 0.0,
+           "height of the grid's lowest spheres over the coil and what follows the drive, or over the floor's axis "
+           "without them; "
+           "in a canister only"),
 };
 
 constexpr Key kUniform[] = {

@@ -15,8 +15,9 @@
 namespace vkdose {
 namespace {
 
-/// Smallest volume fraction that a settled cohesive bed can keep (measured beds: about 0.46).
-constexpr double kLoosestBed = 0.35;
+/// Smallest volume fraction that a settled bed can keep: a cohesive one (measured beds: about 0.46), and one without
+/// adhesion (measured: 0.56).
+constexpr double kLoosestBed = 0.35, kLoosestFreeBed = 0.5;
 /// More particles than this mean that a unit is wrong.
 constexpr double kMaxParticles = 5e6;
 
@@ -212,7 +213,8 @@ void checkBed(CaseReader& reader, const Case& c) {
     const double half = can.width / 2;
     const double below = can.flatFloor ? can.width * half : 0.5 * kPi * half * half;
     const double volume = can.length * (below + can.width * (can.height - half));
-    const double bed = c.filling.mass / c.world.density / kLoosestBed;
+    const double loosest = c.dosingLaw.of(ContactClass::ParticleParticle).kc > 0 ? kLoosestBed : kLoosestFreeBed;
+    const double bed = c.filling.mass / c.world.density / loosest;
     // No powder is lighter than this. A lower density was probably given in g/cm3; without this bound the message would
     // blame the mass.
     constexpr double kLightest = 20;
@@ -226,8 +228,8 @@ void checkBed(CaseReader& reader, const Case& c) {
             "particles.mass_g",
             fmt::format("the fill does not fit: a loose bed of it (volume fraction {}) takes {:.4g} cm3, the "
                         "canister holds {:.4g} cm3",
-                        kLoosestBed, bed * 1e6, volume * 1e6),
-            fmt::format("give at most {:.4g} g or a higher canister", volume * kLoosestBed * c.world.density * 1e3));
+                        loosest, bed * 1e6, volume * 1e6),
+            fmt::format("give at most {:.4g} g or a higher canister", volume * loosest * c.world.density * 1e3));
 }
 
 /// The largest sphere must pass the canister and its outlet.
@@ -318,6 +320,12 @@ double coilDistance(const geometry::Coil& coil, const Vec3& x, double radius) {
     return far ? radius : geometry::closestPoint(coil, 0, x).distance;
 }
 
+/// The cure for a grid of particles that a body stands in.
+std::string freePlace(const Case& c) {
+    return c.canister ? "move the body, or let the fill start above it by particles.drop_mm"
+                      : "move the body, or give a [particles.region] that is free of it";
+}
+
 /// Checks the overlap with the walls and the coil. Particles on the grid must not overlap at all. Listed ones may a
 /// little, because a list may be a settled bed.
 void checkWalls(CaseReader& reader, const Case& c, const Particles& p, const std::string& path, double allowed) {
@@ -349,7 +357,7 @@ void checkWalls(CaseReader& reader, const Case& c, const Particles& p, const std
                                : "";
         if (overlap > allowed * p.radius[i])
             faults.add(fmt::format("{} overlaps {} by {:.3g} of its radius", named(p, i), what, overlap / p.radius[i]),
-                       fmt::format("keep the overlap below {}{}", allowed, turn));
+                       c.filling.list ? fmt::format("keep the overlap below {}{}", allowed, turn) : freePlace(c));
     }
 }
 

@@ -4,6 +4,7 @@
 #include <limits>
 #include <numeric>
 
+#include "host/model/body_form.h"
 #include "host/model/case.h"
 #include "host/model/size_distribution.h"
 #include "host/model/stability.h"
@@ -15,6 +16,49 @@ namespace {
 double turningTime(const Schedule& s, double massPerTurn) {
     const double rate = massPerTurn * s.coilSpeed / (2 * kPi);
     return s.targetMass > 0 && rate > 0 ? std::min(s.rotateTime, s.targetMass / rate + s.rampTime) : s.rotateTime;
+}
+
+/// Cross-section that a body itself takes up of its turn, mean over its length [m2]; 0 where its form does not tell.
+double solidSection(const RigidBody& body, double length) {
+    double section = 0;
+    for (const geometry::Shape& shape : body.shapes) {
+        if (const auto* f = std::get_if<geometry::Flight>(&shape)) {
+            const double shaft = kPi * f->innerRadius * f->innerRadius;
+            const double pitch = (f->pitchStart + f->pitchEnd) / 2;
+            section += shaft + f->thickness / pitch * (kPi * f->outerRadius * f->outerRadius - shaft);
+        } else if (const auto* m = std::get_if<std::shared_ptr<const geometry::MeshSurface>>(&shape)) {
+            const geometry::Mesh& mesh = (*m)->mesh();
+            const bool open = std::any_of(mesh.edges.begin(), mesh.edges.end(),
+                                          [](const geometry::MeshEdge& e) { return e.faces[1] == geometry::kNoFace; });
+            double volume = 0;
+            for (const auto& t : mesh.triangles)
+                volume += glm::dot(mesh.vertices[t[0]], glm::cross(mesh.vertices[t[1]], mesh.vertices[t[2]])) / 6;
+            if (!open) section += std::abs(volume) / length;
+        }
+    }
+    return section;
+}
+
+/// The closed form of a device without a coil: a body that the drive turns about the canister's axis carries powder by
+/// its advance through the section that it sweeps and does not take up itself. Of several bodies the one that carries
+/// most counts.
+void deriveBodies(const Case& c, Derived& d) {
+    if (!c.canister || c.schedule.rotateTime == 0) return;
+    for (const RigidBody& body : c.world.bodies) {
+        const auto* turn = std::get_if<geometry::Turn>(&body.course.motion);
+        if (turn == nullptr || body.clock != Clock::Drive || std::abs(turn->axis.z) < 0.999) continue;
+        const std::vector<geometry::Triangle> mesh = trianglesOf(body);
+        if (mesh.empty()) continue;
+        const TurningReach reach = reachOf(mesh, turn->axis, turn->through);
+        const double advance = turn->rate * turn->axis.z * advancePerTurn(mesh, turn->axis, turn->through);
+        const double section = kPi * reach.radius * reach.radius - solidSection(body, reach.high - reach.low);
+        const double perTurn = c.bulkDensity * advance * section;
+        // Less is the rounding of a paddle's facets.
+        if (section <= 0 || advance < 0.02 * reach.radius || perTurn <= d.massPerTurn) continue;
+        d.massPerTurn = perTurn;
+        d.pushVelocity = advance * c.schedule.coilSpeed / (2 * kPi);
+        d.tipVelocity = c.schedule.coilSpeed * std::abs(turn->rate) * reach.radius;
+    }
 }
 
 struct Sizes {
@@ -85,11 +129,15 @@ Derived derive(const Case& c, const Insertion& filled) {
     d.fillMass = filled.mass;
     if (c.world.coil) {
         const geometry::Coil& coil = *c.world.coil;
-        const Schedule& s = c.schedule;
-        const double turns = s.coilSpeed * (s.rotateTime - s.rampTime) / (2 * kPi);
         d.pushVelocity = coil.pitch * c.schedule.coilSpeed / (2 * kPi);
         d.tipVelocity = c.schedule.coilSpeed * coil.radius;
         d.massPerTurn = c.bulkDensity * coil.pitch * kPi * coil.radius * coil.radius;
+    } else {
+        deriveBodies(c, d);
+    }
+    if (d.massPerTurn > 0) {
+        const Schedule& s = c.schedule;
+        const double turns = s.coilSpeed * (s.rotateTime - s.rampTime) / (2 * kPi);
         d.massPerDose = d.massPerTurn * turns;
         if (s.targetMass > 0) d.massPerDose = std::min(d.massPerDose, s.targetMass);
         d.doses = d.massPerDose > 0 ? d.fillMass / d.massPerDose : 0;

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "host/core/file.h"
+#include "host/model/body_form.h"
 #include "host/model/case_sections.h"
 #include "host/model/particle_list.h"
 #include "host/model/size_distribution.h"
@@ -120,6 +121,15 @@ void readRegion(Section& root, std::optional<Boundaries> kind, Case& c) {
     }
     Section& region = particles.requiredTable("region");
     c.filling.region = {region.vector("low"), region.vector("high")};
+}
+
+void fillAboveDriven(Section& root, Case& c) {
+    if (c.filling.list || !c.canister) return;
+    double top = -kInfinity;
+    for (const RigidBody& body : c.world.bodies)
+        if (const auto* turn = std::get_if<geometry::Turn>(&body.course.motion); turn && body.clock == Clock::Drive)
+            top = std::max(top, highestOfTurn(trianglesOf(body), turn->axis, turn->through));
+    c.filling.region.low.y = std::max(c.filling.region.low.y, top + root.table("particles").number("drop_mm"));
 }
 
 }  // namespace vkdose

@@ -11,16 +11,11 @@
 #include "host/analysis/outlet.h"
 #include "host/analysis/targets.h"
 #include "host/analysis/work.h"
+#include "host/core/grams.h"
 
 namespace vkdose::report {
 
 namespace {
-
-/// Below a tenth of a gram three significant digits, because doses can be milligrams.
-std::string grams(double kilograms) {
-    const double g = kilograms * 1e3;
-    return std::abs(g) >= 0.1 || g == 0 ? fmt::format("{:.3f}", g) : fmt::format("{:.3g}", g);
-}
 
 class Facts {
   public:
@@ -71,7 +66,7 @@ class Facts {
         add("bed when settling ended", fmt::format("{} at t = {:.4g} s", rested ? "at rest" : "not at rest", time),
             s.value("until_rest", Json(false)) == Json(true) && !rested ? still + "; the longest time was over"
                                                                         : still);
-        add("fallen out while settling", fmt::format("{:.3f} g", spilled * 1e3), "in no dose");
+        add("fallen out while settling", fmt::format("{} g", grams(spilled)), "in no dose");
     }
 
     void masses() {
@@ -84,7 +79,7 @@ class Facts {
             add("mass per dose", fmt::format("{} g", grams(s.mean)), "one dose: no standard deviation");
         const TargetFigures t = targetFigures(run_.doses);
         if (t.doses > 0) {
-            add("target of a dose", fmt::format("{:.3f} g, met to {:+.3f} g", t.target * 1e3, t.error * 1e3),
+            add("target of a dose", fmt::format("{} g, met to {} g", grams(t.target), signedGrams(t.error)),
                 fmt::format("{} of {} doses stopped by their mass, in {:.3g} s", t.byMass, t.doses, t.rotation));
             add("overshoot after the stop", fmt::format("{} g", grams(t.overshoot)),
                 fmt::format("{} g at the stop", grams(t.stopMass)));

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/core/grams.h"
+
 namespace vkdose {
 
 FillFall fillFall(const Case& c, const Particles& filled) {
@@ -57,7 +59,7 @@ std::string settlingSentence(const Settling& s, const Schedule& schedule) {
                 fmt::format(" (speed {:.2g} % of that after a fall from the fill's top, not below {:.2g} % for long)",
                             100 * s.speed / s.fallSpeed, 100 * schedule.restSpeedRatio);
     }
-    if (s.spilled > 0) text += fmt::format("; {:.3f} g had fallen out by then, in no dose", s.spilled * 1e3);
+    if (s.spilled > 0) text += fmt::format("; {} g had fallen out by then, in no dose", grams(s.spilled));
     return text;
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -100,7 +101,17 @@ constexpr MemberColumn kColumns[] = {
     {"simulated_time_s", "s", "Simulated time at the end of the run.", "/simulated_time_s"},
     {"particle_steps", "1", "Moving particles times time steps, summed over the run.", "/particle_steps"},
     {"wall_time_s", "s", "Wall time spent on time steps.", "/stepping_wall_time_s"},
+    {"target_dose_kg", "kg", "Mean target of the doses to a mass; empty of doses by time.", "/targets/mean_target_kg"},
+    {"doses_stopped_by_mass", "1",
+     "Number of these that stopped because the mass was out; the others by time or torque.",
+     "/targets/stopped_by_mass"},
+    {"target_error_kg", "kg", "Mean of their mass less the target.", "/targets/mean_error_kg"},
+    {"overshoot_kg", "kg", "Mean of what fell after the coil was told to stop.", "/targets/mean_overshoot_kg"},
+    {"rotation_s", "s", "Mean time until the coil was told to stop.", "/targets/mean_rotation_s"},
 };
+
+/// The first of the columns that members.csv had not always, to its end.
+constexpr const char* kFirstTargetColumn = "target_dose_kg";
 
 Row namesOf(std::span<const MemberColumn> columns) {
     Row names;
@@ -144,6 +155,21 @@ MemberResult readResult(const fs::path& folder, const MemberEnd& end) {
         result.outputs.push_back(c.inSummary != nullptr ? field(summary, c.inSummary) : c.own(remains));
     }
     return result;
+}
+
+Table withTargetColumns(const Table& older) {
+    const std::size_t added = kOutputColumns.size() -
+                              std::size_t(std::find(kOutputColumns.begin(), kOutputColumns.end(), kFirstTargetColumn) -
+                                          kOutputColumns.begin());
+    Row names = older.names();
+    names.insert(names.end(), kOutputColumns.end() - std::ptrdiff_t(added), kOutputColumns.end());
+    Table now(std::move(names));
+    for (std::size_t i = 0; i < older.rows(); ++i) {
+        Row row = older.row(i);
+        row.resize(row.size() + added);
+        now.add(std::move(row));
+    }
+    return now;
 }
 
 Table withStopColumns(const Table& older) {

@@ -56,6 +56,9 @@ Table dosesIn(const std::filesystem::path& folder);
 /// them and no figures in them.
 Table withStopColumns(const Table& older);
 
+/// A members.csv that an older vkdose wrote, with today's last columns behind its own and no figures in them.
+Table withTargetColumns(const Table& older);
+
 /// Whether the folder holds a run that is over, so that it need not be repeated.
 bool isOver(const std::filesystem::path& folder);
 

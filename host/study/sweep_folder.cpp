@@ -156,6 +156,8 @@ void SweepFolder::read(const Row& keys) {
     const Row dosesHeader = joined(joined({"member", "seed"}, keys), columnNames(kDoseColumns));
     if (doses_.names() == joined(joined({"member", "seed"}, keys), columnNames(kPlainDoseColumns)))
         doses_ = withStopColumns(doses_);  // an older vkdose wrote it
+    if (const Table now = withTargetColumns(members_); !members_.names().empty() && now.names() == membersHeader)
+        members_ = now;  // likewise
     for (const auto& [name, table, header] :
          {std::tuple("members.csv", &members_, &membersHeader), std::tuple("doses.csv", &doses_, &dosesHeader)})
         if (!table->names().empty() && table->names() != *header)

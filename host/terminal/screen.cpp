@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/core/grams.h"
+
 namespace vkdose::terminal {
 
 namespace {
@@ -14,7 +16,8 @@ constexpr int kBesideColumns = 90;  ///< with this many columns or more the dose
 constexpr int kPanel = 46;          ///< columns of the doses beside the bed
 constexpr int kRowsBelow = 7;       ///< rows of the doses below it
 constexpr int kLeastViewRows = 5;
-constexpr int kLabel = 9, kFigure = 13;
+constexpr int kLabel = 9;
+constexpr std::size_t kUnit = 7, kUsualFigure = 6;  ///< " g ..." with a blank before the mass; "12.345"
 
 /// The last doses, including the one under way, in so many rows. Nothing for a run without doses.
 std::vector<std::string> doseRows(const LiveState& s, int columns, int rows) {
@@ -31,13 +34,17 @@ std::vector<std::string> doseRows(const LiveState& s, int columns, int rows) {
     shown.erase(shown.begin(), shown.begin() + skipped);
 
     double most = s.closedForm;
-    for (const Dose& d : shown) most = std::max(most, d.mass);
-    std::vector<std::string> lines{fmt::format("{:<{}}│ closed form {:.3f} g", "", kLabel, s.closedForm * 1e3)};
+    std::size_t figure = kUsualFigure;
+    for (const Dose& d : shown) {
+        most = std::max(most, d.mass);
+        figure = std::max(figure, grams(d.mass).size());
+    }
+    const int cells = columns - kLabel - int(kUnit + figure);
+    std::vector<std::string> lines{fmt::format("{:<{}}│ closed form {} g", "", kLabel, grams(s.closedForm))};
     for (const Dose& d : shown) {
         const bool now = open && &d == &shown.back();
-        lines.push_back(fmt::format("dose {:<3} {} {:.3f} g{}", d.index,
-                                    bar(d.mass, s.closedForm, most, columns - kLabel - kFigure), d.mass * 1e3,
-                                    now ? " ..." : ""));
+        lines.push_back(fmt::format("dose {:<3} {} {} g{}", d.index, bar(d.mass, s.closedForm, most, cells),
+                                    grams(d.mass), now ? " ..." : ""));
     }
     return lines;
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <set>
 
+#include "geometry/tessellate.h"
 #include "host/model/key.h"
 #include "tests/model/case_files.h"
 #include "tests/support/catch.h"
@@ -53,7 +54,7 @@ const std::vector<Slip> kSlips{
     {{"contact.rolling_friction=25"}, "friction", {"contact.rolling_friction = 25"}},
     {{"contact.damping=0.9"}, "overdamped", {"contact.damping = 0.9", "restitution of 0.9"}},
     {{"contact.damping=0.45"}, "restitution", {"contact.damping = 0.45", "of the smallest 0", "restitution of 0.45"}},
-    {{"contact.damping=0", "contact.k1_over_k=1"}, "restitution", {"a restitution of 1", "restitution of 0.5"}},
+    {{"contact.damping=0", "contact.k1_over_k=1"}, "restitution", {"a restitution of 1", "restitution of 0.5"}, false},
     {{"contact.k=10", "contact.damping=0.003"}, "overlap-weight", {"contact.k = 10", "give at least"}, false},
     {{"contact.k=100", "contact.damping=0.01"}, "overlap-fall", {"contact.k = 100", "m/s"}},
     {{"coil.pitch_mm=5"}, "coil-gap", {"coil.pitch_mm = 5", "2.99 mm", "0.68 of the largest"}},
@@ -66,6 +67,12 @@ const std::vector<Slip> kSlips{
     {{"coil.speed_rpm=0"}, "coil-rest", {"does not turn"}},
     {{"coil.speed_rpm=400"}, "coil-speed", {"1.9 times gravity", "293 rpm"}},
     {{"canister.outlet_diameter_mm=10", "coil.radius_mm=3.5", "dose.rotate_s=6"}, "outlet", {"2.3 of the largest"}},
+    {{"contact.kc_over_k=0"}, "throat", {"Bond number at most 0", "degrees", "give a throat of"}, false},
+    {{"dose.rotate_s=0.05", "coil.speed_rpm=60"}, "throat-empty", {"doses fill the throat"}, false},
+    {{"dose.mass_g=3", "dose.max_rotate_s=1", "coil.speed_rpm=30"},
+     "dose-time",
+     {"dose.max_rotate_s = 1", "by the closed form 3 g take", "give at least"},
+     false},
     {{"particles.mass_g=3"}, "fill-low", {"particles.mass_g = 3", "below the coil's axis"}},
     {{"domain.low=[-0.02, -0.005, -0.01]", "domain.high=[0.02, 0.2, 0.06]"}, "domain", {"is lost"}},
     {{"region=[{name = \"moon\", kind = \"beyond\", deletes = false, point = [0, 100, 0], normal = [0, 1, 0]}]"},
@@ -73,7 +80,7 @@ const std::vector<Slip> kSlips{
      {"region.moon: no sphere can reach it", "widen [domain]"}},
     {{"settle.time_s=0.05"}, "settle-time", {"settle.time_s = 0.05", "43.8 mm", "0.094 s", "at least 0.24"}},
     {{"dose.rotate_s=1e9"}, "dose-length", {"more than the fill of 13 g"}, false},
-    {{"dose.rotate_s=0.1"}, "dose-spheres", {"spheres, so that one sphere is"}},
+    {{"dose.rotate_s=0.1"}, "dose-spheres", {"spheres, so that one sphere is"}, false},
     {{"stop.threshold_g=5"}, "stop-threshold", {"stop.threshold_g = 5", "7.2 g"}},
     {{"frames.interval_s=10"}, "frames", {"2.4 s"}},
     {{"sensors.interval_s=0.5"}, "sensors", {"a rotation of 0.8 s"}},
@@ -81,6 +88,32 @@ const std::vector<Slip> kSlips{
     {{"dose.rotate_s=1e9"}, "run-length", {"dose.rotate_s = 1000000000", "days"}, false},
     {{"accepted_warnings=pinsh"}, "accepted", {"there is no warning pinsh", "did you mean pinch?"}},
 };
+
+/// A slip in a text of the shipped device with a mesh, which has no warnings but those it accepts.
+struct BodySlip {
+    std::string from, to, name;
+    std::vector<std::string> says;
+};
+
+const std::vector<BodySlip> kBodySlips{
+    {"turns_per_turn = -1", "turns_per_turn = 1", "body-backwards", {"to the rear wall", "by 5 mm a turn", "give -1"}},
+    {"at = [0, 0, 0]", "at = [0.001, 0, 0]", "body-wall", {"\"spring\" turns through the", "0.7 mm"}},
+    {"at = [0, 0, 0]", "at = [0, 0, -0.006]", "body-end", {"ends 1 mm before the front wall", "by 1 mm along z"}},
+    {"unit = \"mm\"", "unit = \"um\"", "body-size", {"0.035 mm long", "\"mm\""}},
+    {"[settle]",
+     "[[body]]\nname = \"pin\"\nshape = \"box\"\nsize_mm = [0.8, 0.8, 0.8]\nat = [0, -0.0052, 0.015]\n[settle]",
+     "body-cross",
+     {"\"spring\" turns through body \"pin\""}}};
+
+std::vector<Warning> warningsOfText(const test::Folder& folder, const std::string& text) {
+    const Case c = loadCase(folder.write("case.toml", text));
+    return warningsOf(c, insertParticles(c));
+}
+
+const Warning* warningOf(const std::vector<Warning>& all, const std::string& name) {
+    const auto it = std::find_if(all.begin(), all.end(), [&](const Warning& w) { return w.name == name; });
+    return it == all.end() ? nullptr : &*it;
+}
 
 }  // namespace
 
@@ -100,9 +133,44 @@ TEST_CASE("each slip has its warning with figures and a cure") {
     }
 }
 
+TEST_CASE("each slip with a body has its warning with figures and a cure") {
+    const test::Folder folder;
+    std::filesystem::copy_file(shippedCase("devices/spring.stl"), folder.path() / "spring.stl");
+    const std::string good = test::readText(shippedCase("devices/mesh-lactose.toml"));
+    for (const BodySlip& slip : kBodySlips) {
+        CAPTURE(slip.name);
+        CHECK(warningOf(warningsOfText(folder, good), slip.name) == nullptr);
+        const std::vector<Warning> found = warningsOfText(folder, test::replaced(good, slip.from, slip.to));
+        const Warning* warning = warningOf(found, slip.name);
+        CAPTURE(namesOf(found));
+        REQUIRE(warning != nullptr);
+        for (const std::string& words : slip.says) CHECK_THAT(warning->line(), Catch::Contains(words));
+        CHECK_FALSE(warning->cure.empty());
+    }
+}
+
+TEST_CASE("spheres that start inside of a closed mesh are told, unless it holds all of them") {
+    const test::Folder folder;
+    const geometry::Block block{Vec3(-0.01), Vec3(0.01)};
+    folder.write("block.stl", geometry::stlText(geometry::tessellated(block, 1, Vec3(-1), Vec3(1))));
+    const auto warned = [&](const std::string& spheres) {
+        folder.write("two.csv", "x,y,z,r\n" + spheres);
+        const std::vector<Warning> found = warningsOfText(
+            folder, test::kFreeCase + "[[body]]\nname = \"block\"\nmesh = \"block.stl\"\nunit = \"m\"\n");
+        const Warning* warning = warningOf(found, "body-inside");
+        return warning == nullptr ? std::string() : warning->line();
+    };
+    CHECK_THAT(warned("0.003,0.001,-0.002,1e-3\n0.02,0,0,1e-3\n"),
+               Catch::Contains("1 of 2 spheres start inside of body \"block\"") && Catch::Contains("(3, 1, -2) mm"));
+    CHECK(warned("0.003,0.001,-0.002,1e-3\n-0.004,0,0,1e-3\n").empty());  // a vessel
+    CHECK(warned("0.03,0.001,-0.002,1e-3\n0.02,0,0.003,1e-3\n").empty());
+}
+
 TEST_CASE("every rule is shown by a slip") {
     std::set<std::string> shown{"no-outlet"}, all;  // that one takes a case without a canister
     for (const Slip& slip : kSlips) shown.insert(slip.name);
+    for (const BodySlip& slip : kBodySlips) shown.insert(slip.name);
+    shown.insert("body-inside");  // below
     for (const std::string& name : warningNames()) all.insert(name);
     CHECK(all.size() == warningNames().size());
     CHECK(shown == all);
@@ -110,19 +178,18 @@ TEST_CASE("every rule is shown by a slip") {
 
 TEST_CASE("a shipped case has no warning but those it accepts, and accepts none that it has not") {
     int cases = 0;
-    for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(VKDOSE_SOURCE_DIR) / "cases")) {
-        if (entry.path().extension() != ".toml") continue;
+    for (const std::filesystem::path& file : test::shippedCases()) {
         ++cases;
-        const Case c = loadCase(entry.path());
+        const Case c = loadCase(file);
         const std::vector<Warning> warnings = warningsOf(c, insertParticles(c));
-        CAPTURE(entry.path().string());
+        CAPTURE(file.string());
         for (const Warning& w : warnings) {
             CAPTURE(w.line());
             CHECK(w.accepted);
         }
         CHECK(warnings.size() == acceptedBy(c).size());
     }
-    CHECK(cases > 10);
+    CHECK(cases > 15);
 }
 
 TEST_CASE("doses without a canister take a region that deletes") {

@@ -5,8 +5,10 @@
 
 #include "host/app/backends.h"
 #include "host/app/measures.h"
+#include "host/model/body_form.h"
 #include "host/model/case.h"
 #include "tests/app/sandbox.h"
+#include "tests/model/case_files.h"
 #include "tests/support/catch.h"
 
 using namespace vkdose;
@@ -76,24 +78,22 @@ TEST_CASE("new: three devices give cases that check has nothing against") {
     struct Device {
         std::string options;
         double fill;
-        std::vector<std::string> accepted;
+        std::vector<std::string> accepted, warned;
     };
-    for (const Device& device :
-         {Device{kTechnologist, 0.05, {"coil-start"}}, Device{kTiny, 60e-6, {}}, Device{kLarge, 12, {}}}) {
+    for (const Device& device : {Device{kTechnologist, 0.05, {"coil-start"}, {"throat"}}, Device{kTiny, 60e-6, {}, {}},
+                                 Device{kLarge, 12, {}, {"throat"}}}) {
         CAPTURE(device.options);
         fs::remove(box / "my.toml");
         const auto made = box.vkdose("new my.toml " + device.options);
         CAPTURE(made.err);
         REQUIRE(made.code == 0);
-        CHECK_THAT(made.out, Catch::Contains("vkdose check my.toml") && Catch::Contains("particle-steps") &&
-                                 !Catch::Contains("warning"));
+        CHECK_THAT(made.out, Catch::Contains("vkdose check my.toml") && Catch::Contains("particle-steps"));
+        CHECK((made.out.find("warning") != made.out.npos) == !device.warned.empty());
         const auto check = checked(box, "my.toml");
-        std::vector<std::string> names;
-        for (const auto& w : check["warnings"]) {
-            CHECK(w["accepted"] == true);
-            names.push_back(w["name"]);
-        }
-        CHECK(names == device.accepted);
+        std::vector<std::string> accepted, warned;
+        for (const auto& w : check["warnings"]) (w["accepted"] == true ? accepted : warned).push_back(w["name"]);
+        CHECK(accepted == device.accepted);
+        CHECK(warned == device.warned);
         const auto& f = check["figures"];
         CHECK(f["fill_kg"].get<double>() == Approx(device.fill).epsilon(0.02));
         CHECK(f["particles"] > 1000);
@@ -128,6 +128,61 @@ TEST_CASE("new: the coil is placed as its turns and pitch say") {
     CHECK(c.world.coil->pitch == Approx(20e-3));
 }
 
+TEST_CASE("new: a mesh stands in the place of the coil, laid along the canister and turning towards the outlet") {
+    const Sandbox box;
+    fs::create_directory(box / "deep");
+    fs::copy_file(shippedCase("devices/spring.stl"), box / "deep/spring.stl");  // along x, right-handed
+    fs::copy_file(shippedCase("devices/auger.stl"), box / "auger.stl");
+    const std::string device = " --canister 30x12x25mm --fill 3g --flow cohesive --spheres 1000 ";
+    const auto made = box.vkdose("new deep/my.toml --mesh deep/spring.stl --unit mm" + device);
+    CAPTURE(made.err);
+    REQUIRE(made.code == 0);
+    CHECK_THAT(made.out, Catch::Contains("1308 triangles, 35 x 11.4 x 11.4 mm") &&
+                             Catch::Contains("conveys powder by 5 mm") && !Catch::Contains("warning"));
+    const Case c = loadCase(box / "deep/my.toml");
+    REQUIRE(c.world.bodies.size() == 1);
+    CHECK_FALSE(c.world.coil);
+    const RigidBody& body = c.world.bodies[0];
+    const TurningReach reach = reachOf(trianglesOf(body), Vec3(0, 0, 1), Vec3(0));
+    CHECK(reach.radius == Approx(5.7e-3).epsilon(0.01));
+    CHECK(reach.high == Approx(c.canister->length + c.canister->throatLength).epsilon(1e-4));
+    const auto& turn = std::get<geometry::Turn>(body.course.motion);
+    CHECK(turn.rate * advancePerTurn(trianglesOf(body), turn.axis, turn.through) == Approx(5e-3).epsilon(0.02));
+    CHECK(c.filling.region.low.y == Approx(reach.radius).epsilon(0.01));
+
+    const auto refused = [&](const std::string& options, const std::string& why) {
+        const auto o = box.vkdose("new no.toml" + device + options);
+        CAPTURE(options);
+        CHECK(o.code == 2);
+        CHECK_THAT(o.err, Catch::Contains(why));
+        CHECK_FALSE(fs::exists(box / "no.toml"));
+    };
+    refused("--mesh deep/spring.stl", "give --unit too");
+    refused("--mesh deep/spring.stl --unit cm", "reaches 57 mm from its axis");
+    refused("--mesh deep/spring.stl --unit um", "the unit that it was drawn in");
+    refused("--mesh deep/spring.stl --unit furlong", "give one of m, cm, mm, um, inch");
+    refused("--mesh gone.stl --unit mm", "gone.stl");
+    refused("--mesh deep/spring.stl --unit mm --coil 5mm", "one or the other");
+    refused("--unit mm --coil 5mm", "--unit is that of a mesh");
+    refused("--mesh auger.stl --unit mm --throat 1mm --outlet 12mm", "48 mm long, canister and throat together 31 mm");
+}
+
+TEST_CASE("new: a dose to a mass, and more spheres than asked for are told") {
+    const Sandbox box;
+    const std::string device = "new my.toml --canister 6x3x6mm --coil 0.9mm --fill 15mg --flow cohesive ";
+    const auto made = box.vkdose(device + "--dose 2mg --spheres 500");
+    CAPTURE(made.err);
+    REQUIRE(made.code == 0);
+    CHECK_THAT(made.out, Catch::Contains("500 spheres were asked for") && Catch::Contains("the gap between the turns"));
+    const Case c = loadCase(box / "my.toml");
+    CHECK(c.schedule.targetMass == Approx(2e-6));
+    const double turns = 2e-6 / derive(c, insertParticles(c)).massPerTurn;
+    CHECK(c.schedule.rotateTime == Approx(3 * turns * 2 * kPi / c.schedule.coilSpeed).epsilon(0.1));
+    fs::remove(box / "my.toml");
+    CHECK_THAT(box.vkdose(device + "--dose 2mg --rotate 1s").err, Catch::Contains("one or the other"));
+    CHECK_THAT(box.vkdose(device + "--dose 20mg").err, Catch::Contains("more than the fill of 15 mg"));
+}
+
 TEST_CASE("new: what is ambiguous or contradictory is refused with what would be right, and nothing is written") {
     const Sandbox box;
     const auto refused = [&](const std::string& options, const std::string& why) {
@@ -138,7 +193,7 @@ TEST_CASE("new: what is ambiguous or contradictory is refused with what would be
     };
     const std::string device = "--canister 80x30x100mm ";
     refused("", "--canister is needed");
-    refused(device, "--coil is needed");
+    refused(device, "--coil or --mesh is needed");
     refused("--canister 80x30mm --coil 5mm", "it is not clear which lengths these are; give all three: 80x30x100mm");
     refused("--canister 80x30x100 --coil 5mm", "lacks the unit");
     refused(device + "--coil 6", "could be turns or a pitch; write 6x5mm");

@@ -20,6 +20,8 @@ TEST_CASE("masses of milligrams keep their digits") {
     CHECK(grams(-4.413e-7) == "-0.000441");
     CHECK(grams(0) == "0.000");
     CHECK(grams(1e-15) == "0.000000000");
+    CHECK(signedGrams(0.021e-3) == "+0.0210");
+    CHECK(signedGrams(-1.5e-3) == "-1.500");
 }
 
 TEST_CASE("durations read as people say them") {

@@ -3,6 +3,7 @@
 #include "geometry/mesh_writer.h"
 #include "geometry/tessellate.h"
 #include "host/core/error.h"
+#include "host/model/body_form.h"
 #include "tests/model/case_files.h"
 #include "tests/support/catch.h"
 #include "tests/support/near.h"
@@ -184,6 +185,115 @@ TEST_CASE("bodies: one that follows the drive turns about its axis while powder 
     CHECK_THAT(read.fault(driven + "[dose]\nrotate_s = 1\n"), Contains("dose.speed_rpm: is missing"));
     CHECK_THAT(read.fault("[dose]\nrotate_s = 1\nspeed_rpm = 30\n[stop]\nmax_doses = 1\n"),
                Contains("follows = \"drive\""));
+}
+
+TEST_CASE("bodies: the form tells which way a turning body conveys, and how far") {
+    Read read;
+    const auto formOf = [&](const std::string& shape) {
+        const RigidBody body = read.load("[[body]]\nname = \"it\"\n" + shape).world.bodies.at(0);
+        return trianglesOf(body);
+    };
+    const Vec3 z(0, 0, 1), origin(0);
+    for (const auto& [hand, sign] : {std::pair("right", -1.0), std::pair("left", 1.0)}) {
+        const std::string turned = std::string("hand = \"") + hand + "\"\n";
+        const auto screw = formOf(
+            "shape = \"screw\"\nradius_mm = 6\nshaft_radius_mm = 2.5\nthickness_mm = 1\n"
+            "pitch_mm = 8\nlength_mm = 40\n" +
+            turned);
+        CHECK(advancePerTurn(screw, z, origin) == Approx(sign * 8e-3).epsilon(0.03));
+        CHECK(advancePerTurn(screw, -z, origin) == Approx(sign * 8e-3).epsilon(0.03));
+        const auto wire =
+            formOf("shape = \"wire\"\nradius_mm = 6\nwire_diameter_mm = 1\npitch_mm = 5\nlength_mm = 20\n" + turned);
+        CHECK(advancePerTurn(wire, z, origin) == Approx(sign * 5e-3).epsilon(0.03));
+        CHECK(reachOf(wire, z, origin).radius == Approx(6.5e-3).epsilon(0.01));
+    }
+    // A paddle, and a rod that turns within itself.
+    CHECK(advancePerTurn(formOf("shape = \"box\"\nsize_mm = [10, 1, 30]\n"), z, origin) == Approx(0).margin(1e-9));
+    CHECK(advancePerTurn(formOf("shape = \"cylinder\"\nradius_mm = 3\nlength_mm = 9\nends = true\n"), z, origin) ==
+          Approx(0).margin(1e-9));
+    CHECK(highestOfTurn(formOf("shape = \"ball\"\nradius_mm = 1\nat = [0.003, -0.004, 0.01]\n"), z, Vec3(0, 0.01, 0)) ==
+          Approx(0.01 + std::hypot(3e-3, 14e-3) + 1e-3).epsilon(0.01));
+    CHECK(trianglesOf(read.load("[[body]]\nname = \"p\"\nshape = \"plane\"\n").world.bodies.at(0)).empty());
+}
+
+TEST_CASE("bodies: the fill of a canister starts above what the drive turns") {
+    const Folder folder;
+    const std::string coilless = kGoodCase.substr(0, kGoodCase.find("[coil]"));
+    const auto load = [&](const std::string& radius) {
+        return loadCase(folder.write("case.toml",
+                                     coilless + "[[body]]\nname = \"screw\"\nshape = \"screw\"\nradius_mm = " + radius +
+                                         "\nshaft_radius_mm = 2\nthickness_mm = 1\npitch_mm = 7\nlength_mm = 21\nhand "
+                                         "= \"left\"\n[body.motion]\n"
+                                         "kind = \"turn\"\nfollows = \"drive\"\n[settle]\ntime_s = "
+                                         "0.1\n[dose]\nrotate_s = 0.3\nspeed_rpm = 60\n"));
+    };
+    for (const auto& [text, radius] : {std::pair("6", 6e-3), std::pair("4", 4e-3)}) {
+        const Case c = load(text);
+        CHECK(c.filling.region.low.y == Approx(radius).epsilon(0.01));
+        for (const Vec3& x : insertParticles(c).particles.position) CHECK(x.y > radius);
+    }
+}
+
+TEST_CASE("bodies: a screw and a mesh have the closed form of what they carry") {
+    const auto derivedOf = [](const std::string& file, const std::vector<std::string>& overrides = {}) {
+        const Case c = loadCase(shippedCase(file), overrides);
+        return derive(c, insertParticles(c));
+    };
+    // By hand: bulk density, pitch, swept section less the spring's own volume over its length; two turns.
+    const double spring = 530 * 5e-3 * (kPi * 5.7e-3 * 5.7e-3 - 0.2211e-6 / 35e-3);
+    CHECK(derivedOf("devices/mesh-lactose.toml").massPerTurn == Approx(spring).epsilon(0.02));
+    CHECK(derivedOf("devices/mesh-lactose.toml").massPerDose == Approx(2 * spring).epsilon(0.02));
+    CHECK(derivedOf("devices/mesh-lactose.toml").pushVelocity == Approx(5e-3).epsilon(0.02));
+    // Pitch less blade, between shaft and rim; three turns.
+    const double screw = 450 * 7e-3 * kPi * (6e-3 * 6e-3 - 2.5e-3 * 2.5e-3);
+    CHECK(derivedOf("devices/auger-milk.toml").massPerDose == Approx(3 * screw).epsilon(0.05));
+    const auto exact = [](const std::string& hand) {
+        const Folder folder;
+        const Case c = loadCase(folder.write(
+            "case.toml", kGoodCase.substr(0, kGoodCase.find("[coil]")) +
+                             "[[body]]\nname = \"screw\"\nshape = \"screw\"\nradius_mm = 6\nshaft_radius_mm = 2.5\n"
+                             "thickness_mm = 1\npitch_mm = 8\nlength_mm = 21\nhand = \"" +
+                             hand +
+                             "\"\n[body.motion]\nkind = \"turn\"\nfollows = \"drive\"\n[settle]\ntime_s = 0.1\n"
+                             "[dose]\nrotate_s = 0.3\nspeed_rpm = 60\n"));
+        return derive(c, insertParticles(c)).massPerTurn / c.bulkDensity;
+    };
+    CHECK(exact("left") == Approx(screw / 450).epsilon(0.05));
+    CHECK(exact("right") == 0);  // it carries powder to the rear wall
+}
+
+TEST_CASE("bodies: one that stands in the fill is refused with what would be right") {
+    Read read;
+    const std::string ball = "[[body]]\nname = \"pin\"\nshape = \"ball\"\nradius_mm = 2\nat = [0, 0.024, 0]\n";
+    CHECK_THAT(read.fault(ball),
+               Contains("overlaps body \"pin\"") && Contains("a [particles.region] that is free of it"));
+    const Folder folder;
+    try {
+        loadCase(folder.write("case.toml", kGoodCase + replaced(ball, "0.024, 0]", "0.01, 0.008]")));
+        FAIL("not refused");
+    } catch (const CaseError& e) {
+        CHECK_THAT(e.what(), Contains("particles.drop_mm"));
+    }
+}
+
+TEST_CASE("a canister takes more of a powder that does not stick, because its bed is denser") {
+    const auto fits = [](double grams, const std::string& adhesion) {
+        const Folder folder;
+        const std::string text = replaced(replaced(kGoodCase, "mass_g = 0.9", "mass_g = " + std::to_string(grams)),
+                                          "kc_over_k = 0.5", adhesion);
+        try {
+            loadCase(folder.write("case.toml", text));
+            return true;
+        } catch (const CaseError& e) {
+            CHECK_THAT(e.what(), Contains("the fill does not fit"));
+            return false;
+        }
+    };
+    // 13.1 cm3, of which spheres of 1427 kg/m3 may fill 0.35 or 0.5.
+    CHECK(fits(6.4, "kc_over_k = 0.5"));
+    CHECK_FALSE(fits(6.7, "kc_over_k = 0.5"));
+    CHECK(fits(9.2, "kc_over_k = 0"));
+    CHECK_FALSE(fits(9.5, "kc_over_k = 0"));
 }
 
 TEST_CASE("bodies: a table of motion comes from its file") {

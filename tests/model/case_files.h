@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "host/model/case.h"
 #include "tests/support/folder.h"
@@ -11,6 +12,15 @@ namespace vkdose::test {
 
 inline std::filesystem::path shippedCase(const std::string& name) {
     return std::filesystem::path(VKDOSE_SOURCE_DIR) / "cases" / name;
+}
+
+/// Every case of the folders that hold nothing but cases.
+inline std::vector<std::filesystem::path> shippedCases() {
+    std::vector<std::filesystem::path> all;
+    for (const char* folder : {"", "devices"})
+        for (const auto& entry : std::filesystem::directory_iterator(shippedCase(folder)))
+            if (entry.path().extension() == ".toml") all.push_back(entry.path());
+    return all;
 }
 
 /// A valid small case; the tests break one thing of it at a time.

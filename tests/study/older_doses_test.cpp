@@ -23,3 +23,22 @@ TEST_CASE("an older table of doses gets the columns of the stop, without figures
     folder.write("doses.csv", "dose,mass_kg\n1,2\n");
     CHECK(dosesIn(file.parent_path()).names().empty());
 }
+
+TEST_CASE("an older table of members gets the columns of doses to a mass, without figures") {
+    Row names{"member", "seed"};
+    for (const std::string& name : kOutputColumns)
+        if (name == "target_dose_kg")
+            break;
+        else
+            names.push_back(name);
+    Table older(names);
+    older.add(Row(names.size(), "1"));
+    const Table now = withTargetColumns(older);
+    Row wanted{"member", "seed"};
+    wanted.insert(wanted.end(), kOutputColumns.begin(), kOutputColumns.end());
+    CHECK(now.names() == wanted);
+    CHECK(now.text(0, "wall_time_s") == "1");
+    for (const char* added :
+         {"target_dose_kg", "target_error_kg", "overshoot_kg", "rotation_s", "doses_stopped_by_mass"})
+        CHECK(now.text(0, added).empty());
+}

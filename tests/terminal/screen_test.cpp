@@ -243,6 +243,13 @@ TEST_CASE("doses are listed with their masses, the one under way too") {
     s.frame.dose = 2;  // at rest after its end: nothing is under way
     for (const std::string& line : screenLines(scene(), s, 80, 30, Style::Plain)) CHECK(line.find("...") == line.npos);
 
+    s.doses = {dose(1, 2.03e-6)};  // a device of milligrams
+    s.frame.dose = 1;
+    s.closedForm = 1.5e-6;
+    std::string tiny;
+    for (const std::string& line : screenLines(scene(), s, 80, 30, Style::Plain)) tiny += line + "\n";
+    CHECK_THAT(tiny, Catch::Contains("0.00203 g\n") && Catch::Contains("closed form 0.00150 g"));
+
     s.closedForm = 0;  // a settling
     for (const std::string& line : screenLines(scene(), s, 80, 30, Style::Plain))
         CHECK(line.find("closed form") == line.npos);

@@ -1,0 +1,330 @@
+// Warnings about bodies: which way they convey, what they turn through, what lies inside of them.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "host/advice/rules.h"
+#include "host/model/body_form.h"
+
+namespace vkdose {
+namespace {
+
+using geometry::Triangle;
+
+double mm(double metres) {
+    return metres * 1e3;
+}
+
+std::string keyOf(std::size_t body, const char* key) {
+    return fmt::format("body[{}].{}", body, key);
+}
+
+/// The turn of a body that the drive turns while powder is dosed; null for every other.
+const geometry::Turn* drivenTurn(const Subject& s, const RigidBody& body) {
+    if (s.c.schedule.rotateTime == 0 || body.clock != Clock::Drive) return nullptr;
+    return std::get_if<geometry::Turn>(&body.course.motion);
+}
+
+/// Whether it turns about an axis along that of the canister.
+bool alongCanister(const geometry::Turn& turn) {
+    return std::abs(turn.axis.z) > 0.999;
+}
+
+/// The body's turns about its axis for one of the drive, as the case file gives them. Where a coil turns clockwise
+/// seen from its end, the angle of the drive counts backwards.
+double turnsPerTurn(const Subject& s, const geometry::Turn& turn) {
+    const bool backwards = s.c.world.coil && geometry::conveyingRate(*s.c.world.coil, 1) < 0;
+    return backwards ? -turn.rate : turn.rate;
+}
+
+/// Counts, for points within a mesh's box, how often a line along z from each of them leaves the mesh. An odd number
+/// means that the point is inside of a closed mesh.
+class Inside {
+  public:
+    explicit Inside(const geometry::Mesh& mesh) : mesh_(mesh), low_(mesh.vertices.front()), high_(low_) {
+        for (const Vec3& v : mesh.vertices) {
+            low_ = glm::min(low_, v);
+            high_ = glm::max(high_, v);
+        }
+        for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+            Vec3 from = corner(t, 0), to = from;
+            for (int i = 1; i < 3; ++i) {
+                from = glm::min(from, corner(t, i));
+                to = glm::max(to, corner(t, i));
+            }
+            for (int x = cell(from.x, 0); x <= cell(to.x, 0); ++x)
+                for (int y = cell(from.y, 1); y <= cell(to.y, 1); ++y) columns_[{x, y}].push_back(t);
+        }
+    }
+
+    bool operator()(const Vec3& p) const {
+        if (glm::any(glm::lessThan(p, low_)) || glm::any(glm::greaterThan(p, high_))) return false;
+        const auto column = columns_.find({cell(p.x, 0), cell(p.y, 1)});
+        if (column == columns_.end()) return false;
+        bool inside = false;
+        for (const std::size_t t : column->second)
+            if (above(t, p)) inside = !inside;
+        return inside;
+    }
+
+  private:
+    static constexpr int kCells = 64;
+
+    const Vec3& corner(std::size_t t, int i) const { return mesh_.vertices[mesh_.triangles[t][std::size_t(i)]]; }
+
+    int cell(double x, int axis) const {
+        const double share = (x - low_[axis]) / std::max(high_[axis] - low_[axis], 1e-300);
+        return int(std::clamp(share * kCells, 0.0, kCells - 1.0));
+    }
+
+    /// Whether the line from `p` along +z passes the triangle. Each edge belongs to one of its sides alone.
+    bool above(std::size_t t, const Vec3& p) const {
+        bool within = false;
+        for (int i = 0; i < 3; ++i) {
+            const Vec3 a = corner(t, i), b = corner(t, (i + 1) % 3);
+            if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)) within = !within;
+        }
+        if (!within) return false;
+        const Vec3 a = corner(t, 0), n = glm::cross(corner(t, 1) - a, corner(t, 2) - a);
+        return n.z != 0 && a.z - (n.x * (p.x - a.x) + n.y * (p.y - a.y)) / n.z > p.z;
+    }
+
+    const geometry::Mesh& mesh_;
+    Vec3 low_, high_;
+    std::map<std::pair<int, int>, std::vector<std::size_t>> columns_;
+};
+
+bool isClosed(const geometry::Mesh& mesh) {
+    return std::none_of(mesh.edges.begin(), mesh.edges.end(),
+                        [](const geometry::MeshEdge& e) { return e.faces[1] == geometry::kNoFace; });
+}
+
+/// Triangles in the cells of a box, to find those near a segment.
+class Cells {
+  public:
+    explicit Cells(const std::vector<Triangle>& mesh) : mesh_(mesh), low_(1e300), high_(-1e300) {
+        for (const Triangle& t : mesh)
+            for (const Vec3& p : t) {
+                low_ = glm::min(low_, p);
+                high_ = glm::max(high_, p);
+            }
+        for (std::size_t i = 0; i < mesh.size(); ++i)
+            forEachCell(glm::min(mesh[i][0], glm::min(mesh[i][1], mesh[i][2])),
+                        glm::max(mesh[i][0], glm::max(mesh[i][1], mesh[i][2])),
+                        [&](int cell) { cells_[cell].push_back(i); });
+    }
+
+    /// Whether the segment passes a triangle.
+    bool passedBy(const Vec3& a, const Vec3& b) const {
+        const Vec3 low = glm::min(a, b), high = glm::max(a, b);
+        if (glm::any(glm::lessThan(high, low_)) || glm::any(glm::greaterThan(low, high_))) return false;
+        bool passed = false;
+        forEachCell(low, high, [&](int cell) {
+            const auto found = cells_.find(cell);
+            if (passed || found == cells_.end()) return;
+            passed = std::any_of(found->second.begin(), found->second.end(),
+                                 [&](std::size_t i) { return passes(a, b, mesh_[i]); });
+        });
+        return passed;
+    }
+
+  private:
+    static constexpr int kSide = 24;
+
+    int cell(double x, int axis) const {
+        const double share = (x - low_[axis]) / std::max(high_[axis] - low_[axis], 1e-300);
+        return int(std::clamp(share * kSide, 0.0, kSide - 1.0));
+    }
+    template <class Visit>
+    void forEachCell(const Vec3& low, const Vec3& high, const Visit& visit) const {
+        for (int x = cell(low.x, 0); x <= cell(high.x, 0); ++x)
+            for (int y = cell(low.y, 1); y <= cell(high.y, 1); ++y)
+                for (int z = cell(low.z, 2); z <= cell(high.z, 2); ++z) visit((x * kSide + y) * kSide + z);
+    }
+    /// By the signs of the volumes that segment and edges span.
+    static bool passes(const Vec3& a, const Vec3& b, const Triangle& t) {
+        const Vec3 n = glm::cross(t[1] - t[0], t[2] - t[0]);
+        if (!(glm::dot(a - t[0], n) * glm::dot(b - t[0], n) < 0)) return false;
+        const auto side = [&](int i, int j) {
+            return glm::dot(b - a, glm::cross(t[std::size_t(i)] - a, t[std::size_t(j)] - a));
+        };
+        const double u = side(0, 1), v = side(1, 2), w = side(2, 0);
+        return (u > 0 && v > 0 && w > 0) || (u < 0 && v < 0 && w < 0);
+    }
+
+    const std::vector<Triangle>& mesh_;
+    Vec3 low_, high_;
+    std::map<int, std::vector<std::size_t>> cells_;
+};
+
+/// Whether an edge of `moved`, turned by `angle`, passes `cells`.
+bool edgesPass(const std::vector<Triangle>& moved, const geometry::Turn& turn, double angle, const Cells& cells) {
+    const geometry::Rotation rotation = glm::angleAxis(angle, turn.axis);
+    const auto at = [&](const Vec3& p) { return turn.through + rotation * (p - turn.through); };
+    return std::any_of(moved.begin(), moved.end(), [&](const Triangle& t) {
+        const Vec3 a = at(t[0]), b = at(t[1]), c = at(t[2]);
+        return cells.passedBy(a, b) || cells.passedBy(b, c) || cells.passedBy(c, a);
+    });
+}
+
+/// Whether the body `moving` passes the resting body `still` somewhere in its turn.
+bool cross(const std::vector<Triangle>& moving, const geometry::Turn& turn, const std::vector<Triangle>& still) {
+    constexpr int kPlaces = 36;
+    const Cells ofStill(still), ofMoving(moving);
+    for (int i = 0; i < kPlaces; ++i) {
+        const double angle = 2 * kPi * i / kPlaces;
+        if (edgesPass(moving, turn, angle, ofStill) || edgesPass(still, turn, -angle, ofMoving)) return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+Found bodiesCross(const Subject& s) {
+    const std::vector<RigidBody>& bodies = s.c.world.bodies;
+    for (std::size_t a = 0; a < bodies.size(); ++a) {
+        const geometry::Turn* turn = drivenTurn(s, bodies[a]);
+        if (turn == nullptr) continue;
+        for (const RigidBody& still : bodies) {
+            if (!std::holds_alternative<geometry::Rest>(still.course.motion)) continue;
+            if (!cross(trianglesOf(bodies[a]), *turn, trianglesOf(still))) continue;
+            return Finding{keyOf(a, "at"),
+                           fmt::format("body \"{}\" turns through body \"{}\"; powder between them would be crushed",
+                                       bodies[a].name, still.name),
+                           "move one of them, or make one smaller"};
+        }
+    }
+    return {};
+}
+
+Found bodyBackwards(const Subject& s) {
+    for (std::size_t b = 0; b < s.c.world.bodies.size(); ++b) {
+        const RigidBody& body = s.c.world.bodies[b];
+        const geometry::Turn* turn = drivenTurn(s, body);
+        if (!s.c.canister || turn == nullptr || !alongCanister(*turn)) continue;
+        const std::vector<Triangle> mesh = trianglesOf(body);
+        const double turns = turnsPerTurn(s, *turn);
+        const double advance = turns * turn->axis.z * advancePerTurn(mesh, turn->axis, turn->through);
+        // Less than this is the rounding of a paddle's facets.
+        if (!(advance < -0.02 * reachOf(mesh, turn->axis, turn->through).radius)) continue;
+        return Finding{keyOf(b, "motion.turns_per_turn"),
+                       fmt::format("body \"{}\" carries powder to the rear wall, away from the outlet, by {:.3g} mm a "
+                                   "turn",
+                                   body.name, -mm(advance)),
+                       fmt::format("give {:.4g}, or the other hand", -turns)};
+    }
+    return {};
+}
+
+Found bodyInWall(const Subject& s) {
+    if (!s.c.canister) return {};
+    const Canister& can = *s.c.canister;
+    for (std::size_t b = 0; b < s.c.world.bodies.size(); ++b) {
+        const RigidBody& body = s.c.world.bodies[b];
+        const geometry::Turn* turn = drivenTurn(s, body);
+        if (turn == nullptr || !alongCanister(*turn)) continue;
+        const double aside = std::hypot(turn->through.x, turn->through.y);
+        double excess = 0;
+        bool inHole = false;
+        for (const Triangle& t : trianglesOf(body))
+            for (const Vec3& p : t) {
+                const Vec3 arm = p - turn->through;
+                const double reach = aside + std::hypot(arm.x, arm.y);
+                const bool beyond = p.z > can.length;
+                const double room = (beyond ? can.outletDiameter : can.width) / 2;
+                if (p.z < 0 || reach - room <= excess) continue;
+                excess = reach - room;
+                inHole = beyond;
+            }
+        // A touch is none; a mesh of facets has that much error.
+        if (!(excess > 1e-3 * can.width)) continue;
+        return Finding{keyOf(b, "at"),
+                       fmt::format("body \"{}\" turns through the {}, by {:.3g} mm", body.name,
+                                   inHole ? "rim of the outlet or the throat" : "wall of the canister", mm(excess)),
+                       inHole ? "give a wider outlet, a smaller body, or the place and axis that it should have"
+                              : "give a wider canister, a smaller body, or the place and axis that it should have"};
+    }
+    return {};
+}
+
+Found shortBody(const Subject& s) {
+    if (!s.c.canister || s.c.world.coil) return {};
+    double end = -1e300;
+    std::size_t last = 0;
+    for (std::size_t b = 0; b < s.c.world.bodies.size(); ++b) {
+        const RigidBody& body = s.c.world.bodies[b];
+        const geometry::Turn* turn = drivenTurn(s, body);
+        if (turn == nullptr || !alongCanister(*turn)) continue;
+        for (const Triangle& t : trianglesOf(body))
+            for (const Vec3& p : t)
+                if (p.z > end) {
+                    end = p.z;
+                    last = b;
+                }
+    }
+    const double missing = s.c.canister->length - end;
+    if (end < -1e299 || missing <= 1e-6) return {};
+    return Finding{keyOf(last, "at"),
+                   fmt::format("no body that the drive turns reaches the outlet; \"{}\" ends {:.3g} mm before the "
+                               "front wall",
+                               s.c.world.bodies[last].name, mm(missing)),
+                   fmt::format("move it by {:.3g} mm along z, or give a longer one", mm(missing))};
+}
+
+Found bodyOutOfScale(const Subject& s) {
+    for (std::size_t b = 0; b < s.c.world.bodies.size(); ++b) {
+        const RigidBody& body = s.c.world.bodies[b];
+        if (body.shapes.size() != 1 ||
+            !std::holds_alternative<std::shared_ptr<const geometry::MeshSurface>>(body.shapes.front()))
+            continue;
+        Vec3 low(1e300), high(-1e300);
+        for (const Triangle& t : trianglesOf(body))
+            for (const Vec3& p : t) {
+                low = glm::min(low, p);
+                high = glm::max(high, p);
+            }
+        const double size = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+        const double device =
+            s.c.canister
+                ? std::max({s.c.canister->length, s.c.canister->width, s.c.canister->height})
+                : glm::length(s.c.filling.list ? high - low : s.c.filling.region.high - s.c.filling.region.low);
+        const bool tiny = size < 2 * s.f.mean;
+        if (!tiny && !(size > 8 * device)) continue;
+        return Finding{keyOf(b, "unit"),
+                       fmt::format("the mesh of body \"{}\" is {:.3g} mm long, {}", body.name, mm(size),
+                                   tiny ? fmt::format("less than a mean sphere of {:.3g} mm", mm(2 * s.f.mean))
+                                        : fmt::format("{:.2g} times the device", size / device)),
+                       "a mesh knows no unit; give the one that it was drawn in, as a rule \"mm\""};
+    }
+    return {};
+}
+
+Found sphereInBody(const Subject& s) {
+    const Particles& p = s.filled.particles;
+    for (std::size_t b = 0; b < s.c.world.bodies.size(); ++b) {
+        const RigidBody& body = s.c.world.bodies[b];
+        for (const geometry::Shape& shape : body.shapes) {
+            const auto* mesh = std::get_if<std::shared_ptr<const geometry::MeshSurface>>(&shape);
+            if (mesh == nullptr || !isClosed((*mesh)->mesh())) continue;
+            const Inside inside((*mesh)->mesh());
+            const geometry::Pose pose = body.pose(0, 0);
+            std::size_t count = 0, first = 0;
+            for (std::size_t i = 0; i < p.size(); ++i)
+                if (inside(pose.toBody(p.position[i])) && count++ == 0) first = i;
+            // A closed mesh with all of the powder inside is a vessel.
+            if (count == 0 || count == p.size()) continue;
+            return Finding{keyOf(b, "at"),
+                           fmt::format("{} of {} spheres start inside of body \"{}\", the first at ({:.3g}, {:.3g}, "
+                                       "{:.3g}) mm; its mesh is closed, so that they stay there",
+                                       count, p.size(), body.name, mm(p.position[first].x), mm(p.position[first].y),
+                                       mm(p.position[first].z)),
+                           "move the body, or let the powder start beside it"};
+        }
+    }
+    return {};
+}
+
+}  // namespace vkdose

@@ -1,0 +1,105 @@
+#include "host/model/body_form.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "geometry/tessellate.h"
+
+namespace vkdose {
+
+namespace {
+
+using geometry::Triangle;
+
+/// Pieces of a round shape's circumference, and of a wire's.
+constexpr double kAround = 48, kAroundWire = 12;
+/// A shape with more turns, or so many times as long as wide, is no device; its triangles would fill the memory.
+constexpr double kLongest = 1000;
+
+/// The length of the triangles' sides [m]; 0 for a shape that is left out.
+struct Facet {
+    static double round(double radius, double length) {
+        return length < kLongest * radius ? 2 * kPi * radius / kAround : 0;
+    }
+    double operator()(const geometry::Cone& s) const { return round(std::max(s.baseRadius, s.endRadius), s.length); }
+    double operator()(const geometry::Tube& s) const { return round(s.radius, s.length); }
+    double operator()(const geometry::Ball& s) const { return round(s.radius, 0); }
+    double operator()(const geometry::Block& s) const { return glm::length(s.high - s.low); }
+    double operator()(const geometry::Coil& s) const {
+        if (!(s.length < kLongest * s.pitch)) return 0;
+        return std::max(2 * kPi * s.wireRadius / kAroundWire, 2 * kPi * s.radius / (10 * kAround));
+    }
+    double operator()(const geometry::Flight& s) const {
+        const double outermost = std::max({s.outerRadius, s.pitchStart, s.pitchEnd});
+        return s.angle < 2 * kPi * kLongest ? 2 * kPi * outermost / kAround : 0;
+    }
+    double operator()(const std::shared_ptr<const geometry::MeshSurface>&) const { return 1; }
+    template <class Endless>
+    double operator()(const Endless&) const {
+        return 0;
+    }
+};
+
+}  // namespace
+
+std::vector<Triangle> trianglesOf(const RigidBody& body) {
+    std::vector<Triangle> all;
+    const geometry::Pose pose = body.pose(0, 0);
+    for (const geometry::Shape& shape : body.shapes) {
+        const double facet = std::visit(Facet{}, shape);
+        if (!(facet > 0)) continue;
+        for (Triangle t : geometry::tessellated(shape, facet, Vec3(0), Vec3(0))) {
+            for (Vec3& corner : t) corner = pose.toWorld(corner);
+            all.push_back(t);
+        }
+    }
+    return all;
+}
+
+TurningReach reachOf(const std::vector<Triangle>& mesh, const Vec3& axis, const Vec3& through) {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    TurningReach reach{0, kInfinity, -kInfinity};
+    for (const Triangle& t : mesh)
+        for (const Vec3& corner : t) {
+            const Vec3 arm = corner - through;
+            const double along = glm::dot(arm, axis);
+            reach.radius = std::max(reach.radius, glm::length(arm - along * axis));
+            reach.low = std::min(reach.low, along);
+            reach.high = std::max(reach.high, along);
+        }
+    return reach;
+}
+
+double advancePerTurn(const std::vector<Triangle>& mesh, const Vec3& axis, const Vec3& through) {
+    /// Faces that turn within themselves (discs, shafts) push nothing.
+    constexpr double kOblique = 1e-3;
+    double pushed = 0, weight = 0;
+    for (const Triangle& t : mesh) {
+        const Vec3 area = glm::cross(t[1] - t[0], t[2] - t[0]);
+        const double size = glm::length(area);
+        const Vec3 velocity = glm::cross(axis, (t[0] + t[1] + t[2]) / 3.0 - through);  // at one radian per second
+        if (!(size > 0)) continue;
+        const Vec3 normal = area / size;
+        const double into = glm::dot(velocity, normal), along = glm::dot(normal, axis);
+        if (std::abs(into) < kOblique * glm::length(velocity)) continue;
+        // Either side of a face gives the same sign.
+        pushed += size * into * along;
+        weight += size * along * along;
+    }
+    return weight > 0 ? 2 * kPi * pushed / weight : 0;
+}
+
+double highestOfTurn(const std::vector<Triangle>& mesh, const Vec3& axis, const Vec3& through) {
+    double highest = -std::numeric_limits<double>::infinity();
+    const double steep = std::sqrt(std::max(0.0, 1 - axis.y * axis.y));
+    for (const Triangle& t : mesh)
+        for (const Vec3& corner : t) {
+            const Vec3 arm = corner - through;
+            const double along = glm::dot(arm, axis);
+            highest = std::max(highest, through.y + along * axis.y + glm::length(arm - along * axis) * steep);
+        }
+    return highest;
+}
+
+}  // namespace vkdose
