@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Keys that say how the doses are, what the case is for, or how it was made, and the ends of a run.
-constexpr const char* kLater[] = {"name", "reason", "accepted_warnings", "bulk_density", "dose", "stop", "checkpoint"};
+constexpr const char* kLater[] = {"name", "reason", "accepted_warnings", "bulk_density", "dose", "stop"};
 
 constexpr const char* kClasses[][2] = {{"", "kc_over_k"}, {"wall", "wall_kc_over_k"}, {"coil", "coil_kc_over_k"}};
 
