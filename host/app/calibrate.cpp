@@ -201,7 +201,7 @@ int reportSearch(const Study& study, const SweepFolder& folder, const SearchResu
 }  // namespace
 
 int calibrateCommand(const SweepOptions& options) {
-    const Study study = readStudy(options.study);
+    const Study study = readStudy(options.study, options.overrides);
     if (!study.calibration)
         throw CaseError({{options.study.string(), 0, "calibrate", "", "the table is missing",
                           "add [calibrate] with target_g_per_dose and tolerance_g, or with measured"}});
@@ -209,7 +209,7 @@ int calibrateCommand(const SweepOptions& options) {
     if (isSearch) checkCorners(study);
     const std::vector<Member> members = isSearch ? std::vector<Member>{} : membersOf(study);
     if (options.dryRun) {
-        fmt::print("{}", membersText(study, members));
+        fmt::print("{}", planText(options, study, members));
         return kOk;
     }
     const std::unique_ptr<MemberRunner> runner = makeRunner(options);

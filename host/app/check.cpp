@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -9,6 +8,7 @@
 #include "host/advice/figures.h"
 #include "host/app/commands.h"
 #include "host/app/exit_code.h"
+#include "host/app/speed.h"
 #include "host/app/text.h"
 #include "host/core/printable.h"
 #include "host/model/bed_weight.h"
@@ -20,25 +20,6 @@ namespace vkdose {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// The freshly filled grid has no contacts yet, so it runs faster than the bed it becomes.
-double measuredSpeed(const Case& c, const Insertion& filled, Backend& backend) {
-    using Clock = std::chrono::steady_clock;
-    backend.load(c.world, c.settlingLaw, filled.particles);
-    // Without an outlet or a fall of a second there is nothing to lose; the probe ends long before either.
-    std::uint32_t steps = 16;
-    backend.advance(steps, 0);  // warm up: pipelines, first neighbour list
-    double seconds = 0, work = 0;
-    while (seconds < 1.0) {
-        const auto begin = Clock::now();
-        backend.advance(steps, 0);
-        const double spent = std::chrono::duration<double>(Clock::now() - begin).count();
-        seconds += spent;
-        work += static_cast<double>(steps) * static_cast<double>(filled.particles.size());
-        if (spent < 0.1) steps = std::min<std::uint32_t>(steps * 2, 1U << 20);
-    }
-    return work / seconds;
-}
 
 /// A case with everything that check says of it.
 struct Checked {
@@ -134,18 +115,12 @@ void printPredictions(const Derived& d, const Schedule& schedule, bool coil) {
 void printRunTime(const CheckOptions& options, const Checked& all) {
     const double work = all.derived.steps * static_cast<double>(all.derived.particles);
     fmt::print("work       about {:.3g} million steps, {}particle-steps\n", all.derived.steps * 1e-6, large(work));
-    if (options.measure) {
-        const std::unique_ptr<Backend> backend = makeBackend(options.backend, all.filled.particles.size());
-        const double speed = measuredSpeed(all.c, all.filled, *backend);
+    const Speed speed = speedOf(all.c, all.filled, options.backend, options.assume);
+    fmt::print("run time   {} {}\n", duration(work / speed.rate), speedText(speed));
+    if (speed.measured)
         fmt::print(
-            "run time   {} at {}particle-steps/s, measured on {}\n"
             "           with the fresh, loose filling; a settled bed touches more and takes up to about twice as "
-            "long\n",
-            duration(work / speed), large(speed), backend->description());
-    } else {
-        fmt::print("run time   {} at an assumed {}particle-steps/s (--measure asks the device)\n",
-                   duration(work / kAssumedSpeed), large(kAssumedSpeed));
-    }
+            "long\n");
 }
 
 void printWarnings(const std::vector<Warning>& warnings) {
@@ -237,6 +212,16 @@ Json figuresJson(const Checked& all) {
             {"simulated_s", number(f.runTime)}};
 }
 
+Json runTimeJson(const CheckOptions& options, const Checked& all) {
+    const double work = all.derived.steps * static_cast<double>(all.derived.particles);
+    const Speed speed = speedOf(all.c, all.filled, options.backend, options.assume);
+    return {{"particle_steps", number(work)},
+            {"particle_steps_per_second", number(speed.rate)},
+            {"seconds", number(work / speed.rate)},
+            {"measured", speed.measured},
+            {"told", printable(speed.told)}};
+}
+
 int checkAsJson(const CheckOptions& options) {
     Json out{{"case", printable(options.input.file.string())},
              {"file", std::filesystem::absolute(options.input.file).string()},
@@ -248,6 +233,7 @@ int checkAsJson(const CheckOptions& options) {
         out["case"] = all.c.name;
         out["warnings"] = warningsJson(all.warnings);
         out["figures"] = figuresJson(all);
+        out["run_time"] = runTimeJson(options, all);
         Json derivations = Json::array();
         for (const std::string& line : all.c.derivations) derivations.push_back(printable(line));
         out["derived"] = derivations;

@@ -77,8 +77,9 @@ std::vector<std::string> ChildRunner::arguments(const MemberTask& task) const {
     if (task.resume)
         words.insert(words.end(), {"resume", folder});
     else
-        words.insert(words.end(), {"run", folder + "/case.toml", "--out", folder, "--force", "--backend",
-                                   choice_.backend, "--member", std::to_string(task.number)});
+        words.insert(words.end(),
+                     {"run", folder + "/case.toml", "--out", folder, "--force", "--backend", choice_.backend});
+    if (!task.resume && !task.bed) words.insert(words.end(), {"--member", std::to_string(task.number)});
     if (!choice_.device.empty()) words.insert(words.end(), {"--device", choice_.device});
     if (choice_.validation) words.emplace_back("--validation");
     words.insert(words.end(), {"--quiet", "--parent", std::to_string(getpid())});

@@ -19,6 +19,7 @@ class ChildRunner : public MemberRunner {
     ChildRunner& operator=(const ChildRunner&) = delete;
 
     std::string manner() const override { return std::to_string(slots_) + " at a time"; }
+    bool settlesBeds() const override { return true; }
     bool takes(const Member&) const override { return int(children_.size()) < slots_; }
     /// Throws RunError if the system starts no more processes.
     void start(const MemberTask& task) override;

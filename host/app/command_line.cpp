@@ -23,13 +23,14 @@ namespace vkdose {
 
 namespace {
 
-void addCase(CLI::App& command, CaseOptions& input) {
-    command.add_option("case", input.file, "case file (TOML), or the name of a case in the folder cases")->required();
-    command
-        .add_option("--set", input.overrides, "replace a value of the case: --set coil.speed_rpm=60; may be repeated")
-        ->type_name("KEY=VALUE")
-        ->take_all()
-        ->allow_extra_args(false);
+void addSet(CLI::App& command, std::vector<std::string>& overrides, const char* what) {
+    command.add_option("--set", overrides, what)->type_name("KEY=VALUE")->take_all()->allow_extra_args(false);
+}
+
+CLI::Option& addCase(CLI::App& command, CaseOptions& input) {
+    addSet(command, input.overrides, "replace a value of the case: --set coil.speed_rpm=60; may be repeated");
+    return *command.add_option("case", input.file, "case file (TOML), or the name of a case in the folder cases")
+                ->required();
 }
 
 void addDevice(CLI::App& command, BackendChoice& backend) {
@@ -62,6 +63,11 @@ void addShow(CLI::App& command, bool& quiet, bool& live, bool& events) {
         ->excludes("--live");
 }
 
+CLI::Option& addAssume(CLI::App& command, bool& assume) {
+    return *command.add_flag("--assume", assume,
+                             "estimate the run time at an assumed speed, without measuring the device for a second");
+}
+
 void addNew(CLI::App& program, NewOptions& options) {
     CLI::App& command =
         *program.add_subcommand("new", "write a commented case from a device and a powder, or ask for them");
@@ -81,7 +87,19 @@ void addNew(CLI::App& program, NewOptions& options) {
 
 void addRun(CLI::App& program, RunOptions& options) {
     CLI::App& command = *program.add_subcommand("run", "simulate a case and write its output folder");
-    addCase(command, options.input);
+    addCase(command, options.input).required(false);
+    auto* from = command
+                     .add_option("--from", options.from.folder,
+                                 "begin with the powder of the run in this output folder, contacts included; "
+                                 "without CASE with its case, changed by --set")
+                     ->type_name("DIR");
+    command
+        .add_option("--at", options.from.at,
+                    "its state to begin with: the settled bed, the last checkpoint or the end of the run (default: the "
+                    "first of these that it has)")
+        ->type_name("STATE")
+        ->check(CLI::IsMember({"settled", "checkpoint", "end"}))
+        ->needs(from);
     command.add_option("--out", options.out, "output folder (default: out/<case name> in the current folder)")
         ->type_name("DIR");
     command.add_flag("--force", options.force,
@@ -90,11 +108,15 @@ void addRun(CLI::App& program, RunOptions& options) {
     command.add_option("--member", options.member, "number of the run in a study")->group("");
     addParent(command, options.parent);
     addBackend(command, options.backend);
+    from->excludes("--backend");  // the state is that of one backend
 }
 
 void addResume(CLI::App& program, ResumeOptions& options) {
     CLI::App& command = *program.add_subcommand("resume", "go on with an interrupted run from its checkpoint");
     command.add_option("dir", options.folder, "output folder of the run")->required()->type_name("DIR");
+    addSet(command, options.overrides,
+           "replace a value that changes nothing of the past: contact.max_overlap_ratio, stop.*, checkpoint.*; may be "
+           "repeated");
     addShow(command, options.quiet, options.live, options.events);
     addParent(command, options.parent);
     addDevice(command, options.backend);
@@ -104,10 +126,8 @@ void addCheck(CLI::App& program, CheckOptions& options) {
     CLI::App& command = *program.add_subcommand(
         "check", "validate a case; print its figures, and warnings of what was probably not meant");
     addCase(command, options.input);
-    auto* measure = command.add_flag("--measure", options.measure,
-                                     "measure the device for about a second to estimate the run time");
-    command.add_flag("--json", options.json, "print errors, warnings and figures as JSON, for other programs")
-        ->excludes(measure);
+    addAssume(command, options.assume);
+    command.add_flag("--json", options.json, "print errors, warnings and figures as JSON, for other programs");
     addBackend(command, options.backend);
 }
 
@@ -207,7 +227,11 @@ CLI::App& addSweep(CLI::App& program, const char* name, const char* what, SweepO
         ->excludes("--jobs");
     command.add_flag("--retry-failed", options.retryFailed,
                      "run the members that failed again, from their checkpoints if these can be read");
-    command.add_flag("--dry-run", options.dryRun, "print the members and write nothing");
+    addSet(command, options.overrides,
+           "replace a value of every member's case: --set stop.max_doses=2; may be repeated");
+    auto* dry = command.add_flag("--dry-run", options.dryRun,
+                                 "print the members with the time that they take, and write nothing");
+    addAssume(command, options.assume).needs(dry);
     command.add_flag("--quiet", options.quiet, "print errors only");
     addBackend(command, options.backend);
     return command;

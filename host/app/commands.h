@@ -25,21 +25,29 @@ struct NewOptions {
     bool ask = false;                  ///< for what is not given, even if nobody sits at a terminal
 };
 
+/// A run whose powder another run begins with.
+struct StartOptions {
+    std::filesystem::path folder;  ///< of its output; empty: the run begins with a filled canister
+    std::string at;                ///< "settled", "checkpoint" or "end"; empty: the first of these that there is
+};
+
 struct RunOptions {
     CaseOptions input;
+    StartOptions from;
     BackendChoice backend;
     std::filesystem::path out;  ///< empty: out/<case name>
     bool force = false;
     bool quiet = false;
-    bool live = false;         ///< the bed on the terminal
-    bool events = false;       ///< JSON lines on stdout in place of all text there
-    int parent = 0;            ///< process with which this one ends, as by Ctrl-C; 0: none
-    std::uint32_t member = 0;  ///< number in a study
+    bool live = false;                    ///< the bed on the terminal
+    bool events = false;                  ///< JSON lines on stdout in place of all text there
+    int parent = 0;                       ///< process with which this one ends, as by Ctrl-C; 0: none
+    std::optional<std::uint32_t> member;  ///< number in a study
 };
 
 struct ResumeOptions {
     std::filesystem::path folder;
-    BackendChoice backend;  ///< its backend is the checkpoint's
+    std::vector<std::string> overrides;  ///< "key.path=value", of keys that do not change what has been
+    BackendChoice backend;               ///< its backend is the checkpoint's
     bool quiet = false;
     bool live = false;    ///< as above
     bool events = false;  ///< as above
@@ -49,8 +57,8 @@ struct ResumeOptions {
 struct CheckOptions {
     CaseOptions input;
     BackendChoice backend;
-    bool measure = false;  ///< the device's speed
-    bool json = false;     ///< print errors, warnings and figures for other programs
+    bool assume = false;  ///< a speed, without measuring the device
+    bool json = false;    ///< print errors, warnings and figures for other programs
 };
 
 struct CompareOptions {
@@ -94,6 +102,7 @@ struct ExportBodyOptions {
 
 struct SweepOptions {
     std::filesystem::path study;
+    std::vector<std::string> overrides;  ///< "key.path=value", for every member
     BackendChoice backend;
     std::filesystem::path out;  ///< empty: out/<name of the study's file>
     bool mpi = false;           ///< a member on each rank of an MPI job instead
@@ -102,6 +111,7 @@ struct SweepOptions {
     bool retryFailed = false;
     bool prepare = false;  ///< only make the members' folders
     bool dryRun = false;
+    bool assume = false;  ///< a speed, without measuring the device, for the hours of a dry run
     bool quiet = false;
 };
 

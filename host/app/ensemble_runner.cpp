@@ -83,7 +83,7 @@ MemberEnd EnsembleRunner::run(const MemberTask& task, std::unique_ptr<Backend> b
     try {
         // As `vkdose run` and `vkdose resume` would; a member's end takes its backend with it, and nobody waits for it.
         ReadyRun ready = task.resume ? readyToResume(task.folder) : readyRun({task.folder / "case.toml", {}});
-        ready.member = std::uint32_t(task.number);
+        ready.role = {task.bed ? 0 : std::uint32_t(task.number), task.bed, ""};
         RunFolder folder = folderOf(ready, task.folder, true, *backend);
         const Played played = play(std::move(ready), *backend, folder, nullptr, stop_);
         end.code = played.code;

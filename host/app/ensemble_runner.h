@@ -29,6 +29,7 @@ class EnsembleRunner : public MemberRunner {
     static constexpr int kMostThreads = 1024;
 
     std::string manner() const override;
+    bool settlesBeds() const override { return true; }
     /// By batches (batchesOf).
     void order(std::vector<WaitingMember>& members) override;
     /// Only members of one batch, until the first wait; then none until all of them have ended.

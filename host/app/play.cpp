@@ -33,6 +33,10 @@ class Fanout : public RunObserver {
     void onField(const FieldSample& f) override { folder_.onField(f); }
     void onCheckpoint(const RunCheckpoint& c, double time) override { folder_.onCheckpoint(c, time); }
     bool storesCheckpoints() const override { return folder_.storesCheckpoints(); }
+    void onState(KeptState kind, const RunCheckpoint& state, double time) override {
+        folder_.onState(kind, state, time);
+    }
+    bool storesStates() const override { return folder_.storesStates(); }
     void onFrame(const Frame& f) override { folder_.onFrame(f); }
     bool storesFrames() const override { return folder_.storesFrames(); }
 
@@ -77,6 +81,41 @@ void requireSameCase(const std::filesystem::path& file, const std::string& befor
                     file.string()));
 }
 
+/// Throws CaseError for keys of a case that a run must not change once it has begun.
+void requireLater(const std::vector<std::string>& overrides, const std::filesystem::path& folder) {
+    std::vector<Diagnostic> faults;
+    const Node tree = overrideTree(overrides);
+    for (const Node& table : tree.children) {
+        if (table.key == "stop" || table.key == "checkpoint") continue;
+        const bool isTable = table.kind == Node::Kind::Table;
+        for (const Node& key : isTable ? table.children : std::vector<Node>{table}) {
+            const std::string path = isTable ? table.key + "." + key.key : key.key;
+            if (path == "contact.max_overlap_ratio") continue;
+            faults.push_back({kCommandLine, 0, path, valueText(key), "cannot be changed in a run that has begun",
+                              fmt::format("give contact.max_overlap_ratio, stop.* or checkpoint.*, or begin another "
+                                          "run with this powder: `vkdose run --from {} --set ...`",
+                                          shellWord(folder.string()))});
+        }
+    }
+    if (!faults.empty()) throw CaseError(faults);
+}
+
+/// Puts the overrides into the case of a checkpoint.
+void change(Checkpoint& from, const Case& c, const std::vector<std::string>& overrides) {
+    Node given = readTreeText(from.given, "case.toml");
+    merge(given, overrideTree(overrides));
+    from.given = treeText(given);
+    from.caseText = c.resolved;
+}
+
+/// How to go on with a run that an overlap stopped; empty if it is not one.
+std::string deeper(const Case& c, const RunResult& result, const RunFolder& folder) {
+    const bool overlap = result.reason == StopReason::RunError && result.error.find("overlap") != std::string::npos;
+    if (!overlap || !folder.checkpointTime()) return "";
+    return fmt::format("; to go on from t = {:.6g} s: `vkdose resume {} --set contact.max_overlap_ratio={:.3g}`",
+                       *folder.checkpointTime(), shellWord(folder.path().string()), 2 * c.world.maxOverlapRatio);
+}
+
 }  // namespace
 
 ReadyRun readyRun(const CaseOptions& input) {
@@ -87,7 +126,8 @@ ReadyRun readyRun(const CaseOptions& input) {
     return run;
 }
 
-ReadyRun readyToResume(const std::filesystem::path& folder) {
+ReadyRun readyToResume(const std::filesystem::path& folder, const std::vector<std::string>& overrides) {
+    requireLater(overrides, folder);
     ReadyRun run;
     if (std::filesystem::is_directory(folder)) run.lock.emplace(lockRun(folder));
     const std::filesystem::path file = folder / kCheckpointName;
@@ -96,14 +136,25 @@ ReadyRun readyToResume(const std::filesystem::path& folder) {
     Checkpoint from = readCheckpoint(file);
     run.c = loadResolvedCase(from.caseText, folder / "case.toml");
     requireSameCase(folder / "case.toml", from.caseText, run.c);
+    if (!overrides.empty()) {
+        run.c = loadResolvedCase(from.caseText, folder / "case.toml", overrides);
+        (void)Timeline(run.c);
+        change(from, run.c, overrides);
+        run.changed = true;
+    }
     run.filled = insertParticles(run.c);
     run.from = std::move(from);
     return run;
 }
 
 RunFolder folderOf(ReadyRun& run, const std::filesystem::path& folder, bool force, const Backend& backend) {
-    if (run.from) return RunFolder(folder, std::move(run.lock).value(), *run.from, run.c, backend.description());
-    return RunFolder(folder, force, run.c, backend.description(), run.member);
+    if (!run.from) return RunFolder(folder, force, run.c, backend.description(), run.role);
+    if (run.changed) {
+        // In this order, so that at any moment the case is that of the checkpoint, or is written again from it.
+        std::filesystem::remove(folder / "case.toml");
+        writeCheckpoint(folder / kCheckpointName, *run.from);
+    }
+    return RunFolder(folder, std::move(run.lock).value(), *run.from, run.c, backend.description());
 }
 
 Played play(ReadyRun run, Backend& backend, RunFolder& folder, RunObserver* display, const std::atomic<bool>& stop) {
@@ -111,14 +162,17 @@ Played play(ReadyRun run, Backend& backend, RunFolder& folder, RunObserver* disp
     Fanout observers(folder, display);
     Played played;
     try {
-        played.result = runFilled(run.c, std::move(run.filled), std::move(derived), backend, observers, stop,
-                                  run.from ? &run.from->run : nullptr);
+        played.result = run.state ? runFrom(run.c, std::move(run.filled), std::move(derived), backend, observers, stop,
+                                            run.state->run, run.state->time)
+                                  : runFilled(run.c, std::move(run.filled), std::move(derived), backend, observers,
+                                              stop, run.from ? &run.from->run : nullptr);
     } catch (const RecordError& e) {
-        throw CheckpointError(
-            fmt::format("{} cannot be used: {}", (folder.path() / kCheckpointName).string(), e.what()));
+        throw CheckpointError(fmt::format("{} cannot be used: {}",
+                                          run.state ? run.role.origin : (folder.path() / kCheckpointName).string(),
+                                          e.what()));
     }
     played.code = exitCode(played.result.reason);
-    played.error = played.result.error;
+    played.error = played.result.error + deeper(run.c, played.result, folder);
     if (played.result.reason == StopReason::OutputError)
         played.error += "; " + wayOn(folder);
     else

@@ -16,9 +16,11 @@ namespace vkdose {
 struct ReadyRun {
     Case c;
     Insertion filled;
-    std::optional<Checkpoint> from;  ///< to go on from
-    std::uint32_t member = 0;        ///< its number in a study, if it starts
-    std::optional<FolderLock> lock;  ///< of the folder it goes on in
+    std::optional<Checkpoint> from;   ///< to go on from
+    std::optional<Checkpoint> state;  ///< of another run, to begin with
+    RunRole role;                     ///< if it starts
+    bool changed = false;             ///< it goes on with another case than before
+    std::optional<FolderLock> lock;   ///< of the folder it goes on in
 };
 
 /// A run from its start. Throws CaseError.
@@ -26,8 +28,8 @@ ReadyRun readyRun(const CaseOptions& input);
 
 /// A run that goes on from the checkpoint in `folder`. Locks the folder for this process, so that no other run changes
 /// it. Throws FolderError if another process holds the lock, CheckpointError if there is no checkpoint or the run is
-/// over, and CaseError.
-ReadyRun readyToResume(const std::filesystem::path& folder);
+/// over, and CaseError, also for an override of a key that would have changed what has been.
+ReadyRun readyToResume(const std::filesystem::path& folder, const std::vector<std::string>& overrides = {});
 
 /// Goes on in the folder, or starts over in it as `force` allows (RunFolder).
 RunFolder folderOf(ReadyRun& run, const std::filesystem::path& folder, bool force, const Backend& backend);

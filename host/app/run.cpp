@@ -5,6 +5,7 @@
 #include "host/app/end_table.h"
 #include "host/app/events_display.h"
 #include "host/app/exit_code.h"
+#include "host/app/from.h"
 #include "host/app/interrupt.h"
 #include "host/app/live_display.h"
 #include "host/app/play.h"
@@ -79,6 +80,7 @@ int playAloud(ReadyRun run, Backend& backend, RunFolder& folder, const Manner& m
     if (!manner.quiet) {
         fmt::print("{}: {} particles, {} g, on {}\n", c.name, run.filled.particles.size(), grams(run.filled.mass),
                    backend.description());
+        if (run.state) fmt::print("from     {}\n", printable(run.role.origin));
         std::fflush(stdout);
     }
     const std::unique_ptr<RunDisplay> display = makeDisplay(manner, run, backend);
@@ -100,18 +102,28 @@ int playAloud(ReadyRun run, Backend& backend, RunFolder& folder, const Manner& m
 
 int runCommand(const RunOptions& options) {
     // Everything that can be refused is refused before the folder is touched.
-    ReadyRun run = readyRun(options.input);
-    run.member = options.member;
-    const std::unique_ptr<Backend> backend = makeBackend(options.backend, run.filled.particles.size());
+    const bool anew = options.from.folder.empty();
+    if (anew && options.input.file.empty())
+        throw UsageError("a case is missing: `vkdose run CASE`, or `vkdose run --from DIR` for that of another run");
+    ReadyRun run = anew ? readyRun(options.input) : readyFrom(options.input, options.from);
+    const std::filesystem::path out = options.out.empty() ? std::filesystem::path("out") / run.c.name : options.out;
+    std::error_code none;
+    if (!anew && std::filesystem::equivalent(out, options.from.folder, none))
+        throw UsageError(fmt::format("{} is the run to begin with; choose another folder with --out", out.string()));
+    if (options.member) {
+        run.role.member = *options.member;
+        run.role.keepsStates = false;  // a study of thousands would fill the disk
+    }
+    const BackendChoice choice = anew ? options.backend : sameBackend(run.state->backend, options.backend);
+    const std::unique_ptr<Backend> backend = makeBackend(choice, run.filled.particles.size());
     if (!options.quiet && !options.events) tellWarnings(run);
-    RunFolder folder = folderOf(run, options.out.empty() ? std::filesystem::path("out") / run.c.name : options.out,
-                                options.force, *backend);
+    RunFolder folder = folderOf(run, out, options.force, *backend);
     return playAloud(std::move(run), *backend, folder,
-                     {options.backend, options.quiet, options.live, options.events, options.parent});
+                     {choice, options.quiet, options.live, options.events, options.parent});
 }
 
 int resumeCommand(const ResumeOptions& options) {
-    ReadyRun run = readyToResume(options.folder);
+    ReadyRun run = readyToResume(options.folder, options.overrides);
     const BackendChoice choice = sameBackend(run.from->backend, options.backend);
     const std::unique_ptr<Backend> backend = makeBackend(choice, run.filled.particles.size());
     if (backend->description() != run.from->backend || run.from->program != VKDOSE_VERSION)

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <thread>
 
 #include "host/app/child_runner.h"
@@ -8,9 +9,11 @@
 #include "host/app/exit_code.h"
 #include "host/app/interrupt.h"
 #include "host/app/mpi/mpi_runner.h"
+#include "host/app/speed.h"
 #include "host/app/sweep_display.h"
 #include "host/app/sweep_setup.h"
 #include "host/app/text.h"
+#include "host/core/error.h"
 #include "host/core/printable.h"
 #include "host/study/member.h"
 #include "host/study/study.h"
@@ -19,8 +22,39 @@
 
 namespace vkdose {
 
+namespace {
+
+/// Members at once, each in a process of its own.
+int processes(const SweepOptions& options) {
+    return options.jobs > 0 ? options.jobs : int(std::max(1U, std::thread::hardware_concurrency()));
+}
+
+/// Members at once, for an estimate. How much faster an ensemble is than its members one by one depends on the device.
+int atOnce(const SweepOptions& options) {
+    if (options.backend.backend == "vulkan" && options.jobs == 0) {
+        try {
+            const vk::Device device(vk::DeviceChoice{options.backend.device, false});
+            if (options.ensemble > 0 || device.info().isGpu()) return 1;
+        } catch (const DeviceError&) {  // the estimate does without
+        }
+    }
+    return processes(options);
+}
+
+}  // namespace
+
+std::string planText(const SweepOptions& options, const Study& study, const std::vector<Member>& members) {
+    Speed speed = speedOf({}, {}, options.backend, true);
+    if (!members.empty()) {
+        const auto largest = std::max_element(
+            members.begin(), members.end(), [](const Member& a, const Member& b) { return a.particles < b.particles; });
+        const Case c = loadResolvedCase(largest->caseText, "case.toml");
+        speed = speedOf(c, insertParticles(c), options.backend, options.assume);
+    }
+    return membersText(study, members, speed, atOnce(options));
+}
+
 std::unique_ptr<MemberRunner> makeRunner(const SweepOptions& options) {
-    const int cores = int(std::max(1U, std::thread::hardware_concurrency()));
     if (options.backend.backend == "vulkan") {
         // The device is looked for even if the number of members is given, because no member can run without one.
         const vk::Device device(vk::DeviceChoice{options.backend.device, false});
@@ -30,7 +64,7 @@ std::unique_ptr<MemberRunner> makeRunner(const SweepOptions& options) {
     } else if (options.ensemble > 0) {
         throw UsageError("an ensemble needs a device; the reference runs one canister at a time");
     }
-    return std::make_unique<ChildRunner>(options.backend, options.jobs > 0 ? options.jobs : cores);
+    return std::make_unique<ChildRunner>(options.backend, processes(options));
 }
 
 std::filesystem::path sweepFolder(const SweepOptions& options) {
@@ -44,13 +78,13 @@ int sweepCommand(const SweepOptions& options) {
         if (!runner) return kOk;  // this rank has served the first
     }
     // Everything that can be refused is refused before anything is written.
-    const Study study = readStudy(options.study);
+    const Study study = readStudy(options.study, options.overrides);
     if (study.calibration && study.calibration->method == CalibrationAim::Method::Surrogate)
         throw UsageError(fmt::format("{} is a search, not a sweep; use `vkdose calibrate {}`", options.study.string(),
                                      shellWord(options.study.string())));
     const std::vector<Member> members = membersOf(study);
     if (options.dryRun) {
-        fmt::print("{}", membersText(study, members));
+        fmt::print("{}", planText(options, study, members));
         return kOk;
     }
     if (options.prepare) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -42,16 +43,30 @@ std::string memberText(const Study& study, const Member& member) {
     return text + fmt::format("seed {}", member.seed);
 }
 
-std::string membersText(const Study& study, const std::vector<Member>& members) {
+std::string membersText(const Study& study, const std::vector<Member>& members, const Speed& speed, int atOnce) {
+    const std::vector<Bed> beds = bedsOf(members);
+    std::map<int, int> bedOf;
+    for (const Bed& bed : beds)
+        for (const int number : bed.members) bedOf[number] = bed.number;
     std::string text;
     double work = 0;
     for (const Member& m : members) {
-        text += fmt::format("member {:04}  {:>7} particles  {:>9}particle-steps  {}\n", m.number, m.particles,
-                            large(m.expectedWork), memberText(study, m));
+        const std::string bed = bedOf.contains(m.number) ? fmt::format(", bed {:04}", bedOf.at(m.number)) : "";
+        text += fmt::format("member {:04}  {:>7} particles  {:>9}particle-steps  {:>12}  {}{}\n", m.number, m.particles,
+                            large(m.expectedWork), duration(m.expectedWork / speed.rate), memberText(study, m), bed);
         work += m.expectedWork;
     }
-    return text + fmt::format("{}: {}, {}particle-steps by the closed forms\n", printable(study.name),
-                              counted(members.size(), "member"), large(work));
+    const double saved = workSaved(beds, members);
+    work -= saved;
+    text += fmt::format("{}: {}, {}particle-steps by the closed forms\n", printable(study.name),
+                        counted(members.size(), "member"), large(work));
+    if (!beds.empty())
+        text +=
+            fmt::format("{} settle{} once, for {}, which saves up to {}particle-steps\n", counted(beds.size(), "bed"),
+                        beds.size() == 1 ? "s" : "", counted(bedOf.size(), "member"), large(saved));
+    if (members.empty()) return text;
+    return text + fmt::format("run time {} with {} at a time, {}\n", duration(work / speed.rate / atOnce), atOnce,
+                              speedText(speed));
 }
 
 SweepDisplay::SweepDisplay(std::string command, const Study& study, bool quiet)
@@ -97,6 +112,13 @@ void SweepDisplay::onProgress(const SweepProgress& p) {
     open_ = terminal_;
 }
 
+void SweepDisplay::onBeds(std::size_t beds, std::size_t members) {
+    if (quiet_) return;
+    close();
+    fmt::print("{} settle{} once, for {}\n", counted(beds, "bed"), beds == 1 ? "s" : "", counted(members, "member"));
+    std::fflush(stdout);
+}
+
 void SweepDisplay::onBusy(const std::filesystem::path& folder) {
     close();
     fmt::print(stderr, "vkdose: waiting for the process that writes into {}\n", printable(folder.string()));
@@ -109,8 +131,9 @@ void SweepDisplay::onAnew(const Member& member, const std::string& why) {
 
 void SweepDisplay::finish(const SweepFolder& folder, const SweepOutcome& outcome) {
     close();
-    const std::string again = fmt::format("vkdose {} {} --out {}", command_, shellWord(study_.file.string()),
-                                          shellWord(folder.path().string()));
+    std::string again = fmt::format("vkdose {} {} --out {}", command_, shellWord(study_.file.string()),
+                                    shellWord(folder.path().string()));
+    for (const std::string& text : study_.overrides) again += " --set " + shellWord(text);
     if (!outcome.whole)
         fmt::print(stderr, "vkdose: interrupted; go on with `{}`\n", again);
     else if (outcome.failed > 0)

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "host/app/speed.h"
 #include "host/study/sweep.h"
 
 namespace vkdose {
@@ -21,6 +22,7 @@ class SweepDisplay : public SweepObserver {
     void begin(const std::vector<Member>& members, const std::string& manner);
     void onMember(const Member& member, const MemberResult& result) override;
     void onProgress(const SweepProgress& progress) override;
+    void onBeds(std::size_t beds, std::size_t members) override;
     void onBusy(const std::filesystem::path& folder) override;
     void onAnew(const Member& member, const std::string& why) override;
     /// How it ended, and how to go on.
@@ -42,7 +44,7 @@ class SweepDisplay : public SweepObserver {
 /// "contact.friction 0.5, seed 2"
 std::string memberText(const Study& study, const Member& member);
 
-/// A line for every member, and what they come to.
-std::string membersText(const Study& study, const std::vector<Member>& members);
+/// A line for every member, and what they come to with `atOnce` of them at a time.
+std::string membersText(const Study& study, const std::vector<Member>& members, const Speed& speed, int atOnce);
 
 }  // namespace vkdose

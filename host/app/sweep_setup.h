@@ -3,6 +3,8 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "host/app/commands.h"
 #include "host/study/sweep.h"
@@ -12,6 +14,9 @@ namespace vkdose {
 /// The runner of the members: on a GPU ensembles as large as its memory allows, on a CPU a process per core, unless
 /// the options say how many. Throws DeviceError if there is no device to run them on.
 std::unique_ptr<MemberRunner> makeRunner(const SweepOptions& options);
+
+/// The members with what they cost, for a dry run. Measures the device unless the options say otherwise.
+std::string planText(const SweepOptions& options, const Study& study, const std::vector<Member>& members);
 
 /// The folder of the sweep: --out, or out/<name of the study's file>.
 std::filesystem::path sweepFolder(const SweepOptions& options);

@@ -88,6 +88,10 @@ struct Contact {
     Vec3 force{0};          ///< on `particle`, in the last step made since `load` or `restore` [N]; zero before any
 };
 
+/// The array of a snapshot with the number of steps since load, by which bodies in motion know the time. It may be
+/// changed, for a run that goes on with another time step.
+inline constexpr const char* kSnapshotSteps = "steps";
+
 class Backend {
   public:
     virtual ~Backend() = default;

@@ -174,6 +174,15 @@ Case interpret(const std::filesystem::path& file, Node tree, std::vector<std::fi
     return c;
 }
 
+/// Interprets a case and keeps it as it was given.
+Case interpretKept(const std::filesystem::path& file, Node tree, std::vector<std::filesystem::path> files) {
+    std::string given = treeText(tree);
+    const bool named = tree.child("name") != nullptr;
+    Case c = interpret(file, std::move(tree), std::move(files));
+    c.given = named ? std::move(given) : fmt::format("name = {}\n{}", tomlString(c.name), given);
+    return c;
+}
+
 }  // namespace
 
 Case loadCase(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
@@ -184,11 +193,14 @@ Case loadVariant(const std::filesystem::path& file, std::vector<Node> layers) {
     std::vector<std::filesystem::path> files;
     Node tree = readTree(file, files);
     for (Node& layer : layers) merge(tree, std::move(layer));
-    return interpret(file, std::move(tree), std::move(files));
+    return interpretKept(file, std::move(tree), std::move(files));
 }
 
-Case loadResolvedCase(const std::string& text, const std::filesystem::path& file) {
-    return interpret(file, readTreeText(text, file.string()), {file});
+Case loadResolvedCase(const std::string& text, const std::filesystem::path& file,
+                      const std::vector<std::string>& overrides) {
+    Node tree = readTreeText(text, file.string());
+    merge(tree, overrideTree(overrides));
+    return interpretKept(file, std::move(tree), {file});
 }
 
 }  // namespace vkdose

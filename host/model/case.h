@@ -127,6 +127,7 @@ struct Case {
     /// restitution = 0.5 of slow impacts".
     std::vector<std::string> derivations;
     std::string resolved;                      ///< the case as TOML with every default and --set applied
+    std::string given;                         ///< as TOML, `base` and --set in it, without what follows from it
     std::vector<std::filesystem::path> files;  ///< read for this case: the case file, its bases, the particle list
 };
 
@@ -137,8 +138,10 @@ Case loadCase(const std::filesystem::path& file, const std::vector<std::string>&
 /// written.
 Case loadVariant(const std::filesystem::path& file, std::vector<Node> layers);
 
-/// The same for the text of a resolved case (`Case::resolved`). Messages and paths treat it as the content of `file`.
-Case loadResolvedCase(const std::string& text, const std::filesystem::path& file);
+/// The same for the text of a case (`Case::resolved` or `Case::given`). Messages and paths treat it as the content of
+/// `file`.
+Case loadResolvedCase(const std::string& text, const std::filesystem::path& file,
+                      const std::vector<std::string>& overrides = {});
 
 /// Draws (or copies) the particles of a case: sizes from the distribution until the target mass is met as closely as
 /// one particle allows, positions on a grid above the coil without overlap. Same case, same particles.

@@ -4,6 +4,7 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <optional>
 #include <sstream>
@@ -218,6 +219,20 @@ void mergeAt(Node& lower, Node upper, const std::string& path) {
     }
 }
 
+/// The keys whose values are paths, relative to the file that they stand in.
+constexpr std::array<std::string_view, 4> kPathKeys{"list", "sieves", "mesh", "file"};
+
+void makePathsAbsolute(Node& node) {
+    for (Node& child : node.children) {
+        const bool path = child.kind == Node::Kind::String &&
+                          std::find(kPathKeys.begin(), kPathKeys.end(), child.key) != kPathKeys.end();
+        const std::filesystem::path file = child.file == kCommandLine ? "" : child.file;
+        if (path)
+            child.string = std::filesystem::absolute(file.parent_path() / child.string).lexically_normal().string();
+        makePathsAbsolute(child);
+    }
+}
+
 bool isBareWord(const std::string& value) {
     const auto first = static_cast<unsigned char>(value.empty() ? '-' : value.front());
     if (std::isalpha(first) == 0 && first != '/' && first != '.' && first != '_') return false;
@@ -372,6 +387,13 @@ std::string valueText(const Node& value) {
         default:
             return value.text;
     }
+}
+
+std::string treeText(Node tree) {
+    makePathsAbsolute(tree);
+    std::string text;
+    for (const Node& value : tree.children) text += value.key + " = " + valueText(value) + "\n";
+    return text;
 }
 
 void merge(Node& lower, Node upper) {

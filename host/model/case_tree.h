@@ -59,6 +59,9 @@ bool plant(Node& tree, const std::string& path, Node value);
 std::string tomlString(const std::string& text);
 std::string valueText(const Node& value);
 
+/// The tree as TOML that `readTreeText` reads from any folder: the paths of files that it names are absolute.
+std::string treeText(Node tree);
+
 /// Lays `upper` over `lower`, table by table. A key of `upper` also removes the keys in `lower` that it excludes:
 /// `pitch_mm` removes `turns`, and another `distribution` removes the keys of the old one.
 void merge(Node& lower, Node upper);

@@ -83,12 +83,15 @@ void writeCheckpoint(const std::filesystem::path& file, const Checkpoint& c) {
     writer.text("/program", c.program);
     writer.text("/backend", c.backend);
     writer.text("/case", c.caseText);
+    writer.text("/given", c.given);
+    writer.text("/origin", c.origin);
     writer.record("/run", c.run.run);
     writer.record("/state", c.run.backend);
     Record when;
     when.putOne("time", c.time);
     saveMarks(c, when);
     when.putOne("member", c.member);
+    when.putOne("keeps_states", std::uint32_t(c.keepsStates ? 1 : 0));
     writer.record("/when", when);
     const std::string image = writer.image();
     replaceFile(file, head(image) + image);
@@ -109,6 +112,11 @@ Checkpoint readCheckpoint(const std::filesystem::path& file) {
         c.time = when.one<double>("time");
         restoreMarks(when, c);
         c.member = when.one<std::uint32_t>("member");
+        c.given = c.caseText;
+        if (!when.arrays().contains("keeps_states")) return c;  // written by a vkdose that kept no states
+        c.keepsStates = when.one<std::uint32_t>("keeps_states") != 0;
+        c.given = reader.text("/given");
+        c.origin = reader.text("/origin");
         return c;
     } catch (const hdf5::Error& e) {
         throw CheckpointError(fmt::format("{} cannot be read: {}", file.string(), e.what()));

@@ -3,6 +3,8 @@
 // length and checksum. The block lets vkdose refuse a foreign, cut or damaged file before it trusts anything in it.
 //
 //   /program /backend /case           texts: version of vkdose, description of the backend, the resolved case
+//   /given                            text: the case as it was given; older ones lack it
+//   /origin                           text: the state of another run that this one began with; empty or lacking: none
 //   /run/*                            the runner's state          (RunCheckpoint::run)
 //   /state/*                          the backend's snapshot      (RunCheckpoint::backend)
 //   /when/time                        simulated time [s]
@@ -10,6 +12,7 @@
 //   /when/frames                      bytes of frames.csv; 0: the run keeps no frames
 //   /when/checksums                   CRC-32 of these: time series, doses, frames, every field; older ones lack it
 //   /when/member                      number of the run in its study; 0: it is in none
+//   /when/keeps_states                0: the run keeps no states for others; older ones lack it
 
 #include <cstdint>
 #include <filesystem>
@@ -23,6 +26,9 @@
 namespace vkdose {
 
 inline constexpr const char* kCheckpointName = "checkpoint.h5";
+/// States in the same format that a run leaves for others to begin with: the settled bed, and its end.
+inline constexpr const char* kSettledName = "settled.h5";
+inline constexpr const char* kEndName = "end.h5";
 
 /// The checkpoint cannot be used: there is none, it is cut, damaged, of another format or does not fit.
 class CheckpointError : public std::runtime_error {
@@ -38,6 +44,9 @@ struct Checkpoint {
     CsvMark timeSeries, doses, frames;
     std::vector<CsvMark> fields;  ///< of every field of the case
     std::uint32_t member = 0;     ///< number of the run in its study
+    std::string given;            ///< Case::given
+    std::string origin;           ///< the state of another run that this one began with, in words; empty: none
+    bool keepsStates = true;      ///< for others to begin with
 };
 
 /// Replaces `file` in one move. Throws OutputError if it cannot be written; the checkpoint before is then still there.

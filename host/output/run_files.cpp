@@ -25,8 +25,8 @@ namespace {
 
 /// The order is that of removal. If the removal is cut short, the files that remain still tell that a run is there, and
 /// which one.
-constexpr std::array kFiles{kCheckpointName, "summary.json", "particles.csv",
-                            "doses.csv",     "case.toml",    "timeseries.csv"};
+constexpr std::array kFiles{kCheckpointName, kSettledName, kEndName,    "summary.json",
+                            "particles.csv", "doses.csv",  "case.toml", "timeseries.csv"};
 
 /// The first `most` bytes of a file.
 std::string startOf(const fs::path& file, std::size_t most) {

@@ -104,8 +104,12 @@ std::string regionRow(const std::vector<RegionCount>& regions) {
 
 }  // namespace
 
-RunFolder::RunFolder(fs::path folder, bool force, const Case& c, std::string backend, std::uint32_t member)
-    : folder_(std::move(folder)), backend_(std::move(backend)), caseText_(c.resolved), member_(member) {
+RunFolder::RunFolder(fs::path folder, bool force, const Case& c, std::string backend, RunRole role)
+    : folder_(std::move(folder)),
+      backend_(std::move(backend)),
+      caseText_(c.resolved),
+      given_(c.given),
+      role_(std::move(role)) {
     const std::vector<fs::path> made = missingFolders(folder_);
     makeFolder(folder_);
     lock_.emplace(lockRun(folder_));
@@ -118,7 +122,7 @@ RunFolder::RunFolder(fs::path folder, bool force, const Case& c, std::string bac
                             csvHeader(kSampleColumns) + energy + bodyHeader(c.world) + regionHeader(c.world));
         if (!hadCase) replaceFile(folder_ / "case.toml", c.resolved);
         doses_.emplace(folder_ / "doses.csv", csvHeader(kDoseColumns) + regionHeader(c.world));
-        if (c.frames.interval > 0) frames_.emplace(folder_, c, member_);
+        if (c.frames.interval > 0) frames_.emplace(folder_, c, role_.member);
         fields_.emplace(folder_, c);
     } catch (const OutputError&) {
         removeRun(folder_, hadCase ? replacedIn(folder_, c) : filesOfRun(folder_));
@@ -132,13 +136,14 @@ RunFolder::RunFolder(fs::path folder, FolderLock lock, const Checkpoint& from, c
       lock_(std::move(lock)),
       backend_(std::move(backend)),
       caseText_(c.resolved),
-      member_(from.member),
+      given_(from.given),
+      role_{from.member, from.keepsStates, from.origin},
       checkpointTime_(from.time) {
     try {
         if (!fs::exists(folder_ / "case.toml")) replaceFile(folder_ / "case.toml", c.resolved);
         timeSeries_.emplace(folder_ / "timeseries.csv", from.timeSeries);
         doses_.emplace(folder_ / "doses.csv", from.doses);
-        if (c.frames.interval > 0) frames_.emplace(folder_, c, member_, from.frames);
+        if (c.frames.interval > 0) frames_.emplace(folder_, c, role_.member, from.frames);
         fields_.emplace(folder_, c, from.fields);
     } catch (const OutputError& e) {
         throw FolderError(e.what());
@@ -157,13 +162,21 @@ void RunFolder::onDose(const Dose& d) {
     doses_->flush();
 }
 
-void RunFolder::onCheckpoint(const RunCheckpoint& checkpoint, double time) {
-    // The lines come first, because the checkpoint counts on them.
+void RunFolder::store(const char* name, const RunCheckpoint& state, double time) {
+    // The lines come first, because the state counts on them.
     const CsvMark timeSeries = timeSeries_->store(), doses = doses_->store();
     const CsvMark frames = frames_ ? frames_->store() : CsvMark();
-    writeCheckpoint(folder_ / kCheckpointName, {VKDOSE_VERSION, backend_, caseText_, time, checkpoint, timeSeries,
-                                                doses, frames, fields_->store(), member_});
+    writeCheckpoint(folder_ / name, {VKDOSE_VERSION, backend_, caseText_, time, state, timeSeries, doses, frames,
+                                     fields_->store(), role_.member, given_, role_.origin, role_.keepsStates});
+}
+
+void RunFolder::onCheckpoint(const RunCheckpoint& checkpoint, double time) {
+    store(kCheckpointName, checkpoint, time);
     checkpointTime_ = time;
+}
+
+void RunFolder::onState(KeptState kind, const RunCheckpoint& state, double time) {
+    store(kind == KeptState::Settled ? kSettledName : kEndName, state, time);
 }
 
 void RunFolder::finish(const Case& c, const RunResult& result) {
@@ -172,7 +185,9 @@ void RunFolder::finish(const Case& c, const RunResult& result) {
     if (frames_) frames_->store();
     fields_->store();
     if (result.endState) writeParticles(folder_ / "particles.csv", result.particles);
-    replaceFile(folder_ / "summary.json", summaryJson(c, result, backend_, historyOf(folder_, c, result)) + "\n");
+    RunHistory history = historyOf(folder_, c, result);
+    history.origin = role_.origin;
+    replaceFile(folder_ / "summary.json", summaryJson(c, result, backend_, history) + "\n");
     if (result.reason == StopReason::Interrupted || !result.error.empty()) return;
     std::error_code ignored;
     fs::remove(folder_ / kCheckpointName, ignored);

@@ -1,6 +1,7 @@
 #pragma once
 // The output folder of a run: case.toml, timeseries.csv, doses.csv, frames/ and fields/ as they come,
-// checkpoint.h5 while it lasts, particles.csv and summary.json at the end.
+// checkpoint.h5 while it lasts, settled.h5 once the powder has settled, end.h5, particles.csv and summary.json at the
+// end.
 
 #include <filesystem>
 #include <optional>
@@ -21,14 +22,21 @@ class FolderError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// What a run is beside others.
+struct RunRole {
+    std::uint32_t member = 0;  ///< its number in a study
+    bool keepsStates = true;   ///< for other runs to begin with
+    std::string origin;        ///< the state of another run that it begins with, in words; empty: none
+};
+
 class RunFolder : public RunObserver {
   public:
     /// Creates the folder and the files that stream. Throws FolderError if the folder holds anything and `force` is not
     /// set, if another process is writing into it, or if it cannot be created. With `force` the files of a former run
     /// in it are removed and others are left alone. Then it throws FolderError if there is no run, or if a file of the
     /// case is among those to be removed. Throws OutputError if the files cannot be written; everything made until then
-    /// is removed again. `backend` is the description of the backend, `member` the number of the run in its study.
-    RunFolder(std::filesystem::path folder, bool force, const Case& c, std::string backend, std::uint32_t member = 0);
+    /// is removed again. `backend` is the description of the backend.
+    RunFolder(std::filesystem::path folder, bool force, const Case& c, std::string backend, RunRole role = {});
 
     /// Goes on in a folder as it was when `from` was written. The folder has been held since before `from` was read.
     /// Lines that came later are cut off. Throws FolderError if a file has been shortened since.
@@ -40,6 +48,8 @@ class RunFolder : public RunObserver {
     void onField(const FieldSample& sample) override { fields_->write(sample); }
     void onCheckpoint(const RunCheckpoint& checkpoint, double time) override;
     bool storesCheckpoints() const override { return true; }
+    void onState(KeptState kind, const RunCheckpoint& state, double time) override;
+    bool storesStates() const override { return role_.keepsStates; }
     void onFrame(const Frame& frame) override { frames_->put(frame); }
     bool storesFrames() const override { return frames_.has_value(); }
 
@@ -53,11 +63,13 @@ class RunFolder : public RunObserver {
     std::optional<double> checkpointTime() const { return checkpointTime_; }
 
   private:
+    void store(const char* name, const RunCheckpoint& state, double time);
+
     std::filesystem::path folder_;
     std::optional<FolderLock> lock_;
     std::string backend_;
-    std::string caseText_;
-    std::uint32_t member_;
+    std::string caseText_, given_;
+    RunRole role_;
     std::optional<CsvFile> timeSeries_;
     std::optional<CsvFile> doses_;
     std::optional<FrameWriter> frames_;  ///< if the case asks for frames

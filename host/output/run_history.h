@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "host/analysis/blockage.h"
@@ -26,6 +27,7 @@ std::vector<DoseArch> archesAtDoseEnds(const Frames& frames, const Case& c, cons
 struct RunHistory {
     OutletFlow outlet;
     std::vector<DoseArch> arches;
+    std::string origin;  ///< the state of another run that it began with, in words; empty: none
 };
 
 /// From the time series and the frames in a run's output folder. Throws OutputError as above.

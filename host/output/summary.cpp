@@ -181,6 +181,7 @@ std::string summaryJson(const Case& c, const RunResult& r, const std::string& ba
     Json j;
     j["inputs"] = inputs(c, r);
     j["backend"] = backend;
+    if (!history.origin.empty()) j["from"] = history.origin;
     j["stop_reason"] = stopKeyword(r.reason);
     j["stop_sentence"] = stopSentence(r.reason, c.schedule.stop);
     j["interrupted"] = r.reason == StopReason::Interrupted;

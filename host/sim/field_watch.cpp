@@ -81,12 +81,35 @@ void FieldWatch::begin(const FieldSensor& sensor, State& state, const FieldPoint
     state.initialHeight = surfaceHeight(request.grid, backend.fields(request));
 }
 
+bool FieldWatch::isProfile(const FieldSensor& sensor) {
+    return sensor.preset == FieldSensor::Preset::HeightProfile;
+}
+
+FieldSample FieldWatch::sampleOf(std::size_t field, FieldPoints points, std::uint64_t step, Phase phase, int dose) {
+    State& state = states_[field];
+    FieldSample s{field, int(state.kept++), step, timeline_.time(step), phase, dose, std::move(points), {}};
+    if (isProfile(sensors_[field])) s.heights = heightsOf(s.points, state.initialDensity, state.initialHeight);
+    return s;
+}
+
+std::vector<FieldSample> FieldWatch::open(Backend& backend, std::uint64_t step) {
+    std::vector<FieldSample> kept;
+    if (step < timeline_.settleSteps()) return kept;
+    for (std::size_t k = 0; k < sensors_.size(); ++k) {
+        if (!isProfile(sensors_[k])) continue;
+        FieldPoints points = backend.fields(sensors_[k].request);
+        begin(sensors_[k], states_[k], points, backend);
+        kept.push_back(sampleOf(k, std::move(points), step, Phase::Settle, 0));
+    }
+    return kept;
+}
+
 std::vector<FieldSample> FieldWatch::look(Backend& backend, std::uint64_t step, Phase phase, int dose) {
     std::vector<FieldSample> kept;
     for (std::size_t k = 0; k < sensors_.size(); ++k) {
         const FieldSensor& sensor = sensors_[k];
         State& state = states_[k];
-        const bool profile = sensor.preset == FieldSensor::Preset::HeightProfile;
+        const bool profile = isProfile(sensor);
         const bool begins = profile && state.initialDensity.empty();
         if (profile && step < timeline_.settleSteps()) continue;
         const bool due = begins || step % every(sensor) == 0;
@@ -100,9 +123,7 @@ std::vector<FieldSample> FieldWatch::look(Backend& backend, std::uint64_t step, 
             if (!due) continue;
             points = mean(state);
         }
-        FieldSample s{k, int(state.kept++), step, timeline_.time(step), phase, dose, std::move(points), {}};
-        if (profile) s.heights = heightsOf(s.points, state.initialDensity, state.initialHeight);
-        kept.push_back(std::move(s));
+        kept.push_back(sampleOf(k, std::move(points), step, phase, dose));
     }
     return kept;
 }

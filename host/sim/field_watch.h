@@ -33,6 +33,10 @@ class FieldWatch {
     /// fields to be kept.
     std::vector<FieldSample> look(Backend& backend, std::uint64_t step, Phase phase, int dose);
 
+    /// The profiles of a bed that had settled before the run's first step. Call it once, before that step. Other fields
+    /// need forces, and there are none before a step.
+    std::vector<FieldSample> open(Backend& backend, std::uint64_t step);
+
     /// The averages under way and the profiles at the beginning, for a checkpoint.
     void save(Record& record) const;
     void restore(const Record& record);
@@ -45,6 +49,8 @@ class FieldWatch {
         std::vector<double> initialDensity;  ///< of a height profile, once dosing has begun [kg/m3]
         double initialHeight = 0;            ///< [m]
     };
+    static bool isProfile(const FieldSensor& sensor);
+    FieldSample sampleOf(std::size_t field, FieldPoints points, std::uint64_t step, Phase phase, int dose);
     std::uint64_t every(const FieldSensor& sensor) const;
     static FieldPoints mean(State& state);
     static void begin(const FieldSensor& sensor, State& state, const FieldPoints& now, Backend& backend);

@@ -7,8 +7,10 @@
 
 #include "host/core/error.h"
 #include "host/sim/dose_book.h"
+#include "host/sim/expected_steps.h"
 #include "host/sim/region_book.h"
 #include "host/sim/run_record.h"
+#include "host/sim/state_facts.h"
 
 namespace vkdose {
 
@@ -53,32 +55,17 @@ class Run {
         active_ = result_.particles.size();
     }
 
-    RunResult play(const RunCheckpoint* from) {
+    /// `begin` brings the backend and this to the state in which the first step is made.
+    template <class Begin>
+    RunResult play(const Begin& begin) {
         try {
-            playThrough(from);
+            playThrough(begin);
         } catch (const OutputError& e) {
             result_.reason = StopReason::OutputError;
             result_.error = e.what();
         }
         result_.statistics = statistics(result_.doses);
         return std::move(result_);
-    }
-
-  private:
-    void playThrough(const RunCheckpoint* from) {
-        try {
-            if (from != nullptr)
-                goOn(*from);
-            else
-                begin();
-            checkpointed_ = Clock::now();
-            checkpointTime_ = timeline_.time(step_);
-            result_.reason = steps();
-        } catch (const RunError& e) {
-            fail(StopReason::RunError, e.what());
-        } catch (const DeviceError& e) {
-            fail(StopReason::DeviceError, e.what());
-        }
     }
 
     void begin() {
@@ -92,6 +79,99 @@ class Run {
         backend_.load(case_.world, dosing_ ? case_.dosingLaw : case_.settlingLaw, result_.particles);
         backend_.restore(from.backend);
         before_ = {step_, result_.particleSteps, result_.wallTime};
+        // The adhesion of the doses may be another than that of the run that settled this bed.
+        if (!dosing_ && result_.settled) look();
+    }
+
+    /// Begins with the powder of another run, which was in the state `from` at `time` [s].
+    void takeOver(const RunCheckpoint& from, double time) {
+        const StateFacts facts = factsOf(from.run);
+        if (facts.radii != result_.filled.particles.radius)
+            throw RecordError("its particles are not those of the case");
+        step_ = static_cast<std::uint64_t>(std::llround(time / case_.world.timeStep));
+        backend_.load(case_.world, facts.dosing ? case_.dosingLaw : case_.settlingLaw, result_.particles);
+        Record state = from.backend;
+        // The clock of bodies that move counts steps.
+        if (state.arrays().contains(kSnapshotSteps)) state.putOne(kSnapshotSteps, step_);
+        backend_.restore(state);
+        active_ = facts.active;
+        takeSample(from.run, facts);
+        before_.steps = step_;
+        const bool settled = facts.settled || step_ >= timeline_.settleSteps();
+        if (settled)
+            takeSettled(from.run, facts);
+        else if (facts.step == step_)  // else its time steps were others
+            rest_.restore(from.run);
+        observer_.onSample(result_.last);
+        if (timeline_.keepsFrames()) frame();
+        for (const FieldSample& f : fields_.open(backend_, step_)) observer_.onField(f);
+        if (settled) keepState(KeptState::Settled);
+    }
+
+  private:
+    template <class Begin>
+    void playThrough(const Begin& begin) {
+        try {
+            begin(*this);
+            checkpointed_ = Clock::now();
+            checkpointTime_ = timeline_.time(step_);
+            result_.reason = steps();
+        } catch (const RunError& e) {
+            fail(StopReason::RunError, e.what());
+        } catch (const DeviceError& e) {
+            fail(StopReason::DeviceError, e.what());
+        }
+    }
+
+    /// The latest sensors of another run become the first sample of this one.
+    void takeSample(const Record& run, const StateFacts& facts) {
+        Sample& s = result_.last;
+        get(run, "last", s);
+        get(run, "now", now_);
+        get(run, "energy", energy_);
+        if (facts.sinceSample)
+            s.sensors = now_;
+        else
+            loads_.restore(run);
+        if (facts.dosing) {  // its drive rests now
+            s.sensors.coilTorque = s.coilTorque = s.coilPower = 0;
+        }
+        s.step = step_;
+        s.time = timeline_.time(step_);
+        s.phase = Phase::Settle;
+        s.dose = 0;
+        s.coilAngle = backend_.coilAngle();
+        s.energy = energy_;
+    }
+
+    /// The settling is over, because it was over in the other run, or because it took its time there.
+    void takeSettled(const Record& run, const StateFacts& facts) {
+        timeline_.endSettling(step_);
+        if (facts.settled && !facts.dosing) get(run, result_.settling);
+        if (result_.settling) {
+            result_.settling->step = step_;
+        } else {
+            const double speed = meanSpeed(result_.last.sensors), fall = rest_.fall().speed;
+            result_.settling = Settling{step_, speed < case_.schedule.restSpeedRatio * fall, result_.last.time, speed,
+                                        fall,  mass(result_.last.sensors, Region::Dosed)};
+        }
+        look();
+    }
+
+    /// Looks at the bed that has settled.
+    void look() {
+        result_.settled = settledBed(case_, timeline_.time(step_), backend_.particles(), backend_.contacts());
+    }
+
+    /// The clock of the wall is not in it, so that a state depends on its run alone.
+    void keepState(KeptState kind) {
+        if (!observer_.storesStates()) return;
+        RunCheckpoint state{save(), backend_.snapshot()};
+        std::vector<double> sums = state.run.get<double>("sums");
+        sums.back() = 0;
+        state.run.put("sums", std::move(sums));
+        state.run.putOne("steps_of_others", result_.particleSteps);
+        observer_.onState(kind, state, timeline_.time(step_));
     }
 
     Record save() const {
@@ -100,6 +180,7 @@ class Run {
         r.put("sums",
               std::vector<double>{impulse_, powerSum_, rate_, result_.dosedWhileSettling, result_.maxOverlapRatio,
                                   result_.maxOverlapTime, result_.particleSteps, result_.wallTime});
+        r.putOne("steps_of_others", result_.stepsOfOthers);
         put(r, "now", now_);
         loads_.save(r);
         regions_.save(r);
@@ -138,9 +219,11 @@ class Run {
         result_.maxOverlapTime = sums[5];
         result_.particleSteps = sums[6];
         result_.wallTime = sums[7];
+        if (r.arrays().contains("steps_of_others")) result_.stepsOfOthers = r.one<double>("steps_of_others");
         get(r, "now", now_);
         get(r, "energy", energy_);
         timeline_.restore(r);
+        if (!dosing_) timeline_.endSettling(timeline_.settleSteps());  // the doses are those of the case
         book_.restore(r);
         get(r, "doses", result_.doses);
         get(r, "last", result_.last);
@@ -192,18 +275,22 @@ class Run {
                 for (const FieldSample& f : fields_.look(backend_, step_, stretch_.phase, stretch_.dose))
                     observer_.onField(f);
             }
-            if (step_ == timeline_.settleSteps())
-                result_.settled = settledBed(case_, timeline_.time(step_), backend_.particles(), backend_.contacts());
+            if (step_ == timeline_.settleSteps()) {
+                look();
+                keepState(KeptState::Settled);
+            }
             if (endsRun || (step_ == stretch_.end && phaseEnded())) {
                 if (timeline_.keepsFrames() && !timeline_.frameDue(step_)) frame();
                 if (endsRun) closeDose(false);
                 keepEndState();
+                keepState(KeptState::End);
                 return endsRun ? StopReason::Torque : judge_.reason();
             }
             if (checkpointDue()) checkpoint();
         }
         if (book_.underWay()) closeDose(false);
         keepEndState();
+        if (timeline_.hasDoses()) keepState(KeptState::End);  // without doses it is the settled one
         return timeline_.cutByEndTime(step_) ? StopReason::EndTime : StopReason::Settled;
     }
 
@@ -358,43 +445,13 @@ class Run {
         p.dose = stretch_.dose;
         p.time = timeline_.time(step_);
         p.step = step_;
-        p.expectedSteps = expectedSteps();
+        const std::uint64_t expected = expectedSteps(case_, timeline_, result_);
+        p.expectedSteps = expected == 0 ? 0 : std::max(expected, step_);
         p.phaseEnd = step_ == stretch_.end;
         p.steps = step_ - before_.steps;
         p.particleSteps = result_.particleSteps - before_.particleSteps;
         p.wallTime = result_.wallTime - before_.wallTime;
         observer_.onProgress(p);
-    }
-
-    /// Steps of the whole run if the doses go on as they have so far (before the first: as the closed form says).
-    std::uint64_t expectedSteps() const {
-        if (!timeline_.hasDoses()) return timeline_.stepsUntilDose(0);
-        double done = 0, dosed = 0;
-        for (const Dose& d : result_.doses) {
-            done += 1;
-            dosed += d.mass;
-        }
-        const double perDose = dosed > 0 ? dosed / done : result_.derived.massPerDose;
-        const StopRule& rule = case_.schedule.stop;
-        double doses = static_cast<double>(rule.maxDoses);
-        if (perDose > 0) {
-            const double left = result_.filled.mass - result_.dosedWhileSettling - dosed;
-            doses = std::min(doses, done + std::max(1.0, std::ceil(left / perDose)));
-        }
-        const std::uint64_t steps =
-            case_.schedule.targetMass > 0 ? stepsToMass(doses) : timeline_.stepsUntilDose(doses);
-        const bool unknown =
-            perDose <= 0 && rule.maxDoses == std::numeric_limits<int>::max() && !std::isfinite(rule.endTime);
-        return unknown ? 0 : std::max(steps, step_);
-    }
-
-    /// The same for `doses` doses to a mass, which take as long as those before them (before the first: as expected).
-    std::uint64_t stepsToMass(double doses) const {
-        if (result_.doses.empty()) return static_cast<std::uint64_t>(result_.derived.steps);
-        const double settled = timeline_.time(timeline_.settleSteps());
-        const double each = (result_.doses.back().endTime - settled) / static_cast<double>(result_.doses.size());
-        const double time = std::min(settled + doses * each, case_.schedule.stop.endTime);
-        return static_cast<std::uint64_t>(time / case_.world.timeStep);
     }
 
     const Case& case_;
@@ -439,7 +496,19 @@ class Run {
 
 RunResult runFilled(const Case& c, Insertion filled, Derived derived, Backend& backend, RunObserver& observer,
                     const std::atomic<bool>& stop, const RunCheckpoint* from) {
-    return Run(c, std::move(filled), std::move(derived), backend, observer, stop).play(from);
+    return Run(c, std::move(filled), std::move(derived), backend, observer, stop).play([from](Run& run) {
+        if (from != nullptr)
+            run.goOn(*from);
+        else
+            run.begin();
+    });
+}
+
+RunResult runFrom(const Case& c, Insertion filled, Derived derived, Backend& backend, RunObserver& observer,
+                  const std::atomic<bool>& stop, const RunCheckpoint& from, double time) {
+    return Run(c, std::move(filled), std::move(derived), backend, observer, stop).play([&](Run& run) {
+        run.takeOver(from, time);
+    });
 }
 
 RunResult runCase(const Case& c, Backend& backend, RunObserver& observer, const std::atomic<bool>& stop) {

@@ -42,6 +42,9 @@ struct RunCheckpoint {
     Record backend;
 };
 
+/// The states that a run leaves for others to start from: at the end of settling, and at its end.
+enum class KeptState { Settled, End };
+
 /// Is told of events as a run goes on. An exception that it throws ends the run; an OutputError says that a result
 /// could not be stored.
 class RunObserver {
@@ -55,6 +58,10 @@ class RunObserver {
     /// Called at the intervals of the case and when the run is interrupted, if `storesCheckpoints`.
     virtual void onCheckpoint(const RunCheckpoint&, double time) { (void)time; }
     virtual bool storesCheckpoints() const { return false; }
+    /// Called when the powder has settled, and at the end of a run with doses that nothing cut short, if
+    /// `storesStates`.
+    virtual void onState(KeptState, const RunCheckpoint&, double time) { (void)time; }
+    virtual bool storesStates() const { return false; }
     /// Called where the case wants frames (Timeline::frameDue) and at the end of the run, if `storesFrames`. A run that
     /// goes on from a checkpoint gives only the frames after it.
     virtual void onFrame(const Frame&) {}
@@ -78,9 +85,10 @@ struct RunResult {
     double maxOverlapRatio = 0;  ///< largest overlap over smaller radius of the whole run
     double maxOverlapTime = 0;   ///< when the call in which it occurred ended [s]
     double particleSteps = 0;
-    double wallTime = 0;  ///< spent stepping [s]
+    double wallTime = 0;       ///< spent stepping [s]
+    double stepsOfOthers = 0;  ///< of the particle-steps, those that another run made and timed
 
-    double particleStepsPerSecond() const { return wallTime > 0 ? particleSteps / wallTime : 0; }
+    double particleStepsPerSecond() const { return wallTime > 0 ? (particleSteps - stepsOfOthers) / wallTime : 0; }
 };
 
 /// Runs `c` with the particles in `filled`. Setting `stop` ends the run at the next opportunity, keeping everything
@@ -91,7 +99,14 @@ struct RunResult {
 RunResult runFilled(const Case& c, Insertion filled, Derived derived, Backend& backend, RunObserver& observer,
                     const std::atomic<bool>& stop, const RunCheckpoint* from = nullptr);
 
-/// The same, inserting the particles first.
+/// A run of its own that begins with the powder of another one, in the state `from`, taken at `time` [s]. Its clock
+/// goes on from there. If that run had settled, so has this one; else the powder settles on. Doses begin with the
+/// first. The particles in `filled` must be those of the other run, and the world as far as contacts remember it.
+/// Throws CaseError and RecordError as above.
+RunResult runFrom(const Case& c, Insertion filled, Derived derived, Backend& backend, RunObserver& observer,
+                  const std::atomic<bool>& stop, const RunCheckpoint& from, double time);
+
+/// The same as runFilled, inserting the particles first.
 RunResult runCase(const Case& c, Backend& backend, RunObserver& observer, const std::atomic<bool>& stop);
 
 }  // namespace vkdose

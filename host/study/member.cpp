@@ -9,6 +9,7 @@
 #include "host/core/error.h"
 #include "host/model/case.h"
 #include "host/sim/timeline.h"
+#include "host/study/bed.h"
 
 namespace vkdose {
 
@@ -90,7 +91,7 @@ Member memberAt(const Study& study, int number, std::optional<std::uint64_t> see
     std::vector<Setting> own = point;
     if (seed) own.push_back({"seed", seedNode(study, *seed)});
     const Case c = loadVariant(study.base, {treeOf(study.set), treeOf(own)});
-    (void)Timeline(c);
+    const Timeline timeline(c);
     const Derived derived = derive(c, insertParticles(c));
     Member member;
     member.number = number;
@@ -100,6 +101,8 @@ Member memberAt(const Study& study, int number, std::optional<std::uint64_t> see
     member.particles = derived.particles;
     member.expectedTime = derived.steps * derived.timeStep;
     member.expectedWork = derived.steps * double(derived.particles);
+    member.settlingWork = double(timeline.settleSteps()) * double(derived.particles);
+    member.bed = bedText(c);
     return member;
 }
 

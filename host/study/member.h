@@ -18,6 +18,8 @@ struct Member {
     std::size_t particles = 0;
     double expectedTime = 0;  ///< simulated time that it will take by the closed forms [s]
     double expectedWork = 0;  ///< particle-steps that it will take by the closed forms
+    double settlingWork = 0;  ///< those of its longest settling
+    std::string bed;          ///< bedText
 };
 
 /// Every combination of the axes for the first seed, the last axis fastest, then for the next seed. In this order seeds

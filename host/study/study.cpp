@@ -180,6 +180,42 @@ void refuseCase(const std::filesystem::path& file, const Node& tree) {
     }
 }
 
+/// The keys of a tree with their values, without the tables around them.
+void gatherSettings(const Node& node, const std::string& path, std::vector<Setting>& into) {
+    for (const Node& child : node.children) {
+        const std::string key = path.empty() ? child.key : path + "." + child.key;
+        if (child.kind == Node::Kind::Table)
+            gatherSettings(child, key, into);
+        else
+            into.push_back({key, child});
+    }
+}
+
+/// Puts overrides into what holds for every member. The record of the study tells them.
+void applyOverrides(Study& study, const std::vector<std::string>& overrides) {
+    std::vector<Setting> settings;
+    gatherSettings(overrideTree(overrides), "", settings);
+    const std::vector<std::string> varied = study.keys();
+    std::vector<Diagnostic> faults;
+    for (const Setting& s : settings) {
+        const auto refuse = [&](const char* problem, const char* remedy) {
+            faults.push_back({kCommandLine, 0, s.key, valueText(s.value), problem, remedy});
+        };
+        if (std::find(varied.begin(), varied.end(), s.key) != varied.end())
+            refuse("is a key that the study varies", "change its values in the study");
+        else if (s.key == "seed")
+            refuse("is not one for all members", "give seeds in the study");
+        else if (s.key == "base" || s.key == "name" || s.key == "reason")
+            refuse("is not a value of the members", "change it in the study");
+        std::erase_if(study.set, [&](const Setting& old) { return old.key == s.key; });
+        study.set.push_back(s);
+    }
+    if (!faults.empty()) throw CaseError(faults);
+    study.overrides = overrides;
+    if (!overrides.empty() && !study.text.ends_with('\n')) study.text += '\n';
+    for (const std::string& text : overrides) study.text += fmt::format("# --set {}\n", text);
+}
+
 }  // namespace
 
 std::vector<std::string> Study::keys() const {
@@ -190,7 +226,7 @@ std::vector<std::string> Study::keys() const {
     return all;
 }
 
-Study readStudy(const std::filesystem::path& file) {
+Study readStudy(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
     Node tree = readTreeAlone(file);
     refuseCase(file, tree);
     CaseReader reader(file.string(), std::move(tree), studyKeys());
@@ -226,6 +262,7 @@ Study readStudy(const std::filesystem::path& file) {
     checkCount(reader, study);
     reader.finish();
     reader.throwIfFaulty();
+    applyOverrides(study, overrides);
     return study;
 }
 

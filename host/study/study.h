@@ -29,9 +29,10 @@ struct Study {
     std::string text;  ///< the file as read
     std::string name;
     std::string reason;
-    std::filesystem::path base;        ///< case file
-    std::vector<std::uint64_t> seeds;  ///< empty: the base case's own
-    std::vector<Setting> set;          ///< of every member
+    std::filesystem::path base;          ///< case file
+    std::vector<std::uint64_t> seeds;    ///< empty: the base case's own
+    std::vector<Setting> set;            ///< of every member
+    std::vector<std::string> overrides;  ///< those of them that stand on the command line: "key.path=value"
     std::vector<Axis> axes;
     std::optional<CalibrationAim> calibration;
 
@@ -44,6 +45,7 @@ struct Study {
 inline constexpr std::size_t kMostMembers = 10000;
 
 /// Throws CaseError with every fault found. The base case and the members are not checked yet: see membersOf.
-Study readStudy(const std::filesystem::path& file);
+/// `overrides` ("key.path=value") replace values of every member.
+Study readStudy(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
 
 }  // namespace vkdose

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "host/core/exit_code.h"
+#include "host/core/file.h"
 #include "host/core/folder_lock.h"
 #include "host/output/checkpoint.h"
 
@@ -21,6 +22,7 @@ class Sweep {
 
     SweepOutcome run(const std::atomic<bool>& stop, bool retryFailed) {
         retryFailed_ = retryFailed;
+        if (runner_.settlesBeds()) settleBeds(stop);
         queue();
         bool interrupted = false;
         while (!waiting_.empty() || !running_.empty()) {
@@ -50,6 +52,100 @@ class Sweep {
         double before;  ///< simulated time that it had reached when it was started [s]
     };
 
+    bool isWaiting(const Member& m) const {
+        const auto status = folder_.status(m.number);
+        return !status || status == MemberStatus::Interrupted || (status == MemberStatus::Failed && retryFailed_);
+    }
+
+    /// The beds of those members that have yet to begin.
+    std::vector<Bed> bedsNeeded() const {
+        std::vector<Bed> needed;
+        for (Bed bed : bedsOf(members_)) {
+            std::erase_if(bed.members, [&](int number) {
+                const auto m = std::find_if(members_.begin(), members_.end(),
+                                            [&](const Member& one) { return one.number == number; });
+                return !isWaiting(*m) || fs::exists(folder_.memberFolder(number) / kCheckpointName);
+            });
+            if (!bed.members.empty()) needed.push_back(std::move(bed));
+        }
+        return needed;
+    }
+
+    /// Settles each bed that is needed once, as a run of its own.
+    void settleBeds(const std::atomic<bool>& stop) {
+        const std::vector<Bed> beds = bedsNeeded();
+        std::vector<Member> runs;
+        std::size_t served = 0;
+        for (const Bed& bed : beds) {
+            if (isSettled(bedFolder(folder_.path(), bed), bed.caseText)) continue;
+            const auto first =
+                std::find_if(members_.begin(), members_.end(), [&](const Member& m) { return m.number == bed.number; });
+            Member run;
+            run.number = bed.number;
+            run.caseText = bed.caseText;
+            run.particles = first->particles;
+            run.expectedWork = first->settlingWork;
+            runs.push_back(std::move(run));
+            served += bed.members.size();
+        }
+        if (!runs.empty()) observer_.onBeds(runs.size(), served);
+        playBeds(runs, stop);
+        for (const Bed& bed : beds) {
+            const fs::path folder = bedFolder(folder_.path(), bed);
+            if (!isSettled(folder, bed.caseText)) continue;
+            for (const int number : bed.members) beds_[number] = folder;
+        }
+    }
+
+    void playBeds(const std::vector<Member>& runs, const std::atomic<bool>& stop) {
+        std::vector<WaitingMember> order;
+        for (const Member& m : runs)
+            order.push_back({&m, m.expectedWork / double(std::max<std::size_t>(m.particles, 1))});
+        runner_.order(order);
+        std::deque<WaitingMember> waiting(order.begin(), order.end());
+        std::size_t running = 0;
+        bool interrupted = false;
+        while (!waiting.empty() || running > 0) {
+            if (stop && !interrupted) {
+                interrupted = true;
+                waiting.clear();
+                runner_.interrupt();
+            }
+            for (; !waiting.empty() && runner_.takes(*waiting.front().member); waiting.pop_front())
+                running += startBed(*waiting.front().member) ? 1 : 0;
+            if (running == 0) continue;
+            if (runner_.wait()) --running;
+            observer_.onProgress(progress());
+        }
+    }
+
+    /// Returns false if the process of a sweep that was killed has settled it meanwhile.
+    bool startBed(const Member& run) {
+        const fs::path folder = bedFolder(folder_.path(), {run.number, "", {}});
+        createFolder(folder);
+        if (FolderLock::isTaken(folder)) {
+            observer_.onBusy(folder);
+            FolderLock::await(folder);
+        }
+        if (isSettled(folder, run.caseText)) return false;
+        const bool same = fileContent(folder / "case.toml") == run.caseText;
+        if (!same) replaceFile(folder / "case.toml", run.caseText);
+        runner_.start({run.number, folder, same && fs::exists(folder / kCheckpointName), true});
+        return true;
+    }
+
+    /// Puts the member's bed into its folder. Returns false if it has none.
+    bool plant(const Member& m) const {
+        const auto bed = beds_.find(m.number);
+        if (bed == beds_.end()) return false;
+        try {
+            plantBed(bed->second, folder_.memberFolder(m.number), m);
+            return true;
+        } catch (const CheckpointError&) {  // somebody has changed it: then the member settles its own
+            return false;
+        }
+    }
+
     static double share(const Member& m, double time) {
         return m.expectedTime > 0 ? m.expectedWork * std::min(1.0, time / m.expectedTime) : 0;
     }
@@ -57,10 +153,9 @@ class Sweep {
     void queue() {
         std::vector<WaitingMember> waiting;
         for (const Member& m : members_) {
-            const auto status = folder_.status(m.number);
-            const bool again = status == MemberStatus::Failed && retryFailed_;
-            if (again) folder_.forget(m.number);
-            if (again || !status || status == MemberStatus::Interrupted)
+            const bool waits = isWaiting(m);
+            if (folder_.status(m.number) == MemberStatus::Failed && waits) folder_.forget(m.number);
+            if (waits)
                 waiting.push_back({&m, stepsLeft(m)});
             else
                 doneBefore_ += m.expectedWork;
@@ -72,7 +167,8 @@ class Sweep {
 
     double stepsLeft(const Member& m) const {
         const fs::path run = folder_.memberFolder(m.number);
-        const double work = m.expectedWork - (fs::exists(run / kCheckpointName) ? share(m, timeReached(run)) : 0);
+        const double settled = beds_.contains(m.number) ? m.settlingWork : 0;
+        const double work = m.expectedWork - (fs::exists(run / kCheckpointName) ? share(m, timeReached(run)) : settled);
         return work / double(std::max<std::size_t>(m.particles, 1));
     }
 
@@ -104,7 +200,7 @@ class Sweep {
             note(m, readResult(run, {m.number, 0, ""}));
             return;
         }
-        const bool resume = canResume(m);
+        const bool resume = canResume(m) || plant(m);
         const double before = resume ? timeReached(run) : 0;
         doneBefore_ += share(m, before);
         running_[m.number] = {&m, before};
@@ -150,6 +246,7 @@ class Sweep {
     MemberRunner& runner_;
     SweepObserver& observer_;
     bool retryFailed_ = false;
+    std::map<int, fs::path> beds_;  ///< folders of the settled beds with which members begin
     std::deque<WaitingMember> waiting_;
     std::map<int, Running> running_;
     double all_ = 0, doneBefore_ = 0, doneHere_ = 0;  ///< expected particle-steps

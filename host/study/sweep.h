@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "host/study/bed.h"
 #include "host/study/sweep_folder.h"
 
 namespace vkdose {
@@ -16,6 +17,7 @@ struct MemberTask {
     int number = 0;
     std::filesystem::path folder;  ///< of the run; holds its case.toml
     bool resume = false;           ///< from the checkpoint in it
+    bool bed = false;              ///< it settles the bed of several members, and keeps that state
 };
 
 /// A member that has not ended yet.
@@ -32,6 +34,8 @@ class MemberRunner {
     virtual std::string manner() const = 0;
     /// Puts the members into the order in which it wants to start them. By default that is the order of their numbers.
     virtual void order(std::vector<WaitingMember>& members) { (void)members; }
+    /// Whether it runs beds as well. If not, every member settles its own.
+    virtual bool settlesBeds() const { return false; }
     /// Whether it can start this member now, beside those that run. Always true if none runs.
     virtual bool takes(const Member& member) const = 0;
     /// Starts a member and returns at once.
@@ -56,6 +60,8 @@ class SweepObserver {
     virtual ~SweepObserver() = default;
     virtual void onMember(const Member&, const MemberResult&) {}
     virtual void onProgress(const SweepProgress&) {}
+    /// Is told before `beds` settle, each once, for `members` members.
+    virtual void onBeds(std::size_t beds, std::size_t members) { (void)beds, (void)members; }
     /// Is told when another process, perhaps of a sweep that was killed, still writes into the folder of a member's
     /// run.
     virtual void onBusy(const std::filesystem::path&) {}
@@ -69,9 +75,11 @@ struct SweepOutcome {
     bool whole = false;  ///< every member has ended
 };
 
-/// Runs those of `members` that have not ended yet. With `retryFailed` it runs failed ones again, and starts a member
-/// anew if its checkpoint cannot be used. A member that fails does not keep the others from running. Setting `stop`
-/// ends the running ones so that they can be resumed. Throws OutputError.
+/// Runs those of `members` that have not ended yet. If the runner can, each bed that several of them have settles once
+/// before, in a folder of its own, and they begin with it; a bed that fails leaves its members to themselves. With
+/// `retryFailed` it runs failed ones again, and starts a member anew if its checkpoint cannot be used. A member that
+/// fails does not keep the others from running. Setting `stop` ends the running ones so that they can be resumed.
+/// Throws OutputError.
 SweepOutcome runMembers(SweepFolder& folder, const std::vector<Member>& members, MemberRunner& runner,
                         SweepObserver& observer, const std::atomic<bool>& stop, bool retryFailed = false);
 

@@ -75,7 +75,7 @@ TEST_CASE("help and usage") {
     CHECK(box.files().empty());
     // The culprit by its name: the word that is no command, the command that lacks something.
     CHECK_THAT(box.vkdose("rnu x.toml").err, Catch::Contains("there is no command rnu; did you mean run?"));
-    CHECK_THAT(box.vkdose("run").err, Catch::StartsWith("vkdose run: ") && Catch::Contains("`vkdose run --help`"));
+    CHECK_THAT(box.vkdose("run").err, Catch::Contains("a case is missing") && Catch::Contains("--from DIR"));
     const auto alone = box.vkdose("");
     CHECK(alone.code == 0);
     CHECK_THAT(alone.out, Catch::Contains("vkdose run quickstart") && Catch::Contains("calibrate"));

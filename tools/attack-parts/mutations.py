@@ -29,6 +29,7 @@ TARGETS = (
     ("compare", ["case.toml"]),
     ("export-body", ["case.toml"]),
     ("resume", [CHECKPOINT] * 6 + OF_A_RUN + OF_A_RUN[:3] + ["fields/outlet.csv"]),
+    ("from", ["settled.h5"] * 3),
     ("report", OF_A_RUN + OF_A_RUN[1:3] + ["summary.json"] * 2 + ["particles.csv", "frames/contacts_000001.hdf"]),
     ("report", ["experiment.csv", "profile.csv"] * 2),
     ("report-sweep", ["members.csv", "doses.csv", "study.toml", "base.toml", "members/0000/case.toml"]),
@@ -106,6 +107,9 @@ def prepare(t, command, name):
     if command == "resume":
         folders.copy(ground.broken("short", "reference"), t.path("out"))
         return ["resume", "out", "--quiet"], t.path("out", name)
+    if command == "from":
+        folders.copy(ground.good("short", "reference")[0], t.path("source"))
+        return ["run", "--from", "source", "--at", "settled", "--out", "out", "--quiet"], t.path("source", name)
     folders.copy(ground.good("short", "reference")[0], t.path("out"))
     if name in ("experiment.csv", "profile.csv"):
         folders.write(t.path("experiment.csv"), "dose,mass_g\n1,0.01\n2,0.02\n")
@@ -166,7 +170,7 @@ def judge_success(t, command, name, way, readable):
     """Checks the promises of exit 0 after a spoilt file."""
     # Where a file's link leads, and the file now lies.
     behind = [os.path.join(os.path.dirname(name), "nowhere")] if way == "dangling" else []
-    if command == "run":
+    if command in ("run", "from"):
         if not folders.complete(t.path("out")) or not whole_summary(folders.bytes_of(t.path("out", "summary.json"))):
             t.found("exit 0 without a whole summary")
     elif command == "resume":

@@ -68,7 +68,8 @@ void serve(const BackendChoice& choice) {
         while (const auto heard = hear()) {
             if (heard->tag == kQuit) return;
             if (heard->tag == kTask)
-                own.start({heard->what["number"], heard->what["folder"].get<std::string>(), heard->what["resume"]});
+                own.start({heard->what["number"], heard->what["folder"].get<std::string>(), heard->what["resume"],
+                           heard->what["bed"]});
             // A second interrupt would end the member without a checkpoint, and the launcher may have interrupted this
             // rank already.
             if (heard->tag == kInterrupt && !std::exchange(interrupted, true)) own.interrupt();
@@ -100,6 +101,7 @@ class MpiRunner : public MemberRunner {
     MpiRunner& operator=(const MpiRunner&) = delete;
 
     std::string manner() const override { return fmt::format("{} at a time", ranks_); }
+    bool settlesBeds() const override { return true; }
     bool takes(const Member&) const override { return !idle_.empty(); }
 
     void start(const MemberTask& task) override {
@@ -112,7 +114,8 @@ class MpiRunner : public MemberRunner {
             say(rank, kTask,
                 {{"number", task.number},
                  {"folder", std::filesystem::absolute(task.folder).string()},
-                 {"resume", task.resume}});
+                 {"resume", task.resume},
+                 {"bed", task.bed}});
     }
 
     std::optional<MemberEnd> wait() override {

@@ -122,7 +122,7 @@ Record ReferenceBackend::snapshot() const {
     record.put("velocity", flat(particles_.velocity));
     record.put("spin", flat(particles_.spin));
     record.put("status", std::move(status));
-    record.putOne("steps", steps_);
+    record.putOne(kSnapshotSteps, steps_);
     record.putOne("coil_angle", angle_);
     record.putOne("rebuilds", neighbours_.builds());
     forces_.save(record);
@@ -140,7 +140,7 @@ void ReferenceBackend::restore(const Record& record) {
     vectors("spin", particles_.spin);
     const auto& status = record.get<std::uint32_t>("status", n);
     for (std::size_t i = 0; i < n; ++i) particles_.status[i] = static_cast<Status>(status[i]);
-    steps_ = record.one<std::uint64_t>("steps");
+    steps_ = record.one<std::uint64_t>(kSnapshotSteps);
     angle_ = record.one<double>("coil_angle");
     neighbours_.reset(world_.skin, record.one<std::uint64_t>("rebuilds"));
     book_ = {};

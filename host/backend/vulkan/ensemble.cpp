@@ -122,7 +122,7 @@ Record Ensemble::snapshot(std::uint32_t member) const {
     const MemberState& m = members_[member];
     Record record;
     saveState(*passes_, member, m.loaded.size(), source_, record);
-    record.putOne("steps", m.step);
+    record.putOne(kSnapshotSteps, m.step);
     record.putOne("coil_phase", m.turned);
     if (!m.world.bodies.empty()) record.putOne("drive", std::uint64_t(m.drive));
     return record;
@@ -130,7 +130,7 @@ Record Ensemble::snapshot(std::uint32_t member) const {
 
 void Ensemble::restore(std::uint32_t member, const Record& record) {
     MemberState& m = members_[member];
-    const auto step = record.one<std::uint64_t>("steps");
+    const auto step = record.one<std::uint64_t>(kSnapshotSteps);
     const auto turned = record.one<std::uint64_t>("coil_phase");
     const auto drive = m.world.bodies.empty() ? 0 : std::int64_t(record.one<std::uint64_t>("drive"));
     restoreState(*passes_, member, m.loaded.size(), source_, record);

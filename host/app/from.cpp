@@ -1,0 +1,155 @@
+#include "host/app/from.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+
+#include "host/core/error.h"
+#include "host/core/printable.h"
+#include "host/model/case_tree.h"
+#include "host/sim/state_facts.h"
+
+namespace vkdose {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A state that a folder may hold; in the order in which they are looked for.
+struct Stored {
+    const char* name;  ///< as --at has it
+    const char* file;
+    const char* words;  ///< "... of FOLDER"
+};
+constexpr std::array<Stored, 3> kStored{{{"settled", kSettledName, "the settled bed"},
+                                         {"checkpoint", kCheckpointName, "the checkpoint"},
+                                         {"end", kEndName, "the end"}}};
+
+const Stored& storedIn(const StartOptions& start) {
+    const auto there = [&](const Stored& s) { return fs::exists(start.folder / s.file); };
+    const auto found = std::find_if(kStored.begin(), kStored.end(),
+                                    [&](const Stored& s) { return start.at.empty() ? there(s) : start.at == s.name; });
+    if (found != kStored.end() && there(*found)) return *found;
+    std::string has;
+    for (const Stored& s : kStored)
+        if (there(s)) has += (has.empty() ? "--at " : ", --at ") + std::string(s.name);
+    if (!has.empty())
+        throw UsageError(fmt::format("{} is not there; the run has {}", (start.folder / found->file).string(), has));
+    const bool run = fs::exists(start.folder / "timeseries.csv");
+    throw UsageError(
+        fmt::format("{} {}", start.folder.string(),
+                    run ? "holds no state to begin with: a run keeps one when its powder has settled and one at its "
+                          "end, a member of a study and an older vkdose keep none; run its case.toml once more"
+                        : "holds no run of vkdose; give the output folder of one with --from"));
+}
+
+/// Every value of a resolved case as text, by its key: "coil.turns", "body[0].shape".
+using Values = std::map<std::string, std::string>;
+
+void gather(const Node& node, const std::string& path, Values& values) {
+    const bool tables =
+        node.kind == Node::Kind::Array && !node.children.empty() && node.children.front().kind == Node::Kind::Table;
+    if (node.kind != Node::Kind::Table && !tables) {
+        values[path] = valueText(node);
+        return;
+    }
+    for (std::size_t i = 0; i < node.children.size(); ++i) {
+        const Node& child = node.children[i];
+        gather(child,
+               tables         ? fmt::format("{}[{}]", path, i)
+               : path.empty() ? child.key
+                              : path + "." + child.key,
+               values);
+    }
+}
+
+Values valuesOf(const Case& c) {
+    Values values;
+    gather(readTreeText(c.resolved, "case.toml"), "", values);
+    return values;
+}
+
+bool under(const std::string& key, std::initializer_list<const char*> tables) {
+    return std::any_of(tables.begin(), tables.end(), [&](const std::string& table) {
+        return key == table || key.starts_with(table + ".") || key.starts_with(table + "[");
+    });
+}
+
+/// The space around the powder, and what its state cannot do without. The speed and the surface of the coil may change.
+bool isSpace(const std::string& key) {
+    if (key == "coil.speed_rpm" || key == "coil.surface_velocity" || key == "coil.wire_curvature") return false;
+    return under(
+        key, {"boundaries", "canister", "coil", "plane", "cylinder", "body", "particles.density", "sensors.energy"});
+}
+
+/// What the particles follow from.
+bool isPowder(const std::string& key) {
+    return under(key, {"seed", "particles"});
+}
+
+template <class Fits>
+void compare(const Values& before, const Values& now, const fs::path& folder, const Fits& asks,
+             std::vector<Diagnostic>& faults) {
+    static const std::string kNone = "not there";
+    Values all = before;
+    all.insert(now.begin(), now.end());
+    for (const auto& [key, unused] : all) {
+        if (!asks(key)) continue;
+        const auto a = before.find(key), b = now.find(key);
+        const std::string& was = a == before.end() ? kNone : a->second;
+        const std::string& is = b == now.end() ? kNone : b->second;
+        if (was == is) continue;
+        faults.push_back({"case", 0, key, is,
+                          fmt::format("is {} in the run of {}, whose powder it is", was, folder.string()),
+                          "leave it as it is there, or let powder settle for this case in a run without --from"});
+    }
+}
+
+/// Throws CaseError if the powder of the other run does not fit the case.
+void requireFit(const Case& source, const Checkpoint& state, const ReadyRun& run, const fs::path& folder) {
+    std::vector<Diagnostic> faults;
+    const Values before = valuesOf(source), now = valuesOf(run.c);
+    compare(before, now, folder, isSpace, faults);
+    const StateFacts facts = factsOf(state.run.run);
+    if (facts.radii != run.filled.particles.radius) {
+        const std::size_t known = faults.size();
+        compare(before, now, folder, isPowder, faults);
+        if (faults.size() == known)
+            faults.push_back({"case", 0, "particles", "",
+                              fmt::format("are not those of the run of {}", folder.string()),
+                              "give its list of particles as it was, or the vkdose that made it"});
+    }
+    const double end = run.c.schedule.stop.endTime;
+    if (end <= state.time)
+        faults.push_back({"case", 0, "stop.end_time_s", fmt::format("{}", end),
+                          fmt::format("is over: the clock goes on from t = {:.6g} s", state.time),
+                          "give a later time, or leave it out"});
+    if (!faults.empty()) throw CaseError(faults);
+    if (facts.active == 0)
+        throw UsageError(fmt::format("the canister in {} is empty: there is nothing to begin with", folder.string()));
+}
+
+}  // namespace
+
+ReadyRun readyFrom(const CaseOptions& input, const StartOptions& start) {
+    const Stored& stored = storedIn(start);
+    const fs::path file = start.folder / stored.file;
+    ReadyRun run;
+    run.state = readCheckpoint(file);
+    const fs::path text = start.folder / "case.toml";
+    run.c = input.file.empty() ? loadResolvedCase(run.state->given, text, input.overrides)
+                               : loadCase(input.file, input.overrides);
+    (void)Timeline(run.c);
+    run.filled = insertParticles(run.c);
+    try {
+        requireFit(loadResolvedCase(run.state->caseText, text), *run.state, run, start.folder);
+    } catch (const RecordError& e) {
+        throw CheckpointError(fmt::format("{} cannot be used: {}", file.string(), e.what()));
+    }
+    run.role.origin = fmt::format("{} of {}, at t = {:.6g} s", stored.words, start.folder.string(), run.state->time);
+    return run;
+}
+
+}  // namespace vkdose

@@ -1,0 +1,61 @@
+#include "host/app/speed.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "host/app/text.h"
+#include "host/core/error.h"
+#include "host/core/printable.h"
+
+namespace vkdose {
+
+namespace {
+
+/// Used where no speed is measured: about the speed of two cores of a server with a CPU driver and a settled bed.
+constexpr double kAssumedSpeed = 6e6;
+
+/// The freshly filled grid has no contacts yet, so it runs faster than the bed it becomes.
+double measuredSpeed(const Case& c, const Insertion& filled, Backend& backend) {
+    using Clock = std::chrono::steady_clock;
+    const auto particles = static_cast<double>(std::max<std::size_t>(filled.particles.size(), 1));
+    backend.load(c.world, c.settlingLaw, filled.particles);
+    // Without an outlet or a fall of a second there is nothing to lose; the probe ends long before either.
+    auto steps = static_cast<std::uint32_t>(std::clamp(1e6 / particles, 1.0, 16.0));
+    backend.advance(steps, 0);  // warm up: pipelines, first neighbour list
+    double seconds = 0, work = 0;
+    while (seconds < 1.0) {
+        const auto begin = Clock::now();
+        backend.advance(steps, 0);
+        const double spent = std::chrono::duration<double>(Clock::now() - begin).count();
+        seconds += spent;
+        work += static_cast<double>(steps) * particles;
+        if (spent < 0.1) steps = std::min<std::uint32_t>(steps * 2, 1U << 20);
+    }
+    return work / seconds;
+}
+
+}  // namespace
+
+Speed speedOf(const Case& c, const Insertion& filled, const BackendChoice& choice, bool assume) {
+    if (assume) return {kAssumedSpeed, false, ""};
+    try {
+        const std::unique_ptr<Backend> backend = makeBackend(choice, filled.particles.size());
+        return {measuredSpeed(c, filled, *backend), true, backend->description()};
+    } catch (const DeviceError& e) {
+        return {kAssumedSpeed, false, e.what()};
+    } catch (const RunError& e) {
+        return {kAssumedSpeed, false, e.what()};
+    }
+}
+
+std::string speedText(const Speed& speed) {
+    const std::string rate = large(speed.rate) + "particle-steps/s";
+    if (speed.measured) return fmt::format("at {}, measured on {}", rate, speed.told);
+    if (speed.told.empty()) return "at an assumed " + rate;
+    return fmt::format("at an assumed {}, because the device could not be measured: {}", rate,
+                       printable(speed.told.substr(0, speed.told.find('\n'))));
+}
+
+}  // namespace vkdose

@@ -1,0 +1,24 @@
+#pragma once
+// How fast the machine steps, for estimates of run times.
+
+#include <string>
+
+#include "host/app/backends.h"
+#include "host/model/case.h"
+
+namespace vkdose {
+
+struct Speed {
+    double rate = 0;  ///< [particle-steps/s]
+    bool measured = false;
+    std::string told;  ///< on which backend it was measured, or why it was not; empty: nobody asked
+};
+
+/// The speed of a backend with the fresh filling of a case, measured for about a second, or an assumed one if `assume`
+/// or if the backend cannot be had or run.
+Speed speedOf(const Case& c, const Insertion& filled, const BackendChoice& choice, bool assume);
+
+/// "at 8.31 M particle-steps/s, measured on reference"
+std::string speedText(const Speed& speed);
+
+}  // namespace vkdose
