@@ -39,7 +39,8 @@ struct Geometry {
 };
 
 /// A coil contact does not say which turn of the coil it belongs to. A particle may touch several turns. Each of its
-/// contacts is given that turn, of those still free, along whose normal its force is strongest.
+/// contacts is given that turn, of those still free, along whose normal its force is strongest. A contact with a body
+/// does not say at which place it is. It is given the place along whose normal its force is strongest.
 class ContactGeometry {
   public:
     ContactGeometry(const Frame& frame, const World& world) : frame_(frame), world_(world) {}
@@ -54,6 +55,8 @@ class ContactGeometry {
             const double distance = glm::length(apart);
             return {p.position[c.other], apart / distance, r + p.radius[c.other] - distance};
         }
+        if (const RigidBody* body = bodyOf(c))
+            if (const std::optional<Geometry> place = placeOn(*body, c)) return *place;
         if (c.kind == ContactClass::ParticleWall)
             return against(geometry::closestPoint(world_.surfaces.at(c.other), x), r);
         return against(turn(c), r);
@@ -62,6 +65,40 @@ class ContactGeometry {
   private:
     static Geometry against(const geometry::Closest& surface, double radius) {
         return {surface.point, surface.normal, radius - surface.distance};
+    }
+
+    const RigidBody* bodyOf(const Contact& c) const {
+        const std::size_t walls = world_.surfaces.size();
+        if (c.other < walls || c.other >= walls + world_.bodies.size()) return nullptr;
+        const RigidBody& body = world_.bodies[c.other - walls];
+        return body.kind == c.kind ? &body : nullptr;
+    }
+
+    /// None if the particle is not near the body. Then the contact is that of a turn of the coil with the same number.
+    std::optional<Geometry> placeOn(const RigidBody& body, const Contact& c) const {
+        const geometry::Pose pose = body.pose(frame_.time, frame_.coilAngle);
+        const Vec3 x = pose.toBody(frame_.particles.position[c.particle]), force = pose.directionToBody(c.force);
+        const double r = frame_.particles.radius[c.particle];
+        std::optional<geometry::Closest> best;
+        double most = 0;
+        for (const geometry::Shape& shape : body.shapes) {
+            // A contact that has parted since is still within reach. A mesh reaches no farther than the largest sphere.
+            const auto* mesh = std::get_if<std::shared_ptr<const geometry::MeshSurface>>(&shape);
+            const double reach = mesh ? std::min(1.1 * r, (*mesh)->reach()) : 1.1 * r;
+            for (const geometry::Feature& f : geometry::places(shape, x, reach)) {
+                const double along = std::abs(glm::dot(force, f.normal));
+                if (best && along <= most) continue;
+                best = f;
+                most = along;
+            }
+        }
+        if (!best && !(world_.coil && c.kind == ContactClass::ParticleCoil)) {  // the largest sphere has just parted
+            const double strength = glm::length(force);
+            const Vec3 normal = strength > 0 ? force / strength : Vec3(0, 1, 0);
+            best = geometry::Closest{x - r * normal, normal, r};
+        }
+        if (!best) return std::nullopt;
+        return against({pose.toWorld(best->point), pose.directionToWorld(best->normal), best->distance}, r);
     }
 
     geometry::CoilTouch turn(const Contact& c) {

@@ -8,6 +8,7 @@
 #include "host/analysis/blockage.h"
 #include "host/analysis/outlet.h"
 #include "host/output/frames.h"
+#include "host/output/measured.h"
 #include "host/sim/runner.h"
 
 namespace vkdose {
@@ -26,6 +27,7 @@ std::vector<DoseArch> archesAtDoseEnds(const Frames& frames, const Case& c, cons
 struct RunHistory {
     OutletFlow outlet;
     std::vector<DoseArch> arches;
+    std::vector<MeasureResult> measures;
 };
 
 /// From the time series and the frames in a run's output folder. Throws OutputError as above.

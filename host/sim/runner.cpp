@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "host/core/error.h"
+#include "host/sim/density.h"
 #include "host/sim/dose_book.h"
 #include "host/sim/run_record.h"
 
@@ -142,6 +143,7 @@ class Run {
         get(r, "doses", result_.doses);
         get(r, "last", result_.last);
         get(r, result_.filled.particles, result_.settled);
+        measureDensity();
         get(r, result_.settling);
         rest_.restore(r);
         fields_.restore(r);
@@ -189,8 +191,10 @@ class Run {
                 for (const FieldSample& f : fields_.look(backend_, step_, stretch_.phase, stretch_.dose))
                     observer_.onField(f);
             }
-            if (step_ == timeline_.settleSteps())
+            if (step_ == timeline_.settleSteps()) {
                 result_.settled = settledBed(case_, timeline_.time(step_), backend_.particles(), backend_.contacts());
+                measureDensity();
+            }
             if (endsRun || (step_ == stretch_.end && phaseEnded())) {
                 if (timeline_.keepsFrames() && !timeline_.frameDue(step_)) frame();
                 if (endsRun) closeDose(false);
@@ -280,6 +284,18 @@ class Run {
         result_.settling =
             Settling{step_, rests, timeline_.time(step_), meanSpeed(s), rest_.fall().speed, mass(s, Region::Dosed)};
         observer_.onSettled(*result_.settling, case_.schedule);
+    }
+
+    /// Takes the closed form of the doses anew with the density of the settled bed, if the case asks for it and the bed
+    /// is large enough to tell it.
+    void measureDensity() {
+        if (!case_.bulkDensityMeasured || !result_.settled) return;
+        const auto bulk = settledDensity(case_, result_.settled->particles);
+        if (!bulk) return;
+        Case measured = case_;
+        measured.bulkDensity = bulk->density;
+        result_.derived = derive(measured, result_.filled);
+        book_.expect(result_.derived);
     }
 
     void frame() {
