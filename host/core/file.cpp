@@ -67,6 +67,10 @@ fs::path linkEnd(fs::path file) {
 
 }  // namespace
 
+void removeEmptyFolder(const fs::path& folder) {
+    (void)rmdir(folder.c_str());  // std::filesystem::remove would take a file too
+}
+
 std::string writeFault(const fs::path& file) {
     const int why = errno;
     std::string text = fmt::format("cannot write {}: {}", file.string(), std::strerror(why));

@@ -43,6 +43,10 @@ std::optional<std::filesystem::path> readAndWritten(const std::vector<std::files
 /// Makes a folder and its parents where they are missing. Throws OutputError if that fails.
 void createFolder(const std::filesystem::path& folder);
 
+/// Removes a folder if it is empty. Anything else stays: a folder with something in it, and a file that somebody has
+/// put in its place. Says nothing of it, as it is for tidying up.
+void removeEmptyFolder(const std::filesystem::path& folder);
+
 /// "cannot write FILE: No space left on device; make room", from errno.
 std::string writeFault(const std::filesystem::path& file);
 

@@ -115,8 +115,7 @@ void removeRun(const fs::path& folder, const std::vector<fs::path>& files) {
         fs::remove(file, error);
         if (error) throw OutputError("cannot remove " + file.string() + ": " + error.message());
     }
-    for (const char* name : {kFramesFolder, kFieldsFolder})
-        fs::remove(folder / name, error);  // stays if something else is in it
+    for (const char* name : {kFramesFolder, kFieldsFolder}) removeEmptyFolder(folder / name);
 }
 
 }  // namespace vkdose

@@ -107,8 +107,7 @@ RunFolder::RunFolder(fs::path folder, bool force, const Case& c, std::string bac
         fields_.emplace(folder_, c);
     } catch (const OutputError&) {
         removeRun(folder_, hadCase ? replacedIn(folder_, c) : filesOfRun(folder_));
-        std::error_code ignored;
-        for (const fs::path& ours : made) fs::remove(ours, ignored);
+        for (const fs::path& ours : made) removeEmptyFolder(ours);
         throw;
     }
 }

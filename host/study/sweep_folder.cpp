@@ -133,7 +133,7 @@ SweepFolder::SweepFolder(fs::path folder, const Study& study, const std::vector<
         replaceFile(folder_ / "base.toml", base.resolved);
     } catch (const OutputError&) {
         for (const fs::path& file : former ? std::vector<fs::path>() : files(folder_)) fs::remove(file, error);
-        if (made) fs::remove(folder_, error);
+        if (made) removeEmptyFolder(folder_);
         throw;
     }
 }

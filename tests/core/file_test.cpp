@@ -131,6 +131,17 @@ TEST_CASE("a folder is made with those it is in, and where it is already nothing
     CHECK_THROWS_WITH(createFolder(box.write("f", "") / "c"), Catch::Contains("f/c: Not a directory"));
 }
 
+TEST_CASE("an empty folder is removed, and neither a full one nor a file in its place") {
+    const Sandbox box;
+    createFolder(box / "empty");
+    createFolder(box / "full" / "inner");
+    const fs::path file = box.write("file", "a user's");
+    for (const char* name : {"empty", "full", "file", "none"}) removeEmptyFolder(box / name);
+    CHECK_FALSE(fs::exists(box / "empty"));
+    CHECK(fs::exists(box / "full" / "inner"));
+    CHECK(fileContent(file) == "a user's");
+}
+
 TEST_CASE("a folder is one process's, whatever becomes of the files in it, until its lock is gone") {
     const Sandbox box;
     {

@@ -240,6 +240,9 @@ TEST_CASE("a new run removes the frames of a former one and nothing else") {
     fs::remove(box / "frames/view.pvsm");
     removeRun(box.path(), filesOfRun(box.path()));
     CHECK_FALSE(fs::exists(box / "frames"));
+    box.write("frames", "a user's file of that name");
+    removeRun(box.path(), filesOfRun(box.path()));
+    CHECK(fs::is_regular_file(box / "frames"));
 }
 
 TEST_CASE("frames of a run under way are those whose lines are whole, what is no frame is refused by name") {
