@@ -29,7 +29,7 @@ std::optional<double> drumAngle(const Particles& particles) {
     // The spots at the ends of the line come and go as it turns, so that the angle wavers by a fraction of a degree.
     // The mean of the last rounds does not.
     constexpr int kRounds = 10, kCounted = 6;
-    constexpr double kSteady = 2 * kPi / 180;  // between the counted rounds
+    constexpr double kSteady = 5 * kPi / 180;  // between the counted rounds
     double angle = 0, sum = 0, least = kPi, most = -kPi;
     for (int round = 0; round < kRounds; ++round) {
         Particles turned = particles;

@@ -17,7 +17,7 @@ Particles inDrum(const Particles& particles, const Vec3& through, const Vec3& ax
 /// is fitted by least squares to the surface as it looks along the line's own normal, over the middle half of the bed's
 /// width, so that steep surfaces count like flat ones. Surface: the highest point of any sphere over a spot, on a
 /// lattice of a quarter of the mean diameter. Powder in flight counts. None if there are fewer than ten diameters of
-/// width, or if the line does not come to rest within two degrees.
+/// width, or if the line does not come to rest within five degrees.
 std::optional<double> drumAngle(const Particles& particles);
 
 }  // namespace vkdose

@@ -158,3 +158,14 @@ TEST_CASE("measures: a fault names file, line, key, value and remedy") {
     CHECK_THAT(read.fault("gravity = [0, 0, 0]\n" + withMeasures("[[measure]]\nkind = \"angle_of_repose\"\n")),
                Contains("no direction is upright"));
 }
+
+TEST_CASE("measures: every shipped element test loads and measures something") {
+    int cases = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(shippedCase("elements"))) {
+        if (entry.path().extension() != ".toml") continue;
+        CAPTURE(entry.path().string());
+        CHECK_FALSE(loadCase(entry.path()).measures.empty());
+        ++cases;
+    }
+    CHECK(cases == 5);
+}
