@@ -38,12 +38,17 @@ std::optional<ShearPoint> shearPoint(const std::vector<LidSample>& samples, doub
 
 std::optional<YieldLocus> yieldLocus(const std::vector<ShearPoint>& points) {
     if (points.empty()) return std::nullopt;
-    if (points.size() == 1)
-        return YieldLocus{std::atan2(points[0].shear, points[0].normal), std::numeric_limits<double>::quiet_NaN()};
     LineFit line;
-    for (const ShearPoint& p : points) line.add(p.normal, p.shear);
+    double products = 0, squares = 0;
+    for (const ShearPoint& p : points) {
+        line.add(p.normal, p.shear);
+        products += p.normal * p.shear;
+        squares += p.normal * p.normal;
+    }
+    const double effective = std::atan2(products, squares);
+    if (points.size() == 1) return YieldLocus{effective, std::numeric_limits<double>::quiet_NaN(), effective};
     if (!std::isfinite(line.slope())) return std::nullopt;
-    return YieldLocus{std::atan(line.slope()), line.at(0)};
+    return YieldLocus{std::atan(line.slope()), line.at(0), effective};
 }
 
 }  // namespace vkdose

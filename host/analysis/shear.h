@@ -31,8 +31,9 @@ std::optional<ShearPoint> shearPoint(const std::vector<LidSample>& samples, doub
 /// The straight line tau = c + tan(phi) sigma by least squares. With one point it goes through the origin, and the
 /// cohesion is not known.
 struct YieldLocus {
-    double friction = 0;  ///< phi [rad]
-    double cohesion = 0;  ///< c [Pa]; NaN with one point
+    double friction = 0;   ///< phi [rad]
+    double cohesion = 0;   ///< c [Pa]; NaN with one point
+    double effective = 0;  ///< of the line through the origin by least squares [rad]
 };
 /// None without points, or if all have one normal stress.
 std::optional<YieldLocus> yieldLocus(const std::vector<ShearPoint>& points);

@@ -188,7 +188,9 @@ class Measuring {
                                                    : "all its points have the same normal stress";
             return {};
         }
-        Figures figures{{"friction_angle_deg", degrees(locus->friction)}, {"cohesion_Pa", locus->cohesion}};
+        Figures figures{{"friction_angle_deg", degrees(locus->friction)},
+                        {"cohesion_Pa", locus->cohesion},
+                        {"effective_friction_angle_deg", degrees(locus->effective)}};
         for (std::size_t i = 0; i < points.size(); ++i) {
             const ShearPoint& p = points[i];
             figures.push_back({fmt::format("normal_stress_{}_Pa", i + 1), p.normal});
@@ -232,6 +234,7 @@ constexpr Wording kWords[] = {
     {"work_J_kg", "work for a mass", "J/kg"},
     {"friction_angle_deg", "friction angle", "°"},
     {"cohesion_Pa", "cohesion", "kPa", 1e-3},
+    {"effective_friction_angle_deg", "friction angle without cohesion", "°"},
 };
 
 }  // namespace
@@ -260,7 +263,7 @@ std::vector<std::string> figureNames(const ElementTest& m) {
         case ElementTest::Kind::Shear:
             break;
     }
-    std::vector<std::string> names{"friction_angle_deg", "cohesion_Pa"};
+    std::vector<std::string> names{"friction_angle_deg", "cohesion_Pa", "effective_friction_angle_deg"};
     for (std::size_t i = 1; i <= m.windows.size(); ++i)
         for (const char* name : {"normal_stress", "shear_stress", "shear_stress_deviation"})
             names.push_back(fmt::format("{}_{}_Pa", name, i));

@@ -56,6 +56,8 @@ TEST_CASE("stresses on the lid are the powder's, and the yield locus is the line
     REQUIRE(locus);
     CHECK(nearRelative(locus->friction, friction, 1e-6));
     CHECK(nearRelative(locus->cohesion, cohesion, 1e-5));
+    // sum(sigma tau) / sum(sigma^2) of the three: tan(phi) + c 3500 / (0.25e6 + 1e6 + 4e6).
+    CHECK(nearRelative(std::tan(locus->effective), std::tan(friction) + cohesion * 3500 / 5.25e6, 1e-5));
 }
 
 TEST_CASE("one point gives a friction angle and no cohesion, none or equal loads give nothing") {
@@ -63,6 +65,7 @@ TEST_CASE("one point gives a friction angle and no cohesion, none or equal loads
     REQUIRE(one);
     CHECK(nearRelative(one->friction, std::atan(0.7), 1e-12));
     CHECK(std::isnan(one->cohesion));
+    CHECK(one->effective == one->friction);
     CHECK_FALSE(yieldLocus({}));
     CHECK_FALSE(yieldLocus({{1000, 700, 0, 0, 5}, {1000, 800, 0, 0, 5}}));
     CHECK_FALSE(shearPoint(lines(0, 0.1, 1, 1, 0), 0.2, 0.3, kInner, kOuter));
