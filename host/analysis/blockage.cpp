@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "host/analysis/density.h"
+#include "host/sim/density.h"
 
 namespace vkdose {
 

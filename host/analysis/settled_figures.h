@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "host/analysis/density.h"
+#include "host/sim/density.h"
 #include "host/sim/settled_bed.h"
 
 namespace vkdose {

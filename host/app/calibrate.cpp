@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
+#include <nlohmann/json.hpp>
 
 #include "host/analysis/beta.h"
 #include "host/app/commands.h"
@@ -14,6 +16,9 @@
 #include "host/core/error.h"
 #include "host/core/file.h"
 #include "host/core/printable.h"
+#include "host/model/case_reader.h"
+#include "host/output/measured.h"
+#include "host/output/summary.h"
 #include "host/study/grid_calibration.h"
 #include "host/study/surrogate.h"
 
@@ -107,34 +112,81 @@ std::vector<Setting> settingsAt(const Study& study, const Parameters& p) {
     return all;
 }
 
-/// Checks a search before it begins: each corner of its bounds must be a valid case. Throws CaseError if one is not.
-void checkCorners(const Study& study) {
-    const std::vector<FreeParameter>& free = study.calibration->parameters;
-    for (unsigned corner = 0; corner < 1U << free.size(); ++corner) {
-        Parameters p;
-        for (std::size_t i = 0; i < free.size(); ++i) p.push_back((corner >> i & 1U) != 0 ? free[i].high : free[i].low);
-        (void)memberAt(study, 0, std::nullopt, settingsAt(study, p));
-    }
+/// The cases that every point of a search runs.
+std::vector<std::filesystem::path> basesOf(const Study& study) {
+    const std::vector<std::filesystem::path> bases = study.calibration->bases();
+    return bases.empty() ? std::vector{study.base} : bases;
 }
 
-/// Runs the points that a search asks for as members of a sweep, every one with every seed.
+/// Refuses a target whose figure the run of its case will not have.
+void checkFigures(const Study& study) {
+    std::vector<Diagnostic> faults;
+    for (const CalibrationTarget& t : study.calibration->targets) {
+        const Case c = loadCase(t.base);
+        std::vector<std::string> known{kMassPerDose};
+        for (const ElementTest& m : c.measures)
+            for (const std::string& figure : figureNames(m)) known.push_back(m.name + "." + figure);
+        if (std::find(known.begin(), known.end(), t.figure) != known.end()) continue;
+        const std::string meant = closestWord(t.figure, known);
+        faults.push_back(
+            {study.file.string(), t.line, "calibrate.target.figure", t.figure,
+             fmt::format("{} has no such figure", t.base.string()),
+             meant.empty() ? "give a figure of one of its [[measure]]" : fmt::format("did you mean \"{}\"?", meant)});
+    }
+    if (!faults.empty()) throw CaseError(faults);
+}
+
+/// Checks a search before it begins: each corner of its bounds must be a valid case. Throws CaseError if one is not.
+void checkCorners(const Study& study) {
+    checkFigures(study);
+    const std::vector<FreeParameter>& free = study.calibration->parameters;
+    for (const std::filesystem::path& base : basesOf(study))
+        for (unsigned corner = 0; corner < 1U << free.size(); ++corner) {
+            Parameters p;
+            for (std::size_t i = 0; i < free.size(); ++i)
+                p.push_back((corner >> i & 1U) != 0 ? free[i].high : free[i].low);
+            (void)memberAt(study, 0, std::nullopt, settingsAt(study, p), base);
+        }
+}
+
+/// A figure of a run that is over, and its error; NaN where there is none.
+Measured figureIn(const std::filesystem::path& folder, const std::string& figure) {
+    const auto summary = readSummary(folder).value_or(nlohmann::ordered_json::object());
+    const auto at = [&](const std::string& pointer) {
+        const auto value = summary.value(nlohmann::ordered_json::json_pointer(pointer), nlohmann::ordered_json());
+        return value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
+    };
+    if (figure == kMassPerDose)
+        return {at("/analysis/beta_kg_per_dose") * 1e3, at("/analysis/beta_standard_error_kg_per_dose") * 1e3};
+    std::string pointer = "/measures/" + figure;
+    std::replace(pointer.begin(), pointer.end(), '.', '/');
+    return {at(pointer), std::numeric_limits<double>::quiet_NaN()};
+}
+
+/// Runs the points that a search asks for as members of a sweep, every one with every case and every seed.
 class SearchRuns {
   public:
     SearchRuns(const Study& study, SweepFolder& folder, MemberRunner& runner, SweepObserver& observer,
                const std::atomic<bool>& stop, bool retryFailed)
-        : study_(study), folder_(folder), runner_(runner), observer_(observer), stop_(stop), retry_(retryFailed) {}
+        : study_(study),
+          bases_(basesOf(study)),
+          folder_(folder),
+          runner_(runner),
+          observer_(observer),
+          stop_(stop),
+          retry_(retryFailed) {}
 
-    std::optional<std::vector<Trial>> operator()(const std::vector<Parameters>& points) {
+    std::optional<std::vector<Trials>> operator()(const std::vector<Parameters>& points) {
         std::vector<Member> members;
         for (const Parameters& p : points)
-            for (const auto& seed : seeds()) members.push_back(memberAt(study_, next_++, seed, settingsAt(study_, p)));
+            for (const std::filesystem::path& base : bases_)
+                for (const auto& seed : seeds())
+                    members.push_back(memberAt(study_, next_++, seed, settingsAt(study_, p), base));
         for (const Member& m : members) folder_.requireSame(m);
         if (!runMembers(folder_, members, runner_, observer_, stop_, retry_).whole) return std::nullopt;
-        std::vector<Trial> trials;
-        for (std::size_t i = 0; i < points.size(); ++i) {
-            const int first = members[i * seeds().size()].number;
-            trials.push_back(trialOf(first, first + int(seeds().size())));
-        }
+        std::vector<Trials> trials;
+        for (std::size_t i = 0; i < points.size(); ++i)
+            trials.push_back(trialsOf(members[i * bases_.size() * seeds().size()].number));
         return trials;
     }
 
@@ -144,8 +196,31 @@ class SearchRuns {
         return {study_.seeds.begin(), study_.seeds.end()};
     }
 
+    /// The trials of a point, whose members have numbers from `first` on.
+    Trials trialsOf(int first) const {
+        const int count = int(seeds().size());
+        if (study_.calibration->targets.empty()) return {massPerDoseOf(first, first + count)};
+        Trials trials;
+        for (const CalibrationTarget& t : study_.calibration->targets) {
+            const auto place = std::find(bases_.begin(), bases_.end(), t.base) - bases_.begin();
+            trials.push_back(figureOf(t.figure, first + int(place) * count, first + int(place + 1) * count));
+        }
+        return trials;
+    }
+
+    Trial figureOf(const std::string& figure, int from, int to) const {
+        Trial trial;
+        for (int number = from; number < to; ++number) {
+            const Measured value = figureIn(folder_.memberFolder(number), figure);
+            if (folder_.status(number) != MemberStatus::Ok || !std::isfinite(value.value)) continue;
+            trial.values.push_back(value.value);
+            trial.error = value.error;
+        }
+        return trial;
+    }
+
     /// From the table, so that a search that goes on sees the same digits as one that was not interrupted.
-    Trial trialOf(int from, int to) const {
+    Trial massPerDoseOf(int from, int to) const {
         const Table& table = folder_.members();
         Trial trial;
         for (int number = from; number < to; ++number) {
@@ -162,6 +237,7 @@ class SearchRuns {
     }
 
     const Study& study_;
+    std::vector<std::filesystem::path> bases_;
     SweepFolder& folder_;
     MemberRunner& runner_;
     SweepObserver& observer_;
@@ -170,31 +246,94 @@ class SearchRuns {
     int next_ = 0;
 };
 
+/// How people see a goal: its name, its unit behind a blank, and the factor to that unit.
+struct GoalText {
+    std::string name, unit;
+    double scale = 1;
+};
+
+std::vector<GoalText> goalTexts(const CalibrationAim& aim) {
+    if (aim.targets.empty()) return {{"beta", " g", 1e3}};
+    std::vector<GoalText> texts;
+    for (const CalibrationTarget& t : aim.targets) texts.push_back({t.figure, "", 1});
+    return texts;
+}
+
+std::string targetsText(const CalibrationAim& aim) {
+    if (aim.targets.empty()) return targetText(aim) + "\n";
+    std::string text;
+    for (const CalibrationTarget& t : aim.targets)
+        text += fmt::format("target   {} {}, weight {:.4g}, by {}\n", t.figure, withError(t.value, t.uncertainty),
+                            t.weight, printable(t.base.string()));
+    return text;
+}
+
+/// Which target constrains which parameter, and how well all targets together know it.
+std::string sensitivityText(const CalibrationAim& aim, const SearchResult& result) {
+    const std::vector<GoalText> texts = goalTexts(aim);
+    std::string text = "change from bound to bound by the slope there, in uncertainties of the target:\n";
+    for (std::size_t k = 0; k < aim.parameters.size(); ++k) {
+        const FreeParameter& p = aim.parameters[k];
+        std::string line;
+        std::size_t strongest = 0;
+        for (std::size_t g = 0; g < texts.size(); ++g) {
+            const auto here = [&](std::size_t goal) { return std::abs(result.goals[goal].sensitivity[k]); };
+            if (here(g) > here(strongest)) strongest = g;
+            line += fmt::format("{}{} {:+.3g}", g > 0 ? ", " : "", texts[g].name, result.goals[g].sensitivity[k]);
+        }
+        const double error = result.parameterError[k];
+        text += fmt::format("    {}: {}; {}\n", p.key, line,
+                            error > p.high - p.low
+                                ? "the targets do not constrain it within its bounds"
+                                : fmt::format("known to +- {:.2g}, mostly by {}", error, texts[strongest].name));
+    }
+    return text;
+}
+
 int reportSearch(const Study& study, const SweepFolder& folder, const SearchResult& result) {
     const CalibrationAim& aim = *study.calibration;
-    fmt::print("{}\n", targetText(aim));
+    const std::vector<GoalText> texts = goalTexts(aim);
+    fmt::print("{}", targetsText(aim));
     for (std::size_t i = 0; i < result.points.size(); ++i) {
         for (std::size_t k = 0; k < aim.parameters.size(); ++k)
             fmt::print("    {} {:<10.6g}", aim.parameters[k].key, result.points[i][k]);
-        fmt::print(" beta {} g{}\n", withError(result.values[i].value, result.values[i].error, 1e3),
-                   i == result.best ? "   <- chosen" : "");
+        for (std::size_t g = 0; g < texts.size(); ++g) {
+            const Measured& m = result.goals[g].values[i];
+            fmt::print(" {} {}{}", texts[g].name, withError(m.value, m.error, texts[g].scale), texts[g].unit);
+        }
+        fmt::print("{}\n", i == result.best ? "   <- chosen" : "");
     }
-    fmt::print("believed there: beta {} g; {} after {} points\n", withError(result.mean, result.deviation, 1e3),
-               result.met ? "the target is met" : "the target is NOT met to its tolerance", result.points.size());
+    std::string believed;
+    for (std::size_t g = 0; g < texts.size(); ++g)
+        believed +=
+            fmt::format("{}{} {}{}", g > 0 ? ", " : "", texts[g].name,
+                        withError(result.goals[g].mean, result.goals[g].deviation, texts[g].scale), texts[g].unit);
+    const bool one = texts.size() == 1;
+    fmt::print("believed there: {}; {} {} after {} points\n", believed, one ? "the target is" : "the targets are",
+               result.met ? "met"
+               : one      ? "NOT met to its tolerance"
+                          : "NOT met to their uncertainties",
+               result.points.size());
+    if (!one) fmt::print("misfit {:.3g}, the weighted sum of squares over uncertainties\n", result.misfit);
     for (std::size_t k = 0; k < aim.parameters.size(); ++k) {
         const auto& [low, high] = result.compatible[k];
         if (low <= high)
-            fmt::print("{} from {:.4g} to {:.4g} may meet it\n", aim.parameters[k].key, low, high);
+            fmt::print("{} from {:.4g} to {:.4g} may meet {}\n", aim.parameters[k].key, low, high, one ? "it" : "them");
         else
-            fmt::print("no {} within its bounds is believed to meet it\n", aim.parameters[k].key);
+            fmt::print("no {} within its bounds is believed to meet {}\n", aim.parameters[k].key, one ? "it" : "them");
     }
+    fmt::print("{}", sensitivityText(aim, result));
     if (!result.met) {
-        fmt::print(stderr, "vkdose: no case is written; give a larger max_runs, other bounds or a wider tolerance_g\n");
+        fmt::print(stderr, "vkdose: no case is written; give a larger max_runs, other bounds or a wider {}\n",
+                   aim.targets.empty() ? "tolerance_g" : "uncertainty");
         return kDisagree;
     }
-    writeCase(study, folder, settingsAt(study, result.points[result.best]),
-              fmt::format("beta is believed to be {} g a dose, the target is {:.4g} g",
-                          withError(result.mean, result.deviation, 1e3), aim.target * 1e3));
+    std::string aims;
+    for (std::size_t g = 0; g < texts.size(); ++g)
+        aims += fmt::format("{}{:.4g}{}", g > 0 ? ", " : "", goalsOf(aim)[g].target * texts[g].scale, texts[g].unit);
+    writeCase(
+        study, folder, settingsAt(study, result.points[result.best]),
+        fmt::format("{}{} is believed there, the target is {}", believed, aim.targets.empty() ? " a dose" : "", aims));
     return kOk;
 }
 
@@ -203,8 +342,9 @@ int reportSearch(const Study& study, const SweepFolder& folder, const SearchResu
 int calibrateCommand(const SweepOptions& options) {
     const Study study = readStudy(options.study, options.overrides);
     if (!study.calibration)
-        throw CaseError({{options.study.string(), 0, "calibrate", "", "the table is missing",
-                          "add [calibrate] with target_g_per_dose and tolerance_g, or with measured"}});
+        throw CaseError(
+            {{options.study.string(), 0, "calibrate", "", "the table is missing",
+              "add [calibrate] with target_g_per_dose and tolerance_g, with measured, or with [[calibrate.target]]"}});
     const bool isSearch = study.calibration->method == CalibrationAim::Method::Surrogate;
     if (isSearch) checkCorners(study);
     const std::vector<Member> members = isSearch ? std::vector<Member>{} : membersOf(study);

@@ -8,6 +8,7 @@
 #include "host/analysis/figures.h"
 #include "host/analysis/targets.h"
 #include "host/app/text.h"
+#include "host/sim/density.h"
 
 namespace vkdose {
 
@@ -58,6 +59,16 @@ std::string figureLines(const RunResult& r, const StopRule& stop) {
             "blocked  {} doses from dose {} on gave no more than {:.3g} g together, though powder is left\n",
             f.rule.doses, *f.blocked, f.rule.threshold * 1e3);
     return text;
+}
+
+/// The bulk density of the closed form, where the case lets the run measure it.
+std::string densityLine(const Case& c, const RunResult& r) {
+    if (!c.bulkDensityMeasured || !c.world.coil) return "";
+    const double density = closedFormDensity(r.derived, *c.world.coil);
+    return fmt::format("density  {:.4g} kg/m3 in the closed form, {}\n", density,
+                       wasMeasured(c, density)
+                           ? "measured in the settled bed"
+                           : "assumed: the bed has not settled, or is too small to measure its density");
 }
 
 std::string ledgerLine(const RunResult& r) {
@@ -121,6 +132,7 @@ std::string reportText(const Case& c, const RunResult& r, const std::string& bac
     }
     text += targetLine(r.doses);
     if (r.settling) text += fmt::format("settled  {}\n", settlingSentence(*r.settling, c.schedule));
+    text += densityLine(c, r);
     text += figureLines(r, c.schedule.stop) + ledgerLine(r);
     if (r.last.energy) text += energyLine(*r.last.energy);
     text += overlapLine(r);

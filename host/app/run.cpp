@@ -12,6 +12,7 @@
 #include "host/app/progress.h"
 #include "host/app/text.h"
 #include "host/core/printable.h"
+#include "host/output/measured.h"
 #include "host/sim/run_record.h"
 
 namespace vkdose {
@@ -89,8 +90,8 @@ int playAloud(ReadyRun run, Backend& backend, RunFolder& folder, const Manner& m
     if (!played.error.empty()) fmt::print(stderr, "vkdose: {}\n", printable(played.error));
     if (played.code == kOutputError) return kOutputError;
     if (!manner.quiet) {
-        fmt::print("{}output   {}\n", reportText(c, played.result, backend.description()),
-                   printable(folder.path().string()));
+        fmt::print("{}{}output   {}\n", reportText(c, played.result, backend.description()),
+                   measureText(measuresOf(folder.path(), c, played.result)), printable(folder.path().string()));
         if (played.code == kInterrupted) fmt::print("resume   {}\n", wayOn(folder));
         if (played.code == kOk) fmt::print("{}", nextText(folder.path()));
     }

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "host/core/printable.h"
+#include "host/model/bed_weight.h"
 #include "host/model/case_keys.h"
 #include "host/model/case_reader.h"
 #include "host/model/case_sections.h"
@@ -111,6 +112,40 @@ void refuseStudy(const Node& tree) {
     }
 }
 
+/// A number, or "measure".
+void readBulkDensity(Section& root, Case& c) {
+    c.bulkDensityMeasured = root.isString("bulk_density");
+    if (c.bulkDensityMeasured)
+        root.onlyWord("bulk_density", "measure");
+    else
+        c.bulkDensity = root.number("bulk_density");
+    if (root.has("derived")) (void)root.string("derived");
+    root.know("derived");
+    root.forget("derived");
+}
+
+/// The estimate that stands for a measured bulk density until the bed has settled.
+void estimateBulkDensity(Section& root, Case& c) {
+    if (!c.bulkDensityMeasured) return;
+    c.bulkDensity = kBedFraction * c.world.density;
+    if (!(c.bulkDensity > 0)) return;  // the density is at fault
+    const std::string words = fmt::format(
+        "bulk_density = {:.4g} kg/m3, {} of the particles' density, until the bed has settled; then its own",
+        c.bulkDensity, kBedFraction);
+    root.record("derived", words);
+    c.derivations.push_back(words);
+}
+
+void checkBulkDensity(CaseReader& reader, const Case& c) {
+    if (!c.bulkDensityMeasured) return;
+    if (!c.canister)
+        reader.fault("bulk_density", "is measured in a canister, and there is none",
+                     "give a number, or add a [[measure]] of kind \"bulk_density\"");
+    else if (c.schedule.settleTime == 0)
+        reader.fault("bulk_density", "is measured when the bed has settled, and it does not settle",
+                     "give a number, or settle.time_s");
+}
+
 Case interpret(const std::filesystem::path& file, Node tree, std::vector<std::filesystem::path> files) {
     refuseStudy(tree);
     CaseReader reader(file.string(), std::move(tree), caseKeys());
@@ -123,8 +158,9 @@ Case interpret(const std::filesystem::path& file, Node tree, std::vector<std::fi
     (void)root.string("accepted_warnings");  // host/advice takes it from the resolved case
     c.seed = static_cast<std::uint64_t>(root.integer("seed"));
     c.world.gravity = root.vector("gravity");
-    c.bulkDensity = root.number("bulk_density");
+    readBulkDensity(root, c);
     readParticles(reader, root, c);
+    estimateBulkDensity(root, c);
     placeContact(root);
     const std::optional<Boundaries> kind = readBoundaries(reader, root, c);
     readCoil(reader, root, c);
@@ -136,7 +172,9 @@ Case interpret(const std::filesystem::path& file, Node tree, std::vector<std::fi
     readRegion(root, kind, c);
     if (!reader.faulty()) fillAboveDriven(root, c);
     readSchedule(reader, root, c);
+    checkBulkDensity(reader, c);
     readFields(reader, root, reader.faulty() ? std::numeric_limits<double>::quiet_NaN() : 2 * sizeRange(c).mean, c);
+    readMeasures(reader, root, c);
     const bool domainGiven = readDomain(root, c);
     reader.finish();
     checkFields(reader, c);

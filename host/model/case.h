@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "host/model/case_tree.h"
+#include "host/model/element_test.h"
 #include "host/model/field.h"
 #include "host/model/grid.h"
 #include "host/model/particles.h"
@@ -121,8 +122,10 @@ struct Case {
     double sensorInterval = 0;  ///< [s], a whole number of steps after loading
     CheckpointInterval checkpoint;
     FrameStorage frames;
-    std::vector<FieldSensor> fields;  ///< taken while the run goes on
-    double bulkDensity = 471;         ///< rho_b for the closed form [kg/m3]
+    std::vector<FieldSensor> fields;    ///< taken while the run goes on
+    std::vector<ElementTest> measures;  ///< figures of the powder, taken when the run is over
+    double bulkDensity = 471;           ///< rho_b for the closed form [kg/m3]; an estimate if it is measured
+    bool bulkDensityMeasured = false;   ///< once the bed has settled, its own density is rho_b
     /// Values that follow from others that the file gives in their place, in words: "contact: damping = 0.02 kg/s from
     /// restitution = 0.5 of slow impacts".
     std::vector<std::string> derivations;

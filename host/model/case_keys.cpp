@@ -29,7 +29,12 @@ constexpr Key kTop[] = {
     integer("seed", 0, kAnyCount, 1, "sets sizes and positions: the same seed gives the same particles"),
     vector("gravity", {1, "m/s2"}, {0, -9.81, 0}, "acceleration of gravity"),
     number("bulk_density", kDensity, kPositive, 471.0,
-           "of the settled powder; only the closed form of the mass per dose uses it"),
+           "of the settled powder; only the closed form of the mass per dose uses it. `\"measure\"`: that of this "
+           "run's own "
+           "bed when it has settled; until then, and if the bed is too small, 0.46 of the particles' density")
+        .replacing("derived"),
+    text("derived", told("none"),
+         "how `vkdose` came to `bulk_density`; the resolved case has it, and nothing else reads it"),
     word("boundaries", "canister list none", "canister",
          "`\"canister\"`: the walls of `[canister]`; `\"list\"`: each `[[plane]]` and `[[cylinder]]`; `\"none\"`: no "
          "walls")
@@ -403,6 +408,30 @@ constexpr Key kField[] = {
            "`\"height-profile\"` only: h_ini; 0: as the density of the bed tells"),
 };
 
+constexpr Key kMeasure[] = {
+    word("kind", "angle_of_repose drum_angle compression shear bulk_density", kRequired, "the element test")
+        .replacing("*"),
+    text("name", told("the kind"), "of its figures: letters, digits, `-` and `_`"),
+    vector("at", kMetre, {0, 0, 0},
+           "`angle_of_repose`, `bulk_density`: a point of the upright axis, at the height of the foot or floor"),
+    number("radius_mm", kMillimetre, kPositive, kRequired,
+           "`bulk_density`: inner radius of the round container; `shear`: of the cell"),
+    number("time_s", kSecond, kNonNegative, told("the end of the run"),
+           "`angle_of_repose`, `bulk_density`: the frame nearest to it is looked at"),
+    text("body", kRequired,
+         "`drum_angle`: the body that turns as the drum; `compression`: the piston; `shear`: the lid, and behind "
+         "it, separated by blanks, what is fixed to it"),
+    number("area_mm2", {1e6, "mm2"}, kPositive, kRequired, "`compression`: cross-section of the bed"),
+    number("height_mm", kMillimetre, kPositive, kRequired,
+           "`compression`: from the floor of the bed to the piston's face before it moves"),
+    vector("axis", kPlain, {0, 1, 0}, "`compression`: direction from the floor to the piston"),
+    number("inner_radius_mm", kMillimetre, kNonNegative, 0.0, "`shear`: of the inner wall of a ring; 0: a full cell"),
+    other("from_s", kRequired,
+          "`drum_angle`: the frames from this time on count; `shear`: for each point of the yield locus the time "
+          "from which load and torque are averaged"),
+    other("to_s", told("required by `shear`; of a drum the end of the run"), "the times until which they count"),
+};
+
 constexpr KeyTable kTables[] = {
     {"", kTop, ""},
     {"particles", kParticles, ""},
@@ -448,6 +477,9 @@ constexpr KeyTable kTables[] = {
     {"checkpoint", kCheckpoint, ""},
     {"domain", kDomain, ""},
     {"field[]", kField, "A field to take while the run goes on, a table for each."},
+    {"measure[]", kMeasure,
+     "An element test: a figure of the powder that is taken when the run is over, a table for each. Every kind takes "
+     "those of these keys that name it:"},
 };
 
 }  // namespace

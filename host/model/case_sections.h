@@ -1,6 +1,6 @@
 #pragma once
 // The tables of a case file, read into a Case. Every key is read in read_powder.cpp, read_sieve.cpp, read_contact.cpp,
-// read_apparatus.cpp, read_bodies.cpp or read_field.cpp.
+// read_apparatus.cpp, read_bodies.cpp, read_field.cpp or read_measure.cpp.
 
 #include <optional>
 
@@ -64,5 +64,9 @@ void readRegions(CaseReader& reader, Section& root, Case& c);
 /// Reads the fields. Call after boundaries and sensors. The mean diameter [m] is the default width of the kernels; NaN
 /// if it is not known.
 void readFields(CaseReader& reader, Section& root, double meanDiameter, Case& c);
+
+// read_measure.cpp
+/// Reads the measures. Call after bodies and frames.
+void readMeasures(CaseReader& reader, Section& root, Case& c);
 
 }  // namespace vkdose

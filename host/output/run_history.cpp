@@ -23,6 +23,7 @@ RunHistory historyOf(const std::filesystem::path& folder, const Case& c, const R
     const Table series = Table::salvage(folder / "timeseries.csv");
     if (series.rows() > 0) history.outlet = outletFlow(flowSamples(series), result.ledger.filledMass());
     history.arches = archesAtDoseEnds(Frames(folder), c, result.doses);
+    history.measures = measuresOf(folder, c, result);
     return history;
 }
 

@@ -9,6 +9,7 @@
 #include "host/analysis/blockage.h"
 #include "host/analysis/outlet.h"
 #include "host/output/frames.h"
+#include "host/output/measured.h"
 #include "host/sim/runner.h"
 
 namespace vkdose {
@@ -28,6 +29,7 @@ struct RunHistory {
     OutletFlow outlet;
     std::vector<DoseArch> arches;
     std::string origin;  ///< the state of another run that it began with, in words; empty: none
+    std::vector<MeasureResult> measures;
 };
 
 /// From the time series and the frames in a run's output folder. Throws OutputError as above.

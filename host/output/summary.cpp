@@ -42,8 +42,13 @@ Json inputs(const Case& c, const RunResult& r) {
     return j;
 }
 
-Json closedForms(const Derived& d) {
+Json closedForms(const Case& c, const Derived& d) {
     Json j;
+    if (c.world.coil) {
+        const double density = closedFormDensity(d, *c.world.coil);
+        j["bulk_density_kg_m3"] = number(density);
+        j["bulk_density_is"] = !c.bulkDensityMeasured ? "given" : wasMeasured(c, density) ? "measured" : "assumed";
+    }
     j["push_velocity_m_s"] = number(d.pushVelocity);
     j["tip_velocity_m_s"] = number(d.tipVelocity);
     j["mass_per_dose_kg"] = number(d.massPerDose);
@@ -162,6 +167,18 @@ Json settling(const Case& c, const std::optional<Settling>& s) {
     return j;
 }
 
+/// An object for each measure, by its name.
+Json measures(const std::vector<MeasureResult>& results) {
+    Json j = Json::object();
+    for (const MeasureResult& r : results) {
+        Json& one = j[r.name];
+        one["kind"] = r.kind;
+        if (!r.why.empty()) one["none_because"] = r.why;
+        for (const MeasuredFigure& f : r.figures) one[f.name] = number(f.value);
+    }
+    return j;
+}
+
 Json energy(const EnergyLedger& ledger) {
     Json j;
     putColumns(kLoadedColumns, ledger.sum, j);
@@ -198,6 +215,7 @@ std::string summaryJson(const Case& c, const RunResult& r, const std::string& ba
     j["analysis"] = analysis(c, r);
     j["outlet"] = outlet(history.outlet);
     j["arches"] = arches(history.arches);
+    if (!history.measures.empty()) j["measures"] = measures(history.measures);
     j["settling"] = settling(c, r.settling);
     for (std::size_t b = 0; b < r.last.bodies.size(); ++b)
         j["bodies"].push_back({{"name", c.world.bodies.at(b).name}, {"work_J", number(r.last.bodies[b].work)}});
@@ -207,7 +225,7 @@ std::string summaryJson(const Case& c, const RunResult& r, const std::string& ba
                                 {"particles", r.last.regions[i].particles}});
     j["settled"] = settled(c, r.settled);
     j["dosed_while_settling_kg"] = number(r.dosedWhileSettling);
-    j["closed_form"] = closedForms(r.derived);
+    j["closed_form"] = closedForms(c, r.derived);
     j["ledger"] = ledger(r);
     if (r.last.energy) j["energy"] = energy(*r.last.energy);
     j["max_overlap_ratio"] = number(r.maxOverlapRatio);

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/analysis/density.h"
+#include "host/sim/density.h"
 #include "host/analysis/free_surface.h"
 #include "host/core/csv_lines.h"
 #include "host/core/csv_table.h"

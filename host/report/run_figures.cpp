@@ -6,12 +6,13 @@
 #include <cmath>
 
 #include "host/analysis/blockage.h"
-#include "host/analysis/density.h"
 #include "host/analysis/emptying.h"
 #include "host/analysis/outlet.h"
 #include "host/analysis/targets.h"
 #include "host/analysis/work.h"
 #include "host/core/grams.h"
+#include "host/output/measured.h"
+#include "host/sim/density.h"
 
 namespace vkdose::report {
 
@@ -31,6 +32,7 @@ class Facts {
         stops();
         arches();
         settled();
+        measures();
         bed();
         return std::move(list_);
     }
@@ -92,8 +94,19 @@ class Facts {
                             f.window.cumulativeBelow * 1e3));
         }
         if (!run_.doses.empty() && run_.doses.front().closedForm > 0)
-            add("closed form", fmt::format("{} g/dose", grams(run_.doses.front().closedForm)),
-                fmt::format("ρ_b p π r_c² n_t with ρ_b = {:.4g} kg/m³", run_.c.bulkDensity));
+            add("closed form", fmt::format("{} g/dose", grams(run_.doses.front().closedForm)), closedFormNote());
+    }
+
+    /// An older summary does not tell the density.
+    std::string closedFormNote() const {
+        double density = run_.c.bulkDensity;
+        std::string is;
+        if (run_.summary.is_object() && run_.summary.contains("closed_form")) {
+            const Json& form = run_.summary["closed_form"];
+            density = form.value("bulk_density_kg_m3", density);
+            if (run_.c.bulkDensityMeasured) is = ", " + form.value("bulk_density_is", std::string("assumed"));
+        }
+        return fmt::format("ρ_b p π r_c² n_t with ρ_b = {:.4g} kg/m³{}", density, is);
     }
 
     void emptying() {
@@ -202,6 +215,21 @@ class Facts {
         spread("pull_off_over_weight", "pull-off over weight, settled", "median over pairs; of the lighter sphere");
         spread("overlap_ratio", "overlap over radius, settled", "median over pairs; of the smaller sphere");
         spread("largest_overlap_ratio", "largest overlap so far over radius, settled", "likewise");
+    }
+
+    /// The element tests of the case, from the summary.
+    void measures() {
+        if (!run_.summary.is_object() || !run_.summary.contains("measures")) return;
+        for (const auto& [name, measure] : run_.summary["measures"].items()) {
+            if (!measure.is_object()) continue;
+            if (measure.contains("none_because") && measure["none_because"].is_string())
+                add(name, "none", measure["none_because"].get<std::string>());
+            for (const auto& [key, value] : measure.items()) {
+                if (!value.is_number()) continue;
+                const FigureText text = figureText(key, value.get<double>());
+                add(name + ", " + text.words, text.value);
+            }
+        }
     }
 
     void bed() {

@@ -20,6 +20,11 @@ DoseBook::DoseBook(const Case& c, const Derived& derived, double sense)
       massPerTurn_(derived.massPerTurn),
       sense_(sense) {}
 
+void DoseBook::expect(const Derived& derived) {
+    massPerDose_ = derived.massPerDose;
+    massPerTurn_ = derived.massPerTurn;
+}
+
 void DoseBook::open(int index, double time, const Sensors& now) {
     dose_ = Dose{};
     dose_.index = index;

@@ -16,6 +16,9 @@ class DoseBook {
     /// `sense`: +1 or -1, that of the conveying coil about +z.
     DoseBook(const Case& c, const Derived& derived, double sense);
 
+    /// From now on the closed form is that of these figures: the bulk density has been measured.
+    void expect(const Derived& derived);
+
     bool underWay() const { return dose_.index > 0; }
     int index() const { return dose_.index; }
     /// Whether the coil conveys and has not been told to stop.

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "host/core/error.h"
+#include "host/sim/density.h"
 #include "host/sim/dose_book.h"
 #include "host/sim/expected_steps.h"
 #include "host/sim/region_book.h"
@@ -229,6 +230,7 @@ class Run {
         get(r, "last", result_.last);
         result_.last.regions = regions_.counts();
         get(r, result_.filled.particles, result_.settled);
+        measureDensity();
         get(r, result_.settling);
         rest_.restore(r);
         fields_.restore(r);
@@ -277,6 +279,7 @@ class Run {
             }
             if (step_ == timeline_.settleSteps()) {
                 look();
+                measureDensity();
                 keepState(KeptState::Settled);
             }
             if (endsRun || (step_ == stretch_.end && phaseEnded())) {
@@ -372,6 +375,18 @@ class Run {
         result_.settling =
             Settling{step_, rests, timeline_.time(step_), meanSpeed(s), rest_.fall().speed, mass(s, Region::Dosed)};
         observer_.onSettled(*result_.settling, case_.schedule);
+    }
+
+    /// Takes the closed form of the doses anew with the density of the settled bed, if the case asks for it and the bed
+    /// is large enough to tell it.
+    void measureDensity() {
+        if (!case_.bulkDensityMeasured || !result_.settled) return;
+        const auto bulk = settledDensity(case_, result_.settled->particles);
+        if (!bulk) return;
+        Case measured = case_;
+        measured.bulkDensity = bulk->density;
+        result_.derived = derive(measured, result_.filled);
+        book_.expect(result_.derived);
     }
 
     void frame() {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "host/analysis/balance.h"
@@ -47,26 +48,90 @@ FreeParameter readParameter(CaseReader& reader, Section& table, const std::strin
     return p;
 }
 
+CalibrationTarget readTarget(CaseReader& reader, Section& table, const std::string& path,
+                             const std::filesystem::path& folder, const std::filesystem::path& base) {
+    CalibrationTarget t;
+    t.figure = table.string("figure");
+    if (table.isString("figure")) {
+        t.line = table.node("figure")->line;
+        if (t.figure != kMassPerDose && std::count(t.figure.begin(), t.figure.end(), '.') != 1)
+            reader.fault(
+                path + ".figure", "is no figure of a run",
+                fmt::format("give \"{}\", or a measure of the case and its figure: \"heap.angle_deg\"", kMassPerDose));
+    }
+    t.value = table.number("value");
+    t.uncertainty = table.number("uncertainty");
+    t.weight = table.number("weight");
+    t.base = base;
+    if (table.isString("base")) {
+        t.base = folder / table.string("base");
+        if (!inputFile(t.base))
+            reader.fault(path + ".base", unreadable(t.base),
+                         "give the path of a case file, relative to the study's folder");
+    } else if (table.has("base")) {
+        (void)table.string("base");
+    }
+    table.know("base");
+    return t;
+}
+
+/// Reads [[calibrate.target]] in place of the mass per dose alone.
+void readTargets(CaseReader& reader, Section& table, const std::filesystem::path& folder,
+                 const std::filesystem::path& base, CalibrationAim& aim) {
+    const std::vector<Section*> targets = table.tables("target");
+    for (const char* key : {"target_g_per_dose", "tolerance_g", "measured"}) {
+        if (table.has(key))
+            reader.fault(fmt::format("calibrate.{}", key), "stands beside [[calibrate.target]]",
+                         fmt::format("give the mass per dose as a target with figure = \"{}\"", kMassPerDose));
+        table.know(key);
+    }
+    for (std::size_t i = 0; i < targets.size(); ++i)
+        aim.targets.push_back(readTarget(reader, *targets[i], fmt::format("calibrate.target[{}]", i), folder, base));
+    if (targets.size() > kMostTargets)
+        reader.fault("calibrate.target", fmt::format("there are {}", targets.size()),
+                     fmt::format("give at most {}", kMostTargets));
+    if (aim.method == CalibrationAim::Method::Grid)
+        reader.fault("calibrate.target", "a grid meets a mass per dose alone",
+                     "write method = \"surrogate\" with [[calibrate.parameter]], or give target_g_per_dose");
+}
+
+/// Reads the measured mass per dose and its error.
+void readMassPerDose(CaseReader& reader, Section& table, const std::filesystem::path& folder, CalibrationAim& aim) {
+    const bool measured = table.has("measured");
+    if (!measured || table.has("tolerance_g")) aim.tolerance = table.number("tolerance_g");
+    if (!measured) {
+        aim.target = table.number("target_g_per_dose");
+        table.know("measured");
+        return;
+    }
+    if (table.has("target_g_per_dose"))
+        reader.fault("calibrate.target_g_per_dose", "the target is measured", "give this or measured, not both");
+    table.know("target_g_per_dose");
+    const std::string file = table.string("measured");
+    if (!table.isString("measured")) return;
+    aim.measured = folder / file;
+    readMeasured(reader, aim.measured, aim);
+}
+
 }  // namespace
 
-CalibrationAim readCalibrationAim(CaseReader& reader, Section& table, const std::filesystem::path& folder) {
+std::vector<std::filesystem::path> CalibrationAim::bases() const {
+    std::vector<std::filesystem::path> all;
+    for (const CalibrationTarget& t : targets)
+        if (std::find(all.begin(), all.end(), t.base) == all.end()) all.push_back(t.base);
+    return all;
+}
+
+CalibrationAim readCalibrationAim(CaseReader& reader, Section& table, const std::filesystem::path& folder,
+                                  const std::filesystem::path& base) {
     CalibrationAim aim;
     const bool search = table.choice("method") == std::size_t{1};
     aim.method = search ? CalibrationAim::Method::Surrogate : CalibrationAim::Method::Grid;
-    const bool measured = table.has("measured");
-    if (!measured || table.has("tolerance_g")) aim.tolerance = table.number("tolerance_g");
-    if (measured) {
-        if (table.has("target_g_per_dose"))
-            reader.fault("calibrate.target_g_per_dose", "the target is measured", "give this or measured, not both");
-        table.know("target_g_per_dose");
-        const std::string file = table.string("measured");
-        if (table.isString("measured")) {
-            aim.measured = folder / file;
-            readMeasured(reader, aim.measured, aim);
-        }
+    if (table.has("target")) {
+        readTargets(reader, table, folder, base, aim);
     } else {
-        aim.target = table.number("target_g_per_dose");
-        table.know("measured");
+        table.know("target");
+        readMassPerDose(reader, table, folder, aim);
     }
     if (search) {
         aim.maxRuns = int(table.integer("max_runs"));

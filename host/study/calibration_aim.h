@@ -1,6 +1,7 @@
 #pragma once
 // The aim of a calibration: the table [calibrate] of a study.
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -17,6 +18,18 @@ struct FreeParameter {
     double high = 0;  ///< in the unit of the key
 };
 
+/// A figure that a search is to meet, in the figure's own unit.
+struct CalibrationTarget {
+    std::string figure;  ///< kMassPerDose, or a measure of the case and its figure: "heap.angle_deg"
+    double value = 0;    ///< measured
+    double uncertainty = 0;
+    double weight = 1;           ///< of its square in the misfit
+    std::filesystem::path base;  ///< the case whose run gives it
+    int line = 0;                ///< of the study's file, for messages
+};
+inline constexpr const char* kMassPerDose = "mass_per_dose_g";
+inline constexpr std::size_t kMostTargets = 8;
+
 struct CalibrationAim {
     /// Grid: finds where the interpolated mass per dose of a sweep meets the target. Surrogate: searches point after
     /// point.
@@ -28,9 +41,16 @@ struct CalibrationAim {
     std::string along;                      ///< Grid: the key that is interpolated
     int maxRuns = 0;                        ///< Surrogate: points at most, each with every seed
     std::vector<FreeParameter> parameters;  ///< Surrogate
+    /// Surrogate: what is to be met together, in place of `target`. Empty: the mass per dose alone.
+    std::vector<CalibrationTarget> targets;
+
+    /// The different cases of the targets, each once, in their order. Empty without targets.
+    std::vector<std::filesystem::path> bases() const;
 };
 
-/// Reads the table, noting faults in `reader`. A measured file is read too; its path is relative to `folder`.
-CalibrationAim readCalibrationAim(CaseReader& reader, Section& table, const std::filesystem::path& folder);
+/// Reads the table, noting faults in `reader`. A measured file is read too; its path, and those of the targets' cases,
+/// are relative to `folder`. `base` is the case of targets that name none.
+CalibrationAim readCalibrationAim(CaseReader& reader, Section& table, const std::filesystem::path& folder,
+                                  const std::filesystem::path& base);
 
 }  // namespace vkdose

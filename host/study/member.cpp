@@ -87,16 +87,18 @@ std::string caseAt(const Study& study, const std::vector<Setting>& point, const 
     return loadVariant(study.base, {treeOf(study.set), treeOf(own)}).resolved;
 }
 
-Member memberAt(const Study& study, int number, std::optional<std::uint64_t> seed, const std::vector<Setting>& point) {
+Member memberAt(const Study& study, int number, std::optional<std::uint64_t> seed, const std::vector<Setting>& point,
+                const std::filesystem::path& base) {
     std::vector<Setting> own = point;
     if (seed) own.push_back({"seed", seedNode(study, *seed)});
-    const Case c = loadVariant(study.base, {treeOf(study.set), treeOf(own)});
+    const Case c = loadVariant(base.empty() ? study.base : base, {treeOf(study.set), treeOf(own)});
     const Timeline timeline(c);
     const Derived derived = derive(c, insertParticles(c));
     Member member;
     member.number = number;
     member.seed = c.seed;
     for (const Setting& s : point) member.values.push_back(tableText(s.value));
+    if (study.severalBases()) member.values.push_back((base.empty() ? study.base : base).filename().string());
     member.caseText = c.resolved;
     member.particles = derived.particles;
     member.expectedTime = derived.steps * derived.timeStep;

@@ -27,8 +27,10 @@ struct Member {
 /// reported once.
 std::vector<Member> membersOf(const Study& study);
 
-/// A member at a point of its own: a value for each of the keys, in their order. Throws CaseError.
-Member memberAt(const Study& study, int number, std::optional<std::uint64_t> seed, const std::vector<Setting>& point);
+/// A member at a point of its own: a value for each of the keys, in their order. It varies `base`, or the study's base
+/// if that is empty. Throws CaseError.
+Member memberAt(const Study& study, int number, std::optional<std::uint64_t> seed, const std::vector<Setting>& point,
+                const std::filesystem::path& base = {});
 
 /// The study at a point as the text of a case, ready to run, with the study's first seed. Throws CaseError.
 std::string caseAt(const Study& study, const std::vector<Setting>& point, const std::string& name,

@@ -223,7 +223,12 @@ std::vector<std::string> Study::keys() const {
     for (const Axis& axis : axes) all.insert(all.end(), axis.keys.begin(), axis.keys.end());
     if (calibration)
         for (const FreeParameter& p : calibration->parameters) all.push_back(p.key);
+    if (severalBases()) all.emplace_back("base");
     return all;
+}
+
+bool Study::severalBases() const {
+    return calibration && calibration->bases().size() > 1;
 }
 
 Study readStudy(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
@@ -252,7 +257,7 @@ Study readStudy(const std::filesystem::path& file, const std::vector<std::string
     for (std::size_t i = 0; i < axes.size(); ++i)
         study.axes.push_back(readAxis(reader, *axes[i], fmt::format("axis[{}]", i), used));
     if (root.has("calibrate")) {
-        study.calibration = readCalibrationAim(reader, root.table("calibrate"), file.parent_path());
+        study.calibration = readCalibrationAim(reader, root.table("calibrate"), file.parent_path(), study.base);
         for (std::size_t i = 0; i < study.calibration->parameters.size(); ++i)
             checkKey(reader, fmt::format("calibrate.parameter[{}].key", i), study.calibration->parameters[i].key, used);
     } else {

@@ -37,8 +37,9 @@ struct Study {
     std::optional<CalibrationAim> calibration;
 
     /// The keys that differ between members, in the order of the file: those of the axes, then the free parameters of
-    /// a calibration.
+    /// a calibration, then "base" if its targets are figures of several cases.
     std::vector<std::string> keys() const;
+    bool severalBases() const;
 };
 
 /// More members than this in one study are a slip.

@@ -50,11 +50,25 @@ constexpr Key kParameter[] = {
     number("high", kPlain, Bound::Any, kRequired, "upper bound"),
 };
 
+constexpr Key kTarget[] = {
+    text(
+        "figure", kRequired,
+        "`\"mass_per_dose_g\"`, or the name of a `[[measure]]` and its figure in `summary.json`: `\"heap.angle_deg\"`"),
+    number("value", kPlain, Bound::Any, kRequired, "measured, in the unit of the figure"),
+    number("uncertainty", kPlain, Bound::Positive, kRequired, "standard error of the value"),
+    number("weight", kPlain, Bound::Positive, 1.0, "of the square of its misfit"),
+    text("base", told("the study's `base`"),
+         "the case whose run gives the figure; every point runs each of these cases"),
+};
+
 constexpr KeyTable kTables[] = {
     {"", kTop, ""},
     {"set", kSet, "Values of every member, laid over the base case."},
     {"axis[]", kAxis, "One direction of the grid of members, a table for each. Members are all combinations."},
     {"calibrate", kCalibrate, "For `vkdose calibrate` only."},
+    {"calibrate.target[]", kTarget,
+     "What is to be met together, for `method = \"surrogate\"`: up to eight figures in place of `target_g_per_dose`, "
+     "`tolerance_g` and `measured`."},
     {"calibrate.parameter[]", kParameter, "One to four free parameters, for `method = \"surrogate\"` only."},
 };
 

@@ -19,6 +19,9 @@ namespace {
 constexpr int kCandidates = 4096;     // points of the range that are looked at for the next run
 constexpr double kTooNear = 1e-3;     // of the range: a run so near to a former one tells nothing new
 constexpr double kNothingNew = 1e-3;  // of the tolerance: an improvement not worth a run
+constexpr double kSlopeStep = 0.05;   // of the range, to each side
+constexpr double kOpen = 1e-6;        // information in an open direction: an error of a thousand ranges
+constexpr int kDraws = 256;           // points of the normal distribution
 
 double density(double u) {
     return std::exp(-u * u / 2) / std::sqrt(2 * kPi);
@@ -29,7 +32,7 @@ double cumulative(double u) {
 
 /// The `index`th point of Halton's sequence in the unit cube, from 1: evenly spread however many are taken.
 std::vector<double> halton(int index, std::size_t dimensions) {
-    constexpr std::array<int, 4> kPrimes{2, 3, 5, 7};
+    constexpr std::array<int, kMostTargets> kPrimes{2, 3, 5, 7, 11, 13, 17, 19};
     std::vector<double> point;
     for (std::size_t d = 0; d < dimensions; ++d) {
         double value = 0, scale = 1;
@@ -50,7 +53,10 @@ double distance(const std::vector<double>& a, const std::vector<double>& b) {
 
 class Search {
   public:
-    Search(const CalibrationAim& aim, const TryPoints& tryPoints) : aim_(aim), tryPoints_(tryPoints) {}
+    Search(const CalibrationAim& aim, const TryPoints& tryPoints)
+        : aim_(aim), tryPoints_(tryPoints), goals_(goalsOf(aim)) {
+        result_.goals.resize(goals_.size());
+    }
 
     std::optional<SearchResult> run() {
         const std::size_t d = aim_.parameters.size();
@@ -58,16 +64,18 @@ class Search {
         for (int i = 1; i <= std::min(aim_.maxRuns, 2 * int(d) + 1); ++i) first.push_back(halton(i, d));
         if (!tryOut(first)) return std::nullopt;
         for (;;) {
-            const GaussianProcess process = fitted();
-            judge(process);
-            if (result_.met || int(unit_.size()) >= aim_.maxRuns) return finished(process);
-            const auto next = mostPromising(process);
-            if (!next) return finished(process);
+            const Processes processes = fitted();
+            judge(processes);
+            if (result_.met || int(unit_.size()) >= aim_.maxRuns) return finished(processes);
+            const auto next = mostPromising(processes);
+            if (!next) return finished(processes);
             if (!tryOut({*next})) return std::nullopt;
         }
     }
 
   private:
+    using Processes = std::vector<GaussianProcess>;  ///< one for each goal
+
     /// In the unit of the key, as it will be written: six digits.
     Parameters inUnits(const std::vector<double>& u) const {
         Parameters p;
@@ -93,65 +101,101 @@ class Search {
     /// Means and errors of all trials. They are made anew after each trial, because it tells more about the scatter of
     /// all.
     void weigh() {
-        std::vector<std::vector<double>> seeds;
-        for (const Trial& trial : trials_) seeds.push_back(trial.values);
-        const double scatter = scatterOfSeeds(seeds);
-        result_.values.clear();
-        for (const Trial& trial : trials_) {
-            const Estimate mean = estimateOf(trial.values);
-            const double pooled = scatter / std::sqrt(double(mean.count));
-            result_.values.push_back({mean.mean, std::isfinite(pooled) ? pooled : trial.error});
+        for (std::size_t g = 0; g < goals_.size(); ++g) {
+            std::vector<std::vector<double>> seeds;
+            for (const Trials& trials : trials_) seeds.push_back(trials.at(g).values);
+            const double scatter = scatterOfSeeds(seeds);
+            std::vector<Measured>& values = result_.goals[g].values;
+            values.clear();
+            for (const Trials& trials : trials_) {
+                const Estimate mean = estimateOf(trials[g].values);
+                const double pooled = scatter / std::sqrt(double(mean.count));
+                values.push_back({mean.mean, std::isfinite(pooled) ? pooled : trials[g].error});
+            }
         }
     }
 
-    GaussianProcess fitted() const {
+    /// Whether the point has all figures.
+    bool whole(std::size_t point) const {
+        return std::all_of(result_.goals.begin(), result_.goals.end(),
+                           [&](const GoalResult& g) { return std::isfinite(g.values[point].value); });
+    }
+
+    /// A process for each goal.
+    Processes fitted() const {
         std::vector<std::vector<double>> points;
-        std::vector<Measured> values;
+        std::vector<std::size_t> known;
         for (std::size_t i = 0; i < unit_.size(); ++i) {
-            if (!std::isfinite(result_.values[i].value)) continue;
+            if (!whole(i)) continue;
             points.push_back(unit_[i]);
-            // The process takes a value of unknown error as it is.
-            const double error = result_.values[i].error;
-            values.push_back({result_.values[i].value, std::isfinite(error) ? error : 0});
+            known.push_back(i);
         }
         if (points.size() < 2)
-            throw RunError(
-                fmt::format("{} of the first {} points have a mass per dose: nothing to search from; choose "
-                            "other bounds",
-                            points.size(), unit_.size()));
-        return {points, values};
+            throw RunError(fmt::format("{} of the first {} points have {}: nothing to search from; choose other bounds",
+                                       points.size(), unit_.size(),
+                                       goals_.size() == 1 ? "the figure of the target" : "the figures of all targets"));
+        Processes processes;
+        for (const GoalResult& goal : result_.goals) {
+            std::vector<Measured> values;
+            for (const std::size_t i : known) {
+                // The process takes a value of unknown error as it is.
+                const double error = goal.values[i].error;
+                values.push_back({goal.values[i].value, std::isfinite(error) ? error : 0});
+            }
+            processes.emplace_back(points, values);
+        }
+        return processes;
     }
 
-    /// The tried point that is believed nearest to the target. A single observation may be near it by chance, but the
-    /// process takes its neighbours into account.
-    void judge(const GaussianProcess& process) {
+    /// What is believed of the distances to the targets at a point, each over its tolerance and times the root of its
+    /// weight.
+    std::vector<Belief> distances(const Processes& processes, const std::vector<double>& u) const {
+        std::vector<Belief> all;
+        for (std::size_t g = 0; g < goals_.size(); ++g) {
+            const Belief belief = processes[g].at(u);
+            const double scale = std::sqrt(goals_[g].weight) / goals_[g].tolerance;
+            all.push_back({(belief.mean - goals_[g].target) * scale, belief.deviation * scale});
+        }
+        return all;
+    }
+
+    /// The tried point that is believed nearest to the targets. A single observation may be near by chance, but the
+    /// processes take its neighbours into account.
+    void judge(const Processes& processes) {
         nearest_ = std::numeric_limits<double>::infinity();
         for (std::size_t i = 0; i < unit_.size(); ++i) {
-            if (!std::isfinite(result_.values[i].value)) continue;
-            const Belief belief = process.at(unit_[i]);
-            const double off = std::abs(belief.mean - aim_.target);
-            if (off >= nearest_) continue;
-            nearest_ = off;
+            if (!whole(i)) continue;
+            double squares = 0;
+            for (const Belief& b : distances(processes, unit_[i])) squares += b.mean * b.mean;
+            if (std::sqrt(squares) >= nearest_) continue;
+            nearest_ = std::sqrt(squares);
             result_.best = i;
-            result_.mean = belief.mean;
-            result_.deviation = belief.deviation;
         }
-        result_.met = nearest_ <= aim_.tolerance && result_.deviation <= aim_.tolerance;
+        result_.misfit = nearest_ * nearest_;
+        result_.met = true;
+        for (std::size_t g = 0; g < goals_.size(); ++g) {
+            const Belief belief = processes[g].at(unit_[result_.best]);
+            result_.goals[g].mean = belief.mean;
+            result_.goals[g].deviation = belief.deviation;
+            result_.met = result_.met && std::abs(belief.mean - goals_[g].target) <= goals_[g].tolerance &&
+                          belief.deviation <= goals_[g].tolerance;
+        }
     }
 
-    double gain(const GaussianProcess& process, const std::vector<double>& u) const {
+    double gain(const Processes& processes, const std::vector<double>& u) const {
         for (const auto& former : unit_)
             if (distance(u, former) < kTooNear) return 0;
-        const Belief belief = process.at(u);
-        return expectedImprovement(belief.mean - aim_.target, belief.deviation, nearest_);
+        const std::vector<Belief> beliefs = distances(processes, u);
+        return beliefs.size() == 1 ? expectedImprovement(beliefs[0].mean, beliefs[0].deviation, nearest_)
+                                   : expectedImprovement(beliefs, nearest_);
     }
 
-    std::optional<std::vector<double>> mostPromising(const GaussianProcess& process) const {
+    std::optional<std::vector<double>> mostPromising(const Processes& processes) const {
         std::vector<double> best;
         double most = 0;
         for (int i = 1; i <= kCandidates; ++i) {
             const std::vector<double> u = halton(i, aim_.parameters.size());
-            const double here = gain(process, u);
+            const double here = gain(processes, u);
             if (here <= most) continue;
             most = here;
             best = u;
@@ -162,24 +206,32 @@ class Search {
                 for (const double sign : {-1.0, 1.0}) {
                     std::vector<double> trial = best;
                     trial[i] = std::clamp(trial[i] + sign * step, 0.0, 1.0);
-                    const double there = gain(process, trial);
+                    const double there = gain(processes, trial);
                     if (there <= most) continue;
                     most = there;
                     best = trial;
                 }
             }
         }
-        if (most < kNothingNew * aim_.tolerance) return std::nullopt;
+        if (most < kNothingNew) return std::nullopt;
         return best;
     }
 
-    SearchResult finished(const GaussianProcess& process) {
+    SearchResult finished(const Processes& processes) {
+        findCompatible(processes);
+        findSensitivity(processes);
+        return result_;
+    }
+
+    void findCompatible(const Processes& processes) {
         const std::size_t d = aim_.parameters.size();
         const double inf = std::numeric_limits<double>::infinity();
         result_.compatible.assign(d, {inf, -inf});
         const auto widen = [&](const std::vector<double>& u) {
-            const Belief belief = process.at(u);
-            if (std::abs(belief.mean - aim_.target) > 2 * belief.deviation + aim_.tolerance) return;
+            for (std::size_t g = 0; g < goals_.size(); ++g) {
+                const Belief belief = processes[g].at(u);
+                if (std::abs(belief.mean - goals_[g].target) > 2 * belief.deviation + goals_[g].tolerance) return;
+            }
             const Parameters p = inUnits(u);
             for (std::size_t i = 0; i < d; ++i) {
                 result_.compatible[i].first = std::min(result_.compatible[i].first, p[i]);
@@ -188,14 +240,41 @@ class Search {
         };
         for (int i = 1; i <= kCandidates; ++i) widen(halton(i, d));
         for (const auto& u : unit_) widen(u);
-        return result_;
+    }
+
+    /// Slopes of the beliefs at the best point, and the errors of the parameters that follow: the inverse of
+    /// sum_g w_g s_g s_g^T, with s_g the slopes over the tolerance (Gauss-Newton).
+    void findSensitivity(const Processes& processes) {
+        const std::size_t d = aim_.parameters.size();
+        Eigen::MatrixXd information = Eigen::MatrixXd::Zero(Eigen::Index(d), Eigen::Index(d));
+        for (std::size_t g = 0; g < goals_.size(); ++g) {
+            Eigen::VectorXd slopes{Eigen::Index(d)};
+            for (std::size_t i = 0; i < d; ++i) {
+                std::vector<double> low = unit_[result_.best], high = low;
+                low[i] = std::max(0.0, low[i] - kSlopeStep);
+                high[i] = std::min(1.0, high[i] + kSlopeStep);
+                slopes[Eigen::Index(i)] = (processes[g].at(high).mean - processes[g].at(low).mean) /
+                                          ((high[i] - low[i]) * goals_[g].tolerance);
+            }
+            result_.goals[g].sensitivity.assign(slopes.begin(), slopes.end());
+            information += goals_[g].weight * slopes * slopes.transpose();
+        }
+        // What the goals leave open has an error without bound; the least addition keeps it a number.
+        information.diagonal().array() += kOpen;
+        const Eigen::MatrixXd covariance = information.inverse();
+        for (std::size_t i = 0; i < d; ++i) {
+            const FreeParameter& free = aim_.parameters[i];
+            result_.parameterError.push_back(std::sqrt(covariance(Eigen::Index(i), Eigen::Index(i))) *
+                                             (free.high - free.low));
+        }
     }
 
     const CalibrationAim& aim_;
     const TryPoints& tryPoints_;
-    std::vector<Trial> trials_;
+    std::vector<Goal> goals_;
+    std::vector<Trials> trials_;
     std::vector<std::vector<double>> unit_;  ///< the points tried, in the unit cube
-    double nearest_ = 0;                     ///< least believed distance to the target [kg]
+    double nearest_ = 0;                     ///< root of the least believed misfit
     SearchResult result_;
 };
 
@@ -210,6 +289,48 @@ double expectedImprovement(double mean, double deviation, double best) {
         return (best - m) * (cumulative(end) - cumulative(zero)) + deviation * (density(end) - density(zero));
     };
     return std::max(0.0, half(mean) + half(-mean));
+}
+
+namespace {
+
+/// The value below which a normal distribution has this part, by halving.
+double normalQuantile(double part) {
+    double low = -8, high = 8;
+    for (int i = 0; i < 60; ++i) (cumulative((low + high) / 2) < part ? low : high) = (low + high) / 2;
+    return (low + high) / 2;
+}
+
+/// The same points of the normal distribution in every call.
+const std::vector<std::vector<double>>& normalDraws() {
+    static const std::vector<std::vector<double>> kPoints = [] {
+        std::vector<std::vector<double>> points;
+        for (int i = 1; i <= kDraws; ++i) {
+            points.push_back(halton(i, kMostTargets));
+            for (double& u : points.back()) u = normalQuantile(u);
+        }
+        return points;
+    }();
+    return kPoints;
+}
+
+}  // namespace
+
+double expectedImprovement(const std::vector<Belief>& beliefs, double best) {
+    double sum = 0;
+    for (const std::vector<double>& z : normalDraws()) {
+        double squares = 0;
+        for (std::size_t i = 0; i < beliefs.size(); ++i)
+            squares += std::pow(beliefs[i].mean + beliefs[i].deviation * z[i], 2);
+        sum += std::max(0.0, best - std::sqrt(squares));
+    }
+    return sum / kDraws;
+}
+
+std::vector<Goal> goalsOf(const CalibrationAim& aim) {
+    if (aim.targets.empty()) return {{aim.target, aim.tolerance, 1}};
+    std::vector<Goal> goals;
+    for (const CalibrationTarget& t : aim.targets) goals.push_back({t.value, t.uncertainty, t.weight});
+    return goals;
 }
 
 std::optional<SearchResult> search(const CalibrationAim& aim, const TryPoints& tryPoints) {

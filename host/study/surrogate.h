@@ -1,6 +1,6 @@
 #pragma once
-// The search of a calibration. It makes a few runs spread out over the ranges. Then it runs one point after the other
-// where a Gaussian process through all results expects the largest improvement.
+// The search of a calibration for one figure or several at once. It makes a few runs spread out over the ranges. Then
+// it runs one point after the other where Gaussian processes through all results expect the largest improvement.
 
 #include <functional>
 #include <optional>
@@ -14,38 +14,66 @@ namespace vkdose {
 
 using Parameters = std::vector<double>;  ///< a value for each free parameter, in the units of their keys
 
-/// The masses per dose that runs at one point gave.
+/// What the runs at one point gave of one figure, in its own unit.
 struct Trial {
-    std::vector<double> values;  ///< mass per dose, one for each seed; seeds without one are left out [kg]
-    double error = 0;            ///< standard error of a single seed's value [kg]; NaN if it is not known
+    std::vector<double> values;  ///< one for each seed; seeds without one are left out
+    double error = 0;            ///< standard error of a single seed's value; NaN if it is not known
 };
 
+/// What the runs at one point gave: a trial for each goal.
+using Trials = std::vector<Trial>;
+
 /// Tries a few points. Returns nothing if the search was interrupted.
-using TryPoints = std::function<std::optional<std::vector<Trial>>(const std::vector<Parameters>&)>;
+using TryPoints = std::function<std::optional<std::vector<Trials>>(const std::vector<Parameters>&)>;
+
+/// A figure that the search is to bring to its target, in its own unit.
+struct Goal {
+    double target = 0;
+    double tolerance = 0;  ///< what a match may be off by; as the target's standard error
+    double weight = 1;
+};
+/// The goals of a calibration: its targets, or its mass per dose [kg].
+std::vector<Goal> goalsOf(const CalibrationAim& aim);
+
+/// What became of one goal, in the unit of its figure.
+struct GoalResult {
+    /// Of each point: the mean over the seeds, NaN where there is none. The errors are the scatter from seed to seed,
+    /// pooled over all points, or with a single seed the trial's own; NaN if neither is known.
+    std::vector<Measured> values;
+    double mean = 0;       ///< that is believed at the best point
+    double deviation = 0;  ///< standard deviation of this belief
+    /// For each parameter the change that is believed from one bound to the other, by the slope at the best point, over
+    /// the tolerance. The goal constrains the parameters for which this is large.
+    std::vector<double> sensitivity;
+};
 
 struct SearchResult {
     std::vector<Parameters> points;  ///< all points that were tried, in order
-    /// Their masses per dose, mean over the seeds [kg], NaN where there is none. The errors are the scatter from seed
-    /// to seed, pooled over all points, or with a single seed the trial's own; NaN if neither is known.
-    std::vector<Measured> values;
-    std::size_t best = 0;  ///< index of the point whose mass is believed nearest to the target
-    double mean = 0;       ///< mass per dose that is believed there [kg]
-    double deviation = 0;  ///< standard deviation of this belief [kg]
-    bool met = false;      ///< both the distance to the target and the deviation are within the tolerance
-    /// For each parameter the range of its values that may meet the target. A value may meet it if, for some values of
-    /// the others, the mean is within two deviations and the tolerance of the target. If two parameters compensate each
-    /// other, their ranges are wide.
+    std::vector<GoalResult> goals;
+    std::size_t best = 0;  ///< index of the point with the least believed misfit
+    double misfit = 0;     ///< there: sum over the goals of weight (distance / tolerance)^2
+    bool met = false;      ///< of every goal both the distance to the target and the deviation are within the tolerance
+    /// For each parameter the range of its values that may meet all goals. A value may meet them if, for some values of
+    /// the others, every mean is within two deviations and the tolerance of its target. If two parameters compensate
+    /// each other, their ranges are wide.
     std::vector<std::pair<double, double>> compatible;
+    /// For each parameter its standard error, in its unit, that the tolerances of all goals leave by their slopes at
+    /// the best point, while all parameters are free. More than the distance of the bounds: the goals do not constrain
+    /// it.
+    std::vector<double> parameterError;
 };
 
-/// Looks for the point at which `tryPoints` gives the target. Ends when the target is met, when `aim.maxRuns` points
-/// have been tried or when there is nothing to gain. The search is repeatable: the same results lead to the same
-/// points. Returns nothing if it was interrupted. Throws RunError if fewer than two of the first points have a mass per
-/// dose.
+/// Looks for the point at which `tryPoints` gives the targets. Ends when they are met, when `aim.maxRuns` points have
+/// been tried or when there is nothing to gain. The search is repeatable: the same results lead to the same points.
+/// Returns nothing if it was interrupted. Throws RunError if fewer than two of the first points have all figures.
 std::optional<SearchResult> search(const CalibrationAim& aim, const TryPoints& tryPoints);
 
 /// Expected improvement on `best`, the least distance to the target so far, by a value that is believed to be `mean` +-
 /// `deviation` from the target: the mean of max(0, best - |y|) over a normal distribution, in closed form.
 double expectedImprovement(double mean, double deviation, double best);
+
+/// The same of several figures: the mean of max(0, best - sqrt(sum y_i^2)). It is a mean over a fixed set of points of
+/// the normal distribution, so that the same beliefs give the same figure; good to a few percent.
+double expectedImprovement(const std::vector<Belief>& beliefs, double best);
 
 }  // namespace vkdose

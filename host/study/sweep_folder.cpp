@@ -83,7 +83,10 @@ bool holdsNothing(const fs::path& folder) {
 void requireNothingLost(const fs::path& folder, const Study& study, const Case& base) {
     std::vector<fs::path> read = base.files, written = SweepFolder::files(folder);
     read.push_back(study.file);
-    if (study.calibration) read.push_back(study.calibration->measured);
+    if (study.calibration) {
+        read.push_back(study.calibration->measured);
+        for (const fs::path& other : study.calibration->bases()) read.push_back(other);
+    }
     if (fileContent(folder / "study.toml") == study.text) std::erase(written, folder / "study.toml");
     if (fileContent(folder / "base.toml") == base.resolved) std::erase(written, folder / "base.toml");
     if (const auto file = readAndWritten(read, written))

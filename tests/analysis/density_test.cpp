@@ -1,4 +1,4 @@
-#include "host/analysis/density.h"
+#include "host/sim/density.h"
 
 #include "host/core/random.h"
 #include "tests/analysis/beds.h"
@@ -95,4 +95,27 @@ TEST_CASE("too little powder has no density") {
 
 TEST_CASE("the closed form with a measured density") {
     CHECK(nearRelative(closedFormMass(471, paperCoil(), 3), 4.2011e-3, 1e-4));  // the paper's, 4.20 g, as printed
+}
+
+TEST_CASE("density in a round container, of a cubic lattice and below the lowest place of its surface") {
+    Particles bed;
+    constexpr double a = 1e-3;
+    for (int i = -8; i <= 8; ++i)
+        for (int j = 0; j < 20; ++j)
+            for (int k = -8; k <= 8; ++k) bed.add({2 * a * i, a + 2 * a * j, 2 * a * k}, a);
+    const auto full = containerDensity(bed, kSolid, 14e-3);
+    REQUIRE(full);
+    CHECK(nearRelative(full->volume, kPi * 12e-3 * 12e-3 * (40e-3 - 4e-3), 1e-9));
+    // The faces cut spheres; a lattice of points tells their parts to about a hundredth of the region.
+    CHECK(nearRelative(full->density, kCubic, 0.02));
+    // A dip of 10 mm in the middle, over all of a column.
+    for (std::size_t i = 0; i < bed.size(); ++i)
+        if (std::abs(bed.position[i].x) < 5e-3 && std::abs(bed.position[i].z) < 5e-3 && bed.position[i].y > 30e-3)
+            bed.status[i] = Status::Dosed;
+    const auto dipped = containerDensity(bed, kSolid, 14e-3);
+    REQUIRE(dipped);
+    CHECK(nearRelative(dipped->volume, kPi * 12e-3 * 12e-3 * (30e-3 - 4e-3), 1e-9));
+    CHECK(nearRelative(dipped->density, kCubic, 0.02));
+    CHECK_FALSE(containerDensity(bed, kSolid, 3e-3));  // no hundred spheres
+    CHECK_FALSE(containerDensity(bed, kSolid, 1e-3));
 }

@@ -54,6 +54,7 @@ std::string caseFor(const KeyTable& table, const std::string& kind, const Key& k
                (ofOne ? of : "turn") + "\"\n" + (key.name == "turns_per_turn" ? "follows = \"drive\"\n" : "");
     if (table.paths == "region[]")
         return kGoodCase + "[[region]]\nname = \"r\"\nkind = \"" + (ofOne ? of : "beyond") + "\"\n";
+    if (table.paths == "measure[]") return kGoodCase + "[[measure]]\nkind = \"" + (ofOne ? of : "shear") + "\"\n";
     if (table.paths == "dose" && key.name == "speed_rpm")  // there is no coil
         return filled +
                "[[body]]\nname = \"b\"\nshape = \"plane\"\n[body.motion]\nkind = \"turn\"\n"

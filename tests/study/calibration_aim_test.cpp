@@ -54,6 +54,28 @@ TEST_CASE("a search has free parameters for keys") {
     CHECK(study.keys() == std::vector<std::string>{"contact.friction"});
 }
 
+TEST_CASE("a search may have several targets, each with its own case") {
+    const StudyFolder folder;
+    folder.write("heap.toml", kGoodCase);
+    const Study study = folder.study(
+        "base = \"good.toml\"\n[calibrate]\nmethod = \"surrogate\"\n[[calibrate.target]]\nfigure = "
+        "\"mass_per_dose_g\"\nvalue = 3.7\nuncertainty = 0.05\n[[calibrate.target]]\nfigure = \"heap.angle_deg\"\n"
+        "value = 33\nuncertainty = 1\nweight = 2\nbase = \"heap.toml\"\n[[calibrate.parameter]]\nkey = "
+        "\"contact.friction\"\nlow = 0.1\nhigh = 0.6\n");
+    const std::vector<CalibrationTarget>& targets = study.calibration->targets;
+    REQUIRE(targets.size() == 2);
+    CHECK(targets[0].figure == kMassPerDose);
+    CHECK(targets[0].weight == 1);
+    CHECK(targets[0].base.filename() == "good.toml");
+    CHECK(targets[1].value == 33);
+    CHECK(targets[1].weight == 2);
+    CHECK(targets[1].base.filename() == "heap.toml");
+    CHECK(study.calibration->bases().size() == 2);
+    CHECK(study.keys() == std::vector<std::string>{"contact.friction", "base"});
+    const Member member = memberAt(study, 0, std::nullopt, {}, targets[1].base);
+    CHECK(member.values == std::vector<std::string>{"heap.toml"});
+}
+
 TEST_CASE("every fault of a calibration names its key and a remedy") {
     const StudyFolder folder;
     folder.write("short.csv", "dose,mass_g\n1,2\n2,2\n");
@@ -62,6 +84,7 @@ TEST_CASE("every fault of a calibration names its key and a remedy") {
     folder.write("head.csv", "n,m\n1,2\n");
     const std::string search =
         "method = \"surrogate\"\ntarget_g_per_dose = 3.7\ntolerance_g = 0.05\n[[calibrate.parameter]]\n";
+    const std::string target = "[[calibrate.target]]\n";
     struct Fault {
         std::string aim, key, says;
     };
@@ -89,6 +112,15 @@ TEST_CASE("every fault of a calibration names its key and a remedy") {
               "is not above low"},
              {"method = \"surrogate\"\ntarget_g_per_dose = 3.7\ntolerance_g = 0.05\n", "calibrate.parameter",
               "one to four"},
+             {target + "figure = \"mass_per_dose_g\"\nvalue = 3.7\nuncertainty = 0.05\n", "calibrate.target",
+              "a grid meets a mass per dose alone"},
+             {"tolerance_g = 0.05\n" + target, "calibrate.tolerance_g", "stands beside [[calibrate.target]]"},
+             {target + "figure = \"angle\"\n", "calibrate.target[0].figure", "is no figure of a run"},
+             {target + "figure = \"heap.angle_deg\"\n", "calibrate.target[0].value", "is missing"},
+             {target + "uncertainty = 0\n", "calibrate.target[0].uncertainty", "is zero"},
+             {target + "weight = -1\n", "calibrate.target[0].weight", "is negative"},
+             {target + "base = \"none.toml\"\n", "calibrate.target[0].base", "there is no file"},
+             {target + "axes = 1\n", "calibrate.target[0].axes", "unknown key"},
          }) {
         const auto faults = faultsOf(folder, withAim(row.aim));
         CAPTURE(row.aim, row.says);

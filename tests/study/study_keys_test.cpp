@@ -25,6 +25,9 @@ TEST_CASE("every declared key of a study is read: a date for its value is a faul
             if (table.paths == "axis[]") text = axis + name + date;
             if (table.paths == "calibrate") text = (name == "max_runs" ? search : grid) + name + date;
             if (table.paths == "calibrate.parameter[]") text = search + "[[calibrate.parameter]]\n" + name + date;
+            if (table.paths == "calibrate.target[]")
+                text =
+                    "base = \"good.toml\"\n[calibrate]\nmethod = \"surrogate\"\n[[calibrate.target]]\n" + name + date;
             CAPTURE(text);
             const StudyFolder folder;
             const std::vector<Diagnostic> faults = faultsOf(folder, text);

@@ -35,10 +35,10 @@ double massPerDose(double kc, double mu) {
 template <class F>
 TryPoints each(const F& f, double error = 0) {
     return [f, error](const std::vector<Parameters>& points) {
-        std::vector<Trial> trials;
+        std::vector<Trials> trials;
         for (const Parameters& p : points) {
             const double value = f(p);
-            trials.push_back({std::isfinite(value) ? std::vector<double>{value} : std::vector<double>{}, error});
+            trials.push_back({{std::isfinite(value) ? std::vector<double>{value} : std::vector<double>{}, error}});
         }
         return std::optional(trials);
     };
@@ -190,8 +190,8 @@ TEST_CASE("noise is not mistaken for the target") {
         const double truth = massPerDose(result->points[result->best][0], 0.3);
         // A deviation of half the noise takes four observations that help each other, at the very least.
         if (result->met) CHECK(result->points.size() >= 4);
-        two += std::abs(truth - result->mean) > 2 * result->deviation ? 1 : 0;
-        three += std::abs(truth - result->mean) > 3 * result->deviation ? 1 : 0;
+        two += std::abs(truth - result->goals[0].mean) > 2 * result->goals[0].deviation ? 1 : 0;
+        three += std::abs(truth - result->goals[0].mean) > 3 * result->goals[0].deviation ? 1 : 0;
     }
     // If the stated deviations are true, five of a hundred are off by more than two; ten or more come about once in
     // forty times. None or one is off by more than three.
@@ -205,17 +205,17 @@ TEST_CASE("the scatter from seed to seed is that of all points together") {
     CHECK(std::isnan(scatterOfSeeds({{1}, {2}})));
     // Two seeds of each point: their mean is known to the pooled scatter over the root of two, however near they are.
     const auto result = search(aimAt(4.4e-3, 0.02e-3, 3, {kCohesion}), [](const std::vector<Parameters>& points) {
-        std::vector<Trial> trials;
+        std::vector<Trials> trials;
         for (std::size_t i = 0; i < points.size(); ++i) {
             const double value = massPerDose(points[i][0], 0.3), off = i == 0 ? 0 : 0.1e-3;
-            trials.push_back({{value - off, value + off}, 1.0});
+            trials.push_back({{{value - off, value + off}, 1.0}});
         }
         return std::optional(trials);
     });
     REQUIRE(result);
-    REQUIRE(result->values.size() == 3);
+    REQUIRE(result->goals[0].values.size() == 3);
     // Squares 0, 2 x 0.1^2 and 2 x 0.1^2 on three degrees of freedom.
-    for (const Measured& m : result->values)
+    for (const Measured& m : result->goals[0].values)
         CHECK(m.error == Approx(0.1e-3 * std::sqrt(4.0 / 3 / 2)).epsilon(1e-9));  // rounding
 }
 
@@ -253,12 +253,12 @@ TEST_CASE("a search repeats itself, keeps to its bounds and its number of runs, 
     REQUIRE(first);
     REQUIRE(second);
     CHECK(first->points == second->points);
-    CHECK(first->mean == second->mean);
+    CHECK(first->goals[0].mean == second->goals[0].mean);
     int calls = 0;
-    CHECK_FALSE(search(aim, [&](const std::vector<Parameters>& points) -> std::optional<std::vector<Trial>> {
+    CHECK_FALSE(search(aim, [&](const std::vector<Parameters>& points) -> std::optional<std::vector<Trials>> {
         if (++calls == 3) return std::nullopt;
-        std::vector<Trial> trials;
-        for (const Parameters& p : points) trials.push_back({{massPerDose(0.5, p[0])}, 0});
+        std::vector<Trials> trials;
+        for (const Parameters& p : points) trials.push_back({{{massPerDose(0.5, p[0])}, 0}});
         return trials;
     }));
     CHECK(calls == 3);
@@ -276,8 +276,99 @@ TEST_CASE("an error that nobody knows is not told as none") {
     const auto exact = search(aim, each(straight, 0));
     REQUIRE(unknown);
     REQUIRE(exact);
-    for (const Measured& m : unknown->values) CHECK(std::isnan(m.error));
-    for (const Measured& m : exact->values) CHECK(m.error == 0);
+    for (const Measured& m : unknown->goals[0].values) CHECK(std::isnan(m.error));
+    for (const Measured& m : exact->goals[0].values) CHECK(m.error == 0);
     CHECK(unknown->points == exact->points);  // the search takes the values as they are
     CHECK(unknown->met);
+}
+
+TEST_CASE("the expected improvement of several figures is a mean over their distribution") {
+    // Of one figure it is that of the closed form.
+    for (const double mean : {0.0, 0.4, 1.5})
+        for (const double deviation : {0.3, 1.0}) {
+            CAPTURE(mean, deviation);
+            CHECK(std::abs(expectedImprovement({{mean, deviation}}, 1) - expectedImprovement(mean, deviation, 1)) <
+                  0.02);
+        }
+    // Two known figures at a distance of 5: only the rest is gained.
+    CHECK(expectedImprovement({{3, 0}, {-4, 0}}, 6) == Approx(1).epsilon(1e-12));
+    CHECK(expectedImprovement({{3, 0}, {-4, 0}}, 5) == 0);
+    // Two that are normal about 0: the mean of a Rayleigh distribution is sqrt(pi/2).
+    CHECK(expectedImprovement({{0, 1}, {0, 1}}, 100) == Approx(100 - std::sqrt(kPi / 2)).epsilon(3e-4));
+}
+
+namespace {
+
+/// A heap's angle in degrees, which friction makes, and a dose in grams, which falls with cohesion and friction.
+std::optional<std::vector<Trials>> heapAndDose(const std::vector<Parameters>& points) {
+    std::vector<Trials> trials;
+    for (const Parameters& p : points) trials.push_back({{{15 + 30 * p[1]}, 0}, {{1e3 * massPerDose(p[0], p[1])}, 0}});
+    return trials;
+}
+
+CalibrationAim heapAndDoseAim() {
+    CalibrationAim aim = aimAt(0, 0, 30, {kCohesion, kFriction});
+    // At cohesion 0.6 and friction 0.3.
+    aim.targets = {{"heap.angle_deg", 24, 0.5, 1, "heap.toml", 0},
+                   {kMassPerDose, 1e3 * massPerDose(0.6, 0.3), 0.05, 1, "dose.toml", 0}};
+    return aim;
+}
+
+}  // namespace
+
+TEST_CASE("two targets find both parameters, which one of them leaves open, and each says what it constrains") {
+    const CalibrationAim aim = heapAndDoseAim();
+    const auto result = search(aim, heapAndDose);
+    REQUIRE(result);
+    CAPTURE(result->points.size(), result->misfit);
+    CHECK(result->met);
+    CHECK(result->misfit <= 2);
+    const Parameters& best = result->points[result->best];
+    // Half a degree is 0.017 of friction; 0.05 g and that friction's 0.08 g are 0.05 of cohesion.
+    CHECK(std::abs(best[1] - 0.3) < 0.03);
+    CHECK(std::abs(best[0] - 0.6) < 0.12);
+    REQUIRE(result->goals.size() == 2);
+    // From bound to bound: 30 degrees x 0.6 of friction over 0.5 degrees, and none of it by cohesion.
+    CHECK(result->goals[0].sensitivity[1] == Approx(36).epsilon(0.1));
+    CHECK(std::abs(result->goals[0].sensitivity[0]) < 2);
+    CHECK(result->goals[1].sensitivity[0] < -20);
+    // An error of 0.5 degrees over 30 degrees; that of cohesion by the slopes of the function itself.
+    CHECK(result->parameterError[1] == Approx(0.5 / 30).epsilon(0.15));
+    const double byCohesion = 1e3 * (massPerDose(0.61, 0.3) - massPerDose(0.59, 0.3)) / 0.02;
+    const double byFriction = 1e3 * (massPerDose(0.6, 0.31) - massPerDose(0.6, 0.29)) / 0.02;
+    const double expected = std::hypot(0.05, byFriction * 0.5 / 30) / std::abs(byCohesion);
+    CHECK(result->parameterError[0] == Approx(expected).epsilon(0.3));
+
+    // The mass per dose alone does not know them apart.
+    CalibrationAim dose = aim;
+    dose.targets.erase(dose.targets.begin());
+    const auto alone = search(dose, [](const std::vector<Parameters>& points) {
+        auto trials = heapAndDose(points);
+        for (Trials& t : *trials) t.erase(t.begin());
+        return trials;
+    });
+    REQUIRE(alone);
+    for (std::size_t i = 0; i < 2; ++i) {
+        const FreeParameter& free = dose.parameters[i];
+        CHECK(alone->parameterError[i] > free.high - free.low);
+        CHECK(result->compatible[i].second - result->compatible[i].first <
+              alone->compatible[i].second - alone->compatible[i].first);
+    }
+}
+
+TEST_CASE("a weight decides between targets that contradict each other") {
+    const auto both = [](const std::vector<Parameters>& points) {
+        std::vector<Trials> trials;
+        for (const Parameters& p : points) trials.push_back({{{p[0]}, 0}, {{p[0]}, 0}});
+        return std::optional(trials);
+    };
+    for (const double weight : {1.0, 99.0}) {
+        CalibrationAim aim = aimAt(0, 0, 20, {kCohesion});
+        aim.targets = {{"a.x", 0.2, 0.02, 1, "", 0}, {"b.x", 0.6, 0.02, weight, "", 0}};
+        const auto result = search(aim, both);
+        REQUIRE(result);
+        CHECK_FALSE(result->met);
+        // The least sum of w (x - target)^2.
+        CHECK(result->points[result->best][0] == Approx((0.2 + 0.6 * weight) / (1 + weight)).margin(0.02));
+    }
 }

@@ -32,7 +32,22 @@ std::optional<BulkDensity> bedDensity(const Particles& particles, double particl
 std::optional<BulkDensity> coilDensity(const Particles& particles, double particleDensity, const Canister& canister,
                                        const geometry::Coil& coil, double from = 0);
 
+/// The bulk density of a settled canister: in the bed, or between the turns of the coil where the bed above them is too
+/// small. None if both regions are too small, or without a canister.
+std::optional<BulkDensity> settledDensity(const Case& c, const Particles& particles);
+
+/// Bulk density in an upright round container of this radius [m] about the y axis, whose floor is at y = 0 (`upright`
+/// in heap.h). The region is a cylinder, a mean diameter from wall, floor and surface. It ends below the lowest place
+/// of the surface, which is found as in bedDensity, in columns that lie wholly in the cylinder. None if the region is
+/// smaller than a hundred mean spheres.
+std::optional<BulkDensity> containerDensity(const Particles& particles, double particleDensity, double radius);
+
 /// The paper's closed form rho_b p pi r_c^2 n_t [kg] of a coil that turns `turns` times, for any bulk density [kg/m3].
 double closedFormMass(double bulkDensity, const geometry::Coil& coil, double turns);
+
+/// The bulk density [kg/m3] from which `derived` has its mass per turn of this coil.
+double closedFormDensity(const Derived& derived, const geometry::Coil& coil);
+/// Whether that density is one that a run has measured, and not the estimate of its case.
+bool wasMeasured(const Case& c, double density);
 
 }  // namespace vkdose

@@ -1,4 +1,4 @@
-#include "host/analysis/density.h"
+#include "host/sim/density.h"
 
 #include <algorithm>
 #include <cmath>
@@ -140,8 +140,41 @@ std::optional<BulkDensity> coilDensity(const Particles& particles, double partic
     return densityOf(mass, volume, a);
 }
 
+std::optional<BulkDensity> settledDensity(const Case& c, const Particles& particles) {
+    if (!c.canister) return std::nullopt;
+    const geometry::Coil* coil = c.world.coil ? &*c.world.coil : nullptr;
+    auto bulk = bedDensity(particles, c.world.density, *c.canister, coil);
+    if (!bulk && coil != nullptr) bulk = coilDensity(particles, c.world.density, *c.canister, *coil);
+    return bulk;
+}
+
+std::optional<BulkDensity> containerDensity(const Particles& particles, double particleDensity, double radius) {
+    const double a = meanActiveRadius(particles), margin = 2 * a, within = radius - margin;
+    if (!(a > 0) || !(within > 0)) return std::nullopt;
+    // The square in the cylinder: its columns are all full.
+    const double half = within / std::sqrt(2.0);
+    const int columns = std::max(1, static_cast<int>(half / margin));
+    const Surface surface(particles, half, -half, half, 2 * half / columns);
+    double top = std::numeric_limits<double>::infinity();
+    for (int cell = 0; cell < surface.columns(); ++cell) top = std::min(top, surface.top(cell) - margin);
+    if (!(top > margin)) return std::nullopt;
+    const double mass = massWithin(particles, particleDensity, [&](const Vec3& x) {
+        return x.y > margin && x.y < top && x.x * x.x + x.z * x.z < within * within;
+    });
+    return densityOf(mass, kPi * within * within * (top - margin), a);
+}
+
 double closedFormMass(double bulkDensity, const geometry::Coil& coil, double turns) {
     return bulkDensity * coil.pitch * kPi * coil.radius * coil.radius * turns;
+}
+
+double closedFormDensity(const Derived& derived, const geometry::Coil& coil) {
+    return derived.massPerTurn / closedFormMass(1, coil, 1);
+}
+
+bool wasMeasured(const Case& c, double density) {
+    constexpr double kRounding = 1e-9;
+    return c.bulkDensityMeasured && std::abs(density / c.bulkDensity - 1) > kRounding;
 }
 
 }  // namespace vkdose

@@ -1,0 +1,41 @@
+#pragma once
+// A shear cell, round or a ring: shear stress over normal stress, and the yield locus through it.
+
+#include <optional>
+#include <vector>
+
+namespace vkdose {
+
+/// The lid of the cell at a line of the time series.
+struct LidSample {
+    double time = 0;    ///< [s]
+    double force = 0;   ///< of the powder on it along the axis, away from the powder, mean since the line before [N]
+    double torque = 0;  ///< of the powder on it about the axis, likewise [N m]
+};
+
+/// Stresses in a window of time.
+struct ShearPoint {
+    double normal = 0;           ///< [Pa]
+    double shear = 0;            ///< [Pa], its size
+    double normalDeviation = 0;  ///< from line to line [Pa]
+    double shearDeviation = 0;   ///< [Pa]
+    int lines = 0;
+};
+
+/// Means over the lines with from < time <= to [s]. Normal stress: force over the ring's area pi (R^2 - r^2). Shear
+/// stress: torque over 2/3 pi (R^3 - r^3), as if it were the same at all radii (D. Schulze, Powders and Bulk Solids,
+/// 2nd ed. (2021), chapter 4). `outer` R and `inner` r in m, 0 in a full cell. None without a line in the window.
+std::optional<ShearPoint> shearPoint(const std::vector<LidSample>& samples, double from, double to, double inner,
+                                     double outer);
+
+/// The straight line tau = c + tan(phi) sigma by least squares. With one point it goes through the origin, and the
+/// cohesion is not known.
+struct YieldLocus {
+    double friction = 0;   ///< phi [rad]
+    double cohesion = 0;   ///< c [Pa]; NaN with one point
+    double effective = 0;  ///< of the line through the origin by least squares [rad]
+};
+/// None without points, or if all have one normal stress.
+std::optional<YieldLocus> yieldLocus(const std::vector<ShearPoint>& points);
+
+}  // namespace vkdose

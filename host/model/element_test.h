@@ -1,0 +1,36 @@
+#pragma once
+// What a case asks to be measured on its powder: an element test, a table [[measure]].
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/core/vec.h"
+
+namespace vkdose {
+
+struct ElementTest {
+    enum class Kind { AngleOfRepose, DrumAngle, Compression, Shear, BulkDensity };
+
+    /// A time over which a figure is taken [s].
+    struct Window {
+        double from = 0, to = 0;
+    };
+
+    std::string name;
+    Kind kind = Kind::AngleOfRepose;
+    /// The bodies that bear the load, or the drum: places in World::bodies.
+    std::vector<std::size_t> bodies;
+    Vec3 at{0};                  ///< AngleOfRepose, BulkDensity: a point of the upright axis at the foot [m]
+    double radius = 0;           ///< BulkDensity: of the container; Shear: outer [m]
+    double innerRadius = 0;      ///< Shear [m]
+    double area = 0;             ///< Compression: cross-section of the bed [m2]
+    double height = 0;           ///< Compression: from the floor to the piston's place at the start [m]
+    Vec3 axis{0, 1, 0};          ///< Compression: from the floor to the piston, a unit vector
+    std::optional<double> time;  ///< AngleOfRepose, BulkDensity: of the frame that is looked at [s]; none: the end
+    /// DrumAngle: one, over whose frames the angle is taken. Shear: one for each point of the yield locus.
+    std::vector<Window> windows;
+};
+
+}  // namespace vkdose

@@ -1,0 +1,155 @@
+// The tables [[measure]]: element tests, whose figures are taken when a run is over.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "host/model/case_sections.h"
+
+namespace vkdose {
+namespace {
+
+using Kind = ElementTest::Kind;
+using geometry::Rest;
+using geometry::Turn;
+
+constexpr const char* kNameLetters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_";
+
+void checkName(CaseReader& reader, const std::string& path, const std::string& name, std::set<std::string>& names) {
+    if (name.empty() || name.size() > 60 || name.find_first_not_of(kNameLetters) != std::string::npos)
+        reader.fault(path, fmt::format("\"{}\" is no name of a measure", name.substr(0, 60)),
+                     "give letters, digits, - and _");
+    else if (!names.insert(name).second)
+        reader.fault(path, fmt::format("there are two measures \"{}\"", name), "give each a name of its own");
+}
+
+/// The bodies that `body` names, the first `most` of them.
+std::vector<std::size_t> readBodyNames(CaseReader& reader, Section& s, std::size_t most, const Case& c) {
+    std::vector<std::size_t> places;
+    const std::string text = s.string("body");
+    if (!s.isString("body")) return places;
+    std::vector<std::string> known;
+    for (const RigidBody& body : c.world.bodies) known.push_back(body.name);
+    const std::vector<std::string> names = wordsOf(text);
+    if (names.empty() || names.size() > most)
+        reader.fault(s.path("body"), fmt::format("names {} bodies", names.size()),
+                     most == 1 ? "name one" : "name the lid and what is fixed to it");
+    for (const std::string& name : names) {
+        const auto found = std::find(known.begin(), known.end(), name);
+        const std::string meant = closestWord(name, known);
+        if (found == known.end())
+            reader.fault(s.path("body"), fmt::format("there is no body \"{}\"", name),
+                         meant.empty() ? "give the name of a [[body]]" : fmt::format("did you mean \"{}\"?", meant));
+        else
+            places.push_back(static_cast<std::size_t>(found - known.begin()));
+    }
+    return places;
+}
+
+/// A time, or a list of times [s]; empty after a fault.
+std::vector<double> readTimes(CaseReader& reader, Section& s, const char* key, bool required) {
+    const Node* node = s.node(key);
+    const auto refuse = [&](const std::string& problem) {
+        reader.fault(s.path(key), problem, "give a time in s, or a list of them: [0.4, 0.7]");
+        return std::vector<double>();
+    };
+    if (node == nullptr) return required ? refuse("is missing") : std::vector<double>();
+    std::vector<double> times;
+    const std::vector<Node> single{*node};
+    for (const Node& item : node->kind == Node::Kind::Array ? node->children : single) {
+        if (!item.isNumber() || !(item.number >= 0) || item.number > kLargestNumber) return refuse("is no time");
+        times.push_back(item.number);
+    }
+    if (times.empty()) return refuse("is empty");
+    s.record(key, times);
+    return times;
+}
+
+std::vector<ElementTest::Window> readWindows(CaseReader& reader, Section& s, bool endRequired) {
+    const std::vector<double> from = readTimes(reader, s, "from_s", true),
+                              to = readTimes(reader, s, "to_s", endRequired);
+    std::vector<ElementTest::Window> windows;
+    if (!endRequired && to.empty() && !from.empty()) return {{from.front(), geometry::kEndless}};
+    if (!from.empty() && !to.empty() && from.size() != to.size())
+        reader.fault(s.path("to_s"), fmt::format("has {} times, from_s {}", to.size(), from.size()),
+                     "give each window a beginning and an end");
+    for (std::size_t i = 0; i < std::min(from.size(), to.size()); ++i) {
+        if (to[i] <= from[i])
+            reader.fault(s.path("to_s"), fmt::format("{} is not later than from_s", to[i]), "give a later time");
+        windows.push_back({from[i], to[i]});
+    }
+    return windows;
+}
+
+/// A state before the end of the run is that of a frame.
+void requireFrames(CaseReader& reader, Section& s, const char* key, const Case& c) {
+    if (c.frames.interval > 0) return;
+    reader.fault(s.path(key), "looks at frames, and the run keeps none", "add [frames] with interval_s");
+}
+
+void readKind(CaseReader& reader, Section& s, Kind kind, const Case& c, ElementTest& m) {
+    switch (kind) {
+        case Kind::AngleOfRepose:
+        case Kind::BulkDensity:
+            m.at = s.vector("at");
+            if (kind == Kind::BulkDensity) m.radius = s.number("radius_mm");
+            if (s.has("time_s")) {
+                m.time = s.number("time_s");
+                requireFrames(reader, s, "time_s", c);
+            }
+            s.know("time_s");
+            return;
+        case Kind::DrumAngle:
+            m.bodies = readBodyNames(reader, s, 1, c);
+            for (const std::size_t body : m.bodies)
+                if (!std::holds_alternative<Turn>(c.world.bodies[body].course.motion))
+                    reader.fault(s.path("body"), "does not turn", "name a body with [body.motion] kind = \"turn\"");
+            m.windows = readWindows(reader, s, false);
+            requireFrames(reader, s, "from_s", c);
+            return;
+        case Kind::Compression:
+            m.bodies = readBodyNames(reader, s, 1, c);
+            for (const std::size_t body : m.bodies)
+                if (std::holds_alternative<Rest>(c.world.bodies[body].course.motion))
+                    reader.fault(s.path("body"), "does not move",
+                                 "give the piston a [body.motion], for example kind = \"table\"");
+            m.area = s.number("area_mm2");
+            m.height = s.number("height_mm");
+            m.axis = readDirection(reader, s, "axis");
+            return;
+        case Kind::Shear:
+            m.bodies = readBodyNames(reader, s, kMaxBodies, c);
+            m.radius = s.number("radius_mm");
+            m.innerRadius = s.number("inner_radius_mm");
+            if (m.innerRadius >= m.radius)
+                reader.fault(s.path("inner_radius_mm"), "is no smaller than the outer radius",
+                             "give less than radius_mm");
+            m.windows = readWindows(reader, s, true);
+            return;
+    }
+}
+
+}  // namespace
+
+void readMeasures(CaseReader& reader, Section& root, Case& c) {
+    std::set<std::string> names;
+    for (Section* section : root.tables("measure")) {
+        const auto kind = section->choice("kind");
+        if (!kind) {
+            section->abandon();
+            continue;
+        }
+        ElementTest m;
+        m.kind = static_cast<Kind>(*kind);
+        m.name = section->string("name", section->node("kind")->string);
+        if (!section->has("name") || section->isString("name")) checkName(reader, section->path("name"), m.name, names);
+        readKind(reader, *section, m.kind, c, m);
+        c.measures.push_back(std::move(m));
+    }
+    if (!c.measures.empty() && !(glm::length(c.world.gravity) > 0) && !reader.faulty())
+        reader.fault("gravity", "is zero, so that no direction is upright",
+                     "give a gravity to a case with a [[measure]]");
+}
+
+}  // namespace vkdose

@@ -1,0 +1,297 @@
+#include "host/output/measured.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "host/analysis/compression.h"
+#include "host/analysis/drum.h"
+#include "host/analysis/heap.h"
+#include "host/analysis/shear.h"
+#include "host/core/csv_table.h"
+#include "host/model/key.h"
+#include "host/output/frames.h"
+#include "host/sim/density.h"
+
+namespace vkdose {
+
+namespace {
+
+using Figures = std::vector<MeasuredFigure>;
+
+double degrees(double radians) {
+    return radians * kDegree.perSI;
+}
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+class Measuring {
+  public:
+    Measuring(const std::filesystem::path& folder, const Case& c, const RunResult& result)
+        : c_(c),
+          result_(result),
+          up_(-glm::normalize(c.world.gravity)),
+          frames_(folder),
+          series_(Table::salvage(folder / "timeseries.csv")) {}
+
+    MeasureResult of(const ElementTest& m) const {
+        MeasureResult r;
+        r.name = m.name;
+        switch (m.kind) {
+            case ElementTest::Kind::AngleOfRepose:
+                r.kind = "angle_of_repose";
+                r.figures = heap(m, r.why);
+                break;
+            case ElementTest::Kind::DrumAngle:
+                r.kind = "drum_angle";
+                r.figures = drum(m, r.why);
+                break;
+            case ElementTest::Kind::Compression:
+                r.kind = "compression";
+                r.figures = compression(m, r.why);
+                break;
+            case ElementTest::Kind::Shear:
+                r.kind = "shear";
+                r.figures = shear(m, r.why);
+                break;
+            case ElementTest::Kind::BulkDensity:
+                r.kind = "bulk_density";
+                r.figures = bulk(m, r.why);
+                break;
+        }
+        return r;
+    }
+
+  private:
+    struct State {
+        Particles particles;
+        double time = 0;
+    };
+
+    State stateAt(const std::optional<double>& time) const {
+        if (!time || frames_.entries().empty()) return {result_.particles, result_.last.time};
+        const FrameEntry& entry = frames_.entries()[nearestOf(frames_.entries(), *time)];
+        return {frames_.read(entry).particles, entry.time};
+    }
+
+    Figures heap(const ElementTest& m, std::string& why) const {
+        const State state = stateAt(m.time);
+        const auto slope = heapSlope(upright(state.particles, m.at, up_));
+        if (!slope) {
+            why = "the powder makes no heap with a flank of three diameters about its axis";
+            return {};
+        }
+        return {{"angle_deg", degrees(slope->angle)},
+                {"angle_error_deg", degrees(slope->error)},
+                {"height_m", slope->height},
+                {"flank_from_m", slope->from},
+                {"flank_to_m", slope->to},
+                {"time_s", state.time}};
+    }
+
+    Figures bulk(const ElementTest& m, std::string& why) const {
+        const State state = stateAt(m.time);
+        const auto bulk = containerDensity(upright(state.particles, m.at, up_), c_.world.density, m.radius);
+        if (!bulk) {
+            why = "a mean diameter away from wall, floor and surface there is room for fewer than a hundred spheres";
+            return {};
+        }
+        return {{"density_kg_m3", bulk->density},
+                {"solid_fraction", bulk->density / c_.world.density},
+                {"volume_m3", bulk->volume},
+                {"time_s", state.time}};
+    }
+
+    Figures drum(const ElementTest& m, std::string& why) const {
+        const RigidBody& body = c_.world.bodies.at(m.bodies.at(0));
+        const auto& turn = std::get<geometry::Turn>(body.course.motion);
+        // By the drive a body turns as the coil conveys, which may be either way about its axis.
+        const bool back = body.clock == Clock::Time ? turn.rate < 0 : turn.rate * senseOfDrive() < 0;
+        const Vec3 axis = back ? -turn.axis : turn.axis;
+        std::vector<double> angles;
+        for (const FrameEntry& entry : frames_.entries()) {
+            if (entry.time < m.windows.at(0).from || entry.time > m.windows.at(0).to) continue;
+            if (const auto angle = drumAngle(inDrum(frames_.read(entry).particles, turn.through, axis, up_)))
+                angles.push_back(degrees(*angle));
+        }
+        if (angles.empty()) {
+            why = "no frame in its time shows a bed ten diameters wide with a free surface";
+            return {};
+        }
+        const double count = static_cast<double>(angles.size());
+        const double mean = std::accumulate(angles.begin(), angles.end(), 0.0) / count;
+        double squares = 0;
+        for (const double a : angles) squares += (a - mean) * (a - mean);
+        return {{"angle_deg", mean},
+                {"angle_deviation_deg", angles.size() > 1 ? std::sqrt(squares / (count - 1)) : kNone},
+                {"frames", count}};
+    }
+
+    double senseOfDrive() const {
+        const std::size_t rows = series_.rows();
+        return rows > 0 && series_.number(rows - 1, "coil_angle_rad") < 0 ? -1 : 1;
+    }
+
+    double load(std::size_t row, std::size_t body, const char* column) const {
+        return series_.number(row, c_.world.bodies.at(body).name + "." + column);
+    }
+
+    Vec3 force(std::size_t row, std::size_t body) const {
+        return {load(row, body, "force_x_N"), load(row, body, "force_y_N"), load(row, body, "force_z_N")};
+    }
+
+    Figures compression(const ElementTest& m, std::string& why) const {
+        const RigidBody& piston = c_.world.bodies.at(m.bodies.at(0));
+        const Vec3 start = piston.pose(0, 0).origin;
+        std::vector<PistonSample> samples;
+        double mass = 0;
+        for (std::size_t i = 0; i < series_.rows(); ++i) {
+            const double way = glm::dot(piston.pose(series_.number(i, "time_s"), 0).origin - start, m.axis);
+            samples.push_back({m.height + way, glm::dot(force(i, m.bodies[0]), m.axis)});
+            mass = series_.number(i, "canister_mass_kg") + series_.number(i, "throat_mass_kg");
+        }
+        const auto c = compressionOf(samples, mass, m.area);
+        if (!c) {
+            why = "the powder never pressed against the piston";
+            return {};
+        }
+        return {{"max_stress_Pa", c->maxStress},
+                {"loose_density_kg_m3", c->looseDensity},
+                {"loaded_density_kg_m3", c->loadedDensity},
+                {"released_density_kg_m3", c->releasedDensity},
+                {"elastic_recovery", c->recovery},
+                {"work_J", c->work},
+                {"returned_work_J", c->returned},
+                {"work_J_kg", c->work / mass}};
+    }
+
+    Figures shear(const ElementTest& m, std::string& why) const {
+        const RigidBody& lid = c_.world.bodies.at(m.bodies.at(0));
+        std::vector<LidSample> samples;
+        for (std::size_t i = 0; i < series_.rows(); ++i) {
+            LidSample s{series_.number(i, "time_s"), 0, 0};
+            for (const std::size_t body : m.bodies) {
+                s.force += glm::dot(force(i, body), lid.axis());
+                s.torque += load(i, body, "torque_Nm");
+            }
+            samples.push_back(s);
+        }
+        std::vector<ShearPoint> points;
+        for (const ElementTest::Window& w : m.windows)
+            if (const auto p = shearPoint(samples, w.from, w.to, m.innerRadius, m.radius)) points.push_back(*p);
+        const auto locus = yieldLocus(points);
+        if (!locus || points.size() < m.windows.size()) {
+            why = points.size() < m.windows.size() ? "the run has no line of the time series in one of its times"
+                                                   : "all its points have the same normal stress";
+            return {};
+        }
+        Figures figures{{"friction_angle_deg", degrees(locus->friction)},
+                        {"cohesion_Pa", locus->cohesion},
+                        {"effective_friction_angle_deg", degrees(locus->effective)}};
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const ShearPoint& p = points[i];
+            figures.push_back({fmt::format("normal_stress_{}_Pa", i + 1), p.normal});
+            figures.push_back({fmt::format("shear_stress_{}_Pa", i + 1), p.shear});
+            figures.push_back({fmt::format("shear_stress_deviation_{}_Pa", i + 1), p.shearDeviation});
+        }
+        return figures;
+    }
+
+    const Case& c_;
+    const RunResult& result_;
+    Vec3 up_;
+    Frames frames_;
+    Table series_;
+};
+
+struct Wording {
+    const char *name, *words, *unit;
+    double scale = 1;
+};
+
+constexpr Wording kWords[] = {
+    {"angle_deg", "angle of the surface", "°"},
+    {"angle_error_deg", "standard error of the angle", "°"},
+    {"angle_deviation_deg", "deviation from frame to frame", "°"},
+    {"height_m", "height", "mm", 1e3},
+    {"flank_from_m", "flank from", "mm", 1e3},
+    {"flank_to_m", "flank to", "mm", 1e3},
+    {"time_s", "at", "s"},
+    {"frames", "frames", ""},
+    {"density_kg_m3", "bulk density", "kg/m³"},
+    {"solid_fraction", "solid fraction", ""},
+    {"volume_m3", "over", "cm³", 1e6},
+    {"max_stress_Pa", "largest stress", "kPa", 1e-3},
+    {"loose_density_kg_m3", "loose density", "kg/m³"},
+    {"loaded_density_kg_m3", "density under load", "kg/m³"},
+    {"released_density_kg_m3", "density after release", "kg/m³"},
+    {"elastic_recovery", "elastic recovery", "%", 100},
+    {"work_J", "work", "mJ", 1e3},
+    {"returned_work_J", "returned work", "mJ", 1e3},
+    {"work_J_kg", "work for a mass", "J/kg"},
+    {"friction_angle_deg", "friction angle", "°"},
+    {"cohesion_Pa", "cohesion", "kPa", 1e-3},
+    {"effective_friction_angle_deg", "friction angle without cohesion", "°"},
+};
+
+}  // namespace
+
+std::vector<MeasureResult> measuresOf(const std::filesystem::path& folder, const Case& c, const RunResult& result) {
+    std::vector<MeasureResult> results;
+    if (c.measures.empty()) return results;
+    const Measuring measuring(folder, c, result);
+    for (const ElementTest& m : c.measures) results.push_back(measuring.of(m));
+    return results;
+}
+
+std::vector<std::string> figureNames(const ElementTest& m) {
+    switch (m.kind) {
+        case ElementTest::Kind::AngleOfRepose:
+            return {"angle_deg", "angle_error_deg", "height_m", "flank_from_m", "flank_to_m", "time_s"};
+        case ElementTest::Kind::DrumAngle:
+            return {"angle_deg", "angle_deviation_deg", "frames"};
+        case ElementTest::Kind::Compression:
+            return {"max_stress_Pa",        "loose_density_kg_m3",
+                    "loaded_density_kg_m3", "released_density_kg_m3",
+                    "elastic_recovery",     "work_J",
+                    "returned_work_J",      "work_J_kg"};
+        case ElementTest::Kind::BulkDensity:
+            return {"density_kg_m3", "solid_fraction", "volume_m3", "time_s"};
+        case ElementTest::Kind::Shear:
+            break;
+    }
+    std::vector<std::string> names{"friction_angle_deg", "cohesion_Pa", "effective_friction_angle_deg"};
+    for (std::size_t i = 1; i <= m.windows.size(); ++i)
+        for (const char* name : {"normal_stress", "shear_stress", "shear_stress_deviation"})
+            names.push_back(fmt::format("{}_{}_Pa", name, i));
+    return names;
+}
+
+FigureText figureText(const std::string& name, double value) {
+    const auto found =
+        std::find_if(std::begin(kWords), std::end(kWords), [&](const Wording& w) { return name == w.name; });
+    const bool known = found != std::end(kWords);
+    if (!std::isfinite(value)) return {known ? found->words : name, "not known"};
+    if (!known) return {name, fmt::format("{:.4g}", value)};
+    return {found->words,
+            fmt::format("{:.4g}{}{}", value * found->scale, *found->unit != '\0' ? " " : "", found->unit)};
+}
+
+std::string measureText(const std::vector<MeasureResult>& results) {
+    std::string text;
+    for (const MeasureResult& r : results) {
+        text += fmt::format("measure  {}: ", r.name);
+        if (!r.why.empty()) text += "none; " + r.why;
+        for (std::size_t i = 0; i < r.figures.size(); ++i) {
+            const FigureText figure = figureText(r.figures[i].name, r.figures[i].value);
+            text += fmt::format("{}{} {}", i > 0 ? ", " : "", figure.words, figure.value);
+        }
+        text += "\n";
+    }
+    return text;
+}
+
+}  // namespace vkdose

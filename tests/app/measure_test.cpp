@@ -1,0 +1,185 @@
+// Element tests from a run to its summary, and as the targets of a calibration: a sphere between floor and piston,
+// whose force is known.
+
+#include <nlohmann/json.hpp>
+
+#include "tests/app/sandbox.h"
+#include "tests/support/catch.h"
+#include "tests/support/near.h"
+
+using namespace vkdose::test;
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+namespace {
+
+/// An elastic sphere of 2.5 mm on a floor. A piston comes down to this gap [mm], stays and goes up again.
+void writePress(const Sandbox& box, const std::string& name, double gap) {
+    box.write("one.csv", "x,y,z,r\n0,0.00125,0,0.00125\n");
+    const std::string down = std::to_string((gap - 3) * 1e-3);
+    box.write(name + ".csv", "time_s,y\n0,0\n0.02," + down + "\n0.04," + down + "\n0.06,0\n");
+    box.write(name + ".toml", R"(boundaries = "none"
+[particles]
+density = 1427.0
+list = "one.csv"
+[contact]
+k = 1000.0
+k1_over_k = 1.0
+kc_over_k = 0.0
+damping = 0.02
+friction = 0.5
+[[body]]
+name = "floor"
+shape = "plane"
+normal = [0, 1, 0]
+[[body]]
+name = "piston"
+shape = "disc"
+radius_mm = 5.0
+at = [0, 0.003, 0]
+rotation_axis = [1, 0, 0]
+rotation_deg = -90.0
+[body.motion]
+kind = "table"
+file = ")" + name + R"(.csv"
+[settle]
+time_s = 0.06
+[sensors]
+interval_s = 0.0005
+[[measure]]
+kind = "compression"
+name = "press"
+body = "piston"
+area_mm2 = 100.0
+height_mm = 3.0
+[[measure]]
+kind = "angle_of_repose"
+)");
+}
+
+Json summaryIn(const fs::path& folder) {
+    return Json::parse(readText(folder / "summary.json"));
+}
+
+}  // namespace
+
+TEST_CASE("measures: a sphere under a piston has the stress and the work of its two springs") {
+    const Sandbox box;
+    writePress(box, "press", 2.4);
+    const auto o = box.vkdose("run press.toml --backend reference --out out");
+    CAPTURE(o.out, o.err);
+    REQUIRE(o.code == 0);
+    CHECK_THAT(o.out, Catch::Contains("measure  press: largest stress ") &&
+                          Catch::Contains("measure  angle_of_repose: none; the powder makes no heap"));
+    const Json measures = summaryIn(box / "out").at("measures");
+    const Json& press = measures.at("press");
+    // Floor and piston each press it in by 0.05 mm: F = k delta = 0.05 N on 100 mm2. Dashpots add 0.02 kg/s times half
+    // of the piston's 0.03 m/s, 0.6 %, while it moves.
+    CHECK(near(press.at("max_stress_Pa").get<double>(), 500, 500, 0.01));
+    // Two springs in a row have k/2: W = k/4 (0.1 mm)^2 = 2.5 uJ. The dashpots take 1.2 % going and 1.2 % coming.
+    CHECK(near(press.at("work_J").get<double>(), 2.5e-6, 2.5e-6, 0.02));
+    CHECK(near(press.at("returned_work_J").get<double>(), 2.5e-6, 2.5e-6, 0.02));
+    CHECK(press.at("returned_work_J") < press.at("work_J"));
+    // Let go when the gap has grown by 0.1 mm, less 1 %. A line is 0.015 mm, and tells the end to half of that.
+    CHECK(near(press.at("elastic_recovery").get<double>(), 0.099 / 2.4, 0.1 / 2.4, 0.075));
+    CHECK(press.at("kind") == "compression");
+    CHECK(measures.at("angle_of_repose").contains("none_because"));
+}
+
+TEST_CASE("calibrate meets figures of two element tests at once, and says what each constrains") {
+    const Sandbox box;
+    writePress(box, "press", 2.4);
+    writePress(box, "less", 2.45);
+    const auto study = [](const std::string& figure) {
+        return R"(base = "press.toml"
+[calibrate]
+method = "surrogate"
+max_runs = 12
+[[calibrate.target]]
+figure = ")" + figure +
+               R"("
+value = 650.0
+uncertainty = 5.0
+[[calibrate.target]]
+figure = "press.max_stress_Pa"
+value = 325.0
+uncertainty = 5.0
+base = "less.toml"
+[[calibrate.parameter]]
+key = "contact.k"
+low = 800.0
+high = 2000.0
+[[calibrate.parameter]]
+key = "contact.friction"
+low = 0.1
+high = 0.5
+)";
+    };
+    box.write("study.toml", study("press.max_stress_Pa"));
+    const auto o = box.vkdose("calibrate study.toml --backend reference --out out");
+    CAPTURE(o.out, o.err);
+    REQUIRE(o.code == 0);
+    CHECK_THAT(o.out, Catch::Contains("the targets are met") && Catch::Contains("misfit"));
+    CHECK_THAT(o.out, Catch::Contains("contact.k: press.max_stress_Pa +") && Catch::Contains("mostly by") &&
+                          Catch::Contains("the targets do not constrain it"));
+    // The stress is in proportion to k: 500 Pa at 1000 N/m.
+    const std::string found = readText(box / "out/calibrated.toml");
+    const double k = std::stod(found.substr(found.find("\nk = ") + 5));
+    CHECK(near(k, 1300, 1300, 0.02));
+    const std::string members = readText(box / "out/members.csv");
+    CHECK_THAT(members, Catch::Contains("contact.k,contact.friction,base,status") && Catch::Contains(",less.toml,ok"));
+
+    box.write("study.toml", study("press.max_stres_Pa"));
+    const auto wrong = box.vkdose("calibrate study.toml --backend reference --out other");
+    CHECK(wrong.code == 2);
+    CHECK_THAT(wrong.err, Catch::Contains("study.toml:6") && Catch::Contains("has no such figure") &&
+                              Catch::Contains("did you mean \"press.max_stress_Pa\""));
+}
+
+TEST_CASE("bulk_density = measure: the closed form of the doses has the density of the run's own settled bed") {
+    const Sandbox box;
+    const std::string common = R"(base = ")" VKDOSE_SOURCE_DIR R"(/cases/mini.toml"
+bulk_density = "measure"
+[settle]
+time_s = 0.1
+[dose]
+rotate_s = 0.02
+rest_s = 0.01
+[stop]
+max_doses = 1
+[checkpoint]
+time_s = 0.105
+)";
+    box.write("full.toml", common + "[particles]\nmass_g = 5.0\n");
+    const auto o = box.vkdose("run full.toml --backend reference --out out");
+    CAPTURE(o.out, o.err);
+    REQUIRE(o.code == 0);
+    CHECK_THAT(o.out, Catch::Contains("kg/m3 in the closed form, measured in the settled bed"));
+    const Json full = summaryIn(box / "out"), form = full.at("closed_form");
+    const double density = form.at("bulk_density_kg_m3").get<double>();
+    CHECK(form.at("bulk_density_is") == "measured");
+    CHECK(near(density, full.at("settled").at("bulk_density_kg_m3").get<double>(), density, 1e-8));  // its digits
+    CHECK(near(density, 0.46 * 1427, 0.46 * 1427, 0.4));
+    // rho p pi r^2 n of mini's coil: 21 mm in 3 turns, 5.9 mm, 0.02 s at 120 rpm.
+    const double volume = 7e-3 * 3.14159265358979 * 5.9e-3 * 5.9e-3 * 0.04;
+    CHECK(
+        near(full.at("doses").at(0).at("closed_form_mass_kg").get<double>(), density * volume, density * volume, 1e-6));
+    const std::string resolved = readText(box / "out/case.toml");
+    CHECK_THAT(resolved, Catch::Contains("bulk_density = \"measure\"") &&
+                             Catch::Contains("derived = \"bulk_density = 656.4 kg/m3, 0.46 of the particles' density"));
+
+    // A bed of a hundred spheres is too small; then the estimate stands, and is told.
+    box.write("small.toml", common);
+    const auto few = box.vkdose("run small.toml --backend reference --out few");
+    CHECK(few.code == 0);
+    CHECK_THAT(few.out, Catch::Contains("assumed: the bed has not settled, or is too small"));
+    CHECK(summaryIn(box / "few").at("closed_form").at("bulk_density_is") == "assumed");
+
+    box.write("never.toml", common + "");
+    const auto never = box.vkdose("check never.toml --set settle.time_s=0");
+    CHECK(never.code == 2);
+    CHECK_THAT(never.err, Catch::Contains("bulk_density") && Catch::Contains("it does not settle"));
+    CHECK_THAT(box.vkdose("check never.toml --set bulk_density=\"measur\"").err, Catch::Contains("did you mean"));
+    // A number in its place takes it and its words away.
+    CHECK(box.vkdose("check out/case.toml --set bulk_density=500").code == 0);
+}

@@ -1,0 +1,171 @@
+// The tables [[measure]] of a case: every kind from its keys, the resolved case, and faults with their places.
+
+#include "host/core/error.h"
+#include "tests/model/case_files.h"
+#include "tests/support/catch.h"
+#include "tests/support/near.h"
+
+using namespace vkdose;
+using namespace vkdose::test;
+using Catch::Contains;
+
+namespace {
+
+/// A case with a plate, a drum and a piston, and these measures.
+std::string withMeasures(const std::string& measures, const std::string& frames = "[frames]\ninterval_s = 0.01\n") {
+    return R"(boundaries = "none"
+[particles]
+density = 1427.0
+mass_g = 0.2
+[particles.size]
+distribution = "fixed"
+radius_mm = 1.25
+[particles.region]
+low = [-0.008, 0.022, -0.008]
+high = [0.008, 0.038, 0.008]
+[contact]
+k = 2000.0
+k1_over_k = 0.2
+kc_over_k = 0.5
+plasticity_depth = 0.05
+damping = 0.02
+friction = 0.5
+[settle]
+time_s = 0.1
+[[body]]
+name = "plate"
+shape = "plane"
+[[body]]
+name = "drum"
+shape = "cylinder"
+radius_mm = 100.0
+length_mm = 20.0
+[body.motion]
+kind = "turn"
+axis = [0, 0, 1]
+speed_rpm = 30.0
+[[body]]
+name = "piston"
+shape = "disc"
+radius_mm = 5.0
+at = [0, 0.08, 0]
+[body.motion]
+kind = "slide"
+velocity = [0, -0.01, 0]
+)" + frames +
+           measures;
+}
+
+struct Read {
+    Folder folder;
+    Case load(const std::string& measures) { return loadCase(folder.write("case.toml", withMeasures(measures))); }
+    std::string fault(const std::string& text) {
+        try {
+            (void)loadCase(folder.write("case.toml", text));
+        } catch (const CaseError& e) {
+            return e.what();
+        }
+        return "no fault";
+    }
+};
+
+const std::string kAll = R"([[measure]]
+kind = "angle_of_repose"
+at = [0.01, 0.002, -0.01]
+[[measure]]
+kind = "bulk_density"
+name = "poured"
+radius_mm = 14.0
+time_s = 0.05
+[[measure]]
+kind = "drum_angle"
+body = "drum"
+from_s = 0.04
+[[measure]]
+kind = "compression"
+body = "piston"
+area_mm2 = 78.5
+height_mm = 80.0
+axis = [0, 2, 0]
+[[measure]]
+kind = "shear"
+body = "piston plate"
+radius_mm = 16.0
+inner_radius_mm = 8.0
+from_s = [0.02, 0.05]
+to_s = [0.04, 0.08]
+)";
+
+}  // namespace
+
+TEST_CASE("measures: every kind comes from its keys, and the resolved case gives the same") {
+    Read read;
+    const Case first = read.load(kAll);
+    const Case again = loadCase(read.folder.write("resolved.toml", first.resolved));
+    for (const Case* c : {&first, &again}) {
+        const std::vector<ElementTest>& m = c->measures;
+        REQUIRE(m.size() == 5);
+        CHECK(m[0].kind == ElementTest::Kind::AngleOfRepose);
+        CHECK(m[0].name == "angle_of_repose");
+        CHECK(near(m[0].at, Vec3(0.01, 0.002, -0.01), 1, 1e-15));
+        CHECK_FALSE(m[0].time);
+        CHECK(m[1].name == "poured");
+        CHECK(m[1].radius == 14e-3);
+        CHECK(m[1].time == 0.05);
+        CHECK(m[2].bodies == std::vector<std::size_t>{1});
+        REQUIRE(m[2].windows.size() == 1);
+        CHECK(m[2].windows[0].from == 0.04);
+        CHECK(m[2].windows[0].to > 1e9);
+        CHECK(nearRelative(m[3].area, 78.5e-6, 1e-12));
+        CHECK(m[3].height == 80e-3);
+        CHECK(m[3].axis == Vec3(0, 1, 0));
+        CHECK(m[4].bodies == std::vector<std::size_t>{2, 0});
+        CHECK(m[4].innerRadius == 8e-3);
+        REQUIRE(m[4].windows.size() == 2);
+        CHECK(m[4].windows[1].from == 0.05);
+        CHECK(m[4].windows[1].to == 0.08);
+    }
+    CHECK(again.resolved == first.resolved);
+}
+
+TEST_CASE("measures: a fault names file, line, key, value and remedy") {
+    Read read;
+    const auto says = [&](const std::string& measure) { return read.fault(withMeasures("[[measure]]\n" + measure)); };
+    CHECK_THAT(says("kind = \"angle_of_rest\"\n"),
+               Contains("case.toml") && Contains("measure[0].kind") && Contains("did you mean \"angle_of_repose\""));
+    CHECK_THAT(says("kind = \"bulk_density\"\n"), Contains("radius_mm") && Contains("is missing"));
+    CHECK_THAT(says("kind = \"bulk_density\"\nradius_mm = 5\nbody = \"drum\"\n"), Contains("unknown key"));
+    CHECK_THAT(says("kind = \"drum_angle\"\nbody = \"drun\"\nfrom_s = 0\n"),
+               Contains("there is no body \"drun\"") && Contains("did you mean \"drum\""));
+    CHECK_THAT(says("kind = \"drum_angle\"\nbody = \"drum plate\"\nfrom_s = 0\n"), Contains("names 2 bodies"));
+    CHECK_THAT(says("kind = \"drum_angle\"\nbody = \"piston\"\nfrom_s = 0\n"), Contains("does not turn"));
+    CHECK_THAT(says("kind = \"drum_angle\"\nbody = \"drum\"\nfrom_s = \"late\"\n"), Contains("is no time"));
+    CHECK_THAT(says("kind = \"compression\"\nbody = \"plate\"\narea_mm2 = 1\nheight_mm = 1\n"),
+               Contains("does not move"));
+    CHECK_THAT(says("kind = \"shear\"\nbody = \"piston\"\nradius_mm = 5\nfrom_s = 0.1\n"),
+               Contains("measure[0].to_s") && Contains("is missing"));
+    CHECK_THAT(says("kind = \"shear\"\nbody = \"piston\"\nradius_mm = 5\nfrom_s = [0, 1]\nto_s = [1]\n"),
+               Contains("give each window"));
+    CHECK_THAT(says("kind = \"shear\"\nbody = \"piston\"\nradius_mm = 5\nfrom_s = 1\nto_s = 0.5\n"),
+               Contains("is not later"));
+    CHECK_THAT(says("kind = \"shear\"\nbody = \"piston\"\nradius_mm = 5\ninner_radius_mm = 6\nfrom_s = 0\nto_s = 1\n"),
+               Contains("inner_radius_mm") && Contains("is no smaller"));
+    CHECK_THAT(says("kind = \"angle_of_repose\"\n[[measure]]\nkind = \"angle_of_repose\"\n"),
+               Contains("two measures \"angle_of_repose\""));
+    CHECK_THAT(says("kind = \"angle_of_repose\"\nname = \"a b\"\n"), Contains("is no name of a measure"));
+    const std::string early = "[[measure]]\nkind = \"angle_of_repose\"\ntime_s = 0.05\n";
+    CHECK_THAT(read.fault(withMeasures(early, "")), Contains("keeps none") && Contains("add [frames]"));
+    CHECK_THAT(read.fault("gravity = [0, 0, 0]\n" + withMeasures("[[measure]]\nkind = \"angle_of_repose\"\n")),
+               Contains("no direction is upright"));
+}
+
+TEST_CASE("measures: every shipped element test loads and measures something") {
+    int cases = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(shippedCase("elements"))) {
+        if (entry.path().extension() != ".toml") continue;
+        CAPTURE(entry.path().string());
+        CHECK_FALSE(loadCase(entry.path()).measures.empty());
+        ++cases;
+    }
+    CHECK(cases == 5);
+}
