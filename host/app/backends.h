@@ -46,8 +46,4 @@ std::vector<std::string> validationFindings(const BackendChoice& choice, const B
 bool validationClean(const BackendChoice& choice, const Backend& backend);
 bool validationClean(const BackendChoice& choice, const vk::Device& device);
 
-/// Particle-steps per second, used where no speed is measured: about that of two cores of a server with a CPU driver
-/// and a settled bed.
-inline constexpr double kAssumedSpeed = 6e6;
-
 }  // namespace vkdose

@@ -80,8 +80,8 @@ bool under(const std::string& key, std::initializer_list<const char*> tables) {
 /// The space around the powder, and what its state cannot do without. The speed and the surface of the coil may change.
 bool isSpace(const std::string& key) {
     if (key == "coil.speed_rpm" || key == "coil.surface_velocity" || key == "coil.wire_curvature") return false;
-    return under(
-        key, {"boundaries", "canister", "coil", "plane", "cylinder", "body", "particles.density", "sensors.energy"});
+    return under(key, {"boundaries", "canister", "coil", "plane", "cylinder", "body", "region", "particles.density",
+                       "sensors.energy"});
 }
 
 /// What the particles follow from.

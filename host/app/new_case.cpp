@@ -5,13 +5,13 @@
 #include <iostream>
 
 #include "host/advice/advice.h"
-#include "host/app/backends.h"
 #include "host/app/commands.h"
 #include "host/app/exit_code.h"
 #include "host/app/inputs.h"
 #include "host/app/measures.h"
 #include "host/app/new_answers.h"
 #include "host/app/new_design.h"
+#include "host/app/speed.h"
 #include "host/app/text.h"
 #include "host/core/file.h"
 #include "host/core/printable.h"

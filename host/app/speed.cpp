@@ -13,9 +13,6 @@ namespace vkdose {
 
 namespace {
 
-/// Used where no speed is measured: about the speed of two cores of a server with a CPU driver and a settled bed.
-constexpr double kAssumedSpeed = 6e6;
-
 /// The freshly filled grid has no contacts yet, so it runs faster than the bed it becomes.
 double measuredSpeed(const Case& c, const Insertion& filled, Backend& backend) {
     using Clock = std::chrono::steady_clock;

@@ -8,6 +8,10 @@
 
 namespace vkdose {
 
+/// Assumed where no speed is measured [particle-steps/s]: about that of two cores of a server with a CPU driver and a
+/// settled bed.
+inline constexpr double kAssumedSpeed = 6e6;
+
 struct Speed {
     double rate = 0;  ///< [particle-steps/s]
     bool measured = false;

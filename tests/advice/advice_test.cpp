@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <set>
 
+#include "geometry/mesh_writer.h"
 #include "geometry/tessellate.h"
 #include "host/model/key.h"
 #include "tests/model/case_files.h"
@@ -152,7 +153,7 @@ TEST_CASE("each slip with a body has its warning with figures and a cure") {
 TEST_CASE("spheres that start inside of a closed mesh are told, unless it holds all of them") {
     const test::Folder folder;
     const geometry::Block block{Vec3(-0.01), Vec3(0.01)};
-    folder.write("block.stl", geometry::stlText(geometry::tessellated(block, 1, Vec3(-1), Vec3(1))));
+    folder.write("block.stl", geometry::stlBytes(geometry::tessellated(block, 1, Vec3(-1), Vec3(1)), "block", 1));
     const auto warned = [&](const std::string& spheres) {
         folder.write("two.csv", "x,y,z,r\n" + spheres);
         const std::vector<Warning> found = warningsOfText(

@@ -138,14 +138,6 @@ TEST_CASE("a run with bodies that is killed leaves the same files after all") {
     }
 }
 
-TEST_CASE("what a device does not do with bodies is refused by name") {
-    const Sandbox box;
-    box.write("drum.toml", kDrum);
-    const auto energy = box.vkdose("run drum.toml --quiet --backend vulkan --set sensors.energy=true");
-    CHECK(energy.code == 3);
-    CHECK_THAT(energy.err + energy.out, Contains("energy book") && Contains("--backend reference"));
-}
-
 TEST_CASE("export-body writes bodies where their motion has brought them, in the unit asked for") {
     const Sandbox box;
     box.write("drum.toml", kDrum);

@@ -61,7 +61,7 @@ TEST_CASE("VTK and h5py open the frames of a run, and a picture shows them") {
     const auto backend = makeReferenceBackend();
     const std::atomic<bool> stop{false};
     {
-        RunFolder folder(box / "run", false, c, "reference", 5);
+        RunFolder folder(box / "run", false, c, "reference", RunRole{.member = 5, .origin = ""});
         const RunResult result = runCase(c, *backend, folder, stop);
         REQUIRE(result.error.empty());
         folder.finish(c, result);

@@ -43,9 +43,15 @@ class MadeUpRuns : public MemberRunner {
         const auto code = codes.find(task.number);
         MemberEnd end{task.number, interrupted ? 130 : code == codes.end() ? 0 : code->second, ""};
         if (end.code == 3) end.said = "particle 7, \"lost\"";
-        const Dose whole{
-            .index = 1, .mass = 0.002, .particles = 3, .cumulative = 0.002, .coilTorque = 0.5, .complete = true};
-        const Dose cut{.index = 2, .mass = 0.001, .particles = 1, .cumulative = 0.003, .coilTorque = 0.7};
+        const Dose whole{.index = 1,
+                         .mass = 0.002,
+                         .particles = 3,
+                         .cumulative = 0.002,
+                         .coilTorque = 0.5,
+                         .complete = true,
+                         .regions = {}};
+        const Dose cut{
+            .index = 2, .mass = 0.001, .particles = 1, .cumulative = 0.003, .coilTorque = 0.7, .regions = {}};
         std::ofstream(task.folder / "doses.csv") << csvHeader(kDoseColumns) << "\n"
                                                  << csvRow(kDoseColumns, whole) << "\n"
                                                  << csvRow(kDoseColumns, cut) << "\n";

@@ -89,7 +89,7 @@ class Case:
     def check(self) -> Check:
         """Validates the case. Raises InputError if there is no such case at all."""
         with self.arguments() as case:
-            process = Process(["check", *case, "--json"])
+            process = Process(["check", *case, "--json", "--assume"])
             text = "".join(process.lines())
             code = process.wait()
         if not text:
