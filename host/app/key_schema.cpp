@@ -67,7 +67,13 @@ Json schemaOf(const Key& key) {
     if (*key.unit.name != '\0') text += " [" + std::string(key.unit.name) + "]";
     if (key.standard.kind == Default::Kind::Told) text += " (default: " + std::string(key.standard.text) + ")";
     schema["description"] = text;
-    addKind(schema, key);
+    if (key.orWord.empty()) {
+        addKind(schema, key);
+    } else {
+        Json number = Json::object();
+        addKind(number, key);
+        schema["anyOf"] = Json::array({number, {{"const", key.orWord}}});
+    }
     addDefault(schema, key);
     return schema;
 }

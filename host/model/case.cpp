@@ -116,7 +116,7 @@ void refuseStudy(const Node& tree) {
 void readBulkDensity(Section& root, Case& c) {
     c.bulkDensityMeasured = root.isString("bulk_density");
     if (c.bulkDensityMeasured)
-        root.onlyWord("bulk_density", "measure");
+        root.onlyWord("bulk_density");
     else
         c.bulkDensity = root.number("bulk_density");
     if (root.has("derived")) (void)root.string("derived");

@@ -32,6 +32,7 @@ constexpr Key kTop[] = {
            "of the settled powder; only the closed form of the mass per dose uses it. `\"measure\"`: that of this "
            "run's own "
            "bed when it has settled; until then, and if the bed is too small, 0.46 of the particles' density")
+        .orElse("measure")
         .replacing("derived"),
     text("derived", told("none"),
          "how `vkdose` came to `bulk_density`; the resolved case has it, and nothing else reads it"),
@@ -357,6 +358,7 @@ constexpr Key kTime[] = {
     number("step_s", kSecond, kPositive, told("`\"auto\"`"),
            "time step. `\"auto\"`: 1/8 of the stiffest normal contact, 1/6 of any other, half of the fastest damping "
            "time, whichever is least, cut to three digits")
+        .orElse("auto")
         .replacing("steps_per_contact"),
     number(
         "steps_per_contact", kPlain, kPositive,

@@ -215,8 +215,8 @@ std::optional<std::size_t> Section::choice(std::string_view key, std::optional<s
     return chosen(key, words, fallback);
 }
 
-void Section::onlyWord(std::string_view key, const std::string& word) {
-    chosen(key, {word}, std::nullopt);
+void Section::onlyWord(std::string_view key) {
+    chosen(key, {std::string(declared(key).orWord)}, std::nullopt);
 }
 
 std::optional<std::size_t> Section::chosen(std::string_view key, const std::vector<std::string>& words,

@@ -43,8 +43,9 @@ class Section {
     std::string string(std::string_view key, std::optional<std::string> fallback = std::nullopt);
     /// Index of the chosen word. Returns nothing if the word is missing or is none of those to choose from.
     std::optional<std::size_t> choice(std::string_view key, std::optional<std::size_t> fallback = std::nullopt);
-    /// Checks a key that holds either a number or this one word: a string must be this word. number() reads the number.
-    void onlyWord(std::string_view key, const std::string& word);
+    /// Checks a key that holds either a number or one word (Key::orElse): a string must be that word. number() reads
+    /// the number.
+    void onlyWord(std::string_view key);
     Vec3 vector(std::string_view key, std::optional<Vec3> fallback = std::nullopt);
 
     /// A table inside this one. Every call returns the same object. If the file lacks the table, each of its keys takes

@@ -57,8 +57,16 @@ struct Key {
     std::string_view words{};                                      ///< the words to choose from, separated by blanks
     Default standard{};                                            ///< the value of a key that is not given
     std::string_view meaning{};                                    ///< for the manual, in Markdown
+    std::string_view orWord{};                                     ///< a word that may stand in place of a number
     /// Keys and tables of a lower layer that this one removes, separated by blanks; "*": all of its table.
     std::string_view losers{};
+
+    /// Returns this key, of a number, with the addition that `word` may stand in its place.
+    constexpr Key orElse(std::string_view word) const {
+        Key key = *this;
+        key.orWord = word;
+        return key;
+    }
 
     /// Returns this key with the addition that, in an upper layer (a case over its base, --set), it removes the keys
     /// `others` of the same table from the lower layer. A word removes them only if it differs from the lower layer's

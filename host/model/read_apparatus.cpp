@@ -217,7 +217,7 @@ void readSchedule(CaseReader& reader, Section& root, Case& c) {
 void readTime(CaseReader& reader, Section& root, Case& c) {
     Section& time = root.table("time");
     if (time.isString("step_s"))
-        time.onlyWord("step_s", "auto");
+        time.onlyWord("step_s");
     else if (time.has("step_s"))
         c.world.timeStep = time.number("step_s");
     if (time.has("steps_per_contact")) {

@@ -5,7 +5,6 @@ The program runs in a process of its own, so that a crash of a graphics driver d
 
 from __future__ import annotations
 
-import ctypes
 import os
 import shutil
 import signal
@@ -15,9 +14,6 @@ from pathlib import Path
 from typing import Sequence
 
 from .errors import VkdoseError, error_for
-
-_PR_SET_PDEATHSIG = 1  # linux/prctl.h
-_libc = ctypes.CDLL(None, use_errno=True)
 
 
 def program() -> str:
@@ -39,11 +35,6 @@ def program() -> str:
     return found
 
 
-def _end_with_parent() -> None:
-    """Lets the program be interrupted, as by Ctrl-C, when this process ends."""
-    _libc.prctl(_PR_SET_PDEATHSIG, signal.SIGINT)
-
-
 class Process:
     """A program that was started. Its output can be read while it runs, and what it says on stderr is collected."""
 
@@ -58,7 +49,6 @@ class Process:
             encoding="utf-8",
             errors="replace",
             start_new_session=True,
-            preexec_fn=_end_with_parent,
         )
         self._said: list[str] = []
         # Read all along: a full pipe would hold the program.
