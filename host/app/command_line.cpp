@@ -94,11 +94,11 @@ void addRun(CLI::App& program, RunOptions& options) {
                                  "without CASE with its case, changed by --set")
                      ->type_name("DIR");
     command
-        .add_option("--at", options.from.at,
-                    "its state to begin with: the settled bed, the last checkpoint or the end of the run (default: the "
-                    "first of these that it has)")
-        ->type_name("STATE")
-        ->check(CLI::IsMember({"settled", "checkpoint", "end"}))
+        .add_option(
+            "--at", options.from.at,
+            "its state to begin with: settled, checkpoint or end (default: the first of these that it has), or a "
+            "time [s]: the nearest frame, if the case keeps frames.states")
+        ->type_name("STATE|TIME")
         ->needs(from);
     command.add_option("--out", options.out, "output folder (default: out/<case name> in the current folder)")
         ->type_name("DIR");

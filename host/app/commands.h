@@ -28,7 +28,7 @@ struct NewOptions {
 /// A run whose powder another run begins with.
 struct StartOptions {
     std::filesystem::path folder;  ///< of its output; empty: the run begins with a filled canister
-    std::string at;                ///< "settled", "checkpoint" or "end"; empty: the first of these that there is
+    std::string at;  ///< "settled", "checkpoint", "end" or a time [s]; empty: the first of these that there is
 };
 
 struct RunOptions {

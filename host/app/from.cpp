@@ -4,11 +4,15 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <map>
+#include <optional>
 
 #include "host/core/error.h"
+#include "host/core/file.h"
 #include "host/core/printable.h"
 #include "host/model/case_tree.h"
+#include "host/output/frames.h"
 #include "host/sim/state_facts.h"
 
 namespace vkdose {
@@ -20,14 +24,43 @@ namespace {
 /// A state that a folder may hold; in the order in which they are looked for.
 struct Stored {
     const char* name;  ///< as --at has it
-    const char* file;
-    const char* words;  ///< "... of FOLDER"
+    fs::path file;
+    std::string words;  ///< "... of FOLDER"
 };
-constexpr std::array<Stored, 3> kStored{{{"settled", kSettledName, "the settled bed"},
-                                         {"checkpoint", kCheckpointName, "the checkpoint"},
-                                         {"end", kEndName, "the end"}}};
+const std::array<Stored, 3> kStored{{{"settled", kSettledName, "the settled bed"},
+                                     {"checkpoint", kCheckpointName, "the checkpoint"},
+                                     {"end", kEndName, "the end"}}};
 
-const Stored& storedIn(const StartOptions& start) {
+/// The time that --at names, if it is one [s].
+std::optional<double> timeIn(const std::string& at) {
+    double time = 0;
+    const auto [end, fault] = std::from_chars(at.data(), at.data() + at.size(), time);
+    return fault == std::errc() && end == at.data() + at.size() ? std::optional(time) : std::nullopt;
+}
+
+/// The state at the frame nearest to `time` [s].
+Stored frameAt(const fs::path& folder, double time) {
+    const fs::path frames = folder / kFramesFolder;
+    std::vector<FrameEntry> entries;
+    if (const auto text = fileContent(frames / kFramesIndex)) entries = framesListed(*text, frames / kFramesIndex);
+    std::erase_if(entries, [&](const FrameEntry& e) { return !fs::exists(frames / frameStateFile(e.number)); });
+    if (entries.empty())
+        throw UsageError(
+            fmt::format("{} holds no states at frames: they are kept with frames.states = true and frames.interval_s; "
+                        "or begin with "
+                        "--at settled or --at end",
+                        folder.string()));
+    const FrameEntry& nearest = entries[nearestOf(entries, time)];
+    return {"", fs::path(kFramesFolder) / frameStateFile(nearest.number), fmt::format("frame {}", nearest.number)};
+}
+
+Stored storedIn(const StartOptions& start) {
+    if (const std::optional<double> time = timeIn(start.at)) return frameAt(start.folder, *time);
+    const bool known = std::any_of(kStored.begin(), kStored.end(), [&](const Stored& s) { return start.at == s.name; });
+    if (!start.at.empty() && !known)
+        throw UsageError(fmt::format(
+            "--at {} is no state: give settled, checkpoint, end, or a time in seconds for the frame nearest to it",
+            printable(start.at)));
     const auto there = [&](const Stored& s) { return fs::exists(start.folder / s.file); };
     const auto found = std::find_if(kStored.begin(), kStored.end(),
                                     [&](const Stored& s) { return start.at.empty() ? there(s) : start.at == s.name; });
@@ -134,7 +167,7 @@ void requireFit(const Case& source, const Checkpoint& state, const ReadyRun& run
 }  // namespace
 
 ReadyRun readyFrom(const CaseOptions& input, const StartOptions& start) {
-    const Stored& stored = storedIn(start);
+    const Stored stored = storedIn(start);
     const fs::path file = start.folder / stored.file;
     ReadyRun run;
     run.state = readCheckpoint(file);

@@ -105,6 +105,7 @@ struct CheckpointInterval {
 struct FrameStorage {
     double interval = 0;    ///< [s], a whole number of sensor intervals after loading; 0: none
     bool contacts = false;  ///< store the contacts as well, not only their effect on each particle
+    bool states = false;    ///< store the state of the run with each frame, for other runs to begin with
 };
 
 struct Case {

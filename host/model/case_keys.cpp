@@ -379,6 +379,9 @@ constexpr Key kFrames[] = {
            "between two frames; rounded to whole sensor intervals and no shorter than one; 0: no frames. It changes no "
            "bit of the run"),
     boolean("contacts", false, "stores the contacts as well"),
+    boolean("states", false,
+            "stores the whole state of the run with each frame, from which `vkdose run --from DIR --at TIME` begins; a "
+            "member of a study stores none"),
 };
 constexpr Key kCheckpoint[] = {
     number("wall_s", kSecond, kNonNegative, CheckpointInterval{}.wall,

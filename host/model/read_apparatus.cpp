@@ -209,6 +209,7 @@ void readSchedule(CaseReader& reader, Section& root, Case& c) {
     Section& frames = root.table("frames");
     c.frames.interval = frames.number("interval_s");
     c.frames.contacts = frames.boolean("contacts");
+    c.frames.states = frames.boolean("states");
     Section& checkpoint = root.table("checkpoint");
     c.checkpoint.wall = checkpoint.number("wall_s");
     c.checkpoint.simulated = checkpoint.number("time_s");

@@ -55,6 +55,8 @@ void removeFrom(const fs::path& folder, int number) {
     for (const char* kind : {kParticlesFrame, kContactsFrame, kCoilFrame, kBodiesFrame})
         for (int n = number; fs::remove(folder / frameFile(kind, n), ignored); ++n) {
         }
+    for (int n = number; fs::remove(folder / frameStateFile(n), ignored); ++n) {
+    }
 }
 
 }  // namespace
@@ -89,6 +91,11 @@ CsvMark FrameWriter::store() {
     await();
     writeSeries();
     return index_.store();
+}
+
+int FrameWriter::last() {
+    await();
+    return static_cast<int>(times_.size()) - 1;
 }
 
 void FrameWriter::await() {

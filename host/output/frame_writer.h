@@ -34,6 +34,9 @@ class FrameWriter {
     /// the state of frames.csv. Throws OutputError if writing failed.
     CsvMark store();
 
+    /// Number of the frame that was put last. Waits until it is written. Throws OutputError if that failed.
+    int last();
+
   private:
     void await();
     void writeSeries() const;

@@ -44,6 +44,10 @@ std::string frameFile(const char* kind, int number) {
     return fmt::format("{}_{:06}{}", kind, number, kFrameExtension);
 }
 
+std::string frameStateFile(int number) {
+    return fmt::format("{}_{:06}{}", kFrameState, number, kFrameStateExtension);
+}
+
 std::vector<FrameEntry> framesListed(const std::string& text, const fs::path& file) {
     std::istringstream stream(text);
     CsvLines lines(stream);

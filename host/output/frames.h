@@ -27,6 +27,11 @@ inline constexpr const char* kWallsFile = "walls.hdf";
 /// "particles_000012.hdf": by such names ParaView takes the files of a kind for a series.
 std::string frameFile(const char* kind, int number);
 
+/// "state_000012.h5": the state of the run at a frame, in the format of a checkpoint.
+std::string frameStateFile(int number);
+inline constexpr const char* kFrameState = "state";
+inline constexpr const char* kFrameStateExtension = ".h5";
+
 /// A frame without its particles.
 struct FrameEntry {
     int number = 0;  ///< from 0, in the order of time

@@ -48,7 +48,7 @@ bool isNumbered(std::string_view file, std::string_view name, std::string_view e
 }
 
 bool isFrame(const std::string& file) {
-    if (file == kFramesIndex || file == kWallsFile) return true;
+    if (file == kFramesIndex || file == kWallsFile || isNumbered(file, kFrameState, kFrameStateExtension)) return true;
     for (const char* kind : {kParticlesFrame, kContactsFrame, kCoilFrame, kBodiesFrame})
         if (isNumbered(file, kind, kFrameExtension) || file == std::string(kind) + kFrameExtension + kSeriesExtension)
             return true;

@@ -162,7 +162,7 @@ void RunFolder::onDose(const Dose& d) {
     doses_->flush();
 }
 
-void RunFolder::store(const char* name, const RunCheckpoint& state, double time) {
+void RunFolder::store(const fs::path& name, const RunCheckpoint& state, double time) {
     // The lines come first, because the state counts on them.
     const CsvMark timeSeries = timeSeries_->store(), doses = doses_->store();
     const CsvMark frames = frames_ ? frames_->store() : CsvMark();
@@ -176,7 +176,10 @@ void RunFolder::onCheckpoint(const RunCheckpoint& checkpoint, double time) {
 }
 
 void RunFolder::onState(KeptState kind, const RunCheckpoint& state, double time) {
-    store(kind == KeptState::Settled ? kSettledName : kEndName, state, time);
+    if (kind != KeptState::Frame)
+        store(kind == KeptState::Settled ? kSettledName : kEndName, state, time);
+    else if (frames_)
+        store(fs::path(kFramesFolder) / frameStateFile(frames_->last()), state, time);
 }
 
 void RunFolder::finish(const Case& c, const RunResult& result) {

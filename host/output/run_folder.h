@@ -63,7 +63,7 @@ class RunFolder : public RunObserver {
     std::optional<double> checkpointTime() const { return checkpointTime_; }
 
   private:
-    void store(const char* name, const RunCheckpoint& state, double time);
+    void store(const std::filesystem::path& name, const RunCheckpoint& state, double time);
 
     std::filesystem::path folder_;
     std::optional<FolderLock> lock_;

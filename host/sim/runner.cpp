@@ -393,6 +393,7 @@ class Run {
         if (!observer_.storesFrames()) return;
         observer_.onFrame({step_, timeline_.time(step_), stretch_.phase, stretch_.dose, backend_.coilAngle(),
                            backend_.particles(), backend_.contacts()});
+        if (case_.frames.states && step_ > 0) keepState(KeptState::Frame);
     }
 
     /// The torque that the drive must supply to convey against the powder's torque on the coil.

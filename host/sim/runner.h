@@ -42,8 +42,9 @@ struct RunCheckpoint {
     Record backend;
 };
 
-/// The states that a run leaves for others to start from: at the end of settling, and at its end.
-enum class KeptState { Settled, End };
+/// The states that a run leaves for others to start from: at the end of settling, at its frames if the case asks for
+/// that, and at its end.
+enum class KeptState { Settled, Frame, End };
 
 /// Is told of events as a run goes on. An exception that it throws ends the run; an OutputError says that a result
 /// could not be stored.

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "host/output/checkpoint.h"
 #include "tests/app/sandbox.h"
@@ -69,6 +70,46 @@ TEST_CASE("from a settled bed the same case gives the same doses, and goes on wi
     REQUIRE(box.vkdose("run --from b --quiet --out c").code == 0);
     CHECK(readText(box / "c/doses.csv") == readText(box / "b/doses.csv"));
     CHECK(readText(box / "c/timeseries.csv") == readText(box / "b/timeseries.csv"));
+}
+
+TEST_CASE("a run begins with any frame that keeps its state") {
+    const std::string backend = GENERATE(as<std::string>{}, "--backend reference ", "");
+    CAPTURE(backend);
+    const Sandbox box;
+    REQUIRE(
+        box.vkdose("run " + kMini + kShort + backend + "--set frames.interval_s=0.015 --set frames.states=true --out a")
+            .code == 0);
+    CHECK(fs::exists(box / "a/frames/state_000001.h5"));
+    // That at the end of settling is the settled bed.
+    REQUIRE(box.vkdose("run --from a --at 0.05 --quiet --set frames.interval_s=0 --out settled").code == 0);
+    CHECK(readText(box / "settled/doses.csv") == readText(box / "a/doses.csv"));
+    CHECK(readText(box / "settled/particles.csv") == readText(box / "a/particles.csv"));
+
+    // In the middle of a dose: the first line of the new run is that of the frame, and then dose 1 begins.
+    const auto o = box.vkdose("run --from a --at 0.081 --out middle");
+    CAPTURE(o.out, o.err);
+    REQUIRE(o.code == 0);
+    CHECK_THAT(o.out, Catch::Contains("of a, at t = 0.0") && Catch::Contains("from     frame "));
+    const auto fields = [](const std::string& line, std::size_t from, std::size_t to) {
+        std::istringstream stream(line);
+        std::string found, field;
+        for (std::size_t i = 0; std::getline(stream, field, ','); ++i)
+            if (i == 0 || (i >= from && i < to)) found += field + ",";
+        return found;
+    };
+    // Time, masses, numbers and energies.
+    const std::string begin = fields(lines(box / "middle/timeseries.csv").at(1), 5, 14);
+    std::vector<std::string> before;
+    for (const std::string& line : lines(box / "a/timeseries.csv")) before.push_back(fields(line, 5, 14));
+    CHECK(std::count(before.begin(), before.end(), begin) == 1);
+    CHECK(summary(box / "middle")["doses"][0]["dose"] == 1);
+    CHECK(summary(box / "middle")["doses"].size() == 2);
+
+    CHECK_THAT(box.vkdose("run --from settled --at 0.08 --out b").err, Catch::Contains("frames.states = true"));
+    CHECK_THAT(box.vkdose("run --from a --at midle --out b").err, Catch::Contains("--at midle is no state"));
+    // A new run in the folder removes them.
+    REQUIRE(box.vkdose("run " + kMini + kShort + backend + "--force --out a").code == 0);
+    CHECK_FALSE(fs::exists(box / "a/frames"));
 }
 
 TEST_CASE("a run from another's bed that is cut short goes on to the same files") {
