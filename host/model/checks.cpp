@@ -163,8 +163,8 @@ void checkDoses(CaseReader& reader, const Case& c) {
         reader.fault("dose.ramp_s", "the coil has no time to speed up and to slow down again",
                      fmt::format("give at most half of {}, {:.6g} s", s.targetMass > 0 ? "max_rotate_s" : "rotate_s",
                                  s.rotateTime / 2));
-    if (std::isfinite(s.maxTorque) && !c.world.coil)
-        reader.fault("dose.max_torque_mNm", "there is no coil, and only a coil's torque is measured", "remove it");
+    if (std::isfinite(s.maxTorque) && !c.world.coil && !followsDrive(c.world.bodies))
+        reader.fault("dose.max_torque_mNm", "there is no coil, and no body follows the drive", "remove it");
     if (s.rotateTime == 0 && s.reverseTurns > 0)
         reader.fault("dose.reverse_turns", "there is no dose to turn back after", "give rotate_s > 0");
     if (doses && s.reverseTurns > 0 && s.coilSpeed == 0)

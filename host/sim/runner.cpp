@@ -313,6 +313,17 @@ class Run {
         report();
     }
 
+    /// Torque about +z on all that the drive turns, times the steps of a call. Of a body it is the torque at the drive
+    /// that does the work of the body: the body may turn at another rate, or swing.
+    double driveImpulse(const Sensors& s, std::uint64_t n) const {
+        double impulse = s.coilTorque * static_cast<double>(n);
+        if (stretch_.rate == 0) return impulse;
+        const std::vector<RigidBody>& bodies = case_.world.bodies;
+        for (std::size_t b = 0; b < bodies.size(); ++b)
+            if (bodies[b].clock == vkdose::Clock::Drive) impulse -= s.bodies[b].work / (stretch_.rate * case_.world.timeStep);
+        return impulse;
+    }
+
     /// Joins the sensors of one call to those since the last sample.
     void gather(const Sensors& s, std::uint64_t n) {
         if (s.energy) {
@@ -323,7 +334,7 @@ class Run {
             result_.maxOverlapRatio = s.maxOverlapRatio;
             result_.maxOverlapTime = timeline_.time(step_);
         }
-        const double impulse = s.coilTorque * static_cast<double>(n);
+        const double impulse = driveImpulse(s, n);
         const double overlap = gathered_ > 0 ? std::max(now_.maxOverlapRatio, s.maxOverlapRatio) : s.maxOverlapRatio;
         now_ = s;
         now_.maxOverlapRatio = overlap;
@@ -462,7 +473,7 @@ class Run {
         p.time = timeline_.time(step_);
         p.step = step_;
         const std::uint64_t expected = expectedSteps(case_, timeline_, result_);
-        p.expectedSteps = expected == 0 ? 0 : std::max(expected, step_);
+        p.expectedSteps = expected < step_ ? 0 : expected;  // a dose to a mass that takes longer than it should
         p.phaseEnd = step_ == stretch_.end;
         p.steps = step_ - before_.steps;
         p.particleSteps = result_.particleSteps - before_.particleSteps;

@@ -51,9 +51,10 @@ Timeline::Timeline(const Case& c)
     if (hasDoses() && c.schedule.reverseTurns > 0)
         reverse_ = wholeSteps("reverse_time", c.schedule.reverseTime(), timeStep_);
     endSettling(settle_);
-    if (coil_) {
+    if (coil_)
         sense_ = geometry::conveyingRate(*c.world.coil, 1.0) < 0 ? -1.0 : 1.0;
-    }
+    else if (followsDrive(c.world.bodies))
+        sense_ = 1;
 }
 
 void Timeline::endSettling(std::uint64_t step) {

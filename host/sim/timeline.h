@@ -91,7 +91,7 @@ class Timeline {
     std::uint64_t restSteps() const { return rest_; }
     std::uint64_t sensorSteps() const { return sensor_; }
 
-    /// +1 or -1: sense of the coil's rotation about +z when it conveys; 0 without a coil.
+    /// +1 or -1: sense in which the drive turns when it conveys, of a coil about +z; 0 if there is nothing to drive.
     double conveyingSense() const { return sense_; }
 
   private:

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <csignal>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <thread>
 
 #include "geometry/mesh_file.h"
@@ -68,6 +69,39 @@ std::size_t column(const std::vector<std::vector<std::string>>& table, const std
 }
 
 }  // namespace
+
+TEST_CASE("the torque of the drive is that of the bodies that follow it, and can end a dose") {
+    std::string driven = kDrum;
+    const std::string clock = "speed_rpm = 60\n";
+    driven.replace(driven.find(clock), clock.size(), "follows = \"drive\"\nturns_per_turn = 2\n");
+    for (const std::string backend : {"reference", "vulkan"}) {
+        CAPTURE(backend);
+        const Sandbox box;
+        box.write("drum.toml", driven);
+        REQUIRE(box.vkdose("run drum.toml --quiet --out run --backend " + backend).code == 0);
+        const auto table = readCsv(box / "run/timeseries.csv");
+        const auto at = [&](std::size_t row, const std::string& name) {
+            return std::stod(table[row][column(table, name)]);
+        };
+        double largest = 0;
+        for (std::size_t row = 1; row < table.size(); ++row) {
+            if (table[row][column(table, "phase")] != "rotate") continue;
+            // Of the drum alone, which turns twice as fast as the drive; the post is not touched. Nine digits are
+            // written.
+            const double power = at(row, "drum.power_W"), speed = 30 * 2 * std::numbers::pi / 60;
+            CHECK(at(row, "coil_power_W") == Approx(power).epsilon(1e-7));
+            CHECK(at(row, "coil_torque_Nm") == Approx(power / speed).epsilon(1e-7));
+            CHECK(at(row, "coil_torque_Nm") == Approx(-2 * at(row, "drum.torque_Nm")).epsilon(1e-3));
+            largest = std::max(largest, at(row, "coil_torque_Nm"));
+        }
+        REQUIRE(largest > 0);
+        REQUIRE(box.vkdose("run drum.toml --quiet --out cut --backend " + backend +
+                           " --set dose.max_torque_mNm=" + std::to_string(largest * 1e3 / 2))
+                    .code == 0);
+        CHECK_THAT(readText(box / "cut/doses.csv"), Contains("torque"));
+        CHECK_THAT(readText(box / "run/doses.csv"), !Contains(",torque,"));
+    }
+}
 
 TEST_CASE("the loads of bodies stand in the time series, and their work in the summary") {
     for (const std::string backend : {"reference", "vulkan"}) {
