@@ -320,7 +320,8 @@ class Run {
         if (stretch_.rate == 0) return impulse;
         const std::vector<RigidBody>& bodies = case_.world.bodies;
         for (std::size_t b = 0; b < bodies.size(); ++b)
-            if (bodies[b].clock == vkdose::Clock::Drive) impulse -= s.bodies[b].work / (stretch_.rate * case_.world.timeStep);
+            if (bodies[b].clock == vkdose::Clock::Drive)
+                impulse -= s.bodies[b].work / (stretch_.rate * case_.world.timeStep);
         return impulse;
     }
 
