@@ -414,8 +414,7 @@ constexpr Key kField[] = {
 };
 
 constexpr Key kMeasure[] = {
-    word("kind", "angle_of_repose drum_angle compression shear bulk_density", kRequired, "the element test")
-        .replacing("*"),
+    word("kind", ElementTest::kKinds, kRequired, "the element test").replacing("*"),
     text("name", told("the kind"), "of its figures: letters, digits, `-` and `_`"),
     vector("at", kMetre, {0, 0, 0},
            "`angle_of_repose`, `bulk_density`: a point of the upright axis, at the height of the foot or floor"),

@@ -12,6 +12,8 @@ namespace vkdose {
 
 struct ElementTest {
     enum class Kind { AngleOfRepose, DrumAngle, Compression, Shear, BulkDensity };
+    /// The words for the kinds in files, in their order.
+    static constexpr const char* kKinds = "angle_of_repose drum_angle compression shear bulk_density";
 
     /// A time over which a figure is taken [s].
     struct Window {
