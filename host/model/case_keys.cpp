@@ -430,10 +430,14 @@ constexpr Key kMeasure[] = {
            "`compression`: from the floor of the bed to the piston's face before it moves"),
     vector("axis", kPlain, {0, 1, 0}, "`compression`: direction from the floor to the piston"),
     number("inner_radius_mm", kMillimetre, kNonNegative, 0.0, "`shear`: of the inner wall of a ring; 0: a full cell"),
+    text("region", kRequired, "`discharge`: the region into which the powder runs"),
+    number("hole_mm", kMillimetre, kPositive, told("no constant"),
+           "`discharge`: diameter of the round hole, for the constant of Beverloo's law; it takes `bulk_density` too"),
     other("from_s", kRequired,
-          "`drum_angle`: the frames from this time on count; `shear`: for each point of the yield locus the time "
+          "`drum_angle`: the frames from this time on count; `discharge`: the rate is taken from this time on; "
+          "`shear`: for each point of the yield locus the time "
           "from which load and torque are averaged"),
-    other("to_s", told("required by `shear`; of a drum the end of the run"), "the times until which they count"),
+    other("to_s", told("required by `shear`; else the end of the run"), "the times until which they count"),
 };
 
 constexpr KeyTable kTables[] = {

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "host/analysis/compression.h"
+#include "host/analysis/discharge.h"
 #include "host/analysis/drum.h"
 #include "host/analysis/heap.h"
 #include "host/analysis/shear.h"
@@ -72,6 +73,11 @@ constexpr Wording kBulk[] = {
     {"volume_m3", "over", "cm³", 1e6},
     kTime,
 };
+constexpr Wording kDischarge[] = {
+    {"rate_kg_s", "rate of discharge", "g/s", 1e3},
+    {"rate_error_kg_s", "standard error of the rate", "g/s", 1e3},
+    {"beverloo_constant", "Beverloo's constant", ""},
+};
 /// Of each point of the yield locus, which are counted from 1. They are told by their names.
 constexpr const char* kShearPoint[] = {"normal_stress_{}_Pa", "shear_stress_{}_Pa", "shear_stress_deviation_{}_Pa"};
 
@@ -87,6 +93,8 @@ std::span<const Wording> wordingsOf(ElementTest::Kind kind) {
             return kShear;
         case ElementTest::Kind::BulkDensity:
             return kBulk;
+        case ElementTest::Kind::Discharge:
+            return kDischarge;
     }
     return {};
 }
@@ -140,6 +148,8 @@ class Measuring {
                 return shear(m, why);
             case ElementTest::Kind::BulkDensity:
                 return bulk(m, why);
+            case ElementTest::Kind::Discharge:
+                return discharge(m, why);
         }
         return {};
     }
@@ -186,6 +196,23 @@ class Measuring {
         double squares = 0;
         for (const double a : angles) squares += (a - mean) * (a - mean);
         return named(kDrum, {mean, angles.size() > 1 ? std::sqrt(squares / (count - 1)) : kNone, count});
+    }
+
+    Figures discharge(const ElementTest& m, std::string& why) const {
+        const std::string column = c_.world.regions.at(m.region).name + ".mass_kg";
+        std::vector<DischargeSample> samples;
+        for (std::size_t i = 0; i < series_.rows(); ++i)
+            samples.push_back({series_.number(i, "time_s"), series_.number(i, column)});
+        const auto d = dischargeOf(samples, m.windows.at(0).from, m.windows.at(0).to);
+        if (!d) {
+            why = "in its time nothing runs out, or the time series has fewer than eight lines";
+            return {};
+        }
+        const std::vector<double>& radii = result_.particles.radius;
+        const double grain = 2 * std::accumulate(radii.begin(), radii.end(), 0.0) / static_cast<double>(radii.size());
+        const double gravity = glm::length(c_.world.gravity);
+        return named(kDischarge,
+                     {d->rate, d->error, beverlooConstant(d->rate, c_.bulkDensity, gravity, m.hole, grain)});
     }
 
     double senseOfDrive() const {

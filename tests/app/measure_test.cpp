@@ -1,6 +1,7 @@
 // Element tests from a run to its summary, and as the targets of a calibration: a sphere between floor and piston,
 // whose force is known.
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "tests/app/sandbox.h"
@@ -84,6 +85,52 @@ TEST_CASE("measures: a sphere under a piston has the stress and the work of its 
     CHECK(near(press.at("elastic_recovery").get<double>(), 0.099 / 2.4, 0.1 / 2.4, 0.075));
     CHECK(press.at("kind") == "compression");
     CHECK(measures.at("angle_of_repose").contains("none_because"));
+}
+
+TEST_CASE("measures: spheres that fall through a plane one after another discharge at their mass and pace") {
+    const Sandbox box;
+    // One each 5 ms: 5 mm apart at 1 m/s, nearly without gravity, which only says what is up.
+    std::string list = "x,y,z,r,vx,vy,vz\n";
+    for (int i = 1; i <= 20; ++i) list += "0," + std::to_string(5e-3 * i) + ",0,0.001,0,-1,0\n";
+    box.write("column.csv", list);
+    box.write("column.toml", R"(boundaries = "none"
+gravity = [0, -1e-6, 0]
+bulk_density = 800
+[particles]
+density = 1427.0
+list = "column.csv"
+[contact]
+k = 1000.0
+k1_over_k = 1.0
+kc_over_k = 0.0
+damping = 0.02
+friction = 0.5
+[settle]
+time_s = 0.1
+[sensors]
+interval_s = 0.001
+[[region]]
+name = "pan"
+kind = "beyond"
+point = [0, 0, 0]
+normal = [0, -1, 0]
+[[measure]]
+kind = "discharge"
+region = "pan"
+hole_mm = 10.0
+from_s = 0.0
+)");
+    const auto o = box.vkdose("run column.toml --backend reference --out out");
+    CAPTURE(o.out, o.err);
+    REQUIRE(o.code == 0);
+    CHECK_THAT(o.out, Catch::Contains("measure  discharge: rate of discharge 1.") && Catch::Contains(" g/s"));
+    const Json d = summaryIn(box / "out").at("measures").at("discharge");
+    const double rate = 1427 * 4.0 / 3 * 3.14159265358979 * 1e-9 / 5e-3;
+    // The line through a staircase of twenty steps is out by less than one of them in twenty.
+    CHECK(near(d.at("rate_kg_s").get<double>(), rate, rate, 0.02));
+    // C = W / (rho sqrt(g) (D - 1.5 d)^5/2), d = 2 mm
+    CHECK(near(d.at("beverloo_constant").get<double>(), rate / (800 * 1e-3 * std::pow(7e-3, 2.5)),
+               rate / (800 * 1e-3 * std::pow(7e-3, 2.5)), 0.02));
 }
 
 TEST_CASE("calibrate meets figures of two element tests at once, and says what each constrains") {

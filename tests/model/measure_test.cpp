@@ -32,6 +32,11 @@ damping = 0.02
 friction = 0.5
 [settle]
 time_s = 0.1
+[[region]]
+name = "pan"
+kind = "beyond"
+point = [0, -0.02, 0]
+normal = [0, -1, 0]
 [[body]]
 name = "plate"
 shape = "plane"
@@ -94,6 +99,11 @@ radius_mm = 16.0
 inner_radius_mm = 8.0
 from_s = [0.02, 0.05]
 to_s = [0.04, 0.08]
+[[measure]]
+kind = "discharge"
+region = "pan"
+hole_mm = 7.5
+from_s = 0.03
 )";
 
 }  // namespace
@@ -104,7 +114,7 @@ TEST_CASE("measures: every kind comes from its keys, and the resolved case gives
     const Case again = loadCase(read.folder.write("resolved.toml", first.resolved));
     for (const Case* c : {&first, &again}) {
         const std::vector<ElementTest>& m = c->measures;
-        REQUIRE(m.size() == 5);
+        REQUIRE(m.size() == 6);
         CHECK(m[0].kind == ElementTest::Kind::AngleOfRepose);
         CHECK(m[0].name == "angle_of_repose");
         CHECK(near(m[0].at, Vec3(0.01, 0.002, -0.01), 1, 1e-15));
@@ -124,6 +134,10 @@ TEST_CASE("measures: every kind comes from its keys, and the resolved case gives
         REQUIRE(m[4].windows.size() == 2);
         CHECK(m[4].windows[1].from == 0.05);
         CHECK(m[4].windows[1].to == 0.08);
+        CHECK(c->world.regions.at(m[5].region).name == "pan");
+        CHECK(m[5].hole == 7.5e-3);
+        REQUIRE(m[5].windows.size() == 1);
+        CHECK(m[5].windows[0].from == 0.03);
     }
     CHECK(again.resolved == first.resolved);
 }
@@ -150,6 +164,9 @@ TEST_CASE("measures: a fault names file, line, key, value and remedy") {
                Contains("is not later"));
     CHECK_THAT(says("kind = \"shear\"\nbody = \"piston\"\nradius_mm = 5\ninner_radius_mm = 6\nfrom_s = 0\nto_s = 1\n"),
                Contains("inner_radius_mm") && Contains("is no smaller"));
+    CHECK_THAT(says("kind = \"discharge\"\nregion = \"pam\"\nfrom_s = 0\n"),
+               Contains("there is no region \"pam\"") && Contains("did you mean \"pan\""));
+    CHECK_THAT(says("kind = \"discharge\"\nregion = \"pan\"\n"), Contains("from_s") && Contains("is missing"));
     CHECK_THAT(says("kind = \"angle_of_repose\"\n[[measure]]\nkind = \"angle_of_repose\"\n"),
                Contains("two measures \"angle_of_repose\""));
     CHECK_THAT(says("kind = \"angle_of_repose\"\nname = \"a b\"\n"), Contains("is no name of a measure"));
