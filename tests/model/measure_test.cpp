@@ -13,26 +13,7 @@ namespace {
 
 /// A case with a plate, a drum and a piston, and these measures.
 std::string withMeasures(const std::string& measures, const std::string& frames = "[frames]\ninterval_s = 0.01\n") {
-    return R"(boundaries = "none"
-[particles]
-density = 1427.0
-mass_g = 0.2
-[particles.size]
-distribution = "fixed"
-radius_mm = 1.25
-[particles.region]
-low = [-0.008, 0.022, -0.008]
-high = [0.008, 0.038, 0.008]
-[contact]
-k = 2000.0
-k1_over_k = 0.2
-kc_over_k = 0.5
-plasticity_depth = 0.05
-damping = 0.02
-friction = 0.5
-[settle]
-time_s = 0.1
-[[region]]
+    return withBodies(R"([[region]]
 name = "pan"
 kind = "beyond"
 point = [0, -0.02, 0]
@@ -57,21 +38,13 @@ at = [0, 0.08, 0]
 [body.motion]
 kind = "slide"
 velocity = [0, -0.01, 0]
-)" + frames +
-           measures;
+)" + frames + measures);
 }
 
 struct Read {
     Folder folder;
     Case load(const std::string& measures) { return loadCase(folder.write("case.toml", withMeasures(measures))); }
-    std::string fault(const std::string& text) {
-        try {
-            (void)loadCase(folder.write("case.toml", text));
-        } catch (const CaseError& e) {
-            return e.what();
-        }
-        return "no fault";
-    }
+    std::string fault(const std::string& text) { return faultOf(folder.write("case.toml", text)); }
 };
 
 const std::string kAll = R"([[measure]]
