@@ -112,17 +112,6 @@ void printPredictions(const Derived& d, const Schedule& schedule, bool coil) {
     fmt::print("doses      {:.3g} to empty the canister by the closed form\n", d.doses);
 }
 
-void printRunTime(const CheckOptions& options, const Checked& all) {
-    const double work = all.derived.steps * static_cast<double>(all.derived.particles);
-    fmt::print("work       about {:.3g} million steps, {}particle-steps\n", all.derived.steps * 1e-6, large(work));
-    const Speed speed = speedOf(all.c, all.filled, options.backend, options.assume);
-    fmt::print("run time   {} {}\n", duration(work / speed.rate), speedText(speed));
-    if (speed.measured)
-        fmt::print(
-            "           with the fresh, loose filling; a settled bed touches more and takes up to about twice as "
-            "long\n");
-}
-
 void printWarnings(const std::vector<Warning>& warnings) {
     for (const Warning& w : warnings)
         if (!w.accepted) fmt::print("warning    {}\n", w.line());
@@ -147,7 +136,8 @@ void printText(const CheckOptions& options, const Checked& all) {
     if (s.targetMass > 0)
         fmt::print("target     {:.4g} g a dose, in {} speed{}\n", s.targetMass * 1e3, s.stages.size() + 1,
                    s.stages.empty() ? "" : "s");
-    printRunTime(options, all);
+    fmt::print("{}", workText(all.derived));
+    fmt::print("{}", runTimeText(all.derived, speedOf(all.c, all.filled, options.backend, options.assume)));
     printWarnings(all.warnings);
 }
 

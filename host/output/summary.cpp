@@ -3,6 +3,7 @@
 #include <tuple>
 #include <utility>
 
+#include "host/analysis/closed_form.h"
 #include "host/analysis/figures.h"
 #include "host/analysis/settled_figures.h"
 #include "host/analysis/targets.h"
@@ -221,6 +222,7 @@ std::string summaryJson(const Case& c, const RunResult& r, const std::string& ba
     j["settled"] = settled(c, r.settled);
     j["dosed_while_settling_kg"] = jsonNumber(r.dosedWhileSettling);
     j["closed_form"] = closedForms(c, r.derived);
+    if (const std::string note = closedFormNote(c, r); !note.empty()) j["closed_form"]["note"] = note;
     j["ledger"] = ledger(r);
     if (r.last.energy) j["energy"] = energy(*r.last.energy);
     j["max_overlap_ratio"] = jsonNumber(r.maxOverlapRatio);

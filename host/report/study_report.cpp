@@ -8,6 +8,7 @@
 #include "host/core/csv_table.h"
 #include "host/core/json.h"
 #include "host/report/study_points.h"
+#include "host/study/calibration_finding.h"
 
 namespace vkdose::report {
 
@@ -94,6 +95,9 @@ Json studyJson(const fs::path& folder, const std::optional<fs::path>& expected) 
     j["points"] = Json::array();
     for (const StudyPoint& p : points) j["points"].push_back(pointJson(p));
     j["members"] = members.rows();
+    const std::optional<CalibrationFinding> finding = readFinding(folder);
+    j["searches"] = head.searches;
+    j["calibration"] = finding ? findingJson(*finding) : Json(nullptr);
     j["verdicts"] = expected ? verdictsJson(*expected, points) : Json(nullptr);
     return j;
 }

@@ -167,14 +167,23 @@ high = 0.5
     CAPTURE(o.out, o.err);
     REQUIRE(o.code == 0);
     CHECK_THAT(o.out, Catch::Contains("the targets are met") && Catch::Contains("misfit"));
-    CHECK_THAT(o.out, Catch::Contains("contact.k: press.max_stress_Pa +") && Catch::Contains("mostly by") &&
-                          Catch::Contains("the targets do not constrain it"));
+    CHECK_THAT(o.out, Catch::Contains("contact.k: press.max_stress_Pa of press.toml +") &&
+                          Catch::Contains("mostly by") && Catch::Contains("the targets do not constrain it"));
     // The stress is in proportion to k: 500 Pa at 1000 N/m.
     const std::string found = readText(box / "out/calibrated.toml");
     const double k = std::stod(found.substr(found.find("\nk = ") + 5));
     CHECK(near(k, 1300, 1300, 0.02));
     const std::string members = readText(box / "out/members.csv");
     CHECK_THAT(members, Catch::Contains("contact.k,contact.friction,base,status") && Catch::Contains(",less.toml,ok"));
+
+    // The report says the same as the text.
+    const Json finding = Json::parse(readText(box / "out/calibration.json"));
+    CHECK(finding.at("met") == true);
+    CHECK(finding.at("parameters").at(0).at("constrained") == true);
+    CHECK(finding.at("parameters").at(1).at("constrained") == false);
+    CHECK(near(finding.at("parameters").at(0).at("chosen").get<double>(), 1300, 1300, 0.02));
+    REQUIRE(box.vkdose("report out").code == 0);
+    CHECK_THAT(readText(box / "out/report.html"), Catch::Contains("\"name\":\"press.max_stress_Pa of less.toml\""));
 
     box.write("study.toml", study("press.max_stres_Pa"));
     const auto wrong = box.vkdose("calibrate study.toml --backend reference --out other");
