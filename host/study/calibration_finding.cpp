@@ -9,7 +9,7 @@
 
 #include "host/core/error.h"
 #include "host/core/file.h"
-#include "host/output/json_row.h"
+#include "host/core/json.h"
 
 namespace vkdose {
 
