@@ -6,7 +6,7 @@
 
 #include "host/advice/advice.h"
 #include "host/advice/rules.h"
-#include "host/model/case_reader.h"
+#include "host/model/closest_word.h"
 #include "host/model/overlaps.h"
 
 namespace vkdose {

@@ -19,6 +19,7 @@
 #include "host/model/case_reader.h"
 #include "host/output/measured.h"
 #include "host/output/summary.h"
+#include "host/study/calibration_finding.h"
 #include "host/study/grid_calibration.h"
 #include "host/study/surrogate.h"
 
@@ -246,91 +247,85 @@ class SearchRuns {
     int next_ = 0;
 };
 
-/// How people see a goal: its name, its unit behind a blank, and the factor to that unit.
-struct GoalText {
-    std::string name, unit;
-    double scale = 1;
-};
-
-std::vector<GoalText> goalTexts(const CalibrationAim& aim) {
-    if (aim.targets.empty()) return {{"beta", " g", 1e3}};
-    std::vector<GoalText> texts;
-    for (const CalibrationTarget& t : aim.targets) texts.push_back({t.figure, "", 1});
-    return texts;
-}
-
-std::string targetsText(const CalibrationAim& aim) {
+std::string targetsText(const CalibrationAim& aim, const CalibrationFinding& f) {
     if (aim.targets.empty()) return targetText(aim) + "\n";
     std::string text;
-    for (const CalibrationTarget& t : aim.targets)
-        text += fmt::format("target   {} {}, weight {:.4g}, by {}\n", t.figure, withError(t.value, t.uncertainty),
-                            t.weight, printable(t.base.string()));
+    for (std::size_t g = 0; g < f.targets.size(); ++g)
+        text += fmt::format("target   {} {}, weight {:.4g}, by {}\n", printable(f.targets[g].name),
+                            withError(f.targets[g].value, f.targets[g].uncertainty), f.targets[g].weight,
+                            printable(aim.targets[g].base.string()));
+    return text;
+}
+
+/// "beta 0.0764 +- 0.0041 g"
+std::string figureText(const CalibrationFinding::Target& t, double value, double error) {
+    return fmt::format("{} {}{}{}", printable(t.name), withError(value, error), t.unit.empty() ? "" : " ", t.unit);
+}
+
+std::string pointsText(const CalibrationFinding& f) {
+    std::string text;
+    for (std::size_t i = 0; i < f.points.size(); ++i) {
+        for (std::size_t k = 0; k < f.parameters.size(); ++k)
+            text += fmt::format("    {} {:<10.6g}", f.parameters[k].key, f.points[i].at[k]);
+        for (std::size_t g = 0; g < f.targets.size(); ++g)
+            text += " " + figureText(f.targets[g], f.points[i].values[g].value, f.points[i].values[g].error);
+        text += fmt::format("{}\n", i == f.best ? "   <- chosen" : "");
+    }
+    return text;
+}
+
+/// The figures that are believed at the chosen point.
+std::string believedText(const CalibrationFinding& f) {
+    std::string text;
+    for (const CalibrationFinding::Target& t : f.targets)
+        text += (text.empty() ? "" : ", ") + figureText(t, t.believed, t.deviation);
     return text;
 }
 
 /// Which target constrains which parameter, and how well all targets together know it.
-std::string sensitivityText(const CalibrationAim& aim, const SearchResult& result) {
-    const std::vector<GoalText> texts = goalTexts(aim);
+std::string sensitivityText(const CalibrationFinding& f) {
     std::string text = "change from bound to bound by the slope there, in uncertainties of the target:\n";
-    for (std::size_t k = 0; k < aim.parameters.size(); ++k) {
-        const FreeParameter& p = aim.parameters[k];
+    for (const CalibrationFinding::Parameter& p : f.parameters) {
         std::string line;
-        std::size_t strongest = 0;
-        for (std::size_t g = 0; g < texts.size(); ++g) {
-            const auto here = [&](std::size_t goal) { return std::abs(result.goals[goal].sensitivity[k]); };
-            if (here(g) > here(strongest)) strongest = g;
-            line += fmt::format("{}{} {:+.3g}", g > 0 ? ", " : "", texts[g].name, result.goals[g].sensitivity[k]);
-        }
-        const double error = result.parameterError[k];
+        for (std::size_t g = 0; g < f.targets.size(); ++g)
+            line += fmt::format("{}{} {:+.3g}", g > 0 ? ", " : "", printable(f.targets[g].name), p.change[g]);
         text += fmt::format("    {}: {}; {}\n", p.key, line,
-                            error > p.high - p.low
-                                ? "the targets do not constrain it within its bounds"
-                                : fmt::format("known to +- {:.2g}, mostly by {}", error, texts[strongest].name));
+                            p.constrained ? fmt::format("known to +- {:.2g}, mostly by {}", p.error,
+                                                        printable(f.targets[p.mostlyBy].name))
+                                          : "the targets do not constrain it within its bounds");
     }
     return text;
 }
 
 int reportSearch(const Study& study, const SweepFolder& folder, const SearchResult& result) {
     const CalibrationAim& aim = *study.calibration;
-    const std::vector<GoalText> texts = goalTexts(aim);
-    fmt::print("{}", targetsText(aim));
-    for (std::size_t i = 0; i < result.points.size(); ++i) {
-        for (std::size_t k = 0; k < aim.parameters.size(); ++k)
-            fmt::print("    {} {:<10.6g}", aim.parameters[k].key, result.points[i][k]);
-        for (std::size_t g = 0; g < texts.size(); ++g) {
-            const Measured& m = result.goals[g].values[i];
-            fmt::print(" {} {}{}", texts[g].name, withError(m.value, m.error, texts[g].scale), texts[g].unit);
-        }
-        fmt::print("{}\n", i == result.best ? "   <- chosen" : "");
-    }
-    std::string believed;
-    for (std::size_t g = 0; g < texts.size(); ++g)
-        believed +=
-            fmt::format("{}{} {}{}", g > 0 ? ", " : "", texts[g].name,
-                        withError(result.goals[g].mean, result.goals[g].deviation, texts[g].scale), texts[g].unit);
-    const bool one = texts.size() == 1;
+    const CalibrationFinding f = findingOf(study, result);
+    writeFinding(folder.path(), f);
+    fmt::print("{}{}", targetsText(aim, f), pointsText(f));
+    const std::string believed = believedText(f);
+    const bool one = f.targets.size() == 1;
     fmt::print("believed there: {}; {} {} after {} points\n", believed, one ? "the target is" : "the targets are",
-               result.met ? "met"
-               : one      ? "NOT met to its tolerance"
-                          : "NOT met to their uncertainties",
-               result.points.size());
-    if (!one) fmt::print("misfit {:.3g}, the weighted sum of squares over uncertainties\n", result.misfit);
-    for (std::size_t k = 0; k < aim.parameters.size(); ++k) {
-        const auto& [low, high] = result.compatible[k];
-        if (low <= high)
-            fmt::print("{} from {:.4g} to {:.4g} may meet {}\n", aim.parameters[k].key, low, high, one ? "it" : "them");
+               f.met ? "met"
+               : one ? "NOT met to its tolerance"
+                     : "NOT met to their uncertainties",
+               f.points.size());
+    if (!one) fmt::print("misfit {:.3g}, the weighted sum of squares over uncertainties\n", f.misfit);
+    for (const CalibrationFinding::Parameter& p : f.parameters) {
+        if (p.mayMeet)
+            fmt::print("{} from {:.4g} to {:.4g} may meet {}\n", p.key, p.mayMeet->first, p.mayMeet->second,
+                       one ? "it" : "them");
         else
-            fmt::print("no {} within its bounds is believed to meet {}\n", aim.parameters[k].key, one ? "it" : "them");
+            fmt::print("no {} within its bounds is believed to meet {}\n", p.key, one ? "it" : "them");
     }
-    fmt::print("{}", sensitivityText(aim, result));
-    if (!result.met) {
+    fmt::print("{}", sensitivityText(f));
+    if (!f.met) {
         fmt::print(stderr, "vkdose: no case is written; give a larger max_runs, other bounds or a wider {}\n",
                    aim.targets.empty() ? "tolerance_g" : "uncertainty");
         return kDisagree;
     }
     std::string aims;
-    for (std::size_t g = 0; g < texts.size(); ++g)
-        aims += fmt::format("{}{:.4g}{}", g > 0 ? ", " : "", goalsOf(aim)[g].target * texts[g].scale, texts[g].unit);
+    for (const CalibrationFinding::Target& t : f.targets)
+        aims += fmt::format("{}{:.4g}{}{}", aims.empty() ? "" : ", ", t.value, t.unit.empty() ? "" : " ", t.unit);
     writeCase(
         study, folder, settingsAt(study, result.points[result.best]),
         fmt::format("{}{} is believed there, the target is {}", believed, aim.targets.empty() ? " a dose" : "", aims));
@@ -357,6 +352,7 @@ int calibrateCommand(const SweepOptions& options) {
     SweepDisplay display("calibrate", study, options.quiet);
     SweepFolder folder(sweepFolder(options), study, members);
     if (isSearch) {
+        forgetFinding(folder.path());
         SearchRuns runs(study, folder, *runner, display, stop, options.retryFailed);
         const auto result = search(*study.calibration, std::ref(runs));
         if (!result) {

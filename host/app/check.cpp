@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "host/advice/advice.h"
 #include "host/advice/figures.h"
@@ -10,6 +9,7 @@
 #include "host/app/exit_code.h"
 #include "host/app/speed.h"
 #include "host/app/text.h"
+#include "host/core/json.h"
 #include "host/core/printable.h"
 #include "host/model/bed_weight.h"
 #include "host/model/stability.h"
@@ -112,17 +112,6 @@ void printPredictions(const Derived& d, const Schedule& schedule, bool coil) {
     fmt::print("doses      {:.3g} to empty the canister by the closed form\n", d.doses);
 }
 
-void printRunTime(const CheckOptions& options, const Checked& all) {
-    const double work = all.derived.steps * static_cast<double>(all.derived.particles);
-    fmt::print("work       about {:.3g} million steps, {}particle-steps\n", all.derived.steps * 1e-6, large(work));
-    const Speed speed = speedOf(all.c, all.filled, options.backend, options.assume);
-    fmt::print("run time   {} {}\n", duration(work / speed.rate), speedText(speed));
-    if (speed.measured)
-        fmt::print(
-            "           with the fresh, loose filling; a settled bed touches more and takes up to about twice as "
-            "long\n");
-}
-
 void printWarnings(const std::vector<Warning>& warnings) {
     for (const Warning& w : warnings)
         if (!w.accepted) fmt::print("warning    {}\n", w.line());
@@ -147,16 +136,12 @@ void printText(const CheckOptions& options, const Checked& all) {
     if (s.targetMass > 0)
         fmt::print("target     {:.4g} g a dose, in {} speed{}\n", s.targetMass * 1e3, s.stages.size() + 1,
                    s.stages.empty() ? "" : "s");
-    printRunTime(options, all);
+    fmt::print("{}", workText(all.derived));
+    fmt::print("{}", runTimeText(all.derived, speedOf(all.c, all.filled, options.backend, options.assume)));
     printWarnings(all.warnings);
 }
 
 // ---- JSON ---------------------------------------------------------------------------------------------------------
-
-/// A number, or null for one that has no meaning in this case: JSON has neither NaN nor infinity.
-Json number(double value) {
-    return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
 
 Json errorsOf(const CaseError& error) {
     Json all = Json::array();
@@ -189,35 +174,35 @@ Json figuresJson(const Checked& all) {
     for (const Restitution& r : f.restitutions)
         e[className(r.kind)] = {{"mean", r.mean}, {"smallest", r.smallest}, {"largest", r.largest}};
     return {{"particles", d.particles},
-            {"fill_kg", number(d.fillMass)},
-            {"radius_min_m", number(f.smallest)},
-            {"radius_mean_m", number(f.mean)},
-            {"radius_max_m", number(f.largest)},
-            {"time_step_s", number(d.timeStep)},
-            {"automatic_step_s", number(f.automaticStep)},
+            {"fill_kg", jsonNumber(d.fillMass)},
+            {"radius_min_m", jsonNumber(f.smallest)},
+            {"radius_mean_m", jsonNumber(f.mean)},
+            {"radius_max_m", jsonNumber(f.largest)},
+            {"time_step_s", jsonNumber(d.timeStep)},
+            {"automatic_step_s", jsonNumber(f.automaticStep)},
             {"step_limit", f.stepLimit},
             {"restitution", e},
-            {"bed_depth_m", number(f.bedDepth)},
-            {"fall_m", number(f.fall)},
-            {"fall_s", number(f.fallTime)},
-            {"overlap_under_bed", number(f.overlapUnderBed)},
-            {"overlap_of_fall", number(f.overlapOfFall)},
-            {"bond_under_bed", number(f.bondUnderBed)},
-            {"bond_largest", number(f.bondLargest)},
-            {"coil_gap_m", number(f.coilGap)},
-            {"coil_clearance_m", number(f.coilClearance)},
-            {"dose_kg", number(d.massPerDose)},
-            {"doses", number(d.doses)},
-            {"steps", number(d.steps)},
-            {"simulated_s", number(f.runTime)}};
+            {"bed_depth_m", jsonNumber(f.bedDepth)},
+            {"fall_m", jsonNumber(f.fall)},
+            {"fall_s", jsonNumber(f.fallTime)},
+            {"overlap_under_bed", jsonNumber(f.overlapUnderBed)},
+            {"overlap_of_fall", jsonNumber(f.overlapOfFall)},
+            {"bond_under_bed", jsonNumber(f.bondUnderBed)},
+            {"bond_largest", jsonNumber(f.bondLargest)},
+            {"coil_gap_m", jsonNumber(f.coilGap)},
+            {"coil_clearance_m", jsonNumber(f.coilClearance)},
+            {"dose_kg", jsonNumber(d.massPerDose)},
+            {"doses", jsonNumber(d.doses)},
+            {"steps", jsonNumber(d.steps)},
+            {"simulated_s", jsonNumber(f.runTime)}};
 }
 
 Json runTimeJson(const CheckOptions& options, const Checked& all) {
     const double work = all.derived.steps * static_cast<double>(all.derived.particles);
     const Speed speed = speedOf(all.c, all.filled, options.backend, options.assume);
-    return {{"particle_steps", number(work)},
-            {"particle_steps_per_second", number(speed.rate)},
-            {"seconds", number(work / speed.rate)},
+    return {{"particle_steps", jsonNumber(work)},
+            {"particle_steps_per_second", jsonNumber(speed.rate)},
+            {"seconds", jsonNumber(work / speed.rate)},
             {"measured", speed.measured},
             {"told", printable(speed.told)}};
 }

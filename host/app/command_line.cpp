@@ -8,8 +8,8 @@
 #include <exception>
 #include <functional>
 #include <string>
-#include <vector>
 
+#include "host/app/command_options.h"
 #include "host/app/command_table.h"
 #include "host/app/commands.h"
 #include "host/app/exit_code.h"
@@ -17,384 +17,10 @@
 #include "host/app/help.h"
 #include "host/app/key_schema.h"
 #include "host/app/manual.h"
-#include "host/app/new_answers.h"
 
 namespace vkdose {
 
 namespace {
-
-void addSet(CLI::App& command, std::vector<std::string>& overrides, const char* what) {
-    command.add_option("--set", overrides, what)->type_name("KEY=VALUE")->take_all()->allow_extra_args(false);
-}
-
-CLI::Option& addCase(CLI::App& command, CaseOptions& input) {
-    addSet(command, input.overrides, "replace a value of the case: --set coil.speed_rpm=60; may be repeated");
-    return *command.add_option("case", input.file, "case file (TOML), or the name of a case in the folder cases")
-                ->required();
-}
-
-void addDevice(CLI::App& command, BackendChoice& backend) {
-    command
-        .add_option("--device", backend.device, "Vulkan device: its index or part of its name (see `vkdose devices`)")
-        ->type_name("NAME");
-    command.add_flag("--validation", backend.validation, "load the Vulkan validation layer; slow, for development");
-}
-
-void addBackend(CLI::App& command, BackendChoice& backend) {
-    command.add_option("--backend", backend.backend, "the backend that computes the steps")
-        ->type_name("NAME")
-        ->check(CLI::IsMember({"vulkan", "reference"}))
-        ->capture_default_str();
-    addDevice(command, backend);
-}
-
-/// For the program itself, which runs the members of a sweep as processes of its own.
-void addParent(CLI::App& command, int& parent) {
-    command.add_option("--parent", parent, "end, as by Ctrl-C, when this process does")->group("");
-}
-
-void addShow(CLI::App& command, bool& quiet, bool& live, bool& events) {
-    auto* silent = command.add_flag("--quiet", quiet, "print errors only");
-    command.add_flag("--live", live, "show the bed and the doses on the terminal while the run goes on")
-        ->excludes(silent);
-    command
-        .add_flag("--events", events, "print phases, samples, doses and warnings as JSON, a line for each, and no text")
-        ->excludes("--quiet")
-        ->excludes("--live");
-}
-
-CLI::Option& addAssume(CLI::App& command, bool& assume) {
-    return *command.add_flag("--assume", assume,
-                             "estimate the run time at an assumed speed, without measuring the device for a second");
-}
-
-void addNew(CLI::App& program, NewOptions& options) {
-    CLI::App& command =
-        *program.add_subcommand("new", "write a commented case from a device and a powder, or ask for them");
-    command.add_option("file", options.file, "case to write (TOML); it must not be there yet")
-        ->required()
-        ->type_name("FILE");
-    const auto questions = newQuestions();
-    options.answers.resize(questions.size());
-    for (std::size_t i = 0; i < questions.size(); ++i) {
-        const NewQuestion& q = questions[i];
-        const std::string standard = q.standard == nullptr ? "" : fmt::format(" (default: {})", q.standard);
-        command.add_option(q.option, options.answers[i], q.meaning + standard)->type_name(q.form);
-    }
-    command.add_flag("--ask", options.ask,
-                     "ask for what is not given; without any option this is done on a terminal anyway");
-}
-
-void addRun(CLI::App& program, RunOptions& options) {
-    CLI::App& command = *program.add_subcommand("run", "simulate a case and write its output folder");
-    addCase(command, options.input).required(false);
-    auto* from = command
-                     .add_option("--from", options.from.folder,
-                                 "begin with the powder of the run in this output folder, contacts included; "
-                                 "without CASE with its case, changed by --set")
-                     ->type_name("DIR");
-    command
-        .add_option(
-            "--at", options.from.at,
-            "its state to begin with: settled, checkpoint or end (default: the first of these that it has), or a "
-            "time [s]: the nearest frame, if the case keeps frames.states")
-        ->type_name("STATE|TIME")
-        ->needs(from);
-    command.add_option("--out", options.out, "output folder (default: out/<case name> in the current folder)")
-        ->type_name("DIR");
-    command.add_flag("--force", options.force,
-                     "replace a former run in the output folder: its files, and none that vkdose did not write");
-    addShow(command, options.quiet, options.live, options.events);
-    command.add_option("--member", options.member, "number of the run in a study")->group("");
-    addParent(command, options.parent);
-    addBackend(command, options.backend);
-    from->excludes("--backend");  // the state is that of one backend
-}
-
-void addResume(CLI::App& program, ResumeOptions& options) {
-    CLI::App& command = *program.add_subcommand("resume", "go on with an interrupted run from its checkpoint");
-    command.add_option("dir", options.folder, "output folder of the run")->required()->type_name("DIR");
-    addSet(command, options.overrides,
-           "replace a value that changes nothing of the past: contact.max_overlap_ratio, stop.*, checkpoint.*; may be "
-           "repeated");
-    addShow(command, options.quiet, options.live, options.events);
-    addParent(command, options.parent);
-    addDevice(command, options.backend);
-}
-
-void addCheck(CLI::App& program, CheckOptions& options) {
-    CLI::App& command = *program.add_subcommand(
-        "check", "validate a case; print its figures, and warnings of what was probably not meant");
-    addCase(command, options.input);
-    addAssume(command, options.assume);
-    command.add_flag("--json", options.json, "print errors, warnings and figures as JSON, for other programs");
-    addBackend(command, options.backend);
-}
-
-void addCompare(CLI::App& program, CompareOptions& options) {
-    CLI::App& command =
-        *program.add_subcommand("compare", "run a case on both backends side by side and judge the differences");
-    addCase(command, options.input);
-    auto* steps =
-        command.add_option("--steps", options.steps, "stop after this many steps")->check(CLI::PositiveNumber);
-    command
-        .add_option("--time", options.time, "stop after this simulated time [s] (default: settling and the first dose)")
-        ->check(CLI::PositiveNumber)
-        ->excludes(steps);
-    command
-        .add_option("--twins", options.twins,
-                    "number of perturbed reference runs that measure the chaos of the packing")
-        ->check(CLI::Range(1, 16))
-        ->capture_default_str();
-    addDevice(command, options.backend);
-}
-
-void addVerify(CLI::App& program, VerifyOptions& options) {
-    CLI::App& command = *program.add_subcommand("verify", "run small cases with known answers and judge the results");
-    addBackend(command, options.backend);
-    command.add_option("--out", options.out, "folder for verify.md and verify.json")
-        ->type_name("DIR")
-        ->capture_default_str();
-    command.add_option("--only", options.only, "play only the cases with this in their name")->type_name("NAME");
-}
-
-void addBench(CLI::App& program, BenchOptions& options) {
-    CLI::App& command = *program.add_subcommand("bench", "measure the speed of a device on fixed workloads");
-    addDevice(command, options.backend);
-    command
-        .add_option("--bed", options.bed,
-                    "case with a list of settled particles, which is run at rest and turning (default: " +
-                        std::string(kSettledBed) + ")")
-        ->type_name("CASE");
-    command.add_option("--only", options.only, "run only the workloads with this in their name")->type_name("NAME");
-    command.add_option("--repeats", options.repeats, "timed repeats of each workload")
-        ->check(CLI::Range(1, 1000))
-        ->capture_default_str();
-    command
-        .add_option("--copies", options.copies,
-                    "processes that run each workload at once, each pinned to a core; the rate is their sum")
-        ->check(CLI::Range(1, 1024))
-        ->capture_default_str();
-    command
-        .add_option("--members", options.members,
-                    "canisters that share the device in one ensemble, each with the workload")
-        ->check(CLI::Range(1, 65535))
-        ->capture_default_str()
-        ->excludes("--copies");
-    command.add_flag("--quick", options.quick,
-                     "run only the small workloads, too short to be measured: a trial of the command");
-    command.add_option("--out", options.out, "folder for bench.csv and bench.json")
-        ->type_name("DIR")
-        ->capture_default_str();
-}
-
-void addExportBody(CLI::App& program, ExportBodyOptions& options) {
-    CLI::App& command = *program.add_subcommand(
-        "export-body", "write coil and bodies of a case as a binary STL mesh, for other programs");
-    addCase(command, options.input);
-    command.add_option("name", options.names, "names of bodies, or `coil`; without a name all are written");
-    command.add_option("--out", options.out, "mesh to write")->type_name("FILE")->capture_default_str();
-    command.add_option("--unit", options.unit, "unit of the mesh's lengths, which STL itself cannot tell")
-        ->check(CLI::IsMember({"mm", "m", "um", "cm", "inch"}))
-        ->capture_default_str();
-    command.add_option("--time", options.time, "time at which moving bodies are shown [s]")->capture_default_str();
-    command.add_option("--angle", options.angle, "angle of the drive at which coil and driven bodies are shown [deg]")
-        ->capture_default_str();
-    command.add_option("--around", options.around, "corners of a wire's cross-section")
-        ->check(CLI::Range(3, 1000))
-        ->capture_default_str();
-    command.add_option("--per-turn", options.perTurn, "straight pieces of a full turn, of round bodies too")
-        ->check(CLI::Range(4, 10000))
-        ->capture_default_str();
-}
-
-CLI::App& addSweep(CLI::App& program, const char* name, const char* what, SweepOptions& options) {
-    CLI::App& command = *program.add_subcommand(name, what);
-    command.add_option("study", options.study, "study file (TOML)")->required();
-    command
-        .add_option("--out", options.out,
-                    "folder of the sweep (default: out/<name of the study's file> in the current folder)")
-        ->type_name("DIR");
-    command
-        .add_option("--jobs", options.jobs,
-                    "members at once, each in a process of its own (default on a CPU: one for each core)")
-        ->check(CLI::Range(1, 1024));
-    command
-        .add_option(
-            "--ensemble", options.ensemble,
-            "members at once that share the device in an ensemble (default on a GPU: as many as its memory holds)")
-        ->check(CLI::Range(1, 1024))
-        ->excludes("--jobs");
-    command.add_flag("--retry-failed", options.retryFailed,
-                     "run the members that failed again, from their checkpoints if these can be read");
-    addSet(command, options.overrides,
-           "replace a value of every member's case: --set stop.max_doses=2; may be repeated");
-    auto* dry = command.add_flag("--dry-run", options.dryRun,
-                                 "print the members with the time that they take, and write nothing");
-    addAssume(command, options.assume).needs(dry);
-    command.add_flag("--quiet", options.quiet, "print errors only");
-    addBackend(command, options.backend);
-    return command;
-}
-
-void addReport(CLI::App& program, ReportOptions& options) {
-    CLI::App& command = *program.add_subcommand(
-        "report", "write an HTML report of a run or a sweep, or of several runs beside each other");
-    command
-        .add_option("source", options.sources,
-                    "output folder of a run or a sweep, or a study's file; several folders of runs are compared")
-        ->required()
-        ->type_name("DIR|STUDY");
-    command
-        .add_option(
-            "--out", options.out,
-            "page to write (default: report.html in the folder; of several runs comparison.html in the current one)")
-        ->type_name("FILE");
-    command.add_option("--experiment", options.experiment, "readings of a balance (CSV), shown beside a run's doses")
-        ->type_name("FILE");
-    command.add_option("--expected", options.expected, "table of published results (TOML), by which a sweep is judged")
-        ->type_name("FILE");
-    command
-        .add_option("--profile", options.profiles,
-                    "surface measured on a photograph (CSV), shown beside the run's after this dose (0: the settled "
-                    "bed; default: the last dose); may be repeated")
-        ->type_name("FILE[@DOSE]")
-        ->allow_extra_args(false);
-}
-
-void addProfile(CLI::App& program, ProfileOptions& options) {
-    CLI::App& command = *program.add_subcommand("profile", "trace the surface of the powder in a photograph");
-    photo::Reading& reading = options.reading;
-    command.add_option("photo", options.photo, "PNG, JPEG or TIFF")->required();
-    command
-        .add_option_function<std::vector<int>>(
-            "--roi",
-            [&reading](const std::vector<int>& r) {
-                reading.region = photo::Region{r[0], r[1], r[2], r[3]};
-            },
-            "region in pixels: left, top, width, height (default: the whole picture)")
-        ->delimiter(',')
-        ->expected(4)
-        ->type_name("X,Y,W,H");
-    auto* scale = command.add_option("--mm-per-pixel", reading.mmPerPixel,
-                                     "size of a pixel [mm]; this or --length-mm is required");
-    command.add_option("--length-mm", reading.lengthMm, "length that the region's width stands for [mm]")
-        ->excludes(scale);
-    command
-        .add_option("--threshold", reading.threshold,
-                    "grey of the picture as it is, below which a pixel counts as dark (default: found, in even light)")
-        ->check(CLI::Range(1, 255));
-    command
-        .add_option_function<std::string>(
-            "--powder",
-            [&reading](const std::string& kind) {
-                reading.powder = kind == "dark" ? photo::Powder::Dark : photo::Powder::Light;
-            },
-            "whether the powder is dark or light (default: the kind of pixel that lies lower)")
-        ->check(CLI::IsMember({"dark", "light"}));
-    command
-        .add_option_function<std::string>(
-            "--rear", [&reading](const std::string& side) { reading.rearLeft = side == "left"; },
-            "side of the picture on which the rear wall is (default: left)")
-        ->check(CLI::IsMember({"left", "right"}));
-    command
-        .add_option_function<std::vector<double>>(
-            "--corner-mm",
-            [&reading](const std::vector<double>& corner) {
-                reading.cornerZMm = corner[0];
-                reading.cornerHeightMm = corner[1];
-            },
-            "place of the region's lower corner at the rear, from the rear wall and the lowest point [mm] (default: "
-            "0,0)")
-        ->delimiter(',')
-        ->expected(2)
-        ->type_name("Z,H");
-    command
-        .add_option("--speck-mm", reading.speckMm, "patches and holes smaller than a square of this edge are dirt [mm]")
-        ->check(CLI::NonNegativeNumber)
-        ->capture_default_str();
-    command.add_option("--out", options.out, "surface to write (CSV)")->type_name("FILE")->capture_default_str();
-    command
-        .add_option("--check", options.check,
-                    "picture to write, with the surface drawn over the photograph, to judge it by")
-        ->type_name("FILE");
-}
-
-void addRender(CLI::App& program, RenderOptions& options) {
-    CLI::App& command = *program.add_subcommand("render", "draw pictures and films of a run");
-    command.add_option("dir", options.folder, "output folder of the run")->required()->type_name("DIR");
-    command.add_option("--out", options.out, "picture to write, a PNG (default: picture.png in the folder)")
-        ->type_name("FILE");
-    auto* times =
-        command
-            .add_option(
-                "--time", options.times,
-                "simulated time [s], one or several side by side; the nearest frames are drawn (default: the end)")
-            ->expected(1, 26);
-    auto* panels = command
-                       .add_flag("--panels", options.panels,
-                                 "four times side by side: settled, end of the first dose's turning, half of the "
-                                 "powder that came out is out, a tenth left")
-                       ->excludes(times);
-    auto* movie = command
-                      .add_option("--movie", options.movie,
-                                  "all frames: a film, encoded by ffmpeg if that is installed, or a folder of pictures "
-                                  "that holds no frame_*.png yet")
-                      ->type_name("FILE|DIR")
-                      ->excludes(times)
-                      ->excludes(panels)
-                      ->excludes("--out");
-    command.add_option("--rate", options.rate, "frames a second of the film")
-        ->check(CLI::Range(0.1, 240.0))
-        ->capture_default_str()
-        ->needs(movie);
-    command.add_option("--color", options.color, "quantity that the colour tells")
-        ->check(CLI::IsMember({"kinetic-energy", "speed", "overlap", "radius", "fill-layer"}))
-        ->capture_default_str();
-    command.add_option("--from", options.from, "value where the colours begin, in the unit of the colour bar");
-    command.add_option("--to", options.to, "value where the colours end");
-    command.add_option("--view", options.view, "side from which the picture is drawn")
-        ->check(CLI::IsMember({"side", "end", "iso", "cut"}))
-        ->capture_default_str();
-    command
-        .add_option("--size", options.size,
-                    "width and height in pixels: 1280x720 (default: as large as the view takes)")
-        ->type_name("WxH");
-    command.add_flag("--no-coil", options.noCoil, "do not draw the coil");
-    addDevice(command, options.backend);
-}
-
-/// The commands that print parts of the manual.
-struct ManualOptions {
-    bool study = false;
-    bool schema = false;
-    bool sweep = false;
-    bool brief = false;
-};
-
-void addManual(CLI::App& program, ManualOptions& options) {
-    CLI::App& keys = *program.add_subcommand("keys", "list every key of a case file: unit, default, bounds, meaning");
-    keys.add_flag("--study", options.study, "list the keys of a study file instead");
-    keys.add_flag("--schema", options.schema, "print them as a JSON Schema, by which an editor completes and checks");
-    CLI::App& columns = *program.add_subcommand("columns", "list every column of the files that a run leaves");
-    columns.add_flag("--sweep", options.sweep, "list the columns of a sweep's tables instead");
-    CLI::App& all = *program.add_subcommand("options", "list every command with its options");
-    all.add_flag("--brief", options.brief, "list the commands alone, a line each");
-}
-
-/// The commands that print what shells and man(1) read.
-void addShells(CLI::App& program, ShellOptions& options) {
-    CLI::App& completion =
-        *program.add_subcommand("completion", "print the completion of the command line for a shell");
-    completion.add_option("shell", options.shell, "the shell")->check(CLI::IsMember({"bash", "zsh", "fish"}));
-    completion.add_option("--names", options.names, "print the names of what can be given")
-        ->check(CLI::IsMember({"case", "study"}))
-        ->group("");
-    CLI::App& man = *program.add_subcommand("man", "print the page for man(1), of vkdose or of a command");
-    man.add_option("command", options.command, "a command of vkdose; without one the page that lists them");
-    man.add_option("--out", options.out, "folder to write all the pages into, vkdose.1 and one for each command")
-        ->type_name("DIR");
-}
 
 /// Runs `command`; every error becomes lines on stderr and an exit code.
 int guarded(const std::function<int()>& command) {
@@ -408,8 +34,8 @@ int guarded(const std::function<int()>& command) {
 }
 
 /// The options with the file of a case that may have been given by its name.
-template <class Options>
-const Options& named(Options& options) {
+template <class Command>
+const Command& named(Command& options) {
     options.input.file = findCase(options.input.file);
     return options;
 }
@@ -432,41 +58,8 @@ int commandLine(int argc, const char* const* argv) {
     CLI::App program("Simulates the dosing of cohesive powder by a turning coil (discrete element method).", "vkdose");
     program.set_version_flag("--version", "vkdose " VKDOSE_VERSION);
     program.require_subcommand(1);
-    NewOptions made;
-    RunOptions run;
-    ResumeOptions resume;
-    CheckOptions check;
-    CompareOptions compare;
-    VerifyOptions verification;
-    BenchOptions bench;
-    ExportBodyOptions exportBody;
-    SweepOptions sweep;
-    SweepOptions calibration;
-    ReportOptions report;
-    ProfileOptions profile;
-    RenderOptions render;
-    addNew(program, made);
-    addRun(program, run);
-    addResume(program, resume);
-    addCheck(program, check);
-    program.add_subcommand("devices", "list the Vulkan devices");
-    addCompare(program, compare);
-    addVerify(program, verification);
-    addBench(program, bench);
-    addExportBody(program, exportBody);
-    addSweep(program, "sweep", "run every member of a study: a base case, axes, seeds", sweep)
-        .add_flag("--mpi", sweep.mpi, "run a member on each rank of an MPI job (needs a build with VKDOSE_MPI)")
-        ->excludes("--ensemble");
-    program.get_subcommand("sweep")->add_flag("--prepare", sweep.prepare,
-                                              "only make the members' folders, for a queue (tools/slurm-array)");
-    addSweep(program, "calibrate", "find the parameters of a study that dose the measured mass", calibration);
-    addReport(program, report);
-    addProfile(program, profile);
-    addRender(program, render);
-    ManualOptions manual;
-    addManual(program, manual);
-    ShellOptions shells;
-    addShells(program, shells);
+    Options given;
+    declareCommands(program, given);
     addExamples(program);
     if (argc < 2) return printed(overview(program));
     try {
@@ -477,26 +70,31 @@ int commandLine(int argc, const char* const* argv) {
         fmt::print(stderr, "{}", usageFault(program, e.what(), argc > 1 ? argv[1] : ""));
         return kBadInput;
     }
-    if (program.got_subcommand("new")) return guarded([&] { return newCommand(made); });
-    if (program.got_subcommand("run")) return guarded([&] { return runCommand(named(run)); });
-    if (program.got_subcommand("resume")) return guarded([&] { return resumeCommand(resume); });
-    if (program.got_subcommand("check")) return guarded([&] { return checkCommand(named(check)); });
-    if (program.got_subcommand("compare")) return guarded([&] { return compareCommand(named(compare)); });
-    if (program.got_subcommand("verify")) return guarded([&] { return verifyCommand(verification); });
-    if (program.got_subcommand("bench")) return guarded([&] { return benchCommand(bench); });
-    if (program.got_subcommand("export-body")) return guarded([&] { return exportBodyCommand(named(exportBody)); });
-    if (program.got_subcommand("sweep")) return guarded([&] { return sweepCommand(studied(sweep)); });
-    if (program.got_subcommand("calibrate")) return guarded([&] { return calibrateCommand(studied(calibration)); });
-    if (program.got_subcommand("report")) return guarded([&] { return reportCommand(report); });
-    if (program.got_subcommand("profile")) return guarded([&] { return profileCommand(profile); });
-    if (program.got_subcommand("render")) return guarded([&] { return renderCommand(render); });
+    if (program.got_subcommand("new")) return guarded([&] { return newCommand(given.made); });
+    if (program.got_subcommand("run")) return guarded([&] { return runCommand(named(given.run)); });
+    if (program.got_subcommand("resume")) return guarded([&] { return resumeCommand(given.resume); });
+    if (program.got_subcommand("check")) return guarded([&] { return checkCommand(named(given.check)); });
+    if (program.got_subcommand("compare")) return guarded([&] { return compareCommand(named(given.compare)); });
+    if (program.got_subcommand("verify")) return guarded([&] { return verifyCommand(given.verification); });
+    if (program.got_subcommand("bench")) return guarded([&] { return benchCommand(given.bench); });
+    if (program.got_subcommand("export-body"))
+        return guarded([&] { return exportBodyCommand(named(given.exportBody)); });
+    if (program.got_subcommand("sweep")) return guarded([&] { return sweepCommand(studied(given.sweep)); });
+    if (program.got_subcommand("calibrate"))
+        return guarded([&] { return calibrateCommand(studied(given.calibration)); });
+    if (program.got_subcommand("report")) return guarded([&] { return reportCommand(given.report); });
+    if (program.got_subcommand("profile")) return guarded([&] { return profileCommand(given.profile); });
+    if (program.got_subcommand("render")) return guarded([&] { return renderCommand(given.render); });
     if (program.got_subcommand("keys"))
-        return guarded([&] { return printed(manual.schema ? keySchema(manual.study) : keysPage(manual.study)); });
-    if (program.got_subcommand("columns")) return guarded([&] { return printed(columnsPage(manual.sweep)); });
-    if (program.got_subcommand("options")) return guarded([&] { return printed(optionsPage(program, manual.brief)); });
+        return guarded([&] {
+            return printed(given.manual.schema ? keySchema(given.manual.study) : keysPage(given.manual.study));
+        });
+    if (program.got_subcommand("columns")) return guarded([&] { return printed(columnsPage(given.manual.sweep)); });
+    if (program.got_subcommand("options"))
+        return guarded([&] { return printed(optionsPage(program, given.manual.brief)); });
     if (program.got_subcommand("completion"))
-        return guarded([&] { return completionCommand(commandTexts(program), shells); });
-    if (program.got_subcommand("man")) return guarded([&] { return manCommand(commandTexts(program), shells); });
+        return guarded([&] { return completionCommand(commandTexts(program), given.shells); });
+    if (program.got_subcommand("man")) return guarded([&] { return manCommand(commandTexts(program), given.shells); });
     return guarded([] { return devicesCommand(); });
 }
 

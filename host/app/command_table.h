@@ -1,6 +1,6 @@
 #pragma once
 // The commands and options of the program as texts: the manual, the man pages and the completion of the shells are made
-// from these, which come from the declarations in command_line.cpp.
+// from these, which come from the declarations in command_options.cpp.
 
 #include <string>
 #include <vector>

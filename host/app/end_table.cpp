@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "host/analysis/closed_form.h"
 #include "host/analysis/figures.h"
 #include "host/analysis/targets.h"
 #include "host/app/text.h"
@@ -86,6 +87,11 @@ std::string ledgerLine(const RunResult& r) {
                : std::string("as of the last sample"));
 }
 
+std::string closedFormLine(const Case& c, const RunResult& r) {
+    const std::string note = closedFormNote(c, r);
+    return note.empty() ? "" : fmt::format("note     {}\n", note);
+}
+
 /// Always shown: a deep overlap is a result to distrust, not a detail.
 std::string overlapLine(const RunResult& r) {
     std::string text = fmt::format("overlap  at most {:.3g} of the smaller radius, at t = {:.4g} s", r.maxOverlapRatio,
@@ -132,7 +138,7 @@ std::string reportText(const Case& c, const RunResult& r, const std::string& bac
     }
     text += targetLine(r.doses);
     if (r.settling) text += fmt::format("settled  {}\n", settlingSentence(*r.settling, c.schedule));
-    text += densityLine(c, r);
+    text += densityLine(c, r) + closedFormLine(c, r);
     text += figureLines(r, c.schedule.stop) + ledgerLine(r);
     if (r.last.energy) text += energyLine(*r.last.energy);
     text += overlapLine(r);

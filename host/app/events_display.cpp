@@ -3,7 +3,7 @@
 #include <csignal>
 
 #include "host/app/interrupt.h"
-#include "host/output/json_row.h"
+#include "host/core/json.h"
 
 namespace vkdose {
 

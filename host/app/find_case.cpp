@@ -8,7 +8,8 @@
 
 #include "host/app/backends.h"
 #include "host/core/printable.h"
-#include "host/model/case_reader.h"
+#include "host/model/case_tree.h"
+#include "host/model/closest_word.h"
 
 namespace vkdose {
 

@@ -9,7 +9,7 @@
 #include "host/app/command_table.h"
 #include "host/core/printable.h"
 #include "host/model/case_keys.h"
-#include "host/model/case_reader.h"
+#include "host/model/closest_word.h"
 #include "host/study/output_tables.h"
 #include "host/study/study_keys.h"
 

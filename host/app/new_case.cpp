@@ -108,6 +108,20 @@ void writeNew(const std::filesystem::path& file, const std::string& text) {
     }
 }
 
+/// The run time is told only if the device could be asked: a case with a mesh can take many times as long as another
+/// with as many spheres.
+void tellRunTime(const Case& c, const Insertion& filled) {
+    const Derived derived = derive(c, filled);
+    fmt::print("{}", workText(derived));
+    std::fflush(stdout);
+    const Speed speed = speedOf(c, filled, {}, false);
+    if (speed.measured)
+        fmt::print("{}", runTimeText(derived, speed));
+    else
+        fmt::print("run time   not known, because the device could not be measured: {}\n",
+                   printable(speed.told.substr(0, speed.told.find('\n'))));
+}
+
 void tell(const NewDesign& d, const Case& c, const std::filesystem::path& file) {
     const Insertion filled = insertParticles(c);
     fmt::print("wrote      {}\n", printable(file.string()));
@@ -124,13 +138,7 @@ void tell(const NewDesign& d, const Case& c, const std::filesystem::path& file) 
                    lengthText(d.wire.value));
     fmt::print("powder     {} in {} spheres of {} to {}\n", massText(filled.mass), filled.particles.size(),
                lengthText(2 * d.size.radiusMin), lengthText(2 * d.size.radiusMax));
-    const double steps = derive(c, filled).steps;
-    const double work = steps * static_cast<double>(filled.particles.size());
-    fmt::print(
-        "work       about {:.3g} million steps, {}particle-steps: {} at {}particle-steps/s (vkdose check --measure "
-        "asks "
-        "the device)\n",
-        steps * 1e-6, large(work), duration(work / kAssumedSpeed), large(kAssumedSpeed));
+    tellRunTime(c, filled);
     std::string assumed;
     for (const std::string& what : d.assumed) assumed += (assumed.empty() ? "" : ", ") + what;
     if (!assumed.empty()) fmt::print("assumed    {}\n", assumed);

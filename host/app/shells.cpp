@@ -8,7 +8,7 @@
 #include "host/app/man_page.h"
 #include "host/core/file.h"
 #include "host/core/printable.h"
-#include "host/model/case_reader.h"
+#include "host/model/closest_word.h"
 
 namespace vkdose {
 

@@ -33,6 +33,11 @@ double measuredSpeed(const Case& c, const Insertion& filled, Backend& backend) {
     return work / seconds;
 }
 
+/// [particle-steps]
+double workOf(const Derived& derived) {
+    return derived.steps * static_cast<double>(derived.particles);
+}
+
 }  // namespace
 
 Speed speedOf(const Case& c, const Insertion& filled, const BackendChoice& choice, bool assume) {
@@ -53,6 +58,20 @@ std::string speedText(const Speed& speed) {
     if (speed.told.empty()) return "at an assumed " + rate;
     return fmt::format("at an assumed {}, because the device could not be measured: {}", rate,
                        printable(speed.told.substr(0, speed.told.find('\n'))));
+}
+
+std::string workText(const Derived& derived) {
+    return fmt::format("work       about {:.3g} million steps, {}particle-steps\n", derived.steps * 1e-6,
+                       large(workOf(derived)));
+}
+
+std::string runTimeText(const Derived& derived, const Speed& speed) {
+    std::string text = fmt::format("run time   {} {}\n", duration(workOf(derived) / speed.rate), speedText(speed));
+    if (speed.measured)
+        text +=
+            "           with the fresh, loose filling; a settled bed touches more and takes up to about twice as "
+            "long\n";
+    return text;
 }
 
 }  // namespace vkdose

@@ -25,4 +25,8 @@ Speed speedOf(const Case& c, const Insertion& filled, const BackendChoice& choic
 /// "at 8.31 M particle-steps/s, measured on reference"
 std::string speedText(const Speed& speed);
 
+/// What a run takes, for people, in lines with their labels: its steps and, by this speed, its time.
+std::string workText(const Derived& derived);
+std::string runTimeText(const Derived& derived, const Speed& speed);
+
 }  // namespace vkdose

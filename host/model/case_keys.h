@@ -1,6 +1,6 @@
 #pragma once
 // Every key of a case file. The readers (read_powder.cpp, read_apparatus.cpp, read_field.cpp, case.cpp) take units,
-// bounds, words and defaults from here.
+// bounds, words and defaults from here. The keys of the top of the file stand in case_keys.cpp.
 
 #include "host/model/key.h"
 
@@ -8,5 +8,12 @@ namespace vkdose {
 
 /// The tables of a case file in the order of the manual.
 std::span<const KeyTable> caseKeys();
+
+// Their parts, in this order, each in a file of its name (powder_keys.cpp).
+std::span<const KeyTable> powderKeys();
+std::span<const KeyTable> contactKeys();
+std::span<const KeyTable> apparatusKeys();
+std::span<const KeyTable> runKeys();
+std::span<const KeyTable> evaluationKeys();
 
 }  // namespace vkdose

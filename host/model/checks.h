@@ -46,6 +46,7 @@ void checkSurfaces(CaseReader& reader, const Case& c, double radius);
 /// Checks whether the neighbours of each particle at the start, within reach and skin, fit a row.
 void checkRows(CaseReader& reader, const Case& c, const Particles& particles, const SizeRange& radii);
 
+// placement.cpp
 /// Checks the particles against the domain, the surfaces, the coil and one another, and their motion against the time
 /// step.
 void checkPlacement(CaseReader& reader, const Case& c, const Particles& particles);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 
 #include "host/model/case_sections.h"
@@ -24,6 +25,18 @@ void checkName(CaseReader& reader, const std::string& path, const std::string& n
         reader.fault(path, fmt::format("there are two measures \"{}\"", name), "give each a name of its own");
 }
 
+/// The place of the word among those of its kind, which `what` calls it ("body"). A fault if it is not there.
+std::optional<std::size_t> placeOf(CaseReader& reader, const std::string& path, const std::string& name,
+                                   const std::vector<std::string>& known, const char* what) {
+    const auto found = std::find(known.begin(), known.end(), name);
+    if (found != known.end()) return static_cast<std::size_t>(found - known.begin());
+    const std::string meant = closestWord(name, known);
+    reader.fault(
+        path, fmt::format("there is no {} \"{}\"", what, name),
+        meant.empty() ? fmt::format("give the name of a [[{}]]", what) : fmt::format("did you mean \"{}\"?", meant));
+    return std::nullopt;
+}
+
 /// The bodies that `body` names, the first `most` of them.
 std::vector<std::size_t> readBodyNames(CaseReader& reader, Section& s, std::size_t most, const Case& c) {
     std::vector<std::size_t> places;
@@ -35,15 +48,8 @@ std::vector<std::size_t> readBodyNames(CaseReader& reader, Section& s, std::size
     if (names.empty() || names.size() > most)
         reader.fault(s.path("body"), fmt::format("names {} bodies", names.size()),
                      most == 1 ? "name one" : "name the lid and what is fixed to it");
-    for (const std::string& name : names) {
-        const auto found = std::find(known.begin(), known.end(), name);
-        const std::string meant = closestWord(name, known);
-        if (found == known.end())
-            reader.fault(s.path("body"), fmt::format("there is no body \"{}\"", name),
-                         meant.empty() ? "give the name of a [[body]]" : fmt::format("did you mean \"{}\"?", meant));
-        else
-            places.push_back(static_cast<std::size_t>(found - known.begin()));
-    }
+    for (const std::string& name : names)
+        if (const auto place = placeOf(reader, s.path("body"), name, known, "body")) places.push_back(*place);
     return places;
 }
 
@@ -127,6 +133,16 @@ void readKind(CaseReader& reader, Section& s, Kind kind, const Case& c, ElementT
                              "give less than radius_mm");
             m.windows = readWindows(reader, s, true);
             return;
+        case Kind::Discharge: {
+            std::vector<std::string> known;
+            for (const CountRegion& region : c.world.regions) known.push_back(region.name);
+            const std::string name = s.string("region");
+            if (s.isString("region")) m.region = placeOf(reader, s.path("region"), name, known, "region").value_or(0);
+            if (s.has("hole_mm")) m.hole = s.number("hole_mm");
+            s.know("hole_mm");
+            m.windows = readWindows(reader, s, false);
+            return;
+        }
     }
 }
 

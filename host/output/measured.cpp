@@ -2,12 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <span>
 
 #include "host/analysis/compression.h"
+#include "host/analysis/discharge.h"
 #include "host/analysis/drum.h"
 #include "host/analysis/heap.h"
 #include "host/analysis/shear.h"
@@ -28,6 +29,84 @@ double degrees(double radians) {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
+/// A figure: its name in files, and how people read it.
+struct Wording {
+    const char *name, *words, *unit;
+    double scale = 1;
+};
+
+constexpr Wording kAngle{"angle_deg", "angle of the surface", "°"};
+constexpr Wording kTime{"time_s", "at", "s"};
+
+// The figures of each kind of test, in the order of summary.json.
+constexpr Wording kHeap[] = {
+    kAngle,
+    {"angle_error_deg", "standard error of the angle", "°"},
+    {"height_m", "height", "mm", 1e3},
+    {"flank_from_m", "flank from", "mm", 1e3},
+    {"flank_to_m", "flank to", "mm", 1e3},
+    kTime,
+};
+constexpr Wording kDrum[] = {
+    kAngle,
+    {"angle_deviation_deg", "deviation from frame to frame", "°"},
+    {"frames", "frames", ""},
+};
+constexpr Wording kCompression[] = {
+    {"max_stress_Pa", "largest stress", "kPa", 1e-3},
+    {"loose_density_kg_m3", "loose density", "kg/m³"},
+    {"loaded_density_kg_m3", "density under load", "kg/m³"},
+    {"released_density_kg_m3", "density after release", "kg/m³"},
+    {"elastic_recovery", "elastic recovery", "%", 100},
+    {"work_J", "work", "mJ", 1e3},
+    {"returned_work_J", "returned work", "mJ", 1e3},
+    {"work_J_kg", "work for a mass", "J/kg"},
+};
+constexpr Wording kShear[] = {
+    {"friction_angle_deg", "friction angle", "°"},
+    {"cohesion_Pa", "cohesion", "kPa", 1e-3},
+    {"effective_friction_angle_deg", "friction angle without cohesion", "°"},
+};
+constexpr Wording kBulk[] = {
+    {"density_kg_m3", "bulk density", "kg/m³"},
+    {"solid_fraction", "solid fraction", ""},
+    {"volume_m3", "over", "cm³", 1e6},
+    kTime,
+};
+constexpr Wording kDischarge[] = {
+    {"rate_kg_s", "rate of discharge", "g/s", 1e3},
+    {"rate_error_kg_s", "standard error of the rate", "g/s", 1e3},
+    {"beverloo_constant", "Beverloo's constant", ""},
+};
+/// Of each point of the yield locus, which are counted from 1. They are told by their names.
+constexpr const char* kShearPoint[] = {"normal_stress_{}_Pa", "shear_stress_{}_Pa", "shear_stress_deviation_{}_Pa"};
+
+std::span<const Wording> wordingsOf(ElementTest::Kind kind) {
+    switch (kind) {
+        case ElementTest::Kind::AngleOfRepose:
+            return kHeap;
+        case ElementTest::Kind::DrumAngle:
+            return kDrum;
+        case ElementTest::Kind::Compression:
+            return kCompression;
+        case ElementTest::Kind::Shear:
+            return kShear;
+        case ElementTest::Kind::BulkDensity:
+            return kBulk;
+        case ElementTest::Kind::Discharge:
+            return kDischarge;
+    }
+    return {};
+}
+
+/// The values of a list of figures, in its order.
+template <std::size_t n>
+Figures named(const Wording (&figures)[n], const double (&values)[n]) {
+    Figures all;
+    for (std::size_t i = 0; i < n; ++i) all.push_back({figures[i].name, values[i]});
+    return all;
+}
+
 class Measuring {
   public:
     Measuring(const std::filesystem::path& folder, const Case& c, const RunResult& result)
@@ -40,28 +119,8 @@ class Measuring {
     MeasureResult of(const ElementTest& m) const {
         MeasureResult r;
         r.name = m.name;
-        switch (m.kind) {
-            case ElementTest::Kind::AngleOfRepose:
-                r.kind = "angle_of_repose";
-                r.figures = heap(m, r.why);
-                break;
-            case ElementTest::Kind::DrumAngle:
-                r.kind = "drum_angle";
-                r.figures = drum(m, r.why);
-                break;
-            case ElementTest::Kind::Compression:
-                r.kind = "compression";
-                r.figures = compression(m, r.why);
-                break;
-            case ElementTest::Kind::Shear:
-                r.kind = "shear";
-                r.figures = shear(m, r.why);
-                break;
-            case ElementTest::Kind::BulkDensity:
-                r.kind = "bulk_density";
-                r.figures = bulk(m, r.why);
-                break;
-        }
+        r.kind = wordsOf(ElementTest::kKinds).at(std::size_t(m.kind));
+        r.figures = figuresOf(m, r.why);
         return r;
     }
 
@@ -77,6 +136,24 @@ class Measuring {
         return {frames_.read(entry).particles, entry.time};
     }
 
+    Figures figuresOf(const ElementTest& m, std::string& why) const {
+        switch (m.kind) {
+            case ElementTest::Kind::AngleOfRepose:
+                return heap(m, why);
+            case ElementTest::Kind::DrumAngle:
+                return drum(m, why);
+            case ElementTest::Kind::Compression:
+                return compression(m, why);
+            case ElementTest::Kind::Shear:
+                return shear(m, why);
+            case ElementTest::Kind::BulkDensity:
+                return bulk(m, why);
+            case ElementTest::Kind::Discharge:
+                return discharge(m, why);
+        }
+        return {};
+    }
+
     Figures heap(const ElementTest& m, std::string& why) const {
         const State state = stateAt(m.time);
         const auto slope = heapSlope(upright(state.particles, m.at, up_));
@@ -84,12 +161,8 @@ class Measuring {
             why = "the powder makes no heap with a flank of three diameters about its axis";
             return {};
         }
-        return {{"angle_deg", degrees(slope->angle)},
-                {"angle_error_deg", degrees(slope->error)},
-                {"height_m", slope->height},
-                {"flank_from_m", slope->from},
-                {"flank_to_m", slope->to},
-                {"time_s", state.time}};
+        return named(kHeap,
+                     {degrees(slope->angle), degrees(slope->error), slope->height, slope->from, slope->to, state.time});
     }
 
     Figures bulk(const ElementTest& m, std::string& why) const {
@@ -99,10 +172,7 @@ class Measuring {
             why = "a mean diameter away from wall, floor and surface there is room for fewer than a hundred spheres";
             return {};
         }
-        return {{"density_kg_m3", bulk->density},
-                {"solid_fraction", bulk->density / c_.world.density},
-                {"volume_m3", bulk->volume},
-                {"time_s", state.time}};
+        return named(kBulk, {bulk->density, bulk->density / c_.world.density, bulk->volume, state.time});
     }
 
     Figures drum(const ElementTest& m, std::string& why) const {
@@ -125,9 +195,24 @@ class Measuring {
         const double mean = std::accumulate(angles.begin(), angles.end(), 0.0) / count;
         double squares = 0;
         for (const double a : angles) squares += (a - mean) * (a - mean);
-        return {{"angle_deg", mean},
-                {"angle_deviation_deg", angles.size() > 1 ? std::sqrt(squares / (count - 1)) : kNone},
-                {"frames", count}};
+        return named(kDrum, {mean, angles.size() > 1 ? std::sqrt(squares / (count - 1)) : kNone, count});
+    }
+
+    Figures discharge(const ElementTest& m, std::string& why) const {
+        const std::string column = c_.world.regions.at(m.region).name + ".mass_kg";
+        std::vector<DischargeSample> samples;
+        for (std::size_t i = 0; i < series_.rows(); ++i)
+            samples.push_back({series_.number(i, "time_s"), series_.number(i, column)});
+        const auto d = dischargeOf(samples, m.windows.at(0).from, m.windows.at(0).to);
+        if (!d) {
+            why = "in its time nothing runs out, or the time series has fewer than eight lines";
+            return {};
+        }
+        const std::vector<double>& radii = result_.particles.radius;
+        const double grain = 2 * std::accumulate(radii.begin(), radii.end(), 0.0) / static_cast<double>(radii.size());
+        const double gravity = glm::length(c_.world.gravity);
+        return named(kDischarge,
+                     {d->rate, d->error, beverlooConstant(d->rate, c_.bulkDensity, gravity, m.hole, grain)});
     }
 
     double senseOfDrive() const {
@@ -158,14 +243,8 @@ class Measuring {
             why = "the powder never pressed against the piston";
             return {};
         }
-        return {{"max_stress_Pa", c->maxStress},
-                {"loose_density_kg_m3", c->looseDensity},
-                {"loaded_density_kg_m3", c->loadedDensity},
-                {"released_density_kg_m3", c->releasedDensity},
-                {"elastic_recovery", c->recovery},
-                {"work_J", c->work},
-                {"returned_work_J", c->returned},
-                {"work_J_kg", c->work / mass}};
+        return named(kCompression, {c->maxStress, c->looseDensity, c->loadedDensity, c->releasedDensity, c->recovery,
+                                    c->work, c->returned, c->work / mass});
     }
 
     Figures shear(const ElementTest& m, std::string& why) const {
@@ -188,14 +267,11 @@ class Measuring {
                                                    : "all its points have the same normal stress";
             return {};
         }
-        Figures figures{{"friction_angle_deg", degrees(locus->friction)},
-                        {"cohesion_Pa", locus->cohesion},
-                        {"effective_friction_angle_deg", degrees(locus->effective)}};
+        Figures figures = named(kShear, {degrees(locus->friction), locus->cohesion, degrees(locus->effective)});
         for (std::size_t i = 0; i < points.size(); ++i) {
-            const ShearPoint& p = points[i];
-            figures.push_back({fmt::format("normal_stress_{}_Pa", i + 1), p.normal});
-            figures.push_back({fmt::format("shear_stress_{}_Pa", i + 1), p.shear});
-            figures.push_back({fmt::format("shear_stress_deviation_{}_Pa", i + 1), p.shearDeviation});
+            const double values[std::size(kShearPoint)] = {points[i].normal, points[i].shear, points[i].shearDeviation};
+            for (std::size_t k = 0; k < std::size(kShearPoint); ++k)
+                figures.push_back({fmt::format(fmt::runtime(kShearPoint[k]), i + 1), values[k]});
         }
         return figures;
     }
@@ -207,35 +283,13 @@ class Measuring {
     Table series_;
 };
 
-struct Wording {
-    const char *name, *words, *unit;
-    double scale = 1;
-};
-
-constexpr Wording kWords[] = {
-    {"angle_deg", "angle of the surface", "°"},
-    {"angle_error_deg", "standard error of the angle", "°"},
-    {"angle_deviation_deg", "deviation from frame to frame", "°"},
-    {"height_m", "height", "mm", 1e3},
-    {"flank_from_m", "flank from", "mm", 1e3},
-    {"flank_to_m", "flank to", "mm", 1e3},
-    {"time_s", "at", "s"},
-    {"frames", "frames", ""},
-    {"density_kg_m3", "bulk density", "kg/m³"},
-    {"solid_fraction", "solid fraction", ""},
-    {"volume_m3", "over", "cm³", 1e6},
-    {"max_stress_Pa", "largest stress", "kPa", 1e-3},
-    {"loose_density_kg_m3", "loose density", "kg/m³"},
-    {"loaded_density_kg_m3", "density under load", "kg/m³"},
-    {"released_density_kg_m3", "density after release", "kg/m³"},
-    {"elastic_recovery", "elastic recovery", "%", 100},
-    {"work_J", "work", "mJ", 1e3},
-    {"returned_work_J", "returned work", "mJ", 1e3},
-    {"work_J_kg", "work for a mass", "J/kg"},
-    {"friction_angle_deg", "friction angle", "°"},
-    {"cohesion_Pa", "cohesion", "kPa", 1e-3},
-    {"effective_friction_angle_deg", "friction angle without cohesion", "°"},
-};
+/// Null for a figure without words.
+const Wording* wordingOf(const std::string& name) {
+    for (std::size_t kind = 0; kind < wordsOf(ElementTest::kKinds).size(); ++kind)
+        for (const Wording& w : wordingsOf(ElementTest::Kind(kind)))
+            if (name == w.name) return &w;
+    return nullptr;
+}
 
 }  // namespace
 
@@ -248,36 +302,20 @@ std::vector<MeasureResult> measuresOf(const std::filesystem::path& folder, const
 }
 
 std::vector<std::string> figureNames(const ElementTest& m) {
-    switch (m.kind) {
-        case ElementTest::Kind::AngleOfRepose:
-            return {"angle_deg", "angle_error_deg", "height_m", "flank_from_m", "flank_to_m", "time_s"};
-        case ElementTest::Kind::DrumAngle:
-            return {"angle_deg", "angle_deviation_deg", "frames"};
-        case ElementTest::Kind::Compression:
-            return {"max_stress_Pa",        "loose_density_kg_m3",
-                    "loaded_density_kg_m3", "released_density_kg_m3",
-                    "elastic_recovery",     "work_J",
-                    "returned_work_J",      "work_J_kg"};
-        case ElementTest::Kind::BulkDensity:
-            return {"density_kg_m3", "solid_fraction", "volume_m3", "time_s"};
-        case ElementTest::Kind::Shear:
-            break;
-    }
-    std::vector<std::string> names{"friction_angle_deg", "cohesion_Pa", "effective_friction_angle_deg"};
-    for (std::size_t i = 1; i <= m.windows.size(); ++i)
-        for (const char* name : {"normal_stress", "shear_stress", "shear_stress_deviation"})
-            names.push_back(fmt::format("{}_{}_Pa", name, i));
+    std::vector<std::string> names;
+    for (const Wording& w : wordingsOf(m.kind)) names.emplace_back(w.name);
+    if (m.kind == ElementTest::Kind::Shear)
+        for (std::size_t i = 1; i <= m.windows.size(); ++i)
+            for (const char* name : kShearPoint) names.push_back(fmt::format(fmt::runtime(name), i));
     return names;
 }
 
 FigureText figureText(const std::string& name, double value) {
-    const auto found =
-        std::find_if(std::begin(kWords), std::end(kWords), [&](const Wording& w) { return name == w.name; });
-    const bool known = found != std::end(kWords);
-    if (!std::isfinite(value)) return {known ? found->words : name, "not known"};
-    if (!known) return {name, fmt::format("{:.4g}", value)};
-    return {found->words,
-            fmt::format("{:.4g}{}{}", value * found->scale, *found->unit != '\0' ? " " : "", found->unit)};
+    const Wording* known = wordingOf(name);
+    if (!std::isfinite(value)) return {known != nullptr ? known->words : name, "not known"};
+    if (known == nullptr) return {name, fmt::format("{:.4g}", value)};
+    return {known->words,
+            fmt::format("{:.4g}{}{}", value * known->scale, *known->unit != '\0' ? " " : "", known->unit)};
 }
 
 std::string measureText(const std::vector<MeasureResult>& results) {

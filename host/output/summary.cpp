@@ -1,14 +1,14 @@
 #include "host/output/summary.h"
 
-#include <nlohmann/json.hpp>
 #include <tuple>
 #include <utility>
 
+#include "host/analysis/closed_form.h"
 #include "host/analysis/figures.h"
 #include "host/analysis/settled_figures.h"
 #include "host/analysis/targets.h"
 #include "host/core/file.h"
-#include "host/output/json_row.h"
+#include "host/core/json.h"
 
 namespace vkdose {
 
@@ -16,29 +16,25 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json number(double x) {
-    return jsonNumber(x);
-}
-
 Json inputs(const Case& c, const RunResult& r) {
     Json j;
     j["case"] = c.name;
     j["reason"] = c.reason;
     j["seed"] = c.seed;
     j["particles"] = r.filled.particles.size();
-    j["filled_mass_kg"] = number(r.filled.mass);
-    j["target_mass_kg"] = number(r.filled.targetMass);
+    j["filled_mass_kg"] = jsonNumber(r.filled.mass);
+    j["target_mass_kg"] = jsonNumber(r.filled.targetMass);
     j["redrawn"] = r.filled.redrawn;
-    j["time_step_s"] = number(c.world.timeStep);
-    j["settle_time_s"] = number(c.schedule.settleTime);
-    j["rotate_time_s"] = number(c.schedule.rotateTime);
-    j["rest_time_s"] = number(c.schedule.restTime);
-    if (c.schedule.targetMass > 0) j["dose_target_kg"] = number(c.schedule.targetMass);
-    if (c.schedule.rampTime > 0) j["ramp_time_s"] = number(c.schedule.rampTime);
-    if (c.schedule.reverseTurns > 0) j["reverse_turns"] = number(c.schedule.reverseTurns);
-    if (std::isfinite(c.schedule.maxTorque)) j["max_torque_Nm"] = number(c.schedule.maxTorque);
-    j["coil_speed_rad_s"] = number(c.schedule.coilSpeed);
-    j["sensor_interval_s"] = number(c.sensorInterval);
+    j["time_step_s"] = jsonNumber(c.world.timeStep);
+    j["settle_time_s"] = jsonNumber(c.schedule.settleTime);
+    j["rotate_time_s"] = jsonNumber(c.schedule.rotateTime);
+    j["rest_time_s"] = jsonNumber(c.schedule.restTime);
+    if (c.schedule.targetMass > 0) j["dose_target_kg"] = jsonNumber(c.schedule.targetMass);
+    if (c.schedule.rampTime > 0) j["ramp_time_s"] = jsonNumber(c.schedule.rampTime);
+    if (c.schedule.reverseTurns > 0) j["reverse_turns"] = jsonNumber(c.schedule.reverseTurns);
+    if (std::isfinite(c.schedule.maxTorque)) j["max_torque_Nm"] = jsonNumber(c.schedule.maxTorque);
+    j["coil_speed_rad_s"] = jsonNumber(c.schedule.coilSpeed);
+    j["sensor_interval_s"] = jsonNumber(c.sensorInterval);
     return j;
 }
 
@@ -46,14 +42,14 @@ Json closedForms(const Case& c, const Derived& d) {
     Json j;
     if (c.world.coil) {
         const double density = closedFormDensity(d, *c.world.coil);
-        j["bulk_density_kg_m3"] = number(density);
+        j["bulk_density_kg_m3"] = jsonNumber(density);
         j["bulk_density_is"] = !c.bulkDensityMeasured ? "given" : wasMeasured(c, density) ? "measured" : "assumed";
     }
-    j["push_velocity_m_s"] = number(d.pushVelocity);
-    j["tip_velocity_m_s"] = number(d.tipVelocity);
-    j["mass_per_dose_kg"] = number(d.massPerDose);
-    j["doses"] = number(d.doses);
-    j["stiffest_contact_duration_s"] = number(d.stiffest);
+    j["push_velocity_m_s"] = jsonNumber(d.pushVelocity);
+    j["tip_velocity_m_s"] = jsonNumber(d.tipVelocity);
+    j["mass_per_dose_kg"] = jsonNumber(d.massPerDose);
+    j["doses"] = jsonNumber(d.doses);
+    j["stiffest_contact_duration_s"] = jsonNumber(d.stiffest);
     return j;
 }
 
@@ -72,9 +68,9 @@ constexpr auto regionColumns(std::index_sequence<Region...>) {
 Json ledger(const RunResult& r) {
     Json j;
     j["filled_count"] = r.ledger.filledCount();
-    j["filled_mass_kg"] = number(r.ledger.filledMass());
+    j["filled_mass_kg"] = jsonNumber(r.ledger.filledMass());
     putColumns(regionColumns(std::make_index_sequence<kRegions>()), r.last.sensors, j);
-    j["worst_relative_mass_error"] = number(r.ledger.worstMassError());
+    j["worst_relative_mass_error"] = jsonNumber(r.ledger.worstMassError());
     j["closings"] = r.ledger.closings();
     return j;
 }
@@ -86,10 +82,10 @@ Json doseCount(const std::optional<int>& dose) {
 Json analysis(const Case& c, const RunResult& r) {
     const DosingFigures f = figuresOf(r.doses, r.ledger.filledMass(), c.schedule.stop);
     Json j;
-    j["beta_kg_per_dose"] = number(f.beta.beta);
-    j["beta_standard_error_kg_per_dose"] = number(f.beta.standardError);
+    j["beta_kg_per_dose"] = jsonNumber(f.beta.beta);
+    j["beta_standard_error_kg_per_dose"] = jsonNumber(f.beta.standardError);
     j["beta_doses"] = f.beta.doses;
-    j["beta_cumulative_below_kg"] = number(f.window.cumulativeBelow);
+    j["beta_cumulative_below_kg"] = jsonNumber(f.window.cumulativeBelow);
     j["doses_to_99_percent"] = doseCount(f.dosesTo99);
     j["blocked_at_dose"] = doseCount(f.blocked);
     return j;
@@ -102,21 +98,21 @@ Json targets(const std::vector<Dose>& doses) {
     Json j;
     j["doses"] = f.doses;
     j["stopped_by_mass"] = f.byMass;
-    j["mean_target_kg"] = number(f.target);
-    j["mean_stop_mass_kg"] = number(f.stopMass);
-    j["mean_overshoot_kg"] = number(f.overshoot);
-    j["mean_error_kg"] = number(f.error);
-    j["mean_rotation_s"] = number(f.rotation);
+    j["mean_target_kg"] = jsonNumber(f.target);
+    j["mean_stop_mass_kg"] = jsonNumber(f.stopMass);
+    j["mean_overshoot_kg"] = jsonNumber(f.overshoot);
+    j["mean_error_kg"] = jsonNumber(f.error);
+    j["mean_rotation_s"] = jsonNumber(f.rotation);
     return j;
 }
 
 Json outlet(const OutletFlow& flow) {
     const OutletFlow::Stop& stop = flow.longest;
     Json j;
-    j["first_mass_after_rotation_s"] = flow.lead ? number(*flow.lead) : Json(nullptr);
-    j["longest_stop_s"] = number(stop.time);
-    j["longest_stop_turns"] = number(stop.turns);
-    j["longest_stop_from_s"] = stop.dose > 0 ? number(stop.start) : Json(nullptr);
+    j["first_mass_after_rotation_s"] = flow.lead ? jsonNumber(*flow.lead) : Json(nullptr);
+    j["longest_stop_s"] = jsonNumber(stop.time);
+    j["longest_stop_turns"] = jsonNumber(stop.turns);
+    j["longest_stop_from_s"] = stop.dose > 0 ? jsonNumber(stop.start) : Json(nullptr);
     j["longest_stop_from_dose"] = doseCount(stop.dose > 0 ? std::optional(stop.dose) : std::nullopt);
     j["stopped_at_dose"] = doseCount(flow.stoppedAt);
     return j;
@@ -127,30 +123,30 @@ Json arches(const std::vector<DoseArch>& list) {
     for (const DoseArch& a : list) {
         Json one;
         one["dose"] = a.dose;
-        one["time_s"] = number(a.time);
-        one["height_m"] = number(a.arch ? a.arch->height : 0);
-        one["z_m"] = a.arch ? number(a.arch->z) : Json(nullptr);
-        one["length_m"] = number(a.arch ? a.arch->length : 0);
+        one["time_s"] = jsonNumber(a.time);
+        one["height_m"] = jsonNumber(a.arch ? a.arch->height : 0);
+        one["z_m"] = a.arch ? jsonNumber(a.arch->z) : Json(nullptr);
+        one["length_m"] = jsonNumber(a.arch ? a.arch->length : 0);
         j.push_back(std::move(one));
     }
     return j;
 }
 
 Json spread(const Spread& s) {
-    return {{"p10", number(s.low)}, {"median", number(s.median)}, {"p90", number(s.high)}};
+    return {{"p10", jsonNumber(s.low)}, {"median", jsonNumber(s.median)}, {"p90", jsonNumber(s.high)}};
 }
 
 Json settled(const Case& c, const std::optional<SettledBed>& bed) {
     if (!bed) return nullptr;
     const SettledFigures f = settledFigures(c, *bed);
     Json j;
-    j["time_s"] = number(bed->time);
+    j["time_s"] = jsonNumber(bed->time);
     j["pairs"] = f.pairs;
-    j["coordination"] = number(f.coordination);
+    j["coordination"] = jsonNumber(f.coordination);
     j["pull_off_over_weight"] = spread(f.pullOff);
     j["overlap_ratio"] = spread(f.overlap);
     j["largest_overlap_ratio"] = spread(f.largestOverlap);
-    j["bulk_density_kg_m3"] = f.bulk ? number(f.bulk->density) : Json(nullptr);
+    j["bulk_density_kg_m3"] = f.bulk ? jsonNumber(f.bulk->density) : Json(nullptr);
     return j;
 }
 
@@ -158,12 +154,12 @@ Json settling(const Case& c, const std::optional<Settling>& s) {
     if (!s) return nullptr;
     Json j;
     j["until_rest"] = c.schedule.untilRest;
-    j["longest_s"] = number(c.schedule.settleTime);
-    j["time_s"] = number(s->time);
+    j["longest_s"] = jsonNumber(c.schedule.settleTime);
+    j["time_s"] = jsonNumber(s->time);
     j["at_rest"] = s->atRest;
-    j["speed_m_s"] = number(s->speed);
-    j["fall_speed_m_s"] = number(s->fallSpeed);
-    j["spilled_kg"] = number(s->spilled);
+    j["speed_m_s"] = jsonNumber(s->speed);
+    j["fall_speed_m_s"] = jsonNumber(s->fallSpeed);
+    j["spilled_kg"] = jsonNumber(s->spilled);
     return j;
 }
 
@@ -174,7 +170,7 @@ Json measures(const std::vector<MeasureResult>& results) {
         Json& one = j[r.name];
         one["kind"] = r.kind;
         if (!r.why.empty()) one["none_because"] = r.why;
-        for (const MeasuredFigure& f : r.figures) one[f.name] = number(f.value);
+        for (const MeasuredFigure& f : r.figures) one[f.name] = jsonNumber(f.value);
     }
     return j;
 }
@@ -183,11 +179,11 @@ Json energy(const EnergyLedger& ledger) {
     Json j;
     putColumns(kLoadedColumns, ledger.sum, j);
     putColumns(kOutsideColumns, ledger.sum, j);
-    j["present_J"] = number(ledger.present());
-    j["elastic_J"] = number(ledger.elastic());
+    j["present_J"] = jsonNumber(ledger.present());
+    j["elastic_J"] = jsonNumber(ledger.elastic());
     putColumns(kLossColumns, ledger.sum, j);
     putColumns(kResidualColumns, ledger, j);
-    j["residual_of_coil_work"] = number(ledger.residual() / ledger.sum.coilWork);
+    j["residual_of_coil_work"] = jsonNumber(ledger.residual() / ledger.sum.coilWork);
     return j;
 }
 
@@ -203,14 +199,14 @@ std::string summaryJson(const Case& c, const RunResult& r, const std::string& ba
     j["stop_sentence"] = stopSentence(r.reason, c.schedule.stop);
     j["interrupted"] = r.reason == StopReason::Interrupted;
     j["error"] = r.error.empty() ? Json(nullptr) : Json(r.error);
-    j["simulated_time_s"] = number(r.last.time);
+    j["simulated_time_s"] = jsonNumber(r.last.time);
     j["steps"] = r.last.step;
-    j["coil_angle_rad"] = number(r.last.coilAngle);
+    j["coil_angle_rad"] = jsonNumber(r.last.coilAngle);
     j["doses"] = doseList(r.doses);
     j["dose_statistics"] = {{"complete_doses", s.doses},
-                            {"mean_kg", s.doses > 0 ? number(s.mean) : Json(nullptr)},
-                            {"standard_deviation_kg", s.doses > 1 ? number(s.deviation) : Json(nullptr)},
-                            {"rsd", s.doses > 1 && s.mean > 0 ? number(s.relative) : Json(nullptr)}};
+                            {"mean_kg", s.doses > 0 ? jsonNumber(s.mean) : Json(nullptr)},
+                            {"standard_deviation_kg", s.doses > 1 ? jsonNumber(s.deviation) : Json(nullptr)},
+                            {"rsd", s.doses > 1 && s.mean > 0 ? jsonNumber(s.relative) : Json(nullptr)}};
     j["targets"] = targets(r.doses);
     j["analysis"] = analysis(c, r);
     j["outlet"] = outlet(history.outlet);
@@ -218,21 +214,22 @@ std::string summaryJson(const Case& c, const RunResult& r, const std::string& ba
     if (!history.measures.empty()) j["measures"] = measures(history.measures);
     j["settling"] = settling(c, r.settling);
     for (std::size_t b = 0; b < r.last.bodies.size(); ++b)
-        j["bodies"].push_back({{"name", c.world.bodies.at(b).name}, {"work_J", number(r.last.bodies[b].work)}});
+        j["bodies"].push_back({{"name", c.world.bodies.at(b).name}, {"work_J", jsonNumber(r.last.bodies[b].work)}});
     for (std::size_t i = 0; i < r.last.regions.size(); ++i)
         j["regions"].push_back({{"name", c.world.regions.at(i).name},
-                                {"mass_kg", number(r.last.regions[i].mass)},
+                                {"mass_kg", jsonNumber(r.last.regions[i].mass)},
                                 {"particles", r.last.regions[i].particles}});
     j["settled"] = settled(c, r.settled);
-    j["dosed_while_settling_kg"] = number(r.dosedWhileSettling);
+    j["dosed_while_settling_kg"] = jsonNumber(r.dosedWhileSettling);
     j["closed_form"] = closedForms(c, r.derived);
+    if (const std::string note = closedFormNote(c, r); !note.empty()) j["closed_form"]["note"] = note;
     j["ledger"] = ledger(r);
     if (r.last.energy) j["energy"] = energy(*r.last.energy);
-    j["max_overlap_ratio"] = number(r.maxOverlapRatio);
-    j["max_overlap_time_s"] = number(r.maxOverlapTime);
-    j["particle_steps"] = number(r.particleSteps);
-    j["particle_steps_per_second"] = number(r.particleStepsPerSecond());
-    j["stepping_wall_time_s"] = number(r.wallTime);
+    j["max_overlap_ratio"] = jsonNumber(r.maxOverlapRatio);
+    j["max_overlap_time_s"] = jsonNumber(r.maxOverlapTime);
+    j["particle_steps"] = jsonNumber(r.particleSteps);
+    j["particle_steps_per_second"] = jsonNumber(r.particleStepsPerSecond());
+    j["stepping_wall_time_s"] = jsonNumber(r.wallTime);
     return j.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 

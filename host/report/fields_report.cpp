@@ -8,6 +8,7 @@
 
 #include "host/core/csv_table.h"
 #include "host/core/error.h"
+#include "host/core/json.h"
 #include "host/report/deflate.h"
 #include "host/report/thinning.h"
 
@@ -162,15 +163,15 @@ std::string packed(const std::vector<Quantity>& quantities, const std::vector<Ma
 
 Json planeJson(const FieldSensor& s, const Plane& plane) {
     const FieldGrid& g = s.request.grid;
-    const auto pair = [&](const Vec3& v) { return Json{number(v[plane.across]), number(v[plane.up])}; };
+    const auto pair = [&](const Vec3& v) { return Json{jsonNumber(v[plane.across]), jsonNumber(v[plane.up])}; };
     return {{"axes", {kAxes[std::size_t(plane.across)], kAxes[std::size_t(plane.up)]}},
             {"cells", {plane.columns(), plane.rows()}},
             {"low_m", pair(g.low)},
             {"high_m", pair(g.high)},
             {"over",
              {{"axis", kAxes[std::size_t(plane.over)]},
-              {"low_m", number(g.low[plane.over])},
-              {"high_m", number(g.high[plane.over])}}}};
+              {"low_m", jsonNumber(g.low[plane.over])},
+              {"high_m", jsonNumber(g.high[plane.over])}}}};
 }
 
 Json mapJson(const fs::path& folder, const FieldSensor& s, std::size_t mostBytes) {
@@ -183,7 +184,7 @@ Json mapJson(const fs::path& folder, const FieldSensor& s, std::size_t mostBytes
     Json j = planeJson(s, plane);
     j["name"] = s.name;
     j["kernel"] = s.request.kernel == Kernel::Gaussian ? "Gaussian" : "Lucy";
-    j["width_m"] = number(s.request.width);
+    j["width_m"] = jsonNumber(s.request.width);
     j["average"] = s.average;
     j["stored"] = all.size();
     j["sparse_level"] = kSparseLevel;
@@ -197,7 +198,7 @@ Json mapJson(const fs::path& folder, const FieldSensor& s, std::size_t mostBytes
     findScales(quantities, entries, maps);
     for (const char* name : {"time_s", "phase", "dose", "quantities"}) j[name] = Json::array();
     for (const Entry& e : entries) {
-        j["time_s"].push_back(number(e.time));
+        j["time_s"].push_back(jsonNumber(e.time));
         j["phase"].push_back(e.phase);
         j["dose"].push_back(e.dose);
     }
@@ -205,7 +206,7 @@ Json mapJson(const fs::path& folder, const FieldSensor& s, std::size_t mostBytes
         j["quantities"].push_back({{"name", q.name},
                                    {"unit", q.unit},
                                    {"scale", kScaleNames[static_cast<std::size_t>(q.scale)]},
-                                   {"most", number(q.most)}});
+                                   {"most", jsonNumber(q.most)}});
     j["stream"] = packed(quantities, maps, points);
     return j;
 }
@@ -231,7 +232,7 @@ Json profileJson(const fs::path& folder, const FieldSensor& s) {
         std::vector<double> heights;
         for (std::size_t n = 0; n < grid.points(); ++n)
             heights.push_back(rounded(table.number(i, table.names()[kPlace + n])));
-        return Json{{"time_s", number(table.number(i, "time_s"))},
+        return Json{{"time_s", jsonNumber(table.number(i, "time_s"))},
                     {"dose", static_cast<int>(table.number(i, "dose"))},
                     {"height_m", numbers(heights)}};
     };
@@ -242,7 +243,7 @@ Json profileJson(const fs::path& folder, const FieldSensor& s) {
         if (i + 1 == all.size() || table.text(i, "dose") != table.text(i + 1, "dose")) states.push_back(row(i));
     for (const std::size_t i : thinned(all, (all.size() + kMostProfiles - 1) / kMostProfiles)) rows.push_back(row(i));
     return {{"name", s.name},
-            {"length_m", number(grid.high.z - grid.low.z)},
+            {"length_m", jsonNumber(grid.high.z - grid.low.z)},
             {"z_m", numbers(z)},
             {"states", states},
             {"rows", rows}};

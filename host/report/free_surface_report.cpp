@@ -5,11 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/sim/density.h"
 #include "host/analysis/free_surface.h"
 #include "host/core/csv_lines.h"
 #include "host/core/csv_table.h"
 #include "host/core/error.h"
+#include "host/core/json.h"
+#include "host/sim/density.h"
 
 namespace vkdose::report {
 
@@ -29,7 +30,7 @@ std::vector<FrameEntry> lastOfEachDose(const std::vector<FrameEntry>& entries) {
 
 Json stateJson(const Case& c, const Particles& particles, std::size_t columns, int dose, double time) {
     return {{"dose", dose},
-            {"time_s", number(time)},
+            {"time_s", jsonNumber(time)},
             {"height_m", numbers(surfaceProfile(particles, *c.canister, columns, Across::Highest).height)}};
 }
 

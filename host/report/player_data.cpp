@@ -9,6 +9,7 @@
 #include "host/analysis/free_surface.h"
 #include "host/analysis/overlap.h"
 #include "host/core/error.h"
+#include "host/core/json.h"
 #include "host/report/deflate.h"
 #include "host/report/player_bodies.h"
 #include "host/report/thinning.h"
@@ -151,17 +152,17 @@ class Encoder {
 };
 
 Json vectorJson(const Vec3& v) {
-    return {number(v.x), number(v.y), number(v.z)};
+    return {jsonNumber(v.x), jsonNumber(v.y), jsonNumber(v.z)};
 }
 
 Json sceneJson(const Case& c) {
     Json j;
     j["low"] = vectorJson(c.world.domain.low);
     j["high"] = vectorJson(c.world.domain.high);
-    j["density"] = number(c.world.density);
+    j["density"] = jsonNumber(c.world.density);
     j["slowest_m_s"] = kSlowest;
     j["fastest_m_s"] = kFastest;
-    j["most_overlap"] = number(c.world.maxOverlapRatio);
+    j["most_overlap"] = jsonNumber(c.world.maxOverlapRatio);
     j["canister"] = nullptr;
     if (c.canister) {
         const Canister& can = *c.canister;

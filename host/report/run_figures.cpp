@@ -95,6 +95,7 @@ class Facts {
         }
         if (!run_.doses.empty() && run_.doses.front().closedForm > 0)
             add("closed form", fmt::format("{} g/dose", grams(run_.doses.front().closedForm)), closedFormNote());
+        farFromClosedForm();
     }
 
     /// An older summary does not tell the density.
@@ -107,6 +108,14 @@ class Facts {
             if (run_.c.bulkDensityMeasured) is = ", " + form.value("bulk_density_is", std::string("assumed"));
         }
         return fmt::format("ρ_b p π r_c² n_t with ρ_b = {:.4g} kg/m³{}", density, is);
+    }
+
+    /// The note that the run ended with, if its doses are far from the closed form.
+    void farFromClosedForm() {
+        if (!run_.summary.is_object()) return;
+        const Json form = run_.summary.value("closed_form", Json());
+        if (form.is_object() && form.contains("note") && form["note"].is_string())
+            add("far from the closed form", form["note"].get<std::string>());
     }
 
     void emptying() {

@@ -13,6 +13,7 @@
 #include "host/core/csv_table.h"
 #include "host/core/error.h"
 #include "host/core/file.h"
+#include "host/core/json.h"
 #include "host/model/case.h"
 #include "host/output/dose_table.h"
 #include "host/output/summary.h"
@@ -142,13 +143,9 @@ Json dosesJson(const Table& table, const RunSources& run) {
 
 }  // namespace
 
-Json number(double x) {
-    return std::isfinite(x) ? Json(x) : Json(nullptr);
-}
-
 Json numbers(std::span<const double> values) {
     Json list = Json::array();
-    for (const double x : values) list.push_back(number(x));
+    for (const double x : values) list.push_back(jsonNumber(x));
     return list;
 }
 
@@ -186,8 +183,8 @@ Json runJson(const fs::path& folder, const std::optional<fs::path>& experiment, 
     j["series"] = seriesJson(series);
     j["rotations"] = rotations(series);
     j["beta_below_kg"] =
-        number(figuresOf(sources.doses, filledMass(sources), sources.c.schedule.stop).window.cumulativeBelow);
-    j["filled_mass_kg"] = number(filledMass(sources));
+        jsonNumber(figuresOf(sources.doses, filledMass(sources), sources.c.schedule.stop).window.cumulativeBelow);
+    j["filled_mass_kg"] = jsonNumber(filledMass(sources));
     j["experiment"] = experiment ? experimentJson(*experiment) : Json(nullptr);
     const int lastDose = sources.doses.empty() ? 0 : sources.doses.back().index;
     j["surface"] = surfaceJson(c, frames, sources.particles, lastDose, photographs);

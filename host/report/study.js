@@ -109,11 +109,65 @@ function output(p, name, scale) {
 
 function pointTable(main, study) {
   const outcome = p => `${p.finished} done${p.failed ? `, ${p.failed} failed: ${p.errors.join("; ")}` : ""}`;
-  table(main, study.axes.map(keys => [axisName(keys), true]).concat(
-          [["β [g/dose]", true], ["±", true], ["closed form", true], ["RSD [%]", true], ["doses to 99 %", true], ["members", false]]),
-        study.points.map(p => p.at.map(said).concat(
-          [massOf(p.beta_kg_per_dose, 3), massOf(p.beta_standard_error_kg_per_dose, 3), massOf(p.closed_form_kg_per_dose, 3),
-           short(output(p, "rsd", 100)[0]), short(output(p, "doses_to_99_percent", 1)[0]), outcome(p)])));
+  const figures = [
+    ["β [g/dose]", p => massOf(p.beta_kg_per_dose, 3)], ["±", p => massOf(p.beta_standard_error_kg_per_dose, 3)],
+    ["closed form", p => (p.closed_form_kg_per_dose > 0 ? massOf(p.closed_form_kg_per_dose, 3) : "")], ["RSD [%]", p => short(output(p, "rsd", 100)[0])],
+    ["doses to 99 %", p => short(output(p, "doses_to_99_percent", 1)[0])],
+  ].filter(([, of]) => study.points.some(p => of(p) !== ""));
+  table(main, study.axes.map(keys => [axisName(keys), true]).concat(figures.map(([name]) => [name, true]), [["members", false]]),
+        study.points.map(p => p.at.map(said).concat(figures.map(([, of]) => of(p)), [outcome(p)])));
+}
+
+const rounded = (x, digits) => (isNumber(x) ? String(Number(x.toPrecision(digits))) : "");
+const within = (value, error) => `${short(value)} ± ${rounded(error, 2) || "?"}`;
+const figureName = t => (t.name === "beta" ? "β" : t.name);
+const inUnit = t => (t.unit ? " " + t.unit : "");
+const signed = x => (isNumber(x) && x > 0 ? "+" : "") + rounded(x, 3);
+
+/// A parameter at the points that were tried, and the target by which it is known best.
+function parameterChart(parent, found, k) {
+  const p = found.parameters[k], g = p.mostly_by, t = found.targets[g];
+  const series = (name, shade, points) => ({
+    name, colour: shade, dots: true, line: false, points: points.map(q => [q.at[k], q.values[g][0], q.values[g][1]]),
+  });
+  chart(parent, {
+    title: `${figureName(t)} against ${p.key}`, x: {label: p.key, pad: true}, y: {label: t.unit || figureName(t), zero: false},
+    level: {value: t.value, name: `target ${within(t.value, t.uncertainty)}${inUnit(t)}`},
+    series: [series("points tried", "var(--s0)", found.points.filter((_, i) => i !== found.best)),
+             series("chosen", "var(--s1)", [found.points[found.best]])],
+    note: "All parameters differ from point to point. Bars: standard error.",
+  });
+}
+
+function calibrationPart(main, study) {
+  const found = study.calibration;
+  if (!found && !study.searches) return;
+  add(main, "h2", "Calibration");
+  const part = add(main, "section", null, "calibration");
+  if (!found) {
+    add(part, "p", "The search has not ended; what it found is shown when it has.");
+    return;
+  }
+  const one = found.targets.length === 1;
+  facts(part, [
+    {name: one ? "target" : "targets", value: `${found.met ? "met" : "NOT met"} after ${found.points.length} points`,
+     note: "met: believed to within the uncertainty, with a deviation within it"},
+    {name: "misfit", value: rounded(found.misfit, 3), note: "weighted sum of squares over uncertainties"},
+  ]);
+  table(part, [["target", false], ["case", false], ["measured", true], ["believed at the chosen point", true], ["weight", true]],
+        found.targets.map(t => [figureName(t), t.base, within(t.value, t.uncertainty) + inUnit(t), within(t.believed, t.deviation) + inUnit(t),
+                                 short(t.weight)]));
+  table(part, [["parameter", false], ["bounds", true], ["chosen", true], ["may meet", true]].concat(
+          found.targets.map(t => [`change of ${figureName(t)}`, true]), [["known to", false]]),
+        found.parameters.map(p => [p.key, `${short(p.low)} to ${short(p.high)}`, short(p.chosen),
+                                   p.may_meet ? `${short(p.may_meet[0])} to ${short(p.may_meet[1])}` : "none"].concat(
+          p.change_in_uncertainties.map(signed),
+          [p.constrained ? `± ${rounded(p.error, 2)}, mostly by ${figureName(found.targets[p.mostly_by])}`
+                         : "the targets do not constrain it within its bounds"])));
+  add(part, "p", "Changes are from bound to bound by the slope at the chosen point, in uncertainties of the target. " +
+      "A parameter is known to the standard error that all targets together leave to it.");
+  const charts = add(part, "div", null, "charts");
+  found.parameters.forEach((_, k) => parameterChart(charts, found, k));
 }
 
 function verdictTable(main, verdicts) {
@@ -137,15 +191,20 @@ function studyPage(main, study) {
     add(main, "h2", "Against published results");
     verdictTable(main, study.verdicts);
   }
-  add(main, "h2", "Charts");
+  calibrationPart(main, study);
+  const heading = add(main, "h2", "Charts");
   const charts = add(main, "div", null, "charts");
-  betaCharts(charts, study);
-  calibrationMap(charts, study);
+  // The points of a search lie on no lines along its parameters.
+  if (!study.searches) {
+    betaCharts(charts, study);
+    calibrationMap(charts, study);
+  }
   doseCurves(charts, study);
-  if (study.axes.length > 0) {
+  if (study.axes.length > 0 && !study.searches) {
     alongAxis(charts, study, 0, {title: "Doses to 99 %", name: "doses", unit: "doses"}, p => output(p, "doses_to_99_percent", 1));
     alongAxis(charts, study, 0, {title: "RSD of the doses", name: "RSD", unit: "%"}, p => output(p, "rsd", 100));
   }
+  if (!charts.hasChildNodes()) heading.remove();
   add(main, "h2", "Points");
   pointTable(main, study);
 }

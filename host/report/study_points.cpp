@@ -169,7 +169,7 @@ class PointReader {
 }  // namespace
 
 StudyHead readHead(const fs::path& folder, const Table& members) {
-    StudyHead head{folder.filename().string(), "", {}, std::nan("")};
+    StudyHead head{folder.filename().string(), "", {}, std::nan(""), false};
     const std::vector<std::string> columns = axisColumns(members);
     std::vector<std::string> left = columns;
     if (fs::exists(folder / "study.toml")) {
@@ -179,6 +179,7 @@ StudyHead readHead(const fs::path& folder, const Table& members) {
         const Node* aim = root.child("calibrate");
         const Node* target = aim != nullptr ? aim->child("target_g_per_dose") : nullptr;
         if (target != nullptr && target->isNumber()) head.target = target->number * 1e-3;
+        head.searches = aim != nullptr && textIn(*aim, "method", "") == "surrogate";
         const Node none, *axes = root.child("axis");
         for (const Node& axis : axes != nullptr ? axes->children : none.children) {
             std::vector<std::string> keys;

@@ -6,7 +6,9 @@
 #include <cmath>
 
 #include "host/core/csv_table.h"
+#include "host/core/json.h"
 #include "host/report/study_points.h"
+#include "host/study/calibration_finding.h"
 
 namespace vkdose::report {
 
@@ -36,20 +38,20 @@ Json pointJson(const StudyPoint& p) {
     for (const Point::Place& place : p.point.places)
         at.push_back(place.keys.size() == 1 ? valueJson(p.point.keys.at(place.keys.front())) : Json(place.label));
     Json doses = Json::array();
-    for (const Estimate& d : p.doses) doses.push_back({number(d.mean), number(d.standardError), d.count});
+    for (const Estimate& d : p.doses) doses.push_back({jsonNumber(d.mean), jsonNumber(d.standardError), d.count});
     Json outputs;
     for (const auto& [name, output] : p.point.outputs)
-        outputs[name] = {number(output.mean), number(output.standardError)};
+        outputs[name] = {jsonNumber(output.mean), jsonNumber(output.standardError)};
     Json j;
     j["at"] = at;
     j["finished"] = p.finished;
     j["failed"] = p.failed;
     j["errors"] = p.errors;
-    j["beta_kg_per_dose"] = number(p.beta);
-    j["beta_standard_error_kg_per_dose"] = number(p.betaError);
+    j["beta_kg_per_dose"] = jsonNumber(p.beta);
+    j["beta_standard_error_kg_per_dose"] = jsonNumber(p.betaError);
     j["error_over_seeds"] = p.errorOverSeeds;
-    j["closed_form_kg_per_dose"] = number(p.closedForm);
-    j["turns_per_dose"] = number(turnsPerDose(p.point));
+    j["closed_form_kg_per_dose"] = jsonNumber(p.closedForm);
+    j["turns_per_dose"] = jsonNumber(turnsPerDose(p.point));
     j["outputs"] = outputs;
     j["dose_mass_kg"] = doses;
     j["cumulative_mass_kg"] = numbers(p.point.cumulative);
@@ -89,10 +91,13 @@ Json studyJson(const fs::path& folder, const std::optional<fs::path>& expected) 
     j["name"] = head.name;
     j["reason"] = head.reason;
     j["axes"] = head.axes;
-    j["target_kg_per_dose"] = number(head.target);
+    j["target_kg_per_dose"] = jsonNumber(head.target);
     j["points"] = Json::array();
     for (const StudyPoint& p : points) j["points"].push_back(pointJson(p));
     j["members"] = members.rows();
+    const std::optional<CalibrationFinding> finding = readFinding(folder);
+    j["searches"] = head.searches;
+    j["calibration"] = finding ? findingJson(*finding) : Json(nullptr);
     j["verdicts"] = expected ? verdictsJson(*expected, points) : Json(nullptr);
     return j;
 }

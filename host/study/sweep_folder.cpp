@@ -13,6 +13,7 @@
 #include "host/output/checkpoint.h"
 #include "host/output/run_folder.h"
 #include "host/sim/dose.h"
+#include "host/study/calibration_finding.h"
 
 namespace vkdose {
 
@@ -141,7 +142,7 @@ SweepFolder::SweepFolder(fs::path folder, const Study& study, const std::vector<
 std::vector<fs::path> SweepFolder::files(const fs::path& folder) {
     std::error_code code;
     std::vector<fs::path> files;
-    for (const char* name : {"study.toml", "base.toml", "doses.csv", "calibrated.toml", "members.csv"})
+    for (const char* name : {"study.toml", "base.toml", "doses.csv", kFindingName, "calibrated.toml", "members.csv"})
         if (fs::exists(folder / name, code)) files.push_back(folder / name);
     return files;
 }

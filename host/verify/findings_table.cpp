@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <nlohmann/json.hpp>
+
+#include "host/core/json.h"
 
 namespace vkdose::verify {
 
@@ -13,11 +13,6 @@ namespace {
 const char* verdict(const Check& check) {
     if (!check.passes()) return "FAIL";
     return check.kind == Kind::Known ? "pass" : "plausible";
-}
-
-/// JSON knows no infinity and no NaN.
-nlohmann::ordered_json number(double x) {
-    return std::isfinite(x) ? nlohmann::ordered_json(x) : nlohmann::ordered_json(nullptr);
 }
 
 struct Count {
@@ -69,7 +64,7 @@ std::string markdownTable(const std::vector<Check>& checks, const Setting& setti
 std::string jsonTable(const std::vector<Check>& checks, const Setting& setting) {
     nlohmann::ordered_json j;
     j["backend"] = setting.backend;
-    j["wall_time_s"] = number(setting.seconds);
+    j["wall_time_s"] = jsonNumber(setting.seconds);
     j["checks"] = checks.size();
     j["known_answers"] = countOf(checks, Kind::Known).all;
     j["plausible_figures"] = countOf(checks, Kind::Plausible).all;
@@ -80,10 +75,10 @@ std::string jsonTable(const std::vector<Check>& checks, const Setting& setting) 
                                 {"quantity", c.quantity},
                                 {"unit", c.unit},
                                 {"kind", c.kind == Kind::Known ? "known answer" : "plausible"},
-                                {"expected", number(c.expected)},
-                                {"got", number(c.got)},
-                                {"error", number(c.error())},
-                                {"tolerance", number(c.tolerance.share)},
+                                {"expected", jsonNumber(c.expected)},
+                                {"got", jsonNumber(c.got)},
+                                {"error", jsonNumber(c.error())},
+                                {"tolerance", jsonNumber(c.tolerance.share)},
                                 {"reason", c.tolerance.reason},
                                 {"passes", c.passes()}});
     return j.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";

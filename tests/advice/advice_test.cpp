@@ -9,6 +9,7 @@
 #include "host/model/key.h"
 #include "tests/model/case_files.h"
 #include "tests/support/catch.h"
+#include "tests/support/drum_case.h"
 
 using namespace vkdose;
 using test::shippedCase;
@@ -196,37 +197,7 @@ TEST_CASE("a shipped case has no warning but those it accepts, and accepts none 
 TEST_CASE("doses without a canister take a region that deletes") {
     const test::Folder folder;
     const auto warned = [&](const std::string& region) {
-        folder.write("case.toml", R"(boundaries = "none"
-[particles]
-density = 1427.0
-mass_g = 0.1
-[particles.size]
-distribution = "fixed"
-radius_mm = 1.25
-[particles.region]
-low = [-0.008, -0.01, 0.001]
-high = [0.008, 0.008, 0.009]
-[contact]
-k = 8000.0
-k1_over_k = 0.2
-kc_over_k = 0.0
-plasticity_depth = 0.05
-damping = 0.03
-friction = 0.5
-[[body]]
-name = "drum"
-shape = "cylinder"
-radius_mm = 15
-length_mm = 10
-[body.motion]
-kind = "turn"
-follows = "drive"
-[settle]
-time_s = 0.06
-[dose]
-rotate_s = 0.05
-speed_rpm = 30
-)" + region);
+        folder.write("case.toml", test::kDrum + region);
         const Case c = loadCase(folder.path() / "case.toml");
         const std::vector<std::string> names = namesOf(warningsOf(c, insertParticles(c)));
         return std::count(names.begin(), names.end(), "no-outlet") == 1;

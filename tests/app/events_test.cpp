@@ -68,11 +68,15 @@ TEST_CASE("the events of a run are its warnings, phases, samples and doses, and 
 
 TEST_CASE("a run whose events nobody reads any longer is interrupted, and resumes to the same bytes") {
     const Sandbox box;
-    REQUIRE(box.vkdose("run " + kShort + "--quiet --out whole").code == 0);
-    // The reader goes after three lines. The code is that of the program, not of head.
+    // A sample each millisecond: more text than a pipe and head hold, so that the run cannot end before its reader
+    // goes.
+    const std::string talkative = kShort + "--set sensors.interval_s=0.001 ";
+    REQUIRE(box.vkdose("run " + talkative + "--quiet --out whole").code == 0);
+    // The reader goes after 30 lines, of which the last are samples, so the run has made steps by then. The code is
+    // that of the program, not of head.
     const std::string command = "cd '" + box.path().string() + "' && bash -c \"'" VKDOSE_BINARY_DIR "/vkdose' run " +
-                                kShort +
-                                "--events --force --out cut 2>/dev/null | head -n 3 >/dev/null; exit "
+                                talkative +
+                                "--events --force --out cut 2>/dev/null | head -n 30 >/dev/null; exit "
                                 "\\${PIPESTATUS[0]}\"";
     const int status = std::system(command.c_str());
     REQUIRE(WIFEXITED(status));

@@ -1,6 +1,7 @@
 // Element tests from a run to its summary, and as the targets of a calibration: a sphere between floor and piston,
 // whose force is known.
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "tests/app/sandbox.h"
@@ -86,6 +87,52 @@ TEST_CASE("measures: a sphere under a piston has the stress and the work of its 
     CHECK(measures.at("angle_of_repose").contains("none_because"));
 }
 
+TEST_CASE("measures: spheres that fall through a plane one after another discharge at their mass and pace") {
+    const Sandbox box;
+    // One each 5 ms: 5 mm apart at 1 m/s, nearly without gravity, which only says what is up.
+    std::string list = "x,y,z,r,vx,vy,vz\n";
+    for (int i = 1; i <= 20; ++i) list += "0," + std::to_string(5e-3 * i) + ",0,0.001,0,-1,0\n";
+    box.write("column.csv", list);
+    box.write("column.toml", R"(boundaries = "none"
+gravity = [0, -1e-6, 0]
+bulk_density = 800
+[particles]
+density = 1427.0
+list = "column.csv"
+[contact]
+k = 1000.0
+k1_over_k = 1.0
+kc_over_k = 0.0
+damping = 0.02
+friction = 0.5
+[settle]
+time_s = 0.1
+[sensors]
+interval_s = 0.001
+[[region]]
+name = "pan"
+kind = "beyond"
+point = [0, 0, 0]
+normal = [0, -1, 0]
+[[measure]]
+kind = "discharge"
+region = "pan"
+hole_mm = 10.0
+from_s = 0.0
+)");
+    const auto o = box.vkdose("run column.toml --backend reference --out out");
+    CAPTURE(o.out, o.err);
+    REQUIRE(o.code == 0);
+    CHECK_THAT(o.out, Catch::Contains("measure  discharge: rate of discharge 1.") && Catch::Contains(" g/s"));
+    const Json d = summaryIn(box / "out").at("measures").at("discharge");
+    const double rate = 1427 * 4.0 / 3 * 3.14159265358979 * 1e-9 / 5e-3;
+    // The line through a staircase of twenty steps is out by less than one of them in twenty.
+    CHECK(near(d.at("rate_kg_s").get<double>(), rate, rate, 0.02));
+    // C = W / (rho sqrt(g) (D - 1.5 d)^5/2), d = 2 mm
+    CHECK(near(d.at("beverloo_constant").get<double>(), rate / (800 * 1e-3 * std::pow(7e-3, 2.5)),
+               rate / (800 * 1e-3 * std::pow(7e-3, 2.5)), 0.02));
+}
+
 TEST_CASE("calibrate meets figures of two element tests at once, and says what each constrains") {
     const Sandbox box;
     writePress(box, "press", 2.4);
@@ -120,14 +167,23 @@ high = 0.5
     CAPTURE(o.out, o.err);
     REQUIRE(o.code == 0);
     CHECK_THAT(o.out, Catch::Contains("the targets are met") && Catch::Contains("misfit"));
-    CHECK_THAT(o.out, Catch::Contains("contact.k: press.max_stress_Pa +") && Catch::Contains("mostly by") &&
-                          Catch::Contains("the targets do not constrain it"));
+    CHECK_THAT(o.out, Catch::Contains("contact.k: press.max_stress_Pa of press.toml +") &&
+                          Catch::Contains("mostly by") && Catch::Contains("the targets do not constrain it"));
     // The stress is in proportion to k: 500 Pa at 1000 N/m.
     const std::string found = readText(box / "out/calibrated.toml");
     const double k = std::stod(found.substr(found.find("\nk = ") + 5));
     CHECK(near(k, 1300, 1300, 0.02));
     const std::string members = readText(box / "out/members.csv");
     CHECK_THAT(members, Catch::Contains("contact.k,contact.friction,base,status") && Catch::Contains(",less.toml,ok"));
+
+    // The report says the same as the text.
+    const Json finding = Json::parse(readText(box / "out/calibration.json"));
+    CHECK(finding.at("met") == true);
+    CHECK(finding.at("parameters").at(0).at("constrained") == true);
+    CHECK(finding.at("parameters").at(1).at("constrained") == false);
+    CHECK(near(finding.at("parameters").at(0).at("chosen").get<double>(), 1300, 1300, 0.02));
+    REQUIRE(box.vkdose("report out").code == 0);
+    CHECK_THAT(readText(box / "out/report.html"), Catch::Contains("\"name\":\"press.max_stress_Pa of less.toml\""));
 
     box.write("study.toml", study("press.max_stres_Pa"));
     const auto wrong = box.vkdose("calibrate study.toml --backend reference --out other");

@@ -105,6 +105,28 @@ TEST_CASE("new: three devices give cases that check has nothing against") {
     }
 }
 
+TEST_CASE("new: the run time is measured on the device or not told, and nothing measured is in the file") {
+    const Sandbox box;
+    const auto made = box.vkdose("new my.toml " + kTiny);
+    CAPTURE(made.out, made.err);
+    REQUIRE(made.code == 0);
+    const std::size_t line = made.out.find("\nrun time   ");
+    REQUIRE(line != std::string::npos);
+    CHECK_THAT(made.out.substr(line + 1, made.out.find('\n', line + 1) - line),
+               Catch::Contains("particle-steps/s, measured on vulkan"));
+    CHECK_THAT(made.out, !Catch::Contains("at an assumed"));
+
+    fs::create_directory(box / "other");
+    const auto without = box.vkdose("new other/my.toml " + kTiny,
+                                    "env -u VK_DRIVER_FILES -u VK_ADD_DRIVER_FILES NODEVICE_SELECT=1 "
+                                    "VK_ICD_FILENAMES=/nowhere/icd.json ");
+    CAPTURE(without.out, without.err);
+    CHECK(without.code == 0);
+    CHECK_THAT(without.out, Catch::Contains("run time   not known, because the device could not be measured: ") &&
+                                Catch::Contains("particle-steps\n") && !Catch::Contains("particle-steps/s"));
+    CHECK(readText(box / "other/my.toml") == readText(box / "my.toml"));
+}
+
 TEST_CASE("new: the coil is placed as its turns and pitch say") {
     const Sandbox box;
     const auto coilOf = [&](const std::string& coil) {

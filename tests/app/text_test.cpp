@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "host/app/end_table.h"
 #include "host/app/progress.h"
@@ -85,6 +86,24 @@ TEST_CASE("where there is no terminal, progress is plain lines at phase ends") {
     CHECK_THAT(text, Catch::Contains("dose 1: 3.700 g, cumulative 3.700 g"));
 }
 
+TEST_CASE("doses far from the closed form are noted at the end of the run, in the summary and in the report") {
+    const Sandbox box;
+    const std::string run = "run " VKDOSE_SOURCE_DIR
+                            "/cases/mini.toml --backend reference --set settle.time_s=0.05 --set dose.rotate_s=0.05 "
+                            "--set stop.max_doses=1 --out ";
+    const auto o = box.vkdose(run + "out");
+    CAPTURE(o.out, o.err);
+    REQUIRE(o.code == 0);
+    const std::size_t line = o.out.find("\nnote     the dose, ");
+    REQUIRE(line != std::string::npos);
+    const std::string note = o.out.substr(line + 10, o.out.find('\n', line + 1) - line - 10);
+    CHECK_THAT(note, Catch::Contains(" of the closed form; likely reasons: "));
+    CHECK(nlohmann::json::parse(readText(box / "out/summary.json"))["closed_form"]["note"] == note);
+    REQUIRE(box.vkdose("report out").code == 0);
+    CHECK_THAT(readText(box / "out/report.html"),
+               Catch::Contains("{\"name\":\"far from the closed form\",\"value\":\"" + note + "\""));
+}
+
 TEST_CASE("the table at the end shows doses beside the closed form, statistics, ledger and reason") {
     FakeBackend backend;
     backend.dosed = [](std::uint64_t s) { return s < 130 ? 0 : s < 200 ? 2 : s < 300 ? 5 : 6; };
@@ -96,4 +115,5 @@ TEST_CASE("the table at the end shows doses beside the closed form, statistics, 
     CHECK_THAT(text, Catch::Contains("canister 4.000 g (4) + throat 0.000 g (0) + dosed 6.000 g (6) + lost 0.000 g (0) "
                                      "= filled 10.000 g (10): closed"));
     CHECK_THAT(text, Catch::Contains("the 3 doses asked for are done at t = 0.31 s"));
+    CHECK_THAT(text, !Catch::Contains("note"));  // the mean is the closed form
 }

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <functional>
 
-#include "tests/geometry/mesh_samples.h"
+#include "tests/geometry/facets.h"
 #include "tests/geometry/shatter.h"
 #include "tests/support/catch.h"
 #include "tests/support/near.h"
@@ -16,47 +16,6 @@ using namespace vkdose::geometry;
 using namespace vkdose::test;
 
 namespace {
-
-using Facets = std::vector<Triangle>;
-
-/// A block between two corners, seen from outside.
-Facets block(const Vec3& low, const Vec3& high) {
-    Facets surface;
-    const Sample s = cube();
-    for (const auto& t : s.triangles) {
-        Triangle corners;
-        for (int i = 0; i < 3; ++i) corners[i] = low + (high - low) * s.points[t[i]];
-        surface.push_back(corners);
-    }
-    return surface;
-}
-
-/// A prism with `sides` flat sides around the z axis, from z = 0 to 1, without ends unless `closed`.
-Facets prism(int sides, double radius, bool closed) {
-    Facets surface;
-    const auto at = [&](int i, double z) {
-        return Vec3(radius * std::cos(2 * kPi * (i % sides) / sides), radius * std::sin(2 * kPi * (i % sides) / sides),
-                    z);
-    };
-    for (int i = 0; i < sides; ++i) {
-        surface.push_back({at(i, 0), at(i + 1, 0), at(i + 1, 1)});
-        surface.push_back({at(i, 0), at(i + 1, 1), at(i, 1)});
-        if (!closed || i == 0 || i == sides - 1) continue;
-        surface.push_back({at(0, 0), at(i + 1, 0), at(i, 0)});
-        surface.push_back({at(0, 1), at(i, 1), at(i + 1, 1)});
-    }
-    return surface;
-}
-
-Facets sheet(const Vec3& corner, const Vec3& u, const Vec3& v) {
-    return {{corner, corner + u, corner + u + v}, {corner, corner + u + v, corner + v}};
-}
-
-Vec3 within(std::mt19937_64& random, const Vec3& low, const Vec3& high) {
-    std::uniform_real_distribution<double> unit(0, 1);
-    const double x = unit(random), y = unit(random), z = unit(random);
-    return low + (high - low) * Vec3(x, y, z);
-}
 
 /// Distances from a centre to the walls that a sphere there would touch.
 using Walls = std::function<std::vector<double>(const Vec3&)>;
@@ -187,7 +146,7 @@ TEST_CASE("a sphere beside a cylinder of 64 facets touches it once") {
     for (const double radius : {0.02, 0.15, 2.0}) {
         CAPTURE(radius);
         const double reach = 1 + radius;
-        checkCounts(prism(kSides, 1, true), radius, Vec3(-reach, -reach, 0.1), Vec3(reach, reach, 0.9), walls, 250);
+        checkCounts(prism(kSides, 1, 1, true), radius, Vec3(-reach, -reach, 0.1), Vec3(reach, reach, 0.9), walls, 250);
     }
 }
 
@@ -204,7 +163,7 @@ TEST_CASE("a sphere inside a tube of 64 facets touches it once, even if it nearl
     for (const double radius : {0.02, 0.2, 0.6, 0.9}) {
         CAPTURE(radius);
         const double low = -1 + 0.7 * radius;
-        checkCounts(prism(kSides, 1, false), radius, Vec3(low, low, 0.1), Vec3(-low, -low, 0.9), walls, 250);
+        checkCounts(prism(kSides, 1, 1, false), radius, Vec3(low, low, 0.1), Vec3(-low, -low, 0.9), walls, 250);
     }
 }
 

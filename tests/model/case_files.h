@@ -2,9 +2,11 @@
 // Case files that a test writes and breaks.
 
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "host/core/error.h"
 #include "host/model/case.h"
 #include "tests/support/folder.h"
 
@@ -81,6 +83,40 @@ friction = 0.5
 [settle]
 time_s = 0.01
 )";
+
+/// A case with a few spheres around (0, 30 mm, 0), and these tables: its bodies and what else the test is about.
+inline std::string withBodies(const std::string& tables) {
+    return R"(boundaries = "none"
+[particles]
+density = 1427.0
+mass_g = 0.2
+[particles.size]
+distribution = "fixed"
+radius_mm = 1.25
+[particles.region]
+low = [-0.008, 0.022, -0.008]
+high = [0.008, 0.038, 0.008]
+[contact]
+k = 2000.0
+k1_over_k = 0.2
+kc_over_k = 0.5
+plasticity_depth = 0.05
+damping = 0.02
+friction = 0.5
+[settle]
+time_s = 0.1
+)" + tables;
+}
+
+/// What is wrong with the case in this file, as it is told; "no fault" if it loads.
+inline std::string faultOf(const std::filesystem::path& file) {
+    try {
+        (void)loadCase(file);
+    } catch (const CaseError& e) {
+        return e.what();
+    }
+    return "no fault";
+}
 
 inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
     const std::size_t at = text.find(from);

@@ -306,6 +306,7 @@ TEST_CASE("overrides: their faults name them") {
     CHECK_THAT(text({"contact.friction"}), Catch::StartsWith("--set contact.friction: has no value"));
     CHECK_THAT(text({"contact..friction=1"}), Catch::Contains("is not the path of a key"));
     CHECK_THAT(text({"contact.friction=1.2.3"}), Catch::Contains("contact.friction = 1.2.3: is not a value"));
+    CHECK_THAT(text({"name=a\x01z"}), Catch::Contains("not TOML") && Catch::Contains("control characters"));
     CHECK_THAT(text({"=1"}), Catch::Contains("is not the path of a key"));
     CHECK_THAT(text({"coil.hand=rigth"}), Catch::Contains("did you mean \"right\"?"));
     CHECK_THAT(text({"coil.turns=3", "coil.pitch_mm=7"}), Catch::Contains("turns is given too"));

@@ -13,25 +13,11 @@ namespace {
 
 /// A case with a plate, a drum and a piston, and these measures.
 std::string withMeasures(const std::string& measures, const std::string& frames = "[frames]\ninterval_s = 0.01\n") {
-    return R"(boundaries = "none"
-[particles]
-density = 1427.0
-mass_g = 0.2
-[particles.size]
-distribution = "fixed"
-radius_mm = 1.25
-[particles.region]
-low = [-0.008, 0.022, -0.008]
-high = [0.008, 0.038, 0.008]
-[contact]
-k = 2000.0
-k1_over_k = 0.2
-kc_over_k = 0.5
-plasticity_depth = 0.05
-damping = 0.02
-friction = 0.5
-[settle]
-time_s = 0.1
+    return withBodies(R"([[region]]
+name = "pan"
+kind = "beyond"
+point = [0, -0.02, 0]
+normal = [0, -1, 0]
 [[body]]
 name = "plate"
 shape = "plane"
@@ -52,21 +38,13 @@ at = [0, 0.08, 0]
 [body.motion]
 kind = "slide"
 velocity = [0, -0.01, 0]
-)" + frames +
-           measures;
+)" + frames + measures);
 }
 
 struct Read {
     Folder folder;
     Case load(const std::string& measures) { return loadCase(folder.write("case.toml", withMeasures(measures))); }
-    std::string fault(const std::string& text) {
-        try {
-            (void)loadCase(folder.write("case.toml", text));
-        } catch (const CaseError& e) {
-            return e.what();
-        }
-        return "no fault";
-    }
+    std::string fault(const std::string& text) { return faultOf(folder.write("case.toml", text)); }
 };
 
 const std::string kAll = R"([[measure]]
@@ -94,6 +72,11 @@ radius_mm = 16.0
 inner_radius_mm = 8.0
 from_s = [0.02, 0.05]
 to_s = [0.04, 0.08]
+[[measure]]
+kind = "discharge"
+region = "pan"
+hole_mm = 7.5
+from_s = 0.03
 )";
 
 }  // namespace
@@ -104,7 +87,7 @@ TEST_CASE("measures: every kind comes from its keys, and the resolved case gives
     const Case again = loadCase(read.folder.write("resolved.toml", first.resolved));
     for (const Case* c : {&first, &again}) {
         const std::vector<ElementTest>& m = c->measures;
-        REQUIRE(m.size() == 5);
+        REQUIRE(m.size() == 6);
         CHECK(m[0].kind == ElementTest::Kind::AngleOfRepose);
         CHECK(m[0].name == "angle_of_repose");
         CHECK(near(m[0].at, Vec3(0.01, 0.002, -0.01), 1, 1e-15));
@@ -124,6 +107,10 @@ TEST_CASE("measures: every kind comes from its keys, and the resolved case gives
         REQUIRE(m[4].windows.size() == 2);
         CHECK(m[4].windows[1].from == 0.05);
         CHECK(m[4].windows[1].to == 0.08);
+        CHECK(c->world.regions.at(m[5].region).name == "pan");
+        CHECK(m[5].hole == 7.5e-3);
+        REQUIRE(m[5].windows.size() == 1);
+        CHECK(m[5].windows[0].from == 0.03);
     }
     CHECK(again.resolved == first.resolved);
 }
@@ -150,6 +137,9 @@ TEST_CASE("measures: a fault names file, line, key, value and remedy") {
                Contains("is not later"));
     CHECK_THAT(says("kind = \"shear\"\nbody = \"piston\"\nradius_mm = 5\ninner_radius_mm = 6\nfrom_s = 0\nto_s = 1\n"),
                Contains("inner_radius_mm") && Contains("is no smaller"));
+    CHECK_THAT(says("kind = \"discharge\"\nregion = \"pam\"\nfrom_s = 0\n"),
+               Contains("there is no region \"pam\"") && Contains("did you mean \"pan\""));
+    CHECK_THAT(says("kind = \"discharge\"\nregion = \"pan\"\n"), Contains("from_s") && Contains("is missing"));
     CHECK_THAT(says("kind = \"angle_of_repose\"\n[[measure]]\nkind = \"angle_of_repose\"\n"),
                Contains("two measures \"angle_of_repose\""));
     CHECK_THAT(says("kind = \"angle_of_repose\"\nname = \"a b\"\n"), Contains("is no name of a measure"));

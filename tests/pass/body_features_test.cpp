@@ -6,21 +6,13 @@
 // out, and these are counted.
 
 #include <algorithm>
-#include <map>
 #include <random>
 
 #include "geometry/tessellate.h"
-#include "host/backend/vulkan/pack_bodies.h"
-#include "host/backend/vulkan/split.h"
 #include "host/core/error.h"
-#include "host/vk/commands.h"
-#include "host/vk/pipeline.h"
-
-#include "spirv/body_features.spv.h"
-#include "spirv/body_features_texel.spv.h"
-#include "tests/geometry/mesh_samples.h"
+#include "tests/geometry/facets.h"
 #include "tests/geometry/shatter.h"
-#include "tests/support/gpu.h"
+#include "tests/pass/narrow_phase.h"
 #include "tests/support/near.h"
 
 using namespace vkdose;
@@ -29,104 +21,11 @@ using namespace vkdose::test;
 
 namespace {
 
-using Facets = std::vector<Triangle>;
-
-struct Answer {
-    std::uint32_t count = 0;
-    bool mayTouch = false, mayBeNear = false;
-    std::vector<Feature> features;  ///< normal in the world; distance
-};
-
-struct Query {
-    Vec3 centre{0};  ///< in the world [m]
-    double radius = 0;
-    std::uint32_t body = 0;
-};
-
 /// A sphere's place as the device gets it.
 Vec3 rounded(const Vec3& v) {
     const Split3 s(v);
     return Vec3(s.high) + Vec3(s.low);
 }
-
-/// Runs tests/pass/body_features.comp.
-class Narrow {
-  public:
-    static constexpr std::size_t kQueries = 4096, kBodies = 4;
-
-    std::vector<Answer> ask(const PackedBodies& bodies, const std::vector<Pose>& poses,
-                            const std::vector<Query>& queries) {
-        REQUIRE(bodies.table.size() <= kVectors);
-        REQUIRE(queries.size() <= kQueries);
-        geometry_.writeAll(bodies.table);
-        std::vector<gpu::BodyMotion> motions;
-        for (const Pose& pose : poses) motions.push_back(packMotion(pose, {}));
-        motions_.writeAll(motions);
-        std::vector<gpu::vec4> centres;
-        for (const Query& q : queries) {
-            const Split3 s(q.centre);
-            centres.emplace_back(s.high, float(q.radius));
-            centres.emplace_back(s.low, float(q.body));
-        }
-        queries_.writeAll(centres);
-        vk::Commands commands(device_);
-        commands.begin();
-        bindings_.bind(commands.handle());
-        pipeline(bodies.kinds).bind(commands.handle());
-        const auto count = std::uint32_t(queries.size());
-        bindings_.push(commands.handle(), &count);
-        commands.dispatch((count + 63) / 64, 1, 1);
-        commands.hostBarrier();
-        commands.submit();
-        for (const std::string& message : device_.validationMessages()) FAIL_CHECK(message);
-        return answers(queries);
-    }
-
-    const vk::Device& device() const { return device_; }
-
-  private:
-    static constexpr std::size_t kVectors = 1 << 21;
-
-    const vk::Pipeline& pipeline(std::uint32_t kinds) {
-        const auto known = pipelines_.find(kinds);
-        if (known != pipelines_.end()) return known->second;
-        const std::span<const std::uint32_t> texel(body_features_texel_spv), plain(body_features_spv);
-        return pipelines_
-            .emplace(std::piecewise_construct, std::forward_as_tuple(kinds),
-                     std::forward_as_tuple(device_, bindings_, texels_ ? texel : plain, std::vector{kinds}))
-            .first->second;
-    }
-
-    std::vector<Answer> answers(const std::vector<Query>& queries) const {
-        const auto counts = counts_.readAll<gpu::uvec4>(queries.size());
-        const auto places = places_.readAll<gpu::vec4>(queries.size() * kMaxFeatures);
-        std::vector<Answer> all;
-        for (std::size_t q = 0; q < queries.size(); ++q) {
-            Answer a{counts[q].x, counts[q].y != 0, counts[q].z != 0, {}};
-            for (std::size_t k = 0; k < std::min<std::size_t>(a.count, kMaxFeatures); ++k) {
-                const gpu::vec4 p = places[q * kMaxFeatures + k];
-                Feature f;
-                f.normal = Vec3(glm::vec3(p));
-                f.distance = queries[q].radius - double(p.w);
-                a.features.push_back(f);
-            }
-            all.push_back(std::move(a));
-        }
-        return all;
-    }
-
-    vk::Device device_{testDevice()};
-    // As the passes do: through a texel view, where the device has long enough ones.
-    const bool texels_ = device_.limits().maxTexelBufferElements >= kVectors;
-    vk::Buffer geometry_{device_, "geometry", kVectors * sizeof(gpu::uvec4),
-                         texels_ ? VK_FORMAT_R32G32B32A32_UINT : VK_FORMAT_UNDEFINED};
-    vk::Buffer motions_{device_, "motions", kBodies * sizeof(gpu::BodyMotion)};
-    vk::Buffer queries_{device_, "queries", 2 * kQueries * sizeof(gpu::vec4)};
-    vk::Buffer counts_{device_, "counts", kQueries * sizeof(gpu::uvec4)};
-    vk::Buffer places_{device_, "places", kQueries* kMaxFeatures * sizeof(gpu::vec4)};
-    vk::BindingSet bindings_{device_, {&geometry_, &motions_, &queries_, &counts_, &places_}, 4};
-    std::map<std::uint32_t, vk::Pipeline> pipelines_;  // by the kinds of shapes
-};
 
 /// Whether two answers have the same features, whatever their order: depths within `depth` [m], directions within
 /// `direction`.
@@ -180,12 +79,6 @@ struct Tally {
     double worstDepth = 0;  ///< error of an overlap, as a fraction of what is allowed
     double worstTurn = 0;   ///< error of a direction
 };
-
-Vec3 within(std::mt19937_64& random, const Vec3& low, const Vec3& high) {
-    std::uniform_real_distribution<double> unit(0, 1);
-    const double x = unit(random), y = unit(random), z = unit(random);
-    return low + (high - low) * Vec3(x, y, z);
-}
 
 Pose anyPose(std::mt19937_64& random) {
     std::normal_distribution<double> normal;
@@ -272,36 +165,6 @@ void check(Narrow& narrow, const Setup& setup, std::size_t spheres, std::size_t 
 
 std::shared_ptr<const MeshSurface> meshOf(const Facets& facets, double reach) {
     return std::make_shared<MeshSurface>(makeMesh(soupOf(facets, "facets"), 1e-10).mesh, reach);
-}
-
-/// A block between two corners, seen from outside.
-Facets block(const Vec3& low, const Vec3& high) {
-    Facets surface;
-    const Sample s = cube();
-    for (const auto& t : s.triangles) {
-        Triangle corners;
-        for (int i = 0; i < 3; ++i) corners[i] = low + (high - low) * s.points[t[i]];
-        surface.push_back(corners);
-    }
-    return surface;
-}
-
-Facets sheet(const Vec3& corner, const Vec3& u, const Vec3& v) {
-    return {{corner, corner + u, corner + u + v}, {corner, corner + u + v, corner + v}};
-}
-
-/// The wall of a prism.
-Facets tube(int sides, double radius, double length) {
-    Facets surface;
-    const auto at = [&](int i, double z) {
-        const double angle = 2 * kPi * (i % sides) / sides;
-        return Vec3(radius * std::cos(angle), radius * std::sin(angle), z);
-    };
-    for (int i = 0; i < sides; ++i) {
-        surface.push_back({at(i, 0), at(i + 1, 0), at(i + 1, length)});
-        surface.push_back({at(i, 0), at(i + 1, length), at(i, length)});
-    }
-    return surface;
 }
 
 }  // namespace
@@ -407,7 +270,7 @@ TEST_CASE("the device finds the features of meshes as the host does, however the
     for (const int sides : {64, 20})
         for (const double radius : {2e-3, 0.02, 0.09}) {
             const Vec3 corner(kSize - 0.7 * radius, kSize - 0.7 * radius, 0.09);
-            ways.push_back({sides == 64 ? "tube" : "coarse tube", tube(sides, kSize, kSize), radius,
+            ways.push_back({sides == 64 ? "tube" : "coarse tube", prism(sides, kSize, kSize, false), radius,
                             Vec3(-corner.x, -corner.y, 0.01), corner});
         }
     Narrow narrow;

@@ -14,6 +14,15 @@ import numpy
 import vkdose
 
 
+def is_alive(process):
+    """Whether the process with this number runs. One that has ended but has not been waited for does not."""
+    try:
+        state = Path(f"/proc/{process}/stat").read_text(encoding="utf-8")
+    except OSError:
+        return False
+    return state.rpartition(")")[2].split()[0] != "Z"
+
+
 class Cases(InFolder):
     def test_a_check_gives_figures_and_warnings(self):
         check = vkdose.Case("mini", {"coil.speed_rpm": 0}).check()
@@ -107,10 +116,8 @@ class Runs(InFolder):
         parent = subprocess.run([sys.executable, "-c", textwrap.dedent(script)], stdout=subprocess.PIPE, text=True)
         self.assertEqual(parent.returncode, -signal.SIGKILL)
         child = int(parent.stdout)
-        while os.path.exists(f"/proc/{child}"):  # it goes; the runner's limit on the time of a test would tell if not
-            with open(f"/proc/{child}/stat", encoding="utf-8") as state:
-                if state.read().rpartition(")")[2].split()[0] == "Z":
-                    break
+        while is_alive(child):  # it goes; the runner's limit on the time of a test would tell if not
+            pass
         self.assertTrue(vkdose.Result("run").summary["interrupted"])
 
     def test_errors_of_a_run_are_exceptions(self):

@@ -108,6 +108,31 @@ TEST_CASE("a browser draws the page of a study") {
     CHECK(dom.find("1 failed: particle 3 at (0, 0, 1) \"left\" the domain") != std::string::npos);
 }
 
+TEST_CASE("a browser shows of a calibration its targets, and what each of them tells of each parameter") {
+    if (browserMissing()) return;
+    const Sandbox box;
+    const auto folder = writeSweep(box);
+    writeSearch(box);
+    const std::string dom = drawn(box, studyJson(folder, {}));
+    CHECK(dom.find("data-state=\"ready\"") != std::string::npos);
+    const std::string shown = dom.substr(dom.find("<main>"), dom.find("<footer>") - dom.find("<main>"));
+    CHECK(shown.find("met after 2 points") != std::string::npos);
+    CHECK(shown.find("<td>heap.angle_deg</td><td>heap.toml</td><td class=\"number\">24 ± 0.5</td>"
+                     "<td class=\"number\">24.25 ± 0.2</td><td class=\"number\">1</td>") != std::string::npos);
+    CHECK(shown.find("<td class=\"number\">3 ± 0.05 g</td>") != std::string::npos);
+    CHECK(shown.find("<td class=\"number\">-36</td><td class=\"number\">+8</td>"
+                     "<td>± 0.015, mostly by heap.angle_deg</td>") != std::string::npos);
+    CHECK(shown.find("the targets do not constrain it within its bounds") != std::string::npos);
+    CHECK(shown.find("<h3>heap.angle_deg against contact.friction</h3>") != std::string::npos);
+    CHECK(shown.find("<h3>β against contact.kc_over_k</h3>") != std::string::npos);
+    CHECK(shown.find("NaN") == std::string::npos);
+
+    forgetFinding(folder);
+    const std::string going = drawn(box, studyJson(folder, {}));
+    CHECK(going.find("The search has not ended") != std::string::npos);
+    CHECK(going.find("<h3>β against contact.kc_over_k</h3>") == std::string::npos);  // its points lie on no lines
+}
+
 TEST_CASE("where points differ in the coil's turns a dose, a browser draws what is out over the turns") {
     if (browserMissing()) return;
     const Sandbox box;

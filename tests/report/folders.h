@@ -3,7 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "host/model/case.h"
+#include "host/study/calibration_finding.h"
 #include "tests/app/sandbox.h"
 
 namespace vkdose::test {
@@ -83,6 +86,23 @@ values = [0.3, 0.5]
     doses += "1,2,0.2,0.3,1,2,0.006,0.006,300,0.01,0.0042,1\n1,2,0.2,0.3,2,4.5,0.005,0.011,300,0.01,0.0042,1\n";
     box.write("sweep/doses.csv", doses);
     return box / "sweep";
+}
+
+/// Makes a study a search that found: the heap's angle tells the friction, and nothing tells the cohesion.
+inline void writeSearch(const Sandbox& box) {
+    std::string study = readText(box / "sweep/study.toml");
+    study.replace(study.find("[calibrate]\n"), 12, "[calibrate]\nmethod = \"surrogate\"\n");
+    box.write("sweep/study.toml", study);
+    CalibrationFinding f;
+    f.targets = {{"heap.angle_deg", "", "heap.toml", 24, 0.5, 1, 24.25, 0.2},
+                 {"beta", "g", "dose.toml", 3, 0.05, 2, 3.01, 0.02}};
+    f.parameters = {{"contact.friction", 0.1, 0.7, 0.3, {-36, 8}, 0, 0.0154, true, std::pair(0.25, 0.375)},
+                    {"contact.kc_over_k", 0, 1, 0.25, {0.5, -0.75}, 1, 1.5, false, {}}};
+    f.points = {{{0.2, 0.5}, {{20, 0.25}, {4, std::nan("")}}}, {{0.3, 0.25}, {{24.5, 0.25}, {3, 0.1}}}};
+    f.best = 1;
+    f.misfit = 0.375;
+    f.met = true;
+    writeFinding(box / "sweep", f);
 }
 
 }  // namespace vkdose::test

@@ -111,6 +111,28 @@ TEST_CASE("a sweep that has just begun, and one without study.toml") {
     CHECK(study["axes"] == Json::parse(R"([["contact.kc_over_k"], ["contact.friction"]])"));
 }
 
+TEST_CASE("what the search of a calibration found is in the data, and that one goes on") {
+    const Sandbox box;
+    const auto folder = writeSweep(box);
+    Json study = studyJson(folder, {});
+    CHECK(study["searches"] == false);
+    CHECK(study["calibration"].is_null());
+    writeSearch(box);
+    study = studyJson(folder, {});
+    CHECK(study["searches"] == true);
+    const Json& found = study["calibration"];
+    CHECK(found["targets"][0]["name"] == "heap.angle_deg");
+    CHECK(found["parameters"][0]["change_in_uncertainties"] == Json({-36.0, 8.0}));
+    CHECK(found["parameters"][1]["constrained"] == false);
+    CHECK(found["points"][0]["values"][1][1].is_null());
+    forgetFinding(folder);
+    study = studyJson(folder, {});
+    CHECK(study["searches"] == true);
+    CHECK(study["calibration"].is_null());
+    box.write("sweep/calibration.json", "{}");
+    CHECK_THROWS_AS(studyJson(folder, {}), CaseError);
+}
+
 TEST_CASE("name, reason, target and failures are in the data") {
     const Sandbox box;
     const Json study = studyJson(writeSweep(box), {});

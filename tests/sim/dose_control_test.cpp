@@ -37,12 +37,6 @@ double turned(const FakeBackend& backend, std::uint64_t from, std::uint64_t to) 
     return angle;
 }
 
-struct Keeper : Notebook {
-    std::vector<RunCheckpoint> kept;
-    void onCheckpoint(const RunCheckpoint& c, double) override { kept.push_back(c); }
-    bool storesCheckpoints() const override { return true; }
-};
-
 RunResult playFrom(const Case& c, FakeBackend& backend, RunObserver& notes, const RunCheckpoint* from = nullptr) {
     const std::atomic<bool> stop{false};
     Derived derived;
@@ -275,7 +269,7 @@ TEST_CASE("a run under control that goes on from any checkpoint makes the same c
     FakeBackend backend;
     backend.dosed = dosed;
     backend.torque = torque;
-    Keeper notes;
+    CheckpointKeeper notes;
     const RunResult whole = playFrom(c, backend, notes);
     REQUIRE(whole.doses.size() == 3);
     REQUIRE(notes.kept.size() > 100);

@@ -107,6 +107,13 @@ struct Notebook : RunObserver {
     bool storesFrames() const override { return wantsFrames; }
 };
 
+/// Keeps the checkpoints as well.
+struct CheckpointKeeper : Notebook {
+    std::vector<RunCheckpoint> kept;
+    void onCheckpoint(const RunCheckpoint& c, double) override { kept.push_back(c); }
+    bool storesCheckpoints() const override { return true; }
+};
+
 /// Settle 100 steps, then rotate 50 / rest 20; sensors every 30 steps; a left-handed coil unless told otherwise.
 inline Case smallCase() {
     Case c;

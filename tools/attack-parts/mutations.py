@@ -33,7 +33,7 @@ TARGETS = (
     ("report", OF_A_RUN + OF_A_RUN[1:3] + ["summary.json"] * 2 + ["particles.csv", "frames/contacts_000001.hdf"]),
     ("report", ["experiment.csv", "profile.csv"] * 2),
     ("report-sweep", ["members.csv", "doses.csv", "study.toml", "base.toml", "members/0000/case.toml"]),
-    ("report-sweep", ["expected.toml"] * 2),
+    ("report-sweep", ["expected.toml"] * 2 + ["calibration.json"] * 2),
     ("render", ["case.toml", "frames/frames.csv", "frames/particles_000001.hdf", "particles.csv"]),
     ("profile", ["photo.png"] * 3),
     ("sweep", ["study.toml"] * 2 + ["base-case.toml"]),
@@ -42,6 +42,13 @@ TARGETS = (
     ("calibrate", ["study.toml", "measured.csv"]),
 )
 DECK = [(command, name) for command, names in TARGETS for name in names]
+FINDING = """{"met": true, "misfit": 0.01, "best": 1,
+ "targets": [{"name": "beta", "unit": "g", "base": "base-case.toml", "value": 3, "uncertainty": 0.1, "weight": 1,
+              "believed": 3.01, "deviation": 0.02}],
+ "parameters": [{"key": "contact.friction", "low": 0.3, "high": 0.5, "chosen": 0.4, "change_in_uncertainties": [-12.5],
+                 "mostly_by": 0, "error": 0.016, "constrained": true, "may_meet": [0.38, 0.42]}],
+ "points": [{"at": [0.3], "values": [[4.2, null]]}, {"at": [0.4], "values": [[3.01, null]]}]}
+"""
 # A resumed run may miss that these are spoilt: it does not need them and does not write them again.
 UNREAD = ("frames/particles_", "fields/mid-plane_")
 
@@ -102,6 +109,7 @@ def prepare(t, command, name):
     if command == "report-sweep":
         folders.copy(ground.good_sweep("reference")[0], t.path("out"))
         shutil.copy(os.path.join(os.path.dirname(MINI), "paper", "expected.toml"), t.path("expected.toml"))
+        folders.write(t.path("out", "calibration.json"), FINDING)
         at = t.path(name) if name == "expected.toml" else t.path("out", name)
         return ["report", "out", "--expected", "expected.toml"], at
     if command == "resume":

@@ -1,5 +1,5 @@
 #pragma once
-// A row of a table as JSON, by the table of its columns.
+// Numbers as JSON, and rows by the table of their columns.
 
 #include <cmath>
 #include <nlohmann/json.hpp>

@@ -1,0 +1,362 @@
+#include "host/app/command_options.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "host/app/new_answers.h"
+#include "host/app/shared_options.h"
+
+namespace vkdose {
+
+namespace {
+
+void addNew(CLI::App& program, NewOptions& options) {
+    CLI::App& command =
+        *program.add_subcommand("new", "write a commented case from a device and a powder, or ask for them");
+    command.add_option("file", options.file, "case to write (TOML); it must not be there yet")
+        ->required()
+        ->type_name("FILE");
+    const auto questions = newQuestions();
+    options.answers.resize(questions.size());
+    for (std::size_t i = 0; i < questions.size(); ++i) {
+        const NewQuestion& q = questions[i];
+        const std::string standard = q.standard == nullptr ? "" : fmt::format(" (default: {})", q.standard);
+        command.add_option(q.option, options.answers[i], q.meaning + standard)->type_name(q.form);
+    }
+    command.add_flag("--ask", options.ask,
+                     "ask for what is not given; without any option this is done on a terminal anyway");
+}
+
+void addRun(CLI::App& program, RunOptions& options) {
+    CLI::App& command = *program.add_subcommand("run", "simulate a case and write its output folder");
+    addCase(command, options.input).required(false);
+    auto* from = command
+                     .add_option("--from", options.from.folder,
+                                 "begin with the powder of the run in this output folder, contacts included; "
+                                 "without CASE with its case, changed by --set")
+                     ->type_name("DIR");
+    command
+        .add_option(
+            "--at", options.from.at,
+            "its state to begin with: settled, checkpoint or end (default: the first of these that it has), or a "
+            "time [s]: the nearest frame, if the case keeps frames.states")
+        ->type_name("STATE|TIME")
+        ->needs(from);
+    command.add_option("--out", options.out, "output folder (default: out/<case name> in the current folder)")
+        ->type_name("DIR");
+    command.add_flag("--force", options.force,
+                     "replace a former run in the output folder: its files, and none that vkdose did not write");
+    addShow(command, options.quiet, options.live, options.events);
+    command.add_option("--member", options.member, "number of the run in a study")->group("");
+    addParent(command, options.parent);
+    addBackend(command, options.backend);
+    from->excludes("--backend");  // the state is that of one backend
+}
+
+void addResume(CLI::App& program, ResumeOptions& options) {
+    CLI::App& command = *program.add_subcommand("resume", "go on with an interrupted run from its checkpoint");
+    command.add_option("dir", options.folder, "output folder of the run")->required()->type_name("DIR");
+    addSet(command, options.overrides,
+           "replace a value that changes nothing of the past: contact.max_overlap_ratio, stop.*, checkpoint.*; may be "
+           "repeated");
+    addShow(command, options.quiet, options.live, options.events);
+    addParent(command, options.parent);
+    addDevice(command, options.backend);
+}
+
+void addCheck(CLI::App& program, CheckOptions& options) {
+    CLI::App& command = *program.add_subcommand(
+        "check", "validate a case; print its figures, and warnings of what was probably not meant");
+    addCase(command, options.input);
+    addAssume(command, options.assume);
+    command.add_flag("--json", options.json, "print errors, warnings and figures as JSON, for other programs");
+    addBackend(command, options.backend);
+}
+
+void addCompare(CLI::App& program, CompareOptions& options) {
+    CLI::App& command =
+        *program.add_subcommand("compare", "run a case on both backends side by side and judge the differences");
+    addCase(command, options.input);
+    auto* steps =
+        command.add_option("--steps", options.steps, "stop after this many steps")->check(CLI::PositiveNumber);
+    command
+        .add_option("--time", options.time, "stop after this simulated time [s] (default: settling and the first dose)")
+        ->check(CLI::PositiveNumber)
+        ->excludes(steps);
+    command
+        .add_option("--twins", options.twins,
+                    "number of perturbed reference runs that measure the chaos of the packing")
+        ->check(CLI::Range(1, 16))
+        ->capture_default_str();
+    addDevice(command, options.backend);
+}
+
+void addVerify(CLI::App& program, VerifyOptions& options) {
+    CLI::App& command = *program.add_subcommand("verify", "run small cases with known answers and judge the results");
+    addBackend(command, options.backend);
+    command.add_option("--out", options.out, "folder for verify.md and verify.json")
+        ->type_name("DIR")
+        ->capture_default_str();
+    command.add_option("--only", options.only, "play only the cases with this in their name")->type_name("NAME");
+}
+
+void addBench(CLI::App& program, BenchOptions& options) {
+    CLI::App& command = *program.add_subcommand("bench", "measure the speed of a device on fixed workloads");
+    addDevice(command, options.backend);
+    command
+        .add_option("--bed", options.bed,
+                    "case with a list of settled particles, which is run at rest and turning (default: " +
+                        std::string(kSettledBed) + ")")
+        ->type_name("CASE");
+    command.add_option("--only", options.only, "run only the workloads with this in their name")->type_name("NAME");
+    command.add_option("--repeats", options.repeats, "timed repeats of each workload")
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
+    command
+        .add_option("--copies", options.copies,
+                    "processes that run each workload at once, each pinned to a core; the rate is their sum")
+        ->check(CLI::Range(1, 1024))
+        ->capture_default_str();
+    command
+        .add_option("--members", options.members,
+                    "canisters that share the device in one ensemble, each with the workload")
+        ->check(CLI::Range(1, 65535))
+        ->capture_default_str()
+        ->excludes("--copies");
+    command.add_flag("--quick", options.quick,
+                     "run only the small workloads, too short to be measured: a trial of the command");
+    command.add_option("--out", options.out, "folder for bench.csv and bench.json")
+        ->type_name("DIR")
+        ->capture_default_str();
+}
+
+void addExportBody(CLI::App& program, ExportBodyOptions& options) {
+    CLI::App& command = *program.add_subcommand(
+        "export-body", "write coil and bodies of a case as a binary STL mesh, for other programs");
+    addCase(command, options.input);
+    command.add_option("name", options.names, "names of bodies, or `coil`; without a name all are written");
+    command.add_option("--out", options.out, "mesh to write")->type_name("FILE")->capture_default_str();
+    command.add_option("--unit", options.unit, "unit of the mesh's lengths, which STL itself cannot tell")
+        ->check(CLI::IsMember({"mm", "m", "um", "cm", "inch"}))
+        ->capture_default_str();
+    command.add_option("--time", options.time, "time at which moving bodies are shown [s]")->capture_default_str();
+    command.add_option("--angle", options.angle, "angle of the drive at which coil and driven bodies are shown [deg]")
+        ->capture_default_str();
+    command.add_option("--around", options.around, "corners of a wire's cross-section")
+        ->check(CLI::Range(3, 1000))
+        ->capture_default_str();
+    command.add_option("--per-turn", options.perTurn, "straight pieces of a full turn, of round bodies too")
+        ->check(CLI::Range(4, 10000))
+        ->capture_default_str();
+}
+
+CLI::App& addSweep(CLI::App& program, const char* name, const char* what, SweepOptions& options) {
+    CLI::App& command = *program.add_subcommand(name, what);
+    command.add_option("study", options.study, "study file (TOML)")->required();
+    command
+        .add_option("--out", options.out,
+                    "folder of the sweep (default: out/<name of the study's file> in the current folder)")
+        ->type_name("DIR");
+    command
+        .add_option("--jobs", options.jobs,
+                    "members at once, each in a process of its own (default on a CPU: one for each core)")
+        ->check(CLI::Range(1, 1024));
+    command
+        .add_option(
+            "--ensemble", options.ensemble,
+            "members at once that share the device in an ensemble (default on a GPU: as many as its memory holds)")
+        ->check(CLI::Range(1, 1024))
+        ->excludes("--jobs");
+    command.add_flag("--retry-failed", options.retryFailed,
+                     "run the members that failed again, from their checkpoints if these can be read");
+    addSet(command, options.overrides,
+           "replace a value of every member's case: --set stop.max_doses=2; may be repeated");
+    auto* dry = command.add_flag("--dry-run", options.dryRun,
+                                 "print the members with the time that they take, and write nothing");
+    addAssume(command, options.assume).needs(dry);
+    command.add_flag("--quiet", options.quiet, "print errors only");
+    addBackend(command, options.backend);
+    return command;
+}
+
+void addReport(CLI::App& program, ReportOptions& options) {
+    CLI::App& command = *program.add_subcommand(
+        "report", "write an HTML report of a run or a sweep, or of several runs beside each other");
+    command
+        .add_option("source", options.sources,
+                    "output folder of a run or a sweep, or a study's file; several folders of runs are compared")
+        ->required()
+        ->type_name("DIR|STUDY");
+    command
+        .add_option(
+            "--out", options.out,
+            "page to write (default: report.html in the folder; of several runs comparison.html in the current one)")
+        ->type_name("FILE");
+    command.add_option("--experiment", options.experiment, "readings of a balance (CSV), shown beside a run's doses")
+        ->type_name("FILE");
+    command.add_option("--expected", options.expected, "table of published results (TOML), by which a sweep is judged")
+        ->type_name("FILE");
+    command
+        .add_option("--profile", options.profiles,
+                    "surface measured on a photograph (CSV), shown beside the run's after this dose (0: the settled "
+                    "bed; default: the last dose); may be repeated")
+        ->type_name("FILE[@DOSE]")
+        ->allow_extra_args(false);
+}
+
+void addProfile(CLI::App& program, ProfileOptions& options) {
+    CLI::App& command = *program.add_subcommand("profile", "trace the surface of the powder in a photograph");
+    photo::Reading& reading = options.reading;
+    command.add_option("photo", options.photo, "PNG, JPEG or TIFF")->required();
+    command
+        .add_option_function<std::vector<int>>(
+            "--roi",
+            [&reading](const std::vector<int>& r) {
+                reading.region = photo::Region{r[0], r[1], r[2], r[3]};
+            },
+            "region in pixels: left, top, width, height (default: the whole picture)")
+        ->delimiter(',')
+        ->expected(4)
+        ->type_name("X,Y,W,H");
+    auto* scale = command.add_option("--mm-per-pixel", reading.mmPerPixel,
+                                     "size of a pixel [mm]; this or --length-mm is required");
+    command.add_option("--length-mm", reading.lengthMm, "length that the region's width stands for [mm]")
+        ->excludes(scale);
+    command
+        .add_option("--threshold", reading.threshold,
+                    "grey of the picture as it is, below which a pixel counts as dark (default: found, in even light)")
+        ->check(CLI::Range(1, 255));
+    command
+        .add_option_function<std::string>(
+            "--powder",
+            [&reading](const std::string& kind) {
+                reading.powder = kind == "dark" ? photo::Powder::Dark : photo::Powder::Light;
+            },
+            "whether the powder is dark or light (default: the kind of pixel that lies lower)")
+        ->check(CLI::IsMember({"dark", "light"}));
+    command
+        .add_option_function<std::string>(
+            "--rear", [&reading](const std::string& side) { reading.rearLeft = side == "left"; },
+            "side of the picture on which the rear wall is (default: left)")
+        ->check(CLI::IsMember({"left", "right"}));
+    command
+        .add_option_function<std::vector<double>>(
+            "--corner-mm",
+            [&reading](const std::vector<double>& corner) {
+                reading.cornerZMm = corner[0];
+                reading.cornerHeightMm = corner[1];
+            },
+            "place of the region's lower corner at the rear, from the rear wall and the lowest point [mm] (default: "
+            "0,0)")
+        ->delimiter(',')
+        ->expected(2)
+        ->type_name("Z,H");
+    command
+        .add_option("--speck-mm", reading.speckMm, "patches and holes smaller than a square of this edge are dirt [mm]")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
+    command.add_option("--out", options.out, "surface to write (CSV)")->type_name("FILE")->capture_default_str();
+    command
+        .add_option("--check", options.check,
+                    "picture to write, with the surface drawn over the photograph, to judge it by")
+        ->type_name("FILE");
+}
+
+void addRender(CLI::App& program, RenderOptions& options) {
+    CLI::App& command = *program.add_subcommand("render", "draw pictures and films of a run");
+    command.add_option("dir", options.folder, "output folder of the run")->required()->type_name("DIR");
+    command.add_option("--out", options.out, "picture to write, a PNG (default: picture.png in the folder)")
+        ->type_name("FILE");
+    auto* times =
+        command
+            .add_option(
+                "--time", options.times,
+                "simulated time [s], one or several side by side; the nearest frames are drawn (default: the end)")
+            ->expected(1, 26);
+    auto* panels = command
+                       .add_flag("--panels", options.panels,
+                                 "four times side by side: settled, end of the first dose's turning, half of the "
+                                 "powder that came out is out, a tenth left")
+                       ->excludes(times);
+    auto* movie = command
+                      .add_option("--movie", options.movie,
+                                  "all frames: a film, encoded by ffmpeg if that is installed, or a folder of pictures "
+                                  "that holds no frame_*.png yet")
+                      ->type_name("FILE|DIR")
+                      ->excludes(times)
+                      ->excludes(panels)
+                      ->excludes("--out");
+    command.add_option("--rate", options.rate, "frames a second of the film")
+        ->check(CLI::Range(0.1, 240.0))
+        ->capture_default_str()
+        ->needs(movie);
+    command.add_option("--color", options.color, "quantity that the colour tells")
+        ->check(CLI::IsMember({"kinetic-energy", "speed", "overlap", "radius", "fill-layer"}))
+        ->capture_default_str();
+    command.add_option("--from", options.from, "value where the colours begin, in the unit of the colour bar");
+    command.add_option("--to", options.to, "value where the colours end");
+    command.add_option("--view", options.view, "side from which the picture is drawn")
+        ->check(CLI::IsMember({"side", "end", "iso", "cut"}))
+        ->capture_default_str();
+    command
+        .add_option("--size", options.size,
+                    "width and height in pixels: 1280x720 (default: as large as the view takes)")
+        ->type_name("WxH");
+    command.add_flag("--no-coil", options.noCoil, "do not draw the coil");
+    addDevice(command, options.backend);
+}
+
+/// The commands that print parts of the manual.
+void addManual(CLI::App& program, ManualOptions& options) {
+    CLI::App& keys = *program.add_subcommand("keys", "list every key of a case file: unit, default, bounds, meaning");
+    keys.add_flag("--study", options.study, "list the keys of a study file instead");
+    keys.add_flag("--schema", options.schema, "print them as a JSON Schema, by which an editor completes and checks");
+    CLI::App& columns = *program.add_subcommand("columns", "list every column of the files that a run leaves");
+    columns.add_flag("--sweep", options.sweep, "list the columns of a sweep's tables instead");
+    CLI::App& all = *program.add_subcommand("options", "list every command with its options");
+    all.add_flag("--brief", options.brief, "list the commands alone, a line each");
+}
+
+/// The commands that print what shells and man(1) read.
+void addShells(CLI::App& program, ShellOptions& options) {
+    CLI::App& completion =
+        *program.add_subcommand("completion", "print the completion of the command line for a shell");
+    completion.add_option("shell", options.shell, "the shell")->check(CLI::IsMember({"bash", "zsh", "fish"}));
+    completion.add_option("--names", options.names, "print the names of what can be given")
+        ->check(CLI::IsMember({"case", "study"}))
+        ->group("");
+    CLI::App& man = *program.add_subcommand("man", "print the page for man(1), of vkdose or of a command");
+    man.add_option("command", options.command, "a command of vkdose; without one the page that lists them");
+    man.add_option("--out", options.out, "folder to write all the pages into, vkdose.1 and one for each command")
+        ->type_name("DIR");
+}
+
+}  // namespace
+
+void declareCommands(CLI::App& program, Options& options) {
+    addNew(program, options.made);
+    addRun(program, options.run);
+    addResume(program, options.resume);
+    addCheck(program, options.check);
+    program.add_subcommand("devices", "list the Vulkan devices");
+    addCompare(program, options.compare);
+    addVerify(program, options.verification);
+    addBench(program, options.bench);
+    addExportBody(program, options.exportBody);
+    addSweep(program, "sweep", "run every member of a study: a base case, axes, seeds", options.sweep)
+        .add_flag("--mpi", options.sweep.mpi, "run a member on each rank of an MPI job (needs a build with VKDOSE_MPI)")
+        ->excludes("--ensemble");
+    program.get_subcommand("sweep")->add_flag("--prepare", options.sweep.prepare,
+                                              "only make the members' folders, for a queue (tools/slurm-array)");
+    addSweep(program, "calibrate", "find the parameters of a study that dose the measured mass", options.calibration);
+    addReport(program, options.report);
+    addProfile(program, options.profile);
+    addRender(program, options.render);
+    addManual(program, options.manual);
+    addShells(program, options.shells);
+}
+
+}  // namespace vkdose

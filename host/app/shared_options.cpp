@@ -1,0 +1,51 @@
+#include "host/app/shared_options.h"
+
+#include <CLI/CLI.hpp>
+
+namespace vkdose {
+
+void addSet(CLI::App& command, std::vector<std::string>& overrides, const char* what) {
+    command.add_option("--set", overrides, what)->type_name("KEY=VALUE")->take_all()->allow_extra_args(false);
+}
+
+CLI::Option& addCase(CLI::App& command, CaseOptions& input) {
+    addSet(command, input.overrides, "replace a value of the case: --set coil.speed_rpm=60; may be repeated");
+    return *command.add_option("case", input.file, "case file (TOML), or the name of a case in the folder cases")
+                ->required();
+}
+
+void addDevice(CLI::App& command, BackendChoice& backend) {
+    command
+        .add_option("--device", backend.device, "Vulkan device: its index or part of its name (see `vkdose devices`)")
+        ->type_name("NAME");
+    command.add_flag("--validation", backend.validation, "load the Vulkan validation layer; slow, for development");
+}
+
+void addBackend(CLI::App& command, BackendChoice& backend) {
+    command.add_option("--backend", backend.backend, "the backend that computes the steps")
+        ->type_name("NAME")
+        ->check(CLI::IsMember({"vulkan", "reference"}))
+        ->capture_default_str();
+    addDevice(command, backend);
+}
+
+void addParent(CLI::App& command, int& parent) {
+    command.add_option("--parent", parent, "end, as by Ctrl-C, when this process does")->group("");
+}
+
+void addShow(CLI::App& command, bool& quiet, bool& live, bool& events) {
+    auto* silent = command.add_flag("--quiet", quiet, "print errors only");
+    command.add_flag("--live", live, "show the bed and the doses on the terminal while the run goes on")
+        ->excludes(silent);
+    command
+        .add_flag("--events", events, "print phases, samples, doses and warnings as JSON, a line for each, and no text")
+        ->excludes("--quiet")
+        ->excludes("--live");
+}
+
+CLI::Option& addAssume(CLI::App& command, bool& assume) {
+    return *command.add_flag("--assume", assume,
+                             "estimate the run time at an assumed speed, without measuring the device for a second");
+}
+
+}  // namespace vkdose

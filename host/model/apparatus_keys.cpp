@@ -1,0 +1,155 @@
+// The keys of what the powder touches: canister and walls, the coil, bodies; and where powder is dosed.
+#include "host/model/case_keys.h"
+
+namespace vkdose {
+namespace {
+
+using namespace key;
+
+constexpr Bound kPositive = Bound::Positive;
+constexpr Bound kNonNegative = Bound::NonNegative;
+
+constexpr Key kCanister[] = {
+    number("length_mm", kMillimetre, kPositive, kRequired, "along the coil, from the rear wall to the front wall"),
+    number("width_mm", kMillimetre, kPositive, kRequired, "inside width, which is also the diameter of the trough"),
+    number("height_mm", kMillimetre, kPositive, kRequired, "from the lowest point of the floor"),
+    word("floor", "trough flat", "trough",
+         "`\"trough\"`: a half-cylinder around the coil's axis; `\"flat\"`: a plane half a width below the axis"),
+    number("outlet_diameter_mm", kMillimetre, kPositive, kRequired,
+           "of the hole in the front wall and of the throat behind it; at most `width_mm`"),
+    number("throat_length_mm", kMillimetre, kPositive, kRequired, "powder that passes the throat's end is dosed"),
+    boolean("lid", false,
+            "closes the canister at its height, or above the grid that the fill starts from where that reaches higher. "
+            "Without a lid a sphere that the coil pinches and flings out is lost, which ends the run"),
+};
+
+constexpr Key kPlane[] = {
+    vector("point", kMetre, kRequired, "a point of the plane"),
+    vector("normal", kPlain, kRequired, "points to the side of the particles; of any length but zero"),
+};
+constexpr Key kCylinder[] = {
+    vector("base", kMetre, kRequired, "centre of the first end; of an endless one any point of the axis"),
+    vector("axis", kPlain, kRequired, "direction of the axis; of any length but zero"),
+    number("radius_mm", kMillimetre, kPositive, kRequired, "inner radius if the particles are inside, else outer"),
+    number("length_mm", kMillimetre, kPositive, told("endless"), "the cylinder is open at both ends"),
+    boolean("inside", true, "whether the particles are inside"),
+};
+
+constexpr Key kCoil[] = {
+    number("length_mm", kMillimetre, kPositive, kRequired, "along the axis; as a rule canister and throat together"),
+    number("turns", kPlain, kPositive, told("this or `pitch_mm`"), "number of turns over the whole length")
+        .replacing("pitch_mm"),
+    number("pitch_mm", kMillimetre, kPositive, told("this or `turns`"), "length of one turn").replacing("turns"),
+    number("wire_diameter_mm", kMillimetre, kPositive, kRequired, "thickness of the wire"),
+    number("radius_mm", kMillimetre, kPositive, told("this or `clearance_mm`"),
+           "from the axis to the wire's centre line")
+        .replacing("clearance_mm"),
+    number("clearance_mm", kMillimetre, kPositive, told("this or `radius_mm`"),
+           "gap between the wire and the narrower of trough and hole")
+        .replacing("radius_mm"),
+    number("z_start_mm", kMillimetre, Bound::Any, 0.0, "where the coil begins"),
+    number("start_angle_deg", kDegree, Bound::Any, 0.0, "of the wire's beginning, from +x towards +y"),
+    word("hand", "right left", "right", "hand of the helix"),
+    number("speed_rpm", kRpm, kNonNegative, kRequired, "speed during a dose, in the sense that conveys towards +z"),
+    boolean(
+        "surface_velocity", true,
+        "whether damping, friction and rolling resistance at the coil see its surface move. `false`: they see it at "
+        "rest, though the coil turns"),
+    boolean(
+        "wire_curvature", false,
+        "whether the reduced size a* of a contact with the coil counts the wire's curvature, as that of a sphere of "
+        "its thickness. `false`: the wire is as flat as a wall"),
+};
+
+constexpr Key kBody[] = {
+    text("name", kRequired, "of the body, in messages and tables: letters, digits, `-` and `_`"),
+    word("shape", "mesh plane box ball cylinder cone disc trough wire screw", "mesh",
+         "in the body's own frame: a plane through the origin; a box or a ball about it; all others around the z axis, "
+         "from z = 0 on")
+        .replacing("*"),
+    word("contact", "wall coil", "wall",
+         "whose contact parameters it has: those of `[contact.wall]` or `[contact.coil]`"),
+    vector("at", kMetre, {0, 0, 0}, "where the origin of its frame is at the start"),
+    vector("rotation_axis", kPlain, {0, 0, 1}, "direction of the axis about which its frame is turned at the start"),
+    number("rotation_deg", kDegree, Bound::Any, 0.0, "the angle of that turn"),
+};
+constexpr Key kBodyMesh[] = {
+    text("mesh", kRequired, "an STL, OBJ or PLY file; the path is relative to the case file"),
+    text("unit", kRequired, "of the lengths in the file: `\"m\"`, `\"cm\"`, `\"mm\"`, `\"um\"`, `\"inch\"`"),
+};
+constexpr Key kBodyShape[] = {
+    vector("normal", kPlain, {0, 1, 0}, "`plane`: points to the side of the particles"),
+    vector("size_mm", kMillimetre, kRequired, "`box`: its three edges"),
+    boolean("inside", false, "`box`: whether it is a room with the particles inside"),
+    number("radius_mm", kMillimetre, kPositive, kRequired,
+           "`ball`, `cylinder`, `disc`, `screw`: outer radius; `cone`: radius at z = 0; `wire`: of its centre line"),
+    number("end_radius_mm", kMillimetre, kNonNegative, kRequired, "`cone`: radius at its other end"),
+    number("hole_radius_mm", kMillimetre, kNonNegative, 0.0, "`disc`: of the hole in its middle"),
+    number("length_mm", kMillimetre, kPositive, kRequired, "`cylinder`, `cone`, `wire`, `screw`: along z"),
+    boolean("ends", false, "`cylinder`: whether a disc closes each end"),
+    number("width_mm", kMillimetre, kPositive, kRequired, "`trough`: between its sides; it has no ends"),
+    number("pitch_mm", kMillimetre, kPositive, kRequired, "`wire`, `screw`: length of one turn"),
+    number("pitch_end_mm", kMillimetre, kPositive, told("`pitch_mm`"), "`screw`: at its end; it changes evenly"),
+    number("wire_diameter_mm", kMillimetre, kPositive, kRequired, "`wire`: its thickness"),
+    number("shaft_radius_mm", kMillimetre, kPositive, kRequired, "`screw`: of the shaft that carries the blade"),
+    number("thickness_mm", kMillimetre, kPositive, kRequired, "`screw`: of the blade, along z"),
+    word("hand", "right left", "right", "`wire`, `screw`: hand of the helix"),
+};
+constexpr Key kMotion[] = {
+    word("kind", "turn swing shake slide table", kRequired,
+         "`turn`: about an axis at a speed; `swing`: to and fro about it; `shake`: to and fro along it; `slide`: along "
+         "a "
+         "line; `table`: as a file says")
+        .replacing("*"),
+    word("follows", "time drive", "time",
+         "`\"time\"`: the body moves by itself; `\"drive\"`: it turns while powder is dosed, with the coil's speed or "
+         "with `dose.speed_rpm`"),
+    vector("axis", kPlain, {0, 0, 1}, "direction of the axis"),
+    vector("through", kMetre, {0, 0, 0}, "a point of the axis"),
+    number("speed_rpm", kRpm, Bound::Any, kRequired, "`turn` by time: speed about the axis, negative the other way"),
+    number("turns_per_turn", kPlain, Bound::Any, 1.0, "`turn` by the drive: its turns for one of the drive"),
+    number("amplitude_deg", kDegree, kPositive, kRequired, "`swing`: to each side"),
+    number("amplitude_mm", kMillimetre, kPositive, kRequired, "`shake`: to each side"),
+    number("frequency_hz", {1, "1/s"}, kPositive, kRequired, "`swing`, `shake`: how often to and fro in a second"),
+    number("phase_deg", kDegree, Bound::Any, 0.0, "`swing`, `shake`: of the sine at the start"),
+    vector("velocity", {1, "m/s"}, kRequired, "`slide`: of the body"),
+    text("file", kRequired,
+         "`table`: a CSV with the columns `time_s`, and `angle_deg`, `x`, `y`, `z` (m) or some of them"),
+    number("from_s", kSecond, kNonNegative, 0.0, "by time: the body stands until then"),
+    number("to_s", kSecond, kPositive, told("for ever"), "by time: and from then on"),
+};
+
+constexpr Key kCountRegion[] = {
+    text("name", kRequired, "of the region, in messages and tables: letters, digits, `-` and `_`"),
+    word("kind", "beyond box", kRequired, "`beyond`: all that lies beyond a plane; `box`: all in a box").replacing("*"),
+    boolean("deletes", true, "a sphere whose centre comes into it is dosed; `false`: it is counted and goes on"),
+    vector("point", kMetre, kRequired, "`beyond`: of the plane"),
+    vector("normal", kPlain, kRequired, "`beyond`: points away from the powder, to the side that counts"),
+    vector("low", kMetre, kRequired, "`box`: its low corner"),
+    vector("high", kMetre, kRequired, "`box`: its high corner"),
+};
+
+constexpr KeyTable kTables[] = {
+    {"canister", kCanister, ""},
+    {"plane[]", kPlane, "A wall without end, for `boundaries = \"list\"`."},
+    {"cylinder[]", kCylinder, "A round wall, for `boundaries = \"list\"`."},
+    {"coil", kCoil,
+     "A round wire on a helix, closed by round caps, turns as a rigid body. Without this table there is no coil."},
+    {"body[]", kBody,
+     "A body of your own: a mesh, or an exact shape. It has a place, and may move. Keys for all bodies:"},
+    {"body[]", kBodyMesh, "A mesh from a CAD program, `shape = \"mesh\"`:"},
+    {"body[]", kBodyShape, "The other shapes take those of these keys that name them:"},
+    {"body[].motion", kMotion,
+     "How the body moves; without this table it rests. Axes and points stand in the frame of the case."},
+    {"region[]", kCountRegion,
+     "Where powder is dosed or counted, a table for each. Without a region that deletes, powder is dosed behind the "
+     "throat of a canister, and nowhere else."},
+};
+
+}  // namespace
+
+std::span<const KeyTable> apparatusKeys() {
+    return kTables;
+}
+
+}  // namespace vkdose

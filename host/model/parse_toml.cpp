@@ -1,0 +1,168 @@
+#include "host/model/parse_toml.h"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cctype>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+namespace vkdose {
+namespace {
+
+/// TOML text being converted: its name for messages and its lines, to show a value as it was written.
+struct Source {
+    std::string name;
+    std::vector<std::string> lines;
+};
+
+Source makeSource(std::string name, const std::string& text) {
+    Source source{std::move(name), {}};
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line);) source.lines.push_back(line);
+    return source;
+}
+
+/// Byte at which a column of toml++ begins. (toml++ counts columns in characters.)
+std::size_t byteOf(const std::string& text, std::size_t column) {
+    std::size_t at = 0;
+    for (std::size_t seen = 1; at < text.size() && seen < column; ++seen) {
+        ++at;
+        while (at < text.size() && (static_cast<unsigned char>(text[at]) & 0xc0U) == 0x80U) ++at;
+    }
+    return at;
+}
+
+/// The value as it was written, if it is on one line; otherwise "...".
+std::string written(const toml::source_region& region, const Source& source) {
+    const std::size_t line = region.begin.line;
+    if (line == 0 || line > source.lines.size() || region.end.line != region.begin.line) return "...";
+    const std::string& text = source.lines[line - 1];
+    const std::size_t first = byteOf(text, region.begin.column);
+    std::string value = text.substr(first, byteOf(text, region.end.column) - first);
+    while (!value.empty() && std::isspace(static_cast<unsigned char>(value.back())) != 0) value.pop_back();
+    return value;
+}
+
+void setScalar(Node& node, const toml::node& from) {
+    if (const auto* value = from.as_boolean()) {
+        node.kind = Node::Kind::Boolean;
+        node.boolean = value->get();
+    } else if (const auto* whole = from.as_integer()) {
+        node.kind = Node::Kind::Integer;
+        node.integer = whole->get();
+        node.number = static_cast<double>(whole->get());
+    } else if (const auto* real = from.as_floating_point()) {
+        node.kind = Node::Kind::Float;
+        node.number = real->get();
+    } else if (const auto* string = from.as_string()) {
+        node.kind = Node::Kind::String;
+        node.string = string->get();
+        node.text = fmt::format("\"{}\"", node.string);
+    } else {
+        node.kind = Node::Kind::Other;
+    }
+}
+
+Node convert(const toml::node& from, const Source& source, std::string key) {
+    Node node;
+    node.key = std::move(key);
+    node.file = source.name;
+    node.line = static_cast<int>(from.source().begin.line);
+    if (const toml::table* table = from.as_table()) {
+        node.kind = Node::Kind::Table;
+        for (const auto& [name, value] : *table)
+            node.children.push_back(convert(value, source, std::string(name.str())));
+        // Keep the order of the file, not of the alphabet, so that faults are reported from top to bottom.
+        std::stable_sort(node.children.begin(), node.children.end(),
+                         [](const Node& a, const Node& b) { return a.line < b.line; });
+    } else if (const toml::array* array = from.as_array()) {
+        node.kind = Node::Kind::Array;
+        node.text = written(from.source(), source);
+        for (const toml::node& value : *array) node.children.push_back(convert(value, source, ""));
+    } else {
+        node.text = written(from.source(), source);
+        setScalar(node, from);
+    }
+    return node;
+}
+
+/// Largest number of dots. The parser works by recursion, one level for every part of a dotted key and for every
+/// bracket. It limits the brackets itself (256). With this limit on the dots, the deepest text stays far from the end
+/// of the stack.
+constexpr std::ptrdiff_t kMostDots = 64;
+/// Longest text that is read. A case is only a few kilobytes long.
+constexpr std::size_t kMostBytes = 1U << 20U;
+
+/// Refuses a text that cannot be a case before the parser sees it.
+void requirePlain(const std::string& text, const std::string& name) {
+    const char* remedy = "give the path of a case file";
+    if (text.size() > kMostBytes)
+        throw CaseError({{name, 0, "", "", fmt::format("not a case: {} MiB long", text.size() >> 20U), remedy}});
+    std::istringstream stream(text);
+    int number = 0;
+    for (std::string line; std::getline(stream, line);) {
+        ++number;
+        const std::size_t first = line.find_first_not_of(" \t");
+        const bool comment = first != std::string::npos && line[first] == '#';
+        if (!comment && std::count(line.begin(), line.end(), '.') > kMostDots)
+            throw CaseError(
+                {{name, number, "", "", fmt::format("not a case: more than {} dots in a line", kMostDots), remedy}});
+    }
+}
+
+/// Turns an error of the parser into a message in the words of a case. The parser knows only the grammar, not the
+/// mistakes that people usually make.
+Diagnostic syntaxFault(const toml::parse_error& error, const std::string& text, const std::string& name) {
+    const std::string said = shortened(std::string(error.description()));
+    const auto at = static_cast<std::size_t>(error.source().begin.line);
+    Diagnostic fault{name, static_cast<int>(at), "", "", "not TOML: " + said, "see https://toml.io for the syntax"};
+    const Source source = makeSource(name, text);
+    const std::string line = at >= 1 && at <= source.lines.size() ? shortened(source.lines[at - 1]) : "";
+    const auto says = [&](const char* words) { return said.find(words) != std::string::npos; };
+    if (says("cannot redefine existing")) {
+        fault.problem = fmt::format("not TOML: {} is there twice", said.substr(said.find("existing") + 9));
+        fault.remedy = "keep one of the two";
+    } else if (says("utf-8") || says("UTF-8")) {
+        fault.problem = "not TOML: the text is not UTF-8";
+        fault.remedy = "save the file as UTF-8";
+    } else if (says("expected a comment or whitespace, saw ','")) {
+        fault.problem = fmt::format("not TOML: a comma in a number: {}", line);
+        fault.remedy = "write decimals with a point";
+    } else if (says("expected a comment or whitespace, saw")) {
+        fault.problem = fmt::format("not TOML: more than a value: {}", line);
+        fault.remedy = "give the value alone, without its unit; a text stands between quotes";
+    }
+    return fault;
+}
+
+/// Throws CaseError when the text is too large to be a case, and toml::parse_error when it is not TOML.
+Node parsed(const std::string& text, const std::string& name) {
+    requirePlain(text, name);
+    const toml::table table = toml::parse(text, name);
+    Node node = convert(table, makeSource(name, text), "");
+    node.line = 0;
+    return node;
+}
+
+}  // namespace
+
+Node parseToml(const std::string& text, const std::string& name) {
+    try {
+        return parsed(text, name);
+    } catch (const toml::parse_error& error) {
+        throw CaseError({syntaxFault(error, text, name)});
+    }
+}
+
+std::optional<Node> tomlTree(const std::string& text, const std::string& name) {
+    try {
+        return parsed(text, name);
+    } catch (const toml::parse_error&) {
+        return std::nullopt;
+    }
+}
+
+}  // namespace vkdose

@@ -1,0 +1,136 @@
+// Checks particles at the start: where they are, what they touch and how they move.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/model/checks.h"
+#include "host/model/overlaps.h"
+
+namespace vkdose {
+namespace {
+
+/// Reports up to a handful of faults of one kind, then says how many more there are.
+class Few {
+  public:
+    Few(CaseReader& reader, std::string path) : reader_(reader), path_(std::move(path)) {}
+    void add(std::string problem, std::string remedy) {
+        if (++count_ <= kShown) reader_.fault(path_, std::move(problem), std::move(remedy));
+    }
+    ~Few() {
+        if (count_ > kShown)
+            reader_.fault(path_, fmt::format("{} more particles like this", count_ - kShown), "correct them as well");
+    }
+    Few(const Few&) = delete;
+    Few& operator=(const Few&) = delete;
+
+  private:
+    static constexpr int kShown = 5;
+    CaseReader& reader_;
+    std::string path_;
+    int count_ = 0;
+};
+
+std::string named(const Particles& p, std::size_t i) {
+    const Vec3 x = p.position[i] * 1e3;
+    return fmt::format("particle {} at ({:.4g}, {:.4g}, {:.4g}) mm", i, x.x, x.y, x.z);
+}
+
+void checkDomain(CaseReader& reader, const Case& c, const Particles& p, const std::string& path) {
+    Few faults(reader, path);
+    for (std::size_t i = 0; i < p.size(); ++i) {
+        const Vec3 x = p.position[i];
+        const bool inside = glm::all(glm::greaterThanEqual(x, c.world.domain.low)) &&
+                            glm::all(glm::lessThanEqual(x, c.world.domain.high));
+        if (!inside)
+            faults.add(named(p, i) + " is outside the domain", "move it or widen [domain]");
+        else if (x.z > c.world.outletZ)
+            faults.add(named(p, i) + " is past the outlet", "place it in the canister");
+        else if (c.world.doses(x))
+            faults.add(named(p, i) + " is in a region that deletes", "place it outside, or set deletes = false");
+    }
+}
+
+double coilDistance(const geometry::Coil& coil, const Vec3& x, double radius) {
+    const double reach = radius + coil.wireRadius;
+    const double fromAxis = std::hypot(x.x, x.y);
+    const bool far = std::abs(fromAxis - coil.radius) > reach || x.z < coil.zStart - reach ||
+                     x.z > coil.zStart + coil.length + reach;
+    return far ? radius : geometry::closestPoint(coil, 0, x).distance;
+}
+
+/// The cure for a grid of particles that a body stands in.
+std::string freePlace(const Case& c) {
+    return c.canister ? "move the body, or let the fill start above it by particles.drop_mm"
+                      : "move the body, or give a [particles.region] that is free of it";
+}
+
+/// Checks the overlap with the walls and the coil. Particles on the grid must not overlap at all. Listed ones may a
+/// little, because a list may be a settled bed.
+void checkWalls(CaseReader& reader, const Case& c, const Particles& p, const std::string& path, double allowed) {
+    Few faults(reader, path);
+    for (std::size_t i = 0; i < p.size(); ++i) {
+        double distance = p.radius[i];
+        for (const geometry::Surface& surface : c.world.surfaces)
+            distance = std::min(distance, geometry::closestPoint(surface, p.position[i]).distance);
+        std::string what = "a wall";
+        if (c.world.coil) {
+            const double toCoil = coilDistance(*c.world.coil, p.position[i], p.radius[i]);
+            if (toCoil < distance) what = "the coil";
+            distance = std::min(distance, toCoil);
+        }
+        for (const RigidBody& body : c.world.bodies) {
+            const Vec3 inBody = body.pose(0, 0).toBody(p.position[i]);
+            for (const geometry::Shape& shape : body.shapes)
+                for (const geometry::Feature& place : geometry::places(shape, inBody, p.radius[i]))
+                    if (place.distance < distance) {
+                        distance = place.distance;
+                        what = fmt::format("body \"{}\"", body.name);
+                    }
+        }
+        const double overlap = p.radius[i] - distance;
+        // The bed that a run left lies around the coil as it stood at the run's end.
+        const char* turn = c.filling.list && what == "the coil"
+                               ? "; if a run left this bed, turn the coil to where it stood: add the coil_angle_rad of "
+                                 "the run's summary.json, in degrees, to coil.start_angle_deg"
+                               : "";
+        if (overlap > allowed * p.radius[i])
+            faults.add(fmt::format("{} overlaps {} by {:.3g} of its radius", named(p, i), what, overlap / p.radius[i]),
+                       c.filling.list ? fmt::format("keep the overlap below {}{}", allowed, turn) : freePlace(c));
+    }
+}
+
+/// Checks the way of a particle in one step: a particle that passes another within one step never touches it.
+void checkMotion(CaseReader& reader, const Case& c, const Particles& p, const std::string& path) {
+    Few faults(reader, path);
+    for (std::size_t i = 0; i < p.size(); ++i) {
+        if (glm::length(p.velocity[i]) * c.world.timeStep > p.radius[i])
+            faults.add(named(p, i) + " moves by more than its radius in a time step", "give its velocity in m/s");
+        if (glm::length(p.spin[i]) * c.world.timeStep > 1)
+            faults.add(named(p, i) + " turns by more than a radian in a time step", "give its spin in rad/s");
+    }
+}
+
+/// Overlaps among the particles.
+void checkPairs(CaseReader& reader, const Particles& p, const std::string& path) {
+    Few faults(reader, path);
+    forEachOverlap(p, [&](std::size_t i, std::size_t j, double ratio) {
+        if (ratio > kMaxOverlapRatio)
+            faults.add(fmt::format("{} overlaps particle {} by {:.3g} of the smaller radius", named(p, std::min(i, j)),
+                                   std::max(i, j), ratio),
+                       fmt::format("keep the overlap below {}", kMaxOverlapRatio));
+    });
+}
+
+}  // namespace
+
+void checkPlacement(CaseReader& reader, const Case& c, const Particles& particles) {
+    const std::string path = c.filling.list ? "particles.list" : c.canister ? "particles.mass_g" : "particles.region";
+    checkDomain(reader, c, particles, path);
+    checkWalls(reader, c, particles, path, c.filling.list ? kMaxOverlapRatio : 0.0);
+    if (!c.filling.list) return;  // the grid keeps its particles apart and at rest
+    checkMotion(reader, c, particles, path);
+    checkPairs(reader, particles, path);
+}
+
+}  // namespace vkdose

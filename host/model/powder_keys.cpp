@@ -1,0 +1,109 @@
+// The keys of the powder: its mass, its sizes and where it starts.
+#include "host/model/case_keys.h"
+#include "host/model/grid.h"
+
+namespace vkdose {
+namespace {
+
+using namespace key;
+
+constexpr Unit kDensity{1, "kg/m3"};
+constexpr Bound kPositive = Bound::Positive;
+constexpr Bound kNonNegative = Bound::NonNegative;
+
+constexpr Key kParticles[] = {
+    number("density", kDensity, kPositive, kRequired, "of the particles themselves, not of the bed"),
+    number("mass_g", kGram, kPositive, told("required without `list`"),
+           "mass of the fill; it is met as closely as one particle allows")
+        .replacing("list"),
+    text("list", told("none"),
+         "a CSV of particles to start from in place of a fill; the path is relative to the case file")
+        .replacing("mass_g size region grid_gap drop_mm"),
+    number(
+        "grid_gap", kPlain, kPositive, kGridGap,
+        "free way between the largest spheres of the grid that the fill starts from, in their diameters. The larger it "
+        "is, the looser and the more irregular is the start, and the longer the fall"),
+    number("drop_mm", kMillimetre, kNonNegative, 0.0,
+           "height of the grid's lowest spheres over the coil and what follows the drive, or over the floor's axis "
+           "without them; "
+           "in a canister only"),
+};
+
+constexpr Key kUniform[] = {
+    word("distribution", "uniform fixed normal lognormal quantiles sieve", kRequired, "the kind of distribution")
+        .replacing("*"),
+    number("radius_min_mm", kMillimetre, kPositive, kRequired, "smallest radius"),
+    number("radius_max_mm", kMillimetre, kPositive, kRequired, "largest radius"),
+};
+constexpr Key kFixed[] = {
+    number("radius_mm", kMillimetre, kPositive, kRequired, "radius of every sphere"),
+};
+constexpr Key kNormal[] = {
+    number("radius_mean_mm", kMillimetre, kPositive, kRequired, "mean radius before the bounds cut"),
+    number("radius_deviation_mm", kMillimetre, kPositive, kRequired, "standard deviation of the radius"),
+    number("radius_min_mm", kMillimetre, kPositive, told("mean - 2 deviations, at least mean/10"), "smallest radius"),
+    number("radius_max_mm", kMillimetre, kPositive, told("mean + 2 deviations"), "largest radius"),
+};
+constexpr Key kLognormal[] = {
+    number("radius_median_mm", kMillimetre, kPositive, kRequired, "median radius before the bounds cut"),
+    number("log_deviation", kPlain, kPositive, kRequired, "standard deviation of ln r"),
+    number("radius_min_mm", kMillimetre, kPositive, told("median · exp(-2 `log_deviation`)"), "smallest radius"),
+    number("radius_max_mm", kMillimetre, kPositive, told("median · exp(2 `log_deviation`)"), "largest radius"),
+};
+constexpr Key kQuantiles[] = {
+    number("scale_up", kPlain, kPositive, 1.0, "size of a simulated meso-particle over that of a grain of the powder"),
+    number("d10_um", kMicrometre, kPositive, kRequired, "**diameter** below which 10 % of the powder's volume lies"),
+    number("d50_um", kMicrometre, kPositive, kRequired, "diameter below which half of the volume lies"),
+    number("d90_um", kMicrometre, kPositive, kRequired, "diameter below which 90 % of the volume lies"),
+    number("radius_min_mm", kMillimetre, kPositive, told("where the line through the quantiles reaches 0"),
+           "smallest radius, after `scale_up`"),
+    number("radius_max_mm", kMillimetre, kPositive, told("where the line through the quantiles reaches 1"),
+           "largest radius, after `scale_up`"),
+};
+
+constexpr Key kSieve[] = {
+    number("scale_up", kPlain, kPositive, 1.0, "size of a simulated meso-particle over that of a grain of the powder"),
+    other(
+        "openings_um", told("this or `sieves`"),
+        "openings of the sieves in µm, from fine to coarse or the other way. The first of the fine end is the diameter "
+        "of the finest grains, which the pan holds; the coarsest lets all of the powder pass")
+        .replacing("sieves derived"),
+    other("passing_percent", told("this or `retained`"),
+          "percent of the mass that passes each; 0 at the finest, 100 at the coarsest")
+        .replacing("retained sieves derived"),
+    other("retained", told("this or `passing_percent`"),
+          "mass that lies on each, in any unit; that of the pan at the finest, 0 at the coarsest")
+        .replacing("passing_percent sieves derived"),
+    text("sieves", told("in place of the table here"),
+         "a CSV with the columns `opening_um` and `passing_percent` or `retained`; the path is relative to the case "
+         "file")
+        .replacing("openings_um passing_percent retained derived"),
+    number("radius_min_mm", kMillimetre, kPositive, told("of the finest grains"), "smallest radius, after `scale_up`"),
+    number("radius_max_mm", kMillimetre, kPositive, told("of the coarsest sieve"), "largest radius, after `scale_up`"),
+    text("derived", told("none"), "the number distribution that the spheres are drawn from; the resolved case has it"),
+};
+
+constexpr Key kRegion[] = {
+    vector("low", kMetre, kRequired, "lower corner of the box that is filled"),
+    vector("high", kMetre, kRequired, "upper corner"),
+};
+
+constexpr KeyTable kTables[] = {
+    {"particles", kParticles, ""},
+    {"particles.size", kUniform, "Radii spread evenly, `distribution = \"uniform\"`:"},
+    {"particles.size", kFixed, "One radius, `\"fixed\"`:"},
+    {"particles.size", kNormal, "Normal radii, `\"normal\"`. A draw outside the bounds is drawn again:"},
+    {"particles.size", kLognormal, "Lognormal radii, `\"lognormal\"`. A draw outside the bounds is drawn again:"},
+    {"particles.size", kQuantiles, "Measured quantiles of the volume, `\"quantiles\"`:"},
+    {"particles.size", kSieve,
+     "A sieve analysis, `\"sieve\"`. Between two sieves the mass is spread evenly over the logarithm of the size:"},
+    {"particles.region", kRegion, "The box to fill, where `boundaries` is `\"list\"` or `\"none\"`."},
+};
+
+}  // namespace
+
+std::span<const KeyTable> powderKeys() {
+    return kTables;
+}
+
+}  // namespace vkdose

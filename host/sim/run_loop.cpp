@@ -1,0 +1,204 @@
+#include "host/sim/run_loop.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/sim/density.h"
+#include "host/sim/expected_steps.h"
+
+namespace vkdose {
+
+namespace {
+
+/// Work of one `advance`. It is large enough that the call costs nothing beside it, and small enough that Ctrl-C and
+/// the progress bar answer within a second or so at the speeds of a CPU. It is a fixed number, so that the same case
+/// makes the same calls.
+constexpr double kParticleStepsPerCall = 4e6;
+
+std::uint64_t active(const Sensors& s) {
+    return s.count[static_cast<std::size_t>(Region::Canister)] + s.count[static_cast<std::size_t>(Region::Throat)];
+}
+
+}  // namespace
+
+RunLoop::RunLoop(const Case& c, Insertion filled, Derived derived, Backend& backend, RunObserver& observer,
+                 const std::atomic<bool>& stop)
+    : case_(c),
+      backend_(backend),
+      observer_(observer),
+      stop_(stop),
+      timeline_(c),
+      judge_(c.schedule.stop),
+      rest_(c, filled.particles),
+      book_(c, derived, timeline_.conveyingSense()),
+      fields_(c, timeline_) {
+    result_.filled = std::move(filled);
+    result_.derived = std::move(derived);
+    result_.particles = result_.filled.particles;
+    result_.ledger = Ledger(result_.particles.size(), result_.filled.mass);
+    result_.last.sensors.count[0] = result_.particles.size();
+    result_.last.sensors.mass[0] = result_.filled.mass;
+    active_ = result_.particles.size();
+}
+
+StopReason RunLoop::steps() {
+    while (!timeline_.over(step_)) {
+        if (stop_) {
+            checkpoint();
+            sample();
+            if (book_.underWay()) closeDose(false);
+            keepEndState();
+            return StopReason::Interrupted;
+        }
+        stretch_ = timeline_.at(step_);
+        if (stretch_.phase != Phase::Settle && !dosing_) beginDosing();
+        if (stretch_.phase == Phase::Rotate && book_.index() != stretch_.dose) openDose();
+        advance(timeline_.nextSample(step_));
+        bool endsRun = false;
+        if (step_ == sampleStep_) {
+            sample();
+            endsRun = control();
+            if (stretch_.phase == Phase::Settle) watchRest();
+            if (timeline_.frameDue(step_)) frame();
+            for (const FieldSample& f : fields_.look(backend_, step_, stretch_.phase, stretch_.dose))
+                observer_.onField(f);
+        }
+        if (step_ == timeline_.settleSteps()) {
+            look();
+            measureDensity();
+            keepState(KeptState::Settled);
+        }
+        if (endsRun || (step_ == stretch_.end && phaseEnded())) {
+            if (timeline_.keepsFrames() && !timeline_.frameDue(step_)) frame();
+            if (endsRun) closeDose(false);
+            keepEndState();
+            keepState(KeptState::End);
+            return endsRun ? StopReason::Torque : judge_.reason();
+        }
+        if (checkpointDue()) checkpoint();
+    }
+    if (book_.underWay()) closeDose(false);
+    keepEndState();
+    if (timeline_.hasDoses()) keepState(KeptState::End);  // without doses it is the settled one
+    return timeline_.cutByEndTime(step_) ? StopReason::EndTime : StopReason::Settled;
+}
+
+void RunLoop::advance(std::uint64_t sampleStep) {
+    sampleStep_ = sampleStep;
+    const double perCall = kParticleStepsPerCall / static_cast<double>(std::max<std::uint64_t>(active_, 1));
+    const auto limit = static_cast<std::uint64_t>(std::clamp(perCall, 64.0, 1e6));
+    const std::uint64_t n = std::min({sampleStep_ - step_, stretch_.pieceEnd - step_, limit});
+    const auto begin = WallClock::now();
+    const Sensors s = backend_.advance(static_cast<std::uint32_t>(n), stretch_.rate);
+    result_.wallTime += std::chrono::duration<double>(WallClock::now() - begin).count();
+    result_.particleSteps += static_cast<double>(active_) * static_cast<double>(n);
+    step_ += n;
+    active_ = active(s);
+    gather(s, n);
+    report();
+}
+
+void RunLoop::watchRest() {
+    const Sensors& s = result_.last.sensors;
+    const bool rests = rest_.rests(s, step_);
+    if (rests && case_.schedule.untilRest && step_ < timeline_.settleSteps()) {
+        timeline_.endSettling(step_);
+        stretch_.end = step_;
+        report();  // that the phase has ended
+    }
+    if (step_ != timeline_.settleSteps()) return;
+    result_.settling =
+        Settling{step_, rests, timeline_.time(step_), meanSpeed(s), rest_.fall().speed, mass(s, Region::Dosed)};
+    observer_.onSettled(*result_.settling, case_.schedule);
+}
+
+void RunLoop::look() {
+    result_.settled = settledBed(case_, timeline_.time(step_), backend_.particles(), backend_.contacts());
+}
+
+void RunLoop::measureDensity() {
+    if (!case_.bulkDensityMeasured || !result_.settled) return;
+    const auto bulk = settledDensity(case_, result_.settled->particles);
+    if (!bulk) return;
+    Case measured = case_;
+    measured.bulkDensity = bulk->density;
+    result_.derived = derive(measured, result_.filled);
+    book_.expect(result_.derived);
+}
+
+void RunLoop::frame() {
+    if (!observer_.storesFrames()) return;
+    observer_.onFrame({step_, timeline_.time(step_), stretch_.phase, stretch_.dose, backend_.coilAngle(),
+                       backend_.particles(), backend_.contacts()});
+    if (case_.frames.states && step_ > 0) keepState(KeptState::Frame);
+}
+
+void RunLoop::beginDosing() {
+    dosing_ = true;
+    backend_.setLaw(*stretch_.law);
+    result_.dosedWhileSettling = mass(result_.last.sensors, Region::Dosed);
+}
+
+bool RunLoop::control() {
+    if (stretch_.phase != Phase::Rotate || !book_.conveys()) return false;
+    const DoseBook::Order order = book_.look(result_.last, step_ == stretch_.stop);
+    if (order.speed) timeline_.changeSpeed(step_, *order.speed);
+    if (!order.stop) return false;
+    if (step_ < stretch_.stop) {
+        timeline_.stopTurning(step_);
+        stretch_ = timeline_.at(step_ - 1);
+    }
+    return *order.stop == StopCause::Torque && case_.schedule.torqueEndsRun;
+}
+
+void RunLoop::openDose() {
+    book_.open(stretch_.dose, timeline_.time(step_), result_.last.sensors);
+    regions_.openDose();
+}
+
+void RunLoop::closeDose(bool complete) {
+    result_.doses.push_back(book_.close(complete, result_.last.sensors, timeline_.time(step_)));
+    result_.doses.back().regions = regions_.sinceDose();
+    observer_.onDose(result_.doses.back());
+}
+
+bool RunLoop::phaseEnded() {
+    if (!stretch_.closesDose) return false;
+    closeDose(true);
+    const Dose& d = result_.doses.back();
+    return judge_.over(d.mass, d.particles, active_);
+}
+
+void RunLoop::fail(StopReason reason, const char* what) {
+    result_.reason = reason;
+    result_.error = what;
+    if (book_.underWay()) closeDose(false);
+    try {
+        keepEndState();
+    } catch (const std::runtime_error&) {
+        // The backend cannot give its state any more. `endState` stays false and the first error is the one
+        // reported.
+    }
+}
+
+void RunLoop::keepEndState() {
+    result_.particles = backend_.particles();
+    result_.endState = true;
+}
+
+void RunLoop::report() {
+    Progress p;
+    p.phase = stretch_.phase;
+    p.dose = stretch_.dose;
+    p.time = timeline_.time(step_);
+    p.step = step_;
+    const std::uint64_t expected = expectedSteps(case_, timeline_, result_);
+    p.expectedSteps = expected < step_ ? 0 : expected;  // a dose to a mass that takes longer than it should
+    p.phaseEnd = step_ == stretch_.end;
+    p.steps = step_ - before_.steps;
+    p.particleSteps = result_.particleSteps - before_.particleSteps;
+    p.wallTime = result_.wallTime - before_.wallTime;
+    observer_.onProgress(p);
+}
+
+}  // namespace vkdose

@@ -1,0 +1,67 @@
+// What the backend senses in its calls, joined to samples.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "host/sim/run_loop.h"
+
+namespace vkdose {
+
+double RunLoop::driveImpulse(const Sensors& s, std::uint64_t n) const {
+    double impulse = s.coilTorque * static_cast<double>(n);
+    if (stretch_.rate == 0) return impulse;
+    const std::vector<RigidBody>& bodies = case_.world.bodies;
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+        if (bodies[b].clock == Clock::Drive) impulse -= s.bodies[b].work / (stretch_.rate * case_.world.timeStep);
+    return impulse;
+}
+
+void RunLoop::gather(const Sensors& s, std::uint64_t n) {
+    if (s.energy) {
+        if (!energy_) energy_.emplace();
+        energy_->add(*s.energy);
+    }
+    if (s.maxOverlapRatio > result_.maxOverlapRatio) {
+        result_.maxOverlapRatio = s.maxOverlapRatio;
+        result_.maxOverlapTime = timeline_.time(step_);
+    }
+    const double impulse = driveImpulse(s, n);
+    const double overlap = gathered_ > 0 ? std::max(now_.maxOverlapRatio, s.maxOverlapRatio) : s.maxOverlapRatio;
+    now_ = s;
+    now_.maxOverlapRatio = overlap;
+    varied_ = gathered_ > 0 && (varied_ || stretch_.rate != rate_);
+    rate_ = stretch_.rate;
+    powerSum_ = gathered_ > 0 ? powerSum_ - impulse * rate_ : -impulse * rate_;
+    gathered_ += n;
+    impulse_ += impulse;
+    loads_.add(s.bodies, n);
+    if (stretch_.phase == Phase::Rotate) book_.turn(impulse, n, stretch_.rate);
+}
+
+void RunLoop::sample() {
+    if (gathered_ == 0) return;
+    Sample s;
+    s.step = step_;
+    s.time = timeline_.time(step_);
+    s.phase = stretch_.phase;
+    s.dose = stretch_.dose;
+    s.coilAngle = backend_.coilAngle();
+    s.sensors = now_;
+    s.sensors.coilTorque = impulse_ / static_cast<double>(gathered_);
+    s.coilTorque = driveTorque(s.sensors.coilTorque);
+    const double speed = stretch_.phase == Phase::Reverse ? -std::abs(rate_) : std::abs(rate_);
+    s.coilPower = varied_ ? powerSum_ / static_cast<double>(gathered_) : s.coilTorque * speed;
+    const double throat = mass(now_, Region::Throat);
+    s.outletVelocity = throat > 0 ? now_.throatMomentumZ / throat : std::numeric_limits<double>::quiet_NaN();
+    s.energy = energy_;
+    s.bodies = loads_.take(gathered_, case_.world.timeStep);
+    if (!regions_.empty()) regions_.look(backend_.particles());
+    s.regions = regions_.counts();
+    gathered_ = 0;
+    impulse_ = 0;
+    observer_.onSample(s);
+    result_.ledger.close(s.sensors, s.time);  // after the observer, so that a bad ledger is on record
+    result_.last = s;
+}
+
+}  // namespace vkdose

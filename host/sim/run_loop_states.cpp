@@ -1,0 +1,168 @@
+// The states that a run keeps, and how it begins: afresh, where a state of its own was kept, or with the powder of
+// another run.
+#include <cmath>
+
+#include "host/sim/run_loop.h"
+#include "host/sim/run_record.h"
+
+namespace vkdose {
+
+void RunLoop::begin() {
+    backend_.load(case_.world, case_.settlingLaw, result_.particles);
+    if (timeline_.frameDue(0)) frame();
+}
+
+void RunLoop::goOn(const RunCheckpoint& from) {
+    restore(from.run);
+    backend_.load(case_.world, dosing_ ? case_.dosingLaw : case_.settlingLaw, result_.particles);
+    backend_.restore(from.backend);
+    before_ = {step_, result_.particleSteps, result_.wallTime};
+    // The adhesion of the doses may be another than that of the run that settled this bed.
+    if (!dosing_ && result_.settled) look();
+}
+
+void RunLoop::takeOver(const RunCheckpoint& from, double time) {
+    const StateFacts facts = factsOf(from.run);
+    if (facts.radii != result_.filled.particles.radius) throw RecordError("its particles are not those of the case");
+    step_ = static_cast<std::uint64_t>(std::llround(time / case_.world.timeStep));
+    backend_.load(case_.world, facts.dosing ? case_.dosingLaw : case_.settlingLaw, result_.particles);
+    Record state = from.backend;
+    // The clock of bodies that move counts steps.
+    if (state.arrays().contains(kSnapshotSteps)) state.putOne(kSnapshotSteps, step_);
+    backend_.restore(state);
+    active_ = facts.active;
+    takeSample(from.run, facts);
+    before_.steps = step_;
+    const bool settled = facts.settled || step_ >= timeline_.settleSteps();
+    if (settled)
+        takeSettled(from.run, facts);
+    else if (facts.step == step_)  // else its time steps were others
+        rest_.restore(from.run);
+    observer_.onSample(result_.last);
+    if (timeline_.keepsFrames()) frame();
+    for (const FieldSample& f : fields_.open(backend_, step_)) observer_.onField(f);
+    if (settled) keepState(KeptState::Settled);
+}
+
+void RunLoop::takeSample(const Record& run, const StateFacts& facts) {
+    Sample& s = result_.last;
+    get(run, "last", s);
+    get(run, "now", now_);
+    get(run, "energy", energy_);
+    if (facts.sinceSample)
+        s.sensors = now_;
+    else
+        loads_.restore(run);
+    if (facts.dosing) {  // its drive rests now
+        s.sensors.coilTorque = s.coilTorque = s.coilPower = 0;
+    }
+    s.step = step_;
+    s.time = timeline_.time(step_);
+    s.phase = Phase::Settle;
+    s.dose = 0;
+    s.coilAngle = backend_.coilAngle();
+    s.energy = energy_;
+}
+
+void RunLoop::takeSettled(const Record& run, const StateFacts& facts) {
+    timeline_.endSettling(step_);
+    if (facts.settled && !facts.dosing) get(run, result_.settling);
+    if (result_.settling) {
+        result_.settling->step = step_;
+    } else {
+        const double speed = meanSpeed(result_.last.sensors), fall = rest_.fall().speed;
+        result_.settling = Settling{step_, speed < case_.schedule.restSpeedRatio * fall, result_.last.time, speed,
+                                    fall,  mass(result_.last.sensors, Region::Dosed)};
+    }
+    look();
+}
+
+void RunLoop::keepState(KeptState kind) {
+    if (!observer_.storesStates()) return;
+    RunCheckpoint state{save(), backend_.snapshot()};
+    std::vector<double> sums = state.run.get<double>("sums");
+    sums.back() = 0;
+    state.run.put("sums", std::move(sums));
+    state.run.putOne("steps_of_others", result_.particleSteps);
+    observer_.onState(kind, state, timeline_.time(step_));
+}
+
+Record RunLoop::save() const {
+    Record r;
+    r.put("progress", std::vector<std::uint64_t>{step_, active_, dosing_ ? 1U : 0U, gathered_, varied_ ? 1U : 0U});
+    r.put("sums", std::vector<double>{impulse_, powerSum_, rate_, result_.dosedWhileSettling, result_.maxOverlapRatio,
+                                      result_.maxOverlapTime, result_.particleSteps, result_.wallTime});
+    r.putOne("steps_of_others", result_.stepsOfOthers);
+    put(r, "now", now_);
+    loads_.save(r);
+    regions_.save(r);
+    put(r, "energy", energy_);
+    timeline_.save(r);
+    book_.save(r);
+    put(r, "doses", result_.doses);
+    put(r, "last", result_.last);
+    put(r, result_.settled);
+    put(r, result_.settling);
+    rest_.save(r);
+    r.put("radius", result_.filled.particles.radius);
+    fields_.save(r);
+    result_.ledger.save(r);
+    judge_.save(r);
+    return r;
+}
+
+void RunLoop::restore(const Record& r) {
+    if (r.get<double>("radius") != result_.filled.particles.radius)
+        throw RecordError("its particles are not those of its case: a list that has changed, or another version");
+    const auto& progress = r.get<std::uint64_t>("progress", 5);
+    step_ = progress[0];
+    active_ = progress[1];
+    dosing_ = progress[2] != 0;
+    gathered_ = progress[3];
+    varied_ = progress[4] != 0;
+    const auto& sums = r.get<double>("sums", 8);
+    loads_.restore(r);
+    regions_.restore(r);
+    impulse_ = sums[0];
+    powerSum_ = sums[1];
+    rate_ = sums[2];
+    result_.dosedWhileSettling = sums[3];
+    result_.maxOverlapRatio = sums[4];
+    result_.maxOverlapTime = sums[5];
+    result_.particleSteps = sums[6];
+    result_.wallTime = sums[7];
+    if (r.arrays().contains("steps_of_others")) result_.stepsOfOthers = r.one<double>("steps_of_others");
+    get(r, "now", now_);
+    get(r, "energy", energy_);
+    timeline_.restore(r);
+    if (!dosing_) timeline_.endSettling(timeline_.settleSteps());  // the doses are those of the case
+    book_.restore(r);
+    get(r, "doses", result_.doses);
+    get(r, "last", result_.last);
+    result_.last.regions = regions_.counts();
+    get(r, result_.filled.particles, result_.settled);
+    measureDensity();
+    get(r, result_.settling);
+    rest_.restore(r);
+    fields_.restore(r);
+    result_.ledger.restore(r);
+    judge_.restore(r);
+    if (!timeline_.over(step_)) stretch_ = timeline_.at(step_);
+}
+
+void RunLoop::checkpoint() {
+    if (!observer_.storesCheckpoints()) return;
+    checkpointTime_ = timeline_.time(step_);
+    observer_.onCheckpoint({save(), backend_.snapshot()}, checkpointTime_);
+    checkpointed_ = WallClock::now();
+}
+
+bool RunLoop::checkpointDue() const {
+    const CheckpointInterval& every = case_.checkpoint;
+    const double wall = std::chrono::duration<double>(WallClock::now() - checkpointed_).count();
+    const double time = timeline_.time(step_);
+    return (every.wall > 0 && wall >= every.wall) ||
+           (every.simulated > 0 && std::floor(time / every.simulated) > std::floor(checkpointTime_ / every.simulated));
+}
+
+}  // namespace vkdose

@@ -1,0 +1,124 @@
+#include "host/study/calibration_finding.h"
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "host/core/error.h"
+#include "tests/app/sandbox.h"
+#include "tests/support/catch.h"
+
+using namespace vkdose;
+using namespace vkdose::test;
+
+namespace {
+
+Study twoTargets() {
+    Study study;
+    study.base = "cases/dose.toml";
+    CalibrationAim& aim = study.calibration.emplace();
+    aim.method = CalibrationAim::Method::Surrogate;
+    aim.targets = {{"heap.angle_deg", 24, 0.5, 1, "cases/heap.toml", 0},
+                   {kMassPerDose, 3, 0.05, 2, "cases/dose.toml", 0}};
+    aim.parameters = {{"contact.friction", 0.1, 0.7}, {"contact.kc_over_k", 0, 1}};
+    return study;
+}
+
+/// Friction makes the angle; nothing tells the cohesion.
+SearchResult twoResults() {
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    SearchResult r;
+    r.points = {{0.2, 0.5}, {0.3, 0.25}};
+    r.goals = {{{{20, 0.25}, {24.5, 0.25}}, 24.25, 0.125, {-36, 0.5}},
+               {{{4, none}, {none, none}}, 3.5, 0.5, {8, -0.75}}};
+    r.best = 1;
+    r.misfit = 0.375;
+    r.met = true;
+    r.compatible = {{0.25, 0.375}, {1, 0}};
+    r.parameterError = {0.015625, 1.5};
+    return r;
+}
+
+}  // namespace
+
+TEST_CASE("a finding: each parameter with the target that tells most of it, and what none tells is not constrained") {
+    const CalibrationFinding f = findingOf(twoTargets(), twoResults());
+    REQUIRE(f.parameters.size() == 2);
+    CHECK(f.parameters[0].mostlyBy == 0);  // by the size of the change, not its sign
+    CHECK(f.parameters[0].constrained);
+    CHECK(f.parameters[0].change == std::vector<double>{-36, 8});
+    CHECK(f.parameters[0].chosen == 0.3);
+    CHECK(f.parameters[1].mostlyBy == 1);
+    CHECK_FALSE(f.parameters[1].constrained);  // 1.5 of a range of 1
+    CHECK(f.parameters[0].mayMeet == std::pair(0.25, 0.375));
+    CHECK_FALSE(f.parameters[1].mayMeet);
+    CHECK(f.targets[0].name == "heap.angle_deg");
+    CHECK(f.targets[0].base == "heap.toml");
+    CHECK(f.targets[1].weight == 2);
+    CHECK(f.targets[1].believed == 3.5);
+}
+
+TEST_CASE("a finding: targets of the same figure are told apart by their cases, and beta is in grams") {
+    Study study = twoTargets();
+    study.calibration->targets[1].figure = "heap.angle_deg";
+    CHECK(findingOf(study, twoResults()).targets[1].name == "heap.angle_deg of dose.toml");
+
+    study.calibration->targets.clear();
+    study.calibration->target = 3e-3;
+    study.calibration->tolerance = 0.125e-3;
+    SearchResult r = twoResults();
+    r.goals = {{{{4e-3, 0.25e-3}, {3e-3, 0.25e-3}}, 3.25e-3, 0.5e-3, {8, -2}}};
+    const CalibrationFinding f = findingOf(study, r);
+    REQUIRE(f.targets.size() == 1);
+    CHECK(f.targets[0].name == "beta");
+    CHECK(f.targets[0].unit == "g");
+    CHECK(f.targets[0].base == "dose.toml");
+    CHECK(f.targets[0].value == Approx(3));
+    CHECK(f.targets[0].uncertainty == Approx(0.125));
+    CHECK(f.targets[0].believed == Approx(3.25));
+    CHECK(f.targets[0].deviation == Approx(0.5));
+    CHECK(f.points[0].values[0].value == Approx(4));
+    CHECK(f.points[0].values[0].error == Approx(0.25));
+}
+
+TEST_CASE("calibration.json holds all of a finding, and a damaged one is refused") {
+    const Sandbox box;
+    CHECK_FALSE(readFinding(box.path()));
+    const CalibrationFinding f = findingOf(twoTargets(), twoResults());
+    writeFinding(box.path(), f);
+    const auto again = readFinding(box.path());
+    REQUIRE(again);
+    CHECK(findingJson(*again) == findingJson(f));
+    CHECK(again->points[0].values[1].value == 4);
+    CHECK(std::isnan(again->points[0].values[1].error));
+    CHECK(again->parameters[1].key == "contact.kc_over_k");
+    CHECK(again->parameters[1].error == 1.5);
+    CHECK(again->best == 1);
+
+    const auto refused = [&](const std::string& text) {
+        box.write(kFindingName, text);
+        CHECK_THROWS_AS(readFinding(box.path()), CaseError);
+    };
+    for (const char* bad : {"", "[]", "{", "{}", "7"}) refused(bad);
+    for (const char* part : {"targets", "parameters", "points", "best", "misfit", "met"}) {
+        auto less = findingJson(f);
+        less.erase(part);
+        refused(less.dump());
+    }
+    auto other = findingJson(f);
+    other["best"] = 2;  // there are two points
+    refused(other.dump());
+    other = findingJson(f);
+    other["parameters"][0]["mostly_by"] = 2;  // and two targets
+    refused(other.dump());
+    other = findingJson(f);
+    other["parameters"][1]["change_in_uncertainties"].erase(0);
+    refused(other.dump());
+    other = findingJson(f);
+    other["points"][1]["at"].push_back(1);
+    refused(other.dump());
+
+    forgetFinding(box.path());
+    CHECK_FALSE(readFinding(box.path()));
+    forgetFinding(box.path());  // nothing to forget is no fault
+}
