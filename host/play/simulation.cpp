@@ -1,6 +1,9 @@
 #include "host/play/simulation.h"
 
+#include <fmt/format.h>
+
 #include <atomic>
+#include <cmath>
 #include <condition_variable>
 #include <exception>
 #include <limits>
@@ -11,6 +14,7 @@
 #include <utility>
 
 #include "host/core/error.h"
+#include "host/model/key.h"
 #include "host/play/gate.h"
 #include "host/sim/runner.h"
 
@@ -35,7 +39,7 @@ std::exception_ptr errorOf(const RunResult& result) {
 class Simulation::Thread final : public RunObserver {
   public:
     Thread(const Case& c, Backend& backend)
-        : case_(c), gate_(backend, [this] { restIfDue(); }), filled_(insertParticles(c)) {
+        : case_(c), gate_(backend, [this] { pass(); }), filled_(insertParticles(c)) {
         seen_.last.sensors.count[0] = filled_.particles.size();
         seen_.last.sensors.mass[0] = filled_.mass;
         thread_ = std::thread([this] { play(); });
@@ -81,6 +85,8 @@ class Simulation::Thread final : public RunObserver {
     /// What the caller may look at while the run rests.
     struct Seen {
         bool over = false;
+        bool takesOrders = false;
+        DriveOrder order;  ///< the caller's
         StopReason reason = StopReason::Settled;
         std::uint64_t steps = 0;  ///< made
         Sample last;
@@ -114,16 +120,32 @@ class Simulation::Thread final : public RunObserver {
         changed_.notify_all();
     }
 
-    /// At the gate. All that belongs to the latest reading is done by then: its dose is closed, its phase is over.
-    void restIfDue() {
+    /// At a reading that finds the drive conveying.
+    DriveOrder order() override {
         std::unique_lock lock(mutex_);
+        seen_.takesOrders = true;
+        restIfDue(lock);
+        seen_.takesOrders = false;
+        return std::exchange(seen_.order, {});
+    }
+
+    /// At the gate. All that belongs to the latest reading is done by then: its dose is closed, its phase is over.
+    void pass() {
+        std::unique_lock lock(mutex_);
+        restIfDue(lock);
+        reading_ = false;
+    }
+
+    void restIfDue(std::unique_lock<std::mutex>& lock) {
         seen_.steps = gate_.steps();
         const bool reached = seen_.last.time > until_ - case_.sensorInterval / 2 || (toDose_ && doseEnded_);
         rests_ = !closed_ && (halt_ || (reading_ && reached));
-        if (rests_) changed_.notify_all();
-        changed_.wait(lock, [this] { return !rests_; });
+        if (rests_) {
+            reading_ = false;  // no second rest at the same one
+            changed_.notify_all();
+            changed_.wait(lock, [this] { return !rests_; });
+        }
         if (closed_) throw RunError("the simulation was closed");
-        reading_ = false;
     }
 
     void onSample(const Sample& s) override {
@@ -181,6 +203,30 @@ bool Simulation::awaitRest(std::chrono::milliseconds most) {
 
 void Simulation::halt() {
     thread_->halt();
+}
+
+bool Simulation::takesOrders() const {
+    return thread_->seen().takesOrders;
+}
+
+void Simulation::changeSpeed(double speed) {
+    if (!(speed >= 0) || std::isinf(speed)) throw std::invalid_argument("the speed of a drive is a number >= 0");
+    requireOrders();
+    if (speed > case_.schedule.fastestSpeed()) {
+        const std::string key = case_.world.coil ? "coil.speed_rpm" : "dose.speed_rpm";
+        (void)loadResolvedCase(case_.resolved, case_.name, {fmt::format("{}={}", key, speed * kRpm.perSI)});
+    }
+    thread_->seen().order.speed = speed;
+}
+
+void Simulation::stopDrive() {
+    requireOrders();
+    thread_->seen().order.stop = true;
+}
+
+void Simulation::requireOrders() const {
+    if (!takesOrders())
+        throw std::logic_error("the drive takes orders at a reading of the sensors while it conveys, and not now");
 }
 
 bool Simulation::over() const {

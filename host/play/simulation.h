@@ -28,8 +28,8 @@ class Simulation {
     Simulation(const Simulation&) = delete;
     Simulation& operator=(const Simulation&) = delete;
 
-    /// Lets the run go on to the reading of the sensors nearest to `seconds` from now, and at least to the next one.
-    /// Returns at once: awaitRest. Infinity: to its end. Does nothing if the run is over.
+    /// Lets the run go on for `seconds`: to the first reading of the sensors after half an interval less than that, and
+    /// at least to the next one. Returns at once: awaitRest. Infinity: to its end. Does nothing if the run is over.
     void advance(double seconds);
 
     /// The same, to the end of a dose or of the run.
@@ -38,6 +38,16 @@ class Simulation {
     /// Waits until the run rests, or for `most`. Returns whether it rests. Throws RunError or DeviceError if that ended
     /// the run, whenever it is called.
     bool awaitRest(std::chrono::milliseconds most);
+
+    /// Whether the drive takes orders now: it conveys, it has not been told to stop, and the run rests at a reading.
+    bool takesOrders() const;
+
+    /// From now on the drive conveys at this speed >= 0 [rad/s], to the end of this dose's rotation. The ramp of the
+    /// case applies. Throws std::logic_error unless takesOrders(), and CaseError if no case may have such a speed.
+    void changeSpeed(double speed);
+
+    /// The drive is told to stop now, as by the end of its rotation. Throws std::logic_error unless takesOrders().
+    void stopDrive();
 
     /// Asks a run that goes on to rest as soon as the work that it has given to the backend is done, which takes about
     /// a second on a CPU. It then rests between two readings of the sensors.
@@ -56,6 +66,7 @@ class Simulation {
 
   private:
     class Thread;
+    void requireOrders() const;
 
     Case case_;
     std::unique_ptr<Backend> backend_;

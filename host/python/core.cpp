@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "host/core/error.h"
+#include "host/model/key.h"
 #include "host/play/backend_choice.h"
 #include "host/play/simulation.h"
 
@@ -31,7 +32,8 @@ void raise(const char* name, const A&... arguments) {
 py::tuple faultsOf(const CaseError& error) {
     const py::object fault = py::module_::import("vkdose.errors").attr("Fault");
     py::list faults;
-    for (const Diagnostic& d : error.faults()) faults.append(fault(d.file, d.line, d.key, d.value, d.problem, d.remedy));
+    for (const Diagnostic& d : error.faults())
+        faults.append(fault(d.file, d.line, d.key, d.value, d.problem, d.remedy));
     return py::tuple(faults);
 }
 
@@ -150,6 +152,10 @@ PYBIND11_MODULE(_core, m) {
                  run.advanceToDose();
                  wait(run);
              })
+        .def("change_speed",
+             [](Simulation& run, double rpm) { run.changeSpeed(rpm / kRpm.perSI); })  // as a case file does
+        .def("stop_drive", &Simulation::stopDrive)
+        .def_property_readonly("takes_orders", &Simulation::takesOrders)
         .def_property_readonly("name", [](const Simulation& run) { return run.theCase().name; })
         .def_property_readonly("backend", &Simulation::backend)
         .def_property_readonly("sensor_interval", [](const Simulation& run) { return run.theCase().sensorInterval; })

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <tuple>
 #include <vector>
 
@@ -13,10 +14,16 @@
 namespace vkdose {
 
 /// What told the coil to stop.
-enum class StopCause { None, Time, Mass, Torque };
+enum class StopCause { None, Time, Mass, Torque, Order };
 template <>
 struct Words<StopCause> {
-    static constexpr std::array<const char*, 4> kNames{"none", "time", "mass", "torque"};
+    static constexpr std::array<const char*, 5> kNames{"none", "time", "mass", "torque", "order"};
+};
+
+/// An order to the drive that is not in the case.
+struct DriveOrder {
+    bool stop = false;
+    std::optional<double> speed;  ///< conveying, to change to [rad/s]
 };
 
 struct Dose {

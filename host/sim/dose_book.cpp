@@ -33,6 +33,8 @@ void DoseBook::open(int index, double time, const Sensors& now) {
     before_ = now;
     torqueSum_ = angle_ = 0;
     steps_ = stages_ = 0;
+    speed_ = schedule_.stages.empty() ? schedule_.coilSpeed : schedule_.stages.front().speed;
+    ordered_ = false;
 }
 
 void DoseBook::turn(double torqueSum, std::uint64_t steps, double rate) {
@@ -67,8 +69,21 @@ DoseBook::Order DoseBook::look(const Sample& sample, bool last) {
     const std::uint64_t before = stages_;
     while (stages_ < schedule_.stages.size() && mass >= schedule_.stages[stages_].until * target) ++stages_;
     if (stages_ != before)
-        order.speed = stages_ < schedule_.stages.size() ? schedule_.stages[stages_].speed : schedule_.coilSpeed;
+        order.speed = speed_ =
+            stages_ < schedule_.stages.size() ? schedule_.stages[stages_].speed : schedule_.coilSpeed;
     return order;
+}
+
+void DoseBook::obey(const DriveOrder& given, const Sample& sample, Order& order) {
+    if (given.stop) {
+        order.stop = StopCause::Order;
+        noteStop(StopCause::Order, sample.sensors, sample.time);
+    } else if (given.speed && *given.speed != speed_) {  // said again, it begins no second ramp
+        order.speed = speed_ = *given.speed;
+    } else {
+        return;
+    }
+    ordered_ = true;
 }
 
 Dose DoseBook::close(bool complete, const Sensors& now, double time) {
@@ -79,7 +94,7 @@ Dose DoseBook::close(bool complete, const Sensors& now, double time) {
     dose_.particles = now.count[kDosed] - before_.count[kDosed];
     // The torque that the drive must supply to convey against the powder's on the coil.
     dose_.coilTorque = steps_ > 0 ? -torqueSum_ / static_cast<double>(steps_) * sense_ + 0.0 : 0;
-    dose_.closedForm = schedule_.isPlain() ? massPerDose_ : massPerTurn_ * angle_ / (2 * kPi);
+    dose_.closedForm = schedule_.isPlain() && !ordered_ ? massPerDose_ : massPerTurn_ * angle_ / (2 * kPi);
     dose_.endTime = time;
     return std::exchange(dose_, Dose{});
 }

@@ -36,6 +36,8 @@ class DoseBook {
         std::optional<double> speed;  ///< conveying, to change to [rad/s]
     };
     Order look(const Sample& sample, bool last);
+    /// Adds an order from outside at a sample that decided not to stop.
+    void obey(const DriveOrder& given, const Sample& sample, Order& order);
 
     /// Ends the dose with the latest sensors at `time` [s].
     Dose close(bool complete, const Sensors& now, double time);
@@ -55,6 +57,9 @@ class DoseBook {
     std::uint64_t steps_ = 0;   ///< of its rotation
     double angle_ = 0;          ///< by which the coil conveyed [rad]
     std::uint64_t stages_ = 0;  ///< that are over
+    // For orders from outside, which no checkpoint holds.
+    double speed_ = 0;      ///< that the drive has, or is on its way to [rad/s]
+    bool ordered_ = false;  ///< there was one
 };
 
 }  // namespace vkdose

@@ -141,7 +141,8 @@ void RunLoop::beginDosing() {
 
 bool RunLoop::control() {
     if (stretch_.phase != Phase::Rotate || !book_.conveys()) return false;
-    const DoseBook::Order order = book_.look(result_.last, step_ == stretch_.stop);
+    DoseBook::Order order = book_.look(result_.last, step_ == stretch_.stop);
+    if (!order.stop) book_.obey(observer_.order(), result_.last, order);
     if (order.speed) timeline_.changeSpeed(step_, *order.speed);
     if (!order.stop) return false;
     if (step_ < stretch_.stop) {

@@ -55,6 +55,9 @@ class RunObserver {
     virtual void onSample(const Sample&) {}
     virtual void onSettled(const Settling&, const Schedule&) {}
     virtual void onDose(const Dose&) {}
+    /// Asked at each sample at which the drive conveys and nothing in the case stops it. The drive obeys from this
+    /// sample on. A run with orders must not store checkpoints.
+    virtual DriveOrder order() { return {}; }
     virtual void onField(const FieldSample&) {}
     /// Called at the intervals of the case and when the run is interrupted, if `storesCheckpoints`.
     virtual void onCheckpoint(const RunCheckpoint&, double time) { (void)time; }

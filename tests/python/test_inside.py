@@ -123,6 +123,46 @@ class Looking(InFolder):
         self.assertGreater(names["highest"], 0)
 
 
+class Orders(InFolder):
+    SCHEDULE = {"settle.time_s": 0.1, "dose.ramp_s": 0.02, "stop.max_doses": 2}
+    ORDERED = {**SCHEDULE, "dose.rotate_s": 1}
+    TARGET = 4e-5  # kg
+
+    def test_orders_give_the_bits_of_a_schedule_that_says_the_same(self):
+        stage = [{"speed_rpm": 120, "until": 0.5}]  # the speed of mini
+        to_mass = {"dose.mass_g": self.TARGET * 1e3, "dose.max_rotate_s": 1, "dose.stage": stage, "coil.speed_rpm": 60}
+        with simulation("mini", changes={**self.SCHEDULE, **to_mass}) as sim:
+            sim.run()
+            expected, doses = sim.positions, sim.ended_doses
+        self.assertEqual(doses[0]["stopped_by"], "mass")
+        with simulation("mini", changes=self.ORDERED) as sim:
+            while not sim.over:
+                sim.advance()
+                if sim.takes_orders and sim.dose_mass >= self.TARGET:
+                    sim.stop_drive()
+                elif sim.takes_orders and sim.dose_mass >= self.TARGET / 2:
+                    sim.change_speed(rpm=60)
+            numpy.testing.assert_array_equal(sim.positions, expected)
+            self.assertEqual(sim.ended_doses[0]["stopped_by"], "order")
+            for dose, other in zip(sim.ended_doses, doses):
+                self.assertEqual((dose["mass_kg"], dose["end_time_s"]), (other["mass_kg"], other["end_time_s"]))
+
+    def test_orders_at_the_wrong_time_and_speeds_that_are_too_high(self):
+        with simulation("mini", changes=self.ORDERED) as sim:
+            self.assertFalse(sim.takes_orders)
+            with self.assertRaisesRegex(RuntimeError, "while it conveys"):
+                sim.stop_drive()
+            while not sim.takes_orders:
+                sim.advance()
+            self.assertEqual(sim.phase, "rotate")
+            sim.change_speed(rpm=130)
+            with self.assertRaises(vkdose.InputError) as caught:
+                sim.change_speed(rpm=1e7)
+            self.assertEqual([f.key for f in caught.exception.faults], ["coil.speed_rpm"])
+            with self.assertRaises(ValueError):
+                sim.change_speed(rpm=-1)
+
+
 class Errors(InFolder):
     def test_faults_of_a_case_are_objects(self):
         with self.assertRaises(vkdose.InputError) as caught:

@@ -75,8 +75,8 @@ class Simulation:
     # Going on
 
     def advance(self, seconds: float = 0) -> None:
-        """Goes on to the reading of the sensors nearest to ``seconds`` [s] of simulated time from now, and at least to
-        the next one. Does nothing if the run is over.
+        """Goes on for ``seconds`` [s] of simulated time, to within half an interval of the sensors, and at least to their
+        next reading. Does nothing if the run is over.
 
         Sensors are read at the case's interval, at the end of each phase and when the coil is told to stop. Raises
         RunError or DeviceError if the run cannot go on; its last state can still be read.
@@ -106,6 +106,30 @@ class Simulation:
             seen += len(ended)
             yield from ended
 
+    # Orders to the drive
+
+    @property
+    def takes_orders(self) -> bool:
+        """Whether the drive takes orders now: it conveys, nothing has told it to stop, and the run rests at a reading
+        of the sensors. The first reading of a rotation is one interval after its start."""
+        return self._run.takes_orders
+
+    def change_speed(self, rpm: float) -> None:
+        """From this reading on the drive conveys at ``rpm`` turns per minute, to the end of this dose's rotation. The
+        ramp of the case applies. The next dose begins at the speed of the case.
+
+        Raises RuntimeError unless ``takes_orders``, and InputError if the speed is too high for the time step.
+        """
+        self._run.change_speed(rpm)
+
+    def stop_drive(self) -> None:
+        """The drive is told to stop at this reading. The dose then goes on as at the end of its rotation: the ramp, the
+        turn back and the rest of the case. ``stopped_by`` of the dose is "order".
+
+        Raises RuntimeError unless ``takes_orders``.
+        """
+        self._run.stop_drive()
+
     # Looking
 
     @property
@@ -115,7 +139,7 @@ class Simulation:
 
     @property
     def stop_reason(self) -> Optional[str]:
-        """The reason why the run ended, as in summary.json: "doses", "empty", ...; None before."""
+        """The reason why the run ended, as in summary.json: "dose_count", "empty", ...; None before."""
         return self._run.stop_reason if self.over else None
 
     @property
