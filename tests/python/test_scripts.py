@@ -21,6 +21,13 @@ class Scripts(InFolder):
     def test_first_dose(self):
         self.assertRegex(self.said_by("first_dose"), r"dose 1: 0\.\d+ g of 0\.216 g")
 
+    def test_dose_to_mass(self):
+        try:
+            import vkdose._core  # noqa: F401
+        except ImportError:
+            self.skipTest("the module for runs inside Python was not built")
+        self.assertEqual(self.said_by("dose_to_mass").count("g of 0.1 g, stopped by order"), 3)
+
     def test_sweep_and_plot(self):
         self.assertEqual(self.said_by("sweep_and_plot").count("0.000"), 4)
         self.assertTrue(Path("out/sweep-and-plot.png").read_bytes().startswith(b"\x89PNG"))
