@@ -40,7 +40,12 @@ vkdose_changelog(python3-vkdose)
 
 set(debian_python lib/python3/dist-packages)
 install(DIRECTORY host/python/vkdose DESTINATION ${debian_python} COMPONENT python3-vkdose
-        FILES_MATCHING PATTERN "*.py" PATTERN "py.typed" PATTERN "__pycache__" EXCLUDE)
+        FILES_MATCHING PATTERN "*.py" PATTERN "*.pyi" PATTERN "py.typed" PATTERN "__pycache__" EXCLUDE)
+if(TARGET vkdose_python)
+  set_target_properties(vkdose_python PROPERTIES SKIP_BUILD_RPATH ON)
+  # Somebody may have built the program alone.
+  install(TARGETS vkdose_python DESTINATION ${debian_python}/vkdose COMPONENT python3-vkdose OPTIONAL)
+endif()
 install(FILES tools/debian/copyright DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/python3-vkdose COMPONENT python3-vkdose)
 
 set(CPACK_GENERATOR DEB)
@@ -67,8 +72,16 @@ masses per dose and torques, and writes reports, pictures and fields. Studies
 vary a case or calibrate its parameters.")
 set(CPACK_DEBIAN_PYTHON3-VKDOSE_PACKAGE_NAME python3-vkdose)
 set(CPACK_DEBIAN_PYTHON3-VKDOSE_PACKAGE_SECTION python)
-set(CPACK_DEBIAN_PYTHON3-VKDOSE_PACKAGE_ARCHITECTURE all)
-set(CPACK_DEBIAN_PYTHON3-VKDOSE_PACKAGE_DEPENDS "python3 (>= 3.9), python3-tomli-w, vkdose (>= ${PROJECT_VERSION})")
+set(python3_vkdose_takes "python3-tomli-w, vkdose (>= ${PROJECT_VERSION})")
+if(TARGET vkdose_python)  # a module for one Python
+  math(EXPR next_minor "${Python_VERSION_MINOR} + 1")
+  set(CPACK_DEBIAN_PYTHON3-VKDOSE_PACKAGE_SHLIBDEPS ON)
+  set(CPACK_DEBIAN_PYTHON3-VKDOSE_PACKAGE_DEPENDS
+      "python3 (>= 3.${Python_VERSION_MINOR}), python3 (<< 3.${next_minor}), ${python3_vkdose_takes}")
+else()
+  set(CPACK_DEBIAN_PYTHON3-VKDOSE_PACKAGE_ARCHITECTURE all)
+  set(CPACK_DEBIAN_PYTHON3-VKDOSE_PACKAGE_DEPENDS "python3 (>= 3.9), ${python3_vkdose_takes}")
+endif()
 set(CPACK_DEBIAN_PYTHON3-VKDOSE_PACKAGE_RECOMMENDS "python3-pandas, python3-h5py")
 set(CPACK_DEBIAN_PYTHON3-VKDOSE_DESCRIPTION
     "Python package that drives vkdose

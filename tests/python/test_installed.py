@@ -34,7 +34,8 @@ class Installed(InFolder):
             self.assertIn("vkdose", (share / script).read_text(encoding="utf-8"))
         script = (
             "import vkdose; print(vkdose.program(), vkdose.__file__, vkdose.Case('quickstart').check().file, "
-            "vkdose.Case('mini').check().figures['particles'], sep='\\n')"
+            "vkdose.Case('mini').check().figures['particles'], sep='\\n')\n"
+            "import importlib.util; module = importlib.util.find_spec('vkdose._core'); print(module and module.origin)"
         )
         environment = {name: value for name, value in os.environ.items() if name not in ("VKDOSE", "PYTHONPATH")}
         environment |= {
@@ -48,6 +49,8 @@ class Installed(InFolder):
         self.assertTrue(said[1].startswith(str(there)))
         self.assertEqual(said[2], str(share / "vkdose/cases/quickstart.toml"))
         self.assertEqual(said[3], "111")
+        for module in (BUILD / "python" / "vkdose").glob("_core*"):  # one, if it was built
+            self.assertEqual(said[4], str(there / "lib/python3/dist-packages/vkdose" / module.name))
 
 
 if __name__ == "__main__":
