@@ -16,7 +16,7 @@
 #include "host/core/error.h"
 #include "host/core/file.h"
 #include "host/core/printable.h"
-#include "host/model/case_reader.h"
+#include "host/model/closest_word.h"
 #include "host/output/measured.h"
 #include "host/output/summary.h"
 #include "host/study/calibration_finding.h"
