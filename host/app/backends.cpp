@@ -6,7 +6,6 @@
 #include <cstdlib>
 
 #include "host/app/tell.h"
-#include "host/backend/reference/reference.h"
 #include "host/backend/vulkan/vulkan.h"
 
 namespace vkdose {
@@ -43,22 +42,14 @@ bool saidNone(const std::vector<std::string>& findings) {
 }  // namespace
 
 std::unique_ptr<Backend> makeBackend(const BackendChoice& choice, std::size_t particles) {
-    if (choice.backend == "reference") {
-        if (!choice.device.empty())
-            throw UsageError("--device is for the vulkan backend; the reference runs on the CPU");
-        return makeReferenceBackend();
-    }
-    return std::move(makeEnsemble(choice, 1, particles)[0]);
+    chooseThreads(particles);
+    return openBackend(choice);
 }
 
 std::vector<std::unique_ptr<Backend>> makeEnsemble(const BackendChoice& choice, std::size_t members,
                                                    std::size_t particles) {
-    if (choice.backend == "reference") throw UsageError("an ensemble needs a device; the reference runs one canister");
     chooseThreads(particles);
-    VulkanOptions options;
-    options.device.name = choice.device;
-    options.device.validation = choice.validation;
-    return makeVulkanEnsemble(options, members);
+    return openEnsemble(choice, members);
 }
 
 BackendChoice sameBackend(const std::string& description, const BackendChoice& choice) {

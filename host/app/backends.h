@@ -1,33 +1,20 @@
 #pragma once
-// The only place that names concrete backends.
+// Backends for the commands.
 
 #include <memory>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "host/backend/backend.h"
+#include "host/play/backend_choice.h"
 #include "host/vk/device.h"
 
 namespace vkdose {
 
-/// Options that make no sense together.
-class UsageError : public std::runtime_error {
-    using std::runtime_error::runtime_error;
-};
-
-struct BackendChoice {
-    std::string backend = "vulkan";  ///< or "reference"
-    std::string device;              ///< index or part of a name; empty: automatic
-    bool validation = false;         ///< Vulkan validation layer
-};
-
-/// Makes the chosen backend. The number of `particles` decides how many threads lavapipe uses. Throws UsageError if a
-/// device is asked for on the reference backend, and DeviceError if there is no device.
+/// openBackend in a process of our own: the number of `particles` decides how many threads lavapipe uses, which this
+/// sets in the environment.
 std::unique_ptr<Backend> makeBackend(const BackendChoice& choice, std::size_t particles);
 
-/// Makes the backends of canisters that share a device (makeVulkanEnsemble); `particles` is the number in all of them
-/// together.
+/// openEnsemble likewise; `particles` is the number in all canisters together.
 std::vector<std::unique_ptr<Backend>> makeEnsemble(const BackendChoice& choice, std::size_t members,
                                                    std::size_t particles);
 

@@ -1,6 +1,7 @@
 """What the tests of the Python package share."""
 
 import os
+import re
 import sys
 import tempfile
 import unittest
@@ -8,6 +9,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "host" / "python"))
+sys.path.append(str(Path(os.environ.get("VKDOSE", "")).parent / "python"))  # its module, if it was built
 
 try:
     import h5py  # noqa: E402, F401
@@ -50,3 +52,12 @@ def short(**changes):
 def run(case, out="run"):
     """A run on the reference, which is the same everywhere."""
     return case.run(out, backend="reference")
+
+
+def examples(inside):
+    """The blocks of Python on the package's page: those of the section on runs inside Python, or all others."""
+    page = (ROOT / "host" / "python" / "README.md").read_text(encoding="utf-8")
+    before, title, rest = page.partition("## A run inside Python\n")
+    section, following, after = rest.partition("\n## ")
+    text = section if inside else before + following + after
+    return re.findall(r"^```python\n(.*?)^```", text, re.MULTILINE | re.DOTALL)

@@ -1,16 +1,14 @@
 """The blocks of Python on the package's page, run one after another as a reader would."""
 
-import re
 import unittest
 from pathlib import Path
 
-from support import ROOT, InFolder
+from support import InFolder, examples
 
 
 class Page(InFolder):
     def test_the_examples_run(self):
-        page = (ROOT / "host" / "python" / "README.md").read_text(encoding="utf-8")
-        blocks = re.findall(r"^```python\n(.*?)^```", page, re.MULTILINE | re.DOTALL)
+        blocks = examples(inside=False)
         self.assertGreaterEqual(len(blocks), 4)
         names = {}
         for block in blocks:

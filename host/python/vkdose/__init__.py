@@ -8,8 +8,12 @@
         result = run.wait()
     result.timeseries.plot("time_s", "dosed_mass_kg")
 
-Everything is computed by the installed program, in processes of its own.
+Runs and studies are computed by the installed program, in processes of its own. ``Simulation`` is a run inside Python.
 """
+
+from pkgutil import extend_path
+
+__path__ = extend_path(__path__, __name__)  # in a source tree _core lies in the build folder
 
 from .case import Case, Check
 from .errors import (
@@ -25,6 +29,7 @@ from .errors import (
 from .program import program, version
 from .results import Frame, Result, SweepResult
 from .run import Run, resume
+from .simulation import Simulation
 from .study import Study
 
 __all__ = [
@@ -40,6 +45,7 @@ __all__ = [
     "Result",
     "Run",
     "RunError",
+    "Simulation",
     "Study",
     "SweepResult",
     "VkdoseError",

@@ -74,17 +74,24 @@ class Case:
         """Returns this case with further changes. They win over earlier ones."""
         return Case(self.source, {**self.changes, **changes})
 
-    def _sets(self) -> list[str]:
-        return [part for key, value in self.changes.items() for part in ("--set", f"{key}={_value(value)}")]
+    def settings(self) -> list[str]:
+        """The changes as ``--set`` takes them: ["coil.speed_rpm=60"]."""
+        return [f"{key}={_value(value)}" for key, value in self.changes.items()]
+
+    @contextmanager
+    def file(self) -> Iterator[str]:
+        """The file or the name of this case without its changes. That of a dict is there inside the ``with`` only."""
+        if not isinstance(self.source, Mapping):
+            yield os.fspath(self.source)
+            return
+        with written(self.source, "case") as file:
+            yield str(file)
 
     @contextmanager
     def arguments(self) -> Iterator[list[str]]:
         """The arguments of the command line that name this case. Those of a dict hold inside the ``with`` only."""
-        if not isinstance(self.source, Mapping):
-            yield [os.fspath(self.source), *self._sets()]
-            return
-        with written(self.source, "case") as file:
-            yield [str(file), *self._sets()]
+        with self.file() as file:
+            yield [file, *(part for setting in self.settings() for part in ("--set", setting))]
 
     def check(self) -> Check:
         """Validates the case. Raises InputError if there is no such case at all."""

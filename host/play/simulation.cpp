@@ -1,0 +1,217 @@
+#include "host/play/simulation.h"
+
+#include <atomic>
+#include <condition_variable>
+#include <exception>
+#include <limits>
+#include <mutex>
+#include <optional>
+#include <stdexcept>
+#include <thread>
+#include <utility>
+
+#include "host/core/error.h"
+#include "host/play/gate.h"
+#include "host/sim/runner.h"
+
+namespace vkdose {
+
+namespace {
+
+double dosedMass(const Sample& s) {
+    return s.sensors.mass[std::size_t(Region::Dosed)];
+}
+
+/// The error that ended a run, or null.
+std::exception_ptr errorOf(const RunResult& result) {
+    if (result.reason == StopReason::RunError) return std::make_exception_ptr(RunError(result.error));
+    if (result.reason == StopReason::DeviceError) return std::make_exception_ptr(DeviceError(result.error));
+    return nullptr;
+}
+
+}  // namespace
+
+/// The thread that makes the run. While it sleeps at the gate, all that it writes belongs to the caller.
+class Simulation::Thread final : public RunObserver {
+  public:
+    Thread(const Case& c, Backend& backend)
+        : case_(c), gate_(backend, [this] { restIfDue(); }), filled_(insertParticles(c)) {
+        seen_.last.sensors.count[0] = filled_.particles.size();
+        seen_.last.sensors.mass[0] = filled_.mass;
+        thread_ = std::thread([this] { play(); });
+    }
+    ~Thread() override {
+        {
+            const std::lock_guard lock(mutex_);
+            closed_ = true;
+            rests_ = false;
+        }
+        changed_.notify_all();
+        thread_.join();
+    }
+    Thread(const Thread&) = delete;
+    Thread& operator=(const Thread&) = delete;
+
+    /// Wakes the run until this time [s], and if wanted to the end of a dose before it.
+    void wake(double until, bool toDose) {
+        {
+            const std::lock_guard lock(mutex_);
+            requireRest();
+            if (seen_.over) return;
+            until_ = until;
+            toDose_ = toDose;
+            halt_ = doseEnded_ = rests_ = false;
+            seen_.particles.reset();
+        }
+        changed_.notify_all();
+    }
+
+    bool awaitRest(std::chrono::milliseconds most) {
+        std::unique_lock lock(mutex_);
+        if (!changed_.wait_for(lock, most, [this] { return rests_ || seen_.over; })) return false;
+        if (error_) std::rethrow_exception(error_);
+        return true;
+    }
+
+    void halt() {
+        const std::lock_guard lock(mutex_);
+        halt_ = true;
+    }
+
+    /// What the caller may look at while the run rests.
+    struct Seen {
+        bool over = false;
+        StopReason reason = StopReason::Settled;
+        std::uint64_t steps = 0;  ///< made
+        Sample last;
+        std::vector<Dose> doses;
+        double dosedBefore = 0;              ///< the latest dose [kg]
+        std::optional<Particles> particles;  ///< once somebody has asked for them
+    };
+    Seen& seen() {
+        const std::lock_guard lock(mutex_);
+        requireRest();
+        return seen_;
+    }
+
+  private:
+    void play() {
+        RunResult result;
+        std::exception_ptr error;
+        try {
+            Derived derived = derive(case_, filled_);
+            const std::atomic<bool> stop{false};
+            result = runFilled(case_, std::move(filled_), std::move(derived), gate_, *this, stop);
+            error = errorOf(result);
+        } catch (...) {
+            error = std::current_exception();
+        }
+        const std::lock_guard lock(mutex_);
+        seen_.reason = result.reason;
+        seen_.steps = gate_.steps();
+        seen_.over = true;
+        error_ = error;
+        changed_.notify_all();
+    }
+
+    /// At the gate. All that belongs to the latest reading is done by then: its dose is closed, its phase is over.
+    void restIfDue() {
+        std::unique_lock lock(mutex_);
+        seen_.steps = gate_.steps();
+        const bool reached = seen_.last.time > until_ - case_.sensorInterval / 2 || (toDose_ && doseEnded_);
+        rests_ = !closed_ && (halt_ || (reading_ && reached));
+        if (rests_) changed_.notify_all();
+        changed_.wait(lock, [this] { return !rests_; });
+        if (closed_) throw RunError("the simulation was closed");
+        reading_ = false;
+    }
+
+    void onSample(const Sample& s) override {
+        if (s.dose != seen_.last.dose) seen_.dosedBefore = dosedMass(seen_.last);
+        seen_.last = s;
+        reading_ = true;
+    }
+    void onDose(const Dose& d) override {
+        seen_.doses.push_back(d);
+        doseEnded_ = true;
+    }
+
+    void requireRest() const {
+        if (!rests_ && !seen_.over) throw std::logic_error("the run goes on in another thread; wait until it rests");
+    }
+
+    const Case& case_;
+    Gate gate_;
+    Insertion filled_;
+
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    bool rests_ = false, closed_ = false;
+    bool halt_ = true;  ///< before the first step
+    double until_ = 0;  ///< [s]
+    bool toDose_ = false;
+    bool reading_ = false;    ///< no step has been made since the latest reading
+    bool doseEnded_ = false;  ///< since the run went on
+    Seen seen_;
+    std::exception_ptr error_;
+
+    std::thread thread_;  // after all that it uses
+};
+
+Simulation::Simulation(Case c, std::unique_ptr<Backend> backend)
+    : case_(std::move(c)), backend_(std::move(backend)), thread_(std::make_unique<Thread>(case_, *backend_)) {
+    while (!awaitRest(std::chrono::hours(1))) {
+    }
+}
+
+Simulation::~Simulation() = default;
+
+void Simulation::advance(double seconds) {
+    if (!(seconds >= 0)) throw std::invalid_argument("a run goes on for a time >= 0 s");
+    thread_->wake(time() + seconds, false);
+}
+
+void Simulation::advanceToDose() {
+    thread_->wake(std::numeric_limits<double>::infinity(), true);
+}
+
+bool Simulation::awaitRest(std::chrono::milliseconds most) {
+    return thread_->awaitRest(most);
+}
+
+void Simulation::halt() {
+    thread_->halt();
+}
+
+bool Simulation::over() const {
+    return thread_->seen().over;
+}
+
+StopReason Simulation::reason() const {
+    return thread_->seen().reason;
+}
+
+double Simulation::time() const {
+    return double(thread_->seen().steps) * case_.world.timeStep;
+}
+
+const Sample& Simulation::last() const {
+    return thread_->seen().last;
+}
+
+const std::vector<Dose>& Simulation::doses() const {
+    return thread_->seen().doses;
+}
+
+double Simulation::doseMass() const {
+    const auto& seen = thread_->seen();
+    return seen.last.dose > 0 ? dosedMass(seen.last) - seen.dosedBefore : 0;
+}
+
+const Particles& Simulation::particles() const {
+    std::optional<Particles>& now = thread_->seen().particles;
+    if (!now) now = backend_->particles();
+    return *now;
+}
+
+}  // namespace vkdose

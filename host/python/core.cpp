@@ -1,0 +1,170 @@
+// vkdose._core: Simulation for Python. What it says to a user stands in simulation.py, which is all that uses it. The
+// library is pybind11; only this file knows it.
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "host/core/error.h"
+#include "host/play/backend_choice.h"
+#include "host/play/simulation.h"
+
+namespace py = pybind11;
+using namespace vkdose;
+
+namespace {
+
+/// How long Ctrl-C may wait at most.
+constexpr std::chrono::milliseconds kLookEvery(50);
+
+/// The package's exception of this name, with `arguments`.
+template <class... A>
+void raise(const char* name, const A&... arguments) {
+    const py::object type = py::module_::import("vkdose.errors").attr(name);
+    PyErr_SetObject(type.ptr(), type(arguments...).ptr());
+}
+
+py::tuple faultsOf(const CaseError& error) {
+    const py::object fault = py::module_::import("vkdose.errors").attr("Fault");
+    py::list faults;
+    for (const Diagnostic& d : error.faults()) faults.append(fault(d.file, d.line, d.key, d.value, d.problem, d.remedy));
+    return py::tuple(faults);
+}
+
+std::string textOf(const CaseError& error) {
+    std::string text;
+    for (const Diagnostic& d : error.faults()) text += (text.empty() ? "" : "\n") + d.text();
+    return text;
+}
+
+void translate(std::exception_ptr error) {
+    try {
+        if (error) std::rethrow_exception(error);
+    } catch (const CaseError& e) {
+        raise("InputError", textOf(e), faultsOf(e));
+    } catch (const UsageError& e) {
+        raise("InputError", std::string(e.what()));
+    } catch (const RunError& e) {
+        raise("RunError", std::string(e.what()));
+    } catch (const DeviceError& e) {
+        raise("DeviceError", std::string(e.what()));
+    }
+}
+
+/// Waits with Python's lock released. A signal whose handler raises, such as Ctrl-C, lets the run rest first.
+void wait(Simulation& run) {
+    const auto rests = [&run] {
+        const py::gil_scoped_release release;
+        return run.awaitRest(kLookEvery);
+    };
+    while (!rests()) {
+        if (PyErr_CheckSignals() == 0) continue;
+        const py::error_already_set raised;
+        run.halt();
+        while (!rests()) {
+        }
+        throw raised;
+    }
+}
+
+/// The columns of a row by their names.
+template <class... C, class R>
+py::dict dictOf(const std::tuple<C...>& table, const R& row) {
+    py::dict dict;
+    forEachColumn(table, [&](const auto& c) {
+        const auto& value = c.of(row);
+        if constexpr (std::is_enum_v<std::decay_t<decltype(value)>>)
+            dict[c.name] = cellText(value, kAllDigits);
+        else
+            dict[c.name] = value;
+    });
+    return dict;
+}
+
+py::dict sampleOf(const Simulation& run) {
+    const Sample& s = run.last();
+    py::dict dict = dictOf(kSampleColumns, s);
+    if (s.energy) dict.attr("update")(dictOf(kEnergyColumns, *s.energy));
+    py::dict bodies, regions;
+    for (std::size_t b = 0; b < s.bodies.size(); ++b)
+        bodies[run.theCase().world.bodies.at(b).name.c_str()] = dictOf(kBodyColumns, s.bodies[b]);
+    for (std::size_t r = 0; r < s.regions.size(); ++r)
+        regions[run.theCase().world.regions.at(r).name.c_str()] = dictOf(kRegionColumns, s.regions[r]);
+    if (!bodies.empty()) dict["bodies"] = bodies;
+    if (!regions.empty()) dict["regions"] = regions;
+    return dict;
+}
+
+py::list dosesOf(const Simulation& run) {
+    py::list list;
+    for (const Dose& d : run.doses()) list.append(dictOf(kDoseColumns, d));
+    return list;
+}
+
+/// A copy, (n, 3).
+py::array_t<double> arrayOf(const std::vector<Vec3>& vectors) {
+    py::array_t<double> array({vectors.size(), std::size_t(3)});
+    auto to = array.mutable_unchecked<2>();
+    for (py::ssize_t i = 0; i < to.shape(0); ++i)
+        for (py::ssize_t k = 0; k < 3; ++k) to(i, k) = vectors[std::size_t(i)][int(k)];
+    return array;
+}
+
+py::array_t<double> radiiOf(const Simulation& run) {
+    const std::vector<double>& r = run.particles().radius;
+    return py::array_t<double>(py::ssize_t(r.size()), r.data());
+}
+
+py::array_t<bool> activeOf(const Simulation& run) {
+    const std::vector<Status>& status = run.particles().status;
+    py::array_t<bool> array(py::ssize_t(status.size()));
+    auto to = array.mutable_unchecked<1>();
+    for (py::ssize_t i = 0; i < to.shape(0); ++i) to(i) = status[std::size_t(i)] == Status::Active;
+    return array;
+}
+
+std::unique_ptr<Simulation> open(const std::string& file, const std::vector<std::string>& settings,
+                                 const std::string& backend, const std::string& device) {
+    Case c = loadCase(file, settings);
+    return std::make_unique<Simulation>(std::move(c), openBackend({backend, device, false}));
+}
+
+}  // namespace
+
+PYBIND11_MODULE(_core, m) {
+    m.doc() = "Runs inside Python; see vkdose.Simulation.";
+    py::register_local_exception_translator(translate);
+    py::class_<Simulation>(m, "Simulation")
+        .def(py::init(&open), py::arg("file"), py::arg("settings"), py::arg("backend"), py::arg("device"))
+        .def("advance",
+             [](Simulation& run, double seconds) {
+                 run.advance(seconds);
+                 wait(run);
+             })
+        .def("advance_to_dose",
+             [](Simulation& run) {
+                 run.advanceToDose();
+                 wait(run);
+             })
+        .def_property_readonly("name", [](const Simulation& run) { return run.theCase().name; })
+        .def_property_readonly("backend", &Simulation::backend)
+        .def_property_readonly("sensor_interval", [](const Simulation& run) { return run.theCase().sensorInterval; })
+        .def_property_readonly("over", &Simulation::over)
+        .def_property_readonly("stop_reason", [](const Simulation& run) { return stopKeyword(run.reason()); })
+        .def_property_readonly(
+            "stop_sentence",
+            [](const Simulation& run) { return stopSentence(run.reason(), run.theCase().schedule.stop); })
+        .def_property_readonly("time", &Simulation::time)
+        .def_property_readonly("dose_mass", &Simulation::doseMass)
+        .def_property_readonly("sample", &sampleOf)
+        .def_property_readonly("doses", &dosesOf)
+        .def_property_readonly("positions", [](const Simulation& run) { return arrayOf(run.particles().position); })
+        .def_property_readonly("velocities", [](const Simulation& run) { return arrayOf(run.particles().velocity); })
+        .def_property_readonly("spins", [](const Simulation& run) { return arrayOf(run.particles().spin); })
+        .def_property_readonly("radii", &radiiOf)
+        .def_property_readonly("active", &activeOf);
+}

@@ -1,0 +1,200 @@
+// A run that its caller leads: the same as one in one go, wherever it rests.
+#include "host/play/simulation.h"
+
+#include <limits>
+
+#include "tests/sim/fake_backend.h"
+#include "tests/support/catch.h"
+
+using namespace vkdose;
+using namespace vkdose::test;
+
+namespace {
+
+/// smallCase with ten listed particles of 1 g, as the fake weighs them.
+Case listedCase() {
+    Case c = smallCase();
+    c.filling.list = smallFilling().particles;
+    c.world.density = 1e-3 / sphereMass(1, 1e-3);
+    return c;
+}
+
+struct Led {
+    FakeBackend* backend;  ///< of the simulation
+    std::unique_ptr<Simulation> simulation;
+
+    void wait() const {
+        while (!simulation->awaitRest(std::chrono::minutes(1))) {
+        }
+    }
+    void advance(double seconds) const {
+        simulation->advance(seconds);
+        wait();
+    }
+    void toDose() const {
+        simulation->advanceToDose();
+        wait();
+    }
+};
+
+std::uint64_t someDosed(std::uint64_t step) {
+    return std::min<std::uint64_t>(10, step / 60);
+}
+
+Led led(
+    const Case& c, const std::function<void(FakeBackend&)>& prepare = [](FakeBackend&) {}) {
+    auto fake = std::make_unique<FakeBackend>();
+    fake->dosed = someDosed;
+    prepare(*fake);
+    FakeBackend* seen = fake.get();
+    return {seen, std::make_unique<Simulation>(c, std::move(fake))};
+}
+
+constexpr double kToEnd = std::numeric_limits<double>::infinity();
+
+bool same(const std::vector<FakeBackend::Call>& a, const std::vector<FakeBackend::Call>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& x, const auto& y) {
+        return x.firstStep == y.firstStep && x.steps == y.steps && x.rate == y.rate && x.kc == y.kc;
+    });
+}
+
+}  // namespace
+
+TEST_CASE("a simulation rests before its first step") {
+    const Led run = led(listedCase());
+    CHECK(run.backend->loads == 1);
+    CHECK(run.backend->calls.empty());
+    CHECK_FALSE(run.simulation->over());
+    CHECK(run.simulation->time() == 0);
+    CHECK(run.simulation->last().sensors.count[0] == 10);
+    CHECK(run.simulation->particles().size() == 10);
+    CHECK(run.simulation->doseMass() == 0);
+}
+
+TEST_CASE("however often it rests, the backend is asked for the same") {
+    FakeBackend whole;
+    whole.dosed = someDosed;
+    Notebook notes;
+    const std::atomic<bool> stop{false};
+    const Case c = listedCase();
+    const RunResult expected = runCase(c, whole, notes, stop);
+    const Led run = led(c);
+    std::size_t rests = 0;
+    for (; !run.simulation->over(); ++rests) run.advance(0);
+    CHECK(rests == notes.samples.size());
+    CHECK(same(run.backend->calls, whole.calls));
+    CHECK(run.simulation->reason() == expected.reason);
+    CHECK(run.simulation->time() == Approx(0.31));
+    REQUIRE(run.simulation->doses().size() == 3);
+    for (std::size_t d = 0; d < 3; ++d) {
+        CHECK(run.simulation->doses()[d].mass == expected.doses[d].mass);
+        CHECK(run.simulation->doses()[d].complete);
+    }
+    const std::size_t calls = run.backend->calls.size();
+    run.advance(1);  // it is over
+    CHECK(run.backend->calls.size() == calls);
+}
+
+TEST_CASE("it goes on to the reading that is nearest to the time asked for") {
+    const Led run = led(listedCase());  // readings each 0.03 s, and at the ends of phases
+    run.advance(0.01);
+    CHECK(run.simulation->time() == Approx(0.03));  // the next at least
+    run.advance(0.046);
+    CHECK(run.simulation->time() == Approx(0.09));
+    CHECK(run.simulation->last().time == run.simulation->time());
+    run.advance(0.01);
+    CHECK(run.simulation->time() == Approx(0.1));  // the settling ends
+    CHECK(run.simulation->last().phase == Phase::Settle);
+    CHECK_THROWS_AS(run.simulation->advance(-1), std::invalid_argument);
+    CHECK_THROWS_AS(run.simulation->advance(std::numeric_limits<double>::quiet_NaN()), std::invalid_argument);
+    run.advance(kToEnd);
+    CHECK(run.simulation->over());
+}
+
+TEST_CASE("it goes on from dose to dose; a dose is there when it has ended") {
+    const Led run = led(listedCase());
+    for (const double end : {0.17, 0.24}) {
+        run.toDose();
+        CHECK(run.simulation->time() == Approx(end));
+        CHECK(run.simulation->doses().back().endTime == Approx(end));
+        CHECK_FALSE(run.simulation->over());
+    }
+    CHECK(run.simulation->doses()[1].mass == Approx(2e-3));  // the second and the fourth of its particles
+    CHECK(run.simulation->doseMass() == Approx(2e-3));
+    run.toDose();
+    CHECK(run.simulation->over());
+    CHECK(run.simulation->doses().size() == 3);
+    run.toDose();
+    CHECK(run.simulation->doses().size() == 3);
+}
+
+TEST_CASE("an end in the middle of a dose leaves it incomplete") {
+    Case c = listedCase();
+    c.schedule.stop.endTime = 0.13;
+    const Led run = led(c);
+    run.advance(kToEnd);
+    CHECK(run.simulation->reason() == StopReason::EndTime);
+    REQUIRE(run.simulation->doses().size() == 1);
+    CHECK_FALSE(run.simulation->doses()[0].complete);
+}
+
+TEST_CASE("errors of a run are thrown to the caller, who can still look at it") {
+    const Led run = led(listedCase(), [](FakeBackend& b) { b.runErrorAt = 60; });
+    run.advance(0.06);
+    run.simulation->advance(kToEnd);
+    CHECK_THROWS_AS(run.wait(), RunError);
+    CHECK(run.simulation->over());
+    CHECK(run.simulation->time() == Approx(0.06));
+    CHECK(run.simulation->particles().size() == 10);
+    run.simulation->advance(1);
+    CHECK_THROWS_AS(run.wait(), RunError);
+    const Led lost = led(listedCase(), [](FakeBackend& b) { b.deviceErrorAt = 0; });
+    lost.simulation->advance(0);
+    CHECK_THROWS_AS(lost.wait(), DeviceError);
+    Case wrong = listedCase();
+    wrong.schedule.restTime = 1e-9;
+    CHECK_THROWS_AS(led(wrong), CaseError);
+}
+
+TEST_CASE("a halt makes it rest between two readings, and it goes on as if it had not") {
+    FakeBackend whole;
+    Notebook notes;
+    const std::atomic<bool> stop{false};
+    Case c = listedCase();
+    c.schedule.rampTime = 0.02;  // several calls between two readings
+    runCase(c, whole, notes, stop);
+    Simulation* simulation = nullptr;
+    bool looked = false;
+    const Led run = led(c, [&](FakeBackend& b) {
+        b.dosed = [](std::uint64_t) { return 0; };
+        b.spoil = [&](std::uint64_t step, Sensors&) {
+            if (step != 110) return;
+            simulation->halt();
+            try {
+                (void)simulation->time();
+            } catch (const std::logic_error&) {
+                looked = true;
+            }
+        };
+    });
+    simulation = run.simulation.get();
+    run.advance(kToEnd);
+    CHECK(looked);  // refused while the run went on
+    CHECK(simulation->time() == Approx(0.11));
+    CHECK(simulation->last().time == Approx(0.1));
+    run.advance(kToEnd);
+    CHECK(simulation->over());
+    CHECK(same(run.backend->calls, whole.calls));
+}
+
+TEST_CASE("a simulation can be left at any time") {
+    Led run = led(listedCase());
+    run.simulation.reset();
+    run = led(listedCase());
+    run.advance(0.1);
+    run.simulation.reset();
+    run = led(listedCase());
+    run.simulation->advance(kToEnd);
+    run.simulation.reset();
+    SUCCEED();
+}
