@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "host/app/tell.h"
 #include "host/backend/vulkan/vulkan.h"
 
 namespace vkdose {
@@ -34,7 +35,7 @@ std::vector<std::string> findingsOf(const ValidationReport& report) {
 
 /// Prints the findings on stderr. Returns true if there are none.
 bool saidNone(const std::vector<std::string>& findings) {
-    for (const std::string& line : findings) fmt::print(stderr, "{}\n", line);
+    for (const std::string& line : findings) tell(stderr, "{}\n", line);
     return findings.empty();
 }
 

@@ -11,6 +11,7 @@
 #include "host/app/exit_code.h"
 #include "host/app/inputs.h"
 #include "host/app/interrupt.h"
+#include "host/app/tell.h"
 #include "host/backend/vulkan/vulkan.h"
 #include "host/bench/copies.h"
 #include "host/bench/results_table.h"
@@ -35,7 +36,7 @@ int processors() {
 std::optional<Case> settledBed(const BenchOptions& options) {
     if (!options.bed.empty()) return loadCase(options.bed);
     if (std::filesystem::exists(kSettledBed)) return loadCase(kSettledBed);
-    fmt::print(stderr, "vkdose: there is no {} here, so nothing is measured on it; --bed names it\n", kSettledBed);
+    tell(stderr, "vkdose: there is no {} here, so nothing is measured on it; --bed names it\n", kSettledBed);
     return std::nullopt;
 }
 
@@ -173,9 +174,9 @@ bench::Row measuredEnsemble(const std::string& name, const Workload& w, const Be
 }
 
 void print(const bench::Row& row) {
-    fmt::print("{}\n", bench::tableLine(row));
+    tell("{}\n", bench::tableLine(row));
     const std::string details = bench::detailLines(row);
-    if (!details.empty()) fmt::print("{}\n", details);
+    if (!details.empty()) tell("{}\n", details);
     std::fflush(stdout);
 }
 
@@ -195,7 +196,7 @@ int benchCommand(const BenchOptions& options) {
 
     const std::atomic<bool>& stop = watchInterrupts();
     std::vector<bench::Row> rows;
-    fmt::print("{}\n", bench::headLine());
+    tell("{}\n", bench::headLine());
     for (const bench::Plan& plan : plans) {
         if (stop) break;
         const Workload workload = plan.make();
@@ -217,7 +218,7 @@ int benchCommand(const BenchOptions& options) {
     if (!rows.empty() && std::all_of(rows.begin(), rows.end(), [](const bench::Row& r) { return !r.refused.empty(); }))
         throw DeviceError("nothing could be measured");
     if (!rows.empty())
-        fmt::print("\non {}; all figures: {}\n", rows.front().on, printable((options.out / "bench.csv").string()));
+        tell("\non {}; all figures: {}\n", rows.front().on, printable((options.out / "bench.csv").string()));
     return stop ? kInterrupted : kOk;
 }
 

@@ -12,11 +12,12 @@
 #include "host/app/interrupt.h"
 #include "host/app/sweep_display.h"
 #include "host/app/sweep_setup.h"
+#include "host/app/tell.h"
 #include "host/app/text.h"
 #include "host/core/error.h"
 #include "host/core/file.h"
 #include "host/core/printable.h"
-#include "host/model/case_reader.h"
+#include "host/model/closest_word.h"
 #include "host/output/measured.h"
 #include "host/output/summary.h"
 #include "host/study/calibration_finding.h"
@@ -80,20 +81,20 @@ void writeCase(const Study& study, const SweepFolder& folder, const std::vector<
     const std::filesystem::path file = folder.path() / "calibrated.toml";
     const std::string reason = fmt::format("Calibrated by {}: {}", study.name, how);
     replaceFile(file, caseAt(study, point, study.file.stem().string() + "-calibrated", reason));
-    fmt::print("calibrated {}\nnext       vkdose run {}\n", printable(file.string()), shellWord(file.string()));
+    tell("calibrated {}\nnext       vkdose run {}\n", printable(file.string()), shellWord(file.string()));
 }
 
 /// After the sweep: the table, and the case at the crossing that is chosen.
 int reportGrid(const Study& study, const SweepFolder& folder) {
     const CalibrationAim& aim = *study.calibration;
     const GridCalibration grid = calibrateGrid(folder.members(), study.keys(), aim);
-    fmt::print("{}\n", targetText(aim));
+    tell("{}\n", targetText(aim));
     for (std::size_t i = 0; i < grid.curves.size(); ++i)
-        fmt::print("{}", curveText(pointText(grid.keys, grid.curves[i].values), grid.curves[i], aim, grid.choice == i));
-    if (grid.leftOut > 0) fmt::print("left out: {} without a mass per dose\n", counted(grid.leftOut, "member"));
+        tell("{}", curveText(pointText(grid.keys, grid.curves[i].values), grid.curves[i], aim, grid.choice == i));
+    if (grid.leftOut > 0) tell("left out: {} without a mass per dose\n", counted(grid.leftOut, "member"));
     if (!grid.choice) {
-        fmt::print(stderr, "vkdose: no curve meets the target or comes within {:.2g} g of it; widen the axes\n",
-                   aim.tolerance * 1e3);
+        tell(stderr, "vkdose: no curve meets the target or comes within {:.2g} g of it; widen the axes\n",
+             aim.tolerance * 1e3);
         return kDisagree;
     }
     const Curve& curve = grid.curves[*grid.choice];
@@ -301,26 +302,26 @@ int reportSearch(const Study& study, const SweepFolder& folder, const SearchResu
     const CalibrationAim& aim = *study.calibration;
     const CalibrationFinding f = findingOf(study, result);
     writeFinding(folder.path(), f);
-    fmt::print("{}{}", targetsText(aim, f), pointsText(f));
+    tell("{}{}", targetsText(aim, f), pointsText(f));
     const std::string believed = believedText(f);
     const bool one = f.targets.size() == 1;
-    fmt::print("believed there: {}; {} {} after {} points\n", believed, one ? "the target is" : "the targets are",
-               f.met ? "met"
-               : one ? "NOT met to its tolerance"
-                     : "NOT met to their uncertainties",
-               f.points.size());
-    if (!one) fmt::print("misfit {:.3g}, the weighted sum of squares over uncertainties\n", f.misfit);
+    tell("believed there: {}; {} {} after {} points\n", believed, one ? "the target is" : "the targets are",
+         f.met ? "met"
+         : one ? "NOT met to its tolerance"
+               : "NOT met to their uncertainties",
+         f.points.size());
+    if (!one) tell("misfit {:.3g}, the weighted sum of squares over uncertainties\n", f.misfit);
     for (const CalibrationFinding::Parameter& p : f.parameters) {
         if (p.mayMeet)
-            fmt::print("{} from {:.4g} to {:.4g} may meet {}\n", p.key, p.mayMeet->first, p.mayMeet->second,
-                       one ? "it" : "them");
+            tell("{} from {:.4g} to {:.4g} may meet {}\n", p.key, p.mayMeet->first, p.mayMeet->second,
+                 one ? "it" : "them");
         else
-            fmt::print("no {} within its bounds is believed to meet {}\n", p.key, one ? "it" : "them");
+            tell("no {} within its bounds is believed to meet {}\n", p.key, one ? "it" : "them");
     }
-    fmt::print("{}", sensitivityText(f));
+    tell("{}", sensitivityText(f));
     if (!f.met) {
-        fmt::print(stderr, "vkdose: no case is written; give a larger max_runs, other bounds or a wider {}\n",
-                   aim.targets.empty() ? "tolerance_g" : "uncertainty");
+        tell(stderr, "vkdose: no case is written; give a larger max_runs, other bounds or a wider {}\n",
+             aim.targets.empty() ? "tolerance_g" : "uncertainty");
         return kDisagree;
     }
     std::string aims;
@@ -344,7 +345,7 @@ int calibrateCommand(const SweepOptions& options) {
     if (isSearch) checkCorners(study);
     const std::vector<Member> members = isSearch ? std::vector<Member>{} : membersOf(study);
     if (options.dryRun) {
-        fmt::print("{}", planText(options, study, members));
+        tell("{}", planText(options, study, members));
         return kOk;
     }
     const std::unique_ptr<MemberRunner> runner = makeRunner(options);

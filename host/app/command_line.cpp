@@ -17,6 +17,7 @@
 #include "host/app/help.h"
 #include "host/app/key_schema.h"
 #include "host/app/manual.h"
+#include "host/app/tell.h"
 
 namespace vkdose {
 
@@ -28,7 +29,7 @@ int guarded(const std::function<int()>& command) {
         return command();
     } catch (...) {
         const Refusal refusal = refusalOf(std::current_exception());
-        fmt::print(stderr, "{}\n", refusal.text);
+        tell(stderr, "{}\n", refusal.text);
         return refusal.code;
     }
 }
@@ -67,7 +68,7 @@ int commandLine(int argc, const char* const* argv) {
     } catch (const CLI::ParseError& e) {
         // --help is a ParseError too, with code 0 and its text on stdout.
         if (e.get_exit_code() == 0) return program.exit(e);
-        fmt::print(stderr, "{}", usageFault(program, e.what(), argc > 1 ? argv[1] : ""));
+        tell(stderr, "{}", usageFault(program, e.what(), argc > 1 ? argv[1] : ""));
         return kBadInput;
     }
     if (program.got_subcommand("new")) return guarded([&] { return newCommand(given.made); });

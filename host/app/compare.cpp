@@ -8,6 +8,7 @@
 #include "host/app/commands.h"
 #include "host/app/exit_code.h"
 #include "host/app/interrupt.h"
+#include "host/app/tell.h"
 #include "host/sim/comparison.h"
 
 namespace vkdose {
@@ -49,10 +50,9 @@ const char* outcomeText(Verdict verdict) {
 }
 
 void printParticles(const std::vector<ParticleRow>& rows) {
-    fmt::print(
-        "Particle by particle (largest difference; positions in mean radii, velocities in the velocity scale)\n");
-    fmt::print("{:>10} {:>10} {:<7} {:>8} {:>10} {:>10} {:>10} {:>10}  verdict\n", "step", "time [s]", "phase",
-               "contacts", "position", "allowed", "velocity", "allowed");
+    tell("Particle by particle (largest difference; positions in mean radii, velocities in the velocity scale)\n");
+    tell("{:>10} {:>10} {:<7} {:>8} {:>10} {:>10} {:>10} {:>10}  verdict\n", "step", "time [s]", "phase", "contacts",
+         "position", "allowed", "velocity", "allowed");
     bool chaos = false;
     double printed = 0;
     for (const ParticleRow& r : rows) {
@@ -61,19 +61,19 @@ void printParticles(const std::vector<ParticleRow>& rows) {
         const bool dull = r.verdict == Verdict::Agrees && static_cast<double>(r.step) < 1.25 * printed;
         if (dull) continue;
         printed = static_cast<double>(r.step);
-        fmt::print("{:>10} {:>10.4g} {:<7} {:>8} {:>10.2e} {:>10.2e} {:>10.2e} {:>10.2e}  {}\n", r.step, r.time,
-                   phaseName(r.phase), r.contacts, r.position, r.positionLimit, r.velocity, r.velocityLimit,
-                   r.verdict == Verdict::Undecided ? "chaotic from here on: not judged" : verdictText(r.verdict));
+        tell("{:>10} {:>10.4g} {:<7} {:>8} {:>10.2e} {:>10.2e} {:>10.2e} {:>10.2e}  {}\n", r.step, r.time,
+             phaseName(r.phase), r.contacts, r.position, r.positionLimit, r.velocity, r.velocityLimit,
+             r.verdict == Verdict::Undecided ? "chaotic from here on: not judged" : verdictText(r.verdict));
     }
 }
 
 void printQuantities(const std::vector<QuantityRow>& rows) {
-    fmt::print("\nThe packing as a whole (largest difference over time; spread: rough twins of the reference)\n");
-    fmt::print("{:<27} {:>10} {:>10} {:>10}  {:<15} {:>9}  verdict\n", "quantity", "difference", "spread", "allowed",
-               "unit", "at [s]");
+    tell("\nThe packing as a whole (largest difference over time; spread: rough twins of the reference)\n");
+    tell("{:<27} {:>10} {:>10} {:>10}  {:<15} {:>9}  verdict\n", "quantity", "difference", "spread", "allowed", "unit",
+         "at [s]");
     for (const QuantityRow& r : rows) {
-        fmt::print("{:<27} {:>10.3g} {:>10.3g} {:>10.3g}  {:<15} {:>9.4g}  {}\n", r.name, r.difference, r.spread,
-                   r.tolerance, r.unit, r.time, verdictText(r.verdict));
+        tell("{:<27} {:>10.3g} {:>10.3g} {:>10.3g}  {:<15} {:>9.4g}  {}\n", r.name, r.difference, r.spread, r.tolerance,
+             r.unit, r.time, verdictText(r.verdict));
     }
 }
 
@@ -94,12 +94,12 @@ int compareCommand(const CompareOptions& options) {
     Twins twins;
     twins.fine = another();
     for (int i = 0; i < options.twins; ++i) twins.rough.push_back(another());
-    fmt::print("{}: {} particles, {} steps ({:.4g} s): {} against {}, {} + 1 perturbed twins\n\n", c.name,
-               filled.particles.size(), steps, timeline.time(steps), candidate->description(), reference->description(),
-               options.twins);
+    tell("{}: {} particles, {} steps ({:.4g} s): {} against {}, {} + 1 perturbed twins\n\n", c.name,
+         filled.particles.size(), steps, timeline.time(steps), candidate->description(), reference->description(),
+         options.twins);
     const Schedule& s = c.schedule;
     if (s.untilRest || s.targetMass > 0 || std::isfinite(s.maxTorque))
-        fmt::print(
+        tell(
             "All make the steps of the longest times: nothing that a run reads from its sensors ends a phase "
             "here.\n\n");
     std::fflush(stdout);
@@ -107,24 +107,24 @@ int compareCommand(const CompareOptions& options) {
     const bool terminal = isatty(fileno(stderr)) == 1;
     const auto progress = [&](std::uint64_t step) {
         if (!terminal) return;
-        fmt::print(stderr, "\r{:>5.1f} %", 100.0 * static_cast<double>(step) / static_cast<double>(steps));
+        tell(stderr, "\r{:>5.1f} %", 100.0 * static_cast<double>(step) / static_cast<double>(steps));
         std::fflush(stderr);
     };
     const Comparison result =
         compareBackends(c, filled, *reference, twins, *candidate, steps, progress, watchInterrupts());
-    if (terminal) fmt::print(stderr, "\r\033[K");
+    if (terminal) tell(stderr, "\r\033[K");
     printParticles(result.particles);
     printQuantities(result.quantities);
-    fmt::print("\nledger closed on every backend at {} times\n", result.particles.size());
+    tell("\nledger closed on every backend at {} times\n", result.particles.size());
     if (result.interrupted) {
-        fmt::print("interrupted after {} of {} steps\n", result.steps, steps);
+        tell("interrupted after {} of {} steps\n", result.steps, steps);
         return kInterrupted;
     }
     if (result.undecided() > 0) {
-        fmt::print("{} of {} quantities are too chaotic for {} twins to decide\n", result.undecided(),
-                   result.quantities.size(), options.twins);
+        tell("{} of {} quantities are too chaotic for {} twins to decide\n", result.undecided(),
+             result.quantities.size(), options.twins);
     }
-    fmt::print("{}\n", outcomeText(result.verdict()));
+    tell("{}\n", outcomeText(result.verdict()));
     if (!validationClean(options.backend, *candidate)) return kDeviceError;
     return result.verdict() == Verdict::Agrees ? kOk : kDisagree;
 }

@@ -7,6 +7,7 @@
 #include "host/app/commands.h"
 #include "host/app/exit_code.h"
 #include "host/app/inputs.h"
+#include "host/app/tell.h"
 #include "host/core/error.h"
 #include "host/core/file.h"
 #include "host/core/printable.h"
@@ -70,8 +71,8 @@ int exportBodyCommand(const ExportBodyOptions& options) {
     } catch (const geometry::MeshError& e) {
         throw UsageError(fmt::format("export-body: {}; give a larger --unit", e.what()));
     }
-    fmt::print("{}: {} triangles in {}, lengths in {}\n", written, mesh.size(), printable(options.out.string()),
-               options.unit);
+    tell("{}: {} triangles in {}, lengths in {}\n", written, mesh.size(), printable(options.out.string()),
+         options.unit);
     return kOk;
 }
 

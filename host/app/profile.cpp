@@ -1,4 +1,5 @@
 #include "host/photo/profile.h"
+#include "host/app/tell.h"
 
 #include <fmt/format.h>
 
@@ -44,8 +45,8 @@ int profileCommand(const ProfileOptions& options) {
     const photo::Surface surface = photo::surfaceOf(picture, options.reading);
     replaceFile(options.out, photo::csvText(surface));
     if (!options.check.empty()) replaceFile(options.check, photo::pngBytes(photo::checkPicture(picture, surface)));
-    fmt::print("{}{}\n", summary(surface), printable(options.out.string()));
-    if (!options.check.empty()) fmt::print("{}\n", printable(options.check.string()));
+    tell("{}{}\n", summary(surface), printable(options.out.string()));
+    if (!options.check.empty()) tell("{}\n", printable(options.check.string()));
     return kOk;
 }
 

@@ -10,6 +10,7 @@
 #include "host/app/film.h"
 #include "host/app/inputs.h"
 #include "host/app/run_states.h"
+#include "host/app/tell.h"
 #include "host/core/error.h"
 #include "host/core/file.h"
 #include "host/core/printable.h"
@@ -112,7 +113,7 @@ class Renderer {
 
 void writePicture(const fs::path& file, const render::Canvas& canvas) {
     replaceFile(file, canvas.png());
-    fmt::print("{}\n", printable(file.string()));
+    tell("{}\n", printable(file.string()));
 }
 
 std::string pictureName(std::size_t i) {
@@ -146,7 +147,7 @@ void writeMovie(Renderer& renderer, const RenderOptions& options, std::size_t co
         film->add(canvas.bytes());
     }
     if (film) film->finish();
-    fmt::print("{} pictures in {}\n", count, printable(to.string()));
+    tell("{} pictures in {}\n", count, printable(to.string()));
 }
 
 std::vector<std::size_t> chosenOf(const RenderOptions& options, const RunStates& states) {

@@ -10,6 +10,7 @@
 #include "host/app/live_display.h"
 #include "host/app/play.h"
 #include "host/app/progress.h"
+#include "host/app/tell.h"
 #include "host/app/text.h"
 #include "host/core/printable.h"
 #include "host/output/measured.h"
@@ -37,7 +38,7 @@ std::unique_ptr<RunDisplay> makeDisplay(const Manner& manner, const ReadyRun& ru
         if (run.from) get(run.from->run.run, "doses", before);
         return std::make_unique<LiveDisplay>(run.c, derive(run.c, run.filled), backend, std::move(before));
     }
-    if (manner.live) fmt::print(stderr, "vkdose: no --live, because {}; going on with plain progress\n", why);
+    if (manner.live) tell(stderr, "vkdose: no --live, because {}; going on with plain progress\n", why);
     return std::make_unique<ProgressDisplay>();
 }
 
@@ -53,14 +54,14 @@ int playAsEvents(ReadyRun run, Backend& backend, RunFolder& folder, const Manner
     const bool clean = validationClean(manner.choice, backend);
     const ExitCode code = played.error.empty() && !clean ? kDeviceError : played.code;
     events.end(played.result, code, played.error, folder.path());
-    if (!played.error.empty()) fmt::print(stderr, "vkdose: {}\n", printable(played.error));
+    if (!played.error.empty()) tell(stderr, "vkdose: {}\n", printable(played.error));
     return code;
 }
 
 /// Tells once what was probably not meant. It stops no run.
 void tellWarnings(const ReadyRun& run) {
     for (const Warning& w : warningsOf(run.c, run.filled))
-        if (!w.accepted) fmt::print(stderr, "vkdose: warning: {}\n", w.line());
+        if (!w.accepted) tell(stderr, "vkdose: warning: {}\n", w.line());
 }
 
 /// The commands that go on from a run that is over.
@@ -79,21 +80,21 @@ int playAloud(ReadyRun run, Backend& backend, RunFolder& folder, const Manner& m
     if (manner.parent != 0) endWithParent(manner.parent);
     const Case c = run.c;
     if (!manner.quiet) {
-        fmt::print("{}: {} particles, {} g, on {}\n", c.name, run.filled.particles.size(), grams(run.filled.mass),
-                   backend.description());
-        if (run.state) fmt::print("from     {}\n", printable(run.role.origin));
+        tell("{}: {} particles, {} g, on {}\n", c.name, run.filled.particles.size(), grams(run.filled.mass),
+             backend.description());
+        if (run.state) tell("from     {}\n", printable(run.role.origin));
         std::fflush(stdout);
     }
     const std::unique_ptr<RunDisplay> display = makeDisplay(manner, run, backend);
     const Played played = play(std::move(run), backend, folder, display.get(), stop);
     if (display) display->close();
-    if (!played.error.empty()) fmt::print(stderr, "vkdose: {}\n", printable(played.error));
+    if (!played.error.empty()) tell(stderr, "vkdose: {}\n", printable(played.error));
     if (played.code == kOutputError) return kOutputError;
     if (!manner.quiet) {
-        fmt::print("{}{}output   {}\n", reportText(c, played.result, backend.description()),
-                   measureText(measuresOf(folder.path(), c, played.result)), printable(folder.path().string()));
-        if (played.code == kInterrupted) fmt::print("resume   {}\n", wayOn(folder));
-        if (played.code == kOk) fmt::print("{}", nextText(folder.path()));
+        tell("{}{}output   {}\n", reportText(c, played.result, backend.description()),
+             measureText(measuresOf(folder.path(), c, played.result)), printable(folder.path().string()));
+        if (played.code == kInterrupted) tell("resume   {}\n", wayOn(folder));
+        if (played.code == kOk) tell("{}", nextText(folder.path()));
     }
     const bool clean = validationClean(manner.choice, backend);
     return played.error.empty() && !clean ? kDeviceError : played.code;
@@ -128,10 +129,10 @@ int resumeCommand(const ResumeOptions& options) {
     const BackendChoice choice = sameBackend(run.from->backend, options.backend);
     const std::unique_ptr<Backend> backend = makeBackend(choice, run.filled.particles.size());
     if (backend->description() != run.from->backend || run.from->program != VKDOSE_VERSION)
-        fmt::print(stderr,
-                   "vkdose: the checkpoint was written by vkdose {} on {}; going on with {} on {} is not bound to give "
-                   "the same bits\n",
-                   run.from->program, run.from->backend, VKDOSE_VERSION, backend->description());
+        tell(stderr,
+             "vkdose: the checkpoint was written by vkdose {} on {}; going on with {} on {} is not bound to give "
+             "the same bits\n",
+             run.from->program, run.from->backend, VKDOSE_VERSION, backend->description());
     RunFolder folder = folderOf(run, options.folder, true, *backend);
     return playAloud(std::move(run), *backend, folder,
                      {choice, options.quiet, options.live, options.events, options.parent});

@@ -12,6 +12,7 @@
 #include "host/app/speed.h"
 #include "host/app/sweep_display.h"
 #include "host/app/sweep_setup.h"
+#include "host/app/tell.h"
 #include "host/app/text.h"
 #include "host/core/error.h"
 #include "host/core/printable.h"
@@ -84,14 +85,13 @@ int sweepCommand(const SweepOptions& options) {
                                      shellWord(options.study.string())));
     const std::vector<Member> members = membersOf(study);
     if (options.dryRun) {
-        fmt::print("{}", planText(options, study, members));
+        tell("{}", planText(options, study, members));
         return kOk;
     }
     if (options.prepare) {
         SweepFolder folder(sweepFolder(options), study, members);
         for (const Member& member : members) folder.begin(member);
-        fmt::print("{} to run in {}\n", counted(members.size(), "member"),
-                   printable((folder.path() / "members").string()));
+        tell("{} to run in {}\n", counted(members.size(), "member"), printable((folder.path() / "members").string()));
         return kOk;
     }
     if (!runner) runner = makeRunner(options);

@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "host/app/tell.h"
 #include "host/app/text.h"
 #include "host/core/printable.h"
 
@@ -78,7 +79,7 @@ SweepDisplay::~SweepDisplay() {
 
 void SweepDisplay::begin(const std::vector<Member>& members, const std::string& manner) {
     if (quiet_) return;
-    fmt::print("{}: {}, {}\n", printable(study_.name), counted(members.size(), "member"), manner);
+    tell("{}: {}, {}\n", printable(study_.name), counted(members.size(), "member"), manner);
     std::fflush(stdout);
 }
 
@@ -88,9 +89,9 @@ void SweepDisplay::onMember(const Member& member, const MemberResult& result) {
     close();
     const std::string head = fmt::format("member {:04} ({})", member.number, memberText(study_, member));
     if (failed) {
-        fmt::print(stderr, "{} failed: {}\n", head, printable(result.error));
+        tell(stderr, "{} failed: {}\n", head, printable(result.error));
     } else {
-        fmt::print("{} {}: {}\n", head, statusText(result.status), dosesText(result));
+        tell("{} {}: {}\n", head, statusText(result.status), dosesText(result));
         std::fflush(stdout);
     }
 }
@@ -115,18 +116,18 @@ void SweepDisplay::onProgress(const SweepProgress& p) {
 void SweepDisplay::onBeds(std::size_t beds, std::size_t members) {
     if (quiet_) return;
     close();
-    fmt::print("{} settle{} once, for {}\n", counted(beds, "bed"), beds == 1 ? "s" : "", counted(members, "member"));
+    tell("{} settle{} once, for {}\n", counted(beds, "bed"), beds == 1 ? "s" : "", counted(members, "member"));
     std::fflush(stdout);
 }
 
 void SweepDisplay::onBusy(const std::filesystem::path& folder) {
     close();
-    fmt::print(stderr, "vkdose: waiting for the process that writes into {}\n", printable(folder.string()));
+    tell(stderr, "vkdose: waiting for the process that writes into {}\n", printable(folder.string()));
 }
 
 void SweepDisplay::onAnew(const Member& member, const std::string& why) {
     close();
-    fmt::print(stderr, "vkdose: member {:04} starts anew, because {}\n", member.number, why);
+    tell(stderr, "vkdose: member {:04} starts anew, because {}\n", member.number, why);
 }
 
 void SweepDisplay::finish(const SweepFolder& folder, const SweepOutcome& outcome) {
@@ -135,13 +136,13 @@ void SweepDisplay::finish(const SweepFolder& folder, const SweepOutcome& outcome
                                     shellWord(folder.path().string()));
     for (const std::string& text : study_.overrides) again += " --set " + shellWord(text);
     if (!outcome.whole)
-        fmt::print(stderr, "vkdose: interrupted; go on with `{}`\n", again);
+        tell(stderr, "vkdose: interrupted; go on with `{}`\n", again);
     else if (outcome.failed > 0)
-        fmt::print(stderr, "vkdose: {} failed; run again with `{} --retry-failed`\n", counted(outcome.failed, "member"),
-                   again);
+        tell(stderr, "vkdose: {} failed; run again with `{} --retry-failed`\n", counted(outcome.failed, "member"),
+             again);
     if (quiet_) return;
-    fmt::print("{} done, {} failed\noutput   {}\n", outcome.ok, outcome.failed, printable(folder.path().string()));
-    if (outcome.ok > 0) fmt::print("next     vkdose report {}\n", shellWord(folder.path().string()));
+    tell("{} done, {} failed\noutput   {}\n", outcome.ok, outcome.failed, printable(folder.path().string()));
+    if (outcome.ok > 0) tell("next     vkdose report {}\n", shellWord(folder.path().string()));
 }
 
 void SweepDisplay::close() {

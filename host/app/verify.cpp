@@ -6,6 +6,7 @@
 #include "host/app/commands.h"
 #include "host/app/exit_code.h"
 #include "host/app/interrupt.h"
+#include "host/app/tell.h"
 #include "host/core/file.h"
 #include "host/core/printable.h"
 #include "host/verify/findings_table.h"
@@ -34,20 +35,20 @@ int verifyCommand(const VerifyOptions& options) {
     const std::atomic<bool>& stop = watchInterrupts();
     const auto start = clock::now();
     std::vector<verify::Check> checks;
-    fmt::print("on {}\n\n{}\n", backend->description(), verify::headLine());
+    tell("on {}\n\n{}\n", backend->description(), verify::headLine());
     for (const verify::Scene& scene : scenes) {
         if (stop) break;
         std::fflush(stdout);
         for (const verify::Check& check : verify::play(scene, *backend)) {
-            fmt::print("{}\n", verify::tableLine(check));
+            tell("{}\n", verify::tableLine(check));
             checks.push_back(check);
         }
     }
     const verify::Setting setting{backend->description(), std::chrono::duration<double>(clock::now() - start).count()};
     replaceFile(options.out / "verify.json", verify::jsonTable(checks, setting));
     replaceFile(options.out / "verify.md", verify::markdownTable(checks, setting));
-    fmt::print("\n{}, in {:.0f} s; {} and verify.json say the same\n", verify::tally(checks), setting.seconds,
-               printable((options.out / "verify.md").string()));
+    tell("\n{}, in {:.0f} s; {} and verify.json say the same\n", verify::tally(checks), setting.seconds,
+         printable((options.out / "verify.md").string()));
     if (stop) return kInterrupted;
     if (!validationClean(options.backend, *backend)) return kDeviceError;
     return verify::failures(checks) == 0 ? kOk : kDisagree;

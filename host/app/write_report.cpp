@@ -3,6 +3,7 @@
 #include "host/app/commands.h"
 #include "host/app/exit_code.h"
 #include "host/app/inputs.h"
+#include "host/app/tell.h"
 #include "host/core/file.h"
 #include "host/core/printable.h"
 #include "host/output/run_files.h"
@@ -57,7 +58,7 @@ int compareRuns(const ReportOptions& options) {
     const fs::path file = options.out.empty() ? "comparison.html" : options.out;
     keepInputs(read, {file});
     replaceFile(file, report::page(report::runsJson(options.sources)));
-    fmt::print("{}\n", printable(file.string()));
+    tell("{}\n", printable(file.string()));
     return kOk;
 }
 
@@ -88,7 +89,7 @@ int reportCommand(const ReportOptions& options) {
                                   ? report::studyJson(folder, options.expected)
                                   : report::runJson(folder, options.experiment, report::framesOf(folder), photographs);
     replaceFile(file, report::page(data));
-    fmt::print("{}\n", printable(file.string()));
+    tell("{}\n", printable(file.string()));
     return kOk;
 }
 

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "host/model/case_tree.h"
-#include "host/model/closest_word.h"
 #include "host/model/key.h"
 #include "host/model/section.h"
 

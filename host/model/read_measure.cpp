@@ -7,6 +7,7 @@
 #include <set>
 
 #include "host/model/case_sections.h"
+#include "host/model/closest_word.h"
 
 namespace vkdose {
 namespace {

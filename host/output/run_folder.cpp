@@ -182,15 +182,23 @@ void RunFolder::onState(KeptState kind, const RunCheckpoint& state, double time)
         store(fs::path(kFramesFolder) / frameStateFile(frames_->last()), state, time);
 }
 
-void RunFolder::finish(const Case& c, const RunResult& result) {
+void RunFolder::storeTables() {
     timeSeries_->store();
     doses_->store();
     if (frames_) frames_->store();
     fields_->store();
+}
+
+void RunFolder::finish(const Case& c, const RunResult& result) {
+    storeTables();
     if (result.endState) writeParticles(folder_ / "particles.csv", result.particles);
     RunHistory history = historyOf(folder_, c, result);
     history.origin = role_.origin;
     replaceFile(folder_ / "summary.json", summaryJson(c, result, backend_, history) + "\n");
+    // Whoever removed the folder while these two were written has removed the tables by now, or the case, and is told.
+    storeTables();
+    if (!fs::exists(folder_ / "case.toml"))
+        throw OutputError(fmt::format("{} has been removed or moved away", (folder_ / "case.toml").string()));
     if (result.reason == StopReason::Interrupted || !result.error.empty()) return;
     std::error_code ignored;
     fs::remove(folder_ / kCheckpointName, ignored);

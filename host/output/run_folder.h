@@ -63,6 +63,8 @@ class RunFolder : public RunObserver {
     std::optional<double> checkpointTime() const { return checkpointTime_; }
 
   private:
+    /// Throws OutputError if one of the tables is no longer where it was.
+    void storeTables();
     void store(const std::filesystem::path& name, const RunCheckpoint& state, double time);
 
     std::filesystem::path folder_;

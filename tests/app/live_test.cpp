@@ -146,6 +146,21 @@ TEST_CASE("under nohup a run outlives its terminal") {
     CHECK(nlohmann::json::parse(readText(box / "out/summary.json"))["stop_reason"] != "interrupted");
 }
 
+TEST_CASE("a command whose messages find no room ends as it would have ended") {
+    const Sandbox box;
+    const auto withoutRoom = [&](const std::string& arguments) {
+        const std::string command = "cd '" + box.path().string() + "' && exec '" VKDOSE_BINARY_DIR "/vkdose' " +
+                                    arguments + " > /dev/full 2> /dev/full";
+        const int status = std::system(command.c_str());
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+    };
+    CHECK(withoutRoom("run " + kShort + "--out out") == 0);
+    CHECK(nlohmann::json::parse(readText(box / "out/summary.json"))["interrupted"] == false);
+    CHECK(withoutRoom("run " + kShort + "--set contact.max_overlap_ratio=1e-9 --out b") == 3);
+    CHECK(withoutRoom("run nothing.toml") == 2);
+    CHECK(withoutRoom("rum") == 2);
+}
+
 TEST_CASE("without a terminal --live says so and goes on with plain progress") {
     const Sandbox box;
     const auto o = box.vkdose("run " + kShort + "--live --out a");

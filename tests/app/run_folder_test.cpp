@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "host/app/end_table.h"
 #include "host/output/end_state.h"
@@ -254,6 +255,33 @@ TEST_CASE("a failed run is summed up as such") {
 TEST_CASE("a time series that cannot be written stops the run with a reason") {
     REQUIRE(fs::exists("/dev/full"));  // stands in for a full disk
     CHECK_THROWS_AS(CsvFile("/dev/full", "header"), OutputError);
+}
+
+TEST_CASE("a table that is removed while the last files of a run are written is told") {
+    const Case c = smallCase();
+    const std::string name = GENERATE("doses.csv", "case.toml");
+    for (bool conclusive = false; !conclusive;) {
+        const Sandbox box;
+        FakeBackend backend;
+        RunFolder folder(box / "out", false, c, "fake");
+        RunResult r = runInto(folder, backend, c);
+        fs::remove(box / "out/summary.json");
+        fs::remove(box / "out/particles.csv");
+        for (int i = 0; i < 100000; ++i) r.particles.add({1e-3 * i, 0, 0}, 1e-3);  // takes a while to write
+        std::thread vandal([&] {
+            while (!fs::exists(box / "out/particles.csv")) std::this_thread::yield();
+            fs::remove(box / "out" / name);
+            conclusive = !fs::exists(box / "out/summary.json");  // or it came too late
+        });
+        std::string told;
+        try {
+            folder.finish(c, r);
+        } catch (const OutputError& e) {
+            told = e.what();
+        }
+        vandal.join();
+        if (conclusive) CHECK_THAT(told, Catch::Contains(name) && Catch::Contains("removed or moved away"));
+    }
 }
 
 TEST_CASE("figures that are not numbers become null in the summary") {
