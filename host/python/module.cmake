@@ -22,4 +22,5 @@ endforeach()
 
 pybind11_add_module(vkdose_python MODULE NO_EXTRAS host/python/core.cpp)
 target_link_libraries(vkdose_python PRIVATE vkdose_play)
-set_target_properties(vkdose_python PROPERTIES OUTPUT_NAME _core LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/python/vkdose)
+set_target_properties(vkdose_python PROPERTIES OUTPUT_NAME _core
+                                               LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/python/vkdose)

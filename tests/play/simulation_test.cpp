@@ -60,7 +60,7 @@ TEST_CASE("it goes on for the time asked for, to within half an interval of the 
     CHECK(run.simulation->over());
 }
 
-TEST_CASE("it goes on from dose to dose; a dose is there when it has ended") {
+TEST_CASE("it goes on from dose to dose, and a dose is there when it has ended") {
     const Led run = led(listedCase());
     for (const double end : {0.17, 0.24}) {
         run.toDose();
