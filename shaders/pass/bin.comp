@@ -10,7 +10,7 @@ void main() {
     openMember();
     if (control.wanted.x == 0u) return;
     uint i = firstParticle() + invocation();
-    vec4 p = readState(push.source, kPosition, i);
+    vec4 p = readState(source, kPosition, i);
     if (p.w <= 0.0) return;
     uint head = headIndex(self, cellSlot(cellOf(p.xyz, numerics().z)));
     cells[nextIndex(i)] = atomicExchange(cells[head], i);

@@ -75,7 +75,8 @@ void main() {
     ContactParams ofWall = lawOf(kParticleWall), ofCoil = lawOf(kParticleCoil);  // before any branch, as in `pairs`
     uvec4 chosen = choices();
     float springDt = springStep();
-    if (invocation() >= control.body.x) return;
+    uint listed = control.body.x;
+    if (waits() || invocation() >= listed) return;
     uint slot = firstBodySlot() + invocation();
     uvec2 who = entriesAt(slot);
     uint i = who.x, body = who.y;

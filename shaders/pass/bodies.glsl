@@ -32,6 +32,6 @@ uvec4 geometryAt(uint i) { return geometry[geometryBegin + i]; }
 #include "law/features.glsl"
 #include "law/pose.glsl"
 
-BodyMotion motionOf(uint body) { return motions[member.bodies.z + push.stepInBatch * member.bodies.w + body]; }
+BodyMotion motionOf(uint body) { return motions[member.bodies.z + stepInBatch * member.bodies.w + body]; }
 
 #endif

@@ -11,9 +11,9 @@ struct Body {
 };
 
 Body readBody(uint i) {
-    vec4 position = readState(push.source, kPosition, i);
-    return Body(Sphere(position.xyz, readState(push.source, kResidue, i).xyz, position.w),
-                readState(push.source, kVelocity, i).xyz, readState(push.source, kSpin, i).xyz);
+    vec4 position = readState(source, kPosition, i);
+    return Body(Sphere(position.xyz, readState(source, kResidue, i).xyz, position.w),
+                readState(source, kVelocity, i).xyz, readState(source, kSpin, i).xyz);
 }
 
 #endif

@@ -35,12 +35,13 @@ void main() {
     CoilParams coil = member.coil;
     uvec4 chosen = choices();
     float springDt = springStep();
-    if (invocation() >= control.listed.z) return;
+    uint listed = control.listed.z;
+    if (waits() || invocation() >= listed) return;
     uint slot = firstCoilSlot() + invocation();
     uint i = entriesAt(slot).x;
     Body me = readBody(i);
     vec4 angles = coilHistoryAt(wireAngleIndex(i));
-    CoilView view = coilView(coil, coilTurn(coil.phase, push.stepInBatch), me.sphere);
+    CoilView view = coilView(coil, coilTurn(coil.phase, stepInBatch), me.sphere);
     uint trouble = kEmpty;
     uint trips = coilCandidates(coil, view), candidates = 0u;
     for (uint k = 0u; k < trips; ++k) {

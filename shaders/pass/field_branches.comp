@@ -1,7 +1,7 @@
 #version 450
 // field_branches: the branch of every contact that touched in the last step, one contact per invocation.
 // Reads the state before that step (the half that is not the source), entries, forces, the turns of the coil that are
-// touched, history, and coil and bodies as they stood in step stepInBatch of the last batch. Writes the branches
+// touched, history, and coil and bodies as they stood in the last step. Writes the branches
 // (pass/field.glsl).
 #extension GL_GOOGLE_include_directive : require
 #include "shared/buffers.glsl"
@@ -12,7 +12,7 @@
 #include "pass/field.glsl"
 
 Sphere sphereBefore(uint i) {
-    uint side = 1u - push.source;
+    uint side = 1u - source;
     vec4 position = state[stateIndex(side, kPosition, i)];
     return Sphere(position.xyz, state[stateIndex(side, kResidue, i)].xyz, position.w);
 }
@@ -20,7 +20,7 @@ Sphere sphereBefore(uint i) {
 /// From the turn that is touched at `angle`; w: 1 if there is one.
 vec4 fromCoil(Sphere a, float angle) {
     CoilParams coil = member.coil;
-    CoilView view = coilView(coil, coilTurn(coil.phase, push.stepInBatch), a);
+    CoilView view = coilView(coil, coilTurn(coil.phase, stepInBatch - 1u), a);
     uint trips = coilCandidates(coil, view);
     vec4 branch = vec4(0.0);
     for (uint k = 0u; k < trips; ++k) {

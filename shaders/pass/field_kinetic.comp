@@ -10,10 +10,10 @@ vec3 mean;            // velocity of the field here
 vec3 squares, mixed;  // xx, yy, zz; yz, zx, xy
 
 void add(uint i) {
-    float r = state[stateIndex(push.source, kPosition, i)].w;
+    float r = state[stateIndex(source, kPosition, i)].w;
     float m = gravity().w * (4.0 / 3.0 * 3.14159265358979) * r * r * r;
-    vec3 stray = state[stateIndex(push.source, kVelocity, i)].xyz - mean;
-    float w = m * weights[particleWeightIndex(i)] * kernel(here - offsetOf(push.source, i));
+    vec3 stray = state[stateIndex(source, kVelocity, i)].xyz - mean;
+    float w = m * weights[particleWeightIndex(i)] * kernel(here - offsetOf(source, i));
     squares += w * stray * stray;
     mixed += w * stray.yzx * stray.zxy;
 }

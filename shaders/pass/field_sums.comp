@@ -22,7 +22,7 @@ void addBranch(uint contact, vec3 from) {
 
 /// Adds the contacts whose first body is particle i, in the order of its links.
 void addBranches(uint i) {
-    vec3 from = offsetOf(1u - push.source, i);
+    vec3 from = offsetOf(1u - source, i);
     uvec4 range = ranges[rowRangeIndex(i)];
     for (uint k = 0u; k < range.w; ++k) {
         uint link = rows[linkIndex(range.z + k)], slot = link >> 1u;
@@ -37,10 +37,10 @@ void addBranches(uint i) {
 }
 
 void add(uint i) {
-    float r = state[stateIndex(push.source, kPosition, i)].w;
+    float r = state[stateIndex(source, kPosition, i)].w;
     float m = gravity().w * (4.0 / 3.0 * 3.14159265358979) * r * r * r;
-    vec3 velocity = state[stateIndex(push.source, kVelocity, i)].xyz;
-    float w = weights[particleWeightIndex(i)] * kernel(here - offsetOf(push.source, i));
+    vec3 velocity = state[stateIndex(source, kVelocity, i)].xyz;
+    float w = weights[particleWeightIndex(i)] * kernel(here - offsetOf(source, i));
     carriedMass += w * m * vec4(1.0, velocity);
     number += w * vec2(1.0, weights[touchesIndex(i)]);
     if (field.tile.w == 1u) addBranches(i);

@@ -42,8 +42,8 @@ void main() {
     uint k = invocation();
     if (k < push.share) {
         uint i = firstParticle() + k;
-        bool active_ = uint(state[stateIndex(push.source, kSpin, i)].w) == kStatusActive;
-        weights[particleWeightIndex(i)] = active_ ? weightAt(offsetOf(push.source, i)) : 0.0;
+        bool active_ = uint(state[stateIndex(source, kSpin, i)].w) == kStatusActive;
+        weights[particleWeightIndex(i)] = active_ ? weightAt(offsetOf(source, i)) : 0.0;
         weights[touchesIndex(i)] = active_ ? touching(i) : 0.0;
         return;
     }
@@ -54,6 +54,6 @@ void main() {
     Place at = memberContact(k);
     if (at.contact == kEmpty) return;
     vec4 branch = branches[at.contact];
-    vec3 from = offsetOf(1u - push.source, entries[at.slot].x);
+    vec3 from = offsetOf(1u - source, entries[at.slot].x);
     weights[nodeWeightIndex(at.contact, node)] = branch.w > 0.0 ? weightAt(from - kNodes[node] * branch.xyz) : 0.0;
 }

@@ -32,14 +32,14 @@ void main() {
     openMember();
     if (control.wanted.y == 0u) return;
     uint i = firstParticle() + invocation();
-    vec4 p = readState(push.source, kPosition, i);
+    vec4 p = readState(source, kPosition, i);
     float slack = slackOfParticle(i);
     uvec4 range = rangesAt(rowRangeIndex(i)), own = rangesAt(slotRangeIndex(i));
 
     uint count = 0u, mine = own.x;
     for (uint s = 0u; s < range.y; ++s) {
         uint j = rowsAt(rowIndex(range.x + s));
-        if (!nearPair(p, slack, readState(push.source, kPosition, j), slackOfParticle(j))) continue;
+        if (!nearPair(p, slack, readState(source, kPosition, j), slackOfParticle(j))) continue;
         uint slot = mine;
         if (j > i)
             ++mine;

@@ -6,7 +6,7 @@
 #include "law/surface.glsl"
 #include "pass/slack.glsl"
 
-float slackOfParticle(uint i) { return slackOf(readState(push.source, kVelocity, i).xyz); }
+float slackOfParticle(uint i) { return slackOf(readState(source, kVelocity, i).xyz); }
 
 /// Symmetric to the last bit, so that both particles of a pair decide the same. The factor covers the rounding.
 bool nearPair(vec4 p, float slackP, vec4 q, float slackQ) {
@@ -18,7 +18,7 @@ bool nearPair(vec4 p, float slackP, vec4 q, float slackQ) {
 bool nearTheCoil(Sphere a, float slack) {
     if (!hasCoil() || a.radius < 0.0) return false;
     CoilParams coil = member.coil;
-    return nearCoil(coil, coilTurn(coil.phase, push.stepInBatch), a, slack + coilSlack());
+    return nearCoil(coil, coilTurn(coil.phase, stepInBatch), a, slack + coilSlack());
 }
 
 // The kind is known when the pipeline is made, so that all but one branch of surfaceGap fold away, and the parameters

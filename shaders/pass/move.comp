@@ -36,11 +36,16 @@ void main() {
     uint i = firstParticle() + invocation();
     vec4 pull = gravity(), numbers = numerics();
     vec4 bottom = domainLow(), top = domainHigh();
+    if (waits()) {  // and the next step does so, too
+        if (push.stepInStride < control.steps.y && callOfStep >= kCallSoon) callOfStep = kCallWaits;
+        return;
+    }
+    if (invocation() == 0u) control.steps.z = push.stepInStride + 1u;
 
-    vec4 position = readState(push.source, kPosition, i);
-    vec4 residue = readState(push.source, kResidue, i);
-    vec4 velocity4 = readState(push.source, kVelocity, i);
-    vec4 spin4 = readState(push.source, kSpin, i);
+    vec4 position = readState(source, kPosition, i);
+    vec4 residue = readState(source, kResidue, i);
+    vec4 velocity4 = readState(source, kVelocity, i);
+    vec4 spin4 = readState(source, kSpin, i);
     vec3 rowAnchor = anchorsAt(rowAnchorIndex(i)).xyz;
     vec4 listAnchor = anchorsAt(listAnchorIndex(i));  // w: slack
     uvec4 range = rangesAt(rowRangeIndex(i));
@@ -89,13 +94,15 @@ void main() {
 
     // Lists may be made from the rows at any time, so the rows must always hold all that is within the slack.
     bool rebuild = leaves || beyond(high - rowAnchor, (1.0 - kMostSlack) * slackUnit());
-    bool refresh = beyond(high - listAnchor.xyz, listAnchor.w);
-    uint call = !sound                ? kErrorNan
+    vec3 way = high - listAnchor.xyz;
+    bool refresh = beyond(way, listAnchor.w), soon = beyond(way + float(kStride) * dt * velocity, listAnchor.w);
+    uint kind = !sound                ? kErrorNan
                 : overlap > numbers.w ? kErrorOverlap
                 : now == kStatusLost  ? kErrorLost
                 : rebuild             ? kCallRebuild
                                       : kCallRefresh;
-    if (moving && (call < kErrors || rebuild || refresh)) report(call, i);
+    bool atOnce = kind < kErrors || rebuild || refresh;
+    if (moving && (atOnce || soon)) atomicMin(callOfStep, atOnce ? kind << kCallShift | i : kCallSoon);
 
 #ifdef ENERGY_BOOK
     if (moving)
@@ -103,7 +110,7 @@ void main() {
                  bodyWork, leaves);
 #endif
 
-    uint to = 1u - push.source;
+    uint to = 1u - source;
     float radius = leaves ? -position.w : position.w;  // a negative radius touches nothing
     writeState(to, kPosition, i, moving ? vec4(high, radius) : position, moving ? vec4(low, 0.0) : residue);
     writeState(to, kVelocity, i, moving ? vec4(velocity, max(velocity4.w, overlap)) : velocity4,

@@ -54,7 +54,7 @@ void bookDepartureFromBody(uint i, uint slot, uint body) {
 float reachOfBodies(float radius, float slack) { return radius + slack + bodySlack() + 2.0 * member.choices.w + 1e-7; }
 
 Two3 centreOn(uint body, uint i) {
-    return toBody(motionOf(body), readState(push.source, kPosition, i).xyz, readState(push.source, kResidue, i).xyz);
+    return toBody(motionOf(body), readState(source, kPosition, i).xyz, readState(source, kResidue, i).xyz);
 }
 
 /// The bodies within reach, a bit each.
@@ -145,7 +145,7 @@ void main() {
     openMember();
     if (control.wanted.y == 0u) return;
     uint i = firstParticle() + invocation();
-    vec4 p = readState(push.source, kPosition, i);
+    vec4 p = readState(source, kPosition, i);
     Sphere me = Sphere(p.xyz, vec3(0.0), p.w);
     float slack = slackOfParticle(i);
     uvec4 range = rangesAt(rowRangeIndex(i));
@@ -153,7 +153,7 @@ void main() {
     pairs = 0u;
     for (uint s = 0u; s < range.y; ++s) {
         uint j = rowsAt(rowIndex(range.x + s));
-        if (j > i && nearPair(p, slack, readState(push.source, kPosition, j), slackOfParticle(j))) {
+        if (j > i && nearPair(p, slack, readState(source, kPosition, j), slackOfParticle(j))) {
             partners[pairs] = j;
             ++pairs;
         }

@@ -30,7 +30,7 @@ uint collect(uint i, vec4 p) {
         for (; j != kEmpty && visits <= kMostVisits; j = cells[nextIndex(j)]) {
             ++visits;
             if (j == i) continue;
-            vec4 q = readState(push.source, kPosition, j);
+            vec4 q = readState(source, kPosition, j);
             // Two cells may share a slot of the table: take a particle only from the cell it is in.
             if (cellOf(q.xyz, size) != cell) continue;
             float reach = p.w + q.w + skin;
@@ -52,7 +52,7 @@ void main() {
     openMember();
     if (control.wanted.x == 0u) return;
     uint i = firstParticle() + invocation();
-    vec4 p = readState(push.source, kPosition, i);
+    vec4 p = readState(source, kPosition, i);
     uint count = 0u;
     if (p.w > 0.0) count = collect(i, p);
     uint first = atomicAdd(control.list.x, count);

@@ -16,7 +16,8 @@ void main() {
     ContactParams law = lawOf(kParticleParticle);
     uvec4 chosen = choices();
     float springDt = springStep();
-    if (invocation() >= control.listed.x) return;
+    uint listed = control.listed.x;
+    if (waits() || invocation() >= listed) return;
     uint slot = firstPairSlot() + invocation();
 
     uvec2 who = entriesAt(slot);

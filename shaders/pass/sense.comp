@@ -13,9 +13,9 @@ shared float overlap[gl_WorkGroupSize.x];
 void main() {
     openMember();
     uint i = firstParticle() + invocation(), lane = gl_LocalInvocationID.x;
-    vec4 position = state[stateIndex(push.source, kPosition, i)];
-    vec4 velocity = state[stateIndex(push.source, kVelocity, i)];
-    vec4 spin = state[stateIndex(push.source, kSpin, i)];
+    vec4 position = state[stateIndex(source, kPosition, i)];
+    vec4 velocity = state[stateIndex(source, kVelocity, i)];
+    vec4 spin = state[stateIndex(source, kSpin, i)];
     uint status = uint(spin.w);
     float r = abs(position.w);
     float m = member.gravity.w * (4.0 / 3.0 * 3.14159265358979) * r * r * r;
@@ -39,7 +39,7 @@ void main() {
              float(here[kRegionThroat]) * m * velocity.z, coilTorque);
     overlap[lane] = velocity.w;
     if (status != kStatusPadding) {
-        state[stateIndex(push.source, kVelocity, i)] = vec4(velocity.xyz, 0.0);
+        state[stateIndex(source, kVelocity, i)] = vec4(velocity.xyz, 0.0);
     }
 
     for (uint width = gl_WorkGroupSize.x / 2u; width > 0u; width /= 2u) {

@@ -13,11 +13,11 @@ shared EnergyRecord record[gl_WorkGroupSize.x];
 void main() {
     openMember();
     uint i = firstParticle() + invocation(), lane = gl_LocalInvocationID.x;
-    uint before = 1u - push.source;
+    uint before = 1u - source;
     vec4 gravity = member.gravity;
-    vec4 position = state[stateIndex(push.source, kPosition, i)];
-    vec3 velocity = state[stateIndex(push.source, kVelocity, i)].xyz;
-    vec4 spin = state[stateIndex(push.source, kSpin, i)];
+    vec4 position = state[stateIndex(source, kPosition, i)];
+    vec3 velocity = state[stateIndex(source, kVelocity, i)].xyz;
+    vec4 spin = state[stateIndex(source, kSpin, i)];
     vec3 start = state[stateIndex(before, kPosition, i)].xyz;
     vec3 oldVelocity = state[stateIndex(before, kVelocity, i)].xyz;
     vec3 oldSpin = state[stateIndex(before, kSpin, i)].xyz;

@@ -47,7 +47,8 @@ void main() {
     SurfaceParams frontWall = frontSurface();
     uvec4 chosen = choices();
     float springDt = springStep();
-    if (invocation() >= control.listed.y) return;
+    uint listed = control.listed.y;
+    if (waits() || invocation() >= listed) return;
     uint slot = firstSurfaceSlot() + invocation();
     uvec2 who = entriesAt(slot);
     uint works = who.y >> kSurfaceBits;

@@ -32,11 +32,11 @@ bool openTile(out vec3 low, out vec3 high) {
 
 /// Whether the kernel around a place of the grid, no further than `margin` from particle i, may reach the tile.
 bool reaches(uint i, vec3 low, vec3 high, float margin) {
-    vec3 offset = offsetOf(push.source, i);
+    vec3 offset = offsetOf(source, i);
     vec3 outside = max(-offset, offset - field.size.xyz);
     vec3 away = field.along.xyz * max(max(low - offset, offset - high), vec3(0.0));
     float reach = field.low.w + margin;
-    return uint(state[stateIndex(push.source, kSpin, i)].w) == kStatusActive &&
+    return uint(state[stateIndex(source, kSpin, i)].w) == kStatusActive &&
            all(lessThanEqual(outside, vec3(margin))) && dot(away, away) < reach * reach;
 }
 

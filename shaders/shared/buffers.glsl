@@ -70,10 +70,24 @@ const uint kBodyHistory = kMaxBodyTouches * kPlaceParts;  // of a body slot
 /// The member that this workgroup works for. A dispatch has a row of workgroups for each live member. A run on its own
 /// is an ensemble of one member; the compiler then removes all that depends on this.
 uint self;
+uint source;       // which half of its state is current; `move` writes the other one
+uint stepInBatch;  // the step at work, counted from the start of the batch; outside of a stride, the next one
 #define member members[self]
 #define control controls[self]
 void openRow(uint row) { self = MEMBERS == 1u ? 0u : members[row].roster.x; }
-void openMember() { openRow(push.firstRow + gl_WorkGroupID.y); }
+void openMember() {
+    openRow(push.firstRow + gl_WorkGroupID.y);
+    uint made = control.steps.x + push.stepInStride;
+    source = made & 1u;
+    stepInBatch = made - member.roster.y;
+}
+
+/// Whether the member does not make this step of the stride: it is beyond what `decide` allowed, or the step before
+/// made a call or was not made either. Calls of this very step come in while others ask; they have a word of their own.
+bool waits() {
+    uint most = control.steps.y, before = control.call[1u - (push.stepInStride & 1u)];
+    return push.stepInStride >= most || before < kCallSoon;
+}
 
 // A member's parameters. lavapipe reads a value once for all invocations if they read it from the same place and the
 // place is known when the pipeline is made. Otherwise texel reads are faster.
@@ -234,7 +248,8 @@ void writeTorques(uint slot, vec4 first, vec4 second) {
 #endif
 void writeTorque(uint slot, vec4 first) { torques[torqueIndex(slot, 0u)] = first; }
 
-/// An error or another call (kErrorLost ...), for `decide` at the end of the step.
-void report(uint kind, uint particle) { atomicMin(control.call.x, kind << kCallShift | particle); }
+#define callOfStep control.call[push.stepInStride & 1u]
+/// An error or another call (kErrorLost ...), for `decide` at the end of the stride.
+void report(uint kind, uint particle) { atomicMin(callOfStep, kind << kCallShift | particle); }
 
 #endif

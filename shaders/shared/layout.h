@@ -128,7 +128,8 @@ struct Member {
     vec4 numerics;    // time step [s], skin [m], cell size [m], largest allowed overlap ratio
     vec4 choices;     // Coulomb limit (kCoulombLuding ...), rolling lever (kLeverFull ...), 1 before any step; w: the
                       // longest way of any body in a step of this batch [m]
-    uvec4 roster;     // x: in block n, the member that row n of a dispatch works for
+    uvec4 roster;     // x: in block n, the member that row n of a dispatch works for; y, z: steps that the member has
+                      // made at the start and at the end of the batch
     uvec4 bodies;     // x: how many; y: where they begin in `geometry`; z: where their motions begin in `motions`; w:
                       // from one step's motions to the next one's
     vec4 outlets[2u * kMaxRegionOutlets];  // of a region that deletes: first vector's w: 0 none, and none behind it; 1
@@ -144,7 +145,8 @@ SHARED_CONST kMemberVectors = kVectorOutlets + 2u * kMaxRegionOutlets;
 
 // --- control block: decisions and reports of the device -----------------------------------------------------------
 // Calls of particles in order of urgency: errors first (causes before their effects), then rebuild, then refresh. A
-// call is one word, kind << kCallShift | particle, and the least wins, whatever order invocations run in.
+// call is one word, kind << kCallShift | particle, and the least wins, whatever order invocations run in. No further
+// step of the stride is made after a call. Only kCallSoon lets the stride go on.
 SHARED_CONST kErrorRowFull = 0u;
 SHARED_CONST kErrorCrowded = 1u;
 SHARED_CONST kErrorTables = 2u;
@@ -159,31 +161,33 @@ SHARED_CONST kCallRebuild = 9u;   // of the rows, and so of the contact lists
 SHARED_CONST kCallRefresh = 10u;  // of the contact lists
 SHARED_CONST kCallShift = 27u;
 SHARED_CONST kMostParticles = 1u << kCallShift;
+SHARED_CONST kCallWaits = 0xfffffffdu;  // this step was not made, because of a call in an earlier one
+SHARED_CONST kCallSoon = 0xfffffffeu;   // a refresh of the contact lists at the end of the stride; names no particle
+SHARED_CONST kStride = 8u;              // most steps between two decisions
 
-struct Dispatch {     // indirect arguments, three words each: workgroups in a row, a row for each live member, layers
+struct Dispatches {   // indirect arguments, three words each: workgroups in a row, a row for each live member, layers.
+                      // For all members together: as many workgroups as the one that wants most.
     uvec4 cells;      // workgroups that clear the cell table, 0 while no rebuild of the rows is wanted
     uvec4 particles;  // workgroups over the particles, ditto
     uvec4 refresh;    // workgroups over the particles, 0 while no refresh of the contact lists is wanted
     uvec4 settle;     // one workgroup, ditto
-};
-
-struct Dispatches {    // for all members together: as many workgroups as the one that wants most
-    Dispatch step[2];  // of even and odd steps: `decide` clears that of its step and fills the other
-    uvec4 pairs;       // workgroups over the entries of the contact lists: pairs ...
-    uvec4 surfaces;    // ... contacts with surfaces ...
-    uvec4 coil;        // ... particles near the coil ...
-    uvec4 bodies;      // ... particles near a body
+    uvec4 pairs;      // workgroups over the entries of the contact lists: pairs ...
+    uvec4 surfaces;   // ... contacts with surfaces ...
+    uvec4 coil;       // ... particles near the coil ...
+    uvec4 bodies;     // ... particles near a body
 };
 
 struct Control {   // a member's
-    uvec4 wanted;  // x: 1 if this step starts with new rows, y: with new contact lists
+    uvec4 wanted;  // x: 1 if this stride starts with new rows, y: with new contact lists; z, w: if a later one is to
+    uvec4 steps;   // x: made since load, modulo 2^32, before this stride; y: this stride has no more; z: made of these
     uvec4 listed;  // entries of the contact lists in use: pairs, surfaces, coil
     uvec4 coming;  // entries taken so far by the refresh at work: pairs, surfaces, coil, links
     uvec4 list;   // x: entries of the rows in use; y: rebuilds since load; z: longest row ever; w: refreshes since load
     uvec4 body;   // entries of the list of particles near bodies: x: in use, y: taken so far by the refresh at work
     vec4 drift;   // since the last refresh: x: way of the coil's wire along the axis, y: longest way of a body [m]
-    uvec4 call;   // x: the most urgent call of this step; kEmpty: none
-    uvec4 error;  // the first: x: step of the batch, y: kind, z: particle; x is kEmpty while there is none
+    uvec4 call;   // x: the most urgent call of the even steps of this stride, y: of the odd ones; kEmpty: none
+    uvec4 error;  // the first: x: step of the batch, y: kind, z: particle; x is kEmpty while there is none. It is the
+                  // last step that the member makes.
 };
 
 // --- sensing: records of workgroups, summed by the host in double precision ---------------------------------------
@@ -242,9 +246,8 @@ struct FieldParams {
 
 // --- per dispatch -------------------------------------------------------------------------------------------------
 struct StepPush {
-    uint stepInBatch;
-    uint source;     // which half of the state is read; the other is written
-    uint opening;    // 1 if this may be the first step of a member (Member.choices): half a kick, springs at rest
+    uint stepInStride;  // for `decide`: how many steps were recorded since the last decision
+    uint opening;       // 1 if this may be the first step of a member (Member.choices): half a kick, springs at rest
     uint firstRow;   // block of the roster for the first row of the dispatch
     uint live;       // members on the roster
     uint particles;  // slots of all members, padding included

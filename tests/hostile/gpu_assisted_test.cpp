@@ -45,20 +45,23 @@ TEST_CASE("GPU-assisted checks find an access outside a buffer") {
     Particles p;
     p.add({0, 0, 0}, 1e-3);
     const RuledWorld world = emptyWorld();
-    const gpu::Member member = packMember(world, world.law, p);
+    gpu::Member member = packMember(world, world.law, p);
+    member.roster.z = 1;  // a batch of one step
     Passes passes(device, tableSizes(world, Crowd(p), member, {64, 65535, device.limits().maxStorageBufferRange}));
     passes.members.write(0, &member, sizeof member);
     std::vector<gpu::vec4> half(std::size_t(gpu::kFields) * 64);
     packState(p, 64, 0, half);
     passes.state.writeAll(half);
     passes.reset();
-    auto dispatches = passes.controls.readAll<gpu::Dispatches>(1)[0];
-    dispatches.step[0].particles.x =
-        4;  // reaches beyond the two ranges and anchors that the one workgroup of particles has
-    passes.controls.write(0, &dispatches, sizeof dispatches);
+    gpu::Control control = passes.controlOf(0);
+    control.wanted = gpu::uvec4(0U);  // goes on with the lists, which hold a pair ...
+    control.listed.x = 1;
+    passes.setControl(0, control);
+    const glm::uvec2 pair(0U, 100'000U);  // ... with a particle that there is not
+    passes.entries.write(0, &pair, sizeof pair);
     vk::Commands commands(device);
     commands.begin();
-    passes.recordSteps(commands, 0, 1, 0, true);
+    passes.recordSteps(commands, 1, true);
     commands.hostBarrier();
     commands.submit();
     const std::vector<std::string> messages = withoutItsOwn(device.validationMessages());

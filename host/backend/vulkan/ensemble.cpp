@@ -92,7 +92,6 @@ void Ensemble::load(const std::vector<Canister>& canisters) {
         packState(members_[m].loaded, sizes.share, std::size_t(m) * sizes.share, half);
     passes_->state.writeAll(half);
     passes_->reset();
-    source_ = 0;
     std::vector<std::uint32_t> all(members_.size());
     std::iota(all.begin(), all.end(), 0U);
     setLive(all);
@@ -121,7 +120,7 @@ void Ensemble::setLaw(std::uint32_t member, const ContactLaw& law) {
 Record Ensemble::snapshot(std::uint32_t member) const {
     const MemberState& m = members_[member];
     Record record;
-    saveState(*passes_, member, m.loaded.size(), source_, record);
+    saveState(*passes_, member, m.loaded.size(), m.half(), record);
     record.putOne(kSnapshotSteps, m.step);
     record.putOne("coil_phase", m.turned);
     if (!m.world.bodies.empty()) record.putOne("drive", std::uint64_t(m.drive));
@@ -133,13 +132,14 @@ void Ensemble::restore(std::uint32_t member, const Record& record) {
     const auto step = record.one<std::uint64_t>(kSnapshotSteps);
     const auto turned = record.one<std::uint64_t>("coil_phase");
     const auto drive = m.world.bodies.empty() ? 0 : std::int64_t(record.one<std::uint64_t>("drive"));
-    restoreState(*passes_, member, m.loaded.size(), source_, record);
+    restoreState(*passes_, member, m.loaded.size(), m.half(), record);
     m.drive = drive;
     m.step = step;
     m.turned = turned;
 }
 
-void Ensemble::runBatch(std::uint32_t count, const std::vector<double>& coilRates, vk::Timestamps* times) {
+void Ensemble::runBatch(std::uint32_t count, const std::vector<double>& coilRates, PassTimes* times,
+                        std::vector<double>* seconds) {
     std::vector<std::uint64_t> perStep;
     bool opening = false;
     for (const std::uint32_t index : live_) {
@@ -150,27 +150,44 @@ void Ensemble::runBatch(std::uint32_t count, const std::vector<double>& coilRate
         m.block.coil.motion.x = float(coilRates[index]);
         m.block.coil.motion.y = m.world.coilSurfaceMoves ? m.block.coil.motion.x : 0.0f;
         m.block.choices.z = m.step == 0 ? 1.0f : 0.0f;
+        m.block.roster.y = m.made;
+        m.block.roster.z = m.made + count;
         opening = opening || m.step == 0;
     }
     writeMotions(count, coilRates);
     writeBlocks();
-    vk::Commands commands(device_);
-    commands.begin();
-    if (times != nullptr) times->reset(commands);
-    passes_->recordSteps(commands, 0, count, source_, opening, times);
-    commands.hostBarrier();
-    commands.submit();
-    source_ = (source_ + count) % 2;
-    lastStep_ = count - 1;
-    const std::vector<gpu::Control> controls = passes_->allControls();
+    for (std::uint32_t left = count; left > 0; opening = false) {
+        const std::uint32_t before = left;
+        left = submit(left, opening, times);
+        if (times != nullptr) times->addTo(*seconds);
+        if (left >= before) throw std::logic_error("a batch of steps does not come to its end");
+    }
     for (std::uint32_t row = 0; row < live_.size(); ++row) {
         MemberState& m = members_[live_[row]];
         m.turned += perStep[row] * count;
         m.drive += drivePerStep(coilRates[live_[row]], m.world.timeStep) * count;
         m.step += count;
-        const gpu::uvec4& error = controls[live_[row]].error;
-        if (error.x != gpu::kEmpty && !m.failure) keepError(live_[row], error, m.step - count);
     }
+}
+
+std::uint32_t Ensemble::submit(std::uint32_t count, bool opening, PassTimes* times) {
+    vk::Commands commands(device_);
+    commands.begin();
+    passes_->recordSteps(commands, count, opening, times);
+    commands.hostBarrier();
+    commands.submit();
+    const std::vector<gpu::Control> controls = passes_->allControls();
+    std::uint32_t left = 0;
+    for (const std::uint32_t index : live_) {
+        MemberState& m = members_[index];
+        m.made = controls[index].steps.x;
+        const gpu::uvec4& error = controls[index].error;
+        if (error.x == gpu::kEmpty)
+            left = std::max(left, m.block.roster.z - m.made);
+        else if (!m.failure)
+            keepError(index, error, m.step);
+    }
+    return left;
 }
 
 void Ensemble::advance(std::uint32_t steps, const std::vector<double>& coilRates) {
@@ -204,24 +221,21 @@ void Ensemble::keepError(std::uint32_t member, const gpu::uvec4& error, std::uin
 
 VulkanProfile Ensemble::profile(std::uint32_t steps, double coilRate) {
     constexpr std::uint32_t kBatch = 32;
-    const std::vector<const char*> names = Passes::stepNames();
-    const std::size_t kinds = names.size();
     VulkanProfile p;
-    std::unique_ptr<vk::Timestamps> times;
+    std::unique_ptr<PassTimes> times;
     if (vk::Timestamps::available(device_)) {
-        times = std::make_unique<vk::Timestamps>(device_, std::uint32_t(kBatch * kinds + 1));
-        for (const char* name : names) p.passes.push_back({name});
+        times = std::make_unique<PassTimes>(device_, Passes::mostDispatches(kBatch));
+        for (const char* name : Passes::names()) p.passes.push_back({name});
     }
+    std::vector<double> seconds(p.passes.size());
     const gpu::uvec4 before = passes_->controlOf(0).list;
     while (p.steps < steps) {
         const std::uint32_t count = std::min(kBatch, steps - p.steps);
-        runBatch(count, {coilRate}, times.get());
+        runBatch(count, {coilRate}, times.get(), &seconds);
         if (failure(0)) throw RunError(*failure(0));
         p.steps += count;
-        if (!times) continue;
-        const std::vector<double> seconds = times->durations();
-        for (std::size_t i = 0; i < seconds.size(); ++i) p.passes[i % kinds].seconds += seconds[i];
     }
+    for (std::size_t n = 0; n < seconds.size(); ++n) p.passes[n].seconds = seconds[n];
     const gpu::uvec4 after = passes_->controlOf(0).list;
     p.rebuilds = after.y - before.y;
     p.refreshes = after.w - before.w;
@@ -239,9 +253,9 @@ Sensors Ensemble::sense(std::uint32_t member, std::uint32_t steps) {
     const std::uint32_t groups = passes_->sizes.groups();
     vk::Commands commands(device_);
     commands.begin();
-    passes_->recordSensing(commands, source_, m.row);
+    passes_->recordSensing(commands, m.row);
     const bool energy = m.world.energyBook && m.step > 0;
-    if (energy) passes_->recordEnergySensing(commands, source_, m.step == 1, m.row);
+    if (energy) passes_->recordEnergySensing(commands, m.step == 1, m.row);
     commands.hostBarrier();
     commands.submit();
     Sensors s;
@@ -271,7 +285,7 @@ FieldPoints Ensemble::fields(std::uint32_t member, const FieldRequest& request) 
         fieldPasses_ = std::make_unique<FieldPasses>(device_, *passes_, request.grid.points());
     const MemberState& m = members_[member];
     const std::vector<double>& radii = m.loaded.radius;
-    return fieldPasses_->compute(request, {m.row, source_, lastStep_, *std::max_element(radii.begin(), radii.end())});
+    return fieldPasses_->compute(request, {m.row, *std::max_element(radii.begin(), radii.end())});
 }
 
 EnergyBook Ensemble::readEnergy(std::uint32_t member) const {
@@ -308,7 +322,7 @@ Particles Ensemble::particles(std::uint32_t member) const {
     const TableSizes& t = passes_->sizes;
     std::vector<gpu::vec4> share;
     for (std::uint32_t couple = 0; couple < gpu::kFields / 2; ++couple) {
-        const std::uint64_t row = source_ * (gpu::kFields / 2) + couple;
+        const std::uint64_t row = members_[member].half() * (gpu::kFields / 2) + couple;
         const auto part = passes_->state.readAll<gpu::vec4>(
             2ULL * t.share, 2 * (row * t.particles() + std::uint64_t(member) * t.share) * sizeof(gpu::vec4));
         share.insert(share.end(), part.begin(), part.end());

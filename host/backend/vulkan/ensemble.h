@@ -67,12 +67,15 @@ class Ensemble {
         Particles loaded;
         gpu::Member block{};
         std::uint64_t step = 0;
+        std::uint32_t made = 0;         ///< steps since load (gpu::Control::steps)
         std::uint64_t turned = 0;       ///< of the coil since load [2^-64 turns]; the same for any batches
         std::int64_t drive = 0;         ///< of the drive since load [kDrive turns]; likewise
         bool moves = false;             ///< one of its bodies
         std::vector<gpu::vec4> around;  ///< of each body: a sphere around it in its own frame: centre, radius [m]
         std::uint32_t row = 0;          ///< on the roster
         std::optional<std::string> failure;
+
+        std::uint32_t half() const { return made % 2; }  ///< of the state, which is current
     };
 
     // ensemble_bodies.cpp
@@ -83,7 +86,11 @@ class Ensemble {
     std::vector<BodyLoad> takeLoads(std::uint32_t member, std::uint32_t steps);
 
     void writeBlocks();
-    void runBatch(std::uint32_t count, const std::vector<double>& coilRates, vk::Timestamps* times = nullptr);
+    /// `count` steps of every live member.
+    void runBatch(std::uint32_t count, const std::vector<double>& coilRates, PassTimes* times = nullptr,
+                  std::vector<double>* seconds = nullptr);
+    /// Submits `count` steps. Returns how many of the batch are left to the member that made fewest.
+    std::uint32_t submit(std::uint32_t count, bool opening, PassTimes* times);
     void keepError(std::uint32_t member, const gpu::uvec4& error, std::uint64_t firstStep);
     EnergyBook readEnergy(std::uint32_t member) const;
 
@@ -95,9 +102,7 @@ class Ensemble {
     std::unique_ptr<FieldPasses> fieldPasses_;  ///< made when fields are asked for; after the tables they read
     std::vector<MemberState> members_;
     std::vector<std::uint32_t> live_;
-    std::uint32_t source_ = 0;    // half of the state that is current
-    std::uint32_t lastStep_ = 0;  // the last step of the last batch, counted within it
-    std::uint32_t batch_ = 16;    // steps per submission, adapted to the device
+    std::uint32_t batch_ = 16;  // steps per submission, adapted to the device
 };
 
 }  // namespace vkdose

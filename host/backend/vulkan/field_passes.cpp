@@ -137,7 +137,7 @@ FieldPoints FieldPasses::compute(const FieldRequest& request, const Moment& mome
 
     vk::Commands commands(device_);
     commands.begin();
-    gpu::StepPush push = passes_.push(moment.lastStep, moment.source, false);
+    gpu::StepPush push = passes_.push(0, false);
     push.firstRow = moment.row;
     if (request.contactStress) {
         branchBindings_.bind(commands.handle());

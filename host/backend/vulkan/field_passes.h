@@ -26,10 +26,8 @@ class FieldPasses {
     bool holds(const FieldRequest& request) const { return request.grid.points() <= own_.points; }
 
     struct Moment {
-        std::uint32_t row;       ///< of the member on the roster
-        std::uint32_t source;    ///< the half of the state that is current
-        std::uint32_t lastStep;  ///< the last step of the last batch, from which the coil's phase is counted
-        double largestRadius;    ///< [m]
+        std::uint32_t row;     ///< of the member on the roster
+        double largestRadius;  ///< [m]
     };
     /// Fields of a member. The request must have no fault (faultOf). The device must be idle.
     FieldPoints compute(const FieldRequest& request, const Moment& moment);

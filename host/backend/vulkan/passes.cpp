@@ -27,8 +27,7 @@ unsigned macrosFor(const Access& access, const TableSizes& s) {
 
 /// The number of workgroups of a pass of a step.
 enum class Extent {
-    OfStep,     ///< the device decides for each step: `arguments` are in its gpu::Dispatch
-    OfLists,    ///< the device decides at every refresh: `arguments` are in gpu::Dispatches
+    OfDevice,   ///< the device decides: `arguments` are in gpu::Dispatches
     Particles,  ///< those of all live members
     One,
 };
@@ -42,21 +41,22 @@ struct StepPass {
     bool forBodies = false;    ///< has nothing to do without bodies
 };
 
-/// A step: each pass waits for the one before.
-constexpr std::array kStep{
-    StepPass{"clear", spirv::clear, Extent::OfStep, offsetof(gpu::Dispatch, cells)},
-    StepPass{"bin", spirv::bin, Extent::OfStep, offsetof(gpu::Dispatch, particles)},
-    StepPass{"neighbours", spirv::neighbours, Extent::OfStep, offsetof(gpu::Dispatch, particles)},
-    StepPass{"near", spirv::near, Extent::OfStep, offsetof(gpu::Dispatch, refresh), true},
-    StepPass{"link", spirv::link, Extent::OfStep, offsetof(gpu::Dispatch, refresh)},
-    StepPass{"commit_lists", spirv::commit_lists, Extent::OfStep, offsetof(gpu::Dispatch, settle)},
-    StepPass{"pairs", spirv::pairs, Extent::OfLists, offsetof(gpu::Dispatches, pairs)},
-    StepPass{"surfaces", spirv::surfaces, Extent::OfLists, offsetof(gpu::Dispatches, surfaces)},
-    StepPass{"coil", spirv::coil, Extent::OfLists, offsetof(gpu::Dispatches, coil)},
-    StepPass{"bodies", spirv::bodies, Extent::OfLists, offsetof(gpu::Dispatches, bodies), true, true},
-    StepPass{"move", spirv::move, Extent::Particles},
+/// A stride: `decide`, the passes that make new lists, then steps of the other passes.
+constexpr std::array kPasses{
     StepPass{"decide", spirv::decide, Extent::One},
+    StepPass{"clear", spirv::clear, Extent::OfDevice, offsetof(gpu::Dispatches, cells)},
+    StepPass{"bin", spirv::bin, Extent::OfDevice, offsetof(gpu::Dispatches, particles)},
+    StepPass{"neighbours", spirv::neighbours, Extent::OfDevice, offsetof(gpu::Dispatches, particles)},
+    StepPass{"near", spirv::near, Extent::OfDevice, offsetof(gpu::Dispatches, refresh), true},
+    StepPass{"link", spirv::link, Extent::OfDevice, offsetof(gpu::Dispatches, refresh)},
+    StepPass{"commit_lists", spirv::commit_lists, Extent::OfDevice, offsetof(gpu::Dispatches, settle)},
+    StepPass{"pairs", spirv::pairs, Extent::OfDevice, offsetof(gpu::Dispatches, pairs)},
+    StepPass{"surfaces", spirv::surfaces, Extent::OfDevice, offsetof(gpu::Dispatches, surfaces)},
+    StepPass{"coil", spirv::coil, Extent::OfDevice, offsetof(gpu::Dispatches, coil)},
+    StepPass{"bodies", spirv::bodies, Extent::OfDevice, offsetof(gpu::Dispatches, bodies), true, true},
+    StepPass{"move", spirv::move, Extent::Particles},
 };
+constexpr std::size_t kDecide = 0, kFirstOfStep = 7, kMove = kPasses.size() - 1;
 
 }  // namespace
 
@@ -104,25 +104,42 @@ std::vector<const vk::Buffer*> with(const BodyTables& bodies, std::vector<const 
     return tables;
 }
 
+void PassTimes::begin(vk::Commands& commands) {
+    times_.reset(commands);
+    marked_.clear();
+    times_.mark(commands);
+}
+
+void PassTimes::mark(vk::Commands& commands, std::size_t n) {
+    times_.mark(commands);
+    marked_.push_back(n);
+}
+
+void PassTimes::addTo(std::vector<double>& seconds) const {
+    const std::vector<double> durations = times_.durations();
+    for (std::size_t k = 0; k < durations.size(); ++k) seconds[marked_[k]] += durations[k];
+}
+
 Passes::Passes(const vk::Device& device, const TableSizes& s, const BodyTables* bodyTables)
     : Tables(device, s, accessOn(device, s, bodyTables)),
       bodies(bodyTables),
       bindings_(device, all(), sizeof(gpu::StepPush)),
+      validated_(device.validated()),
       sense_(device, bindings_, vk::pick(spirv::sense, macrosFor(access, s)), constants(s)),
       senseEnergy_(device, bindings_, vk::pick(spirv::sense_energy, macrosFor(access, s)), constants(s)) {
     if (bodies != nullptr)
         bodyBindings_ = std::make_unique<vk::BindingSet>(device, with(*bodies, all()), sizeof(gpu::StepPush));
-    for (const StepPass& pass : kStep) {
-        std::optional<vk::Pipeline>& made = step_.emplace_back();
+    for (const StepPass& pass : kPasses) {
+        std::optional<vk::Pipeline>& made = passes_.emplace_back();
         if (pass.forBodies && !bodyBindings_) continue;  // drivers take their time with it
         made.emplace(device, pass.readsBodies && bodyBindings_ ? *bodyBindings_ : bindings_,
                      vk::pick(pass.variants, macrosFor(access, s)), constants(s));
     }
 }
 
-std::vector<const char*> Passes::stepNames() {
+std::vector<const char*> Passes::names() {
     std::vector<const char*> names;
-    for (const StepPass& pass : kStep) names.push_back(pass.name);
+    for (const StepPass& pass : kPasses) names.push_back(pass.name);
     return names;
 }
 
@@ -140,21 +157,18 @@ void Passes::reset() {
     }
     gpu::Control fresh{};
     fresh.call = fresh.error = gpu::uvec4(gpu::kEmpty);
-    fresh.wanted = gpu::uvec4(1, 1, 0, 0);
+    fresh.wanted = gpu::uvec4(0, 0, 1, 1);
     controls.writeAll(std::vector<gpu::Control>(sizes.members, fresh), controlOffset(0));
     setLive(sizes.members);
 }
 
 void Passes::setLive(std::uint32_t live) {
     const auto groups = [&](std::uint32_t n) { return gpu::uvec4(sizes.inRow(n), live, sizes.layers(n), 0); };
-    // The first time, every step dispatches the largest number of workgroups. After that the device sets the number
-    // from the work there is.
+    // The largest numbers of workgroups. The device sets the number from the work there is.
     gpu::Dispatches d{};
-    for (gpu::Dispatch& step : d.step) {
-        step.cells = groups((sizes.cells + sizes.workgroup - 1) / sizes.workgroup);
-        step.particles = step.refresh = groups(sizes.groups());
-        step.settle = gpu::uvec4(1, 1, 1, 0);
-    }
+    d.cells = groups((sizes.cells + sizes.workgroup - 1) / sizes.workgroup);
+    d.particles = d.refresh = groups(sizes.groups());
+    d.settle = gpu::uvec4(1, 1, 1, 0);
     d.pairs = groups(sizes.pairSlots / sizes.workgroup);
     d.surfaces = groups(sizes.surfaceSlots / sizes.workgroup);
     d.coil = groups(sizes.coilSlots / sizes.workgroup);
@@ -175,10 +189,9 @@ void Passes::setControl(std::uint32_t m, const gpu::Control& c) {
     controls.write(controlOffset(m), &c, sizeof c);
 }
 
-gpu::StepPush Passes::push(std::uint32_t step, std::uint32_t source, bool opening) const {
+gpu::StepPush Passes::push(std::uint32_t step, bool opening) const {
     gpu::StepPush p{};
-    p.stepInBatch = step;
-    p.source = source;
+    p.stepInStride = step;
     p.opening = opening ? 1u : 0u;
     p.live = live_;
     p.particles = sizes.particles();
@@ -193,50 +206,66 @@ gpu::StepPush Passes::push(std::uint32_t step, std::uint32_t source, bool openin
     return p;
 }
 
-void Passes::dispatch(vk::Commands& commands, std::size_t n, std::uint32_t source) const {
-    const StepPass& pass = kStep[n];
+void Passes::record(vk::Commands& commands, std::size_t n) const {
+    if (!passes_[n]) return;
+    const StepPass& pass = kPasses[n];
+    const bool ofBodies = pass.readsBodies && bodyBindings_ != nullptr;
+    if (ofBodies) bodyBindings_->bind(commands.handle());
+    passes_[n]->bind(commands.handle());
     switch (pass.extent) {
-        case Extent::OfStep:
-            commands.dispatchIndirect(
-                controls.handle(), offsetof(gpu::Dispatches, step) + source * sizeof(gpu::Dispatch) + pass.arguments);
-            return;
-        case Extent::OfLists:
+        case Extent::OfDevice:
             commands.dispatchIndirect(controls.handle(), pass.arguments);
-            return;
+            break;
         case Extent::Particles:
             commands.dispatch(sizes.inRow(sizes.groups()), live_, sizes.layers(sizes.groups()));
-            return;
+            break;
         case Extent::One:
             commands.dispatch(1, 1, 1);
     }
+    if (ofBodies) bindings_.bind(commands.handle());
 }
 
-void Passes::recordSteps(vk::Commands& commands, std::uint32_t first, std::uint32_t count, std::uint32_t source,
-                         bool opening, vk::Timestamps* times) const {
+std::uint32_t Passes::mostDispatches(std::uint32_t count) {
+    const std::uint32_t strides = (count + gpu::kStride - 1) / gpu::kStride;
+    return std::uint32_t(1 + strides * kFirstOfStep + count * (kPasses.size() - kFirstOfStep));
+}
+
+void Passes::recordSteps(vk::Commands& commands, std::uint32_t count, bool opening, PassTimes* times) const {
     const VkCommandBuffer c = commands.handle();
     bindings_.bind(c);
-    if (times != nullptr) times->mark(commands);
-    for (std::uint32_t n = first; n < first + count; ++n, source = 1 - source, opening = false) {
-        const gpu::StepPush p = push(n, source, opening);
+    if (times != nullptr) times->begin(commands);
+    const auto pushStep = [&](std::uint32_t step, bool first) {
+        const gpu::StepPush p = push(step, first);
         bindings_.push(c, &p);
-        for (std::size_t k = 0; k < kStep.size(); ++k) {
-            const bool ofBodies = kStep[k].readsBodies && bodyBindings_ != nullptr;
-            if (ofBodies) bodyBindings_->bind(c);
-            if (step_[k]) {
-                step_[k]->bind(c);
-                dispatch(commands, k, source);
-                commands.barrier();
-            }
-            if (ofBodies) bindings_.bind(c);
-            if (times != nullptr) times->mark(commands);
+    };
+    const auto one = [&](std::size_t n, bool waits) {
+        record(commands, n);
+        if (waits || times != nullptr) commands.barrier();
+        if (times != nullptr) times->mark(commands, n);
+    };
+    pushStep(0, false);
+    one(kDecide, true);
+    for (std::uint32_t done = 0; done < count;) {
+        const std::uint32_t stride = std::min(gpu::kStride, count - done);
+        for (std::uint32_t step = 0; step < stride; ++step) {
+            pushStep(step, opening && done + step == 0);
+            if (step == 0)
+                for (std::size_t n = kDecide + 1; n < kFirstOfStep; ++n) one(n, true);
+            // Contacts of different kinds have different parts of the tables, and need not wait for one another. The
+            // validation layer knows whole tables only, so with it they do.
+            for (std::size_t n = kFirstOfStep; n < kMove; ++n) one(n, n + 1 == kMove || validated_);
+            one(kMove, true);
         }
+        pushStep(stride, false);
+        one(kDecide, true);
+        done += stride;
     }
 }
 
-void Passes::recordSensing(vk::Commands& commands, std::uint32_t source, std::uint32_t row) const {
+void Passes::recordSensing(vk::Commands& commands, std::uint32_t row) const {
     const VkCommandBuffer c = commands.handle();
     bindings_.bind(c);
-    gpu::StepPush p = push(0, source, false);
+    gpu::StepPush p = push(0, false);
     p.firstRow = row;
     bindings_.push(c, &p);
     sense_.bind(c);
@@ -244,10 +273,10 @@ void Passes::recordSensing(vk::Commands& commands, std::uint32_t source, std::ui
     commands.barrier();
 }
 
-void Passes::recordEnergySensing(vk::Commands& commands, std::uint32_t source, bool opening, std::uint32_t row) const {
+void Passes::recordEnergySensing(vk::Commands& commands, bool opening, std::uint32_t row) const {
     const VkCommandBuffer c = commands.handle();
     bindings_.bind(c);
-    gpu::StepPush p = push(0, source, opening);
+    gpu::StepPush p = push(0, opening);
     p.firstRow = row;
     bindings_.push(c, &p);
     senseEnergy_.bind(c);

@@ -58,6 +58,24 @@ class BodyTables {
 /// The tables of a step, some of which are replaced by those of the bodies.
 std::vector<const vk::Buffer*> with(const BodyTables& bodies, std::vector<const vk::Buffer*> tables);
 
+/// The device's time in each pass, over any number of recordings.
+class PassTimes {
+  public:
+    /// Room for `most` dispatches in a recording. Needs vk::Timestamps::available.
+    PassTimes(const vk::Device& device, std::uint32_t most) : times_(device, most + 1) {}
+
+    /// Before the first pass of a recording.
+    void begin(vk::Commands& commands);
+    /// After a dispatch of pass `n` (Passes::names).
+    void mark(vk::Commands& commands, std::size_t n);
+    /// Adds the recording that was submitted to `seconds`, which has an element for each pass.
+    void addTo(std::vector<double>& seconds) const;
+
+  private:
+    vk::Timestamps times_;
+    std::vector<std::size_t> marked_;
+};
+
 class Passes : public Tables {
   public:
     const BodyTables* const bodies;  ///< null without bodies
@@ -65,14 +83,16 @@ class Passes : public Tables {
     /// `bodies` outlives this; null without bodies.
     Passes(const vk::Device& device, const TableSizes& sizes, const BodyTables* bodyTables = nullptr);
 
-    /// Records steps `first` ... `first + count - 1` of a batch. `source` is the half of the state from which they
-    /// start. `times` receives a mark before the first step and one after each pass of every step (stepNames).
-    void recordSteps(vk::Commands& commands, std::uint32_t first, std::uint32_t count, std::uint32_t source,
-                     bool opening, vk::Timestamps* times = nullptr) const;
+    /// Records `count` steps. A member that calls for new lists makes fewer (gpu::Control::steps); none makes more than
+    /// to the end of its batch (gpu::Member::roster). `opening` if the first of them is the first of a member. With
+    /// `times` every pass waits for the one before.
+    void recordSteps(vk::Commands& commands, std::uint32_t count, bool opening, PassTimes* times = nullptr) const;
+    /// The most dispatches that `recordSteps` records.
+    static std::uint32_t mostDispatches(std::uint32_t count);
     /// Records the sensing of the member in this row of the roster (gpu::Member).
-    void recordSensing(vk::Commands& commands, std::uint32_t source, std::uint32_t row = 0) const;
+    void recordSensing(vk::Commands& commands, std::uint32_t row = 0) const;
     /// Records the sensing of energy. It needs an energy book and at least one step; `opening` if that was the first.
-    void recordEnergySensing(vk::Commands& commands, std::uint32_t source, bool opening, std::uint32_t row = 0) const;
+    void recordEnergySensing(vk::Commands& commands, bool opening, std::uint32_t row = 0) const;
 
     /// Prepares a load without history: nothing is listed, and the first step builds rows and contact lists.
     void reset();
@@ -85,25 +105,26 @@ class Passes : public Tables {
     void setControl(std::uint32_t member, const gpu::Control& c);
 
     /// The push constants of every dispatch, for the roster's first row.
-    gpu::StepPush push(std::uint32_t step, std::uint32_t source, bool opening) const;
+    gpu::StepPush push(std::uint32_t stepInStride, bool opening) const;
     /// Specialisation constants of every pass over tables of this size.
     static std::array<std::uint32_t, 9> constants(const TableSizes& sizes);
 
-    /// The passes of a step, in their order.
-    static std::vector<const char*> stepNames();
+    /// The passes of a stride, in their order.
+    static std::vector<const char*> names();
 
   private:
     static VkDeviceSize controlOffset(std::uint32_t member) {
         return sizeof(gpu::Dispatches) + member * sizeof(gpu::Control);
     }
 
-    /// The pass `n` of a step.
-    void dispatch(vk::Commands& commands, std::size_t n, std::uint32_t source) const;
+    /// The pass `n` of a stride.
+    void record(vk::Commands& commands, std::size_t n) const;
 
     std::uint32_t live_ = 0;
     vk::BindingSet bindings_;
-    std::unique_ptr<vk::BindingSet> bodyBindings_;  ///< of the passes that read the bodies
-    std::deque<std::optional<vk::Pipeline>> step_;  ///< of a step, in their order; none that is for bodies without
+    bool validated_;
+    std::unique_ptr<vk::BindingSet> bodyBindings_;    ///< of the passes that read the bodies
+    std::deque<std::optional<vk::Pipeline>> passes_;  ///< in their order; none that is for bodies without
     vk::Pipeline sense_, senseEnergy_;
 };
 
