@@ -16,13 +16,14 @@ Commands::~Commands() {
 }
 
 void Commands::begin() {
-    VkCommandBufferBeginInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO, nullptr,
-                                  VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT, nullptr};
+    VkCommandBufferBeginInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO, nullptr, 0, nullptr};
     check(vkBeginCommandBuffer(commands_, &info), "vkBeginCommandBuffer");
+    recording_ = true;
 }
 
 void Commands::submit() {
-    check(vkEndCommandBuffer(commands_), "vkEndCommandBuffer");
+    if (recording_) check(vkEndCommandBuffer(commands_), "vkEndCommandBuffer");
+    recording_ = false;
     VkSubmitInfo info{};
     info.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
     info.commandBufferCount = 1;

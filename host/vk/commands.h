@@ -1,5 +1,5 @@
 #pragma once
-// One primary command buffer, recorded, submitted and waited for.
+// One primary command buffer, recorded, submitted and waited for, once or again and again.
 
 #include <volk.h>
 
@@ -18,7 +18,7 @@ class Commands {
     Commands& operator=(const Commands&) = delete;
 
     void begin();
-    /// Ends, submits and waits for the device.
+    /// Ends the recording, submits it and waits for the device. Without a `begin` since then, submits it again.
     void submit();
 
     /// Every write of a dispatch or copy before is visible to every dispatch, indirect argument or copy after.
@@ -40,6 +40,7 @@ class Commands {
     const Device& device_;
     VkCommandBuffer commands_ = VK_NULL_HANDLE;
     VkFence fence_ = VK_NULL_HANDLE;
+    bool recording_ = false;
 };
 
 }  // namespace vkdose::vk

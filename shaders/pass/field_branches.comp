@@ -20,7 +20,7 @@ Sphere sphereBefore(uint i) {
 /// From the turn that is touched at `angle`; w: 1 if there is one.
 vec4 fromCoil(Sphere a, float angle) {
     CoilParams coil = member.coil;
-    CoilView view = coilView(coil, coilTurn(coil.phase, stepInBatch - 1u), a);
+    CoilView view = coilView(coil, coilTurn(coil.phase, stepInBatch), a);
     uint trips = coilCandidates(coil, view);
     vec4 branch = vec4(0.0);
     for (uint k = 0u; k < trips; ++k) {
@@ -41,6 +41,7 @@ vec4 fromBody(float radius, Place at, uint body) {
 
 void main() {
     openMember();
+    --stepInBatch;  // the last one
     uint k = invocation();
     Place at = memberContact(k);
     if (at.contact == kEmpty) return;

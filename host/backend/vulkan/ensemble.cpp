@@ -82,6 +82,7 @@ void Ensemble::load(const std::vector<Canister>& canisters) {
     }
     TableSizes sizes = roomForAll(rooms);
     sizes.texelReads = options_.reads == VulkanOptions::Reads::Automatic;
+    recorded_.clear();
     fieldPasses_.reset();
     passes_.reset();  // the former tables make room for the new ones
     bodies_.reset();
@@ -99,6 +100,7 @@ void Ensemble::load(const std::vector<Canister>& canisters) {
 
 void Ensemble::setLive(const std::vector<std::uint32_t>& members) {
     live_ = members;
+    recorded_.clear();
     for (std::uint32_t row = 0; row < live_.size(); ++row) {
         members_[live_[row]].row = row;
         members_[row].block.roster.x = live_[row];
@@ -171,11 +173,26 @@ void Ensemble::runBatch(std::uint32_t count, const std::vector<double>& coilRate
 }
 
 std::uint32_t Ensemble::submit(std::uint32_t count, bool opening, PassTimes* times) {
-    vk::Commands commands(device_);
-    commands.begin();
-    passes_->recordSteps(commands, count, opening, times);
-    commands.hostBarrier();
-    commands.submit();
+    // Nothing in a recording tells when its steps are made. So a long one is kept, for whole strides; beyond the end of
+    // the batch no member makes a step.
+    constexpr std::uint32_t kLong = 8 * gpu::kStride;
+    constexpr std::size_t kMostRecordings = 8;
+    const auto record = [&](vk::Commands& commands, std::uint32_t steps) {
+        commands.begin();
+        passes_->recordSteps(commands, steps, opening, times);
+        commands.hostBarrier();
+    };
+    if (opening || times != nullptr || count < kLong) {
+        vk::Commands commands(device_);
+        record(commands, count);
+        commands.submit();
+    } else {
+        const std::uint32_t steps = (count + gpu::kStride - 1) / gpu::kStride * gpu::kStride;
+        if (recorded_.size() >= kMostRecordings && !recorded_.contains(steps)) recorded_.clear();
+        const auto [place, added] = recorded_.try_emplace(steps, device_);
+        if (added) record(place->second, steps);
+        place->second.submit();
+    }
     const std::vector<gpu::Control> controls = passes_->allControls();
     std::uint32_t left = 0;
     for (const std::uint32_t index : live_) {

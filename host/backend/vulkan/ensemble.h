@@ -4,6 +4,7 @@
 // canister is an ensemble of one. Only one thread at a time may use an ensemble.
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -100,6 +101,8 @@ class Ensemble {
     std::uint32_t mostBatch_ = 0;         ///< steps for which there is room in the motions of the bodies
     std::unique_ptr<Passes> passes_;
     std::unique_ptr<FieldPasses> fieldPasses_;  ///< made when fields are asked for; after the tables they read
+    /// The recordings of steps, by their number. They hold while the same members are live.
+    std::map<std::uint32_t, vk::Commands> recorded_;
     std::vector<MemberState> members_;
     std::vector<std::uint32_t> live_;
     std::uint32_t batch_ = 16;  // steps per submission, adapted to the device
