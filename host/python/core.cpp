@@ -21,8 +21,9 @@ using namespace vkdose;
 
 namespace {
 
-/// How long Ctrl-C may wait at most.
-constexpr std::chrono::milliseconds kLookEvery(50);
+/// How long Ctrl-C may wait at most. The run itself may take a second until it rests, so a shorter time would only
+/// cost.
+constexpr std::chrono::milliseconds kLookEvery(200);
 
 /// The package's exception of this name, with `arguments`.
 template <class... A>
