@@ -135,7 +135,7 @@ std::vector<vtkhdf::Array> fieldsOf(const Frame& f) {
             {"coil_angle", "rad", 1, std::vector<double>{f.coilAngle}}};
 }
 
-std::string particlesFile(const Frame& frame, const World& world, std::uint32_t member) {
+vtkhdf::Grid particlesGrid(const Frame& frame, const World& world, std::uint32_t member) {
     const Particles& p = frame.particles;
     const std::size_t n = p.size();
     std::vector<Vec3> force(n, Vec3(0));
@@ -174,10 +174,10 @@ std::string particlesFile(const Frame& frame, const World& world, std::uint32_t 
                       {"status", "", 1, std::move(status)},
                       {"member", "", 1, std::vector<std::uint32_t>(n, member)}};
     grid.fieldData = fieldsOf(frame);
-    return vtkhdf::file(grid);
+    return grid;
 }
 
-std::string contactsFile(const Frame& frame, const World& world) {
+vtkhdf::Grid contactsGrid(const Frame& frame, const World& world) {
     std::vector<float> ends, normal, tangential, overlap;
     std::vector<double> maxOverlap, torsion;
     std::vector<Vec3> force, sliding, rolling;
@@ -218,7 +218,15 @@ std::string contactsFile(const Frame& frame, const World& world) {
                      {"rolling", "m", 3, flat(rolling)},
                      {"torsion", "m", 1, std::move(torsion)}};
     grid.fieldData = fieldsOf(frame);
-    return vtkhdf::file(grid);
+    return grid;
+}
+
+std::string particlesFile(const Frame& frame, const World& world, std::uint32_t member) {
+    return vtkhdf::file(particlesGrid(frame, world, member));
+}
+
+std::string contactsFile(const Frame& frame, const World& world) {
+    return vtkhdf::file(contactsGrid(frame, world));
 }
 
 namespace {

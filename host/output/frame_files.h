@@ -18,6 +18,10 @@ namespace vkdose {
 std::string particlesFile(const Frame& frame, const World& world, std::uint32_t member);
 std::string contactsFile(const Frame& frame, const World& world);
 
+/// The data of the two files, for readers in the same process.
+vtkhdf::Grid particlesGrid(const Frame& frame, const World& world, std::uint32_t member);
+vtkhdf::Grid contactsGrid(const Frame& frame, const World& world);
+
 /// The time of a frame and its place in the schedule, as the field data of its files.
 std::vector<vtkhdf::Array> fieldsOf(const Frame& frame);
 

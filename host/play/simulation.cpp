@@ -15,7 +15,7 @@
 
 #include "host/core/error.h"
 #include "host/model/key.h"
-#include "host/play/gate.h"
+#include "host/output/run_folder.h"
 #include "host/sim/runner.h"
 
 namespace vkdose {
@@ -35,11 +35,10 @@ std::exception_ptr errorOf(const RunResult& result) {
 
 }  // namespace
 
-/// The thread that makes the run. While it sleeps at the gate, all that it writes belongs to the caller.
+/// The thread that makes the run. While it sleeps, all that it writes belongs to the caller.
 class Simulation::Thread final : public RunObserver {
   public:
-    Thread(const Case& c, Backend& backend)
-        : case_(c), gate_(backend, [this] { pass(); }), filled_(insertParticles(c)) {
+    Thread(const Case& c, Backend& backend) : case_(c), backend_(backend), filled_(insertParticles(c)) {
         seen_.last.sensors.count[0] = filled_.particles.size();
         seen_.last.sensors.mass[0] = filled_.mass;
         thread_ = std::thread([this] { play(); });
@@ -82,17 +81,32 @@ class Simulation::Thread final : public RunObserver {
         halt_ = true;
     }
 
+    /// Brings the run to the place after its steps so far at which a state can be kept.
+    void wakeToKeep() {
+        {
+            const std::lock_guard lock(mutex_);
+            requireRest();
+            if (seen_.over) return;
+            keeping_ = halt_ = true;
+            rests_ = false;
+        }
+        changed_.notify_all();
+    }
+
     /// What the caller may look at while the run rests.
     struct Seen {
         bool over = false;
         bool takesOrders = false;
-        DriveOrder order;  ///< the caller's
-        StopReason reason = StopReason::Settled;
+        DriveOrder order;         ///< the caller's
+        RunResult result;         ///< if it is over
         std::uint64_t steps = 0;  ///< made
-        Sample last;
+        Sample last;              ///< as in `samples`; before the first, what was filled in
+        std::vector<Sample> samples;
         std::vector<Dose> doses;
-        double dosedBefore = 0;              ///< the latest dose [kg]
-        std::optional<Particles> particles;  ///< once somebody has asked for them
+        std::vector<FieldSample> fields;
+        double dosedBefore = 0;                      ///< the latest dose [kg]
+        std::shared_ptr<const Particles> particles;  ///< once somebody has asked for them
+        std::optional<RunCheckpoint> kept;           ///< by wakeToKeep
     };
     Seen& seen() {
         const std::lock_guard lock(mutex_);
@@ -107,14 +121,13 @@ class Simulation::Thread final : public RunObserver {
         try {
             Derived derived = derive(case_, filled_);
             const std::atomic<bool> stop{false};
-            result = runFilled(case_, std::move(filled_), std::move(derived), gate_, *this, stop);
+            result = runFilled(case_, std::move(filled_), std::move(derived), backend_, *this, stop);
             error = errorOf(result);
         } catch (...) {
             error = std::current_exception();
         }
         const std::lock_guard lock(mutex_);
-        seen_.reason = result.reason;
-        seen_.steps = gate_.steps();
+        seen_.result = std::move(result);
         seen_.over = true;
         error_ = error;
         changed_.notify_all();
@@ -129,15 +142,22 @@ class Simulation::Thread final : public RunObserver {
         return std::exchange(seen_.order, {});
     }
 
-    /// At the gate. All that belongs to the latest reading is done by then: its dose is closed, its phase is over.
-    void pass() {
+    /// Before each step. All that belongs to the latest reading is done by then: its dose is closed, its phase is over.
+    bool wantsCheckpoint() override {
         std::unique_lock lock(mutex_);
-        restIfDue(lock);
-        reading_ = false;
+        if (!keeping_) restIfDue(lock);
+        if (!keeping_) reading_ = false;
+        return keeping_;
+    }
+    /// Not at the intervals of the case.
+    bool storesCheckpoints() const override { return keeping_; }
+    void onCheckpoint(const RunCheckpoint& checkpoint, double) override {
+        const std::lock_guard lock(mutex_);
+        seen_.kept = checkpoint;
+        keeping_ = false;
     }
 
     void restIfDue(std::unique_lock<std::mutex>& lock) {
-        seen_.steps = gate_.steps();
         const bool reached = seen_.last.time > until_ - case_.sensorInterval / 2 || (toDose_ && doseEnded_);
         rests_ = !closed_ && (halt_ || (reading_ && reached));
         if (rests_) {
@@ -148,11 +168,14 @@ class Simulation::Thread final : public RunObserver {
         if (closed_) throw RunError("the simulation was closed");
     }
 
+    void onProgress(const Progress& p) override { seen_.steps = p.step; }
     void onSample(const Sample& s) override {
         if (s.dose != seen_.last.dose) seen_.dosedBefore = dosedMass(seen_.last);
         seen_.last = s;
+        seen_.samples.push_back(s);
         reading_ = true;
     }
+    void onField(const FieldSample& f) override { seen_.fields.push_back(f); }
     void onDose(const Dose& d) override {
         seen_.doses.push_back(d);
         doseEnded_ = true;
@@ -163,14 +186,15 @@ class Simulation::Thread final : public RunObserver {
     }
 
     const Case& case_;
-    Gate gate_;
+    Backend& backend_;
     Insertion filled_;
 
     std::mutex mutex_;
     std::condition_variable changed_;
     bool rests_ = false, closed_ = false;
-    bool halt_ = true;  ///< before the first step
-    double until_ = 0;  ///< [s]
+    bool halt_ = true;      ///< before the first step
+    bool keeping_ = false;  ///< a checkpoint is to be made
+    double until_ = 0;      ///< [s]
     bool toDose_ = false;
     bool reading_ = false;    ///< no step has been made since the latest reading
     bool doseEnded_ = false;  ///< since the run went on
@@ -224,6 +248,23 @@ void Simulation::stopDrive() {
     thread_->seen().order.stop = true;
 }
 
+void Simulation::store(const std::filesystem::path& folder, bool force) {
+    if (!over()) {
+        thread_->wakeToKeep();
+        while (!awaitRest(std::chrono::hours(1))) {
+        }
+    }
+    auto& seen = thread_->seen();
+    RunFolder out(folder, force, case_, backend_->description());
+    for (const Sample& s : seen.samples) out.onSample(s);
+    for (const Dose& d : seen.doses) out.onDose(d);
+    for (const FieldSample& f : seen.fields) out.onField(f);
+    if (seen.over)
+        out.finish(case_, seen.result);
+    else
+        out.onCheckpoint(std::exchange(seen.kept, {}).value(), time());
+}
+
 void Simulation::requireOrders() const {
     if (!takesOrders())
         throw std::logic_error("the drive takes orders at a reading of the sensors while it conveys, and not now");
@@ -234,7 +275,7 @@ bool Simulation::over() const {
 }
 
 StopReason Simulation::reason() const {
-    return thread_->seen().reason;
+    return thread_->seen().result.reason;
 }
 
 double Simulation::time() const {
@@ -254,10 +295,20 @@ double Simulation::doseMass() const {
     return seen.last.dose > 0 ? dosedMass(seen.last) - seen.dosedBefore : 0;
 }
 
-const Particles& Simulation::particles() const {
-    std::optional<Particles>& now = thread_->seen().particles;
-    if (!now) now = backend_->particles();
-    return *now;
+std::shared_ptr<const Particles> Simulation::particles() const {
+    std::shared_ptr<const Particles>& now = thread_->seen().particles;
+    if (!now) now = std::make_shared<const Particles>(backend_->particles());
+    return now;
+}
+
+Frame Simulation::frame() const {
+    const Sample& s = last();
+    return {thread_->seen().steps, time(), s.phase, s.dose, backend_->coilAngle(), *particles(), backend_->contacts()};
+}
+
+FieldPoints Simulation::field(const FieldRequest& request) const {
+    (void)thread_->seen();  // the run rests
+    return backend_->fields(request);
 }
 
 }  // namespace vkdose

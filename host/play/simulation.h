@@ -1,10 +1,11 @@
 #pragma once
 // A run that stays in the hands of its caller: it goes on for a while and rests, and while it rests it can be looked
-// at. It prints nothing, writes nothing and ends no process. Its bits are those of `vkdose run`, however often it
-// rests.
+// at and stored. It prints nothing, writes nothing of its own accord and ends no process. Its bits are those of
+// `vkdose run`, however often it rests.
 
 #include <chrono>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -12,11 +13,14 @@
 #include "host/backend/backend.h"
 #include "host/model/case.h"
 #include "host/sim/dose.h"
+#include "host/sim/frame.h"
 #include "host/sim/sample.h"
 #include "host/sim/stop_rule.h"
 
 namespace vkdose {
 
+/// It keeps its readings, doses and fields in memory, for `store`.
+///
 /// The run is made by a thread of its own, which sleeps while the run rests. All calls but `awaitRest` and `halt` are
 /// refused with std::logic_error while the run goes on. Only one thread may call at a time.
 class Simulation {
@@ -49,6 +53,13 @@ class Simulation {
     /// The drive is told to stop now, as by the end of its rotation. Throws std::logic_error unless takesOrders().
     void stopDrive();
 
+    /// Leaves in `folder` what `vkdose run` would have left had it been interrupted now, so that `vkdose resume` goes
+    /// on with the same bits; of a run that is over, what it leaves at its end. Frames of the time before and the
+    /// states for other runs are not among it. Afterwards the drive takes no more orders at this reading. Throws
+    /// FolderError if the folder is not empty, unless `force` is set and it holds a run, which is replaced; and
+    /// OutputError.
+    void store(const std::filesystem::path& folder, bool force);
+
     /// Asks a run that goes on to rest as soon as the work that it has given to the backend is done, which takes about
     /// a second on a CPU. It then rests between two readings of the sensors.
     void halt();
@@ -62,7 +73,14 @@ class Simulation {
     const Sample& last() const;              ///< the latest reading of the sensors; step 0 before the first
     const std::vector<Dose>& doses() const;  ///< those that have ended
     double doseMass() const;  ///< dosed since the start of the latest dose, at the latest reading [kg]; 0 before it
-    const Particles& particles() const;  ///< now; valid until the run goes on
+
+    /// The particles now. They are read from the backend once for each rest; all callers share them.
+    std::shared_ptr<const Particles> particles() const;
+    /// All that a frame of a run holds, now. Contacts are read anew each time. Forces are those of the last step, and
+    /// none before a step.
+    Frame frame() const;
+    /// A field now, of the case or not. Throws RunError if it cannot be had (faultOf).
+    FieldPoints field(const FieldRequest& request) const;
 
   private:
     class Thread;

@@ -1,7 +1,6 @@
 // vkdose._core: Simulation for Python. What it says to a user stands in simulation.py, which is all that uses it. The
-// library is pybind11; only this file knows it.
+// library is pybind11; only this file and arrays.h know it.
 
-#include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
@@ -11,16 +10,20 @@
 
 #include "host/core/error.h"
 #include "host/model/key.h"
+#include "host/output/frame_files.h"
+#include "host/output/run_folder.h"
 #include "host/play/backend_choice.h"
 #include "host/play/simulation.h"
+#include "host/python/arrays.h"
 
 namespace py = pybind11;
 using namespace vkdose;
 
 namespace {
 
-/// How long Ctrl-C may wait at most.
-constexpr std::chrono::milliseconds kLookEvery(50);
+/// How long Ctrl-C may wait at most. The run itself may take a second until it rests, so a shorter time would only
+/// cost.
+constexpr std::chrono::milliseconds kLookEvery(200);
 
 /// The package's exception of this name, with `arguments`.
 template <class... A>
@@ -50,6 +53,10 @@ void translate(std::exception_ptr error) {
         raise("InputError", textOf(e), faultsOf(e));
     } catch (const UsageError& e) {
         raise("InputError", std::string(e.what()));
+    } catch (const FolderError& e) {
+        raise("InputError", std::string(e.what()));
+    } catch (const OutputError& e) {
+        raise("OutputError", std::string(e.what()));
     } catch (const RunError& e) {
         raise("RunError", std::string(e.what()));
     } catch (const DeviceError& e) {
@@ -73,20 +80,6 @@ void wait(Simulation& run) {
     }
 }
 
-/// The columns of a row by their names.
-template <class... C, class R>
-py::dict dictOf(const std::tuple<C...>& table, const R& row) {
-    py::dict dict;
-    forEachColumn(table, [&](const auto& c) {
-        const auto& value = c.of(row);
-        if constexpr (std::is_enum_v<std::decay_t<decltype(value)>>)
-            dict[c.name] = cellText(value, kAllDigits);
-        else
-            dict[c.name] = value;
-    });
-    return dict;
-}
-
 py::dict sampleOf(const Simulation& run) {
     const Sample& s = run.last();
     py::dict dict = dictOf(kSampleColumns, s);
@@ -107,26 +100,25 @@ py::list dosesOf(const Simulation& run) {
     return list;
 }
 
-/// A copy, (n, 3).
-py::array_t<double> arrayOf(const std::vector<Vec3>& vectors) {
-    py::array_t<double> array({vectors.size(), std::size_t(3)});
-    auto to = array.mutable_unchecked<2>();
-    for (py::ssize_t i = 0; i < to.shape(0); ++i)
-        for (py::ssize_t k = 0; k < 3; ++k) to(i, k) = vectors[std::size_t(i)][int(k)];
-    return array;
+/// A field of the case, now.
+py::dict fieldOf(const Simulation& run, const std::string& name) {
+    for (const FieldSensor& sensor : run.theCase().fields)
+        if (sensor.name == name) return arraysOf(sensor, run.field(sensor.request), run.theCase().world.density);
+    throw py::key_error(name);
 }
 
-py::array_t<double> radiiOf(const Simulation& run) {
-    const std::vector<double>& r = run.particles().radius;
-    return py::array_t<double>(py::ssize_t(r.size()), r.data());
+std::vector<std::string> fieldNames(const Simulation& run) {
+    std::vector<std::string> names;
+    for (const FieldSensor& sensor : run.theCase().fields) names.push_back(sensor.name);
+    return names;
 }
 
-py::array_t<bool> activeOf(const Simulation& run) {
-    const std::vector<Status>& status = run.particles().status;
-    py::array_t<bool> array(py::ssize_t(status.size()));
-    auto to = array.mutable_unchecked<1>();
-    for (py::ssize_t i = 0; i < to.shape(0); ++i) to(i) = status[std::size_t(i)] == Status::Active;
-    return array;
+py::dict particlesOf(const Simulation& run) {
+    return arraysOf(particlesGrid(run.frame(), run.theCase().world, 0), "position");
+}
+
+py::dict contactsOf(const Simulation& run) {
+    return arraysOf(contactsGrid(run.frame(), run.theCase().world), "ends");
 }
 
 std::unique_ptr<Simulation> open(const std::string& file, const std::vector<std::string>& settings,
@@ -168,9 +160,20 @@ PYBIND11_MODULE(_core, m) {
         .def_property_readonly("dose_mass", &Simulation::doseMass)
         .def_property_readonly("sample", &sampleOf)
         .def_property_readonly("doses", &dosesOf)
-        .def_property_readonly("positions", [](const Simulation& run) { return arrayOf(run.particles().position); })
-        .def_property_readonly("velocities", [](const Simulation& run) { return arrayOf(run.particles().velocity); })
-        .def_property_readonly("spins", [](const Simulation& run) { return arrayOf(run.particles().spin); })
-        .def_property_readonly("radii", &radiiOf)
-        .def_property_readonly("active", &activeOf);
+        .def_property_readonly("state", [](const Simulation& run) { return State{run.particles()}; })
+        .def("is_now", [](const Simulation& run, const State& state) { return run.particles() == state.particles; })
+        .def_property_readonly("particles", &particlesOf)
+        .def_property_readonly("contacts", &contactsOf)
+        .def_property_readonly("fields", &fieldNames)
+        .def("field", &fieldOf)
+        .def("store", [](Simulation& run, const std::string& folder, bool force) {
+            const py::gil_scoped_release release;
+            run.store(folder, force);
+        });
+    py::class_<State>(m, "State")
+        .def_property_readonly("positions", &State::positions)
+        .def_property_readonly("velocities", &State::velocities)
+        .def_property_readonly("spins", &State::spins)
+        .def_property_readonly("radii", &State::radii)
+        .def_property_readonly("status", &State::status);
 }

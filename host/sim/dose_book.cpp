@@ -10,6 +10,8 @@ namespace vkdose {
 namespace {
 
 constexpr std::size_t kDosed = static_cast<std::size_t>(Region::Dosed);
+/// The array of a state whose dose has had an order from outside.
+constexpr const char* kOrderedSpeed = "dose_ordered_speed";
 
 }  // namespace
 
@@ -104,6 +106,7 @@ void DoseBook::save(Record& record) const {
     put(record, "dosed_before", before_);
     record.put("dose_turning", std::vector<double>{torqueSum_, angle_});
     record.put("dose_steps", std::vector<std::uint64_t>{steps_, stages_});
+    if (ordered_) record.putOne(kOrderedSpeed, speed_);
 }
 
 void DoseBook::restore(const Record& record) {
@@ -117,6 +120,8 @@ void DoseBook::restore(const Record& record) {
     angle_ = sums[1];
     steps_ = counts[0];
     stages_ = counts[1];
+    ordered_ = record.arrays().contains(kOrderedSpeed);
+    if (ordered_) speed_ = record.one<double>(kOrderedSpeed);
 }
 
 }  // namespace vkdose

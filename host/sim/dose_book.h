@@ -57,7 +57,7 @@ class DoseBook {
     std::uint64_t steps_ = 0;   ///< of its rotation
     double angle_ = 0;          ///< by which the coil conveyed [rad]
     std::uint64_t stages_ = 0;  ///< that are over
-    // For orders from outside, which no checkpoint holds.
+    // For orders from outside. A state holds the speed only if there was one.
     double speed_ = 0;      ///< that the drive has, or is on its way to [rad/s]
     bool ordered_ = false;  ///< there was one
 };

@@ -43,6 +43,7 @@ RunLoop::RunLoop(const Case& c, Insertion filled, Derived derived, Backend& back
 
 StopReason RunLoop::steps() {
     while (!timeline_.over(step_)) {
+        while (observer_.wantsCheckpoint()) checkpoint();
         if (stop_) {
             checkpoint();
             sample();

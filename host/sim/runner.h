@@ -56,10 +56,14 @@ class RunObserver {
     virtual void onSettled(const Settling&, const Schedule&) {}
     virtual void onDose(const Dose&) {}
     /// Asked at each sample at which the drive conveys and nothing in the case stops it. The drive obeys from this
-    /// sample on. A run with orders must not store checkpoints.
+    /// sample on.
     virtual DriveOrder order() { return {}; }
     virtual void onField(const FieldSample&) {}
-    /// Called at the intervals of the case and when the run is interrupted, if `storesCheckpoints`.
+    /// Asked before each call of the backend, when all that belongs to the steps so far is done. The run waits for the
+    /// answer. With true a checkpoint is made now, if `storesCheckpoints`, and it is asked again.
+    virtual bool wantsCheckpoint() { return false; }
+    /// Called at the intervals of the case, when the run is interrupted and by `wantsCheckpoint`, if
+    /// `storesCheckpoints`.
     virtual void onCheckpoint(const RunCheckpoint&, double time) { (void)time; }
     virtual bool storesCheckpoints() const { return false; }
     /// Called when the powder has settled, and at the end of a run with doses that nothing cut short, if

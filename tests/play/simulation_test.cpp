@@ -16,7 +16,7 @@ TEST_CASE("a simulation rests before its first step") {
     CHECK_FALSE(run.simulation->over());
     CHECK(run.simulation->time() == 0);
     CHECK(run.simulation->last().sensors.count[0] == 10);
-    CHECK(run.simulation->particles().size() == 10);
+    CHECK(run.simulation->particles()->size() == 10);
     CHECK(run.simulation->doseMass() == 0);
 }
 
@@ -94,7 +94,7 @@ TEST_CASE("errors of a run are thrown to the caller, who can still look at it") 
     CHECK_THROWS_AS(run.wait(), RunError);
     CHECK(run.simulation->over());
     CHECK(run.simulation->time() == Approx(0.06));
-    CHECK(run.simulation->particles().size() == 10);
+    CHECK(run.simulation->particles()->size() == 10);
     run.simulation->advance(1);
     CHECK_THROWS_AS(run.wait(), RunError);
     const Led lost = led(listedCase(), [](FakeBackend& b) { b.deviceErrorAt = 0; });
@@ -103,6 +103,35 @@ TEST_CASE("errors of a run are thrown to the caller, who can still look at it") 
     Case wrong = listedCase();
     wrong.schedule.restTime = 1e-9;
     CHECK_THROWS_AS(led(wrong), CaseError);
+}
+
+TEST_CASE("the particles of a rest are read once and stay when the run goes on; contacts and fields are those of now") {
+    const Led run = led(listedCase(), [](FakeBackend& b) {
+        b.field = [](std::uint64_t step) {
+            FieldPoint p;
+            p.density = double(step);
+            return p;
+        };
+    });
+    run.advance(0.03);
+    const auto first = run.simulation->particles();
+    CHECK(run.simulation->particles() == first);
+    FieldRequest request;
+    request.grid.cells = {1, 1, 3};
+    for (const std::uint64_t step : {30, 60}) {
+        const Frame frame = run.simulation->frame();
+        CHECK(frame.step == step);
+        CHECK(frame.time == run.simulation->time());
+        CHECK(frame.phase == Phase::Settle);
+        CHECK(frame.particles.size() == 10);
+        REQUIRE(frame.contacts.size() == 1);
+        CHECK(frame.contacts[0].maxOverlap == double(step));
+        REQUIRE(run.simulation->field(request).size() == 3);
+        CHECK(run.simulation->field(request)[2].density == double(step));
+        run.advance(0);
+    }
+    CHECK(run.simulation->particles() != first);
+    CHECK(first->size() == 10);
 }
 
 TEST_CASE("a halt makes it rest between two readings, and it goes on as if it had not") {

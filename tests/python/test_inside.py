@@ -1,16 +1,19 @@
 """Runs inside Python."""
 
 import ctypes
+import gc
 import os
 import signal
 import subprocess
 import sys
 import threading
 import unittest
+import unittest.mock
 from pathlib import Path
 
 from support import ROOT, SHORT, InFolder, examples, short  # first: it tells what is missing
 
+import h5py
 import numpy
 import pandas
 import vkdose
@@ -106,6 +109,121 @@ class Looking(InFolder):
         with self.assertRaisesRegex(vkdose.VkdoseError, "closed"):
             sim.advance()
 
+    def frames_are_those_of_the_program(self, backend, device):
+        case = short(**{"frames.interval_s": 0.1, "frames.contacts": True})
+        case.run("out", backend=backend, device=device).wait()
+        frames = vkdose.Result("out").frames
+        self.assertGreater(len(frames[1].contacts["overlap"]), 50)
+        with vkdose.Simulation(case, backend=backend, device=device or "") as sim:
+            for frame in frames[1:3]:
+                sim.advance(frame.time - sim.time)
+                for now, stored in ((sim.particles, frame.particles), (sim.contacts, frame.contacts)):
+                    self.assertEqual(set(now), set(stored))
+                    for name in stored:
+                        with self.subTest(time=frame.time, array=name):
+                            self.assertEqual(now[name].dtype, stored[name].dtype)
+                            numpy.testing.assert_array_equal(now[name], stored[name])
+
+    def test_particles_and_contacts_are_those_of_a_frame(self):
+        self.frames_are_those_of_the_program("reference", None)
+
+    def test_particles_and_contacts_are_those_of_a_frame_on_a_device(self):
+        self.frames_are_those_of_the_program("vulkan", DEVICE or None)
+
+    def test_contacts_balance(self):
+        with simulation(short()) as sim:
+            self.assertEqual(numpy.abs(sim.contacts["force"]).max(initial=0), 0)  # no step has been made
+            sim.advance(0.05)
+            contacts, particles = sim.contacts, sim.particles
+            pairs = contacts["kind"] == 0
+            self.assertEqual(contacts["ends"].shape, (len(pairs), 2, 3))
+            self.assertGreater(pairs.sum(), 20)
+            self.assertGreater((contacts["kind"] == 1).sum(), 5)
+            # Forces of a pair are opposite, so that the forces of walls and coil are the sum over the particles.
+            others = contacts["force"][~pairs].sum(axis=0)
+            weight = (sim.radii**3).sum() * 4 / 3 * numpy.pi * 1427 * 9.81
+            numpy.testing.assert_allclose(particles["force"].sum(axis=0), others, atol=1e-5 * weight)
+            self.assertGreater(others[1], 0.5 * weight)
+            between = contacts["ends"][pairs]
+            distance = numpy.linalg.norm(between[:, 0] - between[:, 1], axis=1)
+            reach = sim.radii[contacts["particle"][pairs]] + sim.radii[contacts["other"][pairs]]
+            numpy.testing.assert_allclose(reach - distance, contacts["overlap"][pairs], atol=1e-8)
+            contacts["force"][:] = 0  # a copy
+            self.assertGreater(numpy.abs(sim.contacts["force"]).max(), 0)
+
+    def test_a_view_shows_the_state_without_a_copy_while_its_with_lasts(self):
+        sim = simulation(short())
+        self.addCleanup(sim.close)
+        sim.advance(0.1)
+        with sim.view() as view, sim.view() as other:
+            for name in ("positions", "velocities", "spins", "radii", "active"):
+                numpy.testing.assert_array_equal(getattr(view, name), getattr(sim, name))
+            self.assertTrue(numpy.shares_memory(view.positions, other.positions))
+            self.assertFalse(numpy.shares_memory(view.positions, sim.positions))
+            kept = view.positions
+            before = sim.positions
+            for forbidden in (lambda: kept.__setitem__(0, 0), lambda: kept.setflags(write=True)):
+                with self.assertRaises(ValueError):
+                    forbidden()
+            sim.advance()
+            with self.assertRaisesRegex(RuntimeError, "gone on"):
+                view.positions
+            with sim.view() as later:
+                self.assertGreater(numpy.abs(later.positions - kept).max(), 0)
+        with self.assertRaisesRegex(RuntimeError, "with sim.view"):
+            later.radii
+        with self.assertRaisesRegex(RuntimeError, "with sim.view"):
+            sim.view().radii
+        with sim.view() as view:
+            last = view.positions[:5]
+            sim.close()
+            with self.assertRaisesRegex(vkdose.VkdoseError, "closed"):
+                view.positions
+        del sim, view, other, later
+        gc.collect()
+        # Memory that had been freed would be used for these.
+        fill = [numpy.full_like(before, 7) for _ in range(100)]
+        numpy.testing.assert_array_equal(kept, before)
+        self.assertEqual(last.shape, (5, 3))
+        self.assertEqual(len(fill), 100)
+
+    def test_fields_of_now_have_the_columns_of_the_files(self):
+        case = short(field=[{"preset": "outlet"}, {"preset": "mid-plane", "interval_s": 0.1}])
+        case.run("out", backend="reference").wait()
+        with simulation(case) as sim:
+            self.assertEqual(sim.fields, ["outlet", "mid-plane"])
+            sim.advance(0.2)
+            stored = vkdose.Result("out").field("mid-plane")
+            stored = stored[numpy.isclose(stored.time_s, sim.time, rtol=0, atol=1e-4)].reset_index(drop=True)
+            now = sim.field("mid-plane")
+            self.assertEqual(list(now.columns), list(stored.columns))
+            self.assertGreater(len(now), 100)
+            self.assertEqual(list(now.phase), list(stored.phase))
+            for name in set(now.columns) - {"phase"}:
+                with self.subTest(column=name):
+                    scale = numpy.nanmax(numpy.abs(stored[name]))
+                    numpy.testing.assert_allclose(now[name], stored[name], rtol=1e-5, atol=1e-7 * scale)
+            with self.assertRaisesRegex(vkdose.InputError, "outlet, mid-plane"):
+                sim.field("throat")
+
+    def looking_changes_nothing(self, backend, device):
+        with vkdose.Simulation(short(), backend=backend, device=device) as undisturbed:
+            undisturbed.run()
+            expected = undisturbed.positions
+        case = short(field=[{"preset": "outlet", "interval_s": 0.1}])
+        with vkdose.Simulation(case, backend=backend, device=device) as sim:
+            while not sim.over:
+                sim.advance(0.02)
+                self.assertGreater(len(sim.field("outlet")), 0)
+                self.assertGreater(len(sim.contacts["kind"]), 0)
+            numpy.testing.assert_array_equal(sim.positions, expected)
+
+    def test_looking_changes_no_bit(self):
+        self.looking_changes_nothing("reference", "")
+
+    def test_looking_changes_no_bit_on_a_device(self):
+        self.looking_changes_nothing("vulkan", DEVICE)
+
     def test_several_at_once_and_cases_of_every_kind(self):
         tables = {"base": str(ROOT / "cases" / "mini.toml"), "seed": 2}
         with simulation(tables) as one, simulation(vkdose.Case("mini"), changes={"seed": 2}) as other:
@@ -161,6 +279,64 @@ class Orders(InFolder):
             self.assertEqual([f.key for f in caught.exception.faults], ["coil.speed_rpm"])
             with self.assertRaises(ValueError):
                 sim.change_speed(rpm=-1)
+
+
+class Storing(InFolder):
+    def the_program_goes_on(self, backend, device, times):
+        case = short(field=[{"preset": "outlet"}], **{"sensors.energy": True})
+        case.run("whole", backend=backend, device=device).wait()
+        with vkdose.Simulation(case, backend=backend, device=device or "") as sim:
+            for number, time in enumerate(times):
+                sim.advance(time - sim.time)
+                self.assertEqual(sim.store(f"stored{number}"), Path(f"stored{number}"))
+            sim.run()
+            sim.store("end")
+        for number, time in enumerate(times):
+            result = vkdose.resume(f"stored{number}", device=device).wait()
+            self.same_files(result.folder)
+        self.same_files("end")
+        ended = vkdose.Result("end").summary
+        self.assertEqual(ended["stop_reason"], vkdose.Result("whole").summary["stop_reason"])
+
+    def same_files(self, folder):
+        for name in ("particles.csv", "timeseries.csv", "doses.csv", "fields/outlet.csv", "case.toml"):
+            with self.subTest(folder=folder, file=name):
+                self.assertEqual(Path(folder, name).read_bytes(), Path("whole", name).read_bytes())
+
+    def test_the_program_goes_on_with_the_same_bits(self):
+        self.the_program_goes_on("reference", None, (0.03, 0.11, 0.16, 0.2))
+
+    def test_the_program_goes_on_with_the_same_bits_on_a_device(self):
+        self.the_program_goes_on("vulkan", DEVICE or None, (0.11,))
+
+    def test_a_folder_in_use_is_refused(self):
+        with simulation(short()) as sim:
+            Path("mine").mkdir()
+            Path("mine/letter").write_text("mine", encoding="utf-8")
+            with self.assertRaisesRegex(vkdose.InputError, "holds no run"):
+                sim.store("mine", force=True)
+            sim.store("run")
+            with self.assertRaisesRegex(vkdose.InputError, "unfinished run"):
+                sim.store("run")
+            sim.advance()
+            sim.store("run", force=True)
+            with self.assertRaisesRegex(vkdose.InputError, "is a file"):
+                sim.store("mine/letter")
+        self.assertEqual(len(pandas.read_csv("run/timeseries.csv")), 1)
+
+    def test_it_is_stored_while_no_other_thread_is_in_h5py(self):
+        there = []
+
+        class Lock:
+            def __enter__(self):
+                there.append(Path("run/checkpoint.h5").exists())
+
+            def __exit__(self, *error):
+                there.append(Path("run/checkpoint.h5").exists())
+
+        with simulation(short()) as sim, unittest.mock.patch.object(h5py._objects, "phil", Lock()):
+            sim.store("run")
+        self.assertEqual(there, [False, True])
 
 
 class Errors(InFolder):

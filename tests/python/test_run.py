@@ -6,10 +6,12 @@ import subprocess
 import sys
 import textwrap
 import unittest
+import unittest.mock
 from pathlib import Path
 
 from support import ROOT, SHORT, InFolder, run, short  # first: it tells what is missing
 
+import h5py
 import numpy
 import vkdose
 
@@ -157,6 +159,27 @@ class Results(InFolder):
         self.assertGreater(len(contacts["ends"]), 10)
         self.assertTrue(all(len(values) == len(contacts["ends"]) for values in contacts.values()))
         self.assertEqual(result.fields, [])
+
+    def test_arrays_of_a_frame_are_read_when_they_are_touched(self):
+        frame = run(short(**{"frames.interval_s": 0.1})).wait().frames[0]
+        read = []
+        plain = h5py.Dataset.__getitem__
+
+        def noted(self, *arguments):
+            read.append(self.name)
+            return plain(self, *arguments)
+
+        with unittest.mock.patch.object(h5py.Dataset, "__getitem__", noted):
+            particles = frame.particles
+            self.assertIn("velocity", particles)
+            self.assertEqual(read, [])
+            self.assertIs(particles["radius"], particles["radius"])
+            self.assertEqual(frame.positions.shape, (111, 3))
+        self.assertEqual(read, ["/VTKHDF/PointData/radius", "/VTKHDF/Points"])
+        with self.assertRaises(KeyError):
+            particles["colour"]
+        with self.assertRaisesRegex(vkdose.InputError, "contacts_000000.hdf"):
+            frame.contacts
 
     def test_fields(self):
         fields = [{"preset": "outlet"}, {"preset": "mid-plane", "interval_s": 0.1}]

@@ -29,7 +29,7 @@ from .errors import (
 from .program import program, version
 from .results import Frame, Result, SweepResult
 from .run import Run, resume
-from .simulation import Simulation
+from .simulation import Simulation, View
 from .study import Study
 
 __all__ = [
@@ -48,6 +48,7 @@ __all__ = [
     "Simulation",
     "Study",
     "SweepResult",
+    "View",
     "VkdoseError",
     "program",
     "resume",

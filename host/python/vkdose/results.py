@@ -7,7 +7,7 @@ import json
 import os
 import re
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Mapping, Optional, Union
+from typing import TYPE_CHECKING, Any, Iterator, Mapping, Optional, Union
 
 from .errors import InputError
 from .program import call
@@ -25,8 +25,53 @@ def _table(file: Path) -> "pandas.DataFrame":
     return pandas.read_csv(file, float_precision="round_trip")
 
 
+class _Arrays(Mapping[str, "numpy.ndarray"]):
+    """The arrays of a frame's file by their names. Each is read when it is asked for, and kept.
+
+    ``points`` is the name for the places of the file's cells, ``group`` the part of the file with all else.
+    """
+
+    def __init__(self, file: Path, points: str, group: str) -> None:
+        import h5py
+
+        if not file.is_file():
+            raise InputError(f"{file} is not there; does the case ask for these frames?")
+        self._file, self._points, self._group = file, points, group
+        with h5py.File(file) as stored:
+            self._names = [points, *stored["VTKHDF"][group]]
+        self._read: dict[str, "numpy.ndarray"] = {}
+
+    def __getitem__(self, name: str) -> "numpy.ndarray":
+        import h5py
+
+        if name not in self._names:
+            raise KeyError(name)
+        if name not in self._read:
+            with h5py.File(self._file) as stored:
+                root = stored["VTKHDF"]
+                if name != self._points:
+                    self._read[name] = root[self._group][name][...]
+                elif self._group == "CellData":  # a line for each cell
+                    self._read[name] = root["Points"][...][root["Connectivity"][...].reshape(-1, 2)]
+                else:
+                    self._read[name] = root["Points"][...]
+        return self._read[name]
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._names
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._names)
+
+    def __len__(self) -> int:
+        return len(self._names)
+
+    def __repr__(self) -> str:
+        return f"arrays of {self._file}: {', '.join(self._names)}"
+
+
 class Frame:
-    """The powder at one time. Arrays are read from the file when they are asked for.
+    """The powder at one time. Arrays are read from the file one by one, when they are asked for.
 
     ``number``, ``time`` [s], ``phase`` and ``dose`` say which frame it is.
     """
@@ -38,30 +83,16 @@ class Frame:
         self.phase = str(row["phase"])
         self.dose = int(row["dose"])
 
-    def _read(self, kind: str) -> dict[str, "numpy.ndarray"]:
-        import h5py
-
-        file = self._folder / f"{kind}_{self.number:06d}.hdf"
-        if not file.is_file():
-            raise InputError(f"{file} is not there; does the case ask for these frames?")
-        with h5py.File(file) as stored:
-            root = stored["VTKHDF"]
-            points = root["Points"][...]
-            if kind == "contacts":  # a line for each
-                lines = root["Connectivity"][...].reshape(-1, 2)
-                return {"ends": points[lines]} | {name: values[...] for name, values in root["CellData"].items()}
-            return {"position": points} | {name: values[...] for name, values in root["PointData"].items()}
-
     @property
-    def particles(self) -> dict[str, "numpy.ndarray"]:
+    def particles(self) -> Mapping[str, "numpy.ndarray"]:
         """Arrays by name, a row for each particle: "position" (n, 3) [m], "radius" [m], "velocity" (n, 3) [m/s] ..."""
-        return self._read("particles")
+        return _Arrays(self._folder / f"particles_{self.number:06d}.hdf", "position", "PointData")
 
     @property
-    def contacts(self) -> dict[str, "numpy.ndarray"]:
+    def contacts(self) -> Mapping[str, "numpy.ndarray"]:
         """Arrays by name, a row for each contact: "ends" (n, 2, 3) [m], what the line of the contact joins, and its
         forces and springs. Only there with ``frames.contacts`` in the case."""
-        return self._read("contacts")
+        return _Arrays(self._folder / f"contacts_{self.number:06d}.hdf", "ends", "CellData")
 
     @property
     def positions(self) -> "numpy.ndarray":

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import os
+import sys
+from contextlib import nullcontext
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Iterator, Mapping, Optional, Union
+from typing import TYPE_CHECKING, Any, ContextManager, Iterator, Mapping, Optional, Union
 
 from .case import Case, Source
-from .errors import VkdoseError
+from .errors import InputError, VkdoseError
 
 if TYPE_CHECKING:
     import numpy
+    import pandas
     from numpy.typing import NDArray
 
     from . import _core
@@ -19,7 +22,7 @@ if TYPE_CHECKING:
 
 
 class Simulation:
-    """A case that is run in this process. It writes no files. Its bits are those of ``Case.run``.
+    """A case that is run in this process. It writes no files but by ``store``. Its bits are those of ``Case.run``.
 
     ``case`` and ``changes`` are as in ``Case``. ``backend`` is "vulkan" or "reference", ``device`` the index of a
     Vulkan device or part of its name.
@@ -205,34 +208,173 @@ class Simulation:
     @property
     def positions(self) -> "Numbers":
         """Centres of the particles now, a copy, (n, 3) [m]."""
-        return self._run.positions
+        return self._run.state.positions.copy()
 
     @property
     def velocities(self) -> "Numbers":
         """Velocities of the particles, half a time step ago, a copy, (n, 3) [m/s]."""
-        return self._run.velocities
+        return self._run.state.velocities.copy()
 
     @property
     def spins(self) -> "Numbers":
         """Angular velocities of the particles, half a time step ago, a copy, (n, 3) [rad/s]."""
-        return self._run.spins
+        return self._run.state.spins.copy()
 
     @property
     def radii(self) -> "Numbers":
         """Radii of the particles, a copy, (n,) [m]."""
-        return self._run.radii
+        return self._run.state.radii.copy()
 
     @property
     def ids(self) -> "NDArray[numpy.int64]":
         """Numbers of the particles, (n,), from 0: those of particles.csv and of frames."""
         import numpy
 
-        return numpy.arange(len(self.radii))
+        return numpy.arange(len(self._run.state.radii))
 
     @property
     def active(self) -> "NDArray[numpy.bool_]":
         """Whether each particle is neither dosed nor lost, a copy, (n,)."""
-        return self._run.active
+        return self._run.state.status == 0
+
+    def view(self) -> "View":
+        """The same arrays without a copy, for a ``with``: see ``View``."""
+        return View(self)
+
+    @property
+    def particles(self) -> "dict[str, numpy.ndarray]":
+        """All that a frame tells of the particles, as ``Frame.particles``: arrays by name, a row for each particle.
+
+        "position", "velocity" and "spin" (n, 3) [m, m/s, rad/s], "radius" [m], "force" (n, 3) [N] of all its contacts in
+        the last step, "overlap" [m] of its deepest contact, "kinetic_energy" [J], "id", "status" (0: active, 1: dosed,
+        2: lost) and "member" (0). Each call asks the backend for its contacts.
+        """
+        return self._run.particles
+
+    @property
+    def contacts(self) -> "dict[str, numpy.ndarray]":
+        """The contacts now, as ``Frame.contacts``: arrays by name, a row for each contact.
+
+        "kind" is 0 for two particles, 1 for a particle and a wall, 2 for a particle and the coil. "particle" is the
+        number of the particle; "other" that of the other particle, of the wall, of a slot for the turn of the coil, or
+        behind the numbers of the walls that of a body. "ends" (n, 2, 3) [m]: the centre of the particle, and the other
+        centre or the place where they touch. "force" (n, 3) [N] on the particle in the last step, "normal_force" and
+        "tangential_force" [N] its parts, the normal one positive if it repels. "overlap" [m] of now, "max_overlap" [m]
+        the largest so far. "sliding" and "rolling" (n, 3) and "torsion" [m] are the springs.
+
+        Before the first step there are no forces. Each call asks the backend for its contacts.
+        """
+        return self._run.contacts
+
+    @property
+    def fields(self) -> list[str]:
+        """Names of the fields that the case asks for."""
+        return self._run.fields
+
+    def field(self, name: str) -> "pandas.DataFrame":
+        """A field of the case as it is now: a row for each point, with the columns of ``Result.field``.
+
+        It is that of the instant, also where the case asks for averages. Of a profile of heights it gives the densities.
+        Contact stress is that of the last step, and zero before any. Raises InputError if the case has no such field.
+        """
+        import pandas
+
+        if name not in self.fields:
+            known = ", ".join(self.fields) or "none ([[field]] in the case asks for one)"
+            raise InputError(f"there is no field {name!r}; the case has {known}")
+        table = pandas.DataFrame(self._run.field(name))
+        when = {"time_s": self.time, "phase": self.phase, "dose": self.sample["dose"]}
+        for place, column in enumerate(when):
+            table.insert(place, column, when[column])
+        return table
+
+    # Storing
+
+    def store(self, folder: Union[str, "os.PathLike[str]"], force: bool = False) -> Path:
+        """Leaves in ``folder`` what ``Case.run`` would have left if it had been interrupted now, and returns its path.
+
+        ``vkdose.resume(folder)``, or ``vkdose resume`` on the command line, goes on from there with the same bits. This
+        run goes on likewise when it is told to. Of a run that is over it leaves the result: ``vkdose.Result(folder)``.
+        Time series, doses and fields are whole. Frames of the time before, and the states that other runs can begin
+        with, are not there.
+
+        The schedule is that of the case: orders to the drive count in the dose in which they were given. At this reading
+        the drive takes no more orders afterwards. Raises InputError if the folder is not empty, unless ``force`` is set
+        and it holds a run, which is then replaced; and OutputError if it cannot be written.
+        """
+        with _hdf5():
+            self._run.store(str(Path(folder)), force)
+        return Path(folder)
+
+
+class View:
+    """The particles of a simulation at rest, without copies:
+
+        with sim.view() as powder:
+            highest = powder.positions[powder.active, 1].max()
+
+    The arrays are read-only. They lie over the state that was read back from the backend, once for each rest, because a
+    backend keeps its particles in a form of its own. So a view saves the copy of each array and nothing else.
+
+    When the ``with`` is over, or the run has gone on, or the simulation was closed, the view gives no more arrays: that is
+    a RuntimeError, or a VkdoseError of a closed simulation. An array that somebody keeps stays as it was, and keeps the
+    state at that rest in memory.
+    """
+
+    def __init__(self, simulation: Simulation) -> None:
+        self._simulation = simulation
+        self._state: Optional[_core.State] = None
+
+    def __enter__(self) -> "View":
+        self._state = self._simulation._run.state
+        return self
+
+    def __exit__(self, kind: Any, value: Any, trace: Any) -> None:
+        self._state = None
+
+    @property
+    def _now(self) -> "_core.State":
+        if self._state is None:
+            raise RuntimeError("a view is for a `with`, and this one is not in it: with sim.view() as powder: ...")
+        if not self._simulation._run.is_now(self._state):
+            raise RuntimeError("the run has gone on since the view was made; take another one")
+        return self._state
+
+    @property
+    def positions(self) -> "Numbers":
+        """Centres of the particles, (n, 3) [m]."""
+        return self._now.positions
+
+    @property
+    def velocities(self) -> "Numbers":
+        """Velocities of the particles, half a time step ago, (n, 3) [m/s]."""
+        return self._now.velocities
+
+    @property
+    def spins(self) -> "Numbers":
+        """Angular velocities of the particles, half a time step ago, (n, 3) [rad/s]."""
+        return self._now.spins
+
+    @property
+    def radii(self) -> "Numbers":
+        """Radii of the particles, (n,) [m]."""
+        return self._now.radii
+
+    @property
+    def status(self) -> "NDArray[numpy.uint32]":
+        """0 for an active particle, 1 for a dosed one, 2 for a lost one, (n,)."""
+        return self._now.status
+
+    @property
+    def active(self) -> "NDArray[numpy.bool_]":
+        """Whether each particle is neither dosed nor lost, (n,); made from ``status``."""
+        return self.status == 0
+
+
+def _hdf5() -> ContextManager[Any]:
+    """Keeps other threads out of HDF5, which may be the same library here and in h5py, and lets in one at a time."""
+    h5py = sys.modules.get("h5py._objects")
+    return h5py.phil if h5py is not None else nullcontext()
 
 
 def _module() -> Any:
