@@ -6,8 +6,8 @@ include(GNUInstallDirs)
 set_target_properties(vkdose PROPERTIES SKIP_BUILD_RPATH ON)
 install(TARGETS vkdose COMPONENT vkdose)
 install(DIRECTORY cases/ DESTINATION ${CMAKE_INSTALL_DATADIR}/vkdose/cases COMPONENT vkdose
-        FILES_MATCHING PATTERN "*.toml" PATTERN "*.csv" PATTERN "*.stl" PATTERN "*.py" PATTERN "*.ipynb" PATTERN Snakefile
-        PATTERN pictures EXCLUDE PATTERN cpp EXCLUDE PATTERN __pycache__ EXCLUDE)
+        FILES_MATCHING PATTERN "*.toml" PATTERN "*.csv" PATTERN "*.stl" PATTERN "*.py" PATTERN "*.ipynb"
+        PATTERN Snakefile PATTERN pictures EXCLUDE PATTERN cpp EXCLUDE PATTERN __pycache__ EXCLUDE)
 
 # The program prints its own man pages and completions. Debian wants packed pages, without the time of packing in them.
 install(CODE [[
@@ -97,9 +97,9 @@ set(CPACK_DEBIAN_LIBVKDOSE-DEV_PACKAGE_DEPENDS "libcsv-dev, libfmt-dev, libglm-d
 set(CPACK_DEBIAN_LIBVKDOSE-DEV_PACKAGE_RECOMMENDS "libvulkan1, vkdose (>= ${PROJECT_VERSION})")
 set(CPACK_DEBIAN_LIBVKDOSE-DEV_DESCRIPTION
     "library that runs vkdose inside a program in C++
-A static library with the headers and the CMake package vkdose: a case is
-loaded, goes on when it is told to, takes orders to its drive, and can be looked
-at in between. An example is in the folder of its documents.")
+A static library with its headers and the CMake package vkdose: a case is
+loaded, goes on when it is told to, takes orders to its drive, and can be
+looked at in between. An example lies beside the licence.")
 set(CPACK_DEBIAN_PYTHON3-VKDOSE_PACKAGE_NAME python3-vkdose)
 set(CPACK_DEBIAN_PYTHON3-VKDOSE_PACKAGE_SECTION python)
 set(python3_vkdose_takes "python3-tomli-w, vkdose (>= ${PROJECT_VERSION})")
@@ -112,9 +112,8 @@ else()
   set(CPACK_DEBIAN_PYTHON3-VKDOSE_PACKAGE_ARCHITECTURE all)
   set(CPACK_DEBIAN_PYTHON3-VKDOSE_PACKAGE_DEPENDS "python3 (>= 3.9), ${python3_vkdose_takes}")
 endif()
-set(CPACK_DEBIAN_PYTHON3-VKDOSE_PACKAGE_RECOMMENDS
-    "python3-pandas, python3-h5py, python3-matplotlib, python3-scipy, python3-sklearn, python3-xarray"
-    ", python3-ipykernel, python3-nbclient")
+string(JOIN ", " CPACK_DEBIAN_PYTHON3-VKDOSE_PACKAGE_RECOMMENDS python3-pandas python3-h5py python3-matplotlib
+       python3-scipy python3-sklearn python3-xarray python3-ipykernel python3-nbclient)
 set(CPACK_DEBIAN_PYTHON3-VKDOSE_PACKAGE_SUGGESTS snakemake)
 set(CPACK_DEBIAN_PYTHON3-VKDOSE_DESCRIPTION
     "Python package that drives vkdose
