@@ -28,7 +28,7 @@ version = re.search(r"project\(vkdose VERSION (\S+)", project.read_text(encoding
 def built() -> Path:
     """The folder where program and module have been built."""
     named = os.environ.get("VKDOSE_BUILD")
-    folder = Path(named).resolve() if named else MADE / "cmake"
+    folder = Path(named).resolve() if named else MADE
     if not named:
         options = ["-DCMAKE_BUILD_TYPE=Release", "-DVKDOSE_TESTS=OFF", f"-DPython_EXECUTABLE={sys.executable}"]
         subprocess.run(["cmake", "-G", "Ninja", "-S", SOURCE, "-B", folder, *options], check=True)
