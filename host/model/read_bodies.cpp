@@ -1,6 +1,7 @@
 // The bodies: [[body]] with its shape or mesh, its place and [body.motion].
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
