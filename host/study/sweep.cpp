@@ -64,7 +64,8 @@ class Sweep {
             std::erase_if(bed.members, [&](int number) {
                 const auto m = std::find_if(members_.begin(), members_.end(),
                                             [&](const Member& one) { return one.number == number; });
-                return !isWaiting(*m) || fs::exists(folder_.memberFolder(number) / kCheckpointName);
+                const fs::path run = folder_.memberFolder(number);
+                return !isWaiting(*m) || isOver(run) || fs::exists(run / kCheckpointName);
             });
             if (!bed.members.empty()) needed.push_back(std::move(bed));
         }

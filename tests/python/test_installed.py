@@ -7,23 +7,31 @@ import sys
 import unittest
 from pathlib import Path
 
-from support import InFolder
+from support import InFolder, run, short  # first: it tells what is missing
 
 BUILD = Path(os.environ["VKDOSE"]).parent
 
 
+def installed(*components):
+    """The folder into which these components are installed."""
+    there = Path("there").resolve()
+    for component in components:
+        called("cmake", "--install", BUILD, "--prefix", there, "--component", component)
+    return there
+
+
+def called(*command):
+    """What a command prints; its errors go where those of the test go."""
+    return subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout
+
+
 class Installed(InFolder):
     def test_what_is_installed_runs_by_itself(self):
-        there = Path("there").resolve()
-        for component in ("vkdose", "python3-vkdose"):
-            subprocess.run(
-                ["cmake", "--install", BUILD, "--prefix", there, "--component", component],
-                check=True,
-                stdout=subprocess.DEVNULL,
-            )
+        there = installed("vkdose", "python3-vkdose")
         share = there / "share"
         self.assertTrue((share / "vkdose/cases/quickstart.toml").is_file())
         self.assertTrue((share / "vkdose/cases/paper/coils.toml").is_file())
+        self.assertTrue((share / "vkdose/cases/python/fields.py").is_file())
         page = gzip.decompress((share / "man/man1/vkdose-run.1.gz").read_bytes())
         self.assertIn(b".TH", page)
         for script in (
@@ -51,6 +59,17 @@ class Installed(InFolder):
         self.assertEqual(said[3], "111")
         for module in (BUILD / "python" / "vkdose").glob("_core*"):  # one, if it was built
             self.assertEqual(said[4], str(there / "lib/python3/dist-packages/vkdose" / module.name))
+
+    def test_a_program_in_cpp_finds_the_library(self):
+        there = installed("libvkdose-dev")
+        examples = there / "share/doc/libvkdose-dev/examples"
+        called("cmake", "-G", "Ninja", "-S", examples, "-B", "made", f"-DCMAKE_PREFIX_PATH={there}")
+        called("cmake", "--build", "made")
+        result = run(short()).wait()
+        said = called("made/first_dose", "run/case.toml", "reference").splitlines()
+        masses = [dose["mass_kg"] * 1e3 for dose in result.summary["doses"]]
+        self.assertEqual(said, [f"dose {n}: {mass:.6g} g" for n, mass in enumerate(masses, start=1)])
+        self.assertEqual(len(masses), 2)
 
 
 if __name__ == "__main__":

@@ -1,0 +1,18 @@
+# For tools/install.cmake: installs the headers of host/play that a program may use, and those that they include.
+cmake_policy(VERSION 3.25)
+
+cmake_path(GET CMAKE_CURRENT_LIST_DIR PARENT_PATH source)
+set(headers host/play/backend_choice.h host/play/simulation.h)
+set(seen)
+while(headers)
+  list(POP_FRONT headers header)
+  if(header IN_LIST seen)
+    continue()
+  endif()
+  list(APPEND seen ${header})
+  cmake_path(GET header PARENT_PATH folder)
+  file(INSTALL "${source}/${header}" DESTINATION "${CMAKE_INSTALL_PREFIX}/include/vkdose/${folder}")
+  file(STRINGS "${source}/${header}" lines REGEX "^#include \"")
+  list(TRANSFORM lines REPLACE "^#include \"([^\"]+)\".*" "\\1")
+  list(APPEND headers ${lines})
+endwhile()
