@@ -48,6 +48,7 @@ constexpr std::array kRules{
     Rule{"body-cross", bodiesCross},
     Rule{"body-end", shortBody},
     Rule{"body-size", bodyOutOfScale},
+    Rule{"body-phases", bodyPhases},
     Rule{"body-inside", sphereInBody},
     Rule{"settle-time", shortSettling},
     Rule{"dose-length", longDose},

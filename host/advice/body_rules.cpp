@@ -302,6 +302,42 @@ Found bodyOutOfScale(const Subject& s) {
     return {};
 }
 
+Found bodyPhases(const Subject& s) {
+    const Schedule& plan = s.c.schedule;
+    const bool doses = plan.rotateTime > 0;
+    struct Part {
+        double time;  ///< in all of settling or in one dose [s]
+        const char* key;
+    };
+    const std::map<Phase, Part> parts{
+        {Phase::Settle, {plan.settleTime, "settle.time_s"}},
+        {Phase::Rotate, {plan.rotateTime, "dose.rotate_s"}},
+        {Phase::Reverse, {doses && plan.reverseTurns > 0 ? plan.reverseTime() : 0, "dose.reverse_turns"}},
+        {Phase::Rest, {doses ? plan.restTime : 0, "dose.rest_s"}}};
+    for (std::size_t b = 0; b < s.c.world.bodies.size(); ++b) {
+        const RigidBody& body = s.c.world.bodies[b];
+        double time = 0;
+        for (const Phase phase : body.phases) {
+            const Part& part = parts.at(phase);
+            if (part.time == 0)
+                return Finding{keyOf(b, "motion.during"),
+                               fmt::format("body \"{}\" is to move in the phase {}, of which the run has none",
+                                           body.name, phaseName(phase)),
+                               fmt::format("give {}, or leave that phase out", part.key)};
+            if (phase != Phase::Settle) time += part.time;
+        }
+        if (!body.anew || body.phases.front() == Phase::Settle) continue;
+        const double table = std::get<geometry::Table>(body.course.motion).rows.back().time;
+        if (table <= time * (1 + 1e-9)) continue;
+        return Finding{keyOf(b, "motion.anew"),
+                       fmt::format("the table of body \"{}\" takes {:.4g} s, its phases in a dose {:.4g} s, so that it "
+                                   "does not start anew in every dose",
+                                   body.name, table, time),
+                       fmt::format("give a table of at most {:.4g} s, or more phases", time)};
+    }
+    return {};
+}
+
 Found sphereInBody(const Subject& s) {
     const Particles& p = s.filled.particles;
     for (std::size_t b = 0; b < s.c.world.bodies.size(); ++b) {

@@ -22,6 +22,7 @@ class Gate final : public Backend {
         behind_.load(world, law, particles);
     }
     void setLaw(const ContactLaw& law) override { behind_.setLaw(law); }
+    void setClocks(const std::vector<BodyClock>& clocks) override { behind_.setClocks(clocks); }
     Sensors advance(std::uint32_t steps, double coilRate) override {
         pass_();
         Sensors sensors = behind_.advance(steps, coilRate);

@@ -168,11 +168,34 @@ TEST_CASE("spheres that start inside of a closed mesh are told, unless it holds 
     CHECK(warned("0.03,0.001,-0.002,1e-3\n0.02,0,0.003,1e-3\n").empty());
 }
 
+TEST_CASE("a body that is to move in a phase that the run lacks is told, and a table too long to start anew") {
+    const test::Folder folder;
+    folder.write("way.csv", "time_s,angle_deg\n0,0\n0.02,90\n0.06,0\n");
+    const auto warned = [&](const std::string& motion) {
+        std::string text = test::kDrum;
+        const std::string turn = "kind = \"turn\"\nspeed_rpm = 60\n";
+        text.replace(text.find(turn), turn.size(), motion);
+        const std::vector<Warning> found = warningsOfText(folder, text);
+        const Warning* warning = warningOf(found, "body-phases");
+        return warning == nullptr ? std::string() : warning->line();
+    };
+    const std::string turn = "kind = \"turn\"\nspeed_rpm = 60\n", table = "kind = \"table\"\nfile = \"way.csv\"\n";
+    CHECK_THAT(warned(turn + "during = \"rotate rest\"\n"),
+               Catch::Contains("body \"drum\" is to move in the phase rest") && Catch::Contains("dose.rest_s"));
+    CHECK_THAT(warned(turn + "during = \"reverse\"\n"), Catch::Contains("dose.reverse_turns"));
+    CHECK(warned(turn + "during = \"rotate\"\n").empty());
+    CHECK_THAT(warned(table + "during = \"rotate\"\nanew = true\n"),
+               Catch::Contains("takes 0.06 s") && Catch::Contains("at most 0.05 s"));
+    CHECK(warned(table + "during = \"rotate\"\n").empty());
+    CHECK(warned(table + "during = \"settle\"\nanew = true\n").empty());
+}
+
 TEST_CASE("every rule is shown by a slip") {
     std::set<std::string> shown{"no-outlet"}, all;  // that one takes a case without a canister
     for (const Slip& slip : kSlips) shown.insert(slip.name);
     for (const BodySlip& slip : kBodySlips) shown.insert(slip.name);
     shown.insert("body-inside");  // below
+    shown.insert("body-phases");
     for (const std::string& name : warningNames()) all.insert(name);
     CHECK(all.size() == warningNames().size());
     CHECK(shown == all);

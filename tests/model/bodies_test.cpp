@@ -281,6 +281,45 @@ TEST_CASE("bodies: a table of motion comes from its file") {
     CHECK_THAT(read.fault(replaced(body, "way.csv", "gone.csv")), Contains("there is no file"));
 }
 
+TEST_CASE("bodies: a motion goes on in the phases that it names") {
+    Read read;
+    read.folder.write("way.csv", "time_s,angle_deg\n0,0\n1,90\n2,360\n");
+    const std::string ball = "[[body]]\nname = \"thing\"\nshape = \"ball\"\nradius_mm = 1\n[body.motion]\n";
+    const std::string turn = ball + "kind = \"turn\"\nspeed_rpm = 60\n",
+                      table = ball + "kind = \"table\"\nfile = \"way.csv\"\n";
+    const Case c = read.load(turn + "during = \"rest rotate\"\n");
+    const RigidBody& body = c.world.bodies.at(0);
+    CHECK(body.clock == Clock::Phases);
+    CHECK(body.phases == std::vector{Phase::Rest, Phase::Rotate});
+    // A quarter of a second on its own clock, whatever the time.
+    CHECK(near(body.pose(7, 3, 0.25).directionToWorld(Vec3(1, 0, 0)), Vec3(0, 1, 0), 1, 1e-12));
+    CHECK(body.moving(7, 3, 1, 0.25).spin.z == Approx(2 * kPi));
+    CHECK(glm::length(body.moving(7, 3, 1).spin) == 0);
+    const Case again = loadResolvedCase(c.resolved, "case.toml");
+    CHECK(again.resolved == c.resolved);
+    CHECK(again.world.bodies.at(0).phases == body.phases);
+
+    CHECK_FALSE(read.load(table + "during = \"rotate\"\n").world.bodies.at(0).anew);
+    CHECK(read.load(table + "during = \"rotate\"\nanew = true\n").world.bodies.at(0).anew);
+    read.folder.write("open.csv", "time_s,angle_deg\n0,0\n1,90\n");
+    CHECK_THAT(read.fault(replaced(table, "way.csv", "open.csv") + "during = \"rotate\"\nanew = true\n"),
+               Contains("body[0].motion.anew") && Contains("ends in another place than it begins"));
+
+    CHECK_THAT(read.fault(turn + "during = \"rotat\"\n"), Contains("case.toml:") &&
+                                                              Contains("body[0].motion.during = \"rotat\"") &&
+                                                              Contains("did you mean \"rotate\"?"));
+    CHECK_THAT(read.fault(turn + "during = \"dosing\"\n"),
+               Contains("there is no phase \"dosing\"") && Contains("settle, rotate, reverse, rest"));
+    CHECK_THAT(read.fault(turn + "during = \"\"\n"), Contains("names no phase"));
+    CHECK_THAT(read.fault(turn + "during = [\"rotate\"]\n"), Contains("not a string"));
+    CHECK_THAT(read.fault(turn + "during = \"rest rest\"\n"), Contains("names rest twice"));
+    CHECK_THAT(read.fault(turn + "during = \"rest\"\nfrom_s = 1\n"), Contains("from_s") && Contains("one of the two"));
+    CHECK_THAT(read.fault(turn + "during = \"rest\"\nanew = true\n"), Contains("unknown key"));
+    CHECK_THAT(read.fault(table + "anew = true\n"), Contains("goes with during"));
+    CHECK_THAT(read.fault(ball + "kind = \"turn\"\nfollows = \"drive\"\nduring = \"rest\"\n"),
+               Contains("does not go with follows = \"drive\""));
+}
+
 TEST_CASE("bodies: faults name the key, the value and what would be right") {
     Read read;
     read.mesh();

@@ -118,6 +118,10 @@ void Ensemble::setLaw(std::uint32_t member, const ContactLaw& law) {
     packLaw(law, members_[member].block);
 }
 
+void Ensemble::setClocks(std::uint32_t member, const std::vector<BodyClock>& clocks) {
+    members_[member].clocks = clocks;
+}
+
 Record Ensemble::snapshot(std::uint32_t member) const {
     const MemberState& m = members_[member];
     Record record;
@@ -167,6 +171,7 @@ void Ensemble::runBatch(std::uint32_t count, const std::vector<double>& coilRate
         MemberState& m = members_[live_[row]];
         m.turned += perStep[row] * count;
         m.drive += drivePerStep(coilRates[live_[row]], m.world.timeStep) * count;
+        advanceClocks(m.clocks, count);
         m.step += count;
         const gpu::uvec4& error = controls[live_[row]].error;
         if (error.x != gpu::kEmpty && !m.failure) keepError(live_[row], error, m.step - count);
