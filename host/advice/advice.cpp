@@ -46,6 +46,7 @@ constexpr std::array kRules{
     Rule{"body-backwards", bodyBackwards},
     Rule{"body-wall", bodyInWall},
     Rule{"body-cross", bodiesCross},
+    Rule{"body-seam", bodySeam},
     Rule{"body-end", shortBody},
     Rule{"body-size", bodyOutOfScale},
     Rule{"body-phases", bodyPhases},
