@@ -1,6 +1,7 @@
 // Warnings about the canister and the coil.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "host/advice/rules.h"

@@ -1,5 +1,6 @@
 #include "host/analysis/shear.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 

@@ -1,6 +1,7 @@
 // The bodies: [[body]] with its shape or mesh, its place and [body.motion].
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -37,11 +38,8 @@ geometry::Cone around(double z, double radius, double endRadius, double length) 
 }
 
 std::vector<Shape> withEnds(geometry::Cone wall, bool ends) {
-    std::vector<Shape> shapes{wall};
-    if (!ends) return shapes;
-    shapes.emplace_back(around(0, 0, wall.baseRadius, 0));
-    shapes.emplace_back(around(wall.length, 0, wall.endRadius, 0));
-    return shapes;
+    if (!ends) return {wall};
+    return {wall, around(0, 0, wall.baseRadius, 0), around(wall.length, 0, wall.endRadius, 0)};
 }
 
 std::vector<Shape> readScrew(const BodyReader& b) {
@@ -60,9 +58,8 @@ std::vector<Shape> readScrew(const BodyReader& b) {
         b.fault("radius_mm", "is no larger than the shaft's", "give a larger one, or a smaller shaft_radius_mm");
     if (flight.thickness >= std::min(flight.pitchStart, flight.pitchEnd))
         b.fault("thickness_mm", "leaves nothing free between the turns", "give less than the pitch");
-    std::vector<Shape> shapes{flight};
-    for (const Shape& part : withEnds(around(0, flight.innerRadius, flight.innerRadius, length), true))
-        shapes.push_back(part);
+    std::vector<Shape> shapes = withEnds(around(0, flight.innerRadius, flight.innerRadius, length), true);
+    shapes.insert(shapes.begin(), flight);
     return shapes;
 }
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "host/verify/cases.h"
 #include "host/verify/setups.h"
 
