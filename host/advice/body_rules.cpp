@@ -6,13 +6,18 @@
 #include <cmath>
 #include <map>
 
+#include "geometry/inside.h"
 #include "host/advice/rules.h"
 #include "host/model/body_form.h"
+#include "host/model/shared_places.h"
 
 namespace vkdose {
 namespace {
 
 using geometry::Triangle;
+
+/// From so many particles is looked whether a place can be met.
+constexpr std::size_t kMostWays = 60;
 
 double mm(double metres) {
     return metres * 1e3;
@@ -38,68 +43,6 @@ bool alongCanister(const geometry::Turn& turn) {
 double turnsPerTurn(const Subject& s, const geometry::Turn& turn) {
     const bool backwards = s.c.world.coil && geometry::conveyingRate(*s.c.world.coil, 1) < 0;
     return backwards ? -turn.rate : turn.rate;
-}
-
-/// Counts, for points within a mesh's box, how often a line along z from each of them leaves the mesh. An odd number
-/// means that the point is inside of a closed mesh.
-class Inside {
-  public:
-    explicit Inside(const geometry::Mesh& mesh) : mesh_(mesh), low_(mesh.vertices.front()), high_(low_) {
-        for (const Vec3& v : mesh.vertices) {
-            low_ = glm::min(low_, v);
-            high_ = glm::max(high_, v);
-        }
-        for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-            Vec3 from = corner(t, 0), to = from;
-            for (int i = 1; i < 3; ++i) {
-                from = glm::min(from, corner(t, i));
-                to = glm::max(to, corner(t, i));
-            }
-            for (int x = cell(from.x, 0); x <= cell(to.x, 0); ++x)
-                for (int y = cell(from.y, 1); y <= cell(to.y, 1); ++y) columns_[{x, y}].push_back(t);
-        }
-    }
-
-    bool operator()(const Vec3& p) const {
-        if (glm::any(glm::lessThan(p, low_)) || glm::any(glm::greaterThan(p, high_))) return false;
-        const auto column = columns_.find({cell(p.x, 0), cell(p.y, 1)});
-        if (column == columns_.end()) return false;
-        bool inside = false;
-        for (const std::size_t t : column->second)
-            if (above(t, p)) inside = !inside;
-        return inside;
-    }
-
-  private:
-    static constexpr int kCells = 64;
-
-    const Vec3& corner(std::size_t t, int i) const { return mesh_.vertices[mesh_.triangles[t][std::size_t(i)]]; }
-
-    int cell(double x, int axis) const {
-        const double share = (x - low_[axis]) / std::max(high_[axis] - low_[axis], 1e-300);
-        return int(std::clamp(share * kCells, 0.0, kCells - 1.0));
-    }
-
-    /// Whether the line from `p` along +z passes the triangle. Each edge belongs to one of its sides alone.
-    bool above(std::size_t t, const Vec3& p) const {
-        bool within = false;
-        for (int i = 0; i < 3; ++i) {
-            const Vec3 a = corner(t, i), b = corner(t, (i + 1) % 3);
-            if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)) within = !within;
-        }
-        if (!within) return false;
-        const Vec3 a = corner(t, 0), n = glm::cross(corner(t, 1) - a, corner(t, 2) - a);
-        return n.z != 0 && a.z - (n.x * (p.x - a.x) + n.y * (p.y - a.y)) / n.z > p.z;
-    }
-
-    const geometry::Mesh& mesh_;
-    Vec3 low_, high_;
-    std::map<std::pair<int, int>, std::vector<std::size_t>> columns_;
-};
-
-bool isClosed(const geometry::Mesh& mesh) {
-    return std::none_of(mesh.edges.begin(), mesh.edges.end(),
-                        [](const geometry::MeshEdge& e) { return e.faces[1] == geometry::kNoFace; });
 }
 
 /// Triangles in the cells of a box, to find those near a segment.
@@ -196,6 +139,43 @@ Found bodiesCross(const Subject& s) {
                                        bodies[a].name, still.name),
                            "move one of them, or make one smaller"};
         }
+    }
+    return {};
+}
+
+Found bodySeam(const Subject& s) {
+    const std::vector<RigidBody>& bodies = s.c.world.bodies;
+    const std::vector<SharedPlace> places = sharedPlaces(s.c, s.filled.particles, s.f.smallest);
+    if (places.empty()) return {};
+    std::vector<Triangle> still;
+    for (const RigidBody& body : bodies) {
+        const bool rests = std::holds_alternative<geometry::Rest>(body.course.motion);
+        const std::vector<Triangle> mesh = rests ? trianglesOf(body) : std::vector<Triangle>();
+        still.insert(still.end(), mesh.begin(), mesh.end());
+    }
+    const Cells cells(still);
+    const std::vector<Vec3>& powder = s.filled.particles.position;
+    // The outer side of a vessel has seams that no powder meets. A place that a straight way leads to is met.
+    const auto met = [&](const Vec3& place) {
+        const std::size_t step = powder.size() / kMostWays + 1;
+        for (std::size_t i = 0; i < powder.size(); i += step)
+            if (!cells.passedBy(place, powder[i])) return true;
+        return false;
+    };
+    for (const SharedPlace& place : places) {
+        if (!met(place.centre)) continue;
+        const std::string first = bodies[place.first].name;
+        const bool wall = place.second >= bodies.size();
+        const std::string second = wall ? "" : bodies[place.second].name;
+        return Finding{keyOf(place.first, "at"),
+                       fmt::format("body \"{}\" and {} meet in a seam: a sphere at ({:.3g}, {:.3g}, {:.3g}) mm touches "
+                                   "both in one place and has two contacts there",
+                                   first, wall ? "a wall" : fmt::format("body \"{}\"", second), mm(place.centre.x),
+                                   mm(place.centre.y), mm(place.centre.z)),
+                       wall ? "let it end before the wall, or pass through it"
+                            : fmt::format("join the two in one mesh (vkdose export-body CASE {} {} --out both.stl), or "
+                                          "move them apart",
+                                          first, second)};
     }
     return {};
 }
@@ -302,14 +282,50 @@ Found bodyOutOfScale(const Subject& s) {
     return {};
 }
 
+Found bodyPhases(const Subject& s) {
+    const Schedule& plan = s.c.schedule;
+    const bool doses = plan.rotateTime > 0;
+    struct Part {
+        double time;  ///< in all of settling or in one dose [s]
+        const char* key;
+    };
+    const std::map<Phase, Part> parts{
+        {Phase::Settle, {plan.settleTime, "settle.time_s"}},
+        {Phase::Rotate, {plan.rotateTime, "dose.rotate_s"}},
+        {Phase::Reverse, {doses && plan.reverseTurns > 0 ? plan.reverseTime() : 0, "dose.reverse_turns"}},
+        {Phase::Rest, {doses ? plan.restTime : 0, "dose.rest_s"}}};
+    for (std::size_t b = 0; b < s.c.world.bodies.size(); ++b) {
+        const RigidBody& body = s.c.world.bodies[b];
+        double time = 0;
+        for (const Phase phase : body.phases) {
+            const Part& part = parts.at(phase);
+            if (part.time == 0)
+                return Finding{keyOf(b, "motion.during"),
+                               fmt::format("body \"{}\" is to move in the phase {}, of which the run has none",
+                                           body.name, phaseName(phase)),
+                               fmt::format("give {}, or leave that phase out", part.key)};
+            if (phase != Phase::Settle) time += part.time;
+        }
+        if (!body.anew || body.phases.front() == Phase::Settle) continue;
+        const double table = std::get<geometry::Table>(body.course.motion).rows.back().time;
+        if (table <= time * (1 + 1e-9)) continue;
+        return Finding{keyOf(b, "motion.anew"),
+                       fmt::format("the table of body \"{}\" takes {:.4g} s, its phases in a dose {:.4g} s, so that it "
+                                   "does not start anew in every dose",
+                                   body.name, table, time),
+                       fmt::format("give a table of at most {:.4g} s, or more phases", time)};
+    }
+    return {};
+}
+
 Found sphereInBody(const Subject& s) {
     const Particles& p = s.filled.particles;
     for (std::size_t b = 0; b < s.c.world.bodies.size(); ++b) {
         const RigidBody& body = s.c.world.bodies[b];
         for (const geometry::Shape& shape : body.shapes) {
             const auto* mesh = std::get_if<std::shared_ptr<const geometry::MeshSurface>>(&shape);
-            if (mesh == nullptr || !isClosed((*mesh)->mesh())) continue;
-            const Inside inside((*mesh)->mesh());
+            if (mesh == nullptr || !geometry::isClosed((*mesh)->mesh())) continue;
+            const geometry::Inside inside((*mesh)->mesh());
             const geometry::Pose pose = body.pose(0, 0);
             std::size_t count = 0, first = 0;
             for (std::size_t i = 0; i < p.size(); ++i)

@@ -73,6 +73,8 @@ Found bodyInWall(const Subject& s);
 Found bodiesCross(const Subject& s);
 Found shortBody(const Subject& s);
 Found bodyOutOfScale(const Subject& s);
+Found bodyPhases(const Subject& s);
+Found bodySeam(const Subject& s);
 Found sphereInBody(const Subject& s);
 
 // schedule_rules.cpp: times, doses and the ends of a run

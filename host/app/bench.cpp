@@ -217,6 +217,8 @@ int benchCommand(const BenchOptions& options) {
     }
     if (!rows.empty() && std::all_of(rows.begin(), rows.end(), [](const bench::Row& r) { return !r.refused.empty(); }))
         throw DeviceError("nothing could be measured");
+    for (const bench::Plan& plan : plans)
+        if (const std::string line = bench::ratioLine(rows, plan.name, plan.without); !line.empty()) tell("{}\n", line);
     if (!rows.empty())
         tell("\non {}; all figures: {}\n", rows.front().on, printable((options.out / "bench.csv").string()));
     return stop ? kInterrupted : kOk;

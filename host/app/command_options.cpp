@@ -142,7 +142,11 @@ void addExportBody(CLI::App& program, ExportBodyOptions& options) {
     command.add_option("--unit", options.unit, "unit of the mesh's lengths, which STL itself cannot tell")
         ->check(CLI::IsMember({"mm", "m", "um", "cm", "inch"}))
         ->capture_default_str();
-    command.add_option("--time", options.time, "time at which moving bodies are shown [s]")->capture_default_str();
+    command
+        .add_option("--time", options.time,
+                    "time at which moving bodies are shown [s]; of bodies that move in phases, the time for which they "
+                    "have moved")
+        ->capture_default_str();
     command.add_option("--angle", options.angle, "angle of the drive at which coil and driven bodies are shown [deg]")
         ->capture_default_str();
     command.add_option("--around", options.around, "corners of a wire's cross-section")

@@ -36,7 +36,7 @@ std::vector<Part> partsOf(const Case& c, const ExportBodyOptions& options) {
     }
     for (const RigidBody& body : c.world.bodies)
         parts.push_back({body.name, placed(bodyMesh(body, c.world.domain, options.perTurn, options.around),
-                                           body.pose(options.time, angle))});
+                                           body.pose(options.time, angle, options.time))});
     return parts;
 }
 

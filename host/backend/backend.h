@@ -104,16 +104,22 @@ class Backend {
     /// closed if only adhesion changes.
     virtual void setLaw(const ContactLaw& law) = 0;
 
+    /// Sets the clocks of those of the world's bodies that move in phases; of the others they mean nothing. `advance`
+    /// counts them on. After a load they stand at 0.
+    virtual void setClocks(const std::vector<BodyClock>& clocks) = 0;
+
     /// Advance `steps` steps with the coil turning at `coilRate` [rad/s about +z]. Throws RunError on a lost particle,
     /// NaN, a full table or an overlap above the world's limit, naming the particle and the step.
     virtual Sensors advance(std::uint32_t steps, double coilRate) = 0;
 
-    /// Everything that the next `advance` depends on, except the world and the radii. After `restore` the run goes on
-    /// with the same bits as if it had not been interrupted. Take it between calls of `advance`.
+    /// Everything that the next `advance` depends on, except the world, the radii and the clocks of bodies. After
+    /// `restore` the run goes on with the same bits as if it had not been interrupted. Take it between calls of
+    /// `advance`.
     virtual Record snapshot() const = 0;
 
     /// Puts back what `snapshot` gave, on top of a `load` of the same world and radii (and a `setLaw` if there was
-    /// one). Throws RecordError if the record is not of this kind of backend or does not fit what was loaded.
+    /// one); clocks of bodies are to be set behind it. Throws RecordError if the record is not of this kind of backend
+    /// or does not fit what was loaded.
     virtual void restore(const Record& record) = 0;
 
     virtual Particles particles() const = 0;

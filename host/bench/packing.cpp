@@ -49,7 +49,7 @@ class Grid {
 };
 
 /// Minimises the sum of the squared overlaps: at the end linear springs balance.
-void pushApart(Particles& p, double edge) {
+void pushApart(Particles& p, double edge, const geometry::Coil* coil) {
     std::vector<Vec3>& x = p.position;
     std::vector<Vec3> push(x.size(), Vec3(0));
     Grid grid(edge, 2 * kRadiusMax);
@@ -69,14 +69,15 @@ void pushApart(Particles& p, double edge) {
             });
             for (glm::length_t a = 0; a < 3; ++a)  // a wall is where the sphere meets its own mirror image
                 push[i][a] += 2 * kShare * (std::max(0.0, r - x[i][a]) - std::max(0.0, x[i][a] + r - edge));
+            if (coil == nullptr) continue;
+            for (const geometry::CoilTouch& touch : geometry::touches(*coil, 0, x[i] - Vec3(edge / 2, edge / 2, 0), r))
+                push[i] += 2 * kShare * (r - touch.distance) * touch.normal;
         }
         for (std::size_t i = 0; i < x.size(); ++i) x[i] += push[i];
     }
 }
 
-}  // namespace
-
-Packing relaxedTile(std::uint64_t seed) {
+Packing relaxed(std::uint64_t seed, const geometry::Coil* coil) {
     const std::size_t n = std::size_t(kSide) * kSide * kSide;
     std::vector<double> radius(n);
     double volume = 0;
@@ -92,8 +93,18 @@ Packing relaxedTile(std::uint64_t seed) {
         const Vec3 corner(double(i % kSide), double(i / kSide % kSide), double(i / kSide / kSide));
         tile.particles.add(site * (corner + Vec3(a[0], a[1], b[0])), radius[i]);
     }
-    pushApart(tile.particles, edge);
+    pushApart(tile.particles, edge, coil);
     return tile;
+}
+
+}  // namespace
+
+Packing relaxedTile(std::uint64_t seed) {
+    return relaxed(seed, nullptr);
+}
+
+Packing relaxedAround(const geometry::Coil& coil, std::uint64_t seed) {
+    return relaxed(seed, &coil);
 }
 
 Packing tiled(const Packing& tile, int nx, int ny, int nz) {

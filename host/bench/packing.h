@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "geometry/coil.h"
 #include "host/model/particles.h"
 
 namespace vkdose::bench {
@@ -21,6 +22,10 @@ struct Packing {
 /// between spheres and twice as stiff at a wall. Without friction, gravity or history the cube is at rest. The same
 /// seed gives the same bits.
 Packing relaxedTile(std::uint64_t seed);
+
+/// The same around a coil in the middle of the cube: its axis lies halfway along x and y, and `zStart` counts from the
+/// origin. Its wire is as stiff as the walls.
+Packing relaxedAround(const geometry::Coil& coil, std::uint64_t seed);
 
 /// `nx` x `ny` x `nz` copies side by side, every other one mirrored. A sphere at a wall then meets its own image with
 /// twice its overlap with the wall, so the whole is as much at rest as the tile.

@@ -103,6 +103,17 @@ std::string jsonTable(const std::vector<Row>& rows) {
     return Json{{"results", j}}.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+std::string ratioLine(const std::vector<Row>& rows, const std::string& name, const std::string& without) {
+    const auto speedOf = [&rows](const std::string& workload) {
+        for (const Row& r : rows)
+            if (r.workload == workload && !r.plain && r.refused.empty()) return r.speed.particleSteps.median;
+        return 0.0;
+    };
+    const double speed = speedOf(name), before = speedOf(without);
+    if (!(speed > 0) || !(before > 0)) return "";
+    return fmt::format("{}: a step of a sphere takes {:.2f} times as long as in {}", name, before / speed, without);
+}
+
 std::string csvTable(const std::vector<Row>& rows) {
     std::vector<std::string> columns;
     for (const Row& r : rows) {

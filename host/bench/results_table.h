@@ -16,6 +16,10 @@ std::string tableLine(const Row& row);
 /// figures.
 std::string detailLines(const Row& row);
 
+/// How many times as long as in the workload `without` a step of a sphere takes in `name`, in a sentence. Empty unless
+/// a backend has figures of both.
+std::string ratioLine(const std::vector<Row>& rows, const std::string& name, const std::string& without);
+
 /// Everything, in SI units; figures that were not measured are missing (JSON) or empty (CSV).
 std::string jsonTable(const std::vector<Row>& rows);
 std::string csvTable(const std::vector<Row>& rows);

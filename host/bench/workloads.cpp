@@ -1,5 +1,9 @@
 #include "host/bench/workloads.h"
 
+#include <memory>
+#include <utility>
+
+#include "geometry/coil_mesh.h"
 #include "host/bench/packing.h"
 
 namespace vkdose::bench {
@@ -41,8 +45,7 @@ const Packing& tile() {
     return relaxed;
 }
 
-Workload box(int nx, int ny, int nz) {
-    const Packing packing = tiled(tile(), nx, ny, nz);
+Workload boxOf(const Packing& packing) {
     Workload w{paperWorld(), packing.particles, 0, 200};
     // The packing is at rest with these.
     ContactParameters& wall = w.world.law.classes[std::size_t(ContactClass::ParticleWall)];
@@ -57,6 +60,31 @@ Workload box(int nx, int ny, int nz) {
     }
     w.world.gravity = Vec3(0);
     w.world.domain = {low - Vec3(kRadiusMax), high + Vec3(kRadiusMax)};
+    return w;
+}
+
+Workload box(int nx, int ny, int nz) {
+    return boxOf(tiled(tile(), nx, ny, nz));
+}
+
+/// A tile in its walls, around a coil of triangles that rests. The coil is about as large as the paper's.
+Workload boxWithMesh() {
+    const Vec3 size = tile().size;
+    geometry::Coil coil;
+    coil.radius = 10e-3;
+    coil.wireRadius = 1e-3;
+    coil.pitch = 9e-3;
+    coil.length = 30e-3;
+    coil.zStart = (size.z - coil.length) / 2;
+    Workload w = boxOf(relaxedAround(coil, kSeed));
+    constexpr int kAround = 16, kPerTurn = 94;  // 10,000 triangles
+    RigidBody body;
+    body.name = "coil";
+    body.course.start.origin = Vec3(size.x / 2, size.y / 2, 0);
+    body.shapes = {std::make_shared<const geometry::MeshSurface>(
+        geometry::makeMesh(geometry::soupOf(geometry::coilMesh(coil, kAround, kPerTurn), "coil")).mesh,
+        (kRadiusMax + kSkin) * (1 + 1e-12))};
+    w.world.bodies.push_back(std::move(body));
     return w;
 }
 
@@ -88,6 +116,7 @@ std::vector<Plan> plans(const std::optional<Case>& bed) {
                        }});
     }
     all.push_back({"bed-3k", true, [] { return box(1, 1, 1); }});
+    all.push_back({"bed-3k-mesh", false, boxWithMesh, "bed-3k"});
     all.push_back({"bed-27k", false, [] { return box(2, 2, 2); }});
     all.push_back({"bed-100k", false, [] { return box(3, 5, 2); }});
     all.push_back({"bed-300k", false, [] { return box(5, 6, 3); }});

@@ -117,6 +117,12 @@ constexpr Key kMotion[] = {
          "`table`: a CSV with the columns `time_s`, and `angle_deg`, `x`, `y`, `z` (m) or some of them"),
     number("from_s", kSecond, kNonNegative, 0.0, "by time: the body stands until then"),
     number("to_s", kSecond, kPositive, told("for ever"), "by time: and from then on"),
+    text("during", told("at all times"),
+         "by time: the phases in which the body moves, separated by blanks: `settle`, `rotate`, `reverse`, `rest`. In "
+         "all others it stands, and the time of its motion with it. In place of `from_s` and `to_s`"),
+    boolean("anew", false,
+            "`table` with `during`: it starts anew when the first of these phases begins, once it has come to its end. "
+            "Its last row must be the place of its first, or whole turns from it"),
 };
 
 constexpr Key kCountRegion[] = {

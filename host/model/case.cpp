@@ -206,6 +206,7 @@ Case interpret(const std::filesystem::path& file, Node tree, std::vector<std::fi
     reader.throwIfFaulty();
     checkSurfaces(reader, c, sizes.smallest);
     checkPlacement(reader, c, filled.particles);
+    if (!reader.faulty()) checkBodies(reader, c, filled.particles, sizes.smallest);
     checkRows(reader, c, filled.particles, sizes);
     reader.throwIfFaulty();
     c.resolved = reader.resolved();

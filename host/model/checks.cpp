@@ -8,6 +8,7 @@
 
 #include "geometry/coincidence.h"
 #include "host/model/grid.h"
+#include "host/model/shared_places.h"
 #include "host/model/size_distribution.h"
 #include "host/model/stability.h"
 
@@ -304,6 +305,27 @@ void checkSurfaces(CaseReader& reader, const Case& c, double radius) {
                              "contacts with one wall",
                              first, at.x, at.y, at.z),
                  "remove one of the two, or move it by more than a fiftieth of the smallest radius");
+}
+
+void checkBodies(CaseReader& reader, const Case& c, const Particles& particles, double radius) {
+    const std::size_t bodies = c.world.bodies.size();
+    for (const SharedPlace& place : sharedPlaces(c, particles, radius)) {
+        if (!place.area) continue;
+        const bool wall = place.second >= bodies;
+        const Vec3 at = place.centre * 1e3;
+        reader.fault(
+            fmt::format("body[{}].at", wall ? place.first : place.second),
+            fmt::format("body \"{}\" coincides with {} for a sphere at ({:.4g}, {:.4g}, {:.4g}) mm, which would "
+                        "have two contacts with one wall",
+                        c.world.bodies[wall ? place.first : place.second].name,
+                        wall ? surfaceKey(c, place.second - bodies)
+                             : fmt::format("body \"{}\"", c.world.bodies[place.first].name),
+                        at.x, at.y, at.z),
+            wall ? "remove one of the two, or move it by more than a fiftieth of the smallest radius"
+                 : "join the two in one mesh, remove one, or move it by more than a fiftieth of the smallest "
+                   "radius");
+        return;
+    }
 }
 
 void checkTimeStep(CaseReader& reader, const Case& c, double smallestRadius) {

@@ -10,6 +10,7 @@
 #include "host/core/file.h"
 #include "host/core/printable.h"
 #include "host/model/case_sections.h"
+#include "host/model/closest_word.h"
 
 namespace vkdose {
 namespace {
@@ -215,6 +216,66 @@ geometry::Motion readMotionOf(CaseReader& reader, Section& s, MotionKind kind, C
     return geometry::Rest{};
 }
 
+/// The phases that `during` names.
+std::vector<Phase> readPhases(CaseReader& reader, Section& s) {
+    const std::string text = s.string("during");
+    if (!s.isString("during")) return {};
+    const std::vector<std::string> known(Words<Phase>::kNames.begin(), Words<Phase>::kNames.end());
+    const std::string remedy = "give some of settle, rotate, reverse, rest, separated by blanks";
+    std::vector<Phase> phases;
+    for (const std::string& word : wordsOf(text)) {
+        const auto found = std::find(known.begin(), known.end(), word);
+        const auto phase = static_cast<Phase>(found - known.begin());
+        if (found == known.end()) {
+            const std::string meant = closestWord(word, known);
+            reader.fault(s.path("during"), fmt::format("there is no phase \"{}\"", printable(word)),
+                         meant.empty() ? remedy : fmt::format("did you mean \"{}\"?", meant));
+        } else if (std::find(phases.begin(), phases.end(), phase) != phases.end()) {
+            reader.fault(s.path("during"), fmt::format("names {} twice", word), "name each phase once");
+        } else {
+            phases.push_back(phase);
+        }
+    }
+    if (wordsOf(text).empty()) reader.fault(s.path("during"), "names no phase", remedy);
+    for (const char* key : {"from_s", "to_s"})
+        if (s.has(key))
+            reader.fault(s.path(key), "does not go with during, by which the body moves in phases",
+                         "give one of the two");
+    s.know("from_s");
+    s.know("to_s");
+    return phases;
+}
+
+/// Whether a body that follows the table is at its end where it is at its beginning.
+bool closes(const geometry::Table& table) {
+    const geometry::Table::Row &first = table.rows.front(), &last = table.rows.back();
+    const double turns = (last.angle - first.angle) / (2 * kPi);
+    return std::abs(turns - std::round(turns)) < 1e-9 && glm::length(last.shift - first.shift) < 1e-12;
+}
+
+/// When a body moves that moves by time.
+void readTimes(CaseReader& reader, Section& s, RigidBody& made) {
+    if (s.has("during")) {
+        made.clock = Clock::Phases;
+        made.phases = readPhases(reader, s);
+        const auto* table = std::get_if<geometry::Table>(&made.course.motion);
+        if (table == nullptr) return;
+        made.anew = s.boolean("anew");
+        if (made.anew && !table->rows.empty() && !closes(*table))
+            reader.fault(s.path("anew"), "would let the body jump, for the table ends in another place than it begins",
+                         "let its last row be the place of its first, or write anew = false");
+        return;
+    }
+    s.know("during");
+    if (s.has("anew")) reader.fault(s.path("anew"), "goes with during", "name the phases in which the table goes on");
+    s.know("anew");
+    const double from = s.number("from_s");
+    const double to = s.has("to_s") ? s.number("to_s") : geometry::kEndless;
+    s.know("to_s");
+    if (to <= from) reader.fault(s.path("to_s"), "is not later than from_s", "give a later time");
+    if (from > 0 || to < geometry::kEndless) made.course.schedule.intervals = {{from, to}};
+}
+
 void readMotion(CaseReader& reader, Section& body, RigidBody& made) {
     if (!body.has("motion")) {
         body.know("motion");
@@ -231,13 +292,12 @@ void readMotion(CaseReader& reader, Section& body, RigidBody& made) {
         return s.abandon();
     }
     made.course.motion = readMotionOf(reader, s, static_cast<MotionKind>(*kind), made.clock);
-    if (made.clock == Clock::Time) {
-        const double from = s.number("from_s");
-        const double to = s.has("to_s") ? s.number("to_s") : geometry::kEndless;
-        s.know("to_s");
-        if (to <= from) reader.fault(s.path("to_s"), "is not later than from_s", "give a later time");
-        if (from > 0 || to < geometry::kEndless) made.course.schedule.intervals = {{from, to}};
+    if (made.clock == Clock::Drive && s.has("during")) {
+        reader.fault(s.path("during"), "does not go with follows = \"drive\": such a body moves when the drive turns",
+                     "leave it out, or write follows = \"time\" and a speed");
+        s.know("during");
     }
+    if (made.clock == Clock::Time) readTimes(reader, s, made);
     if (reader.faulty()) return;
     if (const std::string why = geometry::motionFault(made.course.motion); !why.empty())
         reader.fault(s.path("kind"), why, "mend the motion");

@@ -1,16 +1,16 @@
 #include "host/model/rigid_body.h"
 
 #include <algorithm>
-#include <optional>
 
 namespace vkdose {
 
-geometry::Pose RigidBody::pose(double time, double driveAngle) const {
-    return course.pose(clock == Clock::Time ? time : driveAngle);
+geometry::Pose RigidBody::pose(double time, double driveAngle, double own) const {
+    return course.pose(clock == Clock::Time ? time : clock == Clock::Drive ? driveAngle : own);
 }
 
-geometry::Moving RigidBody::moving(double time, double driveAngle, double driveRate) const {
+geometry::Moving RigidBody::moving(double time, double driveAngle, double driveRate, std::optional<double> own) const {
     if (clock == Clock::Time) return course.moving(time);
+    if (clock == Clock::Phases) return own ? course.moving(*own) : geometry::Moving{};
     // The course gives the motion per radian of the drive.
     geometry::Moving moving = course.moving(driveAngle);
     moving.velocity *= driveRate;
@@ -44,8 +44,20 @@ Vec3 RigidBody::pivot(const geometry::Pose& pose) const {
     return line ? *line->through : pose.origin;
 }
 
+void advanceClocks(std::vector<BodyClock>& clocks, std::uint64_t steps) {
+    for (BodyClock& clock : clocks) {
+        const bool passes = clock.runs && clock.steps + steps >= clock.anewAt;
+        clock.steps = clock.after(steps);
+        if (passes) clock.anewAt = BodyClock::kNever;
+    }
+}
+
 bool followsDrive(const std::vector<RigidBody>& bodies) {
     return std::any_of(bodies.begin(), bodies.end(), [](const RigidBody& b) { return b.clock == Clock::Drive; });
+}
+
+bool movesInPhases(const std::vector<RigidBody>& bodies) {
+    return std::any_of(bodies.begin(), bodies.end(), [](const RigidBody& b) { return b.clock == Clock::Phases; });
 }
 
 }  // namespace vkdose

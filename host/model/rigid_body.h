@@ -1,19 +1,39 @@
 #pragma once
 // A body of the user's own: a rigid thing that spheres touch, with a place and a motion.
 
+#include <cstdint>
+#include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "geometry/motion.h"
 #include "geometry/shape.h"
 #include "host/model/material.h"
+#include "host/model/phase.h"
 
 namespace vkdose {
 
 /// What a body's motion follows.
 enum class Clock {
-    Time,  ///< the time since load [s]
-    Drive  ///< the angle of the drive since load [rad]: the motion goes on while powder is dosed, and with its speed
+    Time,   ///< the time since load [s]
+    Drive,  ///< the angle of the drive since load [rad]: the motion goes on while powder is dosed, and with its speed
+    Phases  ///< a clock of its own, which runs in some phases of the schedule and stands in all others [s]
+};
+
+/// The clock of a body that moves in phases.
+struct BodyClock {
+    static constexpr std::uint64_t kNever = std::numeric_limits<std::uint64_t>::max();
+
+    std::uint64_t steps = 0;        ///< time steps that it has counted
+    bool runs = false;              ///< it counts on; else it stands
+    std::uint64_t anewAt = kNever;  ///< the count at which it starts anew, once
+
+    /// Its count `more` steps later, if it runs on or stands until then.
+    std::uint64_t after(std::uint64_t more) const {
+        const std::uint64_t count = steps + (runs ? more : 0);
+        return count >= anewAt ? count - anewAt : count;
+    }
 };
 
 struct RigidBody {
@@ -22,19 +42,27 @@ struct RigidBody {
     geometry::Course course;
     Clock clock = Clock::Time;
     ContactClass kind = ContactClass::ParticleWall;
+    // Of Clock::Phases:
+    std::vector<Phase> phases{};  ///< in which its clock runs
+    bool anew = false;  ///< a table starts anew when the first of `phases` begins, once it has come to its end
 
-    /// Where the body is. `driveAngle` [rad].
-    geometry::Pose pose(double time, double driveAngle) const;
-    /// How it moves there. `driveRate` [rad/s].
-    geometry::Moving moving(double time, double driveAngle, double driveRate) const;
+    /// Where the body is. `driveAngle` [rad]; `own` is the time on its own clock, if it moves in phases [s].
+    geometry::Pose pose(double time, double driveAngle, double own = 0) const;
+    /// How it moves there. `driveRate` [rad/s]; `own` [s] as above, none while that clock stands.
+    geometry::Moving moving(double time, double driveAngle, double driveRate, std::optional<double> own = {}) const;
     /// The direction of the axis about which the body's torque is told: that of its motion, or +z.
     Vec3 axis() const;
     /// A point on that axis, in the world: on the axis of its motion, or the origin of its frame.
     Vec3 pivot(const geometry::Pose& pose) const;
 };
 
+/// Counts the clocks on by so many steps.
+void advanceClocks(std::vector<BodyClock>& clocks, std::uint64_t steps);
+
 /// Whether one of the bodies follows the drive.
 bool followsDrive(const std::vector<RigidBody>& bodies);
+/// Whether one of the bodies moves in phases.
+bool movesInPhases(const std::vector<RigidBody>& bodies);
 
 /// Most bodies of a world.
 inline constexpr std::size_t kMaxBodies = 16;

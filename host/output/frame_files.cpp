@@ -13,6 +13,8 @@ namespace {
 
 using vtkhdf::Array;
 
+constexpr const char* kBodyClocks = "body_clocks";
+
 std::vector<double> flat(const std::vector<Vec3>& vectors) {
     std::vector<double> values;
     values.reserve(3 * vectors.size());
@@ -76,7 +78,8 @@ class ContactGeometry {
 
     /// None if the particle is not near the body. Then the contact is that of a turn of the coil with the same number.
     std::optional<Geometry> placeOn(const RigidBody& body, const Contact& c) const {
-        const geometry::Pose pose = body.pose(frame_.time, frame_.coilAngle);
+        const auto index = static_cast<std::size_t>(&body - world_.bodies.data());
+        const geometry::Pose pose = body.pose(frame_.time, frame_.coilAngle, frame_.clockOf(index));
         const Vec3 x = pose.toBody(frame_.particles.position[c.particle]), force = pose.directionToBody(c.force);
         const double r = frame_.particles.radius[c.particle];
         std::optional<geometry::Closest> best;
@@ -128,11 +131,14 @@ class ContactGeometry {
 
 std::vector<vtkhdf::Array> fieldsOf(const Frame& f) {
     const auto number = [](auto x) { return std::vector<std::uint32_t>{static_cast<std::uint32_t>(x)}; };
-    return {{"TimeValue", "s", 1, std::vector<double>{f.time}},
-            {"step", "", 1, std::vector<double>{static_cast<double>(f.step)}},  // exact: a run has fewer than 2^53
-            {"phase", "", 1, number(f.phase)},
-            {"dose", "", 1, number(f.dose)},
-            {"coil_angle", "rad", 1, std::vector<double>{f.coilAngle}}};
+    std::vector<vtkhdf::Array> fields{
+        {"TimeValue", "s", 1, std::vector<double>{f.time}},
+        {"step", "", 1, std::vector<double>{static_cast<double>(f.step)}},  // exact: a run has fewer than 2^53
+        {"phase", "", 1, number(f.phase)},
+        {"dose", "", 1, number(f.dose)},
+        {"coil_angle", "rad", 1, std::vector<double>{f.coilAngle}}};
+    if (!f.bodyClocks.empty()) fields.push_back({kBodyClocks, "s", 1, f.bodyClocks});
+    return fields;
 }
 
 vtkhdf::Grid particlesGrid(const Frame& frame, const World& world, std::uint32_t member) {
@@ -266,6 +272,9 @@ void readParticlesFile(std::string bytes, Frame& frame) {
     frame.phase = static_cast<Phase>(field.get<std::uint32_t>("phase")[0]);
     frame.dose = static_cast<int>(field.get<std::uint32_t>("dose")[0]);
     frame.coilAngle = field.get<double>("coil_angle")[0];
+    frame.bodyClocks.clear();
+    if (reader.has("/VTKHDF/FieldData/" + std::string(kBodyClocks)))
+        frame.bodyClocks = reader.array<double>("/VTKHDF/FieldData/" + std::string(kBodyClocks));
     const std::size_t n = one(reader, "NumberOfPoints");
     const Columns data(reader, "/VTKHDF/PointData", n);
     Particles& p = frame.particles;

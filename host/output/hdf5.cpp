@@ -265,6 +265,10 @@ Record Reader::record(const std::string& path) const {
     return record;
 }
 
+bool Reader::has(const std::string& path) const {
+    return H5Lexists(file_, path.c_str(), H5P_DEFAULT) > 0;
+}
+
 template <class T>
 std::vector<T> Reader::array(const std::string& path) const {
     const Handle set = openDataset(file_, path);

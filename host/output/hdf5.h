@@ -69,6 +69,7 @@ class Reader {
     explicit Reader(std::string image);
     std::string text(const std::string& path) const;
     Record record(const std::string& path) const;
+    bool has(const std::string& path) const;  ///< a data set or a group whose parent is there
     /// A data set of any shape, converted to T: double, float, or an unsigned integer of 32 or 64 bits.
     template <class T>
     std::vector<T> array(const std::string& path) const;

@@ -179,7 +179,7 @@ class Measuring {
         const RigidBody& body = c_.world.bodies.at(m.bodies.at(0));
         const auto& turn = std::get<geometry::Turn>(body.course.motion);
         // By the drive a body turns as the coil conveys, which may be either way about its axis.
-        const bool back = body.clock == Clock::Time ? turn.rate < 0 : turn.rate * senseOfDrive() < 0;
+        const bool back = body.clock == Clock::Drive ? turn.rate * senseOfDrive() < 0 : turn.rate < 0;
         const Vec3 axis = back ? -turn.axis : turn.axis;
         std::vector<double> angles;
         for (const FrameEntry& entry : frames_.entries()) {

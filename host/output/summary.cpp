@@ -213,8 +213,10 @@ std::string summaryJson(const Case& c, const RunResult& r, const std::string& ba
     j["arches"] = arches(history.arches);
     if (!history.measures.empty()) j["measures"] = measures(history.measures);
     j["settling"] = settling(c, r.settling);
-    for (std::size_t b = 0; b < r.last.bodies.size(); ++b)
+    for (std::size_t b = 0; b < r.last.bodies.size(); ++b) {
         j["bodies"].push_back({{"name", c.world.bodies.at(b).name}, {"work_J", jsonNumber(r.last.bodies[b].work)}});
+        if (b < r.bodyClocks.size()) j["bodies"].back()["moved_s"] = jsonNumber(r.bodyClocks[b]);
+    }
     for (std::size_t i = 0; i < r.last.regions.size(); ++i)
         j["regions"].push_back({{"name", c.world.regions.at(i).name},
                                 {"mass_kg", jsonNumber(r.last.regions[i].mass)},

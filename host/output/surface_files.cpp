@@ -44,10 +44,12 @@ struct Collection {
         mesh.insert(mesh.end(), more.begin(), more.end());
         owner.resize(mesh.size(), static_cast<std::uint32_t>(whose));
     }
-    void add(const World& world, bool moving, double time, double driveAngle) {
+    void add(const World& world, bool moving, const Frame& frame) {
         for (std::size_t b = 0; b < world.bodies.size(); ++b) {
             const RigidBody& body = world.bodies[b];
-            if (moves(body) == moving) add(placed(bodyMesh(body, world.domain), body.pose(time, driveAngle)), b + 1);
+            if (moves(body) != moving) continue;
+            const geometry::Pose pose = body.pose(frame.time, frame.coilAngle, frame.clockOf(b));
+            add(placed(bodyMesh(body, world.domain), pose), b + 1);
         }
     }
     vtkhdf::Grid grid(const World& world) {
@@ -71,7 +73,7 @@ std::string wallsFile(const Case& c) {
     }
     Collection walls;
     walls.add(geometry::surfaceMesh(w.surfaces, low, high), 0);
-    walls.add(w, false, 0, 0);
+    walls.add(w, false, Frame{});
     return walls.mesh.empty() ? "" : vtkhdf::file(walls.grid(w));
 }
 
@@ -81,7 +83,7 @@ bool bodiesMove(const World& world) {
 
 std::string bodiesFile(const Frame& frame, const World& world) {
     Collection bodies;
-    bodies.add(world, true, frame.time, frame.coilAngle);
+    bodies.add(world, true, frame);
     vtkhdf::Grid grid = bodies.grid(world);
     grid.fieldData = fieldsOf(frame);
     return vtkhdf::file(grid);

@@ -98,7 +98,7 @@ std::optional<Quantity> quantityNamed(std::string_view name) {
 
 std::vector<double> valuesOf(Quantity quantity, const Case& c, const Frame& frame, const Particles* fill) {
     const Particles& p = frame.particles;
-    if (quantity == Quantity::Overlap) return overlapRatios(p, c.world, frame.coilAngle, frame.time);
+    if (quantity == Quantity::Overlap) return overlapRatios(p, c.world, frame.coilAngle, frame.time, frame.bodyClocks);
     if (quantity == Quantity::Radius) return p.radius;
     std::vector<double> values(p.size(), std::numeric_limits<double>::quiet_NaN());
     for (std::size_t i = 0; i < p.size(); ++i) {

@@ -45,10 +45,10 @@ Json skinJson(const Skin& skin) {
     return {{"points", packed(points)}, {"triangles", packed(triangles)}, {"edges", packed(edges)}};
 }
 
-Json posesJson(const RigidBody& body, const std::vector<double>& times, const std::vector<double>& angles) {
+Json posesJson(const DrawnBody& body, const Case& c, const std::vector<Frame>& frames) {
     std::vector<float> poses;
-    for (std::size_t f = 0; f < times.size(); ++f) {
-        const geometry::Pose pose = body.pose(times[f], angles[f]);
+    for (const Frame& frame : frames) {
+        const geometry::Pose pose = poseOf(body, c, frame);
         for (const double q : {pose.rotation.w, pose.rotation.x, pose.rotation.y, pose.rotation.z})
             poses.push_back(static_cast<float>(q));
         put(poses, pose.origin);
@@ -80,8 +80,7 @@ Box contentOf(const Case& c, const std::vector<DrawnBody>& bodies, const Frame& 
 
 }  // namespace
 
-Json bodiesJson(const Case& c, const std::vector<double>& times, const std::vector<double>& angles,
-                const Frame& settled) {
+Json bodiesJson(const Case& c, const std::vector<Frame>& frames, const Frame& settled) {
     std::vector<DrawnBody> bodies = bodiesOf(c);
     const Box content = contentOf(c, bodies, settled);
     const Vec3 first(-0.87, 0.28, 0.41);  // from where the player looks at first
@@ -96,7 +95,7 @@ Json bodiesJson(const Case& c, const std::vector<double>& times, const std::vect
         j["name"] = body.name;
         j["pane"] = drawn.seeThrough;
         j["ends"] = ends;
-        j["poses"] = posesJson(body, times, angles);
+        j["poses"] = posesJson(drawn, c, frames);
         list.push_back(std::move(j));
     }
     return list;

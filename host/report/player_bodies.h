@@ -13,11 +13,10 @@ namespace vkdose::report {
 inline constexpr std::size_t kMostTriangles = 100'000;
 
 /// For each body its name, its triangles and edges in its own frame, whether it is drawn as a pane, and its place in
-/// each frame of `frames` (times [s] and angles of the drive [rad]). Numbers are single precision in base64, with the
+/// each of `frames`, whose particles and contacts are not looked at. Numbers are single precision in base64, with the
 /// lowest byte first: `points` three for each corner [m], `triangles` three 32-bit numbers of corners each, `edges` six
 /// each [m], `poses` the quaternion w, x, y, z and the origin [m]. Bodies without an end are cut off a little beyond
 /// powder and other bodies. `settled` is the frame by which is judged what a body hides.
-Json bodiesJson(const Case& c, const std::vector<double>& times, const std::vector<double>& angles,
-                const Frame& settled);
+Json bodiesJson(const Case& c, const std::vector<Frame>& frames, const Frame& settled);
 
 }  // namespace vkdose::report

@@ -93,7 +93,7 @@ class Encoder {
                               fmt::format("particles in the frame at {} s, {} in the first", frame.time, gone_.size()),
                               "give the frames of one run"}});
         if (frames_ == 0) addRadii(p);
-        addParticles(p, overlapRatios(p, case_.world, frame.coilAngle, frame.time));
+        addParticles(p, overlapRatios(p, case_.world, frame.coilAngle, frame.time, frame.bodyClocks));
         addSurface(p);
         ++frames_;
     }
@@ -197,13 +197,13 @@ Json framesJson(const std::vector<FrameEntry>& entries) {
     return j;
 }
 
-Json bodiesOfFrames(const Case& c, const std::vector<FrameEntry>& entries, const Frame& settled) {
-    std::vector<double> times, angles;
-    for (const FrameEntry& entry : entries) {
-        times.push_back(entry.time);
-        angles.push_back(entry.coilAngle);
-    }
-    return bodiesJson(c, times, angles, settled);
+/// The frame of an entry without its powder.
+Frame placesOf(const FrameEntry& entry, const Frame& frame) {
+    Frame places;
+    places.time = entry.time;
+    places.coilAngle = entry.coilAngle;
+    places.bodyClocks = frame.bodyClocks;
+    return places;
 }
 
 }  // namespace
@@ -220,15 +220,19 @@ Json playerJson(const Case& c, const FrameSource& frames, std::size_t columns, s
     const std::size_t particles = settled.particles.size();
     const std::size_t most = std::min(kMostFrames, std::max<std::size_t>(2, kMostMemory / (8 * particles + 1)));
     std::size_t stride = 1 + (frames.entries.size() - 1) / (most - 1);
-    const std::size_t taken = bodiesOfFrames(c, {}, settled).dump().size();
+    const std::size_t taken = bodiesJson(c, {}, settled).dump().size();
     mostCharacters -= std::min(mostCharacters, taken);
     while (true) {
         const std::vector<FrameEntry> entries = thinned(frames.entries, stride);
         const bool least = entries.size() <= 2;
         Encoder encoder(c, particles, columns);
         std::size_t done = 0;
-        for (; done < entries.size() && (least || encoder.characters() <= mostCharacters); ++done)
-            encoder.add(frames.read(entries[done]));
+        std::vector<Frame> places;
+        for (; done < entries.size() && (least || encoder.characters() <= mostCharacters); ++done) {
+            const Frame frame = frames.read(entries[done]);
+            encoder.add(frame);
+            places.push_back(placesOf(entries[done], frame));
+        }
         std::string stream = encoder.finish();
         if (least || (done == entries.size() && stream.size() <= mostCharacters)) {
             Json j = sceneJson(c);
@@ -236,7 +240,7 @@ Json playerJson(const Case& c, const FrameSource& frames, std::size_t columns, s
             j["columns"] = columns;
             j["radius_m"] = numbers(encoder.radiusRange());
             j["frames"] = framesJson(entries);
-            j["bodies"] = bodiesOfFrames(c, entries, settled);
+            j["bodies"] = bodiesJson(c, places, settled);
             j["stored"] = frames.entries.size();
             j["every"] = stride;
             j["stream"] = std::move(stream);

@@ -11,6 +11,7 @@
 #include "host/core/error.h"
 #include "host/core/random.h"
 #include "host/sim/agreement.h"
+#include "host/sim/body_clocks.h"
 #include "host/sim/ledger.h"
 
 namespace vkdose {
@@ -51,7 +52,11 @@ class Walker {
   public:
     Walker(std::string name, const Case& c, const Timeline& timeline, Backend& backend, const Particles& start,
            double filledMass)
-        : name_(std::move(name)), timeline_(timeline), backend_(backend), ledger_(start.size(), filledMass) {
+        : name_(std::move(name)),
+          timeline_(timeline),
+          backend_(backend),
+          ledger_(start.size(), filledMass),
+          clocks_(c.world) {
         told([&] { backend_.load(c.world, c.settlingLaw, start); });
     }
 
@@ -62,6 +67,9 @@ class Walker {
         told([&] {
             if (stretch.law != law_) backend_.setLaw(*stretch.law);
             law_ = stretch.law;
+            clocks_.enter(stretch.phase, stretch.dose);
+            if (clocks_.any()) backend_.setClocks(clocks_.now());
+            clocks_.count(n);
             sensors = backend_.advance(n, stretch.rate);
             ledger_.close(sensors, timeline_.time(step));
             state = backend_.particles();
@@ -123,6 +131,7 @@ class Walker {
     const Timeline& timeline_;
     Backend& backend_;
     Ledger ledger_;
+    BodyClocks clocks_;
     std::uint64_t step_ = 0;
     const ContactLaw* law_ = nullptr;  // in force
     std::uint64_t phaseEnd_ = 0;

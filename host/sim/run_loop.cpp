@@ -90,10 +90,13 @@ void RunLoop::advance(std::uint64_t sampleStep) {
     const auto limit = static_cast<std::uint64_t>(std::clamp(perCall, 64.0, 1e6));
     const std::uint64_t n = std::min({sampleStep_ - step_, stretch_.pieceEnd - step_, limit});
     const auto begin = WallClock::now();
+    clocks_.enter(stretch_.phase, stretch_.dose);
+    if (clocks_.any()) backend_.setClocks(clocks_.now());
     const Sensors s = backend_.advance(static_cast<std::uint32_t>(n), stretch_.rate);
     result_.wallTime += std::chrono::duration<double>(WallClock::now() - begin).count();
     result_.particleSteps += static_cast<double>(active_) * static_cast<double>(n);
     step_ += n;
+    clocks_.count(n);
     active_ = active(s);
     gather(s, n);
     report();
@@ -130,7 +133,7 @@ void RunLoop::measureDensity() {
 void RunLoop::frame() {
     if (!observer_.storesFrames()) return;
     observer_.onFrame({step_, timeline_.time(step_), stretch_.phase, stretch_.dose, backend_.coilAngle(),
-                       backend_.particles(), backend_.contacts()});
+                       backend_.particles(), backend_.contacts(), clocks_.times()});
     if (case_.frames.states && step_ > 0) keepState(KeptState::Frame);
 }
 
@@ -185,6 +188,7 @@ void RunLoop::fail(StopReason reason, const char* what) {
 
 void RunLoop::keepEndState() {
     result_.particles = backend_.particles();
+    result_.bodyClocks = clocks_.times();
     result_.endState = true;
 }
 
@@ -200,6 +204,7 @@ void RunLoop::report() {
     p.steps = step_ - before_.steps;
     p.particleSteps = result_.particleSteps - before_.particleSteps;
     p.wallTime = result_.wallTime - before_.wallTime;
+    p.bodyClocks = clocks_.times();
     observer_.onProgress(p);
 }
 

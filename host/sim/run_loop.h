@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "host/core/error.h"
+#include "host/sim/body_clocks.h"
 #include "host/sim/body_loads.h"
 #include "host/sim/dose_book.h"
 #include "host/sim/energy_ledger.h"
@@ -135,6 +136,7 @@ class RunLoop {
 
     Sensors now_;                 ///< of the last call, joined with the calls since the last sample
     std::uint64_t gathered_ = 0;  ///< steps since the last sample
+    BodyClocks clocks_{case_.world};
     BodyLoads loads_{case_.world.bodies.size()};
     RegionBook regions_{case_.world};
     double impulse_ = 0;   ///< torque times steps since the last sample

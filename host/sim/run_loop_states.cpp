@@ -30,6 +30,7 @@ void RunLoop::takeOver(const RunCheckpoint& from, double time) {
     // The clock of bodies that move counts steps.
     if (state.arrays().contains(kSnapshotSteps)) state.putOne(kSnapshotSteps, step_);
     backend_.restore(state);
+    if (facts.step > 0) clocks_.takeOver(from.run, static_cast<double>(step_) / static_cast<double>(facts.step));
     active_ = facts.active;
     takeSample(from.run, facts);
     before_.steps = step_;
@@ -94,6 +95,7 @@ Record RunLoop::save() const {
                                       result_.maxOverlapTime, result_.particleSteps, result_.wallTime});
     r.putOne("steps_of_others", result_.stepsOfOthers);
     put(r, "now", now_);
+    clocks_.save(r);
     loads_.save(r);
     regions_.save(r);
     put(r, "energy", energy_);
@@ -121,6 +123,7 @@ void RunLoop::restore(const Record& r) {
     gathered_ = progress[3];
     varied_ = progress[4] != 0;
     const auto& sums = r.get<double>("sums", 8);
+    clocks_.restore(r);
     loads_.restore(r);
     regions_.restore(r);
     impulse_ = sums[0];

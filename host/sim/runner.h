@@ -32,8 +32,9 @@ struct Progress {
     bool phaseEnd = false;
     // Counted since the run began or was resumed: earlier work says nothing about the machine that the run is on now.
     std::uint64_t steps = 0;
-    double particleSteps = 0;  ///< active particles times steps
-    double wallTime = 0;       ///< spent stepping [s]
+    double particleSteps = 0;          ///< active particles times steps
+    double wallTime = 0;               ///< spent stepping [s]
+    std::vector<double> bodyClocks{};  ///< as in Frame
 };
 
 /// A state to resume from: the runner's own and the backend's snapshot.
@@ -88,10 +89,11 @@ struct RunResult {
     StopReason reason = StopReason::Settled;
     std::string error;  ///< what stopped the run, for RunError, DeviceError and OutputError
     Ledger ledger{0, 0};
-    Particles particles;         ///< end state; the inserted ones if the backend cannot give it any more
-    bool endState = false;       ///< true if `particles` is the end state
-    double maxOverlapRatio = 0;  ///< largest overlap over smaller radius of the whole run
-    double maxOverlapTime = 0;   ///< when the call in which it occurred ended [s]
+    Particles particles;             ///< end state; the inserted ones if the backend cannot give it any more
+    std::vector<double> bodyClocks;  ///< at the end, as in Frame
+    bool endState = false;           ///< true if `particles` and `bodyClocks` are those of the end
+    double maxOverlapRatio = 0;      ///< largest overlap over smaller radius of the whole run
+    double maxOverlapTime = 0;       ///< when the call in which it occurred ended [s]
     double particleSteps = 0;
     double wallTime = 0;       ///< spent stepping [s]
     double stepsOfOthers = 0;  ///< of the particle-steps, those that another run made and timed

@@ -1,26 +1,15 @@
 #pragma once
 // The schedule of a case in whole steps: settle, then doses of rotating and resting, one after the other.
 
-#include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
-#include <string_view>
 
-#include "host/core/columns.h"
 #include "host/core/record.h"
 #include "host/model/case.h"
+#include "host/model/phase.h"
 
 namespace vkdose {
-
-enum class Phase { Settle, Rotate, Rest, Reverse };
-template <>
-struct Words<Phase> {
-    static constexpr std::array<const char*, 4> kNames{"settle", "rotate", "rest", "reverse"};
-};
-inline std::string_view phaseName(Phase phase) {
-    return Words<Phase>::kNames.at(std::size_t(phase));
-}
 
 /// The plan of a run, by the longest time of every phase, and what has been decided so far: that the bed rests, how
 /// fast the coil turns and that it is to stop. A decision moves everything after it.

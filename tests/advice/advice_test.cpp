@@ -168,11 +168,66 @@ TEST_CASE("spheres that start inside of a closed mesh are told, unless it holds 
     CHECK(warned("0.03,0.001,-0.002,1e-3\n0.02,0,0.003,1e-3\n").empty());
 }
 
+TEST_CASE("a body that is to move in a phase that the run lacks is told, and a table too long to start anew") {
+    const test::Folder folder;
+    folder.write("way.csv", "time_s,angle_deg\n0,0\n0.02,90\n0.06,0\n");
+    const auto warned = [&](const std::string& motion) {
+        std::string text = test::kDrum;
+        const std::string turn = "kind = \"turn\"\nspeed_rpm = 60\n";
+        text.replace(text.find(turn), turn.size(), motion);
+        const std::vector<Warning> found = warningsOfText(folder, text);
+        const Warning* warning = warningOf(found, "body-phases");
+        return warning == nullptr ? std::string() : warning->line();
+    };
+    const std::string turn = "kind = \"turn\"\nspeed_rpm = 60\n", table = "kind = \"table\"\nfile = \"way.csv\"\n";
+    CHECK_THAT(warned(turn + "during = \"rotate rest\"\n"),
+               Catch::Contains("body \"drum\" is to move in the phase rest") && Catch::Contains("dose.rest_s"));
+    CHECK_THAT(warned(turn + "during = \"reverse\"\n"), Catch::Contains("dose.reverse_turns"));
+    CHECK(warned(turn + "during = \"rotate\"\n").empty());
+    CHECK_THAT(warned(table + "during = \"rotate\"\nanew = true\n"),
+               Catch::Contains("takes 0.06 s") && Catch::Contains("at most 0.05 s"));
+    CHECK(warned(table + "during = \"rotate\"\n").empty());
+    CHECK(warned(table + "during = \"settle\"\nanew = true\n").empty());
+}
+
+TEST_CASE("two bodies at rest that meet in a seam where powder comes are told") {
+    const test::Folder folder;
+    folder.write("two.csv", "x,y,z,r\n0.002,0.01,0.001,1e-3\n-0.01,0.01,0,1e-3\n");
+    const auto warned = [&](const std::string& bodies) {
+        const std::vector<Warning> found = warningsOfText(folder, test::kFreeCase + bodies);
+        const Warning* warning = warningOf(found, "body-seam");
+        return warning == nullptr ? std::string() : warning->line();
+    };
+    const auto box = [](const std::string& name, const std::string& at) {
+        return "[[body]]\nname = \"" + name + "\"\nshape = \"box\"\nsize_mm = [10, 4, 10]\nat = [" + at + "]\n";
+    };
+    CHECK_THAT(warned(box("left", "-0.005, 0, 0") + box("right", "0.005, 0, 0")),
+               Catch::Contains("body \"left\" and body \"right\" meet in a seam") &&
+                   Catch::Contains("export-body CASE left right"));
+    CHECK(warned(box("left", "-0.005, 0, 0") + box("right", "0.005, -0.001, 0.001")).empty());  // a step
+    CHECK(warned(box("left", "-0.005, 0, 0") + box("right", "0.0055, 0, 0")).empty());      // a gap
+    // A funnel and its spout: the rim is met from within, where the way grows steeper.
+    const std::string funnel =
+        "[[body]]\nname = \"funnel\"\nshape = \"cone\"\nradius_mm = 4\nend_radius_mm = 12\nlength_mm = 6\n"
+        "rotation_axis = [1, 0, 0]\nrotation_deg = -90\n";
+    const std::string spout =
+        "[[body]]\nname = \"spout\"\nshape = \"cylinder\"\nradius_mm = 4\nlength_mm = 6\n"
+        "rotation_axis = [1, 0, 0]\nrotation_deg = 90\n";
+    CHECK_THAT(warned(funnel + spout), Catch::Contains("\"funnel\" and body \"spout\" meet in a seam"));
+    // A bin on a funnel: within it is a corner, which has two contacts by right; without it no powder comes.
+    const std::string bin =
+        "[[body]]\nname = \"bin\"\nshape = \"cylinder\"\nradius_mm = 12\nlength_mm = 20\nat = [0, 0.006, 0]\n"
+        "rotation_axis = [1, 0, 0]\nrotation_deg = -90\n";
+    CHECK(warned(funnel + bin).empty());
+}
+
 TEST_CASE("every rule is shown by a slip") {
     std::set<std::string> shown{"no-outlet"}, all;  // that one takes a case without a canister
     for (const Slip& slip : kSlips) shown.insert(slip.name);
     for (const BodySlip& slip : kBodySlips) shown.insert(slip.name);
     shown.insert("body-inside");  // below
+    shown.insert("body-phases");
+    shown.insert("body-seam");
     for (const std::string& name : warningNames()) all.insert(name);
     CHECK(all.size() == warningNames().size());
     CHECK(shown == all);

@@ -48,6 +48,19 @@ TEST_CASE("overlaps with a wall and with the coil where it has turned to") {
     CHECK(turned[1] == 0);
 }
 
+TEST_CASE("overlaps with a body where its own clock has brought it") {
+    Particles p;
+    p.add({0, 1.8e-3, 0}, 1e-3);
+    World world;
+    RigidBody lift;
+    lift.shapes = {geometry::Ball{Vec3(0), 1e-3}};
+    lift.course.motion = geometry::Slide{{0, 1e-3, 0}};
+    lift.clock = Clock::Phases;
+    world.bodies = {lift, lift};
+    CHECK(near(overlapRatios(p, world, 0, 7)[0], 0.2, 1, kExact));
+    CHECK(near(overlapRatios(p, world, 0, 7, {0, 0.3})[0], 0.5, 1, kExact));
+}
+
 TEST_CASE("overlaps leave out what is dosed or lost") {
     Particles p;
     for (int i = 0; i < 3; ++i) p.add({0, 1e-3 * i, 0}, 1e-3);

@@ -93,11 +93,60 @@ TEST_CASE("the loads of bodies stand in the time series, and their work in the s
     }
 }
 
-TEST_CASE("a run with bodies that is killed leaves the same files after all") {
+namespace {
+
+/// The drum turns while its powder settles, and the post only while it is dosed.
+std::string phasedDrum() {
+    std::string text = kDrum;
+    const auto put = [&text](const std::string& from, const std::string& to) {
+        text.replace(text.find(from), from.size(), to);
+    };
+    put("speed_rpm = 60\n", "speed_rpm = 60\nduring = \"settle\"\n");
+    put("follows = \"drive\"\nturns_per_turn = 2\n", "speed_rpm = 90\nduring = \"rotate\"\n");
+    put("[settle]",
+        "[[body]]\nname = \"driven\"\nshape = \"ball\"\nradius_mm = 0.5\nat = [0, 0.012, 0.005]\n"
+        "[body.motion]\nkind = \"turn\"\nfollows = \"drive\"\n[settle]");
+    return text;
+}
+
+}  // namespace
+
+TEST_CASE("bodies move in the phases that the case names, and stand in the others") {
     for (const std::string backend : {"reference", "vulkan"}) {
         CAPTURE(backend);
         const Sandbox box;
-        box.write("drum.toml", kDrum);
+        box.write("drum.toml", phasedDrum());
+        const auto end =
+            box.vkdose("run drum.toml --quiet --out run --set frames.interval_s=0.01 --backend " + backend);
+        INFO(end.err);
+        REQUIRE(end.code == 0);
+        const auto series = readCsv(box / "run/timeseries.csv");
+        double settling = 0, dosing = 0;
+        for (std::size_t row = 1; row < series.size(); ++row) {
+            const bool settles = series[row][column(series, "phase")] == "settle";
+            const double drum = std::stod(series[row][column(series, "drum.power_W")]);
+            const double post = std::stod(series[row][column(series, "post.power_W")]);
+            if (settles) CHECK(post == 0);
+            settling += settles ? std::abs(drum) : 0;
+            dosing += settles ? 0 : std::abs(post);
+            if (!settles) CHECK(drum == 0);
+        }
+        CHECK(settling > 0);
+        CHECK(dosing > 0);
+        const auto summary = nlohmann::json::parse(readText(box / "run/summary.json"));
+        CHECK(summary["bodies"][0]["moved_s"].get<double>() == Approx(0.06).epsilon(1e-4));
+        CHECK(summary["bodies"][1]["moved_s"].get<double>() == Approx(0.05).epsilon(1e-4));
+        CHECK(box.vkdose("render run --out end.png").code == 0);
+        CHECK(box.vkdose("report run").code == 0);
+    }
+}
+
+TEST_CASE("a run with bodies that is killed leaves the same files after all") {
+    for (const auto& [backend, text] : {std::pair("reference", kDrum), std::pair("vulkan", kDrum),
+                                        std::pair("reference", phasedDrum()), std::pair("vulkan", phasedDrum())}) {
+        CAPTURE(backend, text);
+        const Sandbox box;
+        box.write("drum.toml", text);
         const std::vector<std::string> words{
             "run", "drum.toml", "--quiet", "--backend", backend, "--set", "checkpoint.time_s=0.004", "--out"};
         const auto with = [&](const char* out) {
@@ -123,7 +172,7 @@ TEST_CASE("a run with bodies that is killed leaves the same files after all") {
             return nlohmann::json::parse(readText(box / out / "summary.json"))["bodies"];
         };
         CHECK(bodies("cut") == bodies("whole"));
-        CHECK(bodies("cut").size() == 2);
+        CHECK(bodies("cut").size() >= 2);
     }
 }
 

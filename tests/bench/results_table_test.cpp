@@ -72,3 +72,20 @@ TEST_CASE("a refusal is told in the line of the table") {
     CHECK(detailLines(refused()).empty());
     CHECK(tableLine(bed()).find("2.000") != std::string::npos);
 }
+
+TEST_CASE("a workload is compared with the one that it names") {
+    Row bed, mesh, plain;
+    bed.workload = "bed";
+    bed.speed.particleSteps.median = 6e6;
+    mesh.workload = "mesh";
+    mesh.speed.particleSteps.median = 2.5e6;
+    plain.workload = "mesh";
+    plain.plain = true;
+    plain.speed.particleSteps.median = 1e9;
+    CHECK(ratioLine({bed, plain, mesh}, "mesh", "bed") ==
+          "mesh: a step of a sphere takes 2.40 times as long as in bed");
+    CHECK(ratioLine({bed, plain}, "mesh", "bed").empty());
+    CHECK(ratioLine({bed, mesh}, "mesh", "").empty());
+    mesh.refused = "too large";
+    CHECK(ratioLine({bed, mesh}, "mesh", "bed").empty());
+}

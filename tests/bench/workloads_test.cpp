@@ -2,6 +2,7 @@
 
 #include "host/bench/workloads.h"
 
+#include <algorithm>
 #include <set>
 
 #include "host/backend/reference/reference.h"
@@ -56,6 +57,30 @@ TEST_CASE("a box is full of contacts and at rest") {
     CHECK(s.maxOverlapRatio < kMaxOverlapRatio);
     CHECK(s.kineticEnergy < 1e-3 * stored);
     CHECK(2.0 * double(backend->contacts().size()) / double(w.particles.size()) > 4);
+}
+
+TEST_CASE("a bed with a mesh is at rest around ten thousand triangles that its spheres touch") {
+    const Workload w = named("bed-3k-mesh");
+    CHECK(w.particles.size() == named("bed-3k").particles.size());
+    REQUIRE(w.world.bodies.size() == 1);
+    const auto& shape = std::get<std::shared_ptr<const geometry::MeshSurface>>(w.world.bodies[0].shapes.at(0));
+    CHECK(shape->mesh().triangles.size() > 9800);
+    CHECK(shape->mesh().triangles.size() < 10200);
+    const auto backend = makeReferenceBackend();
+    backend->load(w.world, w.particles);
+    double stored = 0;  // at first loading
+    backend->advance(1, 0);
+    const auto contacts = backend->contacts();
+    for (const Contact& c : contacts) stored += 0.5 * w.world.law.of(c.kind).k1 * c.maxOverlap * c.maxOverlap;
+    const std::size_t walls = w.world.surfaces.size();
+    CHECK(std::count_if(contacts.begin(), contacts.end(), [&](const Contact& c) {
+              return c.kind == ContactClass::ParticleWall && c.other == walls;
+          }) > 100);
+    const Sensors s = backend->advance(60, 0);
+    CHECK(s.maxOverlapRatio < kMaxOverlapRatio);
+    CHECK(s.kineticEnergy < 1e-2 * stored);  // a facet lies a little under the wire on which the spheres were laid
+    for (const Plan& plan : plans(std::nullopt))
+        if (plan.name == "bed-3k-mesh") CHECK(plan.without == "bed-3k");
 }
 
 TEST_CASE("the settled bed is at rest although its contacts have lost their history") {

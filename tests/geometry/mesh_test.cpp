@@ -1,6 +1,7 @@
 // A mesh is welded, measured, and refused if contacts with it would be counted wrongly.
 
 #include "geometry/mesh.h"
+#include "geometry/inside.h"
 
 #include "tests/geometry/mesh_samples.h"
 #include "tests/support/catch.h"
@@ -148,4 +149,22 @@ TEST_CASE("ten thousand T-junctions on one line are found without a hang") {
         s.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
     }
     CHECK_THAT(refusal(s), Catch::Contains("1000 vertices on the middle"));
+}
+
+TEST_CASE("a closed mesh tells what is inside of it") {
+    const Mesh block = makeMesh(soup(cube())).mesh;
+    CHECK(isClosed(block));
+    const Inside inside(block);
+    std::uint64_t n = 0;
+    for (double x = -0.3; x < 1.3; x += 0.0701)
+        for (double y = -0.3; y < 1.3; y += 0.0833)
+            for (double z = -0.3; z < 1.3; z += 0.0977) {
+                const bool expected = x > 0 && x < 1 && y > 0 && y < 1 && z > 0 && z < 1;
+                CHECK(inside(Vec3(x, y, z)) == expected);
+                n += expected;
+            }
+    CHECK(n > 1000);
+    Sample open = cube();
+    open.triangles.pop_back();
+    CHECK_FALSE(isClosed(makeMesh(soup(open)).mesh));
 }

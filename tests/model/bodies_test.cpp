@@ -1,5 +1,7 @@
 // Bodies of a case: every shape and motion from its keys, the resolved case, and faults with their places.
 
+#include <fmt/format.h>
+
 #include "geometry/mesh_writer.h"
 #include "geometry/tessellate.h"
 #include "host/core/error.h"
@@ -245,6 +247,72 @@ TEST_CASE("bodies: one that stands in the fill is refused with what would be rig
     }
 }
 
+TEST_CASE("bodies: two that coincide where a sphere can be are refused, by name") {
+    Read read;
+    read.mesh();
+    const auto box = [](const char* name, const char* size, const char* at) {
+        return fmt::format("[[body]]\nname = \"{}\"\nshape = \"box\"\nsize_mm = [{}]\nat = [{}]\n", name, size, at);
+    };
+    const std::string floor = "[[body]]\nname = \"floor\"\nshape = \"plane\"\nat = [0, 0.01, 0]\n";
+    const std::string block = "[[body]]\nname = \"casting\"\nmesh = \"block.stl\"\nunit = \"mm\"\n";
+    struct Refused {
+        std::string bodies, first, second;
+    };
+    for (const Refused& r : {
+             // One floor given twice, nearly.
+             Refused{floor + replaced(floor, "floor", "again"), "again", "floor"},
+             Refused{floor + replaced(replaced(floor, "floor", "again"), "0.01", "0.009995"), "again", "floor"},
+             // Two boxes that reach into one another, and their tops in one plane.
+             Refused{box("left", "20, 4, 20", "-0.006, 0.01, 0") + box("right", "20, 6, 20", "0.006, 0.009, 0"),
+                     "right", "left"},
+             // A plate that lies in a floor as if it were a part of it.
+             Refused{floor + box("plate", "10, 4, 10", "0, 0.008, 0"), "plate", "floor"},
+             // A mesh and a box of the same top.
+             Refused{block + box("lump", "10, 4, 10", "0, 0.008, 0"), "lump", "casting"},
+         }) {
+        CAPTURE(r.bodies);
+        CHECK_THAT(read.fault(r.bodies),
+                   Contains("body \"" + r.first + "\" coincides with body \"" + r.second + "\"") && Contains("].at") &&
+                       Contains("move it by more than a fiftieth"));
+    }
+    for (const std::string& fine : {
+             // A post that stands on the floor, and one that goes through it.
+             floor + box("post", "4, 10, 4", "0, 0.015, 0"),
+             floor + box("post", "4, 20, 4", "0, 0.01, 0"),
+             // A post through a mesh, and a block beside it on the same floor, whose common face no sphere can reach.
+             block + box("post", "4, 40, 4", "0, 0, 0"),
+             block + box("next", "10, 12, 10", "0.015, 0, 0"),
+             // Both sides of one plate, and two floors of which one lies under the other.
+             box("plate", "20, 2, 20", "0, 0.01, 0") + floor,
+             floor + replaced(replaced(floor, "floor", "under"), "0.01", "0.008"),
+             // Bodies that move are none of these.
+             floor + replaced(floor, "floor", "lift") + "[body.motion]\nkind = \"slide\"\nvelocity = [0, -1, 0]\n",
+         }) {
+        CAPTURE(fine);
+        CHECK_NOTHROW(read.load(fine));
+    }
+    // A wall of a canister.
+    const Folder folder;
+    const std::string plate = "[[body]]\nname = \"plate\"\nshape = \"plane\"\nat = [0, 0, 0]\nnormal = [0, 0, 1]\n";
+    CHECK_THAT(faultOf(folder.write("case.toml", kGoodCase + plate)),
+               Contains("body \"plate\" coincides with canister for a sphere at"));
+}
+
+TEST_CASE("bodies: a file of a hundred thousand triangles loads, beside a floor and a box") {
+    Read read;
+    const geometry::Ball ball{Vec3(0), 20};
+    const auto triangles = geometry::tessellated(ball, 0.3, Vec3(-100), Vec3(100));
+    REQUIRE(triangles.size() > 100'000);
+    read.folder.write("ball.stl", geometry::stlBytes(triangles, "ball", 1));
+    const Case c = read.load(
+        "[[body]]\nname = \"ball\"\nmesh = \"ball.stl\"\nunit = \"mm\"\n"
+        "[[body]]\nname = \"floor\"\nshape = \"plane\"\nat = [0, 0.003, 0]\n"
+        "[[body]]\nname = \"box\"\nshape = \"box\"\nsize_mm = [4, 4, 60]\nat = [0.018, 0, 0]\n");
+    const auto& mesh = std::get<std::shared_ptr<const geometry::MeshSurface>>(c.world.bodies.at(0).shapes.at(0));
+    CHECK(mesh->mesh().triangles.size() == triangles.size());
+    CHECK(mesh->mesh().vertices.size() == triangles.size() / 2 + 2);  // Euler, of a closed mesh without holes
+}
+
 TEST_CASE("a canister takes more of a powder that does not stick, because its bed is denser") {
     const auto fits = [](double grams, const std::string& adhesion) {
         const Folder folder;
@@ -279,6 +347,45 @@ TEST_CASE("bodies: a table of motion comes from its file") {
     read.folder.write("way.csv", "time_s,angle_deg\n1,0\n1,1\n");
     CHECK_THAT(read.fault(body), Contains("row 2 of the table is not later"));
     CHECK_THAT(read.fault(replaced(body, "way.csv", "gone.csv")), Contains("there is no file"));
+}
+
+TEST_CASE("bodies: a motion goes on in the phases that it names") {
+    Read read;
+    read.folder.write("way.csv", "time_s,angle_deg\n0,0\n1,90\n2,360\n");
+    const std::string ball = "[[body]]\nname = \"thing\"\nshape = \"ball\"\nradius_mm = 1\n[body.motion]\n";
+    const std::string turn = ball + "kind = \"turn\"\nspeed_rpm = 60\n",
+                      table = ball + "kind = \"table\"\nfile = \"way.csv\"\n";
+    const Case c = read.load(turn + "during = \"rest rotate\"\n");
+    const RigidBody& body = c.world.bodies.at(0);
+    CHECK(body.clock == Clock::Phases);
+    CHECK(body.phases == std::vector{Phase::Rest, Phase::Rotate});
+    // A quarter of a second on its own clock, whatever the time.
+    CHECK(near(body.pose(7, 3, 0.25).directionToWorld(Vec3(1, 0, 0)), Vec3(0, 1, 0), 1, 1e-12));
+    CHECK(body.moving(7, 3, 1, 0.25).spin.z == Approx(2 * kPi));
+    CHECK(glm::length(body.moving(7, 3, 1).spin) == 0);
+    const Case again = loadResolvedCase(c.resolved, "case.toml");
+    CHECK(again.resolved == c.resolved);
+    CHECK(again.world.bodies.at(0).phases == body.phases);
+
+    CHECK_FALSE(read.load(table + "during = \"rotate\"\n").world.bodies.at(0).anew);
+    CHECK(read.load(table + "during = \"rotate\"\nanew = true\n").world.bodies.at(0).anew);
+    read.folder.write("open.csv", "time_s,angle_deg\n0,0\n1,90\n");
+    CHECK_THAT(read.fault(replaced(table, "way.csv", "open.csv") + "during = \"rotate\"\nanew = true\n"),
+               Contains("body[0].motion.anew") && Contains("ends in another place than it begins"));
+
+    CHECK_THAT(read.fault(turn + "during = \"rotat\"\n"), Contains("case.toml:") &&
+                                                              Contains("body[0].motion.during = \"rotat\"") &&
+                                                              Contains("did you mean \"rotate\"?"));
+    CHECK_THAT(read.fault(turn + "during = \"dosing\"\n"),
+               Contains("there is no phase \"dosing\"") && Contains("settle, rotate, reverse, rest"));
+    CHECK_THAT(read.fault(turn + "during = \"\"\n"), Contains("names no phase"));
+    CHECK_THAT(read.fault(turn + "during = [\"rotate\"]\n"), Contains("not a string"));
+    CHECK_THAT(read.fault(turn + "during = \"rest rest\"\n"), Contains("names rest twice"));
+    CHECK_THAT(read.fault(turn + "during = \"rest\"\nfrom_s = 1\n"), Contains("from_s") && Contains("one of the two"));
+    CHECK_THAT(read.fault(turn + "during = \"rest\"\nanew = true\n"), Contains("unknown key"));
+    CHECK_THAT(read.fault(table + "anew = true\n"), Contains("goes with during"));
+    CHECK_THAT(read.fault(ball + "kind = \"turn\"\nfollows = \"drive\"\nduring = \"rest\"\n"),
+               Contains("does not go with follows = \"drive\""));
 }
 
 TEST_CASE("bodies: faults name the key, the value and what would be right") {

@@ -138,6 +138,16 @@ TEST_CASE("without WebGL the page says so and shows the rest") {
     CHECK(count(dom, "<figure") == 8);  // the player's, two of doses, the surface, torque, power, velocity, the ledger
 }
 
+namespace {
+
+std::vector<Frame> framesAt(const std::vector<double>& times) {
+    std::vector<Frame> frames(times.size());
+    for (std::size_t i = 0; i < times.size(); ++i) frames[i].time = times[i];
+    return frames;
+}
+
+}  // namespace
+
 TEST_CASE("the player shows a body where its motion has brought it") {
     if (browserMissing()) return;
     const Sandbox box;
@@ -150,7 +160,7 @@ TEST_CASE("the player shows a body where its motion has brought it") {
     ball.shapes = {geometry::Ball{Vec3(0, 2e-3, 0), 2e-3}};
     ball.course.motion = geometry::Slide{{0, 0, 0.06}};
     c.world.bodies = {ball};
-    data["player"]["bodies"] = bodiesJson(c, {0.05, 0.3, 0.5}, {0, 0, 0}, scene()[0]);
+    data["player"]["bodies"] = bodiesJson(c, framesAt({0.05, 0.3, 0.5}), scene()[0]);
     CHECK_FALSE(data["player"]["bodies"][0]["pane"]);
     const Json seen = probed(drawn(box, data, kWebGl, readProbe("player_probe.js")));
     REQUIRE(seen["state"] == "ready");
@@ -163,7 +173,7 @@ TEST_CASE("the player shows a body where its motion has brought it") {
     // A box around all of it is a pane: blue shows through.
     c.world.bodies[0].shapes = {geometry::Block{{-8e-3, -8e-3, -1e-3}, {8e-3, 8e-3, 22e-3}, true}};
     c.world.bodies[0].course.motion = geometry::Rest{};
-    data["player"]["bodies"] = bodiesJson(c, {0.05, 0.3, 0.5}, {0, 0, 0}, scene()[0]);
+    data["player"]["bodies"] = bodiesJson(c, framesAt({0.05, 0.3, 0.5}), scene()[0]);
     CHECK(data["player"]["bodies"][0]["pane"]);
     const Json through = probed(drawn(box, data, kWebGl, readProbe("player_probe.js")));
     REQUIRE(through["state"] == "ready");

@@ -156,3 +156,21 @@ TEST_CASE("the page of 48 g over 30 s stays below 25 MB even if nothing about th
     CHECK(data["player"]["every"] == 2);  // all of them would be 26 MB
     CHECK(page(data).size() < 25'000'000);
 }
+
+TEST_CASE("the player's bodies stand where their clocks have brought them") {
+    Case c = mini();
+    RigidBody byTime, inPhases;
+    byTime.shapes = inPhases.shapes = {geometry::Ball{Vec3(0), 2e-3}};
+    byTime.course.motion = inPhases.course.motion = geometry::Turn{Vec3(0, 0, 1), Vec3(0.01, 0, 0), 2.0};
+    inPhases.clock = Clock::Phases;
+    c.world.bodies = {byTime, inPhases};
+    std::vector<Frame> frames{frameOf(0.1, 0, 0, anywhere(c, 5, 0)), frameOf(0.3, 1, 0, anywhere(c, 5, 1))};
+    for (Frame& f : frames) {
+        f.particles.radius = frames[0].particles.radius;
+        f.bodyClocks = {0, f.time};
+    }
+    const Json bodies = playerJson(c, sourceOf(frames), 0)["bodies"];
+    CHECK(bodies[0]["poses"] == bodies[1]["poses"]);
+    frames[1].bodyClocks[1] = 0.1;
+    CHECK(playerJson(c, sourceOf(frames), 0)["bodies"][1]["poses"] != bodies[1]["poses"]);
+}

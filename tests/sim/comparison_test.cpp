@@ -24,6 +24,7 @@ class Wrong : public Backend {
         change_(w);
         inner_->setLaw(w.law);
     }
+    void setClocks(const std::vector<BodyClock>& clocks) override { inner_->setClocks(clocks); }
     Sensors advance(std::uint32_t n, double rate) override { return inner_->advance(n, rate); }
     Record snapshot() const override { return inner_->snapshot(); }
     void restore(const Record& record) override { inner_->restore(record); }

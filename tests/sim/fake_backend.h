@@ -35,6 +35,7 @@ class FakeBackend : public Backend {
     std::function<FieldPoint(std::uint64_t step)> field = [](std::uint64_t) { return FieldPoint{}; };
 
     std::vector<Call> calls;
+    std::vector<BodyClock> clocks;  ///< as they were set last
     int fieldCalls = 0;
     int loads = 0;
     std::uint64_t step = 0;
@@ -45,6 +46,7 @@ class FakeBackend : public Backend {
         particles_ = particles;
     }
     void setLaw(const ContactLaw& law) override { world_.law = law; }
+    void setClocks(const std::vector<BodyClock>& now) override { clocks = now; }
 
     Sensors advance(std::uint32_t steps, double rate) override {
         if (runErrorAt && step >= *runErrorAt) throw RunError("particle 3 is gone (step 7)");
@@ -58,6 +60,7 @@ class FakeBackend : public Backend {
         s.count = {particles_.size() - dosed(step), 0, dosed(step), 0};
         for (std::size_t r = 0; r < kRegions; ++r) s.mass[r] = particleMass * static_cast<double>(s.count[r]);
         s.coilTorque = impulse / steps;
+        s.bodies.resize(world_.bodies.size());
         s.maxOverlapRatio = static_cast<double>(step % 100) / 1000;
         spoil(step, s);
         return s;

@@ -33,11 +33,12 @@ struct Loads {
     std::vector<Branch> branches;  ///< of every contact
 };
 
-/// The drive at that instant: it turns the coil, and bodies follow it. And the time, which other bodies follow.
+/// The drive at that instant: it turns the coil, and bodies follow it. And what other bodies follow.
 struct Drive {
-    double angle;  ///< of the coil since load, about +z [rad]
-    double rate;   ///< [rad/s]
-    double time;   ///< since load [s]
+    double angle;                       ///< of the coil since load, about +z [rad]
+    double rate;                        ///< [rad/s]
+    double time;                        ///< since load [s]
+    std::span<const BodyClock> clocks;  ///< of bodies that move in phases; empty: they stand at their start
 };
 
 class Forces {

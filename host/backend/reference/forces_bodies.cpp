@@ -14,9 +14,14 @@ namespace vkdose::reference {
 void Forces::placeBodies() {
     placed_.clear();
     const double back = springDt_ / 2;
-    for (const RigidBody& body : world_->bodies)
-        placed_.push_back({body.pose(drive_.time, drive_.angle),
-                           body.moving(drive_.time - back, drive_.angle - drive_.rate * back, drive_.rate)});
+    for (std::size_t b = 0; b < world_->bodies.size(); ++b) {
+        const RigidBody& body = world_->bodies[b];
+        const BodyClock clock = b < drive_.clocks.size() ? drive_.clocks[b] : BodyClock{};
+        const double own = static_cast<double>(clock.steps) * world_->timeStep;
+        placed_.push_back({body.pose(drive_.time, drive_.angle, own),
+                           body.moving(drive_.time - back, drive_.angle - drive_.rate * back, drive_.rate,
+                                       clock.runs ? std::optional(own - back) : std::nullopt)});
+    }
 }
 
 void Forces::bodies(std::size_t i) {

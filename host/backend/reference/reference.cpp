@@ -55,10 +55,12 @@ class ReferenceBackend final : public Backend {
         neighbours_.reset(world.skin);
         steps_ = 0;
         angle_ = 0;
+        clocks_.clear();
         book_ = {};
     }
 
     void setLaw(const ContactLaw& law) override { world_.law = law; }
+    void setClocks(const std::vector<BodyClock>& clocks) override { clocks_ = clocks; }
 
     Sensors advance(std::uint32_t steps, double coilRate) override;
 
@@ -104,9 +106,10 @@ class ReferenceBackend final : public Backend {
     Loads loads_;
     Particles before_;  ///< state before the last step; velocities are half a step before its forces; for the book
     EnergyBook book_;   ///< losses and works of the call so far
-    std::uint64_t steps_ = 0;  ///< since load
-    double angle_ = 0;         ///< of the coil since load [rad]
-    std::string lost_;         ///< the first loss of the step, as an error message
+    std::uint64_t steps_ = 0;        ///< since load
+    double angle_ = 0;               ///< of the coil since load [rad]
+    std::vector<BodyClock> clocks_;  ///< of bodies that move in phases; empty: they stand
+    std::string lost_;               ///< the first loss of the step, as an error message
 };
 
 Record ReferenceBackend::snapshot() const {
@@ -178,12 +181,13 @@ void ReferenceBackend::step(double coilRate) {
     const bool opening = steps_ == 0;
     const double dt = world_.timeStep;
     neighbours_.update(particles_);
-    forces_.evaluate(world_, particles_, neighbours_, Drive{angle_, coilRate, static_cast<double>(steps_) * dt},
-                     opening ? 0 : dt, loads_);
+    forces_.evaluate(world_, particles_, neighbours_,
+                     Drive{angle_, coilRate, static_cast<double>(steps_) * dt, clocks_}, opening ? 0 : dt, loads_);
     refuseDeepOverlap();
     if (world_.energyBook) before_ = particles_;
 
     ++steps_;
+    advanceClocks(clocks_, 1);
     lost_.clear();
     for (std::size_t i = 0; i < particles_.size(); ++i) {
         if (particles_.status[i] != Status::Active) continue;

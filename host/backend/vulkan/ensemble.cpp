@@ -119,6 +119,10 @@ void Ensemble::setLaw(std::uint32_t member, const ContactLaw& law) {
     packLaw(law, members_[member].block);
 }
 
+void Ensemble::setClocks(std::uint32_t member, const std::vector<BodyClock>& clocks) {
+    members_[member].clocks = clocks;
+}
+
 Record Ensemble::snapshot(std::uint32_t member) const {
     const MemberState& m = members_[member];
     Record record;
@@ -168,6 +172,7 @@ void Ensemble::runBatch(std::uint32_t count, const std::vector<double>& coilRate
         MemberState& m = members_[live_[row]];
         m.turned += perStep[row] * count;
         m.drive += drivePerStep(coilRates[live_[row]], m.world.timeStep) * count;
+        advanceClocks(m.clocks, count);
         m.step += count;
     }
 }

@@ -34,6 +34,7 @@ class Ensemble {
     void setLive(const std::vector<std::uint32_t>& members);
 
     void setLaw(std::uint32_t member, const ContactLaw& law);
+    void setClocks(std::uint32_t member, const std::vector<BodyClock>& clocks);
 
     /// Advances all live members together. `coilRates` holds the rate of every member [rad/s about +z]. The run error
     /// of a member is kept (`failure`), and its state is of no use from then on.
@@ -71,6 +72,7 @@ class Ensemble {
         std::uint32_t made = 0;         ///< steps since load (gpu::Control::steps)
         std::uint64_t turned = 0;       ///< of the coil since load [2^-64 turns]; the same for any batches
         std::int64_t drive = 0;         ///< of the drive since load [kDrive turns]; likewise
+        std::vector<BodyClock> clocks;  ///< of bodies that move in phases; empty: they stand
         bool moves = false;             ///< one of its bodies
         std::vector<gpu::vec4> around;  ///< of each body: a sphere around it in its own frame: centre, radius [m]
         std::uint32_t row = 0;          ///< on the roster

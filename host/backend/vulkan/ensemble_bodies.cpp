@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <optional>
 
 #include "host/backend/vulkan/ensemble.h"
 #include "host/backend/vulkan/pack_bodies.h"
@@ -27,11 +28,34 @@ gpu::vec4 aroundOf(const PackedBodies& packed, std::size_t b) {
 /// What all motions of bodies may take together [bytes].
 constexpr std::size_t kMostMotionBytes = 16U << 20U;
 
-/// Bound of the way of any point of the body that a particle can meet, in a step that begins at `time` [s] and
-/// `angle` of the drive [rad].
-double longestWay(const World& world, const RigidBody& body, const gpu::vec4& around, double time, double angle,
-                  double rate) {
-    const geometry::Pose pose = body.pose(time, angle);
+/// A body and the clocks that it may follow, at the beginning of a step.
+struct Instant {
+    double time = 0, angle = 0, rate = 0;  ///< since load [s]; of the drive [rad], [rad/s]
+    double own = 0;                        ///< if the body moves in phases [s]
+    bool runs = false;                     ///< that clock
+
+    Instant(const World& world, std::uint64_t step, double driveAngle, double driveRate, const BodyClock& clock,
+            std::uint64_t more)
+        : time(double(step) * world.timeStep),
+          angle(driveAngle),
+          rate(driveRate),
+          own(double(clock.after(more)) * world.timeStep),
+          runs(clock.runs) {}
+
+    geometry::Pose pose(const RigidBody& body) const { return body.pose(time, angle, own); }
+    /// `back` [s] before.
+    geometry::Moving moving(const RigidBody& body, double back) const {
+        return body.moving(time - back, angle - rate * back, rate, runs ? std::optional(own - back) : std::nullopt);
+    }
+};
+
+BodyClock clockOf(const std::vector<BodyClock>& clocks, std::size_t body) {
+    return body < clocks.size() ? clocks[body] : BodyClock{};
+}
+
+/// Bound of the way of any point of the body that a particle can meet, in the step that begins at that instant.
+double longestWay(const World& world, const RigidBody& body, const gpu::vec4& around, const Instant& now) {
+    const geometry::Pose pose = now.pose(body);
     const Box& room = world.domain;
     Vec3 centre = Vec3(glm::vec3(around));
     double radius = double(around.w);
@@ -40,9 +64,13 @@ double longestWay(const World& world, const RigidBody& body, const gpu::vec4& ar
         centre = pose.toBody((room.low + room.high) / 2.0);
         radius = reach;
     }
-    const bool byTime = body.clock == Clock::Time;
-    const double from = byTime ? time : angle, span = byTime ? world.timeStep : std::abs(rate) * world.timeStep;
-    return geometry::wayBound(body.course, centre, radius, byTime || rate > 0 ? from : from - span, span);
+    const bool byDrive = body.clock == Clock::Drive;
+    if (body.clock == Clock::Phases && !now.runs) return 0;
+    const double span = byDrive ? std::abs(now.rate) * world.timeStep : world.timeStep;
+    const double from = byDrive                     ? now.angle - (now.rate > 0 ? 0 : span)
+                        : body.clock == Clock::Time ? now.time
+                                                    : now.own;
+    return geometry::wayBound(body.course, centre, radius, from, span);
 }
 
 }  // namespace
@@ -94,13 +122,13 @@ void Ensemble::writeMotions(std::uint32_t count, const std::vector<double>& coil
         m.block.bodies.w = m.moves ? std::uint32_t(bodies.size()) : 0;
         double way = 0;
         for (std::uint32_t n = 0; n < (m.moves ? count : 1); ++n) {
-            const double time = double(m.step + n) * dt, angle = driveAngle(m.drive + perStep * n);
+            const double angle = driveAngle(m.drive + perStep * n);
             const double back = m.step + n == 0 ? 0 : dt / 2;  // velocities are those half a step before
             for (std::size_t b = 0; b < bodies.size(); ++b) {
-                motions.push_back(
-                    packMotion(bodies[b].pose(time, angle), bodies[b].moving(time - back, angle - rate * back, rate)));
+                const Instant now(m.world, m.step + n, angle, rate, clockOf(m.clocks, b), n);
+                motions.push_back(packMotion(now.pose(bodies[b]), now.moving(bodies[b], back)));
                 motions.back().velocity.w = float(bodies[b].kind);
-                way = std::max(way, longestWay(m.world, bodies[b], m.around[b], time, angle, rate));
+                way = std::max(way, longestWay(m.world, bodies[b], m.around[b], now));
             }
         }
         m.block.choices.w = float(way);
@@ -126,7 +154,8 @@ std::vector<BodyLoad> Ensemble::takeLoads(std::uint32_t member, std::uint32_t st
         }
         const RigidBody& body = m.world.bodies[b];
         const Vec3 force = -share * Vec3(sums[0], sums[1], sums[2]), moment = -share * Vec3(sums[3], sums[4], sums[5]);
-        const Vec3 pivot = body.pivot(body.pose(double(m.step) * m.world.timeStep, driveAngle(m.drive)));
+        const Instant now(m.world, m.step, driveAngle(m.drive), 0, clockOf(m.clocks, b), 0);
+        const Vec3 pivot = body.pivot(now.pose(body));
         loads.push_back({force, glm::dot(body.axis(), moment - glm::cross(pivot, force)), sums[6]});
     }
     return loads;

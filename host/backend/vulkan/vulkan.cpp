@@ -39,6 +39,10 @@ class VulkanBackend final : public Backend {
     void setLaw(const ContactLaw& law) override {
         alone([&](Ensemble& e, std::uint32_t member) { e.setLaw(member, law); });
     }
+    void setClocks(const std::vector<BodyClock>& clocks) override {
+        requireLoaded();
+        alone([&](Ensemble& e, std::uint32_t member) { e.setClocks(member, clocks); });
+    }
     Sensors advance(std::uint32_t steps, double coilRate) override {
         requireLoaded();
         ensemble_->advance(guest_, steps, coilRate);
