@@ -14,7 +14,7 @@ using namespace vkdose;
 using namespace vkdose::geometry;
 using test::near;
 using test::oracleTable;
-using test::Row;
+using test::TableRow;
 
 namespace {
 
@@ -263,7 +263,7 @@ TEST_CASE("coil: a query that is not finite is refused, not looped over") {
 
 TEST_CASE("coil: the oracle's closest points and second turns") {
     for (const char* file : {"helix_points.csv", "helix_points_far.csv"})
-        for (const Row& row : oracleTable(file)) {
+        for (const TableRow& row : oracleTable(file)) {
             CAPTURE(file, row.at("id"));
             const Coil coil{9.4e-3, 70e-3 / row.at("turns"), 1e-3, 70e-3, 0, 2 * kPi * row.at("offset_rev"), 1};
             const Vec3 q(row.at("x_m"), row.at("y_m"), row.at("z_m"));

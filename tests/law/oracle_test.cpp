@@ -32,13 +32,13 @@ TEST_CASE("oracle: head-on trace of overlap, force, history and velocity") {
         const double speed = 0.2, dt = 1e-7;
         Stepper run = headOn(kcRatio, speed, dt);
         double peakOverlap = 0, peakForce = 0;
-        const std::vector<Row> rows =
+        const std::vector<TableRow> rows =
             oracleTable(kcRatio > 0 ? "head_on_trace_kc0.873_v0.20.csv" : "head_on_trace_kc0.000_v0.20.csv");
-        for (const Row& row : rows) {
+        for (const TableRow& row : rows) {
             peakOverlap = std::max(peakOverlap, row.at("overlap_m"));
             peakForce = std::max(peakForce, row.at("normal_force_N"));
         }
-        for (const Row& row : rows) {
+        for (const TableRow& row : rows) {
             const int target = static_cast<int>(std::lround(row.at("time_s") / dt));
             while (run.steps() <= target) run.step();  // `full` is now the state at the row's time
             CAPTURE(kcRatio, row.at("time_s"));
@@ -59,7 +59,7 @@ TEST_CASE("oracle: head-on trace of overlap, force, history and velocity") {
 }
 
 TEST_CASE("oracle: head-on summary of peak, rebound and sticking") {
-    for (const Row& row : oracleTable("head_on_summary.csv")) {
+    for (const TableRow& row : oracleTable("head_on_summary.csv")) {
         const double speed = row.at("impact_speed_m_s"), dt = row.at("dt_s");
         Stepper run = headOn(row.at("kc_over_k"), speed, dt);
         const int steps = static_cast<int>(std::lround(row.at("t_end_s") / dt));
@@ -87,12 +87,12 @@ TEST_CASE("oracle: head-on summary of peak, rebound and sticking") {
 namespace {
 
 /// A touch deeper than the rounding of 1.25 mm and far below all else: the oracle's spheres start in contact.
-Body aboutToTouch(const Row& row) {
+Body aboutToTouch(const TableRow& row) {
     const Vec3 velocity(row.at("vt_in_m_s"), row.at("vn_in_m_s"), 0);
     return {Vec3(0, kRadius * (1 - 1e-12), 0), velocity, Vec3(0), kRadius};
 }
 
-ContactParameters parametersOf(const Row& row) {
+ContactParameters parametersOf(const TableRow& row) {
     return paperParameters(row.at("kc_over_k"), row.at("mu"), row.at("mu_r"));
 }
 
@@ -104,7 +104,7 @@ struct Impact {
 
 /// The contact law alone in a velocity Verlet loop that, like the oracle's, advances the springs in the very first
 /// evaluation too. (backend.h leaves them at rest there, which is half a step nearer the truth.)
-Impact oracleLoop(const Row& row) {
+Impact oracleLoop(const TableRow& row) {
     const double dt = row.at("dt_s"), m = massOf(kRadius), inertia = 0.4 * m * kRadius * kRadius;
     const ContactLaw law = lawOf(parametersOf(row));
     const int steps = static_cast<int>(std::lround(row.at("t_end_s") / dt));
@@ -136,7 +136,7 @@ Impact oracleLoop(const Row& row) {
 }  // namespace
 
 TEST_CASE("oracle: oblique impacts on a plane, the law in the oracle's own loop") {
-    for (const Row& row : oracleTable("oblique_wall.csv")) {
+    for (const TableRow& row : oracleTable("oblique_wall.csv")) {
         const Impact impact = oracleLoop(row);
         const Body& b = impact.out;
         CAPTURE(row.at("dt_s"), row.at("kc_over_k"), row.at("mu"), row.at("mu_r"), row.at("angle_from_normal_deg"));
@@ -154,7 +154,7 @@ namespace {
 /// The backend about to make the row's first step, with the oracle's first spring advance, v_t dt, in its contact: the
 /// backend's own springs begin at rest. At the larger time step an allowance for that, v_t dt sqrt(7/2 k_t/m) in
 /// surface speed, would exceed the spin itself in 14 of 24 rows: no friction at all would pass.
-Stepper oracleStart(const Row& row, const ContactParameters& p) {
+Stepper oracleStart(const TableRow& row, const ContactParameters& p) {
     const Body start = aboutToTouch(row);
     Particles one;
     one.add(start.position, kRadius, start.velocity);
@@ -175,7 +175,7 @@ Stepper oracleStart(const Row& row, const ContactParameters& p) {
 }
 
 /// The sphere at the row's end, at the full step.
-Body afterImpact(const Row& row, const ContactParameters& p) {
+Body afterImpact(const TableRow& row, const ContactParameters& p) {
     Stepper run = oracleStart(row, p);
     const int steps = static_cast<int>(std::lround(row.at("t_end_s") / row.at("dt_s")));
     while (run.steps() <= steps) run.step();
@@ -184,14 +184,14 @@ Body afterImpact(const Row& row, const ContactParameters& p) {
 
 /// Both make the same steps, so that what is left is the tables' tenth digit: of the 400 rad/s that friction can give
 /// it is 4e-8 rad/s, half a millionth of the spin in the row where rolling friction leaves least of it, 0.09 rad/s.
-Verdict spinsLike(const Row& row, const Body& b) {
+Verdict spinsLike(const TableRow& row, const Body& b) {
     return nearRelative(b.spin.z, row.at("omega_out_rad_s"), 1e-6);
 }
 
 }  // namespace
 
 TEST_CASE("oracle: oblique impacts on a plane, the backend") {
-    for (const Row& row : oracleTable("oblique_wall.csv")) {
+    for (const TableRow& row : oracleTable("oblique_wall.csv")) {
         const Body b = afterImpact(row, parametersOf(row));
         CAPTURE(row.at("dt_s"), row.at("kc_over_k"), row.at("mu"), row.at("mu_r"), row.at("angle_from_normal_deg"));
         CHECK(near(b.velocity.x, row.at("vt_out_m_s"), 1, 1e-8));
@@ -201,7 +201,7 @@ TEST_CASE("oracle: oblique impacts on a plane, the backend") {
 }
 
 TEST_CASE("oracle: oblique impacts with the wrong friction are told from those with the right one, row by row") {
-    for (const Row& row : oracleTable("oblique_wall.csv")) {
+    for (const TableRow& row : oracleTable("oblique_wall.csv")) {
         CAPTURE(row.at("dt_s"), row.at("kc_over_k"), row.at("mu"), row.at("mu_r"), row.at("angle_from_normal_deg"));
         ContactParameters none = parametersOf(row), noRolling = parametersOf(row);
         none.mu = 0;
@@ -215,7 +215,7 @@ TEST_CASE("oracle: oblique impacts with the wrong friction are told from those w
 TEST_CASE("oracle: a sphere on a tilted plane sticks, slides, rolls or is braked") {
     std::unique_ptr<Stepper> run;
     double running = -1;
-    for (const Row& row : oracleTable("plane_roll.csv")) {
+    for (const TableRow& row : oracleTable("plane_roll.csv")) {
         const double dt = row.at("dt_s");
         if (row.at("case") != running) {
             running = row.at("case");

@@ -11,10 +11,10 @@
 
 namespace vkdose::test {
 
-using Row = std::map<std::string, double>;
+using TableRow = std::map<std::string, double>;
 
 /// Rows of tests/oracle/<name> by column name. Throws if the file is missing, empty or a cell is not a number.
-inline std::vector<Row> oracleTable(const std::string& name) {
+inline std::vector<TableRow> oracleTable(const std::string& name) {
     std::ifstream file(std::string(VKDOSE_SOURCE_DIR) + "/tests/oracle/" + name);
     if (!file) throw std::runtime_error("cannot open tests/oracle/" + name);
     const auto cells = [](std::string line) {
@@ -27,11 +27,11 @@ inline std::vector<Row> oracleTable(const std::string& name) {
     std::string line;
     std::getline(file, line);
     const std::vector<std::string> header = cells(line);
-    std::vector<Row> rows;
+    std::vector<TableRow> rows;
     while (std::getline(file, line)) {
         const std::vector<std::string> values = cells(line);
         if (values.size() != header.size()) throw std::runtime_error(name + ": a row of the wrong length: " + line);
-        Row row;
+        TableRow row;
         for (std::size_t c = 0; c < header.size(); ++c) {
             char* end = nullptr;
             row[header[c]] = std::strtod(values[c].c_str(), &end);
