@@ -95,14 +95,16 @@ TEST_CASE("the loads of bodies stand in the time series, and their work in the s
 
 namespace {
 
-/// The drum turns while its powder settles, and the post only while it is dosed.
+/// The drum turns while its powder settles. The post, which lies in the way of the powder, turns only while it is
+/// dosed.
 std::string phasedDrum() {
     std::string text = kDrum;
     const auto put = [&text](const std::string& from, const std::string& to) {
         text.replace(text.find(from), from.size(), to);
     };
     put("speed_rpm = 60\n", "speed_rpm = 60\nduring = \"settle\"\n");
-    put("follows = \"drive\"\nturns_per_turn = 2\n", "speed_rpm = 90\nduring = \"rotate\"\n");
+    put("at = [0.0105, -0.002, 0]", "at = [0.004, -0.0115, 0]");
+    put("follows = \"drive\"\nturns_per_turn = 2\n", "speed_rpm = 10\nduring = \"rotate\"\n");
     put("[settle]",
         "[[body]]\nname = \"driven\"\nshape = \"ball\"\nradius_mm = 0.5\nat = [0, 0.012, 0.005]\n"
         "[body.motion]\nkind = \"turn\"\nfollows = \"drive\"\n[settle]");

@@ -105,7 +105,7 @@ TEST_CASE("errors of a run are thrown to the caller, who can still look at it") 
     CHECK_THROWS_AS(led(wrong), CaseError);
 }
 
-TEST_CASE("the particles of a rest are read once and stay when the run goes on; contacts and fields are those of now") {
+TEST_CASE("the particles of a rest are read once and stay, and contacts and fields are those of now") {
     const Led run = led(listedCase(), [](FakeBackend& b) {
         b.field = [](std::uint64_t step) {
             FieldPoint p;
