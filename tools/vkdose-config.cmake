@@ -2,5 +2,8 @@
 include(CMakeFindDependencyMacro)
 find_dependency(fmt)
 find_dependency(glm)
+enable_language(C)  # CMake looks for HDF5 with its compiler
+find_dependency(HDF5 COMPONENTS C)
 find_dependency(tomlplusplus)
+find_dependency(ZLIB)
 include("${CMAKE_CURRENT_LIST_DIR}/vkdose-targets.cmake")
