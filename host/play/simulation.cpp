@@ -97,10 +97,11 @@ class Simulation::Thread final : public RunObserver {
     struct Seen {
         bool over = false;
         bool takesOrders = false;
-        DriveOrder order;         ///< the caller's
-        RunResult result;         ///< if it is over
-        std::uint64_t steps = 0;  ///< made
-        Sample last;              ///< as in `samples`; before the first, what was filled in
+        DriveOrder order;                ///< the caller's
+        RunResult result;                ///< if it is over
+        std::uint64_t steps = 0;         ///< made
+        std::vector<double> bodyClocks;  ///< as in Frame
+        Sample last;                     ///< as in `samples`; before the first, what was filled in
         std::vector<Sample> samples;
         std::vector<Dose> doses;
         std::vector<FieldSample> fields;
@@ -168,7 +169,10 @@ class Simulation::Thread final : public RunObserver {
         if (closed_) throw RunError("the simulation was closed");
     }
 
-    void onProgress(const Progress& p) override { seen_.steps = p.step; }
+    void onProgress(const Progress& p) override {
+        seen_.steps = p.step;
+        seen_.bodyClocks = p.bodyClocks;
+    }
     void onSample(const Sample& s) override {
         if (s.dose != seen_.last.dose) seen_.dosedBefore = dosedMass(seen_.last);
         seen_.last = s;
@@ -303,7 +307,9 @@ std::shared_ptr<const Particles> Simulation::particles() const {
 
 Frame Simulation::frame() const {
     const Sample& s = last();
-    return {thread_->seen().steps, time(), s.phase, s.dose, backend_->coilAngle(), *particles(), backend_->contacts()};
+    const auto& seen = thread_->seen();
+    return {seen.steps,           time(),         s.phase, s.dose, backend_->coilAngle(), *particles(),
+            backend_->contacts(), seen.bodyClocks};
 }
 
 FieldPoints Simulation::field(const FieldRequest& request) const {

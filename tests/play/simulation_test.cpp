@@ -134,6 +134,19 @@ TEST_CASE("the particles of a rest are read once and stay, and contacts and fiel
     CHECK(first->size() == 10);
 }
 
+TEST_CASE("a frame tells for which time a body has moved that moves in phases") {
+    Case c = listedCase();
+    RigidBody body;
+    body.course.motion = geometry::Turn{};
+    body.clock = Clock::Phases;
+    body.phases = {Phase::Settle};
+    c.world.bodies = {body};
+    const Led run = led(c);
+    run.advance(0.03);
+    REQUIRE(run.simulation->frame().bodyClocks.size() == 1);
+    CHECK(run.simulation->frame().clockOf(0) == Approx(run.simulation->time()));
+}
+
 TEST_CASE("a halt makes it rest between two readings, and it goes on as if it had not") {
     FakeBackend whole;
     Notebook notes;
