@@ -44,6 +44,10 @@ Vec3 RigidBody::pivot(const geometry::Pose& pose) const {
     return line ? *line->through : pose.origin;
 }
 
+BodyClock clockOf(std::span<const BodyClock> clocks, std::size_t body) {
+    return body < clocks.size() ? clocks[body] : BodyClock{};
+}
+
 void advanceClocks(std::vector<BodyClock>& clocks, std::uint64_t steps) {
     for (BodyClock& clock : clocks) {
         const bool passes = clock.runs && clock.steps + steps >= clock.anewAt;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -56,6 +57,8 @@ struct RigidBody {
     Vec3 pivot(const geometry::Pose& pose) const;
 };
 
+/// The clock of a body; without clocks it stands at 0.
+BodyClock clockOf(std::span<const BodyClock> clocks, std::size_t body);
 /// Counts the clocks on by so many steps.
 void advanceClocks(std::vector<BodyClock>& clocks, std::uint64_t steps);
 

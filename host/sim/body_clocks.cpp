@@ -67,12 +67,9 @@ void BodyClocks::restore(const Record& record) {
 void BodyClocks::takeOver(const Record& record, double ratio) {
     restore(record);
     if (within_ && within_->first != Phase::Settle) within_.reset();
-    const auto scaled = [ratio](std::uint64_t steps) {
-        return static_cast<std::uint64_t>(std::llround(static_cast<double>(steps) * ratio));
-    };
     for (std::size_t b = 0; b < clocks_.size(); ++b) {
         BodyClock& clock = clocks_[b];
-        clock.steps = scaled(clock.steps);
+        clock.steps = static_cast<std::uint64_t>(std::llround(static_cast<double>(clock.steps) * ratio));
         if (clock.anewAt != BodyClock::kNever)
             clock.anewAt = endOf(std::get<geometry::Table>(world_.bodies[b].course.motion), world_.timeStep);
     }

@@ -246,8 +246,8 @@ struct FieldParams {
 
 // --- per dispatch -------------------------------------------------------------------------------------------------
 struct StepPush {
-    uint stepInStride;  // for `decide`: how many steps were recorded since the last decision
-    uint opening;       // 1 if this may be the first step of a member (Member.choices): half a kick, springs at rest
+    uint stepInStride;  // for `decide`: how many steps were recorded since the last decision; 0 outside of a stride
+    uint opening;  // 1 if this may be the first step of a member (Member.choices): half a kick, springs at rest
     uint firstRow;   // block of the roster for the first row of the dispatch
     uint live;       // members on the roster
     uint particles;  // slots of all members, padding included

@@ -16,7 +16,7 @@ void Forces::placeBodies() {
     const double back = springDt_ / 2;
     for (std::size_t b = 0; b < world_->bodies.size(); ++b) {
         const RigidBody& body = world_->bodies[b];
-        const BodyClock clock = b < drive_.clocks.size() ? drive_.clocks[b] : BodyClock{};
+        const BodyClock clock = clockOf(drive_.clocks, b);
         const double own = static_cast<double>(clock.steps) * world_->timeStep;
         placed_.push_back({body.pose(drive_.time, drive_.angle, own),
                            body.moving(drive_.time - back, drive_.angle - drive_.rate * back, drive_.rate,

@@ -144,8 +144,7 @@ void Ensemble::restore(std::uint32_t member, const Record& record) {
     m.turned = turned;
 }
 
-void Ensemble::runBatch(std::uint32_t count, const std::vector<double>& coilRates, PassTimes* times,
-                        std::vector<double>* seconds) {
+void Ensemble::runBatch(std::uint32_t count, const std::vector<double>& coilRates, PassTimes* times) {
     std::vector<std::uint64_t> perStep;
     bool opening = false;
     for (const std::uint32_t index : live_) {
@@ -165,7 +164,7 @@ void Ensemble::runBatch(std::uint32_t count, const std::vector<double>& coilRate
     for (std::uint32_t left = count; left > 0; opening = false) {
         const std::uint32_t before = left;
         left = submit(left, opening, times);
-        if (times != nullptr) times->addTo(*seconds);
+        if (times != nullptr) times->add();
         if (left >= before) throw std::logic_error("a batch of steps does not come to its end");
     }
     for (std::uint32_t row = 0; row < live_.size(); ++row) {
@@ -207,7 +206,7 @@ std::uint32_t Ensemble::submit(std::uint32_t count, bool opening, PassTimes* tim
         if (error.x == gpu::kEmpty)
             left = std::max(left, m.block.roster.z - m.made);
         else if (!m.failure)
-            keepError(index, error, m.step);
+            keepError(index, error);
     }
     return left;
 }
@@ -231,12 +230,12 @@ void Ensemble::advance(std::uint32_t steps, const std::vector<double>& coilRates
     }
 }
 
-void Ensemble::keepError(std::uint32_t member, const gpu::uvec4& error, std::uint64_t firstStep) {
+void Ensemble::keepError(std::uint32_t member, const gpu::uvec4& error) {
     MemberState& m = members_[member];
     const std::uint32_t i = error.z - member * passes_->sizes.share;
     const Particles now = particles(member);
     const Vec3& x = now.position[i];
-    const std::uint64_t step = firstStep + error.x;
+    const std::uint64_t step = m.step + error.x;
     m.failure = fmt::format("particle {} (radius {:.6g} m) at ({:.6g}, {:.6g}, {:.6g}) m {} (step {}, t = {:.6g} s)", i,
                             now.radius[i], x.x, x.y, x.z, text(error.y), step, double(step) * m.world.timeStep);
 }
@@ -249,15 +248,14 @@ VulkanProfile Ensemble::profile(std::uint32_t steps, double coilRate) {
         times = std::make_unique<PassTimes>(device_, Passes::mostDispatches(kBatch));
         for (const char* name : Passes::names()) p.passes.push_back({name});
     }
-    std::vector<double> seconds(p.passes.size());
     const gpu::uvec4 before = passes_->controlOf(0).list;
     while (p.steps < steps) {
         const std::uint32_t count = std::min(kBatch, steps - p.steps);
-        runBatch(count, {coilRate}, times.get(), &seconds);
+        runBatch(count, {coilRate}, times.get());
         if (failure(0)) throw RunError(*failure(0));
         p.steps += count;
     }
-    for (std::size_t n = 0; n < seconds.size(); ++n) p.passes[n].seconds = seconds[n];
+    for (std::size_t n = 0; n < p.passes.size(); ++n) p.passes[n].seconds = times->seconds(n);
     const gpu::uvec4 after = passes_->controlOf(0).list;
     p.rebuilds = after.y - before.y;
     p.refreshes = after.w - before.w;

@@ -90,11 +90,11 @@ class Ensemble {
 
     void writeBlocks();
     /// `count` steps of every live member.
-    void runBatch(std::uint32_t count, const std::vector<double>& coilRates, PassTimes* times = nullptr,
-                  std::vector<double>* seconds = nullptr);
+    void runBatch(std::uint32_t count, const std::vector<double>& coilRates, PassTimes* times = nullptr);
     /// Submits `count` steps. Returns how many of the batch are left to the member that made fewest.
     std::uint32_t submit(std::uint32_t count, bool opening, PassTimes* times);
-    void keepError(std::uint32_t member, const gpu::uvec4& error, std::uint64_t firstStep);
+    /// Before the steps of the batch are counted.
+    void keepError(std::uint32_t member, const gpu::uvec4& error);
     EnergyBook readEnergy(std::uint32_t member) const;
 
     VulkanOptions options_;

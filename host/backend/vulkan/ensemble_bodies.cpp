@@ -49,10 +49,6 @@ struct Instant {
     }
 };
 
-BodyClock clockOf(const std::vector<BodyClock>& clocks, std::size_t body) {
-    return body < clocks.size() ? clocks[body] : BodyClock{};
-}
-
 /// Bound of the way of any point of the body that a particle can meet, in the step that begins at that instant.
 double longestWay(const World& world, const RigidBody& body, const gpu::vec4& around, const Instant& now) {
     const geometry::Pose pose = now.pose(body);

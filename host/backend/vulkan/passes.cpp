@@ -104,6 +104,9 @@ std::vector<const vk::Buffer*> with(const BodyTables& bodies, std::vector<const 
     return tables;
 }
 
+PassTimes::PassTimes(const vk::Device& device, std::uint32_t most)
+    : times_(device, most + 1), seconds_(kPasses.size()) {}
+
 void PassTimes::begin(vk::Commands& commands) {
     times_.reset(commands);
     marked_.clear();
@@ -115,9 +118,9 @@ void PassTimes::mark(vk::Commands& commands, std::size_t n) {
     marked_.push_back(n);
 }
 
-void PassTimes::addTo(std::vector<double>& seconds) const {
+void PassTimes::add() {
     const std::vector<double> durations = times_.durations();
-    for (std::size_t k = 0; k < durations.size(); ++k) seconds[marked_[k]] += durations[k];
+    for (std::size_t k = 0; k < durations.size(); ++k) seconds_[marked_[k]] += durations[k];
 }
 
 Passes::Passes(const vk::Device& device, const TableSizes& s, const BodyTables* bodyTables)

@@ -62,18 +62,21 @@ std::vector<const vk::Buffer*> with(const BodyTables& bodies, std::vector<const 
 class PassTimes {
   public:
     /// Room for `most` dispatches in a recording. Needs vk::Timestamps::available.
-    PassTimes(const vk::Device& device, std::uint32_t most) : times_(device, most + 1) {}
+    PassTimes(const vk::Device& device, std::uint32_t most);
 
     /// Before the first pass of a recording.
     void begin(vk::Commands& commands);
     /// After a dispatch of pass `n` (Passes::names).
     void mark(vk::Commands& commands, std::size_t n);
-    /// Adds the recording that was submitted to `seconds`, which has an element for each pass.
-    void addTo(std::vector<double>& seconds) const;
+    /// Adds the recording that was submitted.
+    void add();
+    /// In pass `n`, of all recordings that were added [s].
+    double seconds(std::size_t n) const { return seconds_[n]; }
 
   private:
     vk::Timestamps times_;
     std::vector<std::size_t> marked_;
+    std::vector<double> seconds_;
 };
 
 class Passes : public Tables {
