@@ -11,9 +11,9 @@ namespace vkdose {
 
 /// A triangle with the direction of its surface at each corner.
 struct Facet {
-    geometry::Triangle corners;
-    std::array<Vec3, 3> normals;  ///< unit
-    bool solid = false;           ///< it bounds matter, so a cut through the body shows a section
+    geometry::Triangle corners{};
+    std::array<Vec3, 3> normals{};  ///< unit
+    bool solid = false;             ///< it bounds matter, so a cut through the body shows a section
 };
 
 /// A side of one or two triangles.

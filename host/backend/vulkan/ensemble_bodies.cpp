@@ -94,7 +94,8 @@ void Ensemble::makeBodies(TableSizes& sizes) {
         sizes.shapeKinds |= packed.kinds;
         motions += std::uint32_t(m.world.bodies.size());
     }
-    mostBatch_ = std::uint32_t(std::max<std::size_t>(1, kMostMotionBytes / (motions * sizeof(gpu::BodyMotion))));
+    mostBatch_ =
+        std::uint32_t(std::max<std::size_t>(1, kMostMotionBytes / sizeof(gpu::BodyMotion) / std::max(motions, 1U)));
     mostBatch_ = std::min(mostBatch_, 1024U);
     // A slot beyond what the device can bind keeps no triangles: its particle looks at all of its cell.
     std::size_t slots = 0;

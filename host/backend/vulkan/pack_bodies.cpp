@@ -223,7 +223,7 @@ class Packer {
         set(5, vec4(float(start - std::round(start)), float(f.pitchStart), float(change),
                     float(f.height(f.angle) - f.zStart)));
         set(6, vec4(float(f.zStart), float((most + std::abs(change)) / (2 * kPi)), 0, 0));
-        for (double n = -1; n <= whole + 1; ++n) {
+        for (int n = -1; n <= int(whole) + 1; ++n) {
             const Split z(f.height(2 * kPi * n));
             table_.push_back(bits(vec4(z.high, z.low, float(2 * kPi * f.slope(2 * kPi * n)), 0)));
         }
