@@ -137,6 +137,7 @@ std::string reportText(const Case& c, const RunResult& r, const std::string& bac
         text += fmt::format("mean {} g (one dose: no standard deviation, no RSD)\n", grams(s.mean));
     }
     text += targetLine(r.doses);
+    for (const AddedPowder& p : r.added) text += fmt::format("refill   {}: {}\n", p.name, addedText(p));
     if (r.settling) text += fmt::format("settled  {}\n", settlingSentence(*r.settling, c.schedule));
     text += densityLine(c, r) + closedFormLine(c, r);
     text += figureLines(r, c.schedule.stop) + ledgerLine(r);

@@ -75,6 +75,14 @@ void EventsDisplay::onDose(const Dose& dose) {
     say(event);
 }
 
+void EventsDisplay::onRefill(const AddedPowder& powder) {
+    say({{"event", "refill"},
+         {"name", powder.name},
+         {"time_s", jsonNumber(powder.time)},
+         {"particles", powder.particles},
+         {"mass_kg", jsonNumber(powder.mass)}});
+}
+
 void EventsDisplay::end(const RunResult& result, ExitCode code, const std::string& error,
                         const std::filesystem::path& output) {
     say({{"event", "end"},

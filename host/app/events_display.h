@@ -34,6 +34,7 @@ class EventsDisplay : public RunDisplay {
     void onSample(const Sample& sample) override;
     void onSettled(const Settling& settling, const Schedule& schedule) override;
     void onDose(const Dose& dose) override;
+    void onRefill(const AddedPowder& powder) override;
     void end(const RunResult& result, ExitCode code, const std::string& error, const std::filesystem::path& output);
     void close() override {}
 

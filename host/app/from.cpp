@@ -119,7 +119,7 @@ bool isSpace(const std::string& key) {
 
 /// What the particles follow from.
 bool isPowder(const std::string& key) {
-    return under(key, {"seed", "particles"});
+    return under(key, {"seed", "particles", "refill"});
 }
 
 template <class Fits>
@@ -146,7 +146,7 @@ void requireFit(const Case& source, const Checkpoint& state, const ReadyRun& run
     const Values before = valuesOf(source), now = valuesOf(run.c);
     compare(before, now, folder, isSpace, faults);
     const StateFacts facts = factsOf(state.run.run);
-    if (facts.radii != run.filled.particles.radius) {
+    if (facts.radii != run.filled.allParticles().radius) {
         const std::size_t known = faults.size();
         compare(before, now, folder, isPowder, faults);
         if (faults.size() == known)

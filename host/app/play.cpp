@@ -30,6 +30,9 @@ class Fanout : public RunObserver {
         folder_.onDose(d);
         if (display_) display_->onDose(d);
     }
+    void onRefill(const AddedPowder& p) override {
+        if (display_) display_->onRefill(p);
+    }
     void onField(const FieldSample& f) override { folder_.onField(f); }
     void onCheckpoint(const RunCheckpoint& c, double time) override { folder_.onCheckpoint(c, time); }
     bool storesCheckpoints() const override { return folder_.storesCheckpoints(); }

@@ -77,6 +77,11 @@ void ProgressDisplay::onDose(const Dose& d) {
                     grams(d.cumulative), d.target > 0 || d.stoppedBy == StopCause::Torque ? "; " + targetText(d) : ""));
 }
 
+void ProgressDisplay::onRefill(const AddedPowder& p) {
+    close();
+    say(fmt::format("refill {}: {}\n", p.name, addedText(p)));
+}
+
 /// A failed write is ignored. A lost terminal needs no error here, because its closing interrupts the run.
 void ProgressDisplay::say(const std::string& text) {
     (void)std::fputs(text.c_str(), stream_);

@@ -25,6 +25,7 @@ class ProgressDisplay : public RunDisplay {
     void onProgress(const Progress& progress) override;
     void onSettled(const Settling& settling, const Schedule& schedule) override;
     void onDose(const Dose& dose) override;
+    void onRefill(const AddedPowder& powder) override;
 
     void close() final;
 

@@ -85,11 +85,13 @@ double canisterTop(const Canister& can, const Insertion& filled) {
 /// a margin of at least ten diameters.
 Box defaultDomain(const Case& c, const SizeRange& sizes, const Insertion& filled) {
     const double diameter = 2 * sizes.largest;
+    double above = 0;  // the grids of refills stand on the powder
+    for (const Insertion::Waiting& w : filled.waiting) above += w.height;
     if (c.canister) {
         const Canister& can = *c.canister;
         const double half = can.width / 2;
         return {Vec3(-half, -half, 0) - diameter,
-                Vec3(half, canisterTop(can, filled), can.length + can.throatLength) + diameter};
+                Vec3(half, canisterTop(can, filled) + above, can.length + can.throatLength) + diameter};
     }
     Box box{Vec3(kInfinity), Vec3(-kInfinity)};
     for (std::size_t i = 0; i < filled.particles.size(); ++i) {
@@ -98,7 +100,7 @@ Box defaultDomain(const Case& c, const SizeRange& sizes, const Insertion& filled
     }
     const Vec3 size = box.high - box.low;
     const double margin = std::max({10 * diameter, size.x, size.y, size.z});
-    return {box.low - margin, box.high + margin};
+    return {box.low - margin, box.high + margin + Vec3(0, above, 0)};
 }
 
 /// Refuses a study. It has the shape of a case, so that without this check every key of it would be reported as
@@ -172,6 +174,7 @@ Case interpret(const std::filesystem::path& file, Node tree, std::vector<std::fi
     readRegion(root, kind, c);
     if (!reader.faulty()) fillAboveDriven(root, c);
     readSchedule(reader, root, c);
+    readRefills(reader, root, c);
     checkBulkDensity(reader, c);
     readFields(reader, root, reader.faulty() ? std::numeric_limits<double>::quiet_NaN() : 2 * sizeRange(c).mean, c);
     readMeasures(reader, root, c);
@@ -193,6 +196,7 @@ Case interpret(const std::filesystem::path& file, Node tree, std::vector<std::fi
     reader.throwIfFaulty();
 
     const Insertion filled = insertParticles(c);
+    checkRefills(reader, c, filled);
     if (c.canister && c.canister->lid) {
         const geometry::Plane lid{{0, canisterTop(*c.canister, filled), 0}, {0, -1, 0}};
         c.world.surfaces.insert(c.world.surfaces.end() - 1, lid);  // the front wall stays the last (world.h)

@@ -45,6 +45,15 @@ struct Filling {
     Box region;                 ///< of the grid, open upwards in a canister (high.y infinite); unused with a list
 };
 
+/// Powder that is added while the run goes on: spheres of the sizes of the filling, on a grid over the powder that is
+/// there. Without a time or a dose it waits for an order.
+struct Refill {
+    std::string name;
+    double mass = 0;                ///< target [kg]
+    std::optional<double> time;     ///< it is added at the first reading of the sensors that is not earlier [s]
+    std::optional<int> beforeDose;  ///< it is added before this dose begins
+};
+
 /// The rules that end a run. The first one that is met ends it.
 struct StopRule {
     /// Paper: experiments stop when the cumulative mass changes by no more than `threshold` over `doses` consecutive
@@ -119,6 +128,7 @@ struct Case {
     double softened = 1;                    ///< by which factor both laws are softer than the file's parameters
     std::optional<Canister> canister;       ///< absent for free boundaries
     Filling filling;
+    std::vector<Refill> refills;
     Schedule schedule;
     double sensorInterval = 0;  ///< [s], a whole number of steps after loading
     CheckpointInterval checkpoint;
@@ -157,9 +167,22 @@ struct Insertion {
     double cutBelow = 0;        ///< Quantiles, Sieve: mass fraction of the powder finer than the lower bound [-]
     double cutAbove = 0;        ///< Quantiles, Sieve: mass fraction coarser than the upper bound [-]
     double fillHeight = 0;      ///< top of the grid, or of a list's highest sphere [m, y]
+
+    /// The powder of a refill. Its particles wait; they stand on the grid as it would be without any powder.
+    struct Waiting {
+        Particles particles;
+        double mass = 0;    ///< [kg]
+        double height = 0;  ///< of the grid [m]
+    };
+    std::vector<Waiting> waiting;  ///< of each refill of the case
+
+    /// Those of the filling, then those of each refill. A backend is loaded with them.
+    Particles allParticles() const;
+    /// Index of the first particle of a refill.
+    std::size_t firstOf(std::size_t refill) const;
 };
 Insertion insertParticles(const Case& c);
-/// How many particles the mass of a case without a list takes, exactly.
+/// How many particles the mass of a case without a list takes, exactly; those of refills are not among them.
 std::size_t drawnParticles(const Case& c);
 
 /// Contact duration of the pair (a, b), b = infinity for a wall, on stiffness k: pi / sqrt(k/m12 - (gamma/(2 m12))^2).

@@ -16,6 +16,8 @@ void readParticles(CaseReader& reader, Section& root, Case& c);
 /// Reads the box of the insertion grid. By default it is the canister above its coil. Call after readBoundaries and
 /// readCoil.
 void readRegion(Section& root, std::optional<Boundaries> kind, Case& c);
+/// Reads the refills. Call after readParticles and readSchedule.
+void readRefills(CaseReader& reader, Section& root, Case& c);
 /// Raises the grid of a canister above the bodies that follow the drive and so stand in the place of a coil.
 void fillAboveDriven(Section& root, Case& c);
 

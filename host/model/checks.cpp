@@ -249,7 +249,9 @@ void checkLargest(CaseReader& reader, const Case& c, double largest) {
 
 void checkGrid(CaseReader& reader, const Case& c, double largest) {
     const Filling& f = c.filling;
-    const double expected = f.mass / sphereMass(c.world.density, std::cbrt(meanCubedRadius(f.size)));
+    double mass = f.mass;
+    for (const Refill& refill : c.refills) mass += refill.mass;
+    const double expected = mass / sphereMass(c.world.density, std::cbrt(meanCubedRadius(f.size)));
     if (expected > kMaxParticles) {
         reader.fault("particles.mass_g", fmt::format("takes about {:.2g} particles", expected),
                      f.size.kind == SizeDistribution::Kind::Quantiles
@@ -292,6 +294,13 @@ void checkFields(CaseReader& reader, const Case& c) {
     checkSchedule(reader, c);
     checkBox(reader, "domain", c.world.domain);
     if (!c.filling.list) checkBox(reader, "particles.region", c.filling.region);
+}
+
+void checkRefills(CaseReader& reader, const Case& c, const Insertion& filled) {
+    for (std::size_t k = 0; k < c.refills.size(); ++k)
+        if (filled.waiting[k].particles.size() == 0)
+            reader.fault(fmt::format("refill[{}].mass_g", k), "is less than half of the first particle drawn",
+                         "give more mass");
 }
 
 void checkSurfaces(CaseReader& reader, const Case& c, double radius) {

@@ -29,6 +29,9 @@ void checkTimeStep(CaseReader& reader, const Case& c, double smallestRadius);
 /// Checks whether the largest sphere passes the outlet, the mass fits the canister, and the grid fits its region.
 void checkFilling(CaseReader& reader, const Case& c, double largestRadius);
 
+/// Checks whether each refill holds a particle.
+void checkRefills(CaseReader& reader, const Case& c, const Insertion& filled);
+
 /// Checks whether a sphere of this radius [m] can touch too many turns of the coil.
 void checkTouches(CaseReader& reader, const Case& c, double largestRadius);
 

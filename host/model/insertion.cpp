@@ -6,6 +6,7 @@
 #include "host/core/random.h"
 #include "host/model/case.h"
 #include "host/model/grid.h"
+#include "host/model/refill.h"
 #include "host/model/size_distribution.h"
 
 namespace vkdose {
@@ -17,16 +18,16 @@ double listedMass(const Particles& list, double density) {
     return mass;
 }
 
-/// Draws radii until one more would not bring the mass closer to the target.
-std::vector<double> drawRadii(const Case& c, Insertion& result) {
-    const SizeDistribution& size = c.filling.size;
+/// Draws radii, from the draw `first` on, until one more would not bring the mass closer to the target. Adds to `mass`
+/// and `redrawn`.
+std::vector<double> drawRadii(const Case& c, double target, std::uint64_t first, double& mass, std::uint64_t& redrawn) {
     std::vector<double> radii;
-    for (std::uint64_t index = 0;; ++index) {
-        const double r = drawRadius(size, c.seed, index, result.redrawn);
-        const double next = result.mass + sphereMass(c.world.density, r);
-        if (std::abs(next - c.filling.mass) >= std::abs(result.mass - c.filling.mass)) break;
+    for (std::uint64_t index = first;; ++index) {
+        const double r = drawRadius(c.filling.size, c.seed, index, redrawn);
+        const double next = mass + sphereMass(c.world.density, r);
+        if (std::abs(next - target) >= std::abs(mass - target)) break;
         radii.push_back(r);
-        result.mass = next;
+        mass = next;
     }
     return radii;
 }
@@ -41,6 +42,30 @@ Vec3 jitter(std::uint64_t seed, std::uint64_t index, double amplitude) {
     const auto [z, unused] = uniforms(seed, Stream::Jitter, index, 1);
     (void)unused;
     return amplitude * (2.0 * Vec3(x, y, z) - 1.0);
+}
+
+/// Particles with these radii on the grid. `first` is the draw of the first of them.
+Particles onGrid(const Case& c, const InsertionGrid& grid, const std::vector<double>& radii, std::uint64_t first) {
+    if (static_cast<double>(radii.size()) > grid.capacity())
+        throw std::logic_error("the grid is too small for the powder");  // loadCase refuses such a case
+    Particles particles;
+    for (std::size_t i = 0; i < radii.size(); ++i)
+        particles.add(grid.site(i) + jitter(c.seed, first + i, grid.jitterAmplitude()), radii[i]);
+    return particles;
+}
+
+/// The draws of the refills go on where those of the filling end.
+void drawRefills(const Case& c, Insertion& result) {
+    std::uint64_t draws = result.particles.size();
+    for (const Refill& refill : c.refills) {
+        Insertion::Waiting& waiting = result.waiting.emplace_back();
+        const InsertionGrid grid(refillRegion(c), largestRadius(c.filling.size), c.filling.gridGap);
+        const std::vector<double> radii = drawRadii(c, refill.mass, draws, waiting.mass, result.redrawn);
+        waiting.particles = onGrid(c, grid, radii, draws);
+        waiting.particles.status.assign(radii.size(), Status::Waiting);
+        waiting.height = grid.top(radii.size()) - c.filling.region.low.y;
+        draws += radii.size();
+    }
 }
 
 }  // namespace
@@ -84,8 +109,30 @@ double InsertionGrid::top(std::uint64_t count) const {
 }
 
 std::size_t drawnParticles(const Case& c) {
-    Insertion unused;
-    return drawRadii(c, unused).size();
+    double mass = 0;
+    std::uint64_t redrawn = 0;
+    return drawRadii(c, c.filling.mass, 0, mass, redrawn).size();
+}
+
+void Particles::append(const Particles& more) {
+    const auto behind = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+    behind(position, more.position);
+    behind(velocity, more.velocity);
+    behind(spin, more.spin);
+    behind(radius, more.radius);
+    behind(status, more.status);
+}
+
+Particles Insertion::allParticles() const {
+    Particles all = particles;
+    for (const Waiting& w : waiting) all.append(w.particles);
+    return all;
+}
+
+std::size_t Insertion::firstOf(std::size_t refill) const {
+    std::size_t first = particles.size();
+    for (std::size_t k = 0; k < refill; ++k) first += waiting[k].particles.size();
+    return first;
 }
 
 Insertion insertParticles(const Case& c) {
@@ -106,13 +153,10 @@ Insertion insertParticles(const Case& c) {
         result.cutAbove = 1 - finerVolume(size, size.radiusMax);
     }
     const InsertionGrid grid(c.filling.region, largestRadius(size), c.filling.gridGap);
-    const std::vector<double> radii = drawRadii(c, result);
-    if (static_cast<double>(radii.size()) > grid.capacity())
-        throw std::logic_error("the grid is too small for the filling");  // loadCase refuses such a case
+    const std::vector<double> radii = drawRadii(c, c.filling.mass, 0, result.mass, result.redrawn);
+    result.particles = onGrid(c, grid, radii, 0);
     result.fillHeight = grid.top(radii.size());
-    for (std::size_t i = 0; i < radii.size(); ++i) {
-        result.particles.add(grid.site(i) + jitter(c.seed, i, grid.jitterAmplitude()), radii[i]);
-    }
+    drawRefills(c, result);
     return result;
 }
 

@@ -117,9 +117,9 @@ class ListReader {
                   "give one number for each column");
             return;
         }
-        if (status_ != kAbsent && fields[status_] != "active") {  // dosed particles do not go on
-            if (fields[status_] != "dosed" && fields[status_] != "lost")
-                fault("status", fields[status_], "is not known", "give active, dosed or lost");
+        if (status_ != kAbsent && fields[status_] != "active") {  // the others do not go on
+            if (fields[status_] != "dosed" && fields[status_] != "lost" && fields[status_] != "waiting")
+                fault("status", fields[status_], "is not known", "give active, dosed, lost or waiting");
             return;
         }
         std::array<double, 10> value{};

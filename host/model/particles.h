@@ -7,8 +7,9 @@
 
 namespace vkdose {
 
-/// Where a particle is in the ledger. A dosed or lost particle takes no further part in the motion.
-enum class Status : std::uint32_t { Active = 0, Dosed = 1, Lost = 2 };
+/// Where a particle is in the ledger. A dosed or lost particle takes no further part in the motion; one that waits
+/// takes none before it is added to the powder (Refill).
+enum class Status : std::uint32_t { Active = 0, Dosed = 1, Lost = 2, Waiting = 3 };
 
 /// Particle state. Every array has one entry for each particle. The index identifies the particle for the whole run.
 /// After n steps `velocity` and `spin` are those of the half step n - 1/2 (leapfrog); at n = 0 they are the initial
@@ -28,6 +29,8 @@ struct Particles {
         radius.push_back(r);
         status.push_back(Status::Active);
     }
+    /// The particles of `more` behind these, with their status.
+    void append(const Particles& more);
 };
 
 /// Of a solid sphere [kg].

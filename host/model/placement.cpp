@@ -2,9 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "host/model/checks.h"
+#include "host/model/clearance.h"
 #include "host/model/overlaps.h"
 
 namespace vkdose {
@@ -51,14 +51,6 @@ void checkDomain(CaseReader& reader, const Case& c, const Particles& p, const st
     }
 }
 
-double coilDistance(const geometry::Coil& coil, const Vec3& x, double radius) {
-    const double reach = radius + coil.wireRadius;
-    const double fromAxis = std::hypot(x.x, x.y);
-    const bool far = std::abs(fromAxis - coil.radius) > reach || x.z < coil.zStart - reach ||
-                     x.z > coil.zStart + coil.length + reach;
-    return far ? radius : geometry::closestPoint(coil, 0, x).distance;
-}
-
 /// The cure for a grid of particles that a body stands in.
 std::string freePlace(const Case& c) {
     return c.canister ? "move the body, or let the fill start above it by particles.drop_mm"
@@ -69,25 +61,9 @@ std::string freePlace(const Case& c) {
 /// little, because a list may be a settled bed.
 void checkWalls(CaseReader& reader, const Case& c, const Particles& p, const std::string& path, double allowed) {
     Few faults(reader, path);
+    const Clearance around(c.world);
     for (std::size_t i = 0; i < p.size(); ++i) {
-        double distance = p.radius[i];
-        for (const geometry::Surface& surface : c.world.surfaces)
-            distance = std::min(distance, geometry::closestPoint(surface, p.position[i]).distance);
-        std::string what = "a wall";
-        if (c.world.coil) {
-            const double toCoil = coilDistance(*c.world.coil, p.position[i], p.radius[i]);
-            if (toCoil < distance) what = "the coil";
-            distance = std::min(distance, toCoil);
-        }
-        for (const RigidBody& body : c.world.bodies) {
-            const Vec3 inBody = body.pose(0, 0).toBody(p.position[i]);
-            for (const geometry::Shape& shape : body.shapes)
-                for (const geometry::Feature& place : geometry::places(shape, inBody, p.radius[i]))
-                    if (place.distance < distance) {
-                        distance = place.distance;
-                        what = fmt::format("body \"{}\"", body.name);
-                    }
-        }
+        const auto [distance, what] = around.nearest(p.position[i], p.radius[i]);
         const double overlap = p.radius[i] - distance;
         // The bed that a run left lies around the coil as it stood at the run's end.
         const char* turn = c.filling.list && what == "the coil"

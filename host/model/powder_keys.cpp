@@ -8,6 +8,7 @@ namespace {
 using namespace key;
 
 constexpr Unit kDensity{1, "kg/m3"};
+constexpr std::int64_t kMostDoses = 1'000'000'000;
 constexpr Bound kPositive = Bound::Positive;
 constexpr Bound kNonNegative = Bound::NonNegative;
 
@@ -88,6 +89,16 @@ constexpr Key kRegion[] = {
     vector("high", kMetre, kRequired, "upper corner"),
 };
 
+constexpr Key kRefill[] = {
+    text("name", kRequired, "of the refill, in messages and for `add_powder`: letters, digits, `-` and `_`"),
+    number("mass_g", kGram, kPositive, kRequired, "mass of the powder; it is met as closely as one particle allows"),
+    number("time_s", kSecond, kPositive, told("none"),
+           "simulated time, settling included: it is added at the first sensor interval that ends no earlier")
+        .replacing("before_dose"),
+    integer("before_dose", 1, kMostDoses, told("none"), "it is added when this dose is about to begin")
+        .replacing("time_s"),
+};
+
 constexpr KeyTable kTables[] = {
     {"particles", kParticles, ""},
     {"particles.size", kUniform, "Radii spread evenly, `distribution = \"uniform\"`:"},
@@ -98,6 +109,10 @@ constexpr KeyTable kTables[] = {
     {"particles.size", kSieve,
      "A sieve analysis, `\"sieve\"`. Between two sieves the mass is spread evenly over the logarithm of the size:"},
     {"particles.region", kRegion, "The box to fill, where `boundaries` is `\"list\"` or `\"none\"`."},
+    {"refill[]", kRefill,
+     "Powder that is added while the run goes on, a table for each. Its spheres have the sizes of `[particles.size]`. "
+     "They begin at rest on a grid like that of the fill, over the powder that is there. Without `time_s` and "
+     "`before_dose` it waits until a program says `add_powder`."},
 };
 
 }  // namespace

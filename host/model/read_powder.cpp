@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "host/core/file.h"
 #include "host/model/body_form.h"
@@ -121,6 +122,31 @@ void readRegion(Section& root, std::optional<Boundaries> kind, Case& c) {
     }
     Section& region = particles.requiredTable("region");
     c.filling.region = {region.vector("low"), region.vector("high")};
+}
+
+void readRefills(CaseReader& reader, Section& root, Case& c) {
+    std::set<std::string> names;
+    for (Section* section : root.tables("refill")) {
+        Section& s = *section;
+        Refill refill;
+        refill.name = s.string("name");
+        if (s.isString("name") && !isColumnName(refill.name))
+            reader.fault(s.path("name"), "is no name of a refill", "give letters, digits, - and _");
+        else if (!names.insert(refill.name).second)
+            reader.fault(s.path("name"), "stands there twice", "give each refill a name of its own");
+        refill.mass = s.number("mass_g");
+        if (s.has("time_s")) refill.time = s.number("time_s");
+        if (s.has("before_dose")) refill.beforeDose = static_cast<int>(s.integer("before_dose"));
+        for (const char* key : {"time_s", "before_dose"}) s.know(key);
+        if (refill.time && refill.beforeDose)
+            reader.fault(s.path("before_dose"), "time_s is given too", "give one of the two");
+        if (refill.beforeDose && c.schedule.rotateTime == 0)
+            reader.fault(s.path("before_dose"), "there are no doses", "give time_s, or dose.rotate_s");
+        if (c.filling.list)
+            reader.fault(s.path("name"), "the powder is a list, and a refill is drawn from particles.size",
+                         "give particles.mass_g and particles.size in place of particles.list");
+        c.refills.push_back(std::move(refill));
+    }
 }
 
 void fillAboveDriven(Section& root, Case& c) {

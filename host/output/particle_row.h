@@ -11,7 +11,7 @@ namespace vkdose {
 
 template <>
 struct Words<Status> {
-    static constexpr std::array<const char*, 3> kNames{"active", "dosed", "lost"};
+    static constexpr std::array<const char*, 4> kNames{"active", "dosed", "lost", "waiting"};
 };
 
 struct ParticleRow {
@@ -34,7 +34,9 @@ inline constexpr auto kParticleColumns = columns(
     column<&ParticleRow::spin, 1>("wy_rad_s", "rad/s", "Angular velocity about y, likewise.", kAllDigits),
     column<&ParticleRow::spin, 2>("wz_rad_s", "rad/s", "Angular velocity about z, likewise.", kAllDigits),
     column<&ParticleRow::radius>("radius_m", "m", "Radius of the sphere.", kAllDigits),
-    column<&ParticleRow::status>("status", "",
-                                 "active, dosed or lost; a dosed particle stands where it was when it was counted."));
+    column<&ParticleRow::status>(
+        "status", "",
+        "active, dosed, lost or waiting for its refill; a dosed particle stands where it was when "
+        "it was counted."));
 
 }  // namespace vkdose

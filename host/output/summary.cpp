@@ -1,5 +1,6 @@
 #include "host/output/summary.h"
 
+#include <algorithm>
 #include <tuple>
 #include <utility>
 
@@ -73,6 +74,20 @@ Json ledger(const RunResult& r) {
     j["worst_relative_mass_error"] = jsonNumber(r.ledger.worstMassError());
     j["closings"] = r.ledger.closings();
     return j;
+}
+
+/// Of each refill of the case when it was added; null if it was not.
+Json refills(const Case& c, const RunResult& r) {
+    Json list = Json::array();
+    for (std::size_t k = 0; k < c.refills.size(); ++k) {
+        const auto added = std::find_if(r.added.begin(), r.added.end(), [k](const auto& a) { return a.refill == k; });
+        const Insertion::Waiting& powder = r.filled.waiting[k];
+        list.push_back({{"name", c.refills[k].name},
+                        {"particles", powder.particles.size()},
+                        {"mass_kg", jsonNumber(powder.mass)},
+                        {"time_s", added == r.added.end() ? Json(nullptr) : jsonNumber(added->time)}});
+    }
+    return list;
 }
 
 Json doseCount(const std::optional<int>& dose) {
@@ -225,6 +240,7 @@ std::string summaryJson(const Case& c, const RunResult& r, const std::string& ba
     j["dosed_while_settling_kg"] = jsonNumber(r.dosedWhileSettling);
     j["closed_form"] = closedForms(c, r.derived);
     if (const std::string note = closedFormNote(c, r); !note.empty()) j["closed_form"]["note"] = note;
+    if (!c.refills.empty()) j["refills"] = refills(c, r);
     j["ledger"] = ledger(r);
     if (r.last.energy) j["energy"] = energy(*r.last.energy);
     j["max_overlap_ratio"] = jsonNumber(r.maxOverlapRatio);

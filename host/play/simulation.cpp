@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <condition_variable>
@@ -39,6 +40,7 @@ std::exception_ptr errorOf(const RunResult& result) {
 class Simulation::Thread final : public RunObserver {
   public:
     Thread(const Case& c, Backend& backend) : case_(c), backend_(backend), filled_(insertParticles(c)) {
+        seen_.refills.resize(c.refills.size(), false);
         seen_.last.sensors.count[0] = filled_.particles.size();
         seen_.last.sensors.mass[0] = filled_.mass;
         thread_ = std::thread([this] { play(); });
@@ -98,6 +100,7 @@ class Simulation::Thread final : public RunObserver {
         bool over = false;
         bool takesOrders = false;
         DriveOrder order;                ///< the caller's
+        std::vector<bool> refills;       ///< which of the case have been added, or will be with the next step
         RunResult result;                ///< if it is over
         std::uint64_t steps = 0;         ///< made
         std::vector<double> bodyClocks;  ///< as in Frame
@@ -142,6 +145,12 @@ class Simulation::Thread final : public RunObserver {
         seen_.takesOrders = false;
         return std::exchange(seen_.order, {});
     }
+
+    bool wantsRefill(std::size_t refill) override {
+        const std::lock_guard lock(mutex_);
+        return seen_.refills[refill];
+    }
+    void onRefill(const AddedPowder& powder) override { seen_.refills[powder.refill] = true; }
 
     /// Before each step. All that belongs to the latest reading is done by then: its dose is closed, its phase is over.
     bool wantsCheckpoint() override {
@@ -250,6 +259,19 @@ void Simulation::changeSpeed(double speed) {
 void Simulation::stopDrive() {
     requireOrders();
     thread_->seen().order.stop = true;
+}
+
+void Simulation::addPowder(const std::string& refill) {
+    auto& seen = thread_->seen();
+    const auto found =
+        std::find_if(case_.refills.begin(), case_.refills.end(), [&](const Refill& r) { return r.name == refill; });
+    if (found == case_.refills.end())
+        throw std::invalid_argument(fmt::format("the case has no [[refill]] named \"{}\"", refill));
+    if (seen.over || seen.last.step != seen.steps)
+        throw std::logic_error("powder is added at a reading of the sensors, and not now");
+    const auto index = static_cast<std::size_t>(found - case_.refills.begin());
+    if (seen.refills[index]) throw std::logic_error(fmt::format("refill \"{}\" has been added", refill));
+    seen.refills[index] = true;
 }
 
 void Simulation::store(const std::filesystem::path& folder, bool force) {

@@ -53,6 +53,11 @@ class Simulation {
     /// The drive is told to stop now, as by the end of its rotation. Throws std::logic_error unless takesOrders().
     void stopDrive();
 
+    /// Adds the powder of this refill of the case before the next step, as if its time had come. Throws
+    /// std::invalid_argument if the case has no such refill, and std::logic_error if it has been added or the run does
+    /// not rest at a reading, or before its first step.
+    void addPowder(const std::string& refill);
+
     /// Leaves in `folder` what `vkdose run` would have left had it been interrupted now, so that `vkdose resume` goes
     /// on with the same bits; of a run that is over, what it leaves at its end. Frames of the time before and the
     /// states for other runs are not among it. Afterwards the drive takes no more orders at this reading. Throws

@@ -147,6 +147,7 @@ PYBIND11_MODULE(_core, m) {
         .def("change_speed",
              [](Simulation& run, double rpm) { run.changeSpeed(rpm / kRpm.perSI); })  // as a case file does
         .def("stop_drive", &Simulation::stopDrive)
+        .def("add_powder", &Simulation::addPowder)
         .def_property_readonly("takes_orders", &Simulation::takesOrders)
         .def_property_readonly("name", [](const Simulation& run) { return run.theCase().name; })
         .def_property_readonly("backend", &Simulation::backend)

@@ -40,7 +40,7 @@ function layers(player, frames) {
   const [low, high] = [player.low[1], player.high[1]];
   const heights = Float64Array.from({length: n}, (_, i) =>
     low + (high - low) * frames.position[3 * (settled * n + i) + 1] / 65535);
-  const present = Array.from(heights).filter((_, i) => frames.gone[i] > settled);
+  const present = Array.from(heights).filter((_, i) => frames.here(i, settled));
   const [bottom, top] = present.length > 0 ? d3.extent(present) : [0, 1];
   const layer = Uint8Array.from(heights, y =>
     rampEntry(Math.max(0, Math.min(kLayers - 1, Math.floor((y - bottom) / (top - bottom || 1) * kLayers))) / (kLayers - 1)));

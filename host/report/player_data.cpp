@@ -79,6 +79,7 @@ class Encoder {
   public:
     Encoder(const Case& c, std::size_t particles, std::size_t columns)
         : case_(c),
+          came_(particles, kNever),
           gone_(particles, kNever),
           place_(3, Row<std::uint16_t>(particles)),
           speed_(particles),
@@ -102,6 +103,7 @@ class Encoder {
     const std::vector<double>& radiusRange() const { return radiusRange_; }
 
     std::string finish() {
+        addPlanes(stream_, came_);
         addPlanes(stream_, gone_);
         return base64(stream_.finish());
     }
@@ -121,12 +123,13 @@ class Encoder {
         const Box& box = case_.world.domain;
         for (std::size_t i = 0; i < p.size(); ++i) {
             const bool here = p.status[i] == Status::Active;
+            const auto frame = static_cast<std::uint16_t>(frames_);
+            if (here) came_[i] = std::min(came_[i], frame);
+            if (!here && p.status[i] != Status::Waiting) gone_[i] = std::min(gone_[i], frame);
             speed_.set(i, here ? speedLevel(glm::length(p.velocity[i])) : 0);
             overlap_.set(i, here ? overlapLevel(overlap[i], case_.world.maxOverlapRatio) : 0);
             if (here)
                 for (int k = 0; k < 3; ++k) place_[k].set(i, sixteenBits(p.position[i][k], box.low[k], box.high[k]));
-            else
-                gone_[i] = std::min(gone_[i], static_cast<std::uint16_t>(frames_));
         }
         for (auto& row : place_) row.add(stream_);
         speed_.add(stream_);
@@ -144,7 +147,7 @@ class Encoder {
     const Case& case_;
     Deflate stream_;
     std::vector<double> radiusRange_{0, 0};
-    std::vector<std::uint16_t> gone_;
+    std::vector<std::uint16_t> came_, gone_;
     std::vector<Row<std::uint16_t>> place_;
     Row<std::uint8_t> speed_, overlap_;
     Row<std::uint16_t> surface_;

@@ -1,6 +1,6 @@
 // The frames of a run out of the page; how they are packed stands in host/report/player_data.h.
 
-/// Resolves to {count, particles, radius [m], gone (first frame without the particle), position (three of 65535 parts of
+/// Resolves to {count, particles, radius [m], here (whether a particle is in a frame), position (three of 65535 parts of
 /// the box for each particle and frame), speed, overlap (levels), surface (of 65535 parts of the box's height)}.
 async function readFrames(player) {
   const bytes = await inflated(player.stream);
@@ -38,7 +38,8 @@ function unpackFrames(player, bytes) {
     add(frames.overlap, n * f, 1, before(n), levels());
     if (k > 0) add(frames.surface, k * f, 1, before(k), signed(words(k)));
   }
-  frames.gone = words(n);
+  const came = words(n), gone = words(n);  // first frame with the particle, first without it again
+  frames.here = (i, f) => came[i] <= f && f < gone[i];
   if (at !== bytes.length) throw new Error(`${bytes.length} bytes of frames, ${at} expected`);
   return frames;
 }

@@ -116,7 +116,7 @@ function sphereObject(player, frames, uniforms) {
     for (let i = 0; i < n; ++i) {
       const entry = 3 * quantity.entry(f, i);
       for (let k = 0; k < 3; ++k) tint.array[4 * i + k] = kRamp[entry + k];
-      tint.array[4 * i + 3] = frames.gone[i] > f ? 255 : 0;
+      tint.array[4 * i + 3] = frames.here(i, f) ? 255 : 0;
     }
     place.needsUpdate = tint.needsUpdate = true;
   };
@@ -133,7 +133,7 @@ function viewBox(player, frames, bodies) {
   });
   const settled = player.frames.settled;
   for (let i = 0; i < frames.particles; ++i)
-    if (frames.gone[i] > settled)
+    if (frames.here(i, settled))
       include([0, 1, 2].map(k => 1e3 * (player.low[k] + (player.high[k] - player.low[k]) *
         frames.position[3 * (settled * frames.particles + i) + k] / 65535)), 1e3 * frames.radius[i]);
   const can = player.canister;

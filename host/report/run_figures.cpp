@@ -12,6 +12,7 @@
 #include "host/analysis/work.h"
 #include "host/core/grams.h"
 #include "host/output/measured.h"
+#include "host/output/particle_row.h"
 #include "host/sim/density.h"
 
 namespace vkdose::report {
@@ -49,6 +50,11 @@ class Facts {
             add("state", "still running, or ended without a summary", "the figures are those so far");
             return;
         }
+        for (const Json& refill : s.value("refills", Json::array()))
+            if (refill.value("time_s", Json()).is_number())
+                add(fmt::format("refill {}", refill.value("name", std::string())),
+                    fmt::format("{} g", grams(refill.value("mass_kg", 0.0))),
+                    fmt::format("at t = {:.4g} s, counted in the fill", refill["time_s"].get<double>()));
         if (s.contains("stop_sentence")) add("ended", s.value("stop_sentence", std::string()));
         if (s.contains("error") && s["error"].is_string()) add("error", s["error"].get<std::string>());
         if (s.contains("backend")) add("computed on", s.value("backend", std::string()));
@@ -278,7 +284,9 @@ Particles readEndState(const std::filesystem::path& file) {
     for (std::size_t i = 0; i < table.rows(); ++i) {
         p.add({table.number(i, "x_m"), table.number(i, "y_m"), table.number(i, "z_m")}, table.number(i, "radius_m"));
         const std::string& status = table.text(i, "status");
-        if (status != "active") p.status.back() = status == "dosed" ? Status::Dosed : Status::Lost;
+        const auto& names = Words<Status>::kNames;
+        const auto word = std::find(names.begin(), names.end(), status);
+        p.status.back() = word == names.end() ? Status::Lost : static_cast<Status>(word - names.begin());
     }
     return p;
 }
@@ -287,7 +295,7 @@ double filledMass(const RunSources& run) {
     if (run.series.rows() == 0) return run.c.filling.mass;
     double sum = 0;
     for (const char* name : {"dosed_mass_kg", "canister_mass_kg", "throat_mass_kg", "lost_mass_kg"})
-        sum += run.series.number(0, name);
+        sum += run.series.number(run.series.rows() - 1, name);
     return sum;
 }
 

@@ -30,7 +30,7 @@ std::uint64_t expectedSteps(const Case& c, const Timeline& timeline, const RunRe
     const StopRule& rule = c.schedule.stop;
     double doses = static_cast<double>(rule.maxDoses);
     if (perDose > 0) {
-        const double left = soFar.filled.mass - soFar.dosedWhileSettling - dosed;
+        const double left = soFar.ledger.filledMass() - soFar.dosedWhileSettling - dosed;
         doses = std::min(doses, done + std::max(1.0, std::ceil(left / perDose)));
     }
     const bool unknown =

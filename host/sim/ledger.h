@@ -12,8 +12,14 @@ inline constexpr double kLedgerTolerance = 1e-6;
 
 class Ledger {
   public:
-    /// Number of the particles that were filled in, and their mass [kg].
+    /// Number of the particles that were filled in at the start, and their mass [kg].
     Ledger(std::uint64_t count, double mass) : count_(count), mass_(mass) {}
+
+    /// More powder was added: `count` particles of `mass` [kg].
+    void add(std::uint64_t count, double mass) {
+        count_ += count;
+        mass_ += mass;
+    }
 
     /// Closes the ledger at simulated time `time` [s]. Throws RunError if a particle is lost, if the counts of the
     /// four regions do not add up to the filled one exactly, if the masses do not to 1e-6 of the filled mass, if a
@@ -23,6 +29,7 @@ class Ledger {
     void save(Record& record) const;
     void restore(const Record& record);
 
+    // Powder that was added is among it.
     std::uint64_t filledCount() const { return count_; }
     double filledMass() const { return mass_; }
 

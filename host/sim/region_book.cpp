@@ -28,7 +28,7 @@ void RegionBook::look(const Particles& particles) {
     if (empty()) return;
     seen_.resize(particles.size(), 0);
     for (std::size_t i = 0; i < particles.size(); ++i) {
-        if (particles.status[i] == Status::Lost) continue;
+        if (particles.status[i] == Status::Lost || particles.status[i] == Status::Waiting) continue;
         const Vec3& x = particles.position[i];
         const bool dosed = particles.status[i] == Status::Dosed;
         const std::size_t outlet = dosed ? deletedBy(world_, x) : world_.regions.size();

@@ -34,16 +34,20 @@ RunLoop::RunLoop(const Case& c, Insertion filled, Derived derived, Backend& back
       fields_(c, timeline_) {
     result_.filled = std::move(filled);
     result_.derived = std::move(derived);
-    result_.particles = result_.filled.particles;
-    result_.ledger = Ledger(result_.particles.size(), result_.filled.mass);
-    result_.last.sensors.count[0] = result_.particles.size();
+    result_.particles = result_.filled.allParticles();
+    active_ = result_.filled.particles.size();
+    result_.ledger = Ledger(active_, result_.filled.mass);
+    result_.last.sensors.count[0] = active_;
     result_.last.sensors.mass[0] = result_.filled.mass;
-    active_ = result_.particles.size();
 }
 
 StopReason RunLoop::steps() {
     while (!timeline_.over(step_)) {
-        while (observer_.wantsCheckpoint()) checkpoint();
+        while (observer_.wantsCheckpoint()) {
+            addPowder();
+            checkpoint();
+        }
+        addPowder();
         if (stop_) {
             checkpoint();
             sample();
@@ -171,7 +175,7 @@ bool RunLoop::phaseEnded() {
     if (!stretch_.closesDose) return false;
     closeDose(true);
     const Dose& d = result_.doses.back();
-    return judge_.over(d.mass, d.particles, active_);
+    return judge_.over(d.mass, d.particles, active_ + planned());
 }
 
 void RunLoop::fail(StopReason reason, const char* what) {

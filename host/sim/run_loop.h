@@ -71,6 +71,20 @@ class RunLoop {
     void checkpoint();
     bool checkpointDue() const;
 
+    // run_loop_refills.cpp: the powder that is added.
+
+    /// Adds all powder that is due, if the sensors have just been read.
+    void addPowder();
+    bool due(std::size_t refill) const;
+    bool isAdded(std::size_t refill) const;
+    /// Particles of refills that the case will add.
+    std::uint64_t planned() const;
+    void bookAdded(std::size_t refill, std::uint64_t step);
+    /// Energy that these particles bring, at rest at these positions after the steps so far [J].
+    double energyOfRest(const Particles& powder, const std::vector<Vec3>& positions) const;
+    void saveAdded(Record& r) const;
+    void restoreAdded(const Record& r);
+
     // run_loop_sampling.cpp: from the calls of the backend to samples.
 
     /// Torque about +z on all that the drive turns, times the steps of a call. Of a body it is the torque at the drive

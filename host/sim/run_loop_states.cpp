@@ -23,7 +23,7 @@ void RunLoop::goOn(const RunCheckpoint& from) {
 
 void RunLoop::takeOver(const RunCheckpoint& from, double time) {
     const StateFacts facts = factsOf(from.run);
-    if (facts.radii != result_.filled.particles.radius) throw RecordError("its particles are not those of the case");
+    if (facts.radii != result_.particles.radius) throw RecordError("its particles are not those of the case");
     step_ = static_cast<std::uint64_t>(std::llround(time / case_.world.timeStep));
     backend_.load(case_.world, facts.dosing ? case_.dosingLaw : case_.settlingLaw, result_.particles);
     Record state = from.backend;
@@ -32,6 +32,7 @@ void RunLoop::takeOver(const RunCheckpoint& from, double time) {
     backend_.restore(state);
     if (facts.step > 0) clocks_.takeOver(from.run, static_cast<double>(step_) / static_cast<double>(facts.step));
     active_ = facts.active;
+    restoreAdded(from.run);
     takeSample(from.run, facts);
     before_.steps = step_;
     const bool settled = facts.settled || step_ >= timeline_.settleSteps();
@@ -106,7 +107,8 @@ Record RunLoop::save() const {
     put(r, result_.settled);
     put(r, result_.settling);
     rest_.save(r);
-    r.put("radius", result_.filled.particles.radius);
+    r.put("radius", result_.particles.radius);
+    saveAdded(r);
     fields_.save(r);
     result_.ledger.save(r);
     judge_.save(r);
@@ -114,7 +116,7 @@ Record RunLoop::save() const {
 }
 
 void RunLoop::restore(const Record& r) {
-    if (r.get<double>("radius") != result_.filled.particles.radius)
+    if (r.get<double>("radius") != result_.particles.radius)
         throw RecordError("its particles are not those of its case: a list that has changed, or another version");
     const auto& progress = r.get<std::uint64_t>("progress", 5);
     step_ = progress[0];
@@ -143,12 +145,13 @@ void RunLoop::restore(const Record& r) {
     get(r, "doses", result_.doses);
     get(r, "last", result_.last);
     result_.last.regions = regions_.counts();
-    get(r, result_.filled.particles, result_.settled);
+    get(r, result_.particles, result_.settled);
     measureDensity();
     get(r, result_.settling);
     rest_.restore(r);
     fields_.restore(r);
     result_.ledger.restore(r);
+    restoreAdded(r);
     judge_.restore(r);
     if (!timeline_.over(step_)) stretch_ = timeline_.at(step_);
 }

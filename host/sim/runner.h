@@ -47,6 +47,19 @@ struct RunCheckpoint {
 /// that, and at its end.
 enum class KeptState { Settled, Frame, End };
 
+/// A refill of the case that has been added.
+struct AddedPowder {
+    std::size_t refill = 0;  ///< index in Case::refills
+    std::string name;
+    std::uint64_t step = 0;  ///< steps made before
+    double time = 0;         ///< [s]
+    std::size_t particles = 0;
+    double mass = 0;  ///< [kg]
+};
+
+/// "10 g in 812 spheres, at t = 4 s"
+std::string addedText(const AddedPowder& powder);
+
 /// Is told of events as a run goes on. An exception that it throws ends the run; an OutputError says that a result
 /// could not be stored.
 class RunObserver {
@@ -59,6 +72,13 @@ class RunObserver {
     /// Asked at each sample at which the drive conveys and nothing in the case stops it. The drive obeys from this
     /// sample on.
     virtual DriveOrder order() { return {}; }
+    /// Asked before a call of the backend that follows a reading of the sensors: whether this refill of the case is to
+    /// be added now, though its time has not come. Not asked again once it has been added.
+    virtual bool wantsRefill(std::size_t refill) {
+        (void)refill;
+        return false;
+    }
+    virtual void onRefill(const AddedPowder&) {}
     virtual void onField(const FieldSample&) {}
     /// Asked before each call of the backend, when all that belongs to the steps so far is done. The run waits for the
     /// answer. With true a checkpoint is made now, if `storesCheckpoints`, and it is asked again.
@@ -82,6 +102,7 @@ struct RunResult {
     Derived derived;
     std::vector<Dose> doses;
     DoseStatistics statistics;
+    std::vector<AddedPowder> added;     ///< in the order of time
     double dosedWhileSettling = 0;      ///< [kg]
     std::optional<Settling> settling;   ///< once it is over, if there was any
     std::optional<SettledBed> settled;  ///< the bed at that time
@@ -89,7 +110,7 @@ struct RunResult {
     StopReason reason = StopReason::Settled;
     std::string error;  ///< what stopped the run, for RunError, DeviceError and OutputError
     Ledger ledger{0, 0};
-    Particles particles;             ///< end state; the inserted ones if the backend cannot give it any more
+    Particles particles;             ///< end state; those that were loaded if the backend cannot give it any more
     std::vector<double> bodyClocks;  ///< at the end, as in Frame
     bool endState = false;           ///< true if `particles` and `bodyClocks` are those of the end
     double maxOverlapRatio = 0;      ///< largest overlap over smaller radius of the whole run

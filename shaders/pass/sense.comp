@@ -38,7 +38,7 @@ void main() {
         vec4(active_ * 0.5 * m * dot(velocity.xyz, velocity.xyz), active_ * 0.2 * m * r * r * dot(spin.xyz, spin.xyz),
              float(here[kRegionThroat]) * m * velocity.z, coilTorque);
     overlap[lane] = velocity.w;
-    if (status != kStatusPadding) {
+    if (status != kStatusAbsent) {
         state[stateIndex(source, kVelocity, i)] = vec4(velocity.xyz, 0.0);
     }
 

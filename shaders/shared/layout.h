@@ -68,7 +68,7 @@ SHARED_FUNCTION uint stateOffset(uint field, uint i, uint particles) {
 SHARED_CONST kStatusActive = 0u;
 SHARED_CONST kStatusDosed = 1u;
 SHARED_CONST kStatusLost = 2u;
-SHARED_CONST kStatusPadding = 3u;  // fills a member's last workgroup
+SHARED_CONST kStatusAbsent = 3u;  // waits to be added, or fills a member's last workgroup
 
 // Where the sensors count a particle.
 SHARED_CONST kRegionCanister = 0u;

@@ -60,6 +60,7 @@ TEST_CASE("frames come out of the page's stream as exact as it says") {
     for (Frame& f : frames) f.particles.radius = frames[0].particles.radius;
     for (int f = 2; f < 4; ++f) frames[f].particles.status[5] = Status::Dosed;
     frames[3].particles.status[6] = Status::Lost;
+    for (int f = 0; f < 2; ++f) frames[f].particles.status[7] = Status::Waiting;
 
     const Json j = playerJson(c, sourceOf(frames), kColumns);
     CHECK(j["particles"] == kParticles);
@@ -110,7 +111,9 @@ TEST_CASE("frames come out of the page's stream as exact as it says") {
         for (std::size_t i = 0; i < kColumns; ++i)
             CHECK(near(surface[i] / 65535.0, profile.height[i] / height, 1, 0.5001 / 65535));
     }
-    const auto gone = bytes.words(kParticles);
+    const auto came = bytes.words(kParticles), gone = bytes.words(kParticles);
+    CHECK(came[7] == 2);
+    CHECK(std::count(came.begin(), came.end(), 0) == kParticles - 1);
     CHECK(gone[5] == 2);
     CHECK(gone[6] == 3);
     CHECK(std::count(gone.begin(), gone.end(), 65535) == kParticles - 2);

@@ -94,7 +94,7 @@ async function probe() {
   const frames = await readFrames(data);
   found.positions = Array.from(frames.position);
   found.speeds = Array.from(frames.speed);
-  found.gone = Object.assign(found.gone, {list: Array.from(frames.gone)});
+  found.here = [0, 1].map(i => [0, 1, 2].map(f => frames.here(i, f)));
   found.heights = Array.from(frames.surface);
   return found;
 }

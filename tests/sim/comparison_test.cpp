@@ -24,6 +24,9 @@ class Wrong : public Backend {
         change_(w);
         inner_->setLaw(w.law);
     }
+    void addParticles(std::size_t first, const std::vector<Vec3>& positions) override {
+        inner_->addParticles(first, positions);
+    }
     void setClocks(const std::vector<BodyClock>& clocks) override { inner_->setClocks(clocks); }
     Sensors advance(std::uint32_t n, double rate) override { return inner_->advance(n, rate); }
     Record snapshot() const override { return inner_->snapshot(); }

@@ -1,6 +1,7 @@
 #pragma once
 // A backend without physics: it writes down what it is asked to do and doses particles when the test says so.
 
+#include <algorithm>
 #include <functional>
 #include <optional>
 #include <string>
@@ -46,6 +47,12 @@ class FakeBackend : public Backend {
         particles_ = particles;
     }
     void setLaw(const ContactLaw& law) override { world_.law = law; }
+    void addParticles(std::size_t first, const std::vector<Vec3>& positions) override {
+        for (std::size_t k = 0; k < positions.size(); ++k) {
+            particles_.position.at(first + k) = positions[k];
+            particles_.status[first + k] = Status::Active;
+        }
+    }
     void setClocks(const std::vector<BodyClock>& now) override { clocks = now; }
 
     Sensors advance(std::uint32_t steps, double rate) override {
@@ -57,7 +64,8 @@ class FakeBackend : public Backend {
         step += steps;
         angle_ += rate * world_.timeStep * steps;
         Sensors s;
-        s.count = {particles_.size() - dosed(step), 0, dosed(step), 0};
+        const auto there = std::count(particles_.status.begin(), particles_.status.end(), Status::Active);
+        s.count = {static_cast<std::uint64_t>(there) - dosed(step), 0, dosed(step), 0};
         for (std::size_t r = 0; r < kRegions; ++r) s.mass[r] = particleMass * static_cast<double>(s.count[r]);
         s.coilTorque = impulse / steps;
         s.bodies.resize(world_.bodies.size());

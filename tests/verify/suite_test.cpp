@@ -32,6 +32,9 @@ class Skewed final : public Backend {
         sound_->load(changed, particles);
     }
     void setLaw(const ContactLaw& law) override { sound_->setLaw(law); }
+    void addParticles(std::size_t first, const std::vector<Vec3>& positions) override {
+        sound_->addParticles(first, positions);
+    }
     void setClocks(const std::vector<BodyClock>& clocks) override { sound_->setClocks(clocks); }
     Sensors advance(std::uint32_t steps, double coilRate) override {
         Sensors told = sound_->advance(steps, rate * coilRate);

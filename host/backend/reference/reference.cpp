@@ -60,6 +60,7 @@ class ReferenceBackend final : public Backend {
     }
 
     void setLaw(const ContactLaw& law) override { world_.law = law; }
+    void addParticles(std::size_t first, const std::vector<Vec3>& positions) override;
     void setClocks(const std::vector<BodyClock>& clocks) override { clocks_ = clocks; }
 
     Sensors advance(std::uint32_t steps, double coilRate) override;
@@ -150,6 +151,15 @@ void ReferenceBackend::restore(const Record& record) {
     loads_ = {};
     forces_.reset(n);
     forces_.restore(record);
+}
+
+void ReferenceBackend::addParticles(std::size_t first, const std::vector<Vec3>& positions) {
+    for (std::size_t k = 0; k < positions.size(); ++k) {
+        particles_.position.at(first + k) = positions[k];
+        particles_.velocity[first + k] = velocityOfRest(world_, steps_);
+        particles_.status[first + k] = Status::Active;
+    }
+    neighbours_.reset(world_.skin, neighbours_.builds());
 }
 
 Sensors ReferenceBackend::advance(std::uint32_t steps, double coilRate) {
@@ -291,6 +301,7 @@ Sensors ReferenceBackend::sense() const {
     Sensors sensors;
     for (std::size_t i = 0; i < particles_.size(); ++i) {
         const Status status = particles_.status[i];
+        if (status == Status::Waiting) continue;
         Region region = particles_.position[i].z > world_.throatZ ? Region::Throat : Region::Canister;
         if (status == Status::Dosed) region = Region::Dosed;
         if (status == Status::Lost) region = Region::Lost;

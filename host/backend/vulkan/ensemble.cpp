@@ -119,6 +119,14 @@ void Ensemble::setLaw(std::uint32_t member, const ContactLaw& law) {
     packLaw(law, members_[member].block);
 }
 
+void Ensemble::addParticles(std::uint32_t member, std::size_t first, const std::vector<Vec3>& positions) {
+    const MemberState& m = members_[member];
+    Particles added;
+    for (std::size_t k = 0; k < positions.size(); ++k)
+        added.add(positions[k], m.loaded.radius.at(first + k), velocityOfRest(m.world, m.step));
+    writeParticles(*passes_, member, first, added, m.half());
+}
+
 void Ensemble::setClocks(std::uint32_t member, const std::vector<BodyClock>& clocks) {
     members_[member].clocks = clocks;
 }

@@ -19,7 +19,7 @@ using gpu::vec4;
 
 // The device uses the same numbers as the host.
 static_assert(gpu::kStatusActive == uint32_t(Status::Active) && gpu::kStatusDosed == uint32_t(Status::Dosed) &&
-              gpu::kStatusLost == uint32_t(Status::Lost));
+              gpu::kStatusLost == uint32_t(Status::Lost) && gpu::kStatusAbsent == uint32_t(Status::Waiting));
 static_assert(gpu::kParticleParticle == uint32_t(ContactClass::ParticleParticle) &&
               gpu::kParticleWall == uint32_t(ContactClass::ParticleWall) &&
               gpu::kParticleCoil == uint32_t(ContactClass::ParticleCoil));
@@ -163,7 +163,7 @@ void packState(const Particles& p, std::size_t share, std::size_t first, std::ve
         vec4& position = at(gpu::kPosition, i);
         vec4& spin = at(gpu::kSpin, i);
         if (i >= p.size()) {
-            spin.w = float(gpu::kStatusPadding);
+            spin.w = float(gpu::kStatusAbsent);
             continue;
         }
         Split3 x(p.position[i]);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <tuple>
 
+#include "host/backend/vulkan/pack.h"
+
 namespace vkdose {
 
 namespace {
@@ -278,6 +280,22 @@ std::size_t coilHistoryRows(const Passes& passes) {
 }
 
 }  // namespace
+
+void writeParticles(Passes& passes, std::uint32_t member, std::size_t first, const Particles& particles,
+                    std::uint32_t source) {
+    const std::size_t count = particles.size(), couples = gpu::kFields / 2, stride = 2ULL * passes.sizes.particles();
+    std::vector<vec4> half(count * gpu::kFields);
+    packState(particles, count, 0, half);
+    for (std::size_t couple = 0; couple < couples; ++couple) {
+        const auto part = half.begin() + std::ptrdiff_t(couple * 2 * count);
+        const std::size_t at = 2 * (std::size_t(member) * passes.sizes.share + first);
+        passes.state.writeAll(std::vector<vec4>(part, part + std::ptrdiff_t(2 * count)),
+                              ((source * couples + couple) * stride + at) * sizeof(vec4));
+    }
+    gpu::Control control = passes.controlOf(member);
+    control.wanted.z = control.wanted.w = 1U;  // new rows and lists, which know them
+    passes.setControl(member, control);
+}
 
 void saveState(const Passes& passes, std::uint32_t member, std::size_t particles, std::uint32_t source,
                Record& record) {

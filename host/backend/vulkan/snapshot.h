@@ -44,6 +44,11 @@ struct PlaceContact {
 /// The touching contacts with bodies, in order of particle, then body, then place. The device must be idle.
 std::vector<PlaceContact> touchingPlaces(const Passes& passes, std::uint32_t member);
 
+/// Puts active particles into the places of those from `first` on in half `source`, and asks for new rows and contact
+/// lists. The device must be idle.
+void writeParticles(Passes& passes, std::uint32_t member, std::size_t first, const Particles& particles,
+                    std::uint32_t source);
+
 /// Saves the state of a member's first `particles` slots, read from half `source`. The device must be idle. The member
 /// must have been sensed since its last step, because the sensors' accumulators are not stored.
 void saveState(const Passes& passes, std::uint32_t member, std::size_t particles, std::uint32_t source, Record& record);

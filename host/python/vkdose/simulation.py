@@ -133,6 +133,15 @@ class Simulation:
         """
         self._run.stop_drive()
 
+    def add_powder(self, refill: str) -> None:
+        """Adds the powder of the ``[[refill]]`` of this name before the next step, as if its time had come. It begins at
+        rest on a grid over the powder that is there; ``RunError`` ends the run if there is no room for it.
+
+        Raises ValueError if the case has no such refill, and RuntimeError if it has been added already, or if the run
+        rests between two readings of the sensors.
+        """
+        self._run.add_powder(refill)
+
     # Looking
 
     @property
@@ -234,7 +243,7 @@ class Simulation:
 
     @property
     def active(self) -> "NDArray[numpy.bool_]":
-        """Whether each particle is neither dosed nor lost, a copy, (n,)."""
+        """Whether each particle is in the canister or its throat, a copy, (n,)."""
         return self._run.state.status == 0
 
     def view(self) -> "View":
@@ -247,7 +256,7 @@ class Simulation:
 
         "position", "velocity" and "spin" (n, 3) [m, m/s, rad/s], "radius" [m], "force" (n, 3) [N] of all its contacts in
         the last step, "overlap" [m] of its deepest contact, "kinetic_energy" [J], "id", "status" (0: active, 1: dosed,
-        2: lost) and "member" (0). Each call asks the backend for its contacts.
+        2: lost, 3: waiting for its refill) and "member" (0). Each call asks the backend for its contacts.
         """
         return self._run.particles
 
@@ -362,12 +371,12 @@ class View:
 
     @property
     def status(self) -> "NDArray[numpy.uint32]":
-        """0 for an active particle, 1 for a dosed one, 2 for a lost one, (n,)."""
+        """0 for an active particle, 1 for a dosed one, 2 for a lost one, 3 for one that waits for its refill, (n,)."""
         return self._now.status
 
     @property
     def active(self) -> "NDArray[numpy.bool_]":
-        """Whether each particle is neither dosed nor lost, (n,); made from ``status``."""
+        """Whether each particle is in the canister or its throat, (n,); made from ``status``."""
         return self.status == 0
 
 

@@ -1,0 +1,21 @@
+#pragma once
+// Where the powder of a refill is put.
+
+#include <cstddef>
+#include <vector>
+
+#include "host/model/case.h"
+#include "host/model/clearance.h"
+
+namespace vkdose {
+
+/// The box of a refill's grid, were there no powder: that of the filling, open upwards.
+Box refillRegion(const Case& c);
+
+/// Positions of the spheres of refill `index` [m]. Their grid stands as low as the filling's did, but above all active
+/// particles of `now` that are in the way of its fall. Throws RunError if a sphere would be outside of the domain, in a
+/// place where powder is dosed, or in what `around` knows.
+std::vector<Vec3> placeRefill(const Case& c, const Insertion& filled, std::size_t index, const Particles& now,
+                              const Clearance& around);
+
+}  // namespace vkdose

@@ -1,0 +1,122 @@
+// [[refill]] in a case: the powder that waits, where it is put, and what is refused.
+
+#include "host/model/refill.h"
+
+#include <algorithm>
+
+#include "host/core/error.h"
+#include "host/model/overlaps.h"
+#include "tests/model/case_files.h"
+#include "tests/support/catch.h"
+
+using namespace vkdose;
+using namespace vkdose::test;
+
+namespace {
+
+const std::string kFilled = replaced(kFreeCase, "list = \"two.csv\"",
+                                     "mass_g = 0.2\n[particles.size]\ndistribution = \"uniform\"\n"
+                                     "radius_min_mm = 0.5\nradius_max_mm = 1\n"
+                                     "[particles.region]\nlow = [0, 0, 0]\nhigh = [0.01, 0.02, 0.01]");
+const std::string kSpoon = "[[refill]]\nname = \"spoon\"\nmass_g = 0.1\ntime_s = 0.5\n";
+const std::string kHandful = "[[refill]]\nname = \"handful\"\nmass_g = 0.3\n";
+
+Case loadText(const std::string& text) {
+    const Folder folder;
+    return loadCase(folder.write("case.toml", text));
+}
+
+Particles added(const Insertion& filled, std::size_t refill, const std::vector<Vec3>& places) {
+    Particles p = filled.waiting[refill].particles;
+    p.position = places;
+    p.status.assign(p.size(), Status::Active);
+    return p;
+}
+
+}  // namespace
+
+TEST_CASE("the powder of refills waits behind that of the fill, which it does not change") {
+    const Case plain = loadText(kFilled), c = loadText(kFilled + kSpoon + kHandful);
+    const Insertion before = insertParticles(plain), filled = insertParticles(c);
+    CHECK(filled.particles.radius == before.particles.radius);
+    CHECK(filled.particles.position == before.particles.position);
+    CHECK(filled.mass == before.mass);
+    CHECK(filled.fillHeight == before.fillHeight);
+    REQUIRE(filled.waiting.size() == 2);
+    const double largest = sphereMass(c.world.density, 1e-3);
+    CHECK(std::abs(filled.waiting[0].mass - 0.1e-3) <= largest / 2);
+    CHECK(std::abs(filled.waiting[1].mass - 0.3e-3) <= largest / 2);
+    const Particles all = filled.allParticles();
+    CHECK(filled.firstOf(0) == filled.particles.size());
+    CHECK(filled.firstOf(1) == filled.particles.size() + filled.waiting[0].particles.size());
+    CHECK(all.size() == filled.firstOf(1) + filled.waiting[1].particles.size());
+    for (std::size_t i = 0; i < all.size(); ++i)
+        CHECK(all.status[i] == (i < filled.firstOf(0) ? Status::Active : Status::Waiting));
+    CHECK_FALSE(filled.waiting[0].particles.radius[0] == filled.particles.radius[0]);  // draws of its own
+    CHECK(loadResolvedCase(c.resolved, "again.toml").resolved == c.resolved);
+}
+
+TEST_CASE("a refill stands where the fill stood, or on the powder that is there") {
+    const Case c = loadText(kFilled + kSpoon + kHandful);
+    const Insertion filled = insertParticles(c);
+    const Clearance around(c.world);
+    Particles none;
+    const std::vector<Vec3> low = placeRefill(c, filled, 0, none, around);
+    CHECK(low == filled.waiting[0].particles.position);
+
+    Particles now = filled.particles;
+    double top = 0;
+    for (std::size_t i = 0; i < now.size(); ++i) top = std::max(top, now.position[i].y + now.radius[i]);
+    now.append(added(filled, 0, placeRefill(c, filled, 0, now, around)));
+    const std::vector<Vec3> onTop = placeRefill(c, filled, 1, now, around);
+    for (const Vec3& x : onTop) CHECK(x.y > top);
+    now.append(added(filled, 1, onTop));
+    forEachOverlap(now, [](std::size_t i, std::size_t j, double ratio) { FAIL_CHECK(i << " " << j << " " << ratio); });
+
+    // What lies beside the grid, or has been dosed, lifts nothing.
+    Particles aside;
+    aside.add({0.02, 0.03, 0.005}, 1e-3);
+    aside.add({0.005, 0.03, 0.005}, 1e-3);
+    aside.status[1] = Status::Dosed;
+    CHECK(placeRefill(c, filled, 0, aside, around) == low);
+    aside.status[1] = Status::Active;
+    const double lowest = placeRefill(c, filled, 0, aside, around)[0].y - low[0].y;
+    CHECK(lowest == Approx(0.031));
+}
+
+TEST_CASE("a refill without room says what is in its way") {
+    const auto refused = [](const Case& c, const std::string& said) {
+        const Insertion filled = insertParticles(c);
+        const Clearance around(c.world);
+        CHECK_THROWS_WITH(placeRefill(c, filled, 0, filled.particles, around),
+                          Catch::Contains("refill \"spoon\"") && Catch::Contains(said));
+    };
+    Case c = loadText(kFilled + kSpoon);
+    CHECK_NOTHROW(placeRefill(c, insertParticles(c), 0, insertParticles(c).particles, Clearance(c.world)));
+    Case walled = c;
+    walled.world.surfaces.emplace_back(geometry::Plane{{0, insertParticles(c).fillHeight + 1e-4, 0}, {0, -1, 0}});
+    refused(walled, "would overlap a wall by");
+    Case low = c;
+    low.world.domain.high.y = insertParticles(c).fillHeight;
+    refused(low, "above the domain");
+    Case sink = c;
+    CountRegion region;
+    region.point = {0, insertParticles(c).fillHeight, 0};
+    region.normal = {0, 1, 0};
+    sink.world.regions.push_back(region);
+    refused(sink, "where powder is dosed");
+}
+
+TEST_CASE("refills that cannot be are refused by name") {
+    const auto refused = [](const std::string& text, const std::string& said) {
+        CAPTURE(text);
+        CHECK_THROWS_WITH(loadText(text), Catch::Contains(said));
+    };
+    refused(kFilled + kSpoon + kSpoon, "refill[1].name = \"spoon\": stands there twice");
+    refused(kFilled + replaced(kSpoon, "\"spoon\"", "\"a spoon\""), "is no name of a refill");
+    refused(kFilled + replaced(kSpoon, "0.1", "-1"), "mass_g");
+    refused(kFilled + replaced(kSpoon, "0.1", "1e-6"), "refill[0].mass_g = 1e-6: is less than half of the first particle");
+    refused(kFilled + kSpoon + "before_dose = 2\n", "give one of the two");
+    refused(kFilled + replaced(kSpoon, "time_s = 0.5", "before_dose = 2"), "there are no doses");
+    refused(kFreeCase + kSpoon, "the powder is a list");
+}
