@@ -50,6 +50,17 @@ void printFilling(const Insertion& filled) {
     fmt::print("\n");
 }
 
+void printRefills(const Case& c, const Insertion& filled) {
+    for (std::size_t k = 0; k < c.refills.size(); ++k) {
+        const Refill& r = c.refills[k];
+        const Insertion::Waiting& powder = filled.waiting[k];
+        fmt::print("refill     {}: {}, {:.4g} g, {}\n", r.name, powder.particles.size(), powder.mass * 1e3,
+                   r.time         ? fmt::format("at t = {:.4g} s", *r.time)
+                   : r.beforeDose ? fmt::format("before dose {}", *r.beforeDose)
+                                  : "when it is ordered");
+    }
+}
+
 void printSoftening(const Case& c) {
     const ContactParameters& p = c.dosingLaw.of(ContactClass::ParticleParticle);
     fmt::print(
@@ -123,6 +134,7 @@ void printText(const CheckOptions& options, const Checked& all) {
     const Timeline timeline(all.c);
     fmt::print("case       {}: {}\n", all.c.name, printableLines(all.c.reason));
     printFilling(all.filled);
+    printRefills(all.c, all.filled);
     if (all.c.softened > 1) printSoftening(all.c);
     printDerivations(all.c);
     printContacts(all.derived, all.figures);

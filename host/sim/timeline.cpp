@@ -77,7 +77,7 @@ Timeline::DosePlan Timeline::stopped(DosePlan dose, std::uint64_t stop) const {
 }
 
 Timeline::DosePlan Timeline::doseAt(std::uint64_t step) const {
-    if (step < dose_.end) return dose_;
+    if (step < dose_.end || !hasDoses()) return dose_;
     const std::uint64_t later = (step - dose_.end) / cycle();
     return planned(dose_.dose + 1 + static_cast<int>(later), dose_.end + later * cycle());
 }

@@ -55,7 +55,7 @@ inline std::vector<std::string> joined(std::vector<std::string> a, const std::ve
 }
 
 /// The summary without what depends on the clock.
-inline nlohmann::json timeless(const fs::path& file) {
+inline nlohmann::json timelessSummary(const fs::path& file) {
     auto summary = nlohmann::json::parse(readText(file));
     summary.erase("particle_steps_per_second");
     summary.erase("stepping_wall_time_s");
@@ -86,7 +86,7 @@ inline void checkSame(const fs::path& a, const fs::path& b) {
         ++fields;
     }
     CHECK(fields > 5);  // three, and the maps of the mid-plane
-    CHECK(timeless(a / "summary.json") == timeless(b / "summary.json"));
+    CHECK(timelessSummary(a / "summary.json") == timelessSummary(b / "summary.json"));
     CHECK_FALSE(fs::exists(b / kCheckpointName));
 }
 

@@ -35,7 +35,7 @@ TEST_CASE("killed at random moments, a run that settles until at rest and doses 
     const auto o = box.vkdose("run " + words(options) + "--out whole --backend " + backend);
     CAPTURE(backend, o.err);
     REQUIRE(o.code == 0);
-    const auto summary = timeless(box / "whole/summary.json");
+    const auto summary = timelessSummary(box / "whole/summary.json");
     CHECK(summary["settling"]["at_rest"] == true);
     CHECK(summary["settling"]["time_s"].get<double>() < 0.2);
     REQUIRE(summary["doses"].size() == 1);
@@ -50,7 +50,7 @@ TEST_CASE("killed at random moments, a run that settles until at rest and doses 
         CHECK(!readText(box / "whole" / name).empty());
         CHECK(readText(box / "whole" / name) == readText(box / "cut" / name));
     }
-    CHECK(timeless(box / "whole/summary.json") == timeless(box / "cut/summary.json"));
+    CHECK(timelessSummary(box / "whole/summary.json") == timelessSummary(box / "cut/summary.json"));
 }
 
 TEST_CASE("after Ctrl-C or the closing of its terminal a run can be resumed, to the same bits") {

@@ -48,8 +48,7 @@ constexpr double kRate = -9;
 
 }  // namespace
 
-TEST_CASE(
-    "refill: waiting particles move nothing and are counted nowhere; added ones fall freely, others go on as before") {
+TEST_CASE("refill: those that wait move nothing and are counted nowhere, those that come fall freely") {
     const bool reference = GENERATE(true, false);
     CAPTURE(reference);
     const RuledWorld w = world();

@@ -1,0 +1,79 @@
+// [[refill]] on the command line: what is told, what a run leaves, and what goes on from there.
+
+#include <nlohmann/json.hpp>
+
+#include "host/output/checkpoint.h"
+#include "tests/app/sandbox.h"
+#include "tests/support/catch.h"
+
+using namespace vkdose;
+using namespace vkdose::test;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// cases/mini.toml with two short doses and a refill that comes when `when` says.
+void writeCase(const Sandbox& box, const std::string& when) {
+    const std::string base = "base = \"" VKDOSE_SOURCE_DIR "/cases/mini.toml\"\nname = \"top\"\n";
+    box.write("top.toml", base + R"(
+[coil]
+speed_rpm = 400
+[settle]
+time_s = 0.05
+[dose]
+rotate_s = 0.06
+rest_s = 0.02
+[stop]
+max_doses = 2
+[sensors]
+interval_s = 0.003
+[frames]
+interval_s = 0.03
+[[refill]]
+name = "spoon"
+mass_g = 0.4
+)" + when);
+}
+
+nlohmann::json refillOf(const fs::path& folder) {
+    return nlohmann::json::parse(readText(folder / "summary.json"))["refills"][0];
+}
+
+}  // namespace
+
+TEST_CASE("a refill is told before, during and after the run, and is there for the run that goes on from its bed") {
+    const Sandbox box;
+    writeCase(box, "before_dose = 2\n");
+    CHECK_THAT(box.vkdose("check top.toml --assume").out,
+               Catch::Contains("refill     spoon: 51, 0.4021 g, before dose 2"));
+    const auto run = box.vkdose("run top.toml --out a");
+    CAPTURE(run.err);
+    REQUIRE(run.code == 0);
+    CHECK_THAT(run.err, Catch::Contains("refill spoon: 0.402 g in 51 spheres, at t = 0.129993 s"));
+    CHECK_THAT(run.out, Catch::Contains("refill   spoon: 0.402 g in 51 spheres, at t = 0.129993 s"));
+    CHECK(refillOf(box / "a")["particles"] == 51);
+    CHECK(refillOf(box / "a")["time_s"].get<double>() == Approx(0.13).margin(1e-4));
+    CHECK(readText(box / "a/particles.csv").find("waiting") == std::string::npos);
+    REQUIRE(box.vkdose("run --from a --quiet --out b").code == 0);
+    CHECK(readText(box / "a/doses.csv") == readText(box / "b/doses.csv"));
+    CHECK(readText(box / "a/particles.csv") == readText(box / "b/particles.csv"));
+    // From the end of this run its powder goes on, with the refill in it.
+    const auto on = box.vkdose("run --from a --at end --quiet --out c");
+    CAPTURE(on.err);
+    CHECK(on.code == 0);
+}
+
+TEST_CASE("powder that was not added shows nowhere") {
+    const Sandbox box;
+    writeCase(box, "");
+    REQUIRE(box.vkdose("run top.toml --quiet --out never").code == 0);
+    CHECK(refillOf(box / "never")["time_s"].is_null());
+    const std::string end = readText(box / "never/particles.csv");
+    CHECK(std::count(end.begin(), end.end(), 'w') >= 51);
+    CHECK_THAT(end, Catch::Contains(",waiting\n"));
+    REQUIRE(box.vkdose("run top.toml --quiet --set refill=[] --out without").code == 0);
+    for (const char* name : {"timeseries.csv", "doses.csv"})
+        CHECK(readText(box / "never" / name) == readText(box / "without" / name));
+    CHECK(box.vkdose("report never").code == 0);
+    CHECK(box.vkdose("render never --out never.png").code == 0);
+}
