@@ -41,10 +41,10 @@ bool isSolid(const geometry::Shape& shape) {
            std::holds_alternative<geometry::Flight>(shape);
 }
 
-std::vector<Triangle> shapeMesh(const geometry::Shape& shape, const Box& room, int around, int wireAround) {
-    if (const auto* wire = std::get_if<geometry::Coil>(&shape)) return geometry::coilMesh(*wire, wireAround, around);
+std::vector<Triangle> shapeMesh(const geometry::Shape& shape, const Box& room, int perTurn, int around) {
+    if (const auto* wire = std::get_if<geometry::Coil>(&shape)) return geometry::coilMesh(*wire, around, perTurn);
     // A little less than a whole part, so that rounding adds no corner.
-    const double facet = 2 * kPi * radiusOf(shape) / around * (1 + 1e-12);
+    const double facet = 2 * kPi * radiusOf(shape) / perTurn * (1 + 1e-12);
     return geometry::tessellated(shape, facet, room.low, room.high, geometry::StraightLines::Whole);
 }
 
@@ -59,11 +59,11 @@ Box seenFrom(const geometry::Pose& pose, const Box& room) {
     return box;
 }
 
-std::vector<Triangle> bodyMesh(const RigidBody& body, const Box& room, int around, int wireAround) {
+std::vector<Triangle> bodyMesh(const RigidBody& body, const Box& room, int perTurn, int around) {
     const Box own = seenFrom(body.course.start, room);
     std::vector<Triangle> mesh;
     for (const geometry::Shape& shape : body.shapes) {
-        const std::vector<Triangle> part = shapeMesh(shape, own, around, wireAround);
+        const std::vector<Triangle> part = shapeMesh(shape, own, perTurn, around);
         mesh.insert(mesh.end(), part.begin(), part.end());
     }
     return mesh;

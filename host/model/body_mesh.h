@@ -21,15 +21,15 @@ bool isEndless(const geometry::Shape& shape);
 /// thickness does not.
 bool isSolid(const geometry::Shape& shape);
 
-/// A shape of a body in the frame of the body [m]. Round parts get `around` corners to a turn, a wire `wireAround`
+/// A shape of a body in the frame of the body [m]. Round parts get `perTurn` corners to a turn, a wire `around`
 /// around itself. A mesh stays as it is. An endless shape is cut off at `room`, which is in the frame of the body too.
-std::vector<geometry::Triangle> shapeMesh(const geometry::Shape& shape, const Box& room, int around = kCornersAround,
-                                          int wireAround = kWireAround);
+std::vector<geometry::Triangle> shapeMesh(const geometry::Shape& shape, const Box& room, int perTurn = kCornersAround,
+                                          int around = kWireAround);
 
 /// All shapes of a body in its own frame. `room` is a box of the world. It cuts off endless shapes of the body in its
 /// place at the start, turned with it: no corner of the room is left out.
-std::vector<geometry::Triangle> bodyMesh(const RigidBody& body, const Box& room, int around = kCornersAround,
-                                         int wireAround = kWireAround);
+std::vector<geometry::Triangle> bodyMesh(const RigidBody& body, const Box& room, int perTurn = kCornersAround,
+                                         int around = kWireAround);
 
 /// What is drawn of a body, in its own frame: the shapes that have an end.
 Skin bodySkin(const RigidBody& body);

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "host/core/error.h"
@@ -48,7 +49,7 @@ std::string textOf(const CaseError& error) {
 
 void translate(std::exception_ptr error) {
     try {
-        if (error) std::rethrow_exception(error);
+        if (error) std::rethrow_exception(std::move(error));
     } catch (const CaseError& e) {
         raise("InputError", textOf(e), faultsOf(e));
     } catch (const UsageError& e) {
@@ -76,7 +77,7 @@ void wait(Simulation& run) {
         run.halt();
         while (!rests()) {
         }
-        throw raised;
+        throw py::error_already_set(raised);
     }
 }
 

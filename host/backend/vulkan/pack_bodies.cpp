@@ -264,12 +264,12 @@ class Packer {
                 table_.back()[glm::length_t(n % 4)] = grid.triangles[grid.first[c] + n];
             }
         }
-        const auto T = uint32_t(mesh.triangles.size()), E = uint32_t(mesh.edges.size());
-        head(gpu::kShapeMesh, T + E + uint32_t(mesh.vertices.size()), index(heads), index(lists));
+        const auto faces = uint32_t(mesh.triangles.size()), sides = uint32_t(mesh.edges.size());
+        head(gpu::kShapeMesh, faces + sides + uint32_t(mesh.vertices.size()), index(heads), index(lists));
         table_[shape_ + 2] = bits(glm::vec3(grid.low), float(1 / grid.cell));
         table_[shape_ + 3] = uvec4(glm::uvec3(grid.cells), bits(float(margin(surface))));
         table_[shape_ + 4] = uvec4(index(triangles), index(edges), index(vertices), 0);
-        table_[shape_ + 5] = uvec4(T, E, 0, 0);
+        table_[shape_ + 5] = uvec4(faces, sides, 0, 0);
         const Vec3 size = Vec3(grid.cells) * grid.cell;
         return {grid.low + 0.5 * size, 0.5 * glm::length(size)};
     }
