@@ -17,7 +17,8 @@ constexpr std::uint32_t kSlice = 128, kSliceBesideBodies = 64;
 constexpr std::uint32_t kContacts = gpu::kMaxRow + gpu::kMaxSurfaces + gpu::kMaxTurns;
 constexpr std::uint32_t kOnBodies = kMaxBodies * gpu::kMaxBodyTouches;
 static_assert(kSlice * (kContacts * (gpu::kFieldNodes + 1) + 2) < 65535);
-static_assert(kSliceBesideBodies * ((kContacts + kOnBodies) * (gpu::kFieldNodes + 1) + std::uint32_t(kMaxBodies) + 2) < 65535);
+static_assert(kSliceBesideBodies * ((kContacts + kOnBodies) * (gpu::kFieldNodes + 1) + std::uint32_t(kMaxBodies) + 2) <
+              65535);
 static_assert(gpu::kMaxRow + gpu::kMaxSurfaces + 1 + kMaxBodies <= gpu::kMaxLinks);
 
 /// The block of points for one workgroup. Its edges are powers of two; it is as close to a cube as they allow, and no

@@ -166,7 +166,8 @@ void restoreContacts(Passes& passes, std::uint32_t member, std::size_t particles
     passes.ranges.writeAll(ranges, passes.at.rowRangeIndex(firstParticle) * sizeof(uvec4));
     const std::uint32_t first = t.firstBodySlot(member);
     passes.entries.writeAll(bodies.entries, passes.at.entryIndex(first) * sizeof(glm::uvec2));
-    passes.history.writeAll(bodies.history, passes.at.bodyHistoryIndex(std::uint64_t(member) * t.bodySlots, 0) * sizeof(vec4));
+    passes.history.writeAll(bodies.history,
+                            passes.at.bodyHistoryIndex(std::uint64_t(member) * t.bodySlots, 0) * sizeof(vec4));
     control.listed = {std::uint32_t(pairs.entries.size()), std::uint32_t(surfaces.entries.size()), 0U, 0U};
     control.body = {std::uint32_t(bodies.entries.size()), 0U, 0U, 0U};
 }
