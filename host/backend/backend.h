@@ -92,8 +92,8 @@ struct Contact {
 /// changed, for a run that goes on with another time step.
 inline constexpr const char* kSnapshotSteps = "steps";
 
-/// Velocity half a step before of a particle that is at rest after `steps` steps [m/s]; before the first step that is
-/// at rest itself.
+/// Velocity, half a step earlier, of a particle that is at rest after `steps` steps [m/s]. Before the first step it is
+/// zero, because a loaded velocity belongs to t = 0.
 inline Vec3 velocityOfRest(const World& world, std::uint64_t steps) {
     return steps > 0 ? -0.5 * world.timeStep * world.gravity : Vec3(0);
 }
@@ -110,8 +110,8 @@ class Backend {
     /// closed if only adhesion changes.
     virtual void setLaw(const ContactLaw& law) = 0;
 
-    /// Makes waiting particles active, from index `first` on. They are at rest at these positions when the steps so far
-    /// are done, so that their velocity half a step before is that against half a step of gravity.
+    /// Makes waiting particles active, from index `first` on. They are at rest at these positions now. The velocity
+    /// that is stored for them is that of half a step earlier (velocityOfRest).
     virtual void addParticles(std::size_t first, const std::vector<Vec3>& positions) = 0;
 
     /// Sets the clocks of those of the world's bodies that move in phases; of the others they mean nothing. `advance`
