@@ -9,7 +9,6 @@
 #include "geometry/inside.h"
 #include "host/advice/rules.h"
 #include "host/model/body_form.h"
-#include "host/model/shared_places.h"
 
 namespace vkdose {
 namespace {
@@ -145,8 +144,7 @@ Found bodiesCross(const Subject& s) {
 
 Found bodySeam(const Subject& s) {
     const std::vector<RigidBody>& bodies = s.c.world.bodies;
-    const std::vector<SharedPlace> places = sharedPlaces(s.c, s.filled.particles, s.f.smallest);
-    if (places.empty()) return {};
+    if (s.c.sharedPlaces.empty()) return {};
     std::vector<Triangle> still;
     for (const RigidBody& body : bodies) {
         const bool rests = std::holds_alternative<geometry::Rest>(body.course.motion);
@@ -162,7 +160,7 @@ Found bodySeam(const Subject& s) {
             if (!cells.passedBy(place, powder[i])) return true;
         return false;
     };
-    for (const SharedPlace& place : places) {
+    for (const SharedPlace& place : s.c.sharedPlaces) {
         if (!met(place.centre)) continue;
         const std::string first = bodies[place.first].name;
         const bool wall = place.second >= bodies.size();

@@ -15,6 +15,7 @@
 #include "host/model/case_reader.h"
 #include "host/model/case_sections.h"
 #include "host/model/checks.h"
+#include "host/model/shared_places.h"
 #include "host/model/size_distribution.h"
 #include "host/model/stability.h"
 
@@ -210,7 +211,10 @@ Case interpret(const std::filesystem::path& file, Node tree, std::vector<std::fi
     reader.throwIfFaulty();
     checkSurfaces(reader, c, sizes.smallest);
     checkPlacement(reader, c, filled.particles);
-    if (!reader.faulty()) checkBodies(reader, c, filled.particles, sizes.smallest);
+    if (!reader.faulty()) {
+        c.sharedPlaces = sharedPlaces(c, filled.particles, sizes.smallest);
+        checkBodies(reader, c);
+    }
     checkRows(reader, c, filled.particles, sizes);
     reader.throwIfFaulty();
     c.resolved = reader.resolved();

@@ -104,6 +104,14 @@ struct Canister {
     bool lid = false;  ///< closed at the top, or above the fill if the loose grid is higher than the top
 };
 
+/// Where a sphere touches two things that rest in one and the same place (shared_places.h).
+struct SharedPlace {
+    /// Bodies by their index; a wall by the number of bodies and its index. The first is a body, below the second.
+    std::size_t first = 0, second = 0;
+    bool area = false;  ///< the two coincide around the place too; else along a seam, or in a point
+    Vec3 centre{0};     ///< of a sphere that touches both [m]
+};
+
 /// The time between two checkpoints, with which a run can go on after an interruption. 0: not by this clock.
 struct CheckpointInterval {
     double wall = 300;     ///< of wall time [s]
@@ -133,10 +141,11 @@ struct Case {
     double sensorInterval = 0;  ///< [s], a whole number of steps after loading
     CheckpointInterval checkpoint;
     FrameStorage frames;
-    std::vector<FieldSensor> fields;    ///< taken while the run goes on
-    std::vector<ElementTest> measures;  ///< figures of the powder, taken when the run is over
-    double bulkDensity = 471;           ///< rho_b for the closed form [kg/m3]; an estimate if it is measured
-    bool bulkDensityMeasured = false;   ///< once the bed has settled, its own density is rho_b
+    std::vector<FieldSensor> fields;        ///< taken while the run goes on
+    std::vector<SharedPlace> sharedPlaces;  ///< for the smallest sphere
+    std::vector<ElementTest> measures;      ///< figures of the powder, taken when the run is over
+    double bulkDensity = 471;               ///< rho_b for the closed form [kg/m3]; an estimate if it is measured
+    bool bulkDensityMeasured = false;       ///< once the bed has settled, its own density is rho_b
     /// Values that follow from others that the file gives in their place, in words: "contact: damping = 0.02 kg/s from
     /// restitution = 0.5 of slow impacts".
     std::vector<std::string> derivations;

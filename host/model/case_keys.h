@@ -2,9 +2,14 @@
 // Every key of a case file. The readers (read_powder.cpp, read_apparatus.cpp, read_field.cpp, case.cpp) take units,
 // bounds, words and defaults from here. The keys of the top of the file stand in case_keys.cpp.
 
+#include <cstdint>
+
 #include "host/model/key.h"
 
 namespace vkdose {
+
+/// The largest number of a dose.
+inline constexpr std::int64_t kMostDoses = 1'000'000'000;
 
 /// The tables of a case file in the order of the manual.
 std::span<const KeyTable> caseKeys();

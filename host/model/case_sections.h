@@ -3,6 +3,8 @@
 // read_apparatus.cpp, read_bodies.cpp, read_field.cpp or read_measure.cpp.
 
 #include <optional>
+#include <set>
+#include <string>
 
 #include "host/model/case.h"
 #include "host/model/case_reader.h"
@@ -55,8 +57,9 @@ void readBodies(CaseReader& reader, Section& root, double meshReach, Case& c);
 /// about its axis while powder is dosed. Call after readBodies and readCoil.
 void alignWithDrive(Case& c);
 
-/// Whether a name may stand before the name of a column: letters, digits, - and _, at most 60.
-bool isColumnName(const std::string& name);
+/// Reads the name of a body, region or refill (`kind`), which may stand before the name of a column: at most 60
+/// letters, digits, - and _. It is a fault if `names`, to which it is added, holds it already.
+std::string readName(CaseReader& reader, Section& section, const std::string& kind, std::set<std::string>& names);
 
 // read_regions.cpp
 /// Reads the regions. Call after readBoundaries, whose outlet they may replace.

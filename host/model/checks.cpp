@@ -8,7 +8,6 @@
 
 #include "geometry/coincidence.h"
 #include "host/model/grid.h"
-#include "host/model/shared_places.h"
 #include "host/model/size_distribution.h"
 #include "host/model/stability.h"
 
@@ -249,11 +248,21 @@ void checkLargest(CaseReader& reader, const Case& c, double largest) {
 
 void checkGrid(CaseReader& reader, const Case& c, double largest) {
     const Filling& f = c.filling;
-    double mass = f.mass;
-    for (const Refill& refill : c.refills) mass += refill.mass;
-    const double expected = mass / sphereMass(c.world.density, std::cbrt(meanCubedRadius(f.size)));
-    if (expected > kMaxParticles) {
-        reader.fault("particles.mass_g", fmt::format("takes about {:.2g} particles", expected),
+    const double meanMass = sphereMass(c.world.density, std::cbrt(meanCubedRadius(f.size)));
+    // The key whose mass is the largest is most probably the wrong one.
+    std::string key = "particles.mass_g";
+    double mass = f.mass, largestMass = f.mass;
+    for (std::size_t k = 0; k < c.refills.size(); ++k) {
+        mass += c.refills[k].mass;
+        if (c.refills[k].mass <= largestMass) continue;
+        key = fmt::format("refill[{}].mass_g", k);
+        largestMass = c.refills[k].mass;
+    }
+    if (mass / meanMass > kMaxParticles) {
+        reader.fault(key,
+                     c.refills.empty() ? fmt::format("takes about {:.2g} particles", mass / meanMass)
+                                       : fmt::format("takes about {:.2g} particles, and with the other masses {:.2g}",
+                                                     largestMass / meanMass, mass / meanMass),
                      f.size.kind == SizeDistribution::Kind::Quantiles
                          ? "give less mass or a larger scale_up; d10_um, d50_um and d90_um are in micrometres"
                      : f.size.kind == SizeDistribution::Kind::Sieve
@@ -316,9 +325,9 @@ void checkSurfaces(CaseReader& reader, const Case& c, double radius) {
                  "remove one of the two, or move it by more than a fiftieth of the smallest radius");
 }
 
-void checkBodies(CaseReader& reader, const Case& c, const Particles& particles, double radius) {
+void checkBodies(CaseReader& reader, const Case& c) {
     const std::size_t bodies = c.world.bodies.size();
-    for (const SharedPlace& place : sharedPlaces(c, particles, radius)) {
+    for (const SharedPlace& place : c.sharedPlaces) {
         if (!place.area) continue;
         const bool wall = place.second >= bodies;
         const Vec3 at = place.centre * 1e3;

@@ -45,9 +45,8 @@ void checkExtent(CaseReader& reader, const Case& c, double smallestRadius, const
 /// Checks whether two surfaces coincide, or nearly so, in a place where a sphere of this radius [m] can be.
 void checkSurfaces(CaseReader& reader, const Case& c, double radius);
 
-/// Checks whether a body at rest coincides over an area with another one, or with a wall, where a sphere of this radius
-/// [m] can be (shared_places.h).
-void checkBodies(CaseReader& reader, const Case& c, const Particles& particles, double radius);
+/// Checks whether a body at rest coincides over an area with another one, or with a wall, where a sphere can be.
+void checkBodies(CaseReader& reader, const Case& c);
 
 // rows.cpp
 /// Checks whether the neighbours of each particle at the start, within reach and skin, fit a row.

@@ -8,7 +8,6 @@ namespace {
 using namespace key;
 
 constexpr Unit kDensity{1, "kg/m3"};
-constexpr std::int64_t kMostDoses = 1'000'000'000;
 constexpr Bound kPositive = Bound::Positive;
 constexpr Bound kNonNegative = Bound::NonNegative;
 

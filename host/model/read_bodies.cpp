@@ -305,8 +305,15 @@ void readMotion(CaseReader& reader, Section& body, RigidBody& made) {
 
 }  // namespace
 
-bool isColumnName(const std::string& name) {
-    return !name.empty() && name.size() <= 60 && name.find_first_not_of(kNameLetters) == std::string::npos;
+std::string readName(CaseReader& reader, Section& section, const std::string& kind, std::set<std::string>& names) {
+    std::string name = section.string("name");
+    if (!section.isString("name")) return name;
+    const bool fit = !name.empty() && name.size() <= 60 && name.find_first_not_of(kNameLetters) == std::string::npos;
+    if (!fit)
+        reader.fault(section.path("name"), fmt::format("is no name of a {}", kind), "give letters, digits, - and _");
+    else if (!names.insert(name).second)
+        reader.fault(section.path("name"), "stands there twice", fmt::format("give each {} a name of its own", kind));
+    return name;
 }
 
 void readBodies(CaseReader& reader, Section& root, double meshReach, Case& c) {
@@ -314,11 +321,7 @@ void readBodies(CaseReader& reader, Section& root, double meshReach, Case& c) {
     for (Section* section : root.tables("body")) {
         const BodyReader b{reader, *section, meshReach, c};
         RigidBody body;
-        body.name = section->string("name");
-        if (section->isString("name") && !isColumnName(body.name))
-            b.fault("name", "is no name of a body", "give letters, digits, - and _");
-        else if (!names.insert(body.name).second)
-            b.fault("name", "stands there twice", "give each body a name of its own");
+        body.name = readName(reader, *section, "body", names);
         const auto shape = section->choice("shape");
         if (shape)
             body.shapes = readShape(b, static_cast<Kind>(*shape));

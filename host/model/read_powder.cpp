@@ -129,11 +129,7 @@ void readRefills(CaseReader& reader, Section& root, Case& c) {
     for (Section* section : root.tables("refill")) {
         Section& s = *section;
         Refill refill;
-        refill.name = s.string("name");
-        if (s.isString("name") && !isColumnName(refill.name))
-            reader.fault(s.path("name"), "is no name of a refill", "give letters, digits, - and _");
-        else if (!names.insert(refill.name).second)
-            reader.fault(s.path("name"), "stands there twice", "give each refill a name of its own");
+        refill.name = readName(reader, s, "refill", names);
         refill.mass = s.number("mass_g");
         if (s.has("time_s")) refill.time = s.number("time_s");
         if (s.has("before_dose")) refill.beforeDose = static_cast<int>(s.integer("before_dose"));

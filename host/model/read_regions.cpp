@@ -15,11 +15,7 @@ void readRegions(CaseReader& reader, Section& root, Case& c) {
     for (Section* section : root.tables("region")) {
         Section& s = *section;
         CountRegion region;
-        region.name = s.string("name");
-        if (s.isString("name") && !isColumnName(region.name))
-            reader.fault(s.path("name"), "is no name of a region", "give letters, digits, - and _");
-        else if (!names.insert(region.name).second)
-            reader.fault(s.path("name"), "stands there twice", "give each region a name of its own");
+        region.name = readName(reader, s, "region", names);
         const auto kind = s.choice("kind");
         region.deletes = s.boolean("deletes");
         outlets += region.deletes ? 1 : 0;

@@ -10,7 +10,6 @@ using namespace key;
 constexpr Bound kPositive = Bound::Positive;
 constexpr Bound kNonNegative = Bound::NonNegative;
 constexpr Unit kMillinewtonMetre{1e3, "mN m"};
-constexpr std::int64_t kMostDoses = 1'000'000'000;
 
 constexpr Key kSettle[] = {
     number("time_s", kSecond, kNonNegative, 0.0,

@@ -9,13 +9,6 @@
 
 namespace vkdose {
 
-struct SharedPlace {
-    /// Bodies by their index; a wall by the number of bodies and its index. The first is a body, below the second.
-    std::size_t first = 0, second = 0;
-    bool area = false;  ///< the two coincide around the place too; else along a seam, or in a point
-    Vec3 centre{0};     ///< of a sphere that touches both [m]
-};
-
 /// Places for spheres of `radius` [m], some for each pair that shares any. Both are touched from the same side: their
 /// normals are within 2.5 degrees of each other, and the distances from the centre are within a fiftieth of the radius.
 /// A sphere there is in the domain, in no region that deletes, and in no other thing's way. The inside of a closed mesh

@@ -117,6 +117,8 @@ TEST_CASE("refills that cannot be are refused by name") {
     refused(kFilled + replaced(kSpoon, "0.1", "-1"), "mass_g");
     refused(kFilled + replaced(kSpoon, "0.1", "1e-6"),
             "refill[0].mass_g = 1e-6: is less than half of the first particle");
+    refused(kFilled + replaced(kSpoon, "0.1", "1e7"), "refill[0].mass_g = 1e7: takes about");
+    refused(replaced(kFilled, "mass_g = 0.2", "mass_g = 1e7") + kSpoon, "particles.mass_g = 1e7: takes about");
     refused(kFilled + kSpoon + "before_dose = 2\n", "give one of the two");
     refused(kFilled + replaced(kSpoon, "time_s = 0.5", "before_dose = 2"), "there are no doses");
     refused(kFreeCase + kSpoon, "the powder is a list");
