@@ -14,7 +14,9 @@ namespace {
 Particles cone(double angle, double height, double radius, const Vec3& foot = Vec3(0)) {
     Particles p;
     const double step = radius / 2, run = height / std::tan(angle);
-    for (double r = 0; r <= run; r += step * std::cos(angle)) {
+    const int rings = int(run / (step * std::cos(angle)));
+    for (int ring = 0; ring <= rings; ++ring) {
+        const double r = ring * step * std::cos(angle);
         const int count = std::max(1, int(2 * kPi * r / step));
         for (int i = 0; i < count; ++i) {
             const double phi = 2 * kPi * (i + 0.5) / count;

@@ -27,7 +27,7 @@ const std::string kShort =
 std::vector<std::string> lines(const fs::path& file) {
     std::vector<std::string> all;
     std::string text = readText(file);
-    for (std::size_t end; (end = text.find('\n')) != std::string::npos; text.erase(0, end + 1))
+    for (std::size_t end = 0; (end = text.find('\n')) != std::string::npos; text.erase(0, end + 1))
         all.push_back(text.substr(0, end));
     return all;
 }

@@ -211,7 +211,8 @@ time_s = 0.105
     CAPTURE(o.out, o.err);
     REQUIRE(o.code == 0);
     CHECK_THAT(o.out, Catch::Contains("kg/m3 in the closed form, measured in the settled bed"));
-    const Json full = summaryIn(box / "out"), form = full.at("closed_form");
+    const Json full = summaryIn(box / "out");
+    const Json& form = full.at("closed_form");
     const double density = form.at("bulk_density_kg_m3").get<double>();
     CHECK(form.at("bulk_density_is") == "measured");
     CHECK(near(density, full.at("settled").at("bulk_density_kg_m3").get<double>(), density, 1e-8));  // its digits

@@ -29,7 +29,7 @@ struct Known {
 
 /// A sphere and its contacts with one body at rest, a step at a time (leapfrog, as in the reference).
 struct Roller {
-    reference::Body sphere;
+    reference::Body sphere{};
     std::vector<Known> contacts;
     Vec3 force{0}, torque{0};
     int begun = 0, most = 0;

@@ -10,9 +10,11 @@ namespace vkdose::test {
 /// A folder with cases of these bodies, and a mesh for them.
 struct Read {
     Folder folder;
-    Case load(const std::string& bodies) { return loadCase(folder.write("case.toml", withBodies(bodies))); }
-    std::string fault(const std::string& bodies) { return faultOf(folder.write("case.toml", withBodies(bodies))); }
-    void mesh() {
+    Case load(const std::string& bodies) const { return loadCase(folder.write("case.toml", withBodies(bodies))); }
+    std::string fault(const std::string& bodies) const {
+        return faultOf(folder.write("case.toml", withBodies(bodies)));
+    }
+    void mesh() const {
         folder.write("block.stl", geometry::stlBytes(geometry::tessellated(geometry::Block{Vec3(-10), Vec3(10)}, 5,
                                                                            Vec3(-100), Vec3(100)),
                                                      "block", 1));
