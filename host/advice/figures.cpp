@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "host/model/bed_weight.h"
+#include "host/model/normal_law.h"
 #include "host/model/pull_off.h"
 #include "host/model/restitution.h"
 #include "host/model/stability.h"
@@ -38,8 +39,9 @@ void addBed(Figures& f, const Case& c, const Insertion& filled) {
     const ContactParameters& pair = c.dosingLaw.of(ContactClass::ParticleParticle);
     const ContactParameters& wall = c.dosingLaw.of(ContactClass::ParticleWall);
     const double load = loadUnderBed(c.world.density, down, f.bedDepth, f.mean);
-    f.overlapUnderBed = load / pair.k1 / f.mean;
-    f.overlapOfFall = f.fallSpeed * std::sqrt(sphereMass(c.world.density, f.largest) / wall.k1) / f.largest;
+    f.overlapUnderBed = overlapUnder(pair, f.mean, load) / f.mean;
+    f.overlapOfFall =
+        overlapOfImpact(wall, sphereMass(c.world.density, f.largest), 2 * f.largest, f.fallSpeed) / f.largest;
     const double weight = sphereMass(c.world.density, f.mean) * down;
     f.bondUnderBed = pullOffUnder(pair, f.mean, load) / weight;
     f.bondLargest = pullOffUnder(pair, f.mean, std::numeric_limits<double>::infinity()) / weight;

@@ -35,6 +35,18 @@ double partner(const Restitution& e, double radius) {
     return e.kind == ContactClass::ParticleParticle ? radius : kWall;
 }
 
+/// The key that says how stiff the contacts are.
+const char* stiffnessKey(const ContactParameters& p) {
+    return p.law == NormalLaw::HertzMindlin ? "contact.youngs_modulus" : "contact.k";
+}
+
+/// The cure of overlaps that are too large: `linear` times the stiffness of Luding's law, or `elastic` times the
+/// modulus of Hertz's.
+std::string stiffer(const ContactParameters& p, double linear, double elastic) {
+    return p.law == NormalLaw::HertzMindlin ? fmt::format("make it at least {:.2g} times as large", elastic)
+                                            : fmt::format("give at least {:.2g}", p.k2Max * linear);
+}
+
 /// The damping that would give mean spheres what the key was perhaps meant to say, or else one half.
 std::string dampingCure(const Subject& s, const Restitution& e) {
     const ContactParameters& p = s.c.dosingLaw.of(e.kind);
@@ -136,6 +148,7 @@ Found strangeRestitution(const Subject& s) {
     for (const Restitution& e : s.f.restitutions) {
         if (e.mean == 0) continue;  // overdamped, which is told already
         const ContactParameters& p = s.c.dosingLaw.of(e.kind);
+        if (p.law == NormalLaw::HertzMindlin) continue;  // the case states the restitution itself
         const bool elastic = e.mean > kMostRestitution && p.k1 == p.k2Max;
         if (!elastic && e.mean >= kLeastRestitution && e.smallest > 0) continue;
         return Finding{classKey(e.kind, "damping"),
@@ -150,25 +163,26 @@ Found strangeRestitution(const Subject& s) {
 Found deepUnderWeight(const Subject& s) {
     const double limit = s.c.world.maxOverlapRatio;
     if (!(kChain * s.f.overlapUnderBed > limit)) return {};
-    return Finding{"contact.k",
+    const double growth = kChain * s.f.overlapUnderBed / limit;
+    const ContactParameters& pair = s.c.dosingLaw.of(ContactClass::ParticleParticle);
+    return Finding{stiffnessKey(pair),
                    fmt::format("under {:.3g} mm of powder mean spheres overlap by {:.2g} of their radius, in chains of "
                                "force {} times that; the run ends at {:.3g}",
                                s.f.bedDepth * 1e3, s.f.overlapUnderBed, kChain, limit),
-                   fmt::format("give at least {:.2g}", s.c.dosingLaw.of(ContactClass::ParticleParticle).k2Max * kChain *
-                                                           s.f.overlapUnderBed / limit)};
+                   stiffer(pair, growth, std::pow(growth, 1.5))};
 }
 
 Found deepOfFall(const Subject& s) {
     const double limit = s.c.world.maxOverlapRatio;
     if (!(s.f.overlapOfFall > kDeepFall * limit)) return {};
     const double growth = s.f.overlapOfFall / (kDeepFall * limit);
+    const ContactParameters& wall = s.c.dosingLaw.of(ContactClass::ParticleWall);
     return Finding{
-        "contact.k",
+        stiffnessKey(wall),
         fmt::format("the fill falls {:.3g} mm and arrives at {:.2g} m/s, where a largest sphere alone goes "
                     "{:.2g} of its radius into the wall and several at once go deeper; the run ends at {:.3g}",
                     s.f.fall * 1e3, s.f.fallSpeed, s.f.overlapOfFall, limit),
-        fmt::format("give at least {:.2g}, or a larger max_overlap_ratio",
-                    s.c.dosingLaw.of(ContactClass::ParticleWall).k2Max * growth * growth)};
+        stiffer(wall, growth * growth, std::pow(growth, 2.5)) + ", or a larger max_overlap_ratio"};
 }
 
 Found fewSpheres(const Subject& s) {

@@ -72,12 +72,16 @@ void printDerivations(const Case& c) {
     for (const std::string& line : c.derivations) fmt::print("derived    {}\n", printable(line));
 }
 
-void printContacts(const Derived& d, const Figures& f) {
-    fmt::print("contact duration     mean pair on k1  stiffest pair on k2\n");
+void printContacts(const Case& c, const Derived& d, const Figures& f) {
+    const bool hertz = c.dosingLaw.of(ContactClass::ParticleParticle).law == NormalLaw::HertzMindlin;
+    fmt::print("contact duration   {}\n",
+               hertz ? "      mean pair        smallest pair   (as stiff as at max_overlap_ratio)"
+                     : "  mean pair on k1  stiffest pair on k2");
     for (const Derived::PairDuration& p : d.durations) {
         fmt::print("  {:<18} {:>13.4g} s  {:>17.4g} s\n", p.name, p.mean, p.stiffest);
     }
-    fmt::print("restitution                mean    smallest     largest   (of damping alone, on k1)\n");
+    fmt::print("restitution                mean    smallest     largest   ({})\n",
+               hertz ? "of any impact" : "of damping alone, on k1");
     for (const Restitution& e : f.restitutions)
         fmt::print("  {:<18} {:>10.3g}  {:>10.3g}  {:>10.3g}\n", className(e.kind), e.mean, e.smallest, e.largest);
     fmt::print("time step  {:.4g} s = 1/{:.3g} of the stiffest; auto is {:.3g} s, limited by {}\n", d.timeStep,
@@ -137,7 +141,7 @@ void printText(const CheckOptions& options, const Checked& all) {
     printRefills(all.c, all.filled);
     if (all.c.softened > 1) printSoftening(all.c);
     printDerivations(all.c);
-    printContacts(all.derived, all.figures);
+    printContacts(all.c, all.derived, all.figures);
     printBed(all);
     printGaps(all);
     if (all.derived.massPerTurn > 0) printPredictions(all.derived, all.c.schedule, all.c.world.coil.has_value());

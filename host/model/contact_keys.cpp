@@ -14,6 +14,10 @@ constexpr Bound kNonNegative = Bound::NonNegative;
 constexpr double kTwoSevenths = 0.286;
 
 constexpr Key kContactAlone[] = {
+    word("law", "luding hertz-mindlin", "luding",
+         "the law of the normal force. `\"luding\"`: linear, plastic and adhesive, with stiffnesses. "
+         "`\"hertz-mindlin\"`: elastic spheres without adhesion, with the moduli of the materials; its contacts get "
+         "stiffer with the overlap, and the time step is right up to `max_overlap_ratio`"),
     word("coulomb_limit", "luding absolute", "luding", "the force that friction is a fraction of"),
     word("rolling_lever", "full half", "full", "the lever of rolling and torsion"),
     number(
@@ -26,6 +30,10 @@ constexpr Key kContactAlone[] = {
            "states the softer values and `soften = 1`"),
 };
 constexpr Key kContactClass[] = {
+    number("youngs_modulus", {1, "Pa"}, kPositive, told("required with `hertz-mindlin`"),
+           "E; in `[contact]` of the particles, in the other two of the wall's and the coil's material"),
+    number("poisson_ratio", kPlain, kNonNegative, told("required with `hertz-mindlin`"),
+           "ν of that material; at most 0.5"),
     number("k", {1, "N/m"}, kPositive, told("this or one of the next two"),
            "k̂₂, the largest stiffness of unloading; all other stiffnesses are ratios to it")
         .replacing("contact_duration_s overlap_under_bed derived"),
@@ -37,7 +45,8 @@ constexpr Key kContactClass[] = {
         "k so that the largest overlap under the bed's weight is this fraction of the mean radius. It is that of mean "
         "spheres at the floor in a chain of force, which bears 5 times the mean. Needs `[canister]`")
         .replacing("k contact_duration_s derived"),
-    number("k1_over_k", kPlain, kPositive, kRequired, "k₁/k, stiffness of plastic loading; at most 1")
+    number("k1_over_k", kPlain, kPositive, told("required with `luding`"),
+           "k₁/k, stiffness of plastic loading; at most 1")
         .replacing("derived"),
     number("kc_over_k", kPlain, kNonNegative, told("this or `bond_number`"), "k_c/k, adhesion, during the doses")
         .replacing("bond_number bond_load derived"),
@@ -54,7 +63,8 @@ constexpr Key kContactClass[] = {
            "γ, of the normal direction; a dashpot, not a restitution")
         .replacing("restitution restitution_speed derived"),
     number("restitution", kPlain, kNonNegative, told("in place of `damping`"),
-           "γ so that a head-on impact rebounds with this share of its speed; above 0 and at most 1")
+           "γ so that a head-on impact rebounds with this share of its speed; above 0 and at most 1. "
+           "`\"hertz-mindlin\"` requires it, and every impact rebounds so")
         .replacing("damping derived"),
     number("restitution_speed", {1, "m/s"}, kNonNegative, 0.0,
            "speed of the impact with that `restitution`. 0: the limit of slow impacts, in which damping alone takes "
@@ -65,7 +75,9 @@ constexpr Key kContactClass[] = {
     number("kt_over_k", kPlain, kPositive, kTwoSevenths, "k_t/k, stiffness of sliding"),
     number("damping_t_ratio", kPlain, kNonNegative, kTwoSevenths, "γ_t/γ, damping of sliding"),
     number("rolling_friction", kPlain, kNonNegative, 0.0, "μ_r; 0 switches rolling resistance off"),
-    number("kr_over_k", kPlain, kPositive, kTwoSevenths, "k_r/k, stiffness of rolling"),
+    number("kr_over_k", kPlain, kPositive, kTwoSevenths,
+           "k_r/k, stiffness of rolling; with `hertz-mindlin` the ratio to the stiffness that the normal direction has "
+           "at the overlap, and so for torsion and for both dampings"),
     number("damping_r_ratio", kPlain, kNonNegative, kTwoSevenths, "γ_r/γ, damping of rolling"),
     number("torsion_friction", kPlain, kNonNegative, 0.0, "μ_to; 0 switches torsion resistance off"),
     number("kto_over_k", kPlain, kPositive, kTwoSevenths, "k_to/k, stiffness of torsion"),

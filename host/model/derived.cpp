@@ -114,15 +114,19 @@ Derived derive(const Case& c, const Insertion& filled) {
     const Sizes sizes = sizesOf(c);
     d.stiffest = kWall;
     for (const ContactClass kind : contactClasses(c.world)) {
-        const ContactParameters& p = c.dosingLaw.of(kind);
         const bool pair = kind == ContactClass::ParticleParticle;
-        ContactParameters undamped = p;
+        const auto at = [&](double radius) {
+            return stiffest(c.dosingLaw.of(kind), c.world.density, radius, pair ? radius : kWall,
+                            c.world.maxOverlapRatio);
+        };
+        const ContactParameters mean = at(sizes.mean);
+        ContactParameters undamped = at(sizes.smallest);
         undamped.gamma = 0;
-        const double mean = contactDuration(p, c.world.density, sizes.mean, pair ? sizes.mean : kWall, p.k1);
-        const double stiffest =
-            contactDuration(undamped, c.world.density, sizes.smallest, pair ? sizes.smallest : kWall, p.k2Max);
-        d.durations.push_back({className(kind), mean, stiffest});
-        d.stiffest = std::min(d.stiffest, stiffest);
+        const double ofMean = contactDuration(mean, c.world.density, sizes.mean, pair ? sizes.mean : kWall, mean.k1);
+        const double shortest =
+            contactDuration(undamped, c.world.density, sizes.smallest, pair ? sizes.smallest : kWall, undamped.k2Max);
+        d.durations.push_back({className(kind), ofMean, shortest});
+        d.stiffest = std::min(d.stiffest, shortest);
     }
     d.timeStep = c.world.timeStep;
     d.particles = filled.particles.size();

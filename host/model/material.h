@@ -1,5 +1,5 @@
 #pragma once
-// Contact parameters in SI. Symbols as in Luding (2008), Granular Matter 10:235, and the paper's parameter table.
+// Contact parameters in SI. Symbols as in physics.md (Luding (2008), Granular Matter 10:235, and the paper's table).
 
 #include <array>
 
@@ -15,6 +15,16 @@ enum class CoulombLimit { Luding = 0, Absolute = 1 };
 /// Rolling lever a_r: Full -> 2 a_i a_j/(a_i + a_j) (wall: 2 a_i); Half -> half of it (Luding's own).
 enum class RollingLever { Full = 0, Half = 1 };
 
+/// The law of the normal force. It also says how stiff sliding, rolling and torsion are, and how strongly all are
+/// damped.
+enum class NormalLaw {
+    Luding = 0,        ///< linear, hysteretic, adhesive
+    HertzMindlin = 1,  ///< elastic spheres: all stiffnesses and dampings grow with the overlap
+};
+inline constexpr int kNormalLaws = 2;
+
+/// Under Hertz-Mindlin kt, kr and kTo are ratios to the stiffness of the normal direction, gammaT, gammaR and gammaTo
+/// ratios to its damping [-]; k1, k2Max, kc, plasticityDepth and gamma are not used.
 struct ContactParameters {
     double k1 = 0;               ///< plastic loading stiffness [N/m]
     double k2Max = 0;            ///< limit elastic stiffness, k2-hat [N/m]
@@ -30,6 +40,9 @@ struct ContactParameters {
     double kTo = 0;              ///< torsion stiffness [N/m]
     double gammaTo = 0;          ///< torsion viscosity [kg/s]
     double muTo = 0;             ///< torsion friction [-]; 0 switches torsion off
+    NormalLaw law = NormalLaw::Luding;
+    double modulus = 0;       ///< Hertz-Mindlin: E*, effective Young's modulus of the two bodies [Pa]
+    double dampingShare = 0;  ///< Hertz-Mindlin: beta, which gives the restitution (normal_law.h) [-]
 };
 
 /// Everything the contact law needs, for one member (canister).

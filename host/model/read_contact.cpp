@@ -7,6 +7,7 @@
 #include "host/model/bed_weight.h"
 #include "host/model/case_sections.h"
 #include "host/model/contact_targets.h"
+#include "host/model/normal_law.h"
 #include "host/model/particles.h"
 #include "host/model/restitution.h"
 #include "host/model/stability.h"
@@ -180,25 +181,79 @@ std::string derivation(const ContactTargets& t, const Ratios& r) {
 
 constexpr std::array<const char*, kContactClasses> kClassPaths{"contact", "contact.wall", "contact.coil"};
 
-}  // namespace
-
-void placeContact(Section& root) {
-    Section& contact = root.requiredTable("contact");
-    contact.table("wall");
-    contact.table("coil");
-    root.table("settle");
+/// Tells of keys that belong to another law than the case's.
+void refuseKeys(CaseReader& reader, Section& section, std::initializer_list<const char*> keys, const char* law) {
+    for (const char* key : keys) {
+        section.know(key);
+        if (section.has(key))
+            reader.fault(section.path(key), fmt::format("is a key of the law {}", law),
+                         fmt::format("remove it, or give contact.law = \"{}\"", law));
+    }
 }
 
-void readContact(CaseReader& reader, Section& root, double meanRadius, Case& c) {
-    Section& contact = root.requiredTable("contact");
-    c.dosingLaw.coulombLimit = static_cast<CoulombLimit>(contact.choice("coulomb_limit").value_or(0));
-    c.dosingLaw.rollingLever = static_cast<RollingLever>(contact.choice("rolling_lever").value_or(0));
-    c.world.maxOverlapRatio = contact.number("max_overlap_ratio");
-    const std::array<Section*, kContactClasses> sections{&contact, &contact.table("wall"), &contact.table("coil")};
+using Tables = std::array<Section*, kContactClasses>;
+
+/// One class of contacts of the law of Hertz and Mindlin as its table states it.
+struct StatedHertz {
+    Elasticity material;
+    double restitution = 1;
+    ContactParameters rest;  ///< friction and the ratios
+};
+
+StatedHertz readHertzClass(CaseReader& reader, Section& section, const StatedHertz* parent) {
+    const auto key = [&](const char* name, std::optional<double> inherited) {
+        return section.number(name, parent != nullptr ? inherited : std::nullopt);
+    };
+    const auto ratio = [&](const char* name, double ContactParameters::*member) {
+        return key(name, parent != nullptr ? std::optional(parent->rest.*member) : std::nullopt);
+    };
+    StatedHertz h;
+    const StatedHertz& above = parent != nullptr ? *parent : h;
+    h.material.modulus = key("youngs_modulus", above.material.modulus);
+    h.material.poisson = key("poisson_ratio", above.material.poisson);
+    if (h.material.poisson > 0.5 && section.has("poisson_ratio"))
+        reader.fault(section.path("poisson_ratio"), "is that of no solid", "give 0 to 0.5");
+    h.restitution = key("restitution", above.restitution);
+    if ((h.restitution == 0 || h.restitution > 1) && section.has("restitution"))
+        reader.fault(section.path("restitution"), "is no share of a speed that spheres rebound with",
+                     "give a number > 0 and <= 1");
+    h.rest.mu = ratio("friction", &ContactParameters::mu);
+    h.rest.muR = ratio("rolling_friction", &ContactParameters::muR);
+    h.rest.kr = ratio("kr_over_k", &ContactParameters::kr);
+    h.rest.gammaR = ratio("damping_r_ratio", &ContactParameters::gammaR);
+    h.rest.muTo = ratio("torsion_friction", &ContactParameters::muTo);
+    h.rest.kTo = ratio("kto_over_k", &ContactParameters::kTo);
+    h.rest.gammaTo = ratio("damping_to_ratio", &ContactParameters::gammaTo);
+    return h;
+}
+
+void readHertz(CaseReader& reader, const Tables& sections, Section& settle, Case& c) {
+    for (Section* section : sections)
+        refuseKeys(
+            reader, *section,
+            {"k", "contact_duration_s", "overlap_under_bed", "k1_over_k", "kc_over_k", "bond_number", "bond_load",
+             "plasticity_depth", "damping", "restitution_speed", "derived", "kt_over_k", "damping_t_ratio"},
+            "luding");
+    refuseKeys(reader, *sections[0], {"soften"}, "luding");
+    refuseKeys(reader, settle, {"kc_over_k", "wall_kc_over_k", "coil_kc_over_k"}, "luding");
+    const double damping = settle.number("damping_factor");
+    std::array<StatedHertz, kContactClasses> stated;
+    for (std::size_t i = 0; i < stated.size(); ++i)
+        stated[i] = readHertzClass(reader, *sections[i], i == 0 ? nullptr : &stated[i - 1]);
+    for (std::size_t i = 0; i < stated.size(); ++i)
+        c.dosingLaw.classes[i] =
+            hertzMindlin(stated[0].material, stated[i].material, stated[i].restitution, stated[i].rest);
+    c.settlingLaw = c.dosingLaw;
+    for (ContactParameters& p : c.settlingLaw.classes) p.dampingShare *= damping;
+}
+
+void readLuding(CaseReader& reader, const Tables& sections, Section& settle, double meanRadius, Case& c) {
+    for (Section* section : sections)
+        refuseKeys(reader, *section, {"youngs_modulus", "poisson_ratio"}, "hertz-mindlin");
     std::array<Stated, kContactClasses> stated;
     for (std::size_t i = 0; i < stated.size(); ++i)
         stated[i] = readClass(reader, *sections[i], i == 0 ? nullptr : &stated[i - 1]);
-    c.softened = readSoftness(reader, contact);
+    c.softened = readSoftness(reader, *sections[0]);
     std::string missedAbove;
     for (std::size_t i = 0; i < stated.size(); ++i) {
         Ratios& r = stated[i].ratios;
@@ -222,7 +277,6 @@ void readContact(CaseReader& reader, Section& root, double meanRadius, Case& c) 
     // While the powder settles, adhesion has a strength of its own. A class whose table gives its adhesion keeps it by
     // default, and so does every class where the case says nothing of adhesion while settling.
     const auto own = [&](std::size_t i) { return sections[i]->has("kc_over_k") || sections[i]->has("bond_number"); };
-    Section& settle = root.table("settle");
     const bool pairStated = settle.has("kc_over_k"), wallStated = settle.has("wall_kc_over_k");
     const double pairKc = settle.number("kc_over_k", stated[0].ratios.kc);
     const double wallKc = settle.number("wall_kc_over_k", own(1) || !pairStated ? stated[1].ratios.kc : pairKc);
@@ -237,6 +291,29 @@ void readContact(CaseReader& reader, Section& root, double meanRadius, Case& c) 
         c.settlingLaw.classes[i] = stated[i].ratios.parameters(settling[i]);
         c.settlingLaw.classes[i].gamma *= damping;
     }
+}
+
+}  // namespace
+
+void placeContact(Section& root) {
+    Section& contact = root.requiredTable("contact");
+    contact.table("wall");
+    contact.table("coil");
+    root.table("settle");
+}
+
+void readContact(CaseReader& reader, Section& root, double meanRadius, Case& c) {
+    Section& contact = root.requiredTable("contact");
+    const auto law = static_cast<NormalLaw>(contact.choice("law").value_or(0));
+    c.dosingLaw.coulombLimit = static_cast<CoulombLimit>(contact.choice("coulomb_limit").value_or(0));
+    c.dosingLaw.rollingLever = static_cast<RollingLever>(contact.choice("rolling_lever").value_or(0));
+    c.world.maxOverlapRatio = contact.number("max_overlap_ratio");
+    const Tables sections{&contact, &contact.table("wall"), &contact.table("coil")};
+    Section& settle = root.table("settle");
+    if (law == NormalLaw::HertzMindlin)
+        readHertz(reader, sections, settle, c);
+    else
+        readLuding(reader, sections, settle, meanRadius, c);
 }
 
 }  // namespace vkdose

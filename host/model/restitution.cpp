@@ -93,6 +93,7 @@ double dampingRatioFor(double e) {
 }
 
 double restitution(const ContactParameters& p, double density, double a, double b) {
+    if (p.law == NormalLaw::HertzMindlin) return ofDampingRatio(p.dampingShare);
     return ofDampingRatio(p.gamma / (2 * std::sqrt(p.k1 * reducedMass(density, a, b))));
 }
 
@@ -101,6 +102,7 @@ double dampingFor(double e, const ContactParameters& p, double density, double a
 }
 
 double restitutionAt(const ContactParameters& p, double mass, double reduced, double speed) {
+    if (p.law == NormalLaw::HertzMindlin) return ofDampingRatio(p.dampingShare);
     const double zeta = p.gamma / (2 * std::sqrt(p.k1 * mass));
     if (!(zeta < 1) || !std::isfinite(p.k2Max + p.kc + p.plasticityDepth)) return 0;
     // With one stiffness the loss does not depend on the speed.

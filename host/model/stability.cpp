@@ -6,10 +6,14 @@
 
 #include "host/core/vec.h"
 #include "host/model/case.h"
+#include "host/model/normal_law.h"
 #include "host/model/particles.h"
+#include "host/model/restitution.h"
 
 namespace vkdose {
 namespace {
+
+constexpr double kWall = std::numeric_limits<double>::infinity();
 
 bool isNormal(const ContactMode& mode) {
     return mode.name.ends_with(" normal");
@@ -48,8 +52,12 @@ std::vector<ContactClass> contactClasses(const World& world) {
     return classes;
 }
 
+ContactParameters stiffest(const ContactParameters& p, double density, double a, double b, double maxOverlapRatio) {
+    return linearised(p, reducedMass(density, a, b), reducedSize(a, b), maxOverlapRatio * std::min(a, b));
+}
+
 std::vector<ContactMode> contactModes(const ContactLaw& law, double density, double smallest,
-                                      const std::vector<ContactClass>& used) {
+                                      const std::vector<ContactClass>& used, double maxOverlapRatio) {
     const double mass = sphereMass(density, smallest);
     std::vector<ContactMode> modes;
     const auto add = [&](const std::string& name, double k, double gamma, double effectiveMass) {
@@ -57,8 +65,9 @@ std::vector<ContactMode> contactModes(const ContactLaw& law, double density, dou
         modes.push_back({name, kPi * std::sqrt(effectiveMass / k), gamma / effectiveMass});
     };
     for (const ContactClass c : used) {
-        const ContactParameters& p = law.of(c);
-        const double normal = c == ContactClass::ParticleParticle ? mass / 2 : mass;
+        const bool pair = c == ContactClass::ParticleParticle;
+        const double normal = pair ? mass / 2 : mass;
+        const ContactParameters p = stiffest(law.of(c), density, smallest, pair ? smallest : kWall, maxOverlapRatio);
         add(className(c) + " normal", p.k2Max, p.gamma, normal);
         // Sliding moves the surface: 1/m + a^2/I = 3.5/m for a full sphere of inertia 0.4 m a^2.
         if (p.mu > 0) add(className(c) + " sliding", p.kt, p.gammaT, normal / 3.5);
@@ -74,8 +83,9 @@ std::vector<ContactMode> contactModes(const ContactLaw& law, double density, dou
 
 std::vector<ContactMode> modesOf(const Case& c, double smallest) {
     const std::vector<ContactClass> used = contactClasses(c.world);
-    std::vector<ContactMode> modes = contactModes(c.dosingLaw, c.world.density, smallest, used);
-    const auto settling = contactModes(c.settlingLaw, c.world.density, smallest, used);
+    std::vector<ContactMode> modes =
+        contactModes(c.dosingLaw, c.world.density, smallest, used, c.world.maxOverlapRatio);
+    const auto settling = contactModes(c.settlingLaw, c.world.density, smallest, used, c.world.maxOverlapRatio);
     modes.insert(modes.end(), settling.begin(), settling.end());
     return modes;
 }

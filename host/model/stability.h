@@ -28,9 +28,14 @@ std::string className(ContactClass c);
 /// The classes that can occur in `world`: walls only with surfaces, the coil only with a coil.
 std::vector<ContactClass> contactClasses(const World& world);
 
-/// Every mode of every class in `used`, for particles no smaller than `smallest` [m].
+/// Every mode of every class in `used`, for particles no smaller than `smallest` [m]. A law whose stiffness grows with
+/// the overlap counts at the largest overlap that the run allows, `maxOverlapRatio` of the smaller radius.
 std::vector<ContactMode> contactModes(const ContactLaw& law, double density, double smallest,
-                                      const std::vector<ContactClass>& used);
+                                      const std::vector<ContactClass>& used, double maxOverlapRatio = kMaxOverlapRatio);
+
+/// The parameters of a class at that overlap, as linear springs and dashpots between the spheres a and b [m], b =
+/// infinity for a wall (normal_law.h).
+ContactParameters stiffest(const ContactParameters& p, double density, double a, double b, double maxOverlapRatio);
 
 /// The modes of a case under both of its laws: damping may be stronger while the powder settles.
 std::vector<ContactMode> modesOf(const Case& c, double smallest);

@@ -48,6 +48,13 @@ void dampingLoss(Stage& stage);
 void frictionLoss(Stage& stage);
 void clusterBalance(Stage& stage);
 
+// hertz.cpp
+void hertzSpheres(Stage& stage);
+void hertzWall(Stage& stage);
+void hertzRestitution(Stage& stage);
+void hertzOblique(Stage& stage);
+void hertzLedger(Stage& stage);
+
 // size_ratio.cpp
 void wedgeBounce(Stage& stage);
 void wedgeRest(Stage& stage);

@@ -16,6 +16,7 @@ struct Meeting {
     vec3 normal;    // from j to i
     float overlap;  // [m], > 0
     float reduced;  // 2 a_i a_j/(a_i + a_j), wall 2 a_i [m]
+    float mass;     // reduced mass [kg]
     vec3 velocity;  // of i relative to j at the contact point [m/s]
     vec3 spin;      // omega_i - omega_j [rad/s]
 };
@@ -31,28 +32,30 @@ struct Response {
 Response contactResponse(ContactParams p, uvec4 choices, Meeting m, float dt, inout History h) {
     float vn = dot(m.velocity, m.normal);
     vec3 vt = m.velocity - m.normal * vn;
-    float f = normalForce(p, m.overlap, m.reduced, h.slidingMax.w);
-    float fn = f - p.damping.w * vn;
+    NormalAnswer answer = normalAnswer(p, m.overlap, m.reduced, m.mass, h.slidingMax.w);
+    float f = answer.force;
+    float fn = f - answer.damping * vn;
     // Friction is limited by the normal force, counted from the adhesive limit (Luding 2008), or by its size.
-    float bearing = choices.x == kCoulombLuding ? max(0.0, f + p.normal.z * m.overlap) : abs(fn);
+    float bearing = choices.x == kCoulombLuding ? max(0.0, f + answer.pull) : abs(fn);
 
     bool slides, rolls, twists;
     vec3 spring = h.slidingMax.xyz;
-    vec3 ft = frictionForce(p.springs.x, p.damping.x, p.friction.x * bearing, m.normal, vt, dt, spring, slides);
+    vec3 ft = frictionForce(answer.springs.x, answer.dampings.x, answer.slipping.x, p.friction.x * bearing, m.normal,
+                            vt, dt, spring, slides);
     h.slidingMax.xyz = spring;
 
     float lever = rollingLever(m.reduced, choices.y);
     spring = h.rollingTorsion.xyz;
-    vec3 fr = frictionForce(p.springs.y, p.damping.y, p.friction.y * bearing, m.normal,
+    vec3 fr = frictionForce(answer.springs.y, answer.dampings.y, answer.slipping.y, p.friction.y * bearing, m.normal,
                             rollingVelocity(lever, m.normal, m.spin), dt, spring, rolls);
     h.rollingTorsion.xyz = spring;
 
     float twist = h.rollingTorsion.w;
-    float fto = torsionForce(p.springs.z, p.damping.z, p.friction.z * bearing, lever * dot(m.normal, m.spin), dt, twist,
-                             twists);
+    float fto = torsionForce(answer.springs.z, answer.dampings.z, answer.slipping.z, p.friction.z * bearing,
+                             lever * dot(m.normal, m.spin), dt, twist, twists);
     h.rollingTorsion.w = twist;
 
-    return Response(m.normal * fn + ft, ft, lever * (cross(m.normal, fr) + m.normal * fto), f, -p.damping.w * vn,
+    return Response(m.normal * fn + ft, ft, lever * (cross(m.normal, fr) + m.normal * fto), f, -answer.damping * vn,
                     bvec3(slides, rolls, twists));
 }
 

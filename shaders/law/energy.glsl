@@ -26,13 +26,29 @@ struct Work {
     vec3 sliders;  // sliding, rolling, torsion
 };
 
-/// Energy in the springs of a contact that exerts `f` with this history: normal, sliding, rolling, torsion [J].
-vec4 elasticEnergy(ContactParams p, float f, float reduced, History h) {
-    vec4 twice = vec4(f * f / unloadingStiffness(p, reduced, h.slidingMax.w),
-                      p.springs.x * dot(h.slidingMax.xyz, h.slidingMax.xyz),
-                      p.springs.y * dot(h.rollingTorsion.xyz, h.rollingTorsion.xyz),
-                      p.springs.z * h.rollingTorsion.w * h.rollingTorsion.w);
-    return 0.5 * twice;
+/// Energy in the springs of sliding, rolling and torsion of a contact at this overlap [J].
+vec3 sliderEnergy(ContactParams p, float overlap, float reduced, History h) {
+    vec3 springs = springsAt(p, overlap, reduced);
+    return 0.5 * vec3(springs.x * dot(h.slidingMax.xyz, h.slidingMax.xyz),
+                      springs.y * dot(h.rollingTorsion.xyz, h.rollingTorsion.xyz),
+                      springs.z * h.rollingTorsion.w * h.rollingTorsion.w);
+}
+
+/// Energy in all springs of a contact that exerts `f`: normal, sliding, rolling, torsion [J].
+vec4 elasticEnergy(ContactParams p, float f, float overlap, float reduced, History h) {
+    return vec4(storedEnergy(p, f, overlap, reduced, h.slidingMax.w), sliderEnergy(p, overlap, reduced, h));
+}
+
+/// Energy that is gone with a contact which exerted `e` [J].
+float storedIn(ContactParams p, Exerted e, float reduced, History h) {
+    return dot(vec4(e.couple.w, sliderEnergy(p, e.rest.w, reduced, h)), vec4(1.0));
+}
+
+/// What the springs of sliding, rolling and torsion of an elastic contact that goes on gain because the overlap makes
+/// them stiffer [J].
+vec3 stiffening(Exerted before, Exerted now, vec3 stored) {
+    if (before.rest.w <= 0.0 || now.rest.w <= 0.0) return vec3(0.0);
+    return stored * (sqrt(now.rest.w / before.rest.w) - 1.0);
 }
 
 /// Work that the force `e` takes in half a step `dt` [s] from a contact that moves with `velocity`, seen where the
@@ -49,20 +65,26 @@ Work halfStepWork(Exerted e, vec3 velocity, vec3 spin, float dt) {
 /// Books a step of a contact: `known` if it touched before, `touching` if it does now (`before` or `now` is zero if
 /// not); `stored` is the energy of its springs then and now. Twin of reference/energy.cpp, which argues the terms.
 Book bookContact(Exerted before, Exerted now, bool known, bool touching, vec4 storedBefore, vec4 stored, Work a, Work b,
-                 float kc, bvec3 slips) {
+                 ContactParams p, bvec3 slips) {
     vec4 gained = stored - storedBefore;
     float taken = a.hysteretic + b.hysteretic;
     float loss = taken - gained.x;
     if (!known) loss = 0.5 * now.normal.w * now.rest.w - gained.x;
     if (!touching) loss = -0.5 * before.normal.w * before.rest.w - gained.x;
+    if (!losesEnergy(p)) loss = 0.0;
     Exerted last = now;
     if (!touching) last = before;
-    bool adhesive = last.normal.w < 0.0 && last.normal.w <= -kc * last.rest.w;
+    bool adhesive = last.normal.w < 0.0 && last.normal.w <= -p.normal.z * last.rest.w;
 
     vec3 spent = a.sliders + b.sliders - gained.yzw;
     vec3 slipping = vec3(touching ? slips : bvec3(true));  // when a contact opens its springs snap
     vec3 friction = spent * slipping;
     float sticking = dot(spent, vec3(1.0) - slipping);
+    if (!losesEnergy(p)) {  // friction has what comes from no motion
+        vec3 free = stiffening(before, now, storedBefore.yzw) * (vec3(1.0) - slipping);
+        friction -= free;
+        sticking += free.x + free.y + free.z;
+    }
     return Book(
         vec4(adhesive ? 0.0 : loss, adhesive ? loss : 0.0, a.damping + b.damping + sticking, taken - gained.x - loss),
         vec4(friction, 0.0), vec4(0.0), stored);

@@ -1,36 +1,37 @@
-// Normal force: linear hysteretic adhesive law (Luding 2008, Granular Matter 10:235, eqs. 4-7), force without damping.
+// The laws of the normal force. Which of them occur is known when a pipeline is made, so that the others cost nothing.
 #ifndef VKDOSE_LAW_NORMAL_GLSL
 #define VKDOSE_LAW_NORMAL_GLSL
 
-#include "shared/layout.h"
+#include "law/hertz.glsl"
+#include "law/luding.glsl"
 
-/// `overlap` delta > 0 [m], `reduced` = 2 a_i a_j / (a_i + a_j) [m] (wall: 2 a_i). `maxOverlap` is the history
-/// delta_max: raised while loading, pulled back on the adhesive branch. Returns f [N], repulsive positive.
-float normalForce(ContactParams p, float overlap, float reduced, inout float maxOverlap) {
-    float k1 = p.normal.x, k2Max = p.normal.y, kc = p.normal.z;
-    float range = k2Max - k1;
-    maxOverlap = max(maxOverlap, overlap);
-    if (range <= 0.0) return k1 * overlap;  // one stiffness: an elastic spring, nothing to remember
+layout(constant_id = 9) const uint LAWS = 1u << kLawLuding;  // bit k: contacts of some class follow the law k
 
-    float limit = k2Max / range * p.normal.w * reduced;  // delta*: the plastic limit
-    float effective = min(maxOverlap, limit);
-    float k2 = k1 + range * min(1.0, maxOverlap / limit);
-    float unloading = k2 * (overlap - effective) + k1 * effective;  // = k2 (delta - delta_0), without cancellation
-    // Up to the limit overlap = delta_max on this line and f = k1 delta; past it the line goes on at slope k2Max.
-    float f = overlap <= limit ? min(unloading, k1 * overlap) : unloading;
-    if (f <= -kc * overlap) {
-        f = -kc * overlap;
-        // delta_max shrinks until the adhesive branch and the unloading line meet at this overlap.
-        if (k2 > k1) maxOverlap = overlap * (k2 + kc) / (k2 - k1);
-    }
-    return f;
+bool follows(ContactParams p, uint law) {
+    uint bit = 1u << law;
+    return (LAWS & bit) != 0u && (LAWS == bit || p.springs.w == float(law));
 }
 
-/// Slope of the line on which a contact with this history unloads [N/m].
-float unloadingStiffness(ContactParams p, float reduced, float maxOverlap) {
-    float k1 = p.normal.x, range = p.normal.y - k1;
-    if (range <= 0.0) return k1;
-    return k1 + range * min(1.0, maxOverlap * range / (p.normal.y * p.normal.w * reduced));
+/// `overlap` > 0 and `reduced` 2 a_i a_j / (a_i + a_j) (wall: 2 a_i) [m]; `mass` the reduced mass [kg]. `memory` is the
+/// contact's history of one number [m], above 0 while it touches.
+NormalAnswer normalAnswer(ContactParams p, float overlap, float reduced, float mass, inout float memory) {
+    if (follows(p, kLawHertzMindlin)) return hertzAnswer(p, overlap, reduced, mass, memory);
+    return ludingAnswer(p, overlap, reduced, memory);
 }
+
+/// Energy that the normal direction gives back when the contact parts slowly [J]; `force` is the answer's [N].
+float storedEnergy(ContactParams p, float force, float overlap, float reduced, float memory) {
+    if (follows(p, kLawHertzMindlin)) return 0.4 * force * overlap;
+    return 0.5 * (force * force / unloadingStiffness(p, reduced, memory));
+}
+
+/// Stiffness of sliding, rolling, torsion [N/m].
+vec3 springsAt(ContactParams p, float overlap, float reduced) {
+    if (follows(p, kLawHertzMindlin)) return hertzStiffness(p, overlap, reduced) * p.springs.xyz;
+    return p.springs.xyz;
+}
+
+/// Whether the law itself loses energy. What an elastic law loses is an error of the time step.
+bool losesEnergy(ContactParams p) { return !follows(p, kLawHertzMindlin); }
 
 #endif

@@ -10,16 +10,18 @@ vec3 intoTangentPlane(vec3 spring, vec3 n) {
     return now > 0.0 ? tangent * sqrt(old / now) : vec3(0.0);
 }
 
-/// `v` tangential velocity [m/s], `limit` Coulomb force [N], `dt` advance of the spring [s]. Returns the force [N] that
-/// resists v. `spring` [m] becomes the spring of the next step; `slips` tells whether the slider slips.
-vec3 frictionForce(float k, float gamma, float limit, vec3 n, vec3 v, float dt, inout vec3 spring, out bool slips) {
+/// `v` tangential velocity [m/s], `slipping` the damping while it slips [kg/s], `limit` Coulomb force [N], `dt` advance
+/// of the spring [s]. Returns the force [N] that resists v. `spring` [m] becomes the spring of the next step; `slips`
+/// tells whether the slider slips.
+vec3 frictionForce(float k, float gamma, float slipping, float limit, vec3 n, vec3 v, float dt, inout vec3 spring,
+                   out bool slips) {
     spring = intoTangentPlane(spring, n) + v * dt;
     vec3 f = -k * spring - gamma * v;
     float size = length(f);
     slips = size > limit;
     if (slips) {
         f *= limit / size;
-        spring = k > 0.0 && limit > 0.0 ? -(f + gamma * v) / k : vec3(0.0);
+        spring = k > 0.0 && limit > 0.0 ? -(f + slipping * v) / k : vec3(0.0);
     }
     return f;
 }

@@ -74,6 +74,7 @@ void main() {
     openMember();
     ContactParams ofWall = lawOf(kParticleWall), ofCoil = lawOf(kParticleCoil);  // before any branch, as in `pairs`
     uvec4 chosen = choices();
+    float density = gravity().w;
     float springDt = springStep();
     uint listed = control.body.x;
     if (waits() || invocation() >= listed) return;
@@ -122,8 +123,8 @@ void main() {
 #endif
         WallForce f = WallForce(vec3(0.0), vec3(0.0), vec3(0.0));
         if (touching)
-            f = meetWall(me, Overlap(feature.depth, normal), 2.0 * radius, law, chosen, springDt, wall, motion.spin.xyz,
-                         h, r);
+            f = meetWall(me, Overlap(feature.depth, normal), 2.0 * radius, law, chosen, density, springDt, wall,
+                         motion.spin.xyz, h, r);
         history[placeHistoryIndex(slot, k, 0u)] = h.slidingMax;
         history[placeHistoryIndex(slot, k, 1u)] = h.rollingTorsion;
         history[placeHistoryIndex(slot, k, 2u)] = vec4(touching ? feature.direction : vec3(0.0), 0.0);

@@ -16,4 +16,17 @@ Body readBody(uint i) {
                 readState(source, kVelocity, i).xyz, readState(source, kSpin, i).xyz);
 }
 
+/// Reduced size of a sphere of radius a at the coil: the wire counts as curved or as flat (CoilParams) [m].
+float reducedAtCoil(CoilParams coil, float a) {
+    float wire = coil.radius.z;
+    return coil.motion.w != 0.0 ? 2.0 * a * wire / (a + wire) : 2.0 * a;
+}
+
+/// Mass of a sphere of this radius [kg], and reduced mass of two.
+float sphereMass(float density, float radius) { return density * (4.0 / 3.0 * 3.14159265) * radius * radius * radius; }
+float reducedMass(float density, float a, float b) {
+    float ma = sphereMass(density, a), mb = sphereMass(density, b);
+    return ma * mb / (ma + mb);
+}
+
 #endif

@@ -17,12 +17,14 @@ void bookDeparture(uint i, uint slot) {
     History h = History(readHistory(0u, slot), readHistory(1u, slot));
     if (h.slidingMax.w <= 0.0) return;
     Exerted e = Exerted(readHistory(2u, slot), readHistory(3u, slot), readHistory(4u, slot));
-    bool isPair = ofPair(slot);
-    vec4 stored = elasticEnergy(lawOf(isPair ? kParticleParticle : kParticleWall), 0.0, 1.0, h);
-    stored.x = e.couple.w;
-    float left = dot(stored, vec4(1.0));
-    if (isPair) {
-        Body a = readBody(i), b = readBody(entriesAt(slot).y);
+    Body a = readBody(i);
+    float radius = abs(a.sphere.radius), left = 0.0;
+    if (!ofPair(slot)) {
+        left = storedIn(lawOf(kParticleWall), e, 2.0 * radius, h);
+    } else {
+        Body b = readBody(entriesAt(slot).y);
+        float other = abs(b.sphere.radius);
+        left = storedIn(lawOf(kParticleParticle), e, 2.0 * radius * other / (radius + other), h);
         if (a.sphere.radius > 0.0) left += workOnOneSide(e, a, 1.0);
         if (b.sphere.radius > 0.0) left += workOnOneSide(e, b, -1.0);
     }
@@ -32,13 +34,14 @@ void bookDeparture(uint i, uint slot) {
 /// The same for the contacts with the coil of a particle that has left.
 void bookDepartureFromCoil(uint i) {
     vec4 angles = coilHistory[wireAngleIndex(i)];
+    float reduced = reducedAtCoil(member.coil, abs(readState(source, kPosition, i).w));
     for (uint t = 0u; t < kMaxTurns; ++t) {
         if (angles[t] == kNoTurn) continue;
         uint at = coilHistoryIndex(t, 0u, i);
-        vec4 stored =
-            elasticEnergy(lawOf(kParticleCoil), 0.0, 1.0, History(coilHistory[at], coilHistory[at + push.particles]));
-        stored.x = coilHistory[at + 4u * push.particles].w;
-        books[bookIndex(kBookFlow, i)].y += dot(stored, vec4(1.0));
+        History h = History(coilHistory[at], coilHistory[at + push.particles]);
+        Exerted e = Exerted(coilHistory[at + 2u * push.particles], coilHistory[at + 3u * push.particles],
+                            coilHistory[at + 4u * push.particles]);
+        books[bookIndex(kBookFlow, i)].y += storedIn(lawOf(kParticleCoil), e, reduced, h);
     }
 }
 

@@ -34,6 +34,7 @@ void main() {
     ContactParams law = lawOf(kParticleCoil);  // before any branch, as in `pairs`
     CoilParams coil = member.coil;
     uvec4 chosen = choices();
+    float density = gravity().w;
     float springDt = springStep();
     uint listed = control.listed.z;
     if (waits() || invocation() >= listed) return;
@@ -50,8 +51,7 @@ void main() {
         candidates |= touch.depth > 0.0 ? 1u << k : 0u;
     }
 
-    float a = me.sphere.radius, wire = coil.radius.z;
-    float reduced = coil.motion.w != 0.0 ? 2.0 * a * wire / (a + wire) : 2.0 * a;
+    float reduced = reducedAtCoil(coil, me.sphere.radius);
     vec3 force = vec3(0.0), torque = vec3(0.0);
     float coilTorque = 0.0, overlap = 0.0;
     uint met = 0u;
@@ -81,7 +81,8 @@ void main() {
         vec3 wall = coil.motion.y * vec3(-point.y, point.x, 0.0);
         Overlap o = Overlap(touch.depth, touch.normal);
         Response r;
-        WallForce f = meetWall(me, o, reduced, law, chosen, springDt, wall, vec3(0.0, 0.0, coil.motion.y), h, r);
+        WallForce f =
+            meetWall(me, o, reduced, law, chosen, density, springDt, wall, vec3(0.0, 0.0, coil.motion.y), h, r);
         coilHistory[at] = h.slidingMax;
         coilHistory[at + push.particles] = h.rollingTorsion;
         force += f.force;

@@ -42,9 +42,10 @@ void bookDepartureFromBody(uint i, uint slot, uint body) {
         vec4 springs = historyAt(placeHistoryIndex(slot, k, 0u));
         if (springs.w <= 0.0) continue;
         History h = History(springs, historyAt(placeHistoryIndex(slot, k, 1u)));
-        vec4 stored = elasticEnergy(lawOf(ofCoil ? kParticleCoil : kParticleWall), 0.0, 1.0, h);
-        stored.x = historyAt(placeHistoryIndex(slot, k, 5u)).w;
-        books[bookIndex(kBookFlow, i)].y += dot(stored, vec4(1.0));
+        Exerted e = Exerted(historyAt(placeHistoryIndex(slot, k, 3u)), historyAt(placeHistoryIndex(slot, k, 4u)),
+                            historyAt(placeHistoryIndex(slot, k, 5u)));
+        float reduced = 2.0 * abs(readState(source, kPosition, i).w);
+        books[bookIndex(kBookFlow, i)].y += storedIn(lawOf(ofCoil ? kParticleCoil : kParticleWall), e, reduced, h);
     }
 }
 #endif

@@ -15,6 +15,7 @@ void main() {
     openMember();
     ContactParams law = lawOf(kParticleParticle);
     uvec4 chosen = choices();
+    float density = gravity().w;
     float springDt = springStep();
     uint listed = control.listed.x;
     if (waits() || invocation() >= listed) return;
@@ -31,7 +32,8 @@ void main() {
     float ra = a.sphere.radius, rb = b.sphere.radius;
     float leverA = ra - 0.5 * o.depth, leverB = rb - 0.5 * o.depth;
     vec3 velocity = (a.velocity - b.velocity) - cross(leverA * a.spin + leverB * b.spin, o.normal);
-    Meeting m = Meeting(o.normal, o.depth, 2.0 * ra * rb / (ra + rb), velocity, a.spin - b.spin);
+    Meeting m =
+        Meeting(o.normal, o.depth, 2.0 * ra * rb / (ra + rb), reducedMass(density, ra, rb), velocity, a.spin - b.spin);
     Response r = contactResponse(law, chosen, m, springDt, h);
     vec3 turn = cross(o.normal, r.sliding);
 

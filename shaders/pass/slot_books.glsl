@@ -42,10 +42,9 @@ void bookPair(ContactParams law, float springDt, uint slot, Body a, Body b, Over
     bool known = old.slidingMax.w > 0.0;
     Exerted before = exertedBefore(slot, known), now = kNothing;
     float ra = a.sphere.radius, rb = b.sphere.radius, reduced = 2.0 * ra * rb / (ra + rb);
-    vec4 storedBefore = elasticEnergy(law, 0.0, reduced, old), stored = vec4(0.0);
-    storedBefore.x = before.couple.w;
+    vec4 storedBefore = vec4(before.couple.w, sliderEnergy(law, before.rest.w, reduced, old)), stored = vec4(0.0);
     if (touching) {
-        stored = elasticEnergy(law, r.hysteretic, reduced, h);
+        stored = elasticEnergy(law, r.hysteretic, o.depth, reduced, h);
         now = exertedNow(o, r, stored);
     }
     keepExerted(slot, now);
@@ -55,7 +54,7 @@ void bookPair(ContactParams law, float springDt, uint slot, Body a, Body b, Over
     if (opening())
         booked = bookLoaded(stored);
     else if (known || touching)
-        booked = bookContact(before, now, known, touching, storedBefore, stored, x, y, law.normal.z, r.slips);
+        booked = bookContact(before, now, known, touching, storedBefore, stored, x, y, law, r.slips);
     writeBook(slot, booked);
 }
 
@@ -89,8 +88,7 @@ float halfStepGiven(Exerted e, vec3 velocity, vec3 spin, float dt) {
 /// The book of a contact with a wall in this step; flow.w: work of the wall.
 Book bookWall(ContactParams law, float springDt, WallMotion wall, float reduced, Body me, Exerted before, Response r,
               bool known, bool touching, vec4 stored, Exerted now, History old) {
-    vec4 storedBefore = elasticEnergy(law, 0.0, reduced, old);
-    storedBefore.x = before.couple.w;
+    vec4 storedBefore = vec4(before.couple.w, sliderEnergy(law, before.rest.w, reduced, old));
     vec3 spin = me.spin - wall.spin;
     // Where both were when `before` acted.
     vec3 came = me.sphere.high - springDt * me.velocity;
@@ -99,7 +97,7 @@ Book bookWall(ContactParams law, float springDt, WallMotion wall, float reduced,
     Work x = halfStepWork(before, fromWall(first, before, me), spin, springDt);
     Work y = halfStepWork(now, fromWall(second, now, me), spin, springDt);
     if (opening()) return bookLoaded(stored);
-    Book b = bookContact(before, now, known, touching, storedBefore, stored, x, y, law.normal.z, r.slips);
+    Book b = bookContact(before, now, known, touching, storedBefore, stored, x, y, law, r.slips);
     b.flow.w = halfStepGiven(before, first, wall.spin, springDt) + halfStepGiven(now, second, wall.spin, springDt);
     return b;
 }
@@ -112,7 +110,7 @@ void bookSurface(ContactParams law, float springDt, uint slot, Body me, Overlap 
     vec4 stored = vec4(0.0);
     float reduced = 2.0 * me.sphere.radius;
     if (touching) {
-        stored = elasticEnergy(law, r.hysteretic, reduced, h);
+        stored = elasticEnergy(law, r.hysteretic, o.depth, reduced, h);
         now = exertedNow(o, r, stored);
     }
     keepExerted(slot, now);
@@ -143,7 +141,7 @@ void bookCoil(ContactParams law, float springDt, float rate, float reduced, uint
             Exerted(coilHistoryAt(at), coilHistoryAt(at + push.particles), coilHistoryAt(at + 2u * push.particles));
     vec4 stored = vec4(0.0);
     if (touching) {
-        stored = elasticEnergy(law, r.hysteretic, reduced, h);
+        stored = elasticEnergy(law, r.hysteretic, o.depth, reduced, h);
         now = exertedNow(o, r, stored);
         coilHistory[at] = now.normal;
         coilHistory[at + push.particles] = now.rest;
@@ -167,7 +165,7 @@ void partCoil(ContactParams law, float springDt, float rate, float reduced, uint
 void bookPlace(ContactParams law, float springDt, WallMotion wall, uint slot, uint place, Body me, Overlap o,
                Response r, bool known, Exerted before, History old, History h) {
     float reduced = 2.0 * me.sphere.radius;
-    vec4 stored = elasticEnergy(law, r.hysteretic, reduced, h);
+    vec4 stored = elasticEnergy(law, r.hysteretic, o.depth, reduced, h);
     Exerted now = exertedNow(o, r, stored);
     history[placeHistoryIndex(slot, place, 3u)] = now.normal;
     history[placeHistoryIndex(slot, place, 4u)] = now.rest;

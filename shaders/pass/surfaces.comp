@@ -46,6 +46,7 @@ void main() {
     ContactParams law = lawOf(kParticleWall);  // before any branch, as in `pairs`
     SurfaceParams frontWall = frontSurface();
     uvec4 chosen = choices();
+    float density = gravity().w;
     float springDt = springStep();
     uint listed = control.listed.y;
     if (waits() || invocation() >= listed) return;
@@ -92,7 +93,7 @@ void main() {
         History h = memory.history;
         Response r;
         float reduced = 2.0 * me.sphere.radius;
-        WallForce f = meetWall(me, o, reduced, law, chosen, springDt, vec3(0.0), vec3(0.0), h, r);
+        WallForce f = meetWall(me, o, reduced, law, chosen, density, springDt, vec3(0.0), vec3(0.0), h, r);
         writeHistory(slot, touching ? h.slidingMax : vec4(0.0), touching ? h.rollingTorsion : vec4(0.0));
         writeForce(slot, touching ? vec4(f.force, o.depth / me.sphere.radius) : vec4(0.0));
         writeTorque(slot, touching ? vec4(f.torque, 0.0) : vec4(0.0));

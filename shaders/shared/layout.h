@@ -93,9 +93,13 @@ SHARED_CONST kCoulombAbsolute = 1u;
 SHARED_CONST kLeverFull = 0u;
 SHARED_CONST kLeverHalf = 1u;
 
+SHARED_CONST kLawLuding = 0u;
+SHARED_CONST kLawHertzMindlin = 1u;
+
+// Hertz-Mindlin: springs are ratios to the stiffness of the normal direction, dampings ratios to its damping.
 struct ContactParams {
-    vec4 normal;    // k1, k2Max, kc [N/m], plasticity depth
-    vec4 springs;   // of sliding, rolling, torsion: kt, kr, kTo [N/m]
+    vec4 normal;    // Luding: k1, k2Max, kc [N/m], plasticity depth; Hertz-Mindlin: E* [Pa], 2 sqrt(5/6) beta
+    vec4 springs;   // of sliding, rolling, torsion: kt, kr, kTo [N/m]; w: law (kLawLuding ...)
     vec4 friction;  // coefficients of sliding, rolling, torsion: mu, muR, muTo
     vec4 damping;   // of sliding, rolling, torsion, then of the normal part: gammaT, gammaR, gammaTo, gamma [kg/s]
 };

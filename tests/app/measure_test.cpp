@@ -87,6 +87,16 @@ TEST_CASE("measures: a sphere under a piston has the stress and the work of its 
     CHECK(measures.at("angle_of_repose").contains("none_because"));
 }
 
+TEST_CASE("measures: a piston that never reaches the powder compresses nothing, and the run says so") {
+    const Sandbox box;
+    writePress(box, "above", 2.6);
+    const auto o = box.vkdose("run above.toml --backend reference --out out");
+    CAPTURE(o.out, o.err);
+    REQUIRE(o.code == 0);
+    CHECK_THAT(o.out, Catch::Contains("measure  press: none; the powder never pressed against the piston"));
+    CHECK(summaryIn(box / "out").at("measures").at("press").contains("none_because"));
+}
+
 TEST_CASE("measures: spheres that fall through a plane one after another discharge at their mass and pace") {
     const Sandbox box;
     // One each 5 ms: 5 mm apart at 1 m/s, nearly without gravity, which only says what is up.

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <thread>
 
+#include "host/model/normal_law.h"
 #include "tests/scene/beds.h"
 #include "tests/support/records.h"
 
@@ -19,6 +20,7 @@ struct Script {
     double timeStep;  // [s]
     double friction;  // after the second call
     bool energyBook = false;
+    bool elastic = false;  // with the law of Hertz and Mindlin
     std::vector<std::uint32_t> calls{1501, 997, 700};
     Vec3 throwFirst{0};  // extra velocity of particle 0 [m/s]
 };
@@ -37,6 +39,7 @@ Outcome play(Backend& backend, const Script& s, const Record* from = nullptr, Re
     w.maxOverlapRatio = 1;
     w.timeStep = s.timeStep;
     w.energyBook = s.energyBook;
+    if (s.elastic) w.law.classes.fill(hertzMindlin({2e6, 0.25}, {2e6, 0.25}, 0.7));
     Particles p = thrownIn(s.particles);
     p.velocity[0] += s.throwFirst;
     Outcome o;
@@ -131,6 +134,20 @@ TEST_CASE("a canister computes the same bits alone and in an ensemble") {
         if (k < 2) REQUIRE(coilContacts(alone) > 0);
         checkSame(alone, together[k]);
     }
+}
+
+TEST_CASE("canisters whose contacts follow different laws share tables") {
+    std::vector<Script> scripts{{90, -9.5, 2.26e-6, 0.3}, {120, 7.0, 2.26e-6, 0.3}};
+    scripts[1].elastic = true;
+    for (Script& s : scripts) {
+        s.energyBook = true;
+        s.calls = {1200, 700, 300};
+    }
+    const auto together = playTogether(scripts);
+    for (std::size_t k = 0; k < scripts.size(); ++k) checkSame(playAlone(scripts[k]), together[k]);
+    CHECK(together[0].sensors[1].energy->plastic > 0);
+    CHECK(together[1].sensors[1].energy->plastic == 0);
+    CHECK(together[1].sensors[1].energy->viscous > 0);
 }
 
 TEST_CASE("a canister that fails names its own particle and leaves the others alone") {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "host/model/normal_law.h"
 #include "tests/scene/beds.h"
 
 using namespace vkdose;
@@ -77,6 +78,22 @@ TEST_CASE("an elastic law (k1 = k2) has no plastic limit to divide by") {
     RuledWorld w = emptyWorld();
     for (ContactParameters& c : w.law.classes) c.k1 = c.k2Max;
     requireClose(run(w, p, 15));
+}
+
+TEST_CASE("elastic spheres of Hertz and Mindlin collide off centre, and graze a floor") {
+    RuledWorld w = emptyWorld();
+    const ContactParameters usual = w.law.of(ContactClass::ParticleParticle);
+    ContactParameters elastic = hertzMindlin({2e6, 0.25}, {2e7, 0.3}, 0.7);
+    elastic.mu = usual.mu, elastic.muR = usual.muR, elastic.muTo = usual.muTo;
+    elastic.kr = elastic.kTo = 0.3;
+    elastic.gammaR = elastic.gammaTo = 0.2;
+    w.law.classes.fill(elastic);
+    w.surfaces = {geometry::Plane{{0, -2e-3, 0}, {0, 1, 0}}};
+    Particles p;
+    p.add({0.031, 0.02, 0.045}, single(1.875e-3), {0.2, 0.05, 0}, {30, 60, -20});
+    p.add({0.031 + 2.501e-3, 0.02, 0.045 + 1e-4}, single(0.625e-3), {-0.2, 0, 0.05}, {-80, 10, 40});
+    p.add({0, -0.7e-3, 0}, single(1.3005e-3), {0.3, -0.3, 0.1}, {70, -40, 90});
+    for (const std::uint32_t steps : {20u, 75u}) requireClose(run(w, p, steps));
 }
 
 TEST_CASE("a sphere meets every surface") {

@@ -21,6 +21,7 @@ std::optional<Touch> touchSphere(const Body& i, const Body& j) {
     touch.overlap = overlap;
     touch.reduced = 2 * i.radius * j.radius / (i.radius + j.radius);
     touch.smaller = std::min(i.radius, j.radius);
+    touch.mass = i.mass > 0 ? i.mass * j.mass / (i.mass + j.mass) : 0;
     touch.leverI = -(i.radius - overlap / 2) * touch.normal;
     touch.leverJ = (j.radius - overlap / 2) * touch.normal;
     touch.velocity = contactVelocity(i, touch.leverI, j, touch.leverJ);
@@ -37,6 +38,7 @@ std::optional<Touch> touchWall(const Body& i, const Vec3& normal, double distanc
     touch.overlap = overlap;
     touch.reduced = 2 * i.radius;
     touch.smaller = i.radius;
+    touch.mass = i.mass;
     touch.leverI = -(i.radius - overlap / 2) * normal;
     touch.leverJ = Vec3(0);
     touch.velocity = (i.velocity + glm::cross(i.spin, touch.leverI)) - wall.at(i.position + touch.leverI);
@@ -53,22 +55,22 @@ Response contactResponse(const ContactLaw& law, ContactClass kind, const Touch& 
     const Vec3& n = touch.normal;
 
     const double normalVelocity = glm::dot(touch.velocity, n);
-    const double hysteretic = normalForce(p, touch.overlap, touch.reduced, history.maxOverlap);
-    const double normal = hysteretic - p.gamma * normalVelocity;
+    const NormalAnswer answer = normalAnswer(p, touch.overlap, touch.reduced, touch.mass, history.maxOverlap);
+    const double normal = answer.force - answer.gamma * normalVelocity;
     const double bearing = law.coulombLimit == CoulombLimit::Luding
-                               ? std::max(0.0, hysteretic + p.kc * touch.overlap)  // adhesion moves friction's zero
+                               ? std::max(0.0, answer.force + answer.pull)  // adhesion moves friction's zero
                                : std::abs(normal);
 
     const Vec3 tangentialVelocity = touch.velocity - n * normalVelocity;
     bool slides = false, rolls = false, twists = false;
-    const Vec3 tangential =
-        frictionForce({p.kt, p.gammaT, p.mu}, bearing, n, tangentialVelocity, dt, history.sliding, &slides);
+    const Vec3 tangential = frictionForce({answer.kt, answer.gammaT, p.mu, answer.springAlone}, bearing, n,
+                                          tangentialVelocity, dt, history.sliding, &slides);
 
     const double lever = rollingLever(law.rollingLever, touch.reduced);
-    const Vec3 rolling = frictionForce({p.kr, p.gammaR, p.muR}, bearing, n, rollingVelocity(lever, n, touch.spin), dt,
-                                       history.rolling, &rolls);
-    const double torsion = torsionForce({p.kTo, p.gammaTo, p.muTo}, bearing, torsionVelocity(lever, n, touch.spin), dt,
-                                        history.torsion, &twists);
+    const Vec3 rolling = frictionForce({answer.kr, answer.gammaR, p.muR, answer.springAlone}, bearing, n,
+                                       rollingVelocity(lever, n, touch.spin), dt, history.rolling, &rolls);
+    const double torsion = torsionForce({answer.kTo, answer.gammaTo, p.muTo, answer.springAlone}, bearing,
+                                        torsionVelocity(lever, n, touch.spin), dt, history.torsion, &twists);
 
     Response response{};
     response.force = normal * n + tangential;
@@ -76,10 +78,14 @@ Response contactResponse(const ContactLaw& law, ContactClass kind, const Touch& 
     response.couple = rollingCouple + torsionCouple;
     response.torqueI = glm::cross(touch.leverI, tangential) + response.couple;
     response.torqueJ = glm::cross(touch.leverJ, -tangential) - response.couple;
-    const bool adhesive = onAdhesiveBranch(p, touch.overlap, hysteretic);
-    response.parts = {
-        hysteretic, -p.gamma * normalVelocity, tangential, rollingCouple, torsionCouple, adhesive, slides, rolls,
-        twists};
+    const bool adhesive = onAdhesiveBranch(p, touch.overlap, answer.force);
+    response.parts = {answer.force,  -answer.gamma * normalVelocity,
+                      tangential,    rollingCouple,
+                      torsionCouple, adhesive,
+                      slides,        rolls,
+                      twists,        !losesEnergy(p.law),
+                      answer.kt,     answer.kr,
+                      answer.kTo};
     return response;
 }
 

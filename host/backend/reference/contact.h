@@ -11,10 +11,11 @@ namespace vkdose::reference {
 
 /// A sphere in motion.
 struct Body {
-    Vec3 position;  ///< [m]
-    Vec3 velocity;  ///< [m/s]
-    Vec3 spin;      ///< [rad/s]
-    double radius;  ///< [m]
+    Vec3 position;    ///< [m]
+    Vec3 velocity;    ///< [m/s]
+    Vec3 spin;        ///< [rad/s]
+    double radius;    ///< [m]
+    double mass = 0;  ///< [kg]; of a wall without meaning
 };
 
 /// The memory of a contact.
@@ -31,6 +32,7 @@ struct Touch {
     double overlap;  ///< delta > 0 [m]
     double reduced;  ///< 2 a_i a_j / (a_i + a_j), wall 2 a_i [m]
     double smaller;  ///< the smaller radius, wall a_i [m]
+    double mass;     ///< reduced mass m_i m_j/(m_i + m_j), wall m_i [kg]
     Vec3 leverI;     ///< from the centre of i to the contact point [m]
     Vec3 leverJ;     ///< from the centre of j; zero for a wall [m]
     Vec3 velocity;   ///< of i relative to j at the contact point [m/s]
@@ -55,6 +57,8 @@ struct Parts {
     Vec3 torsion;                ///< couple on i [N m]
     bool adhesive;               ///< on the adhesive branch
     bool slides, rolls, twists;  ///< whether the slider slips
+    bool elastic;                ///< the law of the normal force loses no energy
+    double kt, kr, kTo;          ///< stiffness of sliding, rolling, torsion [N/m]
 };
 
 /// Forces and torques of a contact. The opposite force and the opposite couple act on j; the force acts there on j's

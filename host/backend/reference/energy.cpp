@@ -34,6 +34,7 @@ Work operator+(const Work& a, const Work& b) {
 /// of a new contact begins at overlap zero, and the path of a contact that parts ends there. Motion of the particles
 /// before or after that within the step does not count here.
 double lossByLaw(const Exerted& before, const Exerted& now, double taken) {
+    if ((now.touching ? now : before).parts.elastic) return 0;
     const double stored = now.elastic.normal - before.elastic.normal;
     if (!before.touching) return now.parts.hysteretic * now.overlap / 2 - stored;
     if (!now.touching) return -before.parts.hysteretic * before.overlap / 2 - stored;
@@ -42,10 +43,12 @@ double lossByLaw(const Exerted& before, const Exerted& now, double taken) {
 
 }  // namespace
 
-Elastic elasticEnergy(const ContactParameters& p, double hysteretic, double reduced, const History& history) {
-    const double k2 = unloadingStiffness(p, reduced, history.maxOverlap);
-    return {hysteretic * hysteretic / (2 * k2), p.kt * glm::dot(history.sliding, history.sliding) / 2,
-            p.kr * glm::dot(history.rolling, history.rolling) / 2, p.kTo * history.torsion * history.torsion / 2};
+Elastic elasticEnergy(const ContactParameters& p, const Parts& parts, double overlap, double reduced,
+                      const History& history) {
+    return {storedEnergy(p, overlap, reduced, parts.hysteretic, history.maxOverlap),
+            parts.kt * glm::dot(history.sliding, history.sliding) / 2,
+            parts.kr * glm::dot(history.rolling, history.rolling) / 2,
+            parts.kTo * history.torsion * history.torsion / 2};
 }
 
 void bookContact(const Exerted& before, const Exerted& now, const Body& i, const Body& j, double dt, EnergyBook& book) {
@@ -58,13 +61,24 @@ void bookContact(const Exerted& before, const Exerted& now, const Body& i, const
     book.viscous += taken.damping;
 
     // A slider that sticks loses energy in its dashpot only; when the contact opens its spring snaps.
+    // What a spring gains because the overlap makes it stiffer comes from no motion; friction has it too.
     const bool opens = !now.touching;
-    const auto bookSlider = [&](double work, double stored, bool slips, double& friction) {
-        (slips || opens ? friction : book.viscous) += work - stored;
+    const auto bookSlider = [&](double work, double had, double has, double stiffening, bool slips, double& friction) {
+        if (slips || opens) {
+            friction += work - (has - had);
+            return;
+        }
+        book.viscous += work - (has - had) + had * stiffening;
+        friction -= had * stiffening;
     };
-    bookSlider(taken.sliding, now.elastic.sliding - before.elastic.sliding, now.parts.slides, book.sliding);
-    bookSlider(taken.rolling, now.elastic.rolling - before.elastic.rolling, now.parts.rolls, book.rolling);
-    bookSlider(taken.torsion, now.elastic.torsion - before.elastic.torsion, now.parts.twists, book.torsion);
+    const auto stiffening = [&](double Parts::*stiffness) {
+        const double was = before.parts.*stiffness, is = now.parts.*stiffness;
+        return was > 0 && is != was ? is / was - 1 : 0;
+    };
+    const Elastic &had = before.elastic, &has = now.elastic;
+    bookSlider(taken.sliding, had.sliding, has.sliding, stiffening(&Parts::kt), now.parts.slides, book.sliding);
+    bookSlider(taken.rolling, had.rolling, has.rolling, stiffening(&Parts::kr), now.parts.rolls, book.rolling);
+    bookSlider(taken.torsion, had.torsion, has.torsion, stiffening(&Parts::kTo), now.parts.twists, book.torsion);
 
     book.coilWork -= dt / 2 * j.spin.z * (before.coilTorque + now.coilTorque);
 }

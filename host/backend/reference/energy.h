@@ -13,8 +13,9 @@ struct Elastic {
     double sum() const { return normal + sliding + rolling + torsion; }
 };
 
-/// Energy stored by a contact that exerts `hysteretic` [N] with this history.
-Elastic elasticEnergy(const ContactParameters& p, double hysteretic, double reduced, const History& history);
+/// Energy stored by a contact at `overlap` [m] that exerts `parts` with this history.
+Elastic elasticEnergy(const ContactParameters& p, const Parts& parts, double overlap, double reduced,
+                      const History& history);
 
 /// The force of a contact in a step and its place, kept until the next step. It is zero if the contact did not touch.
 /// Without an energy book only the force is kept.

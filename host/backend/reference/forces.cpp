@@ -43,7 +43,9 @@ void Forces::evaluate(const RuledWorld& world, const Particles& particles, const
 }
 
 Body Forces::body(std::size_t i) const {
-    return {particles_->position[i], particles_->velocity[i], particles_->spin[i], particles_->radius[i]};
+    const double radius = particles_->radius[i];
+    return {particles_->position[i], particles_->velocity[i], particles_->spin[i], radius,
+            sphereMass(world_->density, radius)};
 }
 
 void Forces::note(const Touch& touch, ContactClass kind, std::size_t particle, std::size_t other) {
@@ -62,7 +64,7 @@ Exerted Forces::exertedBy(ContactClass kind, const Touch& touch, const Response&
     Exerted exerted;
     exerted.force = response.force;
     if (!world_->energyBook) return exerted;
-    const Elastic elastic = elasticEnergy(world_->law.of(kind), response.parts.hysteretic, touch.reduced, history);
+    const Elastic elastic = elasticEnergy(world_->law.of(kind), response.parts, touch.overlap, touch.reduced, history);
     return {true, touch.normal, touch.overlap, touch.leverI, touch.leverJ, response.parts, elastic, 0, response.force};
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "host/model/normal_law.h"
+
 namespace vkdose::reference {
 
 namespace {
@@ -12,6 +14,38 @@ double plasticLimit(const ContactParameters& p, double reduced) {
 }
 
 }  // namespace
+
+namespace {
+
+NormalAnswer ludingAnswer(const ContactParameters& p, double overlap, double reduced, double& maxOverlap) {
+    const double force = normalForce(p, overlap, reduced, maxOverlap);
+    return {force, p.gamma, p.kc * overlap, p.kt, p.kr, p.kTo, p.gammaT, p.gammaR, p.gammaTo, false};
+}
+
+/// Hertz (1882): f = 4/3 E* sqrt(R*) delta^(3/2). The stiffness at this overlap and its damping set those of the other
+/// directions. The history tells only that the contact touches.
+NormalAnswer hertzAnswer(const ContactParameters& p, double overlap, double reduced, double mass, double& memory) {
+    memory = overlap;
+    const ContactParameters now = linearised(p, mass, reduced, overlap);
+    return {
+        2.0 / 3.0 * now.k1 * overlap, now.gamma, 0, now.kt, now.kr, now.kTo, now.gammaT, now.gammaR, now.gammaTo, true};
+}
+
+}  // namespace
+
+NormalAnswer normalAnswer(const ContactParameters& p, double overlap, double reduced, double mass, double& memory) {
+    return p.law == NormalLaw::HertzMindlin ? hertzAnswer(p, overlap, reduced, mass, memory)
+                                            : ludingAnswer(p, overlap, reduced, memory);
+}
+
+double storedEnergy(const ContactParameters& p, double overlap, double reduced, double force, double memory) {
+    if (p.law == NormalLaw::HertzMindlin) return 0.4 * force * overlap;
+    return force * force / (2 * unloadingStiffness(p, reduced, memory));
+}
+
+bool losesEnergy(NormalLaw law) {
+    return law != NormalLaw::HertzMindlin;
+}
 
 double unloadingStiffness(const ContactParameters& p, double reduced, double maxOverlap) {
     if (p.k2Max <= p.k1) return p.k1;

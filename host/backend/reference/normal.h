@@ -1,13 +1,33 @@
 #pragma once
-// Normal force: linear hysteretic adhesive law (physics.md, "Contact law"; Luding 2008, Granular Matter 10:235).
+// The laws of the normal force, and how stiff and damped they make a contact in the other directions.
 
 #include "host/model/material.h"
 
 namespace vkdose::reference {
 
-/// Force without damping, repulsive positive [N]. `overlap` delta > 0 and `reduced` 2 a_i a_j / (a_i + a_j) (wall:
-/// 2 a_i) in metres. `maxOverlap` is the history delta_max [m]: it grows while loading and is pulled back on the
-/// adhesive branch. Needs k1 <= k2Max; with k1 == k2Max the contact is a linear spring.
+/// What a law says of a contact.
+struct NormalAnswer {
+    double force;                    ///< along the normal, without damping, repulsive positive [N]
+    double gamma;                    ///< damping of the normal direction [kg/s]
+    double pull;                     ///< largest adhesive force at this overlap [N]
+    double kt, kr, kTo;              ///< stiffness of sliding, rolling, torsion [N/m]
+    double gammaT, gammaR, gammaTo;  ///< their damping [kg/s]
+    bool springAlone;                ///< while sliding, rolling or torsion slips (FrictionElement)
+};
+
+/// The answer of the law that `p` names. `overlap` delta > 0 and `reduced` 2 a_i a_j / (a_i + a_j) (wall: 2 a_i) in
+/// metres, `mass` the reduced mass [kg]. `memory` is the contact's history of one number [m], above 0 while it touches.
+NormalAnswer normalAnswer(const ContactParameters& p, double overlap, double reduced, double mass, double& memory);
+
+/// Energy that the normal direction gives back when the contact parts slowly [J]. `force` [N] is the answer's.
+double storedEnergy(const ContactParameters& p, double overlap, double reduced, double force, double memory);
+
+/// Whether the law itself loses energy. What an elastic law loses is an error of the time step.
+bool losesEnergy(NormalLaw law);
+
+/// Luding's law (physics.md, "Contact law"; Luding 2008, Granular Matter 10:235): force without damping, repulsive
+/// positive [N]. `overlap` and `reduced` as above. `maxOverlap` is the history delta_max [m]: it grows while loading
+/// and is pulled back on the adhesive branch. Needs k1 <= k2Max; with k1 == k2Max the contact is a linear spring.
 double normalForce(const ContactParameters& p, double overlap, double reduced, double& maxOverlap);
 
 /// Slope k_2 of the line on which a contact with this history unloads [N/m]. The contact gives back the energy

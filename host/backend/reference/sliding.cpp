@@ -23,7 +23,7 @@ Vec3 frictionForce(const FrictionElement& element, double bearing, const Vec3& n
 
     if (slips) *slips = true;
     const Vec3 force = trial * (limit / size);
-    spring = element.stiffness > 0 ? -(force + element.viscosity * v) / element.stiffness : Vec3(0);
+    spring = element.stiffness > 0 ? -(force + element.slipViscosity() * v) / element.stiffness : Vec3(0);
     return force;
 }
 

@@ -21,7 +21,7 @@ double torsionForce(const FrictionElement& element, double bearing, double v, do
 
     if (slips) *slips = true;
     const double force = std::copysign(limit, trial);
-    spring = element.stiffness > 0 ? -(force + element.viscosity * v) / element.stiffness : 0;
+    spring = element.stiffness > 0 ? -(force + element.slipViscosity() * v) / element.stiffness : 0;
     return force;
 }
 

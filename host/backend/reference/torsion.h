@@ -11,8 +11,8 @@ namespace vkdose::reference {
 double torsionVelocity(double lever, const Vec3& n, const Vec3& spin);
 
 /// Pseudo force that resists the twisting velocity `v` [N], at most friction * `bearing` (F_C [N]). The torque on i is
-/// lever * force * n. `spring` [m] is advanced by v dt. If the slider slips, the spring is set so that spring and
-/// dashpot together exert this largest force. `slips` tells whether the slider slips.
+/// lever * force * n. `spring` [m] is advanced by v dt. If the slider slips, the spring is set so that what bears
+/// the limit exerts this largest force. `slips` tells whether the slider slips.
 double torsionForce(const FrictionElement& element, double bearing, double v, double dt, double& spring,
                     bool* slips = nullptr);
 

@@ -9,6 +9,7 @@
 
 #include "host/backend/vulkan/split.h"
 #include "host/core/error.h"
+#include "host/model/normal_law.h"
 
 namespace vkdose {
 
@@ -25,6 +26,8 @@ static_assert(gpu::kParticleParticle == uint32_t(ContactClass::ParticleParticle)
               gpu::kParticleCoil == uint32_t(ContactClass::ParticleCoil));
 static_assert(gpu::kCoulombLuding == uint32_t(CoulombLimit::Luding) &&
               gpu::kCoulombAbsolute == uint32_t(CoulombLimit::Absolute));
+static_assert(gpu::kLawLuding == uint32_t(NormalLaw::Luding) &&
+              gpu::kLawHertzMindlin == uint32_t(NormalLaw::HertzMindlin));
 static_assert(gpu::kLeverFull == uint32_t(RollingLever::Full) && gpu::kLeverHalf == uint32_t(RollingLever::Half));
 
 double largestRadius(const Particles& p) {
@@ -33,8 +36,10 @@ double largestRadius(const Particles& p) {
 
 gpu::ContactParams packContact(const ContactParameters& c) {
     gpu::ContactParams p{};
-    p.normal = vec4(float(c.k1), float(c.k2Max), float(c.kc), float(c.plasticityDepth));
-    p.springs = vec4(float(c.kt), float(c.kr), float(c.kTo), 0.0f);
+    p.normal = c.law == NormalLaw::HertzMindlin
+                   ? vec4(float(c.modulus), float(kHertzDamping * c.dampingShare), 0.0f, 0.0f)
+                   : vec4(float(c.k1), float(c.k2Max), float(c.kc), float(c.plasticityDepth));
+    p.springs = vec4(float(c.kt), float(c.kr), float(c.kTo), float(c.law));
     p.friction = vec4(float(c.mu), float(c.muR), float(c.muTo), 0.0f);
     p.damping = vec4(float(c.gammaT), float(c.gammaR), float(c.gammaTo), float(c.gamma));
     return p;

@@ -146,9 +146,9 @@ std::vector<const char*> Passes::names() {
     return names;
 }
 
-std::array<std::uint32_t, 9> Passes::constants(const TableSizes& s) {
-    return {s.workgroup,  s.surfaces, s.surfaceKinds, s.kindSet,   s.members,
-            s.mostGroups, s.front,    s.bodies,       s.shapeKinds};
+std::array<std::uint32_t, 10> Passes::constants(const TableSizes& s) {
+    return {s.workgroup,  s.surfaces, s.surfaceKinds, s.kindSet,    s.members,
+            s.mostGroups, s.front,    s.bodies,       s.shapeKinds, s.laws};
 }
 
 void Passes::reset() {

@@ -53,6 +53,7 @@ void TableSizes::growTo(const TableSizes& other) {
                             &TableSizes::bodySlots, &TableSizes::bodies})
         this->*size = std::max(this->*size, other.*size);
     shapeKinds |= other.shapeKinds;
+    laws |= other.laws;
 }
 
 TableCounts::TableCounts(const TableSizes& s)
@@ -157,6 +158,7 @@ TableSizes tableSizes(const World& world, const Crowd& crowd, const gpu::Member&
         if (wall && member.surface[i].pointLow.w != 0) s.kindSet |= gpu::kEndingWalls;
         if (i < gpu::kUnrolledSurfaces) s.surfaceKinds |= kind << (4 * i);
     }
+    for (const gpu::ContactParams& contact : member.contact) s.laws |= 1U << std::uint32_t(contact.springs.w);
     s.energyBook = world.energyBook;
 
     const std::uint64_t most =

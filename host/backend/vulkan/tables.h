@@ -24,6 +24,7 @@ struct TableSizes {
     std::uint32_t kindSet = 0;       ///< bit k: there is a surface of kind k; and kEndingWalls
     std::uint32_t front = 0;         ///< the front wall among the surfaces, if there is one
     std::uint32_t bodies = 0;        ///< most bodies of a member
+    std::uint32_t laws = 0;          ///< bit k: contacts of some class follow the law k (NormalLaw)
     std::uint32_t shapeKinds = 0;    ///< bit k: a body has a shape of kind k (shaders/shared/geometry.h)
     // Of each member:
     std::uint32_t share = 0;  ///< slots for particles, a multiple of the workgroup

@@ -1,0 +1,38 @@
+#pragma once
+// What a law of the normal force says before a run: closed forms by which time steps, overlaps and impacts are judged.
+// physics.md has the laws themselves, host/backend/reference/normal.h computes them.
+
+#include "host/model/material.h"
+
+namespace vkdose {
+
+/// An elastic material.
+struct Elasticity {
+    double modulus = 0;  ///< Young's modulus E [Pa]
+    double poisson = 0;  ///< Poisson's ratio [-]
+};
+
+/// 2 sqrt(5/6): with the damping kHertzDamping * beta * sqrt(m* df/d delta) the restitution of an impact does not
+/// depend on its speed (Tsuji 1992). It is that of a linear contact with the share beta of critical damping, exactly
+/// (Antypov and Elliott 2011, EPL 94:50004).
+inline constexpr double kHertzDamping = 1.8257418583505538;
+
+/// Hertz-Mindlin between bodies of two materials: E*, and what follows from the restitution 0 < e <= 1 and from
+/// Poisson's ratios. Friction and the ratios of rolling and torsion are those of `rest`.
+ContactParameters hertzMindlin(const Elasticity& a, const Elasticity& b, double restitution,
+                               const ContactParameters& rest = {});
+
+/// Stiffness of the normal direction df/d delta of Hertz's law, 2 E* sqrt(R* delta) [N/m]; `reduced` is a* = 2 R* [m].
+double hertzStiffness(const ContactParameters& p, double reduced, double overlap);
+
+/// The linear springs and dashpots that a contact of the reduced mass `mass` [kg] acts like at this overlap [m].
+/// Luding's law is linear already, and is given back as it is.
+ContactParameters linearised(const ContactParameters& p, double mass, double reduced, double overlap);
+
+/// Overlap of a contact that has been loaded for the first time by `load` [N], in metres.
+double overlapUnder(const ContactParameters& p, double reduced, double load);
+
+/// Largest overlap of a first impact at `speed` [m/s] without damping and friction, in metres. Luding's law: on k1.
+double overlapOfImpact(const ContactParameters& p, double mass, double reduced, double speed);
+
+}  // namespace vkdose

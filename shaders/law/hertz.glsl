@@ -1,0 +1,22 @@
+// Elastic spheres (Hertz 1882; Mindlin 1949): the stiffness at the overlap sets that of the other directions, and the
+// damping of all (Tsuji 1992). physics.md, "Hertz and Mindlin".
+#ifndef VKDOSE_LAW_HERTZ_GLSL
+#define VKDOSE_LAW_HERTZ_GLSL
+
+#include "law/answer.glsl"
+
+/// Stiffness of the normal direction 2 E* sqrt(R* overlap) [N/m]; `reduced` is 2 R*.
+float hertzStiffness(ContactParams p, float overlap, float reduced) {
+    return 2.0 * p.normal.x * sqrt(0.5 * reduced * overlap);
+}
+
+/// `mass` is the reduced one [kg]. The memory tells only that the contact touches.
+NormalAnswer hertzAnswer(ContactParams p, float overlap, float reduced, float mass, inout float memory) {
+    memory = overlap;
+    float stiffness = hertzStiffness(p, overlap, reduced);
+    float damping = p.normal.y * sqrt(stiffness * mass);
+    return NormalAnswer(2.0 / 3.0 * stiffness * overlap, damping, 0.0, stiffness * p.springs.xyz,
+                        damping * p.damping.xyz, vec3(0.0));
+}
+
+#endif
