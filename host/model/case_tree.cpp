@@ -57,8 +57,9 @@ void dropRivals(Node& lower, const Node& upper, std::string_view path) {
         const Node* winner = upper.child(key->name);
         if (key->losers.empty() || winner == nullptr) continue;
         const Node* before = lower.child(key->name);
-        const bool choice = key->type == Key::Type::Word;
-        if (choice && (before == nullptr || before->string == winner->string)) continue;
+        const bool choice = key->type == Key::Type::Word, usual = key->standard.kind == Default::Kind::Value;
+        const std::string_view was = before != nullptr ? before->string : usual ? key->standard.text : "";
+        if (choice && (was.empty() || was == winner->string)) continue;
         for (const std::string& loser : wordsOf(key->losers)) {
             if (loser == "*")
                 lower.children.clear();

@@ -17,7 +17,8 @@ constexpr Key kContactAlone[] = {
     word("law", "luding hertz-mindlin", "luding",
          "the law of the normal force. `\"luding\"`: linear, plastic and adhesive, with stiffnesses. "
          "`\"hertz-mindlin\"`: elastic spheres without adhesion, with the moduli of the materials; its contacts get "
-         "stiffer with the overlap, and the time step is right up to `max_overlap_ratio`"),
+         "stiffer with the overlap, and the time step is right up to `max_overlap_ratio`")
+        .replacing("*"),
     word("coulomb_limit", "luding absolute", "luding", "the force that friction is a fraction of"),
     word("rolling_lever", "full half", "full", "the lever of rolling and torsion"),
     number(

@@ -70,7 +70,7 @@ struct Key {
 
     /// Returns this key with the addition that, in an upper layer (a case over its base, --set), it removes the keys
     /// `others` of the same table from the lower layer. A word removes them only if it differs from the lower layer's
-    /// word, because they belong to the old choice.
+    /// word, or from the default where there is none, because they belong to the old choice.
     constexpr Key replacing(std::string_view others) const {
         Key key = *this;
         key.losers = others;

@@ -78,6 +78,21 @@ TEST_CASE("the time step of an elastic case grows as the largest overlap that it
     CHECK(loadText(withContacts(shallow)).world.timeStep == Approx(2 * usual).epsilon(0.02));
 }
 
+TEST_CASE("a case that chooses another law than its base leaves the contacts of the base behind") {
+    const Folder folder;
+    folder.write("luding.toml", kGoodCase);
+    folder.write("elastic.toml", withContacts(kElastic));
+    const Case c = loadCase(folder.write("over.toml", "base = \"luding.toml\"\n" + kElastic));
+    CHECK(c.dosingLaw.classes[1].modulus == loadText(withContacts(kElastic)).dosingLaw.classes[1].modulus);
+    const std::string contacts = kGoodCase.substr(kGoodCase.find("[contact]"));
+    const std::string plain =
+        replaced(contacts.substr(0, contacts.find("[canister]")), "[contact]\n", "[contact]\nlaw = \"luding\"\n");
+    const Case back = loadCase(folder.write("back.toml", "base = \"elastic.toml\"\n" + plain));
+    CHECK(back.dosingLaw.classes[0].k2Max == 2000);
+    CHECK_THROWS_WITH(loadCase(folder / "luding.toml", {"contact.law=hertz-mindlin"}),
+                      Catch::Contains("contact.youngs_modulus: is missing") && Catch::Contains("contact.friction"));
+}
+
 TEST_CASE("keys of another law, and figures of no material, are refused by name") {
     const auto with = [](const std::string& line) {
         return withContacts(replaced(kElastic, "restitution = 0.6\n", "restitution = 0.6\n" + line + "\n"));
