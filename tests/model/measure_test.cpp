@@ -43,8 +43,8 @@ velocity = [0, -0.01, 0]
 
 struct Read {
     Folder folder;
-    Case load(const std::string& measures) { return loadCase(folder.write("case.toml", withMeasures(measures))); }
-    std::string fault(const std::string& text) { return faultOf(folder.write("case.toml", text)); }
+    Case load(const std::string& measures) const { return loadCase(folder.write("case.toml", withMeasures(measures))); }
+    std::string fault(const std::string& text) const { return faultOf(folder.write("case.toml", text)); }
 };
 
 const std::string kAll = R"([[measure]]

@@ -14,8 +14,6 @@ using test::near;
 
 namespace {
 
-constexpr double kRadius = 1.25e-3;
-
 /// Two spheres that meet, or one that hits a wall.
 struct Collision {
     double ratio = 0;     ///< of the speeds after and before

@@ -51,7 +51,7 @@ inline std::string drawn(const Sandbox& box, const report::Json& data, const std
     std::string html = report::page(data);
     allow(html, script);
     html.insert(html.rfind("</body>"), "<script>" + script + "</script>\n");
-    const std::string dom = opened(box, html, flags);
+    std::string dom = opened(box, html, flags);
     CHECK(dom.find("data-refused") == std::string::npos);
     return dom;
 }

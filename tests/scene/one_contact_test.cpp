@@ -101,7 +101,7 @@ TEST_CASE("a sphere meets every surface") {
     const double a = single(1.25e-3), s = std::sqrt(0.5);
     struct Shot {
         const char* name;
-        geometry::Surface surface;
+        geometry::Surface surface = geometry::Plane{Vec3(0), Vec3(0, 1, 0)};
         Vec3 target, direction;
     };
     const double rho = 0.0115;

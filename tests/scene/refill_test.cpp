@@ -135,11 +135,11 @@ TEST_CASE("refill: a restart before or after it goes on with the same bits") {
 
 TEST_CASE("refill: one member of an ensemble is refilled, the other is not") {
     const RuledWorld w = world();
-    const auto single_ = gpu();
-    single_->load(w, someWait());
-    single_->advance(kBefore, kRate);
-    single_->addParticles(kFirst, places());
-    single_->advance(2003, kRate);
+    const auto alone = gpu();
+    alone->load(w, someWait());
+    alone->advance(kBefore, kRate);
+    alone->addParticles(kFirst, places());
+    alone->advance(2003, kRate);
     auto members = makeVulkanEnsemble(VulkanOptions{}, 2);
     std::array<Particles, 2> ends;
     std::vector<std::thread> threads;
@@ -153,6 +153,6 @@ TEST_CASE("refill: one member of an ensemble is refilled, the other is not") {
             members[m].reset();
         });
     for (std::thread& t : threads) t.join();
-    CHECK(sameBits(ends[1], single_->particles()));
+    CHECK(sameBits(ends[1], alone->particles()));
     CHECK(ends[0].status[kFirst] == Status::Waiting);
 }
