@@ -7,9 +7,9 @@
 namespace vkdose::reference {
 
 struct FrictionElement {
-    double stiffness;  ///< [N/m]
-    double viscosity;  ///< [kg/s]
-    double friction;   ///< mu [-]; 0 switches the element off
+    double stiffness = 0;  ///< [N/m]
+    double viscosity = 0;  ///< [kg/s]
+    double friction = 0;   ///< mu [-]; 0 switches the element off
     /// What bears the limit while the slider slips: the spring alone, or spring and dashpot together.
     bool springAlone = false;
     double slipViscosity() const { return springAlone ? 0 : viscosity; }
