@@ -2,6 +2,7 @@
 #ifndef VKDOSE_PASS_BODY_GLSL
 #define VKDOSE_PASS_BODY_GLSL
 
+#include "law/mass.glsl"
 #include "law/surface.glsl"
 
 struct Body {
@@ -20,13 +21,6 @@ Body readBody(uint i) {
 float reducedAtCoil(CoilParams coil, float a) {
     float wire = coil.radius.z;
     return coil.motion.w != 0.0 ? 2.0 * a * wire / (a + wire) : 2.0 * a;
-}
-
-/// Mass of a sphere of this radius [kg], and reduced mass of two.
-float sphereMass(float density, float radius) { return density * (4.0 / 3.0 * 3.14159265) * radius * radius * radius; }
-float reducedMass(float density, float a, float b) {
-    float ma = sphereMass(density, a), mb = sphereMass(density, b);
-    return ma * mb / (ma + mb);
 }
 
 #endif

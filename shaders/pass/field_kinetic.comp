@@ -4,6 +4,7 @@
 // Reads the source half of the state, weights, the grid; writes the grid.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/buffers.glsl"
+#include "law/mass.glsl"
 #include "pass/tile.glsl"
 
 vec3 mean;            // velocity of the field here
@@ -11,7 +12,7 @@ vec3 squares, mixed;  // xx, yy, zz; yz, zx, xy
 
 void add(uint i) {
     float r = state[stateIndex(source, kPosition, i)].w;
-    float m = gravity().w * (4.0 / 3.0 * 3.14159265358979) * r * r * r;
+    float m = sphereMass(gravity().w, r);
     vec3 stray = state[stateIndex(source, kVelocity, i)].xyz - mean;
     float w = m * weights[particleWeightIndex(i)] * kernel(here - offsetOf(source, i));
     squares += w * stray * stray;

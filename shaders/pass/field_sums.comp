@@ -4,6 +4,7 @@
 // half of the state, links, entries, forces, branches, weights; writes the grid.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/buffers.glsl"
+#include "law/mass.glsl"
 #include "pass/tile.glsl"
 
 vec4 carriedMass;  // density, momentum
@@ -38,7 +39,7 @@ void addBranches(uint i) {
 
 void add(uint i) {
     float r = state[stateIndex(source, kPosition, i)].w;
-    float m = gravity().w * (4.0 / 3.0 * 3.14159265358979) * r * r * r;
+    float m = sphereMass(gravity().w, r);
     vec3 velocity = state[stateIndex(source, kVelocity, i)].xyz;
     float w = weights[particleWeightIndex(i)] * kernel(here - offsetOf(source, i));
     carriedMass += w * m * vec4(1.0, velocity);

@@ -7,6 +7,7 @@
 // where their slots are.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/buffers.glsl"
+#include "law/mass.glsl"
 #include "pass/slack.glsl"
 #ifdef ENERGY_BOOK
 #include "pass/body.glsl"
@@ -77,7 +78,7 @@ void main() {
 
     // Leapfrog. The loaded velocity belongs to t = 0, so the opening kick is half a step.
     float dt = numbers.x, r = abs(position.w);
-    float mass = pull.w * (4.0 / 3.0 * 3.14159265358979) * r * r * r;
+    float mass = sphereMass(pull.w, r);
     float kick = opening() ? 0.5 * dt : dt;
     vec3 velocity = velocity4.xyz + kick * (force / mass + pull.xyz);
     vec3 spin = spin4.xyz + kick / (0.4 * mass * r * r) * torque;

@@ -4,6 +4,7 @@
 // and empties the accumulators: the largest overlap in the state, and the torques. A tree fixes the order of every sum.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/buffers.glsl"
+#include "law/mass.glsl"
 
 shared uvec4 count[gl_WorkGroupSize.x];
 shared vec4 mass[gl_WorkGroupSize.x];
@@ -18,7 +19,7 @@ void main() {
     vec4 spin = state[stateIndex(source, kSpin, i)];
     uint status = uint(spin.w);
     float r = abs(position.w);
-    float m = member.gravity.w * (4.0 / 3.0 * 3.14159265358979) * r * r * r;
+    float m = sphereMass(member.gravity.w, r);
 
     uint region = kEmpty;
     if (status == kStatusActive) region = position.z > member.domainLow.w ? kRegionThroat : kRegionCanister;

@@ -7,6 +7,7 @@
 #extension GL_GOOGLE_include_directive : require
 #define ENERGY_BOOK
 #include "shared/buffers.glsl"
+#include "law/mass.glsl"
 
 shared EnergyRecord record[gl_WorkGroupSize.x];
 
@@ -27,7 +28,7 @@ void main() {
     }
     float r = abs(position.w);
     bool moving = uint(spin.w) == kStatusActive;
-    float m = moving ? gravity.w * (4.0 / 3.0 * 3.14159265358979) * r * r * r : 0.0;
+    float m = moving ? sphereMass(gravity.w, r) : 0.0;
     float inertia = 0.4 * m * r * r;
 
     uvec4 range = rangesAt(rowRangeIndex(i));

@@ -79,13 +79,19 @@ Response contactResponse(const ContactLaw& law, ContactClass kind, const Touch& 
     response.torqueI = glm::cross(touch.leverI, tangential) + response.couple;
     response.torqueJ = glm::cross(touch.leverJ, -tangential) - response.couple;
     const bool adhesive = onAdhesiveBranch(p, touch.overlap, answer.force);
-    response.parts = {answer.force,  -answer.gamma * normalVelocity,
-                      tangential,    rollingCouple,
-                      torsionCouple, adhesive,
-                      slides,        rolls,
-                      twists,        !losesEnergy(p.law),
-                      answer.kt,     answer.kr,
-                      answer.kTo};
+    response.parts = {.hysteretic = answer.force,
+                      .damping = -answer.gamma * normalVelocity,
+                      .sliding = tangential,
+                      .rolling = rollingCouple,
+                      .torsion = torsionCouple,
+                      .adhesive = adhesive,
+                      .slides = slides,
+                      .rolls = rolls,
+                      .twists = twists,
+                      .elastic = !losesEnergy(p.law),
+                      .kt = answer.kt,
+                      .kr = answer.kr,
+                      .kTo = answer.kTo};
     return response;
 }
 
