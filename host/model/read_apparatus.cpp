@@ -217,10 +217,7 @@ void readSchedule(CaseReader& reader, Section& root, Case& c) {
 
 void readTime(CaseReader& reader, Section& root, Case& c) {
     Section& time = root.table("time");
-    if (time.isString("step_s"))
-        time.onlyWord("step_s");
-    else if (time.has("step_s"))
-        c.world.timeStep = time.number("step_s");
+    // Before the step that it leads to, as in the resolved case: a case that has both is read to the same text.
     if (time.has("steps_per_contact")) {
         c.stepsPerContact = time.number("steps_per_contact");
         if (c.stepsPerContact < kFewestSteps)
@@ -228,6 +225,10 @@ void readTime(CaseReader& reader, Section& root, Case& c) {
                          "is unstable: a sphere with many contacts moves twice as fast as one",
                          fmt::format("give at least {}", kFewestSteps));
     }
+    if (time.isString("step_s"))
+        time.onlyWord("step_s");
+    else if (time.has("step_s"))
+        c.world.timeStep = time.number("step_s");
     if (time.has("skin_mm")) c.world.skin = time.number("skin_mm");
     time.know("step_s");
     time.know("steps_per_contact");
