@@ -71,6 +71,7 @@ TEST_CASE("completion: zsh and fish get every command and option") {
         const std::string script = box.vkdose(std::string("completion ") + shell).out;
         const bool there = std::system((std::string("command -v ") + shell + " > /dev/null 2>&1").c_str()) == 0;
         box.write("script", script);
+        if (!there) WARN("skipped: " << shell << " is not installed (tools/packages-shells)");
         if (there) CHECK(std::system((std::string(shell) + " -n '" + (box / "script").string() + "'").c_str()) == 0);
         for (const std::string& command : commands(box)) CHECK_THAT(script, Catch::Contains(command));
         const std::string dashes = shell == std::string("zsh") ? "--" : "-l ";
@@ -112,5 +113,5 @@ TEST_CASE("man: every page reads without a complaint and names its options") {
         CHECK(std::system(command.c_str()) == 0);
         CHECK(readText(box / "complaints.txt") == "");
     }
-    if (!man) WARN("skipped: man is not installed");
+    if (!man) WARN("skipped: man is not installed (tools/packages-shells)");
 }
