@@ -1,6 +1,10 @@
 // The places where a body touches a sphere, and which of them are distinct features (geometry/features.h: `distinct`).
-// The lists are variables of the invocation: arrays in arguments would be copied. No loop has a constant bound: drivers
-// would write such a one out, 32 times over.
+// The lists are variables of the invocation: arrays in arguments would be copied. No loop over many places has a
+// constant bound: drivers would write such a one out, 32 times over.
+//
+// A mesh, or the blade of a screw, may be touched in many places, any other body in a few. The few stand in a short
+// list, deepest first, over which loops have constant bounds: drivers write them out and keep the list in registers.
+// Software devices look into other arrays lane by lane, and make every loop once, even if no invocation needs it.
 #ifndef VKDOSE_LAW_PLACES_GLSL
 #define VKDOSE_LAW_PLACES_GLSL
 
@@ -32,8 +36,32 @@ void clearPlaces() {
     placesLost = false;
 }
 
+const uint kManyPlaces = (1u << kShapeMesh) | (1u << kShapeFlight);  // kinds of shapes
+bool fewPlaces() { return (SHAPE_KINDS & kManyPlaces) == 0u; }
+
+const uint kFewPlaces = 4u;
+BodyFeature few[kFewPlaces];
+
+/// Puts a place among the few.
+void addToFew(BodyFeature place) {
+    for (uint k = 0u; k < kFewPlaces; ++k) {
+        BodyFeature other = few[k];
+        bool first = place.depth > other.depth || (place.depth == other.depth && place.tag < other.tag);
+        if (k == placeCount || (k < placeCount && first)) {
+            few[k] = place;
+            place = other;
+        }
+    }
+    placesLost = placesLost || placeCount == kFewPlaces;
+    placeCount = min(placeCount + 1u, kFewPlaces);
+}
+
 /// Lists a place that overlaps by `depth` > 0.
 void addPlace(float depth, vec3 direction, uint tag) {
+    if (fewPlaces()) {
+        addToFew(BodyFeature(depth, direction, tag));
+        return;
+    }
     if (placeCount == kMostPlaces) {
         placesLost = true;
         return;
@@ -69,9 +97,62 @@ uint deepestLeft() {
     return best;
 }
 
+// The number of the feature's deepest place, or kCovered. That of a feature which another joined stays: among four
+// places nothing is left to join then.
+uint featureOfFew[kFewPlaces];
+uint aliveFew;  // features that no other has joined, a bit each
+
+/// Finds the feature of a place; those of the places before it are found.
+void judge(uint n, float radius) {
+    uint touching = 0u, joins = 0u;  // features, a bit each
+    bool hidden = false;
+    for (uint q = 0u; q < n; ++q) {
+        bool near = dot(few[q].direction, few[n].direction) >= kOneFeature;
+        bool under = covered(few[q], vec4(few[n].direction, few[n].depth), radius);
+        if (near && featureOfFew[q] != kCovered) touching |= 1u << featureOfFew[q];
+        hidden = hidden || (under && (aliveFew >> q & 1u) != 0u);
+    }
+    bool counts = n < placeCount && (touching != 0u || !hidden);
+    uint mine = touching != 0u ? uint(findLSB(touching)) : n;
+    for (uint q = 0u; q < n; ++q) {
+        bool asDeep = few[q].depth - few[n].depth <= kSameDepth * radius;
+        if (counts && q > mine && (touching >> q & 1u) != 0u && asDeep) joins |= 1u << q;
+    }
+    featureOfFew[n] = counts ? mine : kCovered;
+    aliveFew &= ~joins;
+    if (counts && touching == 0u) aliveFew |= 1u << n;
+}
+
+/// Puts the feature of number n, if there is one, behind `found` others.
+void answer(uint n, inout uint found) {
+    bool counts = (aliveFew >> n & 1u) != 0u;
+    for (uint f = 0u; f <= n; ++f)
+        if (counts && f == found) features[f] = few[n];
+    if (counts) ++found;
+}
+
+/// distinctFeatures where places are few. Written out, because drivers do not unroll loops in loops.
+uint distinctFew(float radius) {
+    aliveFew = 0u;
+    judge(0u, radius);
+    judge(1u, radius);
+    judge(2u, radius);
+    judge(3u, radius);
+    uint found = 0u;
+    answer(0u, found);
+    answer(1u, found);
+    answer(2u, found);
+    answer(3u, found);
+    return found;
+}
+
 /// Finds the distinct ones among the places, deepest first, ties by tag, and puts the first kMaxBodyFeatures into
 /// `features`. Gives their number. If that is more than kMaxBodyFeatures, some could not be told.
 uint distinctFeatures(float radius) {
+    if (fewPlaces()) {
+        uint count = distinctFew(radius);
+        return placesLost ? kMaxBodyFeatures + 1u : count;
+    }
     uint made = 0u, alive = 0u;  // features; a bit for each that no other has joined
     uint n = 0u;
     for (; n < placeCount; ++n) {

@@ -15,48 +15,50 @@
 
 const float kFarthest = 0.70710678;  // cosine of 45 degrees
 
-/// The contacts of the last step.
-History old[kMaxBodyTouches];
+/// Of the last step: the places that were touched, a bit each, and the direction of each. A contact keeps its place.
+uint touched;
 vec3 oldDirection[kMaxBodyTouches];
-#ifdef ENERGY_BOOK
-Exerted oldExerted[kMaxBodyTouches];
-#endif
-/// The one that each place goes on with; kEmpty: none.
-uint goesOn[kMaxBodyTouches];
 
 void recall(uint slot) {
+    touched = 0u;
     for (uint k = 0u; k < kMaxBodyTouches; ++k) {
-        old[k] = History(historyAt(placeHistoryIndex(slot, k, 0u)), historyAt(placeHistoryIndex(slot, k, 1u)));
-        oldDirection[k] = historyAt(placeHistoryIndex(slot, k, 2u)).xyz;
-        goesOn[k] = kEmpty;
-#ifdef ENERGY_BOOK
-        oldExerted[k] = Exerted(historyAt(placeHistoryIndex(slot, k, 3u)), historyAt(placeHistoryIndex(slot, k, 4u)),
-                                historyAt(placeHistoryIndex(slot, k, 5u)));
-#endif
+        vec4 direction = historyAt(placeHistoryIndex(slot, k, 2u));
+        oldDirection[k] = direction.xyz;
+        if (direction.w > 0.0) touched |= 1u << k;
     }
 }
 
-/// The nearest pairs come first, ties by the index now, then by that before.
-void match(uint count) {
-    uint takenNow = 0u, takenBefore = 0u;
-    for (uint round = 0u; round < count; ++round) {
+/// The place of each feature, four bits each; kNowhere if no contact of the last step goes on in it. The nearest pairs
+/// come first, ties by the feature, then by the place.
+uint places;
+const uint kNowhere = 15u;
+uint placeOf(uint n) { return places >> (4u * n) & 15u; }
+
+/// Gives the places of the last step with which no feature goes on, a bit each.
+uint match(uint count) {
+    uint left = touched, taken = 0u;
+    places = 0xffffu;
+    for (uint round = 0u; round < min(count, bitCount(touched)); ++round) {
         float nearest = kFarthest;
-        uint now = kEmpty, before = kEmpty;
-        for (uint n = 0u; n < count; ++n)
-            for (uint o = 0u; o < kMaxBodyTouches; ++o) {
-                float cosine = dot(features[n].direction, oldDirection[o]);
-                bool free = (takenNow >> n & 1u) == 0u && (takenBefore >> o & 1u) == 0u && old[o].slidingMax.w > 0.0;
-                if (free && cosine > nearest) {
+        uint now = kEmpty, before = 0u;
+        for (uint n = 0u; n < count; ++n) {
+            vec3 direction = features[n].direction;
+            bool free = (taken >> n & 1u) == 0u;
+            for (uint k = 0u; k < kMaxBodyTouches; ++k) {
+                float cosine = dot(direction, oldDirection[k]);
+                if (free && (left >> k & 1u) != 0u && cosine > nearest) {
                     nearest = cosine;
                     now = n;
-                    before = o;
+                    before = k;
                 }
             }
-        if (now == kEmpty) return;
-        goesOn[now] = before;
-        takenNow |= 1u << now;
-        takenBefore |= 1u << before;
+        }
+        if (now == kEmpty) break;
+        places ^= (kNowhere ^ before) << (4u * now);
+        taken |= 1u << now;
+        left &= ~(1u << before);
     }
+    return left;
 }
 
 /// The vector turned as the unit vector `from` must be to become `to`, on the shortest way.
@@ -65,6 +67,17 @@ vec3 turnedAlong(vec3 v, vec3 from, vec3 to) {
     float cosine = dot(from, to);
     return cosine * v + cross(axis, v) + axis * (dot(axis, v) / (1.0 + cosine));
 }
+
+History historyOfPlace(uint slot, uint place) {
+    return History(historyAt(placeHistoryIndex(slot, place, 0u)), historyAt(placeHistoryIndex(slot, place, 1u)));
+}
+
+#ifdef ENERGY_BOOK
+Exerted exertedAt(uint slot, uint place) {
+    return Exerted(historyAt(placeHistoryIndex(slot, place, 3u)), historyAt(placeHistoryIndex(slot, place, 4u)),
+                   historyAt(placeHistoryIndex(slot, place, 5u)));
+}
+#endif
 
 void load(uint body, uint i, uint number, float value) {
     coilTorques[bodyLoadIndex(kBodyLoads * body + number, i)] += value;
@@ -95,23 +108,36 @@ void main() {
         count = kMaxBodyTouches;
     }
     recall(slot);
-    match(count);
+    uint gone = match(count), inUse = touched & ~gone;
 
     vec3 force = vec3(0.0), torque = vec3(0.0), moment = vec3(0.0);
     float overlap = 0.0, work = 0.0, booked = 0.0;
 #ifdef ENERGY_BOOK
     WallMotion moving = WallMotion(motion.velocity.xyz, motion.spin.xyz, motion.centre.xyz);
-    uint parted = (1u << kMaxBodyTouches) - 1u;  // contacts of the last step with which no place goes on
     openSlotBook();
 #endif
-    for (uint k = 0u; k < kMaxBodyTouches; ++k) {
-        bool touching = k < count, known = touching && goesOn[k] != kEmpty;
+    for (; gone != 0u; gone &= gone - 1u) {
+        uint place = uint(findLSB(gone));
+#ifdef ENERGY_BOOK
+        partPlace(law, springDt, moving, me, exertedAt(slot, place), historyOfPlace(slot, place));
+#endif
+        history[placeHistoryIndex(slot, place, 0u)] = vec4(0.0);
+        history[placeHistoryIndex(slot, place, 1u)] = vec4(0.0);
+        history[placeHistoryIndex(slot, place, 2u)] = vec4(0.0);
+        writeForce(forceOfPlace(slot, place), vec4(0.0));
+    }
+    for (uint k = 0u; k < count; ++k) {
+        uint place = placeOf(k);
+        bool known = place != kNowhere;
+        if (!known) place = uint(findLSB(~inUse));
+        inUse |= 1u << place;
         BodyFeature feature = features[k];
         vec3 normal = directionToWorld(motion, feature.direction);
         History h = History(vec4(0.0), vec4(0.0));
+        vec3 was = historyAt(placeHistoryIndex(slot, place, 2u)).xyz;
         if (known) {
-            h = old[goesOn[k]];
-            vec3 from = directionToWorld(motion, oldDirection[goesOn[k]]);
+            h = historyOfPlace(slot, place);
+            vec3 from = directionToWorld(motion, was);
             h.slidingMax.xyz = turnedAlong(h.slidingMax.xyz, from, normal);
             h.rollingTorsion.xyz = turnedAlong(h.rollingTorsion.xyz, from, normal);
         }
@@ -120,38 +146,27 @@ void main() {
         Response r;
 #ifdef ENERGY_BOOK
         History before = h;
+        Exerted exerted = kNothing;
+        if (known) exerted = exertedAt(slot, place);
 #endif
-        WallForce f = WallForce(vec3(0.0), vec3(0.0), vec3(0.0));
-        if (touching)
-            f = meetWall(me, Overlap(feature.depth, normal), 2.0 * radius, law, chosen, density, springDt, wall,
-                         motion.spin.xyz, h, r);
-        history[placeHistoryIndex(slot, k, 0u)] = h.slidingMax;
-        history[placeHistoryIndex(slot, k, 1u)] = h.rollingTorsion;
-        history[placeHistoryIndex(slot, k, 2u)] = vec4(touching ? feature.direction : vec3(0.0), 0.0);
+        WallForce f = meetWall(me, Overlap(feature.depth, normal), 2.0 * radius, law, chosen, density, springDt, wall,
+                               motion.spin.xyz, h, r);
+        history[placeHistoryIndex(slot, place, 0u)] = h.slidingMax;
+        history[placeHistoryIndex(slot, place, 1u)] = h.rollingTorsion;
+        history[placeHistoryIndex(slot, place, 2u)] = vec4(feature.direction, float(place + 1u));
         // The host asks for single contacts, and `field_branches` for their overlaps.
-        writeForce(forceOfPlace(slot, k), vec4(f.force, touching ? feature.depth : 0.0));
+        writeForce(forceOfPlace(slot, place), vec4(f.force, feature.depth));
 #ifdef ENERGY_BOOK
-        Exerted was = kNothing;
-        if (known) {
-            was = oldExerted[goesOn[k]];
-            parted &= ~(1u << goesOn[k]);
-        }
-        if (touching)
-            bookPlace(law, springDt, moving, slot, k, me, Overlap(feature.depth, normal), r, known, was, before, h);
+        bookPlace(law, springDt, moving, slot, place, me, Overlap(feature.depth, normal), r, known, exerted, before, h);
 #endif
         force += f.force;
         torque += f.torque;
-        if (touching) {
-            moment += cross(point, f.force) + f.couple;
-            work += springDt * (dot(f.force, wall) + dot(f.couple, motion.spin.xyz));
-            overlap = max(overlap, feature.depth / radius);
-        }
+        moment += cross(point, f.force) + f.couple;
+        work += springDt * (dot(f.force, wall) + dot(f.couple, motion.spin.xyz));
+        overlap = max(overlap, feature.depth / radius);
     }
     writeForce(slot, vec4(force, overlap));
 #ifdef ENERGY_BOOK
-    for (uint k = 0u; k < kMaxBodyTouches; ++k)
-        if ((parted >> k & 1u) != 0u && old[k].slidingMax.w > 0.0)
-            partPlace(law, springDt, moving, me, oldExerted[k], old[k]);
     writeBook(slot, slotBook);
     booked = slotBook.flow.w;
 #endif

@@ -48,8 +48,8 @@ ROW(ranges, slotRangeIndex, particles, particles)
 ROW(ranges, bodyRangeIndex, 2 * particles, bodied * particles)
 // Of each pair or surface slot: the two vectors of History (law/contact.glsl), zero while the two bodies do not touch.
 // With the energy book, then the vectors of Exerted (law/energy.glsl), each for all slots. Then of each body slot, for
-// each place that is touched: History, the direction from the body to the particle in the frame of the body, and with
-// the energy book Exerted.
+// each of its places: History, the direction from the body to the particle in the frame of the body with the place's
+// number (from 1; 0: not touched), and with the energy book Exerted.
 VIEWED(3, history, vec4, historyParts * springSlots + bodyHistory * bodySlots, the contact history)
 ROWS(history, springIndex, 0, springSlots, 2)
 ROWS(history, exertedIndex, 2 * springSlots, historyParts - 2, springSlots)

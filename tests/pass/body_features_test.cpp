@@ -21,6 +21,12 @@ using namespace vkdose::test;
 
 namespace {
 
+/// A unit vector that leans from z by the first angle towards the second one around z, both in degrees.
+Vec3 leaning(double from, double around) {
+    const double t = from * kPi / 180, a = around * kPi / 180;
+    return {std::sin(t) * std::cos(a), std::sin(t) * std::sin(a), std::cos(t)};
+}
+
 /// A sphere's place as the device gets it.
 Vec3 rounded(const Vec3& v) {
     const Split3 s(v);
@@ -311,6 +317,11 @@ TEST_CASE("the device joins the shapes of a body as the host does, and finds cur
          1.8e-3,
          Vec3(-7e-3),
          Vec3(7e-3, 7e-3, 4e-3)},
+        {"two walls that are nearly one, and a third",
+         {Plane{{0, 0, 0}, {0, 0, 1}}, Plane{{0, 0, 0}, leaning(10, 90)}, Plane{{0, 0, 0}, {1, 0, 0}}},
+         1e-3,
+         Vec3(0.8e-3, -1e-3, 0.8e-3),
+         Vec3(1.1e-3, 1e-3, 1.1e-3)},
     };
     Narrow narrow;
     for (const Setup& setup : setups) check(narrow, setup, 2000, 1000);
@@ -336,6 +347,23 @@ TEST_CASE("the device joins a ring of facets around a sphere as the host does") 
     };
     Narrow narrow;
     for (const Setup& setup : setups) check(narrow, setup, 500, 200);
+}
+
+TEST_CASE("the device joins walls that only a wall between them makes one") {
+    // A sphere on the axis is as deep in all of them. Those across are two features until a neighbour joins them.
+    std::vector<Shape> pit;
+    for (const double around : {0.0, 180.0, 90.0, 270.0}) pit.emplace_back(Plane{{0, 0, 0}, leaning(13, around)});
+    const Vec3 centre(0, 0, 1e-3);
+    Narrow narrow;
+    const auto count = [&](std::size_t walls) {
+        const std::vector<Shape> shapes(pit.begin(), pit.begin() + std::ptrdiff_t(walls));
+        const auto found = narrow.ask(packBodies({bodyOf(shapes)}, 1e-3), {Pose{}}, {{centre, 1e-3, 0}}).front().count;
+        CHECK(found == touched(shapes, centre, 1e-3).size());
+        return found;
+    };
+    CHECK(count(2) == 2);
+    CHECK(count(3) == 1);
+    CHECK(count(4) == 1);
 }
 
 TEST_CASE("the device tells when a sphere touches more places than it computes") {

@@ -1,6 +1,7 @@
 #include "host/backend/vulkan/snapshot.h"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
 #include "host/backend/vulkan/pack.h"
@@ -97,12 +98,17 @@ BodySlots bodySlotsOf(const Passes& passes, std::uint32_t member, std::size_t pa
             slots.history.resize(slots.history.size() + t.bodyHistory(), vec4(0.0f));
             touches = 0;
         }
-        if (touches == gpu::kMaxBodyTouches) throw RecordError("a body is touched in too many places");
-        vec4* place = &slots.history[slots.history.size() - t.bodyHistory() + parts * touches++];
+        if (touches++ == gpu::kMaxBodyTouches) throw RecordError("a body is touched in too many places");
+        // The vector of the direction tells the place, counted from 1; of older records the order does.
+        const float stored = springs[4 * (parts * c + 2) + 3], place = stored == 0 ? float(touches) : stored;
+        if (!(place >= float(touches) && place <= float(gpu::kMaxBodyTouches) && place == std::floor(place)))
+            throw RecordError("body_history names a place that there is not, or not in order");
+        vec4* vectors = &slots.history[slots.history.size() - t.bodyHistory() + parts * (std::size_t(place) - 1)];
         for (std::size_t part = 0; part < parts; ++part) {
             const float* v = &springs[4 * (parts * c + part)];
-            place[part] = vec4(v[0], v[1], v[2], v[3]);
+            vectors[part] = vec4(v[0], v[1], v[2], v[3]);
         }
+        vectors[2].w = place;
     }
     return slots;
 }
