@@ -14,11 +14,13 @@
 #include "host/app/tell.h"
 #include "host/backend/vulkan/vulkan.h"
 #include "host/bench/copies.h"
+#include "host/bench/machine.h"
 #include "host/bench/results_table.h"
 #include "host/core/error.h"
 #include "host/core/file.h"
 #include "host/core/printable.h"
 #include "host/output/run_folder.h"
+#include "host/vk/device.h"
 
 namespace vkdose {
 
@@ -173,6 +175,13 @@ bench::Row measuredEnsemble(const std::string& name, const Workload& w, const Be
     return row;
 }
 
+/// The driver of the device that a backend describes; empty if it is none.
+std::string driverOf(const std::string& description) {
+    for (const vk::DeviceInfo& d : vk::listDevices())
+        if (description == "vulkan: " + d.name) return d.driver;
+    return "";
+}
+
 void print(const bench::Row& row) {
     tell("{}\n", bench::tableLine(row));
     const std::string details = bench::detailLines(row);
@@ -196,21 +205,24 @@ int benchCommand(const BenchOptions& options) {
 
     const std::atomic<bool>& stop = watchInterrupts();
     std::vector<bench::Row> rows;
+    const std::string processor = bench::processorText();
+    const auto add = [&](bench::Row row) {
+        row.processor = processor;
+        if (!row.plain && row.refused.empty()) row.driver = driverOf(row.on);
+        print(row);
+        rows.push_back(std::move(row));
+    };
     tell("{}\n", bench::headLine());
     for (const bench::Plan& plan : plans) {
         if (stop) break;
         const Workload workload = plan.make();
         if (options.copies > 1) {
-            rows.push_back(measuredCopies(plan.name, workload, options, effort));
-            print(rows.back());
+            add(measuredCopies(plan.name, workload, options, effort));
         } else if (options.members > 1) {
-            rows.push_back(measuredEnsemble(plan.name, workload, options, effort));
-            print(rows.back());
+            add(measuredEnsemble(plan.name, workload, options, effort));
         } else {
-            rows.push_back(measured(plan.name, workload, options.backend, effort));
-            print(rows.back());
-            rows.push_back(bench::plainRow(plan.name, workload, processors(), effort));
-            print(rows.back());
+            add(measured(plan.name, workload, options.backend, effort));
+            add(bench::plainRow(plan.name, workload, processors(), effort));
         }
         replaceFile(options.out / "bench.json", bench::jsonTable(rows));
         replaceFile(options.out / "bench.csv", bench::csvTable(rows));
@@ -220,7 +232,8 @@ int benchCommand(const BenchOptions& options) {
     for (const bench::Plan& plan : plans)
         if (const std::string line = bench::ratioLine(rows, plan.name, plan.without); !line.empty()) tell("{}\n", line);
     if (!rows.empty())
-        tell("\non {}; all figures: {}\n", rows.front().on, printable((options.out / "bench.csv").string()));
+        tell("\n{}\nall figures: {}\n", bench::machineLines(rows.front()),
+             printable((options.out / "bench.csv").string()));
     return stop ? kInterrupted : kOk;
 }
 

@@ -14,7 +14,8 @@ int devicesCommand() {
             "no Vulkan device found; on Debian the package mesa-vulkan-drivers brings one that runs on the CPU");
     }
     bool any = false;
-    fmt::print("{:>2}  {:<44} {:<15} {:<7} {:>8}  {:>10}\n", "", "device", "type", "Vulkan", "subgroup", "buffer MiB");
+    fmt::print("{:>2}  {:<44} {:<15} {:<7} {:>8}  {:>10}  {}\n", "", "device", "type", "Vulkan", "subgroup",
+               "buffer MiB", "driver");
     for (const vk::DeviceInfo& d : devices) {
         fmt::print("{:>2}  {:<44} {:<15} {:<7} {:>8}  {:>10}  {}\n", d.index, d.name, d.type, d.apiVersion,
                    d.subgroupSize, d.maxStorageBufferRange >> 20, d.driver);

@@ -51,7 +51,8 @@ struct PassTime {
 /// A line of the result: a workload on a backend, or in the plain loop.
 struct Row {
     std::string workload, on;
-    std::string refused;  ///< why there are no figures; empty: there are
+    std::string driver, processor;  ///< of the machine; empty: not known, or none
+    std::string refused;            ///< why there are no figures; empty: there are
     std::size_t particles = 0;
     int repeats = 0;
     Speed speed;

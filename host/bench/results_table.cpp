@@ -42,6 +42,8 @@ Json figuresOf(const Row& r) {
 
 Json rowOf(const Row& r) {
     Json j{{"workload", r.workload}, {"on", r.on}};
+    if (!r.driver.empty()) j["driver"] = r.driver;
+    if (!r.processor.empty()) j["processor"] = r.processor;
     if (r.refused.empty())
         j.update(figuresOf(r));
     else
@@ -95,6 +97,13 @@ std::string detailLines(const Row& r) {
                       "    tables {:.0f} B/particle; a step moves about {:.0f} B/particle (estimated): {:.2f} GB/s "
                       "of a copy's {:.2f}; first step after {:.2f} s",
                       r.tableBytes, r.stepBytes, r.bandwidth() * 1e-9, r.copyBandwidth * 1e-9, r.startUp);
+}
+
+std::string machineLines(const Row& r) {
+    std::string text = "on " + r.on;
+    if (!r.driver.empty()) text += "\ndriver " + r.driver;
+    if (!r.processor.empty()) text += "\nprocessor " + r.processor;
+    return text;
 }
 
 std::string jsonTable(const std::vector<Row>& rows) {

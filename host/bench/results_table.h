@@ -16,6 +16,9 @@ std::string tableLine(const Row& row);
 /// figures.
 std::string detailLines(const Row& row);
 
+/// On what device, by what driver and processor a row was measured, in lines.
+std::string machineLines(const Row& row);
+
 /// How many times as long as in the workload `without` a step of a sphere takes in `name`, in a sentence. Empty unless
 /// a backend has figures of both.
 std::string ratioLine(const std::vector<Row>& rows, const std::string& name, const std::string& without);

@@ -101,6 +101,17 @@ int computeFamily(VkPhysicalDevice physical) {
     return -1;
 }
 
+std::string driverText(VkPhysicalDevice physical, const VkPhysicalDeviceProperties& base) {
+    const std::string number = fmt::format("{:#x}", base.driverVersion);
+    if (base.apiVersion < VK_API_VERSION_1_2) return number;
+    VkPhysicalDeviceDriverProperties driver{};
+    driver.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES;
+    VkPhysicalDeviceProperties2 all{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &driver, {}};
+    vkGetPhysicalDeviceProperties2(physical, &all);
+    const std::string name = driver.driverName, version = driver.driverInfo;
+    return fmt::format("{}: {}", name, version.empty() ? number : version);
+}
+
 DeviceInfo describe(VkPhysicalDevice physical, int index) {
     VkPhysicalDeviceProperties base{};
     vkGetPhysicalDeviceProperties(physical, &base);
@@ -110,7 +121,7 @@ DeviceInfo describe(VkPhysicalDevice physical, int index) {
     info.type = typeName(base.deviceType);
     info.apiVersion = versionText(base.apiVersion);
     info.maxStorageBufferRange = base.limits.maxStorageBufferRange;
-    info.driver = fmt::format("{:#x}", base.driverVersion);
+    info.driver = driverText(physical, base);
     if (base.apiVersion < VK_API_VERSION_1_1) {
         info.reason = "needs Vulkan 1.1, has " + info.apiVersion;
     } else if (computeFamily(physical) < 0) {

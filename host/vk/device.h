@@ -30,7 +30,7 @@ struct DeviceInfo {
     int index = 0;
     std::string name;
     std::string type;  ///< "discrete GPU", "integrated GPU", "virtual GPU", "CPU", "other"
-    std::string driver;
+    std::string driver;  ///< name and version, as "llvmpipe: Mesa 22.3.6 (LLVM 15.0.6)"; before Vulkan 1.2 a number
     std::string apiVersion;
     unsigned subgroupSize = 0;
     std::uint64_t maxStorageBufferRange = 0;  ///< [bytes]

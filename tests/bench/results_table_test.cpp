@@ -14,6 +14,7 @@ Row bed() {
     Row row;
     row.workload = "bed";
     row.on = "vulkan: a \"card\", by name";
+    row.driver = "card: 1.2";
     row.particles = 7;
     row.repeats = 3;
     row.speed.steps = 100;
@@ -42,10 +43,20 @@ TEST_CASE("JSON holds what was measured and nothing else") {
     CHECK(results[0]["particle_steps_per_s_low"] == 1e6);
     CHECK(results[0]["bandwidth_estimated_bytes_per_s"] == 1e9);
     CHECK(results[0]["pass_step_s"] == 1e-3);
+    CHECK(results[0]["driver"] == "card: 1.2");
+    CHECK_FALSE(results[1].contains("driver"));
     CHECK(results[1]["refused"] == refused().refused);
     CHECK_FALSE(results[1].contains("particle_steps_per_s"));
     CHECK(results[2]["copies"] == 2);
     CHECK_FALSE(results[2].contains("cores_busy"));
+}
+
+TEST_CASE("the machine is told as far as it is known") {
+    Row row = bed();
+    CHECK(machineLines(row) == "on vulkan: a \"card\", by name\ndriver card: 1.2");
+    row.driver = "";
+    row.processor = "a processor, AVX2";
+    CHECK(machineLines(row) == "on vulkan: a \"card\", by name\nprocessor a processor, AVX2");
 }
 
 TEST_CASE("every line of the CSV has the columns of all") {
