@@ -206,9 +206,12 @@ int benchCommand(const BenchOptions& options) {
     const std::atomic<bool>& stop = watchInterrupts();
     std::vector<bench::Row> rows;
     const std::string processor = bench::processorText();
+    std::string driver;  // looked up once, because that takes an instance of Vulkan; all rows are of one device
     const auto add = [&](bench::Row row) {
+        const bool ofDevice = !row.plain && row.refused.empty();
+        if (ofDevice && driver.empty()) driver = driverOf(row.on);
+        if (ofDevice) row.driver = driver;
         row.processor = processor;
-        if (!row.plain && row.refused.empty()) row.driver = driverOf(row.on);
         print(row);
         rows.push_back(std::move(row));
     };
