@@ -101,6 +101,34 @@ std::vector<Feature> places(const Shape& shape, const Vec3& centre, double radiu
     return std::visit([&](const auto& s) { return placesOf(s, centre, radius); }, shape);
 }
 
+namespace {
+
+bool onZ(const Vec3& point) {
+    return point.x == 0 && point.y == 0;
+}
+
+struct ApproachByTurning {
+    using Answer = std::optional<double>;
+
+    static Answer unmovedIf(bool revolves) { return revolves ? Answer(0) : std::nullopt; }
+
+    Answer operator()(const Coil& coil) const { return coil.pitch / (2 * kPi); }
+    Answer operator()(const Plane& plane) const { return unmovedIf(onZ(plane.normal)); }
+    Answer operator()(const Tube& tube) const { return unmovedIf(onZ(tube.base) && onZ(tube.axis)); }
+    Answer operator()(const Cone& cone) const { return unmovedIf(onZ(cone.base) && onZ(cone.axis)); }
+    Answer operator()(const Ball& ball) const { return unmovedIf(onZ(ball.centre)); }
+    template <class Other>
+    Answer operator()(const Other&) const {
+        return std::nullopt;
+    }
+};
+
+}  // namespace
+
+std::optional<double> approachByTurning(const Shape& shape) {
+    return std::visit(ApproachByTurning{}, shape);
+}
+
 std::vector<Feature> touched(const std::vector<Shape>& shapes, const Vec3& centre, double radius) {
     Places all;
     for (std::uint32_t s = 0; s < shapes.size(); ++s)

@@ -3,6 +3,7 @@
 // surface come nearer to a centre than a radius? `touched` puts the answers of a body's shapes together.
 
 #include <memory>
+#include <optional>
 #include <variant>
 
 #include "geometry/coil.h"
@@ -46,6 +47,11 @@ Closest closestPoint(const Block& block, const Vec3& q);
 /// All places where the shape comes nearer to `centre` than `radius` [m], one for each local minimum of the distance.
 /// They are not yet told apart by `distinct`.
 std::vector<Feature> places(const Shape& shape, const Vec3& centre, double radius);
+
+/// How much nearer to a point a surface can come when the shape turns about the z axis of its frame, for each radian
+/// [m]: a surface of revolution not at all, a wire as much as if it went along the axis (its two ends aside, which go
+/// with their points). None for shapes of which nothing less is known than how far their points go.
+std::optional<double> approachByTurning(const Shape& shape);
 
 /// The distinct features in which a body made of `shapes` touches a sphere (features.h). Throws TooManyFeatures.
 std::vector<Feature> touched(const std::vector<Shape>& shapes, const Vec3& centre, double radius);

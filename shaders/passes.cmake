@@ -18,7 +18,6 @@ set(passes
     "pass/commit_lists"
     "pass/pairs texel packed energy texel_energy packed_energy"
     "pass/surfaces texel packed energy texel_energy packed_energy"
-    "pass/coil texel packed energy texel_energy packed_energy"
     "pass/bodies texel packed energy texel_energy packed_energy"
     "pass/move texel packed energy texel_energy packed_energy"
     "pass/decide"

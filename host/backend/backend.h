@@ -75,8 +75,8 @@ struct Sensors {
     std::optional<EnergyBook> energy;  ///< if the world asks for it and a step has been made since load
 };
 
-/// One touching contact and its history. For a wall `other` is the index of the surface, for the coil the turn slot,
-/// for one of World::bodies the number of surfaces plus the index of the body.
+/// One touching contact and its history. For a wall `other` is the index of the surface, for a body the number of
+/// surfaces plus the body's index in allBodies.
 struct Contact {
     ContactClass kind = ContactClass::ParticleParticle;
     std::uint32_t particle = 0;  ///< the smaller index of a pair

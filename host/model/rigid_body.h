@@ -46,6 +46,9 @@ struct RigidBody {
     // Of Clock::Phases:
     std::vector<Phase> phases{};  ///< in which its clock runs
     bool anew = false;  ///< a table starts anew when the first of `phases` begins, once it has come to its end
+    // What contacts see of it; its books see the true motion.
+    bool surfaceMoves = true;  ///< the velocity of its surface; false: they see it at rest
+    double curvature = 0;      ///< radius of its surface, which a* counts [m]; 0: it is as flat as a wall
 
     /// Where the body is. `driveAngle` [rad]; `own` is the time on its own clock, if it moves in phases [s].
     geometry::Pose pose(double time, double driveAngle, double own = 0) const;

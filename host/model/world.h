@@ -60,7 +60,11 @@ struct RuledWorld : World {
     ContactLaw law;
 };
 
-/// Most turns of the coil that one sphere may touch at once. A backend keeps contact history for as many slots.
+/// All that moves or may move: World::bodies, and behind them the coil as the body "coil", which the drive turns.
+std::vector<RigidBody> allBodies(const World& world);
+
+/// Most turns of the coil that one sphere may touch at once: a backend keeps contact history for as many places of a
+/// body.
 inline constexpr int kMaxCoilTouches = 4;
 
 }  // namespace vkdose

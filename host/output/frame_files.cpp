@@ -40,15 +40,13 @@ struct Geometry {
     double overlap;  ///< negative if the two have just parted [m]
 };
 
-/// A coil contact does not say which turn of the coil it belongs to. A particle may touch several turns. Each of its
-/// contacts is given that turn, of those still free, along whose normal its force is strongest. A contact with a body
-/// does not say at which place it is. It is given the place along whose normal its force is strongest.
+/// A contact with a body, or the coil, does not say at which place it is. It is given the place along whose normal its
+/// force is strongest.
 class ContactGeometry {
   public:
-    ContactGeometry(const Frame& frame, const World& world) : frame_(frame), world_(world) {}
+    ContactGeometry(const Frame& frame, const World& world) : frame_(frame), world_(world), bodies_(allBodies(world)) {}
 
-    /// Must be called for the frame's contacts in their order.
-    Geometry of(const Contact& c) {
+    Geometry of(const Contact& c) const {
         const Particles& p = frame_.particles;
         const Vec3& x = p.position[c.particle];
         const double r = p.radius[c.particle];
@@ -57,11 +55,9 @@ class ContactGeometry {
             const double distance = glm::length(apart);
             return {p.position[c.other], apart / distance, r + p.radius[c.other] - distance};
         }
-        if (const RigidBody* body = bodyOf(c))
-            if (const std::optional<Geometry> place = placeOn(*body, c)) return *place;
-        if (c.kind == ContactClass::ParticleWall)
-            return against(geometry::closestPoint(world_.surfaces.at(c.other), x), r);
-        return against(turn(c), r);
+        const std::size_t walls = world_.surfaces.size();
+        if (c.other < walls) return against(geometry::closestPoint(world_.surfaces[c.other], x), r);
+        return placeOn(c.other - walls, c);
     }
 
   private:
@@ -69,16 +65,8 @@ class ContactGeometry {
         return {surface.point, surface.normal, radius - surface.distance};
     }
 
-    const RigidBody* bodyOf(const Contact& c) const {
-        const std::size_t walls = world_.surfaces.size();
-        if (c.other < walls || c.other >= walls + world_.bodies.size()) return nullptr;
-        const RigidBody& body = world_.bodies[c.other - walls];
-        return body.kind == c.kind ? &body : nullptr;
-    }
-
-    /// None if the particle is not near the body. Then the contact is that of a turn of the coil with the same number.
-    std::optional<Geometry> placeOn(const RigidBody& body, const Contact& c) const {
-        const auto index = static_cast<std::size_t>(&body - world_.bodies.data());
+    Geometry placeOn(std::size_t index, const Contact& c) const {
+        const RigidBody& body = bodies_.at(index);
         const geometry::Pose pose = body.pose(frame_.time, frame_.coilAngle, frame_.clockOf(index));
         const Vec3 x = pose.toBody(frame_.particles.position[c.particle]), force = pose.directionToBody(c.force);
         const double r = frame_.particles.radius[c.particle];
@@ -95,36 +83,17 @@ class ContactGeometry {
                 most = along;
             }
         }
-        if (!best && !(world_.coil && c.kind == ContactClass::ParticleCoil)) {  // the largest sphere has just parted
+        if (!best) {  // the largest sphere has just parted
             const double strength = glm::length(force);
             const Vec3 normal = strength > 0 ? force / strength : Vec3(0, 1, 0);
             best = geometry::Closest{x - r * normal, normal, r};
         }
-        if (!best) return std::nullopt;
         return against({pose.toWorld(best->point), pose.directionToWorld(best->normal), best->distance}, r);
-    }
-
-    geometry::CoilTouch turn(const Contact& c) {
-        const Vec3& x = frame_.particles.position[c.particle];
-        const double r = frame_.particles.radius[c.particle];
-        if (particle_ != c.particle) {
-            particle_ = c.particle;
-            // A contact that has parted since is still within reach.
-            turns_ = geometry::touches(*world_.coil, frame_.coilAngle, x, 1.1 * r);
-        }
-        if (turns_.empty()) return geometry::closestPoint(*world_.coil, frame_.coilAngle, x);
-        const auto along = [&](const geometry::CoilTouch& t) { return std::abs(glm::dot(c.force, t.normal)); };
-        const auto found = std::max_element(turns_.begin(), turns_.end(),
-                                            [&](const auto& a, const auto& b) { return along(a) < along(b); });
-        const geometry::CoilTouch turn = *found;
-        turns_.erase(found);
-        return turn;
     }
 
     const Frame& frame_;
     const World& world_;
-    std::optional<std::uint32_t> particle_;  ///< the particle that these turns belong to
-    std::vector<geometry::CoilTouch> turns_;
+    std::vector<RigidBody> bodies_;
 };
 
 }  // namespace

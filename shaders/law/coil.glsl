@@ -1,4 +1,4 @@
-// Closest points on the turning coil (geometry/coil.h): local minima of the distance from a point to a helical wire.
+// Closest points on the wire of a coil (geometry/coil.h): local minima of the distance from a point to a helical wire.
 //
 // In cylindrical coordinates (rho, theta, z) of the point, with u = phase of the wire - theta, the distance is
 // stationary where  u + eps sin u = M,  eps = rho r_c kappa^2,  M = u at the point's own z. Around every u = 2 pi k
@@ -13,6 +13,7 @@
 #define VKDOSE_LAW_COIL_GLSL
 
 #include "law/surface.glsl"
+#include "shared/geometry.h"
 
 const float kTwoPi = 6.28318530717958648;
 
@@ -66,17 +67,7 @@ struct CoilView {
     bool nearEnd;
 };
 
-/// Rotation of the coil in turns at this step, in [-0.5, 0.5). It is start + step x increment in 64-bit fixed point, so
-/// that hours of turning lose no accuracy. Only the high word is needed.
-float coilTurn(uvec4 phase, uint step) {
-    uint high, low, carry;
-    umulExtended(phase.w, step, high, low);
-    low = uaddCarry(low, phase.y, carry);
-    high += phase.z * step + phase.x + carry;
-    return float(int(high)) * (1.0 / 4294967296.0);
-}
-
-/// `turn`: the coil's rotation about +z, in turns, [-0.5, 0.5).
+/// `turn`: the angle of the wire's start about +z, in turns, [-0.5, 0.5).
 CoilView coilView(CoilParams c, float turn, Sphere a) {
     CoilView w;
     Two3 d = Two3(vec3(a.high.xy, 0.0), vec3(a.low.xy, 0.0));

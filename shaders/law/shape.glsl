@@ -12,7 +12,7 @@
 //   block, room        2: low corner   3: low part   4: high corner   5: low part
 //   trough             2: -, -, z of its end   3: low part   6: half width, low part   7: 1 if it ends
 //   front              2: -, -, z, length of the throat   3: low part of both   6: radius of the hole, low part
-//   wire               2 to 6: CoilParams (shared/layout.h); 7: the angle of its start in turns
+//   wire               2 to 4: CoilParams (shared/geometry.h); 7: the angle of its start in turns
 #ifndef VKDOSE_LAW_SHAPE_GLSL
 #define VKDOSE_LAW_SHAPE_GLSL
 
@@ -173,6 +173,6 @@ Overlap frontShape(ShapeData s, Two3 centre, float radius) {
     return Overlap(throat, -view.outward);
 }
 
-CoilParams wireOf(ShapeData s) { return CoilParams(s.v2, s.v3, s.v4, floatBitsToUint(s.v5), s.v6); }
+CoilParams wireOf(ShapeData s) { return CoilParams(s.v2, s.v3, s.v4); }
 
 #endif

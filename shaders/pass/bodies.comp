@@ -80,7 +80,7 @@ Exerted exertedAt(uint slot, uint place) {
 #endif
 
 void load(uint body, uint i, uint number, float value) {
-    coilTorques[bodyLoadIndex(kBodyLoads * body + number, i)] += value;
+    bodyLoads[bodyLoadIndex(kBodyLoads * body + number, i)] += value;
 }
 
 void main() {
@@ -89,7 +89,7 @@ void main() {
     uvec4 chosen = choices();
     float density = gravity().w;
     float springDt = springStep();
-    uint listed = control.body.x;
+    uint listed = control.listed.z;
     if (waits() || invocation() >= listed) return;
     uint slot = firstBodySlot() + invocation();
     uvec2 who = entriesAt(slot);
@@ -99,7 +99,7 @@ void main() {
     ContactParams law = ofWall;
     if (motion.velocity.w == float(kParticleCoil)) law = ofCoil;
 
-    float radius = me.sphere.radius;
+    float radius = me.sphere.radius, reduced = reducedAtWall(radius, motion.centre.w);
     openBodies();
     if (openNearby(slot)) nearbyCount = nearby[nearbyStart];
     uint count = touchedFeatures(body, toBody(motion, me.sphere.high, me.sphere.low), radius);
@@ -119,7 +119,7 @@ void main() {
     for (; gone != 0u; gone &= gone - 1u) {
         uint place = uint(findLSB(gone));
 #ifdef ENERGY_BOOK
-        partPlace(law, springDt, moving, me, exertedAt(slot, place), historyOfPlace(slot, place));
+        partPlace(law, springDt, moving, reduced, me, exertedAt(slot, place), historyOfPlace(slot, place));
 #endif
         history[placeHistoryIndex(slot, place, 0u)] = vec4(0.0);
         history[placeHistoryIndex(slot, place, 1u)] = vec4(0.0);
@@ -143,21 +143,23 @@ void main() {
         }
         vec3 point = me.sphere.high - normal * (radius - 0.5 * feature.depth);
         vec3 wall = bodyVelocity(motion, point);
+        float seen = motion.spin.w;
         Response r;
 #ifdef ENERGY_BOOK
         History before = h;
         Exerted exerted = kNothing;
         if (known) exerted = exertedAt(slot, place);
 #endif
-        WallForce f = meetWall(me, Overlap(feature.depth, normal), 2.0 * radius, law, chosen, density, springDt, wall,
-                               motion.spin.xyz, h, r);
+        WallForce f = meetWall(me, Overlap(feature.depth, normal), reduced, law, chosen, density, springDt, seen * wall,
+                               seen * motion.spin.xyz, h, r);
         history[placeHistoryIndex(slot, place, 0u)] = h.slidingMax;
         history[placeHistoryIndex(slot, place, 1u)] = h.rollingTorsion;
         history[placeHistoryIndex(slot, place, 2u)] = vec4(feature.direction, float(place + 1u));
         // The host asks for single contacts, and `field_branches` for their overlaps.
         writeForce(forceOfPlace(slot, place), vec4(f.force, feature.depth));
 #ifdef ENERGY_BOOK
-        bookPlace(law, springDt, moving, slot, place, me, Overlap(feature.depth, normal), r, known, exerted, before, h);
+        bookPlace(law, springDt, moving, reduced, slot, place, me, Overlap(feature.depth, normal), r, known, exerted,
+                  before, h);
 #endif
         force += f.force;
         torque += f.torque;

@@ -14,7 +14,7 @@
 /// Where the triangles near a body slot begin in `nearby`, and whether there is room for them.
 uint nearbyStart;
 bool openNearby(uint slot) {
-    nearbyStart = kNearbyWords * (slot - springSlotCount() - coilSlotCount());
+    nearbyStart = kNearbyWords * (slot - springSlotCount());
     return (SHAPE_KINDS & (1u << kShapeMesh)) != 0u && nearbyStart + kNearbyWords <= uint(nearby.length());
 }
 uint nearbyAt(uint i) { return nearby[nearbyStart + 1u + i]; }

@@ -17,10 +17,9 @@ Body readBody(uint i) {
                 readState(source, kVelocity, i).xyz, readState(source, kSpin, i).xyz);
 }
 
-/// Reduced size of a sphere of radius a at the coil: the wire counts as curved or as flat (CoilParams) [m].
-float reducedAtCoil(CoilParams coil, float a) {
-    float wire = coil.radius.z;
-    return coil.motion.w != 0.0 ? 2.0 * a * wire / (a + wire) : 2.0 * a;
+/// Reduced size of a sphere of radius a at a surface of radius `curvature`, which is flat if that is 0 [m].
+float reducedAtWall(float a, float curvature) {
+    return curvature != 0.0 ? 2.0 * a * curvature / (a + curvature) : 2.0 * a;
 }
 
 #endif

@@ -31,37 +31,20 @@ void bookDeparture(uint i, uint slot) {
     books[bookIndex(kBookFlow, i)].y += left;
 }
 
-/// The same for the contacts with the coil of a particle that has left.
-void bookDepartureFromCoil(uint i) {
-    vec4 angles = coilHistory[wireAngleIndex(i)];
-    float reduced = reducedAtCoil(member.coil, abs(readState(source, kPosition, i).w));
-    for (uint t = 0u; t < kMaxTurns; ++t) {
-        if (angles[t] == kNoTurn) continue;
-        uint at = coilHistoryIndex(t, 0u, i);
-        History h = History(coilHistory[at], coilHistory[at + push.particles]);
-        Exerted e = Exerted(coilHistory[at + 2u * push.particles], coilHistory[at + 3u * push.particles],
-                            coilHistory[at + 4u * push.particles]);
-        books[bookIndex(kBookFlow, i)].y += storedIn(lawOf(kParticleCoil), e, reduced, h);
-    }
-}
-
-/// Adds to the particle's book the books of its own contacts in this step (fields as in shared/layout.h), the coil's
-/// and the bodies' work, the energy that came with the load and the energy that leaves with the particle. Velocities
-/// are those before and after the kick.
+/// Adds to the particle's book the books of its own contacts in this step (fields as in shared/layout.h), the
+/// bodies' work, the energy that came with the load and the energy that leaves with the particle. Velocities are those
+/// before and after the kick.
 void bookStep(uint i, vec4 normal, vec4 sliders, vec3 centre, float r, float mass, vec3 velocity, vec3 spin,
-              vec3 newVelocity, vec3 newSpin, float coilTorque, float bodyWork, bool leaves) {
+              vec3 newVelocity, vec3 newSpin, float bodyWork, bool leaves) {
     bool first = opening();
-    float springDt = springStep();
     vec4 flow = books[bookIndex(kBookFlow, i)];
-    float coilWork = -0.5 * springDt * member.coil.motion.x * (flow.z + coilTorque);
     vec3 v = first ? 2.0 * velocity - newVelocity : velocity, w = first ? 2.0 * spin - newSpin : spin;
     float motion = mass * (0.5 * dot(v, newVelocity) + 0.2 * r * r * dot(w, newSpin) - dot(gravity().xyz, centre));
     flow.x += sliders.w + (first ? motion : 0.0);
     if (leaves) flow.y += motion;
-    flow.z = leaves ? 0.0 : coilTorque;
     flow.w += bodyWork;
     books[bookIndex(kBookNormal, i)] += normal;
-    books[bookIndex(kBookSliders, i)] += vec4(sliders.xyz, coilWork);
+    books[bookIndex(kBookSliders, i)] += vec4(sliders.xyz, 0.0);
     books[bookIndex(kBookFlow, i)] = flow;
 }
 

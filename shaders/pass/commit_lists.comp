@@ -9,9 +9,8 @@ shared uvec4 most[gl_WorkGroupSize.x];
 
 void commit() {
     // A full table is reported; until the host hears of it nothing may reach outside.
-    control.listed = uvec4(min(control.coming.xyz, uvec3(push.pairSlots, push.surfaceSlots, push.coilSlots)), 0u);
+    control.listed = uvec4(min(control.coming.xyz, uvec3(push.pairSlots, push.surfaceSlots, push.bodySlots)), 0u);
     control.coming = uvec4(0u);
-    control.body = uvec4(min(control.body.y, push.bodySlots), 0u, 0u, 0u);
     control.drift = vec4(0.0);
     control.list.w += 1u;
 }
@@ -22,7 +21,7 @@ void main() {
     for (uint row = lane; row < push.live; row += gl_WorkGroupSize.x) {
         openRow(row);
         if (control.wanted.y != 0u) commit();
-        most[lane] = max(most[lane], uvec4(control.listed.xyz, control.body.x));
+        most[lane] = max(most[lane], control.listed);
     }
     barrier();
     if (lane != 0u) return;
@@ -30,6 +29,5 @@ void main() {
     uvec4 groups = (most[0] + gl_WorkGroupSize.x - 1u) / gl_WorkGroupSize.x;
     dispatches.pairs.xz = spread(groups.x);
     dispatches.surfaces.xz = spread(groups.y);
-    dispatches.coil.xz = spread(groups.z);
-    dispatches.bodies.xz = spread(groups.w);
+    dispatches.bodies.xz = spread(groups.z);
 }

@@ -12,11 +12,8 @@
 const uint kRebuild = 1u, kRefresh = 2u;
 shared uint wished;
 
-/// How far the coil's wire, and any body, goes in a step [m]. The wire is a helix on its way along the axis.
-vec2 ways() {
-    float coil = hasCoil() ? abs(member.coil.motion.x / member.coil.pitch.w) * numerics().x : 0.0;
-    return vec2(coil, BODIES > 0u ? member.choices.w : 0.0);
-}
+/// The longest way of a body in a step [m].
+float bodyWay() { return BODIES > 0u ? member.choices.w : 0.0; }
 
 /// The stride that was at work is over.
 void account() {
@@ -30,7 +27,7 @@ void account() {
     if (call != kEmpty) control.wanted.w = 1u;
     control.call = uvec4(kEmpty);
     control.steps.xz = uvec2(control.steps.x + made, 0u);
-    control.drift.xy += float(made) * ways();
+    control.drift.x += float(made) * bodyWay();
 
     if (control.wanted.x != 0u) {  // rows were built in this stride
         control.list.x = 0u;
@@ -42,14 +39,14 @@ void account() {
 /// Returns the wishes of the member.
 uint plan() {
     uint left = control.error.x == kEmpty ? member.roster.z - control.steps.x : 0u;
-    vec2 way = ways(), slack = vec2(coilSlack(), bodySlack()), drift = control.drift.xy;
-    bool drifts = any(greaterThan(drift + float(kStride - 1u) * way, slack));
+    float way = bodyWay(), slack = bodySlack(), drift = control.drift.x;
+    bool drifts = drift + float(kStride - 1u) * way > slack;
     uvec2 wanted = control.wanted.xy | control.wanted.zw | uvec2(0u, drifts ? 1u : 0u);
     wanted.y |= wanted.x;
-    if (wanted.y != 0u) drift = vec2(0.0);
+    if (wanted.y != 0u) drift = 0.0;
     // The steps in which all is within its slack; at least one, because the lists are new if need be.
-    vec2 within = min((slack - drift) / max(way, vec2(1e-30)), vec2(kStride));
-    control.steps.y = min(left, min(kStride, 1u + uint(max(0.0, min(within.x, within.y)))));
+    float within = min((slack - drift) / max(way, 1e-30), float(kStride));
+    control.steps.y = min(left, min(kStride, 1u + uint(max(0.0, within))));
     // A member that has made all its steps starts none. It keeps its wishes for the next batch.
     control.wanted = left > 0u ? uvec4(wanted, 0u, 0u) : uvec4(0u, 0u, wanted);
     return left == 0u ? 0u : (wanted.x != 0u ? kRebuild : 0u) | (wanted.y != 0u ? kRefresh : 0u);

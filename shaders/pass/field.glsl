@@ -1,6 +1,6 @@
 // The common part of the field passes: their tables, the kernel, and which contacts there are. Positions are offsets
 // from the grid's lower corner. A contact is numbered as its force is (forces in shared/tables.h): by its slot, one
-// with the coil by the slot's turn, one with a body by the place.
+// with a body by the place.
 #ifndef VKDOSE_PASS_FIELD_GLSL
 #define VKDOSE_PASS_FIELD_GLSL
 
@@ -27,10 +27,10 @@ const vec4 kShares = vec4(0.17392742256872693, 0.32607257743127307, 0.3260725774
 struct Place {
     uint contact;  // kEmpty: it is not in use
     uint slot;
-    uint part;  // the turn of the coil, or the place on the body
+    uint part;  // the place on the body
 };
 
-/// A member's k-th contact: pairs first, then surfaces, then the turns of the coil, then the places on bodies.
+/// A member's k-th contact: pairs first, then surfaces, then the places on bodies.
 Place memberContact(uint k) {
     Place none = Place(kEmpty, 0u, 0u);
     if (k < push.pairSlots) {
@@ -43,14 +43,9 @@ Place memberContact(uint k) {
         return k < control.listed.y ? Place(slot, slot, 0u) : none;
     }
     k -= push.surfaceSlots;
-    if (k < kMaxTurns * push.coilSlots) {
-        uint turn = k / push.coilSlots, slot = firstCoilSlot() + k % push.coilSlots;
-        return slot - firstCoilSlot() < control.listed.z ? Place(forceOfTurn(turn, slot), slot, turn) : none;
-    }
-    k -= kMaxTurns * push.coilSlots;
     if (k >= kMaxBodyTouches * push.bodySlots) return none;
     uint place = k % kMaxBodyTouches, slot = firstBodySlot() + k / kMaxBodyTouches;
-    return slot - firstBodySlot() < control.body.x ? Place(forceOfPlace(slot, place), slot, place) : none;
+    return slot - firstBodySlot() < control.listed.z ? Place(forceOfPlace(slot, place), slot, place) : none;
 }
 
 vec3 offsetOf(uint side, uint i) {

@@ -1,11 +1,10 @@
 #version 450
 // field_branches: the branch of every contact that touched in the last step, one contact per invocation.
-// Reads the state before that step (the half that is not the source), entries, forces, the turns of the coil that are
-// touched, history, and coil and bodies as they stood in the last step. Writes the branches
-// (pass/field.glsl).
+// Reads the state before that step (the half that is not the source), entries, forces,
+// history, and bodies as they stood in the last step. Writes the branches (pass/field.glsl).
 #extension GL_GOOGLE_include_directive : require
 #include "shared/buffers.glsl"
-#include "law/coil.glsl"
+#include "law/surface.glsl"
 #ifdef WITH_BODIES
 #include "pass/bodies.glsl"
 #endif
@@ -15,20 +14,6 @@ Sphere sphereBefore(uint i) {
     uint side = 1u - source;
     vec4 position = state[stateIndex(side, kPosition, i)];
     return Sphere(position.xyz, state[stateIndex(side, kResidue, i)].xyz, position.w);
-}
-
-/// From the turn that is touched at `angle`; w: 1 if there is one.
-vec4 fromCoil(Sphere a, float angle) {
-    CoilParams coil = member.coil;
-    CoilView view = coilView(coil, coilTurn(coil.phase, stepInBatch), a);
-    uint trips = coilCandidates(coil, view);
-    vec4 branch = vec4(0.0);
-    for (uint k = 0u; k < trips; ++k) {
-        CoilTouch touch = coilCandidate(coil, view, k);
-        if (touch.depth > 0.0 && abs(touch.wireAngle - angle) < 0.5 * kTwoPi)
-            branch = vec4((a.radius - touch.depth) * touch.normal, 1.0);
-    }
-    return branch;
 }
 
 #ifdef WITH_BODIES
@@ -57,8 +42,6 @@ void main() {
         SurfaceParams p = readSurface(surfaceOf(who.y));
         Overlap o = surfaceOverlap(KIND_SET, uint(p.pointHigh.w), p, a);
         branch.xyz = (a.radius - o.depth) * o.normal;
-    } else if (at.slot < springSlotCount() + coilSlotCount()) {
-        branch = fromCoil(a, coilHistory[wireAngleIndex(who.x)][at.part]);
     } else {
 #ifdef WITH_BODIES
         branch = fromBody(a.radius, at, who.y);

@@ -30,8 +30,6 @@ void addBranches(uint i) {
         if ((link & 1u) == 1u) continue;
         if (slot < springSlotCount())
             addBranch(slot, from);
-        else if (slot < springSlotCount() + coilSlotCount())
-            for (uint turn = 0u; turn < kMaxTurns; ++turn) addBranch(forceOfTurn(turn, slot), from);
         else
             for (uint place = 0u; place < kMaxBodyTouches; ++place) addBranch(forceOfPlace(slot, place), from);
     }

@@ -50,17 +50,12 @@ void main() {
         ++count;
     }
     for (uint k = 0u; k < own.w; ++k, ++count) links[count] = (own.z + k) << 1u;
-    if (range.z != kEmpty) {
-        links[count] = range.z << 1u;
-        ++count;
-    }
     uvec4 ofBodies = uvec4(0u);
     if (BODIES > 0u) ofBodies = rangesAt(bodyRangeIndex(i));
     for (uint k = 0u; k < ofBodies.y; ++k, ++count) links[count] = (ofBodies.x + k) << 1u;
     for (uint k = 0u; k < ofBodies.y; ++k) adoptBody(ofBodies.x + k);
     for (uint k = 0u; k < own.y; ++k) adopt(own.x + k);
     for (uint k = 0u; k < own.w; ++k) adopt(own.z + k);
-    if (range.z != kEmpty) entries[range.z] = entries[comingEntryIndex(range.z)];
 
     uint first = atomicAdd(control.coming.w, count);
     if (first + count > push.linkEntries) {

@@ -1,8 +1,7 @@
-// The contacts that the lists hold: all that can touch while every particle and the coil keep within their slack.
+// The contacts that the lists hold: all that can touch while every particle and body keeps within their slack.
 #ifndef VKDOSE_PASS_MARGIN_GLSL
 #define VKDOSE_PASS_MARGIN_GLSL
 
-#include "law/coil.glsl"
 #include "law/surface.glsl"
 #include "pass/slack.glsl"
 
@@ -13,12 +12,6 @@ bool nearPair(vec4 p, float slackP, vec4 q, float slackQ) {
     vec3 d = p.xyz - q.xyz;
     float reach = 1.00001 * (p.w + q.w) + (slackP + slackQ);
     return q.w > 0.0 && dot(d, d) < reach * reach;
-}
-
-bool nearTheCoil(Sphere a, float slack) {
-    if (!hasCoil() || a.radius < 0.0) return false;
-    CoilParams coil = member.coil;
-    return nearCoil(coil, coilTurn(coil.phase, stepInBatch), a, slack + coilSlack());
 }
 
 // The kind is known when the pipeline is made, so that all but one branch of surfaceGap fold away, and the parameters

@@ -3,7 +3,7 @@
 // Reads the source half of the state, links, forces and torques, anchors; writes the other half. Calls for a refresh of
 // the contact lists or a rebuild of the rows when the particle has moved as far as they allow for.
 //
-// The sum runs in the order of the links: other particles by ascending index, surfaces, coil. It does not depend on
+// The sum runs in the order of the links: other particles by ascending index, surfaces, bodies. It does not depend on
 // where their slots are.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/buffers.glsl"
@@ -56,7 +56,7 @@ void main() {
     vec3 force = vec3(0.0), torque = vec3(0.0);
     float overlap = 0.0;
 #ifdef ENERGY_BOOK
-    float coilTorque = 0.0, bodyWork = 0.0;
+    float bodyWork = 0.0;
     vec4 normal = vec4(0.0), sliders = vec4(0.0);
 #endif
     for (uint k = 0u; k < range.w; ++k) {
@@ -66,9 +66,7 @@ void main() {
         torque += t.xyz;
         overlap = max(overlap, f.w);
 #ifdef ENERGY_BOOK
-        bool ofBody = link >> 1u >= springSlotCount() + coilSlotCount();
-        coilTorque += ofBody ? 0.0 : t.w;
-        bodyWork += ofBody ? t.w : 0.0;
+        bodyWork += link >> 1u >= springSlotCount() ? t.w : 0.0;
         if ((link & 1u) == 0u) {
             normal += books[slotBookIndex(kBookNormal, link >> 1u)];
             sliders += books[slotBookIndex(kBookSliders, link >> 1u)];
@@ -107,8 +105,7 @@ void main() {
 
 #ifdef ENERGY_BOOK
     if (moving)
-        bookStep(i, normal, sliders, position.xyz, r, mass, velocity4.xyz, spin4.xyz, velocity, spin, coilTorque,
-                 bodyWork, leaves);
+        bookStep(i, normal, sliders, position.xyz, r, mass, velocity4.xyz, spin4.xyz, velocity, spin, bodyWork, leaves);
 #endif
 
     uint to = 1u - source;

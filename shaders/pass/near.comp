@@ -37,14 +37,15 @@ uint bodies, firstBody;
 #ifdef ENERGY_BOOK
 /// What bookDeparture is for contacts with walls.
 void bookDepartureFromBody(uint i, uint slot, uint body) {
-    bool ofCoil = motionOf(body).velocity.w == float(kParticleCoil);
+    BodyMotion motion = motionOf(body);
+    bool ofCoil = motion.velocity.w == float(kParticleCoil);
+    float reduced = reducedAtWall(abs(readState(source, kPosition, i).w), motion.centre.w);
     for (uint k = 0u; k < kMaxBodyTouches; ++k) {
         vec4 springs = historyAt(placeHistoryIndex(slot, k, 0u));
         if (springs.w <= 0.0) continue;
         History h = History(springs, historyAt(placeHistoryIndex(slot, k, 1u)));
         Exerted e = Exerted(historyAt(placeHistoryIndex(slot, k, 3u)), historyAt(placeHistoryIndex(slot, k, 4u)),
                             historyAt(placeHistoryIndex(slot, k, 5u)));
-        float reduced = 2.0 * abs(readState(source, kPosition, i).w);
         books[bookIndex(kBookFlow, i)].y += storedIn(lawOf(ofCoil ? kParticleCoil : kParticleWall), e, reduced, h);
     }
 }
@@ -97,7 +98,7 @@ void listTriangles(uint slot, uint body, Two3 centre, float reach) {
 /// Lists the bodies, and carries on what the particle remembers of them.
 void listBodies(uint i, uvec4 range, float reach) {
     uint count = bitCount(bodies);
-    firstBody = atomicAdd(control.body.y, count);
+    firstBody = atomicAdd(control.coming.z, count);
     if (firstBody + count > push.bodySlots) {
         report(kErrorTables, i);
         bodies = 0u;
@@ -111,7 +112,7 @@ void listBodies(uint i, uvec4 range, float reach) {
         listTriangles(to, body, centreOn(body, i), reach);
         for (uint part = 0u; part < kBodyHistory; ++part) carried[placeHistoryIndex(to, 0u, part)] = vec4(0.0);
     }
-    uint first = springSlotCount() + coilSlotCount();
+    uint first = springSlotCount();
     for (uint k = 0u; k < range.w; ++k) {
         uint slot = rowsAt(linkIndex(range.z + k)) >> 1u;
         if (slot < first) continue;
@@ -161,11 +162,9 @@ void main() {
     }
     surfaces = nearSurfaces(me, slack);
     uint met = bitCount(surfaces);
-    uint coil = nearTheCoil(me, slack) ? 1u : 0u;
 
     firstPair = atomicAdd(control.coming.x, pairs);
     firstSurface = atomicAdd(control.coming.y, met);
-    uint firstCoil = atomicAdd(control.coming.z, coil);
     bool fits = firstPair + pairs <= push.pairSlots && firstSurface + met <= push.surfaceSlots;
     if (!fits) {
         report(kErrorTables, i);
@@ -175,7 +174,6 @@ void main() {
     }
     firstPair += firstPairSlot();
     firstSurface += firstSurfaceSlot();
-    firstCoil += firstCoilSlot();
 
     for (uint k = 0u; k < pairs; ++k) prepare(firstPair + k, i, partners[k]);
     uint at = firstSurface;
@@ -184,7 +182,6 @@ void main() {
         uint works = !joined ? 1u : at == firstSurface ? met : 0u;
         prepare(at, i, findLSB(left) | works << kSurfaceBits);
     }
-    for (uint once = coil; once > 0u; --once) entries[comingEntryIndex(firstCoil)] = uvec2(i, 0u);
 
     for (uint k = 0u; k < range.w; ++k) {
         uint link = rowsAt(linkIndex(range.z + k)), slot = link >> 1u;
@@ -204,13 +201,5 @@ void main() {
     bodies = nearBodies(i, p.w, bodyReach);
     listBodies(i, range, bodyReach);
 #endif
-    if (p.w < 0.0 && hasCoil()) {
-#ifdef ENERGY_BOOK
-        bookDepartureFromCoil(i);
-#endif
-        coilHistory[wireAngleIndex(i)] = vec4(kNoTurn);
-    }
-
     ranges[slotRangeIndex(i)] = uvec4(firstPair, pairs, firstSurface, met);
-    ranges[rowRangeIndex(i)].zw = uvec2(coil != 0u ? firstCoil : kEmpty, 0u);  // for `link`
 }

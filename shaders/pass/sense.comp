@@ -1,7 +1,7 @@
 #version 450
 // sense: sums the sensors of the host, one record per workgroup (shared/layout.h, SensorRecord); the host adds the
-// records up in double precision. Reads the source half of the state and the torques on the coil; writes the records
-// and empties the accumulators: the largest overlap in the state, and the torques. A tree fixes the order of every sum.
+// records up in double precision. Reads the source half of the state; writes the records
+// and empties an accumulator, the largest overlap in the state. A tree fixes the order of every sum.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/buffers.glsl"
 #include "law/mass.glsl"
@@ -27,17 +27,12 @@ void main() {
     if (status == kStatusLost) region = kRegionLost;
     uvec4 regions = uvec4(kRegionCanister, kRegionThroat, kRegionDosed, kRegionLost);
     uvec4 here = uvec4(equal(uvec4(region), regions));
-    float coilTorque = 0.0;
-    if (hasCoil()) {
-        coilTorque = coilTorques[coilTorqueIndex(i)];
-        coilTorques[coilTorqueIndex(i)] = 0.0;
-    }
     count[lane] = here;
     mass[lane] = m * vec4(here);
     float active_ = status == kStatusActive ? 1.0 : 0.0;
     motion[lane] =
         vec4(active_ * 0.5 * m * dot(velocity.xyz, velocity.xyz), active_ * 0.2 * m * r * r * dot(spin.xyz, spin.xyz),
-             float(here[kRegionThroat]) * m * velocity.z, coilTorque);
+             float(here[kRegionThroat]) * m * velocity.z, 0.0);
     overlap[lane] = velocity.w;
     if (status != kStatusAbsent) {
         state[stateIndex(source, kVelocity, i)] = vec4(velocity.xyz, 0.0);

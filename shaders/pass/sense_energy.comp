@@ -45,7 +45,7 @@ void main() {
                      vec4(m * cross(position.xyz, velocity) + inertia * spin.xyz, flow.w));
     books[bookIndex(kBookNormal, i)] = vec4(0.0);
     books[bookIndex(kBookSliders, i)] = vec4(0.0);
-    books[bookIndex(kBookFlow, i)] = vec4(0.0, 0.0, flow.z, 0.0);
+    books[bookIndex(kBookFlow, i)] = vec4(0.0);
 
     for (uint width = gl_WorkGroupSize.x / 2u; width > 0u; width /= 2u) {
         barrier();

@@ -1,4 +1,4 @@
-// Slack: the distance that a particle, the wire of the coil, or a body, may go before the contact lists are made anew.
+// Slack: the distance that a particle, or a body, may go before the contact lists are made anew.
 // It grows with the speed of the particle. One slack for all is worse: in a canister being emptied, the particles that
 // fall from the outlet ask for new lists every 30 steps, and the bed at rest lists twice as many contacts as touch.
 #ifndef VKDOSE_PASS_SLACK_GLSL
@@ -10,8 +10,6 @@ float slackOf(vec3 velocity) {
     float some = kSlackSteps * numerics().x * length(velocity);
     return min(kLeastSlack * slackUnit() + some, kMostSlack * slackUnit());
 }
-
-float coilSlack() { return kCoilSlack * slackUnit(); }
 
 float bodySlack() { return kBodySlack * slackUnit(); }
 

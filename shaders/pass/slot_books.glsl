@@ -7,7 +7,6 @@
 
 const Exerted kNothing = Exerted(vec4(0.0), vec4(0.0), vec4(0.0));
 const Response kNoResponse = Response(vec3(0.0), vec3(0.0), vec3(0.0), 0.0, 0.0, bvec3(false));
-const Overlap kNoOverlap = Overlap(0.0, vec3(0.0));
 
 Exerted exertedNow(Overlap o, Response r, vec4 stored) {
     return Exerted(vec4(o.normal, r.hysteretic), vec4(r.sliding + o.normal * r.damping, o.depth),
@@ -65,8 +64,6 @@ struct WallMotion {
     vec3 centre;
 };
 const WallMotion kWallAtRest = WallMotion(vec3(0.0), vec3(0.0), vec3(0.0));
-
-WallMotion turningCoil(float rate) { return WallMotion(vec3(0.0), vec3(0.0, 0.0, rate), vec3(0.0)); }
 
 /// Velocity of the wall at the contact of `e`, when the particle's centre was at `centre`.
 vec3 wallVelocity(WallMotion wall, Exerted e, Body me, vec3 centre) {
@@ -132,39 +129,9 @@ void addToSlotBook(Book b) {
     slotBook.elastic += b.elastic;
 }
 
-void bookCoil(ContactParams law, float springDt, float rate, float reduced, uint i, uint turn, Body me, Overlap o,
-              Response r, bool known, bool touching, History old, History h) {
-    uint at = coilHistoryIndex(turn, 2u, i);
-    Exerted before = kNothing, now = kNothing;
-    if (known)
-        before =
-            Exerted(coilHistoryAt(at), coilHistoryAt(at + push.particles), coilHistoryAt(at + 2u * push.particles));
-    vec4 stored = vec4(0.0);
-    if (touching) {
-        stored = elasticEnergy(law, r.hysteretic, o.depth, reduced, h);
-        now = exertedNow(o, r, stored);
-        coilHistory[at] = now.normal;
-        coilHistory[at + push.particles] = now.rest;
-        coilHistory[at + 2u * push.particles] = now.couple;
-    }
-    addToSlotBook(
-        bookWall(law, springDt, turningCoil(rate), reduced, me, before, r, known, touching, stored, now, old));
-}
-
-/// Turns that touched at the last step (`was`) and do not any more (not in `met`).
-void partCoil(ContactParams law, float springDt, float rate, float reduced, uint i, Body me, vec4 was, uint met) {
-    for (uint t = 0u; t < kMaxTurns; ++t) {
-        if (was[t] == kNoTurn || (met & (1u << t)) != 0u) continue;
-        uint at = coilHistoryIndex(t, 0u, i);
-        History old = History(coilHistoryAt(at), coilHistoryAt(at + push.particles));
-        bookCoil(law, springDt, rate, reduced, i, t, me, kNoOverlap, kNoResponse, true, false, old, old);
-    }
-}
-
 /// A place on a body that is touched: it goes on with what `before` exerted, unless that is kNothing.
-void bookPlace(ContactParams law, float springDt, WallMotion wall, uint slot, uint place, Body me, Overlap o,
-               Response r, bool known, Exerted before, History old, History h) {
-    float reduced = 2.0 * me.sphere.radius;
+void bookPlace(ContactParams law, float springDt, WallMotion wall, float reduced, uint slot, uint place, Body me,
+               Overlap o, Response r, bool known, Exerted before, History old, History h) {
     vec4 stored = elasticEnergy(law, r.hysteretic, o.depth, reduced, h);
     Exerted now = exertedNow(o, r, stored);
     history[placeHistoryIndex(slot, place, 3u)] = now.normal;
@@ -174,9 +141,10 @@ void bookPlace(ContactParams law, float springDt, WallMotion wall, uint slot, ui
 }
 
 /// A place that was touched in the last step and is not any more.
-void partPlace(ContactParams law, float springDt, WallMotion wall, Body me, Exerted before, History old) {
-    addToSlotBook(bookWall(law, springDt, wall, 2.0 * me.sphere.radius, me, before, kNoResponse, true, false, vec4(0.0),
-                           kNothing, old));
+void partPlace(ContactParams law, float springDt, WallMotion wall, float reduced, Body me, Exerted before,
+               History old) {
+    addToSlotBook(
+        bookWall(law, springDt, wall, reduced, me, before, kNoResponse, true, false, vec4(0.0), kNothing, old));
 }
 
 #endif

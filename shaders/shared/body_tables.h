@@ -6,12 +6,12 @@
 #endif
 
 // Of each canister what packBodies made (shared/geometry.h).
-TABLE(7, geometry, uvec4, geometryVectors, the shapes of the bodies)
+TABLE(6, geometry, uvec4, geometryVectors, the shapes of the bodies)
 // Of each canister, of each step of the batch, or once if no body moves: where each body is and how it moves.
 // Of each body slot, if the body has one mesh: how many of its triangles can come within reach before the next refresh,
 // and which. kEmpty if they find no room: then the passes look at all of the cell.
-WRITTEN(8, nearby, uint, nearbyWords, the triangles near each particle)
-TABLE(9, motions, BodyMotion, bodyMotions, the motions of the bodies)
+WRITTEN(7, nearby, uint, nearbyWords, the triangles near each particle)
+TABLE(8, motions, BodyMotion, bodyMotions, the motions of the bodies)
 
 #undef TABLE
 #undef WRITTEN

@@ -109,8 +109,6 @@ vec4 numerics() { return OF_MEMBER(numerics, kVectorGravity + 3u); }
 vec4 outletVector(uint k) { return OF_MEMBER(outlets[k], kVectorOutlets + k); }
 uvec4 choices() { return uvec4(OF_MEMBER(choices, kVectorGravity + 4u)); }
 
-bool hasCoil() { return member.coil.motion.z != 0.0; }
-
 /// Which of its member's invocations this is.
 uint invocation() {
     return (gl_WorkGroupID.z * gl_NumWorkGroups.x + gl_WorkGroupID.x) * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
@@ -128,16 +126,13 @@ float springStep() { return opening() ? 0.0 : numerics().x; }
 uint particleCount() { return push.particles; }
 uint rowEntryCount() { return push.rowEntries; }
 uint linkEntryCount() { return push.linkEntries; }
-uint coilSlotCount() { return MEMBERS * push.coilSlots; }
 uint firstParticle() { return self * push.share; }
 uint firstPairSlot() { return self * push.pairSlots; }
 uint firstSurfaceSlot() { return MEMBERS * push.pairSlots + self * push.surfaceSlots; }
 uint springSlotCount() { return MEMBERS * (push.pairSlots + push.surfaceSlots); }
-uint firstCoilSlot() { return springSlotCount() + self * push.coilSlots; }
-uint coilTables() { return push.coilSlots > 0u ? 1u : 0u; }
 uint bodySlotCount() { return MEMBERS * push.bodySlots; }
-uint firstBodySlot() { return springSlotCount() + coilSlotCount() + self * push.bodySlots; }
-uint slotCount() { return springSlotCount() + coilSlotCount() + bodySlotCount(); }
+uint firstBodySlot() { return springSlotCount() + self * push.bodySlots; }
+uint slotCount() { return springSlotCount() + bodySlotCount(); }
 bool ofPair(uint slot) { return slot < MEMBERS * push.pairSlots; }
 
 // Where the elements of the tables are. shared/tables.h uses these names of sizes. Some are functions above, because a
@@ -148,9 +143,7 @@ bool ofPair(uint slot) { return slot < MEMBERS * push.pairSlots; }
 #define rowEntries rowEntryCount()
 #define linkEntries linkEntryCount()
 #define springSlots springSlotCount()
-#define coilSlots coilSlotCount()
 #define bodySlots bodySlotCount()
-#define coils coilTables()
 #define bodies BODIES
 #define bodied (BODIES > 0u ? 1u : 0u)
 #define slots slotCount()
@@ -168,9 +161,7 @@ bool ofPair(uint slot) { return slot < MEMBERS * push.pairSlots; }
 #undef rowEntries
 #undef linkEntries
 #undef springSlots
-#undef coilSlots
 #undef bodySlots
-#undef coils
 #undef bodies
 #undef bodied
 #undef slots
@@ -181,15 +172,12 @@ uint stateIndex(uint side, uint field, uint i) {
     return side * kFields * push.particles + stateOffset(field, i, push.particles);
 }
 uint historyIndex(uint part, uint slot) { return part < 2u ? springIndex(slot, part) : exertedIndex(part - 2u, slot); }
-/// Place of the force that a turn exerts in a slot of the coil.
-uint forceOfTurn(uint turn, uint slot) { return turnForceIndex(turn, slot - springSlotCount()); }
 /// Vector `part` of the history of place `touch` in a body slot: 0, 1: History; 2: direction in the frame of the body;
 /// with an energy book 3, 4, 5: Exerted.
 uint placeHistoryIndex(uint slot, uint touch, uint part) {
-    return bodyHistoryIndex(slot - springSlotCount() - coilSlotCount(), kPlaceParts * touch + part);
+    return bodyHistoryIndex(slot - springSlotCount(), kPlaceParts * touch + part);
 }
-uint forceOfPlace(uint slot, uint touch) { return bodyForceIndex(slot - springSlotCount() - coilSlotCount(), touch); }
-uint coilHistoryIndex(uint turn, uint part, uint i) { return turnHistoryIndex(turn * kParts + part, i); }
+uint forceOfPlace(uint slot, uint touch) { return bodyForceIndex(slot - springSlotCount(), touch); }
 
 vec4 readState(uint side, uint field, uint i) { return stateAt(stateIndex(side, field, i)); }
 vec4 readHistory(uint part, uint slot) { return historyAt(historyIndex(part, slot)); }

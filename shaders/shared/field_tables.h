@@ -10,15 +10,15 @@
 #define ROWS(table, function, first, rows, length)
 #endif
 
-TABLE(9, grid, vec4, kFieldVectors * points, the fields)
+TABLE(8, grid, vec4, kFieldVectors * points, the fields)
 // One over the sum of the kernel around each particle, then around the nodes of each contact's branch. Then: how many
 // others touch each particle.
-TABLE(11, weights, float, 2 * particles + kFieldNodes * forceEntries, the weights of the fields)
+TABLE(10, weights, float, 2 * particles + kFieldNodes * forceEntries, the weights of the fields)
 ROW(weights, particleWeightIndex, 0, particles)
 ROWS(weights, nodeWeightIndex, particles, forceEntries, kFieldNodes)
 ROW(weights, touchesIndex, particles + kFieldNodes * forceEntries, particles)
-PARAMETERS(12, fields, FieldParams, 1, the parameters of the fields)
-TABLE(15, branches, vec4, forceEntries, the branches of the contacts)
+PARAMETERS(11, fields, FieldParams, 1, the parameters of the fields)
+TABLE(14, branches, vec4, forceEntries, the branches of the contacts)
 
 #undef TABLE
 #undef PARAMETERS

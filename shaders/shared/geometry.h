@@ -57,13 +57,22 @@ SHARED_CONST kMostFlightTurns = 64u;  // of a screw that one sphere reaches
 
 SHARED_CONST kNearbyWords = 32u;  // of a body slot in the table `nearby`
 
+/// The wire of a shape of that kind, but for the angle of its start.
+struct CoilParams {
+    vec4 radius;  // x, y: centre-line radius high, low; z: wire radius; w: length [m]
+    vec4 pitch;   // x: pitch; y: its leading 16 bits; z: the rest [m]; w: hand * 2 pi / pitch [rad/m]
+    vec4 reach;   // x: largest angle off the wire at which a sphere can touch it [rad]; y: turns to try on each side;
+                  // z, w: zStart high, low [m]
+};
+
 /// Where a body is and how it moves at one time.
 struct BodyMotion {
     vec4 toBodyHigh[3];  // xyz: rows of the rotation from the world to the body; w: origin of the body in the world [m]
     vec4 toBodyLow[3];   // what is left of each number
-    vec4 velocity;       // xyz [m/s]
-    vec4 spin;           // xyz [rad/s]
-    vec4 centre;         // xyz: a point x fixed to the body has velocity + spin x (x - centre) [m]
+    vec4 velocity;       // xyz [m/s]; w: contact class (kParticleWall ...)
+    vec4 spin;           // xyz [rad/s]; w: 1 if contacts see the motion of its surface
+    vec4 centre;         // xyz: a point x fixed to the body has velocity + spin x (x - centre) [m]; w: radius of its
+                         // surface, which a* counts [m]; 0: flat
 };
 SHARED_CONST kMotionVectors = 9u;
 

@@ -30,25 +30,22 @@ SHARED_CONST kFirstView = kTables;
 // --- limits -------------------------------------------------------------------------------------------------------
 SHARED_CONST kMaxSurfaces = 28u;
 SHARED_CONST kMaxRegionOutlets = 4u;  // vkdose::kMaxOutlets
-SHARED_CONST kMaxTurns = 4u;  // of the coil that one particle touches at once
 // The entry of a contact with a surface holds the surface in these bits. The bits above hold the number of slots that
 // its invocation works on.
 SHARED_CONST kSurfaceBits = 5u;
 SHARED_CONST kUnrolledSurfaces = 8u;  // surfaces whose kind is a specialisation constant; more go through a slower loop
 SHARED_CONST kMaxRow = 64u;           // neighbours per particle
-SHARED_CONST kMaxLinks = 112u;        // contacts per particle: a row, every surface, the coil, every body
+SHARED_CONST kMaxLinks = 112u;        // contacts per particle: a row, every surface, every body
 SHARED_CONST kEmpty = 0xffffffffu;    // end of a cell's list
 SHARED_CONST kMaxBodyTouches = 4u;    // places of one body that one particle touches at once
 // What a particle and a body do: force on the particle [N], its moment about the origin of the world [N m], work of the
 // body on the particle [J], each summed over the steps since the last sensing.
 SHARED_CONST kBodyLoads = 7u;
-SHARED_REAL kNoTurn = 1e30f;          // wire angle in the place of a coil turn that is not touched
 // Slack: how far a particle may move before the contact lists are made anew. Its unit is half the skin of the rows. A
 // particle at rest needs next to none; a falling one gets room for a while.
 SHARED_REAL kLeastSlack = 0.0067f;
 SHARED_REAL kMostSlack = 0.2f;
 SHARED_REAL kSlackSteps = 256.0f;  // steps at the present speed
-SHARED_REAL kCoilSlack = 0.03f;    // of the coil's wire
 SHARED_REAL kBodySlack = 0.03f;    // of any point of a body
 
 // --- particle state: vec4 state[2 halves][2 couples][particles][2 fields] -------------------------------------------
@@ -112,20 +109,9 @@ struct SurfaceParams {
     vec4 radius;    // x, y: radius high, low (trough: half width; front: hole) [m]
 };
 
-struct CoilParams {
-    vec4 radius;  // x, y: centre-line radius high, low; z: wire radius; w: length [m]
-    vec4 pitch;   // x: pitch; y: its leading 16 bits; z: the rest [m]; w: hand * 2 pi / pitch [rad/m]
-    vec4 reach;   // x: largest angle off the wire at which a sphere can touch it [rad]; y: turns to try on each side;
-                  // z, w: zStart high, low [m]
-    uvec4 phase;  // start of the batch: high, low word of the angle in 2^-64 turns; advance per step: high, low
-    vec4 motion;  // x: rotation rate about +z, y: the rate that contacts see [rad/s]; z: 1 if there is a coil;
-                  // w: 1 if contacts count the wire's curvature
-};
-
 struct Member {
     ContactParams contact[3];
     SurfaceParams surface[kMaxSurfaces];
-    CoilParams coil;
     vec4 gravity;     // xyz [m/s2]; w: density of the particles [kg/m3]
     vec4 domainLow;   // xyz [m]; w: throatZ [m]
     vec4 domainHigh;  // xyz [m]; w: outletZ [m]
@@ -142,8 +128,7 @@ struct Member {
 };
 // Where in a member some of its vectors are.
 SHARED_CONST kVectorSurface = 12u;
-SHARED_CONST kVectorCoil = kVectorSurface + 4u * kMaxSurfaces;
-SHARED_CONST kVectorGravity = kVectorCoil + 5u;
+SHARED_CONST kVectorGravity = kVectorSurface + 4u * kMaxSurfaces;
 SHARED_CONST kVectorOutlets = kVectorGravity + 7u;
 SHARED_CONST kMemberVectors = kVectorOutlets + 2u * kMaxRegionOutlets;
 
@@ -157,12 +142,10 @@ SHARED_CONST kErrorTables = 2u;
 SHARED_CONST kErrorNan = 3u;
 SHARED_CONST kErrorOverlap = 4u;
 SHARED_CONST kErrorLost = 5u;
-SHARED_CONST kErrorTurns = 6u;
-SHARED_CONST kErrorNewton = 7u;
-SHARED_CONST kErrorFeatures = 8u;
-SHARED_CONST kErrors = 9u;
-SHARED_CONST kCallRebuild = 9u;   // of the rows, and so of the contact lists
-SHARED_CONST kCallRefresh = 10u;  // of the contact lists
+SHARED_CONST kErrorFeatures = 6u;
+SHARED_CONST kErrors = 7u;
+SHARED_CONST kCallRebuild = 7u;  // of the rows, and so of the contact lists
+SHARED_CONST kCallRefresh = 8u;  // of the contact lists
 SHARED_CONST kCallShift = 27u;
 SHARED_CONST kMostParticles = 1u << kCallShift;
 SHARED_CONST kCallWaits = 0xfffffffdu;  // this step was not made, because of a call in an earlier one
@@ -177,18 +160,16 @@ struct Dispatches {   // indirect arguments, three words each: workgroups in a r
     uvec4 settle;     // one workgroup, ditto
     uvec4 pairs;      // workgroups over the entries of the contact lists: pairs ...
     uvec4 surfaces;   // ... contacts with surfaces ...
-    uvec4 coil;       // ... particles near the coil ...
     uvec4 bodies;     // ... particles near a body
 };
 
 struct Control {   // a member's
     uvec4 wanted;  // x: 1 if this stride starts with new rows, y: with new contact lists; z, w: if a later one is to
     uvec4 steps;   // x: made since load, modulo 2^32, before this stride; y: this stride has no more; z: made of these
-    uvec4 listed;  // entries of the contact lists in use: pairs, surfaces, coil
-    uvec4 coming;  // entries taken so far by the refresh at work: pairs, surfaces, coil, links
+    uvec4 listed;  // entries of the contact lists in use: pairs, surfaces, particles near bodies
+    uvec4 coming;  // entries taken so far by the refresh at work: those, and links
     uvec4 list;   // x: entries of the rows in use; y: rebuilds since load; z: longest row ever; w: refreshes since load
-    uvec4 body;   // entries of the list of particles near bodies: x: in use, y: taken so far by the refresh at work
-    vec4 drift;   // since the last refresh: x: way of the coil's wire along the axis, y: longest way of a body [m]
+    vec4 drift;   // x: longest way of a body since the last refresh [m]
     uvec4 call;   // x: the most urgent call of the even steps of this stride, y: of the odd ones; kEmpty: none
     uvec4 error;  // the first: x: step of the batch, y: kind, z: particle; x is kEmpty while there is none. It is the
                   // last step that the member makes.
@@ -198,7 +179,7 @@ struct Control {   // a member's
 struct SensorRecord {
     uvec4 count;    // particles per region (kRegionCanister ...)
     vec4 mass;      // per region [kg]
-    vec4 motion;    // kinetic energy, rotational energy [J], momentum along z in the throat [kg m/s], torque sum [N m]
+    vec4 motion;    // kinetic energy, rotational energy [J], momentum along z in the throat [kg m/s]
     vec4 extremes;  // x: largest overlap ratio
 };
 
@@ -206,9 +187,9 @@ struct SensorRecord {
 // vec4 book[3 fields][particles], then vec4 book[3 fields][slots] of the contacts, which book to their first body. The
 // book of a particle sums since the last sensing; the book of a contact holds the last step.
 SHARED_CONST kBookNormal = 0u;  // plastic, adhesive, viscous, numerical loss
-// sliding, rolling, torsion loss; of a particle: work of the coil, of a contact: loaded
+// sliding, rolling, torsion loss; of a contact: loaded
 SHARED_CONST kBookSliders = 1u;
-// of a particle: loaded, left; z: torque on the coil in the last step [N m]; w: work of the bodies
+// of a particle: loaded, left; w: work of the bodies
 SHARED_CONST kBookFlow = 2u;
 SHARED_CONST kBookElastic = 2u;  // of a contact: energy of its normal, sliding, rolling, torsion springs
 SHARED_CONST kBookFields = 3u;
@@ -262,7 +243,6 @@ struct StepPush {
     uint linkEntries;   // ... and in the links behind the rows of all
     uint pairSlots;     // contact slots, multiples of the workgroup size: first the pairs of all members ...
     uint surfaceSlots;  // ... then the surfaces ...
-    uint coilSlots;     // ... then the coil ...
     uint bodySlots;     // ... then the bodies
     uint slice;         // first particle of the member that a field pass adds up
 };

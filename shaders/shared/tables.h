@@ -35,8 +35,8 @@
 // [2 halves][2 couples][particles][2 fields]: layout.h, stateOffset, says where an element is.
 VIEWED(0, state, vec4, 2 * particles * kFields, the particle state)
 // Rows: for every particle, the others within reach and skin, ascending. Links: for every particle, the contacts that
-// it takes part in, ordered as other particles by ascending index, surfaces, coil. A link is slot << 1, plus 1 for the
-// contact's second body. Bodies (host/model/rigid_body.h) come last.
+// it takes part in, ordered as other particles by ascending index, surfaces, bodies. A link is slot << 1, plus 1 for
+// the contact's second body.
 VIEWED(1, rows, uint, canisters * (rowEntries + linkEntries), the neighbour rows)
 ROW(rows, rowIndex, 0, canisters * rowEntries)
 ROW(rows, linkIndex, canisters * rowEntries, canisters * linkEntries)
@@ -54,49 +54,41 @@ VIEWED(3, history, vec4, historyParts * springSlots + bodyHistory * bodySlots, t
 ROWS(history, springIndex, 0, springSlots, 2)
 ROWS(history, exertedIndex, 2 * springSlots, historyParts - 2, springSlots)
 ROWS(history, bodyHistoryIndex, historyParts * springSlots, bodySlots, bodyHistory)
-// The history of each turn and particle, vector by vector (turn * historyParts + part). Then the wire angle of each
-// turn, kNoTurn if it is free. Empty without a coil.
-VIEWED(4, coilHistory, vec4, coils * (kMaxTurns * historyParts + 1) * particles, the contact history with the coil)
-ROWS(coilHistory, turnHistoryIndex, 0, coils * kMaxTurns * historyParts, particles)
-ROW(coilHistory, wireAngleIndex, kMaxTurns * historyParts * particles, coils * particles)
-PARAMETERS(5, members, Member, canisters, the parameters)
-HEADED(6, controls, Control, canisters, the control blocks, Dispatches, dispatches)
+PARAMETERS(4, members, Member, canisters, the parameters)
+HEADED(5, controls, Control, canisters, the control blocks, Dispatches, dispatches)
 // Of each canister's cells: the first particle, kEmpty if there is none. Then of each particle: the next in its cell.
-TABLE(7, cells, uint, canisters * cellHeads + particles, the cell table)
+TABLE(6, cells, uint, canisters * cellHeads + particles, the cell table)
 ROWS(cells, headIndex, 0, canisters, cellHeads)
 ROW(cells, nextIndex, canisters * cellHeads, particles)
 // Of each particle: high part of the position when the rows were built. Then: when the contacts were listed; w: slack.
-VIEWED(8, anchors, vec4, 2 * particles, the anchors)
+VIEWED(7, anchors, vec4, 2 * particles, the anchors)
 ROW(anchors, rowAnchorIndex, 0, particles)
 ROW(anchors, listAnchorIndex, particles, particles)
 // [canisters][workgroups over a canister's particles].
-TABLE(9, records, GroupRecord, canisters * groups, the records of the sensors)
+TABLE(8, records, GroupRecord, canisters * groups, the records of the sensors)
 // Of each slot: the particle; then the other particle, or the surface with the number of its works in the bits above it
 // (kSurfaceBits), or the body. Coming: the entries that a refresh prepares.
-VIEWED(10, entries, uvec2, 2 * slots, the contact lists)
+VIEWED(9, entries, uvec2, 2 * slots, the contact lists)
 ROW(entries, entryIndex, 0, slots)
 ROW(entries, comingEntryIndex, slots, slots)
 // Fields of each particle; then of each slot: layout.h, kBookNormal. Empty without an energy book.
-TABLE(11, books, vec4, energyBook * kBookFields * (particles + slots), the energy book)
+TABLE(10, books, vec4, energyBook * kBookFields * (particles + slots), the energy book)
 ROWS(books, bookIndex, 0, energyBook * kBookFields, particles)
 ROWS(books, slotBookIndex, kBookFields * particles, energyBook * kBookFields, slots)
-// Sums over the steps since the last sensing. Of each particle: the torque on the coil about +z [N m]; empty without a
-// coil. Then what it does to each body: kBodyLoads numbers.
-TABLE(12, coilTorques, float, (coils + kBodyLoads * bodies) * particles, the torques on the coil)
-ROW(coilTorques, coilTorqueIndex, 0, coils * particles)
-ROWS(coilTorques, bodyLoadIndex, coils * particles, kBodyLoads * bodies, particles)
-// Of each slot: force on the first body [N]; w: overlap over the smaller radius. Then of each turn and coil slot: the
-// force of the turn. Then of each body slot and place: the force there; w: overlap [m].
-VIEWED(13, forces, vec4, slots + kMaxTurns * coilSlots + kMaxBodyTouches * bodySlots, the contact forces)
+// Of each particle, sums over the steps since the last sensing of what it does to each body: kBodyLoads numbers.
+TABLE(11, bodyLoads, float, kBodyLoads * bodies * particles, the loads on the bodies)
+ROWS(bodyLoads, bodyLoadIndex, 0, kBodyLoads * bodies, particles)
+// Of each slot: force on the first body [N]; w: overlap over the smaller radius. Then of each body slot and place: the
+// force there; w: overlap [m].
+VIEWED(12, forces, vec4, slots + kMaxBodyTouches * bodySlots, the contact forces)
 ROW(forces, forceIndex, 0, slots)
-ROWS(forces, turnForceIndex, slots, kMaxTurns, coilSlots)
-ROWS(forces, bodyForceIndex, slots + kMaxTurns * coilSlots, bodySlots, kMaxBodyTouches)
-// Of each slot: torque on the first body [N m]; w: torque on the coil about +z [N m]; of a body slot with the energy
-// book the work of the body in the step [J]. Torque on the second body.
-VIEWED(14, torques, vec4, 2 * slots, the contact torques)
+ROWS(forces, bodyForceIndex, slots, bodySlots, kMaxBodyTouches)
+// Of each slot: torque on the first body [N m]; w: of a body slot with the energy book the work of the body in the step
+// [J]. Torque on the second body.
+VIEWED(13, torques, vec4, 2 * slots, the contact torques)
 ROWS(torques, torqueIndex, 0, slots, 2)
 // As the history, of the slots that a refresh prepares.
-TABLE(15, carried, vec4, historyParts * springSlots + bodyHistory * bodySlots, the carried history)
+TABLE(14, carried, vec4, historyParts * springSlots + bodyHistory * bodySlots, the carried history)
 
 #undef TABLE
 #undef VIEWED

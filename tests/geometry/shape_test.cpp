@@ -265,3 +265,33 @@ TEST_CASE("a centre inside a solid shape has a negative distance and a way out")
     const double azimuth = kScrew.startAngle + theta;
     check(kScrew, Vec3(6e-3 * std::cos(azimuth), 6e-3 * std::sin(azimuth), kScrew.height(theta) + 0.2e-3));
 }
+
+TEST_CASE("a shape that turns about z comes no nearer to a point than it says") {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> unit(-1, 1);
+    // An endless wire, as far as the points below can tell: they see no end of it.
+    const Coil wire{10e-3, 9e-3, 1e-3, 400e-3, -200e-3, 0.7, 1};
+    for (const Shape& shape : {Shape{wire}, Shape{Tube{{0, 0, -5e-3}, {0, 0, 1}, 10e-3, 20e-3, true}},
+                               Shape{Cone{{0, 0, 1e-3}, {0, 0, -1}, 8e-3, 2e-3, 9e-3}}, Shape{Ball{{0, 0, 3e-3}, 4e-3}},
+                               Shape{Plane{{1e-3, 2e-3, 0}, {0, 0, 1}}}}) {
+        CAPTURE(shape.index());
+        const std::optional<double> approach = approachByTurning(shape);
+        REQUIRE(approach);
+        const auto distance = [&](const Vec3& q) {
+            double least = 1;
+            for (const Feature& f : places(shape, q, 30e-3)) least = std::min(least, f.distance);
+            return least;
+        };
+        for (int trial = 0; trial < 200; ++trial) {
+            const Vec3 q = 15e-3 * Vec3(unit(random), unit(random), unit(random));
+            const double angle = 0.2 * unit(random);
+            const Vec3 turned(std::cos(angle) * q.x - std::sin(angle) * q.y,
+                              std::sin(angle) * q.x + std::cos(angle) * q.y, q.z);
+            CHECK(std::abs(distance(turned) - distance(q)) <= *approach * std::abs(angle) + 1e-9);
+        }
+    }
+    CHECK_FALSE(approachByTurning(Tube{{1e-3, 0, 0}, {0, 0, 1}, 10e-3, 20e-3, true}));
+    CHECK_FALSE(approachByTurning(Plane{{0, 0, 0}, {0, 1, 0}}));
+    CHECK_FALSE(approachByTurning(Block{Vec3(-1e-3), Vec3(1e-3), false}));
+    CHECK_FALSE(approachByTurning(kScrew));
+}

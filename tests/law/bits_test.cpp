@@ -23,8 +23,8 @@ namespace {
 struct Bits {
     std::uint64_t filled, settled, dosing;
 };
-constexpr Bits kBits{0x31f89555dbc293f2, 0x52e7f5870f0e4608, 0xf245b1e62df97021};
-constexpr std::uint64_t kDigits = 0xd479ccf18c79ae8e;
+constexpr Bits kBits{0x31f89555dbc293f2, 0x19ef1018a469fab, 0xbfcbc8d8cf62a11f};
+constexpr std::uint64_t kDigits = 0x5b1b13aa73221c9;
 constexpr std::uint64_t kLibm = 0xd133e7b2ee97c30e;
 
 /// FNV-1a of 64-bit words, lowest byte first.

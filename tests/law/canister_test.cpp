@@ -166,17 +166,18 @@ TEST_CASE("canister: the coil's torque is what the particles' angular momentum a
     CHECK(near(aboutAxis() - before, -impulse, std::abs(before), 1e-10));
 }
 
-TEST_CASE("canister: a sphere that touches more turns than have slots is an error that names it") {
+TEST_CASE("canister: a coil wound so close that a sphere lies on a dozen turns is one surface for it") {
     RuledWorld world = freeWorld(softParameters(), 1e-5);
     const Coil coil{30e-3, 0.7e-3, 0.3e-3, 30e-3, 0, 0, 1};
     world.coil = coil;
     const double a = 10e-3;
     Particles one;
     one.add(Vec3(30e-3 + 0.3e-3 + a - 0.9e-3, 0, 15e-3), a);
-    REQUIRE(geometry::touches(coil, 0, one.position[0], a).size() > kMaxCoilTouches);
+    REQUIRE(geometry::touches(coil, 0, one.position[0], a).size() > 10);
     auto backend = makeReferenceBackend();
     backend->load(world, one);
-    CHECK_THROWS_WITH(backend->advance(1, 0), Catch::Contains("particle 0 touches more than 4 turns"));
+    backend->advance(1, 0);
+    CHECK(backend->contacts().size() == 1);
 }
 
 TEST_CASE("canister: two turns touched at once are two contacts, each with its own history while the coil turns") {
@@ -213,7 +214,9 @@ TEST_CASE("canister: two turns touched at once are two contacts, each with its o
         for (const Contact& contact : run.backend().contacts()) found.push_back(contact.maxOverlap);
         std::sort(expected.begin(), expected.end());
         std::sort(found.begin(), found.end());
-        REQUIRE(found == expected);
+        REQUIRE(found.size() == expected.size());
+        // The backend looks in the frame of the coil, the test in the world's.
+        for (std::size_t k = 0; k < found.size(); ++k) REQUIRE(nearRelative(found[k], expected[k], 1e-8));
         if (found.size() == 2 && found[0] != found[1]) ++both;
     }
     CHECK(both > 100);

@@ -216,7 +216,7 @@ TEST_CASE("energy: a bed under a turning coil that doses closes to rounding, and
         RuledWorld world = smallCanister(2e-6);
         world.law.coulombLimit = limit;
         auto backend = makeReferenceBackend();
-        const EnergyLedger ledger = played(*backend, world, throwIn(7), 40000, 100, -60);
+        const EnergyLedger ledger = played(*backend, world, throwIn(7), 50000, 100, -60);
         CHECK(backend->advance(0, 0).count[static_cast<std::size_t>(Region::Dosed)] > 0);
         const EnergyBook& b = ledger.sum;
         for (const double loss : {b.plastic, b.adhesive, b.viscous, b.sliding, b.rolling, b.torsion})

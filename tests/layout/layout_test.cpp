@@ -40,24 +40,18 @@ const std::map<std::string, Layout>& hostLayouts() {
          {{FIELD(SurfaceParams, pointHigh), FIELD(SurfaceParams, pointLow), FIELD(SurfaceParams, axis),
            FIELD(SurfaceParams, radius)},
           sizeof(SurfaceParams)}},
-        {"CoilParams",
-         {{FIELD(CoilParams, radius), FIELD(CoilParams, pitch), FIELD(CoilParams, reach), FIELD(CoilParams, phase),
-           FIELD(CoilParams, motion)},
-          sizeof(CoilParams)}},
         {"Member",
-         {{FIELD(Member, contact), FIELD(Member, surface), FIELD(Member, coil), FIELD(Member, gravity),
-           FIELD(Member, domainLow), FIELD(Member, domainHigh), FIELD(Member, numerics), FIELD(Member, choices),
-           FIELD(Member, roster), FIELD(Member, bodies), FIELD(Member, outlets)},
+         {{FIELD(Member, contact), FIELD(Member, surface), FIELD(Member, gravity), FIELD(Member, domainLow),
+           FIELD(Member, domainHigh), FIELD(Member, numerics), FIELD(Member, choices), FIELD(Member, roster),
+           FIELD(Member, bodies), FIELD(Member, outlets)},
           sizeof(Member)}},
         {"Dispatches",
          {{FIELD(Dispatches, cells), FIELD(Dispatches, particles), FIELD(Dispatches, refresh),
-           FIELD(Dispatches, settle), FIELD(Dispatches, pairs), FIELD(Dispatches, surfaces), FIELD(Dispatches, coil),
-           FIELD(Dispatches, bodies)},
+           FIELD(Dispatches, settle), FIELD(Dispatches, pairs), FIELD(Dispatches, surfaces), FIELD(Dispatches, bodies)},
           sizeof(Dispatches)}},
         {"Control",
          {{FIELD(Control, wanted), FIELD(Control, steps), FIELD(Control, listed), FIELD(Control, coming),
-           FIELD(Control, list), FIELD(Control, body), FIELD(Control, drift), FIELD(Control, call),
-           FIELD(Control, error)},
+           FIELD(Control, list), FIELD(Control, drift), FIELD(Control, call), FIELD(Control, error)},
           sizeof(Control)}},
         {"SensorRecord",
          {{FIELD(SensorRecord, count), FIELD(SensorRecord, mass), FIELD(SensorRecord, motion),
@@ -76,7 +70,7 @@ const std::map<std::string, Layout>& hostLayouts() {
          {{FIELD(StepPush, stepInStride), FIELD(StepPush, opening), FIELD(StepPush, firstRow), FIELD(StepPush, live),
            FIELD(StepPush, particles), FIELD(StepPush, share), FIELD(StepPush, cellMask), FIELD(StepPush, rowEntries),
            FIELD(StepPush, linkEntries), FIELD(StepPush, pairSlots), FIELD(StepPush, surfaceSlots),
-           FIELD(StepPush, coilSlots), FIELD(StepPush, bodySlots), FIELD(StepPush, slice)},
+           FIELD(StepPush, bodySlots), FIELD(StepPush, slice)},
           sizeof(StepPush)}},
         {"PictureParams",
          {{FIELD(PictureParams, right), FIELD(PictureParams, up), FIELD(PictureParams, towards),
@@ -158,10 +152,10 @@ std::set<std::string> structsOf(std::span<const std::uint32_t> code) {
 TEST_CASE("C++ and GLSL see the same structs") {
     std::set<std::string> seen;
     for (const auto& structs :
-         {structsOf(pairs_spv), structsOf(pairs_texel_spv), structsOf(coil_energy_spv),
-          structsOf(surfaces_packed_energy_spv), structsOf(move_spv), structsOf(move_texel_energy_spv),
-          structsOf(near_spv), structsOf(near_texel_energy_spv), structsOf(commit_lists_spv), structsOf(sense_spv),
-          structsOf(sense_energy_spv), structsOf(neighbours_spv), structsOf(field_sums_spv), structsOf(cast_spv)})
+         {structsOf(pairs_spv), structsOf(pairs_texel_spv), structsOf(surfaces_packed_energy_spv), structsOf(move_spv),
+          structsOf(move_texel_energy_spv), structsOf(near_spv), structsOf(near_texel_energy_spv),
+          structsOf(commit_lists_spv), structsOf(sense_spv), structsOf(sense_energy_spv), structsOf(neighbours_spv),
+          structsOf(field_sums_spv), structsOf(cast_spv)})
         seen.insert(structs.begin(), structs.end());
     for (const auto& [name, layout] : hostLayouts()) {
         INFO("struct " << name << " is in no pass: nothing was compared");

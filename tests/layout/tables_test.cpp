@@ -80,7 +80,7 @@ struct FieldParts {
 };
 
 /// Sizes of which no two are equal and no sum is another.
-TableSizes oddSizes(bool coil, bool energyBook) {
+TableSizes oddSizes(bool bodies, bool energyBook) {
     TableSizes s;
     s.members = 3;
     s.workgroup = 64;
@@ -90,7 +90,8 @@ TableSizes oddSizes(bool coil, bool energyBook) {
     s.linkEntries = 20011;
     s.pairSlots = 5 * 64;
     s.surfaceSlots = 7 * 64;
-    s.coilSlots = coil ? 11 * 64 : 0;
+    s.bodies = bodies ? 2 : 0;
+    s.bodySlots = bodies ? 11 * 64 : 0;
     s.energyBook = energyBook;
     return s;
 }
@@ -138,9 +139,8 @@ TEST_CASE("every binding of a pass is that of its table in the list, or of the t
     for (const auto variants :
          {std::span<const vk::Variant>(spirv::near), std::span<const vk::Variant>(spirv::bodies),
           std::span<const vk::Variant>(spirv::link), std::span<const vk::Variant>(spirv::pairs),
-          std::span<const vk::Variant>(spirv::coil), std::span<const vk::Variant>(spirv::surfaces),
-          std::span<const vk::Variant>(spirv::move), std::span<const vk::Variant>(spirv::sense),
-          std::span<const vk::Variant>(spirv::neighbours)})
+          std::span<const vk::Variant>(spirv::surfaces), std::span<const vk::Variant>(spirv::move),
+          std::span<const vk::Variant>(spirv::sense), std::span<const vk::Variant>(spirv::neighbours)})
         for (const vk::Variant& variant : variants)
             for (const auto& [binding, names] : Used(variant.code).names)
                 for (const std::string& name : names) {
@@ -167,20 +167,20 @@ TEST_CASE("every binding of a pass is that of its table in the list, or of the t
 }
 
 TEST_CASE("the parts of a table follow one another and fill it") {
-    for (const bool coil : {false, true})
+    for (const bool bodies : {false, true})
         for (const bool energyBook : {false, true}) {
-            const Parts parts(oddSizes(coil, energyBook));
+            const Parts parts(oddSizes(bodies, energyBook));
             std::map<std::string, std::uint64_t> end;
             for (const Part& part : parts.all()) {
-                INFO(part.function << ", coil " << coil << ", energy book " << energyBook);
+                INFO(part.function << ", bodies " << bodies << ", energy book " << energyBook);
                 if (part.elements > 0) CHECK(part.first == end[part.table]);
                 end[part.table] += part.elements;
             }
-            CHECK(end.size() == 11);
+            CHECK(end.size() == 10);
             const auto shapes = parts.shapes();
             for (std::size_t i = 0; i < kListed.size(); ++i)
                 if (end.count(kListed[i].name) == 1) {
-                    INFO(kListed[i].name << ", coil " << coil << ", energy book " << energyBook);
+                    INFO(kListed[i].name << ", bodies " << bodies << ", energy book " << energyBook);
                     CHECK(std::max<std::uint64_t>(1, end[kListed[i].name]) == shapes[i].elements);
                 }
         }
@@ -196,21 +196,21 @@ TEST_CASE("the parts of a table follow one another and fill it") {
 
 TEST_CASE("an element of a table has its place by part, row and column") {
     const Parts at(oddSizes(true, true));
-    const std::uint64_t particles = 3ULL * 1024, spring = 3ULL * 12 * 64, coil = 3ULL * 11 * 64;
-    const std::uint64_t slots = spring + coil;
+    const std::uint64_t particles = 3ULL * 1024, spring = 3ULL * 12 * 64, bodySlots = 3ULL * 11 * 64;
+    const std::uint64_t slots = spring + bodySlots;
     CHECK(at.linkIndex(5) == 3 * 10007 + 5);
     CHECK(at.slotRangeIndex(7) == particles + 7);
     CHECK(at.springIndex(9, 1) == 19);
     CHECK(at.exertedIndex(2, 9) == 4 * spring + 9);
-    CHECK(at.turnHistoryIndex(6, 8) == 6 * particles + 8);
-    CHECK(at.wireAngleIndex(8) == 5 * particles * gpu::kMaxTurns + 8);
+    CHECK(at.bodyHistoryIndex(3, 8) == 5 * spring + 3 * gpu::kMaxBodyTouches * 6 + 8);
     CHECK(at.headIndex(2, 4) == 2 * 2048 + 4);
     CHECK(at.nextIndex(4) == 3 * 2048 + 4);
     CHECK(at.listAnchorIndex(4) == particles + 4);
     CHECK(at.comingEntryIndex(4) == slots + 4);
     CHECK(at.bookIndex(2, 4) == 2 * particles + 4);
     CHECK(at.slotBookIndex(1, 4) == gpu::kBookFields * particles + slots + 4);
-    CHECK(at.turnForceIndex(1, 4) == slots + coil + 4);
+    CHECK(at.bodyLoadIndex(9, 4) == 9 * particles + 4);
+    CHECK(at.bodyForceIndex(5, 1) == slots + gpu::kMaxBodyTouches * 5 + 1);
     CHECK(at.torqueIndex(4, 1) == 9);
 }
 

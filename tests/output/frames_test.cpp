@@ -47,7 +47,7 @@ Frame someFrame(int k) {
     const double s = 1e-6 / 3 + k;
     f.contacts = {{ContactClass::ParticleParticle, 0, 3, s / 7, {s, 2 * s, 3 * s}, {-s, s, 0}, s / 5, {1, s, 0}},
                   {ContactClass::ParticleWall, 3, 0, s / 3, {s, 0, 0}, {0, 0, s}, 0, {0, 1.0 / 3, 0}},
-                  {ContactClass::ParticleCoil, 4, 2, s / 9, {0, s, 0}, {0, s, 0}, -s, {0, 0, -1.0 / 7}}};
+                  {ContactClass::ParticleCoil, 4, 1, s / 9, {0, s, 0}, {0, s, 0}, -s, {0, 0, -1.0 / 7}}};
     return f;
 }
 

@@ -43,7 +43,7 @@ class Narrow {
         REQUIRE(queries.size() <= kQueries);
         geometry_.writeAll(bodies.table);
         std::vector<gpu::BodyMotion> motions;
-        for (const geometry::Pose& pose : poses) motions.push_back(packMotion(pose, {}));
+        for (const geometry::Pose& pose : poses) motions.push_back(packMotion({}, pose, {}));
         motions_.writeAll(motions);
         std::vector<gpu::vec4> centres;
         for (const Query& q : queries) {

@@ -244,18 +244,6 @@ TEST_CASE("the sensor records add up to the host's sums") {
     CHECK(near(throat, pz, k, 1e-5));
 }
 
-TEST_CASE("the coil's phase keeps its turns in fixed point") {
-    gpu::Member m{};
-    const double perStep = 2 * kPi * 1.5 * 2.26e-6;
-    packPhase(geometry::FixedAngle::of(-2 * kPi * 0.25).part, geometry::FixedAngle::of(perStep).part, m);
-    CHECK(m.coil.phase.x == 0xc0000000u);  // minus a quarter turn is three quarters
-    const double turns = (double(m.coil.phase.z) + double(m.coil.phase.w) / 4294967296.0) / 4294967296.0;
-    CHECK(nearRelative(turns * 15e6, 1.5 * 2.26e-6 * 15e6, 1e-13));  // over a whole run
-    packPhase(0, geometry::FixedAngle::of(-perStep).part, m);
-    const double back = (double(m.coil.phase.z) + double(m.coil.phase.w) / 4294967296.0) / 4294967296.0;
-    CHECK(nearRelative(1 - back, 1.5 * 2.26e-6, 1e-10));
-}
-
 TEST_CASE("positions survive packing to single precision twice over") {
     Particles p = cloud(31, 0.3, 9);
     std::vector<gpu::vec4> half(std::size_t(gpu::kFields) * 64);
@@ -285,6 +273,19 @@ TEST_CASE("indices of 32 bits reach for a hundred million spheres") {
     }
     CHECK_THROWS_WITH(tableSizes(world, Crowd(200'000'000, 1.25e-3), member, {64, 65535, 1ULL << 40}),
                       Catch::Contains("134217728"));
+}
+
+TEST_CASE("in a bed that hardly fits the device the bodies get the room that pairs and surfaces leave") {
+    RuledWorld world = emptyWorld();
+    world.coil = geometry::Coil{};
+    const std::uint64_t n = 500'000, range = 1ULL << 27;
+    const TableSizes t = tableSizes(world, Crowd(n, 1.25e-3), {}, {64, 65535, range});
+    CHECK(t.bodySlots < n);
+    CHECK(t.bodySlots >= n / 8);
+    CHECK(t.longestBytes() <= range);
+    CHECK(tableSizes(world, Crowd(n, 1.25e-3), {}, {64, 65535, 16 * range}).bodySlots >= n);
+    // Beyond what fits, an eighth of the particles still finds room in the lists.
+    CHECK(tableSizes(world, Crowd(4 * n, 1.25e-3), {}, {64, 65535, range}).bodySlots >= n / 2);
 }
 
 TEST_CASE("where dispatches go in layers, every layer is full") {

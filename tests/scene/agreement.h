@@ -21,7 +21,8 @@ struct Differences {
     std::size_t unmatched = 0;  ///< contacts only one of them has
 };
 
-/// Which slot a turn of the coil gets is the backend's own affair: here they are numbered by where they push to.
+/// In which order a backend tells the contacts with one body is its own affair: those with the coil are numbered by
+/// where they push to.
 inline std::vector<Contact> comparable(std::vector<Contact> contacts) {
     const auto rank = [](const Contact& c) { return std::tuple(c.kind, c.particle, c.force.z); };
     std::sort(contacts.begin(), contacts.end(), [&](const auto& a, const auto& b) { return rank(a) < rank(b); });

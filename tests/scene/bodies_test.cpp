@@ -307,3 +307,33 @@ TEST_CASE("bodies: a mesh of a hundred thousand triangles steps on the device as
     CHECK(differences(*reference, *ofRod, 0.5).position < 4e-3);
     requireClean(*device);
 }
+
+TEST_CASE("bodies: a turning coil, or a drum about its axis, leaves the contact lists as they are for long") {
+    RuledWorld w = emptyWorld();
+    w.timeStep = 2e-6;
+    w.skin = 0.4e-3;
+    RigidBody drum;
+    drum.name = "drum";
+    drum.course.motion = geometry::Turn{Vec3(0, 0, 1), Vec3(0), 10};
+    SECTION("the coil") {
+        w.coil = geometry::Coil{10.4e-3, 8.75e-3, 1e-3, 70e-3};
+    }
+    SECTION("a drum") {
+        drum.shapes = {geometry::Tube{Vec3(0), Vec3(0, 0, 1), 40e-3, 70e-3, true}};
+        w.bodies = {drum};
+    }
+    SECTION("but not a box, whose corners go far in a step") {
+        drum.shapes = {geometry::Block{Vec3(-40e-3, -40e-3, 0), Vec3(40e-3, 40e-3, 70e-3), true}};
+        w.bodies = {drum};
+    }
+    Particles p;
+    p.add({0, 0, 35e-3}, 1e-3);  // touches nothing and hardly falls
+    auto device = gpu();
+    device->load(w, p);
+    device->advance(8, 10);
+    const std::uint64_t refreshes = profile(*device, 256, 10).refreshes;
+    if (!w.bodies.empty() && std::holds_alternative<geometry::Block>(drum.shapes[0]))
+        CHECK(refreshes > 20);
+    else
+        CHECK(refreshes <= 4);
+}

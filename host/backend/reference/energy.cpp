@@ -79,14 +79,13 @@ void bookContact(const Exerted& before, const Exerted& now, const Body& i, const
     bookSlider(taken.sliding, had.sliding, has.sliding, stiffening(&Parts::kt), now.parts.slides, book.sliding);
     bookSlider(taken.rolling, had.rolling, has.rolling, stiffening(&Parts::kr), now.parts.rolls, book.rolling);
     bookSlider(taken.torsion, had.torsion, has.torsion, stiffening(&Parts::kTo), now.parts.twists, book.torsion);
-
-    book.coilWork -= dt / 2 * j.spin.z * (before.coilTorque + now.coilTorque);
 }
 
 double halfStepGiven(const Exerted& e, const Body& j, double dt) {
     if (!e.touching) return 0;
+    const Vec3 force = (e.parts.hysteretic + e.parts.damping) * e.normal + e.parts.sliding;
     return dt / 2 *
-           (glm::dot(e.force, j.velocity + glm::cross(j.spin, e.leverJ)) +
+           (glm::dot(force, j.velocity + glm::cross(j.spin, e.leverJ)) +
             glm::dot(e.parts.rolling + e.parts.torsion, j.spin));
 }
 

@@ -26,8 +26,7 @@ struct Exerted {
     Vec3 leverI{0}, leverJ{0};  ///< for a wall leverJ leads to the contact point from the wall's centre of turning [m]
     Parts parts{};
     Elastic elastic;
-    double coilTorque = 0;  ///< on the coil about +z [N m]
-    Vec3 force{0};          ///< on i [N]
+    Vec3 force{0};  ///< on i [N]
 };
 
 /// What a wall did to a particle in the half step after it exerted `e`, while it moved as `j` [J].

@@ -1,20 +1,24 @@
 #include "host/backend/reference/forces.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <variant>
 
-#include "host/core/error.h"
-
 namespace vkdose::reference {
 
-void Forces::reset(std::size_t particles) {
+namespace {
+
+/// A fixed wall, as a body.
+const Body kFixed{Vec3(0), Vec3(0), Vec3(0), 0};
+
+}  // namespace
+
+void Forces::reset(std::size_t particles, const World& world) {
+    bodies_ = allBodies(world);
+    walls_ = world.surfaces.size();
     pairs_.assign(particles, {});
     surfaces_.assign(particles, {});
-    turns_.assign(particles, {});
     onBodies_.assign(particles, {});
 }
 
@@ -28,8 +32,7 @@ void Forces::evaluate(const RuledWorld& world, const Particles& particles, const
     loads_ = &loads;
     loads.force.assign(particles.size(), Vec3(0));
     loads.torque.assign(particles.size(), Vec3(0));
-    loads.coilTorque = 0;
-    loads.bodies.assign(world.bodies.size(), {});
+    loads.bodies.assign(bodies_.size(), {});
     loads.deepest = {};
     loads.energy = {};
     loads.branches.clear();
@@ -37,7 +40,6 @@ void Forces::evaluate(const RuledWorld& world, const Particles& particles, const
     for (std::size_t i = 0; i < particles.size(); ++i) {
         pairs(i);
         surfaces(i);
-        coil(i);
         bodies(i);
     }
 }
@@ -54,18 +56,13 @@ void Forces::note(const Touch& touch, ContactClass kind, std::size_t particle, s
         loads_->deepest = {ratio, kind, static_cast<std::uint32_t>(particle), static_cast<std::uint32_t>(other)};
 }
 
-/// A wall or the coil as a body. It turns about the origin; the rate of fixed walls is 0.
-Body Forces::wallBody(ContactClass kind) const {
-    return {Vec3(0), Vec3(0), Vec3(0, 0, kind == ContactClass::ParticleCoil ? drive_.rate : 0), 0};
-}
-
 Exerted Forces::exertedBy(ContactClass kind, const Touch& touch, const Response& response,
                           const History& history) const {
     Exerted exerted;
     exerted.force = response.force;
     if (!world_->energyBook) return exerted;
     const Elastic elastic = elasticEnergy(world_->law.of(kind), response.parts, touch.overlap, touch.reduced, history);
-    return {true, touch.normal, touch.overlap, touch.leverI, touch.leverJ, response.parts, elastic, 0, response.force};
+    return {true, touch.normal, touch.overlap, touch.leverI, touch.leverJ, response.parts, elastic, response.force};
 }
 
 /// Books a contact that goes on, begins or ends, or that was loaded touching.
@@ -91,10 +88,10 @@ void Forces::partPair(std::size_t i, const Known& known) {
         bookDeparture(known.exerted, present(i), present(known.other), springDt_, loads_->energy);
 }
 
-void Forces::partWall(std::size_t i, ContactClass kind, const Exerted& before) {
+void Forces::partWall(std::size_t i, const Exerted& before) {
     if (!world_->energyBook) return;
     if (particles_->status[i] == Status::Active)
-        book(before, Exerted{}, body(i), wallBody(kind));
+        book(before, Exerted{}, body(i), kFixed);
     else
         loads_->energy.left += before.elastic.sum();
 }
@@ -197,74 +194,13 @@ void Forces::surfaces(std::size_t i) {
         std::optional<Touch> touch;
         if (met.touches) touch = touchWall(body(i), met.closest.normal, met.closest.distance, geometry::Moving{});
         if (!touch) {
-            if (met.continues) partWall(i, ContactClass::ParticleWall, met.known.exerted);
+            if (met.continues) partWall(i, met.known.exerted);
             continue;
         }
         History history = met.known.history;
         const Exerted now = wall(i, ContactClass::ParticleWall, met.known.other, *touch, history).exerted;
-        book(met.known.exerted, now, body(i), wallBody(ContactClass::ParticleWall));
+        book(met.known.exerted, now, body(i), kFixed);
         surfaces_[i].push_back({met.known.other, history, now});
-    }
-}
-
-/// The slot of the turn that touched near `wireAngle` in the last step and has not been found yet in this one. Returns
-/// the number of slots if there is none. The wire angle of a turn changes by far less than half a turn in a step.
-std::size_t Forces::slotOf(const Turns& before, const Turns& now, double wireAngle) {
-    std::size_t slot = 0;
-    while (slot < before.size() &&
-           !(before[slot].touching && !now[slot].touching && std::abs(before[slot].wireAngle - wireAngle) < kPi))
-        ++slot;
-    return slot;
-}
-
-/// Each turn that particle i touches has its own history. It keeps the same slot as long as it is touched.
-void Forces::coil(std::size_t i) {
-    const Turns before = turns_[i];
-    Turns& now = turns_[i];
-    for (Turn& turn : now) turn.touching = false;
-    if (!world_->coil) return;
-    if (particles_->status[i] == Status::Active) touchTurns(i, before, now);
-    for (std::size_t slot = 0; slot < now.size(); ++slot)
-        if (before[slot].touching && !now[slot].touching) partWall(i, ContactClass::ParticleCoil, before[slot].exerted);
-}
-
-void Forces::touchTurns(std::size_t i, const Turns& before, Turns& now) {
-    const std::vector<geometry::CoilTouch> found =
-        geometry::touches(*world_->coil, drive_.angle, particles_->position[i], particles_->radius[i]);
-    std::array<bool, kMaxCoilTouches> taken{};  // slots in use by a turn of the last step or by a new one
-    std::transform(before.begin(), before.end(), taken.begin(), [](const Turn& turn) { return turn.touching; });
-
-    // What the law sees; the books see the true motion.
-    const geometry::Moving seen{Vec3(0), Vec3(0, 0, world_->coilSurfaceMoves ? drive_.rate : 0), Vec3(0)};
-
-    for (const geometry::CoilTouch& at : found) {
-        std::optional<Touch> touch = touchWall(body(i), at.normal, at.distance, seen);
-        if (!touch) continue;
-        if (world_->coilWireCurved) {
-            const double a = particles_->radius[i], b = world_->coil->wireRadius;
-            touch->reduced = 2 * a * b / (a + b);
-        }
-        std::size_t slot = slotOf(before, now, at.wireAngle);
-        const bool continues = slot < before.size();
-        if (!continues) {
-            const auto free = std::find(taken.begin(), taken.end(), false);
-            if (free == taken.end())
-                throw RunError(fmt::format(
-                    "particle {} touches more than {} turns of the coil: use smaller particles or a wider pitch", i,
-                    kMaxCoilTouches));
-            slot = static_cast<std::size_t>(free - taken.begin());
-            taken[slot] = true;
-        }
-        const Turn old = continues ? before[slot] : Turn{};
-        Turn& turn = now[slot];
-        turn = {true, at.wireAngle, old.history, {}};
-        const Pushed pushed =
-            wall(i, ContactClass::ParticleCoil, static_cast<std::uint32_t>(slot), *touch, turn.history);
-        turn.exerted = pushed.exerted;
-        // The coil bears the opposite force at the contact point, and the opposite couple.
-        turn.exerted.coilTorque = -(glm::cross(pushed.point, pushed.exerted.force) + pushed.couple).z;
-        loads_->coilTorque += turn.exerted.coilTorque;
-        book(old.exerted, turn.exerted, body(i), wallBody(ContactClass::ParticleCoil));
     }
 }
 
@@ -280,13 +216,8 @@ std::vector<Contact> Forces::contacts() const {
     for (std::size_t i = 0; i < surfaces_.size(); ++i)
         for (const Known& known : surfaces_[i])
             add(ContactClass::ParticleWall, i, known.other, known.history, known.exerted);
-    for (std::size_t i = 0; i < turns_.size(); ++i)
-        for (std::size_t slot = 0; slot < turns_[i].size(); ++slot)
-            if (turns_[i][slot].touching)
-                add(ContactClass::ParticleCoil, i, slot, turns_[i][slot].history, turns_[i][slot].exerted);
     for (std::size_t i = 0; i < onBodies_.size(); ++i)
-        for (const OnBody& c : onBodies_[i])
-            add(world_->bodies[c.body].kind, i, world_->surfaces.size() + c.body, c.history, c.exerted);
+        for (const OnBody& c : onBodies_[i]) add(bodies_[c.body].kind, i, walls_ + c.body, c.history, c.exerted);
     return list;
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 // The sum of all contact forces, and the histories that the contacts carry from step to step.
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -22,18 +21,17 @@ struct Deepest {
     std::uint32_t other = 0;
 };
 
-/// Forces and torques of the contacts on the particles and the coil at one instant.
+/// Forces and torques of the contacts on the particles and the bodies at one instant.
 struct Loads {
     std::vector<Vec3> force;       ///< without gravity [N]
     std::vector<Vec3> torque;      ///< about the particle's centre [N m]
-    double coilTorque = 0;         ///< about +z, on the coil [N m]
-    std::vector<BodyLoad> bodies;  ///< of the world's bodies; `work` in this step
+    std::vector<BodyLoad> bodies;  ///< of allBodies; `work` in this step
     EnergyBook energy;             ///< energies that contacts book and store in this step; if the world asks for it
     Deepest deepest;
     std::vector<Branch> branches;  ///< of every contact
 };
 
-/// The drive at that instant: it turns the coil, and bodies follow it. And what other bodies follow.
+/// The drive at that instant, which turns the coil and the bodies that follow it. And what other bodies follow.
 struct Drive {
     double angle;                       ///< of the coil since load, about +z [rad]
     double rate;                        ///< [rad/s]
@@ -43,12 +41,11 @@ struct Drive {
 
 class Forces {
   public:
-    /// Forgets every contact.
-    void reset(std::size_t particles);
+    /// Forgets every contact. `world` is the one that is evaluated from now on.
+    void reset(std::size_t particles, const World& world);
 
     /// Contact forces of all active particles. Histories advance by `springDt` [s]. Histories of contacts that have
-    /// parted are dropped. Throws RunError when a particle touches more turns of the coil than there are slots, or a
-    /// body in too many places.
+    /// parted are dropped. Throws RunError when a particle touches a body in too many places.
     void evaluate(const RuledWorld& world, const Particles& particles, const Neighbours& neighbours, const Drive& drive,
                   double springDt, Loads& loads);
 
@@ -73,13 +70,6 @@ class Forces {
         geometry::Closest closest{};
         bool touches = false;
     };
-    struct Turn {
-        bool touching = false;
-        double wireAngle = 0;  ///< the place on the wire, which tells the turns apart [rad]
-        History history;
-        Exerted exerted;
-    };
-    using Turns = std::array<Turn, kMaxCoilTouches>;
     /// A contact with one feature of a body.
     struct OnBody {
         std::uint32_t body = 0;
@@ -103,8 +93,6 @@ class Forces {
     void surfaces(std::size_t i);
     void meetSurfaces(std::size_t i);
     void joinAtFront(std::size_t i);
-    void coil(std::size_t i);
-    void touchTurns(std::size_t i, const Turns& before, Turns& now);
     void placeBodies();
     void bodies(std::size_t i);
     void touchBody(std::size_t i, std::uint32_t b, std::span<const OnBody> before);
@@ -114,15 +102,14 @@ class Forces {
     Exerted exertedBy(ContactClass kind, const Touch& touch, const Response& response, const History& history) const;
     void book(const Exerted& before, const Exerted& now, const Body& i, const Body& j);
     void partPair(std::size_t i, const Known& known);
-    void partWall(std::size_t i, ContactClass kind, const Exerted& before);
-    Body wallBody(ContactClass kind) const;
-    static std::size_t slotOf(const Turns& before, const Turns& now, double wireAngle);
+    void partWall(std::size_t i, const Exerted& before);
     Body body(std::size_t i) const;
     void note(const Touch& touch, ContactClass kind, std::size_t particle, std::size_t other);
 
     std::vector<std::vector<Known>> pairs_, surfaces_;  ///< per particle, ascending in `other`
-    std::vector<Turns> turns_;                          ///< per particle
     std::vector<std::vector<OnBody>> onBodies_;         ///< per particle, ascending in `body`
+    std::vector<RigidBody> bodies_;                     ///< allBodies
+    std::size_t walls_ = 0;                             ///< fixed surfaces
     std::vector<OnBody> beforeOnBodies_;                ///< scratch: those of one particle at the last step
     std::vector<Placed> placed_;                        ///< scratch: the bodies
     std::vector<Known> before_;                         ///< scratch: a row as it was at the last step

@@ -1,4 +1,4 @@
-// Contacts with the bodies of a world (host/model/rigid_body.h).
+// Contacts with the bodies of a world and its coil (host/model/world.h, allBodies).
 
 #include <fmt/format.h>
 
@@ -14,8 +14,8 @@ namespace vkdose::reference {
 void Forces::placeBodies() {
     placed_.clear();
     const double back = springDt_ / 2;
-    for (std::size_t b = 0; b < world_->bodies.size(); ++b) {
-        const RigidBody& body = world_->bodies[b];
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+        const RigidBody& body = bodies_[b];
         const BodyClock clock = clockOf(drive_.clocks, b);
         const double own = static_cast<double>(clock.steps) * world_->timeStep;
         placed_.push_back({body.pose(drive_.time, drive_.angle, own),
@@ -28,7 +28,7 @@ void Forces::bodies(std::size_t i) {
     beforeOnBodies_.swap(onBodies_[i]);
     onBodies_[i].clear();
     auto from = beforeOnBodies_.cbegin();
-    for (std::uint32_t b = 0; b < world_->bodies.size(); ++b) {
+    for (std::uint32_t b = 0; b < bodies_.size(); ++b) {
         const auto to =
             std::find_if(from, beforeOnBodies_.cend(), [&](const OnBody& known) { return known.body != b; });
         touchBody(i, b, {from, to});
@@ -39,7 +39,7 @@ void Forces::bodies(std::size_t i) {
 /// Each place where particle i touches body b makes a contact. It goes on with the contact of the last step that lay
 /// nearest to it on the body; the springs turn with it.
 void Forces::touchBody(std::size_t i, std::uint32_t b, std::span<const OnBody> before) {
-    const RigidBody& body = world_->bodies[b];
+    const RigidBody& body = bodies_[b];
     const Placed& placed = placed_[b];
     std::vector<geometry::Feature> found;
     if (particles_->status[i] == Status::Active) try {
@@ -53,12 +53,17 @@ void Forces::touchBody(std::size_t i, std::uint32_t b, std::span<const OnBody> b
     for (const OnBody& known : before) old.push_back(known.direction);
     const std::vector<std::size_t> continues = geometry::continued(old, directions);
 
-    const auto other = static_cast<std::uint32_t>(world_->surfaces.size() + b);
+    const auto other = static_cast<std::uint32_t>(walls_ + b);
+    const geometry::Moving seen = body.surfaceMoves ? placed.moving : geometry::Moving{};
     std::vector<bool> goesOn(before.size(), false);
     for (std::size_t k = 0; k < found.size(); ++k) {
         const Vec3 normal = placed.pose.directionToWorld(directions[k]);
-        const std::optional<Touch> touch = touchWall(this->body(i), normal, found[k].distance, placed.moving);
+        std::optional<Touch> touch = touchWall(this->body(i), normal, found[k].distance, seen);
         if (!touch) continue;
+        if (body.curvature > 0) {
+            const double a = particles_->radius[i];
+            touch->reduced = 2 * a * body.curvature / (a + body.curvature);
+        }
         OnBody now{b, directions[k], {}, {}};
         Exerted last;
         if (continues[k] != geometry::kNew) {
@@ -83,7 +88,7 @@ void Forces::touchBody(std::size_t i, std::uint32_t b, std::span<const OnBody> b
 
 /// The body bears the opposite force at the contact point, and the opposite couple.
 void Forces::loadBody(std::uint32_t b, const Pushed& pushed) {
-    const RigidBody& body = world_->bodies[b];
+    const RigidBody& body = bodies_[b];
     const Placed& placed = placed_[b];
     BodyLoad& load = loads_->bodies[b];
     const Vec3& force = pushed.exerted.force;
@@ -103,7 +108,9 @@ void Forces::bookBody(std::size_t i, std::uint32_t b, const Exerted& before, con
     const geometry::Moving& moving = placed_[b].moving;
     const Body wall{Vec3(0), moving.velocity, moving.spin, 0};
     book(before, now, body(i), wall);
-    loads_->energy.bodyWork += halfStepGiven(before, wall, springDt_) + halfStepGiven(now, wall, springDt_);
+    const bool coil = b == world_->bodies.size();  // the last of allBodies
+    (coil ? loads_->energy.coilWork : loads_->energy.bodyWork) +=
+        halfStepGiven(before, wall, springDt_) + halfStepGiven(now, wall, springDt_);
 }
 
 }  // namespace vkdose::reference

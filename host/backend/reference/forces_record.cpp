@@ -9,7 +9,7 @@ namespace vkdose::reference {
 namespace {
 
 /// The rows that a contact of the record is in.
-enum Row : std::uint32_t { kPair, kSurface, kTurn, kOnBody };
+enum Row : std::uint32_t { kPair, kSurface, kOnBody };
 
 /// Calls `visit` for every number of a contact's history, in a fixed order; a flag is visited as 0 or 1.
 template <class Visit>
@@ -34,8 +34,8 @@ void eachNumber(Exerted& e, Visit visit) {
     flag(e.parts.twists);
     for (Vec3* v : {&e.normal, &e.leverI, &e.leverJ, &e.parts.sliding, &e.parts.rolling, &e.parts.torsion})
         for (int d = 0; d < 3; ++d) visit((*v)[d]);
-    for (double* x : {&e.overlap, &e.coilTorque, &e.parts.hysteretic, &e.parts.damping, &e.elastic.normal,
-                      &e.elastic.sliding, &e.elastic.rolling, &e.elastic.torsion})
+    for (double* x : {&e.overlap, &e.parts.hysteretic, &e.parts.damping, &e.elastic.normal, &e.elastic.sliding,
+                      &e.elastic.rolling, &e.elastic.torsion})
         visit(*x);
 }
 
@@ -43,37 +43,30 @@ void eachNumber(Exerted& e, Visit visit) {
 
 void Forces::save(Record& record) const {
     std::vector<std::uint32_t> ends;
-    std::vector<double> numbers, wireAngle, direction;
-    const auto add = [&](std::uint32_t kind, std::size_t i, std::size_t other, History history, Exerted exerted,
-                         double angle) {
+    std::vector<double> numbers, direction;
+    const auto add = [&](std::uint32_t kind, std::size_t i, std::size_t other, History history, Exerted exerted) {
         ends.insert(ends.end(), {kind, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(other)});
         const auto push = [&](double& x) { numbers.push_back(x); };
         eachNumber(history, push);
         eachNumber(exerted, push);
-        wireAngle.push_back(angle);
     };
     for (std::size_t i = 0; i < pairs_.size(); ++i) {
-        for (const Known& k : pairs_[i]) add(kPair, i, k.other, k.history, k.exerted, 0);
-        for (const Known& k : surfaces_[i]) add(kSurface, i, k.other, k.history, k.exerted, 0);
-        for (std::size_t slot = 0; slot < turns_[i].size(); ++slot) {
-            const Turn& t = turns_[i][slot];
-            if (t.touching) add(kTurn, i, slot, t.history, t.exerted, t.wireAngle);
-        }
+        for (const Known& k : pairs_[i]) add(kPair, i, k.other, k.history, k.exerted);
+        for (const Known& k : surfaces_[i]) add(kSurface, i, k.other, k.history, k.exerted);
         for (const OnBody& c : onBodies_[i]) {
-            add(kOnBody, i, c.body, c.history, c.exerted, 0);
+            add(kOnBody, i, c.body, c.history, c.exerted);
             direction.insert(direction.end(), {c.direction.x, c.direction.y, c.direction.z});
         }
     }
     record.put("contact_ends", std::move(ends));
     record.put("contact_numbers", std::move(numbers));
-    record.put("contact_wire_angle", std::move(wireAngle));
     record.put("contact_direction", std::move(direction));
 }
 
 void Forces::restore(const Record& record) {
-    const auto& wireAngle = record.get<double>("contact_wire_angle");
-    const std::size_t count = wireAngle.size();
-    const auto& ends = record.get<std::uint32_t>("contact_ends", 3 * count);
+    const auto& ends = record.get<std::uint32_t>("contact_ends");
+    const std::size_t count = ends.size() / 3;
+    if (ends.size() % 3 != 0) throw RecordError("contact_ends is not of three numbers for each contact");
     std::size_t each = 0, onBodies = 0;
     for (std::size_t c = 0; c < count; ++c) onBodies += ends[3 * c] == kOnBody ? 1 : 0;
     const auto& directions = record.get<double>("contact_direction", 3 * onBodies);
@@ -90,13 +83,10 @@ void Forces::restore(const Record& record) {
         const std::uint32_t kind = ends[3 * c], particle = ends[3 * c + 1], other = ends[3 * c + 2];
         eachNumber(history, take);
         eachNumber(exerted, take);
-        if (particle >= pairs_.size() || kind > kOnBody || (kind == kTurn && other >= kMaxCoilTouches) ||
-            (kind == kOnBody && other >= kMaxBodies))
-            throw RecordError(fmt::format("contact {} is of a particle, turn or body that there is not", c));
+        if (particle >= pairs_.size() || kind > kOnBody || (kind == kOnBody && other >= bodies_.size()))
+            throw RecordError(fmt::format("contact {} is of a particle or body that there is not", c));
         // The contacts were saved in ascending order, so that every row is ascending again.
-        if (kind == kTurn) {
-            turns_[particle][other] = {true, wireAngle[c], history, exerted};
-        } else if (kind == kOnBody) {
+        if (kind == kOnBody) {
             Vec3 d;
             for (int axis = 0; axis < 3; ++axis) d[axis] = *direction++;
             onBodies_[particle].push_back({other, d, history, exerted});

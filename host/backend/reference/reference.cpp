@@ -29,20 +29,13 @@ bool inside(const Box& box, const Vec3& x) {
 }
 
 std::string nameOf(const Deepest& deepest, const World& world) {
-    const bool onBody = deepest.kind != ContactClass::ParticleParticle && deepest.other >= world.surfaces.size() &&
-                        deepest.other - world.surfaces.size() < world.bodies.size();
-    if (onBody)
-        return fmt::format("particle {} and body \"{}\"", deepest.particle,
-                           world.bodies[deepest.other - world.surfaces.size()].name);
-    switch (deepest.kind) {
-        case ContactClass::ParticleParticle:
-            return fmt::format("particles {} and {}", deepest.particle, deepest.other);
-        case ContactClass::ParticleWall:
-            return fmt::format("particle {} and surface {}", deepest.particle, deepest.other);
-        case ContactClass::ParticleCoil:
-            return fmt::format("particle {} and the coil", deepest.particle);
-    }
-    return {};
+    if (deepest.kind == ContactClass::ParticleParticle)
+        return fmt::format("particles {} and {}", deepest.particle, deepest.other);
+    if (deepest.other < world.surfaces.size())
+        return fmt::format("particle {} and surface {}", deepest.particle, deepest.other);
+    const std::size_t body = deepest.other - world.surfaces.size();
+    if (body == world.bodies.size()) return fmt::format("particle {} and the coil", deepest.particle);
+    return fmt::format("particle {} and body \"{}\"", deepest.particle, world.bodies[body].name);
 }
 
 class ReferenceBackend final : public Backend {
@@ -50,7 +43,7 @@ class ReferenceBackend final : public Backend {
     void load(const World& world, const ContactLaw& law, const Particles& particles) override {
         world_ = {world, law};
         particles_ = particles;
-        forces_.reset(particles.size());
+        forces_.reset(particles.size(), world);
         loads_ = {};
         neighbours_.reset(world.skin);
         steps_ = 0;
@@ -149,7 +142,7 @@ void ReferenceBackend::restore(const Record& record) {
     neighbours_.reset(world_.skin, record.one<std::uint64_t>("rebuilds"));
     book_ = {};
     loads_ = {};
-    forces_.reset(n);
+    forces_.reset(n, world_);
     forces_.restore(record);
 }
 
@@ -163,14 +156,13 @@ void ReferenceBackend::addParticles(std::size_t first, const std::vector<Vec3>& 
 }
 
 Sensors ReferenceBackend::advance(std::uint32_t steps, double coilRate) {
-    double torque = 0, deepest = 0;
-    std::vector<BodyLoad> bodies(world_.bodies.size());
+    double deepest = 0;
+    std::vector<BodyLoad> bodies(world_.bodies.size() + (world_.coil ? 1 : 0));
     const double start = angle_;
     book_ = {};
     for (std::uint32_t n = 0; n < steps; ++n) {
         step(coilRate);
         angle_ = start + coilRate * world_.timeStep * (n + 1);  // a product, so that rounding does not pile up
-        torque += loads_.coilTorque;
         for (std::size_t b = 0; b < bodies.size(); ++b) {
             bodies[b].force += loads_.bodies[b].force / double(steps);
             bodies[b].torque += loads_.bodies[b].torque / double(steps);
@@ -179,7 +171,10 @@ Sensors ReferenceBackend::advance(std::uint32_t steps, double coilRate) {
         deepest = std::max(deepest, loads_.deepest.ratio);
     }
     Sensors sensors = sense();
-    sensors.coilTorque = steps > 0 ? torque / steps : 0;
+    if (world_.coil) {
+        sensors.coilTorque = bodies.back().torque;
+        bodies.pop_back();
+    }
     sensors.bodies = std::move(bodies);
     sensors.maxOverlapRatio = deepest;
     if (world_.energyBook && steps_ > 0) sensors.energy = senseEnergy();

@@ -45,10 +45,8 @@ const char* text(std::uint32_t error) {
             return "touches one body in more than four places, or more than 128 facets of its mesh at once: use "
                    "smaller "
                    "spheres, a smoother body, a coarser mesh, or --backend reference";
-        case gpu::kErrorTurns:
-            return "touches more turns of the coil than there are slots: use a larger pitch";
         default:
-            return "met the coil where the search for its closest point did not converge: report this case";
+            return "has an error that this program does not know: report this case";
     }
 }
 
@@ -75,6 +73,7 @@ void Ensemble::load(const std::vector<Canister>& canisters) {
         if (c.particles.size() == 0) throw RunError("there are no particles to simulate");
         MemberState m;
         m.world = c.world;
+        m.bodies = allBodies(c.world);
         m.loaded = c.particles;
         m.block = packMember(c.world, c.law, c.particles);
         rooms.push_back(tableSizes(c.world, Crowd(c.particles), m.block, shape, std::uint32_t(canisters.size())));
@@ -136,32 +135,23 @@ Record Ensemble::snapshot(std::uint32_t member) const {
     Record record;
     saveState(*passes_, member, m.loaded.size(), m.half(), record);
     record.putOne(kSnapshotSteps, m.step);
-    record.putOne("coil_phase", m.turned);
-    if (!m.world.bodies.empty()) record.putOne("drive", std::uint64_t(m.drive));
+    record.putOne("drive", std::uint64_t(m.drive));
     return record;
 }
 
 void Ensemble::restore(std::uint32_t member, const Record& record) {
     MemberState& m = members_[member];
     const auto step = record.one<std::uint64_t>(kSnapshotSteps);
-    const auto turned = record.one<std::uint64_t>("coil_phase");
-    const auto drive = m.world.bodies.empty() ? 0 : std::int64_t(record.one<std::uint64_t>("drive"));
+    const auto drive = std::int64_t(record.one<std::uint64_t>("drive"));
     restoreState(*passes_, member, m.loaded.size(), m.half(), record);
     m.drive = drive;
     m.step = step;
-    m.turned = turned;
 }
 
 void Ensemble::runBatch(std::uint32_t count, const std::vector<double>& coilRates, PassTimes* times) {
-    std::vector<std::uint64_t> perStep;
     bool opening = false;
     for (const std::uint32_t index : live_) {
         MemberState& m = members_[index];
-        perStep.push_back(geometry::FixedAngle::of(coilRates[index] * m.world.timeStep).part);
-        const auto start = geometry::FixedAngle::of(m.world.coil ? m.world.coil->startAngle : 0.0);
-        packPhase(start.part + m.turned, perStep.back(), m.block);
-        m.block.coil.motion.x = float(coilRates[index]);
-        m.block.coil.motion.y = m.world.coilSurfaceMoves ? m.block.coil.motion.x : 0.0f;
         m.block.choices.z = m.step == 0 ? 1.0f : 0.0f;
         m.block.roster.y = m.made;
         m.block.roster.z = m.made + count;
@@ -175,10 +165,9 @@ void Ensemble::runBatch(std::uint32_t count, const std::vector<double>& coilRate
         if (times != nullptr) times->add();
         if (left >= before) throw std::logic_error("a batch of steps does not come to its end");
     }
-    for (std::uint32_t row = 0; row < live_.size(); ++row) {
-        MemberState& m = members_[live_[row]];
-        m.turned += perStep[row] * count;
-        m.drive += drivePerStep(coilRates[live_[row]], m.world.timeStep) * count;
+    for (const std::uint32_t index : live_) {
+        MemberState& m = members_[index];
+        m.drive += drivePerStep(coilRates[index], m.world.timeStep) * count;
         advanceClocks(m.clocks, count);
         m.step += count;
     }
@@ -297,12 +286,18 @@ Sensors Ensemble::sense(std::uint32_t member, std::uint32_t steps) {
         s.kineticEnergy += double(r.motion.x);
         s.rotationalEnergy += double(r.motion.y);
         s.throatMomentumZ += double(r.motion.z);
-        s.coilTorque += double(r.motion.w);
         s.maxOverlapRatio = std::max(s.maxOverlapRatio, double(r.extremes.x));
     }
-    s.coilTorque = steps > 0 ? s.coilTorque / steps : 0.0;
     s.bodies = takeLoads(member, steps);
     if (energy) s.energy = readEnergy(member);
+    if (m.world.coil) {  // the last of allBodies
+        s.coilTorque = s.bodies.back().torque;
+        if (energy) {
+            s.energy->coilWork = s.bodies.back().work;
+            s.energy->bodyWork -= s.energy->coilWork;
+        }
+        s.bodies.pop_back();
+    }
     s.rebuilds = passes_->controlOf(member).list.y;
     return s;
 }
@@ -329,7 +324,6 @@ EnergyBook Ensemble::readEnergy(std::uint32_t member) const {
         b.sliding += double(r.sliders.x);
         b.rolling += double(r.sliders.y);
         b.torsion += double(r.sliders.z);
-        b.coilWork += double(r.sliders.w);
         b.loaded += double(r.flow.x);
         b.left += double(r.flow.y);
         b.kinetic += double(r.flow.z);
@@ -370,11 +364,9 @@ std::vector<Contact> Ensemble::contacts(std::uint32_t member) const {
             c.history[1], c.force);
     for (const PlaceContact& c : touchingPlaces(*passes_, member)) {
         const MemberState& m = members_[member];
-        add(m.world.bodies.at(c.body).kind, c.particle, std::uint32_t(m.world.surfaces.size() + c.body), c.history[0],
+        add(m.bodies.at(c.body).kind, c.particle, std::uint32_t(m.world.surfaces.size() + c.body), c.history[0],
             c.history[1], c.force);
     }
-    for (const TurnContact& c : touchingTurns(*passes_, member, members_[member].loaded.size()))
-        add(ContactClass::ParticleCoil, c.particle, c.turn, c.history[0], c.history[1], c.force);
     std::stable_sort(contacts.begin(), contacts.end(),
                      [](const Contact& a, const Contact& b) { return a.particle < b.particle; });
     return contacts;

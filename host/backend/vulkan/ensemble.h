@@ -1,7 +1,7 @@
 #pragma once
 // Canisters that share one device. The same passes step all of them at once. Each canister has its own part of every
-// table, its own parameters and its own coil. The results of a member do not depend on the others in any bit. A single
-// canister is an ensemble of one. Only one thread at a time may use an ensemble.
+// table, its own parameters and its own bodies. The results of a member do not depend on the others in any bit. A
+// single canister is an ensemble of one. Only one thread at a time may use an ensemble.
 
 #include <cstdint>
 #include <map>
@@ -67,12 +67,12 @@ class Ensemble {
   private:
     struct MemberState {
         World world;
+        std::vector<RigidBody> bodies;  ///< allBodies
         Particles loaded;
         gpu::Member block{};
         std::uint64_t step = 0;
         std::uint32_t made = 0;         ///< steps since load (gpu::Control::steps)
-        std::uint64_t turned = 0;       ///< of the coil since load [2^-64 turns]; the same for any batches
-        std::int64_t drive = 0;         ///< of the drive since load [kDrive turns]; likewise
+        std::int64_t drive = 0;         ///< of the drive since load [kDrive turns]; the same for any batches
         std::vector<BodyClock> clocks;  ///< of bodies that move in phases; empty: they stand
         bool moves = false;             ///< one of its bodies
         std::vector<gpu::vec4> around;  ///< of each body: a sphere around it in its own frame: centre, radius [m]

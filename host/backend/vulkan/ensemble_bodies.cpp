@@ -49,7 +49,25 @@ struct Instant {
     }
 };
 
-/// Bound of the way of any point of the body that a particle can meet, in the step that begins at that instant.
+/// As approachByTurning, of a body that turns about the z axis of its frame.
+std::optional<double> approachByTurning(const RigidBody& body) {
+    const auto* turn = std::get_if<geometry::Turn>(&body.course.motion);
+    if (turn == nullptr) return std::nullopt;
+    const geometry::Pose& start = body.course.start;
+    const Vec3 axis = start.directionToBody(turn->axis), through = start.toBody(turn->through);
+    constexpr double kSame = 1e-12;  // [m], and of a unit vector
+    if (std::hypot(axis.x, axis.y) > kSame || std::hypot(through.x, through.y) > kSame) return std::nullopt;
+    double most = 0;
+    for (const geometry::Shape& shape : body.shapes) {
+        const std::optional<double> approach = geometry::approachByTurning(shape);
+        if (!approach) return std::nullopt;
+        most = std::max(most, *approach);
+    }
+    return most * std::abs(turn->rate);
+}
+
+/// Bound of how much nearer any particle the body can come in the step that begins at that instant. The lists take a
+/// wire for endless (law/coil.glsl, nearCoil), so its ends do not count.
 double longestWay(const World& world, const RigidBody& body, const gpu::vec4& around, const Instant& now) {
     const geometry::Pose pose = now.pose(body);
     const Box& room = world.domain;
@@ -66,6 +84,7 @@ double longestWay(const World& world, const RigidBody& body, const gpu::vec4& ar
     const double from = byDrive                     ? now.angle - (now.rate > 0 ? 0 : span)
                         : body.clock == Clock::Time ? now.time
                                                     : now.own;
+    if (const std::optional<double> approach = approachByTurning(body)) return *approach * span;
     return geometry::wayBound(body.course, centre, radius, from, span);
 }
 
@@ -84,15 +103,15 @@ void Ensemble::makeBodies(TableSizes& sizes) {
         const double largest = *std::max_element(m.loaded.radius.begin(), m.loaded.radius.end());
         // Spheres and bodies may go their slack, and the skin is more than that (pass/near.comp). A body that goes
         // farther than the skin in a step would need longer reach; the time steps here are far too short for that.
-        const PackedBodies packed = packBodies(m.world.bodies, largest + m.world.skin);
-        m.moves = std::any_of(m.world.bodies.begin(), m.world.bodies.end(), [](const RigidBody& b) {
+        const PackedBodies packed = packBodies(m.bodies, largest, m.world.skin);
+        m.moves = std::any_of(m.bodies.begin(), m.bodies.end(), [](const RigidBody& b) {
             return !std::holds_alternative<geometry::Rest>(b.course.motion);
         });
-        m.block.bodies = gpu::uvec4(m.world.bodies.size(), geometry.size(), 0, 0);
-        for (std::size_t b = 0; b < m.world.bodies.size(); ++b) m.around.push_back(aroundOf(packed, b));
+        m.block.bodies = gpu::uvec4(m.bodies.size(), geometry.size(), 0, 0);
+        for (std::size_t b = 0; b < m.bodies.size(); ++b) m.around.push_back(aroundOf(packed, b));
         geometry.insert(geometry.end(), packed.table.begin(), packed.table.end());
         sizes.shapeKinds |= packed.kinds;
-        motions += std::uint32_t(m.world.bodies.size());
+        motions += std::uint32_t(m.bodies.size());
     }
     mostBatch_ =
         std::uint32_t(std::max<std::size_t>(1, kMostMotionBytes / sizeof(gpu::BodyMotion) / std::max(motions, 1U)));
@@ -112,7 +131,7 @@ void Ensemble::writeMotions(std::uint32_t count, const std::vector<double>& coil
     std::vector<gpu::BodyMotion> motions;
     for (const std::uint32_t index : live_) {
         MemberState& m = members_[index];
-        const std::vector<RigidBody>& bodies = m.world.bodies;
+        const std::vector<RigidBody>& bodies = m.bodies;
         const double rate = coilRates[index], dt = m.world.timeStep;
         const std::int64_t perStep = drivePerStep(rate, dt);
         m.block.bodies.z = std::uint32_t(motions.size());
@@ -123,8 +142,7 @@ void Ensemble::writeMotions(std::uint32_t count, const std::vector<double>& coil
             const double back = m.step + n == 0 ? 0 : dt / 2;  // velocities are those half a step before
             for (std::size_t b = 0; b < bodies.size(); ++b) {
                 const Instant now(m.world, m.step + n, angle, rate, clockOf(m.clocks, b), n);
-                motions.push_back(packMotion(now.pose(bodies[b]), now.moving(bodies[b], back)));
-                motions.back().velocity.w = float(bodies[b].kind);
+                motions.push_back(packMotion(bodies[b], now.pose(bodies[b]), now.moving(bodies[b], back)));
                 way = std::max(way, longestWay(m.world, bodies[b], m.around[b], now));
             }
         }
@@ -140,16 +158,15 @@ std::vector<BodyLoad> Ensemble::takeLoads(std::uint32_t member, std::uint32_t st
     const std::size_t n = m.loaded.size();
     const double share = steps > 0 ? 1.0 / steps : 0.0;
     const std::vector<float> none(n, 0.0F);
-    for (std::uint32_t b = 0; b < m.world.bodies.size(); ++b) {
+    for (std::uint32_t b = 0; b < m.bodies.size(); ++b) {
         std::array<double, gpu::kBodyLoads> sums{};
         for (std::uint32_t k = 0; k < gpu::kBodyLoads; ++k) {
             const std::uint64_t at =
                 passes_->at.bodyLoadIndex(gpu::kBodyLoads * b + k, std::uint64_t(member) * passes_->sizes.share);
-            for (const float value : passes_->coilTorques.readAll<float>(n, at * sizeof(float)))
-                sums[k] += double(value);
-            passes_->coilTorques.writeAll(none, at * sizeof(float));
+            for (const float value : passes_->bodyLoads.readAll<float>(n, at * sizeof(float))) sums[k] += double(value);
+            passes_->bodyLoads.writeAll(none, at * sizeof(float));
         }
-        const RigidBody& body = m.world.bodies[b];
+        const RigidBody& body = m.bodies[b];
         const Vec3 force = -share * Vec3(sums[0], sums[1], sums[2]), moment = -share * Vec3(sums[3], sums[4], sums[5]);
         const Instant now(m.world, m.step, driveAngle(m.drive), 0, clockOf(m.clocks, b), 0);
         const Vec3 pivot = body.pivot(now.pose(body));

@@ -14,7 +14,7 @@ namespace {
 /// with kMaxLinks contacts for each particle, and the nodes of these contacts, the loops of an invocation stay below
 /// 65,535 trips, after which lavapipe ends them. Beside bodies there may be more contacts, so that slices are shorter.
 constexpr std::uint32_t kSlice = 128, kSliceBesideBodies = 64;
-constexpr std::uint32_t kContacts = gpu::kMaxRow + gpu::kMaxSurfaces + gpu::kMaxTurns;
+constexpr std::uint32_t kContacts = gpu::kMaxRow + gpu::kMaxSurfaces + gpu::kMaxBodyTouches;
 constexpr std::uint32_t kOnBodies = kMaxBodies * gpu::kMaxBodyTouches;
 static_assert(kSlice * (kContacts * (gpu::kFieldNodes + 1) + 2) < 65535);
 static_assert(kSliceBesideBodies * ((kContacts + kOnBodies) * (gpu::kFieldNodes + 1) + std::uint32_t(kMaxBodies) + 2) <
@@ -132,8 +132,7 @@ FieldPoints FieldPasses::compute(const FieldRequest& request, const Moment& mome
     const TableSizes& s = passes_.sizes;
     const gpu::FieldParams params = pack(request, s, moment.largestRadius);
     own_.fields.write(0, &params, sizeof params);
-    const std::uint32_t contacts =
-        s.pairSlots + s.surfaceSlots + gpu::kMaxTurns * s.coilSlots + gpu::kMaxBodyTouches * s.bodySlots;
+    const std::uint32_t contacts = s.pairSlots + s.surfaceSlots + gpu::kMaxBodyTouches * s.bodySlots;
     const std::uint32_t tiles = params.tiles.x * params.tiles.y * params.tiles.z;
 
     vk::Commands commands(device_);

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <stdexcept>
 
@@ -15,7 +14,6 @@ namespace vkdose {
 
 namespace {
 
-using gpu::uvec4;
 using gpu::vec4;
 
 // The device uses the same numbers as the host.
@@ -96,34 +94,6 @@ void packOutlets(const World& world, gpu::Member& m) {
 
 }  // namespace
 
-gpu::CoilParams packCoil(const geometry::Coil& c, double largest) {
-    const double reach = largest + c.wireRadius;
-    if (reach >= c.radius)
-        throw RunError(
-            fmt::format("a particle of radius {} m can touch the coil across its axis (coil radius {} m): the "
-                        "device's coil contact covers smaller ones; use --backend reference",
-                        largest, c.radius));
-    const double kappa = c.hand * 2 * kPi / c.pitch;
-    // The sphere can touch the wire only within this angle as seen from its centre. It is a little larger because of
-    // rounding.
-    const double widest = std::min(std::asin(reach / c.radius) * 1.0001 + 1e-6, kPi / 2);
-    const double bound = std::abs(kappa) * reach + widest;
-    const double turnsEachSide = std::ceil((bound + kPi) / (2 * kPi)) - 1;
-    Split start(c.zStart), radius(c.radius);
-    gpu::CoilParams p{};
-    p.radius = vec4(radius.high, radius.low, float(c.wireRadius), float(c.length));
-    // The leading 16 bits of the pitch times a small integer are exact in a float.
-    const float leading = std::bit_cast<float>(std::bit_cast<uint32_t>(float(c.pitch)) & 0xffffff00u);
-    p.pitch = vec4(float(c.pitch), leading, float(c.pitch - double(leading)), float(kappa));
-    p.reach = vec4(float(widest), float(turnsEachSide), start.high, start.low);
-    p.phase = uvec4(0u);
-    p.motion = vec4(0.0f, 0.0f, 1.0f, 0.0f);
-    if (c.length / c.pitch > 250)
-        throw RunError(fmt::format("the coil has {:.0f} turns; the device's exact range reduction covers 250",
-                                   c.length / c.pitch));
-    return p;
-}
-
 void packLaw(const ContactLaw& law, gpu::Member& member) {
     for (int i = 0; i < kContactClasses; ++i) member.contact[i] = packContact(law.classes[i]);
     member.choices.x = float(law.coulombLimit);
@@ -143,8 +113,6 @@ gpu::Member packMember(const World& world, const ContactLaw& law, const Particle
         m.surface[i] = std::visit(PackSurface{}, world.surfaces[i]);
     }
     const double largest = largestRadius(particles);
-    if (world.coil) m.coil = packCoil(*world.coil, largest);
-    m.coil.motion.w = world.coilWireCurved ? 1.0f : 0.0f;
     const auto finite = [](double x) { return float(std::clamp(x, -1e30, 1e30)); };
     m.gravity = vec4(glm::vec3(world.gravity), float(world.density));
     m.domainLow = vec4(glm::vec3(world.domain.low), finite(world.throatZ));
@@ -153,10 +121,6 @@ gpu::Member packMember(const World& world, const ContactLaw& law, const Particle
     m.numerics =
         vec4(float(world.timeStep), float(world.skin), float(2 * largest + world.skin), float(world.maxOverlapRatio));
     return m;
-}
-
-void packPhase(uint64_t start, uint64_t perStep, gpu::Member& member) {
-    member.coil.phase = uvec4(uint32_t(start >> 32), uint32_t(start), uint32_t(perStep >> 32), uint32_t(perStep));
 }
 
 void packState(const Particles& p, std::size_t share, std::size_t first, std::vector<gpu::vec4>& half) {

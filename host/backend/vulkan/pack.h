@@ -10,18 +10,11 @@
 
 namespace vkdose {
 
-/// All data of the only member except the coil's phase. Throws RunError if the world does not fit the tables.
+/// All data of the only member except its bodies. Throws RunError if the world does not fit the tables.
 gpu::Member packMember(const World& world, const ContactLaw& law, const Particles& particles);
 
 /// Replaces the contact law of a packed member.
 void packLaw(const ContactLaw& law, gpu::Member& member);
-
-/// The coil, for spheres of radius up to `largest` [m]; without its rotation. Throws RunError if the device cannot
-/// compute with it.
-gpu::CoilParams packCoil(const geometry::Coil& coil, double largest);
-
-/// Coil rotation [2^-64 turns]: phase at the start of a batch and advance per step, both modulo a turn.
-void packPhase(std::uint64_t start, std::uint64_t perStep, gpu::Member& member);
 
 /// Writes a member's part of one half of the state buffer (gpu::stateOffset): `share` slots from `first` on. Slots that
 /// no particle needs are padding.

@@ -61,7 +61,7 @@ Around aroundTriangle(const Vec3& a, const Vec3& b, const Vec3& c) {
 
 class Packer {
   public:
-    explicit Packer(double reach) : reach_(reach) {}
+    Packer(double largest, double slack) : largest_(largest), reach_(largest + slack) {}
 
     PackedBodies packed(const std::vector<RigidBody>& bodies) {
         table_.assign(std::max<std::size_t>(1, gpu::kBodyVectors * bodies.size()), uvec4(0));
@@ -192,14 +192,39 @@ class Packer {
         return kAroundEndless;
     }
 
+    gpu::CoilParams wireParams(const geometry::Coil& c) const {
+        const double reach = largest_ + c.wireRadius;
+        if (reach >= c.radius)
+            throw RunError(
+                fmt::format("body \"{}\": a particle of radius {} m can touch the wire across its axis (radius {} m): "
+                            "the device covers smaller ones; use --backend reference",
+                            name_, largest_, c.radius));
+        if (c.length / c.pitch > 250)
+            throw RunError(
+                fmt::format("body \"{}\": the wire has {:.0f} turns; the device's exact range reduction covers 250",
+                            name_, c.length / c.pitch));
+        const double kappa = c.hand * 2 * kPi / c.pitch;
+        // The sphere can touch the wire only within this angle as seen from its centre. It is a little larger because
+        // of rounding.
+        const double widest = std::min(std::asin(reach / c.radius) * 1.0001 + 1e-6, kPi / 2);
+        const double bound = std::abs(kappa) * reach + widest;
+        const double turnsEachSide = std::ceil((bound + kPi) / (2 * kPi)) - 1;
+        const Split start(c.zStart), radius(c.radius);
+        gpu::CoilParams p{};
+        p.radius = vec4(radius.high, radius.low, float(c.wireRadius), float(c.length));
+        // The leading 16 bits of the pitch times a small integer are exact in a float.
+        const float leading = std::bit_cast<float>(bits(float(c.pitch)) & 0xffffff00u);
+        p.pitch = vec4(float(c.pitch), leading, float(c.pitch - double(leading)), float(kappa));
+        p.reach = vec4(float(widest), float(turnsEachSide), start.high, start.low);
+        return p;
+    }
+
     Around pack(const geometry::Coil& wire) {
         head(gpu::kShapeWire, uint32_t(wire.length / wire.pitch) + 3);
-        const gpu::CoilParams p = packCoil(wire, reach_);
+        const gpu::CoilParams p = wireParams(wire);
         set(2, p.radius);
         set(3, p.pitch);
         set(4, p.reach);
-        table_[shape_ + 5] = p.phase;
-        set(6, p.motion);
         const double turns = wire.startAngle / (2 * kPi);
         set(7, vec4(float(turns - std::round(turns)), 0, 0, 0));
         return {Vec3(0, 0, wire.zStart + wire.length / 2), std::hypot(wire.radius, wire.length / 2) + wire.wireRadius};
@@ -356,7 +381,7 @@ class Packer {
         return owners;
     }
 
-    double reach_;
+    double largest_, reach_;
     std::string name_;  ///< of the body at work
     std::vector<uvec4> table_;
     std::size_t shape_ = 0;  ///< where the record of the shape at work begins
@@ -365,11 +390,11 @@ class Packer {
 
 }  // namespace
 
-PackedBodies packBodies(const std::vector<RigidBody>& bodies, double reach) {
-    return Packer(reach).packed(bodies);
+PackedBodies packBodies(const std::vector<RigidBody>& bodies, double largest, double slack) {
+    return Packer(largest, slack).packed(bodies);
 }
 
-gpu::BodyMotion packMotion(const geometry::Pose& pose, const geometry::Moving& moving) {
+gpu::BodyMotion packMotion(const RigidBody& body, const geometry::Pose& pose, const geometry::Moving& moving) {
     gpu::BodyMotion m{};
     const glm::dmat3 rotation = glm::mat3_cast(pose.rotation);
     const Split3 origin(pose.origin);
@@ -379,9 +404,9 @@ gpu::BodyMotion packMotion(const geometry::Pose& pose, const geometry::Moving& m
         m.toBodyHigh[i] = vec4(row.high, origin.high[i]);
         m.toBodyLow[i] = vec4(row.low, origin.low[i]);
     }
-    m.velocity = vec4(glm::vec3(moving.velocity), 0.0f);
-    m.spin = vec4(glm::vec3(moving.spin), 0.0f);
-    m.centre = vec4(glm::vec3(moving.centre), 0.0f);
+    m.velocity = vec4(glm::vec3(moving.velocity), float(body.kind));
+    m.spin = vec4(glm::vec3(moving.spin), body.surfaceMoves ? 1.0f : 0.0f);
+    m.centre = vec4(glm::vec3(moving.centre), float(body.curvature));
     return m;
 }
 

@@ -14,11 +14,11 @@ struct PackedBodies {
     std::uint32_t kinds = 0;        ///< a bit for each kind of shape that there is (gpu::kShapePlane ...)
 };
 
-/// The table `geometry`. `reach` [m] is the largest distance from a centre at which a pass asks for shapes: the largest
-/// radius and the slack. A mesh made for a smaller reach is made anew for this one, which takes its time. Throws
-/// RunError, naming the body, for a shape that the device cannot compute with.
-PackedBodies packBodies(const std::vector<RigidBody>& bodies, double reach);
+/// The table `geometry`, for spheres of radius up to `largest` [m]. `slack` [m] is how much farther from a centre a
+/// pass may ask for shapes. A mesh made for a smaller reach is made anew, which takes its time. Throws RunError, naming
+/// the body, for a shape that the device cannot compute with.
+PackedBodies packBodies(const std::vector<RigidBody>& bodies, double largest, double slack = 0);
 
-gpu::BodyMotion packMotion(const geometry::Pose& pose, const geometry::Moving& moving);
+gpu::BodyMotion packMotion(const RigidBody& body, const geometry::Pose& pose, const geometry::Moving& moving);
 
 }  // namespace vkdose

@@ -52,7 +52,6 @@ constexpr std::array kPasses{
     StepPass{"commit_lists", spirv::commit_lists, Extent::OfDevice, offsetof(gpu::Dispatches, settle)},
     StepPass{"pairs", spirv::pairs, Extent::OfDevice, offsetof(gpu::Dispatches, pairs)},
     StepPass{"surfaces", spirv::surfaces, Extent::OfDevice, offsetof(gpu::Dispatches, surfaces)},
-    StepPass{"coil", spirv::coil, Extent::OfDevice, offsetof(gpu::Dispatches, coil)},
     StepPass{"bodies", spirv::bodies, Extent::OfDevice, offsetof(gpu::Dispatches, bodies), true, true},
     StepPass{"move", spirv::move, Extent::Particles},
 };
@@ -154,10 +153,6 @@ std::array<std::uint32_t, 10> Passes::constants(const TableSizes& s) {
 void Passes::reset() {
     const std::vector<gpu::uvec4> none((sizes.bodies > 0 ? 3ULL : 2ULL) * sizes.particles(), gpu::uvec4(0U));
     ranges.writeAll(none);
-    if (sizes.coilSlots > 0) {
-        const std::vector<gpu::vec4> angles(sizes.particles(), gpu::vec4(gpu::kNoTurn));
-        coilHistory.writeAll(angles, sizeof(gpu::vec4) * at.wireAngleIndex(0));
-    }
     gpu::Control fresh{};
     fresh.call = fresh.error = gpu::uvec4(gpu::kEmpty);
     fresh.wanted = gpu::uvec4(0, 0, 1, 1);
@@ -174,7 +169,6 @@ void Passes::setLive(std::uint32_t live) {
     d.settle = gpu::uvec4(1, 1, 1, 0);
     d.pairs = groups(sizes.pairSlots / sizes.workgroup);
     d.surfaces = groups(sizes.surfaceSlots / sizes.workgroup);
-    d.coil = groups(sizes.coilSlots / sizes.workgroup);
     d.bodies = groups(sizes.bodySlots / sizes.workgroup);
     controls.write(0, &d, sizeof d);
     live_ = live;
@@ -204,7 +198,6 @@ gpu::StepPush Passes::push(std::uint32_t step, bool opening) const {
     p.linkEntries = sizes.linkEntries;
     p.pairSlots = sizes.pairSlots;
     p.surfaceSlots = sizes.surfaceSlots;
-    p.coilSlots = sizes.coilSlots;
     p.bodySlots = sizes.bodySlots;
     return p;
 }

@@ -128,8 +128,7 @@ struct SlotRun {
 };
 
 /// Lists the contacts that touched in the way of a refresh, so that the next refresh carries their histories on.
-/// Sets Control::listed and Control::body for these lists. They count none of the coil, because the particles keep
-/// those histories themselves.
+/// Sets Control::listed for these lists.
 void restoreContacts(Passes& passes, std::uint32_t member, std::size_t particles, const Record& record,
                      gpu::Control& control) {
     const TableSizes& t = passes.sizes;
@@ -174,8 +173,8 @@ void restoreContacts(Passes& passes, std::uint32_t member, std::size_t particles
     passes.entries.writeAll(bodies.entries, passes.at.entryIndex(first) * sizeof(glm::uvec2));
     passes.history.writeAll(bodies.history,
                             passes.at.bodyHistoryIndex(std::uint64_t(member) * t.bodySlots, 0) * sizeof(vec4));
-    control.listed = {std::uint32_t(pairs.entries.size()), std::uint32_t(surfaces.entries.size()), 0U, 0U};
-    control.body = {std::uint32_t(bodies.entries.size()), 0U, 0U, 0U};
+    control.listed = {std::uint32_t(pairs.entries.size()), std::uint32_t(surfaces.entries.size()),
+                      std::uint32_t(bodies.entries.size()), 0U};
 }
 
 }  // namespace
@@ -213,31 +212,11 @@ std::vector<SlotContact> touchingSlots(const Passes& passes, std::uint32_t membe
     return found;
 }
 
-namespace {
-
-/// The force of each turn on each particle in the last step, by turn slot; zero for one that is not near the coil.
-using TurnForces = std::array<vec4, gpu::kMaxTurns>;
-
-std::vector<TurnForces> turnForces(const Passes& passes, std::uint32_t member, std::size_t particles) {
-    const TableSizes& t = passes.sizes;
-    const std::uint32_t count = passes.controlOf(member).listed.z, first = member * t.coilSlots;
-    const auto entries =
-        passes.entries.readAll<glm::uvec2>(count, passes.at.entryIndex(t.springSlots() + first) * sizeof(glm::uvec2));
-    std::vector<TurnForces> found(particles, TurnForces{});
-    for (std::uint32_t turn = 0; turn < gpu::kMaxTurns; ++turn) {
-        const auto forces = passes.forces.readAll<vec4>(count, passes.at.turnForceIndex(turn, first) * sizeof(vec4));
-        for (std::size_t k = 0; k < count; ++k) found[entries[k].x - member * t.share][turn] = forces[k];
-    }
-    return found;
-}
-
-}  // namespace
-
 std::vector<PlaceContact> touchingPlaces(const Passes& passes, std::uint32_t member) {
     const TableSizes& t = passes.sizes;
     std::vector<PlaceContact> found;
     if (t.bodies == 0) return found;
-    const std::uint32_t count = passes.controlOf(member).body.x, first = t.firstBodySlot(member);
+    const std::uint32_t count = passes.controlOf(member).listed.z, first = t.firstBodySlot(member);
     const std::uint64_t row = std::uint64_t(member) * t.bodySlots;
     const auto entries = passes.entries.readAll<glm::uvec2>(count, passes.at.entryIndex(first) * sizeof(glm::uvec2));
     const auto history = passes.history.readAll<vec4>(std::size_t(t.bodyHistory()) * count,
@@ -258,36 +237,6 @@ std::vector<PlaceContact> touchingPlaces(const Passes& passes, std::uint32_t mem
     return found;
 }
 
-std::vector<TurnContact> touchingTurns(const Passes& passes, std::uint32_t member, std::size_t particles) {
-    const TableSizes& t = passes.sizes;
-    std::vector<TurnContact> found;
-    if (t.coilSlots == 0) return found;
-    const std::uint64_t firstParticle = std::uint64_t(member) * t.share;
-    const auto read = [&](std::uint64_t from) {
-        return passes.coilHistory.readAll<vec4>(particles, from * sizeof(vec4));
-    };
-    const std::vector<vec4> angles = read(passes.at.wireAngleIndex(firstParticle));
-    const std::vector<TurnForces> forces = turnForces(passes, member, particles);
-    std::array<std::array<std::vector<vec4>, 2>, gpu::kMaxTurns> history;
-    for (std::uint32_t turn = 0; turn < gpu::kMaxTurns; ++turn)
-        for (std::uint32_t part = 0; part < 2; ++part)
-            history[turn][part] = read(passes.at.turnHistoryIndex(turn * t.historyParts() + part, firstParticle));
-    for (std::uint32_t i = 0; i < particles; ++i)
-        for (std::uint32_t turn = 0; turn < gpu::kMaxTurns; ++turn)
-            if (angles[i][int(turn)] != gpu::kNoTurn)
-                found.push_back({i, turn, forces[i][turn], {history[turn][0][i], history[turn][1][i]}});
-    return found;
-}
-
-namespace {
-
-/// Rows of the coil's history, with the wire angles as the last. All of them are as long as there are particles.
-std::size_t coilHistoryRows(const Passes& passes) {
-    return passes.sizes.coilSlots > 0 ? passes.at.wireAngleIndex(0) / passes.at.particles + 1 : 0;
-}
-
-}  // namespace
-
 void writeParticles(Passes& passes, std::uint32_t member, std::size_t first, const Particles& particles,
                     std::uint32_t source) {
     const std::size_t count = particles.size(), couples = gpu::kFields / 2, stride = 2ULL * passes.sizes.particles();
@@ -307,12 +256,11 @@ void writeParticles(Passes& passes, std::uint32_t member, std::size_t first, con
 void saveState(const Passes& passes, std::uint32_t member, std::size_t particles, std::uint32_t source,
                Record& record) {
     const std::size_t stride = passes.sizes.particles(), first = std::size_t(member) * passes.sizes.share;
-    const std::size_t coilRows = coilHistoryRows(passes), couples = gpu::kFields / 2;
+    const std::size_t couples = gpu::kFields / 2;
     record.put("state",
                packed(passes.state, couples, 2 * stride, source * couples * 2 * stride + 2 * first, 2 * particles));
     saveContacts(passes, member, record);
     saveBodies(passes, member, record);
-    record.put("coil_history", packed(passes.coilHistory, coilRows, stride, first, particles));
     if (passes.sizes.energyBook)
         record.put("energy_book", packed(passes.books, gpu::kBookFields, stride, first, particles));
     record.putOne("rebuilds", std::uint32_t(passes.controlOf(member).list.y));
@@ -321,10 +269,9 @@ void saveState(const Passes& passes, std::uint32_t member, std::size_t particles
 void restoreState(Passes& passes, std::uint32_t member, std::size_t particles, std::uint32_t source,
                   const Record& record) {
     const std::size_t stride = passes.sizes.particles(), first = std::size_t(member) * passes.sizes.share;
-    const std::size_t coilRows = coilHistoryRows(passes), books = passes.sizes.energyBook ? gpu::kBookFields : 0;
+    const std::size_t books = passes.sizes.energyBook ? gpu::kBookFields : 0;
     // The whole record is checked before anything is written.
     const auto& state = record.get<float>("state", 4 * particles * gpu::kFields);
-    const auto& coil = record.get<float>("coil_history", 4 * particles * coilRows);
     static const std::vector<float> none;
     const auto& book = books > 0 ? record.get<float>("energy_book", 4 * particles * books) : none;
     const auto rebuilds = record.one<std::uint32_t>("rebuilds");
@@ -332,7 +279,6 @@ void restoreState(Passes& passes, std::uint32_t member, std::size_t particles, s
     restoreContacts(passes, member, particles, record, control);
     const std::size_t couples = gpu::kFields / 2;
     unpack(state, couples, 2 * stride, source * couples * 2 * stride + 2 * first, 2 * particles, passes.state);
-    unpack(coil, coilRows, stride, first, particles, passes.coilHistory);
     unpack(book, books, stride, first, particles, passes.books);
     control.list = uvec4(0U, rebuilds, 0U, 0U);
     passes.setControl(member, control);

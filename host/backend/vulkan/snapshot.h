@@ -22,18 +22,6 @@ struct SlotContact {
 /// counted from the member's first. The device must be idle.
 std::vector<SlotContact> touchingSlots(const Passes& passes, std::uint32_t member);
 
-/// A contact with a turn of the coil.
-struct TurnContact {
-    std::uint32_t particle, turn;
-    gpu::vec4 force;                   ///< zero before any step
-    std::array<gpu::vec4, 2> history;  ///< as `coilHistory` in shaders/shared/buffers.glsl begins
-};
-
-/// The touching turns of a member's first `particles`, in order of particle, then turn. The device must be idle. It
-/// reads only the member's part of the tables, so that reading every member of an ensemble costs no more than reading
-/// as many single runs.
-std::vector<TurnContact> touchingTurns(const Passes& passes, std::uint32_t member, std::size_t particles);
-
 /// A contact with a body, at one of the places where it touches.
 struct PlaceContact {
     std::uint32_t particle, body;

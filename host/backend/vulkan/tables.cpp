@@ -48,9 +48,9 @@ bool TableSizes::shares(const TableSizes& other) const {
 }
 
 void TableSizes::growTo(const TableSizes& other) {
-    for (const auto size : {&TableSizes::share, &TableSizes::cells, &TableSizes::rowEntries, &TableSizes::linkEntries,
-                            &TableSizes::pairSlots, &TableSizes::surfaceSlots, &TableSizes::coilSlots,
-                            &TableSizes::bodySlots, &TableSizes::bodies})
+    for (const auto size :
+         {&TableSizes::share, &TableSizes::cells, &TableSizes::rowEntries, &TableSizes::linkEntries,
+          &TableSizes::pairSlots, &TableSizes::surfaceSlots, &TableSizes::bodySlots, &TableSizes::bodies})
         this->*size = std::max(this->*size, other.*size);
     shapeKinds |= other.shapeKinds;
     laws |= other.laws;
@@ -64,10 +64,8 @@ TableCounts::TableCounts(const TableSizes& s)
       rowEntries(s.rowEntries),
       linkEntries(s.linkEntries),
       springSlots(canisters * (std::uint64_t(s.pairSlots) + s.surfaceSlots)),
-      coilSlots(canisters * s.coilSlots),
-      slots(springSlots + coilSlots + canisters * s.bodySlots),
+      slots(springSlots + canisters * s.bodySlots),
       historyParts(s.historyParts()),
-      coils(s.coilSlots > 0 ? 1 : 0),
       energyBook(s.energyBook ? 1 : 0),
       bodySlots(canisters * s.bodySlots),
       bodies(s.bodies),
@@ -170,12 +168,16 @@ TableSizes tableSizes(const World& world, const Crowd& crowd, const gpu::Member&
     // particles of so large a bed touch no surface.
     const bool fits = s.pairSlots + surfaces + workgroup <= most;
     s.surfaceSlots = narrow(roundUp(fits ? surfaces : std::min(surfaces, n / 2), workgroup));
-    s.coilSlots = world.coil ? s.share : 0;
-    s.bodies = std::uint32_t(world.bodies.size());
-    // A sphere is seldom near more than two bodies, and few are near any.
-    s.bodySlots = narrow(roundUp(std::min(2 * n + kFew, n * s.bodies), workgroup));
+    s.bodies = std::uint32_t(world.bodies.size() + (world.coil ? 1 : 0));
+    // A sphere is seldom near more than two bodies, and few are near any. Where that much does not fit the device, the
+    // bodies get the room that pairs and surfaces leave; of so large a bed an eighth is enough.
+    const std::uint64_t vectors = std::min(device.range / sizeof(gpu::vec4), kIndices - 1) / members;
+    const std::uint64_t taken = std::uint64_t(s.historyParts()) * (s.pairSlots + s.surfaceSlots);
+    const std::uint64_t left = vectors > taken ? (vectors - taken) / s.bodyHistory() / workgroup * workgroup : 0;
+    const std::uint64_t wanted = std::min(2 * n + kFew, n * s.bodies);
+    s.bodySlots = narrow(roundUp(std::min(wanted, std::max(left, n / 8)), workgroup));
     s.rowEntries = narrow(std::max<std::uint64_t>(1, std::min(n * meanRow(world, crowd) + kFew, n * n)));
-    s.linkEntries = narrow(2ULL * s.pairSlots + s.surfaceSlots + s.coilSlots + s.bodySlots);
+    s.linkEntries = narrow(2ULL * s.pairSlots + s.surfaceSlots + s.bodySlots);
     narrow(s.largestIndex());
     return s;
 }

@@ -23,14 +23,14 @@ struct TableSizes {
     std::uint32_t surfaceKinds = 0;  ///< of the first kUnrolledSurfaces, 4 bits each
     std::uint32_t kindSet = 0;       ///< bit k: there is a surface of kind k; and kEndingWalls
     std::uint32_t front = 0;         ///< the front wall among the surfaces, if there is one
-    std::uint32_t bodies = 0;        ///< most bodies of a member
+    std::uint32_t bodies = 0;        ///< most bodies of a member, its coil counted
     std::uint32_t laws = 0;          ///< bit k: contacts of some class follow the law k (NormalLaw)
     std::uint32_t shapeKinds = 0;    ///< bit k: a body has a shape of kind k (shaders/shared/geometry.h)
     // Of each member:
     std::uint32_t share = 0;  ///< slots for particles, a multiple of the workgroup
     std::uint32_t cells = 0;  ///< a power of two
     std::uint32_t rowEntries = 0, linkEntries = 0;
-    std::uint32_t pairSlots = 0, surfaceSlots = 0, coilSlots = 0, bodySlots = 0;  ///< multiples of the workgroup
+    std::uint32_t pairSlots = 0, surfaceSlots = 0, bodySlots = 0;  ///< multiples of the workgroup
     bool energyBook = false;
     bool texelReads = true;  ///< wanted; used if every view fits the device's limit
 
@@ -47,12 +47,10 @@ struct TableSizes {
     // Of all members, and where a member's begin (shaders/shared/buffers.glsl):
     std::uint32_t particles() const { return members * share; }
     std::uint32_t springSlots() const { return members * (pairSlots + surfaceSlots); }
-    std::uint32_t slots() const { return springSlots() + members * (coilSlots + bodySlots); }
+    std::uint32_t slots() const { return springSlots() + members * bodySlots; }
     std::uint32_t firstPairSlot(std::uint32_t member) const { return member * pairSlots; }
     std::uint32_t firstSurfaceSlot(std::uint32_t member) const { return members * pairSlots + member * surfaceSlots; }
-    std::uint32_t firstBodySlot(std::uint32_t member) const {
-        return springSlots() + members * coilSlots + member * bodySlots;
-    }
+    std::uint32_t firstBodySlot(std::uint32_t member) const { return springSlots() + member * bodySlots; }
     /// Number of vectors in a contact's history (kParts in shared/buffers.glsl).
     std::uint32_t historyParts() const { return energyBook ? 5 : 2; }
     /// The same of a place on a body, and of a body slot (kPlaceParts, kBodyHistory).
@@ -78,8 +76,8 @@ struct TableShape {
 /// The sizes that shaders/shared/tables.h uses, for all members together, and where in a table an element is. They have
 /// 64 bits, because the tables are counted before it is known whether 32 bits are enough to number their elements.
 struct TableCounts {
-    std::uint64_t canisters, particles, groups, cellHeads, rowEntries, linkEntries, springSlots, coilSlots, slots,
-        historyParts, coils, energyBook, bodySlots, bodies, bodied, bodyHistory;
+    std::uint64_t canisters, particles, groups, cellHeads, rowEntries, linkEntries, springSlots, slots, historyParts,
+        energyBook, bodySlots, bodies, bodied, bodyHistory;
 
     explicit TableCounts(const TableSizes& sizes);
     std::array<TableShape, gpu::kTables> shapes() const;  ///< in the order of the bindings
