@@ -282,6 +282,36 @@ TEST_CASE("eepa: head-on collisions lose what the areas say, and their ledger cl
             }
 }
 
+TEST_CASE("eepa: the step in which a contact begins loses what the areas say, and the one in which it parts nothing") {
+    const ContactParameters p = sticky({0.5, 1, 2e-4, 3.0});
+    const double speed = 0.3, mass = massOf(kRadius);
+    RuledWorld world = planeWorld(p, overlapOfImpact(p, mass, 2 * kRadius, speed) / speed / 10);
+    world.energyBook = true;
+    Particles one;
+    one.add(Vec3(0, kRadius + 1e-9, 0), kRadius, Vec3(0, -speed, 0));
+    auto backend = makeReferenceBackend();
+    backend->load(world, one);
+    bool touched = false, parted = false;
+    for (int n = 0; n < 200 && !parted; ++n) {
+        const EnergyBook book = *backend->advance(1, 0).energy;
+        const auto contacts = backend->contacts();
+        if (!touched && !contacts.empty()) {
+            const double overlap = contacts[0].maxOverlap;
+            const Published known(p, 2 * kRadius, overlap);
+            const double lost = known.pressing(overlap) - known.area(overlap);
+            CHECK(near(book.plastic, lost, known.k1 * std::pow(overlap, 2.5), 1e-6));
+        }
+        parted = touched && contacts.empty();
+        touched = touched || !contacts.empty();
+        if (parted) {
+            CHECK(book.plastic == 0);
+            CHECK(book.adhesive == 0);
+            CHECK(book.numerical != 0);
+        }
+    }
+    CHECK(parted);
+}
+
 TEST_CASE("eepa: a loaded contact brings its energy, and a slider books what the overlap makes stiffer") {
     ContactParameters p = sticky({0.5, 1, 1e-5}, 0.8);
     p.mu = 0.4, p.muR = 0.1, p.muTo = 0.1;

@@ -124,6 +124,35 @@ TEST_CASE("energy: device and reference book the same, term by term, until packi
     requireClean(*device);
 }
 
+TEST_CASE("energy: device and reference book the first and the last step of an elasto-plastic contact alike") {
+    RuledWorld w = emptyWorld();
+    follow(NormalLaw::Eepa, w);
+    w.energyBook = true;
+    w.gravity = Vec3(0);
+    w.timeStep = 3e-5;  // so long that much happens in each
+    Particles p;
+    p.add({0, 0, 0}, single(1.25e-3), {0.15, 0, 0});
+    p.add({2.5005e-3, 0, 0}, single(1.25e-3), {-0.15, 0, 0});
+    auto device = gpu();
+    auto reference = makeReferenceBackend();
+    device->load(w, p);
+    reference->load(w, p);
+    bool touched = false, parted = false;
+    double scale = 0;
+    for (int n = 0; n < 100 && !parted; ++n) {
+        const EnergyBook a = *device->advance(1, 0).energy, b = *reference->advance(1, 0).energy;
+        if (n == 0) scale = b.loaded;
+        for (const Term term : {&EnergyBook::plastic, &EnergyBook::numerical, &EnergyBook::elasticNormal})
+            CHECK(near(a.*term, b.*term, scale, 1e-5));
+        const bool now = !reference->contacts().empty();
+        if (now && !touched) CHECK(b.plastic > 1e-3 * scale);
+        parted = touched && !now;
+        touched = touched || now;
+        if (parted) CHECK(a.plastic == 0);
+    }
+    CHECK(parted);
+}
+
 TEST_CASE("energy: a bed under the coil that doses closes on the device, and loses energy in every way") {
     RuledWorld w = dosingWorld();
     w.law.coulombLimit = GENERATE(CoulombLimit::Luding, CoulombLimit::Absolute);
