@@ -37,14 +37,14 @@ double partner(const Restitution& e, double radius) {
 
 /// The key that says how stiff the contacts are.
 const char* stiffnessKey(const ContactParameters& p) {
-    return p.law == NormalLaw::HertzMindlin ? "contact.youngs_modulus" : "contact.k";
+    return p.law == NormalLaw::Luding ? "contact.k" : "contact.youngs_modulus";
 }
 
 /// The cure of overlaps that are too large: `linear` times the stiffness of Luding's law, or `elastic` times the
 /// modulus of Hertz's.
 std::string stiffer(const ContactParameters& p, double linear, double elastic) {
-    return p.law == NormalLaw::HertzMindlin ? fmt::format("make it at least {:.2g} times as large", elastic)
-                                            : fmt::format("give at least {:.2g}", p.k2Max * linear);
+    return p.law == NormalLaw::Luding ? fmt::format("give at least {:.2g}", p.k2Max * linear)
+                                      : fmt::format("make it at least {:.2g} times as large", elastic);
 }
 
 /// The damping that would give mean spheres what the key was perhaps meant to say, or else one half.
@@ -148,7 +148,7 @@ Found strangeRestitution(const Subject& s) {
     for (const Restitution& e : s.f.restitutions) {
         if (e.mean == 0) continue;  // overdamped, which is told already
         const ContactParameters& p = s.c.dosingLaw.of(e.kind);
-        if (p.law == NormalLaw::HertzMindlin) continue;  // the case states the restitution itself
+        if (p.law != NormalLaw::Luding) continue;  // the case states the restitution itself
         const bool elastic = e.mean > kMostRestitution && p.k1 == p.k2Max;
         if (!elastic && e.mean >= kLeastRestitution && e.smallest > 0) continue;
         return Finding{classKey(e.kind, "damping"),

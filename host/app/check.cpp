@@ -73,15 +73,15 @@ void printDerivations(const Case& c) {
 }
 
 void printContacts(const Case& c, const Derived& d, const Figures& f) {
-    const bool hertz = c.dosingLaw.of(ContactClass::ParticleParticle).law == NormalLaw::HertzMindlin;
+    const NormalLaw law = c.dosingLaw.of(ContactClass::ParticleParticle).law;
     fmt::print("contact duration   {}\n",
-               hertz ? "      mean pair        smallest pair   (as stiff as at max_overlap_ratio)"
-                     : "  mean pair on k1  stiffest pair on k2");
+               law == NormalLaw::Luding ? "  mean pair on k1  stiffest pair on k2"
+                                        : "      mean pair        smallest pair   (as stiff as at max_overlap_ratio)");
     for (const Derived::PairDuration& p : d.durations) {
         fmt::print("  {:<18} {:>13.4g} s  {:>17.4g} s\n", p.name, p.mean, p.stiffest);
     }
     fmt::print("restitution                mean    smallest     largest   ({})\n",
-               hertz ? "of any impact" : "of damping alone, on k1");
+               law == NormalLaw::HertzMindlin ? "of any impact" : "of damping alone, on k1");
     for (const Restitution& e : f.restitutions)
         fmt::print("  {:<18} {:>10.3g}  {:>10.3g}  {:>10.3g}\n", className(e.kind), e.mean, e.smallest, e.largest);
     fmt::print("time step  {:.4g} s = 1/{:.3g} of the stiffest; auto is {:.3g} s, limited by {}\n", d.timeStep,

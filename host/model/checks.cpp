@@ -212,7 +212,9 @@ void checkBed(CaseReader& reader, const Case& c) {
     const double half = can.width / 2;
     const double below = can.flatFloor ? can.width * half : 0.5 * kPi * half * half;
     const double volume = can.length * (below + can.width * (can.height - half));
-    const double loosest = c.dosingLaw.of(ContactClass::ParticleParticle).kc > 0 ? kLoosestBed : kLoosestFreeBed;
+    const ContactParameters& pair = c.dosingLaw.of(ContactClass::ParticleParticle);
+    const bool sticky = pair.kc > 0 || pair.surfaceEnergy > 0 || pair.constantPull > 0;
+    const double loosest = sticky ? kLoosestBed : kLoosestFreeBed;
     const double bed = c.filling.mass / c.world.density / loosest;
     // No powder is lighter than this. A lower density was probably given in g/cm3; without this bound the message would
     // blame the mass.

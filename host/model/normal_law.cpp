@@ -1,5 +1,6 @@
 #include "host/model/normal_law.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "host/model/restitution.h"
@@ -20,6 +21,13 @@ double inSeries(double a, double b) {
     return a * b / (a + b);
 }
 
+/// How much steeper the adhesive branch of EEPA can be than the unloading line at the same largest overlap, at least 1.
+/// The pull P <= k2 delta_p^(3/2)/2 falls with the slope chi P/delta_min, which is steepest at the smallest delta_min.
+double steepestBranch(const ContactParameters& p) {
+    if (!(p.surfaceEnergy > 0)) return 1;
+    return std::max(1.0, p.adhesionExponent / 1.5 * std::cbrt(p.plasticityRatio / 2));
+}
+
 }  // namespace
 
 ContactParameters hertzMindlin(const Elasticity& a, const Elasticity& b, double restitution,
@@ -35,6 +43,13 @@ ContactParameters hertzMindlin(const Elasticity& a, const Elasticity& b, double 
     return p;
 }
 
+ContactParameters elastoPlasticAdhesive(const Elasticity& a, const Elasticity& b, double restitution,
+                                        const ContactParameters& rest) {
+    ContactParameters p = hertzMindlin(a, b, restitution, rest);
+    p.law = NormalLaw::Eepa;
+    return p;
+}
+
 double hertzStiffness(const ContactParameters& p, double reduced, double overlap) {
     return 2 * p.modulus * std::sqrt(reduced / 2 * overlap);
 }
@@ -46,6 +61,7 @@ ContactParameters linearised(const ContactParameters& p, double mass, double red
     ContactParameters linear = p;
     linear.law = NormalLaw::Luding;
     linear.k1 = linear.k2Max = k;
+    if (p.law == NormalLaw::Eepa) linear.k2Max = k / (1 - p.plasticityRatio) * steepestBranch(p);
     linear.gamma = gamma;
     for (double ContactParameters::*stiffness :
          {&ContactParameters::kt, &ContactParameters::kr, &ContactParameters::kTo})
@@ -58,12 +74,20 @@ ContactParameters linearised(const ContactParameters& p, double mass, double red
 
 double overlapUnder(const ContactParameters& p, double reduced, double load) {
     if (p.law == NormalLaw::Luding) return load / p.k1;
+    if (p.law == NormalLaw::Eepa) load += p.constantPull;
     return std::pow(load / (4.0 / 3.0 * p.modulus * std::sqrt(reduced / 2)), 2.0 / 3.0);
 }
 
 double overlapOfImpact(const ContactParameters& p, double mass, double reduced, double speed) {
     if (p.law == NormalLaw::Luding) return speed * std::sqrt(mass / p.k1);
-    return std::pow(15.0 / 16.0 * mass * speed * speed / (p.modulus * std::sqrt(reduced / 2)), 0.4);
+    const double modulus = p.modulus * std::sqrt(reduced / 2);
+    double overlap = std::pow(15.0 / 16.0 * mass * speed * speed / modulus, 0.4);
+    if (p.law == NormalLaw::HertzMindlin || p.constantPull == 0) return overlap;
+    // 8/15 E* sqrt(R*) delta^(5/2) = m v^2/2 + pull delta: each turn leaves at most 0.4 of the error in ln delta.
+    constexpr int kTurns = 45;
+    for (int i = 0; i < kTurns; ++i)
+        overlap = std::pow(15.0 / 8.0 * (mass * speed * speed / 2 + p.constantPull * overlap) / modulus, 0.4);
+    return overlap;
 }
 
 }  // namespace vkdose

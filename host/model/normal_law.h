@@ -22,17 +22,23 @@ inline constexpr double kHertzDamping = 1.8257418583505538;
 ContactParameters hertzMindlin(const Elasticity& a, const Elasticity& b, double restitution,
                                const ContactParameters& rest = {});
 
+/// EEPA (host/model/eepa.h) between bodies of two materials. `rest` has surface energy, plasticity ratio, constant pull
+/// and exponent as well. With a plasticity ratio of 0 and no pull the law is that of Hertz and Mindlin.
+ContactParameters elastoPlasticAdhesive(const Elasticity& a, const Elasticity& b, double restitution,
+                                        const ContactParameters& rest);
+
 /// Stiffness of the normal direction df/d delta of Hertz's law, 2 E* sqrt(R* delta) [N/m]; `reduced` is a* = 2 R* [m].
 double hertzStiffness(const ContactParameters& p, double reduced, double overlap);
 
-/// The linear springs and dashpots that a contact of the reduced mass `mass` [kg] acts like at this overlap [m].
-/// Luding's law is linear already, and is given back as it is.
+/// The linear springs and dashpots that a contact of the reduced mass `mass` [kg] acts like at this overlap [m]: k1 on
+/// loading, k2Max the steepest on the way back. Luding's law is linear already, and is given back as it is.
 ContactParameters linearised(const ContactParameters& p, double mass, double reduced, double overlap);
 
 /// Overlap of a contact that has been loaded for the first time by `load` [N], in metres.
 double overlapUnder(const ContactParameters& p, double reduced, double load);
 
 /// Largest overlap of a first impact at `speed` [m/s] without damping and friction, in metres. Luding's law: on k1.
+/// EEPA: on Hertz's line, with the work of the constant pull.
 double overlapOfImpact(const ContactParameters& p, double mass, double reduced, double speed);
 
 }  // namespace vkdose

@@ -1,6 +1,10 @@
 #include "host/model/pull_off.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "host/model/eepa.h"
+#include "host/model/normal_law.h"
 
 namespace vkdose {
 namespace {
@@ -19,13 +23,17 @@ struct Pressed {
 }  // namespace
 
 double pullOff(const ContactParameters& p, double reduced, double maxOverlap) {
+    if (p.law == NormalLaw::Eepa) return eepaPath(p, reduced, maxOverlap).pull + p.constantPull;
     if (p.k2Max <= p.k1) return 0;  // one stiffness: no adhesive branch
     const Pressed c(p, reduced, maxOverlap);
     return p.kc * c.stiffer / (p.k1 + c.stiffer + p.kc) * c.acting;
 }
 
 double pullOffUnder(const ContactParameters& p, double reduced, double load) {
-    return pullOff(p, reduced, load / p.k1);
+    if (p.law == NormalLaw::Luding) return pullOff(p, reduced, load / p.k1);
+    // The patch of a contact is largest when it is as wide as R*.
+    const double widest = p.plasticityRatio > 0 ? reduced / 2 / std::cbrt(std::pow(p.plasticityRatio, 2)) : 0;
+    return pullOff(p, reduced, std::isinf(load) ? widest : overlapUnder(p, reduced, load));
 }
 
 double strongestPull(const ContactParameters& p, double reduced, double load) {

@@ -193,14 +193,36 @@ void refuseKeys(CaseReader& reader, Section& section, std::initializer_list<cons
 
 using Tables = std::array<Section*, kContactClasses>;
 
-/// One class of contacts of the law of Hertz and Mindlin as its table states it.
+constexpr std::initializer_list<const char*> kLudingKeys{
+    "k",           "contact_duration_s", "overlap_under_bed", "k1_over_k", "kc_over_k",
+    "bond_number", "bond_load",          "plasticity_depth",  "damping",   "restitution_speed",
+    "derived",     "kt_over_k",          "damping_t_ratio"};
+constexpr std::initializer_list<const char*> kElasticKeys{"youngs_modulus", "poisson_ratio"};
+constexpr std::initializer_list<const char*> kEepaKeys{"plasticity_ratio", "surface_energy_J_m2", "pull_off_force_N",
+                                                       "adhesion_exponent"};
+
+/// One class of contacts of Hertz and Mindlin's law or of EEPA as its table states it.
 struct StatedHertz {
     Elasticity material;
     double restitution = 1;
-    ContactParameters rest;  ///< friction and the ratios
+    ContactParameters rest;  ///< friction, the ratios and what EEPA has beside
 };
 
-StatedHertz readHertzClass(CaseReader& reader, Section& section, const StatedHertz* parent) {
+/// What EEPA has beside the elastic law.
+void checkEepaClass(CaseReader& reader, Section& section, const ContactParameters& p) {
+    if (p.plasticityRatio >= 1 && section.has("plasticity_ratio"))
+        reader.fault(section.path("plasticity_ratio"), "lets nothing of the overlap spring back",
+                     "give a number >= 0 and < 1, 0.5 for unloading twice as stiff as loading");
+    if (p.adhesionExponent < 1 && section.has("adhesion_exponent"))
+        reader.fault(section.path("adhesion_exponent"), "makes the pull end abruptly where the contact opens",
+                     "give a number >= 1, as a rule 1.5");
+    if (p.surfaceEnergy > 0 && p.plasticityRatio == 0 && section.has("surface_energy_J_m2"))
+        reader.fault(section.path("surface_energy_J_m2"),
+                     "acts on flattened contacts, and with plasticity_ratio = 0 none is",
+                     "give a plasticity_ratio > 0, or a surface energy of 0");
+}
+
+StatedHertz readHertzClass(CaseReader& reader, Section& section, const StatedHertz* parent, NormalLaw law) {
     const auto key = [&](const char* name, std::optional<double> inherited) {
         return section.number(name, parent != nullptr ? inherited : std::nullopt);
     };
@@ -224,32 +246,39 @@ StatedHertz readHertzClass(CaseReader& reader, Section& section, const StatedHer
     h.rest.muTo = ratio("torsion_friction", &ContactParameters::muTo);
     h.rest.kTo = ratio("kto_over_k", &ContactParameters::kTo);
     h.rest.gammaTo = ratio("damping_to_ratio", &ContactParameters::gammaTo);
+    if (law != NormalLaw::Eepa) return h;
+    h.rest.plasticityRatio = ratio("plasticity_ratio", &ContactParameters::plasticityRatio);
+    h.rest.surfaceEnergy = ratio("surface_energy_J_m2", &ContactParameters::surfaceEnergy);
+    h.rest.constantPull = ratio("pull_off_force_N", &ContactParameters::constantPull);
+    h.rest.adhesionExponent = ratio("adhesion_exponent", &ContactParameters::adhesionExponent);
+    checkEepaClass(reader, section, h.rest);
     return h;
 }
 
-void readHertz(CaseReader& reader, const Tables& sections, Section& settle, Case& c) {
-    for (Section* section : sections)
-        refuseKeys(
-            reader, *section,
-            {"k", "contact_duration_s", "overlap_under_bed", "k1_over_k", "kc_over_k", "bond_number", "bond_load",
-             "plasticity_depth", "damping", "restitution_speed", "derived", "kt_over_k", "damping_t_ratio"},
-            "luding");
+/// The laws of spheres whose materials have moduli.
+void readHertz(CaseReader& reader, const Tables& sections, Section& settle, NormalLaw law, Case& c) {
+    for (Section* section : sections) {
+        refuseKeys(reader, *section, kLudingKeys, "luding");
+        if (law != NormalLaw::Eepa) refuseKeys(reader, *section, kEepaKeys, "eepa");
+    }
     refuseKeys(reader, *sections[0], {"soften"}, "luding");
     refuseKeys(reader, settle, {"kc_over_k", "wall_kc_over_k", "coil_kc_over_k"}, "luding");
     const double damping = settle.number("damping_factor");
     std::array<StatedHertz, kContactClasses> stated;
     for (std::size_t i = 0; i < stated.size(); ++i)
-        stated[i] = readHertzClass(reader, *sections[i], i == 0 ? nullptr : &stated[i - 1]);
+        stated[i] = readHertzClass(reader, *sections[i], i == 0 ? nullptr : &stated[i - 1], law);
+    const auto between = law == NormalLaw::Eepa ? elastoPlasticAdhesive : hertzMindlin;
     for (std::size_t i = 0; i < stated.size(); ++i)
-        c.dosingLaw.classes[i] =
-            hertzMindlin(stated[0].material, stated[i].material, stated[i].restitution, stated[i].rest);
+        c.dosingLaw.classes[i] = between(stated[0].material, stated[i].material, stated[i].restitution, stated[i].rest);
     c.settlingLaw = c.dosingLaw;
     for (ContactParameters& p : c.settlingLaw.classes) p.dampingShare *= damping;
 }
 
 void readLuding(CaseReader& reader, const Tables& sections, Section& settle, double meanRadius, Case& c) {
-    for (Section* section : sections)
-        refuseKeys(reader, *section, {"youngs_modulus", "poisson_ratio"}, "hertz-mindlin");
+    for (Section* section : sections) {
+        refuseKeys(reader, *section, kElasticKeys, "hertz-mindlin");
+        refuseKeys(reader, *section, kEepaKeys, "eepa");
+    }
     std::array<Stated, kContactClasses> stated;
     for (std::size_t i = 0; i < stated.size(); ++i)
         stated[i] = readClass(reader, *sections[i], i == 0 ? nullptr : &stated[i - 1]);
@@ -310,10 +339,10 @@ void readContact(CaseReader& reader, Section& root, double meanRadius, Case& c) 
     c.world.maxOverlapRatio = contact.number("max_overlap_ratio");
     const Tables sections{&contact, &contact.table("wall"), &contact.table("coil")};
     Section& settle = root.table("settle");
-    if (law == NormalLaw::HertzMindlin)
-        readHertz(reader, sections, settle, c);
-    else
+    if (law == NormalLaw::Luding)
         readLuding(reader, sections, settle, meanRadius, c);
+    else
+        readHertz(reader, sections, settle, law, c);
 }
 
 }  // namespace vkdose

@@ -5,6 +5,8 @@
 #include <limits>
 
 #include "host/core/vec.h"
+#include "host/model/eepa.h"
+#include "host/model/normal_law.h"
 #include "host/model/stability.h"
 
 namespace vkdose {
@@ -18,21 +20,24 @@ struct Motion {
     double overlap, speed;  ///< speed > 0: the overlap grows
 };
 
+/// One step of Runge and Kutta's fourth-order rule.
+template <class Acceleration>
+Motion steppedBy(Motion now, double dt, const Acceleration& acceleration) {
+    const auto moved = [&](Motion rate, double share) {
+        return Motion{now.overlap + share * dt * rate.overlap, now.speed + share * dt * rate.speed};
+    };
+    const auto rateAt = [&](Motion at) { return Motion{at.speed, acceleration(at)}; };
+    const Motion a = rateAt(now), b = rateAt(moved(a, 0.5)), c = rateAt(moved(b, 0.5)), d = rateAt(moved(c, 1));
+    return {now.overlap + dt / 6 * (a.overlap + 2 * b.overlap + 2 * c.overlap + d.overlap),
+            now.speed + dt / 6 * (a.speed + 2 * b.speed + 2 * c.speed + d.speed)};
+}
+
 /// A head-on impact on one line of the law, force = slope (overlap - rest), with damping.
 struct Line {
     double slope, rest, gamma, mass;
 
-    double acceleration(Motion m) const { return -(slope * (m.overlap - rest) + gamma * m.speed) / mass; }
-
-    /// One step of Runge and Kutta's fourth-order rule.
     Motion stepped(Motion now, double dt) const {
-        const auto moved = [&](Motion rate, double share) {
-            return Motion{now.overlap + share * dt * rate.overlap, now.speed + share * dt * rate.speed};
-        };
-        const auto rateAt = [&](Motion at) { return Motion{at.speed, acceleration(at)}; };
-        const Motion a = rateAt(now), b = rateAt(moved(a, 0.5)), c = rateAt(moved(b, 0.5)), d = rateAt(moved(c, 1));
-        return {now.overlap + dt / 6 * (a.overlap + 2 * b.overlap + 2 * c.overlap + d.overlap),
-                now.speed + dt / 6 * (a.speed + 2 * b.speed + 2 * c.speed + d.speed)};
+        return steppedBy(now, dt, [&](Motion m) { return -(slope * (m.overlap - rest) + gamma * m.speed) / mass; });
     }
 
     /// A hundredth of the fastest of the line's times; `way` is the time that the motion takes at its present speed.
@@ -81,6 +86,41 @@ double plasticImpact(const ContactParameters& p, double mass, double reduced, do
     return m.speed < -creep && m.overlap < 1e-3 * meets + 1e-12 * limit ? -m.speed / speed : 0;
 }
 
+/// Restitution of an impact under EEPA.
+double eepaImpact(const ContactParameters& p, double mass, double reduced, double speed) {
+    // 1/1500 of the fastest of the impact's times.
+    const double deepest = overlapOfImpact(p, mass, reduced, speed);
+    const double swing = std::sqrt(mass / linearised(p, mass, reduced, deepest).k2Max);
+    const double dt = std::min(swing, deepest / speed) / 1500;
+    constexpr int kMostSteps = 1000000;
+    Motion now{0, speed};
+    double largest = 0;
+    for (int i = 0; i < kMostSteps; ++i) {
+        const Motion next = steppedBy(now, dt, [&](Motion at) {
+            const double overlap = std::max(0.0, at.overlap);
+            const double force = eepaPath(p, reduced, std::max(largest, overlap)).force(overlap);
+            return -(force + linearised(p, mass, reduced, overlap).gamma * at.speed) / mass;
+        });
+        if (next.overlap <= 0) {
+            const double share = now.overlap / (now.overlap - next.overlap);
+            return -(now.speed + share * (next.speed - now.speed)) / speed;
+        }
+        if (now.speed < 0 && next.speed >= 0) break;  // pulled back: it swings, and sticks
+        now = next;
+        largest = std::max(largest, now.overlap);
+    }
+    return 0;
+}
+
+/// The limit of slow impacts under EEPA. A constant pull holds them. Else the law has no scale of its own there,
+/// because the pull is as strong as it can be.
+double slowEepaImpact(ContactParameters p, double mass, double reduced) {
+    if (p.constantPull > 0) return 0;
+    if (p.surfaceEnergy > 0) p.surfaceEnergy = std::numeric_limits<double>::max();
+    const double overlap = 1e-6 * reduced;
+    return eepaImpact(p, mass, reduced, overlap * std::sqrt(hertzStiffness(p, reduced, overlap) / mass));
+}
+
 }  // namespace
 
 double reducedSize(double a, double b) {
@@ -93,7 +133,7 @@ double dampingRatioFor(double e) {
 }
 
 double restitution(const ContactParameters& p, double density, double a, double b) {
-    if (p.law == NormalLaw::HertzMindlin) return ofDampingRatio(p.dampingShare);
+    if (p.law != NormalLaw::Luding) return ofDampingRatio(p.dampingShare);
     return ofDampingRatio(p.gamma / (2 * std::sqrt(p.k1 * reducedMass(density, a, b))));
 }
 
@@ -103,6 +143,8 @@ double dampingFor(double e, const ContactParameters& p, double density, double a
 
 double restitutionAt(const ContactParameters& p, double mass, double reduced, double speed) {
     if (p.law == NormalLaw::HertzMindlin) return ofDampingRatio(p.dampingShare);
+    if (p.law == NormalLaw::Eepa)
+        return speed > 0 ? eepaImpact(p, mass, reduced, speed) : slowEepaImpact(p, mass, reduced);
     const double zeta = p.gamma / (2 * std::sqrt(p.k1 * mass));
     if (!(zeta < 1) || !std::isfinite(p.k2Max + p.kc + p.plasticityDepth)) return 0;
     // With one stiffness the loss does not depend on the speed.

@@ -55,6 +55,11 @@ void hertzRestitution(Stage& stage);
 void hertzOblique(Stage& stage);
 void hertzLedger(Stage& stage);
 
+// eepa.cpp
+void eepaPath(Stage& stage);
+void eepaRestitution(Stage& stage);
+void eepaLedger(Stage& stage);
+
 // size_ratio.cpp
 void wedgeBounce(Stage& stage);
 void wedgeRest(Stage& stage);

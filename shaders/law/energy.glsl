@@ -44,8 +44,8 @@ float storedIn(ContactParams p, Exerted e, float reduced, History h) {
     return dot(vec4(e.couple.w, sliderEnergy(p, e.rest.w, reduced, h)), vec4(1.0));
 }
 
-/// What the springs of sliding, rolling and torsion of an elastic contact that goes on gain because the overlap makes
-/// them stiffer [J].
+/// What the springs of sliding, rolling and torsion of a contact that goes on gain because the overlap makes them
+/// stiffer [J].
 vec3 stiffening(Exerted before, Exerted now, vec3 stored) {
     if (before.rest.w <= 0.0 || now.rest.w <= 0.0) return vec3(0.0);
     return stored * (sqrt(now.rest.w / before.rest.w) - 1.0);
@@ -69,18 +69,18 @@ Book bookContact(Exerted before, Exerted now, bool known, bool touching, vec4 st
     vec4 gained = stored - storedBefore;
     float taken = a.hysteretic + b.hysteretic;
     float loss = taken - gained.x;
-    if (!known) loss = 0.5 * now.normal.w * now.rest.w - gained.x;
-    if (!touching) loss = -0.5 * before.normal.w * before.rest.w - gained.x;
+    if (!known) loss = workOfFirstTouch(p, now.normal.w, now.rest.w) - gained.x;
+    if (!touching) loss = lossOfParting(p, before.normal.w, before.rest.w, -gained.x);
     if (!losesEnergy(p)) loss = 0.0;
     Exerted last = now;
     if (!touching) last = before;
-    bool adhesive = last.normal.w < 0.0 && last.normal.w <= -p.normal.z * last.rest.w;
+    bool adhesive = onAdhesiveBranch(p, last.normal.w, last.rest.w);
 
     vec3 spent = a.sliders + b.sliders - gained.yzw;
     vec3 slipping = vec3(touching ? slips : bvec3(true));  // when a contact opens its springs snap
     vec3 friction = spent * slipping;
     float sticking = dot(spent, vec3(1.0) - slipping);
-    if (!losesEnergy(p)) {  // friction has what comes from no motion
+    if (stiffens(p)) {  // friction has what comes from no motion
         vec3 free = stiffening(before, now, storedBefore.yzw) * (vec3(1.0) - slipping);
         friction -= free;
         sticking += free.x + free.y + free.z;

@@ -2,6 +2,7 @@
 #ifndef VKDOSE_LAW_NORMAL_GLSL
 #define VKDOSE_LAW_NORMAL_GLSL
 
+#include "law/eepa.glsl"
 #include "law/hertz.glsl"
 #include "law/luding.glsl"
 
@@ -16,22 +17,45 @@ bool follows(ContactParams p, uint law) {
 /// contact's history of one number [m], above 0 while it touches.
 NormalAnswer normalAnswer(ContactParams p, float overlap, float reduced, float mass, inout float memory) {
     if (follows(p, kLawHertzMindlin)) return hertzAnswer(p, overlap, reduced, mass, memory);
+    if (follows(p, kLawEepa)) return eepaAnswer(p, overlap, reduced, mass, memory);
     return ludingAnswer(p, overlap, reduced, memory);
 }
 
-/// Energy that the normal direction gives back when the contact parts slowly [J]; `force` is the answer's [N].
+/// Energy that the normal direction gives back when the contact parts slowly [J]; `force` is the answer's [N]. Under
+/// EEPA the work of the pull counts too, so that it may be negative.
 float storedEnergy(ContactParams p, float force, float overlap, float reduced, float memory) {
     if (follows(p, kLawHertzMindlin)) return 0.4 * force * overlap;
+    if (follows(p, kLawEepa)) return eepaEnergy(p, overlap, reduced, memory);
     return 0.5 * (force * force / unloadingStiffness(p, reduced, memory));
 }
 
+/// Whether the overlap makes sliding, rolling and torsion stiffer.
+bool stiffens(ContactParams p) { return follows(p, kLawHertzMindlin) || follows(p, kLawEepa); }
+
 /// Stiffness of sliding, rolling, torsion [N/m].
 vec3 springsAt(ContactParams p, float overlap, float reduced) {
-    if (follows(p, kLawHertzMindlin)) return hertzStiffness(p, overlap, reduced) * p.springs.xyz;
+    if (stiffens(p)) return hertzStiffness(p, overlap, reduced) * p.springs.xyz;
     return p.springs.xyz;
 }
 
 /// Whether the law itself loses energy. What an elastic law loses is an error of the time step.
 bool losesEnergy(ContactParams p) { return !follows(p, kLawHertzMindlin); }
+
+/// Work that pressing a new contact to `overlap` takes, where it exerts `force` [J].
+float workOfFirstTouch(ContactParams p, float force, float overlap) {
+    if (follows(p, kLawEepa)) return eepaFirstWork(p, force, overlap);
+    return 0.5 * force * overlap;
+}
+
+/// What a contact loses by law when it parts after it exerted `force` and stored `stored` [J].
+float lossOfParting(ContactParams p, float force, float overlap, float stored) {
+    if (follows(p, kLawEepa)) return 0.0;  // what it stored is the area of the path on which it parts
+    return -0.5 * force * overlap + stored;
+}
+
+/// Whether the contact is on the adhesive branch, on which Luding's law loses energy.
+bool onAdhesiveBranch(ContactParams p, float force, float overlap) {
+    return follows(p, kLawLuding) && force < 0.0 && force <= -p.normal.z * overlap;
+}
 
 #endif

@@ -92,13 +92,17 @@ SHARED_CONST kLeverHalf = 1u;
 
 SHARED_CONST kLawLuding = 0u;
 SHARED_CONST kLawHertzMindlin = 1u;
+SHARED_CONST kLawEepa = 2u;
 
-// Hertz-Mindlin: springs are ratios to the stiffness of the normal direction, dampings ratios to its damping.
+// Hertz-Mindlin and EEPA: springs are ratios to the stiffness of Hertz's line, dampings ratios to its damping.
 struct ContactParams {
-    vec4 normal;    // Luding: k1, k2Max, kc [N/m], plasticity depth; Hertz-Mindlin: E* [Pa], 2 sqrt(5/6) beta
+    // Luding: k1, k2Max, kc [N/m], plasticity depth; Hertz-Mindlin: E* [Pa], 2 sqrt(5/6) beta; EEPA: these, then 1.5 pi
+    // delta gamma [N/m], lambda_p
+    vec4 normal;
     vec4 springs;   // of sliding, rolling, torsion: kt, kr, kTo [N/m]; w: law (kLawLuding ...)
-    vec4 friction;  // coefficients of sliding, rolling, torsion: mu, muR, muTo
-    vec4 damping;   // of sliding, rolling, torsion, then of the normal part: gammaT, gammaR, gammaTo, gamma [kg/s]
+    vec4 friction;  // coefficients of sliding, rolling, torsion: mu, muR, muTo; w: EEPA: f0 [N]
+    // of sliding, rolling, torsion, then of the normal part: gammaT, gammaR, gammaTo, gamma [kg/s]; EEPA: w: chi/1.5
+    vec4 damping;
 };
 
 struct SurfaceParams {

@@ -31,6 +31,26 @@ friction = 0.2
 restitution = 0.4
 )";
 
+const std::string kCohesive = R"([contact]
+law = "eepa"
+youngs_modulus = 5e6
+poisson_ratio = 0.25
+restitution = 0.6
+plasticity_ratio = 0.5
+surface_energy_J_m2 = 0.2
+pull_off_force_N = 1e-6
+friction = 0.5
+rolling_friction = 0.2
+[contact.wall]
+youngs_modulus = 2e8
+surface_energy_J_m2 = 0.05
+friction = 0.2
+[contact.coil]
+plasticity_ratio = 0.3
+adhesion_exponent = 3
+pull_off_force_N = 0
+)";
+
 Case loadText(const std::string& text) {
     const Folder folder;
     return loadCase(folder.write("case.toml", text));
@@ -112,4 +132,75 @@ TEST_CASE("keys of another law, and figures of no material, are refused by name"
     refused(withContacts(replaced(kElastic, "= 0.6", "= 1.2")), "contact.restitution = 1.2");
     refused(withContacts(replaced(kElastic, "hertz-mindlin", "hertz")), "contact.law");
     refused(replaced(kGoodCase, "k1_over_k = 0.2\n", ""), "contact.k1_over_k");
+}
+
+TEST_CASE("a case with the elasto-plastic adhesive law") {
+    const Case c = loadText(withContacts(kCohesive));
+    const auto& classes = c.dosingLaw.classes;
+    const ContactParameters elastic = hertzMindlin({5e6, 0.25}, {2e8, 0.25}, 0.6);
+    for (const ContactParameters& p : classes) CHECK(p.law == NormalLaw::Eepa);
+    CHECK(classes[0].modulus == hertzMindlin({5e6, 0.25}, {5e6, 0.25}, 0.6).modulus);
+    CHECK(classes[1].modulus == elastic.modulus);
+    CHECK(classes[1].kt == elastic.kt);
+    CHECK(classes[2].dampingShare == elastic.dampingShare);
+    CHECK(classes[0].plasticityRatio == 0.5);
+    CHECK(classes[0].surfaceEnergy == 0.2);
+    CHECK(classes[0].constantPull == 1e-6);
+    CHECK(classes[0].adhesionExponent == 1.5);
+    CHECK(classes[1].plasticityRatio == 0.5);
+    CHECK(classes[1].surfaceEnergy == 0.05);
+    CHECK(classes[1].constantPull == 1e-6);
+    CHECK(classes[2].plasticityRatio == 0.3);  // the coil takes the rest from the wall
+    CHECK(classes[2].surfaceEnergy == 0.05);
+    CHECK(classes[2].constantPull == 0);
+    CHECK(classes[2].adhesionExponent == 3);
+    CHECK(classes[2].mu == 0.2);
+    CHECK(c.settlingLaw.classes[1].surfaceEnergy == 0.05);
+    const Case again = loadResolvedCase(c.resolved, "again.toml");
+    CHECK(again.resolved == c.resolved);
+    CHECK(again.dosingLaw.classes[2].plasticityRatio == 0.3);
+    CHECK(again.dosingLaw.classes[1].constantPull == 1e-6);
+    const Case damped = loadText(replaced(withContacts(kCohesive), "[settle]\n", "[settle]\ndamping_factor = 2\n"));
+    CHECK(damped.settlingLaw.classes[1].dampingShare == 2 * damped.dosingLaw.classes[1].dampingShare);
+}
+
+TEST_CASE("the time step of an elasto-plastic case is shorter by the root of how much stiffer unloading is") {
+    // Without friction, whose springs are faster.
+    const std::string rough =
+        replaced(withContacts(kCohesive), "friction = 0.5\nrolling_friction = 0.2", "friction = 0");
+    const std::string smooth =
+        replaced(replaced(rough, "friction = 0.2", "friction = 0"), "plasticity_ratio = 0.3\n", "");
+    const std::string elastic = replaced(replaced(smooth, "plasticity_ratio = 0.5\nsurface_energy_J_m2 = 0.2",
+                                                  "plasticity_ratio = 0\nsurface_energy_J_m2 = 0"),
+                                         "surface_energy_J_m2 = 0.05\n", "");
+    const std::string plastic = replaced(elastic, "plasticity_ratio = 0\n", "plasticity_ratio = 0.96\n");
+    CHECK(loadText(elastic).world.timeStep == Approx(5 * loadText(plastic).world.timeStep).epsilon(0.02));
+}
+
+TEST_CASE("keys and figures that the elasto-plastic adhesive law cannot have are refused by name") {
+    const auto with = [](const std::string& line) {
+        return withContacts(replaced(kCohesive, "restitution = 0.6\n", "restitution = 0.6\n" + line + "\n"));
+    };
+    const auto other = [](const std::string& old, const std::string& now) {
+        return withContacts(replaced(kCohesive, old, now));
+    };
+    refused(with("kc_over_k = 0.5"),
+            "contact.kc_over_k = 0.5: is a key of the law luding; remove it, or give contact.law = \"luding\"");
+    refused(with("soften = 2"), "contact.soften");
+    refused(replaced(with(""), "[settle]\n", "[settle]\nkc_over_k = 0.3\n"),
+            "settle.kc_over_k = 0.3: is a key of the law luding");
+    refused(withContacts(replaced(kElastic, "restitution = 0.6\n", "restitution = 0.6\nplasticity_ratio = 0.5\n")),
+            "contact.plasticity_ratio = 0.5: is a key of the law eepa; remove it, or give contact.law = \"eepa\"");
+    refused(replaced(kGoodCase, "k = 2000.0\n", "k = 2000.0\nsurface_energy_J_m2 = 0.1\n"),
+            "contact.surface_energy_J_m2 = 0.1: is a key of the law eepa");
+    refused(other("plasticity_ratio = 0.5\n", ""), "contact.plasticity_ratio: is missing");
+    refused(other("surface_energy_J_m2 = 0.2\n", ""), "contact.surface_energy_J_m2: is missing");
+    refused(other("plasticity_ratio = 0.5", "plasticity_ratio = 1"),
+            "contact.plasticity_ratio = 1: lets nothing of the overlap spring back; give a number >= 0 and < 1");
+    refused(other("adhesion_exponent = 3", "adhesion_exponent = 0.5"), "contact.coil.adhesion_exponent = 0.5");
+    refused(other("pull_off_force_N = 1e-6", "pull_off_force_N = -1e-6"), "contact.pull_off_force_N = -1e-6");
+    refused(other("plasticity_ratio = 0.5", "plasticity_ratio = 0"),
+            "contact.surface_energy_J_m2 = 0.2: acts on flattened contacts, and with plasticity_ratio = 0 none is; "
+            "give a plasticity_ratio > 0, or a surface energy of 0");
+    refused(other("0.25", "0.6"), "contact.poisson_ratio = 0.6");
 }

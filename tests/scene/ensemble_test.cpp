@@ -20,7 +20,7 @@ struct Script {
     double timeStep;  // [s]
     double friction;  // after the second call
     bool energyBook = false;
-    bool elastic = false;  // with the law of Hertz and Mindlin
+    NormalLaw law = NormalLaw::Luding;
     std::vector<std::uint32_t> calls{1501, 997, 700};
     Vec3 throwFirst{0};  // extra velocity of particle 0 [m/s]
 };
@@ -39,7 +39,13 @@ Outcome play(Backend& backend, const Script& s, const Record* from = nullptr, Re
     w.maxOverlapRatio = 1;
     w.timeStep = s.timeStep;
     w.energyBook = s.energyBook;
-    if (s.elastic) w.law.classes.fill(hertzMindlin({2e6, 0.25}, {2e6, 0.25}, 0.7));
+    if (s.law == NormalLaw::HertzMindlin) w.law.classes.fill(hertzMindlin({2e6, 0.25}, {2e6, 0.25}, 0.7));
+    if (s.law == NormalLaw::Eepa) {
+        ContactParameters sticky;
+        sticky.plasticityRatio = 0.5;
+        sticky.surfaceEnergy = 2;
+        w.law.classes.fill(elastoPlasticAdhesive({2e6, 0.25}, {2e6, 0.25}, 0.7, sticky));
+    }
     Particles p = thrownIn(s.particles);
     p.velocity[0] += s.throwFirst;
     Outcome o;
@@ -137,8 +143,9 @@ TEST_CASE("a canister computes the same bits alone and in an ensemble") {
 }
 
 TEST_CASE("canisters whose contacts follow different laws share tables") {
-    std::vector<Script> scripts{{90, -9.5, 2.26e-6, 0.3}, {120, 7.0, 2.26e-6, 0.3}};
-    scripts[1].elastic = true;
+    std::vector<Script> scripts{{90, -9.5, 2.26e-6, 0.3}, {120, 7.0, 2.26e-6, 0.3}, {70, 7.0, 2.26e-6, 0.3}};
+    scripts[1].law = NormalLaw::HertzMindlin;
+    scripts[2].law = NormalLaw::Eepa;
     for (Script& s : scripts) {
         s.energyBook = true;
         s.calls = {1200, 700, 300};
@@ -148,6 +155,8 @@ TEST_CASE("canisters whose contacts follow different laws share tables") {
     CHECK(together[0].sensors[1].energy->plastic > 0);
     CHECK(together[1].sensors[1].energy->plastic == 0);
     CHECK(together[1].sensors[1].energy->viscous > 0);
+    CHECK(together[2].sensors[1].energy->plastic > 0);
+    CHECK(together[2].sensors[1].energy->adhesive == 0);
 }
 
 TEST_CASE("a canister that fails names its own particle and leaves the others alone") {

@@ -97,6 +97,53 @@ TEST_CASE("elastic spheres of Hertz and Mindlin collide off centre, and graze a 
     for (const std::uint32_t steps : {20u, 75u}) requireClose(run(w, p, steps));
 }
 
+TEST_CASE("elasto-plastic adhesive spheres collide off centre, and graze a floor") {
+    RuledWorld w = emptyWorld();
+    const ContactParameters usual = w.law.of(ContactClass::ParticleParticle);
+    ContactParameters rest;
+    rest.mu = usual.mu, rest.muR = usual.muR, rest.muTo = usual.muTo;
+    rest.kr = rest.kTo = 0.3;
+    rest.gammaR = rest.gammaTo = 0.2;
+    struct Adhesion {
+        const char* name;
+        double ratio, energy, pull, exponent;
+    };
+    for (const Adhesion& a : {Adhesion{"plastic alone", 0.5, 0, 0, 1.5},
+                              {"pull of the patch", 0.5, 2, 0, 1.5},
+                              {"pull at its limit, which fades slowly", 0.6, 500, 0, 1},
+                              {"pull that fades soon, and a constant one", 0.3, 1, 2e-4, 4}})
+        DYNAMIC_SECTION(a.name) {
+            rest.plasticityRatio = a.ratio;
+            rest.surfaceEnergy = a.energy;
+            rest.constantPull = a.pull;
+            rest.adhesionExponent = a.exponent;
+            w.law.classes.fill(elastoPlasticAdhesive({2e6, 0.25}, {2e7, 0.3}, 0.7, rest));
+            w.law.coulombLimit = a.pull > 0 ? CoulombLimit::Luding : CoulombLimit::Absolute;
+            w.surfaces = {geometry::Plane{{0, -2e-3, 0}, {0, 1, 0}}};
+            Particles p;
+            p.add({0.031, 0.02, 0.045}, single(1.875e-3), {0.2, 0.05, 0}, {30, 60, -20});
+            p.add({0.031 + 2.501e-3, 0.02, 0.045 + 1e-4}, single(0.625e-3), {-0.2, 0, 0.05}, {-80, 10, 40});
+            p.add({0, -0.7e-3, 0}, single(1.3005e-3), {0.3, -0.3, 0.1}, {70, -40, 90});
+            for (const std::uint32_t steps : {20u, 75u, 140u}) requireClose(run(w, p, steps));
+        }
+}
+
+TEST_CASE("an elasto-plastic adhesive law without plasticity moves spheres as Hertz does") {
+    RuledWorld plastic = emptyWorld(), elastic = emptyWorld();
+    plastic.law.classes.fill(elastoPlasticAdhesive({2e6, 0.25}, {2e7, 0.3}, 0.7, {}));
+    elastic.law.classes.fill(hertzMindlin({2e6, 0.25}, {2e7, 0.3}, 0.7));
+    Particles p;
+    p.add({0, 0, 0}, single(1.25e-3), {0.2, 0, 0});
+    p.add({2.5005e-3, 0, 0}, single(1.25e-3), {-0.2, 0, 0});
+    auto a = gpu(), b = gpu();
+    a->load(plastic, p);
+    b->load(elastic, p);
+    a->advance(400, 0);
+    b->advance(400, 0);
+    CHECK(a->contacts().empty());
+    CHECK(near(a->particles().velocity[0], b->particles().velocity[0], kSpeed, 1e-5));
+}
+
 TEST_CASE("a sphere meets every surface") {
     RuledWorld w = emptyWorld();
     const double a = single(1.25e-3), s = std::sqrt(0.5);

@@ -88,7 +88,8 @@ Response contactResponse(const ContactLaw& law, ContactClass kind, const Touch& 
                       .slides = slides,
                       .rolls = rolls,
                       .twists = twists,
-                      .elastic = !losesEnergy(p.law),
+                      .law = p.law,
+                      .arriving = workOfFirstTouch(p, touch.overlap, answer.force),
                       .kt = answer.kt,
                       .kr = answer.kr,
                       .kTo = answer.kTo};

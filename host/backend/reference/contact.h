@@ -57,7 +57,8 @@ struct Parts {
     Vec3 torsion;                ///< couple on i [N m]
     bool adhesive;               ///< on the adhesive branch
     bool slides, rolls, twists;  ///< whether the slider slips
-    bool elastic;                ///< the law of the normal force loses no energy
+    NormalLaw law;               ///< of the normal force
+    double arriving;             ///< work that pressing a new contact so far takes [J]
     double kt, kr, kTo;          ///< stiffness of sliding, rolling, torsion [N/m]
 };
 

@@ -34,10 +34,11 @@ Work operator+(const Work& a, const Work& b) {
 /// of a new contact begins at overlap zero, and the path of a contact that parts ends there. Motion of the particles
 /// before or after that within the step does not count here.
 double lossByLaw(const Exerted& before, const Exerted& now, double taken) {
-    if ((now.touching ? now : before).parts.elastic) return 0;
+    const NormalLaw law = (now.touching ? now : before).parts.law;
+    if (!losesEnergy(law)) return 0;
     const double stored = now.elastic.normal - before.elastic.normal;
-    if (!before.touching) return now.parts.hysteretic * now.overlap / 2 - stored;
-    if (!now.touching) return -before.parts.hysteretic * before.overlap / 2 - stored;
+    if (!before.touching) return now.parts.arriving - stored;
+    if (!now.touching) return partsOnStoredPath(law) ? 0 : -before.parts.hysteretic * before.overlap / 2 - stored;
     return taken - stored;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "host/model/eepa.h"
 #include "host/model/normal_law.h"
 
 namespace vkdose::reference {
@@ -31,20 +32,46 @@ NormalAnswer hertzAnswer(const ContactParameters& p, double overlap, double redu
         2.0 / 3.0 * now.k1 * overlap, now.gamma, 0, now.kt, now.kr, now.kTo, now.gammaT, now.gammaR, now.gammaTo, true};
 }
 
+/// The other directions and all damping are those of Hertz's line at this overlap.
+NormalAnswer eepaAnswer(const ContactParameters& p, double overlap, double reduced, double mass, double& maxOverlap) {
+    maxOverlap = std::max(maxOverlap, overlap);
+    const EepaPath path = eepaPath(p, reduced, maxOverlap);
+    const ContactParameters now = linearised(p, mass, reduced, overlap);
+    const double pull = path.pullAt(overlap) + p.constantPull;
+    return {path.force(overlap), now.gamma, pull, now.kt, now.kr, now.kTo, now.gammaT, now.gammaR, now.gammaTo, true};
+}
+
 }  // namespace
 
 NormalAnswer normalAnswer(const ContactParameters& p, double overlap, double reduced, double mass, double& memory) {
-    return p.law == NormalLaw::HertzMindlin ? hertzAnswer(p, overlap, reduced, mass, memory)
-                                            : ludingAnswer(p, overlap, reduced, memory);
+    switch (p.law) {
+        case NormalLaw::HertzMindlin:
+            return hertzAnswer(p, overlap, reduced, mass, memory);
+        case NormalLaw::Eepa:
+            return eepaAnswer(p, overlap, reduced, mass, memory);
+        default:
+            return ludingAnswer(p, overlap, reduced, memory);
+    }
 }
 
 double storedEnergy(const ContactParameters& p, double overlap, double reduced, double force, double memory) {
     if (p.law == NormalLaw::HertzMindlin) return 0.4 * force * overlap;
+    if (p.law == NormalLaw::Eepa) return eepaPath(p, reduced, memory).energy(overlap);
     return force * force / (2 * unloadingStiffness(p, reduced, memory));
+}
+
+double workOfFirstTouch(const ContactParameters& p, double overlap, double force) {
+    // Under EEPA Hertz's line bears force - f0.
+    if (p.law == NormalLaw::Eepa) return 0.4 * (force + p.constantPull) * overlap - p.constantPull * overlap;
+    return force * overlap / 2;
 }
 
 bool losesEnergy(NormalLaw law) {
     return law != NormalLaw::HertzMindlin;
+}
+
+bool partsOnStoredPath(NormalLaw law) {
+    return law == NormalLaw::Eepa;
 }
 
 double unloadingStiffness(const ContactParameters& p, double reduced, double maxOverlap) {
@@ -54,7 +81,7 @@ double unloadingStiffness(const ContactParameters& p, double reduced, double max
 }
 
 bool onAdhesiveBranch(const ContactParameters& p, double overlap, double force) {
-    return force < 0 && force <= -p.kc * overlap;
+    return p.law == NormalLaw::Luding && force < 0 && force <= -p.kc * overlap;
 }
 
 double normalForce(const ContactParameters& p, double overlap, double reduced, double& maxOverlap) {

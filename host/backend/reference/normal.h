@@ -19,11 +19,18 @@ struct NormalAnswer {
 /// metres, `mass` the reduced mass [kg]. `memory` is the contact's history of one number [m], above 0 while it touches.
 NormalAnswer normalAnswer(const ContactParameters& p, double overlap, double reduced, double mass, double& memory);
 
-/// Energy that the normal direction gives back when the contact parts slowly [J]. `force` [N] is the answer's.
+/// Energy that the normal direction gives back when the contact parts slowly [J]. `force` [N] is the answer's. Under
+/// EEPA the work of the pull counts too, so that it may be negative.
 double storedEnergy(const ContactParameters& p, double overlap, double reduced, double force, double memory);
+
+/// Work that pressing a new contact to `overlap` takes, where it exerts `force` [J].
+double workOfFirstTouch(const ContactParameters& p, double overlap, double force);
 
 /// Whether the law itself loses energy. What an elastic law loses is an error of the time step.
 bool losesEnergy(NormalLaw law);
+
+/// Whether a contact that parts takes the path that its stored energy is the area of, so that it loses nothing more.
+bool partsOnStoredPath(NormalLaw law);
 
 /// Luding's law (physics.md, "Contact law"; Luding 2008, Granular Matter 10:235): force without damping, repulsive
 /// positive [N]. `overlap` and `reduced` as above. `maxOverlap` is the history delta_max [m]: it grows while loading
@@ -34,7 +41,8 @@ double normalForce(const ContactParameters& p, double overlap, double reduced, d
 /// f^2 / (2 k_2) when f falls to zero.
 double unloadingStiffness(const ContactParameters& p, double reduced, double maxOverlap);
 
-/// Whether `force` [N], from `normalForce`, is the largest pull that the overlap allows.
+/// Whether the contact is on the adhesive branch, on which Luding's law loses energy: `force` [N] is the largest pull
+/// that the overlap allows.
 bool onAdhesiveBranch(const ContactParameters& p, double overlap, double force);
 
 }  // namespace vkdose::reference

@@ -25,7 +25,7 @@ static_assert(gpu::kParticleParticle == uint32_t(ContactClass::ParticleParticle)
 static_assert(gpu::kCoulombLuding == uint32_t(CoulombLimit::Luding) &&
               gpu::kCoulombAbsolute == uint32_t(CoulombLimit::Absolute));
 static_assert(gpu::kLawLuding == uint32_t(NormalLaw::Luding) &&
-              gpu::kLawHertzMindlin == uint32_t(NormalLaw::HertzMindlin));
+              gpu::kLawHertzMindlin == uint32_t(NormalLaw::HertzMindlin) && gpu::kLawEepa == uint32_t(NormalLaw::Eepa));
 static_assert(gpu::kLeverFull == uint32_t(RollingLever::Full) && gpu::kLeverHalf == uint32_t(RollingLever::Half));
 
 double largestRadius(const Particles& p) {
@@ -34,12 +34,20 @@ double largestRadius(const Particles& p) {
 
 gpu::ContactParams packContact(const ContactParameters& c) {
     gpu::ContactParams p{};
-    p.normal = c.law == NormalLaw::HertzMindlin
-                   ? vec4(float(c.modulus), float(kHertzDamping * c.dampingShare), 0.0f, 0.0f)
-                   : vec4(float(c.k1), float(c.k2Max), float(c.kc), float(c.plasticityDepth));
     p.springs = vec4(float(c.kt), float(c.kr), float(c.kTo), float(c.law));
     p.friction = vec4(float(c.mu), float(c.muR), float(c.muTo), 0.0f);
     p.damping = vec4(float(c.gammaT), float(c.gammaR), float(c.gammaTo), float(c.gamma));
+    if (c.law == NormalLaw::Luding) {
+        p.normal = vec4(float(c.k1), float(c.k2Max), float(c.kc), float(c.plasticityDepth));
+        return p;
+    }
+    p.normal = vec4(float(c.modulus), float(kHertzDamping * c.dampingShare), 0.0f, 0.0f);
+    if (c.law == NormalLaw::Eepa) {
+        p.normal.z = float(1.5 * kPi * c.surfaceEnergy);
+        p.normal.w = float(c.plasticityRatio);
+        p.friction.w = float(-c.constantPull);
+        p.damping.w = float(c.adhesionExponent / 1.5);
+    }
     return p;
 }
 
