@@ -262,7 +262,7 @@ void readHertz(CaseReader& reader, const Tables& sections, Section& settle, Norm
         if (law != NormalLaw::Eepa) refuseKeys(reader, *section, kEepaKeys, "eepa");
     }
     refuseKeys(reader, *sections[0], {"soften"}, "luding");
-    refuseKeys(reader, settle, {"kc_over_k", "wall_kc_over_k", "coil_kc_over_k"}, "luding");
+    refuseKeys(reader, settle, {"kc_over_k", "wall_kc_over_k", "coil_kc_over_k", "elastic"}, "luding");
     const double damping = settle.number("damping_factor");
     std::array<StatedHertz, kContactClasses> stated;
     for (std::size_t i = 0; i < stated.size(); ++i)
@@ -313,12 +313,14 @@ void readLuding(CaseReader& reader, const Tables& sections, Section& settle, dou
     const double coilKc = settle.number("coil_kc_over_k", own(2) || !settleStates ? stated[2].ratios.kc : wallKc);
     const std::array<double, kContactClasses> settling{pairKc, wallKc, coilKc};
     const double damping = settle.number("damping_factor");
+    const bool elastic = settle.boolean("elastic");
 
     c.settlingLaw = c.dosingLaw;
     for (std::size_t i = 0; i < stated.size(); ++i) {
         c.dosingLaw.classes[i] = stated[i].ratios.parameters(stated[i].ratios.kc);
         c.settlingLaw.classes[i] = stated[i].ratios.parameters(settling[i]);
         c.settlingLaw.classes[i].gamma *= damping;
+        if (elastic) c.settlingLaw.classes[i].k2Max = c.settlingLaw.classes[i].k1;
     }
 }
 

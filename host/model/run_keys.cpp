@@ -29,6 +29,9 @@ constexpr Key kSettle[] = {
     number("damping_factor", kPlain, kPositive, 1.0,
            "γ of the normal direction while settling over that of `[contact]`. More of it makes the impacts of the "
            "filling shallower, and may need a shorter time step"),
+    boolean("elastic", false,
+            "contacts are springs of stiffness k₁ while settling. They forget the impacts of the filling, so that the "
+            "doses begin with the overlaps that the bed's weight presses"),
 };
 constexpr Key kDose[] = {
     number("rotate_s", kSecond, kNonNegative, 0.0,

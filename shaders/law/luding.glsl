@@ -9,7 +9,7 @@
 float normalForce(ContactParams p, float overlap, float reduced, inout float maxOverlap) {
     float k1 = p.normal.x, k2Max = p.normal.y, kc = p.normal.z;
     float range = k2Max - k1;
-    maxOverlap = max(maxOverlap, overlap);
+    maxOverlap = range > 0.0 ? max(maxOverlap, overlap) : overlap;
     if (range <= 0.0) return k1 * overlap;  // one stiffness: an elastic spring, nothing to remember
 
     float limit = k2Max / range * p.normal.w * reduced;  // delta*: the plastic limit

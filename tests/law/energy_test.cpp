@@ -247,6 +247,30 @@ TEST_CASE("energy: the balance survives the switch of adhesion, up and down") {
     CHECK(backend->contacts().size() > 20);
 }
 
+TEST_CASE("energy: the balance survives the end of an elastic settling, which the plastic loss pays for") {
+    RuledWorld world = smallCanister(2e-6);
+    world.energyBook = true;
+    const ContactLaw plastic = world.law;
+    for (ContactParameters& p : world.law.classes) p.k2Max = p.k1;
+    auto backend = makeReferenceBackend();
+    backend->load(world, throwIn(7));
+    EnergyLedger ledger;
+    ledger.add(*backend->advance(3000, 0).energy);
+    CHECK(near(ledger.residual(), 0, ledger.sum.loaded, 1e-11));
+    CHECK(near(ledger.sum.plastic, 0, ledger.sum.loaded, 1e-6));  // the normals turn within a step
+    CHECK(ledger.sum.adhesive == 0);
+    const double stored = ledger.sum.elasticNormal;
+    REQUIRE(stored > 1e-6 * ledger.sum.loaded);
+    backend->setLaw(plastic);
+    const EnergyBook first = *backend->advance(1, 0).energy;
+    ledger.add(first);
+    CHECK(near(ledger.residual(), 0, ledger.sum.loaded, 1e-11));
+    CHECK(first.plastic > 0);
+    CHECK(first.plastic < stored);
+    ledger.add(*backend->advance(3000, -12).energy);
+    CHECK(near(ledger.residual(), 0, ledger.sum.loaded, 1e-11));
+}
+
 TEST_CASE("energy: keeping the book changes no bit of the motion") {
     RuledWorld world = smallCanister(2e-6);
     auto plain = makeReferenceBackend(), booked = makeReferenceBackend();

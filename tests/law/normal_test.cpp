@@ -106,8 +106,10 @@ TEST_CASE("normal: one stiffness is a linear spring, whatever the plasticity dep
             p.plasticityDepth = depth;
             p.kc = kc;
             double history = 0;
-            for (const double overlap : {1e-6, 5e-6, 2e-6, 1e-9})
+            for (const double overlap : {1e-6, 5e-6, 2e-6, 1e-9}) {
                 CHECK(nearRelative(normalForce(p, overlap, kReduced, history), 1000 * overlap, kRounding));
+                CHECK(history == overlap);  // so that a law with two stiffnesses may follow
+            }
         }
 }
 

@@ -7,6 +7,7 @@
 #include "host/backend/reference/contact.h"
 #include "host/backend/reference/normal.h"
 #include "host/model/case.h"
+#include "host/model/pull_off.h"
 #include "tests/law/setups.h"
 #include "tests/support/catch.h"
 #include "tests/support/folder.h"
@@ -159,6 +160,36 @@ TEST_CASE("soften: a stack at rest bears its weight with overlaps s times as lar
         // Falling in from rest is similar too: gravity's part of the motion is the same, over twice the time.
         CHECK(nearRelative(kRadius - twin->particles().position[0].y, 4 * depth, 1e-3));
     }
+}
+
+TEST_CASE(
+    "soften: after an elastic settling a sphere pulls as strongly as its weight asks for, however soft and fast") {
+    const double weight = massOf(kRadius) * kGravity;
+    for (const double s : {1.0, 4.0})
+        for (const double speed : {0.1, 0.4}) {
+            const ContactLaw plastic = softLaw(s);
+            const ContactParameters& p = plastic.of(ContactClass::ParticleWall);
+            ContactLaw elastic = plastic;
+            for (ContactParameters& c : elastic.classes) c.k2Max = c.k1;
+            RuledWorld world = planeWorld(p, collisionStep(p));
+            world.gravity = Vec3(0, -kGravity, 0);
+            world.maxOverlapRatio = 1;
+            Particles one;
+            one.add(Vec3(0, 1.001 * kRadius, 0), kRadius, Vec3(0, -speed, 0));
+            auto backend = makeReferenceBackend();
+            backend->load(world, elastic, one);
+            const auto steps = static_cast<std::uint32_t>(0.5 / world.timeStep);
+            const double deepest = backend->advance(steps, 0).maxOverlapRatio * kRadius;
+            backend->setLaw(plastic);
+            backend->advance(100, 0);
+            const auto contacts = backend->contacts();
+            REQUIRE(contacts.size() == 1);
+            CAPTURE(s, speed);
+            CHECK(near(contacts[0].force.y, weight, weight, 1e-3));
+            CHECK(deepest > 20 * contacts[0].maxOverlap);
+            CHECK(nearRelative(pullOff(p, 2 * kRadius, contacts[0].maxOverlap), pullOffUnder(p, 2 * kRadius, weight),
+                               1e-3));
+        }
 }
 
 TEST_CASE("soften: without plasticity a head-on collision keeps its restitution at any speed, by the closed form") {

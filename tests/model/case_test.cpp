@@ -289,6 +289,28 @@ TEST_CASE("damping while settling: a factor on the dashpot of the normal directi
     CHECK(overdamped.world.timeStep < 0.2 * usual.world.timeStep);
 }
 
+TEST_CASE("elastic settling: springs of stiffness k1 in every class, and nothing else is changed") {
+    const Folder folder;
+    const auto file = folder.write("case.toml", kGoodCase);
+    const Case usual = loadCase(file), elastic = loadCase(file, {"settle.elastic=true"});
+    checkSameLaw(usual.dosingLaw, elastic.dosingLaw);
+    ContactLaw law = usual.settlingLaw;
+    for (ContactParameters& p : law.classes) {
+        REQUIRE(p.k2Max > p.k1);
+        p.k2Max = p.k1;
+    }
+    checkSameLaw(law, elastic.settlingLaw);
+    CHECK(elastic.world.timeStep == usual.world.timeStep);
+    checkSame(elastic, loadResolvedCase(elastic.resolved, file));
+    checkSame(usual, loadCase(file, {"settle.elastic=false"}));
+    const Case soft = loadCase(file, {"settle.elastic=true", "contact.soften=4"});
+    for (int i = 0; i < kContactClasses; ++i) {
+        CHECK(soft.settlingLaw.classes[i].k2Max == soft.settlingLaw.classes[i].k1);
+        CHECK(soft.settlingLaw.classes[i].k1 == Approx(usual.settlingLaw.classes[i].k1 / 4));
+    }
+    checkSame(soft, loadResolvedCase(soft.resolved, file));
+}
+
 TEST_CASE("whether contacts see the coil's surface move is the case's choice, and survives being resolved") {
     const Folder folder;
     const auto file = folder.write("case.toml", kGoodCase);

@@ -123,6 +123,9 @@ TEST_CASE("keys of another law, and figures of no material, are refused by name"
     refused(with("damping = 0.1"), "contact.damping");
     refused(replaced(with(""), "[settle]\n", "[settle]\nkc_over_k = 0.3\n"),
             "settle.kc_over_k = 0.3: is a key of the law luding");
+    refused(replaced(with(""), "[settle]\n", "[settle]\nelastic = true\n"),
+            "settle.elastic = true: is a key of the law luding");
+    refused(replaced(kGoodCase, "[settle]\n", "[settle]\nelastic = 1\n"), "settle.elastic");
     refused(replaced(kGoodCase, "k = 2000.0\n", "k = 2000.0\nyoungs_modulus = 1e6\n"),
             "contact.youngs_modulus = 1e6: is a key of the law hertz-mindlin");
     refused(withContacts(replaced(kElastic, "youngs_modulus = 5e6\n", "")), "contact.youngs_modulus");

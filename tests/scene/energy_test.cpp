@@ -178,6 +178,48 @@ TEST_CASE("energy: a bed under the coil that doses closes on the device, and los
     requireClean(*device);
 }
 
+TEST_CASE(
+    "energy: an elastic settling and the plastic law behind it close, and forget alike, on device and reference") {
+    RuledWorld w = dosingWorld();
+    const ContactLaw plastic = w.law;
+    for (ContactParameters& p : w.law.classes) p.k2Max = p.k1;
+    const Particles p = thrownAbout(45);
+    auto device = gpu();
+    auto reference = makeReferenceBackend();
+    device->load(w, p);
+    reference->load(w, p);
+    EnergyLedger a, b;
+    const auto both = [&](std::uint32_t steps, double rate) {
+        a.add(*device->advance(steps, rate).energy);
+        b.add(*reference->advance(steps, rate).energy);
+        for (const Term term : kFlows) CHECK(near(a.sum.*term, b.sum.*term, scaleOf(b), kRounding));
+        for (const Term term : kStates) CHECK(near(a.sum.*term, b.sum.*term, scaleOf(b), kRounding));
+        CHECK(near(a.residual(), 0, scaleOf(b), kRounding));
+        const Differences d = differences(*device, *reference, 0.3);
+        CHECK(d.unmatched == 0);
+        CHECK(d.maxOverlap < 1e-4);
+    };
+    both(1, 0);
+    both(399, 0);
+    CHECK(near(a.sum.plastic, 0, scaleOf(b), 1e-6));
+    const double stored = b.sum.elasticNormal;
+    CHECK(stored > 0);
+    const Particles settled = reference->particles();
+    device->setLaw(plastic);
+    reference->setLaw(plastic);
+    both(1, 0);
+    CHECK(near(a.sum.plastic, b.sum.plastic, stored, 1e-3));
+    CHECK(b.sum.plastic > 0.05 * stored);
+    for (const Contact& c : device->contacts())
+        if (c.kind == ContactClass::ParticleParticle) {
+            const double apart = glm::distance(settled.position[c.particle], settled.position[c.other]);
+            const double radii = settled.radius[c.particle] + settled.radius[c.other];
+            CHECK(near(c.maxOverlap, radii - apart, 1.25e-3, 1e-3));
+        }
+    both(299, -60.0);
+    requireClean(*device);
+}
+
 TEST_CASE("energy: keeping the book changes no bit of the motion") {
     RuledWorld w = dosingWorld();
     const Particles p = thrownAbout(97);

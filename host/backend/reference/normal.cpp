@@ -85,9 +85,13 @@ bool onAdhesiveBranch(const ContactParameters& p, double overlap, double force) 
 }
 
 double normalForce(const ContactParameters& p, double overlap, double reduced, double& maxOverlap) {
+    // One stiffness: delta* is infinite and delta_0 zero, so the spring never leaves its loading line. It remembers no
+    // more than that it touches, and a law that follows begins with the overlap of now.
+    if (p.k2Max <= p.k1) {
+        maxOverlap = overlap;
+        return p.k1 * overlap;
+    }
     maxOverlap = std::max(maxOverlap, overlap);
-    // One stiffness: delta* is infinite and delta_0 zero, so the spring never leaves its loading line.
-    if (p.k2Max <= p.k1) return p.k1 * overlap;
 
     const double limit = plasticLimit(p, reduced);
     const double capped = std::min(maxOverlap, limit);  // delta_max, as it acts
