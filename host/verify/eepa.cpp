@@ -136,20 +136,13 @@ void eepaLedger(Stage& stage) {
     const double mass = massOf(kRadius), vn = speed * std::cos(theta), vt = speed * std::sin(theta);
     const double e = std::sqrt((1 - 2.5 * ratio + 1.5 * std::pow(ratio, 5.0 / 3.0)) / (1 - ratio));
     const double deepest = overlapOfImpact(p, mass, 2 * kRadius, vn);
-    RuledWorld world = stickySpace(p, deepest / vn / 500);
-    world.energyBook = true;
-    world.surfaces.push_back(geometry::Plane{Vec3(0), Vec3(0, 1, 0)});
-    Particles sphere;
-    sphere.add(Vec3(0, kRadius, 0), kRadius, Vec3(vt, -vn, 0));
-    Trial trial(stage, world, sphere);
-    trial.advance(3000);
-    const EnergyBook& book = trial.energy().sum;
-    const double energy = 0.5 * mass * speed * speed, lost = mu * (1 + e) * vn;
-    const double slowed = 0.5 * mass * (vt * vt - (vt - lost) * (vt - lost)), spun = 0.5 * 2.5 * mass * lost * lost;
-    stage.check("plastic loss", "J", 0.5 * mass * vn * vn * (1 - e * e), book.plastic, {1e-3, "time step"});
-    stage.check("friction loss", "J", slowed - spun, book.sliding, {2e-3, "it sticks for a moment at the end"});
-    stage.check("the time step's own loss", "J", 0, book.numerical, {1e-4, "of second order in the step", energy});
-    stage.check("what the ledger leaves over", "J", 0, trial.energy().residual(), {1e-5, "rounding", energy});
+    const SlippingImpact impact = slippingImpact(stage, stickySpace(p, deepest / vn / 500), kRadius, vt, vn, e, 3000);
+    const EnergyBook& book = impact.ledger.sum;
+    stage.check("plastic loss", "J", impact.normal, book.plastic, {1e-3, "time step"});
+    stage.check("friction loss", "J", impact.friction, book.sliding, {2e-3, "it sticks for a moment at the end"});
+    stage.check("the time step's own loss", "J", 0, book.numerical,
+                {1e-4, "of second order in the step", impact.energy});
+    stage.check("what the ledger leaves over", "J", 0, impact.ledger.residual(), {1e-5, "rounding", impact.energy});
 }
 
 }  // namespace vkdose::verify

@@ -155,22 +155,15 @@ void hertzLedger(Stage& stage) {
     const double mass = reducedMass(density, radius, std::numeric_limits<double>::infinity());
     const double vn = speed * std::cos(theta), vt = speed * std::sin(theta);
     const Impact undamped(p, mass, 2 * radius, vn);
-    RuledWorld world = elasticSpace(p, density, radius, undamped.duration / 1000);
-    world.energyBook = true;
-    world.surfaces.push_back(geometry::Plane{Vec3(0), Vec3(0, 1, 0)});
-    Particles sphere;
-    sphere.add(Vec3(0, radius, 0), radius, Vec3(vt, -vn, 0));
-    Trial trial(stage, world, sphere);
-    trial.advance(2000);
-    const EnergyBook& book = trial.energy().sum;
-    const double energy = 0.5 * mass * speed * speed, lost = mu * (1 + e) * vn;
-    const double slowed = 0.5 * mass * (vt * vt - (vt - lost) * (vt - lost)), spun = 0.5 * 2.5 * mass * lost * lost;
-    stage.check("viscous loss", "J", 0.5 * mass * vn * vn * (1 - e * e), book.viscous,
-                {1e-3, "damping is of first order in the time step"});
-    stage.check("friction loss", "J", slowed - spun, book.sliding, {2e-3, "it sticks for a moment at the end"});
-    stage.check("plastic loss", "J", 0, book.plastic, {0, "the law has none", energy});
-    stage.check("the time step's own loss", "J", 0, book.numerical, {1e-4, "of second order in the step", energy});
-    stage.check("what the ledger leaves over", "J", 0, trial.energy().residual(), {1e-5, "rounding", energy});
+    const SlippingImpact impact =
+        slippingImpact(stage, elasticSpace(p, density, radius, undamped.duration / 1000), radius, vt, vn, e, 2000);
+    const EnergyBook& book = impact.ledger.sum;
+    stage.check("viscous loss", "J", impact.normal, book.viscous, {1e-3, "damping is of first order in the time step"});
+    stage.check("friction loss", "J", impact.friction, book.sliding, {2e-3, "it sticks for a moment at the end"});
+    stage.check("plastic loss", "J", 0, book.plastic, {0, "the law has none", impact.energy});
+    stage.check("the time step's own loss", "J", 0, book.numerical,
+                {1e-4, "of second order in the step", impact.energy});
+    stage.check("what the ledger leaves over", "J", 0, impact.ledger.residual(), {1e-5, "rounding", impact.energy});
 }
 
 }  // namespace vkdose::verify

@@ -58,4 +58,20 @@ Sensors Trial::advanceTo(double seconds, double coilRate) {
     return advance(target > steps_ ? target - steps_ : 0, coilRate);
 }
 
+SlippingImpact slippingImpact(Stage& stage, RuledWorld world, double radius, double along, double towards,
+                              double restitution, std::uint64_t steps) {
+    world.energyBook = true;
+    world.surfaces.push_back(geometry::Plane{Vec3(0), Vec3(0, 1, 0)});
+    Particles sphere;
+    sphere.add(Vec3(0, radius, 0), radius, Vec3(along, -towards, 0));
+    Trial trial(stage, world, sphere);
+    trial.advance(steps);
+    const double mass = sphereMass(world.density, radius);
+    const double lost = world.law.of(ContactClass::ParticleWall).mu * (1 + restitution) * towards;
+    const double slowed = 0.5 * mass * (along * along - (along - lost) * (along - lost));
+    const double spun = 0.5 * 2.5 * mass * lost * lost;
+    return {trial.energy(), 0.5 * mass * (along * along + towards * towards),
+            0.5 * mass * towards * towards * (1 - restitution * restitution), slowed - spun};
+}
+
 }  // namespace vkdose::verify

@@ -60,6 +60,19 @@ class Trial {
     std::uint64_t steps_ = 0;
 };
 
+/// A sphere that a plane throws back while it slips throughout: its ledger, and what is expected of it [J].
+struct SlippingImpact {
+    EnergyLedger ledger;
+    double energy;    ///< before the impact
+    double normal;    ///< what the law takes from the motion along the normal
+    double friction;  ///< what friction takes
+};
+
+/// Plays it in `world`, to which the plane is added. `along` and `towards` the plane are the sphere's speeds [m/s], and
+/// the law gives back the share `restitution` of the second. Friction takes the impulse mu (1 + e).
+SlippingImpact slippingImpact(Stage& stage, RuledWorld world, double radius, double along, double towards,
+                              double restitution, std::uint64_t steps);
+
 /// Root of `f` in [low, high], where it changes sign.
 template <class F>
 double root(F f, double low, double high) {

@@ -157,7 +157,7 @@ void ReferenceBackend::addParticles(std::size_t first, const std::vector<Vec3>& 
 
 Sensors ReferenceBackend::advance(std::uint32_t steps, double coilRate) {
     double deepest = 0;
-    std::vector<BodyLoad> bodies(world_.bodies.size() + (world_.coil ? 1 : 0));
+    std::vector<BodyLoad> bodies(allBodies(world_).size());
     const double start = angle_;
     book_ = {};
     for (std::uint32_t n = 0; n < steps; ++n) {

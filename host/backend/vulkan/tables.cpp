@@ -168,7 +168,7 @@ TableSizes tableSizes(const World& world, const Crowd& crowd, const gpu::Member&
     // particles of so large a bed touch no surface.
     const bool fits = s.pairSlots + surfaces + workgroup <= most;
     s.surfaceSlots = narrow(roundUp(fits ? surfaces : std::min(surfaces, n / 2), workgroup));
-    s.bodies = std::uint32_t(world.bodies.size() + (world.coil ? 1 : 0));
+    s.bodies = std::uint32_t(allBodies(world).size());
     // A sphere is seldom near more than two bodies, and few are near any. Where that much does not fit the device, the
     // bodies get the room that pairs and surfaces leave; of so large a bed an eighth is enough.
     const std::uint64_t vectors = std::min(device.range / sizeof(gpu::vec4), kIndices - 1) / members;
