@@ -48,9 +48,9 @@ Closest closestPoint(const Block& block, const Vec3& q);
 /// They are not yet told apart by `distinct`.
 std::vector<Feature> places(const Shape& shape, const Vec3& centre, double radius);
 
-/// How much nearer to a point a surface can come when the shape turns about the z axis of its frame, for each radian
-/// [m]: a surface of revolution not at all, a wire as much as if it went along the axis (its two ends aside, which go
-/// with their points). None for shapes of which nothing less is known than how far their points go.
+/// How much nearer to a point a surface can come when the shape turns about the z axis of its frame [m per radian]. A
+/// surface of revolution comes no nearer. A wire comes as near as if it went along the axis; its two ends, which come
+/// nearer, do not count. None for all other shapes.
 std::optional<double> approachByTurning(const Shape& shape);
 
 /// The distinct features in which a body made of `shapes` touches a sphere (features.h). Throws TooManyFeatures.
