@@ -2,6 +2,9 @@
 // Contact parameters in SI. Symbols as in physics.md (Luding (2008), Granular Matter 10:235, and the paper's table).
 
 #include <array>
+#include <memory>
+
+#include "host/model/user_law.h"
 
 namespace vkdose {
 
@@ -21,10 +24,13 @@ enum class NormalLaw {
     Luding = 0,        ///< linear, hysteretic, adhesive
     HertzMindlin = 1,  ///< elastic spheres: all stiffnesses and dampings grow with the overlap
     Eepa = 2,  ///< Edinburgh's elasto-plastic adhesive spheres: Hertz's line, from which contacts stay flattened
+    User = 3,  ///< ContactLaw::user
 };
 
 /// Under Hertz-Mindlin and EEPA kt, kr and kTo are ratios to the stiffness of the normal direction on Hertz's line,
-/// gammaT, gammaR and gammaTo ratios to its damping [-]; k1, k2Max, kc, plasticityDepth and gamma are not used.
+/// gammaT, gammaR and gammaTo ratios to its damping [-]; k1, k2Max, kc, plasticityDepth and gamma are not used. Under a
+/// user's law they are ratios to what its functions stiffness and damping answer. k1 is then the largest stiffness of
+/// mean spheres, k2Max that of the smallest, gamma their largest damping, as a device told them (user_law_trial.h).
 struct ContactParameters {
     double k1 = 0;               ///< plastic loading stiffness [N/m]
     double k2Max = 0;            ///< limit elastic stiffness, k2-hat [N/m]
@@ -46,6 +52,7 @@ struct ContactParameters {
     double surfaceEnergy = 0;       ///< EEPA: delta gamma, of the two surfaces [J/m2]
     double plasticityRatio = 0;     ///< EEPA: lambda_p = 1 - k1/k2, below 1 [-]
     double constantPull = 0;        ///< EEPA: -f0, a pull that every contact has [N]
+    std::array<double, kMostLawParameters> own{};  ///< User: in the order of UserLaw::parameters
     double adhesionExponent = 1.5;  ///< EEPA: chi, with which the pull fades as the contact opens [-]
 };
 
@@ -54,6 +61,7 @@ struct ContactLaw {
     std::array<ContactParameters, kContactClasses> classes;
     CoulombLimit coulombLimit = CoulombLimit::Luding;
     RollingLever rollingLever = RollingLever::Full;
+    std::shared_ptr<const UserLaw> user;  ///< null unless the classes follow NormalLaw::User
 
     const ContactParameters& of(ContactClass c) const { return classes[static_cast<int>(c)]; }
     ContactParameters& of(ContactClass c) { return classes[static_cast<int>(c)]; }

@@ -31,13 +31,15 @@ ContactParameters elastoPlasticAdhesive(const Elasticity& a, const Elasticity& b
 double hertzStiffness(const ContactParameters& p, double reduced, double overlap);
 
 /// The linear springs and dashpots that a contact of the reduced mass `mass` [kg] acts like at this overlap [m]: k1 on
-/// loading, k2Max the steepest on the way back. Luding's law is linear already, and is given back as it is.
+/// loading, k2Max the steepest on the way back. Luding's law is linear already, and is given back as it is. Of a user's law
+/// the stiffness and the damping are the largest that its trial found.
 ContactParameters linearised(const ContactParameters& p, double mass, double reduced, double overlap);
 
 /// Overlap of a contact that has been loaded for the first time by `load` [N], in metres.
 double overlapUnder(const ContactParameters& p, double reduced, double load);
 
 /// Largest overlap of a first impact at `speed` [m/s] without damping and friction, in metres. Luding's law: on k1.
+/// A user's law: on a line of the largest stiffness that its trial found.
 /// EEPA: on Hertz's line, with the work of the constant pull.
 double overlapOfImpact(const ContactParameters& p, double mass, double reduced, double speed);
 

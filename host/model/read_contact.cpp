@@ -11,6 +11,7 @@
 #include "host/model/particles.h"
 #include "host/model/restitution.h"
 #include "host/model/stability.h"
+#include "host/core/file.h"
 
 namespace vkdose {
 namespace {
@@ -324,6 +325,100 @@ void readLuding(CaseReader& reader, const Tables& sections, Section& settle, dou
     }
 }
 
+/// The law's parameters of one class; what it does not state comes from `above`, the class above it.
+std::array<double, kMostLawParameters> readOwn(CaseReader& reader, Section& section, const UserLaw& law,
+                                               const std::array<double, kMostLawParameters>* above) {
+    std::array<double, kMostLawParameters> own{};
+    Section& table = section.table("parameters");
+    for (std::size_t k = 0; k < law.parameters.size(); ++k) {
+        const std::string& name = law.parameters[k];
+        const Node* node = table.node(name);
+        if (node != nullptr && !(node->isNumber() && std::isfinite(node->number) &&
+                                 std::abs(node->number) <= std::numeric_limits<float>::max()))
+            reader.fault(table.path(name), "is not a number that a device holds", "give a number");
+        else if (node == nullptr && above == nullptr)
+            reader.fault(table.path(name), fmt::format("is missing: {} declares it", law.name), "give a number");
+        if (above != nullptr) own[k] = (*above)[k];
+        if (node != nullptr && node->isNumber()) own[k] = node->number;
+        table.record(name, own[k]);
+    }
+    return own;
+}
+
+/// The law of the file that contact.law names, or of the text that a resolved case holds. Null after a fault.
+std::shared_ptr<const UserLaw> readUserLaw(CaseReader& reader, Section& contact) {
+    const std::string name = contact.string("law");
+    std::filesystem::path file = reader.folderOf("contact.law") / name;
+    std::optional<std::string> text;
+    if (contact.has("law_text")) {
+        text = contact.string("law_text");
+        file = name;
+        if (contact.has("law_hash") && contact.string("law_hash") != lawHash(*text)) {
+            reader.fault("contact.law_text", fmt::format("is not the text of {} that law_hash was made of", name),
+                         "put the text back, or run the case that names the file");
+            return nullptr;
+        }
+    } else {
+        text = fileContent(file);
+    }
+    if (!text) {
+        reader.fault("contact.law", fmt::format("{} cannot be read", file.string()),
+                     "give luding, hertz-mindlin, eepa, or the path of a law of your own");
+        return nullptr;
+    }
+    LawReading reading = readLaw(name, *text);
+    reading.law.file = file.string();
+    for (const LawFault& fault : reading.faults)
+        reader.add({reading.law.file, fault.line, "", "", fault.problem, fault.remedy});
+    contact.record("law_text", *text);
+    contact.record("law_hash", reading.law.hash);
+    if (!reading.faults.empty()) return nullptr;
+    return std::make_shared<const UserLaw>(std::move(reading.law));
+}
+
+/// A law of the user's own: its parameters, and friction and the ratios of the springs to its stiffness.
+void readUser(CaseReader& reader, const Tables& sections, Section& settle, Case& c) {
+    for (Section* section : sections) {
+        for (const char* key : kLudingKeys)
+            if (std::string_view(key) != "kt_over_k" && std::string_view(key) != "damping_t_ratio")
+                refuseKeys(reader, *section, {key}, "luding");
+        refuseKeys(reader, *section, kElasticKeys, "hertz-mindlin");
+        refuseKeys(reader, *section, {"restitution"}, "hertz-mindlin");
+        refuseKeys(reader, *section, kEepaKeys, "eepa");
+    }
+    refuseKeys(reader, *sections[0], {"soften"}, "luding");
+    refuseKeys(reader, settle, {"kc_over_k", "wall_kc_over_k", "coil_kc_over_k", "elastic", "damping_factor"}, "luding");
+    const std::shared_ptr<const UserLaw> law = readUserLaw(reader, *sections[0]);
+    c.dosingLaw.user = law;
+    for (std::size_t i = 0; i < sections.size(); ++i) {
+        Section& section = *sections[i];
+        const ContactParameters* above = i == 0 ? nullptr : &c.dosingLaw.classes[i - 1];
+        ContactParameters& p = c.dosingLaw.classes[i];
+        const auto ratio = [&](const char* name, double ContactParameters::*member) {
+            p.*member = section.number(name, above != nullptr ? std::optional(above->*member) : std::nullopt);
+        };
+        p.law = NormalLaw::User;
+        ratio("friction", &ContactParameters::mu);
+        ratio("kt_over_k", &ContactParameters::kt);
+        ratio("damping_t_ratio", &ContactParameters::gammaT);
+        ratio("rolling_friction", &ContactParameters::muR);
+        ratio("kr_over_k", &ContactParameters::kr);
+        ratio("damping_r_ratio", &ContactParameters::gammaR);
+        ratio("torsion_friction", &ContactParameters::muTo);
+        ratio("kto_over_k", &ContactParameters::kTo);
+        ratio("damping_to_ratio", &ContactParameters::gammaTo);
+        if (law)
+            p.own = readOwn(reader, section, *law, above != nullptr ? &above->own : nullptr);
+        else
+            section.know("parameters");
+    }
+    c.settlingLaw = c.dosingLaw;
+}
+
+bool isUserLaw(const Section& contact, const Node* law) {
+    return contact.isString("law") && law->string.ends_with(".glsl");
+}
+
 }  // namespace
 
 void placeContact(Section& root) {
@@ -335,13 +430,16 @@ void placeContact(Section& root) {
 
 void readContact(CaseReader& reader, Section& root, double meanRadius, Case& c) {
     Section& contact = root.requiredTable("contact");
-    const auto law = static_cast<NormalLaw>(contact.choice("law").value_or(0));
+    const bool user = isUserLaw(contact, contact.node("law"));
+    const auto law = user ? NormalLaw::User : static_cast<NormalLaw>(contact.choice("law").value_or(0));
     c.dosingLaw.coulombLimit = static_cast<CoulombLimit>(contact.choice("coulomb_limit").value_or(0));
     c.dosingLaw.rollingLever = static_cast<RollingLever>(contact.choice("rolling_lever").value_or(0));
     c.world.maxOverlapRatio = contact.number("max_overlap_ratio");
     const Tables sections{&contact, &contact.table("wall"), &contact.table("coil")};
     Section& settle = root.table("settle");
-    if (law == NormalLaw::Luding)
+    if (law == NormalLaw::User)
+        readUser(reader, sections, settle, c);
+    else if (law == NormalLaw::Luding)
         readLuding(reader, sections, settle, meanRadius, c);
     else
         readHertz(reader, sections, settle, law, c);

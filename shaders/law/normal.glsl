@@ -2,6 +2,8 @@
 #ifndef VKDOSE_LAW_NORMAL_GLSL
 #define VKDOSE_LAW_NORMAL_GLSL
 
+#include "law/answer.glsl"
+#ifndef USER_LAW
 #include "law/eepa.glsl"
 #include "law/hertz.glsl"
 #include "law/luding.glsl"
@@ -57,5 +59,7 @@ float lossOfParting(ContactParams p, float force, float overlap, float stored) {
 bool onAdhesiveBranch(ContactParams p, float force, float overlap) {
     return follows(p, kLawLuding) && force < 0.0 && force <= -p.normal.z * overlap;
 }
+
+#endif
 
 #endif

@@ -93,8 +93,12 @@ SHARED_CONST kLeverHalf = 1u;
 SHARED_CONST kLawLuding = 0u;
 SHARED_CONST kLawHertzMindlin = 1u;
 SHARED_CONST kLawEepa = 2u;
+SHARED_CONST kLawUser = 3u;       // of a file of the case's own (shaders/law/user.glsl)
+SHARED_CONST kOwnParameters = 16u;  // most parameters of such a law; vkdose::kMostLawParameters
+SHARED_CONST kOwnMemories = 7u;     // most numbers that it remembers of a contact; vkdose::kMostLawMemories
 
-// Hertz-Mindlin and EEPA: springs are ratios to the stiffness of Hertz's line, dampings ratios to its damping.
+// Hertz-Mindlin and EEPA: springs are ratios to the stiffness of Hertz's line, dampings ratios to its damping. A user's
+// law: ratios to its own stiffness and damping.
 struct ContactParams {
     // Luding: k1, k2Max, kc [N/m], plasticity depth; Hertz-Mindlin: E* [Pa], 2 sqrt(5/6) beta; EEPA: these, then 1.5 pi
     // delta gamma [N/m], lambda_p
@@ -103,6 +107,7 @@ struct ContactParams {
     vec4 friction;  // coefficients of sliding, rolling, torsion: mu, muR, muTo; w: EEPA: f0 [N]
     // of sliding, rolling, torsion, then of the normal part: gammaT, gammaR, gammaTo, gamma [kg/s]; EEPA: w: chi/1.5
     vec4 damping;
+    vec4 own[kOwnParameters / 4u];  // of a user's law, in the order of its file
 };
 
 struct SurfaceParams {
@@ -131,7 +136,8 @@ struct Member {
                                            // low, then its high corner [m]
 };
 // Where in a member some of its vectors are.
-SHARED_CONST kVectorSurface = 12u;
+SHARED_CONST kContactVectors = 4u + kOwnParameters / 4u;
+SHARED_CONST kVectorSurface = 3u * kContactVectors;
 SHARED_CONST kVectorGravity = kVectorSurface + 4u * kMaxSurfaces;
 SHARED_CONST kVectorOutlets = kVectorGravity + 7u;
 SHARED_CONST kMemberVectors = kVectorOutlets + 2u * kMaxRegionOutlets;

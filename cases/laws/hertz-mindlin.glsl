@@ -1,0 +1,11 @@
+// Elastic spheres (Hertz 1882, Mindlin 1949), damped as by Tsuji (1992), as the program's own "hertz-mindlin".
+parameter float modulus_Pa;        // E*, effective Young's modulus of the two bodies
+parameter float damping_ratio;     // 2 sqrt(5/6) beta, with beta = -ln e / sqrt(pi^2 + ln^2 e) of the restitution e
+
+float stiffness(Contact c) { return 2.0 * modulus_Pa * sqrt(c.radius * c.overlap); }
+
+float force(Contact c) { return 2.0 / 3.0 * stiffness(c) * c.overlap; }
+
+float damping(Contact c) { return damping_ratio * sqrt(stiffness(c) * c.mass); }
+
+float energy(Contact c) { return 0.4 * force(c) * c.overlap; }
