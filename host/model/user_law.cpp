@@ -15,7 +15,7 @@ namespace vkdose {
 namespace {
 
 constexpr std::string_view kRequired[] = {"force", "stiffness"};
-constexpr std::string_view kOptional[] = {"damping", "pull", "energy"};
+constexpr std::string_view kOptional[] = {"damping", "pull", "energy", "reach"};
 
 bool isAnswer(std::string_view name) {
     return std::ranges::find(kRequired, name) != std::end(kRequired) ||
@@ -48,6 +48,7 @@ class Parser {
         law_.hasDamping = functions_.contains("damping");
         law_.hasPull = functions_.contains("pull");
         law_.hasEnergy = functions_.contains("energy");
+        law_.hasReach = functions_.contains("reach");
     }
 
     bool isFunction(const std::string& name) const { return functions_.contains(name); }
@@ -335,24 +336,25 @@ std::string prefixed(const std::string& bare, const std::vector<LawToken>& token
     return out + bare.substr(done);
 }
 
-/// The functions by which shaders/law/user.glsl reads parameters and memory.
+/// The functions by which shaders/law/user_functions.glsl reads parameters and memory.
 std::string glue(const UserLaw& law) {
-    std::string load, keep;
+    std::string load, recall, keep;
     for (std::size_t k = 0; k < law.parameters.size(); ++k)
         load += fmt::format("    {}{} = {};\n", kUserPrefix, law.parameters[k], vectorPart("p.own", k));
     for (std::size_t k = 0; k < law.memories.size(); ++k) {
-        load += fmt::format("    {}{} = {};\n", kUserPrefix, law.memories[k], vectorPart("own", k));
+        recall += fmt::format("    {}{} = {};\n", kUserPrefix, law.memories[k], vectorPart("own", k));
         keep += fmt::format("    {} = {}{};\n", vectorPart("own", k), kUserPrefix, law.memories[k]);
     }
     const auto optional = [](const char* wrapper, const char* function, bool has) {
         return has ? fmt::format("float {}(UserContact c) {{ return {}{}(c); }}\n", wrapper, kUserPrefix, function)
                    : fmt::format("float {}(UserContact c) {{ return 0.0; }}\n", wrapper);
     };
-    return fmt::format("void userLoad(ContactParams p, vec4 own[2]) {{\n{}}}\n"
+    return fmt::format("void userParameters(ContactParams p) {{\n{}}}\n"
+                       "void userRecall(vec4 own[2]) {{\n{}}}\n"
                        "void userKeep(inout vec4 own[2]) {{\n{}}}\n",
-                       load, keep) +
+                       load, recall, keep) +
            optional("userDamping", "damping", law.hasDamping) + optional("userPull", "pull", law.hasPull) +
-           optional("userEnergy", "energy", law.hasEnergy);
+           optional("userEnergy", "energy", law.hasEnergy) + optional("userReach", "reach", law.hasReach);
 }
 
 }  // namespace

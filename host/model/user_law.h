@@ -24,9 +24,9 @@ struct UserLaw {
     std::string hash;                     ///< of the text, 16 hexadecimal digits
     std::vector<std::string> parameters;  ///< in the order of their declaration
     std::vector<std::string> memories;
-    bool hasDamping = false, hasPull = false, hasEnergy = false;  ///< whether it has these functions
+    bool hasDamping = false, hasPull = false, hasEnergy = false, hasReach = false;  ///< whether it has these functions
     /// In place of law/user_text.glsl: the text, line by line, with the prefix; then the functions by which
-    /// shaders/law/user.glsl reads parameters and memory.
+    /// shaders/law/user_functions.glsl reads parameters and memory.
     std::string shader;
 };
 

@@ -49,6 +49,7 @@ std::optional<std::string> wrongIn(const LawPoint& p) {
     if (!(std::isfinite(p.damping) && p.damping >= 0)) return answers("damping", p.damping) + ", which is not >= 0";
     if (!(std::isfinite(p.pull) && p.pull >= 0)) return answers("pull", p.pull) + ", which is not >= 0";
     if (!std::isfinite(p.energy)) return answers("energy", p.energy);
+    if (!(std::isfinite(p.reach) && p.reach >= 0)) return answers("reach", p.reach) + ", which is not >= 0";
     return {};
 }
 
@@ -93,6 +94,13 @@ void tryUserLaw(CaseReader& reader, Case& c, const SizeRange& sizes) {
         const Probe& probe = probes[k];
         ContactParameters& p = c.dosingLaw.of(probe.kind);
         for (const LawPoint& point : answers[k]) {
+            if (!(point.overlap > 0) && point.reach == 0) break;  // touch itself is no contact
+            if (point.reach > sizes.smallest) {
+                refuse(lineOf(law, "reach"),
+                       fmt::format("reach answers {:.4g} m, more than the smallest radius", point.reach),
+                       "let contacts break nearer by");
+                return;
+            }
             if (const auto wrong = wrongIn(point)) {
                 refuse(lineOf(law, wrong->substr(0, wrong->find(' '))),
                        fmt::format("{} ({}, overlap {:.4g} m, approach {:.4g} m/s, reduced radius {:.4g} m and mass {:.4g} kg)",
@@ -101,6 +109,7 @@ void tryUserLaw(CaseReader& reader, Case& c, const SizeRange& sizes) {
                        "answer finite numbers up to contact.max_overlap_ratio");
                 return;
             }
+            p.reach = std::max(p.reach, point.reach);
             if (probe.a == sizes.mean) p.k1 = std::max(p.k1, point.stiffness);
             if (probe.a == sizes.smallest) {
                 p.k2Max = std::max(p.k2Max, point.stiffness);

@@ -11,7 +11,7 @@
 
 namespace vkdose {
 
-/// A contact that is pressed at a constant speed to its deepest overlap and drawn apart again.
+/// A contact that is pressed at a constant speed to its deepest overlap and drawn apart again, to the end of its reach.
 struct LawLoading {
     std::array<double, kMostLawParameters> own{};
     double radius = 0;   ///< reduced [m]
@@ -25,6 +25,7 @@ struct LawPoint {
     double overlap = 0;  ///< [m]
     double speed = 0;    ///< of approach [m/s]
     double force = 0, stiffness = 0, damping = 0, pull = 0, energy = 0;
+    double reach = 0;  ///< the same at all points [m]
 };
 
 /// A law that the compiler refuses.

@@ -2,7 +2,11 @@
 #ifndef VKDOSE_LAW_CONTACT_GLSL
 #define VKDOSE_LAW_CONTACT_GLSL
 
+#ifdef USER_LAW
+#include "law/user_functions.glsl"
+#else
 #include "law/normal.glsl"
+#endif
 #include "law/rolling.glsl"
 #include "law/sliding.glsl"
 #include "law/torsion.glsl"

@@ -55,11 +55,12 @@ float storedIn(ContactParams p, Exerted e, float reduced, History h) {
 /// What the springs of sliding, rolling and torsion of a contact that goes on gain because the overlap makes them
 /// stiffer [J].
 vec3 stiffening(Exerted before, Exerted now, vec3 stored) {
-    if (before.rest.w <= 0.0 || now.rest.w <= 0.0) return vec3(0.0);
 #ifdef USER_LAW
     return stored * (userGrowth - 1.0);
-#endif
+#else
+    if (before.rest.w <= 0.0 || now.rest.w <= 0.0) return vec3(0.0);
     return stored * (sqrt(now.rest.w / before.rest.w) - 1.0);
+#endif
 }
 
 /// Work that the force `e` takes in half a step `dt` [s] from a contact that moves with `velocity`, seen where the

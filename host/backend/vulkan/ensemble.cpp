@@ -11,6 +11,7 @@
 #include "host/backend/vulkan/snapshot.h"
 #include "host/core/error.h"
 #include "host/core/fnv.h"
+#include "host/model/normal_law.h"
 #include "host/model/user_law_trial.h"
 #include "host/vk/copy_bandwidth.h"
 
@@ -123,7 +124,9 @@ void Ensemble::writeBlocks() {
 }
 
 void Ensemble::setLaw(std::uint32_t member, const ContactLaw& law) {
-    packLaw(law, members_[member].block);
+    MemberState& m = members_[member];
+    if (float(longestReach(law, largestRadius(m.loaded))) > reachOf(m.block)) throw RunError(kReachesFarther);
+    packLaw(law, m.block);
 }
 
 void Ensemble::addParticles(std::uint32_t member, std::size_t first, const std::vector<Vec3>& positions) {

@@ -16,7 +16,7 @@ namespace {
 
 using gpu::vec4;
 
-constexpr std::size_t kPoints = 64, kPointVectors = 2, kLoadingVectors = 1 + kMostLawParameters / 4;
+constexpr std::size_t kPoints = 96, kPointVectors = 2, kLoadingVectors = 1 + kMostLawParameters / 4;
 
 std::vector<vec4> packed(const std::vector<LawLoading>& loadings) {
     std::vector<vec4> vectors;
@@ -67,7 +67,7 @@ std::vector<std::vector<LawPoint>> tryLaw(const vk::DeviceChoice& device, const 
     for (std::vector<LawPoint>& loading : points)
         for (std::size_t k = 0; k < kPoints; ++k, v += kPointVectors)
             loading.push_back({double(v[0].x), double(v[0].y), double(v[0].z), double(v[0].w), double(v[1].x),
-                               double(v[1].y), double(v[1].z)});
+                               double(v[1].y), double(v[1].z), double(v[1].w)});
     return points;
 }
 
