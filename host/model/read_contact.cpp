@@ -1,6 +1,7 @@
 // The table [contact] and the adhesion of [settle].
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -330,11 +331,24 @@ std::array<double, kMostLawParameters> readOwn(CaseReader& reader, Section& sect
                                                const std::array<double, kMostLawParameters>* above) {
     std::array<double, kMostLawParameters> own{};
     Section& table = section.table("parameters");
+    const Node* stated = section.node("parameters");
+    for (std::size_t k = 0; stated != nullptr && k < stated->children.size(); ++k) {
+        const std::string& name = stated->children[k].key;
+        if (std::ranges::find(law.parameters, name) != law.parameters.end()) continue;
+        std::string known;
+        for (const std::string& other : law.parameters) known += (known.empty() ? "" : ", ") + other;
+        table.know(name);
+        reader.fault(table.path(name), fmt::format("is no parameter of {}", law.name),
+                     known.empty() ? "remove it: the law declares none" : fmt::format("it declares {}", known));
+    }
     for (std::size_t k = 0; k < law.parameters.size(); ++k) {
         const std::string& name = law.parameters[k];
         const Node* node = table.node(name);
-        if (node != nullptr && !(node->isNumber() && std::isfinite(node->number) &&
-                                 std::abs(node->number) <= std::numeric_limits<float>::max()))
+        const auto single = [](double x) {  // beyond these a device holds an infinite number, or none
+            return x == 0 || (std::abs(x) <= std::numeric_limits<float>::max() &&
+                              std::abs(x) >= std::numeric_limits<float>::min());
+        };
+        if (node != nullptr && !(node->isNumber() && single(node->number)))
             reader.fault(table.path(name), "is not a number that a device holds", "give a number");
         else if (node == nullptr && above == nullptr)
             reader.fault(table.path(name), fmt::format("is missing: {} declares it", law.name), "give a number");

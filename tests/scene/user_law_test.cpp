@@ -42,7 +42,7 @@ RuledWorld bowl() {
     w.surfaces = {geometry::Plane{{0, -2e-3, 0}, {0, 1, 0}}};
     RigidBody block;
     block.name = "block";
-    block.shapes = {geometry::Block{Vec3(1e-3, -2e-3, -4e-3), Vec3(9e-3, 0, 4e-3)}};
+    block.shapes = {geometry::Block{Vec3(1.4e-3, -2e-3, -4e-3), Vec3(9e-3, 0, 4e-3)}};
     w.bodies = {block};
     return w;
 }
