@@ -2,10 +2,15 @@
 parameter float modulus_Pa;        // E*, effective Young's modulus of the two bodies
 parameter float damping_ratio;     // 2 sqrt(5/6) beta, with beta = -ln e / sqrt(pi^2 + ln^2 e) of the restitution e
 
-float stiffness(Contact c) { return 2.0 * modulus_Pa * sqrt(c.radius * c.overlap); }
+memory float k;                    // stiffness at this overlap [N/m], which force leaves to the other functions
 
-float force(Contact c) { return 2.0 / 3.0 * stiffness(c) * c.overlap; }
+float force(Contact c) {
+    k = 2.0 * modulus_Pa * sqrt(c.radius * c.overlap);
+    return 2.0 / 3.0 * k * c.overlap;
+}
 
-float damping(Contact c) { return damping_ratio * sqrt(stiffness(c) * c.mass); }
+float stiffness(Contact c) { return k; }
 
-float energy(Contact c) { return 0.4 * force(c) * c.overlap; }
+float damping(Contact c) { return damping_ratio * sqrt(k * c.mass); }
+
+float energy(Contact c) { return 4.0 / 15.0 * k * c.overlap * c.overlap; }

@@ -5,10 +5,12 @@
 #include <filesystem>
 #include <map>
 #include <set>
+#include <thread>
 
 #include "host/core/file.h"
 #include "host/model/normal_law.h"
 #include "host/model/user_law.h"
+#include "host/sim/energy_ledger.h"
 #include "tests/scene/beds.h"
 
 using namespace vkdose;
@@ -55,6 +57,36 @@ Particles threeSpheres() {
     return p;
 }
 
+/// The bowl under the law that repeats luding, and the law of the program that it repeats.
+struct Twins {
+    RuledWorld own, users;
+};
+
+Twins ludingTwins() {
+    Twins t{bowl(), bowl()};
+    t.own.law = t.users.law = paperLaw(0.3);
+    t.users.law.user = shippedLaw("luding.glsl");
+    for (std::size_t k = 0; k < kContactClasses; ++k) {
+        ContactParameters& p = t.own.law.classes[k];
+        // Powers of two, so that ratio times stiffness is the stiffness in single precision. The program's dashpots of
+        // sliding act while it slips too, those of a user's law do not.
+        p.k2Max = 16384, p.k1 = 4096, p.kc = 5000;
+        p.kt = p.kr = p.kTo = 4096;
+        p.gammaT = p.gammaR = p.gammaTo = 0;
+        ContactParameters ratios = p;
+        ratios.kt = ratios.kr = ratios.kTo = 0.25;
+        t.users.law.classes[k] =
+            userOf(ratios, *t.users.law.user,
+                   {{"k1", p.k1}, {"k", p.k2Max}, {"kc", p.kc}, {"depth", p.plasticityDepth}, {"gamma", p.gamma}});
+    }
+    return t;
+}
+
+bool sameBits(const Backend& a, const Backend& b) {
+    const Particles p = a.particles(), q = b.particles();
+    return p.position == q.position && p.velocity == q.velocity && p.spin == q.spin;
+}
+
 void requireSameBits(const RuledWorld& first, const RuledWorld& second) {
     const Particles spheres = threeSpheres();
     auto a = gpu(), b = gpu();
@@ -65,18 +97,9 @@ void requireSameBits(const RuledWorld& first, const RuledWorld& second) {
         a->advance(50, 0);
         b->advance(50, 0);
         std::set<ContactClass> kinds;
-        std::size_t others = 0;
-        for (const Contact& c : a->contacts()) {
-            kinds.insert(c.kind);
-            others = std::max<std::size_t>(others, c.other);
-        }
+        for (const Contact& c : a->contacts()) kinds.insert(c.kind);
         touchedAll = touchedAll || kinds.size() >= 2;
-        const Particles p = a->particles(), q = b->particles();
-        for (std::size_t i = 0; i < p.size(); ++i) {
-            REQUIRE(p.position[i] == q.position[i]);
-            REQUIRE(p.velocity[i] == q.velocity[i]);
-            REQUIRE(p.spin[i] == q.spin[i]);
-        }
+        REQUIRE(sameBits(*a, *b));
     }
     CHECK(touchedAll);
     CHECK(a->particles().position[0] != spheres.position[0]);
@@ -86,25 +109,8 @@ void requireSameBits(const RuledWorld& first, const RuledWorld& second) {
 }  // namespace
 
 TEST_CASE("a user's law that repeats luding has luding's bits") {
-    RuledWorld own = bowl();
-    own.law = paperLaw(0.3);
-    const auto text = shippedLaw("luding.glsl");
-    RuledWorld users = own;
-    users.law.user = text;
-    for (std::size_t k = 0; k < kContactClasses; ++k) {
-        ContactParameters& p = own.law.classes[k];
-        // Powers of two, so that ratio times stiffness is the stiffness in single precision. The program's dashpots of
-        // sliding act while it slips too, those of a user's law do not.
-        p.k2Max = 16384, p.k1 = 4096, p.kc = 5000;
-        p.kt = p.kr = p.kTo = 4096;
-        p.gammaT = p.gammaR = p.gammaTo = 0;
-        ContactParameters ratios = p;
-        ratios.kt = ratios.kr = ratios.kTo = 0.25;
-        users.law.classes[k] = userOf(ratios, *text,
-                                      {{"k1", p.k1}, {"k", p.k2Max}, {"kc", p.kc}, {"depth", p.plasticityDepth},
-                                       {"gamma", p.gamma}});
-    }
-    requireSameBits(own, users);
+    const Twins t = ludingTwins();
+    requireSameBits(t.own, t.users);
 }
 
 TEST_CASE("a user's law that repeats hertz-mindlin has its bits") {
@@ -119,4 +125,75 @@ TEST_CASE("a user's law that repeats hertz-mindlin has its bits") {
     users.law.classes.fill(userOf(elastic, *text,
                                   {{"modulus_Pa", elastic.modulus}, {"damping_ratio", kHertzDamping * elastic.dampingShare}}));
     requireSameBits(own, users);
+}
+
+TEST_CASE("a run under a user's law goes on from a snapshot with the same bits") {
+    RuledWorld w = ludingTwins().users;
+    w.energyBook = GENERATE(false, true);
+    auto whole = gpu(), resumed = gpu();
+    whole->load(w, threeSpheres());
+    whole->advance(400, 0);
+    resumed->load(w, threeSpheres());
+    const Record record = whole->snapshot();
+    CHECK_FALSE(whole->contacts().empty());  // with a memory to be kept
+    resumed->restore(record);
+    whole->advance(400, 0);
+    resumed->advance(400, 0);
+    CHECK(sameBits(*whole, *resumed));
+    requireClean(*resumed);
+}
+
+TEST_CASE("a state of a user's law is refused under another law") {
+    const Twins t = ludingTwins();
+    auto first = gpu(), second = gpu(), third = gpu();
+    first->load(t.users, threeSpheres());
+    first->advance(100, 0);
+    const Record record = first->snapshot();
+    RuledWorld changed = t.users;
+    changed.law.user = lawOf(t.users.law.user->text + "// another remark\n");
+    second->load(changed, threeSpheres());
+    CHECK_THROWS_WITH(second->restore(record), Catch::Contains("test.glsl"));
+    third->load(t.own, threeSpheres());
+    CHECK_THROWS_AS(third->restore(record), RecordError);
+}
+
+TEST_CASE("the energy ledger closes under a user's law") {
+    RuledWorld w = ludingTwins().users;
+    w.energyBook = true;
+    auto device = gpu();
+    device->load(w, threeSpheres());
+    EnergyLedger ledger;
+    for (int k = 0; k < 20; ++k) ledger.add(*device->advance(100, 0).energy);
+    CHECK(ledger.sum.plastic > 0);
+    // Single precision, summed over 2000 steps; the scale is the energy that was loaded.
+    CHECK(near(ledger.residual(), 0, ledger.sum.loaded, 2e-5));
+    requireClean(*device);
+}
+
+TEST_CASE("members of an ensemble share a user's law, each with its own parameters") {
+    const RuledWorld first = ludingTwins().users;
+    RuledWorld second = first;
+    for (ContactParameters& p : second.law.classes) p.own[2] *= 0.5;  // kc
+    auto together = gpuEnsemble(2);
+    std::thread other([&] {
+        together[1]->load(second, threeSpheres());
+        together[1]->advance(800, 0);
+    });
+    together[0]->load(first, threeSpheres());
+    together[0]->advance(800, 0);
+    other.join();
+    for (const std::size_t k : {0, 1}) {
+        auto alone = gpu();
+        alone->load(k == 0 ? first : second, threeSpheres());
+        alone->advance(800, 0);
+        CHECK(together[k]->particles().position == alone->particles().position);
+    }
+    CHECK(together[0]->particles().position != together[1]->particles().position);
+}
+
+TEST_CASE("the reference says that it cannot run a user's law") {
+    auto reference = makeReferenceBackend();
+    CHECK_THROWS_WITH(reference->load(ludingTwins().users, threeSpheres()),
+                      Catch::Contains("contact.law") && Catch::Contains("test.glsl") &&
+                          Catch::Contains("--backend vulkan"));
 }
