@@ -17,8 +17,8 @@
 #include "host/app/help.h"
 #include "host/app/key_schema.h"
 #include "host/app/manual.h"
-#include "host/backend/vulkan/law_trial.h"
 #include "host/app/tell.h"
+#include "host/backend/vulkan/law_trial.h"
 
 namespace vkdose {
 

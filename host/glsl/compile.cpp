@@ -45,12 +45,12 @@ GlslResult compileGlsl(const std::string& source) {
     input.resource = glslang_default_resource();
 
     const std::unique_ptr<glslang_shader_t, void (*)(glslang_shader_t*)> shader(glslang_shader_create(&input),
-                                                                              glslang_shader_delete);
-    const bool parsed = glslang_shader_preprocess(shader.get(), &input) != 0 &&
-                        glslang_shader_parse(shader.get(), &input) != 0;
+                                                                                glslang_shader_delete);
+    const bool parsed =
+        glslang_shader_preprocess(shader.get(), &input) != 0 && glslang_shader_parse(shader.get(), &input) != 0;
     if (!parsed) return {{}, faultsOf(glslang_shader_get_info_log(shader.get()))};
     const std::unique_ptr<glslang_program_t, void (*)(glslang_program_t*)> program(glslang_program_create(),
-                                                                                 glslang_program_delete);
+                                                                                   glslang_program_delete);
     glslang_program_add_shader(program.get(), shader.get());
     if (glslang_program_link(program.get(), messages) == 0)
         return {{}, faultsOf(glslang_program_get_info_log(program.get()))};

@@ -19,8 +19,9 @@ constexpr Key kContactAlone[] = {
         "the law of the normal force. `\"luding\"`: linear, plastic and adhesive, with stiffnesses. "
         "`\"hertz-mindlin\"`: elastic spheres without adhesion, with the moduli of the materials; its contacts get "
         "stiffer with the overlap, and the time step is right up to `max_overlap_ratio`. `\"eepa\"`: the same spheres, "
-        "which stay flattened and adhere where they were. `\"NAME.glsl\"`: [a law of your own](laws/README.md), the path "
-        "of its file relative to this one")
+        "which stay flattened and adhere where they were. `\"NAME.glsl\"`: [a law of your own](laws/README.md), the "
+        "path of its file relative to this one")
+        .orEndingIn(".glsl")
         .replacing("*"),
     text("law_text", told("none"), "the text of a law of your own; the resolved case has it, so that it needs no file"),
     text("law_hash", told("none"), "its hash; a text that was changed is refused"),
@@ -101,7 +102,7 @@ constexpr Key kContactClass[] = {
 };
 
 constexpr Key kLawParameters[] = {
-    other("NAME", told("required"), "a number, in the unit that the law says"),
+    other("\"NAME\"", told("required"), "a number, in the unit that the law says"),
 };
 
 constexpr KeyTable kTables[] = {

@@ -10,18 +10,24 @@
 namespace vkdose {
 namespace {
 
-constexpr std::array<std::string_view, 20> kTypes{"float", "int",   "uint",  "bool",  "vec2",  "vec3", "vec4",
+constexpr std::array<std::string_view, 20> kTypes{"float", "int",   "uint",  "bool",  "vec2",  "vec3",  "vec4",
                                                   "ivec2", "ivec3", "ivec4", "uvec2", "uvec3", "uvec4", "bvec2",
                                                   "bvec3", "bvec4", "mat2",  "mat3",  "mat4",  "void"};
-constexpr std::array<std::string_view, 11> kWords{"if",    "else", "for",   "return",  "const", "in",
+constexpr std::array<std::string_view, 11> kWords{"if",    "else", "for",   "return",  "const",   "in",
                                                   "break", "true", "false", "precise", "continue"};
-constexpr std::array<std::string_view, 52> kFunctions{
-    "abs",   "sign",    "floor",  "ceil",      "fract",    "mod",       "min",         "max",  "clamp",
-    "mix",   "step",    "sqrt",   "pow",       "exp",      "log",       "exp2",        "log2", "sin",
-    "cos",   "tan",     "asin",   "acos",      "atan",     "sinh",      "cosh",        "tanh", "asinh",
-    "acosh", "atanh",   "length", "dot",       "cross",    "normalize", "distance",    "isnan", "isinf",
-    "trunc", "round",   "radians", "degrees",  "any",      "all",       "not",         "equal", "lessThan",
-    "fma",   "notEqual", "greaterThan", "smoothstep", "inversesqrt", "lessThanEqual", "greaterThanEqual"};
+constexpr std::array<std::string_view, 52> kFunctions{"abs",        "sign",        "floor",         "ceil",
+                                                      "fract",      "mod",         "min",           "max",
+                                                      "clamp",      "mix",         "step",          "sqrt",
+                                                      "pow",        "exp",         "log",           "exp2",
+                                                      "log2",       "sin",         "cos",           "tan",
+                                                      "asin",       "acos",        "atan",          "sinh",
+                                                      "cosh",       "tanh",        "asinh",         "acosh",
+                                                      "atanh",      "length",      "dot",           "cross",
+                                                      "normalize",  "distance",    "isnan",         "isinf",
+                                                      "trunc",      "round",       "radians",       "degrees",
+                                                      "any",        "all",         "not",           "equal",
+                                                      "lessThan",   "fma",         "notEqual",      "greaterThan",
+                                                      "smoothstep", "inversesqrt", "lessThanEqual", "greaterThanEqual"};
 
 struct Refusal {
     std::string_view word;  ///< with a star at its end: all that begin so
@@ -67,9 +73,15 @@ constexpr Refusal kRefusals[] = {
     {"attribute", "is not in the language of laws"},
 };
 
-bool isNameStart(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_'; }
-bool isNamePart(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
-bool isDigit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
+bool isNameStart(char c) {
+    return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_';
+}
+bool isNamePart(char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+}
+bool isDigit(char c) {
+    return std::isdigit(static_cast<unsigned char>(c)) != 0;
+}
 
 template <std::size_t n>
 bool holds(const std::array<std::string_view, n>& words, std::string_view name) {
@@ -89,7 +101,8 @@ std::size_t numberEnd(const std::string& text, std::size_t at) {
     std::size_t end = at;
     while (end < text.size()) {
         const bool exponentSign = (text[end] == '+' || text[end] == '-') && end > at &&
-                                  (text[end - 1] == 'e' || text[end - 1] == 'E') && !text.substr(at, 2).starts_with("0x");
+                                  (text[end - 1] == 'e' || text[end - 1] == 'E') &&
+                                  !text.substr(at, 2).starts_with("0x");
         if (!isNamePart(text[end]) && text[end] != '.' && !exponentSign) break;
         ++end;
     }
@@ -99,8 +112,8 @@ std::size_t numberEnd(const std::string& text, std::size_t at) {
 }  // namespace
 
 std::vector<LawToken> lawTokens(const std::string& text, std::string& bare, std::vector<LawFault>& faults) {
-    constexpr std::array<std::string_view, 18> kDoubles{"++", "--", "+=", "-=", "*=", "/=", "%=", "==", "!=",
-                                                        "<=", ">=", "&&", "||", "^^", "<<", ">>", "|=", "&="};
+    constexpr std::array<std::string_view, 18> kDoubles{
+        "++", "--", "+=", "-=", "*=", "/=", "%=", "==", "!=", "<=", ">=", "&&", "||", "^^", "<<", ">>", "|=", "&="};
     constexpr std::string_view kSigns = "+-*/%=<>!&|^~?:;,.(){}[]";
     std::vector<LawToken> tokens;
     bare = text;
@@ -143,9 +156,15 @@ std::vector<LawToken> lawTokens(const std::string& text, std::string& bare, std:
     return tokens;
 }
 
-bool isLawType(std::string_view name) { return holds(kTypes, name); }
-bool isLawWord(std::string_view name) { return isLawType(name) || holds(kWords, name); }
-bool isLawFunction(std::string_view name) { return holds(kFunctions, name); }
+bool isLawType(std::string_view name) {
+    return holds(kTypes, name);
+}
+bool isLawWord(std::string_view name) {
+    return isLawType(name) || holds(kWords, name);
+}
+bool isLawFunction(std::string_view name) {
+    return holds(kFunctions, name);
+}
 
 std::string_view refusalOf(std::string_view name) {
     for (const Refusal& r : kRefusals) {

@@ -49,14 +49,14 @@ struct ContactParameters {
     double gammaTo = 0;          ///< torsion viscosity [kg/s]
     double muTo = 0;             ///< torsion friction [-]; 0 switches torsion off
     NormalLaw law = NormalLaw::Luding;
-    double modulus = 0;             ///< Hertz-Mindlin, EEPA, JKR: E*, effective Young's modulus of the two bodies [Pa]
-    double dampingShare = 0;        ///< Hertz-Mindlin, EEPA, JKR: beta, which gives the restitution (normal_law.h) [-]
-    double surfaceEnergy = 0;       ///< EEPA, JKR: delta gamma, of the two surfaces [J/m2]
-    double plasticityRatio = 0;     ///< EEPA: lambda_p = 1 - k1/k2, below 1 [-]
-    double constantPull = 0;        ///< EEPA: -f0, a pull that every contact has [N]
-    double reach = 0;               ///< User: how far beyond touch any contact holds on, at most [m]
+    double modulus = 0;          ///< Hertz-Mindlin, EEPA, JKR: E*, effective Young's modulus of the two bodies [Pa]
+    double dampingShare = 0;     ///< Hertz-Mindlin, EEPA, JKR: beta, which gives the restitution (normal_law.h) [-]
+    double surfaceEnergy = 0;    ///< EEPA, JKR: delta gamma, of the two surfaces [J/m2]
+    double plasticityRatio = 0;  ///< EEPA: lambda_p = 1 - k1/k2, below 1 [-]
+    double constantPull = 0;     ///< EEPA: -f0, a pull that every contact has [N]
+    double reach = 0;            ///< User: how far beyond touch any contact holds on, at most [m]
     std::array<double, kMostLawParameters> own{};  ///< User: in the order of UserLaw::parameters
-    double adhesionExponent = 1.5;  ///< EEPA: chi, with which the pull fades as the contact opens [-]
+    double adhesionExponent = 1.5;                 ///< EEPA: chi, with which the pull fades as the contact opens [-]
 };
 
 /// Everything the contact law needs, for one member (canister).

@@ -31,8 +31,8 @@ ContactParameters elastoPlasticAdhesive(const Elasticity& a, const Elasticity& b
 double hertzStiffness(const ContactParameters& p, double reduced, double overlap);
 
 /// The linear springs and dashpots that a contact of the reduced mass `mass` [kg] acts like at this overlap [m]: k1 on
-/// loading, k2Max the steepest on the way back. Luding's law is linear already, and is given back as it is. Of a user's law
-/// the stiffness and the damping are the largest that its trial found.
+/// loading, k2Max the steepest on the way back. Luding's law is linear already, and is given back as it is. Of a user's
+/// law the stiffness and the damping are the largest that its trial found.
 ContactParameters linearised(const ContactParameters& p, double mass, double reduced, double overlap);
 
 /// How far beyond touch a contact that has come about holds on [m]: it is lost when its overlap falls to minus the

@@ -1,7 +1,6 @@
 // The table [contact] and the adhesion of [settle].
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -10,9 +9,9 @@
 #include "host/model/contact_targets.h"
 #include "host/model/normal_law.h"
 #include "host/model/particles.h"
+#include "host/model/read_user_law.h"
 #include "host/model/restitution.h"
 #include "host/model/stability.h"
-#include "host/core/file.h"
 
 namespace vkdose {
 namespace {
@@ -326,70 +325,6 @@ void readLuding(CaseReader& reader, const Tables& sections, Section& settle, dou
     }
 }
 
-/// The law's parameters of one class; what it does not state comes from `above`, the class above it.
-std::array<double, kMostLawParameters> readOwn(CaseReader& reader, Section& section, const UserLaw& law,
-                                               const std::array<double, kMostLawParameters>* above) {
-    std::array<double, kMostLawParameters> own{};
-    Section& table = section.table("parameters");
-    const Node* stated = section.node("parameters");
-    for (std::size_t k = 0; stated != nullptr && k < stated->children.size(); ++k) {
-        const std::string& name = stated->children[k].key;
-        if (std::ranges::find(law.parameters, name) != law.parameters.end()) continue;
-        std::string known;
-        for (const std::string& other : law.parameters) known += (known.empty() ? "" : ", ") + other;
-        table.know(name);
-        reader.fault(table.path(name), fmt::format("is no parameter of {}", law.name),
-                     known.empty() ? "remove it: the law declares none" : fmt::format("it declares {}", known));
-    }
-    for (std::size_t k = 0; k < law.parameters.size(); ++k) {
-        const std::string& name = law.parameters[k];
-        const Node* node = table.node(name);
-        const auto single = [](double x) {  // beyond these a device holds an infinite number, or none
-            return x == 0 || (std::abs(x) <= std::numeric_limits<float>::max() &&
-                              std::abs(x) >= std::numeric_limits<float>::min());
-        };
-        if (node != nullptr && !(node->isNumber() && single(node->number)))
-            reader.fault(table.path(name), "is not a number that a device holds", "give a number");
-        else if (node == nullptr && above == nullptr)
-            reader.fault(table.path(name), fmt::format("is missing: {} declares it", law.name), "give a number");
-        if (above != nullptr) own[k] = (*above)[k];
-        if (node != nullptr && node->isNumber()) own[k] = node->number;
-        table.record(name, own[k]);
-    }
-    return own;
-}
-
-/// The law of the file that contact.law names, or of the text that a resolved case holds. Null after a fault.
-std::shared_ptr<const UserLaw> readUserLaw(CaseReader& reader, Section& contact) {
-    const std::string name = contact.string("law");
-    std::filesystem::path file = reader.folderOf("contact.law") / name;
-    std::optional<std::string> text;
-    if (contact.has("law_text")) {
-        text = contact.string("law_text");
-        file = name;
-        if (contact.has("law_hash") && contact.string("law_hash") != lawHash(*text)) {
-            reader.fault("contact.law_text", fmt::format("is not the text of {} that law_hash was made of", name),
-                         "put the text back, or run the case that names the file");
-            return nullptr;
-        }
-    } else {
-        text = fileContent(file);
-    }
-    if (!text) {
-        reader.fault("contact.law", fmt::format("{} cannot be read", file.string()),
-                     "give luding, hertz-mindlin, eepa, or the path of a law of your own");
-        return nullptr;
-    }
-    LawReading reading = readLaw(name, *text);
-    reading.law.file = file.string();
-    for (const LawFault& fault : reading.faults)
-        reader.add({reading.law.file, fault.line, "", "", fault.problem, fault.remedy});
-    contact.record("law_text", *text);
-    contact.record("law_hash", reading.law.hash);
-    if (!reading.faults.empty()) return nullptr;
-    return std::make_shared<const UserLaw>(std::move(reading.law));
-}
-
 /// A law of the user's own: its parameters, and friction and the ratios of the springs to its stiffness.
 void readUser(CaseReader& reader, const Tables& sections, Section& settle, Case& c) {
     for (Section* section : sections) {
@@ -401,7 +336,8 @@ void readUser(CaseReader& reader, const Tables& sections, Section& settle, Case&
         refuseKeys(reader, *section, kEepaKeys, "eepa");
     }
     refuseKeys(reader, *sections[0], {"soften"}, "luding");
-    refuseKeys(reader, settle, {"kc_over_k", "wall_kc_over_k", "coil_kc_over_k", "elastic", "damping_factor"}, "luding");
+    refuseKeys(reader, settle, {"kc_over_k", "wall_kc_over_k", "coil_kc_over_k", "elastic", "damping_factor"},
+               "luding");
     const std::shared_ptr<const UserLaw> law = readUserLaw(reader, *sections[0]);
     c.dosingLaw.user = law;
     for (std::size_t i = 0; i < sections.size(); ++i) {
@@ -429,7 +365,8 @@ void readUser(CaseReader& reader, const Tables& sections, Section& settle, Case&
     c.settlingLaw = c.dosingLaw;
 }
 
-bool isUserLaw(const Section& contact, const Node* law) {
+/// Whether the case names a file in place of a law of the program's.
+bool namesFile(const Section& contact, const Node* law) {
     return contact.isString("law") && law->string.ends_with(".glsl");
 }
 
@@ -444,13 +381,14 @@ void placeContact(Section& root) {
 
 void readContact(CaseReader& reader, Section& root, double meanRadius, Case& c) {
     Section& contact = root.requiredTable("contact");
-    const bool user = isUserLaw(contact, contact.node("law"));
+    const bool user = namesFile(contact, contact.node("law"));
     const auto law = user ? NormalLaw::User : static_cast<NormalLaw>(contact.choice("law").value_or(0));
     c.dosingLaw.coulombLimit = static_cast<CoulombLimit>(contact.choice("coulomb_limit").value_or(0));
     c.dosingLaw.rollingLever = static_cast<RollingLever>(contact.choice("rolling_lever").value_or(0));
     c.world.maxOverlapRatio = contact.number("max_overlap_ratio");
     const Tables sections{&contact, &contact.table("wall"), &contact.table("coil")};
     Section& settle = root.table("settle");
+    if (!user) refuseUserLaw(reader, sections);
     if (law == NormalLaw::User)
         readUser(reader, sections, settle, c);
     else if (law == NormalLaw::Luding)

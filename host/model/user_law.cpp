@@ -38,7 +38,8 @@ class Parser {
             if (const std::string_view why = refusalOf(t.text); !why.empty())
                 refuse(t, fmt::format("{}: {}", t.text, why), "write it without");
             if (t.text.find("__") != std::string::npos)
-                refuse(t, fmt::format("{}: names with two underscores are the compiler's", t.text), "choose another name");
+                refuse(t, fmt::format("{}: names with two underscores are the compiler's", t.text),
+                       "choose another name");
         }
         while (at_ < tokens_.size()) readDeclaration();
         for (const std::string_view name : kRequired)
@@ -70,7 +71,8 @@ class Parser {
     }
     const LawToken& name(const char* of) {
         const LawToken& t = next(of);
-        if (t.kind != LawToken::Kind::Name || isLawWord(t.text) || t.is("parameter") || t.is("memory") || t.is("Contact"))
+        if (t.kind != LawToken::Kind::Name || isLawWord(t.text) || t.is("parameter") || t.is("memory") ||
+            t.is("Contact"))
             refuse(t, fmt::format("{} is no name of {}", t.text, of), "give a name");
         return t;
     }
@@ -131,7 +133,8 @@ class Parser {
 
     /// A bound of a loop must stay what it is.
     void refuseShadow(const LawToken& t) const {
-        if (integers_.contains(t.text)) refuse(t, fmt::format("{} is a constant already", t.text), "choose another name");
+        if (integers_.contains(t.text))
+            refuse(t, fmt::format("{} is a constant already", t.text), "choose another name");
     }
 
     void readFunction(const LawToken& type) {
@@ -225,14 +228,17 @@ class Parser {
         if (t.kind != LawToken::Kind::Name || !here("(")) return;
         if (t.text == function_) refuse(t, fmt::format("{} calls itself", t.text), "write a loop");
         if (const auto called = functions_.find(t.text); called != functions_.end()) add(t, times * called->second);
-        if (std::ranges::find(loops_, t.text) != loops_.end()) refuse(t, "a loop's counter is no function", "rename it");
+        if (std::ranges::find(loops_, t.text) != loops_.end())
+            refuse(t, "a loop's counter is no function", "rename it");
     }
 
     void add(const LawToken& t, double trips) {
         trips_ += trips;
         if (trips_ > kMostLawTrips)
-            refuse(t, fmt::format("the loops take {:.6g} trips together; at most {:.0f} are allowed", trips_, kMostLawTrips),
-                   "loop less often");
+            refuse(
+                t,
+                fmt::format("the loops take {:.6g} trips together; at most {:.0f} are allowed", trips_, kMostLawTrips),
+                "loop less often");
     }
 
     [[noreturn]] static void refuseLoop(const LawToken& t) {
@@ -298,8 +304,10 @@ class Parser {
             return k < at_ && std::ranges::find(kChanges, tokens_[k].text) != std::end(kChanges);
         };
         for (std::size_t k = from; k < at_; ++k)
-            if (tokens_[k].is(counter) && (changes(k + 1) || (k > from && (tokens_[k - 1].is("++") || tokens_[k - 1].is("--")))))
-                refuse(tokens_[k], fmt::format("the loop changes its counter {}, so that it has no constant bound", counter),
+            if (tokens_[k].is(counter) &&
+                (changes(k + 1) || (k > from && (tokens_[k - 1].is("++") || tokens_[k - 1].is("--")))))
+                refuse(tokens_[k],
+                       fmt::format("the loop changes its counter {}, so that it has no constant bound", counter),
                        "use another variable");
     }
 
@@ -307,9 +315,9 @@ class Parser {
     UserLaw& law_;
     std::size_t at_ = 0;
     std::set<std::string> names_;
-    std::map<std::string, long> integers_;      ///< constants
-    std::map<std::string, double> functions_;   ///< with the trips of their loops
-    std::vector<std::string> loops_;            ///< counters of those at work
+    std::map<std::string, long> integers_;     ///< constants
+    std::map<std::string, double> functions_;  ///< with the trips of their loops
+    std::vector<std::string> loops_;           ///< counters of those at work
     std::string function_;
     double trips_ = 0;
 };
@@ -326,7 +334,8 @@ std::string prefixed(const std::string& bare, const std::vector<LawToken>& token
         const LawToken& t = tokens[k];
         if (t.kind != LawToken::Kind::Name || (k > 0 && tokens[k - 1].is("."))) continue;
         const bool called = k + 1 < tokens.size() && tokens[k + 1].is("(");
-        const bool declares = (t.is("parameter") || t.is("memory")) && k + 1 < tokens.size() && tokens[k + 1].is("float");
+        const bool declares =
+            (t.is("parameter") || t.is("memory")) && k + 1 < tokens.size() && tokens[k + 1].is("float");
         const bool ofGlsl = isLawWord(t.text) || (called && isLawFunction(t.text) && !parser.isFunction(t.text));
         if (ofGlsl) continue;
         out += bare.substr(done, t.at - done);
@@ -349,10 +358,11 @@ std::string glue(const UserLaw& law) {
         return has ? fmt::format("float {}(UserContact c) {{ return {}{}(c); }}\n", wrapper, kUserPrefix, function)
                    : fmt::format("float {}(UserContact c) {{ return 0.0; }}\n", wrapper);
     };
-    return fmt::format("void userParameters(ContactParams p) {{\n{}}}\n"
-                       "void userRecall(vec4 own[2]) {{\n{}}}\n"
-                       "void userKeep(inout vec4 own[2]) {{\n{}}}\n",
-                       load, recall, keep) +
+    return fmt::format(
+               "void userParameters(ContactParams p) {{\n{}}}\n"
+               "void userRecall(vec4 own[2]) {{\n{}}}\n"
+               "void userKeep(inout vec4 own[2]) {{\n{}}}\n",
+               load, recall, keep) +
            optional("userDamping", "damping", law.hasDamping) + optional("userPull", "pull", law.hasPull) +
            optional("userEnergy", "energy", law.hasEnergy) + optional("userReach", "reach", law.hasReach);
 }

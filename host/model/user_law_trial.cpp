@@ -32,9 +32,9 @@ std::vector<Probe> probesOf(const Case& c, const SizeRange& sizes) {
     for (const ContactClass kind : contactClasses(c.world))
         for (const double a : {sizes.smallest, sizes.mean, sizes.largest})
             for (const double speed : kSpeeds) {
-                const double b =
-                    kind == ContactClass::ParticleParticle ? a : std::numeric_limits<double>::infinity();
-                probes.push_back({kind, a,
+                const double b = kind == ContactClass::ParticleParticle ? a : std::numeric_limits<double>::infinity();
+                probes.push_back({kind,
+                                  a,
                                   {c.dosingLaw.of(kind).own, reducedSize(a, b) / 2, reducedMass(c.world.density, a, b),
                                    c.world.maxOverlapRatio * a, speed}});
             }
@@ -43,9 +43,12 @@ std::vector<Probe> probesOf(const Case& c, const SizeRange& sizes) {
 
 /// What is wrong with an answer; nothing if it will do.
 std::optional<std::string> wrongIn(const LawPoint& p) {
-    const auto answers = [](const char* function, double value) { return fmt::format("{} answers {:.6g}", function, value); };
+    const auto answers = [](const char* function, double value) {
+        return fmt::format("{} answers {:.6g}", function, value);
+    };
     if (!std::isfinite(p.force)) return answers("force", p.force);
-    if (!(std::isfinite(p.stiffness) && p.stiffness > 0)) return answers("stiffness", p.stiffness) + ", which is not > 0";
+    if (!(std::isfinite(p.stiffness) && p.stiffness > 0))
+        return answers("stiffness", p.stiffness) + ", which is not > 0";
     if (!(std::isfinite(p.damping) && p.damping >= 0)) return answers("damping", p.damping) + ", which is not >= 0";
     if (!(std::isfinite(p.pull) && p.pull >= 0)) return answers("pull", p.pull) + ", which is not >= 0";
     if (!std::isfinite(p.energy)) return answers("energy", p.energy);
@@ -56,7 +59,8 @@ std::optional<std::string> wrongIn(const LawPoint& p) {
 /// The line on which the law defines a function.
 int lineOf(const UserLaw& law, const std::string& function) {
     const std::size_t at = law.text.find(" " + function + "(");
-    return at == std::string::npos ? 1 : 1 + int(std::count(law.text.begin(), law.text.begin() + std::ptrdiff_t(at), '\n'));
+    return at == std::string::npos ? 1
+                                   : 1 + int(std::count(law.text.begin(), law.text.begin() + std::ptrdiff_t(at), '\n'));
 }
 
 }  // namespace
@@ -103,9 +107,10 @@ void tryUserLaw(CaseReader& reader, Case& c, const SizeRange& sizes) {
             }
             if (const auto wrong = wrongIn(point)) {
                 refuse(lineOf(law, wrong->substr(0, wrong->find(' '))),
-                       fmt::format("{} ({}, overlap {:.4g} m, approach {:.4g} m/s, reduced radius {:.4g} m and mass {:.4g} kg)",
-                                   *wrong, className(probe.kind), point.overlap, point.speed, probe.loading.radius,
-                                   probe.loading.mass),
+                       fmt::format(
+                           "{} ({}, overlap {:.4g} m, approach {:.4g} m/s, reduced radius {:.4g} m and mass {:.4g} kg)",
+                           *wrong, className(probe.kind), point.overlap, point.speed, probe.loading.radius,
+                           probe.loading.mass),
                        "answer finite numbers up to contact.max_overlap_ratio");
                 return;
             }

@@ -124,8 +124,9 @@ const std::vector<Broken>& loops() {
          atTop("float f(float x) { for (int i = 0; i < 999; ++i) x += 1.0; return x; }\n"
                "float g(float x) { for (int i = 0; i < 999; ++i) x += f(x); return x; }"),
          3, "trips"},
-        {"a constant in the shade", atTop("const int n = 3;\nfloat f(int n) { for (int i = 0; i < n; ++i) {} return 1.0; }"),
-         3, "constant already"},
+        {"a constant in the shade",
+         atTop("const int n = 3;\nfloat f(int n) { for (int i = 0; i < n; ++i) {} return 1.0; }"), 3,
+         "constant already"},
         {"recursion", atTop("float f(float x) { return f(x - 1.0); }"), 2, "calls itself"},
     };
     return laws;
@@ -169,7 +170,8 @@ const std::vector<Broken>& wrongForms() {
         {"void damping", atTop("void damping(Contact c) {}"), 2, "signature"},
         {"prototype", atTop("float f(float x);"), 2, "no body"},
         {"two parameters of one name", atTop("parameter float k;"), 2, "declared twice"},
-        {"two functions of one name", atTop("float f() { return 1.0; }\nfloat f() { return 1.0; }"), 3, "declared twice"},
+        {"two functions of one name", atTop("float f() { return 1.0; }\nfloat f() { return 1.0; }"), 3,
+         "declared twice"},
         {"a whole parameter", atTop("parameter int n;"), 2, "float"},
         {"a parameter without a name", atTop("parameter float;"), 2, "no name"},
         {"a vector of memory", atTop("memory vec3 m;"), 2, "float"},
@@ -283,12 +285,24 @@ TEST_CASE("a law without a fault is taken") {
     CHECK_NOTHROW(loadWith(folder, answers("force", "k * c.overlap")));
 }
 
-TEST_CASE("what belongs to the program or the device is refused in a law") { refuseAll(forbidden()); }
-TEST_CASE("loops without a constant bound are refused in a law") { refuseAll(loops()); }
-TEST_CASE("a law does not reach the engine's names") { refuseAll(engine()); }
-TEST_CASE("a law must have its functions and declarations in their form") { refuseAll(wrongForms()); }
-TEST_CASE("errors of GLSL are told in the user's own lines") { refuseAll(syntax()); }
-TEST_CASE("a law that answers no finite or no positive number is refused") { refuseAll(badAnswers()); }
+TEST_CASE("what belongs to the program or the device is refused in a law") {
+    refuseAll(forbidden());
+}
+TEST_CASE("loops without a constant bound are refused in a law") {
+    refuseAll(loops());
+}
+TEST_CASE("a law does not reach the engine's names") {
+    refuseAll(engine());
+}
+TEST_CASE("a law must have its functions and declarations in their form") {
+    refuseAll(wrongForms());
+}
+TEST_CASE("errors of GLSL are told in the user's own lines") {
+    refuseAll(syntax());
+}
+TEST_CASE("a law that answers no finite or no positive number is refused") {
+    refuseAll(badAnswers());
+}
 
 TEST_CASE("at least a hundred broken laws are tried") {
     std::set<std::string> texts;

@@ -35,7 +35,9 @@ Case bridgeCase() {
     return loadCase(std::filesystem::path(VKDOSE_SOURCE_DIR) / "cases/laws/liquid-bridge.toml");
 }
 
-double gapOf(const Particles& p) { return p.position[1].x - p.position[0].x - 2 * kRadius; }
+double gapOf(const Particles& p) {
+    return p.position[1].x - p.position[0].x - 2 * kRadius;
+}
 
 }  // namespace
 

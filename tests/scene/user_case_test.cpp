@@ -20,7 +20,8 @@ constexpr const char* kSpring =
 
 constexpr const char* kCase =
     "boundaries = \"list\"\n[particles]\ndensity = 2500.0\nlist = \"two.csv\"\n[[plane]]\npoint = [0, -1e-2, 0]\n"
-    "normal = [0, 1, 0]\n[contact]\nlaw = \"spring.glsl\"\nfriction = 0.3\n[contact.parameters]\nk = 1000.0\nrate = 0.01\n"
+    "normal = [0, 1, 0]\n[contact]\nlaw = \"spring.glsl\"\nfriction = 0.3\n[contact.parameters]\nk = 1000.0\nrate = "
+    "0.01\n"
     "[contact.wall.parameters]\nk = 4000.0\n[settle]\ntime_s = 0.001\n";
 
 void write(const std::filesystem::path& file, const std::string& text) {

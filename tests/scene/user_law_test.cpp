@@ -122,8 +122,8 @@ TEST_CASE("a user's law that repeats hertz-mindlin has its bits") {
     own.law.classes.fill(elastic);
     RuledWorld users = own;
     users.law.user = text;
-    users.law.classes.fill(userOf(elastic, *text,
-                                  {{"modulus_Pa", elastic.modulus}, {"damping_ratio", kHertzDamping * elastic.dampingShare}}));
+    users.law.classes.fill(userOf(
+        elastic, *text, {{"modulus_Pa", elastic.modulus}, {"damping_ratio", kHertzDamping * elastic.dampingShare}}));
     requireSameBits(own, users);
 }
 
@@ -193,7 +193,7 @@ TEST_CASE("members of an ensemble share a user's law, each with its own paramete
 
 TEST_CASE("the reference says that it cannot run a user's law") {
     auto reference = makeReferenceBackend();
-    CHECK_THROWS_WITH(reference->load(ludingTwins().users, threeSpheres()),
-                      Catch::Contains("contact.law") && Catch::Contains("test.glsl") &&
-                          Catch::Contains("--backend vulkan"));
+    CHECK_THROWS_WITH(reference->load(ludingTwins().users, threeSpheres()), Catch::Contains("contact.law") &&
+                                                                                Catch::Contains("test.glsl") &&
+                                                                                Catch::Contains("--backend vulkan"));
 }

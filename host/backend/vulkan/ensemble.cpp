@@ -252,7 +252,8 @@ void Ensemble::keepError(std::uint32_t member, const gpu::uvec4& error) {
     m.failure = fmt::format("particle {} (radius {:.6g} m) at ({:.6g}, {:.6g}, {:.6g}) m {} (step {}, t = {:.6g} s)", i,
                             now.radius[i], x.x, x.y, x.z, text(error.y), step, double(step) * m.world.timeStep);
     if (error.y == gpu::kErrorNan && passes_->sizes.userLaw)
-        *m.failure += fmt::format("; or the law {} answered something that is not a number", passes_->sizes.userLaw->name);
+        *m.failure +=
+            fmt::format("; or the law {} answered something that is not a number", passes_->sizes.userLaw->name);
 }
 
 VulkanProfile Ensemble::profile(std::uint32_t steps, double coilRate) {

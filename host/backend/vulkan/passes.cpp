@@ -38,8 +38,8 @@ struct StepPass {
     std::span<const vk::Variant> variants;
     Extent extent;
     VkDeviceSize arguments = 0;
-    bool readsBodies = false;  ///< binds the tables of shaders/shared/body_tables.h, if there are bodies
-    bool forBodies = false;    ///< has nothing to do without bodies
+    bool readsBodies = false;      ///< binds the tables of shaders/shared/body_tables.h, if there are bodies
+    bool forBodies = false;        ///< has nothing to do without bodies
     const char* source = nullptr;  ///< of a pass that knows the law or what contacts remember
 };
 
@@ -49,11 +49,11 @@ constexpr std::array kPasses{
     StepPass{"clear", spirv::clear, Extent::OfDevice, offsetof(gpu::Dispatches, cells)},
     StepPass{"bin", spirv::bin, Extent::OfDevice, offsetof(gpu::Dispatches, particles)},
     StepPass{"neighbours", spirv::neighbours, Extent::OfDevice, offsetof(gpu::Dispatches, particles)},
-    StepPass{"near", spirv::near, Extent::OfDevice, offsetof(gpu::Dispatches, refresh), true, false,
-             "pass/near.comp"},
+    StepPass{"near", spirv::near, Extent::OfDevice, offsetof(gpu::Dispatches, refresh), true, false, "pass/near.comp"},
     StepPass{"link", spirv::link, Extent::OfDevice, offsetof(gpu::Dispatches, refresh), false, false, "pass/link.comp"},
     StepPass{"commit_lists", spirv::commit_lists, Extent::OfDevice, offsetof(gpu::Dispatches, settle)},
-    StepPass{"pairs", spirv::pairs, Extent::OfDevice, offsetof(gpu::Dispatches, pairs), false, false, "pass/pairs.comp"},
+    StepPass{"pairs", spirv::pairs, Extent::OfDevice, offsetof(gpu::Dispatches, pairs), false, false,
+             "pass/pairs.comp"},
     StepPass{"surfaces", spirv::surfaces, Extent::OfDevice, offsetof(gpu::Dispatches, surfaces), false, false,
              "pass/surfaces.comp"},
     StepPass{"bodies", spirv::bodies, Extent::OfDevice, offsetof(gpu::Dispatches, bodies), true, true,
@@ -141,10 +141,10 @@ Passes::Passes(const vk::Device& device, const TableSizes& s, const BodyTables* 
         if (pass.forBodies && !bodyBindings_) continue;  // drivers take their time with it
         const unsigned macros = macrosFor(access, s);
         const bool ofUser = s.userLaw != nullptr && pass.source != nullptr;
-        made.emplace(device, pass.readsBodies && bodyBindings_ ? *bodyBindings_ : bindings_,
-                     ofUser ? userShader(pass.source, *s.userLaw, pass.variants, macros)
-                            : vk::pick(pass.variants, macros),
-                     constants(s));
+        made.emplace(
+            device, pass.readsBodies && bodyBindings_ ? *bodyBindings_ : bindings_,
+            ofUser ? userShader(pass.source, *s.userLaw, pass.variants, macros) : vk::pick(pass.variants, macros),
+            constants(s));
     }
 }
 
