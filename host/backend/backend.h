@@ -107,7 +107,8 @@ class Backend {
     void load(const RuledWorld& world, const Particles& particles) { load(world, world.law, particles); }
 
     /// Replace the contact law, keeping state and history (the switch of k_c after settling). The energy book stays
-    /// closed if only adhesion changes.
+    /// closed if only adhesion changes. The new law must be of the kind of the loaded one. Throws RunError if its
+    /// contacts hold on farther beyond touch than those of the loaded one.
     virtual void setLaw(const ContactLaw& law) = 0;
 
     /// Makes waiting particles active, from index `first` on. They are at rest at these positions now. The velocity

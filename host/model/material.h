@@ -21,10 +21,12 @@ enum class NormalLaw {
     Luding = 0,        ///< linear, hysteretic, adhesive
     HertzMindlin = 1,  ///< elastic spheres: all stiffnesses and dampings grow with the overlap
     Eepa = 2,  ///< Edinburgh's elasto-plastic adhesive spheres: Hertz's line, from which contacts stay flattened
+    Jkr = 3,   ///< elastic adhesive spheres (Johnson, Kendall, Roberts): contacts hold on beyond touch
 };
 
-/// Under Hertz-Mindlin and EEPA kt, kr and kTo are ratios to the stiffness of the normal direction on Hertz's line,
-/// gammaT, gammaR and gammaTo ratios to its damping [-]; k1, k2Max, kc, plasticityDepth and gamma are not used.
+/// Under Hertz-Mindlin, EEPA and JKR kt, kr and kTo are ratios to the stiffness 2 E* a of a contact of the radius a,
+/// which is that of Hertz's line, gammaT, gammaR and gammaTo ratios to its damping [-]; k1, k2Max, kc, plasticityDepth
+/// and gamma are not used.
 struct ContactParameters {
     double k1 = 0;               ///< plastic loading stiffness [N/m]
     double k2Max = 0;            ///< limit elastic stiffness, k2-hat [N/m]
@@ -41,9 +43,9 @@ struct ContactParameters {
     double gammaTo = 0;          ///< torsion viscosity [kg/s]
     double muTo = 0;             ///< torsion friction [-]; 0 switches torsion off
     NormalLaw law = NormalLaw::Luding;
-    double modulus = 0;             ///< Hertz-Mindlin, EEPA: E*, effective Young's modulus of the two bodies [Pa]
-    double dampingShare = 0;        ///< Hertz-Mindlin, EEPA: beta, which gives the restitution (normal_law.h) [-]
-    double surfaceEnergy = 0;       ///< EEPA: delta gamma, of the two surfaces [J/m2]
+    double modulus = 0;             ///< Hertz-Mindlin, EEPA, JKR: E*, effective Young's modulus of the two bodies [Pa]
+    double dampingShare = 0;        ///< Hertz-Mindlin, EEPA, JKR: beta, which gives the restitution (normal_law.h) [-]
+    double surfaceEnergy = 0;       ///< EEPA, JKR: delta gamma, of the two surfaces [J/m2]
     double plasticityRatio = 0;     ///< EEPA: lambda_p = 1 - k1/k2, below 1 [-]
     double constantPull = 0;        ///< EEPA: -f0, a pull that every contact has [N]
     double adhesionExponent = 1.5;  ///< EEPA: chi, with which the pull fades as the contact opens [-]

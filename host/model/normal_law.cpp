@@ -72,6 +72,16 @@ ContactParameters linearised(const ContactParameters& p, double mass, double red
     return linear;
 }
 
+double reachOf(const ContactParameters& /*p*/, double /*reduced*/) {
+    return 0;
+}
+
+double longestReach(const ContactLaw& law, double largest) {
+    double longest = 0;
+    for (const ContactParameters& p : law.classes) longest = std::max(longest, reachOf(p, 2 * largest));
+    return longest;
+}
+
 double overlapUnder(const ContactParameters& p, double reduced, double load) {
     if (p.law == NormalLaw::Luding) return load / p.k1;
     if (p.law == NormalLaw::Eepa) load += p.constantPull;

@@ -34,11 +34,21 @@ double hertzStiffness(const ContactParameters& p, double reduced, double overlap
 /// loading, k2Max the steepest on the way back. Luding's law is linear already, and is given back as it is.
 ContactParameters linearised(const ContactParameters& p, double mass, double reduced, double overlap);
 
+/// How far beyond touch a contact that has come about holds on [m]: it is lost when its overlap falls to minus the
+/// reach. 0 under most laws. `reduced` as above; the reach grows with it, or is the same for all.
+double reachOf(const ContactParameters& p, double reduced);
+
+/// The longest reach of any contact of spheres no larger than `largest` [m], also with walls.
+double longestReach(const ContactLaw& law, double largest);
+
 /// Overlap of a contact that has been loaded for the first time by `load` [N], in metres.
 double overlapUnder(const ContactParameters& p, double reduced, double load);
 
 /// Largest overlap of a first impact at `speed` [m/s] without damping and friction, in metres. Luding's law: on k1.
 /// EEPA: on Hertz's line, with the work of the constant pull.
 double overlapOfImpact(const ContactParameters& p, double mass, double reduced, double speed);
+
+/// What a backend says of a law whose contacts reach farther than those of the law that was loaded.
+inline constexpr const char* kReachesFarther = "the new law of the contacts reaches farther than the loaded one";
 
 }  // namespace vkdose

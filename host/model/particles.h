@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -32,6 +33,11 @@ struct Particles {
     /// The particles of `more` behind these, with their status.
     void append(const Particles& more);
 };
+
+/// 0 if there are none [m].
+inline double largestRadius(const Particles& p) {
+    return p.radius.empty() ? 0.0 : *std::max_element(p.radius.begin(), p.radius.end());
+}
 
 /// Of a solid sphere [kg].
 inline double sphereMass(double density, double radius) {

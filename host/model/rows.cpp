@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "host/model/checks.h"
+#include "host/model/normal_law.h"
 #include "host/model/rows.h"
 
 namespace vkdose {
@@ -43,14 +44,15 @@ class Cells {
 };
 
 /// A particle with more neighbours than a row holds, if there is one.
-std::optional<std::size_t> crowdedParticle(const Particles& p, double largest, double skin) {
+/// `beyond` is the skin and the reach of contacts.
+std::optional<std::size_t> crowdedParticle(const Particles& p, double largest, double beyond) {
     // The device computes in single precision, so that a particle just beyond the edge may count as a neighbour there.
     constexpr double kRounding = 1 + 1e-5;
-    const Cells cells(p, (2 * largest + skin) * kRounding);
+    const Cells cells(p, (2 * largest + beyond) * kRounding);
     for (std::size_t i = 0; i < p.size(); ++i) {
         int neighbours = -1;  // itself does not count
         cells.around(p.position[i], [&](std::size_t j) {
-            const double reach = (p.radius[i] + p.radius[j] + skin) * kRounding;
+            const double reach = (p.radius[i] + p.radius[j] + beyond) * kRounding;
             if (glm::distance(p.position[i], p.position[j]) < reach) ++neighbours;
             return neighbours <= kMaxNeighbours;
         });
@@ -69,12 +71,13 @@ double mostInGrid(double largest, double skin) {
 
 void checkRows(CaseReader& reader, const Case& c, const Particles& particles, const SizeRange& radii) {
     if (particles.size() <= kMaxNeighbours) return;
-    if (!c.filling.list && mostInGrid(radii.largest, c.world.skin) <= kMaxNeighbours) return;
-    const std::optional<std::size_t> crowded = crowdedParticle(particles, radii.largest, c.world.skin);
+    const double reach = longestReach(c.dosingLaw, radii.largest), beyond = c.world.skin + reach;
+    if (!c.filling.list && mostInGrid(radii.largest, beyond) <= kMaxNeighbours) return;
+    const std::optional<std::size_t> crowded = crowdedParticle(particles, radii.largest, beyond);
     if (!crowded) return;
     const Vec3 x = particles.position[*crowded] * 1e3;
     const double usual = kUsualSkin * radii.mean;
-    const bool helps = usual < c.world.skin && !crowdedParticle(particles, radii.largest, usual);
+    const bool helps = usual < c.world.skin && !crowdedParticle(particles, radii.largest, usual + reach);
     reader.fault(
         "time.skin_mm",
         fmt::format("gives particle {} at ({:.4g}, {:.4g}, {:.4g}) mm more neighbours at the start than the {} "

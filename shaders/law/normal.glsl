@@ -5,16 +5,24 @@
 #include "law/eepa.glsl"
 #include "law/hertz.glsl"
 #include "law/luding.glsl"
-
-layout(constant_id = 9) const uint LAWS = 1u << kLawLuding;  // bit k: contacts of some class follow the law k
+#include "law/reach.glsl"
 
 bool follows(ContactParams p, uint law) {
     uint bit = 1u << law;
     return (LAWS & bit) != 0u && (LAWS == bit || p.springs.w == float(law));
 }
 
-/// `overlap` > 0 and `reduced` 2 a_i a_j / (a_i + a_j) (wall: 2 a_i) [m]; `mass` the reduced mass [kg]. `memory` is the
-/// contact's history of one number [m], above 0 while it touches.
+/// How far beyond touch a contact that has come about holds on [m]; grows with `reduced`.
+float reachOf(ContactParams p, float reduced) { return 0.0; }
+
+/// Whether there is a contact at this overlap. `memory` is what the law left of the last step, 0 if there was none.
+bool holds(ContactParams p, float overlap, float reduced, float memory) {
+    if (reaches() && memory > 0.0 && overlap > -reachOf(p, reduced)) return true;
+    return overlap > 0.0;
+}
+
+/// `overlap` > 0, or above -reachOf where the contact goes on, and `reduced` 2 a_i a_j / (a_i + a_j) (wall: 2 a_i) [m];
+/// `mass` the reduced mass [kg]. `memory` is the contact's history of one number [m], above 0 while there is a contact.
 NormalAnswer normalAnswer(ContactParams p, float overlap, float reduced, float mass, inout float memory) {
     if (follows(p, kLawHertzMindlin)) return hertzAnswer(p, overlap, reduced, mass, memory);
     if (follows(p, kLawEepa)) return eepaAnswer(p, overlap, reduced, mass, memory);

@@ -102,16 +102,21 @@ void main() {
     float radius = me.sphere.radius, reduced = reducedAtWall(radius, motion.centre.w);
     openBodies();
     if (openNearby(slot)) nearbyCount = nearby[nearbyStart];
-    uint count = touchedFeatures(body, toBody(motion, me.sphere.high, me.sphere.low), radius);
-    if (count > kMaxBodyTouches) {
+    // Features beyond touch, in which a contact may hold on, have a depth as well: `most` is the radius with the reach.
+    precise float most = radius;
+    if (reaches()) most += reachOf(law, reduced);
+    precise float reach = most - radius;
+    uint count = touchedFeatures(body, toBody(motion, me.sphere.high, me.sphere.low), most);
+    uint room = reaches() ? kMaxBodyFeatures : kMaxBodyTouches;
+    if (count > room) {
         report(kErrorFeatures, i);
-        count = kMaxBodyTouches;
+        count = room;
     }
     recall(slot);
     uint gone = match(count), inUse = touched & ~gone;
 
     vec3 force = vec3(0.0), torque = vec3(0.0), moment = vec3(0.0);
-    float overlap = 0.0, work = 0.0, booked = 0.0;
+    float overlap = 0.0, gap = 0.0, work = 0.0, booked = 0.0;
 #ifdef ENERGY_BOOK
     WallMotion moving = WallMotion(motion.velocity.xyz, motion.spin.xyz, motion.centre.xyz);
     openSlotBook();
@@ -129,9 +134,17 @@ void main() {
     for (uint k = 0u; k < count; ++k) {
         uint place = placeOf(k);
         bool known = place != kNowhere;
-        if (!known) place = uint(findLSB(~inUse));
-        inUse |= 1u << place;
         BodyFeature feature = features[k];
+        if (reaches()) {
+            feature.depth -= reach;
+            if (!known && feature.depth <= 0.0) continue;
+        }
+        if (!known) place = uint(findLSB(~inUse));
+        if (reaches() && place >= kMaxBodyTouches) {
+            report(kErrorFeatures, i);
+            continue;
+        }
+        inUse |= 1u << place;
         vec3 normal = directionToWorld(motion, feature.direction);
         History h = History(vec4(0.0), vec4(0.0));
         vec3 was = historyAt(placeHistoryIndex(slot, place, 2u)).xyz;
@@ -166,14 +179,16 @@ void main() {
         moment += cross(point, f.force) + f.couple;
         work += springDt * (dot(f.force, wall) + dot(f.couple, motion.spin.xyz));
         overlap = max(overlap, feature.depth / radius);
+        if (reaches()) gap = min(gap, feature.depth / radius);
     }
+    if (overlap == 0.0) overlap = gap;  // of contacts that hold on beyond touch
     writeForce(slot, vec4(force, overlap));
 #ifdef ENERGY_BOOK
     writeBook(slot, slotBook);
     booked = slotBook.flow.w;
 #endif
     writeTorque(slot, vec4(torque, booked));
-    if (overlap > 0.0) {
+    if (overlap != 0.0) {
         for (uint d = 0u; d < 3u; ++d) {
             load(body, i, d, force[d]);
             load(body, i, 3u + d, moment[d]);

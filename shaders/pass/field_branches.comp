@@ -20,7 +20,7 @@ Sphere sphereBefore(uint i) {
 vec4 fromBody(float radius, Place at, uint body) {
     float depth = forces[at.contact].w;
     vec3 normal = directionToWorld(motionOf(body), history[placeHistoryIndex(at.slot, at.part, 2u)].xyz);
-    return depth > 0.0 ? vec4((radius - depth) * normal, 1.0) : vec4(0.0);
+    return depth != 0.0 ? vec4((radius - depth) * normal, 1.0) : vec4(0.0);
 }
 #endif
 
@@ -33,7 +33,7 @@ void main() {
     uvec2 who = entries[at.slot];
     Sphere a = sphereBefore(who.x);
     vec4 branch = vec4(vec3(0.0), 1.0);
-    if (forces[at.slot].w <= 0.0) {
+    if (forces[at.slot].w == 0.0) {
         branch.w = 0.0;
     } else if (ofPair(at.slot)) {
         Sphere b = sphereBefore(who.y);

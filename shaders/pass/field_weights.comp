@@ -32,7 +32,7 @@ float touching(uint i) {
     float count = 0.0;
     for (uint k = 0u; k < range.w; ++k) {
         uint slot = rows[linkIndex(range.z + k)] >> 1u;
-        if (ofPair(slot) && forces[slot].w > 0.0) count += 1.0;
+        if (ofPair(slot) && forces[slot].w != 0.0) count += 1.0;
     }
     return count;
 }

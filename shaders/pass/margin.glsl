@@ -2,6 +2,7 @@
 #ifndef VKDOSE_PASS_MARGIN_GLSL
 #define VKDOSE_PASS_MARGIN_GLSL
 
+#include "law/reach.glsl"
 #include "law/surface.glsl"
 #include "pass/slack.glsl"
 
@@ -11,6 +12,7 @@ float slackOfParticle(uint i) { return slackOf(readState(source, kVelocity, i).x
 bool nearPair(vec4 p, float slackP, vec4 q, float slackQ) {
     vec3 d = p.xyz - q.xyz;
     float reach = 1.00001 * (p.w + q.w) + (slackP + slackQ);
+    if (reaches()) reach += longestReach();
     return q.w > 0.0 && dot(d, d) < reach * reach;
 }
 
@@ -22,6 +24,7 @@ bool nearPair(vec4 p, float slackP, vec4 q, float slackQ) {
 /// Surfaces, a bit each.
 uint nearSurfaces(Sphere a, float slack) {
     float reach = slack + 1e-7;  // [m], above the rounding of surfaceGap
+    if (reaches()) reach += longestReach();
     uint near = 0u;
     PROBE(0u)
     PROBE(1u)

@@ -53,7 +53,11 @@ void bookDepartureFromBody(uint i, uint slot, uint body) {
 
 /// How near a body must be. A body and the particle may both go their slack, and the body a step more before it is told
 /// that it has.
-float reachOfBodies(float radius, float slack) { return radius + slack + bodySlack() + 2.0 * member.choices.w + 1e-7; }
+float reachOfBodies(float radius, float slack) {
+    float reach = radius + slack + bodySlack() + 2.0 * member.choices.w + 1e-7;
+    if (reaches()) reach += longestReach();
+    return reach;
+}
 
 Two3 centreOn(uint body, uint i) {
     return toBody(motionOf(body), readState(source, kPosition, i).xyz, readState(source, kResidue, i).xyz);

@@ -1,11 +1,12 @@
 #version 450
 // neighbours: builds the rows, sorted by index.
 // Reads state and cells; writes rows, their ranges and the anchors of the rows. A row lists every particle closer than
-// the sum of radii + skin, so it stays complete until some particle has moved half the skin from its anchor. Where in
-// the table a row lies depends on timing; nothing that moves a particle depends on it.
+// the sum of radii + reach of contacts + skin, so it stays complete until some particle has moved half the skin from
+// its anchor. Where in the table a row lies depends on timing; nothing that moves a particle depends on it.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/buffers.glsl"
 #include "shared/cells.glsl"
+#include "law/reach.glsl"
 
 uint row[kMaxRow];
 
@@ -22,6 +23,7 @@ void insertSorted(uint j, uint count) {
 
 uint collect(uint i, vec4 p) {
     float skin = numerics().y, size = numerics().z;
+    if (reaches()) skin += longestReach();
     ivec3 home = cellOf(p.xyz, size);
     uint count = 0u, found = 0u, visits = 0u;
     for (int n = 0; n < 27; ++n) {

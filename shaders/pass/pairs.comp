@@ -28,12 +28,11 @@ void main() {
     History old = h;
 #endif
     Overlap o = sphereOverlap(a.sphere, b.sphere);
-    bool touching = o.depth > 0.0;
-    float ra = a.sphere.radius, rb = b.sphere.radius;
+    float ra = a.sphere.radius, rb = b.sphere.radius, reduced = 2.0 * ra * rb / (ra + rb);
+    bool touching = holds(law, o.depth, reduced, h.slidingMax.w);
     float leverA = ra - 0.5 * o.depth, leverB = rb - 0.5 * o.depth;
     vec3 velocity = (a.velocity - b.velocity) - cross(leverA * a.spin + leverB * b.spin, o.normal);
-    Meeting m =
-        Meeting(o.normal, o.depth, 2.0 * ra * rb / (ra + rb), reducedMass(density, ra, rb), velocity, a.spin - b.spin);
+    Meeting m = Meeting(o.normal, o.depth, reduced, reducedMass(density, ra, rb), velocity, a.spin - b.spin);
     Response r = contactResponse(law, chosen, m, springDt, h);
     vec3 turn = cross(o.normal, r.sliding);
 

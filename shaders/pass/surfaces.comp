@@ -58,30 +58,35 @@ void main() {
 
     bool joined = joints() && works > 1u;
     uint end = slot + works;
+    float reduced = 2.0 * me.sphere.radius;
     Overlap front;
     if (joints()) front = frontOverlap(frontWall, me.sphere);
     Memory frontMemory = recall(end - 1u);  // the front wall is the last; of a single contact this is its own
+    bool frontTouches = joints() && holds(law, front.depth, reduced, frontMemory.history.slidingMax.w);
 
     for (; slot < end; ++slot) {
         SurfaceParams p = readSurface(surfaceOf(entriesAt(slot).y));
         uint kind = uint(p.pointHigh.w);
         Overlap o = surfaceOverlap(KIND_SET, kind, p, me.sphere);
         Memory memory = frontMemory;
+        bool touching = holds(law, o.depth, reduced, memory.history.slidingMax.w);
         if (joined) {
             if (slot + 1u < end) memory = recall(slot);
+            touching = holds(law, o.depth, reduced, memory.history.slidingMax.w);
             if (kind == kFront) {
                 o = front;
-            } else if (kind != kTube && p.pointLow.w != 0.0 && o.depth > 0.0 && front.depth > 0.0) {
+                touching = frontTouches;
+            } else if (kind != kTube && p.pointLow.w != 0.0 && touching && frontTouches) {
                 uint joint = jointContact(o, front, me.sphere.radius);
                 // The contact that counts goes on with the other's history unless it has its own.
                 if (joint == kWallCounts) {
-                    front.depth = 0.0;
+                    frontTouches = false;
                     if (!known(memory)) {
                         memory = frontMemory;
                         frontMemory = nothing();
                     }
                 } else if (joint == kFrontCounts) {
-                    o.depth = 0.0;
+                    touching = false;
                     if (!known(frontMemory)) {
                         frontMemory = memory;
                         memory = nothing();
@@ -89,10 +94,8 @@ void main() {
                 }
             }
         }
-        bool touching = o.depth > 0.0;
         History h = memory.history;
         Response r;
-        float reduced = 2.0 * me.sphere.radius;
         WallForce f = meetWall(me, o, reduced, law, chosen, density, springDt, vec3(0.0), vec3(0.0), h, r);
         writeHistory(slot, touching ? h.slidingMax : vec4(0.0), touching ? h.rollingTorsion : vec4(0.0));
         writeForce(slot, touching ? vec4(f.force, o.depth / me.sphere.radius) : vec4(0.0));

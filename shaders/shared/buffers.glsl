@@ -109,6 +109,9 @@ vec4 numerics() { return OF_MEMBER(numerics, kVectorGravity + 3u); }
 vec4 outletVector(uint k) { return OF_MEMBER(outlets[k], kVectorOutlets + k); }
 uvec4 choices() { return uvec4(OF_MEMBER(choices, kVectorGravity + 4u)); }
 
+/// How far beyond touch a contact may hold: asked only where law/reach.glsl says that one can [m].
+float longestReach() { return uintBitsToFloat(member.roster.w); }
+
 /// Which of its member's invocations this is.
 uint invocation() {
     return (gl_WorkGroupID.z * gl_NumWorkGroups.x + gl_WorkGroupID.x) * gl_WorkGroupSize.x + gl_LocalInvocationID.x;

@@ -93,11 +93,15 @@ SHARED_CONST kLeverHalf = 1u;
 SHARED_CONST kLawLuding = 0u;
 SHARED_CONST kLawHertzMindlin = 1u;
 SHARED_CONST kLawEepa = 2u;
+SHARED_CONST kLawJkr = 3u;
+// Laws whose contacts hold on beyond touch, a bit each (law/reach.glsl).
+SHARED_CONST kReachingLaws = 1u << kLawJkr;
 
-// Hertz-Mindlin and EEPA: springs are ratios to the stiffness of Hertz's line, dampings ratios to its damping.
+// Hertz-Mindlin, EEPA, JKR: springs are ratios to the stiffness 2 E* a of a contact of the radius a, dampings ratios to
+// its damping.
 struct ContactParams {
     // Luding: k1, k2Max, kc [N/m], plasticity depth; Hertz-Mindlin: E* [Pa], 2 sqrt(5/6) beta; EEPA: these, then 1.5 pi
-    // delta gamma [N/m], lambda_p
+    // delta gamma [N/m], lambda_p; JKR: as Hertz-Mindlin, then the cube root of sqrt(2 pi delta gamma/E*)/4 [m^(1/6)]
     vec4 normal;
     vec4 springs;   // of sliding, rolling, torsion: kt, kr, kTo [N/m]; w: law (kLawLuding ...)
     vec4 friction;  // coefficients of sliding, rolling, torsion: mu, muR, muTo; w: EEPA: f0 [N]
@@ -123,7 +127,8 @@ struct Member {
     vec4 choices;     // Coulomb limit (kCoulombLuding ...), rolling lever (kLeverFull ...), 1 before any step; w: the
                       // longest way of any body in a step of this batch [m]
     uvec4 roster;     // x: in block n, the member that row n of a dispatch works for; y, z: steps that the member has
-                      // made at the start and at the end of the batch
+                      // made at the start and at the end of the batch; w: how far beyond touch
+                      // a contact may hold, as the bits of a float [m]
     uvec4 bodies;     // x: how many; y: where they begin in `geometry`; z: where their motions begin in `motions`; w:
                       // from one step's motions to the next one's
     vec4 outlets[2u * kMaxRegionOutlets];  // of a region that deletes: first vector's w: 0 none, and none behind it; 1
@@ -236,10 +241,10 @@ struct FieldParams {
 // --- per dispatch -------------------------------------------------------------------------------------------------
 struct StepPush {
     uint stepInStride;  // for `decide`: how many steps were recorded since the last decision; 0 outside of a stride
-    uint opening;  // 1 if this may be the first step of a member (Member.choices): half a kick, springs at rest
-    uint firstRow;   // block of the roster for the first row of the dispatch
-    uint live;       // members on the roster
-    uint particles;  // slots of all members, padding included
+    uint opening;       // 1 if this may be the first step of a member (Member.choices): half a kick, springs at rest
+    uint firstRow;      // block of the roster for the first row of the dispatch
+    uint live;          // members on the roster
+    uint particles;     // slots of all members, padding included
     // Of each member:
     uint share;         // slots for particles, a multiple of the workgroup size
     uint cellMask;      // size of the cell table - 1 (a power of two)

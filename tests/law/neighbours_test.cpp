@@ -38,15 +38,15 @@ std::vector<std::uint32_t> allPairs(const Particles& particles, std::size_t i, d
 TEST_CASE("neighbours: the list holds exactly the pairs in reach, in ascending order") {
     for (const std::size_t count : {0u, 1u, 2u, 37u, 501u})
         for (const double width : {1e-3, 8e-3, 30e-3, 2.0})
-            for (const double skin : {0.0, 0.4e-3}) {
+            for (const auto& [skin, reach] : {std::pair(0.0, 0.0), {0.4e-3, 0.0}, {0.2e-3, 0.3e-3}}) {
                 Particles particles = cloud(count, width, 5 + count);
                 for (std::size_t i = 3; i < count; i += 7) particles.status[i] = Status::Dosed;
                 Neighbours neighbours;
-                neighbours.reset(skin);
+                neighbours.reset(skin, reach);
                 neighbours.update(particles);
                 bool same = true;
-                for (std::size_t i = 0; i < count; ++i) same &= neighbours.after(i) == allPairs(particles, i, skin);
-                CAPTURE(count, width, skin);
+                for (std::size_t i = 0; i < count; ++i) same &= neighbours.after(i) == allPairs(particles, i, skin + reach);
+                CAPTURE(count, width, skin, reach);
                 CHECK(same);
             }
 }
@@ -54,7 +54,7 @@ TEST_CASE("neighbours: the list holds exactly the pairs in reach, in ascending o
 TEST_CASE("neighbours: rebuilt when, and only when, a particle has moved more than half the skin") {
     Particles particles = cloud(50, 8e-3, 1);
     Neighbours neighbours;
-    neighbours.reset(1e-3);
+    neighbours.reset(1e-3, 0);
     neighbours.update(particles);
     neighbours.update(particles);
     CHECK(neighbours.builds() == 1);
@@ -69,6 +69,6 @@ TEST_CASE("neighbours: rebuilt when, and only when, a particle has moved more th
     particles.position[7].x += 1;
     neighbours.update(particles);
     CHECK(neighbours.builds() == 2);
-    neighbours.reset(1e-3);
+    neighbours.reset(1e-3, 0);
     CHECK(neighbours.builds() == 0);
 }

@@ -10,11 +10,11 @@
 
 namespace vkdose::reference {
 
-std::optional<Touch> touchSphere(const Body& i, const Body& j) {
+std::optional<Touch> touchSphere(const Body& i, const Body& j, double reach) {
     const Vec3 apart = i.position - j.position;
     const double distance = glm::length(apart);
     const double overlap = i.radius + j.radius - distance;
-    if (!(overlap > 0)) return std::nullopt;
+    if (!(overlap > -reach)) return std::nullopt;
 
     Touch touch{};
     touch.normal = apart / distance;
@@ -29,9 +29,10 @@ std::optional<Touch> touchSphere(const Body& i, const Body& j) {
     return touch;
 }
 
-std::optional<Touch> touchWall(const Body& i, const Vec3& normal, double distance, const geometry::Moving& wall) {
+std::optional<Touch> touchWall(const Body& i, const Vec3& normal, double distance, const geometry::Moving& wall,
+                               double reach) {
     const double overlap = i.radius - distance;
-    if (!(overlap > 0)) return std::nullopt;
+    if (!(overlap > -reach)) return std::nullopt;
 
     Touch touch{};
     touch.normal = normal;

@@ -26,10 +26,10 @@ struct History {
     double torsion = 0;     ///< [m]
 };
 
-/// Kinematics of a touching contact; `i` is the particle (the smaller index of a pair), `j` the other one or the wall.
+/// Kinematics of a contact; `i` is the particle (the smaller index of a pair), `j` the other one or the wall.
 struct Touch {
     Vec3 normal;     ///< from j to i
-    double overlap;  ///< delta > 0 [m]
+    double overlap;  ///< delta; of a contact that holds on beyond touch not positive [m]
     double reduced;  ///< 2 a_i a_j / (a_i + a_j), wall 2 a_i [m]
     double smaller;  ///< the smaller radius, wall a_i [m]
     double mass;     ///< reduced mass m_i m_j/(m_i + m_j), wall m_i [kg]
@@ -39,11 +39,13 @@ struct Touch {
     Vec3 spin;       ///< omega_i - omega_j [rad/s]
 };
 
-/// Contact of two spheres; nothing unless they overlap.
-std::optional<Touch> touchSphere(const Body& i, const Body& j);
+/// Contact of two spheres; nothing unless their overlap is above -reach [m].
+std::optional<Touch> touchSphere(const Body& i, const Body& j, double reach = 0);
 
-/// Contact with a wall at `distance` from the centre of `i` along `normal`. The wall moves as `wall` says.
-std::optional<Touch> touchWall(const Body& i, const Vec3& normal, double distance, const geometry::Moving& wall);
+/// Contact with a wall at `distance` from the centre of `i` along `normal`. The wall moves as `wall` says. Nothing
+/// unless the overlap is above -reach [m].
+std::optional<Touch> touchWall(const Body& i, const Vec3& normal, double distance, const geometry::Moving& wall,
+                               double reach = 0);
 
 /// Velocity of i relative to j at the ends of their levers [m/s].
 Vec3 contactVelocity(const Body& i, const Vec3& leverI, const Body& j, const Vec3& leverJ);

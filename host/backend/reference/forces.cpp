@@ -5,9 +5,17 @@
 #include <limits>
 #include <variant>
 
+#include "host/model/normal_law.h"
+#include "host/model/restitution.h"
+
 namespace vkdose::reference {
 
 namespace {
+
+/// How far beyond touch the contact may be: only one that has come about holds on.
+double reachOf(const ContactParameters& p, double reduced, bool continues) {
+    return continues ? vkdose::reachOf(p, reduced) : 0;
+}
 
 /// A fixed wall, as a body.
 const Body kFixed{Vec3(0), Vec3(0), Vec3(0), 0};
@@ -107,10 +115,12 @@ void Forces::pairs(std::size_t i) {
     for (const std::uint32_t j : neighbours_->after(i)) {
         if (particles_->status[i] != Status::Active) break;
         if (particles_->status[j] != Status::Active) continue;
-        const std::optional<Touch> touch = touchSphere(body(i), body(j));
-        if (!touch) continue;
         partThoseBefore(j);
         const bool continues = known != before_.cend() && known->other == j;
+        const double reduced = reducedSize(particles_->radius[i], particles_->radius[j]);
+        const ContactParameters& law = world_->law.of(ContactClass::ParticleParticle);
+        const std::optional<Touch> touch = touchSphere(body(i), body(j), reachOf(law, reduced, continues));
+        if (!touch) continue;
         const Known before = continues ? *known++ : Known{j, {}, {}};
         History history = before.history;
 
@@ -156,7 +166,9 @@ void Forces::meetSurfaces(std::size_t i) {
         Met met{continues, continues ? *known++ : Known{s, {}, {}}};
         if (particles_->status[i] == Status::Active) {
             met.closest = geometry::closestPoint(world_->surfaces[s], particles_->position[i]);
-            met.touches = met.closest.distance < particles_->radius[i];
+            const double radius = particles_->radius[i];
+            met.reach = reachOf(world_->law.of(ContactClass::ParticleWall), 2 * radius, continues);
+            met.touches = radius - met.closest.distance > -met.reach;
         }
         met_.push_back(met);
     }
@@ -192,7 +204,8 @@ void Forces::surfaces(std::size_t i) {
     joinAtFront(i);
     for (const Met& met : met_) {
         std::optional<Touch> touch;
-        if (met.touches) touch = touchWall(body(i), met.closest.normal, met.closest.distance, geometry::Moving{});
+        if (met.touches)
+            touch = touchWall(body(i), met.closest.normal, met.closest.distance, geometry::Moving{}, met.reach);
         if (!touch) {
             if (met.continues) partWall(i, met.known.exerted);
             continue;

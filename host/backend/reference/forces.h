@@ -68,6 +68,7 @@ class Forces {
         bool continues = false;  ///< it touched at the last step, and `known` holds its history
         Known known;
         geometry::Closest closest{};
+        double reach = 0;  ///< beyond touch [m]
         bool touches = false;
     };
     /// A contact with one feature of a body.

@@ -7,6 +7,8 @@
 #include "geometry/matching.h"
 #include "host/backend/reference/forces.h"
 #include "host/core/error.h"
+#include "host/model/normal_law.h"
+#include "host/model/restitution.h"
 
 namespace vkdose::reference {
 
@@ -41,9 +43,12 @@ void Forces::bodies(std::size_t i) {
 void Forces::touchBody(std::size_t i, std::uint32_t b, std::span<const OnBody> before) {
     const RigidBody& body = bodies_[b];
     const Placed& placed = placed_[b];
+    const double radius = particles_->radius[i];
+    const double reduced = body.curvature > 0 ? reducedSize(radius, body.curvature) : 2 * radius;
+    const double reach = before.empty() ? 0 : reachOf(world_->law.of(body.kind), reduced);
     std::vector<geometry::Feature> found;
     if (particles_->status[i] == Status::Active) try {
-            found = geometry::touched(body.shapes, placed.pose.toBody(particles_->position[i]), particles_->radius[i]);
+            found = geometry::touched(body.shapes, placed.pose.toBody(particles_->position[i]), radius + reach);
         } catch (const geometry::TooManyFeatures& e) {
             throw RunError(fmt::format("particle {} at body \"{}\": {}", i, body.name, e.what()));
         }
@@ -58,15 +63,13 @@ void Forces::touchBody(std::size_t i, std::uint32_t b, std::span<const OnBody> b
     std::vector<bool> goesOn(before.size(), false);
     for (std::size_t k = 0; k < found.size(); ++k) {
         const Vec3 normal = placed.pose.directionToWorld(directions[k]);
-        std::optional<Touch> touch = touchWall(this->body(i), normal, found[k].distance, seen);
+        const bool goes = continues[k] != geometry::kNew;
+        std::optional<Touch> touch = touchWall(this->body(i), normal, found[k].distance, seen, goes ? reach : 0);
         if (!touch) continue;
-        if (body.curvature > 0) {
-            const double a = particles_->radius[i];
-            touch->reduced = 2 * a * body.curvature / (a + body.curvature);
-        }
+        touch->reduced = reduced;
         OnBody now{b, directions[k], {}, {}};
         Exerted last;
-        if (continues[k] != geometry::kNew) {
+        if (goes) {
             goesOn[continues[k]] = true;
             const OnBody& known = before[continues[k]];
             const Vec3 from = placed.pose.directionToWorld(known.direction);

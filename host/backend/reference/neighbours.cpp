@@ -12,7 +12,7 @@ namespace {
 /// A regular grid over the active particles, with cells no smaller than the longest reach of a pair.
 class CellGrid {
   public:
-    CellGrid(const Particles& particles, double skin) {
+    CellGrid(const Particles& particles, double beyond) {
         Vec3 low(std::numeric_limits<double>::infinity()), high(-std::numeric_limits<double>::infinity());
         double largest = 0;
         for (std::size_t i = 0; i < particles.size(); ++i) {
@@ -22,7 +22,7 @@ class CellGrid {
             largest = std::max(largest, particles.radius[i]);
         }
         low_ = low;
-        const double reach = 2 * largest + skin;
+        const double reach = 2 * largest + beyond;
         for (int d = 0; d < 3; ++d) {
             constexpr double kMaxCells = 64;  // per axis: bounds the memory when a few particles are far apart
             const double cells = std::floor((high[d] - low[d]) / reach);
@@ -66,8 +66,9 @@ class CellGrid {
 
 }  // namespace
 
-void Neighbours::reset(double skin, std::uint64_t builds) {
+void Neighbours::reset(double skin, double reach, std::uint64_t builds) {
     skin_ = skin;
+    reach_ = reach;
     builds_ = builds;
     anchors_.clear();
     rows_.clear();
@@ -91,13 +92,14 @@ void Neighbours::build(const Particles& particles) {
     anchors_ = particles.position;
     rows_.resize(particles.size());
     ++builds_;
-    const CellGrid grid(particles, skin_);
+    const double beyond = skin_ + reach_;
+    const CellGrid grid(particles, beyond);
     for (std::size_t i = 0; i < particles.size(); ++i) {
         rows_[i].clear();
         if (particles.status[i] != Status::Active) continue;
         grid.around(particles.position[i], [&](std::size_t j) {
             const Vec3 apart = particles.position[i] - particles.position[j];
-            const double reach = particles.radius[i] + particles.radius[j] + skin_;
+            const double reach = particles.radius[i] + particles.radius[j] + beyond;
             if (j > i && glm::dot(apart, apart) < reach * reach) rows_[i].push_back(static_cast<std::uint32_t>(j));
         });
         std::sort(rows_[i].begin(), rows_[i].end());

@@ -11,13 +11,13 @@ namespace vkdose::reference {
 class Neighbours {
   public:
     /// Forgets everything. The next `update` builds the list, and the count of builds goes on from `builds`. `skin`
-    /// [m].
-    void reset(double skin, std::uint64_t builds = 0);
+    /// and `reach`, how far beyond touch a contact may hold, in metres.
+    void reset(double skin, double reach, std::uint64_t builds = 0);
 
     /// Builds the list if a particle has moved more than half the skin since the last build, or if there is none yet.
     void update(const Particles& particles);
 
-    /// Indices j > i, ascending, of the particles closer to i than a_i + a_j + skin at the last build.
+    /// Indices j > i, ascending, of the particles closer to i than a_i + a_j + reach + skin at the last build.
     const std::vector<std::uint32_t>& after(std::size_t i) const { return rows_[i]; }
 
     std::uint64_t builds() const { return builds_; }
@@ -26,7 +26,7 @@ class Neighbours {
     bool stale(const Particles& particles) const;
     void build(const Particles& particles);
 
-    double skin_ = 0;
+    double skin_ = 0, reach_ = 0;
     std::uint64_t builds_ = 0;
     std::vector<Vec3> anchors_;  ///< positions at the last build
     std::vector<std::vector<std::uint32_t>> rows_;

@@ -9,6 +9,7 @@
 #include "host/backend/reference/forces.h"
 #include "host/backend/reference/neighbours.h"
 #include "host/core/error.h"
+#include "host/model/normal_law.h"
 
 namespace vkdose {
 
@@ -45,14 +46,18 @@ class ReferenceBackend final : public Backend {
         particles_ = particles;
         forces_.reset(particles.size(), world);
         loads_ = {};
-        neighbours_.reset(world.skin);
+        reach_ = reachIn(law);
+        neighbours_.reset(world.skin, reach_);
         steps_ = 0;
         angle_ = 0;
         clocks_.clear();
         book_ = {};
     }
 
-    void setLaw(const ContactLaw& law) override { world_.law = law; }
+    void setLaw(const ContactLaw& law) override {
+        if (reachIn(law) > reach_) throw RunError(kReachesFarther);
+        world_.law = law;
+    }
     void addParticles(std::size_t first, const std::vector<Vec3>& positions) override;
     void setClocks(const std::vector<BodyClock>& clocks) override { clocks_ = clocks; }
 
@@ -86,6 +91,7 @@ class ReferenceBackend final : public Backend {
     Mechanical mechanicalEnergy(std::size_t i) const;
     EnergyBook senseEnergy() const;
 
+    double reachIn(const ContactLaw& law) const { return longestReach(law, largestRadius(particles_)); }
     double mass(std::size_t i) const {
         return world_.density * (4.0 / 3.0) * kPi * particles_.radius[i] * particles_.radius[i] * particles_.radius[i];
     }
@@ -95,6 +101,7 @@ class ReferenceBackend final : public Backend {
 
     RuledWorld world_;
     Particles particles_;
+    double reach_ = 0;  ///< how far beyond touch a contact may hold [m]
     Neighbours neighbours_;
     Forces forces_;
     Loads loads_;
@@ -139,7 +146,7 @@ void ReferenceBackend::restore(const Record& record) {
     for (std::size_t i = 0; i < n; ++i) particles_.status[i] = static_cast<Status>(status[i]);
     steps_ = record.one<std::uint64_t>(kSnapshotSteps);
     angle_ = record.one<double>("coil_angle");
-    neighbours_.reset(world_.skin, record.one<std::uint64_t>("rebuilds"));
+    neighbours_.reset(world_.skin, reach_, record.one<std::uint64_t>("rebuilds"));
     book_ = {};
     loads_ = {};
     forces_.reset(n, world_);
@@ -152,7 +159,7 @@ void ReferenceBackend::addParticles(std::size_t first, const std::vector<Vec3>& 
         particles_.velocity[first + k] = velocityOfRest(world_, steps_);
         particles_.status[first + k] = Status::Active;
     }
-    neighbours_.reset(world_.skin, neighbours_.builds());
+    neighbours_.reset(world_.skin, reach_, neighbours_.builds());
 }
 
 Sensors ReferenceBackend::advance(std::uint32_t steps, double coilRate) {

@@ -10,6 +10,7 @@
 #include "host/backend/vulkan/pack.h"
 #include "host/backend/vulkan/snapshot.h"
 #include "host/core/error.h"
+#include "host/model/normal_law.h"
 #include "host/vk/copy_bandwidth.h"
 
 namespace vkdose {
@@ -115,7 +116,9 @@ void Ensemble::writeBlocks() {
 }
 
 void Ensemble::setLaw(std::uint32_t member, const ContactLaw& law) {
-    packLaw(law, members_[member].block);
+    MemberState& m = members_[member];
+    if (float(longestReach(law, largestRadius(m.loaded))) > reachOf(m.block)) throw RunError(kReachesFarther);
+    packLaw(law, m.block);
 }
 
 void Ensemble::addParticles(std::uint32_t member, std::size_t first, const std::vector<Vec3>& positions) {

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "host/backend/vulkan/ensemble.h"
+#include "host/backend/vulkan/pack.h"
 #include "host/backend/vulkan/pack_bodies.h"
 
 namespace vkdose {
@@ -100,7 +101,7 @@ void Ensemble::makeBodies(TableSizes& sizes) {
     std::vector<gpu::uvec4> geometry;
     std::uint32_t motions = 0;  // of one step
     for (MemberState& m : members_) {
-        const double largest = *std::max_element(m.loaded.radius.begin(), m.loaded.radius.end());
+        const double largest = largestRadius(m.loaded) + double(reachOf(m.block));
         // Spheres and bodies may go their slack, and the skin is more than that (pass/near.comp). A body that goes
         // farther than the skin in a step would need longer reach; the time steps here are far too short for that.
         const PackedBodies packed = packBodies(m.bodies, largest, m.world.skin);

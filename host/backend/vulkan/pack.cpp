@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <stdexcept>
 
@@ -25,12 +26,9 @@ static_assert(gpu::kParticleParticle == uint32_t(ContactClass::ParticleParticle)
 static_assert(gpu::kCoulombLuding == uint32_t(CoulombLimit::Luding) &&
               gpu::kCoulombAbsolute == uint32_t(CoulombLimit::Absolute));
 static_assert(gpu::kLawLuding == uint32_t(NormalLaw::Luding) &&
-              gpu::kLawHertzMindlin == uint32_t(NormalLaw::HertzMindlin) && gpu::kLawEepa == uint32_t(NormalLaw::Eepa));
+              gpu::kLawHertzMindlin == uint32_t(NormalLaw::HertzMindlin) &&
+              gpu::kLawEepa == uint32_t(NormalLaw::Eepa) && gpu::kLawJkr == uint32_t(NormalLaw::Jkr));
 static_assert(gpu::kLeverFull == uint32_t(RollingLever::Full) && gpu::kLeverHalf == uint32_t(RollingLever::Half));
-
-double largestRadius(const Particles& p) {
-    return p.radius.empty() ? 0.0 : *std::max_element(p.radius.begin(), p.radius.end());
-}
 
 gpu::ContactParams packContact(const ContactParameters& c) {
     gpu::ContactParams p{};
@@ -102,6 +100,10 @@ void packOutlets(const World& world, gpu::Member& m) {
 
 }  // namespace
 
+float reachOf(const gpu::Member& member) {
+    return std::bit_cast<float>(member.roster.w);
+}
+
 void packLaw(const ContactLaw& law, gpu::Member& member) {
     for (int i = 0; i < kContactClasses; ++i) member.contact[i] = packContact(law.classes[i]);
     member.choices.x = float(law.coulombLimit);
@@ -120,14 +122,15 @@ gpu::Member packMember(const World& world, const ContactLaw& law, const Particle
             throw std::logic_error("the front wall must be the last surface");
         m.surface[i] = std::visit(PackSurface{}, world.surfaces[i]);
     }
-    const double largest = largestRadius(particles);
+    const double largest = largestRadius(particles), reach = longestReach(law, largest);
     const auto finite = [](double x) { return float(std::clamp(x, -1e30, 1e30)); };
     m.gravity = vec4(glm::vec3(world.gravity), float(world.density));
     m.domainLow = vec4(glm::vec3(world.domain.low), finite(world.throatZ));
     m.domainHigh = vec4(glm::vec3(world.domain.high), finite(world.outletZ));
     packOutlets(world, m);
-    m.numerics =
-        vec4(float(world.timeStep), float(world.skin), float(2 * largest + world.skin), float(world.maxOverlapRatio));
+    m.numerics = vec4(float(world.timeStep), float(world.skin), float(2 * largest + reach + world.skin),
+                      float(world.maxOverlapRatio));
+    m.roster.w = std::bit_cast<gpu::uint>(float(reach));
     return m;
 }
 

@@ -13,7 +13,10 @@ namespace vkdose {
 /// All data of the only member except its bodies. Throws RunError if the world does not fit the tables.
 gpu::Member packMember(const World& world, const ContactLaw& law, const Particles& particles);
 
-/// Replaces the contact law of a packed member.
+/// How far beyond touch a contact of a packed member may hold [m].
+float reachOf(const gpu::Member& member);
+
+/// Replaces the contact law of a packed member, but not its reach.
 void packLaw(const ContactLaw& law, gpu::Member& member);
 
 /// Writes a member's part of one half of the state buffer (gpu::stateOffset): `share` slots from `first` on. Slots that

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "host/backend/vulkan/pack.h"
 #include "host/core/error.h"
 #include "host/model/rows.h"
 
@@ -32,8 +33,8 @@ std::uint32_t narrow(std::uint64_t n) {
 
 /// Mean number of neighbours of a particle within reach and skin. In a dense random packing it is ten within 1.2
 /// diameters, and it grows with the cube of the reach. At most twelve spheres of one size can touch one of them.
-std::uint64_t meanRow(const World& world, const Crowd& crowd) {
-    const double mean = std::ceil(10 * std::pow(1 + world.skin / (2 * crowd.meanRadius), 3) + 2);
+std::uint64_t meanRow(const World& world, const Crowd& crowd, double reach) {
+    const double mean = std::ceil(10 * std::pow(1 + (world.skin + reach) / (2 * crowd.meanRadius), 3) + 2);
     return std::uint64_t(std::clamp(mean, 12.0, double(gpu::kMaxRow)));
 }
 
@@ -176,7 +177,8 @@ TableSizes tableSizes(const World& world, const Crowd& crowd, const gpu::Member&
     const std::uint64_t left = vectors > taken ? (vectors - taken) / s.bodyHistory() / workgroup * workgroup : 0;
     const std::uint64_t wanted = std::min(2 * n + kFew, n * s.bodies);
     s.bodySlots = narrow(roundUp(std::min(wanted, std::max(left, n / 8)), workgroup));
-    s.rowEntries = narrow(std::max<std::uint64_t>(1, std::min(n * meanRow(world, crowd) + kFew, n * n)));
+    s.rowEntries =
+        narrow(std::max<std::uint64_t>(1, std::min(n * meanRow(world, crowd, double(reachOf(member))) + kFew, n * n)));
     s.linkEntries = narrow(2ULL * s.pairSlots + s.surfaceSlots + s.bodySlots);
     narrow(s.largestIndex());
     return s;
