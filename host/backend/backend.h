@@ -42,9 +42,10 @@ struct EnergyBook {
 
     // During the call. A loss is the energy that a part of the force took from the motion and did not store in its
     // spring.
-    double plastic = 0;   ///< by the normal force off the adhesive branch
-    double adhesive = 0;  ///< by the normal force on the adhesive branch, and where k_c falls
-    double viscous = 0;   ///< by normal damping, and by the dashpots of sliders that stick
+    double plastic = 0;  ///< by the normal force off the adhesive branch
+    double adhesive =
+        0;  ///< by the normal force on the adhesive branch, where k_c falls, and where JKR's contacts come about
+    double viscous = 0;  ///< by normal damping, and by the dashpots of sliders that stick
     double sliding = 0, rolling = 0,
            torsion = 0;    ///< by slipping sliders, and by springs that snap when a contact opens
     double numerical = 0;  ///< by the time step: between the true start or end of a contact and the nearest step
@@ -81,7 +82,7 @@ struct Contact {
     ContactClass kind = ContactClass::ParticleParticle;
     std::uint32_t particle = 0;  ///< the smaller index of a pair
     std::uint32_t other = 0;
-    double maxOverlap = 0;  ///< delta_max [m]
+    double maxOverlap = 0;  ///< delta_max; under JKR how far the contact is from being lost [m]
     Vec3 sliding{0};        ///< spring xi [m], acting on `particle`
     Vec3 rolling{0};        ///< spring rho [m]
     double torsion = 0;     ///< [m]

@@ -15,12 +15,14 @@ constexpr double kTwoSevenths = 0.286;
 
 constexpr Key kContactAlone[] = {
     word(
-        "law", "luding hertz-mindlin eepa", "luding",
+        "law", "luding hertz-mindlin eepa jkr", "luding",
         "the law of the normal force. `\"luding\"`: linear, plastic and adhesive, with stiffnesses. "
         "`\"hertz-mindlin\"`: elastic spheres without adhesion, with the moduli of the materials; its contacts get "
         "stiffer with the overlap, and the time step is right up to `max_overlap_ratio`. `\"eepa\"`: the same spheres, "
-        "which stay flattened and adhere where they were. `\"NAME.glsl\"`: [a law of your own](laws/README.md), the "
-        "path of its file relative to this one")
+        "which stay flattened and adhere where they were. `\"jkr\"`: the same spheres, elastic and adhesive, which "
+        "hold on to each other a little beyond touch. `\"NAME.glsl\"`: [a law of your own](laws/README.md), the path "
+        "of "
+        "its file relative to this one")
         .orEndingIn(".glsl")
         .replacing("*"),
     text("law_text", told("none"), "the text of a law of your own; the resolved case has it, so that it needs no file"),
@@ -37,14 +39,15 @@ constexpr Key kContactAlone[] = {
            "states the softer values and `soften = 1`"),
 };
 constexpr Key kContactClass[] = {
-    number("youngs_modulus", {1, "Pa"}, kPositive, told("required with `hertz-mindlin` and `eepa`"),
+    number("youngs_modulus", {1, "Pa"}, kPositive, told("required unless `luding`"),
            "E; in `[contact]` of the particles, in the other two of the wall's and the coil's material"),
-    number("poisson_ratio", kPlain, kNonNegative, told("required with `hertz-mindlin` and `eepa`"),
-           "ν of that material; at most 0.5"),
+    number("poisson_ratio", kPlain, kNonNegative, told("required unless `luding`"), "ν of that material; at most 0.5"),
     number("plasticity_ratio", kPlain, kNonNegative, told("required with `eepa`"),
            "λ_p = 1 - k₁/k₂, below 1: how much stiffer unloading is than loading. 0 is elastic"),
-    number("surface_energy_J_m2", {1, "J/m2"}, kNonNegative, told("required with `eepa`"),
-           "Δγ, of both surfaces together; it acts on the flattened patch of a contact"),
+    number("surface_energy_J_m2", {1, "J/m2"}, kNonNegative, told("required with `eepa` and `jkr`"),
+           "Δγ, of both surfaces together; under `eepa` it acts on the flattened patch of a contact, under `jkr` on "
+           "all of "
+           "the contact"),
     number("pull_off_force_N", {1, "N"}, kNonNegative, 0.0,
            "-f₀, a pull that every contact of the law `eepa` has, pressed or not"),
     number("adhesion_exponent", kPlain, kPositive, 1.5,
@@ -79,8 +82,9 @@ constexpr Key kContactClass[] = {
         .replacing("restitution restitution_speed derived"),
     number("restitution", kPlain, kNonNegative, told("in place of `damping`"),
            "γ so that a head-on impact rebounds with this share of its speed; above 0 and at most 1. "
-           "`\"hertz-mindlin\"` requires it, and every impact rebounds so; so does `\"eepa\"`, where plasticity and "
-           "adhesion take more")
+           "`\"hertz-mindlin\"` requires it, and every impact rebounds so; so do `\"eepa\"` and `\"jkr\"`, where "
+           "plasticity "
+           "and adhesion take more")
         .replacing("damping derived"),
     number("restitution_speed", {1, "m/s"}, kNonNegative, 0.0,
            "speed of the impact with that `restitution`. 0: the limit of slow impacts, in which damping alone takes "
@@ -93,8 +97,8 @@ constexpr Key kContactClass[] = {
     number("rolling_friction", kPlain, kNonNegative, 0.0, "μ_r; 0 switches rolling resistance off"),
     number(
         "kr_over_k", kPlain, kPositive, kTwoSevenths,
-        "k_r/k, stiffness of rolling; with `hertz-mindlin` and `eepa` the ratio to the stiffness that Hertz's line has "
-        "at the overlap, and so for torsion and for both dampings"),
+        "k_r/k, stiffness of rolling; unless the law is `luding` the ratio to the stiffness 2 E* a of a contact of the "
+        "radius a, and so for torsion and for both dampings"),
     number("damping_r_ratio", kPlain, kNonNegative, kTwoSevenths, "γ_r/γ, damping of rolling"),
     number("torsion_friction", kPlain, kNonNegative, 0.0, "μ_to; 0 switches torsion resistance off"),
     number("kto_over_k", kPlain, kPositive, kTwoSevenths, "k_to/k, stiffness of torsion"),

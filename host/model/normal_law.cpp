@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/model/jkr.h"
 #include "host/model/restitution.h"
 
 namespace vkdose {
@@ -38,6 +39,18 @@ void scaleSliders(ContactParameters& p, double k, double gamma) {
         p.*damping *= gamma;
 }
 
+/// Where the path from touch has taken the energy `motion` [J]: beyond the overlap of no load.
+double overlapOfAdhesiveImpact(const JkrContact& contact, double motion) {
+    const double all = contact.energy(0) + motion;
+    double low = contact.overlapUnder(0), high = low;
+    for (double way = contact.size * 1e-9; contact.energy(high) < all; way *= 2) high = low + way;
+    for (int i = 0; i < 100; ++i) {
+        const double middle = (low + high) / 2;
+        (contact.energy(middle) < all ? low : high) = middle;
+    }
+    return high;
+}
+
 }  // namespace
 
 ContactParameters hertzMindlin(const Elasticity& a, const Elasticity& b, double restitution,
@@ -60,6 +73,13 @@ ContactParameters elastoPlasticAdhesive(const Elasticity& a, const Elasticity& b
     return p;
 }
 
+ContactParameters elasticAdhesive(const Elasticity& a, const Elasticity& b, double restitution,
+                                  const ContactParameters& rest) {
+    ContactParameters p = hertzMindlin(a, b, restitution, rest);
+    p.law = NormalLaw::Jkr;
+    return p;
+}
+
 double hertzStiffness(const ContactParameters& p, double reduced, double overlap) {
     return 2 * p.modulus * std::sqrt(reduced / 2 * overlap);
 }
@@ -72,7 +92,8 @@ ContactParameters linearised(const ContactParameters& p, double mass, double red
         scaleSliders(linear, p.k2Max, p.gamma);
         return linear;
     }
-    const double k = hertzStiffness(p, reduced, overlap);
+    const double k = p.law == NormalLaw::Jkr ? 2 * p.modulus * JkrContact(p, reduced).radius(overlap)
+                                             : hertzStiffness(p, reduced, overlap);
     const double gamma = kHertzDamping * p.dampingShare * std::sqrt(k * mass);
     ContactParameters linear = p;
     linear.law = NormalLaw::Luding;
@@ -83,8 +104,9 @@ ContactParameters linearised(const ContactParameters& p, double mass, double red
     return linear;
 }
 
-double reachOf(const ContactParameters& p, double /*reduced*/) {
-    return p.law == NormalLaw::User ? p.reach : 0;
+double reachOf(const ContactParameters& p, double reduced) {
+    if (p.law == NormalLaw::User) return p.reach;
+    return p.law == NormalLaw::Jkr ? JkrContact(p, reduced).reach : 0;
 }
 
 double longestReach(const ContactLaw& law, double largest) {
@@ -95,12 +117,14 @@ double longestReach(const ContactLaw& law, double largest) {
 
 double overlapUnder(const ContactParameters& p, double reduced, double load) {
     if (p.law == NormalLaw::Luding || p.law == NormalLaw::User) return load / p.k1;
+    if (p.law == NormalLaw::Jkr) return JkrContact(p, reduced).overlapUnder(load);
     if (p.law == NormalLaw::Eepa) load += p.constantPull;
     return std::pow(load / (4.0 / 3.0 * p.modulus * std::sqrt(reduced / 2)), 2.0 / 3.0);
 }
 
 double overlapOfImpact(const ContactParameters& p, double mass, double reduced, double speed) {
     if (p.law == NormalLaw::Luding || p.law == NormalLaw::User) return speed * std::sqrt(mass / p.k1);
+    if (p.law == NormalLaw::Jkr) return overlapOfAdhesiveImpact(JkrContact(p, reduced), mass * speed * speed / 2);
     const double modulus = p.modulus * std::sqrt(reduced / 2);
     double overlap = std::pow(15.0 / 16.0 * mass * speed * speed / modulus, 0.4);
     if (p.law == NormalLaw::HertzMindlin || p.constantPull == 0) return overlap;

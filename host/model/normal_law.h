@@ -27,12 +27,18 @@ ContactParameters hertzMindlin(const Elasticity& a, const Elasticity& b, double 
 ContactParameters elastoPlasticAdhesive(const Elasticity& a, const Elasticity& b, double restitution,
                                         const ContactParameters& rest);
 
+/// JKR (host/model/jkr.h) between bodies of two materials. `rest` has the surface energy as well; without it the law is
+/// that of Hertz and Mindlin.
+ContactParameters elasticAdhesive(const Elasticity& a, const Elasticity& b, double restitution,
+                                  const ContactParameters& rest);
+
 /// Stiffness of the normal direction df/d delta of Hertz's law, 2 E* sqrt(R* delta) [N/m]; `reduced` is a* = 2 R* [m].
 double hertzStiffness(const ContactParameters& p, double reduced, double overlap);
 
 /// The linear springs and dashpots that a contact of the reduced mass `mass` [kg] acts like at this overlap [m]: k1 on
-/// loading, k2Max the steepest on the way back. Luding's law is linear already, and is given back as it is. Of a user's
-/// law the stiffness and the damping are the largest that its trial found.
+/// loading, k2Max the steepest on the way back. Luding's law is linear already, and is given back as it is. JKR: the
+/// stiffness 2 E* a of the contact radius a, which is more than the law's own where the surfaces pull. Of a user's law
+/// the stiffness and the damping are the largest that its trial found.
 ContactParameters linearised(const ContactParameters& p, double mass, double reduced, double overlap);
 
 /// How far beyond touch a contact that has come about holds on [m]: it is lost when its overlap falls to minus the
@@ -42,12 +48,12 @@ double reachOf(const ContactParameters& p, double reduced);
 /// The longest reach of any contact of spheres no larger than `largest` [m], also with walls.
 double longestReach(const ContactLaw& law, double largest);
 
-/// Overlap of a contact that has been loaded for the first time by `load` [N], in metres.
+/// Overlap of a contact that has been loaded for the first time by `load` >= 0 [N], in metres.
 double overlapUnder(const ContactParameters& p, double reduced, double load);
 
 /// Largest overlap of a first impact at `speed` [m/s] without damping and friction, in metres. Luding's law: on k1.
-/// A user's law: on a line of the largest stiffness that its trial found.
-/// EEPA: on Hertz's line, with the work of the constant pull.
+/// EEPA: on Hertz's line, with the work of the constant pull. JKR: on the path from touch. A user's law: on a line of the
+/// largest stiffness that its trial found.
 double overlapOfImpact(const ContactParameters& p, double mass, double reduced, double speed);
 
 /// What a backend says of a law whose contacts reach farther than those of the law that was loaded.

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "host/model/eepa.h"
+#include "host/model/jkr.h"
 #include "host/model/normal_law.h"
 
 namespace vkdose {
@@ -26,6 +27,7 @@ struct Pressed {
 double pullOff(const ContactParameters& p, double reduced, double maxOverlap) {
     if (p.law == NormalLaw::User) return std::numeric_limits<double>::quiet_NaN();
     if (p.law == NormalLaw::Eepa) return eepaPath(p, reduced, maxOverlap).pull + p.constantPull;
+    if (p.law == NormalLaw::Jkr) return JkrContact(p, reduced).pullOff;
     if (p.k2Max <= p.k1) return 0;  // one stiffness: no adhesive branch
     const Pressed c(p, reduced, maxOverlap);
     return p.kc * c.stiffer / (p.k1 + c.stiffer + p.kc) * c.acting;

@@ -199,14 +199,14 @@ constexpr std::initializer_list<const char*> kLudingKeys{
     "bond_number", "bond_load",          "plasticity_depth",  "damping",   "restitution_speed",
     "derived",     "kt_over_k",          "damping_t_ratio"};
 constexpr std::initializer_list<const char*> kElasticKeys{"youngs_modulus", "poisson_ratio"};
-constexpr std::initializer_list<const char*> kEepaKeys{"plasticity_ratio", "surface_energy_J_m2", "pull_off_force_N",
-                                                       "adhesion_exponent"};
+constexpr std::initializer_list<const char*> kPlasticKeys{"plasticity_ratio", "pull_off_force_N", "adhesion_exponent"};
+constexpr std::initializer_list<const char*> kAdhesiveKeys{"surface_energy_J_m2"};
 
-/// One class of contacts of Hertz and Mindlin's law or of EEPA as its table states it.
+/// One class of contacts of a law of spheres with moduli, as its table states it.
 struct StatedHertz {
     Elasticity material;
     double restitution = 1;
-    ContactParameters rest;  ///< friction, the ratios and what EEPA has beside
+    ContactParameters rest;  ///< friction, the ratios and what EEPA and JKR have beside
 };
 
 /// What EEPA has beside the elastic law.
@@ -247,9 +247,10 @@ StatedHertz readHertzClass(CaseReader& reader, Section& section, const StatedHer
     h.rest.muTo = ratio("torsion_friction", &ContactParameters::muTo);
     h.rest.kTo = ratio("kto_over_k", &ContactParameters::kTo);
     h.rest.gammaTo = ratio("damping_to_ratio", &ContactParameters::gammaTo);
+    if (law == NormalLaw::HertzMindlin) return h;
+    h.rest.surfaceEnergy = ratio("surface_energy_J_m2", &ContactParameters::surfaceEnergy);
     if (law != NormalLaw::Eepa) return h;
     h.rest.plasticityRatio = ratio("plasticity_ratio", &ContactParameters::plasticityRatio);
-    h.rest.surfaceEnergy = ratio("surface_energy_J_m2", &ContactParameters::surfaceEnergy);
     h.rest.constantPull = ratio("pull_off_force_N", &ContactParameters::constantPull);
     h.rest.adhesionExponent = ratio("adhesion_exponent", &ContactParameters::adhesionExponent);
     checkEepaClass(reader, section, h.rest);
@@ -260,7 +261,8 @@ StatedHertz readHertzClass(CaseReader& reader, Section& section, const StatedHer
 void readHertz(CaseReader& reader, const Tables& sections, Section& settle, NormalLaw law, Case& c) {
     for (Section* section : sections) {
         refuseKeys(reader, *section, kLudingKeys, "luding");
-        if (law != NormalLaw::Eepa) refuseKeys(reader, *section, kEepaKeys, "eepa");
+        if (law != NormalLaw::Eepa) refuseKeys(reader, *section, kPlasticKeys, "eepa");
+        if (law == NormalLaw::HertzMindlin) refuseKeys(reader, *section, kAdhesiveKeys, "jkr");
     }
     refuseKeys(reader, *sections[0], {"soften"}, "luding");
     refuseKeys(reader, settle, {"kc_over_k", "wall_kc_over_k", "coil_kc_over_k", "elastic"}, "luding");
@@ -268,7 +270,9 @@ void readHertz(CaseReader& reader, const Tables& sections, Section& settle, Norm
     std::array<StatedHertz, kContactClasses> stated;
     for (std::size_t i = 0; i < stated.size(); ++i)
         stated[i] = readHertzClass(reader, *sections[i], i == 0 ? nullptr : &stated[i - 1], law);
-    const auto between = law == NormalLaw::Eepa ? elastoPlasticAdhesive : hertzMindlin;
+    const auto between = law == NormalLaw::Eepa  ? elastoPlasticAdhesive
+                         : law == NormalLaw::Jkr ? elasticAdhesive
+                                                 : hertzMindlin;
     for (std::size_t i = 0; i < stated.size(); ++i)
         c.dosingLaw.classes[i] = between(stated[0].material, stated[i].material, stated[i].restitution, stated[i].rest);
     c.settlingLaw = c.dosingLaw;
@@ -278,7 +282,8 @@ void readHertz(CaseReader& reader, const Tables& sections, Section& settle, Norm
 void readLuding(CaseReader& reader, const Tables& sections, Section& settle, double meanRadius, Case& c) {
     for (Section* section : sections) {
         refuseKeys(reader, *section, kElasticKeys, "hertz-mindlin");
-        refuseKeys(reader, *section, kEepaKeys, "eepa");
+        refuseKeys(reader, *section, kPlasticKeys, "eepa");
+        refuseKeys(reader, *section, kAdhesiveKeys, "jkr");
     }
     std::array<Stated, kContactClasses> stated;
     for (std::size_t i = 0; i < stated.size(); ++i)
@@ -333,7 +338,8 @@ void readUser(CaseReader& reader, const Tables& sections, Section& settle, Case&
                 refuseKeys(reader, *section, {key}, "luding");
         refuseKeys(reader, *section, kElasticKeys, "hertz-mindlin");
         refuseKeys(reader, *section, {"restitution"}, "hertz-mindlin");
-        refuseKeys(reader, *section, kEepaKeys, "eepa");
+        refuseKeys(reader, *section, kPlasticKeys, "eepa");
+        refuseKeys(reader, *section, kAdhesiveKeys, "jkr");
     }
     refuseKeys(reader, *sections[0], {"soften"}, "luding");
     refuseKeys(reader, settle, {"kc_over_k", "wall_kc_over_k", "coil_kc_over_k", "elastic", "damping_factor"},

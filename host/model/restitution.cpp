@@ -6,6 +6,7 @@
 
 #include "host/core/vec.h"
 #include "host/model/eepa.h"
+#include "host/model/jkr.h"
 #include "host/model/normal_law.h"
 #include "host/model/stability.h"
 
@@ -86,30 +87,46 @@ double plasticImpact(const ContactParameters& p, double mass, double reduced, do
     return m.speed < -creep && m.overlap < 1e-3 * meets + 1e-12 * limit ? -m.speed / speed : 0;
 }
 
-/// Restitution of an impact under EEPA.
-double eepaImpact(const ContactParameters& p, double mass, double reduced, double speed) {
+/// Restitution of an impact that parts at the overlap -reach [m]. `force(overlap)` is the law's, without damping [N];
+/// 0 if the spheres stick.
+template <class Force>
+double followedImpact(const ContactParameters& p, double mass, double reduced, double speed, double reach,
+                      const Force& force) {
     // 1/1500 of the fastest of the impact's times.
     const double deepest = overlapOfImpact(p, mass, reduced, speed);
     const double swing = std::sqrt(mass / linearised(p, mass, reduced, deepest).k2Max);
     const double dt = std::min(swing, deepest / speed) / 1500;
     constexpr int kMostSteps = 1000000;
     Motion now{0, speed};
-    double largest = 0;
     for (int i = 0; i < kMostSteps; ++i) {
         const Motion next = steppedBy(now, dt, [&](Motion at) {
-            const double overlap = std::max(0.0, at.overlap);
-            const double force = eepaPath(p, reduced, std::max(largest, overlap)).force(overlap);
-            return -(force + linearised(p, mass, reduced, overlap).gamma * at.speed) / mass;
+            const double overlap = std::max(-reach, at.overlap);
+            return -(force(overlap, now) + linearised(p, mass, reduced, overlap).gamma * at.speed) / mass;
         });
-        if (next.overlap <= 0) {
-            const double share = now.overlap / (now.overlap - next.overlap);
+        if (next.overlap <= -reach) {
+            const double share = (now.overlap + reach) / (now.overlap - next.overlap);
             return -(now.speed + share * (next.speed - now.speed)) / speed;
         }
         if (now.speed < 0 && next.speed >= 0) break;  // pulled back: it swings, and sticks
         now = next;
-        largest = std::max(largest, now.overlap);
     }
     return 0;
+}
+
+/// Restitution of an impact under EEPA.
+double eepaImpact(const ContactParameters& p, double mass, double reduced, double speed) {
+    double largest = 0;
+    return followedImpact(p, mass, reduced, speed, 0, [&](double overlap, const Motion& before) {
+        largest = std::max(largest, before.overlap);
+        return eepaPath(p, reduced, std::max(largest, overlap)).force(overlap);
+    });
+}
+
+/// Restitution of an impact under JKR.
+double jkrImpact(const ContactParameters& p, double mass, double reduced, double speed) {
+    const JkrContact contact(p, reduced);
+    return followedImpact(p, mass, reduced, speed, contact.reach,
+                          [&](double overlap, const Motion& /*before*/) { return contact.force(overlap); });
 }
 
 /// The limit of slow impacts under EEPA. A constant pull holds them. Else the law has no scale of its own there,
@@ -145,6 +162,8 @@ double restitutionAt(const ContactParameters& p, double mass, double reduced, do
     if (p.law == NormalLaw::HertzMindlin) return ofDampingRatio(p.dampingShare);
     if (p.law == NormalLaw::Eepa)
         return speed > 0 ? eepaImpact(p, mass, reduced, speed) : slowEepaImpact(p, mass, reduced);
+    if (p.law == NormalLaw::Jkr && p.surfaceEnergy == 0) return ofDampingRatio(p.dampingShare);
+    if (p.law == NormalLaw::Jkr) return speed > 0 ? jkrImpact(p, mass, reduced, speed) : 0;
     const double zeta = p.gamma / (2 * std::sqrt(p.k1 * mass));
     if (p.law == NormalLaw::User) return ofDampingRatio(zeta);
     if (!(zeta < 1) || !std::isfinite(p.k2Max + p.kc + p.plasticityDepth)) return 0;

@@ -10,7 +10,7 @@ double reducedSize(double a, double b);
 
 /// Restitution of the spheres a and b [m] (infinite: a wall) on k1, damping alone: exp(-pi zeta/sqrt(1 - zeta^2)) with
 /// zeta = gamma/(2 sqrt(k1 m12)); 0 if overdamped. It is the limit of slow impacts. Hertz-Mindlin: that of any impact;
-/// EEPA: the one that damping is made for, of an impact that leaves Hertz's line neither flattened nor sticking.
+/// EEPA, JKR: the one that damping is made for, of an impact that leaves Hertz's line neither flattened nor sticking.
 double restitution(const ContactParameters& p, double density, double a, double b);
 
 /// The damping gamma [kg/s] that gives this restitution, 0 < e <= 1, to slow impacts of the spheres a and b.

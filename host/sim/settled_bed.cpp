@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "host/model/normal_law.h"
 #include "host/model/pull_off.h"
 
 namespace vkdose {
@@ -15,10 +16,11 @@ SettledBed settledBed(const Case& c, double time, const Particles& particles, co
         const double a = particles.radius.at(contact.particle), b = particles.radius.at(contact.other);
         const double smaller = std::min(a, b), weight = sphereMass(c.world.density, smaller) * gravity;
         const double apart = glm::distance(particles.position[contact.particle], particles.position[contact.other]);
-        bed.pullOff.push_back(pullOff(law, 2 * a * b / (a + b), contact.maxOverlap) / weight);
+        const double reduced = 2 * a * b / (a + b);
+        bed.pullOff.push_back(pullOff(law, reduced, contact.maxOverlap) / weight);
         // A contact is listed where it touched in the last step, and may have parted by its end.
         bed.overlap.push_back(std::max(0.0, a + b - apart) / smaller);
-        bed.largestOverlap.push_back(contact.maxOverlap / smaller);
+        bed.largestOverlap.push_back((contact.maxOverlap - reachOf(law, reduced)) / smaller);
     }
     return bed;
 }

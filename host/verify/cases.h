@@ -60,6 +60,11 @@ void eepaPath(Stage& stage);
 void eepaRestitution(Stage& stage);
 void eepaLedger(Stage& stage);
 
+// jkr.cpp
+void jkrPath(Stage& stage);
+void jkrRestitution(Stage& stage);
+void jkrLedger(Stage& stage);
+
 // size_ratio.cpp
 void wedgeBounce(Stage& stage);
 void wedgeRest(Stage& stage);

@@ -52,12 +52,16 @@ float storedIn(ContactParams p, Exerted e, float reduced, History h) {
     return dot(vec4(e.couple.w, sliderEnergy(p, e.rest.w, reduced, h)), vec4(1.0));
 }
 
-/// What the springs of sliding, rolling and torsion of a contact that goes on gain because the overlap makes them
+/// What the springs of sliding, rolling and torsion of a contact that `goesOn` gain because the overlap makes them
 /// stiffer [J].
-vec3 stiffening(Exerted before, Exerted now, vec3 stored) {
+vec3 stiffening(ContactParams p, Exerted before, Exerted now, float reduced, vec3 stored, bool goesOn) {
 #ifdef USER_LAW
     return stored * (userGrowth - 1.0);
 #else
+    if (follows(p, kLawJkr)) {
+        float was = jkrStiffness(p, before.rest.w, reduced), is = jkrStiffness(p, now.rest.w, reduced);
+        return goesOn ? stored * (is / was - 1.0) : vec3(0.0);
+    }
     if (before.rest.w <= 0.0 || now.rest.w <= 0.0) return vec3(0.0);
     return stored * (sqrt(now.rest.w / before.rest.w) - 1.0);
 #endif
@@ -77,7 +81,7 @@ Work halfStepWork(Exerted e, vec3 velocity, vec3 spin, float dt) {
 /// Books a step of a contact: `known` if it touched before, `touching` if it does now (`before` or `now` is zero if
 /// not); `stored` is the energy of its springs then and now. Twin of reference/energy.cpp, which argues the terms.
 Book bookContact(Exerted before, Exerted now, bool known, bool touching, vec4 storedBefore, vec4 stored, Work a, Work b,
-                 ContactParams p, bvec3 slips) {
+                 ContactParams p, float reduced, bvec3 slips) {
     vec4 gained = stored - storedBefore;
     float taken = a.hysteretic + b.hysteretic;
     float loss = taken - gained.x;
@@ -87,6 +91,7 @@ Book bookContact(Exerted before, Exerted now, bool known, bool touching, vec4 st
     if (!known) loss = workOfFirstTouch(p, now.normal.w, now.rest.w) - gained.x;
     if (!touching) loss = lossOfParting(p, before.normal.w, before.rest.w, -gained.x);
     if (!losesEnergy(p)) loss = 0.0;
+    if (follows(p, kLawJkr)) loss = known ? 0.0 : jkrLossOfTouch(p, reduced);
     Exerted last = now;
     if (!touching) last = before;
     bool adhesive = onAdhesiveBranch(p, last.normal.w, last.rest.w), changes = stiffens(p);
@@ -97,7 +102,7 @@ Book bookContact(Exerted before, Exerted now, bool known, bool touching, vec4 st
     vec3 friction = spent * slipping;
     float sticking = dot(spent, vec3(1.0) - slipping);
     if (changes) {  // friction has what comes from no motion
-        vec3 free = stiffening(before, now, storedBefore.yzw) * (vec3(1.0) - slipping);
+        vec3 free = stiffening(p, before, now, reduced, storedBefore.yzw, known && touching) * (vec3(1.0) - slipping);
         friction -= free;
         sticking += free.x + free.y + free.z;
     }

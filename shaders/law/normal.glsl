@@ -4,6 +4,7 @@
 
 #include "law/eepa.glsl"
 #include "law/hertz.glsl"
+#include "law/jkr.glsl"
 #include "law/luding.glsl"
 #include "law/reach.glsl"
 
@@ -13,7 +14,10 @@ bool follows(ContactParams p, uint law) {
 }
 
 /// How far beyond touch a contact that has come about holds on [m]; grows with `reduced`.
-float reachOf(ContactParams p, float reduced) { return 0.0; }
+float reachOf(ContactParams p, float reduced) {
+    if (follows(p, kLawJkr)) return jkrReach(p, reduced);
+    return 0.0;
+}
 
 /// Whether there is a contact at this overlap. `memory` is what the law left of the last step, 0 if there was none.
 bool holds(ContactParams p, float overlap, float reduced, float memory) {
@@ -26,22 +30,25 @@ bool holds(ContactParams p, float overlap, float reduced, float memory) {
 NormalAnswer normalAnswer(ContactParams p, float overlap, float reduced, float mass, inout float memory) {
     if (follows(p, kLawHertzMindlin)) return hertzAnswer(p, overlap, reduced, mass, memory);
     if (follows(p, kLawEepa)) return eepaAnswer(p, overlap, reduced, mass, memory);
+    if (follows(p, kLawJkr)) return jkrAnswer(p, overlap, reduced, mass, memory);
     return ludingAnswer(p, overlap, reduced, memory);
 }
 
 /// Energy that the normal direction gives back when the contact parts slowly [J]; `force` is the answer's [N]. Under
-/// EEPA the work of the pull counts too, so that it may be negative.
+/// EEPA and JKR the work of the pull counts too, so that it may be negative.
 float storedEnergy(ContactParams p, float force, float overlap, float reduced, float memory) {
     if (follows(p, kLawHertzMindlin)) return 0.4 * force * overlap;
     if (follows(p, kLawEepa)) return eepaEnergy(p, overlap, reduced, memory);
+    if (follows(p, kLawJkr)) return jkrEnergy(p, overlap, reduced);
     return 0.5 * (force * force / unloadingStiffness(p, reduced, memory));
 }
 
 /// Whether the overlap makes sliding, rolling and torsion stiffer.
-bool stiffens(ContactParams p) { return follows(p, kLawHertzMindlin) || follows(p, kLawEepa); }
+bool stiffens(ContactParams p) { return follows(p, kLawHertzMindlin) || follows(p, kLawEepa) || follows(p, kLawJkr); }
 
 /// Stiffness of sliding, rolling, torsion [N/m].
 vec3 springsAt(ContactParams p, float overlap, float reduced) {
+    if (follows(p, kLawJkr)) return jkrStiffness(p, overlap, reduced) * p.springs.xyz;
     if (stiffens(p)) return hertzStiffness(p, overlap, reduced) * p.springs.xyz;
     return p.springs.xyz;
 }
@@ -61,8 +68,9 @@ float lossOfParting(ContactParams p, float force, float overlap, float stored) {
     return -0.5 * force * overlap + stored;
 }
 
-/// Whether the contact is on the adhesive branch, on which Luding's law loses energy.
+/// Whether what the law loses is adhesion's: on the adhesive branch of Luding's law, and always under JKR.
 bool onAdhesiveBranch(ContactParams p, float force, float overlap) {
+    if (follows(p, kLawJkr)) return true;
     return follows(p, kLawLuding) && force < 0.0 && force <= -p.normal.z * overlap;
 }
 

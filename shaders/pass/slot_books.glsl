@@ -53,7 +53,7 @@ void bookPair(ContactParams law, float springDt, uint slot, Body a, Body b, Over
     if (opening())
         booked = bookLoaded(stored);
     else if (known || touching)
-        booked = bookContact(before, now, known, touching, storedBefore, stored, x, y, law, r.slips);
+        booked = bookContact(before, now, known, touching, storedBefore, stored, x, y, law, reduced, r.slips);
     writeBook(slot, booked);
 }
 
@@ -94,7 +94,7 @@ Book bookWall(ContactParams law, float springDt, WallMotion wall, float reduced,
     Work x = halfStepWork(before, fromWall(first, before, me), spin, springDt);
     Work y = halfStepWork(now, fromWall(second, now, me), spin, springDt);
     if (opening()) return bookLoaded(stored);
-    Book b = bookContact(before, now, known, touching, storedBefore, stored, x, y, law, r.slips);
+    Book b = bookContact(before, now, known, touching, storedBefore, stored, x, y, law, reduced, r.slips);
     b.flow.w = halfStepGiven(before, first, wall.spin, springDt) + halfStepGiven(now, second, wall.spin, springDt);
     return b;
 }

@@ -45,7 +45,8 @@ TEST_CASE("neighbours: the list holds exactly the pairs in reach, in ascending o
                 neighbours.reset(skin, reach);
                 neighbours.update(particles);
                 bool same = true;
-                for (std::size_t i = 0; i < count; ++i) same &= neighbours.after(i) == allPairs(particles, i, skin + reach);
+                for (std::size_t i = 0; i < count; ++i)
+                    same &= neighbours.after(i) == allPairs(particles, i, skin + reach);
                 CAPTURE(count, width, skin, reach);
                 CHECK(same);
             }

@@ -195,7 +195,7 @@ TEST_CASE("keys and figures that the elasto-plastic adhesive law cannot have are
     refused(withContacts(replaced(kElastic, "restitution = 0.6\n", "restitution = 0.6\nplasticity_ratio = 0.5\n")),
             "contact.plasticity_ratio = 0.5: is a key of the law eepa; remove it, or give contact.law = \"eepa\"");
     refused(replaced(kGoodCase, "k = 2000.0\n", "k = 2000.0\nsurface_energy_J_m2 = 0.1\n"),
-            "contact.surface_energy_J_m2 = 0.1: is a key of the law eepa");
+            "contact.surface_energy_J_m2 = 0.1: is a key of the law jkr");
     refused(other("plasticity_ratio = 0.5\n", ""), "contact.plasticity_ratio: is missing");
     refused(other("surface_energy_J_m2 = 0.2\n", ""), "contact.surface_energy_J_m2: is missing");
     refused(other("plasticity_ratio = 0.5", "plasticity_ratio = 1"),
@@ -206,4 +206,37 @@ TEST_CASE("keys and figures that the elasto-plastic adhesive law cannot have are
             "contact.surface_energy_J_m2 = 0.2: acts on flattened contacts, and with plasticity_ratio = 0 none is; "
             "give a plasticity_ratio > 0, or a surface energy of 0");
     refused(other("0.25", "0.6"), "contact.poisson_ratio = 0.6");
+}
+
+TEST_CASE("a case with elastic adhesive spheres") {
+    const std::string sticky = R"([contact]
+law = "jkr"
+youngs_modulus = 5e6
+poisson_ratio = 0.25
+restitution = 0.6
+surface_energy_J_m2 = 0.2
+friction = 0.5
+[contact.wall]
+youngs_modulus = 2e8
+surface_energy_J_m2 = 0
+)";
+    const Case c = loadText(withContacts(sticky));
+    const auto& classes = c.dosingLaw.classes;
+    for (const ContactParameters& p : classes) CHECK(p.law == NormalLaw::Jkr);
+    CHECK(classes[0].surfaceEnergy == 0.2);
+    CHECK(classes[1].surfaceEnergy == 0);
+    CHECK(classes[2].surfaceEnergy == 0);  // from the wall
+    CHECK(classes[1].modulus == hertzMindlin({5e6, 0.25}, {2e8, 0.25}, 0.6).modulus);
+    CHECK(classes[0].kt == hertzMindlin({5e6, 0.25}, {5e6, 0.25}, 0.6).kt);
+    const Case again = loadResolvedCase(c.resolved, "again.toml");
+    CHECK(again.resolved == c.resolved);
+    CHECK(again.dosingLaw.classes[0].surfaceEnergy == 0.2);
+    refused(withContacts(replaced(sticky, "surface_energy_J_m2 = 0.2\n", "")),
+            "contact.surface_energy_J_m2: is missing");
+    refused(withContacts(replaced(sticky, "restitution = 0.6\n", "restitution = 0.6\nplasticity_ratio = 0.5\n")),
+            "contact.plasticity_ratio = 0.5: is a key of the law eepa");
+    refused(withContacts(replaced(sticky, "restitution = 0.6\n", "restitution = 0.6\nk = 100\n")),
+            "contact.k = 100: is a key of the law luding");
+    refused(withContacts(replaced(kElastic, "restitution = 0.6\n", "restitution = 0.6\nsurface_energy_J_m2 = 0.5\n")),
+            "contact.surface_energy_J_m2 = 0.5: is a key of the law jkr; remove it, or give contact.law = \"jkr\"");
 }

@@ -31,7 +31,7 @@ RuledWorld dosingWorld() {
     return w;
 }
 
-/// Gives the contacts the law of Hertz and Mindlin, about as stiff, or Edinburgh's.
+/// Gives the contacts the law of Hertz and Mindlin, about as stiff, or Edinburgh's, or JKR's.
 void follow(NormalLaw law, RuledWorld& w) {
     if (law == NormalLaw::Luding) return;
     ContactParameters rest;
@@ -39,7 +39,10 @@ void follow(NormalLaw law, RuledWorld& w) {
     rest.surfaceEnergy = 3;
     rest.constantPull = 2e-5;
     rest.adhesionExponent = 2;
-    const auto between = law == NormalLaw::Eepa ? elastoPlasticAdhesive : hertzMindlin;
+    const auto between = law == NormalLaw::Eepa  ? elastoPlasticAdhesive
+                         : law == NormalLaw::Jkr ? elasticAdhesive
+                                                 : hertzMindlin;
+    if (law == NormalLaw::Jkr) rest.surfaceEnergy = 1;
     for (ContactParameters& p : w.law.classes) {
         ContactParameters elastic = between({3e6, 0.25}, {3e6, 0.25}, 0.6, rest);
         elastic.mu = p.mu, elastic.muR = p.muR, elastic.muTo = p.muTo;
@@ -89,7 +92,7 @@ TEST_CASE("energy: device and reference book the same, term by term, until packi
     RuledWorld w = dosingWorld();
     w.coilSurfaceMoves = GENERATE(true, false);
     w.coilWireCurved = !w.coilSurfaceMoves;
-    const NormalLaw law = GENERATE(NormalLaw::Luding, NormalLaw::HertzMindlin, NormalLaw::Eepa);
+    const NormalLaw law = GENERATE(NormalLaw::Luding, NormalLaw::HertzMindlin, NormalLaw::Eepa, NormalLaw::Jkr);
     follow(law, w);
     const Particles p = thrownAbout(45);
     auto device = gpu();
@@ -116,11 +119,12 @@ TEST_CASE("energy: device and reference book the same, term by term, until packi
     const double least = w.coilSurfaceMoves ? 1e-3 : 3e-4;
     for (const Term term : {&EnergyBook::viscous, &EnergyBook::sliding, &EnergyBook::coilWork})
         CHECK(std::abs(b.sum.*term) > least * scaleOf(b));
-    if (law == NormalLaw::HertzMindlin)
+    if (law == NormalLaw::HertzMindlin || law == NormalLaw::Jkr)
         CHECK(a.sum.plastic == 0);
     else
         CHECK(std::abs(b.sum.plastic) > least * scaleOf(b));
     if (law == NormalLaw::Eepa) CHECK(a.sum.adhesive == 0);
+    if (law == NormalLaw::Jkr) CHECK(b.sum.adhesive > 1e-3 * scaleOf(b));
     requireClean(*device);
 }
 

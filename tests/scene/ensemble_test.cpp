@@ -46,6 +46,11 @@ Outcome play(Backend& backend, const Script& s, const Record* from = nullptr, Re
         sticky.surfaceEnergy = 2;
         w.law.classes.fill(elastoPlasticAdhesive({2e6, 0.25}, {2e6, 0.25}, 0.7, sticky));
     }
+    if (s.law == NormalLaw::Jkr) {
+        ContactParameters sticky;
+        sticky.surfaceEnergy = 0.5;
+        w.law.classes.fill(elasticAdhesive({2e6, 0.25}, {2e6, 0.25}, 0.7, sticky));
+    }
     Particles p = thrownIn(s.particles);
     p.velocity[0] += s.throwFirst;
     Outcome o;
@@ -143,7 +148,9 @@ TEST_CASE("a canister computes the same bits alone and in an ensemble") {
 }
 
 TEST_CASE("canisters whose contacts follow different laws share tables") {
-    std::vector<Script> scripts{{90, -9.5, 2.26e-6, 0.3}, {120, 7.0, 2.26e-6, 0.3}, {70, 7.0, 2.26e-6, 0.3}};
+    std::vector<Script> scripts{
+        {90, -9.5, 2.26e-6, 0.3}, {120, 7.0, 2.26e-6, 0.3}, {70, 7.0, 2.26e-6, 0.3}, {60, 7.0, 2.26e-6, 0.3}};
+    scripts[3].law = NormalLaw::Jkr;
     scripts[1].law = NormalLaw::HertzMindlin;
     scripts[2].law = NormalLaw::Eepa;
     for (Script& s : scripts) {
@@ -157,6 +164,8 @@ TEST_CASE("canisters whose contacts follow different laws share tables") {
     CHECK(together[1].sensors[1].energy->viscous > 0);
     CHECK(together[2].sensors[1].energy->plastic > 0);
     CHECK(together[2].sensors[1].energy->adhesive == 0);
+    CHECK(together[3].sensors[1].energy->plastic == 0);
+    CHECK(together[3].sensors[1].energy->adhesive > 0);
 }
 
 TEST_CASE("a canister that fails names its own particle and leaves the others alone") {

@@ -90,7 +90,7 @@ Response contactResponse(const ContactLaw& law, ContactClass kind, const Touch& 
                       .rolls = rolls,
                       .twists = twists,
                       .law = p.law,
-                      .arriving = workOfFirstTouch(p, touch.overlap, answer.force),
+                      .arriving = workOfFirstTouch(p, touch.overlap, touch.reduced, answer.force),
                       .kt = answer.kt,
                       .kr = answer.kr,
                       .kTo = answer.kTo};

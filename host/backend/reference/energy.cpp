@@ -37,6 +37,7 @@ double lossByLaw(const Exerted& before, const Exerted& now, double taken) {
     const NormalLaw law = (now.touching ? now : before).parts.law;
     if (!losesEnergy(law)) return 0;
     const double stored = now.elastic.normal - before.elastic.normal;
+    if (losesAtTouchAlone(law) && before.touching) return 0;
     if (!before.touching) return now.parts.arriving - stored;
     if (!now.touching) return partsOnStoredPath(law) ? 0 : -before.parts.hysteretic * before.overlap / 2 - stored;
     return taken - stored;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "host/model/eepa.h"
+#include "host/model/jkr.h"
 #include "host/model/normal_law.h"
 
 namespace vkdose::reference {
@@ -41,6 +42,25 @@ NormalAnswer eepaAnswer(const ContactParameters& p, double overlap, double reduc
     return {path.force(overlap), now.gamma, pull, now.kt, now.kr, now.kTo, now.gammaT, now.gammaR, now.gammaTo, true};
 }
 
+/// The other directions and all damping are those of Hertz's line at the overlap that gives this contact radius. The
+/// history is how much the overlap is above the one at which the contact is lost. Friction is counted from twice the
+/// pull-off force (Marshall 2009, as in LAMMPS).
+NormalAnswer jkrAnswer(const ContactParameters& p, double overlap, double reduced, double mass, double& memory) {
+    const JkrContact contact(p, reduced);
+    memory = overlap + contact.reach;
+    const ContactParameters now = linearised(p, mass, reduced, overlap);
+    return {contact.force(overlap),
+            now.gamma,
+            2 * contact.pullOff,
+            now.kt,
+            now.kr,
+            now.kTo,
+            now.gammaT,
+            now.gammaR,
+            now.gammaTo,
+            true};
+}
+
 }  // namespace
 
 NormalAnswer normalAnswer(const ContactParameters& p, double overlap, double reduced, double mass, double& memory) {
@@ -49,6 +69,8 @@ NormalAnswer normalAnswer(const ContactParameters& p, double overlap, double red
             return hertzAnswer(p, overlap, reduced, mass, memory);
         case NormalLaw::Eepa:
             return eepaAnswer(p, overlap, reduced, mass, memory);
+        case NormalLaw::Jkr:
+            return jkrAnswer(p, overlap, reduced, mass, memory);
         default:
             return ludingAnswer(p, overlap, reduced, memory);
     }
@@ -57,10 +79,15 @@ NormalAnswer normalAnswer(const ContactParameters& p, double overlap, double red
 double storedEnergy(const ContactParameters& p, double overlap, double reduced, double force, double memory) {
     if (p.law == NormalLaw::HertzMindlin) return 0.4 * force * overlap;
     if (p.law == NormalLaw::Eepa) return eepaPath(p, reduced, memory).energy(overlap);
+    if (p.law == NormalLaw::Jkr) return JkrContact(p, reduced).energy(overlap);
     return force * force / (2 * unloadingStiffness(p, reduced, memory));
 }
 
-double workOfFirstTouch(const ContactParameters& p, double overlap, double force) {
+double workOfFirstTouch(const ContactParameters& p, double overlap, double reduced, double force) {
+    if (p.law == NormalLaw::Jkr) {
+        const JkrContact contact(p, reduced);
+        return contact.energy(overlap) - contact.energy(0);
+    }
     // Under EEPA Hertz's line bears force - f0.
     if (p.law == NormalLaw::Eepa) return 0.4 * (force + p.constantPull) * overlap - p.constantPull * overlap;
     return force * overlap / 2;
@@ -68,6 +95,10 @@ double workOfFirstTouch(const ContactParameters& p, double overlap, double force
 
 bool losesEnergy(NormalLaw law) {
     return law != NormalLaw::HertzMindlin;
+}
+
+bool losesAtTouchAlone(NormalLaw law) {
+    return law == NormalLaw::Jkr;
 }
 
 bool partsOnStoredPath(NormalLaw law) {
@@ -81,6 +112,7 @@ double unloadingStiffness(const ContactParameters& p, double reduced, double max
 }
 
 bool onAdhesiveBranch(const ContactParameters& p, double overlap, double force) {
+    if (p.law == NormalLaw::Jkr) return true;
     return p.law == NormalLaw::Luding && force < 0 && force <= -p.kc * overlap;
 }
 

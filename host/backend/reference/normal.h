@@ -15,19 +15,24 @@ struct NormalAnswer {
     bool springAlone;                ///< while sliding, rolling or torsion slips (FrictionElement)
 };
 
-/// The answer of the law that `p` names. `overlap` delta > 0 and `reduced` 2 a_i a_j / (a_i + a_j) (wall: 2 a_i) in
-/// metres, `mass` the reduced mass [kg]. `memory` is the contact's history of one number [m], above 0 while it touches.
+/// The answer of the law that `p` names. `overlap` delta > 0, or above -reachOf (normal_law.h) where the contact goes
+/// on, and `reduced` 2 a_i a_j / (a_i + a_j) (wall: 2 a_i) in
+/// metres, `mass` the reduced mass [kg]. `memory` is the contact's history of one number [m], above 0 while there is a
+/// contact.
 NormalAnswer normalAnswer(const ContactParameters& p, double overlap, double reduced, double mass, double& memory);
 
 /// Energy that the normal direction gives back when the contact parts slowly [J]. `force` [N] is the answer's. Under
-/// EEPA the work of the pull counts too, so that it may be negative.
+/// EEPA and JKR the work of the pull counts too, so that it may be negative.
 double storedEnergy(const ContactParameters& p, double overlap, double reduced, double force, double memory);
 
 /// Work that pressing a new contact to `overlap` takes, where it exerts `force` [J].
-double workOfFirstTouch(const ContactParameters& p, double overlap, double force);
+double workOfFirstTouch(const ContactParameters& p, double overlap, double reduced, double force);
 
 /// Whether the law itself loses energy. What an elastic law loses is an error of the time step.
 bool losesEnergy(NormalLaw law);
+
+/// Whether the law loses energy as a contact comes about and nowhere else.
+bool losesAtTouchAlone(NormalLaw law);
 
 /// Whether a contact that parts takes the path that its stored energy is the area of, so that it loses nothing more.
 bool partsOnStoredPath(NormalLaw law);
@@ -41,8 +46,8 @@ double normalForce(const ContactParameters& p, double overlap, double reduced, d
 /// f^2 / (2 k_2) when f falls to zero.
 double unloadingStiffness(const ContactParameters& p, double reduced, double maxOverlap);
 
-/// Whether the contact is on the adhesive branch, on which Luding's law loses energy: `force` [N] is the largest pull
-/// that the overlap allows.
+/// Whether what the law loses is adhesion's: on the adhesive branch of Luding's law, where `force` [N] is the largest
+/// pull that the overlap allows, and always under JKR.
 bool onAdhesiveBranch(const ContactParameters& p, double overlap, double force);
 
 }  // namespace vkdose::reference

@@ -53,6 +53,7 @@ gpu::ContactParams packContact(const ContactParameters& c) {
         p.friction.w = float(-c.constantPull);
         p.damping.w = float(c.adhesionExponent / 1.5);
     }
+    if (c.law == NormalLaw::Jkr) p.normal.z = float(std::cbrt(std::sqrt(2 * kPi * c.surfaceEnergy / c.modulus) / 4));
     return p;
 }
 
