@@ -64,7 +64,6 @@ struct CoilView {
     float phase;      // M folded into (-pi, pi] [rad]
     float wirePhase;  // kappa z [rad]
     float reach;      // sphere + wire radius [m]
-    bool nearEnd;
 };
 
 /// `turn`: the angle of the wire's start about +z, in turns, [-0.5, 0.5).
@@ -77,7 +76,6 @@ CoilView coilView(CoilParams c, float turn, Sphere a) {
     precise float z = (a.high.z - c.reach.z) + (a.low.z - c.reach.w);
     w.z = z;
     w.reach = a.radius + c.radius.z;
-    w.nearEnd = z < w.reach || z > c.radius.w - w.reach;
 
     float hand = c.pitch.w > 0.0 ? 1.0 : -1.0;
     float turns = floor(z / c.pitch.x + 0.5);
@@ -100,46 +98,34 @@ bool nearCoil(CoilParams c, float turn, Sphere a, float slack) {
     return least < reach * reach && w.z > -reach && w.z < c.radius.w + reach;
 }
 
-uint coilCandidates(CoilParams c, CoilView w) {
-    uint windows = 2u * uint(c.reach.y) + 1u;
-    return w.nearEnd ? windows + 2u : windows;
-}
+/// How many windows hold a minimum that a sphere can touch.
+uint coilWindows(CoilParams c) { return 2u * uint(c.reach.y) + 1u; }
 
-/// Candidate 0 ... 2K: the minimum in window k = candidate - K; then the two ends of the wire.
-CoilTouch coilCandidate(CoilParams c, CoilView w, uint candidate) {
+/// The minimum in window k = `window` - K, of 2K + 1.
+CoilTouch coilCandidate(CoilParams c, CoilView w, uint window) {
     float kappa = c.pitch.w, rc = c.radius.x;
     float eps = w.rho * rc * kappa * kappa;
-    int turnsEachSide = int(c.reach.y);
-    bool end = int(candidate) > 2 * turnsEachSide;
-    bool last = int(candidate) == 2 * turnsEachSide + 2;
-
-    float v, dz, wireAngle;
-    bool valid, failed = false;
-    if (end) {
-        float s = last ? c.radius.w : 0.0;
-        v = fold(w.phase + kappa * (s - w.z));
-        if (!last) v = w.start;
+    float m = w.phase - kTwoPi * float(int(window) - int(c.reach.y));
+    float limit = c.reach.x;
+    float v = m / (1.0 + eps), step = 1.0;
+    for (int i = 0; i < 8 && abs(step) > 1e-4 && abs(v) < limit; ++i) {
         vec2 h = halfSinCos(v);
-        float slope = w.rho * rc * kappa * (2.0 * h.x * h.y) + (s - w.z);  // d(distance^2/2)/ds
+        step = (v + eps * (2.0 * h.x * h.y) - m) / (1.0 + eps * (1.0 - 2.0 * h.x * h.x));
+        v -= step;  // quadratic: after a step of 1e-4 what is left is below a float's rounding
+    }
+    float dz = (m - v) / kappa, s = w.z - dz, wireAngle = w.wirePhase + (v - m);
+    bool valid = abs(v) < limit, failed = valid && abs(step) > 1e-4;
+    // The distance grows from the minimum both ways. Where the wire ends before it, the end is the closest point, if it
+    // is in this window.
+    bool before = s < 0.0;
+    bool behind = s > c.radius.w;
+    if (before || behind) {
+        s = before ? 0.0 : c.radius.w;
+        v = before ? w.start : fold(w.phase + kappa * (s - w.z));
         dz = w.z - s;
         wireAngle = kappa * s;
-        valid = last ? slope < 0.0 : slope > 0.0;
-    } else {
-        float m = w.phase - kTwoPi * float(int(candidate) - turnsEachSide);
-        float limit = c.reach.x;
-        v = m / (1.0 + eps);
-        float step = 1.0;
-        for (int i = 0; i < 8 && abs(step) > 1e-4 && abs(v) < limit; ++i) {
-            vec2 h = halfSinCos(v);
-            step = (v + eps * (2.0 * h.x * h.y) - m) / (1.0 + eps * (1.0 - 2.0 * h.x * h.x));
-            v -= step;  // quadratic: after a step of 1e-4 what is left is below a float's rounding
-        }
-        valid = abs(v) < limit;
-        failed = valid && abs(step) > 1e-4;
-        dz = (m - v) / kappa;
-        float s = w.z - dz;
-        wireAngle = w.wirePhase + (v - m);
-        valid = valid && s >= 0.0 && s <= c.radius.w;
+        valid = abs(m - kappa * dz) < 0.5 * kTwoPi;
+        failed = false;
     }
     vec2 h = halfSinCos(v);
     float distance = sqrt(w.off * w.off + 4.0 * w.rho * rc * h.x * h.x + dz * dz);

@@ -6,6 +6,9 @@
 //   uint nearbyAt(uint i)       a triangle near the sphere (law/mesh.glsl); not called unless nearbyCount is set
 //   SHAPE_KINDS                 a constant with a bit for each kind of shape that there is (packBodies tells which).
 //                               If it is a specialisation constant, kinds that are absent cost nothing.
+//   MOST_PLACES                 a constant: the most places in which a sphere touches a body at once, at most
+//   kFewPlaces
+//                               (packBodies tells it as well). Nothing is computed for more places than that.
 //
 // and calls, with `body` the number of the body and `centre` in the body's frame (law/pose.glsl):
 //
@@ -61,8 +64,7 @@ Overlap exactOverlap(uint kind, ShapeData s, Two3 centre, float radius) {
 void wirePlaces(ShapeData s, uint tag, Two3 centre, float radius) {
     CoilParams wire = wireOf(s);
     CoilView view = coilView(wire, s.v7.x, Sphere(centre.high, centre.low, radius));
-    uint candidates = coilCandidates(wire, view);
-    for (uint k = 0u; k < candidates; ++k) {
+    for (uint k = 0u; k < coilWindows(wire); ++k) {
         CoilTouch touch = coilCandidate(wire, view, k);
         if (touch.failed) placesLost = true;
         if (touch.depth > 0.0) addPlace(touch.depth, touch.normal, tag + uint(abs(touch.wireAngle) / kTwoPi + 0.5));

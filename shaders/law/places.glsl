@@ -39,12 +39,11 @@ void clearPlaces() {
 const uint kManyPlaces = (1u << kShapeMesh) | (1u << kShapeFlight);  // kinds of shapes
 bool fewPlaces() { return (SHAPE_KINDS & kManyPlaces) == 0u; }
 
-const uint kFewPlaces = 4u;
 BodyFeature few[kFewPlaces];
 
 /// Puts a place among the few.
 void addToFew(BodyFeature place) {
-    for (uint k = 0u; k < kFewPlaces; ++k) {
+    for (uint k = 0u; k < MOST_PLACES; ++k) {
         BodyFeature other = few[k];
         bool first = place.depth > other.depth || (place.depth == other.depth && place.tag < other.tag);
         if (k == placeCount || (k < placeCount && first)) {
@@ -52,8 +51,8 @@ void addToFew(BodyFeature place) {
             place = other;
         }
     }
-    placesLost = placesLost || placeCount == kFewPlaces;
-    placeCount = min(placeCount + 1u, kFewPlaces);
+    placesLost = placesLost || placeCount == MOST_PLACES;
+    placeCount = min(placeCount + 1u, MOST_PLACES);
 }
 
 /// Lists a place that overlaps by `depth` > 0.
@@ -135,14 +134,14 @@ void answer(uint n, inout uint found) {
 uint distinctFew(float radius) {
     aliveFew = 0u;
     judge(0u, radius);
-    judge(1u, radius);
-    judge(2u, radius);
-    judge(3u, radius);
+    if (MOST_PLACES > 1u) judge(1u, radius);
+    if (MOST_PLACES > 2u) judge(2u, radius);
+    if (MOST_PLACES > 3u) judge(3u, radius);
     uint found = 0u;
     answer(0u, found);
-    answer(1u, found);
-    answer(2u, found);
-    answer(3u, found);
+    if (MOST_PLACES > 1u) answer(1u, found);
+    if (MOST_PLACES > 2u) answer(2u, found);
+    if (MOST_PLACES > 3u) answer(3u, found);
     return found;
 }
 

@@ -16,13 +16,19 @@
 
 const float kFarthest = 0.70710678;  // cosine of 45 degrees
 
+/// How many contacts with a body a particle can have.
+uint mostTouches() { return fewPlaces() ? MOST_PLACES : kMaxBodyTouches; }
+
+/// How often a loop over `count` features runs. A loop over one at most has a constant bound: see law/places.glsl.
+uint trips(uint count) { return mostTouches() == 1u ? 1u : count; }
+
 /// Of the last step: the places that were touched, a bit each, and the direction of each. A contact keeps its place.
 uint touched;
 vec3 oldDirection[kMaxBodyTouches];
 
 void recall(uint slot) {
     touched = 0u;
-    for (uint k = 0u; k < kMaxBodyTouches; ++k) {
+    for (uint k = 0u; k < mostTouches(); ++k) {
         vec4 direction = historyAt(placeHistoryIndex(slot, k, 2u));
         oldDirection[k] = direction.xyz;
         if (direction.w > 0.0) touched |= 1u << k;
@@ -39,13 +45,13 @@ uint placeOf(uint n) { return places >> (4u * n) & 15u; }
 uint match(uint count) {
     uint left = touched, taken = 0u;
     places = 0xffffu;
-    for (uint round = 0u; round < min(count, bitCount(touched)); ++round) {
+    for (uint round = 0u; round < trips(min(count, bitCount(touched))); ++round) {
         float nearest = kFarthest;
         uint now = kEmpty, before = 0u;
-        for (uint n = 0u; n < count; ++n) {
+        for (uint n = 0u; n < trips(count); ++n) {
             vec3 direction = features[n].direction;
-            bool free = (taken >> n & 1u) == 0u;
-            for (uint k = 0u; k < kMaxBodyTouches; ++k) {
+            bool free = n < count && (taken >> n & 1u) == 0u;
+            for (uint k = 0u; k < mostTouches(); ++k) {
                 float cosine = dot(direction, oldDirection[k]);
                 if (free && (left >> k & 1u) != 0u && cosine > nearest) {
                     nearest = cosine;
@@ -127,7 +133,8 @@ void main() {
         history[placeHistoryIndex(slot, place, 2u)] = vec4(0.0);
         writeForce(forceOfPlace(slot, place), vec4(0.0));
     }
-    for (uint k = 0u; k < count; ++k) {
+    for (uint k = 0u; k < trips(count); ++k) {
+        if (k >= count) continue;
         uint place = placeOf(k);
         bool known = place != kNowhere;
         BodyFeature feature = features[k];

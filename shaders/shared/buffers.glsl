@@ -18,6 +18,7 @@ layout(constant_id = 5) const uint MOST_GROUPS = 65535u;  // workgroups in a row
 layout(constant_id = 6) const uint FRONT = 0u;            // the front wall among the surfaces, if there is one
 layout(constant_id = 7) const uint BODIES = 0u;           // most bodies of a member
 layout(constant_id = 8) const uint SHAPE_KINDS = 0u;      // bit k: a body has a shape of kind k (shared/geometry.h)
+layout(constant_id = 10) const uint MOST_PLACES = 4u;     // in which a sphere touches a body (law/places.glsl)
 
 layout(push_constant) uniform Push { StepPush push; };
 

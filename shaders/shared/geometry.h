@@ -30,6 +30,7 @@ using glm::vec4;
 SHARED_CONST kBodyVectors = 2u;
 SHARED_CONST kShapeVectors = 8u;
 SHARED_CONST kMaxBodyFeatures = 8u;  // geometry::kMaxFeatures
+SHARED_CONST kFewPlaces = 4u;        // of one body, that law/places.glsl keeps in its short list
 SHARED_REAL kEverywhere = 1e15f;     // radius of the sphere around a shape without an end [m]
 SHARED_REAL kEndlessLength = 1e15f;  // [m]
 

@@ -4,6 +4,7 @@
 #include "shared/geometry.h"
 
 layout(constant_id = 0) const uint SHAPE_KINDS = 0xffffffffu;
+layout(constant_id = 1) const uint MOST_PLACES = kFewPlaces;
 layout(local_size_x = 64) in;
 
 struct Query {

@@ -92,13 +92,6 @@ Pose anyPose(std::mt19937_64& random) {
     return {glm::normalize(Rotation(w, x, y, z)), within(random, Vec3(-0.1), Vec3(0.1))};
 }
 
-RigidBody bodyOf(std::vector<Shape> shapes) {
-    RigidBody body;
-    body.name = "part";
-    body.shapes = std::move(shapes);
-    return body;
-}
-
 /// `spheres` that touch by up to a fifth of their radius, and a tenth as many that do not.
 Tally compare(Narrow& narrow, const Setup& setup, std::size_t spheres, unsigned seed = 11) {
     std::mt19937_64 random(seed);
@@ -169,10 +162,6 @@ void check(Narrow& narrow, const Setup& setup, std::size_t spheres, std::size_t 
     CHECK(t.worstTurn <= setup.turnError);
 }
 
-std::shared_ptr<const MeshSurface> meshOf(const Facets& facets, double reach) {
-    return std::make_shared<MeshSurface>(makeMesh(soupOf(facets, "facets"), 1e-10).mesh, reach);
-}
-
 }  // namespace
 
 TEST_CASE("the device finds the features of exact shapes as the host does") {
@@ -214,6 +203,22 @@ TEST_CASE("the device finds the features of exact shapes as the host does") {
          1e-3,
          Vec3(-12e-3, -12e-3, -1e-3),
          Vec3(12e-3, 12e-3, 21e-3),
+         1e-6,
+         1e-5,
+         1.5e-8},
+        {"ends of wires",  // a whole one, and one so short that a sphere may reach both of its ends
+         {Coil{10e-3, 9e-3, 1e-3, 2e-3, 2e-3, 0.7, 1}, Coil{10e-3, 9e-3, 1e-3, 0.5e-3, -8e-3, 2.5, -1}},
+         1e-3,
+         Vec3(-13e-3, -13e-3, -10e-3),
+         Vec3(13e-3, 13e-3, 6e-3),
+         1e-6,
+         1e-5,
+         1.5e-8},
+        {"ends of a tight wire",
+         {Coil{10e-3, 2.6e-3, 0.5e-3, 1e-3, 0, -2, -1}},
+         1e-3,
+         Vec3(-12e-3, -12e-3, -2e-3),
+         Vec3(12e-3, 12e-3, 3e-3),
          1e-6,
          1e-5,
          1.5e-8},
@@ -381,39 +386,4 @@ TEST_CASE("the device tells when a sphere touches more places than it computes")
     CHECK(count() == kMaxFeatures + 1);
     spikes.pop_back();
     CHECK(count() == kMaxFeatures);
-}
-
-TEST_CASE("a body that the device cannot compute with is refused by its name") {
-    CHECK_THROWS_WITH(packBodies({bodyOf({Flight{3e-3, 10e-3, 1e-6, 30e-6, 30e-6, 8 * kPi}})}, 1e-3),
-                      Catch::Contains("part") && Catch::Contains("turns of the screw"));
-    Shattered fine(sheet(Vec3(0), {0.1, 0, 0}, {0, 0.1, 0}));
-    for (int n = 0; n < 6; ++n) fine.refine();
-    const auto mesh = std::make_shared<MeshSurface>(fine.mesh(), 0.1);
-    REQUIRE(mesh->mesh().triangles.size() > gpu::kMostInCell);
-    CHECK_THROWS_WITH(packBodies({bodyOf({mesh})}, 0.1), Catch::Contains("part") && Catch::Contains("4096"));
-    // A reach that is larger than the mesh was made for makes its grid anew.
-    const auto small = meshOf(sheet(Vec3(0), {0.1, 0, 0}, {0, 0.1, 0}), 1e-3);
-    Narrow narrow;
-    const Vec3 above(0.02, 0.03, 4e-3);
-    const Answer answer = narrow.ask(packBodies({bodyOf({small})}, 5e-3), {Pose{}}, {{above, 5e-3, 0}}).front();
-    REQUIRE(answer.count == 1);
-    CHECK(near(answer.features[0].distance, 4e-3, 1e-3, 1e-6));
-}
-
-TEST_CASE("each body of a table has its own answer, and a body without shapes none") {
-    const Pose turned{glm::normalize(Rotation(0.3, 0.5, -0.2, 0.7)), Vec3(0.03, -0.01, 0.02)};
-    const PackedBodies packed = packBodies(
-        {bodyOf({}), bodyOf({Ball{Vec3(0), 2e-3}}), bodyOf({meshOf(block(Vec3(-1e-3), Vec3(1e-3)), 1e-3)})}, 1e-3);
-    CHECK(packed.kinds == (1U << gpu::kShapeBall | 1U << gpu::kShapeMesh));
-    Narrow narrow;
-    const Vec3 ball(0, 0, 2.5e-3), cube = turned.toWorld({0, 0, 1.5e-3});
-    const auto answers = narrow.ask(packed, {Pose{}, Pose{}, turned},
-                                    {{ball, 1e-3, 0}, {ball, 1e-3, 1}, {cube, 1e-3, 2}, {cube, 1e-3, 1}});
-    CHECK(answers[0].count == 0);
-    CHECK_FALSE(answers[0].mayTouch);
-    REQUIRE(answers[1].count == 1);
-    CHECK(near(answers[1].features[0].distance, 0.5e-3, 1e-3, 1e-6));
-    REQUIRE(answers[2].count == 1);
-    CHECK(near(answers[2].features[0].normal, turned.directionToWorld({0, 0, 1}), 1, 1e-6));
-    CHECK(answers[3].count == 0);
 }

@@ -15,10 +15,24 @@
 #include "host/vk/pipeline.h"
 #include "spirv/body_features.spv.h"
 #include "spirv/body_features_texel.spv.h"
+#include "tests/geometry/facets.h"
 #include "tests/support/catch.h"
 #include "tests/support/gpu.h"
 
 namespace vkdose::test {
+
+inline RigidBody bodyOf(std::vector<geometry::Shape> shapes) {
+    RigidBody body;
+    body.name = "part";
+    body.shapes = std::move(shapes);
+    return body;
+}
+
+/// The mesh of the facets, for spheres that reach as far as `reach` [m].
+inline std::shared_ptr<const geometry::MeshSurface> meshOf(const Facets& facets, double reach) {
+    return std::make_shared<geometry::MeshSurface>(geometry::makeMesh(geometry::soupOf(facets, "facets"), 1e-10).mesh,
+                                                   reach);
+}
 
 struct Answer {
     std::uint32_t count = 0;
@@ -55,7 +69,7 @@ class Narrow {
         vk::Commands commands(device_);
         commands.begin();
         bindings_.bind(commands.handle());
-        pipeline(bodies.kinds).bind(commands.handle());
+        pipeline({bodies.kinds, bodies.places}).bind(commands.handle());
         const auto count = std::uint32_t(queries.size());
         bindings_.push(commands.handle(), &count);
         commands.dispatch((count + 63) / 64, 1, 1);
@@ -70,13 +84,14 @@ class Narrow {
   private:
     static constexpr std::size_t kVectors = 1 << 21;
 
-    const vk::Pipeline& pipeline(std::uint32_t kinds) {
-        const auto known = pipelines_.find(kinds);
+    /// `constants`: the kinds of shapes, and in how many places a sphere touches them at most.
+    const vk::Pipeline& pipeline(const std::vector<std::uint32_t>& constants) {
+        const auto known = pipelines_.find(constants);
         if (known != pipelines_.end()) return known->second;
         const std::span<const std::uint32_t> texel(body_features_texel_spv), plain(body_features_spv);
         return pipelines_
-            .emplace(std::piecewise_construct, std::forward_as_tuple(kinds),
-                     std::forward_as_tuple(device_, bindings_, texels_ ? texel : plain, std::vector{kinds}))
+            .emplace(std::piecewise_construct, std::forward_as_tuple(constants),
+                     std::forward_as_tuple(device_, bindings_, texels_ ? texel : plain, constants))
             .first->second;
     }
 
@@ -108,7 +123,7 @@ class Narrow {
     vk::Buffer counts_{device_, "counts", kQueries * sizeof(gpu::uvec4)};
     vk::Buffer places_{device_, "places", kQueries* geometry::kMaxFeatures * sizeof(gpu::vec4)};
     vk::BindingSet bindings_{device_, {&geometry_, &motions_, &queries_, &counts_, &places_}, 4};
-    std::map<std::uint32_t, vk::Pipeline> pipelines_;  // by the kinds of shapes
+    std::map<std::vector<std::uint32_t>, vk::Pipeline> pipelines_;  // by their constants
 };
 
 }  // namespace vkdose::test

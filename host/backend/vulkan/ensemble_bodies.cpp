@@ -112,6 +112,7 @@ void Ensemble::makeBodies(TableSizes& sizes) {
         for (std::size_t b = 0; b < m.bodies.size(); ++b) m.around.push_back(aroundOf(packed, b));
         geometry.insert(geometry.end(), packed.table.begin(), packed.table.end());
         sizes.shapeKinds |= packed.kinds;
+        sizes.mostPlaces = std::max(sizes.mostPlaces, packed.places);
         motions += std::uint32_t(m.bodies.size());
     }
     mostBatch_ =

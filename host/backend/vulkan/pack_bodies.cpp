@@ -67,7 +67,7 @@ class Packer {
         table_.assign(std::max<std::size_t>(1, gpu::kBodyVectors * bodies.size()), uvec4(0));
         for (std::size_t b = 0; b < bodies.size(); ++b) {
             name_ = bodies[b].name;
-            nextTag_ = 0;
+            nextTag_ = places_ = 0;
             const auto first = table_.size(), count = bodies[b].shapes.size();
             table_.resize(first + gpu::kShapeVectors * count);
             std::vector<Around> around;
@@ -76,10 +76,11 @@ class Packer {
                 around.push_back(std::visit([&](const auto& shape) { return pack(shape); }, bodies[b].shapes[s]));
                 table_[shape_ + 1] = sphere(around.back());
             }
+            most_ = std::max(most_, std::min(places_, uint32_t(gpu::kFewPlaces)));
             table_[gpu::kBodyVectors * b] = uvec4(index(first), index(count), 0, 0);
             table_[gpu::kBodyVectors * b + 1] = sphere(aroundAll(around));
         }
-        return {std::move(table_), kinds_};
+        return {std::move(table_), kinds_, most_};
     }
 
   private:
@@ -106,9 +107,11 @@ class Packer {
         return all;
     }
 
-    void head(uint32_t kind, uint32_t tags, uint32_t heads = 0, uint32_t lists = 0) {
+    /// Begins the record of a shape that a sphere touches in at most `places` places at once.
+    void head(uint32_t kind, uint32_t tags, uint32_t places, uint32_t heads = 0, uint32_t lists = 0) {
         table_[shape_] = uvec4(kind, nextTag_, heads, lists);
         nextTag_ += tags;
+        places_ += places;
         kinds_ |= 1u << kind;
     }
 
@@ -129,7 +132,7 @@ class Packer {
 
     Around pack(const geometry::Plane& plane) {
         const bool ends = plane.end < geometry::kEndless;
-        head(gpu::kShapePlane, 1);
+        head(gpu::kShapePlane, 1, 1);
         // A plane that ends is parallel to z, so that the point may be moved along z to the end.
         setPair(2, ends ? Vec3(plane.point.x, plane.point.y, plane.end) : plane.point);
         setPair(4, plane.normal);
@@ -141,7 +144,7 @@ class Packer {
         const bool endless = std::isinf(tube.length);
         // An endless tube goes both ways from its base.
         const double length = endless ? double(gpu::kEndlessLength) : tube.length;
-        head(gpu::kShapeTube, 1);
+        head(gpu::kShapeTube, 1, 1);
         setPair(2, tube.base, length);
         setPair(4, tube.axis);
         setScalars(6, tube.radius, 0);
@@ -152,7 +155,7 @@ class Packer {
 
     Around pack(const geometry::Cone& cone) {
         const double dr = cone.endRadius - cone.baseRadius, wall = std::hypot(dr, cone.length);
-        head(gpu::kShapeCone, 1);
+        head(gpu::kShapeCone, 1, 1);
         setPair(2, cone.base, wall);
         setPair(4, cone.axis);
         setScalars(6, cone.baseRadius, cone.endRadius);
@@ -162,14 +165,15 @@ class Packer {
     }
 
     Around pack(const geometry::Ball& ball) {
-        head(gpu::kShapeBall, 1);
+        head(gpu::kShapeBall, 1, 1);
         setPair(2, ball.centre);
         setScalars(6, ball.radius, 0);
         return {ball.centre, ball.radius};
     }
 
     Around pack(const geometry::Block& block) {
-        head(block.inside ? gpu::kShapeRoom : gpu::kShapeBlock, block.inside ? 6 : 1);
+        const uint32_t walls = block.inside ? 6 : 1;
+        head(block.inside ? gpu::kShapeRoom : gpu::kShapeBlock, walls, walls);
         setPair(2, block.low);
         setPair(4, block.high);
         if (block.inside) return kAroundEndless;
@@ -178,7 +182,7 @@ class Packer {
 
     Around pack(const geometry::Trough& trough) {
         const bool ends = trough.end < geometry::kEndless;
-        head(gpu::kShapeTrough, 1);
+        head(gpu::kShapeTrough, 1, 1);
         setPair(2, Vec3(0, 0, ends ? trough.end : 0));
         setScalars(6, trough.halfWidth, 0);
         set(7, vec4(ends ? 1.0f : 0.0f, 0, 0, 0));
@@ -186,7 +190,7 @@ class Packer {
     }
 
     Around pack(const geometry::Front& front) {
-        head(gpu::kShapeFront, 1);
+        head(gpu::kShapeFront, 1, 1);
         setPair(2, Vec3(0, 0, front.z), front.throatLength);
         setScalars(6, front.holeRadius, 0);
         return kAroundEndless;
@@ -220,8 +224,8 @@ class Packer {
     }
 
     Around pack(const geometry::Coil& wire) {
-        head(gpu::kShapeWire, uint32_t(wire.length / wire.pitch) + 3);
         const gpu::CoilParams p = wireParams(wire);
+        head(gpu::kShapeWire, uint32_t(wire.length / wire.pitch) + 3, 2 * uint32_t(p.reach.y) + 1);
         set(2, p.radius);
         set(3, p.pitch);
         set(4, p.reach);
@@ -238,7 +242,7 @@ class Packer {
                 fmt::format("body \"{}\": a sphere can reach {:.0f} turns of the screw; the device holds {}. Use a "
                             "larger pitch, smaller spheres, or --backend reference",
                             name_, (2 * reach_ + f.thickness) / least + 3, uint32_t(gpu::kMostFlightTurns)));
-        head(gpu::kShapeFlight, uint32_t(turns) + 2);
+        head(gpu::kShapeFlight, uint32_t(turns) + 2, gpu::kFewPlaces);
         setScalars(2, f.innerRadius, f.outerRadius);
         const bool simple = least * least >= reach_ * std::abs(change);
         set(3, vec4(float(f.thickness / 2), float(change / 2), float(f.hand), simple ? 1.0f : 0.0f));
@@ -290,7 +294,8 @@ class Packer {
             }
         }
         const auto faces = uint32_t(mesh.triangles.size()), sides = uint32_t(mesh.edges.size());
-        head(gpu::kShapeMesh, faces + sides + uint32_t(mesh.vertices.size()), index(heads), index(lists));
+        head(gpu::kShapeMesh, faces + sides + uint32_t(mesh.vertices.size()), gpu::kFewPlaces, index(heads),
+             index(lists));
         table_[shape_ + 2] = bits(glm::vec3(grid.low), float(1 / grid.cell));
         table_[shape_ + 3] = uvec4(glm::uvec3(grid.cells), bits(float(margin(surface))));
         table_[shape_ + 4] = uvec4(index(triangles), index(edges), index(vertices), 0);
@@ -384,8 +389,9 @@ class Packer {
     double largest_, reach_;
     std::string name_;  ///< of the body at work
     std::vector<uvec4> table_;
-    std::size_t shape_ = 0;  ///< where the record of the shape at work begins
-    uint32_t nextTag_ = 0, kinds_ = 0;
+    std::size_t shape_ = 0;              ///< where the record of the shape at work begins
+    uint32_t nextTag_ = 0, places_ = 0;  ///< of the body at work
+    uint32_t kinds_ = 0, most_ = 1;
 };
 
 }  // namespace

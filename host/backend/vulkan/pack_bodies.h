@@ -12,6 +12,7 @@ namespace vkdose {
 struct PackedBodies {
     std::vector<gpu::uvec4> table;  ///< never empty
     std::uint32_t kinds = 0;        ///< a bit for each kind of shape that there is (gpu::kShapePlane ...)
+    std::uint32_t places = 0;       ///< most in which a sphere touches one of them at once, or gpu::kFewPlaces if more
 };
 
 /// The table `geometry`, for spheres of radius up to `largest` [m]. `slack` [m] is how much farther from a centre a

@@ -98,7 +98,8 @@ BodySlots bodySlotsOf(const Passes& passes, std::uint32_t member, std::size_t pa
             slots.history.resize(slots.history.size() + t.bodyHistory(), vec4(0.0f));
             touches = 0;
         }
-        if (touches++ == gpu::kMaxBodyTouches) throw RecordError("a body is touched in too many places");
+        if (touches++ == std::min(t.mostPlaces, gpu::kMaxBodyTouches))
+            throw RecordError("a body is touched in too many places");
         // The vector of the direction tells the place, counted from 1; of older records the order does.
         const float stored = springs[4 * (parts * c + 2) + 3], place = stored == 0 ? float(touches) : stored;
         if (!(place >= float(touches) && place <= float(gpu::kMaxBodyTouches) && place == std::floor(place)))

@@ -58,6 +58,7 @@ void TableSizes::growTo(const TableSizes& other) {
           &TableSizes::pairSlots, &TableSizes::surfaceSlots, &TableSizes::bodySlots, &TableSizes::bodies})
         this->*size = std::max(this->*size, other.*size);
     shapeKinds |= other.shapeKinds;
+    mostPlaces = std::max(mostPlaces, other.mostPlaces);
     laws |= other.laws;
 }
 

@@ -28,6 +28,7 @@ struct TableSizes {
     std::shared_ptr<const UserLaw> userLaw;  ///< of all members; null: they follow the program's own
     std::uint32_t laws = 0;          ///< bit k: contacts of some class follow the law k (NormalLaw)
     std::uint32_t shapeKinds = 0;    ///< bit k: a body has a shape of kind k (shaders/shared/geometry.h)
+    std::uint32_t mostPlaces = 1;    ///< in which a sphere touches a body at once; gpu::kFewPlaces: that or more
     // Of each member:
     std::uint32_t share = 0;  ///< slots for particles, a multiple of the workgroup
     std::uint32_t cells = 0;  ///< a power of two
