@@ -52,8 +52,8 @@ double longestReach(const ContactLaw& law, double largest);
 double overlapUnder(const ContactParameters& p, double reduced, double load);
 
 /// Largest overlap of a first impact at `speed` [m/s] without damping and friction, in metres. Luding's law: on k1.
-/// EEPA: on Hertz's line, with the work of the constant pull. JKR: on the path from touch. A user's law: on a line of the
-/// largest stiffness that its trial found.
+/// EEPA: on Hertz's line, with the work of the constant pull. JKR: on the path from touch. A user's law: on a line of
+/// the largest stiffness that its trial found.
 double overlapOfImpact(const ContactParameters& p, double mass, double reduced, double speed);
 
 /// What a backend says of a law whose contacts reach farther than those of the law that was loaded.
