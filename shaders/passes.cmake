@@ -90,18 +90,43 @@ endif()
 
 list(REMOVE_DUPLICATES spirv_macros)
 set(spirv_bits "")
+set(spirv_names "")
 set(bit 0)
 foreach(macro ${spirv_macros})
   string(APPEND spirv_bits "constexpr unsigned ${macro} = 1u << ${bit};\n")
+  string(APPEND spirv_names "{${macro}, \"${macro}\"}, ")
   math(EXPR bit "${bit} + 1")
 endforeach()
 file(CONFIGURE OUTPUT ${spirv_dir}/passes.h CONTENT
 "// Made by shaders/passes.cmake.
 #pragma once
+#include <utility>
+
 #include \"host/vk/variant.h\"
 ${spirv_includes}
 namespace vkdose::spirv {
-${spirv_bits}${spirv_lists}}
+${spirv_bits}constexpr std::pair<unsigned, const char*> kMacros[] = {${spirv_names}};
+${spirv_lists}}
+")
+
+# The sources themselves, from which the program compiles the passes of a user's law (shaders/law/user.glsl).
+set(spirv_sources "")
+file(GLOB shader_sources CONFIGURE_DEPENDS ${shader_dir}/pass/*.comp ${shader_dir}/law/*.comp)
+foreach(file ${shader_headers} ${shader_sources})
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
+  file(READ ${file} text)
+  file(RELATIVE_PATH stem ${shader_dir} ${file})
+  string(APPEND spirv_sources "{\"${stem}\", R\"_glsl_(${text})_glsl_\"},\n")
+endforeach()
+file(CONFIGURE OUTPUT ${spirv_dir}/sources.h CONTENT
+"// Made by shaders/passes.cmake.
+#pragma once
+#include <utility>
+
+namespace vkdose::spirv {
+inline constexpr std::pair<const char*, const char*> kSources[] = {
+\${spirv_sources}};
+}
 ")
 
 add_custom_target(vkdose_spirv_build DEPENDS ${spirv_outputs})

@@ -7,7 +7,7 @@ set_target_properties(vkdose PROPERTIES SKIP_BUILD_RPATH ON)
 install(TARGETS vkdose COMPONENT vkdose)
 install(DIRECTORY cases/ DESTINATION ${CMAKE_INSTALL_DATADIR}/vkdose/cases COMPONENT vkdose
         FILES_MATCHING PATTERN "*.toml" PATTERN "*.csv" PATTERN "*.stl" PATTERN "*.py" PATTERN "*.ipynb"
-        PATTERN Snakefile PATTERN pictures EXCLUDE PATTERN cpp EXCLUDE PATTERN __pycache__ EXCLUDE)
+        PATTERN "*.glsl" PATTERN Snakefile PATTERN pictures EXCLUDE PATTERN cpp EXCLUDE PATTERN __pycache__ EXCLUDE)
 
 # The program prints its own man pages and completions. Debian wants packed pages, without the time of packing in them.
 install(CODE [[
@@ -29,13 +29,15 @@ install(CODE [[
 
 # The library for programs in C++: an archive of the rooms that host/play takes, with their shaders.
 add_library(vkdose_library STATIC)
-foreach(room core geometry model sim analysis output reference vk vulkan play volk)
+foreach(room core geometry glsl model sim analysis output reference vk vulkan play volk)
   target_sources(vkdose_library PRIVATE $<TARGET_OBJECTS:vkdose_${room}>)
 endforeach()
 target_include_directories(vkdose_library INTERFACE $<INSTALL_INTERFACE:include/vkdose>)
 target_compile_features(vkdose_library INTERFACE cxx_std_20)
 target_link_libraries(vkdose_library PUBLIC glm::glm fmt::fmt
-                                     PRIVATE tomlplusplus::tomlplusplus hdf5::hdf5 ZLIB::ZLIB csv ${CMAKE_DL_LIBS})
+                                     PRIVATE tomlplusplus::tomlplusplus hdf5::hdf5 ZLIB::ZLIB csv ${CMAKE_DL_LIBS}
+                                             glslang::glslang glslang::SPIRV
+                                             glslang::glslang-default-resource-limits)
 if(VKDOSE_SANITIZE)
   target_link_options(vkdose_library INTERFACE -fsanitize=${VKDOSE_SANITIZE})
 endif()
@@ -94,7 +96,8 @@ masses per dose and torques, and writes reports, pictures and fields. Studies
 vary a case or calibrate its parameters.")
 set(CPACK_DEBIAN_LIBVKDOSE-DEV_PACKAGE_NAME libvkdose-dev)
 set(CPACK_DEBIAN_LIBVKDOSE-DEV_PACKAGE_SECTION libdevel)
-set(CPACK_DEBIAN_LIBVKDOSE-DEV_PACKAGE_DEPENDS "libcsv-dev, libfmt-dev, libglm-dev, libhdf5-dev, libtomlplusplus-dev, zlib1g-dev")
+set(CPACK_DEBIAN_LIBVKDOSE-DEV_PACKAGE_DEPENDS
+    "glslang-dev, libcsv-dev, libfmt-dev, libglm-dev, libhdf5-dev, libtomlplusplus-dev, zlib1g-dev")
 set(CPACK_DEBIAN_LIBVKDOSE-DEV_PACKAGE_RECOMMENDS "libvulkan1, vkdose (>= ${PROJECT_VERSION})")
 set(CPACK_DEBIAN_LIBVKDOSE-DEV_DESCRIPTION
     "library that runs vkdose inside a program in C++

@@ -2,6 +2,8 @@
 include(CMakeFindDependencyMacro)
 find_dependency(fmt)
 find_dependency(glm)
+find_dependency(Threads)  # which glslang needs
+find_dependency(glslang)
 enable_language(C)  # CMake looks for HDF5 with its compiler
 find_dependency(HDF5 COMPONENTS C)
 find_dependency(tomlplusplus)

@@ -37,6 +37,7 @@ double partner(const Restitution& e, double radius) {
 
 /// The key that says how stiff the contacts are.
 const char* stiffnessKey(const ContactParameters& p) {
+    if (p.law == NormalLaw::User) return "contact.law";
     return p.law == NormalLaw::Luding ? "contact.k" : "contact.youngs_modulus";
 }
 
@@ -133,7 +134,7 @@ Found strangeFriction(const Subject& s) {
 
 Found overdampedContacts(const Subject& s) {
     for (const Restitution& e : s.f.restitutions) {
-        if (e.mean > 0) continue;
+        if (e.mean > 0 || s.c.dosingLaw.user) continue;  // what a user's law damps, its file says
         return Finding{
             classKey(e.kind, "damping"),
             fmt::format("{} contacts of mean spheres are overdamped: they creep apart and never rebound, and "

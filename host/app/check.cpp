@@ -76,12 +76,15 @@ void printContacts(const Case& c, const Derived& d, const Figures& f) {
     const NormalLaw law = c.dosingLaw.of(ContactClass::ParticleParticle).law;
     fmt::print("contact duration   {}\n",
                law == NormalLaw::Luding ? "  mean pair on k1  stiffest pair on k2"
+               : law == NormalLaw::User ? "      mean pair        smallest pair   (at the law's largest stiffness)"
                                         : "      mean pair        smallest pair   (as stiff as at max_overlap_ratio)");
     for (const Derived::PairDuration& p : d.durations) {
         fmt::print("  {:<18} {:>13.4g} s  {:>17.4g} s\n", p.name, p.mean, p.stiffest);
     }
     fmt::print("restitution                mean    smallest     largest   ({})\n",
-               law == NormalLaw::HertzMindlin ? "of any impact" : "of damping alone, on k1");
+               law == NormalLaw::HertzMindlin ? "of any impact"
+               : law == NormalLaw::User       ? "of its damping alone, at its largest stiffness"
+                                              : "of damping alone, on k1");
     for (const Restitution& e : f.restitutions)
         fmt::print("  {:<18} {:>10.3g}  {:>10.3g}  {:>10.3g}\n", className(e.kind), e.mean, e.smallest, e.largest);
     fmt::print("time step  {:.4g} s = 1/{:.3g} of the stiffest; auto is {:.3g} s, limited by {}\n", d.timeStep,
@@ -98,6 +101,7 @@ void printBed(const Checked& all) {
         "overlap    {:.2g} of the radius under the bed's weight, {:.2g} in its chains of force, {:.2g} of the fall "
         "(limit {:.3g})\n",
         f.overlapUnderBed, kChain * f.overlapUnderBed, f.overlapOfFall, all.c.world.maxOverlapRatio);
+    if (std::isnan(f.bondLargest)) return;  // of a user's law nobody knows it
     fmt::print("Bond       {:.2g} under the bed's weight, at most {:.3g} (pull-off force over weight, mean pair)\n",
                f.bondUnderBed, f.bondLargest);
 }
@@ -140,6 +144,7 @@ void printText(const CheckOptions& options, const Checked& all) {
     printFilling(all.filled);
     printRefills(all.c, all.filled);
     if (all.c.softened > 1) printSoftening(all.c);
+    if (const auto& law = all.c.dosingLaw.user) fmt::print("law        {} ({})\n", printable(law->name), law->hash);
     printDerivations(all.c);
     printContacts(all.c, all.derived, all.figures);
     printBed(all);

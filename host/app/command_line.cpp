@@ -18,6 +18,7 @@
 #include "host/app/key_schema.h"
 #include "host/app/manual.h"
 #include "host/app/tell.h"
+#include "host/backend/vulkan/law_trial.h"
 
 namespace vkdose {
 
@@ -55,6 +56,7 @@ int printed(const std::string& page) {
 }  // namespace
 
 int commandLine(int argc, const char* const* argv) {
+    tryLawsOnDevices();
     std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files becomes an error of the write that meets it
     CLI::App program("Simulates the dosing of cohesive powder by a turning coil (discrete element method).", "vkdose");
     program.set_version_flag("--version", "vkdose " VKDOSE_VERSION);

@@ -41,7 +41,8 @@ void EnsembleRunner::order(std::vector<WaitingMember>& members) {
     std::map<int, WaitingMember> byNumber;
     for (const WaitingMember& w : members) {
         const Case c = loadResolvedCase(w.member->caseText, "case.toml");
-        sized.push_back({w.member->number, w.steps, roomOf(c.world, insertParticles(c).allParticles())});
+        sized.push_back(
+            {w.member->number, w.steps, roomOf(c.world, insertParticles(c).allParticles(), c.dosingLaw.user)});
         byNumber[w.member->number] = w;
     }
     const auto batches = batchesOf(std::move(sized), room_, std::size_t(most_ > 0 ? most_ : kMostThreads));

@@ -67,7 +67,12 @@ Json schemaOf(const Key& key) {
     if (*key.unit.name != '\0') text += " [" + std::string(key.unit.name) + "]";
     if (key.standard.kind == Default::Kind::Told) text += " (default: " + std::string(key.standard.text) + ")";
     schema["description"] = text;
-    if (key.orWord.empty()) {
+    if (!key.orEnding.empty()) {
+        std::string pattern(key.orEnding);
+        pattern.replace(0, 1, "\\.");
+        schema["anyOf"] =
+            Json::array({{{"enum", wordsOf(key.words)}}, {{"type", "string"}, {"pattern", pattern + "$"}}});
+    } else if (key.orWord.empty()) {
         addKind(schema, key);
     } else {
         Json number = Json::object();

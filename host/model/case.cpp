@@ -18,6 +18,7 @@
 #include "host/model/shared_places.h"
 #include "host/model/size_distribution.h"
 #include "host/model/stability.h"
+#include "host/model/user_law_trial.h"
 
 namespace vkdose {
 namespace {
@@ -188,6 +189,8 @@ Case interpret(const std::filesystem::path& file, Node tree, std::vector<std::fi
     // message must blame the powder for them.
     const SizeRange sizes = sizeRange(c);
     checkFilling(reader, c, sizes.largest);
+    reader.throwIfFaulty();
+    tryUserLaw(reader, c, sizes);
     reader.throwIfFaulty();
     completeTime(root.table("time"), c, sizes);
     checkTimeStep(reader, c, sizes.smallest);

@@ -88,7 +88,8 @@ constexpr std::array<std::string_view, 4> kPathKeys{"list", "sieves", "mesh", "f
 void makePathsAbsolute(Node& node) {
     for (Node& child : node.children) {
         const bool path = child.kind == Node::Kind::String &&
-                          std::find(kPathKeys.begin(), kPathKeys.end(), child.key) != kPathKeys.end();
+                          (std::find(kPathKeys.begin(), kPathKeys.end(), child.key) != kPathKeys.end() ||
+                           (child.key == "law" && child.string.ends_with(".glsl")));
         const std::filesystem::path file = child.file == kCommandLine ? "" : child.file;
         if (path)
             child.string = std::filesystem::absolute(file.parent_path() / child.string).lexically_normal().string();

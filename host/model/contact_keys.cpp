@@ -20,9 +20,13 @@ constexpr Key kContactAlone[] = {
         "`\"hertz-mindlin\"`: elastic spheres without adhesion, with the moduli of the materials; its contacts get "
         "stiffer with the overlap, and the time step is right up to `max_overlap_ratio`. `\"eepa\"`: the same spheres, "
         "which stay flattened and adhere where they were. `\"jkr\"`: the same spheres, elastic and adhesive, which "
-        "hold on to "
-        "each other a little beyond touch")
+        "hold on to each other a little beyond touch. `\"NAME.glsl\"`: [a law of your own](laws/README.md), the path "
+        "of "
+        "its file relative to this one")
+        .orEndingIn(".glsl")
         .replacing("*"),
+    text("law_text", told("none"), "the text of a law of your own; the resolved case has it, so that it needs no file"),
+    text("law_hash", told("none"), "its hash; a text that was changed is refused"),
     word("coulomb_limit", "luding absolute", "luding", "the force that friction is a fraction of"),
     word("rolling_lever", "full half", "full", "the lever of rolling and torsion"),
     number(
@@ -101,6 +105,10 @@ constexpr Key kContactClass[] = {
     number("damping_to_ratio", kPlain, kNonNegative, kTwoSevenths, "γ_to/γ, damping of torsion"),
 };
 
+constexpr Key kLawParameters[] = {
+    other("\"NAME\"", told("required"), "a number, in the unit that the law says"),
+};
+
 constexpr KeyTable kTables[] = {
     {"contact contact.wall contact.coil", kContactClass,
      "`[contact]` holds the parameters between particles. `[contact.wall]` replaces single ones for the walls,\n"
@@ -111,6 +119,9 @@ constexpr KeyTable kTables[] = {
      "gets\n"
      "the damping that its own mass needs."},
     {"contact", kContactAlone, "These hold for all contacts."},
+    {"contact.parameters contact.wall.parameters contact.coil.parameters", kLawParameters,
+     "The parameters of [a law of your own](laws/README.md), under the names that its file declares. `[contact]` needs "
+     "all of\nthem; the wall replaces single ones, and the coil takes from the wall what it does not state."},
 };
 
 }  // namespace

@@ -58,6 +58,7 @@ struct Key {
     Default standard{};                                            ///< the value of a key that is not given
     std::string_view meaning{};                                    ///< for the manual, in Markdown
     std::string_view orWord{};                                     ///< a word that may stand in place of a number
+    std::string_view orEnding{};                                   ///< of other texts that may stand in place of a word
     /// Keys and tables of a lower layer that this one removes, separated by blanks; "*": all of its table.
     std::string_view losers{};
 
@@ -65,6 +66,13 @@ struct Key {
     constexpr Key orElse(std::string_view word) const {
         Key key = *this;
         key.orWord = word;
+        return key;
+    }
+
+    /// Returns this key, of a word, with the addition that any text with this ending may stand in its place.
+    constexpr Key orEndingIn(std::string_view ending) const {
+        Key key = *this;
+        key.orEnding = ending;
         return key;
     }
 

@@ -2,6 +2,9 @@
 // Contact parameters in SI. Symbols as in physics.md (Luding (2008), Granular Matter 10:235, and the paper's table).
 
 #include <array>
+#include <memory>
+
+#include "host/model/user_law.h"
 
 namespace vkdose {
 
@@ -22,11 +25,14 @@ enum class NormalLaw {
     HertzMindlin = 1,  ///< elastic spheres: all stiffnesses and dampings grow with the overlap
     Eepa = 2,  ///< Edinburgh's elasto-plastic adhesive spheres: Hertz's line, from which contacts stay flattened
     Jkr = 3,   ///< elastic adhesive spheres (Johnson, Kendall, Roberts): contacts hold on beyond touch
+    User = 4,  ///< ContactLaw::user
 };
 
 /// Under Hertz-Mindlin, EEPA and JKR kt, kr and kTo are ratios to the stiffness 2 E* a of a contact of the radius a,
 /// which is that of Hertz's line, gammaT, gammaR and gammaTo ratios to its damping [-]; k1, k2Max, kc, plasticityDepth
-/// and gamma are not used.
+/// and gamma are not used. Under a user's law they are ratios to what its functions stiffness and damping answer. k1 is
+/// then the largest stiffness of mean spheres, k2Max that of the smallest, gamma their largest damping and reach the
+/// farthest, as a device told them (user_law_trial.h).
 struct ContactParameters {
     double k1 = 0;               ///< plastic loading stiffness [N/m]
     double k2Max = 0;            ///< limit elastic stiffness, k2-hat [N/m]
@@ -43,12 +49,14 @@ struct ContactParameters {
     double gammaTo = 0;          ///< torsion viscosity [kg/s]
     double muTo = 0;             ///< torsion friction [-]; 0 switches torsion off
     NormalLaw law = NormalLaw::Luding;
-    double modulus = 0;             ///< Hertz-Mindlin, EEPA, JKR: E*, effective Young's modulus of the two bodies [Pa]
-    double dampingShare = 0;        ///< Hertz-Mindlin, EEPA, JKR: beta, which gives the restitution (normal_law.h) [-]
-    double surfaceEnergy = 0;       ///< EEPA, JKR: delta gamma, of the two surfaces [J/m2]
-    double plasticityRatio = 0;     ///< EEPA: lambda_p = 1 - k1/k2, below 1 [-]
-    double constantPull = 0;        ///< EEPA: -f0, a pull that every contact has [N]
-    double adhesionExponent = 1.5;  ///< EEPA: chi, with which the pull fades as the contact opens [-]
+    double modulus = 0;          ///< Hertz-Mindlin, EEPA, JKR: E*, effective Young's modulus of the two bodies [Pa]
+    double dampingShare = 0;     ///< Hertz-Mindlin, EEPA, JKR: beta, which gives the restitution (normal_law.h) [-]
+    double surfaceEnergy = 0;    ///< EEPA, JKR: delta gamma, of the two surfaces [J/m2]
+    double plasticityRatio = 0;  ///< EEPA: lambda_p = 1 - k1/k2, below 1 [-]
+    double constantPull = 0;     ///< EEPA: -f0, a pull that every contact has [N]
+    double reach = 0;            ///< User: how far beyond touch any contact holds on, at most [m]
+    std::array<double, kMostLawParameters> own{};  ///< User: in the order of UserLaw::parameters
+    double adhesionExponent = 1.5;                 ///< EEPA: chi, with which the pull fades as the contact opens [-]
 };
 
 /// Everything the contact law needs, for one member (canister).
@@ -56,6 +64,7 @@ struct ContactLaw {
     std::array<ContactParameters, kContactClasses> classes;
     CoulombLimit coulombLimit = CoulombLimit::Luding;
     RollingLever rollingLever = RollingLever::Full;
+    std::shared_ptr<const UserLaw> user;  ///< null unless the classes follow NormalLaw::User
 
     const ContactParameters& of(ContactClass c) const { return classes[static_cast<int>(c)]; }
     ContactParameters& of(ContactClass c) { return classes[static_cast<int>(c)]; }

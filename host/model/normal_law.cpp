@@ -29,6 +29,16 @@ double steepestBranch(const ContactParameters& p) {
     return std::max(1.0, p.adhesionExponent / 1.5 * std::cbrt(p.plasticityRatio / 2));
 }
 
+/// From ratios to stiffnesses [N/m] and dampings [kg/s].
+void scaleSliders(ContactParameters& p, double k, double gamma) {
+    for (double ContactParameters::*stiffness :
+         {&ContactParameters::kt, &ContactParameters::kr, &ContactParameters::kTo})
+        p.*stiffness *= k;
+    for (double ContactParameters::*damping :
+         {&ContactParameters::gammaT, &ContactParameters::gammaR, &ContactParameters::gammaTo})
+        p.*damping *= gamma;
+}
+
 /// Where the path from touch has taken the energy `motion` [J]: beyond the overlap of no load.
 double overlapOfAdhesiveImpact(const JkrContact& contact, double motion) {
     const double all = contact.energy(0) + motion;
@@ -76,6 +86,12 @@ double hertzStiffness(const ContactParameters& p, double reduced, double overlap
 
 ContactParameters linearised(const ContactParameters& p, double mass, double reduced, double overlap) {
     if (p.law == NormalLaw::Luding) return p;
+    if (p.law == NormalLaw::User) {
+        ContactParameters linear = p;
+        linear.law = NormalLaw::Luding;
+        scaleSliders(linear, p.k2Max, p.gamma);
+        return linear;
+    }
     const double k = p.law == NormalLaw::Jkr ? 2 * p.modulus * JkrContact(p, reduced).radius(overlap)
                                              : hertzStiffness(p, reduced, overlap);
     const double gamma = kHertzDamping * p.dampingShare * std::sqrt(k * mass);
@@ -84,16 +100,12 @@ ContactParameters linearised(const ContactParameters& p, double mass, double red
     linear.k1 = linear.k2Max = k;
     if (p.law == NormalLaw::Eepa) linear.k2Max = k / (1 - p.plasticityRatio) * steepestBranch(p);
     linear.gamma = gamma;
-    for (double ContactParameters::*stiffness :
-         {&ContactParameters::kt, &ContactParameters::kr, &ContactParameters::kTo})
-        linear.*stiffness *= k;
-    for (double ContactParameters::*damping :
-         {&ContactParameters::gammaT, &ContactParameters::gammaR, &ContactParameters::gammaTo})
-        linear.*damping *= gamma;
+    scaleSliders(linear, k, gamma);
     return linear;
 }
 
 double reachOf(const ContactParameters& p, double reduced) {
+    if (p.law == NormalLaw::User) return p.reach;
     return p.law == NormalLaw::Jkr ? JkrContact(p, reduced).reach : 0;
 }
 
@@ -104,14 +116,14 @@ double longestReach(const ContactLaw& law, double largest) {
 }
 
 double overlapUnder(const ContactParameters& p, double reduced, double load) {
-    if (p.law == NormalLaw::Luding) return load / p.k1;
+    if (p.law == NormalLaw::Luding || p.law == NormalLaw::User) return load / p.k1;
     if (p.law == NormalLaw::Jkr) return JkrContact(p, reduced).overlapUnder(load);
     if (p.law == NormalLaw::Eepa) load += p.constantPull;
     return std::pow(load / (4.0 / 3.0 * p.modulus * std::sqrt(reduced / 2)), 2.0 / 3.0);
 }
 
 double overlapOfImpact(const ContactParameters& p, double mass, double reduced, double speed) {
-    if (p.law == NormalLaw::Luding) return speed * std::sqrt(mass / p.k1);
+    if (p.law == NormalLaw::Luding || p.law == NormalLaw::User) return speed * std::sqrt(mass / p.k1);
     if (p.law == NormalLaw::Jkr) return overlapOfAdhesiveImpact(JkrContact(p, reduced), mass * speed * speed / 2);
     const double modulus = p.modulus * std::sqrt(reduced / 2);
     double overlap = std::pow(15.0 / 16.0 * mass * speed * speed / modulus, 0.4);

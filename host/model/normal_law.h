@@ -37,7 +37,8 @@ double hertzStiffness(const ContactParameters& p, double reduced, double overlap
 
 /// The linear springs and dashpots that a contact of the reduced mass `mass` [kg] acts like at this overlap [m]: k1 on
 /// loading, k2Max the steepest on the way back. Luding's law is linear already, and is given back as it is. JKR: the
-/// stiffness 2 E* a of the contact radius a, which is more than the law's own where the surfaces pull.
+/// stiffness 2 E* a of the contact radius a, which is more than the law's own where the surfaces pull. Of a user's law
+/// the stiffness and the damping are the largest that its trial found.
 ContactParameters linearised(const ContactParameters& p, double mass, double reduced, double overlap);
 
 /// How far beyond touch a contact that has come about holds on [m]: it is lost when its overlap falls to minus the
@@ -51,7 +52,8 @@ double longestReach(const ContactLaw& law, double largest);
 double overlapUnder(const ContactParameters& p, double reduced, double load);
 
 /// Largest overlap of a first impact at `speed` [m/s] without damping and friction, in metres. Luding's law: on k1.
-/// EEPA: on Hertz's line, with the work of the constant pull. JKR: on the path from touch.
+/// EEPA: on Hertz's line, with the work of the constant pull. JKR: on the path from touch. A user's law: on a line of
+/// the largest stiffness that its trial found.
 double overlapOfImpact(const ContactParameters& p, double mass, double reduced, double speed);
 
 /// What a backend says of a law whose contacts reach farther than those of the law that was loaded.

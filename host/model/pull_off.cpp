@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "host/model/eepa.h"
 #include "host/model/jkr.h"
@@ -24,6 +25,7 @@ struct Pressed {
 }  // namespace
 
 double pullOff(const ContactParameters& p, double reduced, double maxOverlap) {
+    if (p.law == NormalLaw::User) return std::numeric_limits<double>::quiet_NaN();
     if (p.law == NormalLaw::Eepa) return eepaPath(p, reduced, maxOverlap).pull + p.constantPull;
     if (p.law == NormalLaw::Jkr) return JkrContact(p, reduced).pullOff;
     if (p.k2Max <= p.k1) return 0;  // one stiffness: no adhesive branch
@@ -32,7 +34,7 @@ double pullOff(const ContactParameters& p, double reduced, double maxOverlap) {
 }
 
 double pullOffUnder(const ContactParameters& p, double reduced, double load) {
-    if (p.law == NormalLaw::Luding) return pullOff(p, reduced, load / p.k1);
+    if (p.law == NormalLaw::Luding || p.law == NormalLaw::User) return pullOff(p, reduced, load / p.k1);
     // The patch of a contact is largest when it is as wide as R*.
     const double widest = p.plasticityRatio > 0 ? reduced / 2 / std::cbrt(std::pow(p.plasticityRatio, 2)) : 0;
     return pullOff(p, reduced, std::isinf(load) ? widest : overlapUnder(p, reduced, load));

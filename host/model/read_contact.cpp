@@ -9,6 +9,7 @@
 #include "host/model/contact_targets.h"
 #include "host/model/normal_law.h"
 #include "host/model/particles.h"
+#include "host/model/read_user_law.h"
 #include "host/model/restitution.h"
 #include "host/model/stability.h"
 
@@ -329,6 +330,52 @@ void readLuding(CaseReader& reader, const Tables& sections, Section& settle, dou
     }
 }
 
+/// A law of the user's own: its parameters, and friction and the ratios of the springs to its stiffness.
+void readUser(CaseReader& reader, const Tables& sections, Section& settle, Case& c) {
+    for (Section* section : sections) {
+        for (const char* key : kLudingKeys)
+            if (std::string_view(key) != "kt_over_k" && std::string_view(key) != "damping_t_ratio")
+                refuseKeys(reader, *section, {key}, "luding");
+        refuseKeys(reader, *section, kElasticKeys, "hertz-mindlin");
+        refuseKeys(reader, *section, {"restitution"}, "hertz-mindlin");
+        refuseKeys(reader, *section, kPlasticKeys, "eepa");
+        refuseKeys(reader, *section, kAdhesiveKeys, "jkr");
+    }
+    refuseKeys(reader, *sections[0], {"soften"}, "luding");
+    refuseKeys(reader, settle, {"kc_over_k", "wall_kc_over_k", "coil_kc_over_k", "elastic", "damping_factor"},
+               "luding");
+    const std::shared_ptr<const UserLaw> law = readUserLaw(reader, *sections[0]);
+    c.dosingLaw.user = law;
+    for (std::size_t i = 0; i < sections.size(); ++i) {
+        Section& section = *sections[i];
+        const ContactParameters* above = i == 0 ? nullptr : &c.dosingLaw.classes[i - 1];
+        ContactParameters& p = c.dosingLaw.classes[i];
+        const auto ratio = [&](const char* name, double ContactParameters::*member) {
+            p.*member = section.number(name, above != nullptr ? std::optional(above->*member) : std::nullopt);
+        };
+        p.law = NormalLaw::User;
+        ratio("friction", &ContactParameters::mu);
+        ratio("kt_over_k", &ContactParameters::kt);
+        ratio("damping_t_ratio", &ContactParameters::gammaT);
+        ratio("rolling_friction", &ContactParameters::muR);
+        ratio("kr_over_k", &ContactParameters::kr);
+        ratio("damping_r_ratio", &ContactParameters::gammaR);
+        ratio("torsion_friction", &ContactParameters::muTo);
+        ratio("kto_over_k", &ContactParameters::kTo);
+        ratio("damping_to_ratio", &ContactParameters::gammaTo);
+        if (law)
+            p.own = readOwn(reader, section, *law, above != nullptr ? &above->own : nullptr);
+        else
+            section.know("parameters");
+    }
+    c.settlingLaw = c.dosingLaw;
+}
+
+/// Whether the case names a file in place of a law of the program's.
+bool namesFile(const Section& contact, const Node* law) {
+    return contact.isString("law") && law->string.ends_with(".glsl");
+}
+
 }  // namespace
 
 void placeContact(Section& root) {
@@ -340,13 +387,17 @@ void placeContact(Section& root) {
 
 void readContact(CaseReader& reader, Section& root, double meanRadius, Case& c) {
     Section& contact = root.requiredTable("contact");
-    const auto law = static_cast<NormalLaw>(contact.choice("law").value_or(0));
+    const bool user = namesFile(contact, contact.node("law"));
+    const auto law = user ? NormalLaw::User : static_cast<NormalLaw>(contact.choice("law").value_or(0));
     c.dosingLaw.coulombLimit = static_cast<CoulombLimit>(contact.choice("coulomb_limit").value_or(0));
     c.dosingLaw.rollingLever = static_cast<RollingLever>(contact.choice("rolling_lever").value_or(0));
     c.world.maxOverlapRatio = contact.number("max_overlap_ratio");
     const Tables sections{&contact, &contact.table("wall"), &contact.table("coil")};
     Section& settle = root.table("settle");
-    if (law == NormalLaw::Luding)
+    if (!user) refuseUserLaw(reader, sections);
+    if (law == NormalLaw::User)
+        readUser(reader, sections, settle, c);
+    else if (law == NormalLaw::Luding)
         readLuding(reader, sections, settle, meanRadius, c);
     else
         readHertz(reader, sections, settle, law, c);

@@ -150,7 +150,7 @@ double dampingRatioFor(double e) {
 }
 
 double restitution(const ContactParameters& p, double density, double a, double b) {
-    if (p.law != NormalLaw::Luding) return ofDampingRatio(p.dampingShare);
+    if (p.law == NormalLaw::HertzMindlin || p.law == NormalLaw::Eepa) return ofDampingRatio(p.dampingShare);
     return ofDampingRatio(p.gamma / (2 * std::sqrt(p.k1 * reducedMass(density, a, b))));
 }
 
@@ -165,6 +165,7 @@ double restitutionAt(const ContactParameters& p, double mass, double reduced, do
     if (p.law == NormalLaw::Jkr && p.surfaceEnergy == 0) return ofDampingRatio(p.dampingShare);
     if (p.law == NormalLaw::Jkr) return speed > 0 ? jkrImpact(p, mass, reduced, speed) : 0;
     const double zeta = p.gamma / (2 * std::sqrt(p.k1 * mass));
+    if (p.law == NormalLaw::User) return ofDampingRatio(zeta);
     if (!(zeta < 1) || !std::isfinite(p.k2Max + p.kc + p.plasticityDepth)) return 0;
     // With one stiffness the loss does not depend on the speed.
     if (!(speed > 0) || !(p.k2Max > p.k1) || !(p.plasticityDepth > 0)) return ofDampingRatio(zeta);

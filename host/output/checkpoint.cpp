@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "host/core/file.h"
+#include "host/core/fnv.h"
 #include "host/output/hdf5.h"
 
 namespace vkdose {
@@ -16,12 +17,9 @@ constexpr std::size_t kUserBlock = 512;
 constexpr std::string_view kMagic = "vkdose checkpoint";
 constexpr int kVersion = 6;  // 5: doses without what stopped the coil, and a schedule without decisions
 
-/// FNV-1a, 64 bits: it has to catch accidents, not forgers. It belongs to the format. With another checksum (zlib's,
-/// say) existing checkpoints could not be read.
+/// It belongs to the format. With another checksum (zlib's, say) existing checkpoints could not be read.
 std::uint64_t checksum(std::string_view bytes) {
-    std::uint64_t hash = 0xcbf29ce484222325;
-    for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3;
-    return hash;
+    return fnv1a(bytes);
 }
 
 std::string head(std::string_view body) {

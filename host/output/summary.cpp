@@ -22,6 +22,7 @@ Json inputs(const Case& c, const RunResult& r) {
     j["case"] = c.name;
     j["reason"] = c.reason;
     j["seed"] = c.seed;
+    if (const auto& law = c.dosingLaw.user) j["law"] = {{"name", law->name}, {"hash", law->hash}};
     j["particles"] = r.filled.particles.size();
     j["filled_mass_kg"] = jsonNumber(r.filled.mass);
     j["target_mass_kg"] = jsonNumber(r.filled.targetMass);

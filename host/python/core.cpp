@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "host/backend/vulkan/law_trial.h"
 #include "host/core/error.h"
 #include "host/model/key.h"
 #include "host/output/frame_files.h"
@@ -131,6 +132,7 @@ std::unique_ptr<Simulation> open(const std::string& file, const std::vector<std:
 }  // namespace
 
 PYBIND11_MODULE(_core, m) {
+    tryLawsOnDevices();
     m.doc() = "Runs inside Python; see vkdose.Simulation.";
     py::register_local_exception_translator(translate);
     py::class_<Simulation>(m, "Simulation")

@@ -2,7 +2,11 @@
 #ifndef VKDOSE_LAW_CONTACT_GLSL
 #define VKDOSE_LAW_CONTACT_GLSL
 
+#ifdef USER_LAW
+#include "law/user_functions.glsl"
+#else
 #include "law/normal.glsl"
+#endif
 #include "law/rolling.glsl"
 #include "law/sliding.glsl"
 #include "law/torsion.glsl"
@@ -10,7 +14,21 @@
 struct History {
     vec4 slidingMax;      // xyz: sliding spring [m]; w: delta_max [m]
     vec4 rollingTorsion;  // xyz: rolling spring [m]; w: torsion spring [m]
+#ifdef USER_LAW
+    vec4 own[2];  // what the user's law remembers; the last: its stiffness in the last step [N/m]
+#endif
 };
+
+History noHistory() {
+    History h;
+    h.slidingMax = vec4(0.0);
+    h.rollingTorsion = vec4(0.0);
+#ifdef USER_LAW
+    h.own[0] = vec4(0.0);
+    h.own[1] = vec4(0.0);
+#endif
+    return h;
+}
 
 struct Meeting {
     vec3 normal;    // from j to i
@@ -29,10 +47,18 @@ struct Response {
     bvec3 slips;                // sliding, rolling, torsion
 };
 
+#ifdef USER_LAW
+#include "law/user.glsl"
+#endif
+
 Response contactResponse(ContactParams p, uvec4 choices, Meeting m, float dt, inout History h) {
     float vn = dot(m.velocity, m.normal);
     vec3 vt = m.velocity - m.normal * vn;
+#ifdef USER_LAW
+    NormalAnswer answer = userAnswer(p, m, -vn, h);
+#else
     NormalAnswer answer = normalAnswer(p, m.overlap, m.reduced, m.mass, h.slidingMax.w);
+#endif
     float f = answer.force;
     float fn = f - answer.damping * vn;
     // Friction is limited by the normal force, counted from the adhesive limit (Luding 2008), or by its size.

@@ -28,7 +28,11 @@ struct Work {
 
 /// Energy in the springs of sliding, rolling and torsion of a contact at this overlap [J].
 vec3 sliderEnergy(ContactParams p, float overlap, float reduced, History h) {
+#ifdef USER_LAW
+    vec3 springs = h.own[1].w * p.springs.xyz;
+#else
     vec3 springs = springsAt(p, overlap, reduced);
+#endif
     return 0.5 * vec3(springs.x * dot(h.slidingMax.xyz, h.slidingMax.xyz),
                       springs.y * dot(h.rollingTorsion.xyz, h.rollingTorsion.xyz),
                       springs.z * h.rollingTorsion.w * h.rollingTorsion.w);
@@ -36,7 +40,11 @@ vec3 sliderEnergy(ContactParams p, float overlap, float reduced, History h) {
 
 /// Energy in all springs of a contact that exerts `f`: normal, sliding, rolling, torsion [J].
 vec4 elasticEnergy(ContactParams p, float f, float overlap, float reduced, History h) {
+#ifdef USER_LAW
+    return vec4(userStored, sliderEnergy(p, overlap, reduced, h));
+#else
     return vec4(storedEnergy(p, f, overlap, reduced, h.slidingMax.w), sliderEnergy(p, overlap, reduced, h));
+#endif
 }
 
 /// Energy that is gone with a contact which exerted `e` [J].
@@ -47,12 +55,16 @@ float storedIn(ContactParams p, Exerted e, float reduced, History h) {
 /// What the springs of sliding, rolling and torsion of a contact that `goesOn` gain because the overlap makes them
 /// stiffer [J].
 vec3 stiffening(ContactParams p, Exerted before, Exerted now, float reduced, vec3 stored, bool goesOn) {
+#ifdef USER_LAW
+    return stored * (userGrowth - 1.0);
+#else
     if (follows(p, kLawJkr)) {
         float was = jkrStiffness(p, before.rest.w, reduced), is = jkrStiffness(p, now.rest.w, reduced);
         return goesOn ? stored * (is / was - 1.0) : vec3(0.0);
     }
     if (before.rest.w <= 0.0 || now.rest.w <= 0.0) return vec3(0.0);
     return stored * (sqrt(now.rest.w / before.rest.w) - 1.0);
+#endif
 }
 
 /// Work that the force `e` takes in half a step `dt` [s] from a contact that moves with `velocity`, seen where the
@@ -73,19 +85,23 @@ Book bookContact(Exerted before, Exerted now, bool known, bool touching, vec4 st
     vec4 gained = stored - storedBefore;
     float taken = a.hysteretic + b.hysteretic;
     float loss = taken - gained.x;
+#ifdef USER_LAW
+    bool adhesive = false, changes = true;  // what a user's law took and did not store, it lost: nobody else can say
+#else
     if (!known) loss = workOfFirstTouch(p, now.normal.w, now.rest.w) - gained.x;
     if (!touching) loss = lossOfParting(p, before.normal.w, before.rest.w, -gained.x);
     if (!losesEnergy(p)) loss = 0.0;
     if (follows(p, kLawJkr)) loss = known ? 0.0 : jkrLossOfTouch(p, reduced);
     Exerted last = now;
     if (!touching) last = before;
-    bool adhesive = onAdhesiveBranch(p, last.normal.w, last.rest.w);
+    bool adhesive = onAdhesiveBranch(p, last.normal.w, last.rest.w), changes = stiffens(p);
+#endif
 
     vec3 spent = a.sliders + b.sliders - gained.yzw;
     vec3 slipping = vec3(touching ? slips : bvec3(true));  // when a contact opens its springs snap
     vec3 friction = spent * slipping;
     float sticking = dot(spent, vec3(1.0) - slipping);
-    if (stiffens(p)) {  // friction has what comes from no motion
+    if (changes) {  // friction has what comes from no motion
         vec3 free = stiffening(p, before, now, reduced, storedBefore.yzw, known && touching) * (vec3(1.0) - slipping);
         friction -= free;
         sticking += free.x + free.y + free.z;

@@ -8,6 +8,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shared/buffers.glsl"
 #include "pass/bodies.glsl"
+#include "pass/history.glsl"
 #include "pass/wall.glsl"
 #ifdef ENERGY_BOOK
 #include "pass/slot_books.glsl"
@@ -74,10 +75,6 @@ vec3 turnedAlong(vec3 v, vec3 from, vec3 to) {
     return cosine * v + cross(axis, v) + axis * (dot(axis, v) / (1.0 + cosine));
 }
 
-History historyOfPlace(uint slot, uint place) {
-    return History(historyAt(placeHistoryIndex(slot, place, 0u)), historyAt(placeHistoryIndex(slot, place, 1u)));
-}
-
 #ifdef ENERGY_BOOK
 Exerted exertedAt(uint slot, uint place) {
     return Exerted(historyAt(placeHistoryIndex(slot, place, 3u)), historyAt(placeHistoryIndex(slot, place, 4u)),
@@ -132,8 +129,7 @@ void main() {
 #ifdef ENERGY_BOOK
         partPlace(law, springDt, moving, reduced, me, exertedAt(slot, place), historyOfPlace(slot, place));
 #endif
-        history[placeHistoryIndex(slot, place, 0u)] = vec4(0.0);
-        history[placeHistoryIndex(slot, place, 1u)] = vec4(0.0);
+        keepHistoryOfPlace(slot, place, noHistory());
         history[placeHistoryIndex(slot, place, 2u)] = vec4(0.0);
         writeForce(forceOfPlace(slot, place), vec4(0.0));
     }
@@ -153,7 +149,7 @@ void main() {
         }
         inUse |= 1u << place;
         vec3 normal = directionToWorld(motion, feature.direction);
-        History h = History(vec4(0.0), vec4(0.0));
+        History h = noHistory();
         vec3 was = historyAt(placeHistoryIndex(slot, place, 2u)).xyz;
         if (known) {
             h = historyOfPlace(slot, place);
@@ -172,8 +168,7 @@ void main() {
 #endif
         WallForce f = meetWall(me, Overlap(feature.depth, normal), reduced, law, chosen, density, springDt, seen * wall,
                                seen * motion.spin.xyz, h, r);
-        history[placeHistoryIndex(slot, place, 0u)] = h.slidingMax;
-        history[placeHistoryIndex(slot, place, 1u)] = h.rollingTorsion;
+        keepHistoryOfPlace(slot, place, h);
         history[placeHistoryIndex(slot, place, 2u)] = vec4(feature.direction, float(place + 1u));
         // The host asks for single contacts, and `field_branches` for their overlaps.
         writeForce(forceOfPlace(slot, place), vec4(f.force, feature.depth));

@@ -3,6 +3,7 @@
 #define VKDOSE_PASS_BOOKS_GLSL
 
 #include "law/energy.glsl"
+#include "pass/history.glsl"
 #include "pass/body.glsl"
 
 float workOnOneSide(Exerted e, Body b, float side) {
@@ -14,7 +15,7 @@ float workOnOneSide(Exerted e, Body b, float side) {
 /// Books a contact that touched until one of its particles, or both, left the motion. The energy in its springs is gone
 /// with them. Its last force still does work on a particle that stayed, which is booked here.
 void bookDeparture(uint i, uint slot) {
-    History h = History(readHistory(0u, slot), readHistory(1u, slot));
+    History h = historyOfSlot(slot);
     if (h.slidingMax.w <= 0.0) return;
     Exerted e = Exerted(readHistory(2u, slot), readHistory(3u, slot), readHistory(4u, slot));
     Body a = readBody(i);

@@ -43,7 +43,7 @@ void bookDepartureFromBody(uint i, uint slot, uint body) {
     for (uint k = 0u; k < kMaxBodyTouches; ++k) {
         vec4 springs = historyAt(placeHistoryIndex(slot, k, 0u));
         if (springs.w <= 0.0) continue;
-        History h = History(springs, historyAt(placeHistoryIndex(slot, k, 1u)));
+        History h = historyOfPlace(slot, k);
         Exerted e = Exerted(historyAt(placeHistoryIndex(slot, k, 3u)), historyAt(placeHistoryIndex(slot, k, 4u)),
                             historyAt(placeHistoryIndex(slot, k, 5u)));
         books[bookIndex(kBookFlow, i)].y += storedIn(lawOf(ofCoil ? kParticleCoil : kParticleWall), e, reduced, h);

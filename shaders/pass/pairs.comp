@@ -5,7 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shared/buffers.glsl"
 #include "pass/body.glsl"
-#include "law/contact.glsl"
+#include "pass/history.glsl"
 #ifdef ENERGY_BOOK
 #include "pass/slot_books.glsl"
 #endif
@@ -23,7 +23,7 @@ void main() {
 
     uvec2 who = entriesAt(slot);
     Body a = readBody(who.x), b = readBody(who.y);
-    History h = History(readHistory(0u, slot), readHistory(1u, slot));
+    History h = historyOfSlot(slot);
 #ifdef ENERGY_BOOK
     History old = h;
 #endif
@@ -36,7 +36,7 @@ void main() {
     Response r = contactResponse(law, chosen, m, springDt, h);
     vec3 turn = cross(o.normal, r.sliding);
 
-    writeHistory(slot, touching ? h.slidingMax : vec4(0.0), touching ? h.rollingTorsion : vec4(0.0));
+    keepHistory(slot, h, touching);
     writeForce(slot, touching ? vec4(r.force, o.depth / min(ra, rb)) : vec4(0.0));
     writeTorques(slot, touching ? vec4(r.couple - leverA * turn, 0.0) : vec4(0.0),
                  touching ? vec4(-r.couple - leverB * turn, 0.0) : vec4(0.0));

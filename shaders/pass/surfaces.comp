@@ -8,6 +8,7 @@
 // many they are.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/buffers.glsl"
+#include "pass/history.glsl"
 #include "pass/wall.glsl"
 #ifdef ENERGY_BOOK
 #include "pass/slot_books.glsl"
@@ -23,7 +24,7 @@ struct Memory {
 
 Memory nothing() {
     Memory m;
-    m.history = History(vec4(0.0), vec4(0.0));
+    m.history = noHistory();
 #ifdef ENERGY_BOOK
     m.exerted = kNothing;
 #endif
@@ -34,7 +35,7 @@ bool known(Memory m) { return m.history.slidingMax.w > 0.0; }
 
 Memory recall(uint slot) {
     Memory m;
-    m.history = History(readHistory(0u, slot), readHistory(1u, slot));
+    m.history = historyOfSlot(slot);
 #ifdef ENERGY_BOOK
     m.exerted = exertedBefore(slot, known(m));
 #endif
@@ -97,7 +98,7 @@ void main() {
         History h = memory.history;
         Response r;
         WallForce f = meetWall(me, o, reduced, law, chosen, density, springDt, vec3(0.0), vec3(0.0), h, r);
-        writeHistory(slot, touching ? h.slidingMax : vec4(0.0), touching ? h.rollingTorsion : vec4(0.0));
+        keepHistory(slot, h, touching);
         writeForce(slot, touching ? vec4(f.force, o.depth / me.sphere.radius) : vec4(0.0));
         writeTorque(slot, touching ? vec4(f.torque, 0.0) : vec4(0.0));
 #ifdef ENERGY_BOOK

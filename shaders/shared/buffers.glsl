@@ -61,9 +61,14 @@ layout(push_constant) uniform Push { StepPush push; };
 #include "shared/tables.h"
 
 #ifdef ENERGY_BOOK
-const uint kParts = 5u;
+const uint kOwnPart = 5u;
 #else
-const uint kParts = 2u;
+const uint kOwnPart = 2u;
+#endif
+#ifdef USER_LAW
+const uint kParts = kOwnPart + 2u;  // the last two are the memory of the user's law
+#else
+const uint kParts = kOwnPart;
 #endif
 const uint kPlaceParts = kParts + 1u;                     // of a place on a body
 const uint kBodyHistory = kMaxBodyTouches * kPlaceParts;  // of a body slot
@@ -99,9 +104,18 @@ bool waits() {
 #define OF_MEMBER(field, vector) member.field
 #endif
 ContactParams lawOf(uint kind) {
-    return ContactParams(OF_MEMBER(contact[kind].normal, 4u * kind), OF_MEMBER(contact[kind].springs, 4u * kind + 1u),
-                         OF_MEMBER(contact[kind].friction, 4u * kind + 2u),
-                         OF_MEMBER(contact[kind].damping, 4u * kind + 3u));
+    ContactParams p;
+    p.normal = OF_MEMBER(contact[kind].normal, kContactVectors * kind);
+    p.springs = OF_MEMBER(contact[kind].springs, kContactVectors * kind + 1u);
+    p.friction = OF_MEMBER(contact[kind].friction, kContactVectors * kind + 2u);
+    p.damping = OF_MEMBER(contact[kind].damping, kContactVectors * kind + 3u);
+#ifdef USER_LAW
+    p.own[0] = OF_MEMBER(contact[kind].own[0], kContactVectors * kind + 4u);
+    p.own[1] = OF_MEMBER(contact[kind].own[1], kContactVectors * kind + 5u);
+    p.own[2] = OF_MEMBER(contact[kind].own[2], kContactVectors * kind + 6u);
+    p.own[3] = OF_MEMBER(contact[kind].own[3], kContactVectors * kind + 7u);
+#endif
+    return p;
 }
 vec4 gravity() { return OF_MEMBER(gravity, kVectorGravity); }
 vec4 domainLow() { return OF_MEMBER(domainLow, kVectorGravity + 1u); }
@@ -177,7 +191,7 @@ uint stateIndex(uint side, uint field, uint i) {
 }
 uint historyIndex(uint part, uint slot) { return part < 2u ? springIndex(slot, part) : exertedIndex(part - 2u, slot); }
 /// Vector `part` of the history of place `touch` in a body slot: 0, 1: History; 2: direction in the frame of the body;
-/// with an energy book 3, 4, 5: Exerted.
+/// with an energy book 3, 4, 5: Exerted; then the memory of a user's law.
 uint placeHistoryIndex(uint slot, uint touch, uint part) {
     return bodyHistoryIndex(slot - springSlotCount(), kPlaceParts * touch + part);
 }

@@ -94,19 +94,25 @@ SHARED_CONST kLawLuding = 0u;
 SHARED_CONST kLawHertzMindlin = 1u;
 SHARED_CONST kLawEepa = 2u;
 SHARED_CONST kLawJkr = 3u;
+SHARED_CONST kLawUser = 4u;         // of a file of the case's own (law/user.glsl)
+SHARED_CONST kOwnParameters = 16u;  // most parameters of such a law; vkdose::kMostLawParameters
+SHARED_CONST kOwnMemories = 7u;     // most numbers that it remembers of a contact; vkdose::kMostLawMemories
+SHARED_CONST kUserReaches = 31u;    // a bit beside those of the laws: the user's has a reach
 // Laws whose contacts hold on beyond touch, a bit each (law/reach.glsl).
-SHARED_CONST kReachingLaws = 1u << kLawJkr;
+SHARED_CONST kReachingLaws = 1u << kLawJkr | 1u << kUserReaches;
 
 // Hertz-Mindlin, EEPA, JKR: springs are ratios to the stiffness 2 E* a of a contact of the radius a, dampings ratios to
-// its damping.
+// its damping. A user's law: ratios to its own stiffness and damping.
 struct ContactParams {
     // Luding: k1, k2Max, kc [N/m], plasticity depth; Hertz-Mindlin: E* [Pa], 2 sqrt(5/6) beta; EEPA: these, then 1.5 pi
     // delta gamma [N/m], lambda_p; JKR: as Hertz-Mindlin, then the cube root of sqrt(2 pi delta gamma/E*)/4 [m^(1/6)]
     vec4 normal;
     vec4 springs;   // of sliding, rolling, torsion: kt, kr, kTo [N/m]; w: law (kLawLuding ...)
-    vec4 friction;  // coefficients of sliding, rolling, torsion: mu, muR, muTo; w: EEPA: f0 [N]
+    vec4 friction;  // coefficients of sliding, rolling, torsion: mu, muR, muTo; w: EEPA: f0 [N]; a
+                    // user's law: its farthest reach [m]
     // of sliding, rolling, torsion, then of the normal part: gammaT, gammaR, gammaTo, gamma [kg/s]; EEPA: w: chi/1.5
     vec4 damping;
+    vec4 own[kOwnParameters / 4u];  // of a user's law, in the order of its file
 };
 
 struct SurfaceParams {
@@ -136,7 +142,8 @@ struct Member {
                                            // low, then its high corner [m]
 };
 // Where in a member some of its vectors are.
-SHARED_CONST kVectorSurface = 12u;
+SHARED_CONST kContactVectors = 4u + kOwnParameters / 4u;
+SHARED_CONST kVectorSurface = 3u * kContactVectors;
 SHARED_CONST kVectorGravity = kVectorSurface + 4u * kMaxSurfaces;
 SHARED_CONST kVectorOutlets = kVectorGravity + 7u;
 SHARED_CONST kMemberVectors = kVectorOutlets + 2u * kMaxRegionOutlets;

@@ -34,7 +34,7 @@ const std::map<std::string, Layout>& hostLayouts() {
     static const std::map<std::string, Layout> layouts = {
         {"ContactParams",
          {{FIELD(ContactParams, normal), FIELD(ContactParams, springs), FIELD(ContactParams, friction),
-           FIELD(ContactParams, damping)},
+           FIELD(ContactParams, damping), FIELD(ContactParams, own)},
           sizeof(ContactParams)}},
         {"SurfaceParams",
          {{FIELD(SurfaceParams, pointHigh), FIELD(SurfaceParams, pointLow), FIELD(SurfaceParams, axis),

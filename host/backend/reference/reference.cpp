@@ -42,6 +42,11 @@ std::string nameOf(const Deepest& deepest, const World& world) {
 class ReferenceBackend final : public Backend {
   public:
     void load(const World& world, const ContactLaw& law, const Particles& particles) override {
+        if (law.user)
+            throw RunError(
+                fmt::format("contact.law = \"{}\" is written in the language of devices, and the backend "
+                            "reference cannot run it: use --backend vulkan",
+                            law.user->name));
         world_ = {world, law};
         particles_ = particles;
         forces_.reset(particles.size(), world);

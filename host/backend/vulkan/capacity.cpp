@@ -12,10 +12,10 @@ DeviceRoom roomOn(const vk::Device& device) {
     return {device.freeMemory() / 5 * 4, limits.maxStorageBufferRange, limits.maxComputeWorkGroupCount[1]};
 }
 
-TableSizes roomOf(const World& world, const Particles& particles) {
+TableSizes roomOf(const World& world, const Particles& particles, const std::shared_ptr<const UserLaw>& userLaw) {
     DeviceShape unlimited;
     unlimited.range = std::numeric_limits<std::uint64_t>::max();
-    return tableSizes(world, Crowd(particles), packMember(world, {}, particles), unlimited);
+    return tableSizes(world, Crowd(particles), packMember(world, {}, particles), unlimited, 1, userLaw);
 }
 
 bool fit(const std::vector<TableSizes>& canisters, const DeviceRoom& room) {

@@ -20,7 +20,8 @@ struct DeviceRoom {
 DeviceRoom roomOn(const vk::Device& device);
 
 /// The room that one canister takes on a device without limits. Throws RunError if it needs more than 32-bit indices.
-TableSizes roomOf(const World& world, const Particles& particles);
+TableSizes roomOf(const World& world, const Particles& particles,
+                  const std::shared_ptr<const UserLaw>& userLaw = nullptr);
 
 /// Whether all these canisters fit the device at once. They must be able to share tables.
 bool fit(const std::vector<TableSizes>& canisters, const DeviceRoom& room);

@@ -10,7 +10,9 @@
 #include "host/backend/vulkan/pack.h"
 #include "host/backend/vulkan/snapshot.h"
 #include "host/core/error.h"
+#include "host/core/fnv.h"
 #include "host/model/normal_law.h"
+#include "host/model/user_law_trial.h"
 #include "host/vk/copy_bandwidth.h"
 
 namespace vkdose {
@@ -77,7 +79,8 @@ void Ensemble::load(const std::vector<Canister>& canisters) {
         m.bodies = allBodies(c.world);
         m.loaded = c.particles;
         m.block = packMember(c.world, c.law, c.particles);
-        rooms.push_back(tableSizes(c.world, Crowd(c.particles), m.block, shape, std::uint32_t(canisters.size())));
+        rooms.push_back(
+            tableSizes(c.world, Crowd(c.particles), m.block, shape, std::uint32_t(canisters.size()), c.law.user));
         members_.push_back(std::move(m));
     }
     TableSizes sizes = roomForAll(rooms);
@@ -87,7 +90,12 @@ void Ensemble::load(const std::vector<Canister>& canisters) {
     passes_.reset();  // the former tables make room for the new ones
     bodies_.reset();
     makeBodies(sizes);
-    passes_ = std::make_unique<Passes>(device_, sizes, bodies_.get());
+    try {
+        passes_ = std::make_unique<Passes>(device_, sizes, bodies_.get());
+    } catch (const LawError& error) {
+        const LawFault& first = error.faults.front();
+        throw RunError(fmt::format("{}:{}: {}", sizes.userLaw->name, first.line, first.problem));
+    }
     std::vector<gpu::vec4> half(std::size_t(gpu::kFields) * sizes.particles());
     for (std::uint32_t m = 0; m < members_.size(); ++m)
         packState(members_[m].loaded, sizes.share, std::size_t(m) * sizes.share, half);
@@ -138,6 +146,7 @@ Record Ensemble::snapshot(std::uint32_t member) const {
     Record record;
     saveState(*passes_, member, m.loaded.size(), m.half(), record);
     record.putOne(kSnapshotSteps, m.step);
+    if (const auto& law = passes_->sizes.userLaw) record.putOne("user_law", fnv1a(law->text));
     record.putOne("drive", std::uint64_t(m.drive));
     return record;
 }
@@ -146,6 +155,10 @@ void Ensemble::restore(std::uint32_t member, const Record& record) {
     MemberState& m = members_[member];
     const auto step = record.one<std::uint64_t>(kSnapshotSteps);
     const auto drive = std::int64_t(record.one<std::uint64_t>("drive"));
+    const auto& law = passes_->sizes.userLaw;
+    const auto before = record.arrays().contains("user_law") ? record.one<std::uint64_t>("user_law") : 0;
+    if (before != (law ? fnv1a(law->text) : 0))
+        throw RecordError(fmt::format("it was made under another law than {}", law ? law->name : "that of the case"));
     restoreState(*passes_, member, m.loaded.size(), m.half(), record);
     m.drive = drive;
     m.step = step;
@@ -238,6 +251,9 @@ void Ensemble::keepError(std::uint32_t member, const gpu::uvec4& error) {
     const std::uint64_t step = m.step + error.x;
     m.failure = fmt::format("particle {} (radius {:.6g} m) at ({:.6g}, {:.6g}, {:.6g}) m {} (step {}, t = {:.6g} s)", i,
                             now.radius[i], x.x, x.y, x.z, text(error.y), step, double(step) * m.world.timeStep);
+    if (error.y == gpu::kErrorNan && passes_->sizes.userLaw)
+        *m.failure +=
+            fmt::format("; or the law {} answered something that is not a number", passes_->sizes.userLaw->name);
 }
 
 VulkanProfile Ensemble::profile(std::uint32_t steps, double coilRate) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "host/backend/vulkan/user_shader.h"
 #include "spirv/passes.h"
 
 namespace vkdose {
@@ -116,7 +117,10 @@ FieldPasses::FieldPasses(const vk::Device& device, const Passes& p, std::size_t 
       bindings_(device, with(own_, p.all()), sizeof(gpu::StepPush)),
       branchBindings_(device, p.bodies != nullptr ? with(*p.bodies, with(own_, p.all())) : with(own_, p.all()),
                       sizeof(gpu::StepPush)),
-      branches_(device, branchBindings_, vk::pick(spirv::field_branches, macrosFor(p.sizes)),
+      branches_(device, branchBindings_,
+                p.sizes.userLaw ? userShader("pass/field_branches.comp", *p.sizes.userLaw, spirv::field_branches,
+                                             macrosFor(p.sizes))
+                                : vk::pick(spirv::field_branches, macrosFor(p.sizes)),
                 Passes::constants(p.sizes)),
       weigh_(device, bindings_, vk::pick(spirv::field_weights, 0), Passes::constants(p.sizes)),
       sums_(device, bindings_, vk::pick(spirv::field_sums, 0), Passes::constants(p.sizes)),

@@ -27,7 +27,9 @@ static_assert(gpu::kCoulombLuding == uint32_t(CoulombLimit::Luding) &&
               gpu::kCoulombAbsolute == uint32_t(CoulombLimit::Absolute));
 static_assert(gpu::kLawLuding == uint32_t(NormalLaw::Luding) &&
               gpu::kLawHertzMindlin == uint32_t(NormalLaw::HertzMindlin) &&
-              gpu::kLawEepa == uint32_t(NormalLaw::Eepa) && gpu::kLawJkr == uint32_t(NormalLaw::Jkr));
+              gpu::kLawEepa == uint32_t(NormalLaw::Eepa) && gpu::kLawJkr == uint32_t(NormalLaw::Jkr) &&
+              gpu::kLawUser == uint32_t(NormalLaw::User));
+static_assert(gpu::kOwnParameters == kMostLawParameters && gpu::kOwnMemories == kMostLawMemories);
 static_assert(gpu::kLeverFull == uint32_t(RollingLever::Full) && gpu::kLeverHalf == uint32_t(RollingLever::Half));
 
 gpu::ContactParams packContact(const ContactParameters& c) {
@@ -35,6 +37,11 @@ gpu::ContactParams packContact(const ContactParameters& c) {
     p.springs = vec4(float(c.kt), float(c.kr), float(c.kTo), float(c.law));
     p.friction = vec4(float(c.mu), float(c.muR), float(c.muTo), 0.0f);
     p.damping = vec4(float(c.gammaT), float(c.gammaR), float(c.gammaTo), float(c.gamma));
+    if (c.law == NormalLaw::User) {
+        for (std::size_t k = 0; k < c.own.size(); ++k) p.own[k / 4][int(k % 4)] = float(c.own[k]);
+        p.friction.w = float(c.reach);
+        return p;
+    }
     if (c.law == NormalLaw::Luding) {
         p.normal = vec4(float(c.k1), float(c.k2Max), float(c.kc), float(c.plasticityDepth));
         return p;

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "host/backend/vulkan/user_shader.h"
 #include "spirv/passes.h"
 
 namespace vkdose {
@@ -37,8 +38,9 @@ struct StepPass {
     std::span<const vk::Variant> variants;
     Extent extent;
     VkDeviceSize arguments = 0;
-    bool readsBodies = false;  ///< binds the tables of shaders/shared/body_tables.h, if there are bodies
-    bool forBodies = false;    ///< has nothing to do without bodies
+    bool readsBodies = false;      ///< binds the tables of shaders/shared/body_tables.h, if there are bodies
+    bool forBodies = false;        ///< has nothing to do without bodies
+    const char* source = nullptr;  ///< of a pass that knows the law or what contacts remember
 };
 
 /// A stride: `decide`, the passes that make new lists, then steps of the other passes.
@@ -47,12 +49,15 @@ constexpr std::array kPasses{
     StepPass{"clear", spirv::clear, Extent::OfDevice, offsetof(gpu::Dispatches, cells)},
     StepPass{"bin", spirv::bin, Extent::OfDevice, offsetof(gpu::Dispatches, particles)},
     StepPass{"neighbours", spirv::neighbours, Extent::OfDevice, offsetof(gpu::Dispatches, particles)},
-    StepPass{"near", spirv::near, Extent::OfDevice, offsetof(gpu::Dispatches, refresh), true},
-    StepPass{"link", spirv::link, Extent::OfDevice, offsetof(gpu::Dispatches, refresh)},
+    StepPass{"near", spirv::near, Extent::OfDevice, offsetof(gpu::Dispatches, refresh), true, false, "pass/near.comp"},
+    StepPass{"link", spirv::link, Extent::OfDevice, offsetof(gpu::Dispatches, refresh), false, false, "pass/link.comp"},
     StepPass{"commit_lists", spirv::commit_lists, Extent::OfDevice, offsetof(gpu::Dispatches, settle)},
-    StepPass{"pairs", spirv::pairs, Extent::OfDevice, offsetof(gpu::Dispatches, pairs)},
-    StepPass{"surfaces", spirv::surfaces, Extent::OfDevice, offsetof(gpu::Dispatches, surfaces)},
-    StepPass{"bodies", spirv::bodies, Extent::OfDevice, offsetof(gpu::Dispatches, bodies), true, true},
+    StepPass{"pairs", spirv::pairs, Extent::OfDevice, offsetof(gpu::Dispatches, pairs), false, false,
+             "pass/pairs.comp"},
+    StepPass{"surfaces", spirv::surfaces, Extent::OfDevice, offsetof(gpu::Dispatches, surfaces), false, false,
+             "pass/surfaces.comp"},
+    StepPass{"bodies", spirv::bodies, Extent::OfDevice, offsetof(gpu::Dispatches, bodies), true, true,
+             "pass/bodies.comp"},
     StepPass{"move", spirv::move, Extent::Particles},
 };
 constexpr std::size_t kDecide = 0, kFirstOfStep = 7, kMove = kPasses.size() - 1;
@@ -134,8 +139,12 @@ Passes::Passes(const vk::Device& device, const TableSizes& s, const BodyTables* 
     for (const StepPass& pass : kPasses) {
         std::optional<vk::Pipeline>& made = passes_.emplace_back();
         if (pass.forBodies && !bodyBindings_) continue;  // drivers take their time with it
-        made.emplace(device, pass.readsBodies && bodyBindings_ ? *bodyBindings_ : bindings_,
-                     vk::pick(pass.variants, macrosFor(access, s)), constants(s));
+        const unsigned macros = macrosFor(access, s);
+        const bool ofUser = s.userLaw != nullptr && pass.source != nullptr;
+        made.emplace(
+            device, pass.readsBodies && bodyBindings_ ? *bodyBindings_ : bindings_,
+            ofUser ? userShader(pass.source, *s.userLaw, pass.variants, macros) : vk::pick(pass.variants, macros),
+            constants(s));
     }
 }
 

@@ -118,7 +118,7 @@ BodySlots bodySlotsOf(const Passes& passes, std::uint32_t member, std::size_t pa
 struct SlotRun {
     std::uint32_t first, room;
     std::vector<glm::uvec2> entries;
-    std::array<std::vector<vec4>, 4> history;  ///< parts 0 and 1 together, 2, 3, 4
+    std::array<std::vector<vec4>, 6> history;  ///< parts 0 and 1 together, 2, 3 ...
 
     void write(Passes& passes) const {
         passes.entries.writeAll(entries, passes.at.entryIndex(first) * sizeof(glm::uvec2));
@@ -189,7 +189,7 @@ std::vector<SlotContact> touchingSlots(const Passes& passes, std::uint32_t membe
         const auto entries =
             passes.entries.readAll<glm::uvec2>(count, passes.at.entryIndex(first) * sizeof(glm::uvec2));
         const auto forces = passes.forces.readAll<vec4>(count, passes.at.forceIndex(first) * sizeof(vec4));
-        std::array<std::vector<vec4>, 4> history;
+        std::array<std::vector<vec4>, 6> history;
         history[0] = passes.history.readAll<vec4>(2ULL * count, passes.at.springIndex(first, 0) * sizeof(vec4));
         for (std::uint32_t part = 2; part < t.historyParts(); ++part)
             history[part - 1] =

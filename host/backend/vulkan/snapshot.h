@@ -15,7 +15,7 @@ struct SlotContact {
     bool pair;
     std::uint32_t particle, other;
     gpu::vec4 force;                   ///< as `forces` in shaders/shared/buffers.glsl holds it
-    std::array<gpu::vec4, 5> history;  ///< TableSizes::historyParts() of them
+    std::array<gpu::vec4, 7> history;  ///< TableSizes::historyParts() of them
 };
 
 /// The touching contacts of a member, in order of particle, then pairs before surfaces, then `other`. Particles are
@@ -26,7 +26,7 @@ std::vector<SlotContact> touchingSlots(const Passes& passes, std::uint32_t membe
 struct PlaceContact {
     std::uint32_t particle, body;
     gpu::vec4 force;
-    std::array<gpu::vec4, 6> history;  ///< TableSizes::placeParts() of them; the third is the direction
+    std::array<gpu::vec4, 8> history;  ///< TableSizes::placeParts() of them; the third is the direction
 };
 
 /// The touching contacts with bodies, in order of particle, then body, then place. The device must be idle.

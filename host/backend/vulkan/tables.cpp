@@ -38,6 +38,10 @@ std::uint64_t meanRow(const World& world, const Crowd& crowd, double reach) {
     return std::uint64_t(std::clamp(mean, 12.0, double(gpu::kMaxRow)));
 }
 
+std::string hashOf(const std::shared_ptr<const UserLaw>& law) {
+    return law ? law->hash : "";
+}
+
 }  // namespace
 
 Crowd::Crowd(const Particles& p)
@@ -45,7 +49,7 @@ Crowd::Crowd(const Particles& p)
 
 bool TableSizes::shares(const TableSizes& other) const {
     return surfaces == other.surfaces && surfaceKinds == other.surfaceKinds && kindSet == other.kindSet &&
-           energyBook == other.energyBook;
+           energyBook == other.energyBook && hashOf(userLaw) == hashOf(other.userLaw);
 }
 
 void TableSizes::growTo(const TableSizes& other) {
@@ -136,13 +140,14 @@ std::uint64_t TableSizes::longestBytes() const {
 }
 
 TableSizes tableSizes(const World& world, const Crowd& crowd, const gpu::Member& member, const DeviceShape& device,
-                      std::uint32_t members) {
+                      std::uint32_t members, const std::shared_ptr<const UserLaw>& userLaw) {
     const std::uint64_t n = crowd.count, workgroup = device.workgroup;
     if (n * members > gpu::kMostParticles)
         throw RunError(fmt::format("{} particles; the Vulkan backend numbers {}", n * members,
                                    std::uint32_t(gpu::kMostParticles)));
     constexpr std::uint64_t kFew = 1024;  // so few that the mean says nothing
     TableSizes s;
+    s.userLaw = userLaw;
     s.members = members;
     s.workgroup = device.workgroup;
     s.mostGroups = device.mostGroups;
@@ -159,6 +164,7 @@ TableSizes tableSizes(const World& world, const Crowd& crowd, const gpu::Member&
         if (i < gpu::kUnrolledSurfaces) s.surfaceKinds |= kind << (4 * i);
     }
     for (const gpu::ContactParams& contact : member.contact) s.laws |= 1U << std::uint32_t(contact.springs.w);
+    if (userLaw && reachOf(member) > 0) s.laws |= 1U << gpu::kUserReaches;
     s.energyBook = world.energyBook;
 
     const std::uint64_t most =
@@ -192,7 +198,7 @@ TableSizes roomForAll(const std::vector<TableSizes>& members) {
         if (!s.shares(all))
             throw RunError(
                 "canisters can share a device's tables only if they have the same kinds of surfaces in the "
-                "same order, and all or none keep an energy book");
+                "same order, all or none keep an energy book, and all follow one user's law or none");
         all.growTo(s);
     }
     narrow(all.largestIndex());

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "host/model/particles.h"
@@ -24,6 +25,7 @@ struct TableSizes {
     std::uint32_t kindSet = 0;       ///< bit k: there is a surface of kind k; and kEndingWalls
     std::uint32_t front = 0;         ///< the front wall among the surfaces, if there is one
     std::uint32_t bodies = 0;        ///< most bodies of a member, its coil counted
+    std::shared_ptr<const UserLaw> userLaw;  ///< of all members; null: they follow the program's own
     std::uint32_t laws = 0;          ///< bit k: contacts of some class follow the law k (NormalLaw)
     std::uint32_t shapeKinds = 0;    ///< bit k: a body has a shape of kind k (shaders/shared/geometry.h)
     std::uint32_t mostPlaces = 1;    ///< in which a sphere touches a body at once; gpu::kFewPlaces: that or more
@@ -36,7 +38,7 @@ struct TableSizes {
     bool texelReads = true;  ///< wanted; used if every view fits the device's limit
 
     /// Whether canisters of these sizes can share tables: surfaces of the same kinds in the same order, an energy book
-    /// for all or for none.
+    /// for all or for none, and one user's law or none.
     bool shares(const TableSizes& other) const;
     /// Grows so that each member has at least as much room as in `other`.
     void growTo(const TableSizes& other);
@@ -53,7 +55,9 @@ struct TableSizes {
     std::uint32_t firstSurfaceSlot(std::uint32_t member) const { return members * pairSlots + member * surfaceSlots; }
     std::uint32_t firstBodySlot(std::uint32_t member) const { return springSlots() + member * bodySlots; }
     /// Number of vectors in a contact's history (kParts in shared/buffers.glsl).
-    std::uint32_t historyParts() const { return energyBook ? 5 : 2; }
+    std::uint32_t historyParts() const { return ownPart() + (userLaw ? 2U : 0U); }
+    /// Where in it a user's law has its memory (kOwnPart).
+    std::uint32_t ownPart() const { return energyBook ? 5 : 2; }
     /// The same of a place on a body, and of a body slot (kPlaceParts, kBodyHistory).
     std::uint32_t placeParts() const { return historyParts() + 1; }
     std::uint32_t bodyHistory() const { return gpu::kMaxBodyTouches * placeParts(); }
@@ -115,10 +119,10 @@ struct DeviceShape {
 /// so that these are sized for the mean of a dense packing. The device reports a full table (kErrorTables). Throws
 /// RunError if indices of 32 bits are not enough.
 TableSizes tableSizes(const World& world, const Crowd& crowd, const gpu::Member& member, const DeviceShape& device,
-                      std::uint32_t members = 1);
+                      std::uint32_t members = 1, const std::shared_ptr<const UserLaw>& userLaw = nullptr);
 
 /// Room for all these members. Throws RunError if they cannot share tables because their surfaces differ in kind or
-/// order, or because only some keep an energy book.
+/// order, because only some keep an energy book, or because their users' laws differ.
 TableSizes roomForAll(const std::vector<TableSizes>& members);
 
 }  // namespace vkdose

@@ -1,0 +1,91 @@
+#include "host/backend/vulkan/user_shader.h"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <mutex>
+#include <regex>
+#include <sstream>
+#include <stdexcept>
+
+#include "host/glsl/compile.h"
+#include "spirv/passes.h"
+#include "spirv/sources.h"
+
+namespace vkdose {
+namespace {
+
+constexpr std::string_view kUserText = "law/user_text.glsl";
+
+std::string_view sourceOf(std::string_view file) {
+    for (const auto& [name, text] : spirv::kSources)
+        if (file == name) return text;
+    throw std::logic_error(fmt::format("the program carries no shader source {}", file));
+}
+
+/// The text with each file that it includes in its place.
+std::string expanded(std::string_view text, const UserLaw& law) {
+    constexpr std::string_view kInclude = "#include \"";
+    std::string out;
+    std::istringstream lines{std::string(text)};
+    for (std::string line; std::getline(lines, line);) {
+        if (!line.starts_with(kInclude)) {
+            out += line + "\n";
+            continue;
+        }
+        const std::string file = line.substr(kInclude.size(), line.rfind('"') - kInclude.size());
+        if (file == kUserText)
+            out += law.shader;
+        else  // beside tables.h and field_tables.h, files name what they include from the folder of shaders
+            out += expanded(sourceOf(file.find('/') == std::string::npos ? "shared/" + file : file), law);
+    }
+    return out;
+}
+
+/// The compiler's faults, in the user's words. One outside of the user's text is told with the text's first line.
+LawError told(const std::vector<GlslFault>& faults) {
+    static const std::regex kPrefixed(fmt::format("\\b{}([A-Za-z_])", kUserPrefix));
+    constexpr std::size_t kMost = 5;
+    LawError error;
+    for (const GlslFault& f : faults) {
+        if (error.faults.size() == kMost) break;
+        if (f.text.starts_with("'' : compilation terminated")) continue;
+        const bool ofUser = f.source == 1;
+        error.faults.push_back({ofUser ? f.line : 1, std::regex_replace(f.text, kPrefixed, "$1"),
+                                ofUser ? "the law must be valid GLSL" : "outside of the law's own text"});
+    }
+    return error;
+}
+
+}  // namespace
+
+std::span<const std::uint32_t> userShader(const std::string& file, const UserLaw& law,
+                                          const std::vector<std::string>& macros) {
+    static std::mutex mutex;
+    static std::map<std::string, std::vector<std::uint32_t>> made;
+    std::string defines = "#define USER_LAW\n";
+    for (const std::string& macro : macros) defines += fmt::format("#define {}\n", macro);
+    const std::lock_guard lock(mutex);
+    const auto [place, added] = made.try_emplace(file + "\n" + defines + law.shader);
+    if (!added) return place->second;
+    std::string source = expanded(sourceOf(file), law);
+    source.insert(source.find('\n') + 1, defines);
+    GlslResult result = compileGlsl(source);
+    if (!result.faults.empty()) {
+        made.erase(place);
+        throw told(result.faults);
+    }
+    place->second = std::move(result.spirv);
+    return place->second;
+}
+
+std::span<const std::uint32_t> userShader(const std::string& file, const UserLaw& law,
+                                          std::span<const vk::Variant> variants, unsigned wanted) {
+    const unsigned chosen = vk::best(variants, wanted).macros;
+    std::vector<std::string> macros;
+    for (const auto& [bit, name] : spirv::kMacros)
+        if ((chosen & bit) != 0) macros.emplace_back(name);
+    return userShader(file, law, macros);
+}
+
+}  // namespace vkdose

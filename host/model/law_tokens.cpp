@@ -1,0 +1,177 @@
+#include "host/model/law_tokens.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <utility>
+
+namespace vkdose {
+namespace {
+
+constexpr std::array<std::string_view, 20> kTypes{"float", "int",   "uint",  "bool",  "vec2",  "vec3",  "vec4",
+                                                  "ivec2", "ivec3", "ivec4", "uvec2", "uvec3", "uvec4", "bvec2",
+                                                  "bvec3", "bvec4", "mat2",  "mat3",  "mat4",  "void"};
+constexpr std::array<std::string_view, 11> kWords{"if",    "else", "for",   "return",  "const",   "in",
+                                                  "break", "true", "false", "precise", "continue"};
+constexpr std::array<std::string_view, 52> kFunctions{"abs",        "sign",        "floor",         "ceil",
+                                                      "fract",      "mod",         "min",           "max",
+                                                      "clamp",      "mix",         "step",          "sqrt",
+                                                      "pow",        "exp",         "log",           "exp2",
+                                                      "log2",       "sin",         "cos",           "tan",
+                                                      "asin",       "acos",        "atan",          "sinh",
+                                                      "cosh",       "tanh",        "asinh",         "acosh",
+                                                      "atanh",      "length",      "dot",           "cross",
+                                                      "normalize",  "distance",    "isnan",         "isinf",
+                                                      "trunc",      "round",       "radians",       "degrees",
+                                                      "any",        "all",         "not",           "equal",
+                                                      "lessThan",   "fma",         "notEqual",      "greaterThan",
+                                                      "smoothstep", "inversesqrt", "lessThanEqual", "greaterThanEqual"};
+
+struct Refusal {
+    std::string_view word;  ///< with a star at its end: all that begin so
+    std::string_view why;
+};
+constexpr std::string_view kNoTables = "reaches for what belongs to the program: a law sees only its arguments";
+constexpr std::string_view kNoOthers = "concerns other contacts: a law answers for one contact alone";
+constexpr Refusal kRefusals[] = {
+    {"gl_*", "names that begin with gl_ belong to the device"},
+    {"layout", kNoTables},
+    {"uniform", kNoTables},
+    {"buffer", kNoTables},
+    {"shared", kNoTables},
+    {"sampler*", kNoTables},
+    {"image*", kNoTables},
+    {"texture*", kNoTables},
+    {"texelFetch*", kNoTables},
+    {"coherent", kNoTables},
+    {"volatile", kNoTables},
+    {"readonly", kNoTables},
+    {"writeonly", kNoTables},
+    {"restrict", kNoTables},
+    {"atomic*", kNoOthers},
+    {"barrier", kNoOthers},
+    {"memoryBarrier*", kNoOthers},
+    {"groupMemoryBarrier", kNoOthers},
+    {"subgroup*", kNoOthers},
+    {"discard", "is of fragment shaders; a law returns an answer"},
+    {"while", "has no constant bound: write for (int i = 0; i < 10; ++i)"},
+    {"do", "has no constant bound: write for (int i = 0; i < 10; ++i)"},
+    {"goto", "is not in the language"},
+    {"switch", "is not in the language of laws: write if"},
+    {"struct", "is not in the language of laws"},
+    {"out", "is not in the language of laws: a function gives its result by return"},
+    {"inout", "is not in the language of laws: a function gives its result by return"},
+    {"double", "is not on every device: write float"},
+    {"dvec*", "is not on every device: write vec"},
+    {"dmat*", "is not on every device: write mat"},
+    {"precision", "is set by the program"},
+    {"invariant", "is set by the program"},
+    {"subroutine", "is not in the language of laws"},
+    {"varying", "is not in the language of laws"},
+    {"attribute", "is not in the language of laws"},
+};
+
+bool isNameStart(char c) {
+    return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_';
+}
+bool isNamePart(char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+}
+bool isDigit(char c) {
+    return std::isdigit(static_cast<unsigned char>(c)) != 0;
+}
+
+template <std::size_t n>
+bool holds(const std::array<std::string_view, n>& words, std::string_view name) {
+    return std::find(words.begin(), words.end(), name) != words.end();
+}
+
+/// How many characters from `at` on are a comment; 0: none. One that does not end goes to the text's end.
+std::size_t commentAt(const std::string& text, std::size_t at) {
+    const std::string_view begins = std::string_view(text).substr(at, 2);
+    if (begins == "//") return std::min(text.find('\n', at), text.size()) - at;
+    if (begins != "/*") return 0;
+    const std::size_t end = text.find("*/", at + 2);
+    return (end == std::string::npos ? text.size() : end + 2) - at;
+}
+
+std::size_t numberEnd(const std::string& text, std::size_t at) {
+    std::size_t end = at;
+    while (end < text.size()) {
+        const bool exponentSign = (text[end] == '+' || text[end] == '-') && end > at &&
+                                  (text[end - 1] == 'e' || text[end - 1] == 'E') &&
+                                  !text.substr(at, 2).starts_with("0x");
+        if (!isNamePart(text[end]) && text[end] != '.' && !exponentSign) break;
+        ++end;
+    }
+    return end;
+}
+
+}  // namespace
+
+std::vector<LawToken> lawTokens(const std::string& text, std::string& bare, std::vector<LawFault>& faults) {
+    constexpr std::array<std::string_view, 18> kDoubles{
+        "++", "--", "+=", "-=", "*=", "/=", "%=", "==", "!=", "<=", ">=", "&&", "||", "^^", "<<", ">>", "|=", "&="};
+    constexpr std::string_view kSigns = "+-*/%=<>!&|^~?:;,.(){}[]";
+    std::vector<LawToken> tokens;
+    bare = text;
+    int line = 1;
+    for (std::size_t at = 0; at < text.size();) {
+        const char c = text[at];
+        if (const std::size_t length = commentAt(text, at); length > 0) {
+            for (std::size_t end = at + length; at < end; ++at)
+                if (text[at] == '\n')
+                    ++line;
+                else
+                    bare[at] = ' ';
+            continue;
+        }
+        std::size_t end = at + 1;
+        if (isNameStart(c)) {
+            while (end < text.size() && isNamePart(text[end])) ++end;
+            tokens.push_back({LawToken::Kind::Name, text.substr(at, end - at), line, at});
+        } else if (isDigit(c) || (c == '.' && end < text.size() && isDigit(text[end]))) {
+            end = numberEnd(text, at);
+            tokens.push_back({LawToken::Kind::Number, text.substr(at, end - at), line, at});
+        } else if (kSigns.find(c) != std::string_view::npos) {
+            if (holds(kDoubles, std::string_view(text).substr(at, 2))) ++end;
+            tokens.push_back({LawToken::Kind::Sign, text.substr(at, end - at), line, at});
+        } else if (c == '\n') {
+            ++line;
+        } else if (c == '#') {
+            faults.push_back({line, "directives (#) are not in the language of laws", "remove the line"});
+            return tokens;
+        } else if (c != ' ' && c != '\t' && c != '\r') {
+            const auto byte = static_cast<unsigned char>(c);
+            faults.push_back({line,
+                              byte < 0x21 || byte > 0x7e ? fmt::format("the byte {:#04x} means nothing here", byte)
+                                                         : fmt::format("the character {} means nothing here", c),
+                              "remove it; comments may hold anything"});
+            return tokens;
+        }
+        at = end;
+    }
+    return tokens;
+}
+
+bool isLawType(std::string_view name) {
+    return holds(kTypes, name);
+}
+bool isLawWord(std::string_view name) {
+    return isLawType(name) || holds(kWords, name);
+}
+bool isLawFunction(std::string_view name) {
+    return holds(kFunctions, name);
+}
+
+std::string_view refusalOf(std::string_view name) {
+    for (const Refusal& r : kRefusals) {
+        const bool family = r.word.ends_with('*');
+        if (family ? name.starts_with(r.word.substr(0, r.word.size() - 1)) : name == r.word) return r.why;
+    }
+    return {};
+}
+
+}  // namespace vkdose

@@ -1,0 +1,93 @@
+#include "host/model/read_user_law.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "host/core/file.h"
+
+namespace vkdose {
+
+std::shared_ptr<const UserLaw> readUserLaw(CaseReader& reader, Section& contact) {
+    const std::string name = contact.string("law");
+    std::filesystem::path file = reader.folderOf("contact.law") / name;
+    std::optional<std::string> text;
+    if (contact.has("law_text")) {
+        text = contact.string("law_text");
+        file = name;
+        if (contact.has("law_hash") && contact.string("law_hash") != lawHash(*text)) {
+            reader.fault("contact.law_text", fmt::format("is not the text of {} that law_hash was made of", name),
+                         "put the text back, or run the case that names the file");
+            return nullptr;
+        }
+    } else {
+        text = fileContent(file);
+    }
+    if (!text) {
+        reader.fault("contact.law", fmt::format("{} cannot be read", file.string()),
+                     "give luding, hertz-mindlin, eepa, or the path of a law of your own");
+        return nullptr;
+    }
+    LawReading reading = readLaw(name, *text);
+    reading.law.file = file.string();
+    for (const LawFault& fault : reading.faults)
+        reader.add({reading.law.file, fault.line, "", "", fault.problem, fault.remedy});
+    contact.record("law_text", *text);
+    contact.record("law_hash", reading.law.hash);
+    if (!reading.faults.empty()) return nullptr;
+    return std::make_shared<const UserLaw>(std::move(reading.law));
+}
+
+std::array<double, kMostLawParameters> readOwn(CaseReader& reader, Section& section, const UserLaw& law,
+                                               const std::array<double, kMostLawParameters>* above) {
+    std::array<double, kMostLawParameters> own{};
+    Section& table = section.table("parameters");
+    const Node* stated = section.node("parameters");
+    for (std::size_t k = 0; stated != nullptr && k < stated->children.size(); ++k) {
+        const std::string& name = stated->children[k].key;
+        if (std::ranges::find(law.parameters, name) != law.parameters.end()) continue;
+        std::string known;
+        for (const std::string& other : law.parameters) known += (known.empty() ? "" : ", ") + other;
+        table.know(name);
+        reader.fault(table.path(name), fmt::format("is no parameter of {}", law.name),
+                     known.empty() ? "remove it: the law declares none" : fmt::format("it declares {}", known));
+    }
+    for (std::size_t k = 0; k < law.parameters.size(); ++k) {
+        const std::string& name = law.parameters[k];
+        const Node* node = table.node(name);
+        const auto single = [](double x) {  // beyond these a device holds an infinite number, or none
+            return x == 0 || (std::abs(x) <= std::numeric_limits<float>::max() &&
+                              std::abs(x) >= std::numeric_limits<float>::min());
+        };
+        if (node != nullptr && !(node->isNumber() && single(node->number)))
+            reader.fault(table.path(name), "is not a number that a device holds", "give a number");
+        else if (node == nullptr && above == nullptr)
+            reader.fault(table.path(name), fmt::format("is missing: {} declares it", law.name), "give a number");
+        if (above != nullptr) own[k] = (*above)[k];
+        if (node != nullptr && node->isNumber()) own[k] = node->number;
+        table.record(name, own[k]);
+    }
+    return own;
+}
+
+void refuseUserLaw(CaseReader& reader, std::span<Section* const> sections) {
+    constexpr const char* kRemedy = "remove it, or name the file of a law in contact.law";
+    for (const char* key : {"law_text", "law_hash"}) {
+        sections.front()->know(key);
+        if (sections.front()->has(key)) reader.fault(sections.front()->path(key), "is of a law of your own", kRemedy);
+    }
+    for (Section* section : sections) {
+        const Node* stated = section->node("parameters");
+        if (stated == nullptr) continue;
+        reader.fault(section->path("parameters"), "is of a law of your own", kRemedy);
+        for (const Node& child : stated->children)
+            reader.fault(section->path("parameters." + child.key), "is of a law of your own", kRemedy);
+    }
+}
+
+}  // namespace vkdose

@@ -1,0 +1,51 @@
+#pragma once
+// A law of the normal force that a user wrote: its text, what it declares, and the shader code that it becomes.
+// cases/laws/README.md has the language.
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace vkdose {
+
+inline constexpr std::size_t kMostLawParameters = 16;
+inline constexpr std::size_t kMostLawMemories = 7;
+/// Most trips of loops that one evaluation may take, the loops of called functions counted.
+inline constexpr double kMostLawTrips = 10000;
+
+/// Its names stand behind this prefix in the shader, so that they meet no name of the engine.
+inline constexpr std::string_view kUserPrefix = "User";
+
+struct UserLaw {
+    std::string name;                     ///< as the case gives it: "bridge.glsl"
+    std::string file;                     ///< its path for messages
+    std::string text;                     ///< as the user wrote it
+    std::string hash;                     ///< of the text, 16 hexadecimal digits
+    std::vector<std::string> parameters;  ///< in the order of their declaration
+    std::vector<std::string> memories;
+    bool hasDamping = false, hasPull = false, hasEnergy = false, hasReach = false;  ///< whether it has these functions
+    /// In place of law/user_text.glsl: the text, line by line, with the prefix; then the functions by which
+    /// shaders/law/user_functions.glsl reads parameters and memory.
+    std::string shader;
+};
+
+/// A fault in the text of a law.
+struct LawFault {
+    int line = 0;
+    std::string problem, remedy;
+};
+
+/// A text that is no law; of a compiler's findings `remedy` is empty.
+struct LawReading {
+    UserLaw law;
+    std::vector<LawFault> faults;  ///< if there are any, the law is of no use
+};
+
+/// Reads a law. What only a compiler can find (types, undeclared names) is not among the faults.
+LawReading readLaw(const std::string& name, const std::string& text);
+
+/// The hash of a text as UserLaw has it.
+std::string lawHash(std::string_view text);
+
+}  // namespace vkdose

@@ -1,0 +1,128 @@
+#include "host/model/user_law_trial.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "host/model/restitution.h"
+#include "host/model/stability.h"
+
+namespace vkdose {
+namespace {
+
+LawTrial& trialOfProcess() {
+    static LawTrial trial;
+    return trial;
+}
+
+/// A loading, and of whom.
+struct Probe {
+    ContactClass kind;
+    double a;  ///< radius of the sphere [m]
+    LawLoading loading;
+};
+
+std::vector<Probe> probesOf(const Case& c, const SizeRange& sizes) {
+    constexpr double kSpeeds[] = {0, 0.01, 1};  // [m/s]
+    std::vector<Probe> probes;
+    for (const ContactClass kind : contactClasses(c.world))
+        for (const double a : {sizes.smallest, sizes.mean, sizes.largest})
+            for (const double speed : kSpeeds) {
+                const double b = kind == ContactClass::ParticleParticle ? a : std::numeric_limits<double>::infinity();
+                probes.push_back({kind,
+                                  a,
+                                  {c.dosingLaw.of(kind).own, reducedSize(a, b) / 2, reducedMass(c.world.density, a, b),
+                                   c.world.maxOverlapRatio * a, speed}});
+            }
+    return probes;
+}
+
+/// What is wrong with an answer; nothing if it will do.
+std::optional<std::string> wrongIn(const LawPoint& p) {
+    const auto answers = [](const char* function, double value) {
+        return fmt::format("{} answers {:.6g}", function, value);
+    };
+    if (!std::isfinite(p.force)) return answers("force", p.force);
+    if (!(std::isfinite(p.stiffness) && p.stiffness > 0))
+        return answers("stiffness", p.stiffness) + ", which is not > 0";
+    if (!(std::isfinite(p.damping) && p.damping >= 0)) return answers("damping", p.damping) + ", which is not >= 0";
+    if (!(std::isfinite(p.pull) && p.pull >= 0)) return answers("pull", p.pull) + ", which is not >= 0";
+    if (!std::isfinite(p.energy)) return answers("energy", p.energy);
+    if (!(std::isfinite(p.reach) && p.reach >= 0)) return answers("reach", p.reach) + ", which is not >= 0";
+    return {};
+}
+
+/// The line on which the law defines a function.
+int lineOf(const UserLaw& law, const std::string& function) {
+    const std::size_t at = law.text.find(" " + function + "(");
+    return at == std::string::npos ? 1
+                                   : 1 + int(std::count(law.text.begin(), law.text.begin() + std::ptrdiff_t(at), '\n'));
+}
+
+}  // namespace
+
+void setLawTrial(LawTrial trial) {
+    trialOfProcess() = std::move(trial);
+}
+
+void tryUserLaw(CaseReader& reader, Case& c, const SizeRange& sizes) {
+    if (!c.dosingLaw.user) return;
+    const UserLaw& law = *c.dosingLaw.user;
+    const auto refuse = [&](int line, const std::string& problem, const std::string& remedy) {
+        reader.add({law.file, line, "", "", problem, remedy});
+    };
+    if (!trialOfProcess()) {
+        reader.fault("contact.law", "is a law of its own, which this program cannot try", "use the program vkdose");
+        return;
+    }
+    const std::vector<Probe> probes = probesOf(c, sizes);
+    std::vector<LawLoading> loadings;
+    for (const Probe& probe : probes) loadings.push_back(probe.loading);
+    std::vector<std::vector<LawPoint>> answers;
+    try {
+        answers = trialOfProcess()(law, loadings);
+    } catch (const LawError& error) {
+        for (const LawFault& fault : error.faults) refuse(fault.line, fault.problem, fault.remedy);
+        return;
+    } catch (const DeviceError& error) {
+        reader.fault("contact.law", fmt::format("is tried on a device, and there is none: {}", error.what()),
+                     "install a Vulkan driver (mesa-vulkan-drivers), or take a law of the program's own");
+        return;
+    }
+    for (ContactParameters& p : c.dosingLaw.classes) p.k1 = p.k2Max = p.gamma = 0;
+    for (std::size_t k = 0; k < probes.size(); ++k) {
+        const Probe& probe = probes[k];
+        ContactParameters& p = c.dosingLaw.of(probe.kind);
+        for (const LawPoint& point : answers[k]) {
+            if (!(point.overlap > 0) && point.reach == 0) break;  // touch itself is no contact
+            if (point.reach > sizes.smallest) {
+                refuse(lineOf(law, "reach"),
+                       fmt::format("reach answers {:.4g} m, more than the smallest radius", point.reach),
+                       "let contacts break nearer by");
+                return;
+            }
+            if (const auto wrong = wrongIn(point)) {
+                refuse(lineOf(law, wrong->substr(0, wrong->find(' '))),
+                       fmt::format(
+                           "{} ({}, overlap {:.4g} m, approach {:.4g} m/s, reduced radius {:.4g} m and mass {:.4g} kg)",
+                           *wrong, className(probe.kind), point.overlap, point.speed, probe.loading.radius,
+                           probe.loading.mass),
+                       "answer finite numbers up to contact.max_overlap_ratio");
+                return;
+            }
+            p.reach = std::max(p.reach, point.reach);
+            if (probe.a == sizes.mean) p.k1 = std::max(p.k1, point.stiffness);
+            if (probe.a == sizes.smallest) {
+                p.k2Max = std::max(p.k2Max, point.stiffness);
+                p.gamma = std::max(p.gamma, point.damping);
+            }
+        }
+    }
+    c.settlingLaw = c.dosingLaw;
+}
+
+}  // namespace vkdose

@@ -1,0 +1,43 @@
+#version 450
+// trial: presses a contact to its deepest overlap and draws it apart, once for each loading, and writes down what a
+// user's law answers. Only the host's trial runs it (host/backend/vulkan/law_trial.cpp).
+#extension GL_GOOGLE_include_directive : require
+#include "law/contact.glsl"
+
+layout(local_size_x = 1) in;
+
+struct Loading {
+    vec4 contact;  // reduced radius [m], reduced mass [kg], deepest overlap [m], speed [m/s]
+    vec4 own[kOwnParameters / 4u];
+};
+layout(std430, binding = 0) readonly buffer LoadingBuffer { Loading loadings[]; };
+// Of each point: overlap, speed, force, stiffness; damping, pull, energy, reach.
+layout(std430, binding = 1) writeonly buffer AnswerBuffer { vec4 answers[]; };
+
+const uint kPart = 32u;           // of a loading: pressed, drawn apart, beyond touch
+const uint kPoints = 3u * kPart;  // as in law_trial.cpp
+
+void main() {
+    uint which = gl_WorkGroupID.x;
+    ContactParams p;
+    p.own = loadings[which].own;
+    userParameters(p);
+    vec4 contact = loadings[which].contact;
+    vec4 memory[2];
+    memory[0] = vec4(0.0);
+    memory[1] = vec4(0.0);
+    float reach = userReach(UserContact(0.0, 0.0, contact.x, 0.0));
+    for (uint k = 0u; k < kPoints; ++k) {
+        bool presses = k < kPart;
+        float share = float(presses ? k + 1u : 2u * kPart - k) / float(kPart);
+        float overlap = contact.z * share * share * share;
+        if (k >= 2u * kPart) overlap = -reach * float(k - 2u * kPart) / float(kPart);
+        UserContact c = UserContact(overlap, presses ? contact.w : -contact.w, contact.x, contact.y);
+        userRecall(memory);
+        float force = Userforce(c);
+        userKeep(memory);
+        uint at = 2u * (kPoints * which + k);
+        answers[at] = vec4(c.overlap, c.speed, force, Userstiffness(c));
+        answers[at + 1u] = vec4(userDamping(c), userPull(c), userEnergy(c), reach);
+    }
+}

@@ -1,0 +1,22 @@
+// A contact under a user's law (law/user_functions.glsl).
+#ifndef VKDOSE_LAW_USER_GLSL
+#define VKDOSE_LAW_USER_GLSL
+
+float userStored;  // energy of the contact that was answered last [J]
+float userGrowth;  // its stiffness over that of the step before
+
+NormalAnswer userAnswer(ContactParams p, Meeting m, float speed, inout History h) {
+    userParameters(p);
+    userRecall(h.own);
+    UserContact c = UserContact(m.overlap, speed, 0.5 * m.reduced, m.mass);
+    float force = Userforce(c), before = h.own[1].w;
+    userKeep(h.own);
+    float stiffness = Userstiffness(c), damping = userDamping(c);
+    userStored = userEnergy(c);
+    userGrowth = before > 0.0 ? stiffness / before : 1.0;
+    h.slidingMax.w = max(m.overlap, 1e-9 * m.reduced);  // above 0: the contact goes on
+    h.own[1].w = stiffness;
+    return NormalAnswer(force, damping, userPull(c), stiffness * p.springs.xyz, damping * p.damping.xyz, vec3(0.0));
+}
+
+#endif

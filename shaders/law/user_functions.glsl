@@ -1,0 +1,31 @@
+// A law of the normal force that a user wrote, in place of law/normal.glsl. The host puts its text in place of
+// law/user_text.glsl, every name of it behind the prefix User, and behind it the functions userParameters, userRecall,
+// userKeep, userDamping, userPull, userEnergy and userReach, which know what the law declares
+// (host/model/user_law.cpp).
+#ifndef VKDOSE_LAW_USER_FUNCTIONS_GLSL
+#define VKDOSE_LAW_USER_FUNCTIONS_GLSL
+
+#include "law/answer.glsl"
+#include "law/reach.glsl"
+
+/// What the law is told of a contact.
+struct UserContact {
+    float overlap;  // beyond touch negative [m]
+    float speed;    // with which the two approach [m/s]
+    float radius;   // reduced, a b/(a + b); of a sphere at a wall its own [m]
+    float mass;     // reduced [kg]
+};
+
+#include "law/user_text.glsl"
+
+/// As in law/normal.glsl. Lists reach no farther than the trial found.
+float reachOf(ContactParams p, float reduced) {
+    userParameters(p);
+    return min(userReach(UserContact(0.0, 0.0, 0.5 * reduced, 0.0)), p.friction.w);
+}
+bool holds(ContactParams p, float overlap, float reduced, float memory) {
+    if (reaches() && memory > 0.0 && overlap > -reachOf(p, reduced)) return true;
+    return overlap > 0.0;
+}
+
+#endif

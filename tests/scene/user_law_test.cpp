@@ -1,0 +1,199 @@
+// A law that a user wrote, on the device: it does what the program's own law does whose text it repeats, to the bit.
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <map>
+#include <set>
+#include <thread>
+
+#include "host/core/file.h"
+#include "host/model/normal_law.h"
+#include "host/model/user_law.h"
+#include "host/sim/energy_ledger.h"
+#include "tests/scene/beds.h"
+
+using namespace vkdose;
+using namespace vkdose::test;
+
+namespace {
+
+std::shared_ptr<const UserLaw> lawOf(const std::string& text) {
+    const LawReading reading = readLaw("test.glsl", text);
+    for (const LawFault& fault : reading.faults) FAIL_CHECK(fault.line << ": " << fault.problem);
+    REQUIRE(reading.faults.empty());
+    return std::make_shared<const UserLaw>(reading.law);
+}
+
+std::shared_ptr<const UserLaw> shippedLaw(const std::string& name) {
+    return lawOf(*fileContent(std::filesystem::path(VKDOSE_SOURCE_DIR) / "cases/laws" / name));
+}
+
+/// The law of `p`, whose springs are ratios of the user's stiffness already.
+ContactParameters userOf(const ContactParameters& p, const UserLaw& law, const std::map<std::string, double>& values) {
+    ContactParameters own = p;
+    own.law = NormalLaw::User;
+    REQUIRE(law.parameters.size() == values.size());
+    for (std::size_t k = 0; k < law.parameters.size(); ++k) own.own[k] = values.at(law.parameters[k]);
+    return own;
+}
+
+/// Three spheres over a floor and a body: pairs, surfaces and a body are touched, again and again.
+RuledWorld bowl() {
+    RuledWorld w = emptyWorld();
+    w.surfaces = {geometry::Plane{{0, -2e-3, 0}, {0, 1, 0}}};
+    RigidBody block;
+    block.name = "block";
+    block.shapes = {geometry::Block{Vec3(1.4e-3, -2e-3, -4e-3), Vec3(9e-3, 0, 4e-3)}};
+    w.bodies = {block};
+    return w;
+}
+
+Particles threeSpheres() {
+    Particles p;
+    p.add({0, -0.7e-3, 0}, single(1.3005e-3), {0.3, -0.3, 0.1}, {70, -40, 90});
+    p.add({0.2e-3, 1.2e-3 + 0.7e-3, 0.1e-3}, single(1.1e-3), {-0.1, -0.5, 0.05}, {-80, 10, 40});
+    p.add({-2.6e-3, -0.9e-3, 0}, single(1.0e-3), {0.6, -0.2, 0}, {0, 0, 0});
+    return p;
+}
+
+/// The bowl under the law that repeats luding, and the law of the program that it repeats.
+struct Twins {
+    RuledWorld own, users;
+};
+
+Twins ludingTwins() {
+    Twins t{bowl(), bowl()};
+    t.own.law = t.users.law = paperLaw(0.3);
+    t.users.law.user = shippedLaw("luding.glsl");
+    for (std::size_t k = 0; k < kContactClasses; ++k) {
+        ContactParameters& p = t.own.law.classes[k];
+        // Powers of two, so that ratio times stiffness is the stiffness in single precision. The program's dashpots of
+        // sliding act while it slips too, those of a user's law do not.
+        p.k2Max = 16384, p.k1 = 4096, p.kc = 5000;
+        p.kt = p.kr = p.kTo = 4096;
+        p.gammaT = p.gammaR = p.gammaTo = 0;
+        ContactParameters ratios = p;
+        ratios.kt = ratios.kr = ratios.kTo = 0.25;
+        t.users.law.classes[k] =
+            userOf(ratios, *t.users.law.user,
+                   {{"k1", p.k1}, {"k", p.k2Max}, {"kc", p.kc}, {"depth", p.plasticityDepth}, {"gamma", p.gamma}});
+    }
+    return t;
+}
+
+bool sameBits(const Backend& a, const Backend& b) {
+    const Particles p = a.particles(), q = b.particles();
+    return p.position == q.position && p.velocity == q.velocity && p.spin == q.spin;
+}
+
+void requireSameBits(const RuledWorld& first, const RuledWorld& second) {
+    const Particles spheres = threeSpheres();
+    auto a = gpu(), b = gpu();
+    a->load(first, spheres);
+    b->load(second, spheres);
+    bool touchedAll = false;
+    for (int batch = 0; batch < 40; ++batch) {
+        a->advance(50, 0);
+        b->advance(50, 0);
+        std::set<ContactClass> kinds;
+        for (const Contact& c : a->contacts()) kinds.insert(c.kind);
+        touchedAll = touchedAll || kinds.size() >= 2;
+        REQUIRE(sameBits(*a, *b));
+    }
+    CHECK(touchedAll);
+    CHECK(a->particles().position[0] != spheres.position[0]);
+    requireClean(*b);
+}
+
+}  // namespace
+
+TEST_CASE("a user's law that repeats luding has luding's bits") {
+    const Twins t = ludingTwins();
+    requireSameBits(t.own, t.users);
+}
+
+TEST_CASE("a user's law that repeats hertz-mindlin has its bits") {
+    RuledWorld own = bowl();
+    const auto text = shippedLaw("hertz-mindlin.glsl");
+    ContactParameters elastic = hertzMindlin({2e6, 0.25}, {2e7, 0.3}, 0.7, own.law.of(ContactClass::ParticleParticle));
+    elastic.kr = elastic.kTo = 0.3;
+    elastic.gammaR = elastic.gammaTo = 0.2;
+    own.law.classes.fill(elastic);
+    RuledWorld users = own;
+    users.law.user = text;
+    users.law.classes.fill(userOf(
+        elastic, *text, {{"modulus_Pa", elastic.modulus}, {"damping_ratio", kHertzDamping * elastic.dampingShare}}));
+    requireSameBits(own, users);
+}
+
+TEST_CASE("a run under a user's law goes on from a snapshot with the same bits") {
+    RuledWorld w = ludingTwins().users;
+    w.energyBook = GENERATE(false, true);
+    auto whole = gpu(), resumed = gpu();
+    whole->load(w, threeSpheres());
+    whole->advance(400, 0);
+    resumed->load(w, threeSpheres());
+    const Record record = whole->snapshot();
+    CHECK_FALSE(whole->contacts().empty());  // with a memory to be kept
+    resumed->restore(record);
+    whole->advance(400, 0);
+    resumed->advance(400, 0);
+    CHECK(sameBits(*whole, *resumed));
+    requireClean(*resumed);
+}
+
+TEST_CASE("a state of a user's law is refused under another law") {
+    const Twins t = ludingTwins();
+    auto first = gpu(), second = gpu(), third = gpu();
+    first->load(t.users, threeSpheres());
+    first->advance(100, 0);
+    const Record record = first->snapshot();
+    RuledWorld changed = t.users;
+    changed.law.user = lawOf(t.users.law.user->text + "// another remark\n");
+    second->load(changed, threeSpheres());
+    CHECK_THROWS_WITH(second->restore(record), Catch::Contains("test.glsl"));
+    third->load(t.own, threeSpheres());
+    CHECK_THROWS_AS(third->restore(record), RecordError);
+}
+
+TEST_CASE("the energy ledger closes under a user's law") {
+    RuledWorld w = ludingTwins().users;
+    w.energyBook = true;
+    auto device = gpu();
+    device->load(w, threeSpheres());
+    EnergyLedger ledger;
+    for (int k = 0; k < 20; ++k) ledger.add(*device->advance(100, 0).energy);
+    CHECK(ledger.sum.plastic > 0);
+    // Single precision, summed over 2000 steps; the scale is the energy that was loaded.
+    CHECK(near(ledger.residual(), 0, ledger.sum.loaded, 2e-5));
+    requireClean(*device);
+}
+
+TEST_CASE("members of an ensemble share a user's law, each with its own parameters") {
+    const RuledWorld first = ludingTwins().users;
+    RuledWorld second = first;
+    for (ContactParameters& p : second.law.classes) p.own[2] *= 0.5;  // kc
+    auto together = gpuEnsemble(2);
+    std::thread other([&] {
+        together[1]->load(second, threeSpheres());
+        together[1]->advance(800, 0);
+    });
+    together[0]->load(first, threeSpheres());
+    together[0]->advance(800, 0);
+    other.join();
+    for (const std::size_t k : {0, 1}) {
+        auto alone = gpu();
+        alone->load(k == 0 ? first : second, threeSpheres());
+        alone->advance(800, 0);
+        CHECK(together[k]->particles().position == alone->particles().position);
+    }
+    CHECK(together[0]->particles().position != together[1]->particles().position);
+}
+
+TEST_CASE("the reference says that it cannot run a user's law") {
+    auto reference = makeReferenceBackend();
+    CHECK_THROWS_WITH(reference->load(ludingTwins().users, threeSpheres()), Catch::Contains("contact.law") &&
+                                                                                Catch::Contains("test.glsl") &&
+                                                                                Catch::Contains("--backend vulkan"));
+}
