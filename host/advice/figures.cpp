@@ -33,8 +33,9 @@ void addBed(Figures& f, const Case& c, const Insertion& filled) {
     f.bedDepth = bedDepth(*c.canister, filled.mass, c.world.density);
     f.bedTop = f.bedDepth - c.canister->width / 2;
     f.fall = std::max(0.0, filled.fillHeight - f.bedTop);
-    f.fallTime = std::sqrt(2 * f.fall / down);
-    f.fallSpeed = down * f.fallTime;
+    const double settling = -c.settlingGravity().y;
+    f.fallTime = std::sqrt(2 * f.fall / settling);
+    f.fallSpeed = settling * f.fallTime;
 
     const ContactParameters& pair = c.dosingLaw.of(ContactClass::ParticleParticle);
     const ContactParameters& wall = c.dosingLaw.of(ContactClass::ParticleWall);

@@ -17,7 +17,7 @@ namespace {
 double measuredSpeed(const Case& c, const Insertion& filled, Backend& backend) {
     using Clock = std::chrono::steady_clock;
     const auto particles = static_cast<double>(std::max<std::size_t>(filled.particles.size(), 1));
-    backend.load(c.world, c.settlingLaw, filled.particles);
+    backend.load(c.settlingWorld(), c.settlingLaw, filled.particles);
     // Without an outlet or a fall of a second there is nothing to lose; the probe ends long before either.
     auto steps = static_cast<std::uint32_t>(std::clamp(1e6 / particles, 1.0, 16.0));
     backend.advance(steps, 0);  // warm up: pipelines, first neighbour list

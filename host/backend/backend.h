@@ -93,10 +93,10 @@ struct Contact {
 /// changed, for a run that goes on with another time step.
 inline constexpr const char* kSnapshotSteps = "steps";
 
-/// Velocity, half a step earlier, of a particle that is at rest after `steps` steps [m/s]. Before the first step it is
-/// zero, because a loaded velocity belongs to t = 0.
-inline Vec3 velocityOfRest(const World& world, std::uint64_t steps) {
-    return steps > 0 ? -0.5 * world.timeStep * world.gravity : Vec3(0);
+/// Velocity, half a step earlier, of a particle that is at rest after `steps` steps under this gravity [m/s]. Before
+/// the first step it is zero, because a loaded velocity belongs to t = 0.
+inline Vec3 velocityOfRest(double timeStep, const Vec3& gravity, std::uint64_t steps) {
+    return steps > 0 ? -0.5 * timeStep * gravity : Vec3(0);
 }
 
 class Backend {
@@ -111,6 +111,10 @@ class Backend {
     /// closed if only adhesion changes. The new law must be of the kind of the loaded one. Throws RunError if its
     /// contacts hold on farther beyond touch than those of the loaded one.
     virtual void setLaw(const ContactLaw& law) = 0;
+
+    /// Replace gravity [m/s2] from the next step on, keeping state and history. The energy book stays closed if
+    /// energyOfGravityChange is added to what was loaded.
+    virtual void setGravity(const Vec3& gravity) = 0;
 
     /// Makes waiting particles active, from index `first` on. They are at rest at these positions now. The velocity
     /// that is stored for them is that of half a step earlier (velocityOfRest).
@@ -129,9 +133,9 @@ class Backend {
     /// `advance`.
     virtual Record snapshot() const = 0;
 
-    /// Puts back what `snapshot` gave, on top of a `load` of the same world and radii (and a `setLaw` if there was
-    /// one); clocks of bodies are to be set behind it. Throws RecordError if the record is not of this kind of backend
-    /// or does not fit what was loaded.
+    /// Puts back what `snapshot` gave, on top of a `load` of the same world and radii (and a `setLaw` or `setGravity`
+    /// if there was one); clocks of bodies are to be set behind it. Throws RecordError if the record is not of this
+    /// kind of backend or does not fit what was loaded.
     virtual void restore(const Record& record) = 0;
 
     virtual Particles particles() const = 0;

@@ -73,9 +73,10 @@ struct DoseStage {
 };
 
 struct Schedule {
-    double settleTime = 0;         ///< [s]; with `untilRest` the longest
-    bool untilRest = false;        ///< the settling ends as soon as the bed rests
-    double restSpeedRatio = 0.01;  ///< speed of a bed at rest, over that of a fall from the fill's height [-]
+    double settleTime = 0;           ///< [s]; with `untilRest` the longest
+    bool untilRest = false;          ///< the settling ends as soon as the bed rests
+    double restSpeedRatio = 0.01;    ///< speed of a bed at rest, over that of a fall from the fill's height [-]
+    double settleGravityFactor = 1;  ///< gravity while the powder settles, over World::gravity [-]
     double rotateTime = 0;  ///< t_d, ramps included [s]; 0: no doses, the run is the settling; to a mass: the longest
     double restTime = 0;    ///< [s]
     double coilSpeed = 0;   ///< conveying speed >= 0 [rad/s]; with stages that after the last one
@@ -152,6 +153,15 @@ struct Case {
     std::string resolved;                      ///< the case as TOML with every default and --set applied
     std::string given;                         ///< as TOML, `base` and --set in it, without what follows from it
     std::vector<std::filesystem::path> files;  ///< read for this case: the case file, its bases, the particle list
+
+    /// Gravity while the powder settles [m/s2].
+    Vec3 settlingGravity() const { return schedule.settleGravityFactor * world.gravity; }
+    /// The world while the powder settles: a backend is loaded with it.
+    World settlingWorld() const {
+        World settling = world;
+        settling.gravity = settlingGravity();
+        return settling;
+    }
 };
 
 /// Reads, resolves `overrides` ("key.path=value"), checks. Throws CaseError with every fault found.

@@ -201,6 +201,7 @@ void readSchedule(CaseReader& reader, Section& root, Case& c) {
     c.schedule.settleTime = settle.number("time_s");
     c.schedule.untilRest = settle.boolean("until_rest");
     c.schedule.restSpeedRatio = settle.number("rest_speed_ratio");
+    c.schedule.settleGravityFactor = settle.number("gravity_factor");
     readDose(reader, root.table("dose"), c);
     readStop(root, c);
     Section& sensors = root.table("sensors");

@@ -29,6 +29,9 @@ constexpr Key kSettle[] = {
     number("damping_factor", kPlain, kPositive, 1.0,
            "γ of the normal direction while settling over that of `[contact]`. More of it makes the impacts of the "
            "filling shallower, and may need a shorter time step"),
+    number("gravity_factor", kPlain, kPositive, 1.0,
+           "gravity while settling over `gravity`. With less of it the powder falls gently, and contacts remember "
+           "shallower impacts; the doses begin under the whole of it"),
     boolean("elastic", false,
             "contacts are springs of stiffness k₁ while settling. They forget the impacts of the filling, so that the "
             "doses begin with the overlaps that the bed's weight presses"),

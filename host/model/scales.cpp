@@ -65,7 +65,7 @@ void checkSteps(CaseReader& reader, const Case& c) {
 void checkWays(CaseReader& reader, const Case& c, double smallest) {
     const double dt = c.world.timeStep;
     const double longest = kLongestWay * smallest;
-    if (glm::length(c.world.gravity) * dt * dt > longest)
+    if (std::max(glm::length(c.world.gravity), glm::length(c.settlingGravity())) * dt * dt > longest)
         reader.fault("gravity", "moves the smallest sphere by more than a tenth of its radius in a time step",
                      "give gravity in m/s2, or a shorter time.step_s");
     if (!c.world.coil) return;

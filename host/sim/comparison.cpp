@@ -56,8 +56,9 @@ class Walker {
           timeline_(timeline),
           backend_(backend),
           ledger_(start.size(), filledMass),
-          clocks_(c.world) {
-        told([&] { backend_.load(c.world, c.settlingLaw, start); });
+          clocks_(c.world),
+          gravity_(c.settlingGravity()) {
+        told([&] { backend_.load(c.settlingWorld(), c.settlingLaw, start); });
     }
 
     void advanceTo(std::uint64_t step) {
@@ -66,7 +67,9 @@ class Walker {
         Sensors sensors;
         told([&] {
             if (stretch.law != law_) backend_.setLaw(*stretch.law);
+            if (stretch.gravity != gravity_) backend_.setGravity(stretch.gravity);
             law_ = stretch.law;
+            gravity_ = stretch.gravity;
             clocks_.enter(stretch.phase, stretch.dose);
             if (clocks_.any()) backend_.setClocks(clocks_.now());
             clocks_.count(n);
@@ -134,6 +137,7 @@ class Walker {
     BodyClocks clocks_;
     std::uint64_t step_ = 0;
     const ContactLaw* law_ = nullptr;  // in force
+    Vec3 gravity_;                     // in force [m/s2]
     std::uint64_t phaseEnd_ = 0;
     double impulse_ = 0, energySteps_ = 0, contactSteps_ = 0;  // sums over the phase, times steps
     std::uint64_t phaseSteps_ = 0;

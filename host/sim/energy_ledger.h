@@ -24,6 +24,12 @@ struct EnergyLedger {
     double residual() const;
 };
 
+/// What a change of gravity adds to the energy of the active particles [J], so that the book stays closed: it belongs
+/// to `loaded`. `particles` is the state at the change, after the last step of length `timeStep` [s] under `from`. The
+/// potential energy of the book jumps between two full steps; its mean position between them is that of the change.
+double energyOfGravityChange(const Particles& particles, double density, double timeStep, const Vec3& from,
+                             const Vec3& to);
+
 // The columns of the book, by the part they play in the balance.
 inline constexpr auto kMotionColumns = columns(
     column<&EnergyBook::kinetic>("full_step_kinetic_J", "J",
@@ -57,8 +63,10 @@ inline constexpr auto kLossColumns = columns(
                                  "start."),
     column<&EnergyBook::numerical>("loss_numerical_J", "J",
                                    "Loss by the finite time step where contacts begin and end, since the start."));
-inline constexpr auto kLoadedColumns = columns(
-    column<&EnergyBook::loaded>("loaded_J", "J", "Energy of the state that was loaded, its contacts included."));
+inline constexpr auto kLoadedColumns =
+    columns(column<&EnergyBook::loaded>("loaded_J", "J",
+                                        "Energy of the state that was loaded, its contacts included, of "
+                                        "powder that was added, and of a change of gravity."));
 inline constexpr auto kOutsideColumns = columns(
     column<&EnergyBook::coilWork>("coil_work_J", "J", "Work of the coil on the particles since the start."),
     column<&EnergyBook::bodyWork>("body_work_J", "J", "Work of moving bodies on the particles since the start."),

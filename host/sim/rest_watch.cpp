@@ -10,11 +10,12 @@
 namespace vkdose {
 
 FillFall fillFall(const Case& c, const Particles& filled) {
-    const double gravity = glm::length(c.world.gravity);
+    const Vec3 down = c.settlingGravity();
+    const double gravity = glm::length(down);
     if (gravity == 0 || filled.size() == 0) return {};
     double low = std::numeric_limits<double>::infinity(), high = -low;
     for (std::size_t i = 0; i < filled.size(); ++i) {
-        const double up = -glm::dot(filled.position[i], c.world.gravity) / gravity;
+        const double up = -glm::dot(filled.position[i], down) / gravity;
         low = std::min(low, up - filled.radius[i]);
         high = std::max(high, up + filled.radius[i]);
     }

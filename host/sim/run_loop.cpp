@@ -144,6 +144,7 @@ void RunLoop::frame() {
 void RunLoop::beginDosing() {
     dosing_ = true;
     backend_.setLaw(*stretch_.law);
+    changeGravity(stretch_.gravity);
     result_.dosedWhileSettling = mass(result_.last.sensors, Region::Dosed);
 }
 

@@ -110,6 +110,10 @@ class RunLoop {
     void measureDensity();
     void frame();
     void beginDosing();
+    /// The world of the case under the gravity that is in force.
+    World worldNow() const;
+    /// From the next step on gravity is this one [m/s2]. The energy ledger stays closed.
+    void changeGravity(const Vec3& to);
     /// Lets the dose under way change the coil's speed or stop it. Returns true if that ends the run.
     bool control();
     void openDose();
@@ -147,6 +151,7 @@ class RunLoop {
     std::uint64_t active_ = 0;  ///< particles still moving
     Timeline::Stretch stretch_{Phase::Settle, 0, 0, 0};
     bool dosing_ = false;
+    Vec3 gravity_{case_.settlingGravity()};  ///< in force [m/s2]
 
     Sensors now_;                 ///< of the last call, joined with the calls since the last sample
     std::uint64_t gathered_ = 0;  ///< steps since the last sample

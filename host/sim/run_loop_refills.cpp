@@ -59,11 +59,11 @@ void RunLoop::bookAdded(std::size_t refill, std::uint64_t step) {
 /// Kinetic energy is that of the book: its velocities are those half a step before and after (EnergyBook).
 double RunLoop::energyOfRest(const Particles& powder, const std::vector<Vec3>& positions) const {
     const World& world = case_.world;
-    const Vec3 before = velocityOfRest(world, step_), after = before + world.timeStep * world.gravity;
+    const Vec3 before = velocityOfRest(world.timeStep, gravity_, step_), after = before + world.timeStep * gravity_;
     double sum = 0;
     for (std::size_t i = 0; i < positions.size(); ++i)
         sum += sphereMass(world.density, powder.radius[i]) *
-               (0.5 * glm::dot(before, after) - glm::dot(world.gravity, positions[i]));
+               (0.5 * glm::dot(before, after) - glm::dot(gravity_, positions[i]));
     return sum;
 }
 

@@ -7,14 +7,25 @@
 
 namespace vkdose {
 
+namespace {
+
+/// In force when the state was kept. A state of an earlier version does not say it: there it never changed.
+Vec3 gravityOf(const Record& run, const Vec3& usual) {
+    if (!run.arrays().contains("gravity")) return usual;
+    const auto& g = run.get<double>("gravity", 3);
+    return {g[0], g[1], g[2]};
+}
+
+}  // namespace
+
 void RunLoop::begin() {
-    backend_.load(case_.world, case_.settlingLaw, result_.particles);
+    backend_.load(worldNow(), case_.settlingLaw, result_.particles);
     if (timeline_.frameDue(0)) frame();
 }
 
 void RunLoop::goOn(const RunCheckpoint& from) {
     restore(from.run);
-    backend_.load(case_.world, dosing_ ? case_.dosingLaw : case_.settlingLaw, result_.particles);
+    backend_.load(worldNow(), dosing_ ? case_.dosingLaw : case_.settlingLaw, result_.particles);
     backend_.restore(from.backend);
     before_ = {step_, result_.particleSteps, result_.wallTime};
     // The adhesion of the doses may be another than that of the run that settled this bed.
@@ -25,7 +36,8 @@ void RunLoop::takeOver(const RunCheckpoint& from, double time) {
     const StateFacts facts = factsOf(from.run);
     if (facts.radii != result_.particles.radius) throw RecordError("its particles are not those of the case");
     step_ = static_cast<std::uint64_t>(std::llround(time / case_.world.timeStep));
-    backend_.load(case_.world, facts.dosing ? case_.dosingLaw : case_.settlingLaw, result_.particles);
+    gravity_ = gravityOf(from.run, case_.world.gravity);
+    backend_.load(worldNow(), facts.dosing ? case_.dosingLaw : case_.settlingLaw, result_.particles);
     Record state = from.backend;
     // The clock of bodies that move counts steps.
     if (state.arrays().contains(kSnapshotSteps)) state.putOne(kSnapshotSteps, step_);
@@ -40,10 +52,26 @@ void RunLoop::takeOver(const RunCheckpoint& from, double time) {
         takeSettled(from.run, facts);
     else if (facts.step == step_)  // else its time steps were others
         rest_.restore(from.run);
+    if (!settled) changeGravity(case_.settlingGravity());
     observer_.onSample(result_.last);
     if (timeline_.keepsFrames()) frame();
     for (const FieldSample& f : fields_.open(backend_, step_)) observer_.onField(f);
     if (settled) keepState(KeptState::Settled);
+}
+
+World RunLoop::worldNow() const {
+    World world = case_.world;
+    world.gravity = gravity_;
+    return world;
+}
+
+void RunLoop::changeGravity(const Vec3& to) {
+    if (to == gravity_) return;
+    if (energy_)
+        energy_->sum.loaded +=
+            energyOfGravityChange(backend_.particles(), case_.world.density, case_.world.timeStep, gravity_, to);
+    backend_.setGravity(to);
+    gravity_ = to;
 }
 
 void RunLoop::takeSample(const Record& run, const StateFacts& facts) {
@@ -95,6 +123,7 @@ Record RunLoop::save() const {
     r.put("sums", std::vector<double>{impulse_, powerSum_, rate_, result_.dosedWhileSettling, result_.maxOverlapRatio,
                                       result_.maxOverlapTime, result_.particleSteps, result_.wallTime});
     r.putOne("steps_of_others", result_.stepsOfOthers);
+    r.put("gravity", std::vector<double>{gravity_.x, gravity_.y, gravity_.z});
     put(r, "now", now_);
     clocks_.save(r);
     loads_.save(r);
@@ -137,6 +166,7 @@ void RunLoop::restore(const Record& r) {
     result_.particleSteps = sums[6];
     result_.wallTime = sums[7];
     if (r.arrays().contains("steps_of_others")) result_.stepsOfOthers = r.one<double>("steps_of_others");
+    gravity_ = gravityOf(r, case_.world.gravity);
     get(r, "now", now_);
     get(r, "energy", energy_);
     timeline_.restore(r);

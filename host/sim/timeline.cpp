@@ -34,7 +34,9 @@ Timeline::Timeline(const Case& c)
       reverseSpeed_(c.schedule.coilSpeed),
       coil_(c.world.coil),
       settlingLaw_(c.settlingLaw),
-      dosingLaw_(c.dosingLaw) {
+      dosingLaw_(c.dosingLaw),
+      settlingGravity_(c.settlingGravity()),
+      dosingGravity_(c.world.gravity) {
     if (!(timeStep_ > 0)) refuse("time_step", timeStep_, "is not positive", "give a time step > 0 in seconds");
     if (!(c.sensorInterval > 0)) refuse("sensor_interval", c.sensorInterval, "is not positive", "give a time > 0");
     settle_ = wholeSteps("settle_time", c.schedule.settleTime, timeStep_);
@@ -105,10 +107,10 @@ double Timeline::rateOf(double speed) const {
 Timeline::Stretch Timeline::at(std::uint64_t step) const {
     if (step < settle_ || !hasDoses()) {
         const std::uint64_t end = std::min(settle_, end_);
-        return {Phase::Settle, 0, end, 0.0, &settlingLaw_, end};
+        return {Phase::Settle, 0, end, 0.0, &settlingLaw_, settlingGravity_, end};
     }
     const DosePlan d = doseAt(step);
-    Stretch s{Phase::Rest, d.dose, d.end, 0.0, &dosingLaw_, kNever};
+    Stretch s{Phase::Rest, d.dose, d.end, 0.0, &dosingLaw_, dosingGravity_, kNever};
     if (step < d.turned) {
         s.phase = Phase::Rotate;
         s.end = d.turned;

@@ -30,6 +30,7 @@ class Timeline {
         std::uint64_t end = 0;            ///< first step that is no longer in it
         double rate = 0;                  ///< of the coil about +z [rad/s], up to `pieceEnd`
         const ContactLaw* law = nullptr;  ///< of the contacts; lives as long as the timeline
+        Vec3 gravity{0};                  ///< [m/s2]
         std::uint64_t pieceEnd = 0;       ///< first step with another rate, or `end`
         std::uint64_t stop = 0;           ///< while the coil conveys: the step at which it is told to stop
         bool closesDose = false;          ///< the dose is complete at `end`
@@ -121,6 +122,7 @@ class Timeline {
     std::uint64_t end_ = kNever;
     double sense_ = 0;
     ContactLaw settlingLaw_, dosingLaw_;
+    Vec3 settlingGravity_, dosingGravity_;
 };
 
 }  // namespace vkdose

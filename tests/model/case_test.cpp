@@ -289,6 +289,22 @@ TEST_CASE("damping while settling: a factor on the dashpot of the normal directi
     CHECK(overdamped.world.timeStep < 0.2 * usual.world.timeStep);
 }
 
+TEST_CASE("gravity while settling: a factor on that of the case, which stays as it is") {
+    const Folder folder;
+    const auto file = folder.write("case.toml", kGoodCase);
+    const Case usual = loadCase(file), gentle = loadCase(file, {"settle.gravity_factor=0.25"});
+    CHECK(gentle.world.gravity == usual.world.gravity);
+    CHECK(usual.settlingGravity() == usual.world.gravity);
+    CHECK(gentle.settlingGravity() == 0.25 * usual.world.gravity);
+    CHECK(gentle.settlingWorld().gravity == gentle.settlingGravity());
+    checkSame(gentle, loadResolvedCase(gentle.resolved, file));
+    CHECK(loadResolvedCase(gentle.resolved, file).settlingGravity() == gentle.settlingGravity());
+    for (const char* bad : {"0", "-1", "true"})
+        CHECK_THROWS_WITH(loadCase(file, {std::string("settle.gravity_factor=") + bad}),
+                          Catch::Contains("settle.gravity_factor"));
+    CHECK_THROWS_WITH(loadCase(file, {"settle.gravity_factor=1e12"}), Catch::Contains("tenth of its radius"));
+}
+
 TEST_CASE("elastic settling: springs of stiffness k1 in every class, and nothing else is changed") {
     const Folder folder;
     const auto file = folder.write("case.toml", kGoodCase);

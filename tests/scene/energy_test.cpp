@@ -224,6 +224,30 @@ TEST_CASE(
     requireClean(*device);
 }
 
+TEST_CASE("energy: the book stays closed when gravity changes") {
+    const RuledWorld w = dosingWorld();
+    auto device = gpu();
+    auto reference = makeReferenceBackend();
+    for (Backend* backend : {device.get(), reference.get()}) {
+        backend->load(w, thrownAbout(45));
+        EnergyLedger ledger;
+        const auto closed = [&](std::uint32_t steps, double rate) {
+            ledger.add(*backend->advance(steps, rate).energy);
+            CHECK(near(ledger.residual(), 0, scaleOf(ledger), kRounding));
+        };
+        closed(400, 0);
+        const Vec3 gentle = w.gravity, strong = 20.0 * w.gravity;
+        const double jump = energyOfGravityChange(backend->particles(), w.density, w.timeStep, gentle, strong);
+        CHECK(std::abs(jump) > 100 * kRounding * scaleOf(ledger));
+        ledger.sum.loaded += jump;
+        backend->setGravity(strong);
+        closed(1, 0);
+        closed(399, -60.0);
+    }
+    CHECK(differences(*device, *reference, 0.3).unmatched == 0);
+    requireClean(*device);
+}
+
 TEST_CASE("energy: keeping the book changes no bit of the motion") {
     RuledWorld w = dosingWorld();
     const Particles p = thrownAbout(97);

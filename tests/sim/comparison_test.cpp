@@ -24,6 +24,7 @@ class Wrong : public Backend {
         change_(w);
         inner_->setLaw(w.law);
     }
+    void setGravity(const Vec3& gravity) override { inner_->setGravity(gravity); }
     void addParticles(std::size_t first, const std::vector<Vec3>& positions) override {
         inner_->addParticles(first, positions);
     }

@@ -19,7 +19,8 @@ class FakeBackend : public Backend {
         std::uint64_t firstStep;
         std::uint32_t steps;
         double rate;
-        double kc;  ///< adhesion stiffness in force
+        double kc;       ///< adhesion stiffness in force
+        double gravity;  ///< along y, in force [m/s2]
     };
 
     /// How many particles are dosed after so many steps; the others are in the canister.
@@ -47,6 +48,7 @@ class FakeBackend : public Backend {
         particles_ = particles;
     }
     void setLaw(const ContactLaw& law) override { world_.law = law; }
+    void setGravity(const Vec3& gravity) override { world_.gravity = gravity; }
     void addParticles(std::size_t first, const std::vector<Vec3>& positions) override {
         for (std::size_t k = 0; k < positions.size(); ++k) {
             particles_.position.at(first + k) = positions[k];
@@ -58,7 +60,7 @@ class FakeBackend : public Backend {
     Sensors advance(std::uint32_t steps, double rate) override {
         if (runErrorAt && step >= *runErrorAt) throw RunError("particle 3 is gone (step 7)");
         if (deviceErrorAt && step >= *deviceErrorAt) throw DeviceError("device lost");
-        calls.push_back({step, steps, rate, world_.law.of(ContactClass::ParticleParticle).kc});
+        calls.push_back({step, steps, rate, world_.law.of(ContactClass::ParticleParticle).kc, world_.gravity.y});
         double impulse = 0;
         for (std::uint64_t s = step; s < step + steps; ++s) impulse += torque(s);
         step += steps;

@@ -66,6 +66,9 @@ TEST_CASE("the fall of a fill reaches from the top of its highest sphere to the 
     CHECK(fall.height == Approx(0.020));
     CHECK(fall.time == Approx(0.063855).epsilon(1e-4));
     CHECK(fall.speed == Approx(0.62642).epsilon(1e-4));
+    c.schedule.settleGravityFactor = 0.25;
+    CHECK(fillFall(c, fill().particles).time == Approx(2 * fall.time));
+    CHECK(fillFall(c, fill().particles).speed == Approx(0.5 * fall.speed));
     c.world.gravity = Vec3(-9.81, 0, 0);  // across the row of spheres
     CHECK(fillFall(c, fill().particles).height == Approx(0.002));
     c.world.gravity = Vec3(0);

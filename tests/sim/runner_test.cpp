@@ -1,6 +1,7 @@
 #include "host/sim/runner.h"
 
 #include <cmath>
+#include <set>
 
 #include "tests/sim/fake_backend.h"
 #include "tests/support/catch.h"
@@ -39,6 +40,39 @@ TEST_CASE("a run makes every phase's steps at its rate and under its law") {
     CHECK(stepsAt(backend, 150, 170) == 20);
     CHECK(r.particleSteps == 10 * 310);
     CHECK(r.endState);
+}
+
+TEST_CASE("a run settles under the gravity of its settling and doses under that of the case") {
+    Case c = smallCase();
+    c.world.gravity = Vec3(0, -8, 0);
+    c.schedule.settleGravityFactor = 0.25;
+    FakeBackend backend;
+    Notebook notes;
+    play(c, backend, notes);
+    std::set<double> settling, dosing;
+    for (const FakeBackend::Call& call : backend.calls) (call.firstStep < 100 ? settling : dosing).insert(call.gravity);
+    CHECK(settling == std::set<double>{-2});
+    CHECK(dosing == std::set<double>{-8});
+}
+
+TEST_CASE("a run that goes on knows the gravity under which it was interrupted") {
+    Case c = smallCase();
+    c.world.gravity = Vec3(0, -8, 0);
+    c.schedule.settleGravityFactor = 0.25;
+    c.checkpoint.wall = 0;
+    c.checkpoint.simulated = 0.03;
+    FakeBackend whole;
+    CheckpointKeeper keeper;
+    play(c, whole, keeper);
+    REQUIRE(keeper.kept.size() > 5);
+    const std::atomic<bool> stop{false};
+    for (const RunCheckpoint& from : keeper.kept) {
+        FakeBackend rest;
+        Notebook notes;
+        runFilled(c, smallFilling(), {}, rest, notes, stop, &from);
+        for (const FakeBackend::Call& call : rest.calls) CHECK(call.gravity == (call.firstStep < 100 ? -2 : -8));
+        CHECK(rest.step == whole.step);
+    }
 }
 
 TEST_CASE("samples come at the sensor interval and at phase ends, with the angle about +z") {

@@ -46,6 +46,7 @@ TEST_CASE("members do not share a bed if what differs acts while the powder sett
                                                           {"settle.time_s", "[0.1, 0.2]"},
                                                           {"settle.damping_factor", "[1, 2]"},
                                                           {"settle.elastic", "[true, false]"},
+                                                          {"settle.gravity_factor", "[0.5, 1]"},
                                                           {"contact.friction", "[0.1, 0.2]"},
                                                           {"contact.wall.friction", "[0.1, 0.2]"},
                                                           {"contact.max_overlap_ratio", "[0.2, 0.3]"},

@@ -32,6 +32,7 @@ class Skewed final : public Backend {
         sound_->load(changed, particles);
     }
     void setLaw(const ContactLaw& law) override { sound_->setLaw(law); }
+    void setGravity(const Vec3& gravity) override { sound_->setGravity(gravity); }
     void addParticles(std::size_t first, const std::vector<Vec3>& positions) override {
         sound_->addParticles(first, positions);
     }

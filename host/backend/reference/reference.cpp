@@ -63,6 +63,7 @@ class ReferenceBackend final : public Backend {
         if (reachIn(law) > reach_) throw RunError(kReachesFarther);
         world_.law = law;
     }
+    void setGravity(const Vec3& gravity) override { world_.gravity = gravity; }
     void addParticles(std::size_t first, const std::vector<Vec3>& positions) override;
     void setClocks(const std::vector<BodyClock>& clocks) override { clocks_ = clocks; }
 
@@ -161,7 +162,7 @@ void ReferenceBackend::restore(const Record& record) {
 void ReferenceBackend::addParticles(std::size_t first, const std::vector<Vec3>& positions) {
     for (std::size_t k = 0; k < positions.size(); ++k) {
         particles_.position.at(first + k) = positions[k];
-        particles_.velocity[first + k] = velocityOfRest(world_, steps_);
+        particles_.velocity[first + k] = velocityOfRest(world_.timeStep, world_.gravity, steps_);
         particles_.status[first + k] = Status::Active;
     }
     neighbours_.reset(world_.skin, reach_, neighbours_.builds());

@@ -129,11 +129,18 @@ void Ensemble::setLaw(std::uint32_t member, const ContactLaw& law) {
     packLaw(law, m.block);
 }
 
+void Ensemble::setGravity(std::uint32_t member, const Vec3& gravity) {
+    MemberState& m = members_[member];
+    m.world.gravity = gravity;
+    packGravity(m.world, m.block);
+}
+
 void Ensemble::addParticles(std::uint32_t member, std::size_t first, const std::vector<Vec3>& positions) {
     const MemberState& m = members_[member];
     Particles added;
     for (std::size_t k = 0; k < positions.size(); ++k)
-        added.add(positions[k], m.loaded.radius.at(first + k), velocityOfRest(m.world, m.step));
+        added.add(positions[k], m.loaded.radius.at(first + k),
+                  velocityOfRest(m.world.timeStep, m.world.gravity, m.step));
     writeParticles(*passes_, member, first, added, m.half());
 }
 

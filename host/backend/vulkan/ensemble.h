@@ -34,6 +34,7 @@ class Ensemble {
     void setLive(const std::vector<std::uint32_t>& members);
 
     void setLaw(std::uint32_t member, const ContactLaw& law);
+    void setGravity(std::uint32_t member, const Vec3& gravity);
     void addParticles(std::uint32_t member, std::size_t first, const std::vector<Vec3>& positions);
     void setClocks(std::uint32_t member, const std::vector<BodyClock>& clocks);
 

@@ -118,6 +118,10 @@ void packLaw(const ContactLaw& law, gpu::Member& member) {
     member.choices.y = float(law.rollingLever);
 }
 
+void packGravity(const World& world, gpu::Member& m) {
+    m.gravity = vec4(glm::vec3(world.gravity), float(world.density));
+}
+
 gpu::Member packMember(const World& world, const ContactLaw& law, const Particles& particles) {
     if (world.surfaces.size() > gpu::kMaxSurfaces)
         throw RunError(fmt::format("{} surfaces; the Vulkan backend holds {}", world.surfaces.size(),
@@ -132,7 +136,7 @@ gpu::Member packMember(const World& world, const ContactLaw& law, const Particle
     }
     const double largest = largestRadius(particles), reach = longestReach(law, largest);
     const auto finite = [](double x) { return float(std::clamp(x, -1e30, 1e30)); };
-    m.gravity = vec4(glm::vec3(world.gravity), float(world.density));
+    packGravity(world, m);
     m.domainLow = vec4(glm::vec3(world.domain.low), finite(world.throatZ));
     m.domainHigh = vec4(glm::vec3(world.domain.high), finite(world.outletZ));
     packOutlets(world, m);

@@ -39,6 +39,9 @@ class VulkanBackend final : public Backend {
     void setLaw(const ContactLaw& law) override {
         alone([&](Ensemble& e, std::uint32_t member) { e.setLaw(member, law); });
     }
+    void setGravity(const Vec3& gravity) override {
+        alone([&](Ensemble& e, std::uint32_t member) { e.setGravity(member, gravity); });
+    }
     void addParticles(std::size_t first, const std::vector<Vec3>& positions) override {
         alone([&](Ensemble& e, std::uint32_t member) { e.addParticles(member, first, positions); });
     }
