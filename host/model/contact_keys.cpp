@@ -44,11 +44,10 @@ constexpr Key kContactClass[] = {
     number("poisson_ratio", kPlain, kNonNegative, told("required unless `luding`"), "ν of that material; at most 0.5"),
     number("plasticity_ratio", kPlain, kNonNegative, told("required with `eepa`"),
            "λ_p = 1 - k₁/k₂, below 1: how much stiffer unloading is than loading. 0 is elastic"),
-    number("surface_energy_J_m2", {1, "J/m2"}, kNonNegative, told("required with `eepa` and `jkr`"),
+    number("surface_energy", {1, "J/m2"}, kNonNegative, told("required with `eepa` and `jkr`"),
            "Δγ, of both surfaces together; under `eepa` it acts on the flattened patch of a contact, under `jkr` on "
-           "all of "
-           "the contact"),
-    number("pull_off_force_N", {1, "N"}, kNonNegative, 0.0,
+           "all of the contact"),
+    number("pull_off_force", {1, "N"}, kNonNegative, 0.0,
            "-f₀, a pull that every contact of the law `eepa` has, pressed or not"),
     number("adhesion_exponent", kPlain, kPositive, 1.5,
            "χ of the law `eepa`, at least 1: with it the pull fades while a contact opens"),

@@ -199,8 +199,8 @@ constexpr std::initializer_list<const char*> kLudingKeys{
     "bond_number", "bond_load",          "plasticity_depth",  "damping",   "restitution_speed",
     "derived",     "kt_over_k",          "damping_t_ratio"};
 constexpr std::initializer_list<const char*> kElasticKeys{"youngs_modulus", "poisson_ratio"};
-constexpr std::initializer_list<const char*> kPlasticKeys{"plasticity_ratio", "pull_off_force_N", "adhesion_exponent"};
-constexpr std::initializer_list<const char*> kAdhesiveKeys{"surface_energy_J_m2"};
+constexpr std::initializer_list<const char*> kPlasticKeys{"plasticity_ratio", "pull_off_force", "adhesion_exponent"};
+constexpr std::initializer_list<const char*> kAdhesiveKeys{"surface_energy"};
 
 /// One class of contacts of a law of spheres with moduli, as its table states it.
 struct StatedHertz {
@@ -217,8 +217,8 @@ void checkEepaClass(CaseReader& reader, Section& section, const ContactParameter
     if (p.adhesionExponent < 1 && section.has("adhesion_exponent"))
         reader.fault(section.path("adhesion_exponent"), "makes the pull end abruptly where the contact opens",
                      "give a number >= 1, as a rule 1.5");
-    if (p.surfaceEnergy > 0 && p.plasticityRatio == 0 && section.has("surface_energy_J_m2"))
-        reader.fault(section.path("surface_energy_J_m2"),
+    if (p.surfaceEnergy > 0 && p.plasticityRatio == 0 && section.has("surface_energy"))
+        reader.fault(section.path("surface_energy"),
                      "acts on flattened contacts, and with plasticity_ratio = 0 none is",
                      "give a plasticity_ratio > 0, or a surface energy of 0");
 }
@@ -248,10 +248,10 @@ StatedHertz readHertzClass(CaseReader& reader, Section& section, const StatedHer
     h.rest.kTo = ratio("kto_over_k", &ContactParameters::kTo);
     h.rest.gammaTo = ratio("damping_to_ratio", &ContactParameters::gammaTo);
     if (law == NormalLaw::HertzMindlin) return h;
-    h.rest.surfaceEnergy = ratio("surface_energy_J_m2", &ContactParameters::surfaceEnergy);
+    h.rest.surfaceEnergy = ratio("surface_energy", &ContactParameters::surfaceEnergy);
     if (law != NormalLaw::Eepa) return h;
     h.rest.plasticityRatio = ratio("plasticity_ratio", &ContactParameters::plasticityRatio);
-    h.rest.constantPull = ratio("pull_off_force_N", &ContactParameters::constantPull);
+    h.rest.constantPull = ratio("pull_off_force", &ContactParameters::constantPull);
     h.rest.adhesionExponent = ratio("adhesion_exponent", &ContactParameters::adhesionExponent);
     checkEepaClass(reader, section, h.rest);
     return h;

@@ -37,18 +37,18 @@ youngs_modulus = 5e6
 poisson_ratio = 0.25
 restitution = 0.6
 plasticity_ratio = 0.5
-surface_energy_J_m2 = 0.2
-pull_off_force_N = 1e-6
+surface_energy = 0.2
+pull_off_force = 1e-6
 friction = 0.5
 rolling_friction = 0.2
 [contact.wall]
 youngs_modulus = 2e8
-surface_energy_J_m2 = 0.05
+surface_energy = 0.05
 friction = 0.2
 [contact.coil]
 plasticity_ratio = 0.3
 adhesion_exponent = 3
-pull_off_force_N = 0
+pull_off_force = 0
 )";
 
 Case loadText(const std::string& text) {
@@ -173,9 +173,9 @@ TEST_CASE("the time step of an elasto-plastic case is shorter by the root of how
         replaced(withContacts(kCohesive), "friction = 0.5\nrolling_friction = 0.2", "friction = 0");
     const std::string smooth =
         replaced(replaced(rough, "friction = 0.2", "friction = 0"), "plasticity_ratio = 0.3\n", "");
-    const std::string elastic = replaced(replaced(smooth, "plasticity_ratio = 0.5\nsurface_energy_J_m2 = 0.2",
-                                                  "plasticity_ratio = 0\nsurface_energy_J_m2 = 0"),
-                                         "surface_energy_J_m2 = 0.05\n", "");
+    const std::string elastic = replaced(
+        replaced(smooth, "plasticity_ratio = 0.5\nsurface_energy = 0.2", "plasticity_ratio = 0\nsurface_energy = 0"),
+        "surface_energy = 0.05\n", "");
     const std::string plastic = replaced(elastic, "plasticity_ratio = 0\n", "plasticity_ratio = 0.96\n");
     CHECK(loadText(elastic).world.timeStep == Approx(5 * loadText(plastic).world.timeStep).epsilon(0.02));
 }
@@ -194,16 +194,16 @@ TEST_CASE("keys and figures that the elasto-plastic adhesive law cannot have are
             "settle.kc_over_k = 0.3: is a key of the law luding");
     refused(withContacts(replaced(kElastic, "restitution = 0.6\n", "restitution = 0.6\nplasticity_ratio = 0.5\n")),
             "contact.plasticity_ratio = 0.5: is a key of the law eepa; remove it, or give contact.law = \"eepa\"");
-    refused(replaced(kGoodCase, "k = 2000.0\n", "k = 2000.0\nsurface_energy_J_m2 = 0.1\n"),
-            "contact.surface_energy_J_m2 = 0.1: is a key of the law jkr");
+    refused(replaced(kGoodCase, "k = 2000.0\n", "k = 2000.0\nsurface_energy = 0.1\n"),
+            "contact.surface_energy = 0.1: is a key of the law jkr");
     refused(other("plasticity_ratio = 0.5\n", ""), "contact.plasticity_ratio: is missing");
-    refused(other("surface_energy_J_m2 = 0.2\n", ""), "contact.surface_energy_J_m2: is missing");
+    refused(other("surface_energy = 0.2\n", ""), "contact.surface_energy: is missing");
     refused(other("plasticity_ratio = 0.5", "plasticity_ratio = 1"),
             "contact.plasticity_ratio = 1: lets nothing of the overlap spring back; give a number >= 0 and < 1");
     refused(other("adhesion_exponent = 3", "adhesion_exponent = 0.5"), "contact.coil.adhesion_exponent = 0.5");
-    refused(other("pull_off_force_N = 1e-6", "pull_off_force_N = -1e-6"), "contact.pull_off_force_N = -1e-6");
+    refused(other("pull_off_force = 1e-6", "pull_off_force = -1e-6"), "contact.pull_off_force = -1e-6");
     refused(other("plasticity_ratio = 0.5", "plasticity_ratio = 0"),
-            "contact.surface_energy_J_m2 = 0.2: acts on flattened contacts, and with plasticity_ratio = 0 none is; "
+            "contact.surface_energy = 0.2: acts on flattened contacts, and with plasticity_ratio = 0 none is; "
             "give a plasticity_ratio > 0, or a surface energy of 0");
     refused(other("0.25", "0.6"), "contact.poisson_ratio = 0.6");
 }
@@ -214,11 +214,11 @@ law = "jkr"
 youngs_modulus = 5e6
 poisson_ratio = 0.25
 restitution = 0.6
-surface_energy_J_m2 = 0.2
+surface_energy = 0.2
 friction = 0.5
 [contact.wall]
 youngs_modulus = 2e8
-surface_energy_J_m2 = 0
+surface_energy = 0
 )";
     const Case c = loadText(withContacts(sticky));
     const auto& classes = c.dosingLaw.classes;
@@ -231,12 +231,11 @@ surface_energy_J_m2 = 0
     const Case again = loadResolvedCase(c.resolved, "again.toml");
     CHECK(again.resolved == c.resolved);
     CHECK(again.dosingLaw.classes[0].surfaceEnergy == 0.2);
-    refused(withContacts(replaced(sticky, "surface_energy_J_m2 = 0.2\n", "")),
-            "contact.surface_energy_J_m2: is missing");
+    refused(withContacts(replaced(sticky, "surface_energy = 0.2\n", "")), "contact.surface_energy: is missing");
     refused(withContacts(replaced(sticky, "restitution = 0.6\n", "restitution = 0.6\nplasticity_ratio = 0.5\n")),
             "contact.plasticity_ratio = 0.5: is a key of the law eepa");
     refused(withContacts(replaced(sticky, "restitution = 0.6\n", "restitution = 0.6\nk = 100\n")),
             "contact.k = 100: is a key of the law luding");
-    refused(withContacts(replaced(kElastic, "restitution = 0.6\n", "restitution = 0.6\nsurface_energy_J_m2 = 0.5\n")),
-            "contact.surface_energy_J_m2 = 0.5: is a key of the law jkr; remove it, or give contact.law = \"jkr\"");
+    refused(withContacts(replaced(kElastic, "restitution = 0.6\n", "restitution = 0.6\nsurface_energy = 0.5\n")),
+            "contact.surface_energy = 0.5: is a key of the law jkr; remove it, or give contact.law = \"jkr\"");
 }
