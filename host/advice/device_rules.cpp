@@ -35,6 +35,19 @@ double coilEnd(const Subject& s) {
 
 }  // namespace
 
+Found hugeCanister(const Subject& s) {
+    if (!s.c.canister) return {};
+    constexpr double kHuge = 5;  // [m]; meshes that are longer are refused (read_bodies.cpp)
+    const Canister& can = *s.c.canister;
+    const std::pair<const char*, double> sizes[] = {
+        {"canister.length_mm", can.length}, {"canister.width_mm", can.width}, {"canister.height_mm", can.height}};
+    for (const auto& [key, size] : sizes)
+        if (size > kHuge)
+            return Finding{key, fmt::format("the canister is {:.3g} m large; lengths are given in mm", size),
+                           fmt::format("give {:.4g} if it is {:.4g} mm, which is probably meant", size, size)};
+    return {};
+}
+
 Found narrowTurns(const Subject& s) {
     const double gap = s.f.coilGap;
     const double needed = std::max(2 * s.f.largest, kSpheresInTurn * 2 * s.f.mean);

@@ -1,7 +1,7 @@
 // Warnings about the regions where powder is dosed or counted.
 #include <algorithm>
 
-#include "host/advice/rules.h"
+#include "host/advice/body_words.h"
 
 namespace vkdose {
 namespace {
@@ -16,6 +16,23 @@ double deepestIn(const CountRegion& region, const Box& domain) {
     return region.depth(corner);
 }
 
+/// Whether all of the region that is in the domain lies behind the walls of the canister.
+bool behindWalls(const CountRegion& region, const Canister& can, const Box& domain) {
+    constexpr int kPlaces = 24;
+    Box room = domain;
+    bool held = false;
+    if (region.kind == CountRegion::Kind::Box)
+        room = {glm::max(region.low, domain.low), glm::min(region.high, domain.high)};
+    for (int i = 0; i < kPlaces * kPlaces * kPlaces; ++i) {
+        const Vec3 share = (Vec3(i % kPlaces, i / kPlaces % kPlaces, i / kPlaces / kPlaces) + 0.5) / double(kPlaces);
+        const Vec3 at = room.low + share * (room.high - room.low);
+        if (!region.holds(at)) continue;
+        if (!(behindWall(can, at) > 0)) return false;
+        held = true;
+    }
+    return held;
+}
+
 }  // namespace
 
 Found unreachableRegion(const Subject& s) {
@@ -25,6 +42,10 @@ Found unreachableRegion(const Subject& s) {
                            "no sphere can reach it: it lies outside of the domain, where a sphere is lost and the run "
                            "ends",
                            "move the region, or widen [domain]"};
+    for (const CountRegion& region : s.c.world.regions)
+        if (s.c.canister && behindWalls(region, *s.c.canister, s.c.world.domain))
+            return Finding{"region." + region.name, "no sphere can reach it: it lies behind the walls of the canister",
+                           "move the region into the canister, or beyond its outlet"};
     return {};
 }
 

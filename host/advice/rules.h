@@ -38,6 +38,7 @@ struct Finding {
 using Found = std::optional<Finding>;
 
 // device_rules.cpp: canister and coil
+Found hugeCanister(const Subject& s);
 Found narrowTurns(const Subject& s);
 Found pinchedSpheres(const Subject& s);
 Found shortCoil(const Subject& s);
@@ -69,13 +70,16 @@ Found wideSizes(const Subject& s);
 
 // body_rules.cpp: bodies
 Found bodyBackwards(const Subject& s);
-Found bodyInWall(const Subject& s);
-Found bodiesCross(const Subject& s);
 Found shortBody(const Subject& s);
 Found bodyOutOfScale(const Subject& s);
+Found bodyOutside(const Subject& s);
 Found bodyPhases(const Subject& s);
 Found bodySeam(const Subject& s);
 Found sphereInBody(const Subject& s);
+
+// sweep_rules.cpp: bodies that move through something
+Found bodyInWall(const Subject& s);
+Found bodiesCross(const Subject& s);
 
 // schedule_rules.cpp: times, doses and the ends of a run
 Found shortSettling(const Subject& s);

@@ -49,6 +49,10 @@ const std::vector<Slip> kSlips{
     {{"gravity=[0, 0, -9.81]"}, "gravity", {"the coil's axis"}},
     {{"gravity=[0, -9810, 0]"}, "gravity", {"1e+03 times the earth's", "m/s2"}, false},
     {{"gravity=[0, -0.00981, 0]"}, "gravity", {"hardly moves"}, false},
+    {{"canister.length_mm=40000", "coil.length_mm=50000"},
+     "canister-size",
+     {"canister.length_mm = 40000", "40 m large", "give 40 if it is 40 mm"},
+     false},
     {{"particles.mass_g=1.5"}, "few-spheres", {"55 spheres"}, false},
     {{"particles.size.radius_min_mm=0.3"}, "size-ratio", {"7.31 times"}, false},
     {{"contact.friction=30"}, "friction", {"contact.friction = 30", "30 degrees are 0.577"}},
@@ -80,6 +84,9 @@ const std::vector<Slip> kSlips{
     {{"region=[{name = \"moon\", kind = \"beyond\", deletes = false, point = [0, 100, 0], normal = [0, 1, 0]}]"},
      "region",
      {"region.moon: no sphere can reach it", "widen [domain]"}},
+    {{"region=[{name = \"pan\", kind = \"box\", deletes = false, low = [-1, -1, -1], high = [1, 0, -1e-5]}]"},
+     "region",
+     {"region.pan: no sphere can reach it", "behind the walls of the canister", "beyond its outlet"}},
     {{"settle.time_s=0.05"}, "settle-time", {"settle.time_s = 0.05", "43.8 mm", "0.094 s", "at least 0.24"}},
     {{"dose.rotate_s=1e9"}, "dose-length", {"more than the fill of 13 g"}, false},
     {{"dose.rotate_s=0.1"}, "dose-spheres", {"spheres, so that one sphere is"}, false},
@@ -97,6 +104,12 @@ struct BodySlip {
     std::vector<std::string> says;
 };
 
+std::string part(const std::string& name, const std::string& size, const std::string& at) {
+    return "[[body]]\nname = \"" + name + "\"\nshape = \"box\"\nsize_mm = [" + size + "]\nat = [" + at + "]\n";
+}
+
+const std::string kOwnTurn = "[body.motion]\nkind = \"turn\"\nspeed_rpm = 60\n";
+
 const std::vector<BodySlip> kBodySlips{
     {"turns_per_turn = -1", "turns_per_turn = 1", "body-backwards", {"to the rear wall", "by 5 mm a turn", "give -1"}},
     {"at = [0, 0, 0]", "at = [0.001, 0, 0]", "body-wall", {"\"spring\" turns through the", "0.7 mm"}},
@@ -105,7 +118,33 @@ const std::vector<BodySlip> kBodySlips{
     {"[settle]",
      "[[body]]\nname = \"pin\"\nshape = \"box\"\nsize_mm = [0.8, 0.8, 0.8]\nat = [0, -0.0052, 0.015]\n[settle]",
      "body-cross",
-     {"\"spring\" turns through body \"pin\""}}};
+     {"\"spring\" turns through body \"pin\""}},
+    {"[settle]",
+     part("pin", "1, 1, 1", "0, -20, 15") + "[settle]",
+     "body-place",
+     {"no sphere can touch body \"pin\"", "outside of the domain", "if those are mm, give [0, -0.02, 0.015]"}},
+    // By its own clock: in the way of another that turns, of one at rest, of one that is pushed on to it; through a
+    // wall.
+    {"[settle]",
+     part("arm", "0.6, 10.4, 0.6", "0, 0, 0.015") + kOwnTurn + "axis = [0, 0, 1]\n[settle]",
+     "body-cross",
+     {"\"spring\" turns through body \"arm\""}},
+    {"[settle]",
+     part("arm", "0.6, 8, 0.6", "0, 0, 0.015") + kOwnTurn + "axis = [0, 0, 1]\n" +
+         part("pin", "0.8, 0.8, 0.8", "0.003, 0, 0.015") + "[settle]",
+     "body-cross",
+     {"\"arm\" turns through body \"pin\""}},
+    {"[settle]",
+     part("pusher", "0.6, 0.6, 0.6", "0, -0.004, 0.010") +
+         "[body.motion]\nkind = \"slide\"\nvelocity = [0, 0, 0.05]\n" +
+         part("pin", "0.8, 0.8, 0.8", "0, -0.004, 0.015") + "[settle]",
+     "body-cross",
+     {"\"pusher\" moves through body \"pin\""}},
+    {"[settle]",
+     part("bar", "9, 0.6, 0.6", "0, -0.003, 0.003") + kOwnTurn +
+         "axis = [0, 1, 0]\nthrough = [0, -0.003, 0.003]\n[settle]",
+     "body-wall",
+     {"\"bar\" moves through the wall of the canister, by 1.5"}}};
 
 std::vector<Warning> warningsOfText(const test::Folder& folder, const std::string& text) {
     const Case c = loadCase(folder.write("case.toml", text));
@@ -149,6 +188,46 @@ TEST_CASE("each slip with a body has its warning with figures and a cure") {
         for (const std::string& words : slip.says) CHECK_THAT(warning->line(), Catch::Contains(words));
         CHECK_FALSE(warning->cure.empty());
     }
+}
+
+TEST_CASE("bodies that move as one, or past one another, do not cross; the coil is a body too") {
+    const test::Folder folder;
+    const std::string free = test::replaced(test::kFreeCase, "time_s = 0.01", "time_s = 1");
+    const auto warned = [&](const std::string& bodies) {
+        folder.write("two.csv", "x,y,z,r\n0.05,0.05,0.05,1e-3\n0.06,0.05,0.05,1e-3\n");
+        const std::vector<Warning> found = warningsOfText(folder, free + bodies);
+        const Warning* warning = warningOf(found, "body-cross");
+        return warning == nullptr ? std::string() : warning->line();
+    };
+    const std::string shaft = part("shaft", "2, 2, 30", "0, 0, 0") + kOwnTurn;
+    const auto arm = [](const std::string& speed) {
+        return part("arm", "20, 1, 1", "0.001, 0, 0.005") + "[body.motion]\nkind = \"turn\"\nspeed_rpm = " + speed +
+               "\n";
+    };
+    CHECK(warned(shaft + arm("60")).empty());
+    CHECK_THAT(warned(shaft + arm("61")), Catch::Contains("\"shaft\" turns through body \"arm\""));
+    const std::string swing = part("swing", "1, 20, 1", "0, 0, 0") +
+                              "[body.motion]\nkind = \"swing\"\namplitude_deg = 20\nfrequency_hz = 3\n";
+    CHECK(warned(swing + part("post", "1, 1, 1", "0.005, 0.009, 0")).empty());
+    CHECK_THAT(warned(swing + part("post", "1, 1, 1", "0.003, 0.009, 0")),
+               Catch::Contains("\"swing\" moves through body \"post\""));
+    // A lid that turns in a round cell of its own size touches no wall of it: what remains is the error of facets.
+    const std::string cell = "[[body]]\nname = \"cell\"\nshape = \"cylinder\"\nradius_mm = 20\nlength_mm = 30\n";
+    const std::string lid =
+        "[[body]]\nname = \"lid\"\nshape = \"disc\"\nradius_mm = 20\nat = [0, 0, 0.02]\n" + kOwnTurn;
+    CHECK(warned(cell + lid).empty());
+    CHECK_THAT(warned(cell + test::replaced(lid, "radius_mm = 20", "radius_mm = 21")),
+               Catch::Contains("\"lid\" turns through"));
+
+    const std::string mini = test::readText(shippedCase("mini.toml"));
+    const auto crosses = [&](const std::string& pin) {
+        const std::vector<Warning> found = warningsOfText(folder, mini + pin);
+        const Warning* warning = warningOf(found, "body-cross");
+        return warning == nullptr ? std::string() : warning->line();
+    };
+    CHECK(crosses(part("pin", "1, 1, 1", "0, 0, 0.008")).empty());
+    CHECK_THAT(crosses(part("pin", "1, 1, 1", "0, -0.0055, 0.008")),
+               Catch::Contains("\"coil\" turns through body \"pin\""));
 }
 
 TEST_CASE("spheres that start inside of a closed mesh are told, unless it holds all of them") {
@@ -205,7 +284,7 @@ TEST_CASE("two bodies at rest that meet in a seam where powder comes are told") 
                Catch::Contains("body \"left\" and body \"right\" meet in a seam") &&
                    Catch::Contains("export-body CASE left right"));
     CHECK(warned(box("left", "-0.005, 0, 0") + box("right", "0.005, -0.001, 0.001")).empty());  // a step
-    CHECK(warned(box("left", "-0.005, 0, 0") + box("right", "0.0055, 0, 0")).empty());      // a gap
+    CHECK(warned(box("left", "-0.005, 0, 0") + box("right", "0.0055, 0, 0")).empty());          // a gap
     // A funnel and its spout: the rim is met from within, where the way grows steeper.
     const std::string funnel =
         "[[body]]\nname = \"funnel\"\nshape = \"cone\"\nradius_mm = 4\nend_radius_mm = 12\nlength_mm = 6\n"

@@ -1,0 +1,64 @@
+#include "host/advice/cells.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vkdose {
+
+using geometry::Triangle;
+
+namespace {
+
+/// By the signs of the volumes that segment and edges span.
+bool passes(const Vec3& a, const Vec3& b, const Triangle& t, double least) {
+    const Vec3 n = glm::cross(t[1] - t[0], t[2] - t[0]);
+    const double before = glm::dot(a - t[0], n), behind = glm::dot(b - t[0], n);
+    if (!(before * behind < 0) || !(std::min(std::abs(before), std::abs(behind)) > least * glm::length(n)))
+        return false;
+    const auto side = [&](int i, int j) {
+        return glm::dot(b - a, glm::cross(t[std::size_t(i)] - a, t[std::size_t(j)] - a));
+    };
+    const double u = side(0, 1), v = side(1, 2), w = side(2, 0);
+    return (u > 0 && v > 0 && w > 0) || (u < 0 && v < 0 && w < 0);
+}
+
+}  // namespace
+
+Cells::Cells(const std::vector<Triangle>& mesh) : mesh_(mesh) {
+    for (const Triangle& t : mesh)
+        for (const Vec3& p : t) {
+            low_ = glm::min(low_, p);
+            high_ = glm::max(high_, p);
+        }
+    for (std::size_t i = 0; i < mesh.size(); ++i)
+        forEachCell(glm::min(mesh[i][0], glm::min(mesh[i][1], mesh[i][2])),
+                    glm::max(mesh[i][0], glm::max(mesh[i][1], mesh[i][2])),
+                    [&](int cell) { cells_[cell].push_back(i); });
+}
+
+bool Cells::passedBy(const Vec3& a, const Vec3& b, double least) const {
+    const Vec3 low = glm::min(a, b), high = glm::max(a, b);
+    if (glm::any(glm::lessThan(high, low_)) || glm::any(glm::greaterThan(low, high_))) return false;
+    bool passed = false;
+    forEachCell(low, high, [&](int cell) {
+        const auto found = cells_.find(cell);
+        if (passed || found == cells_.end()) return;
+        passed = std::any_of(found->second.begin(), found->second.end(),
+                             [&](std::size_t i) { return passes(a, b, mesh_[i], least); });
+    });
+    return passed;
+}
+
+int Cells::cell(double x, int axis) const {
+    const double share = (x - low_[axis]) / std::max(high_[axis] - low_[axis], 1e-300);
+    return int(std::clamp(share * kSide, 0.0, kSide - 1.0));
+}
+
+template <class Visit>
+void Cells::forEachCell(const Vec3& low, const Vec3& high, const Visit& visit) const {
+    for (int x = cell(low.x, 0); x <= cell(high.x, 0); ++x)
+        for (int y = cell(low.y, 1); y <= cell(high.y, 1); ++y)
+            for (int z = cell(low.z, 2); z <= cell(high.z, 2); ++z) visit((x * kSide + y) * kSide + z);
+}
+
+}  // namespace vkdose
