@@ -70,6 +70,8 @@ void EventsDisplay::onSettled(const Settling& settling, const Schedule&) {
 void EventsDisplay::onDose(const Dose& dose) {
     Json event{{"event", "dose"}};
     putColumns(kDoseColumns, dose, event);
+    for (std::size_t b = 0; b < dose.bodies.size(); ++b)
+        putColumns(kDoseBodyColumns, dose.bodies[b], event["bodies"][case_.world.bodies.at(b).name]);
     for (std::size_t r = 0; r < dose.regions.size(); ++r)
         putColumns(kRegionColumns, dose.regions[r], event["regions"][case_.world.regions.at(r).name]);
     say(event);

@@ -66,6 +66,10 @@ void LiveDisplay::onProgress(const Progress& p) {
     pace_.drew(begin, now());
 }
 
+void LiveDisplay::onSample(const Sample& sample) {
+    state_.loads = sample.bodies;
+}
+
 void LiveDisplay::onDose(const Dose& dose) {
     state_.doses.push_back(dose);
 }

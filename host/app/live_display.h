@@ -24,6 +24,7 @@ class LiveDisplay : public RunDisplay {
     static bool possible(std::FILE* stream, std::string& why);
 
     void onProgress(const Progress& progress) override;
+    void onSample(const Sample& sample) override;
     void onDose(const Dose& dose) override;
 
     /// Draws the last known state once more, without asking the backend, and leaves the cursor below the picture.

@@ -81,10 +81,11 @@ void makeFolder(const fs::path& folder) {
 namespace {
 
 /// The columns of the bodies, each named by its body.
-std::string bodyHeader(const World& world) {
+template <class Columns>
+std::string bodyHeader(const Columns& columns, const World& world) {
     std::string header;
     for (const RigidBody& body : world.bodies)
-        forEachColumn(kBodyColumns, [&](const auto& c) { header += fmt::format(",{}.{}", body.name, c.name); });
+        forEachColumn(columns, [&](const auto& c) { header += fmt::format(",{}.{}", body.name, c.name); });
     return header;
 }
 
@@ -94,6 +95,13 @@ std::string regionHeader(const World& world) {
     for (const CountRegion& region : world.regions)
         forEachColumn(kRegionColumns, [&](const auto& c) { header += fmt::format(",{}.{}", region.name, c.name); });
     return header;
+}
+
+template <class Columns>
+std::string bodyRow(const Columns& columns, const std::vector<BodySample>& bodies) {
+    std::string row;
+    for (const BodySample& body : bodies) row += "," + csvRow(columns, body);
+    return row;
 }
 
 std::string regionRow(const std::vector<RegionCount>& regions) {
@@ -118,10 +126,11 @@ RunFolder::RunFolder(fs::path folder, bool force, const Case& c, std::string bac
     try {
         removeRun(folder_, replacedIn(folder_, c));  // a stale summary would mislead if this run is killed
         const std::string energy = c.world.energyBook ? "," + csvHeader(kEnergyColumns) : "";
-        timeSeries_.emplace(folder_ / "timeseries.csv",
-                            csvHeader(kSampleColumns) + energy + bodyHeader(c.world) + regionHeader(c.world));
+        timeSeries_.emplace(folder_ / "timeseries.csv", csvHeader(kSampleColumns) + energy +
+                                                            bodyHeader(kBodyColumns, c.world) + regionHeader(c.world));
         if (!hadCase) replaceFile(folder_ / "case.toml", c.resolved);
-        doses_.emplace(folder_ / "doses.csv", csvHeader(kDoseColumns) + regionHeader(c.world));
+        doses_.emplace(folder_ / "doses.csv",
+                       csvHeader(kDoseColumns) + bodyHeader(kDoseBodyColumns, c.world) + regionHeader(c.world));
         if (c.frames.interval > 0) frames_.emplace(folder_, c, role_.member);
         fields_.emplace(folder_, c);
     } catch (const OutputError&) {
@@ -151,14 +160,13 @@ RunFolder::RunFolder(fs::path folder, FolderLock lock, const Checkpoint& from, c
 }
 
 void RunFolder::onSample(const Sample& s) {
-    std::string line = csvRow(kSampleColumns, s) + (s.energy ? "," + csvRow(kEnergyColumns, *s.energy) : "");
-    for (const BodySample& body : s.bodies) line += "," + csvRow(kBodyColumns, body);
-    timeSeries_->line(line + regionRow(s.regions));
+    const std::string energy = s.energy ? "," + csvRow(kEnergyColumns, *s.energy) : "";
+    timeSeries_->line(csvRow(kSampleColumns, s) + energy + bodyRow(kBodyColumns, s.bodies) + regionRow(s.regions));
     timeSeries_->flush();
 }
 
 void RunFolder::onDose(const Dose& d) {
-    doses_->line(csvRow(kDoseColumns, d) + regionRow(d.regions));
+    doses_->line(csvRow(kDoseColumns, d) + bodyRow(kDoseBodyColumns, d.bodies) + regionRow(d.regions));
     doses_->flush();
 }
 

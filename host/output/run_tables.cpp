@@ -24,6 +24,10 @@ std::vector<OutputTable> runTables() {
          "These columns follow in the same line, for each `[[body]]`. The name of the body and a dot stand before "
          "each.",
          columnTexts(kBodyColumns)},
+        {"doses.csv, with bodies",
+         "These columns follow in the same line, for each `[[body]]`. The name of the body and a dot stand before "
+         "each.",
+         columnTexts(kDoseBodyColumns)},
         {"timeseries.csv and doses.csv, with regions",
          "These columns follow in the same line, for each `[[region]]`. The name of the region and a dot stand before "
          "each.",

@@ -55,9 +55,27 @@ Json closedForms(const Case& c, const Derived& d) {
     return j;
 }
 
-Json doseList(const std::vector<Dose>& doses) {
+Json doseList(const Case& c, const std::vector<Dose>& doses) {
     Json list = Json::array();
-    for (const Dose& d : doses) putColumns(kDoseColumns, d, list.emplace_back(Json::object()));
+    for (const Dose& d : doses) {
+        Json& one = list.emplace_back(Json::object());
+        putColumns(kDoseColumns, d, one);
+        for (std::size_t b = 0; b < d.bodies.size(); ++b)
+            putColumns(kDoseBodyColumns, d.bodies[b], one["bodies"][c.world.bodies.at(b).name]);
+    }
+    return list;
+}
+
+/// Of the whole run.
+Json bodyList(const Case& c, const RunResult& r) {
+    Json list = Json::array();
+    for (std::size_t b = 0; b < r.last.bodies.size(); ++b) {
+        Json& one = list.emplace_back(Json::object());
+        one["name"] = c.world.bodies.at(b).name;
+        one["work_J"] = jsonNumber(r.last.bodies[b].work);
+        if (b < r.bodyPeaks.size()) putColumns(kBodyPeakColumns, r.bodyPeaks[b], one);
+        if (b < r.bodyClocks.size()) one["moved_s"] = jsonNumber(r.bodyClocks[b]);
+    }
     return list;
 }
 
@@ -218,7 +236,7 @@ std::string summaryJson(const Case& c, const RunResult& r, const std::string& ba
     j["simulated_time_s"] = jsonNumber(r.last.time);
     j["steps"] = r.last.step;
     j["coil_angle_rad"] = jsonNumber(r.last.coilAngle);
-    j["doses"] = doseList(r.doses);
+    j["doses"] = doseList(c, r.doses);
     j["dose_statistics"] = {{"complete_doses", s.doses},
                             {"mean_kg", s.doses > 0 ? jsonNumber(s.mean) : Json(nullptr)},
                             {"standard_deviation_kg", s.doses > 1 ? jsonNumber(s.deviation) : Json(nullptr)},
@@ -229,10 +247,7 @@ std::string summaryJson(const Case& c, const RunResult& r, const std::string& ba
     j["arches"] = arches(history.arches);
     if (!history.measures.empty()) j["measures"] = measures(history.measures);
     j["settling"] = settling(c, r.settling);
-    for (std::size_t b = 0; b < r.last.bodies.size(); ++b) {
-        j["bodies"].push_back({{"name", c.world.bodies.at(b).name}, {"work_J", jsonNumber(r.last.bodies[b].work)}});
-        if (b < r.bodyClocks.size()) j["bodies"].back()["moved_s"] = jsonNumber(r.bodyClocks[b]);
-    }
+    if (!r.last.bodies.empty()) j["bodies"] = bodyList(c, r);
     for (std::size_t i = 0; i < r.last.regions.size(); ++i)
         j["regions"].push_back({{"name", c.world.regions.at(i).name},
                                 {"mass_kg", jsonNumber(r.last.regions[i].mass)},

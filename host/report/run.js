@@ -158,6 +158,18 @@ function doseTable(main, d) {
                               d.complete[i] === 1 ? "" : "incomplete, in no statistics"]));
 }
 
+/// The loads of each body in each dose, whose columns begin with its name and a dot.
+function loadTables(main, d) {
+  const last = ".torque_Nm", of = (name, what, scale) => d[`${name}.${what}`].map(x => short(x * scale));
+  Object.keys(d).filter(column => column.endsWith(last)).map(column => column.slice(0, -last.length)).forEach(name => {
+    const columns = [of(name, "force_x_N", 1), of(name, "force_y_N", 1), of(name, "force_z_N", 1), of(name, "torque_Nm", milli),
+                     of(name, "power_W", milli), of(name, "work_J", milli)];
+    add(main, "h3", `Loads of ${name}`);
+    table(main, [["dose", true], ["force along x [N]", true], ["y [N]", true], ["z [N]", true], ["torque [mN m]", true],
+                 ["power [mW]", true], ["work [mJ]", true]], d.dose.map((n, i) => [n].concat(columns.map(c => c[i]))));
+  });
+}
+
 function runPage(main, run) {
   facts(main, run.facts);
   add(main, "h2", "Charts");
@@ -170,6 +182,7 @@ function runPage(main, run) {
   if (run.doses.dose.length > 0) {
     add(main, "h2", "Doses");
     doseTable(main, run.doses);
+    loadTables(main, run.doses);
   }
   const details = add(main, "details");
   add(details, "summary", "The case, with every default");

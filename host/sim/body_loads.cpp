@@ -1,5 +1,9 @@
 #include "host/sim/body_loads.h"
 
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
 namespace vkdose {
 
 std::vector<double> numbersOf(const std::vector<BodySample>& samples) {
@@ -18,31 +22,77 @@ std::vector<BodySample> samplesOf(const std::vector<double>& numbers) {
     return samples;
 }
 
-void BodyLoads::add(const std::vector<BodyLoad>& call, std::uint64_t steps) {
+void BodyLoads::add(const std::vector<BodyLoad>& call, std::uint64_t steps, bool rotates) {
     for (std::size_t b = 0; b < sums_.size(); ++b) {
-        sums_[b].force += double(steps) * call.at(b).force;
-        sums_[b].torque += double(steps) * call[b].torque;
-        sums_[b].power += call[b].work;
-        sums_[b].work += call[b].work;
+        const Vec3 force = double(steps) * call.at(b).force;
+        const double torque = double(steps) * call[b].torque, work = call[b].work;
+        sums_[b].force += force;
+        sums_[b].torque += torque;
+        sums_[b].power += work;
+        sums_[b].work += work;
+        if (!rotates) continue;
+        turned_[b].force += force;
+        turned_[b].torque += torque;
+        turned_[b].power += work;
     }
+    if (rotates) turnedSteps_ += steps;
 }
 
 std::vector<BodySample> BodyLoads::take(std::uint64_t steps, double timeStep) {
     std::vector<BodySample> samples;
-    for (BodySample& sum : sums_) {
-        const double n = double(steps);
-        samples.push_back({sum.force / n, sum.torque / n, sum.power / (n * timeStep), sum.work});
+    const double n = double(steps);
+    for (std::size_t b = 0; b < sums_.size(); ++b) {
+        BodySample& sum = sums_[b];
+        const BodySample& s =
+            samples.emplace_back(BodySample{sum.force / n, sum.torque / n, sum.power / (n * timeStep), sum.work});
         sum = {Vec3(0), 0, 0, sum.work};
+        BodyPeaks& peaks = peaks_[b];
+        peaks.force = std::max(peaks.force, glm::length(s.force));
+        peaks.torque = std::max(peaks.torque, std::abs(s.torque));
+        peaks.power = std::max(peaks.power, std::abs(s.power));
+    }
+    return samples;
+}
+
+void BodyLoads::openDose() {
+    turnedSteps_ = 0;
+    for (std::size_t b = 0; b < sums_.size(); ++b) turned_[b] = {Vec3(0), 0, 0, sums_[b].work};
+}
+
+std::vector<BodySample> BodyLoads::sinceDose(double timeStep) const {
+    std::vector<BodySample> samples;
+    const double n = std::max(double(turnedSteps_), 1.0);
+    for (std::size_t b = 0; b < sums_.size(); ++b) {
+        const BodySample& sum = turned_[b];
+        samples.push_back({sum.force / n, sum.torque / n, sum.power / (n * timeStep), sums_[b].work - sum.work});
     }
     return samples;
 }
 
 void BodyLoads::save(Record& record) const {
     record.put("bodies", numbersOf(sums_));
+    if (sums_.empty()) return;
+    record.put("bodies_in_dose", numbersOf(turned_));
+    record.putOne("bodies_dose_steps", turnedSteps_);
+    std::vector<double> peaks;
+    for (const BodyPeaks& p : peaks_) peaks.insert(peaks.end(), {p.force, p.torque, p.power});
+    record.put("bodies_peaks", std::move(peaks));
 }
 
 void BodyLoads::restore(const Record& record) {
     sums_ = samplesOf(record.get<double>("bodies", 6 * sums_.size()));
+    openDose();
+    peaks_.assign(sums_.size(), {});
+    if (!record.arrays().contains("bodies_peaks")) return;
+    turned_ = samplesOf(record.get<double>("bodies_in_dose", 6 * sums_.size()));
+    turnedSteps_ = record.one<std::uint64_t>("bodies_dose_steps");
+    const auto& peaks = record.get<double>("bodies_peaks", 3 * sums_.size());
+    for (std::size_t b = 0; b < peaks_.size(); ++b) peaks_[b] = {peaks[3 * b], peaks[3 * b + 1], peaks[3 * b + 2]};
+}
+
+void BodyLoads::takeOver(const Record& record) {
+    restore(record);
+    peaks_.assign(sums_.size(), {});
 }
 
 }  // namespace vkdose

@@ -29,6 +29,25 @@ inline constexpr auto kBodyColumns = columns(
     column<&BodySample::power>("power_W", "W", "Power of the body on the particles, mean."),
     column<&BodySample::work>("work_J", "J", "Work of the body on the particles since the start."));
 
+/// The columns of doses.csv for each body, likewise.
+inline constexpr auto kDoseBodyColumns = columns(
+    column<&BodySample::force, 0>("force_x_N", "N",
+                                  "Force of the particles on the body along x, mean over the rotation."),
+    column<&BodySample::force, 1>("force_y_N", "N", "The same along y."),
+    column<&BodySample::force, 2>("force_z_N", "N", "The same along z."),
+    column<&BodySample::torque>("torque_Nm", "N m", "Torque of the particles on the body, mean over the rotation."),
+    column<&BodySample::power>("power_W", "W", "Power of the body on the particles, mean over the rotation."),
+    column<&BodySample::work>("work_J", "J", "Work of the body on the particles in the dose, to the end of its rest."));
+
+/// What a drive, a bearing or a wall must bear: the largest magnitudes among the samples of a run.
+struct BodyPeaks {
+    double force = 0, torque = 0, power = 0;  ///< [N], [N m], [W]
+};
+inline constexpr auto kBodyPeakColumns =
+    columns(column<&BodyPeaks::force>("largest_force_N", "N", "Largest force on the body."),
+            column<&BodyPeaks::torque>("largest_torque_Nm", "N m", "Largest torque on the body, either way."),
+            column<&BodyPeaks::power>("largest_power_W", "W", "Largest power of the body, either way."));
+
 /// All numbers of the samples, one after another, and back.
 std::vector<double> numbersOf(const std::vector<BodySample>& samples);
 std::vector<BodySample> samplesOf(const std::vector<double>& numbers);
@@ -36,18 +55,30 @@ std::vector<BodySample> samplesOf(const std::vector<double>& numbers);
 /// Joins the calls of a backend between two samples.
 class BodyLoads {
   public:
-    explicit BodyLoads(std::size_t bodies) : sums_(bodies) {}
+    explicit BodyLoads(std::size_t bodies) : sums_(bodies), turned_(bodies), peaks_(bodies) {}
 
-    void add(const std::vector<BodyLoad>& call, std::uint64_t steps);
+    /// `rotates`: the drive conveys in these steps.
+    void add(const std::vector<BodyLoad>& call, std::uint64_t steps, bool rotates);
     /// The sample of all calls since the last one, which together made `steps` of `timeStep` [s].
     std::vector<BodySample> take(std::uint64_t steps, double timeStep);
+    const std::vector<BodyPeaks>& peaks() const { return peaks_; }
 
-    /// For a checkpoint, and back. Throws RecordError if the record has other bodies.
+    void openDose();
+    /// Of the dose under way: means over its rotation, and the work since it was opened.
+    std::vector<BodySample> sinceDose(double timeStep) const;
+
+    /// For a checkpoint, and back. Throws RecordError if the record has other bodies. One of an earlier version holds
+    /// neither peaks nor the dose under way: both then count from there.
     void save(Record& record) const;
     void restore(const Record& record);
+    /// From the state of another run, whose work counts on and whose peaks do not.
+    void takeOver(const Record& record);
 
   private:
-    std::vector<BodySample> sums_;  ///< force and torque times steps; power holds the work since the last sample [J]
+    std::vector<BodySample> sums_;    ///< force and torque times steps; power holds the work since the last sample [J]
+    std::vector<BodySample> turned_;  ///< the same over the rotation of the dose; `work` at its opening [J]
+    std::uint64_t turnedSteps_ = 0;
+    std::vector<BodyPeaks> peaks_;
 };
 
 }  // namespace vkdose

@@ -164,11 +164,13 @@ bool RunLoop::control() {
 void RunLoop::openDose() {
     book_.open(stretch_.dose, timeline_.time(step_), result_.last.sensors);
     regions_.openDose();
+    loads_.openDose();
 }
 
 void RunLoop::closeDose(bool complete) {
     result_.doses.push_back(book_.close(complete, result_.last.sensors, timeline_.time(step_)));
     result_.doses.back().regions = regions_.sinceDose();
+    result_.doses.back().bodies = loads_.sinceDose(case_.world.timeStep);
     observer_.onDose(result_.doses.back());
 }
 
@@ -194,6 +196,7 @@ void RunLoop::fail(StopReason reason, const char* what) {
 void RunLoop::keepEndState() {
     result_.particles = backend_.particles();
     result_.bodyClocks = clocks_.times();
+    result_.bodyPeaks = loads_.peaks();
     result_.endState = true;
 }
 

@@ -34,8 +34,9 @@ void RunLoop::gather(const Sensors& s, std::uint64_t n) {
     powerSum_ = gathered_ > 0 ? powerSum_ - impulse * rate_ : -impulse * rate_;
     gathered_ += n;
     impulse_ += impulse;
-    loads_.add(s.bodies, n);
-    if (stretch_.phase == Phase::Rotate) book_.turn(impulse, n, stretch_.rate);
+    const bool rotates = stretch_.phase == Phase::Rotate;
+    loads_.add(s.bodies, n, rotates);
+    if (rotates) book_.turn(impulse, n, stretch_.rate);
 }
 
 void RunLoop::sample() {

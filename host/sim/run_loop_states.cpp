@@ -82,7 +82,7 @@ void RunLoop::takeSample(const Record& run, const StateFacts& facts) {
     if (facts.sinceSample)
         s.sensors = now_;
     else
-        loads_.restore(run);
+        loads_.takeOver(run);
     if (facts.dosing) {  // its drive rests now
         s.sensors.coilTorque = s.coilTorque = s.coilPower = 0;
     }

@@ -79,10 +79,24 @@ void get(const Record& record, const std::string& name, Sample& s) {
 
 void put(Record& record, const std::string& name, const std::vector<Dose>& doses) {
     putRows(record, name + "_counts", name + "_figures", kDoseColumns, doses);
+    std::vector<double> bodies;
+    for (const Dose& d : doses) {
+        const std::vector<double> own = numbersOf(d.bodies);
+        bodies.insert(bodies.end(), own.begin(), own.end());
+    }
+    if (!bodies.empty()) record.put(name + "_bodies", std::move(bodies));
 }
 
 void get(const Record& record, const std::string& name, std::vector<Dose>& doses) {
     getRows(record, name + "_counts", name + "_figures", kDoseColumns, doses);
+    // A state of an earlier version, or of a world without bodies, has none.
+    if (doses.empty() || !record.arrays().contains(name + "_bodies")) return;
+    const std::vector<BodySample> bodies = samplesOf(record.get<double>(name + "_bodies"));
+    const std::size_t each = bodies.size() / doses.size();
+    if (bodies.size() != each * doses.size()) throw RecordError(name + "_bodies does not fit the doses");
+    for (std::size_t d = 0; d < doses.size(); ++d)
+        doses[d].bodies.assign(bodies.begin() + std::ptrdiff_t(d * each),
+                               bodies.begin() + std::ptrdiff_t((d + 1) * each));
 }
 
 }  // namespace vkdose

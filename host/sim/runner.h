@@ -112,9 +112,10 @@ struct RunResult {
     Ledger ledger{0, 0};
     Particles particles;             ///< end state; those that were loaded if the backend cannot give it any more
     std::vector<double> bodyClocks;  ///< at the end, as in Frame
-    bool endState = false;           ///< true if `particles` and `bodyClocks` are those of the end
-    double maxOverlapRatio = 0;      ///< largest overlap over smaller radius of the whole run
-    double maxOverlapTime = 0;       ///< when the call in which it occurred ended [s]
+    std::vector<BodyPeaks> bodyPeaks;
+    bool endState = false;       ///< true if `particles`, `bodyClocks` and `bodyPeaks` are those of the end
+    double maxOverlapRatio = 0;  ///< largest overlap over smaller radius of the whole run
+    double maxOverlapTime = 0;   ///< when the call in which it occurred ended [s]
     double particleSteps = 0;
     double wallTime = 0;       ///< spent stepping [s]
     double stepsOfOthers = 0;  ///< of the particle-steps, those that another run made and timed

@@ -188,7 +188,17 @@ Table withStopColumns(const Table& older) {
 Table dosesIn(const fs::path& folder) {
     Table table = Table::salvage(folder / "doses.csv");
     if (table.names() == columnNames(kPlainDoseColumns)) table = withStopColumns(table);
-    return table.names() == columnNames(kDoseColumns) ? table : Table();
+    // Those of bodies and regions follow; members of a study may differ in them.
+    const Row common = columnNames(kDoseColumns);
+    const Row& names = table.names();
+    if (names.size() < common.size() || !std::equal(common.begin(), common.end(), names.begin())) return {};
+    Table doses(common);
+    for (std::size_t i = 0; i < table.rows(); ++i) {
+        Row row = table.row(i);
+        row.resize(common.size());
+        doses.add(std::move(row));
+    }
+    return doses;
 }
 
 bool isOver(const fs::path& folder) {

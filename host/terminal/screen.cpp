@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "host/core/grams.h"
@@ -16,6 +17,9 @@ constexpr int kBesideColumns = 90;  ///< with this many columns or more the dose
 constexpr int kPanel = 46;          ///< columns of the doses beside the bed
 constexpr int kRowsBelow = 7;       ///< rows of the doses below it
 constexpr int kLeastViewRows = 5;
+constexpr std::size_t kMostBodies = 4;  ///< whose loads are shown
+constexpr int kLoad = 9;                ///< columns of a figure
+constexpr int kLongestName = 24;
 constexpr int kLabel = 9;
 constexpr std::size_t kUnit = 7, kUsualFigure = 6;  ///< " g ..." with a blank before the mass; "12.345"
 
@@ -46,6 +50,37 @@ std::vector<std::string> doseRows(const LiveState& s, int columns, int rows) {
         lines.push_back(fmt::format("dose {:<3} {} {} g{}", d.index, bar(d.mass, s.closedForm, most, cells),
                                     grams(d.mass), now ? " ..." : ""));
     }
+    return lines;
+}
+
+/// A load in at most eight characters.
+std::string loadText(double x) {
+    const std::string text = fmt::format("{:.3g}", x);
+    return x == 0 || (text.size() < std::size_t(kLoad) && std::abs(x) >= 1e-3) ? text : fmt::format("{:.0e}", x);
+}
+
+int loadRowsOf(const Scene& scene) {
+    const std::size_t shown = std::min(scene.bodies.size(), kMostBodies);
+    return shown == 0 ? 0 : 1 + int(shown) + (scene.bodies.size() > shown ? 1 : 0);
+}
+
+/// Force, torque, power and work of the first bodies; nothing if that does not fit into so many rows.
+std::vector<std::string> loadRows(const Scene& scene, const LiveState& s, int columns, int rows) {
+    if (rows < loadRowsOf(scene) || scene.bodies.empty()) return {};
+    const int width = std::min(columns - 4 * kLoad, kLongestName);
+    const auto line = [width](const std::string& name, const std::array<std::string, 4>& figures) {
+        std::string text = fmt::format("{:<{}}", name.substr(0, std::size_t(width - 1)), width);
+        for (const std::string& figure : figures) text += fmt::format("{:>{}}", figure, kLoad);
+        return text;
+    };
+    std::vector<std::string> lines{line("body", {"N", "mN m", "mW", "mJ"})};
+    const std::size_t shown = std::min(scene.bodies.size(), kMostBodies);
+    for (std::size_t b = 0; b < shown; ++b) {
+        const BodySample load = b < s.loads.size() ? s.loads[b] : BodySample{};
+        lines.push_back(line(scene.bodies[b].name, {loadText(glm::length(load.force)), loadText(load.torque * 1e3),
+                                                    loadText(load.power * 1e3), loadText(load.work * 1e3)}));
+    }
+    if (scene.bodies.size() > shown) lines.push_back(fmt::format("and {} more", scene.bodies.size() - shown));
     return lines;
 }
 
@@ -83,12 +118,15 @@ std::vector<std::string> screenLines(const Scene& scene, const LiveState& s, int
     const int doseColumns = beside ? kPanel : columns;
     const int viewColumns = beside ? columns - kPanel - 2 : columns;
     // Below the bed, rows for later doses are kept free from the start, so that the bed keeps its size.
-    const int viewRows = rows - last - (beside || !(s.closedForm > 0) ? 0 : kRowsBelow);
+    const int below = s.closedForm > 0 ? kRowsBelow : 0;
+    const int viewRows = rows - last - (beside ? 0 : below + loadRowsOf(scene));
 
     std::vector<std::string> lines;
     if (viewRows >= kLeastViewRows) lines = sideView(scene, s.frame, viewColumns, viewRows, style).lines();
-    const std::vector<std::string> doses =
-        doseRows(s, doseColumns, beside ? int(lines.size()) : rows - last - int(lines.size()));
+    const int room = beside ? int(lines.size()) : rows - last - int(lines.size());
+    const std::vector<std::string> loads = loadRows(scene, s, doseColumns, room - std::min(room, below));
+    std::vector<std::string> doses = doseRows(s, doseColumns, room - int(loads.size()));
+    doses.insert(doses.end(), loads.begin(), loads.end());
     if (beside)
         for (std::size_t i = 0; i < doses.size(); ++i) lines[i] += "  " + doses[i];
     else

@@ -58,6 +58,63 @@ TEST_CASE("the torque of the drive is that of the bodies that follow it, and can
     }
 }
 
+TEST_CASE("the loads of bodies stand in the doses and the summary: means over the rotation, work of the dose, peaks") {
+    for (const std::string backend : {"reference", "vulkan"}) {
+        CAPTURE(backend);
+        const Sandbox box;
+        std::string two = kDrum;
+        two.replace(two.find("max_doses = 1"), 13, "max_doses = 2");
+        two.replace(two.find("rotate_s = 0.05"), 15, "rotate_s = 0.05\nrest_s = 0.02");
+        box.write("drum.toml", two);
+        REQUIRE(box.vkdose("run drum.toml --quiet --out run --backend " + backend).code == 0);
+        const auto series = readCsv(box / "run/timeseries.csv"), doses = readCsv(box / "run/doses.csv");
+        const auto summary = nlohmann::json::parse(readText(box / "run/summary.json"));
+        REQUIRE(doses.size() == 3);
+        double largestTorque = 0, largestForce = 0, largestPower = 0;
+        for (std::size_t dose = 1; dose <= 2; ++dose) {
+            // From the time series: the drum turns at all times, so that its work goes on while the drive rests.
+            double torque = 0, power = 0, force = 0, time = 0, first = 0, last = 0, before = 0, rest = 0;
+            for (std::size_t row = 1; row < series.size(); ++row) {
+                const auto at = [&](const char* name) { return std::stod(series[row][column(series, name)]); };
+                const double span = at("time_s") - before;
+                before = at("time_s");
+                const bool within = at("dose") == double(dose);
+                if (!within && last == 0) first = at("drum.work_J");
+                if (!within) continue;
+                rest += at("drum.work_J") - (last == 0 ? first : last);
+                last = at("drum.work_J");
+                if (series[row][column(series, "phase")] != "rotate") continue;
+                rest = 0;
+                time += span;
+                torque += span * at("drum.torque_Nm");
+                power += span * at("drum.power_W");
+                force += span * at("drum.force_y_N");
+            }
+            const auto in = [&](const char* name) { return std::stod(doses[dose][column(doses, name)]); };
+            CHECK(time == Approx(0.05).epsilon(1e-6));
+            CHECK(in("drum.torque_Nm") == Approx(torque / time).epsilon(1e-6));
+            CHECK(in("drum.power_W") == Approx(power / time).epsilon(1e-6));
+            CHECK(in("drum.force_y_N") == Approx(force / time).epsilon(1e-6));
+            CHECK(in("drum.work_J") == Approx(last - first).epsilon(1e-6));
+            CHECK(rest != 0);  // so the work of the dose is more than that of its rotation
+            const auto& bodies = summary["doses"][dose - 1]["bodies"];
+            CHECK(bodies["drum"]["torque_Nm"].get<double>() == Approx(in("drum.torque_Nm")).epsilon(1e-6));
+            CHECK(bodies["post"].size() == 6);
+        }
+        for (std::size_t row = 1; row < series.size(); ++row) {
+            const auto at = [&](const char* name) { return std::stod(series[row][column(series, name)]); };
+            largestTorque = std::max(largestTorque, std::abs(at("drum.torque_Nm")));
+            largestPower = std::max(largestPower, std::abs(at("drum.power_W")));
+            largestForce =
+                std::max(largestForce, std::hypot(at("drum.force_x_N"), at("drum.force_y_N"), at("drum.force_z_N")));
+        }
+        const auto& drum = summary["bodies"][0];
+        CHECK(drum["largest_torque_Nm"].get<double>() == Approx(largestTorque).epsilon(1e-6));
+        CHECK(drum["largest_power_W"].get<double>() == Approx(largestPower).epsilon(1e-6));
+        CHECK(drum["largest_force_N"].get<double>() == Approx(largestForce).epsilon(1e-6));
+    }
+}
+
 TEST_CASE("the loads of bodies stand in the time series, and their work in the summary") {
     for (const std::string backend : {"reference", "vulkan"}) {
         CAPTURE(backend);
@@ -170,11 +227,12 @@ TEST_CASE("a run with bodies that is killed leaves the same files after all") {
         REQUIRE(box.vkdose("resume cut --quiet").code == 0);
         for (const char* file : {"timeseries.csv", "doses.csv", "particles.csv"})
             CHECK(readText(box / "cut" / file) == readText(box / "whole" / file));
-        const auto bodies = [&](const char* out) {
-            return nlohmann::json::parse(readText(box / out / "summary.json"))["bodies"];
+        const auto part = [&](const char* out, const char* key) {
+            return nlohmann::json::parse(readText(box / out / "summary.json"))[key];
         };
-        CHECK(bodies("cut") == bodies("whole"));
-        CHECK(bodies("cut").size() >= 2);
+        CHECK(part("cut", "bodies") == part("whole", "bodies"));
+        CHECK(part("cut", "bodies").size() >= 2);
+        CHECK(part("cut", "doses") == part("whole", "doses"));
     }
 }
 

@@ -45,6 +45,25 @@ TEST_CASE("a browser draws the page of a run") {
     CHECK(shown.find("NaN") == std::string::npos);  // none among the coordinates
 }
 
+TEST_CASE("a browser draws a table of the loads of each body in each dose") {
+    if (browserMissing()) return;
+    const Sandbox box;
+    const auto folder = writeRun(box, "why");
+    CHECK(drawn(box, runJson(folder, {})).find("<h3>Loads of") == std::string::npos);
+    std::string header = kDosesHeader;
+    header.pop_back();
+    for (const char* load : {"force_x_N", "force_y_N", "force_z_N", "torque_Nm", "power_W", "work_J"})
+        header += std::string(",screw-1.") + load;
+    box.write("run/doses.csv",
+              header + "\n1,0.1,0.0015,0.0015,9,0.002,0.0016,1,0.25,0.5,0.75,0.00125,0.0625,0.1275\n");
+    const std::string dom = drawn(box, runJson(folder, {}));
+    const std::size_t at = dom.find("<h3>Loads of screw-1</h3>");
+    REQUIRE(at != std::string::npos);
+    const std::string table = dom.substr(at, dom.find("</table>", at) - at);
+    for (const char* figure : {"0.25", "0.5", "0.75", "1.25", "62.5", "127.5"})
+        CHECK(table.find(std::string("<td class=\"number\">") + figure + "</td>") != std::string::npos);
+}
+
 TEST_CASE("a browser draws the line of the closed form for a single dose too") {
     if (browserMissing()) return;
     const Sandbox box;

@@ -97,6 +97,13 @@ TEST_CASE("samples and doses are stored in the order of their columns") {
     CHECK(doses[1].complete);
     CHECK(doses[1].stoppedBy == StopCause::Mass);
     CHECK(doses[1].endTime == 11);
+
+    d.bodies = {{Vec3(1, 2, 3), 4, 5, 6}, {Vec3(7, 8, 9), 10, 11, 12}};
+    put(record, "loaded", std::vector<Dose>{d, d});
+    get(record, "loaded", doses);
+    CHECK(numbersOf(doses.at(1).bodies) == Figures{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12});
+    record.put("loaded_bodies", Figures(18));  // three bodies for two doses
+    CHECK_THROWS_AS(get(record, "loaded", doses), RecordError);
     record.put("doses_figures", Figures(20));  // one figure more in each, as of another vkdose
     CHECK_THROWS_AS(get(record, "doses", doses), RecordError);
 }

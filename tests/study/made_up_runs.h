@@ -50,9 +50,15 @@ class MadeUpRuns : public MemberRunner {
                          .cumulative = 0.002,
                          .coilTorque = 0.5,
                          .complete = true,
-                         .regions = {}};
-        const Dose cut{
-            .index = 2, .mass = 0.001, .particles = 1, .cumulative = 0.003, .coilTorque = 0.7, .regions = {}};
+                         .regions = {},
+                         .bodies = {}};
+        const Dose cut{.index = 2,
+                       .mass = 0.001,
+                       .particles = 1,
+                       .cumulative = 0.003,
+                       .coilTorque = 0.7,
+                       .regions = {},
+                       .bodies = {}};
         std::ofstream(task.folder / "doses.csv") << csvHeader(kDoseColumns) << "\n"
                                                  << csvRow(kDoseColumns, whole) << "\n"
                                                  << csvRow(kDoseColumns, cut) << "\n";

@@ -24,6 +24,20 @@ TEST_CASE("an older table of doses gets the columns of the stop, without figures
     CHECK(dosesIn(file.parent_path()).names().empty());
 }
 
+TEST_CASE("the doses of a member with bodies and regions stand in the table without them") {
+    const Folder folder;
+    Dose d;
+    d.index = 1;
+    d.mass = 3e-3;
+    const std::string header = csvHeader(kDoseColumns), row = csvRow(kDoseColumns, d);
+    const auto file = folder.write("doses.csv", header + ",screw.torque_Nm,pan.mass_kg\n" + row + ",0.5,0.25\n");
+    const Table table = dosesIn(file.parent_path());
+    CHECK(table.names() == columnNames(kDoseColumns));
+    REQUIRE(table.rows() == 1);
+    CHECK(table.number(0, "mass_kg") == 3e-3);
+    CHECK(table.row(0).size() == columnNames(kDoseColumns).size());
+}
+
 TEST_CASE("an older table of members gets the columns of doses to a mass, without figures") {
     Row names{"member", "seed"};
     for (const std::string& name : kOutputColumns)

@@ -255,6 +255,41 @@ TEST_CASE("doses are listed with their masses, the one under way too") {
         CHECK(line.find("closed form") == line.npos);
 }
 
+TEST_CASE("force, torque, power and work of bodies stand below the doses, or beside the bed") {
+    Scene s = scene();
+    for (const char* name : {"screw", "an-agitator-with-a-long-name", "flap", "hopper", "gate"}) {
+        s.bodies.emplace_back().name = name;
+        s.skins.emplace_back();
+    }
+    LiveState now = state();
+    now.loads.resize(5);
+    now.loads[0] = {Vec3(0.3, -0.4, 0), -6.78e-3, 0.0123, 0.045};
+    now.loads[1] = {Vec3(0, 0, 1e-7), 0, -123456, 0};
+    for (const int columns : {60, 80, 120})
+        for (const int rows : {24, 40}) {
+            CAPTURE(columns, rows);
+            const auto lines = screenLines(s, now, columns, rows, Style::Plain);
+            CHECK(int(lines.size()) <= rows);
+            std::string text;
+            for (const std::string& line : lines) {
+                CHECK(cells(line) <= columns);
+                text += line + "\n";
+            }
+            CHECK_THAT(text, Catch::Contains("body") && Catch::Contains("N     mN m       mW       mJ"));
+            CHECK_THAT(text, Catch::Contains("      0.5    -6.78     12.3       45\n"));
+            CHECK_THAT(text, Catch::Contains("    1e-07        0   -1e+08        0\n"));
+            CHECK_THAT(text, Catch::Contains("and 1 more\n"));
+            CHECK_THAT(text, Catch::Contains("closed form"));
+        }
+    // The bed keeps its size when the first sample comes; in a low terminal the loads make room for the doses.
+    LiveState before = now;
+    before.loads.clear();
+    CHECK(screenLines(s, before, 80, 40, Style::Plain).size() == screenLines(s, now, 80, 40, Style::Plain).size());
+    std::string low;
+    for (const std::string& line : screenLines(s, now, 80, 8, Style::Plain)) low += line + "\n";
+    CHECK_THAT(low, Catch::Contains("closed form") && !Catch::Contains("mN m"));
+}
+
 TEST_CASE("drawing never takes more than its share of the time") {
     // A clock of our own: drawings that take from nothing to a second, asked for every millisecond.
     for (const double share : {0.01, 0.5}) {
