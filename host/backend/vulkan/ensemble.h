@@ -77,6 +77,8 @@ class Ensemble {
         std::vector<BodyClock> clocks;  ///< of bodies that move in phases; empty: they stand
         bool moves = false;             ///< one of its bodies
         std::vector<gpu::vec4> around;  ///< of each body: a sphere around it in its own frame: centre, radius [m]
+        /// Of each body that turns about the z axis of its frame: how much nearer it comes at most [m per s or rad].
+        std::vector<std::optional<double>> approach;
         std::uint32_t row = 0;          ///< on the roster
         std::optional<std::string> failure;
 

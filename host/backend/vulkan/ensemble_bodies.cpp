@@ -69,7 +69,8 @@ std::optional<double> approachByTurning(const RigidBody& body) {
 
 /// Bound of how much nearer any particle the body can come in the step that begins at that instant. The lists take a
 /// wire for endless (law/coil.glsl, nearCoil), so its ends do not count.
-double longestWay(const World& world, const RigidBody& body, const gpu::vec4& around, const Instant& now) {
+double longestWay(const World& world, const RigidBody& body, const gpu::vec4& around,
+                  const std::optional<double>& approach, const Instant& now) {
     const geometry::Pose pose = now.pose(body);
     const Box& room = world.domain;
     Vec3 centre = Vec3(glm::vec3(around));
@@ -85,7 +86,7 @@ double longestWay(const World& world, const RigidBody& body, const gpu::vec4& ar
     const double from = byDrive                     ? now.angle - (now.rate > 0 ? 0 : span)
                         : body.clock == Clock::Time ? now.time
                                                     : now.own;
-    if (const std::optional<double> approach = approachByTurning(body)) return *approach * span;
+    if (approach) return *approach * span;
     return geometry::wayBound(body.course, centre, radius, from, span);
 }
 
@@ -109,7 +110,10 @@ void Ensemble::makeBodies(TableSizes& sizes) {
             return !std::holds_alternative<geometry::Rest>(b.course.motion);
         });
         m.block.bodies = gpu::uvec4(m.bodies.size(), geometry.size(), 0, 0);
-        for (std::size_t b = 0; b < m.bodies.size(); ++b) m.around.push_back(aroundOf(packed, b));
+        for (std::size_t b = 0; b < m.bodies.size(); ++b) {
+            m.around.push_back(aroundOf(packed, b));
+            m.approach.push_back(approachByTurning(m.bodies[b]));
+        }
         geometry.insert(geometry.end(), packed.table.begin(), packed.table.end());
         sizes.shapeKinds |= packed.kinds;
         sizes.mostPlaces = std::max(sizes.mostPlaces, packed.places);
@@ -145,7 +149,7 @@ void Ensemble::writeMotions(std::uint32_t count, const std::vector<double>& coil
             for (std::size_t b = 0; b < bodies.size(); ++b) {
                 const Instant now(m.world, m.step + n, angle, rate, clockOf(m.clocks, b), n);
                 motions.push_back(packMotion(bodies[b], now.pose(bodies[b]), now.moving(bodies[b], back)));
-                way = std::max(way, longestWay(m.world, bodies[b], m.around[b], now));
+                way = std::max(way, longestWay(m.world, bodies[b], m.around[b], m.approach[b], now));
             }
         }
         m.block.choices.w = float(way);
