@@ -34,6 +34,12 @@ void emptyCanister(Stage& stage);
 void pressedAgainstWire(Stage& stage);
 void pushedAlongTrough(Stage& stage);
 
+// bodies.cpp
+void meshIncline(Stage& stage);
+void meshBlock(Stage& stage);
+void drumBalance(Stage& stage);
+void pushedByBodies(Stage& stage);
+
 // bed.cpp
 void column(Stage& stage);
 void bedWeight(Stage& stage);

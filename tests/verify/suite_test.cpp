@@ -190,6 +190,22 @@ std::vector<Mutant> mutants() {
          1,
          {"coil/pressed-sphere", "coil/pushed-sphere"},
          "rolling"},
+        {"bodies that turn 1 % faster",
+         [](RuledWorld& w) {
+             for (RigidBody& body : w.bodies)
+                 if (auto* turn = std::get_if<geometry::Turn>(&body.course.motion)) turn->rate *= 1.01;
+         },
+         1,
+         {"bodies/drum-balance", "bodies/pushed-sphere"},
+         "rolling"},
+        {"every body twice, so that spheres touch it twice",
+         [](RuledWorld& w) {
+             const std::vector<RigidBody> once = w.bodies;
+             w.bodies.insert(w.bodies.end(), once.begin(), once.end());
+         },
+         1,
+         {"bodies/mesh-incline", "bodies/mesh-block"},
+         "rolling"},
         {"density 1 % up",
          [](RuledWorld& w) { w.density *= 1.01; },
          1,
