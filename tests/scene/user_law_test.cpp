@@ -66,8 +66,8 @@ Twins ludingTwins() {
     Twins t{bowl(), bowl()};
     t.own.law = t.users.law = paperLaw(0.3);
     t.users.law.user = shippedLaw("luding.glsl");
-    for (std::size_t k = 0; k < kContactClasses; ++k) {
-        ContactParameters& p = t.own.law.classes[k];
+    for (int k = 0; k < kContactClasses; ++k) {
+        ContactParameters& p = t.own.law.between(0, k);
         // Powers of two, so that ratio times stiffness is the stiffness in single precision. The program's dashpots of
         // sliding act while it slips too, those of a user's law do not.
         p.k2Max = 16384, p.k1 = 4096, p.kc = 5000;
@@ -75,7 +75,7 @@ Twins ludingTwins() {
         p.gammaT = p.gammaR = p.gammaTo = 0;
         ContactParameters ratios = p;
         ratios.kt = ratios.kr = ratios.kTo = 0.25;
-        t.users.law.classes[k] =
+        t.users.law.between(0, k) =
             userOf(ratios, *t.users.law.user,
                    {{"k1", p.k1}, {"k", p.k2Max}, {"kc", p.kc}, {"depth", p.plasticityDepth}, {"gamma", p.gamma}});
     }
@@ -119,10 +119,10 @@ TEST_CASE("a user's law that repeats hertz-mindlin has its bits") {
     ContactParameters elastic = hertzMindlin({2e6, 0.25}, {2e7, 0.3}, 0.7, own.law.of(ContactClass::ParticleParticle));
     elastic.kr = elastic.kTo = 0.3;
     elastic.gammaR = elastic.gammaTo = 0.2;
-    own.law.classes.fill(elastic);
+    own.law.pairs.fill(elastic);
     RuledWorld users = own;
     users.law.user = text;
-    users.law.classes.fill(userOf(
+    users.law.pairs.fill(userOf(
         elastic, *text, {{"modulus_Pa", elastic.modulus}, {"damping_ratio", kHertzDamping * elastic.dampingShare}}));
     requireSameBits(own, users);
 }
@@ -173,7 +173,7 @@ TEST_CASE("the energy ledger closes under a user's law") {
 TEST_CASE("members of an ensemble share a user's law, each with its own parameters") {
     const RuledWorld first = ludingTwins().users;
     RuledWorld second = first;
-    for (ContactParameters& p : second.law.classes) p.own[2] *= 0.5;  // kc
+    for (ContactParameters& p : second.law.pairs) p.own[2] *= 0.5;  // kc
     auto together = gpuEnsemble(2);
     std::thread other([&] {
         together[1]->load(second, threeSpheres());

@@ -62,7 +62,7 @@ class Skewed final : public Backend {
 /// A change of one parameter of every class.
 std::function<void(RuledWorld&)> scaled(double ContactParameters::*parameter, double factor) {
     return [=](RuledWorld& world) {
-        for (ContactParameters& p : world.law.classes) p.*parameter *= factor;
+        for (ContactParameters& p : world.law.pairs) p.*parameter *= factor;
     };
 }
 
@@ -191,7 +191,7 @@ std::vector<Mutant> mutants() {
          {"coil/pressed-sphere", "coil/pushed-sphere"},
          "rolling"},
         {"density 1 % up",
-         [](RuledWorld& w) { w.density *= 1.01; },
+         [](RuledWorld& w) { w.density() *= 1.01; },
          1,
          {"collisions/head-on", "bed/weight", "energy/friction", "energy/cluster"},
          "free-fall"},
@@ -211,7 +211,7 @@ std::vector<Mutant> mutants() {
          "rolling"},
         {"contacts that should stick slip",
          [](RuledWorld& w) {
-             for (ContactParameters& p : w.law.classes) p.mu = std::min(p.mu, 0.2);
+             for (ContactParameters& p : w.law.pairs) p.mu = std::min(p.mu, 0.2);
          },
          1,
          {"size-ratio/wedge-bounce", "size-ratio/wedge-rest", "size-ratio/neck", "collisions/oblique-sticking"},
@@ -223,7 +223,7 @@ std::vector<Mutant> mutants() {
          "column"},
         {"neither friction nor rolling friction",
          [](RuledWorld& w) {
-             for (ContactParameters& p : w.law.classes) p.mu = p.muR = 0;
+             for (ContactParameters& p : w.law.pairs) p.mu = p.muR = 0;
          },
          1,
          {"bed/heap", "bed/weight", "rolling/gentle-incline", "energy/friction"},

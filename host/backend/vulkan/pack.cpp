@@ -113,13 +113,13 @@ float reachOf(const gpu::Member& member) {
 }
 
 void packLaw(const ContactLaw& law, gpu::Member& member) {
-    for (int i = 0; i < kContactClasses; ++i) member.contact[i] = packContact(law.classes[i]);
+    for (int i = 0; i < kContactClasses; ++i) member.contact[i] = packContact(law.between(0, i));
     member.choices.x = float(law.coulombLimit);
     member.choices.y = float(law.rollingLever);
 }
 
 void packGravity(const World& world, gpu::Member& m) {
-    m.gravity = vec4(glm::vec3(world.gravity), float(world.density));
+    m.gravity = vec4(glm::vec3(world.gravity), float(world.density()));
 }
 
 gpu::Member packMember(const World& world, const ContactLaw& law, const Particles& particles) {
@@ -134,7 +134,7 @@ gpu::Member packMember(const World& world, const ContactLaw& law, const Particle
             throw std::logic_error("the front wall must be the last surface");
         m.surface[i] = std::visit(PackSurface{}, world.surfaces[i]);
     }
-    const double largest = largestRadius(particles), reach = longestReach(law, largest);
+    const double largest = largestRadius(particles), reach = longestReach(world, law, largest);
     const auto finite = [](double x) { return float(std::clamp(x, -1e30, 1e30)); };
     packGravity(world, m);
     m.domainLow = vec4(glm::vec3(world.domain.low), finite(world.throatZ));
