@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <set>
+#include <stdexcept>
 
 namespace vkdose {
 
@@ -27,6 +28,24 @@ std::vector<MaterialPair> occurringPairs(const World& world) {
             if (!listed) pairs.push_back({powder, other});
         }
     return pairs;
+}
+
+void checkMaterials(const World& world, const ContactLaw& law, const Particles& particles) {
+    const auto known = [&](int m) { return m >= 0 && m < int(world.materials.size()); };
+    const auto require = [](bool holds, const std::string& what) {
+        if (!holds) throw std::logic_error(what);
+    };
+    require(int(world.materials.size()) <= kMostMaterials, fmt::format("more than {} materials", kMostMaterials));
+    require(law.pairs.materials() >= int(world.materials.size()) && law.pairs.materials() <= kMostMaterials,
+            "the contact law is not of the world's materials");
+    for (std::size_t s = 0; s < world.surfaces.size(); ++s)
+        require(known(world.materialOf(s)), fmt::format("surface {} is of no material", s));
+    for (const RigidBody& body : world.bodies)
+        require(known(body.material), fmt::format("body \"{}\" is of no material", body.name));
+    require(particles.material.size() == particles.size(), "not every particle has a material");
+    for (std::size_t i = 0; i < particles.size(); ++i)
+        require(known(particles.material[i]) && world.materials[particles.material[i]].powder,
+                fmt::format("particle {} is of no powder", i));
 }
 
 std::string nameOf(const World& world, MaterialPair pair) {

@@ -82,6 +82,9 @@ std::vector<int> powdersOf(const World& world);
 /// The pairs of materials whose contacts can occur: of two powders, and of a powder with a surface, a body or the coil.
 /// Ascending by the powder, then by the other; a pair of two powders is there once.
 std::vector<MaterialPair> occurringPairs(const World& world);
+/// Throws std::logic_error if the law has no parameters for a material of the world, if a particle is of no powder of
+/// it, or if there are more materials than a backend holds: whoever made them has not checked them.
+void checkMaterials(const World& world, const ContactLaw& law, const Particles& particles);
 /// Name of a pair in messages: "particle-wall", ...
 std::string nameOf(const World& world, MaterialPair pair);
 

@@ -195,6 +195,25 @@ std::vector<Mutant> mutants() {
          1,
          {"collisions/head-on", "bed/weight", "energy/friction", "energy/cluster"},
          "free-fall"},
+        {"the second powder 2 % heavier",
+         [](RuledWorld& w) {
+             if (w.materials.size() > 3) w.density(3) *= 1.02;
+         },
+         1,
+         {"materials/hertz", "materials/luding", "materials/cluster"},
+         "head-on"},
+        {"every pair as the first powder's",
+         [](RuledWorld& w) {
+             for (int m = 3; m < int(w.materials.size()); ++m) w.law.between(0, m) = w.law.between(0, 0);
+         },
+         1,
+         {"materials/hertz", "materials/luding", "materials/sliding"},
+         "head-on"},
+        {"one floor as another",
+         [](RuledWorld& w) { w.surfaceMaterials.clear(); },
+         1,
+         {"materials/sliding"},
+         "materials/cluster"},
         {"a wire 2 % thicker",
          [](RuledWorld& w) {
              if (w.coil) w.coil->wireRadius *= 1.02;

@@ -47,6 +47,7 @@ class ReferenceBackend final : public Backend {
                 fmt::format("contact.law = \"{}\" is written in the language of devices, and the backend "
                             "reference cannot run it: use --backend vulkan",
                             law.user->name));
+        checkMaterials(world, law, particles);
         world_ = {world, law};
         particles_ = particles;
         forces_.reset(particles.size(), world);
@@ -60,6 +61,7 @@ class ReferenceBackend final : public Backend {
     }
 
     void setLaw(const ContactLaw& law) override {
+        checkMaterials(world_, law, particles_);
         if (reachIn(law) > reach_) throw RunError(kReachesFarther);
         world_.law = law;
     }

@@ -125,6 +125,7 @@ void Ensemble::writeBlocks() {
 
 void Ensemble::setLaw(std::uint32_t member, const ContactLaw& law) {
     MemberState& m = members_[member];
+    checkMaterials(m.world, law, m.loaded);
     if (float(longestReach(m.world, law, largestRadius(m.loaded))) > reachOf(m.block)) throw RunError(kReachesFarther);
     packLaw(law, m.block);
 }
