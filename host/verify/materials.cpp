@@ -208,7 +208,8 @@ void materialsCluster(Stage& stage) {
     mixed.k1 *= 0.7, mixed.kc *= 0.5, mixed.mu = 0.3;
     second.k1 *= 1.3, second.k2Max *= 1.2, second.muR = 0.2, second.gamma *= 1.5;
     Particles cluster = collapsingCluster();
-    for (std::size_t i = 0; i < cluster.size(); i += 2) cluster.material[i] = kSecondPowder;
+    for (std::size_t i = 0; i < cluster.size(); ++i)
+        if (i % 5 < 2) cluster.material[i] = kSecondPowder;
 
     struct Sums {
         Vec3 linear{0}, angular{0};
@@ -228,7 +229,7 @@ void materialsCluster(Stage& stage) {
     const Sums before(cluster);
     Trial trial(stage, world, cluster);
     std::array<bool, 3> met{};
-    for (int i = 0; i < 40; ++i) {
+    for (int i = 0; i < 80; ++i) {
         trial.advance(250);
         for (const Contact& c : trial.contacts())
             met[std::size_t((cluster.material[c.particle] + cluster.material[c.other]) / kSecondPowder)] = true;
