@@ -92,7 +92,7 @@ TEST_CASE("the paper's case, value by value") {
     CHECK(c.dosingLaw.of(ContactClass::ParticleWall).mu == 0.2);
     CHECK(c.dosingLaw.of(ContactClass::ParticleCoil).mu == 0.2);
     CHECK(c.dosingLaw.of(ContactClass::ParticleCoil).k2Max == 24067.0);
-    for (const ContactParameters& q : classesOf(c.settlingLaw)) CHECK(q.kc == Approx(0.3 * 24067).epsilon(1e-14));
+    for (const ContactParameters& q : test::classesOf(c.settlingLaw)) CHECK(q.kc == Approx(0.3 * 24067).epsilon(1e-14));
     CHECK(c.dosingLaw.coulombLimit == CoulombLimit::Absolute);
     CHECK(c.world.maxOverlapRatio == 1);
     CHECK(c.dosingLaw.rollingLever == RollingLever::Full);

@@ -187,7 +187,7 @@ TEST_CASE("stiffness from an overlap, adhesion from a Bond number") {
     for (int i = 0; i < kContactClasses; ++i)
         CHECK(limit.settlingLaw.between(0, i).kc == limit.dosingLaw.between(0, i).kc);
     const Case weak = loadCase(file, {"contact.bond_number=30", "settle.kc_over_k=0.1"});
-    for (const ContactParameters& p : classesOf(weak.settlingLaw)) CHECK(p.kc == Approx(200));
+    for (const ContactParameters& p : test::classesOf(weak.settlingLaw)) CHECK(p.kc == Approx(200));
 }
 
 TEST_CASE("the resolved case has the parameters and says what they were made from") {

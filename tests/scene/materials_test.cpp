@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "host/model/normal_law.h"
+#include "host/sim/energy_ledger.h"
 #include "tests/scene/beds.h"
 #include "tests/support/catch.h"
 #include "tests/support/records.h"
@@ -82,11 +83,12 @@ Particles packed(const RuledWorld& w) {
         for (int x = -1; x < 2; ++x)
             for (int y = 0; y < 3; ++y) add({2.5e-3 * x, 0.013 + 1.23e-3 + 2.47e-3 * y, 0.021 + 2.48e-3 * z});
     for (int z = 0; z < 6; ++z) add({0.0115 - 1.22e-3, 0.03, 0.01 + 2.47e-3 * z});
+    const std::size_t inBlock = 72, after = p.size() - 6, before = after - inBlock;
     std::mt19937 random(5);
     std::uniform_real_distribution<double> speed(-0.1, 0.1);
     for (std::size_t i = 0; i < p.size(); ++i) {
         p.velocity[i] = {single(speed(random)), single(speed(random)), single(speed(random))};
-        p.material[i] = kPowders[i * i % 7 % 3];
+        p.material[i] = kPowders[(i >= before && i < after ? i + i / 9 : i) % 3];
     }
     return p;
 }
@@ -192,6 +194,7 @@ TEST_CASE("materials: a mixed bed on the device is that of the reference") {
         b = device->advance(50, kRate);
         met.merge(pairsMet(*reference, w));
     }
+    CAPTURE(met);
     CHECK(met.size() == 15);  // six of powders, each powder with trough, block and coil
     const Differences d = differences(*reference, *device, 1);
     CHECK(d.unmatched == 0);
@@ -274,6 +277,38 @@ TEST_CASE("materials: canisters of one powder and of several share a device, eac
         alone[k] = run(*single, w, particles[k], 1500);
         checkSame(alone[k], together[k]);
     }
+}
+
+TEST_CASE("materials: the ledger closes where a wall hands a contact to one of another material") {
+    const bool onDevice = GENERATE(false, true);
+    RuledWorld w = emptyWorld();
+    const double wide = 0.0115, a = single(1.25e-3);
+    w.surfaces = {geometry::Trough{wide, 0.06}, geometry::Front{0.06, wide, 0.01}};
+    w.materials.push_back({"second", true, 2600});
+    w.materials.push_back({"throat", false, 0});
+    w.surfaceMaterials = {kWallMaterial, 4};
+    w.law.pairs.resize(5);
+    for (const int powder : {0, kSecond}) {
+        w.law.between(powder, 1) = w.law.between(0, 1);
+        w.law.between(powder, 4) = w.law.between(0, 1);
+        w.law.between(powder, 4).kt *= 0.4;
+        w.law.between(powder, 4).kr *= 0.3;
+    }
+    w.energyBook = true;
+    Particles p;
+    for (const int powder : {0, kSecond})
+        p.add({(powder == 0 ? 1 : -1) * 0.004, 2e-6 - std::sqrt((wide - a) * (wide - a) - 0.004 * 0.004), 0.0596}, a,
+              {0, 0, 0.8}, Vec3(0), powder);
+    const auto backend = onDevice ? gpu() : makeReferenceBackend();
+    backend->load(w, p);
+    EnergyLedger ledger;
+    std::set<std::uint32_t> touched;
+    for (int call = 0; call < 60; ++call) {
+        ledger.add(*backend->advance(10, 0).energy);
+        for (const Contact& c : backend->contacts()) touched.insert(c.other);
+    }
+    CHECK(touched == std::set<std::uint32_t>{0, 1});
+    CHECK(std::abs(ledger.residual()) < (onDevice ? 3e-7 : 1e-12) * ledger.sum.loaded);
 }
 
 TEST_CASE("materials: fields of each powder add up to the field of all") {
