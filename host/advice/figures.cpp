@@ -30,7 +30,7 @@ void addBed(Figures& f, const Case& c, const Insertion& filled) {
     f.bedTop = f.bedDepth = f.fall = f.fallTime = f.fallSpeed = f.overlapUnderBed = f.overlapOfFall = kNaN;
     f.bondUnderBed = f.bondLargest = kNaN;
     if (!c.canister || !(down > 0)) return;
-    f.bedDepth = bedDepth(*c.canister, filled.mass, c.world.density);
+    f.bedDepth = bedDepth(*c.canister, filled.mass, c.world.density());
     f.bedTop = f.bedDepth - c.canister->width / 2;
     f.fall = std::max(0.0, filled.fillHeight - f.bedTop);
     const double settling = -c.settlingGravity().y;
@@ -39,11 +39,11 @@ void addBed(Figures& f, const Case& c, const Insertion& filled) {
 
     const ContactParameters& pair = c.dosingLaw.of(ContactClass::ParticleParticle);
     const ContactParameters& wall = c.dosingLaw.of(ContactClass::ParticleWall);
-    const double load = loadUnderBed(c.world.density, down, f.bedDepth, f.mean);
+    const double load = loadUnderBed(c.world.density(), down, f.bedDepth, f.mean);
     f.overlapUnderBed = overlapUnder(pair, f.mean, load) / f.mean;
     f.overlapOfFall =
-        overlapOfImpact(wall, sphereMass(c.world.density, f.largest), 2 * f.largest, f.fallSpeed) / f.largest;
-    const double weight = sphereMass(c.world.density, f.mean) * down;
+        overlapOfImpact(wall, sphereMass(c.world.density(), f.largest), 2 * f.largest, f.fallSpeed) / f.largest;
+    const double weight = sphereMass(c.world.density(), f.mean) * down;
     f.bondUnderBed = pullOffUnder(pair, f.mean, load) / weight;
     f.bondLargest = pullOffUnder(pair, f.mean, std::numeric_limits<double>::infinity()) / weight;
 }
@@ -60,9 +60,9 @@ void addCoil(Figures& f, const Case& c) {
     f.coilClearance = room / 2 - coil.radius - coil.wireRadius;
 }
 
-void addStep(Figures& f, const Case& c) {
+void addStep(Figures& f, const Case& c, const Insertion& filled) {
     f.automaticStep = std::numeric_limits<double>::infinity();
-    for (const ContactMode& mode : modesOf(c, f.smallest)) {
+    for (const ContactMode& mode : modesOf(c, powderSizes(c.world, filled.particles))) {
         ContactMode undamped = mode;
         undamped.decay = 0;
         const double step = automaticTimeStep({mode}, c.stepsPerContact);
@@ -79,12 +79,14 @@ Figures figuresOf(const Case& c, const Insertion& filled) {
     addSizes(f, filled.particles.radius);
     addBed(f, c, filled);
     addCoil(f, c);
-    addStep(f, c);
-    for (const ContactClass kind : contactClasses(c.world)) {
-        const ContactParameters& p = c.dosingLaw.of(kind);
-        const bool pair = kind == ContactClass::ParticleParticle;
-        const auto of = [&](double r) { return restitution(p, c.world.density, r, pair ? r : kWall); };
-        f.restitutions.push_back({kind, of(f.mean), of(f.smallest), of(f.largest)});
+    addStep(f, c, filled);
+    const PowderSizes sizes = powderSizes(c.world, filled.particles);
+    for (const MaterialPair& pair : occurringPairs(c.world)) {
+        const auto of = [&](double SizeRange::*size) {
+            const double a = sizes[std::size_t(pair.a)].*size, b = otherSide(c.world, pair, sizes, size);
+            return restitution(c.dosingLaw.of(pair), reducedMass(c.world, pair, a, b));
+        };
+        f.restitutions.push_back({pair, of(&SizeRange::mean), of(&SizeRange::smallest), of(&SizeRange::largest)});
     }
     f.runTime = derive(c, filled).steps * c.world.timeStep;
     return f;

@@ -10,7 +10,7 @@ namespace vkdose {
 
 /// Restitution that damping alone gives to collisions on the loading line k1 [-]; 0 if overdamped.
 struct Restitution {
-    ContactClass kind = ContactClass::ParticleParticle;
+    MaterialPair pair;    ///< whose contacts these are
     double mean = 0;      ///< two mean spheres, or one and the wall
     double smallest = 0;  ///< the same for the smallest
     double largest = 0;

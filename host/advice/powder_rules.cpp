@@ -26,13 +26,12 @@ constexpr double kDeepFall = 0.5;  ///< share of the largest overlap that one sp
 constexpr std::size_t kFewest = 60;
 constexpr double kWidest = 7;  ///< size ratio up to which the automatic step is exact (host/verify/README.md)
 
-std::string classKey(ContactClass kind, const char* key) {
-    constexpr std::array<const char*, kContactClasses> kTable{"contact", "contact.wall", "contact.coil"};
-    return fmt::format("{}.{}", kTable[static_cast<std::size_t>(kind)], key);
-}
-
-double partner(const Restitution& e, double radius) {
-    return e.kind == ContactClass::ParticleParticle ? radius : kWall;
+/// The key of a pair's table.
+std::string pairKey(const World& world, MaterialPair pair, const char* key) {
+    constexpr std::array<const char*, kUsualMaterials> kTable{"contact", "contact.wall", "contact.coil"};
+    if (pair.a == kFirstPowder && pair.b < kUsualMaterials)
+        return fmt::format("{}.{}", kTable[std::size_t(pair.b)], key);
+    return fmt::format("contact.{}.{}", nameOf(world, pair), key);
 }
 
 /// The key that says how stiff the contacts are.
@@ -50,10 +49,11 @@ std::string stiffer(const ContactParameters& p, double linear, double elastic) {
 
 /// The damping that would give mean spheres what the key was perhaps meant to say, or else one half.
 std::string dampingCure(const Subject& s, const Restitution& e) {
-    const ContactParameters& p = s.c.dosingLaw.of(e.kind);
+    const ContactParameters& p = s.c.dosingLaw.of(e.pair);
     const bool meant = p.gamma >= kLeastRestitution && p.gamma <= kMostRestitution;
     const double wanted = meant ? p.gamma : 0.5;
-    const double damping = dampingFor(wanted, p, s.c.world.density, s.f.mean, partner(e, s.f.mean));
+    const double partner = s.c.world.materials.at(std::size_t(e.pair.b)).powder ? s.f.mean : kWall;
+    const double damping = dampingFor(wanted, p, reducedMass(s.c.world, e.pair, s.f.mean, partner));
     return fmt::format(
         "damping is a dashpot in kg/s; {:.3g} gives mean spheres a restitution of {:.2g}; or give "
         "restitution = {:.2g} in its place",
@@ -63,7 +63,7 @@ std::string dampingCure(const Subject& s, const Restitution& e) {
 }  // namespace
 
 Found lightOrHeavyPowder(const Subject& s) {
-    const double density = s.c.world.density;
+    const double density = s.c.world.density();
     if (density >= kLightest && density <= kHeaviest) return {};
     return Finding{
         "particles.density",
@@ -74,7 +74,7 @@ Found lightOrHeavyPowder(const Subject& s) {
 
 Found strangeBulkDensity(const Subject& s) {
     if (!s.c.world.coil || s.c.schedule.rotateTime == 0) return {};
-    const double density = s.c.world.density, fraction = s.c.bulkDensity / density;
+    const double density = s.c.world.density(), fraction = s.c.bulkDensity / density;
     const std::string cure =
         fmt::format("give the density of the settled powder; spheres settle to about {:.3g}", kBedFraction * density);
     if (s.c.bulkDensity == kCocoaBulk && std::abs(density / kCocoa - 1) > 0.02)
@@ -118,11 +118,11 @@ Found strangeFriction(const Subject& s) {
     constexpr std::array<Coefficient, 3> kAll{{{"friction", &ContactParameters::mu},
                                                {"rolling_friction", &ContactParameters::muR},
                                                {"torsion_friction", &ContactParameters::muTo}}};
-    for (const ContactClass kind : contactClasses(s.c.world)) {
+    for (const MaterialPair& pair : occurringPairs(s.c.world)) {
         for (const Coefficient& k : kAll) {
-            const double value = s.c.dosingLaw.of(kind).*k.value;
+            const double value = s.c.dosingLaw.of(pair).*k.value;
             if (!(value > kMostFriction)) continue;
-            return Finding{classKey(kind, k.key),
+            return Finding{pairKey(s.c.world, pair, k.key),
                            fmt::format("a coefficient of {:.3g} bears {:.3g} times the normal force", value, value),
                            value < 90 ? fmt::format("give the coefficient, not the angle: {:.3g} degrees are {:.3g}",
                                                     value, std::tan(value * kPi / 180))
@@ -136,10 +136,10 @@ Found overdampedContacts(const Subject& s) {
     for (const Restitution& e : s.f.restitutions) {
         if (e.mean > 0 || s.c.dosingLaw.user) continue;  // what a user's law damps, its file says
         return Finding{
-            classKey(e.kind, "damping"),
+            pairKey(s.c.world, e.pair, "damping"),
             fmt::format("{} contacts of mean spheres are overdamped: they creep apart and never rebound, and "
                         "their duration is infinite",
-                        className(e.kind)),
+                        nameOf(s.c.world, e.pair)),
             dampingCure(s, e)};
     }
     return {};
@@ -148,14 +148,14 @@ Found overdampedContacts(const Subject& s) {
 Found strangeRestitution(const Subject& s) {
     for (const Restitution& e : s.f.restitutions) {
         if (e.mean == 0) continue;  // overdamped, which is told already
-        const ContactParameters& p = s.c.dosingLaw.of(e.kind);
+        const ContactParameters& p = s.c.dosingLaw.of(e.pair);
         if (p.law != NormalLaw::Luding) continue;  // the case states the restitution itself
         const bool elastic = e.mean > kMostRestitution && p.k1 == p.k2Max;
         if (!elastic && e.mean >= kLeastRestitution && e.smallest > 0) continue;
-        return Finding{classKey(e.kind, "damping"),
+        return Finding{pairKey(s.c.world, e.pair, "damping"),
                        fmt::format("gives {} contacts of mean spheres a restitution of {:.2g}, of the smallest {:.2g}, "
                                    "of the largest {:.2g}",
-                                   className(e.kind), e.mean, e.smallest, e.largest),
+                                   nameOf(s.c.world, e.pair), e.mean, e.smallest, e.largest),
                        dampingCure(s, e)};
     }
     return {};

@@ -86,7 +86,8 @@ void printContacts(const Case& c, const Derived& d, const Figures& f) {
                : law == NormalLaw::User       ? "of its damping alone, at its largest stiffness"
                                               : "of damping alone, on k1");
     for (const Restitution& e : f.restitutions)
-        fmt::print("  {:<18} {:>10.3g}  {:>10.3g}  {:>10.3g}\n", className(e.kind), e.mean, e.smallest, e.largest);
+        fmt::print("  {:<18} {:>10.3g}  {:>10.3g}  {:>10.3g}\n", nameOf(c.world, e.pair), e.mean, e.smallest,
+                   e.largest);
     fmt::print("time step  {:.4g} s = 1/{:.3g} of the stiffest; auto is {:.3g} s, limited by {}\n", d.timeStep,
                d.stiffest / d.timeStep, f.automaticStep, f.stepLimit);
 }
@@ -193,7 +194,7 @@ Json figuresJson(const Checked& all) {
     const Derived& d = all.derived;
     Json e = Json::object();
     for (const Restitution& r : f.restitutions)
-        e[className(r.kind)] = {{"mean", r.mean}, {"smallest", r.smallest}, {"largest", r.largest}};
+        e[nameOf(all.c.world, r.pair)] = {{"mean", r.mean}, {"smallest", r.smallest}, {"largest", r.largest}};
     return {{"particles", d.particles},
             {"fill_kg", jsonNumber(d.fillMass)},
             {"radius_min_m", jsonNumber(f.smallest)},

@@ -33,7 +33,7 @@ terminal::Style styleOfTerminal() {
 LiveDisplay::LiveDisplay(const Case& c, const Derived& derived, const Backend& backend, std::vector<Dose> before,
                          std::FILE* stream)
     : backend_(backend),
-      density_(c.world.density),
+      density_(c.world.density()),
       scene_(terminal::sceneOf(c, derived.tipVelocity)),
       style_(styleOfTerminal()),
       stream_(stream),

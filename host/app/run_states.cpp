@@ -54,7 +54,7 @@ double RunStates::massLeft(std::size_t entry) const {
     const Particles p = read(entry).particles;
     double mass = 0;
     for (std::size_t i = 0; i < p.size(); ++i)
-        if (p.status[i] == Status::Active) mass += sphereMass(case_.world.density, p.radius[i]);
+        if (p.status[i] == Status::Active) mass += massOf(case_.world, p, i);
     return mass;
 }
 

@@ -173,7 +173,7 @@ struct PlainLoop::Loop {
           law(w.law),
           dt(float(w.timeStep)) {
         for (std::size_t i = 0; i < p.size(); ++i) {
-            const double r = p.radius[i], mass = inertia * w.density * 4 / 3 * kPi * r * r * r;
+            const double r = p.radius[i], mass = inertia * w.density() * 4 / 3 * kPi * r * r * r;
             motion.push_back({V(p.velocity[i]), float(1 / mass), V(p.spin[i]), float(1 / (0.4 * mass * r * r))});
         }
     }

@@ -31,9 +31,9 @@ RuledWorld paperWorld() {
     p.gammaT = p.gammaR = 0.286 * p.gamma;
     p.mu = p.muR = 0.5;
     RuledWorld world;
-    world.law.classes.fill(p);
+    world.law.pairs.fill(p);
     world.law.coulombLimit = CoulombLimit::Absolute;
-    world.density = 1427;
+    world.density() = 1427;
     world.timeStep = kTimeStep;
     world.skin = kSkin;
     return world;
@@ -48,7 +48,7 @@ const Packing& tile() {
 Workload boxOf(const Packing& packing) {
     Workload w{paperWorld(), packing.particles, 0, 200};
     // The packing is at rest with these.
-    ContactParameters& wall = w.world.law.classes[std::size_t(ContactClass::ParticleWall)];
+    ContactParameters& wall = w.world.law.of(ContactClass::ParticleWall);
     wall.k1 *= 2;
     wall.k2Max *= 2;
     const Vec3 low(0), high = packing.size;

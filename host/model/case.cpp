@@ -26,16 +26,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 SizeRange sizeRange(const Case& c) {
-    if (!c.filling.list)
-        return {smallestRadius(c.filling.size), largestRadius(c.filling.size), meanRadius(c.filling.size)};
-    SizeRange range;
-    const std::vector<double>& radii = c.filling.list->radius;
-    for (const double r : radii) {
-        range.smallest = std::min(range.smallest, r);
-        range.largest = std::max(range.largest, r);
-        range.mean += r / static_cast<double>(radii.size());
-    }
-    return range;
+    return overall(powderSizes(c));
 }
 
 /// The largest distance from a centre at which a backend asks for a mesh: within the skin [m]. The factor covers the
@@ -63,7 +54,7 @@ void checkName(CaseReader& reader, const std::string& name) {
 }
 
 void completeTime(Section& time, Case& c, const SizeRange& sizes) {
-    const auto modes = modesOf(c, sizes.smallest);
+    const auto modes = modesOf(c, powderSizes(c));
     if (c.world.timeStep == 0) {
         // Three digits are enough and read better in the resolved case.
         const double exact = automaticTimeStep(modes, c.stepsPerContact);
@@ -131,7 +122,7 @@ void readBulkDensity(Section& root, Case& c) {
 /// The estimate that stands for a measured bulk density until the bed has settled.
 void estimateBulkDensity(Section& root, Case& c) {
     if (!c.bulkDensityMeasured) return;
-    c.bulkDensity = kBedFraction * c.world.density;
+    c.bulkDensity = kBedFraction * c.world.density();
     if (!(c.bulkDensity > 0)) return;  // the density is at fault
     const std::string words = fmt::format(
         "bulk_density = {:.4g} kg/m3, {} of the particles' density, until the bed has settled; then its own",
@@ -190,10 +181,10 @@ Case interpret(const std::filesystem::path& file, Node tree, std::vector<std::fi
     const SizeRange sizes = sizeRange(c);
     checkFilling(reader, c, sizes.largest);
     reader.throwIfFaulty();
-    tryUserLaw(reader, c, sizes);
+    tryUserLaw(reader, c, powderSizes(c));
     reader.throwIfFaulty();
     completeTime(root.table("time"), c, sizes);
-    checkTimeStep(reader, c, sizes.smallest);
+    checkTimeStep(reader, c, powderSizes(c));
     checkScales(reader, c, sizes);
     reader.throwIfFaulty();
     checkTouches(reader, c, sizes.largest);

@@ -204,13 +204,13 @@ Insertion insertParticles(const Case& c);
 /// How many particles the mass of a case without a list takes, exactly; those of refills are not among them.
 std::size_t drawnParticles(const Case& c);
 
-/// Contact duration of the pair (a, b), b = infinity for a wall, on stiffness k: pi / sqrt(k/m12 - (gamma/(2 m12))^2).
-double contactDuration(const ContactParameters& p, double density, double a, double b, double k);
+/// Contact duration of the reduced mass m12 [kg] on stiffness k [N/m]: pi / sqrt(k/m12 - (gamma/(2 m12))^2).
+double contactDuration(const ContactParameters& p, double mass, double k);
 
 /// Closed forms and stability figures of a case (paper, sections on the coil and on parameters).
 struct Derived {
     struct PairDuration {
-        std::string name;  ///< "particle-particle", "particle-wall", "particle-coil"
+        std::string name;  ///< of the pair of materials: "particle-particle", "particle-wall"
         double mean;       ///< two mean particles (or one and the wall) on k1 [s]
         double stiffest;   ///< the smallest on k2Max, undamped (the shorter, so the safe figure) [s]
     };

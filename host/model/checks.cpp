@@ -26,10 +26,10 @@ double mm(double metres) {
 
 void checkContact(CaseReader& reader, const Case& c) {
     const std::array<const char*, kContactClasses> path{"contact", "contact.wall", "contact.coil"};
-    for (std::size_t i = 0; i < path.size(); ++i) {
-        const ContactParameters& p = c.dosingLaw.classes[i];
+    for (int i = 0; i < kContactClasses; ++i) {
+        const ContactParameters& p = c.dosingLaw.between(0, i);
         // An inherited fault is reported once, where the value is written.
-        const ContactParameters* parent = i == 0 ? nullptr : &c.dosingLaw.classes[i - 1];
+        const ContactParameters* parent = i == 0 ? nullptr : &c.dosingLaw.between(0, i - 1);
         const bool sameK1 = parent != nullptr && p.k1 / p.k2Max == parent->k1 / parent->k2Max;
         if (p.k1 > p.k2Max && !sameK1)
             reader.fault(fmt::format("{}.k1_over_k", path[i]), "the plastic stiffness exceeds the elastic one",
@@ -131,7 +131,7 @@ void checkCoil(CaseReader& reader, const Case& c) {
 double fillMass(const Case& c) {
     if (!c.filling.list) return c.filling.mass;
     double mass = 0;
-    for (const double r : c.filling.list->radius) mass += sphereMass(c.world.density, r);
+    for (const double r : c.filling.list->radius) mass += sphereMass(c.world.density(), r);
     return mass;
 }
 
@@ -215,22 +215,22 @@ void checkBed(CaseReader& reader, const Case& c) {
     const ContactParameters& pair = c.dosingLaw.of(ContactClass::ParticleParticle);
     const bool sticky = pair.kc > 0 || pair.surfaceEnergy > 0 || pair.constantPull > 0;
     const double loosest = sticky ? kLoosestBed : kLoosestFreeBed;
-    const double bed = c.filling.mass / c.world.density / loosest;
+    const double bed = c.filling.mass / c.world.density() / loosest;
     // No powder is lighter than this. A lower density was probably given in g/cm3; without this bound the message would
     // blame the mass.
     constexpr double kLightest = 20;
-    if (bed > volume && c.world.density < kLightest)
+    if (bed > volume && c.world.density() < kLightest)
         reader.fault(
             "particles.density",
             fmt::format("makes the fill too large: {:.4g} cm3 for a canister of {:.4g} cm3", bed * 1e6, volume * 1e6),
-            fmt::format("give kg/m3; {:.6g} g/cm3 is {:.6g} kg/m3", c.world.density, 1e3 * c.world.density));
+            fmt::format("give kg/m3; {:.6g} g/cm3 is {:.6g} kg/m3", c.world.density(), 1e3 * c.world.density()));
     else if (bed > volume)
         reader.fault(
             "particles.mass_g",
             fmt::format("the fill does not fit: a loose bed of it (volume fraction {}) takes {:.4g} cm3, the "
                         "canister holds {:.4g} cm3",
                         loosest, bed * 1e6, volume * 1e6),
-            fmt::format("give at most {:.4g} g or a higher canister", volume * loosest * c.world.density * 1e3));
+            fmt::format("give at most {:.4g} g or a higher canister", volume * loosest * c.world.density() * 1e3));
 }
 
 /// The largest sphere must pass the canister and its outlet.
@@ -250,7 +250,7 @@ void checkLargest(CaseReader& reader, const Case& c, double largest) {
 
 void checkGrid(CaseReader& reader, const Case& c, double largest) {
     const Filling& f = c.filling;
-    const double meanMass = sphereMass(c.world.density, std::cbrt(meanCubedRadius(f.size)));
+    const double meanMass = sphereMass(c.world.density(), std::cbrt(meanCubedRadius(f.size)));
     // The key whose mass is the largest is most probably the wrong one.
     std::string key = "particles.mass_g";
     double mass = f.mass, largestMass = f.mass;
@@ -348,9 +348,9 @@ void checkBodies(CaseReader& reader, const Case& c) {
     }
 }
 
-void checkTimeStep(CaseReader& reader, const Case& c, double smallestRadius) {
+void checkTimeStep(CaseReader& reader, const Case& c, const PowderSizes& sizes) {
     const double dt = c.world.timeStep;
-    const auto modes = modesOf(c, smallestRadius);
+    const auto modes = modesOf(c, sizes);
     const std::string automatic =
         fmt::format("give at most {:.3g} s, or \"auto\"", automaticTimeStep(modes, c.stepsPerContact));
     const double longest = c.stepsPerContact ? 1 / *c.stepsPerContact : kUnstableFraction;

@@ -2,29 +2,22 @@
 // Finds faults in the relation of several keys, which no single key shows. NaN stands for a value whose key is already
 // reported. Comparisons are false for NaN, so that the key is not reported again.
 
-#include <limits>
 #include <string>
 
 #include "host/model/case.h"
 #include "host/model/case_reader.h"
+#include "host/model/stability.h"
 
 namespace vkdose {
 
 /// Skin of a case that states none, in mean radii.
 inline constexpr double kUsualSkin = 0.6;
 
-/// Radii of the particles that will be inserted [m].
-struct SizeRange {
-    double smallest = std::numeric_limits<double>::infinity();
-    double largest = 0;
-    double mean = 0;
-};
-
 /// Checks the relations between the fields of a case that has just been read.
 void checkFields(CaseReader& reader, const Case& c);
 
-/// Checks the time step against the fastest contact motion of the smallest sphere (radius in metres).
-void checkTimeStep(CaseReader& reader, const Case& c, double smallestRadius);
+/// Checks the time step against the fastest contact motion of the smallest spheres.
+void checkTimeStep(CaseReader& reader, const Case& c, const PowderSizes& sizes);
 
 /// Checks whether the largest sphere passes the outlet, the mass fits the canister, and the grid fits its region.
 void checkFilling(CaseReader& reader, const Case& c, double largestRadius);

@@ -61,18 +61,6 @@ void deriveBodies(const Case& c, Derived& d) {
     }
 }
 
-struct Sizes {
-    double mean;
-    double smallest;
-};
-
-Sizes sizesOf(const Case& c) {
-    if (!c.filling.list) return {meanRadius(c.filling.size), smallestRadius(c.filling.size)};
-    const std::vector<double>& r = c.filling.list->radius;
-    return {std::accumulate(r.begin(), r.end(), 0.0) / static_cast<double>(r.size()),
-            *std::min_element(r.begin(), r.end())};
-}
-
 double predictedSteps(const Case& c, double doses, double massPerTurn) {
     const Schedule& s = c.schedule;
     double time = s.settleTime;
@@ -101,31 +89,28 @@ bool Schedule::isPlain() const {
     return targetMass == 0 && rampTime == 0 && !std::isfinite(maxTorque);
 }
 
-double contactDuration(const ContactParameters& p, double density, double a, double b, double k) {
-    const double m12 = reducedMass(density, a, b);
-    const double decay = p.gamma / (2 * m12);
-    const double square = k / m12 - decay * decay;
+double contactDuration(const ContactParameters& p, double mass, double k) {
+    const double decay = p.gamma / (2 * mass);
+    const double square = k / mass - decay * decay;
     return square > 0 ? kPi / std::sqrt(square) : std::numeric_limits<double>::infinity();
 }
 
 Derived derive(const Case& c, const Insertion& filled) {
-    constexpr double kWall = std::numeric_limits<double>::infinity();
     Derived d;
-    const Sizes sizes = sizesOf(c);
-    d.stiffest = kWall;
-    for (const ContactClass kind : contactClasses(c.world)) {
-        const bool pair = kind == ContactClass::ParticleParticle;
-        const auto at = [&](double radius) {
-            return stiffest(c.dosingLaw.of(kind), c.world.density, radius, pair ? radius : kWall,
-                            c.world.maxOverlapRatio);
+    const PowderSizes sizes = powderSizes(c);
+    d.stiffest = std::numeric_limits<double>::infinity();
+    for (const MaterialPair& pair : occurringPairs(c.world)) {
+        /// Of spheres of these sizes, without damping if that is not wanted, on the stiffness that `k` names.
+        const auto duration = [&](double SizeRange::*size, bool damped, double ContactParameters::*k) {
+            const double a = sizes[std::size_t(pair.a)].*size, b = otherSide(c.world, pair, sizes, size);
+            const double mass = reducedMass(c.world, pair, a, b);
+            ContactParameters p = stiffest(c.dosingLaw.of(pair), mass, a, b, c.world.maxOverlapRatio);
+            if (!damped) p.gamma = 0;
+            return contactDuration(p, mass, p.*k);
         };
-        const ContactParameters mean = at(sizes.mean);
-        ContactParameters undamped = at(sizes.smallest);
-        undamped.gamma = 0;
-        const double ofMean = contactDuration(mean, c.world.density, sizes.mean, pair ? sizes.mean : kWall, mean.k1);
-        const double shortest =
-            contactDuration(undamped, c.world.density, sizes.smallest, pair ? sizes.smallest : kWall, undamped.k2Max);
-        d.durations.push_back({className(kind), ofMean, shortest});
+        const double shortest = duration(&SizeRange::smallest, false, &ContactParameters::k2Max);
+        d.durations.push_back(
+            {nameOf(c.world, pair), duration(&SizeRange::mean, true, &ContactParameters::k1), shortest});
         d.stiffest = std::min(d.stiffest, shortest);
     }
     d.timeStep = c.world.timeStep;

@@ -48,6 +48,8 @@ struct FieldRequest {
     Kernel kernel = Kernel::Gaussian;
     double width = 0;            ///< w [m]
     bool contactStress = false;  ///< also compute the contact stress, the most expensive of the fields
+    /// Only particles of this material count; those of others may still touch them. Has no contact stress.
+    std::optional<int> material;
 
     double reach() const { return kernel == Kernel::Gaussian ? 3 * width : width; }  ///< of the kernel [m]
     /// The kernel at a distance [m], without its norm: 1 at distance 0.

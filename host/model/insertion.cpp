@@ -12,9 +12,9 @@
 namespace vkdose {
 namespace {
 
-double listedMass(const Particles& list, double density) {
+double listedMass(const World& world, const Particles& list) {
     double mass = 0;
-    for (const double r : list.radius) mass += sphereMass(density, r);
+    for (std::size_t i = 0; i < list.size(); ++i) mass += massOf(world, list, i);
     return mass;
 }
 
@@ -24,7 +24,7 @@ std::vector<double> drawRadii(const Case& c, double target, std::uint64_t first,
     std::vector<double> radii;
     for (std::uint64_t index = first;; ++index) {
         const double r = drawRadius(c.filling.size, c.seed, index, redrawn);
-        const double next = mass + sphereMass(c.world.density, r);
+        const double next = mass + sphereMass(c.world.density(), r);
         if (std::abs(next - target) >= std::abs(mass - target)) break;
         radii.push_back(r);
         mass = next;
@@ -121,6 +121,7 @@ void Particles::append(const Particles& more) {
     behind(spin, more.spin);
     behind(radius, more.radius);
     behind(status, more.status);
+    behind(material, more.material);
 }
 
 Particles Insertion::allParticles() const {
@@ -139,7 +140,7 @@ Insertion insertParticles(const Case& c) {
     Insertion result;
     if (c.filling.list) {
         result.particles = *c.filling.list;
-        result.mass = result.targetMass = listedMass(result.particles, c.world.density);
+        result.mass = result.targetMass = listedMass(c.world, result.particles);
         result.fillHeight = c.world.domain.low.y;
         for (std::size_t i = 0; i < result.particles.size(); ++i)
             result.fillHeight =

@@ -1,16 +1,49 @@
 #pragma once
-// Contact parameters in SI. Symbols as in physics.md (Luding (2008), Granular Matter 10:235, and the paper's table).
+// Materials, and contact parameters of each pair of them in SI. Symbols as in physics.md (Luding (2008), Granular
+// Matter 10:235, and the paper's table).
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "host/model/user_law.h"
 
 namespace vkdose {
 
-/// The two bodies of a contact. Each class of contacts has its own parameters.
+/// What particles, walls and bodies are made of. A material is named by its index (World::materials). The first three
+/// are those of a case with one powder; other powders and materials of bodies come after them.
+struct Material {
+    std::string name;     ///< for messages
+    bool powder = false;  ///< particles may be of it
+    double density = 0;   ///< of a powder's particles [kg/m3]; of others without meaning
+};
+inline constexpr int kFirstPowder = 0, kWallMaterial = 1, kCoilMaterial = 2;
+inline constexpr int kUsualMaterials = 3;
+inline constexpr int kMostMaterials = 8;
+
+/// Coarse kinds of contacts: with another particle, with the coil, or with anything else.
 enum class ContactClass { ParticleParticle = 0, ParticleWall = 1, ParticleCoil = 2 };
 inline constexpr int kContactClasses = 3;
+
+/// The kind of a particle's contact with a surface or a body of this material.
+constexpr ContactClass classAtWall(int material) {
+    return material == kCoilMaterial ? ContactClass::ParticleCoil : ContactClass::ParticleWall;
+}
+
+/// The materials of the two sides of a contact. Their order does not matter to the law.
+struct MaterialPair {
+    int a = kFirstPowder, b = kFirstPowder;
+};
+
+/// The pair of a contact of the first powder.
+constexpr MaterialPair pairOf(ContactClass c) {
+    return {kFirstPowder, static_cast<int>(c)};  // the materials are numbered as the classes are
+}
+static_assert(pairOf(ContactClass::ParticleWall).b == kWallMaterial &&
+              pairOf(ContactClass::ParticleCoil).b == kCoilMaterial);
 
 /// Normal force that limits friction: Luding -> max(0, f + k_c delta); Absolute -> |f_n|, damping included.
 enum class CoulombLimit { Luding = 0, Absolute = 1 };
@@ -59,15 +92,55 @@ struct ContactParameters {
     double adhesionExponent = 1.5;                 ///< EEPA: chi, with which the pull fades as the contact opens [-]
 };
 
+/// The parameters of each pair of materials. Pairs that cannot touch, as two walls, are there and mean nothing.
+class PairTable {
+  public:
+    PairTable() { resize(kUsualMaterials); }
+
+    /// Where a pair is in a list of all: those with the larger index below come first.
+    static constexpr std::size_t index(MaterialPair p) {
+        const auto larger = static_cast<std::size_t>(std::max(p.a, p.b)),
+                   smaller = static_cast<std::size_t>(std::min(p.a, p.b));
+        return larger * (larger + 1) / 2 + smaller;
+    }
+
+    int materials() const { return materials_; }
+    /// Room for so many materials; the pairs of those that stay are kept.
+    void resize(int materials) {
+        materials_ = materials;
+        pairs_.resize(index({materials, 0}));
+    }
+
+    /// Throws std::out_of_range if there is no such material.
+    const ContactParameters& of(MaterialPair p) const { return pairs_.at(index(p)); }
+    ContactParameters& of(MaterialPair p) { return pairs_.at(index(p)); }
+
+    /// Of all pairs, in the order of `index`.
+    auto begin() const { return pairs_.begin(); }
+    auto end() const { return pairs_.end(); }
+    auto begin() { return pairs_.begin(); }
+    auto end() { return pairs_.end(); }
+    void fill(const ContactParameters& p) { std::fill(begin(), end(), p); }
+
+  private:
+    int materials_ = 0;
+    std::vector<ContactParameters> pairs_;
+};
+
 /// Everything the contact law needs, for one member (canister).
 struct ContactLaw {
-    std::array<ContactParameters, kContactClasses> classes;
+    PairTable pairs;
     CoulombLimit coulombLimit = CoulombLimit::Luding;
     RollingLever rollingLever = RollingLever::Full;
-    std::shared_ptr<const UserLaw> user;  ///< null unless the classes follow NormalLaw::User
+    std::shared_ptr<const UserLaw> user;  ///< null unless the pairs follow NormalLaw::User
 
-    const ContactParameters& of(ContactClass c) const { return classes[static_cast<int>(c)]; }
-    ContactParameters& of(ContactClass c) { return classes[static_cast<int>(c)]; }
+    const ContactParameters& between(int a, int b) const { return pairs.of({a, b}); }
+    ContactParameters& between(int a, int b) { return pairs.of({a, b}); }
+    const ContactParameters& of(MaterialPair p) const { return pairs.of(p); }
+    ContactParameters& of(MaterialPair p) { return pairs.of(p); }
+    /// Of the first powder.
+    const ContactParameters& of(ContactClass c) const { return of(pairOf(c)); }
+    ContactParameters& of(ContactClass c) { return of(pairOf(c)); }
 };
 
 }  // namespace vkdose

@@ -109,9 +109,10 @@ double reachOf(const ContactParameters& p, double reduced) {
     return p.law == NormalLaw::Jkr ? JkrContact(p, reduced).reach : 0;
 }
 
-double longestReach(const ContactLaw& law, double largest) {
+double longestReach(const World& world, const ContactLaw& law, double largest) {
     double longest = 0;
-    for (const ContactParameters& p : law.classes) longest = std::max(longest, reachOf(p, 2 * largest));
+    for (const MaterialPair& pair : occurringPairs(world))
+        longest = std::max(longest, reachOf(law.of(pair), 2 * largest));
     return longest;
 }
 

@@ -2,7 +2,7 @@
 // What a law of the normal force says before a run: closed forms by which time steps, overlaps and impacts are judged.
 // physics.md has the laws themselves, host/backend/reference/normal.h computes them.
 
-#include "host/model/material.h"
+#include "host/model/world.h"
 
 namespace vkdose {
 
@@ -45,8 +45,8 @@ ContactParameters linearised(const ContactParameters& p, double mass, double red
 /// reach. 0 under most laws. `reduced` as above; the reach grows with it, or is the same for all.
 double reachOf(const ContactParameters& p, double reduced);
 
-/// The longest reach of any contact of spheres no larger than `largest` [m], also with walls.
-double longestReach(const ContactLaw& law, double largest);
+/// The longest reach of any contact that can occur, of spheres no larger than `largest` [m], also with walls.
+double longestReach(const World& world, const ContactLaw& law, double largest);
 
 /// Overlap of a contact that has been loaded for the first time by `load` >= 0 [N], in metres.
 double overlapUnder(const ContactParameters& p, double reduced, double load);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "host/core/vec.h"
+#include "host/model/material.h"
 
 namespace vkdose {
 
@@ -21,16 +22,18 @@ struct Particles {
     std::vector<Vec3> spin;      ///< angular velocity [rad/s]
     std::vector<double> radius;  ///< [m]
     std::vector<Status> status;
+    std::vector<std::uint8_t> material;  ///< a powder of the world (World::materials)
 
     std::size_t size() const { return position.size(); }
-    void add(const Vec3& x, double r, const Vec3& v = Vec3(0), const Vec3& w = Vec3(0)) {
+    void add(const Vec3& x, double r, const Vec3& v = Vec3(0), const Vec3& w = Vec3(0), int of = kFirstPowder) {
         position.push_back(x);
         velocity.push_back(v);
         spin.push_back(w);
         radius.push_back(r);
         status.push_back(Status::Active);
+        material.push_back(static_cast<std::uint8_t>(of));
     }
-    /// The particles of `more` behind these, with their status.
+    /// The particles of `more` behind these, with their status and material.
     void append(const Particles& more);
 };
 

@@ -327,8 +327,7 @@ void readBodies(CaseReader& reader, Section& root, double meshReach, Case& c) {
             body.shapes = readShape(b, static_cast<Kind>(*shape));
         else
             section->abandon();
-        body.kind =
-            section->choice("contact") == std::size_t{1} ? ContactClass::ParticleCoil : ContactClass::ParticleWall;
+        body.material = section->choice("contact") == std::size_t{1} ? kCoilMaterial : kWallMaterial;
         body.course.start = readPlace(b);
         readMotion(reader, *section, body);
         c.world.bodies.push_back(std::move(body));

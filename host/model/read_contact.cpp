@@ -145,14 +145,14 @@ double readSoftness(CaseReader& reader, Section& contact) {
 double fillMass(const Case& c) {
     if (!c.filling.list) return c.filling.mass;
     double mass = 0;
-    for (const double r : c.filling.list->radius) mass += sphereMass(c.world.density, r);
+    for (const double r : c.filling.list->radius) mass += sphereMass(c.world.density(), r);
     return mass;
 }
 
 /// The contact of mean spheres that the targets of a class are meant for.
 MeanContact meanContact(const Case& c, ContactClass kind, double radius) {
     MeanContact m;
-    const double density = c.world.density;
+    const double density = c.world.density();
     const double other = kind == ContactClass::ParticleParticle ? radius : kInfinity;
     const bool round = kind == ContactClass::ParticleCoil && c.world.coil && c.world.coilWireCurved;
     m.radius = radius;
@@ -268,15 +268,16 @@ void readHertz(CaseReader& reader, const Tables& sections, Section& settle, Norm
     refuseKeys(reader, settle, {"kc_over_k", "wall_kc_over_k", "coil_kc_over_k", "elastic"}, "luding");
     const double damping = settle.number("damping_factor");
     std::array<StatedHertz, kContactClasses> stated;
-    for (std::size_t i = 0; i < stated.size(); ++i)
+    for (int i = 0; i < kContactClasses; ++i)
         stated[i] = readHertzClass(reader, *sections[i], i == 0 ? nullptr : &stated[i - 1], law);
     const auto between = law == NormalLaw::Eepa  ? elastoPlasticAdhesive
                          : law == NormalLaw::Jkr ? elasticAdhesive
                                                  : hertzMindlin;
-    for (std::size_t i = 0; i < stated.size(); ++i)
-        c.dosingLaw.classes[i] = between(stated[0].material, stated[i].material, stated[i].restitution, stated[i].rest);
+    for (int i = 0; i < kContactClasses; ++i)
+        c.dosingLaw.between(0, i) =
+            between(stated[0].material, stated[i].material, stated[i].restitution, stated[i].rest);
     c.settlingLaw = c.dosingLaw;
-    for (ContactParameters& p : c.settlingLaw.classes) p.dampingShare *= damping;
+    for (ContactParameters& p : c.settlingLaw.pairs) p.dampingShare *= damping;
 }
 
 void readLuding(CaseReader& reader, const Tables& sections, Section& settle, double meanRadius, Case& c) {
@@ -286,11 +287,11 @@ void readLuding(CaseReader& reader, const Tables& sections, Section& settle, dou
         refuseKeys(reader, *section, kAdhesiveKeys, "jkr");
     }
     std::array<Stated, kContactClasses> stated;
-    for (std::size_t i = 0; i < stated.size(); ++i)
+    for (int i = 0; i < kContactClasses; ++i)
         stated[i] = readClass(reader, *sections[i], i == 0 ? nullptr : &stated[i - 1]);
     c.softened = readSoftness(reader, *sections[0]);
     std::string missedAbove;
-    for (std::size_t i = 0; i < stated.size(); ++i) {
+    for (int i = 0; i < kContactClasses; ++i) {
         Ratios& r = stated[i].ratios;
         const ContactTargets& targets = stated[i].targets;
         const auto missed = meetTargets(targets, meanContact(c, static_cast<ContactClass>(i), meanRadius), r);
@@ -311,7 +312,7 @@ void readLuding(CaseReader& reader, const Tables& sections, Section& settle, dou
 
     // While the powder settles, adhesion has a strength of its own. A class whose table gives its adhesion keeps it by
     // default, and so does every class where the case says nothing of adhesion while settling.
-    const auto own = [&](std::size_t i) { return sections[i]->has("kc_over_k") || sections[i]->has("bond_number"); };
+    const auto own = [&](int i) { return sections[i]->has("kc_over_k") || sections[i]->has("bond_number"); };
     const bool pairStated = settle.has("kc_over_k"), wallStated = settle.has("wall_kc_over_k");
     const double pairKc = settle.number("kc_over_k", stated[0].ratios.kc);
     const double wallKc = settle.number("wall_kc_over_k", own(1) || !pairStated ? stated[1].ratios.kc : pairKc);
@@ -322,11 +323,11 @@ void readLuding(CaseReader& reader, const Tables& sections, Section& settle, dou
     const bool elastic = settle.boolean("elastic");
 
     c.settlingLaw = c.dosingLaw;
-    for (std::size_t i = 0; i < stated.size(); ++i) {
-        c.dosingLaw.classes[i] = stated[i].ratios.parameters(stated[i].ratios.kc);
-        c.settlingLaw.classes[i] = stated[i].ratios.parameters(settling[i]);
-        c.settlingLaw.classes[i].gamma *= damping;
-        if (elastic) c.settlingLaw.classes[i].k2Max = c.settlingLaw.classes[i].k1;
+    for (int i = 0; i < kContactClasses; ++i) {
+        c.dosingLaw.between(0, i) = stated[i].ratios.parameters(stated[i].ratios.kc);
+        c.settlingLaw.between(0, i) = stated[i].ratios.parameters(settling[i]);
+        c.settlingLaw.between(0, i).gamma *= damping;
+        if (elastic) c.settlingLaw.between(0, i).k2Max = c.settlingLaw.between(0, i).k1;
     }
 }
 
@@ -346,10 +347,10 @@ void readUser(CaseReader& reader, const Tables& sections, Section& settle, Case&
                "luding");
     const std::shared_ptr<const UserLaw> law = readUserLaw(reader, *sections[0]);
     c.dosingLaw.user = law;
-    for (std::size_t i = 0; i < sections.size(); ++i) {
+    for (int i = 0; i < kContactClasses; ++i) {
         Section& section = *sections[i];
-        const ContactParameters* above = i == 0 ? nullptr : &c.dosingLaw.classes[i - 1];
-        ContactParameters& p = c.dosingLaw.classes[i];
+        const ContactParameters* above = i == 0 ? nullptr : &c.dosingLaw.between(0, i - 1);
+        ContactParameters& p = c.dosingLaw.between(0, i);
         const auto ratio = [&](const char* name, double ContactParameters::*member) {
             p.*member = section.number(name, above != nullptr ? std::optional(above->*member) : std::nullopt);
         };

@@ -80,7 +80,7 @@ SizeDistribution readSize(CaseReader& reader, Section& section, Case& c) {
 
 void readParticles(CaseReader& reader, Section& root, Case& c) {
     Section& section = root.requiredTable("particles");
-    c.world.density = section.number("density");
+    c.world.density() = section.number("density");
     if (section.has("list")) {
         const std::string path = section.string("list");
         if (section.has("mass_g"))

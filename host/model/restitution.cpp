@@ -149,13 +149,21 @@ double dampingRatioFor(double e) {
     return -log / std::hypot(kPi, log);
 }
 
-double restitution(const ContactParameters& p, double density, double a, double b) {
+double restitution(const ContactParameters& p, double mass) {
     if (p.law == NormalLaw::HertzMindlin || p.law == NormalLaw::Eepa) return ofDampingRatio(p.dampingShare);
-    return ofDampingRatio(p.gamma / (2 * std::sqrt(p.k1 * reducedMass(density, a, b))));
+    return ofDampingRatio(p.gamma / (2 * std::sqrt(p.k1 * mass)));
+}
+
+double restitution(const ContactParameters& p, double density, double a, double b) {
+    return restitution(p, reducedMass(density, a, b));
+}
+
+double dampingFor(double e, const ContactParameters& p, double mass) {
+    return 2 * dampingRatioFor(e) * std::sqrt(p.k1 * mass);
 }
 
 double dampingFor(double e, const ContactParameters& p, double density, double a, double b) {
-    return 2 * dampingRatioFor(e) * std::sqrt(p.k1 * reducedMass(density, a, b));
+    return dampingFor(e, p, reducedMass(density, a, b));
 }
 
 double restitutionAt(const ContactParameters& p, double mass, double reduced, double speed) {

@@ -12,9 +12,13 @@ double reducedSize(double a, double b);
 /// zeta = gamma/(2 sqrt(k1 m12)); 0 if overdamped. It is the limit of slow impacts. Hertz-Mindlin: that of any impact;
 /// EEPA, JKR: the one that damping is made for, of an impact that leaves Hertz's line neither flattened nor sticking.
 double restitution(const ContactParameters& p, double density, double a, double b);
+/// The same of a reduced mass [kg].
+double restitution(const ContactParameters& p, double mass);
 
 /// The damping gamma [kg/s] that gives this restitution, 0 < e <= 1, to slow impacts of the spheres a and b.
 double dampingFor(double e, const ContactParameters& p, double density, double a, double b);
+/// The same of a reduced mass [kg].
+double dampingFor(double e, const ContactParameters& p, double mass);
 
 /// The share zeta of critical damping at which damping alone gives the restitution e, 0 < e <= 1.
 double dampingRatioFor(double e);

@@ -42,7 +42,7 @@ struct RigidBody {
     std::vector<geometry::Shape> shapes;  ///< in the frame of the body [m]
     geometry::Course course;
     Clock clock = Clock::Time;
-    ContactClass kind = ContactClass::ParticleWall;
+    int material = kWallMaterial;  ///< World::materials
     // Of Clock::Phases:
     std::vector<Phase> phases{};  ///< in which its clock runs
     bool anew = false;  ///< a table starts anew when the first of `phases` begins, once it has come to its end

@@ -71,7 +71,7 @@ double mostInGrid(double largest, double skin) {
 
 void checkRows(CaseReader& reader, const Case& c, const Particles& particles, const SizeRange& radii) {
     if (particles.size() <= kMaxNeighbours) return;
-    const double reach = longestReach(c.dosingLaw, radii.largest), beyond = c.world.skin + reach;
+    const double reach = longestReach(c.world, c.dosingLaw, radii.largest), beyond = c.world.skin + reach;
     if (!c.filling.list && mostInGrid(radii.largest, beyond) <= kMaxNeighbours) return;
     const std::optional<std::size_t> crowded = crowdedParticle(particles, radii.largest, beyond);
     if (!crowded) return;

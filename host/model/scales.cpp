@@ -33,7 +33,7 @@ std::string sizeKey(const Case& c, const char* bound) {
 }
 
 void checkMasses(CaseReader& reader, const Case& c, const SizeRange& radii) {
-    const auto inertia = [&](double r) { return 0.4 * sphereMass(c.world.density, r) * r * r; };
+    const auto inertia = [&](double r) { return 0.4 * sphereMass(c.world.density(), r) * r * r; };
     if (inertia(radii.smallest) < kSmallestFloat)
         reader.fault(sizeKey(c, "min"),
                      fmt::format("a sphere of {:.3g} mm is too light to compute", radii.smallest * 1e3),

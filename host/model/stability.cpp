@@ -9,10 +9,12 @@
 #include "host/model/normal_law.h"
 #include "host/model/particles.h"
 #include "host/model/restitution.h"
+#include "host/model/size_distribution.h"
 
 namespace vkdose {
 namespace {
 
+/// Radius of a wall, beside a sphere.
 constexpr double kWall = std::numeric_limits<double>::infinity();
 
 bool isNormal(const ContactMode& mode) {
@@ -22,70 +24,96 @@ bool isNormal(const ContactMode& mode) {
 }  // namespace
 
 double reducedMass(double density, double a, double b) {
+    return reducedMass(density, a, density, b);
+}
+
+double reducedMass(double densityA, double a, double densityB, double b) {
     const double volume = 4.0 / 3.0 * kPi;
-    const double ma = density * volume * a * a * a;
+    const double ma = densityA * volume * a * a * a;
     if (std::isinf(b)) return ma;
-    const double mb = density * volume * b * b * b;
+    const double mb = densityB * volume * b * b * b;
     return ma * mb / (ma + mb);
 }
 
-std::string className(ContactClass c) {
-    switch (c) {
-        case ContactClass::ParticleParticle:
-            return "particle-particle";
-        case ContactClass::ParticleWall:
-            return "particle-wall";
-        case ContactClass::ParticleCoil:
-            return "particle-coil";
+double reducedMass(const World& world, MaterialPair pair, double a, double b) {
+    return reducedMass(world.density(pair.a), a, world.density(pair.b), b);
+}
+
+PowderSizes powderSizes(const Case& c) {
+    if (c.filling.list) return powderSizes(c.world, *c.filling.list);
+    PowderSizes sizes(c.world.materials.size());
+    const SizeDistribution& size = c.filling.size;
+    sizes[kFirstPowder] = {smallestRadius(size), largestRadius(size), meanRadius(size)};
+    return sizes;
+}
+
+PowderSizes powderSizes(const World& world, const Particles& particles) {
+    PowderSizes sizes(world.materials.size());
+    std::vector<double> count(sizes.size());
+    for (const std::uint8_t m : particles.material) count.at(m) += 1;
+    for (std::size_t i = 0; i < particles.size(); ++i) {
+        SizeRange& size = sizes[particles.material[i]];
+        const double r = particles.radius[i];
+        size.smallest = std::min(size.smallest, r);
+        size.largest = std::max(size.largest, r);
+        size.mean += r / count[particles.material[i]];
     }
-    return "unknown";
+    return sizes;
 }
 
-std::vector<ContactClass> contactClasses(const World& world) {
-    std::vector<ContactClass> classes{ContactClass::ParticleParticle};
-    const auto hasBody = [&](ContactClass kind) {
-        return std::any_of(world.bodies.begin(), world.bodies.end(),
-                           [&](const RigidBody& b) { return b.kind == kind; });
-    };
-    if (!world.surfaces.empty() || hasBody(ContactClass::ParticleWall)) classes.push_back(ContactClass::ParticleWall);
-    if (world.coil || hasBody(ContactClass::ParticleCoil)) classes.push_back(ContactClass::ParticleCoil);
-    return classes;
+SizeRange overall(const PowderSizes& sizes) {
+    SizeRange all;
+    double powders = 0;
+    for (const SizeRange& size : sizes) powders += size.largest > 0 ? 1 : 0;
+    for (const SizeRange& size : sizes) {
+        all.smallest = std::min(all.smallest, size.smallest);
+        all.largest = std::max(all.largest, size.largest);
+        all.mean += size.mean / powders;
+    }
+    return all;
 }
 
-ContactParameters stiffest(const ContactParameters& p, double density, double a, double b, double maxOverlapRatio) {
-    return linearised(p, reducedMass(density, a, b), reducedSize(a, b), maxOverlapRatio * std::min(a, b));
+double otherSide(const World& world, MaterialPair pair, const PowderSizes& sizes, double SizeRange::*size) {
+    const auto other = static_cast<std::size_t>(pair.b);
+    return world.materials.at(other).powder ? sizes.at(other).*size : kWall;
 }
 
-std::vector<ContactMode> contactModes(const ContactLaw& law, double density, double smallest,
-                                      const std::vector<ContactClass>& used, double maxOverlapRatio) {
-    const double mass = sphereMass(density, smallest);
+ContactParameters stiffest(const ContactParameters& p, double mass, double a, double b, double maxOverlapRatio) {
+    return linearised(p, mass, reducedSize(a, b), maxOverlapRatio * std::min(a, b));
+}
+
+std::vector<ContactMode> contactModes(const World& world, const ContactLaw& law, const PowderSizes& sizes) {
     std::vector<ContactMode> modes;
     const auto add = [&](const std::string& name, double k, double gamma, double effectiveMass) {
         if (k <= 0) return;
         modes.push_back({name, kPi * std::sqrt(effectiveMass / k), gamma / effectiveMass});
     };
-    for (const ContactClass c : used) {
-        const bool pair = c == ContactClass::ParticleParticle;
-        const double normal = pair ? mass / 2 : mass;
-        const ContactParameters p = stiffest(law.of(c), density, smallest, pair ? smallest : kWall, maxOverlapRatio);
-        add(className(c) + " normal", p.k2Max, p.gamma, normal);
+    for (const MaterialPair& pair : occurringPairs(world)) {
+        const double a = sizes.at(static_cast<std::size_t>(pair.a)).smallest;
+        const double b = otherSide(world, pair, sizes, &SizeRange::smallest);
+        const bool wall = !world.materials[static_cast<std::size_t>(pair.b)].powder;
+        if (std::isinf(a) || (!wall && std::isinf(b))) continue;
+        const double massA = sphereMass(world.density(pair.a), a);
+        const double massB = wall ? kWall : sphereMass(world.density(pair.b), b);
+        const double normal = massA / (1 + massA / massB);
+        const ContactParameters p = stiffest(law.of(pair), reducedMass(world, pair, a, b), a, b, world.maxOverlapRatio);
+        const std::string name = nameOf(world, pair);
+        add(name + " normal", p.k2Max, p.gamma, normal);
         // Sliding moves the surface: 1/m + a^2/I = 3.5/m for a full sphere of inertia 0.4 m a^2.
-        if (p.mu > 0) add(className(c) + " sliding", p.kt, p.gammaT, normal / 3.5);
-        // Rolling: a_r^2/I with a_r <= 2 a. The bound is reached against a wall or a much larger sphere. For "half" it
-        // is half as large.
+        if (p.mu > 0) add(name + " sliding", p.kt, p.gammaT, normal / 3.5);
+        // Rolling: a_r^2 (1/I_a + 1/I_b) with a_r = 2 a b/(a + b) is at most 4 a^2/I of the lighter one. The bound is
+        // reached against a wall or a much larger sphere. For "half" it is half as large.
         const double lever = law.rollingLever == RollingLever::Full ? 2 : 1;
-        const double turning = 0.4 * mass / (lever * lever);
-        if (p.muR > 0) add(className(c) + " rolling", p.kr, p.gammaR, turning);
-        if (p.muTo > 0) add(className(c) + " torsion", p.kTo, p.gammaTo, turning);
+        const double turning = 0.4 * std::min(massA, massB) / (lever * lever);
+        if (p.muR > 0) add(name + " rolling", p.kr, p.gammaR, turning);
+        if (p.muTo > 0) add(name + " torsion", p.kTo, p.gammaTo, turning);
     }
     return modes;
 }
 
-std::vector<ContactMode> modesOf(const Case& c, double smallest) {
-    const std::vector<ContactClass> used = contactClasses(c.world);
-    std::vector<ContactMode> modes =
-        contactModes(c.dosingLaw, c.world.density, smallest, used, c.world.maxOverlapRatio);
-    const auto settling = contactModes(c.settlingLaw, c.world.density, smallest, used, c.world.maxOverlapRatio);
+std::vector<ContactMode> modesOf(const Case& c, const PowderSizes& sizes) {
+    std::vector<ContactMode> modes = contactModes(c.world, c.dosingLaw, sizes);
+    const auto settling = contactModes(c.world, c.settlingLaw, sizes);
     modes.insert(modes.end(), settling.begin(), settling.end());
     return modes;
 }

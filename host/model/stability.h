@@ -3,6 +3,7 @@
 // rolling and torsion. Each mode is a spring on an effective mass. The numbers are bounds for the smallest particle
 // against the largest.
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,6 +16,29 @@ struct Case;
 
 /// Reduced mass of two spheres of radii a and b [m], b = infinity for a wall [kg].
 double reducedMass(double density, double a, double b);
+/// The same of two densities.
+double reducedMass(double densityA, double a, double densityB, double b);
+/// The same for the two sides of a contact: spheres of their materials, or a sphere and a wall.
+double reducedMass(const World& world, MaterialPair pair, double a, double b);
+
+/// Radii of the particles of each material [m]; a material of none has no smallest.
+struct SizeRange {
+    double smallest = std::numeric_limits<double>::infinity();
+    double largest = 0;
+    double mean = 0;
+};
+using PowderSizes = std::vector<SizeRange>;  ///< by the material
+
+/// Those that a case will insert: bounds and mean of its size distributions, or of its list.
+PowderSizes powderSizes(const Case& c);
+/// Those of particles that there are.
+PowderSizes powderSizes(const World& world, const Particles& particles);
+/// Of all powders together; the mean is over the powders.
+SizeRange overall(const PowderSizes& sizes);
+
+/// The radius of the pair's other side, beside a particle with `size` of its powder: the other powder's, or that of a
+/// wall, infinity.
+double otherSide(const World& world, MaterialPair pair, const PowderSizes& sizes, double SizeRange::*size);
 
 struct ContactMode {
     std::string name;     ///< "particle-wall rolling"
@@ -22,23 +46,17 @@ struct ContactMode {
     double decay = 0;     ///< damping rate gamma/m [1/s]
 };
 
-/// Name of a class in messages: "particle-particle", ...
-std::string className(ContactClass c);
+/// Every mode of every pair that can occur, for particles no smaller than the smallest of their powder. Powders of no
+/// particles are left out. A law whose stiffness grows with the overlap counts at the largest overlap that the world
+/// allows.
+std::vector<ContactMode> contactModes(const World& world, const ContactLaw& law, const PowderSizes& sizes);
 
-/// The classes that can occur in `world`: walls only with surfaces, the coil only with a coil.
-std::vector<ContactClass> contactClasses(const World& world);
-
-/// Every mode of every class in `used`, for particles no smaller than `smallest` [m]. A law whose stiffness grows with
-/// the overlap counts at the largest overlap that the run allows, `maxOverlapRatio` of the smaller radius.
-std::vector<ContactMode> contactModes(const ContactLaw& law, double density, double smallest,
-                                      const std::vector<ContactClass>& used, double maxOverlapRatio = kMaxOverlapRatio);
-
-/// The parameters of a class at that overlap, as linear springs and dashpots between the spheres a and b [m], b =
-/// infinity for a wall (normal_law.h).
-ContactParameters stiffest(const ContactParameters& p, double density, double a, double b, double maxOverlapRatio);
+/// The parameters of a contact at that overlap, as linear springs and dashpots between the spheres a and b [m], b =
+/// infinity for a wall (normal_law.h). `mass` is the reduced one [kg].
+ContactParameters stiffest(const ContactParameters& p, double mass, double a, double b, double maxOverlapRatio);
 
 /// The modes of a case under both of its laws: damping may be stronger while the powder settles.
-std::vector<ContactMode> modesOf(const Case& c, double smallest);
+std::vector<ContactMode> modesOf(const Case& c, const PowderSizes& sizes);
 
 /// A time step must not exceed this fraction of a mode's duration, unless the case asks for fewer steps in it
 /// (stability of a single contact alone would allow 2/pi of it).

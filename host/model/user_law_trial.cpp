@@ -21,22 +21,22 @@ LawTrial& trialOfProcess() {
 
 /// A loading, and of whom.
 struct Probe {
-    ContactClass kind;
-    double a;  ///< radius of the sphere [m]
+    MaterialPair pair;
+    double SizeRange::*size;  ///< of the spheres
     LawLoading loading;
 };
 
-std::vector<Probe> probesOf(const Case& c, const SizeRange& sizes) {
+std::vector<Probe> probesOf(const Case& c, const PowderSizes& sizes) {
     constexpr double kSpeeds[] = {0, 0.01, 1};  // [m/s]
     std::vector<Probe> probes;
-    for (const ContactClass kind : contactClasses(c.world))
-        for (const double a : {sizes.smallest, sizes.mean, sizes.largest})
+    for (const MaterialPair& pair : occurringPairs(c.world))
+        for (const auto size : {&SizeRange::smallest, &SizeRange::mean, &SizeRange::largest})
             for (const double speed : kSpeeds) {
-                const double b = kind == ContactClass::ParticleParticle ? a : std::numeric_limits<double>::infinity();
-                probes.push_back({kind,
-                                  a,
-                                  {c.dosingLaw.of(kind).own, reducedSize(a, b) / 2, reducedMass(c.world.density, a, b),
-                                   c.world.maxOverlapRatio * a, speed}});
+                const double a = sizes[std::size_t(pair.a)].*size, b = otherSide(c.world, pair, sizes, size);
+                probes.push_back({pair,
+                                  size,
+                                  {c.dosingLaw.of(pair).own, reducedSize(a, b) / 2, reducedMass(c.world, pair, a, b),
+                                   c.world.maxOverlapRatio * std::min(a, b), speed}});
             }
     return probes;
 }
@@ -69,7 +69,7 @@ void setLawTrial(LawTrial trial) {
     trialOfProcess() = std::move(trial);
 }
 
-void tryUserLaw(CaseReader& reader, Case& c, const SizeRange& sizes) {
+void tryUserLaw(CaseReader& reader, Case& c, const PowderSizes& sizes) {
     if (!c.dosingLaw.user) return;
     const UserLaw& law = *c.dosingLaw.user;
     const auto refuse = [&](int line, const std::string& problem, const std::string& remedy) {
@@ -93,13 +93,13 @@ void tryUserLaw(CaseReader& reader, Case& c, const SizeRange& sizes) {
                      "install a Vulkan driver (mesa-vulkan-drivers), or take a law of the program's own");
         return;
     }
-    for (ContactParameters& p : c.dosingLaw.classes) p.k1 = p.k2Max = p.gamma = 0;
+    for (ContactParameters& p : c.dosingLaw.pairs) p.k1 = p.k2Max = p.gamma = 0;
     for (std::size_t k = 0; k < probes.size(); ++k) {
         const Probe& probe = probes[k];
-        ContactParameters& p = c.dosingLaw.of(probe.kind);
+        ContactParameters& p = c.dosingLaw.of(probe.pair);
         for (const LawPoint& point : answers[k]) {
             if (!(point.overlap > 0) && point.reach == 0) break;  // touch itself is no contact
-            if (point.reach > sizes.smallest) {
+            if (point.reach > overall(sizes).smallest) {
                 refuse(lineOf(law, "reach"),
                        fmt::format("reach answers {:.4g} m, more than the smallest radius", point.reach),
                        "let contacts break nearer by");
@@ -109,14 +109,14 @@ void tryUserLaw(CaseReader& reader, Case& c, const SizeRange& sizes) {
                 refuse(lineOf(law, wrong->substr(0, wrong->find(' '))),
                        fmt::format(
                            "{} ({}, overlap {:.4g} m, approach {:.4g} m/s, reduced radius {:.4g} m and mass {:.4g} kg)",
-                           *wrong, className(probe.kind), point.overlap, point.speed, probe.loading.radius,
+                           *wrong, nameOf(c.world, probe.pair), point.overlap, point.speed, probe.loading.radius,
                            probe.loading.mass),
                        "answer finite numbers up to contact.max_overlap_ratio");
                 return;
             }
             p.reach = std::max(p.reach, point.reach);
-            if (probe.a == sizes.mean) p.k1 = std::max(p.k1, point.stiffness);
-            if (probe.a == sizes.smallest) {
+            if (probe.size == &SizeRange::mean) p.k1 = std::max(p.k1, point.stiffness);
+            if (probe.size == &SizeRange::smallest) {
                 p.k2Max = std::max(p.k2Max, point.stiffness);
                 p.gamma = std::max(p.gamma, point.damping);
             }

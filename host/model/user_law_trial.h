@@ -42,6 +42,6 @@ void setLawTrial(LawTrial trial);
 
 /// Tries the law of a case that has one, over its sizes, up to its largest overlap, and at rest and in motion. Notes
 /// faults of what it answers; writes stiffness and damping into the case's contact parameters.
-void tryUserLaw(CaseReader& reader, Case& c, const SizeRange& sizes);
+void tryUserLaw(CaseReader& reader, Case& c, const PowderSizes& sizes);
 
 }  // namespace vkdose

@@ -2,14 +2,17 @@
 // The world that a backend simulates, free of file formats: surfaces, coil, time step. Built from a Case by
 // model/case.h, or by hand in tests.
 
+#include <cstdint>
 #include <limits>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "geometry/coil.h"
 #include "geometry/surface.h"
 #include "host/core/vec.h"
 #include "host/model/material.h"
+#include "host/model/particles.h"
 #include "host/model/region.h"
 #include "host/model/rigid_body.h"
 
@@ -31,12 +34,12 @@ struct World {
     /// Contact history is kept per (particle, surface). A front wall is the last surface, so that walls that end at it
     /// come before it. It takes over contacts from them, and they take over contacts from it.
     std::vector<geometry::Surface> surfaces;
+    std::vector<std::uint8_t> surfaceMaterials;  ///< of each surface; those behind its end are of the walls' material
     std::optional<geometry::Coil> coil;
     std::vector<RigidBody> bodies;  ///< beside surfaces and coil; at most kMaxBodies
     bool coilSurfaceMoves = true;   ///< contacts see the velocity of the coil's surface; false: they see it at rest
     bool coilWireCurved = false;    ///< a* counts the wire's radius; false: the wire is as flat as a wall
     Vec3 gravity{0, -9.81, 0};
-    double density = 0;   ///< of the particles [kg/m3]
     double timeStep = 0;  ///< [s]
     double skin = 0;      ///< extra reach of the neighbour list [m]
     double maxOverlapRatio = kMaxOverlapRatio;
@@ -47,6 +50,15 @@ struct World {
     double throatZ = std::numeric_limits<double>::infinity();
     double outletZ = std::numeric_limits<double>::infinity();
     std::vector<CountRegion> regions;  ///< at most kMaxRegions
+    /// Particles, surfaces and bodies name theirs by its index; at most kMostMaterials.
+    std::vector<Material> materials{{"particle", true, 0}, {"wall", false, 0}, {"coil", false, 0}};
+
+    /// Of a powder's particles [kg/m3].
+    double density(int material = kFirstPowder) const { return materials.at(std::size_t(material)).density; }
+    double& density(int material = kFirstPowder) { return materials.at(std::size_t(material)).density; }
+    int materialOf(std::size_t surface) const {
+        return surface < surfaceMaterials.size() ? surfaceMaterials[surface] : kWallMaterial;
+    }
 
     bool doses(const Vec3& x) const {
         for (const CountRegion& region : regions)
@@ -59,6 +71,22 @@ struct World {
 struct RuledWorld : World {
     ContactLaw law;
 };
+
+/// Of particle i [kg].
+inline double massOf(const World& world, const Particles& particles, std::size_t i) {
+    return sphereMass(world.density(particles.material[i]), particles.radius[i]);
+}
+
+/// The powders, ascending.
+std::vector<int> powdersOf(const World& world);
+/// The pairs of materials whose contacts can occur: of two powders, and of a powder with a surface, a body or the coil.
+/// Ascending by the powder, then by the other; a pair of two powders is there once.
+std::vector<MaterialPair> occurringPairs(const World& world);
+/// Throws std::logic_error if the law has no parameters for a material of the world, if a particle is of no powder of
+/// it, or if there are more materials than a backend holds: whoever made them has not checked them.
+void checkMaterials(const World& world, const ContactLaw& law, const Particles& particles);
+/// Name of a pair in messages: "particle-wall", ...
+std::string nameOf(const World& world, MaterialPair pair);
 
 /// All that moves or may move: World::bodies, and behind them the coil as the body "coil", which the drive turns.
 std::vector<RigidBody> allBodies(const World& world);

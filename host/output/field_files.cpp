@@ -59,14 +59,14 @@ std::string quantityNames(const FieldSensor& s) {
 }  // namespace
 
 FieldFiles::FieldFiles(const fs::path& run, const Case& c)
-    : folder_(run / kFieldsFolder), sensors_(c.fields), density_(c.world.density) {
+    : folder_(run / kFieldsFolder), sensors_(c.fields), density_(c.world.density()) {
     if (sensors_.empty()) return;
     createFolder(folder_);
     for (const FieldSensor& s : sensors_) files_.emplace_back(folder_ / (s.name + ".csv"), header(s));
 }
 
 FieldFiles::FieldFiles(const fs::path& run, const Case& c, const std::vector<CsvMark>& marks)
-    : folder_(run / kFieldsFolder), sensors_(c.fields), density_(c.world.density) {
+    : folder_(run / kFieldsFolder), sensors_(c.fields), density_(c.world.density()) {
     if (marks.size() != sensors_.size()) throw OutputError("the checkpoint has another number of fields than the case");
     for (std::size_t k = 0; k < sensors_.size(); ++k)
         files_.emplace_back(folder_ / (sensors_[k].name + ".csv"), marks[k]);

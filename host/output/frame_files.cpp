@@ -29,8 +29,8 @@ std::vector<Vec3> vectors(const std::vector<double>& values) {
     return result;
 }
 
-double kineticEnergy(const Particles& p, std::size_t i, double density) {
-    return 0.5 * sphereMass(density, p.radius[i]) * glm::dot(p.velocity[i], p.velocity[i]);
+double kineticEnergy(const World& world, const Particles& p, std::size_t i) {
+    return 0.5 * massOf(world, p, i) * glm::dot(p.velocity[i], p.velocity[i]);
 }
 
 /// The geometry of a contact at the instant of the frame, which is a drift after its force acted.
@@ -130,7 +130,7 @@ vtkhdf::Grid particlesGrid(const Frame& frame, const World& world, std::uint32_t
     std::iota(id.begin(), id.end(), 0U);
     std::vector<std::uint8_t> status;
     for (std::size_t i = 0; i < n; ++i) {
-        energy[i] = static_cast<float>(kineticEnergy(p, i, world.density));
+        energy[i] = static_cast<float>(kineticEnergy(world, p, i));
         status.push_back(static_cast<std::uint8_t>(p.status[i]));
     }
     const std::vector<double> sums = flat(force);

@@ -167,12 +167,12 @@ class Measuring {
 
     Figures bulk(const ElementTest& m, std::string& why) const {
         const State state = stateAt(m.time);
-        const auto bulk = containerDensity(upright(state.particles, m.at, up_), c_.world.density, m.radius);
+        const auto bulk = containerDensity(c_.world, upright(state.particles, m.at, up_), m.radius);
         if (!bulk) {
             why = "a mean diameter away from wall, floor and surface there is room for fewer than a hundred spheres";
             return {};
         }
-        return named(kBulk, {bulk->density, bulk->density / c_.world.density, bulk->volume, state.time});
+        return named(kBulk, {bulk->density, bulk->density / c_.world.density(), bulk->volume, state.time});
     }
 
     Figures drum(const ElementTest& m, std::string& why) const {

@@ -105,7 +105,7 @@ py::list dosesOf(const Simulation& run) {
 /// A field of the case, now.
 py::dict fieldOf(const Simulation& run, const std::string& name) {
     for (const FieldSensor& sensor : run.theCase().fields)
-        if (sensor.name == name) return arraysOf(sensor, run.field(sensor.request), run.theCase().world.density);
+        if (sensor.name == name) return arraysOf(sensor, run.field(sensor.request), run.theCase().world.density());
     throw py::key_error(name);
 }
 

@@ -103,7 +103,7 @@ std::vector<double> valuesOf(Quantity quantity, const Case& c, const Frame& fram
     std::vector<double> values(p.size(), std::numeric_limits<double>::quiet_NaN());
     for (std::size_t i = 0; i < p.size(); ++i) {
         const double square = glm::dot(p.velocity[i], p.velocity[i]);
-        if (quantity == Quantity::KineticEnergy) values[i] = 0.5 * sphereMass(c.world.density, p.radius[i]) * square;
+        if (quantity == Quantity::KineticEnergy) values[i] = 0.5 * massOf(c.world, p, i) * square;
         if (quantity == Quantity::Speed) values[i] = std::sqrt(square);
         if (quantity == Quantity::FillLayer && fill != nullptr && i < fill->size()) values[i] = fill->position[i].y;
     }

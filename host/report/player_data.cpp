@@ -162,7 +162,7 @@ Json sceneJson(const Case& c) {
     Json j;
     j["low"] = vectorJson(c.world.domain.low);
     j["high"] = vectorJson(c.world.domain.high);
-    j["density"] = jsonNumber(c.world.density);
+    j["density"] = jsonNumber(c.world.density());
     j["slowest_m_s"] = kSlowest;
     j["fastest_m_s"] = kFastest;
     j["most_overlap"] = jsonNumber(c.world.maxOverlapRatio);

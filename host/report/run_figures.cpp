@@ -251,15 +251,15 @@ class Facts {
         if (!run_.particles || !run_.c.canister) return;
         const World& w = run_.c.world;
         const geometry::Coil* coil = w.coil ? &*w.coil : nullptr;
-        if (const auto d = bedDensity(*run_.particles, w.density, *run_.c.canister, coil))
+        if (const auto d = bedDensity(w, *run_.particles, *run_.c.canister, coil))
             add("bulk density of the bed, at the end", fmt::format("{:.4g} kg/m³", d->density),
                 fmt::format("over {:.3g} cm³, a mean diameter from walls, coil and surface", d->volume * 1e6));
         if (!coil) return;
-        if (const auto d = coilDensity(*run_.particles, w.density, *run_.c.canister, *coil))
+        if (const auto d = coilDensity(w, *run_.particles, *run_.c.canister, *coil))
             add("bulk density between the turns, at the end", fmt::format("{:.4g} kg/m³", d->density),
                 "wherever powder lies above; voids under arches included");
         const double last = run_.c.canister->length - coil->pitch;
-        if (const auto d = coilDensity(*run_.particles, w.density, *run_.c.canister, *coil, last)) {
+        if (const auto d = coilDensity(w, *run_.particles, *run_.c.canister, *coil, last)) {
             const double turns = run_.c.schedule.coilSpeed * run_.c.schedule.rotateTime / (2 * kPi);
             add("the same, in the last turn before the outlet", fmt::format("{:.4g} kg/m³", d->density),
                 fmt::format("closed form with it: {} g/dose", grams(closedFormMass(d->density, *coil, turns))));

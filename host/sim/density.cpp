@@ -62,7 +62,7 @@ class Surface {
 /// Mass [kg] of the parts of active spheres for which `inside(point)` holds. Each sphere is a lattice of points that
 /// together weigh as much as the sphere.
 template <typename Inside>
-double massWithin(const Particles& p, double density, const Inside& inside) {
+double massWithin(const World& world, const Particles& p, const Inside& inside) {
     std::vector<Vec3> lattice;
     for (int i = 0; i < kLattice; ++i)
         for (int j = 0; j < kLattice; ++j)
@@ -75,7 +75,7 @@ double massWithin(const Particles& p, double density, const Inside& inside) {
         if (p.status[i] != Status::Active) continue;
         int hits = 0;
         for (const Vec3& x : lattice) hits += inside(p.position[i] + p.radius[i] * x) ? 1 : 0;
-        mass += density * sphereVolume(p.radius[i]) * hits / static_cast<double>(lattice.size());
+        mass += world.density(p.material[i]) * sphereVolume(p.radius[i]) * hits / static_cast<double>(lattice.size());
     }
     return mass;
 }
@@ -97,7 +97,7 @@ double meanActiveRadius(const Particles& particles) {
     return count > 0 ? sum / count : 0;
 }
 
-std::optional<BulkDensity> bedDensity(const Particles& particles, double particleDensity, const Canister& canister,
+std::optional<BulkDensity> bedDensity(const World& world, const Particles& particles, const Canister& canister,
                                       const geometry::Coil* coil) {
     const double a = meanActiveRadius(particles), margin = 2 * a;
     if (!(a > 0)) return std::nullopt;
@@ -106,7 +106,7 @@ std::optional<BulkDensity> bedDensity(const Particles& particles, double particl
     double volume = 0;
     for (int cell = 0; cell < surface.columns(); ++cell)
         volume += surface.area(cell) * std::max(0.0, surface.top(cell) - margin - low);
-    const double mass = massWithin(particles, particleDensity, [&](const Vec3& x) {
+    const double mass = massWithin(world, particles, [&](const Vec3& x) {
         if (x.y < low) return false;
         const int cell = surface.cellOf(x);
         return cell >= 0 && x.y < surface.top(cell) - margin;
@@ -114,7 +114,7 @@ std::optional<BulkDensity> bedDensity(const Particles& particles, double particl
     return densityOf(mass, volume, a);
 }
 
-std::optional<BulkDensity> coilDensity(const Particles& particles, double particleDensity, const Canister& canister,
+std::optional<BulkDensity> coilDensity(const World& world, const Particles& particles, const Canister& canister,
                                        const geometry::Coil& coil, double from) {
     const double a = meanActiveRadius(particles), margin = 2 * a;
     if (!(a > 0)) return std::nullopt;
@@ -132,7 +132,7 @@ std::optional<BulkDensity> coilDensity(const Particles& particles, double partic
     double volume = 0;
     for (int slice = 0; slice < surface.slices(); ++slice)
         if (covered(slice)) volume += surface.sliceLength(slice) * (kPi * outer * outer - wire);
-    const double mass = massWithin(particles, particleDensity, [&](const Vec3& x) {
+    const double mass = massWithin(world, particles, [&](const Vec3& x) {
         if (x.x * x.x + x.y * x.y >= outer * outer) return false;
         const int cell = surface.cellOf(x);
         return cell >= 0 && covered(surface.sliceOf(cell));
@@ -143,12 +143,12 @@ std::optional<BulkDensity> coilDensity(const Particles& particles, double partic
 std::optional<BulkDensity> settledDensity(const Case& c, const Particles& particles) {
     if (!c.canister) return std::nullopt;
     const geometry::Coil* coil = c.world.coil ? &*c.world.coil : nullptr;
-    auto bulk = bedDensity(particles, c.world.density, *c.canister, coil);
-    if (!bulk && coil != nullptr) bulk = coilDensity(particles, c.world.density, *c.canister, *coil);
+    auto bulk = bedDensity(c.world, particles, *c.canister, coil);
+    if (!bulk && coil != nullptr) bulk = coilDensity(c.world, particles, *c.canister, *coil);
     return bulk;
 }
 
-std::optional<BulkDensity> containerDensity(const Particles& particles, double particleDensity, double radius) {
+std::optional<BulkDensity> containerDensity(const World& world, const Particles& particles, double radius) {
     const double a = meanActiveRadius(particles), margin = 2 * a, within = radius - margin;
     if (!(a > 0) || !(within > 0)) return std::nullopt;
     // The square in the cylinder: its columns are all full.
@@ -158,7 +158,7 @@ std::optional<BulkDensity> containerDensity(const Particles& particles, double p
     double top = std::numeric_limits<double>::infinity();
     for (int cell = 0; cell < surface.columns(); ++cell) top = std::min(top, surface.top(cell) - margin);
     if (!(top > margin)) return std::nullopt;
-    const double mass = massWithin(particles, particleDensity, [&](const Vec3& x) {
+    const double mass = massWithin(world, particles, [&](const Vec3& x) {
         return x.y > margin && x.y < top && x.x * x.x + x.z * x.z < within * within;
     });
     return densityOf(mass, kPi * within * within * (top - margin), a);

@@ -22,14 +22,14 @@ struct BulkDensity {
 /// The surface is found in columns two mean diameters square: it is the top of the highest sphere with its centre in
 /// the column. Spheres that the region cuts count in part. None if the region is smaller than a hundred mean spheres,
 /// because then walls and surface decide.
-std::optional<BulkDensity> bedDensity(const Particles& particles, double particleDensity, const Canister& canister,
+std::optional<BulkDensity> bedDensity(const World& world, const Particles& particles, const Canister& canister,
                                       const geometry::Coil* coil);
 
 /// Bulk density between the coil's turns. The region is the cylinder of the coil's outer radius within the canister,
 /// less the wire, for the part of the coil beyond z = `from` [m]. It is cut into slices along the axis, two mean
 /// diameters thick. Only slices whose surface lies a mean diameter above the cylinder count, because they are full or
 /// could be. Voids under arches count as volume. None if no slice is covered.
-std::optional<BulkDensity> coilDensity(const Particles& particles, double particleDensity, const Canister& canister,
+std::optional<BulkDensity> coilDensity(const World& world, const Particles& particles, const Canister& canister,
                                        const geometry::Coil& coil, double from = 0);
 
 /// The bulk density of a settled canister: in the bed, or between the turns of the coil where the bed above them is too
@@ -40,7 +40,7 @@ std::optional<BulkDensity> settledDensity(const Case& c, const Particles& partic
 /// in heap.h). The region is a cylinder, a mean diameter from wall, floor and surface. It ends below the lowest place
 /// of the surface, which is found as in bedDensity, in columns that lie wholly in the cylinder. None if the region is
 /// smaller than a hundred mean spheres.
-std::optional<BulkDensity> containerDensity(const Particles& particles, double particleDensity, double radius);
+std::optional<BulkDensity> containerDensity(const World& world, const Particles& particles, double radius);
 
 /// The paper's closed form rho_b p pi r_c^2 n_t [kg] of a coil that turns `turns` times, for any bulk density [kg/m3].
 double closedFormMass(double bulkDensity, const geometry::Coil& coil, double turns);

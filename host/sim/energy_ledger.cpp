@@ -24,13 +24,12 @@ double EnergyLedger::residual() const {
     return sum.loaded + sum.coilWork + sum.bodyWork - losses() - sum.left - present();
 }
 
-double energyOfGravityChange(const Particles& particles, double density, double timeStep, const Vec3& from,
-                             const Vec3& to) {
+double energyOfGravityChange(const World& world, const Particles& particles, const Vec3& from, const Vec3& to) {
     double sum = 0;
     for (std::size_t i = 0; i < particles.size(); ++i) {
         if (particles.status[i] != Status::Active) continue;
-        const Vec3 middle = particles.position[i] - 0.5 * timeStep * particles.velocity[i];
-        sum -= sphereMass(density, particles.radius[i]) * glm::dot(to - from, middle);
+        const Vec3 middle = particles.position[i] - 0.5 * world.timeStep * particles.velocity[i];
+        sum -= massOf(world, particles, i) * glm::dot(to - from, middle);
     }
     return sum;
 }

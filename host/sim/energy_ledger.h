@@ -25,10 +25,9 @@ struct EnergyLedger {
 };
 
 /// What a change of gravity adds to the energy of the active particles [J], so that the book stays closed: it belongs
-/// to `loaded`. `particles` is the state at the change, after the last step of length `timeStep` [s] under `from`. The
-/// potential energy of the book jumps between two full steps; its mean position between them is that of the change.
-double energyOfGravityChange(const Particles& particles, double density, double timeStep, const Vec3& from,
-                             const Vec3& to);
+/// to `loaded`. `particles` is the state at the change, after the last step of the world under `from`. The potential
+/// energy of the book jumps between two full steps; its mean position between them is that of the change.
+double energyOfGravityChange(const World& world, const Particles& particles, const Vec3& from, const Vec3& to);
 
 // The columns of the book, by the part they play in the balance.
 inline constexpr auto kMotionColumns = columns(

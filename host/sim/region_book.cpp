@@ -38,7 +38,7 @@ void RegionBook::look(const Particles& particles) {
             const std::uint32_t bit = 1U << r;
             if (!in || (seen_[i] & bit) != 0) continue;
             seen_[i] |= bit;
-            counts_[r].mass += sphereMass(world_.density, particles.radius[i]);
+            counts_[r].mass += massOf(world_, particles, i);
             counts_[r].particles += 1;
         }
     }

@@ -62,8 +62,7 @@ double RunLoop::energyOfRest(const Particles& powder, const std::vector<Vec3>& p
     const Vec3 before = velocityOfRest(world.timeStep, gravity_, step_), after = before + world.timeStep * gravity_;
     double sum = 0;
     for (std::size_t i = 0; i < positions.size(); ++i)
-        sum += sphereMass(world.density, powder.radius[i]) *
-               (0.5 * glm::dot(before, after) - glm::dot(gravity_, positions[i]));
+        sum += massOf(world, powder, i) * (0.5 * glm::dot(before, after) - glm::dot(gravity_, positions[i]));
     return sum;
 }
 

@@ -67,9 +67,7 @@ World RunLoop::worldNow() const {
 
 void RunLoop::changeGravity(const Vec3& to) {
     if (to == gravity_) return;
-    if (energy_)
-        energy_->sum.loaded +=
-            energyOfGravityChange(backend_.particles(), case_.world.density, case_.world.timeStep, gravity_, to);
+    if (energy_) energy_->sum.loaded += energyOfGravityChange(case_.world, backend_.particles(), gravity_, to);
     backend_.setGravity(to);
     gravity_ = to;
 }

@@ -9,12 +9,15 @@ namespace vkdose {
 
 SettledBed settledBed(const Case& c, double time, const Particles& particles, const std::vector<Contact>& contacts) {
     SettledBed bed{time, particles, {}, {}, {}};
-    const ContactParameters& law = c.dosingLaw.of(ContactClass::ParticleParticle);
     const double gravity = glm::length(c.world.gravity);
     for (const Contact& contact : contacts) {
         if (contact.kind != ContactClass::ParticleParticle) continue;
         const double a = particles.radius.at(contact.particle), b = particles.radius.at(contact.other);
-        const double smaller = std::min(a, b), weight = sphereMass(c.world.density, smaller) * gravity;
+        const ContactParameters& law =
+            c.dosingLaw.between(particles.material[contact.particle], particles.material[contact.other]);
+        const double smaller = std::min(a, b);
+        const double weight =
+            std::min(massOf(c.world, particles, contact.particle), massOf(c.world, particles, contact.other)) * gravity;
         const double apart = glm::distance(particles.position[contact.particle], particles.position[contact.other]);
         const double reduced = 2 * a * b / (a + b);
         bed.pullOff.push_back(pullOff(law, reduced, contact.maxOverlap) / weight);

@@ -71,6 +71,12 @@ void jkrPath(Stage& stage);
 void jkrRestitution(Stage& stage);
 void jkrLedger(Stage& stage);
 
+// materials.cpp
+void materialsHertz(Stage& stage);
+void materialsLuding(Stage& stage);
+void materialsSliding(Stage& stage);
+void materialsCluster(Stage& stage);
+
 // size_ratio.cpp
 void wedgeBounce(Stage& stage);
 void wedgeRest(Stage& stage);

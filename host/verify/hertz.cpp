@@ -18,7 +18,7 @@ constexpr Elasticity kRigid{1e20, 0.3};
 
 RuledWorld elasticSpace(const ContactParameters& p, double density, double radius, double timeStep) {
     RuledWorld world = space(p, timeStep);
-    world.density = density;
+    world.density() = density;
     world.skin = radius / 10;
     return world;
 }

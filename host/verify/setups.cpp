@@ -19,7 +19,7 @@ ContactParameters spring(double k, double gamma) {
 
 ContactLaw lawOf(const ContactParameters& p) {
     ContactLaw law;
-    law.classes.fill(p);
+    law.pairs.fill(p);
     return law;
 }
 
@@ -27,7 +27,7 @@ RuledWorld space(const ContactParameters& p, double timeStep) {
     RuledWorld world;
     world.law = lawOf(p);
     world.gravity = Vec3(0);
-    world.density = kDensity;
+    world.density() = kDensity;
     world.timeStep = timeStep;
     world.skin = kRadius / 10;
     return world;
@@ -66,7 +66,7 @@ SlippingImpact slippingImpact(Stage& stage, RuledWorld world, double radius, dou
     sphere.add(Vec3(0, radius, 0), radius, Vec3(along, -towards, 0));
     Trial trial(stage, world, sphere);
     trial.advance(steps);
-    const double mass = sphereMass(world.density, radius);
+    const double mass = sphereMass(world.density(), radius);
     const double lost = world.law.of(ContactClass::ParticleWall).mu * (1 + restitution) * towards;
     const double slowed = 0.5 * mass * (along * along - (along - lost) * (along - lost));
     const double spun = 0.5 * 2.5 * mass * lost * lost;

@@ -88,7 +88,8 @@ void load(uint body, uint i, uint number, float value) {
 
 void main() {
     openMember();
-    ContactParams ofWall = lawOf(kParticleWall), ofCoil = lawOf(kParticleCoil);  // before any branch, as in `pairs`
+    ContactParams ofWall = lawOf(pairIndex(kFirstPowder, kWallMaterial));  // before any branch, as in `pairs`
+    ContactParams ofCoil = lawOf(pairIndex(kFirstPowder, kCoilMaterial));
     uvec4 chosen = choices();
     float density = gravity().w;
     float springDt = springStep();
@@ -100,7 +101,9 @@ void main() {
     Body me = readBody(i);
     BodyMotion motion = motionOf(body);
     ContactParams law = ofWall;
-    if (motion.velocity.w == float(kParticleCoil)) law = ofCoil;
+    if (motion.velocity.w == float(kCoilMaterial)) law = ofCoil;
+    if (ownLaws()) law = lawOf(pairIndex(me.material, uint(motion.velocity.w)));
+    density = densityOf(me.material, density);
 
     float radius = me.sphere.radius, reduced = reducedAtWall(radius, motion.centre.w);
     openBodies();

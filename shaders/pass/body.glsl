@@ -9,12 +9,13 @@ struct Body {
     Sphere sphere;
     vec3 velocity;
     vec3 spin;
+    uint material;
 };
 
 Body readBody(uint i) {
-    vec4 position = readState(source, kPosition, i);
-    return Body(Sphere(position.xyz, readState(source, kResidue, i).xyz, position.w),
-                readState(source, kVelocity, i).xyz, readState(source, kSpin, i).xyz);
+    vec4 position = readState(source, kPosition, i), residue = readState(source, kResidue, i);
+    return Body(Sphere(position.xyz, residue.xyz, position.w), readState(source, kVelocity, i).xyz,
+                readState(source, kSpin, i).xyz, materialIn(residue.w));
 }
 
 /// Reduced size of a sphere of radius a at a surface of radius `curvature`, which is flat if that is 0 [m].

@@ -21,11 +21,13 @@ void bookDeparture(uint i, uint slot) {
     Body a = readBody(i);
     float radius = abs(a.sphere.radius), left = 0.0;
     if (!ofPair(slot)) {
-        left = storedIn(lawOf(kParticleWall), e, 2.0 * radius, h);
+        uint wall = materialOfWall(readSurface(surfaceOf(entriesAt(slot).y)));
+        left = storedIn(lawOf(pairIndex(a.material, wall)), e, 2.0 * radius, h);
     } else {
         Body b = readBody(entriesAt(slot).y);
         float other = abs(b.sphere.radius);
-        left = storedIn(lawOf(kParticleParticle), e, 2.0 * radius * other / (radius + other), h);
+        ContactParams law = lawOf(pairIndex(a.material, b.material));
+        left = storedIn(law, e, 2.0 * radius * other / (radius + other), h);
         if (a.sphere.radius > 0.0) left += workOnOneSide(e, a, 1.0);
         if (b.sphere.radius > 0.0) left += workOnOneSide(e, b, -1.0);
     }

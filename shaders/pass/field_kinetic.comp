@@ -12,7 +12,7 @@ vec3 squares, mixed;  // xx, yy, zz; yz, zx, xy
 
 void add(uint i) {
     float r = state[stateIndex(source, kPosition, i)].w;
-    float m = sphereMass(gravity().w, r);
+    float m = sphereMass(densityOf(materialOf(i), gravity().w), r);
     vec3 stray = state[stateIndex(source, kVelocity, i)].xyz - mean;
     float w = m * weights[particleWeightIndex(i)] * kernel(here - offsetOf(source, i));
     squares += w * stray * stray;

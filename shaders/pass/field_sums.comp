@@ -37,7 +37,7 @@ void addBranches(uint i) {
 
 void add(uint i) {
     float r = state[stateIndex(source, kPosition, i)].w;
-    float m = sphereMass(gravity().w, r);
+    float m = sphereMass(densityOf(materialOf(i), gravity().w), r);
     vec3 velocity = state[stateIndex(source, kVelocity, i)].xyz;
     float w = weights[particleWeightIndex(i)] * kernel(here - offsetOf(source, i));
     carriedMass += w * m * vec4(1.0, velocity);

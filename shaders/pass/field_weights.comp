@@ -26,6 +26,9 @@ float weightAt(vec3 offset) {
     return sum > 0.0 ? 1.0 / (sum * field.cell.w) : 0.0;
 }
 
+/// Whether the fields are of this particle's material.
+bool isWanted(uint i) { return field.chosen.x == 0u || field.chosen.x == materialOf(i) + 1u; }
+
 /// The number of other particles that touched particle i in the last step.
 float touching(uint i) {
     uvec4 range = ranges[rowRangeIndex(i)];
@@ -42,7 +45,7 @@ void main() {
     uint k = invocation();
     if (k < push.share) {
         uint i = firstParticle() + k;
-        bool active_ = uint(state[stateIndex(source, kSpin, i)].w) == kStatusActive;
+        bool active_ = uint(state[stateIndex(source, kSpin, i)].w) == kStatusActive && isWanted(i);
         weights[particleWeightIndex(i)] = active_ ? weightAt(offsetOf(source, i)) : 0.0;
         weights[touchesIndex(i)] = active_ ? touching(i) : 0.0;
         return;

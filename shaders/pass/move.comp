@@ -76,7 +76,7 @@ void main() {
 
     // Leapfrog. The loaded velocity belongs to t = 0, so the opening kick is half a step.
     float dt = numbers.x, r = abs(position.w);
-    float mass = sphereMass(pull.w, r);
+    float mass = sphereMass(densityOf(materialIn(residue.w), pull.w), r);
     float kick = opening() ? 0.5 * dt : dt;
     vec3 velocity = velocity4.xyz + kick * (force / mass + pull.xyz);
     vec3 spin = spin4.xyz + kick / (0.4 * mass * r * r) * torque;
@@ -110,7 +110,8 @@ void main() {
 
     uint to = 1u - source;
     float radius = leaves ? -position.w : position.w;  // a negative radius touches nothing
-    writeState(to, kPosition, i, moving ? vec4(high, radius) : position, moving ? vec4(low, 0.0) : residue);
+    writeState(to, kPosition, i, moving ? vec4(high, radius) : position,
+               moving ? vec4(low, POWDERS == 1u ? 0.0 : residue.w) : residue);
     writeState(to, kVelocity, i, moving ? vec4(velocity, max(velocity4.w, overlap)) : velocity4,
                moving ? vec4(spin, float(now)) : spin4);
 }

@@ -38,7 +38,7 @@ uint bodies, firstBody;
 /// What bookDeparture is for contacts with walls.
 void bookDepartureFromBody(uint i, uint slot, uint body) {
     BodyMotion motion = motionOf(body);
-    bool ofCoil = motion.velocity.w == float(kParticleCoil);
+    uint pair = pairIndex(materialOf(i), uint(motion.velocity.w));
     float reduced = reducedAtWall(abs(readState(source, kPosition, i).w), motion.centre.w);
     for (uint k = 0u; k < kMaxBodyTouches; ++k) {
         vec4 springs = historyAt(placeHistoryIndex(slot, k, 0u));
@@ -46,7 +46,7 @@ void bookDepartureFromBody(uint i, uint slot, uint body) {
         History h = historyOfPlace(slot, k);
         Exerted e = Exerted(historyAt(placeHistoryIndex(slot, k, 3u)), historyAt(placeHistoryIndex(slot, k, 4u)),
                             historyAt(placeHistoryIndex(slot, k, 5u)));
-        books[bookIndex(kBookFlow, i)].y += storedIn(lawOf(ofCoil ? kParticleCoil : kParticleWall), e, reduced, h);
+        books[bookIndex(kBookFlow, i)].y += storedIn(lawOf(pair), e, reduced, h);
     }
 }
 #endif

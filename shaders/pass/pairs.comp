@@ -13,7 +13,7 @@
 void main() {
     // These are the same for all invocations. lavapipe reads them once here, but lane by lane behind a branch.
     openMember();
-    ContactParams law = lawOf(kParticleParticle);
+    ContactParams law = lawOf(pairIndex(kFirstPowder, kFirstPowder));
     uvec4 chosen = choices();
     float density = gravity().w;
     float springDt = springStep();
@@ -23,6 +23,7 @@ void main() {
 
     uvec2 who = entriesAt(slot);
     Body a = readBody(who.x), b = readBody(who.y);
+    if (POWDERS > 1u) law = lawOf(pairIndex(a.material, b.material));
     History h = historyOfSlot(slot);
 #ifdef ENERGY_BOOK
     History old = h;
@@ -32,7 +33,9 @@ void main() {
     bool touching = holds(law, o.depth, reduced, h.slidingMax.w);
     float leverA = ra - 0.5 * o.depth, leverB = rb - 0.5 * o.depth;
     vec3 velocity = (a.velocity - b.velocity) - cross(leverA * a.spin + leverB * b.spin, o.normal);
-    Meeting m = Meeting(o.normal, o.depth, reduced, reducedMass(density, ra, rb), velocity, a.spin - b.spin);
+    float mass =
+        reducedMass(sphereMass(densityOf(a.material, density), ra), sphereMass(densityOf(b.material, density), rb));
+    Meeting m = Meeting(o.normal, o.depth, reduced, mass, velocity, a.spin - b.spin);
     Response r = contactResponse(law, chosen, m, springDt, h);
     vec3 turn = cross(o.normal, r.sliding);
 

@@ -19,7 +19,7 @@ void main() {
     vec4 spin = state[stateIndex(source, kSpin, i)];
     uint status = uint(spin.w);
     float r = abs(position.w);
-    float m = sphereMass(member.gravity.w, r);
+    float m = sphereMass(densityOf(materialOf(i), member.gravity.w), r);
 
     uint region = kEmpty;
     if (status == kStatusActive) region = position.z > member.domainLow.w ? kRegionThroat : kRegionCanister;

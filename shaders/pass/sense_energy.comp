@@ -28,7 +28,7 @@ void main() {
     }
     float r = abs(position.w);
     bool moving = uint(spin.w) == kStatusActive;
-    float m = moving ? sphereMass(gravity.w, r) : 0.0;
+    float m = moving ? sphereMass(densityOf(materialOf(i), gravity.w), r) : 0.0;
     float inertia = 0.4 * m * r * r;
 
     uvec4 range = rangesAt(rowRangeIndex(i));

@@ -35,13 +35,18 @@ vec3 pairVelocity(Exerted e, Body a, Body b) {
     return (a.velocity - b.velocity) - cross(leverA * a.spin + leverB * b.spin, e.normal.xyz);
 }
 
+/// What a contact that exerted `before` with the history `old` had stored; fields as in kBookElastic.
+vec4 storedAt(ContactParams law, Exerted before, float reduced, History old) {
+    return vec4(before.couple.w, sliderEnergy(law, before.rest.w, reduced, old));
+}
+
 /// `old` and `h` are the history before and after the step.
 void bookPair(ContactParams law, float springDt, uint slot, Body a, Body b, Overlap o, Response r, bool touching,
               History old, History h) {
     bool known = old.slidingMax.w > 0.0;
     Exerted before = exertedBefore(slot, known), now = kNothing;
     float ra = a.sphere.radius, rb = b.sphere.radius, reduced = 2.0 * ra * rb / (ra + rb);
-    vec4 storedBefore = vec4(before.couple.w, sliderEnergy(law, before.rest.w, reduced, old)), stored = vec4(0.0);
+    vec4 storedBefore = storedAt(law, before, reduced, old), stored = vec4(0.0);
     if (touching) {
         stored = elasticEnergy(law, r.hysteretic, o.depth, reduced, h);
         now = exertedNow(o, r, stored);
@@ -84,8 +89,7 @@ float halfStepGiven(Exerted e, vec3 velocity, vec3 spin, float dt) {
 
 /// The book of a contact with a wall in this step; flow.w: work of the wall.
 Book bookWall(ContactParams law, float springDt, WallMotion wall, float reduced, Body me, Exerted before, Response r,
-              bool known, bool touching, vec4 stored, Exerted now, History old) {
-    vec4 storedBefore = vec4(before.couple.w, sliderEnergy(law, before.rest.w, reduced, old));
+              bool known, bool touching, vec4 stored, Exerted now, vec4 storedBefore) {
     vec3 spin = me.spin - wall.spin;
     // Where both were when `before` acted.
     vec3 came = me.sphere.high - springDt * me.velocity;
@@ -99,9 +103,10 @@ Book bookWall(ContactParams law, float springDt, WallMotion wall, float reduced,
     return b;
 }
 
-/// `before` is what the contact exerted in the last step, `old` and `h` its history before and after this one.
+/// `before` is what the contact exerted in the last step, under `lawBefore`; `old` and `h` its history before and after
+/// this one.
 void bookSurface(ContactParams law, float springDt, uint slot, Body me, Overlap o, Response r, bool touching,
-                 Exerted before, History old, History h) {
+                 ContactParams lawBefore, Exerted before, History old, History h) {
     bool known = old.slidingMax.w > 0.0;
     Exerted now = kNothing;
     vec4 stored = vec4(0.0);
@@ -113,7 +118,8 @@ void bookSurface(ContactParams law, float springDt, uint slot, Body me, Overlap 
     keepExerted(slot, now);
     Book booked = Book(vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
     if (known || touching)
-        booked = bookWall(law, springDt, kWallAtRest, reduced, me, before, r, known, touching, stored, now, old);
+        booked = bookWall(law, springDt, kWallAtRest, reduced, me, before, r, known, touching, stored, now,
+                          storedAt(lawBefore, before, reduced, old));
     writeBook(slot, booked);
 }
 
@@ -137,14 +143,15 @@ void bookPlace(ContactParams law, float springDt, WallMotion wall, float reduced
     history[placeHistoryIndex(slot, place, 3u)] = now.normal;
     history[placeHistoryIndex(slot, place, 4u)] = now.rest;
     history[placeHistoryIndex(slot, place, 5u)] = now.couple;
-    addToSlotBook(bookWall(law, springDt, wall, reduced, me, before, r, known, true, stored, now, old));
+    addToSlotBook(bookWall(law, springDt, wall, reduced, me, before, r, known, true, stored, now,
+                           storedAt(law, before, reduced, old)));
 }
 
 /// A place that was touched in the last step and is not any more.
 void partPlace(ContactParams law, float springDt, WallMotion wall, float reduced, Body me, Exerted before,
                History old) {
-    addToSlotBook(
-        bookWall(law, springDt, wall, reduced, me, before, kNoResponse, true, false, vec4(0.0), kNothing, old));
+    addToSlotBook(bookWall(law, springDt, wall, reduced, me, before, kNoResponse, true, false, vec4(0.0), kNothing,
+                           storedAt(law, before, reduced, old)));
 }
 
 #endif

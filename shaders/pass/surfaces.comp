@@ -44,7 +44,7 @@ Memory recall(uint slot) {
 
 void main() {
     openMember();
-    ContactParams law = lawOf(kParticleWall);  // before any branch, as in `pairs`
+    ContactParams law = lawOf(pairIndex(kFirstPowder, kWallMaterial));  // before any branch, as in `pairs`
     SurfaceParams frontWall = frontSurface();
     uvec4 chosen = choices();
     float density = gravity().w;
@@ -56,20 +56,29 @@ void main() {
     uint works = who.y >> kSurfaceBits;
     if (works == 0u) return;
     Body me = readBody(who.x);
+    density = densityOf(me.material, density);
 
     bool joined = joints() && works > 1u;
     uint end = slot + works;
     float reduced = 2.0 * me.sphere.radius;
     Overlap front;
     if (joints()) front = frontOverlap(frontWall, me.sphere);
+    if (joints() && ownLaws()) law = lawOf(pairIndex(me.material, materialOfWall(frontWall)));
+#ifdef ENERGY_BOOK
+    ContactParams frontLaw = law;  // under which the front wall's memory came about
+#endif
     Memory frontMemory = recall(end - 1u);  // the front wall is the last; of a single contact this is its own
     bool frontTouches = joints() && holds(law, front.depth, reduced, frontMemory.history.slidingMax.w);
 
     for (; slot < end; ++slot) {
         SurfaceParams p = readSurface(surfaceOf(entriesAt(slot).y));
         uint kind = uint(p.pointHigh.w);
+        if (ownLaws()) law = lawOf(pairIndex(me.material, materialOfWall(p)));
         Overlap o = surfaceOverlap(KIND_SET, kind, p, me.sphere);
         Memory memory = frontMemory;
+#ifdef ENERGY_BOOK
+        ContactParams lawBefore = law;
+#endif
         bool touching = holds(law, o.depth, reduced, memory.history.slidingMax.w);
         if (joined) {
             if (slot + 1u < end) memory = recall(slot);
@@ -77,6 +86,9 @@ void main() {
             if (kind == kFront) {
                 o = front;
                 touching = frontTouches;
+#ifdef ENERGY_BOOK
+                if (ownLaws()) lawBefore = frontLaw;
+#endif
             } else if (kind != kTube && p.pointLow.w != 0.0 && touching && frontTouches) {
                 uint joint = jointContact(o, front, me.sphere.radius);
                 // The contact that counts goes on with the other's history unless it has its own.
@@ -85,12 +97,18 @@ void main() {
                     if (!known(memory)) {
                         memory = frontMemory;
                         frontMemory = nothing();
+#ifdef ENERGY_BOOK
+                        if (ownLaws()) lawBefore = frontLaw;
+#endif
                     }
                 } else if (joint == kFrontCounts) {
                     touching = false;
                     if (!known(frontMemory)) {
                         frontMemory = memory;
                         memory = nothing();
+#ifdef ENERGY_BOOK
+                        if (ownLaws()) frontLaw = law;
+#endif
                     }
                 }
             }
@@ -102,7 +120,7 @@ void main() {
         writeForce(slot, touching ? vec4(f.force, o.depth / me.sphere.radius) : vec4(0.0));
         writeTorque(slot, touching ? vec4(f.torque, 0.0) : vec4(0.0));
 #ifdef ENERGY_BOOK
-        bookSurface(law, springDt, slot, me, o, r, touching, memory.exerted, memory.history, h);
+        bookSurface(law, springDt, slot, me, o, r, touching, lawBefore, memory.exerted, memory.history, h);
 #endif
     }
 }

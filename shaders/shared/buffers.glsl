@@ -20,6 +20,9 @@ layout(constant_id = 7) const uint BODIES = 0u;           // most bodies of a me
 layout(constant_id = 8) const uint SHAPE_KINDS = 0u;      // bit k: a body has a shape of kind k (shared/geometry.h)
 layout(constant_id = 10) const uint MOST_PLACES = 4u;     // in which a sphere touches a body (law/places.glsl)
 
+layout(constant_id = 11) const uint POWDERS = 1u;         // 1: all particles are of the first powder
+layout(constant_id = 12) const uint MANY_WALLS = 0u;      // 1: a surface or body is of a material of its own
+
 layout(push_constant) uniform Push { StepPush push; };
 
 // The tables (shared/tables.h), and their bindings by name.
@@ -103,19 +106,29 @@ bool waits() {
 #else
 #define OF_MEMBER(field, vector) member.field
 #endif
-ContactParams lawOf(uint kind) {
+/// The law of a pair of materials (pairIndex).
+ContactParams lawOf(uint pair) {
     ContactParams p;
-    p.normal = OF_MEMBER(contact[kind].normal, kContactVectors * kind);
-    p.springs = OF_MEMBER(contact[kind].springs, kContactVectors * kind + 1u);
-    p.friction = OF_MEMBER(contact[kind].friction, kContactVectors * kind + 2u);
-    p.damping = OF_MEMBER(contact[kind].damping, kContactVectors * kind + 3u);
+    p.normal = OF_MEMBER(contact[pair].normal, kContactVectors * pair);
+    p.springs = OF_MEMBER(contact[pair].springs, kContactVectors * pair + 1u);
+    p.friction = OF_MEMBER(contact[pair].friction, kContactVectors * pair + 2u);
+    p.damping = OF_MEMBER(contact[pair].damping, kContactVectors * pair + 3u);
 #ifdef USER_LAW
-    p.own[0] = OF_MEMBER(contact[kind].own[0], kContactVectors * kind + 4u);
-    p.own[1] = OF_MEMBER(contact[kind].own[1], kContactVectors * kind + 5u);
-    p.own[2] = OF_MEMBER(contact[kind].own[2], kContactVectors * kind + 6u);
-    p.own[3] = OF_MEMBER(contact[kind].own[3], kContactVectors * kind + 7u);
+    p.own[0] = OF_MEMBER(contact[pair].own[0], kContactVectors * pair + 4u);
+    p.own[1] = OF_MEMBER(contact[pair].own[1], kContactVectors * pair + 5u);
+    p.own[2] = OF_MEMBER(contact[pair].own[2], kContactVectors * pair + 6u);
+    p.own[3] = OF_MEMBER(contact[pair].own[3], kContactVectors * pair + 7u);
 #endif
     return p;
+}
+/// Whether the law of a contact depends on more than on what it is with. This is a function, as is joints() below.
+bool ownLaws() { return POWDERS > 1u || MANY_WALLS == 1u; }
+/// Density of a material's particles [kg/m3]. `first` is that of the first powder, which passes read before any branch.
+float densityOf(uint material, float first) {
+    if (POWDERS == 1u) return first;
+    uint at = material / 4u;
+    vec4 four = OF_MEMBER(densities[at], kVectorDensities + at);
+    return four[material % 4u];
 }
 vec4 gravity() { return OF_MEMBER(gravity, kVectorGravity); }
 vec4 domainLow() { return OF_MEMBER(domainLow, kVectorGravity + 1u); }
@@ -208,6 +221,11 @@ SurfaceParams readSurface(uint s) {
 #else
 SurfaceParams readSurface(uint s) { return member.surface[s]; }
 #endif
+/// What a particle is made of, by the w of its kResidue.
+uint materialIn(float residue) { return POWDERS == 1u ? kFirstPowder : uint(residue); }
+uint materialOf(uint i) { return materialIn(readState(source, kResidue, i).w); }
+/// What a surface is made of.
+uint materialOfWall(SurfaceParams p) { return MANY_WALLS == 1u ? uint(p.radius.z) : kWallMaterial; }
 uint surfaceOf(uint other) { return other & ((1u << kSurfaceBits) - 1u); }
 
 /// Whether there are walls that go on into the throat (law/surface.glsl, jointContact). This is a function, because

@@ -70,7 +70,7 @@ struct CoilParams {
 struct BodyMotion {
     vec4 toBodyHigh[3];  // xyz: rows of the rotation from the world to the body; w: origin of the body in the world [m]
     vec4 toBodyLow[3];   // what is left of each number
-    vec4 velocity;       // xyz [m/s]; w: contact class (kParticleWall ...)
+    vec4 velocity;       // xyz [m/s]; w: material
     vec4 spin;           // xyz [rad/s]; w: 1 if contacts see the motion of its surface
     vec4 centre;         // xyz: a point x fixed to the body has velocity + spin x (x - centre) [m]; w: radius of its
                          // surface, which a* counts [m]; 0: flat

@@ -52,7 +52,7 @@ SHARED_REAL kBodySlack = 0.03f;    // of any point of a body
 // The halves take turns as source and destination. Two fields side by side are 32 bytes, which a device with 64-bit
 // integers can store in four pieces instead of eight.
 SHARED_CONST kPosition = 0u;  // xyz: high part [m]; w: radius [m], negative once the particle is out of the motion
-SHARED_CONST kResidue = 1u;   // xyz: low part of the position [m]
+SHARED_CONST kResidue = 1u;   // xyz: low part of the position [m]; w: material
 // xyz: half-step velocity [m/s]; w: largest overlap / smaller radius since the last sensing
 SHARED_CONST kVelocity = 2u;
 SHARED_CONST kSpin = 3u;  // xyz: half-step angular velocity [rad/s]; w: status as a float (kStatusActive ...)
@@ -73,10 +73,18 @@ SHARED_CONST kRegionThroat = 1u;
 SHARED_CONST kRegionDosed = 2u;
 SHARED_CONST kRegionLost = 3u;
 
-// --- contact classes and surface kinds ----------------------------------------------------------------------------
-SHARED_CONST kParticleParticle = 0u;
-SHARED_CONST kParticleWall = 1u;
-SHARED_CONST kParticleCoil = 2u;
+// --- materials and surface kinds ------------------------------------------------------------------------------------
+SHARED_CONST kFirstPowder = 0u;
+SHARED_CONST kWallMaterial = 1u;
+SHARED_CONST kCoilMaterial = 2u;
+SHARED_CONST kMostMaterials = 8u;  // vkdose::kMostMaterials
+SHARED_CONST kMostPairs = kMostMaterials * (kMostMaterials + 1u) / 2u;
+
+/// Where the parameters of a pair of materials are, in either order: as vkdose::PairTable::index.
+SHARED_FUNCTION uint pairIndex(uint a, uint b) {
+    uint larger = a > b ? a : b, smaller = a > b ? b : a;
+    return larger * (larger + 1u) / 2u + smaller;
+}
 
 SHARED_CONST kPlane = 0u;
 SHARED_CONST kTrough = 1u;
@@ -120,13 +128,13 @@ struct SurfaceParams {
     vec4 pointHigh;
     vec4 pointLow;  // xyz: low part; w: tube: +1 touched from inside, -1 from outside; plane, trough: 1 if it ends
     vec4 axis;      // plane normal or tube axis, unit; w: length of tube or throat [m]
-    vec4 radius;    // x, y: radius high, low (trough: half width; front: hole) [m]
+    vec4 radius;    // x, y: radius high, low (trough: half width; front: hole) [m]; z: material
 };
 
 struct Member {
-    ContactParams contact[3];
+    ContactParams contact[kMostPairs];  // pairIndex
     SurfaceParams surface[kMaxSurfaces];
-    vec4 gravity;     // xyz [m/s2]; w: density of the particles [kg/m3]
+    vec4 gravity;     // xyz [m/s2]; w: density of the first powder [kg/m3]
     vec4 domainLow;   // xyz [m]; w: throatZ [m]
     vec4 domainHigh;  // xyz [m]; w: outletZ [m]
     vec4 numerics;    // time step [s], skin [m], cell size [m], largest allowed overlap ratio
@@ -140,13 +148,15 @@ struct Member {
     vec4 outlets[2u * kMaxRegionOutlets];  // of a region that deletes: first vector's w: 0 none, and none behind it; 1
                                            // beyond a plane: its normal, then its place along it in w [m]; 2 a box: its
                                            // low, then its high corner [m]
+    vec4 densities[kMostMaterials / 4u];   // of each material's particles [kg/m3]
 };
 // Where in a member some of its vectors are.
 SHARED_CONST kContactVectors = 4u + kOwnParameters / 4u;
-SHARED_CONST kVectorSurface = 3u * kContactVectors;
+SHARED_CONST kVectorSurface = kMostPairs * kContactVectors;
 SHARED_CONST kVectorGravity = kVectorSurface + 4u * kMaxSurfaces;
 SHARED_CONST kVectorOutlets = kVectorGravity + 7u;
-SHARED_CONST kMemberVectors = kVectorOutlets + 2u * kMaxRegionOutlets;
+SHARED_CONST kVectorDensities = kVectorOutlets + 2u * kMaxRegionOutlets;
+SHARED_CONST kMemberVectors = kVectorDensities + kMostMaterials / 4u;
 
 // --- control block: decisions and reports of the device -----------------------------------------------------------
 // Calls of particles in order of urgency: errors first (causes before their effects), then rebuild, then refresh. A
@@ -243,6 +253,7 @@ struct FieldParams {
     uvec4 cells;  // xyz: number; w: kernel
     uvec4 tile;   // xyz: points of a workgroup; w: 1 if contact stress is wanted
     uvec4 tiles;  // xyz: workgroups; w: particles of a slice
+    uvec4 chosen;  // x: 1 + the material whose particles count; 0: all do
 };
 
 // --- per dispatch -------------------------------------------------------------------------------------------------

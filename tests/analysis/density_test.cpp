@@ -11,6 +11,13 @@ using namespace vkdose::test;
 namespace {
 
 constexpr double kSolid = 1427;
+
+World solid() {
+    World world;
+    world.density() = kSolid;
+    return world;
+}
+
 const double kCubic = kSolid * kPi / 6;  // spheres on a cubic lattice that touch
 
 }  // namespace
@@ -20,14 +27,14 @@ TEST_CASE("bed density of a cubic lattice, whatever the shape of its surface") {
     // planes, a hundredth of the bed's 25 mm. Columns of two diameters hold two by two spheres exactly.
     Particles bed = layers(-10e-3, 50e-3);
     const geometry::Coil coil = paperCoil();
-    const auto flat = bedDensity(bed, kSolid, paperCanister(), &coil);
+    const auto flat = bedDensity(solid(), bed, paperCanister(), &coil);
     REQUIRE(flat);
     CHECK(nearRelative(flat->density, kCubic, 0.02));
 
     for (std::size_t i = 0; i < bed.size(); ++i)  // emptied towards the rear, in steps as wide as the columns
         if (bed.position[i].y > 20e-3 + 4e-3 * std::floor((bed.position[i].z - 2e-3) / 4e-3) * 0.5)
             bed.status[i] = Status::Dosed;
-    const auto sloped = bedDensity(bed, kSolid, paperCanister(), &coil);
+    const auto sloped = bedDensity(solid(), bed, paperCanister(), &coil);
     REQUIRE(sloped);
     CHECK(sloped->volume < flat->volume);
     CHECK(nearRelative(sloped->density, kCubic, 0.05));
@@ -45,7 +52,7 @@ TEST_CASE("bed density of spheres strewn at random: the mass per volume that was
     const double sphere = kSolid * 4.0 / 3 * kPi * 1e-9;
     const double expected = kCount * sphere / (23e-3 * 71.5e-3 * 60e-3);
     const geometry::Coil coil = paperCoil();
-    const auto measured = bedDensity(bed, kSolid, paperCanister(), &coil);
+    const auto measured = bedDensity(solid(), bed, paperCanister(), &coil);
     REQUIRE(measured);
     // Some 5000 spheres in the region scatter by 1.4 %; three times that.
     CHECK(nearRelative(measured->density, expected, 0.042));
@@ -55,7 +62,7 @@ TEST_CASE("bed density of spheres strewn at random: the mass per volume that was
 TEST_CASE("density between the turns: the cylinder less the wire, where powder lies above") {
     const Particles bed = layers(-10e-3, 40e-3);
     const geometry::Coil coil = paperCoil();
-    const auto measured = coilDensity(bed, kSolid, paperCanister(), coil);
+    const auto measured = coilDensity(solid(), bed, paperCanister(), coil);
     REQUIRE(measured);
     const double outer = 11.4e-3;
     const double wire = kPi * 1e-6 * std::hypot(1.0, 2 * kPi * 10.4e-3 / 8.75e-3);
@@ -69,8 +76,8 @@ TEST_CASE("density between the turns: slices without powder above are left out")
     for (std::size_t i = 0; i < bed.size(); ++i)
         if (bed.position[i].z < 32e-3 && bed.position[i].y > 0) bed.status[i] = Status::Dosed;
     const geometry::Coil coil = paperCoil();
-    const auto all = coilDensity(layers(-10e-3, 40e-3), kSolid, paperCanister(), coil);
-    const auto half = coilDensity(bed, kSolid, paperCanister(), coil);
+    const auto all = coilDensity(solid(), layers(-10e-3, 40e-3), paperCanister(), coil);
+    const auto half = coilDensity(solid(), bed, paperCanister(), coil);
     REQUIRE(half);
     CHECK(nearRelative(half->volume / all->volume, 28.0 / 60, 1e-9));  // slices of 4 mm: from 32 mm on
     CHECK(nearRelative(half->density, all->density, 0.03));
@@ -79,8 +86,8 @@ TEST_CASE("density between the turns: slices without powder above are left out")
 TEST_CASE("density between the turns: only beyond where it is asked for") {
     const geometry::Coil coil = paperCoil();
     const Particles bed = layers(-10e-3, 40e-3);
-    const auto all = coilDensity(bed, kSolid, paperCanister(), coil);
-    const auto end = coilDensity(bed, kSolid, paperCanister(), coil, 40e-3);
+    const auto all = coilDensity(solid(), bed, paperCanister(), coil);
+    const auto end = coilDensity(solid(), bed, paperCanister(), coil, 40e-3);
     REQUIRE(end);
     CHECK(nearRelative(end->volume / all->volume, 20.0 / 60, 1e-9));
     CHECK(nearRelative(end->density, all->density, 0.03));  // the cut through spheres, as above
@@ -88,9 +95,9 @@ TEST_CASE("density between the turns: only beyond where it is asked for") {
 
 TEST_CASE("too little powder has no density") {
     const geometry::Coil coil = paperCoil();
-    CHECK_FALSE(bedDensity(Particles(), kSolid, paperCanister(), &coil));
-    CHECK_FALSE(bedDensity(layers(-10e-3, 12e-3), kSolid, paperCanister(), &coil));
-    CHECK_FALSE(coilDensity(layers(-10e-3, 0), kSolid, paperCanister(), coil));
+    CHECK_FALSE(bedDensity(solid(), Particles(), paperCanister(), &coil));
+    CHECK_FALSE(bedDensity(solid(), layers(-10e-3, 12e-3), paperCanister(), &coil));
+    CHECK_FALSE(coilDensity(solid(), layers(-10e-3, 0), paperCanister(), coil));
 }
 
 TEST_CASE("the closed form with a measured density") {
@@ -103,7 +110,7 @@ TEST_CASE("density in a round container, of a cubic lattice and below the lowest
     for (int i = -8; i <= 8; ++i)
         for (int j = 0; j < 20; ++j)
             for (int k = -8; k <= 8; ++k) bed.add({2 * a * i, a + 2 * a * j, 2 * a * k}, a);
-    const auto full = containerDensity(bed, kSolid, 14e-3);
+    const auto full = containerDensity(solid(), bed, 14e-3);
     REQUIRE(full);
     CHECK(nearRelative(full->volume, kPi * 12e-3 * 12e-3 * (40e-3 - 4e-3), 1e-9));
     // The faces cut spheres; a lattice of points tells their parts to about a hundredth of the region.
@@ -112,10 +119,10 @@ TEST_CASE("density in a round container, of a cubic lattice and below the lowest
     for (std::size_t i = 0; i < bed.size(); ++i)
         if (std::abs(bed.position[i].x) < 5e-3 && std::abs(bed.position[i].z) < 5e-3 && bed.position[i].y > 30e-3)
             bed.status[i] = Status::Dosed;
-    const auto dipped = containerDensity(bed, kSolid, 14e-3);
+    const auto dipped = containerDensity(solid(), bed, 14e-3);
     REQUIRE(dipped);
     CHECK(nearRelative(dipped->volume, kPi * 12e-3 * 12e-3 * (30e-3 - 4e-3), 1e-9));
     CHECK(nearRelative(dipped->density, kCubic, 0.02));
-    CHECK_FALSE(containerDensity(bed, kSolid, 3e-3));  // no hundred spheres
-    CHECK_FALSE(containerDensity(bed, kSolid, 1e-3));
+    CHECK_FALSE(containerDensity(solid(), bed, 3e-3));  // no hundred spheres
+    CHECK_FALSE(containerDensity(solid(), bed, 1e-3));
 }

@@ -25,9 +25,9 @@ ContactParameters paperLike() {
 
 Case caseWith(const ContactParameters& dosing) {
     Case c;
-    c.world.density = 1500;
+    c.world.density() = 1500;
     c.world.gravity = Vec3(0, -10, 0);
-    c.dosingLaw.classes.fill(dosing);
+    c.dosingLaw.pairs.fill(dosing);
     return c;
 }
 
@@ -88,7 +88,7 @@ TEST_CASE("settled bed: the density is that of the bed in its canister") {
     const Particles bed = layers(-10e-3, 60e-3);
     const SettledFigures f = settledFigures(c, settledBed(c, 0, bed, {}));
     REQUIRE(f.bulk);
-    CHECK(f.bulk->density == bedDensity(bed, 1500, *c.canister, &*c.world.coil)->density);
+    CHECK(f.bulk->density == bedDensity(c.world, bed, *c.canister, &*c.world.coil)->density);
     CHECK(f.pairs == 0);
     CHECK(std::isnan(f.pullOff.median));
 }

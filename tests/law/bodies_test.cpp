@@ -20,7 +20,7 @@ constexpr double kStep = 2e-6;
 
 RigidBody bodyOf(std::vector<geometry::Shape> shapes, geometry::Motion motion = geometry::Rest{},
                  Clock clock = Clock::Time) {
-    return {"thing", std::move(shapes), {geometry::Pose{}, std::move(motion), {}}, clock, ContactClass::ParticleWall};
+    return {"thing", std::move(shapes), {geometry::Pose{}, std::move(motion), {}}, clock, kWallMaterial};
 }
 
 /// A drum of 30 mm in diameter and 8 mm in length about z, closed at both ends, that turns at 12 rad/s.

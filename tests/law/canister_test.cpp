@@ -89,7 +89,7 @@ TEST_CASE("canister: the coil pushes a particle at V_z = p Omega / 2 pi") {
     for (const int hand : {1, -1}) {
         RuledWorld world = freeWorld(softParameters(), 1e-5);
         world.gravity = Vec3(0, -kGravity, 0);
-        for (ContactParameters& p : world.law.classes) p.kc = 0;
+        for (ContactParameters& p : world.law.pairs) p.kc = 0;
         world.surfaces = {geometry::Trough{kTroughRadius}};
         const Coil coil = coilOf(70e-3, hand);
         world.coil = coil;
@@ -133,7 +133,7 @@ TEST_CASE("canister: torque on the coil is the moment of the opposite of the for
 
 TEST_CASE("canister: the coil's torque is what the particles' angular momentum about it loses") {
     RuledWorld world = freeWorld(softParameters(), 1e-5);
-    for (ContactParameters& p : world.law.classes) {
+    for (ContactParameters& p : world.law.pairs) {
         p.kTo = 100;
         p.gammaTo = 1e-3;
         p.muTo = 0.05;
@@ -184,7 +184,7 @@ TEST_CASE("canister: two turns touched at once are two contacts, each with its o
     // A spring that hardly stiffens never pulls delta_max back: it must be the largest overlap the turn has had since
     // it was met.
     RuledWorld world = freeWorld(spring(500), 1e-5);
-    for (ContactParameters& p : world.law.classes) p.gamma = 5e-3, p.k2Max *= 1 + 1e-9, p.plasticityDepth = 0.05;
+    for (ContactParameters& p : world.law.pairs) p.gamma = 5e-3, p.k2Max *= 1 + 1e-9, p.plasticityDepth = 0.05;
     world.gravity = Vec3(0, -kGravity, 0);
     const Coil coil{10.4e-3, 4e-3, 1e-3, 30e-3, 0, 0, 1};
     world.coil = coil;

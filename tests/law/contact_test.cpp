@@ -70,8 +70,8 @@ TEST_CASE("contact: swapping the two spheres turns force and couple round") {
     p.muTo = 0.1;
     const ContactLaw law = lawOf(p);
     History one, two;
-    const Response there = contactResponse(law, ContactClass::ParticleParticle, *touchSphere(a, b), 1e-6, one);
-    const Response back = contactResponse(law, ContactClass::ParticleParticle, *touchSphere(b, a), 1e-6, two);
+    const Response there = contactResponse(law, pairOf(ContactClass::ParticleParticle), *touchSphere(a, b), 1e-6, one);
+    const Response back = contactResponse(law, pairOf(ContactClass::ParticleParticle), *touchSphere(b, a), 1e-6, two);
     CHECK(near(there.force, -back.force, glm::length(there.force), kRounding));
     CHECK(near(there.couple, -back.couple, glm::length(there.couple), kRounding));
     CHECK(near(there.torqueI, back.torqueJ, glm::length(there.torqueI), kRounding));
@@ -110,13 +110,14 @@ TEST_CASE("contact: what limits friction, both readings") {
             ContactParameters bare = p;
             bare.gamma = bare.mu = 0;
             const double f =
-                contactResponse(lawOf(bare), ContactClass::ParticleWall, slidingTouch(overlap, vn), 0, copy).force.y;
+                contactResponse(lawOf(bare), pairOf(ContactClass::ParticleWall), slidingTouch(overlap, vn), 0, copy)
+                    .force.y;
             const double fn = f - p.gamma * vn;
             for (const CoulombLimit limit : {CoulombLimit::Luding, CoulombLimit::Absolute}) {
                 copy = h;
                 copy.sliding = Vec3(1e-3, 0, 0);  // far beyond any limit
-                const Response response =
-                    contactResponse(lawOf(p, limit), ContactClass::ParticleWall, slidingTouch(overlap, vn), 0, copy);
+                const Response response = contactResponse(lawOf(p, limit), pairOf(ContactClass::ParticleWall),
+                                                          slidingTouch(overlap, vn), 0, copy);
                 const double bearing = limit == CoulombLimit::Luding ? std::max(0.0, f + p.kc * overlap) : std::abs(fn);
                 CAPTURE(overlap, vn, f, fn, bearing);
                 CHECK(near(response.force, Vec3(-p.mu * bearing, fn, 0), p.k1 * pressed, kRounding));
@@ -130,7 +131,8 @@ TEST_CASE("contact: with adhesion Luding's limit lets a pulled contact bear fric
     h.maxOverlap = 20e-6;
     h.sliding = Vec3(1e-3, 0, 0);
     Touch touch = slidingTouch(1.5e-6, 0);  // deep on the adhesive branch: f = -kc delta exactly
-    const Response response = contactResponse(lawOf(p, CoulombLimit::Luding), ContactClass::ParticleWall, touch, 0, h);
+    const Response response =
+        contactResponse(lawOf(p, CoulombLimit::Luding), pairOf(ContactClass::ParticleWall), touch, 0, h);
     CHECK(near(response.force, Vec3(0, -p.kc * 1.5e-6, 0), p.kc * 1.5e-6, 1e-9));  // there the shifted zero is reached
 }
 
@@ -146,7 +148,7 @@ TEST_CASE("contact: rolling and torsion torques are capped by their own friction
         h.rolling = Vec3(1e-3, 0, 0);
         h.torsion = 1e-3;
         const Response response =
-            contactResponse(lawOf(p, CoulombLimit::Luding, lever), ContactClass::ParticleWall, touch, 0, h);
+            contactResponse(lawOf(p, CoulombLimit::Luding, lever), pairOf(ContactClass::ParticleWall), touch, 0, h);
         const double bearing = p.k1 * 1e-6, reach = lever == RollingLever::Full ? 2 * kRadius : kRadius;
         const Vec3 expected = reach * bearing * Vec3(0, -p.muTo, p.muR);
         CHECK(near(response.couple, expected, reach * bearing, kRounding));
@@ -165,6 +167,6 @@ TEST_CASE("contact: every class takes its own parameters") {
          {std::pair{ContactClass::ParticleParticle, 1000.0}, std::pair{ContactClass::ParticleWall, 2000.0},
           std::pair{ContactClass::ParticleCoil, 3000.0}}) {
         History h;
-        CHECK(nearRelative(contactResponse(law, kind, touch, 0, h).force.y, k * 1e-6, kRounding));
+        CHECK(nearRelative(contactResponse(law, pairOf(kind), touch, 0, h).force.y, k * 1e-6, kRounding));
     }
 }

@@ -336,7 +336,10 @@ TEST_CASE("eepa: a loaded contact brings its energy, and a slider books what the
 TEST_CASE("eepa: a time step is judged by the steepest branch at the largest overlap that the run allows") {
     const double radius = 1e-3, mass = 2500 * 4.0 / 3.0 * kPi * 1e-9, deepest = 0.02 * radius;
     const auto normal = [&](const Adhesion& a) {
-        return contactModes(lawOf(sticky(a)), 2500, radius, {ContactClass::ParticleParticle}, 0.02)[0].duration;
+        World world;
+        world.density() = 2500;
+        world.maxOverlapRatio = 0.02;
+        return contactModes(world, lawOf(sticky(a)), {{radius, radius, radius}})[0].duration;
     };
     const ContactParameters p = sticky({0.5, 0});
     const double k = 2 * p.modulus * std::sqrt(radius / 2 * deepest);

@@ -130,7 +130,7 @@ TEST_CASE("energy: a sphere that spins on a plane loses its spin to torsion, one
     Particles one;
     const Vec3 place(0, kRadius - weight / p.k1, 0);
     SECTION("torsion") {
-        for (ContactParameters& c : world.law.classes) c.muTo = friction;
+        for (ContactParameters& c : world.law.pairs) c.muTo = friction;
         one.add(place, kRadius, Vec3(0), Vec3(0, rate, 0));
         const EnergyLedger ledger = played(world, one, 40000, 100);
         CHECK(near(ledger.sum.torsion, incoming - held / 2, held / 2, 1));
@@ -139,7 +139,7 @@ TEST_CASE("energy: a sphere that spins on a plane loses its spin to torsion, one
         CHECK(ledger.sum.rolling == 0);
     }
     SECTION("rolling resistance, without friction to turn it into motion") {
-        for (ContactParameters& c : world.law.classes) c.muR = friction;
+        for (ContactParameters& c : world.law.pairs) c.muR = friction;
         one.add(place, kRadius, Vec3(0), Vec3(rate, 0, 0));
         const EnergyLedger ledger = played(world, one, 40000, 100);
         CHECK(near(ledger.sum.rolling, incoming - held / 2, held / 2, 1));
@@ -239,7 +239,7 @@ TEST_CASE("energy: the balance survives the switch of adhesion, up and down") {
     backend->load(world, throwIn(7));
     EnergyLedger ledger;
     for (const double kcRatio : {0.3, 0.873, 0.1, 0.3}) {
-        for (ContactParameters& p : world.law.classes) p.kc = kcRatio * p.k2Max;
+        for (ContactParameters& p : world.law.pairs) p.kc = kcRatio * p.k2Max;
         backend->setLaw(world.law);
         for (int n = 0; n < 20; ++n) ledger.add(*backend->advance(150, n % 2 == 0 ? 0 : -12).energy);
         CHECK(near(ledger.residual(), 0, ledger.sum.loaded, 1e-11));
@@ -251,7 +251,7 @@ TEST_CASE("energy: the balance survives the end of an elastic settling, which th
     RuledWorld world = smallCanister(2e-6);
     world.energyBook = true;
     const ContactLaw plastic = world.law;
-    for (ContactParameters& p : world.law.classes) p.k2Max = p.k1;
+    for (ContactParameters& p : world.law.pairs) p.k2Max = p.k1;
     auto backend = makeReferenceBackend();
     backend->load(world, throwIn(7));
     EnergyLedger ledger;

@@ -87,14 +87,19 @@ TEST_CASE("hertz: restitution is the one asked for") {
 
 TEST_CASE("hertz: a time step is judged at the largest overlap that the run allows") {
     ContactLaw law = lawOf(hertzMindlin(kGlass, kGlass, 0.9));
-    for (ContactParameters& p : law.classes) p.mu = 0.5;
+    for (ContactParameters& p : law.pairs) p.mu = 0.5;
     const double radius = 1e-3, mass = 2500 * 4.0 / 3.0 * kPi * 1e-9;
-    const auto modes = contactModes(law, 2500, radius, {ContactClass::ParticleParticle}, 0.02);
+    World world;
+    world.density() = 2500;
+    world.maxOverlapRatio = 0.02;
+    const PowderSizes sizes{{radius, radius, radius}};
+    const auto modes = contactModes(world, law, sizes);
     REQUIRE(modes.size() == 2);
-    const ContactParameters& p = law.classes[0];
+    const ContactParameters& p = law.between(0, 0);
     const double k = 2 * p.modulus * std::sqrt(radius / 2 * 0.02 * radius);
     CHECK(nearRelative(modes[0].duration, kPi * std::sqrt(mass / 2 / k), kRounding));
     CHECK(nearRelative(modes[1].duration, kPi * std::sqrt(mass / 7 / (p.kt * k)), kRounding));
-    const auto deeper = contactModes(law, 2500, radius, {ContactClass::ParticleParticle}, 0.32);
+    world.maxOverlapRatio = 0.32;
+    const auto deeper = contactModes(world, law, sizes);
     CHECK(nearRelative(deeper[0].duration, modes[0].duration / 2, kRounding));
 }

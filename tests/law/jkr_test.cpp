@@ -103,8 +103,8 @@ TEST_CASE("jkr: pull-off, the pull at touch and the pull at which the contact is
             CHECK(overlap > 0);
         }
         const ContactLaw law = lawOf(p);
-        CHECK(longestReach(law, kReduced / 2) == reachOf(p, kReduced));
-        CHECK(longestReach(lawOf(spring(1e3)), 1) == 0);
+        CHECK(longestReach(World(), law, kReduced / 2) == reachOf(p, kReduced));
+        CHECK(longestReach(World(), lawOf(spring(1e3)), 1) == 0);
     }
 }
 
@@ -222,8 +222,8 @@ TEST_CASE("jkr: friction is counted from twice the pull-off force, also beyond t
         reference::History history;
         history.maxOverlap = 1e-9;
         history.sliding = Vec3(1, 0, 0);  // far beyond any limit
-        const reference::Response r =
-            contactResponse(lawOf(p, CoulombLimit::Luding), ContactClass::ParticleParticle, touch, 1e-9, history);
+        const reference::Response r = contactResponse(lawOf(p, CoulombLimit::Luding),
+                                                      pairOf(ContactClass::ParticleParticle), touch, 1e-9, history);
         CHECK(nearRelative(glm::length(r.parts.sliding), p.mu * (r.parts.hysteretic + 2 * known.pullOff()), 1e-9));
         CHECK(r.parts.slides);
     }

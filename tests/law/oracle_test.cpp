@@ -119,7 +119,7 @@ Impact oracleLoop(const TableRow& row) {
         const auto touch = touchWall(b, Vec3(0, 1, 0), b.position.y, geometry::Moving{});
         impact.touching = touch.has_value();
         impact.peak = std::max(impact.peak, kRadius - b.position.y);
-        if (touch) return contactResponse(law, ContactClass::ParticleWall, *touch, dt, history);
+        if (touch) return contactResponse(law, pairOf(ContactClass::ParticleWall), *touch, dt, history);
         history = {};
         return Response{Vec3(0), Vec3(0), Vec3(0), Vec3(0)};
     };

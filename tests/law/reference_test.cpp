@@ -137,7 +137,7 @@ TEST_CASE("reference: the switch of the law keeps every history and state") {
     const Particles state = backend->particles();
     const std::vector<Contact> before = backend->contacts();
     ContactLaw law = world.law;
-    for (ContactParameters& p : law.classes) p.kc = 0.873 * p.k2Max;
+    for (ContactParameters& p : law.pairs) p.kc = 0.873 * p.k2Max;
     backend->setLaw(law);
 
     const std::vector<Contact> after = backend->contacts();
@@ -195,7 +195,7 @@ TEST_CASE("reference: the first step is half a kick and leaves the springs at re
     falling.step();
     CHECK(near(falling.now().velocity[0].y, -kGravity * 1.5e-6, kGravity * 1e-6, 1e-12));
 
-    for (ContactParameters& p : world.law.classes) p.gammaT = 0;  // far from slipping
+    for (ContactParameters& p : world.law.pairs) p.gammaT = 0;  // far from slipping
     one.position[0].y = kRadius - 1e-6;
     one.velocity[0].x = 0.1;
     Stepper touching(world, one);

@@ -56,7 +56,7 @@ struct Roller {
             }
             const auto touch = touchWall(sphere, found[i].normal, found[i].distance, geometry::Moving{});
             if (!touch) continue;
-            const auto response = contactResponse(law, ContactClass::ParticleWall, *touch, dt, c.history);
+            const auto response = contactResponse(law, pairOf(ContactClass::ParticleWall), *touch, dt, c.history);
             force += response.force;
             torque += response.torqueI;
             next.push_back(c);

@@ -45,7 +45,7 @@ inline ContactParameters spring(double k) {
 inline ContactLaw lawOf(const ContactParameters& p, CoulombLimit limit = CoulombLimit::Absolute,
                         RollingLever lever = RollingLever::Full) {
     ContactLaw law;
-    law.classes.fill(p);
+    law.pairs.fill(p);
     law.coulombLimit = limit;
     law.rollingLever = lever;
     return law;
@@ -56,7 +56,7 @@ inline RuledWorld freeWorld(const ContactParameters& p, double timeStep) {
     RuledWorld world;
     world.law = lawOf(p);
     world.gravity = Vec3(0);
-    world.density = kDensity;
+    world.density() = kDensity;
     world.timeStep = timeStep;
     world.skin = 0.1e-3;
     return world;

@@ -115,8 +115,8 @@ TEST_CASE("soften: friction, rolling and torsion of a slow motion are the same, 
                     t.spin = wider * Vec3(3e-5, 1e-5, 0);
                     return t;
                 };
-                const auto f = reference::contactResponse(hard, ContactClass::ParticleParticle, touch(1), 1, a);
-                const auto g = reference::contactResponse(law, ContactClass::ParticleParticle, touch(s), 1, b);
+                const auto f = reference::contactResponse(hard, pairOf(ContactClass::ParticleParticle), touch(1), 1, a);
+                const auto g = reference::contactResponse(law, pairOf(ContactClass::ParticleParticle), touch(s), 1, b);
                 CAPTURE(s, n);
                 CHECK(near(g.force, f.force, kK1 * overlap, 1e-6));
                 CHECK(near(g.couple, f.couple, kK1 * overlap * kRadius, 1e-6));
@@ -170,7 +170,7 @@ TEST_CASE(
             const ContactLaw plastic = softLaw(s);
             const ContactParameters& p = plastic.of(ContactClass::ParticleWall);
             ContactLaw elastic = plastic;
-            for (ContactParameters& c : elastic.classes) c.k2Max = c.k1;
+            for (ContactParameters& c : elastic.pairs) c.k2Max = c.k1;
             RuledWorld world = planeWorld(p, collisionStep(p));
             world.gravity = Vec3(0, -kGravity, 0);
             world.maxOverlapRatio = 1;

@@ -87,7 +87,7 @@ TEST_CASE("surface velocity: without damping and friction nothing sees it, and b
     Particles ends[2];
     for (const bool surfaceMoves : {true, false}) {
         RuledWorld world = coilWorld(surfaceMoves);
-        for (ContactParameters& p : world.law.classes) p.gamma = p.gammaT = p.gammaR = p.mu = p.muR = 0;
+        for (ContactParameters& p : world.law.pairs) p.gamma = p.gammaT = p.gammaR = p.mu = p.muR = 0;
         auto backend = makeReferenceBackend();
         backend->load(world, pressedIn(*world.coil, 2e-6));
         backend->advance(2000, kRate);
@@ -126,7 +126,7 @@ TEST_CASE("wire curvature: a sphere at the wire gets stiff earlier and rolls on 
 
 TEST_CASE("surface velocity: a coil seen at rest still conveys at V_z") {
     RuledWorld world = freeWorld(spring(1000), 1e-5);
-    for (ContactParameters& p : world.law.classes) {
+    for (ContactParameters& p : world.law.pairs) {
         p.k1 = 500;
         p.plasticityDepth = 0.05;
         p.gamma = 0.02;

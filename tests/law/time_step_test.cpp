@@ -58,7 +58,7 @@ double growth(double stepsPerContact) {
     Particles p = backend->particles();
 
     RuledWorld world = boxed(0, 1);
-    const auto modes = contactModes(world.law, kDensity, kRadius, contactClasses(world));
+    const auto modes = contactModes(world, world.law, {{kRadius, kRadius, kRadius}});
     world.timeStep = automaticTimeStep(modes, stepsPerContact);
     std::mt19937_64 random(3);
     std::uniform_real_distribution<double> unit(-1, 1);

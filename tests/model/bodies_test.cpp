@@ -93,7 +93,7 @@ phase_deg = 90
     const auto& bodies = c.world.bodies;
     REQUIRE(bodies.size() == 10);
     CHECK(bodies[0].course.start.origin.y == -0.02);
-    CHECK(bodies[1].kind == ContactClass::ParticleCoil);
+    CHECK(bodies[1].material == kCoilMaterial);
     const auto mesh = std::get<std::shared_ptr<const geometry::MeshSurface>>(bodies[1].shapes.at(0));
     CHECK(mesh->mesh().vertices.size() == 8);
     CHECK(mesh->reach() >= 1.25e-3);

@@ -1,6 +1,7 @@
 #pragma once
 // Case files that a test writes and breaks.
 
+#include <array>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
@@ -23,6 +24,11 @@ inline std::vector<std::filesystem::path> shippedCases() {
         for (const auto& entry : std::filesystem::directory_iterator(shippedCase(folder)))
             if (entry.path().extension() == ".toml") all.push_back(entry.path());
     return all;
+}
+
+/// The parameters of the pairs of a case with one powder.
+inline std::array<ContactParameters, kContactClasses> classesOf(const ContactLaw& law) {
+    return {law.between(0, 0), law.between(0, 1), law.between(0, 2)};
 }
 
 /// A valid small case; the tests break one thing of it at a time.

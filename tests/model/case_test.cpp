@@ -18,9 +18,9 @@ namespace {
 void checkSameLaw(const ContactLaw& a, const ContactLaw& b) {
     CHECK(a.coulombLimit == b.coulombLimit);
     CHECK(a.rollingLever == b.rollingLever);
-    for (std::size_t i = 0; i < a.classes.size(); ++i) {
-        const ContactParameters& p = a.classes[i];
-        const ContactParameters& q = b.classes[i];
+    for (int i = 0; i < kContactClasses; ++i) {
+        const ContactParameters& p = a.between(0, i);
+        const ContactParameters& q = b.between(0, i);
         CHECK(std::vector<double>{p.k1, p.k2Max, p.kc, p.plasticityDepth, p.gamma, p.kt, p.gammaT, p.mu, p.kr, p.gammaR,
                                   p.muR, p.kTo, p.gammaTo, p.muTo} ==
               std::vector<double>{q.k1, q.k2Max, q.kc, q.plasticityDepth, q.gamma, q.kt, q.gammaT, q.mu, q.kr, q.gammaR,
@@ -37,7 +37,7 @@ void checkSame(const Case& a, const Case& b) {
     checkSameLaw(a.settlingLaw, b.settlingLaw);
     CHECK(a.world.surfaces.size() == b.world.surfaces.size());
     CHECK(a.world.gravity == b.world.gravity);
-    CHECK(a.world.density == b.world.density);
+    CHECK(a.world.density() == b.world.density());
     CHECK(a.world.coilSurfaceMoves == b.world.coilSurfaceMoves);
     CHECK(a.world.coilWireCurved == b.world.coilWireCurved);
     CHECK(a.world.timeStep == b.world.timeStep);
@@ -92,11 +92,11 @@ TEST_CASE("the paper's case, value by value") {
     CHECK(c.dosingLaw.of(ContactClass::ParticleWall).mu == 0.2);
     CHECK(c.dosingLaw.of(ContactClass::ParticleCoil).mu == 0.2);
     CHECK(c.dosingLaw.of(ContactClass::ParticleCoil).k2Max == 24067.0);
-    for (const ContactParameters& q : c.settlingLaw.classes) CHECK(q.kc == Approx(0.3 * 24067).epsilon(1e-14));
+    for (const ContactParameters& q : test::classesOf(c.settlingLaw)) CHECK(q.kc == Approx(0.3 * 24067).epsilon(1e-14));
     CHECK(c.dosingLaw.coulombLimit == CoulombLimit::Absolute);
     CHECK(c.world.maxOverlapRatio == 1);
     CHECK(c.dosingLaw.rollingLever == RollingLever::Full);
-    CHECK(c.world.density == 1427);
+    CHECK(c.world.density() == 1427);
     CHECK(c.world.gravity == Vec3(0, -9.81, 0));
     CHECK(c.world.timeStep == 2.26e-6);
     REQUIRE(c.world.coil);
@@ -230,7 +230,7 @@ TEST_CASE("settling adhesion: for every class without one of its own") {
     const Folder folder;
     const auto file = folder.write("case.toml", kGoodCase);
     const Case plain = loadCase(file);  // no settling value: the doses' law from the start
-    CHECK(plain.settlingLaw.classes[0].kc == plain.dosingLaw.classes[0].kc);
+    CHECK(plain.settlingLaw.between(0, 0).kc == plain.dosingLaw.between(0, 0).kc);
     const Case c = loadCase(file, {"settle.kc_over_k=0.3", "contact.wall.kc_over_k=0.1"});
     CHECK(c.settlingLaw.of(ContactClass::ParticleParticle).kc == Approx(600));
     CHECK(c.settlingLaw.of(ContactClass::ParticleWall).kc == Approx(200));
@@ -251,7 +251,7 @@ TEST_CASE("softer spheres: every class, settling included, once and not again wh
     CHECK(soft.softened == 4);
     for (int i = 0; i < kContactClasses; ++i)
         for (const auto law : {&Case::dosingLaw, &Case::settlingLaw}) {
-            const ContactParameters &p = (hard.*law).classes[i], &q = (soft.*law).classes[i];
+            const ContactParameters &p = (hard.*law).between(0, i), &q = (soft.*law).between(0, i);
             CHECK(std::vector<double>{q.k1, q.k2Max, q.kc, q.kt, q.kr, q.kTo} ==
                   std::vector<double>{p.k1 / 4, p.k2Max / 4, p.kc / 4, p.kt / 4, p.kr / 4, p.kTo / 4});
             CHECK(std::vector<double>{q.gamma, q.gammaT, q.gammaR, q.gammaTo} ==
@@ -278,7 +278,7 @@ TEST_CASE("damping while settling: a factor on the dashpot of the normal directi
     const Case usual = loadCase(file), damped = loadCase(file, {"settle.damping_factor=3"});
     checkSameLaw(usual.dosingLaw, damped.dosingLaw);
     for (int i = 0; i < kContactClasses; ++i) {
-        const ContactParameters &p = usual.settlingLaw.classes[i], &q = damped.settlingLaw.classes[i];
+        const ContactParameters &p = usual.settlingLaw.between(0, i), &q = damped.settlingLaw.between(0, i);
         CHECK(q.gamma == 3 * p.gamma);
         CHECK(std::vector<double>{q.gammaT, q.gammaR, q.gammaTo} == std::vector<double>{p.gammaT, p.gammaR, p.gammaTo});
         CHECK(q.k2Max == p.k2Max);
@@ -311,7 +311,7 @@ TEST_CASE("elastic settling: springs of stiffness k1 in every class, and nothing
     const Case usual = loadCase(file), elastic = loadCase(file, {"settle.elastic=true"});
     checkSameLaw(usual.dosingLaw, elastic.dosingLaw);
     ContactLaw law = usual.settlingLaw;
-    for (ContactParameters& p : law.classes) {
+    for (ContactParameters& p : law.pairs) {
         REQUIRE(p.k2Max > p.k1);
         p.k2Max = p.k1;
     }
@@ -321,8 +321,8 @@ TEST_CASE("elastic settling: springs of stiffness k1 in every class, and nothing
     checkSame(usual, loadCase(file, {"settle.elastic=false"}));
     const Case soft = loadCase(file, {"settle.elastic=true", "contact.soften=4"});
     for (int i = 0; i < kContactClasses; ++i) {
-        CHECK(soft.settlingLaw.classes[i].k2Max == soft.settlingLaw.classes[i].k1);
-        CHECK(soft.settlingLaw.classes[i].k1 == Approx(usual.settlingLaw.classes[i].k1 / 4));
+        CHECK(soft.settlingLaw.between(0, i).k2Max == soft.settlingLaw.between(0, i).k1);
+        CHECK(soft.settlingLaw.between(0, i).k1 == Approx(usual.settlingLaw.between(0, i).k1 / 4));
     }
     checkSame(soft, loadResolvedCase(soft.resolved, file));
 }

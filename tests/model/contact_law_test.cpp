@@ -67,7 +67,7 @@ TEST_CASE("a case with the law of Hertz and Mindlin") {
     const Case c = loadText(withContacts(kElastic));
     const Elasticity powder{5e6, 0.25}, wall{2e8, 0.25};
     const ContactParameters pair = hertzMindlin(powder, powder, 0.6), atWall = hertzMindlin(powder, wall, 0.6);
-    const auto& classes = c.dosingLaw.classes;
+    const auto classes = classesOf(c.dosingLaw);
     for (const ContactParameters& p : classes) CHECK(p.law == NormalLaw::HertzMindlin);
     CHECK(classes[0].modulus == pair.modulus);
     CHECK(classes[0].kt == pair.kt);
@@ -80,15 +80,15 @@ TEST_CASE("a case with the law of Hertz and Mindlin") {
     CHECK(classes[2].modulus == atWall.modulus);  // the coil takes the wall's material
     CHECK(classes[2].dampingShare == hertzMindlin(powder, wall, 0.4).dampingShare);
     CHECK(classes[2].mu == 0.2);
-    CHECK(c.settlingLaw.classes[0].dampingShare == pair.dampingShare);
+    CHECK(c.settlingLaw.between(0, 0).dampingShare == pair.dampingShare);
     const Case again = loadResolvedCase(c.resolved, "again.toml");
     CHECK(again.resolved == c.resolved);
-    CHECK(again.dosingLaw.classes[2].modulus == classes[2].modulus);
+    CHECK(again.dosingLaw.between(0, 2).modulus == classes[2].modulus);
 }
 
 TEST_CASE("settling with the law of Hertz and Mindlin may be damped more") {
     const Case c = loadText(replaced(withContacts(kElastic), "[settle]\n", "[settle]\ndamping_factor = 2\n"));
-    CHECK(c.settlingLaw.classes[1].dampingShare == 2 * c.dosingLaw.classes[1].dampingShare);
+    CHECK(c.settlingLaw.between(0, 1).dampingShare == 2 * c.dosingLaw.between(0, 1).dampingShare);
 }
 
 TEST_CASE("the time step of an elastic case grows as the largest overlap that it allows falls") {
@@ -103,12 +103,12 @@ TEST_CASE("a case that chooses another law than its base leaves the contacts of 
     folder.write("luding.toml", kGoodCase);
     folder.write("elastic.toml", withContacts(kElastic));
     const Case c = loadCase(folder.write("over.toml", "base = \"luding.toml\"\n" + kElastic));
-    CHECK(c.dosingLaw.classes[1].modulus == loadText(withContacts(kElastic)).dosingLaw.classes[1].modulus);
+    CHECK(c.dosingLaw.between(0, 1).modulus == loadText(withContacts(kElastic)).dosingLaw.between(0, 1).modulus);
     const std::string contacts = kGoodCase.substr(kGoodCase.find("[contact]"));
     const std::string plain =
         replaced(contacts.substr(0, contacts.find("[canister]")), "[contact]\n", "[contact]\nlaw = \"luding\"\n");
     const Case back = loadCase(folder.write("back.toml", "base = \"elastic.toml\"\n" + plain));
-    CHECK(back.dosingLaw.classes[0].k2Max == 2000);
+    CHECK(back.dosingLaw.between(0, 0).k2Max == 2000);
     CHECK_THROWS_WITH(loadCase(folder / "luding.toml", {"contact.law=hertz-mindlin"}),
                       Catch::Contains("contact.youngs_modulus: is missing") && Catch::Contains("contact.friction"));
 }
@@ -139,7 +139,7 @@ TEST_CASE("keys of another law, and figures of no material, are refused by name"
 
 TEST_CASE("a case with the elasto-plastic adhesive law") {
     const Case c = loadText(withContacts(kCohesive));
-    const auto& classes = c.dosingLaw.classes;
+    const auto classes = classesOf(c.dosingLaw);
     const ContactParameters elastic = hertzMindlin({5e6, 0.25}, {2e8, 0.25}, 0.6);
     for (const ContactParameters& p : classes) CHECK(p.law == NormalLaw::Eepa);
     CHECK(classes[0].modulus == hertzMindlin({5e6, 0.25}, {5e6, 0.25}, 0.6).modulus);
@@ -158,13 +158,13 @@ TEST_CASE("a case with the elasto-plastic adhesive law") {
     CHECK(classes[2].constantPull == 0);
     CHECK(classes[2].adhesionExponent == 3);
     CHECK(classes[2].mu == 0.2);
-    CHECK(c.settlingLaw.classes[1].surfaceEnergy == 0.05);
+    CHECK(c.settlingLaw.between(0, 1).surfaceEnergy == 0.05);
     const Case again = loadResolvedCase(c.resolved, "again.toml");
     CHECK(again.resolved == c.resolved);
-    CHECK(again.dosingLaw.classes[2].plasticityRatio == 0.3);
-    CHECK(again.dosingLaw.classes[1].constantPull == 1e-6);
+    CHECK(again.dosingLaw.between(0, 2).plasticityRatio == 0.3);
+    CHECK(again.dosingLaw.between(0, 1).constantPull == 1e-6);
     const Case damped = loadText(replaced(withContacts(kCohesive), "[settle]\n", "[settle]\ndamping_factor = 2\n"));
-    CHECK(damped.settlingLaw.classes[1].dampingShare == 2 * damped.dosingLaw.classes[1].dampingShare);
+    CHECK(damped.settlingLaw.between(0, 1).dampingShare == 2 * damped.dosingLaw.between(0, 1).dampingShare);
 }
 
 TEST_CASE("the time step of an elasto-plastic case is shorter by the root of how much stiffer unloading is") {
@@ -221,7 +221,7 @@ youngs_modulus = 2e8
 surface_energy = 0
 )";
     const Case c = loadText(withContacts(sticky));
-    const auto& classes = c.dosingLaw.classes;
+    const auto classes = classesOf(c.dosingLaw);
     for (const ContactParameters& p : classes) CHECK(p.law == NormalLaw::Jkr);
     CHECK(classes[0].surfaceEnergy == 0.2);
     CHECK(classes[1].surfaceEnergy == 0);
@@ -230,7 +230,7 @@ surface_energy = 0
     CHECK(classes[0].kt == hertzMindlin({5e6, 0.25}, {5e6, 0.25}, 0.6).kt);
     const Case again = loadResolvedCase(c.resolved, "again.toml");
     CHECK(again.resolved == c.resolved);
-    CHECK(again.dosingLaw.classes[0].surfaceEnergy == 0.2);
+    CHECK(again.dosingLaw.between(0, 0).surfaceEnergy == 0.2);
     refused(withContacts(replaced(sticky, "surface_energy = 0.2\n", "")), "contact.surface_energy: is missing");
     refused(withContacts(replaced(sticky, "restitution = 0.6\n", "restitution = 0.6\nplasticity_ratio = 0.5\n")),
             "contact.plasticity_ratio = 0.5: is a key of the law eepa");

@@ -184,9 +184,10 @@ TEST_CASE("stiffness from an overlap, adhesion from a Bond number") {
           Approx(30 * weight).epsilon(1e-12));
 
     // While settling every class keeps its own, unless [settle] says otherwise.
-    for (int i = 0; i < kContactClasses; ++i) CHECK(limit.settlingLaw.classes[i].kc == limit.dosingLaw.classes[i].kc);
+    for (int i = 0; i < kContactClasses; ++i)
+        CHECK(limit.settlingLaw.between(0, i).kc == limit.dosingLaw.between(0, i).kc);
     const Case weak = loadCase(file, {"contact.bond_number=30", "settle.kc_over_k=0.1"});
-    for (const ContactParameters& p : weak.settlingLaw.classes) CHECK(p.kc == Approx(200));
+    for (const ContactParameters& p : test::classesOf(weak.settlingLaw)) CHECK(p.kc == Approx(200));
 }
 
 TEST_CASE("the resolved case has the parameters and says what they were made from") {
@@ -209,9 +210,9 @@ TEST_CASE("the resolved case has the parameters and says what they were made fro
     CHECK(again.resolved == c.resolved);
     CHECK(again.derivations == c.derivations);
     for (int i = 0; i < kContactClasses; ++i) {
-        CHECK(again.dosingLaw.classes[i].gamma == c.dosingLaw.classes[i].gamma);
-        CHECK(again.dosingLaw.classes[i].k1 == c.dosingLaw.classes[i].k1);
-        CHECK(again.settlingLaw.classes[i].kc == c.settlingLaw.classes[i].kc);
+        CHECK(again.dosingLaw.between(0, i).gamma == c.dosingLaw.between(0, i).gamma);
+        CHECK(again.dosingLaw.between(0, i).k1 == c.dosingLaw.between(0, i).k1);
+        CHECK(again.settlingLaw.between(0, i).kc == c.settlingLaw.between(0, i).kc);
     }
     CHECK(again.world.timeStep == c.world.timeStep);
 

@@ -18,13 +18,13 @@ TEST_CASE("contact durations of the paper") {
     const Case c = loadCase(shippedCase("paper-48g.toml"));
     const ContactParameters& p = c.dosingLaw.of(ContactClass::ParticleParticle);
     // Printed: 1.1297e-4 s. The table's k1 and gamma are rounded to 0.2 %, so t_c may differ by half as much.
-    CHECK(contactDuration(p, 1427, 1.25e-3, 1.25e-3, p.k1) == Approx(1.1297e-4).epsilon(1e-3));
+    CHECK(contactDuration(p, reducedMass(1427, 1.25e-3, 1.25e-3), p.k1) == Approx(1.1297e-4).epsilon(1e-3));
     // Against a wall the reduced mass doubles. By hand: m = 1.167458e-5 kg, k1/m = 4.12298e8, (gamma/2m)^2 = 1.25449e7.
-    const double wall = contactDuration(p, 1427, 1.25e-3, std::numeric_limits<double>::infinity(), p.k1);
+    const double wall = contactDuration(p, sphereMass(1427, 1.25e-3), p.k1);
     CHECK(wall == Approx(kPi / std::sqrt(4.12298e8 - 1.25449e7)).epsilon(1e-5));
     ContactParameters overdamped = p;
     overdamped.gamma = 10;
-    CHECK(std::isinf(contactDuration(overdamped, 1427, 1.25e-3, 1.25e-3, p.k1)));
+    CHECK(std::isinf(contactDuration(overdamped, reducedMass(1427, 1.25e-3, 1.25e-3), p.k1)));
 }
 
 TEST_CASE("predictions for the paper's case") {
@@ -91,7 +91,7 @@ TEST_CASE("the number of steps in the fastest motion of a contact is the case's 
     };
     const auto fastest = [](const std::filesystem::path& from) {
         const Case c = loadCase(from, {});
-        const std::vector<ContactMode> modes = modesOf(c, smallestRadius(c.filling.size));
+        const std::vector<ContactMode> modes = modesOf(c, powderSizes(c));
         return *std::min_element(modes.begin(), modes.end(),
                                  [](const ContactMode& a, const ContactMode& b) { return a.duration < b.duration; });
     };
@@ -145,6 +145,8 @@ TEST_CASE("the number of steps in the fastest motion of a contact is the case's 
 }
 
 TEST_CASE("contact modes: sliding of a full sphere has 2/7 of its mass") {
+    World world;
+    world.density() = 1000;
     ContactLaw law;
     ContactParameters& p = law.of(ContactClass::ParticleParticle);
     p.k1 = 1000;
@@ -153,7 +155,7 @@ TEST_CASE("contact modes: sliding of a full sphere has 2/7 of its mass") {
     p.mu = 0.5;
     p.kr = 1000;
     p.muR = 0.1;
-    const auto modes = contactModes(law, 1000, 1e-3, {ContactClass::ParticleParticle});
+    const auto modes = contactModes(world, law, {{1e-3, 1e-3, 1e-3}});
     REQUIRE(modes.size() == 3);
     const double mass = 1000 * 4.0 / 3.0 * kPi * 1e-9;
     CHECK(modes[0].duration == Approx(kPi * std::sqrt(mass / 2 / 7000)));
@@ -161,5 +163,5 @@ TEST_CASE("contact modes: sliding of a full sphere has 2/7 of its mass") {
     // torque a_r^2 kr with a_r = 2 a on inertia 0.4 m a^2: rate^2 = 10 kr/m
     CHECK(modes[2].duration == Approx(kPi * std::sqrt(mass / 10 / 1000)));
     law.rollingLever = RollingLever::Half;
-    CHECK(contactModes(law, 1000, 1e-3, {ContactClass::ParticleParticle})[2].duration == Approx(2 * modes[2].duration));
+    CHECK(contactModes(world, law, {{1e-3, 1e-3, 1e-3}})[2].duration == Approx(2 * modes[2].duration));
 }

@@ -99,7 +99,7 @@ TEST_CASE("extreme targets load with finite parameters or are refused clearly") 
             try {
                 const Case c = loadCase(file, {"contact." + std::string(key) + "=" + value});
                 ++loaded;
-                for (const ContactParameters& p : c.dosingLaw.classes)
+                for (const ContactParameters& p : classesOf(c.dosingLaw))
                     CHECK((std::isfinite(p.k1 + p.k2Max + p.kc + p.gamma) && p.k1 > 0 && p.gamma >= 0));
                 CHECK(loadResolvedCase(c.resolved, file).resolved == c.resolved);
             } catch (const CaseError& error) {

@@ -43,7 +43,7 @@ TEST_CASE("the powder of refills waits behind that of the fill, which it does no
     CHECK(filled.mass == before.mass);
     CHECK(filled.fillHeight == before.fillHeight);
     REQUIRE(filled.waiting.size() == 2);
-    const double largest = sphereMass(c.world.density, 1e-3);
+    const double largest = sphereMass(c.world.density(), 1e-3);
     CHECK(std::abs(filled.waiting[0].mass - 0.1e-3) <= largest / 2);
     CHECK(std::abs(filled.waiting[1].mass - 0.3e-3) <= largest / 2);
     const Particles all = filled.allParticles();

@@ -23,7 +23,7 @@ namespace {
 /// A floor and a coil, and a sphere of a millimetre on each other, the floor and the wire.
 Case smallWorld(bool contacts = true) {
     Case c;
-    c.world.density = 1000;
+    c.world.density() = 1000;
     c.world.surfaces = {geometry::Plane{{0, -0.01, 0}, {0, 1, 0}}};
     c.world.coil = geometry::Coil{0.01, 0.01, 0.001, 0.05};
     c.frames = {0.01, contacts};
@@ -300,7 +300,7 @@ TEST_CASE("frames hold the bodies: those at rest beside the walls, those that mo
     still.shapes = {geometry::Block{Vec3(-0.05), Vec3(-0.04), false}};
     lift.shapes = {geometry::Block{Vec3(-0.002), Vec3(0.002), false}};
     lift.course.motion = geometry::Slide{{0, 0.01, 0}};
-    lift.kind = ContactClass::ParticleCoil;  // the coil has contacts of the same class
+    lift.material = kCoilMaterial;  // contacts of the coil's class
     c.world.bodies = {still, lift};
     Frame f;
     f.time = 0.5;  // the lift's upper side is at y = 7 mm then

@@ -62,7 +62,7 @@ TEST_CASE("what packs best is read all the same") {
 TEST_CASE("a frame with such a data set is told by its file, and the data set") {
     const Sandbox box;
     Case c;
-    c.world.density = 1000;
+    c.world.density() = 1000;
     FrameWriter writer(box.path(), c, 0);
     Frame frame;
     frame.particles.add({0, 0, 0}, 1e-3);

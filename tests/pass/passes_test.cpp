@@ -222,7 +222,7 @@ TEST_CASE("the sensor records add up to the host's sums") {
     gpu::uvec4 counted(0);
     double weighed[4] = {}, k = 0, rot = 0, pz = 0;
     for (std::size_t i = 0; i < n; ++i) {
-        const double m = world.density * 4 / 3 * kPi * std::pow(p.radius[i], 3);
+        const double m = world.density() * 4 / 3 * kPi * std::pow(p.radius[i], 3);
         const bool past = p.position[i].z > world.throatZ;
         const std::uint32_t region = p.status[i] == Status::Dosed  ? gpu::kRegionDosed
                                      : p.status[i] == Status::Lost ? gpu::kRegionLost

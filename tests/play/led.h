@@ -13,7 +13,7 @@ namespace vkdose::test {
 inline Case listedCase() {
     Case c = smallCase();
     c.filling.list = smallFilling().particles;
-    c.world.density = 1e-3 / sphereMass(1, 1e-3);
+    c.world.density() = 1e-3 / sphereMass(1, 1e-3);
     return c;
 }
 

@@ -59,7 +59,7 @@ TEST_CASE("values of particles") {
     Particles fill = frame.particles;
     fill.position[0].y = 0.012;
     const auto value = [&](Quantity q) { return render::valuesOf(q, c, frame, &fill)[0]; };
-    const double mass = c.world.density * 4 / 3 * kPi * 1e-9;
+    const double mass = c.world.density() * 4 / 3 * kPi * 1e-9;
     CHECK(nearRelative(value(Quantity::KineticEnergy), mass * 0.00125, 1e-12));
     CHECK(nearRelative(value(Quantity::Speed), 0.05, 1e-12));
     CHECK(value(Quantity::Radius) == 1e-3);

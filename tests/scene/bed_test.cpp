@@ -147,12 +147,12 @@ TEST_CASE("an isolated cluster keeps its momentum") {
     const auto momentum = [&](const Particles& q) {
         Vec3 sum(0);
         for (std::size_t i = 0; i < q.size(); ++i)
-            sum += w.density * 4 / 3 * kPi * std::pow(q.radius[i], 3) * q.velocity[i];
+            sum += w.density() * 4 / 3 * kPi * std::pow(q.radius[i], 3) * q.velocity[i];
         return sum;
     };
     auto device = gpu();
     device->load(w, p);
-    const double scale = w.density * 4 / 3 * kPi * std::pow(1.1e-3, 3) * 0.3 * 64;
+    const double scale = w.density() * 4 / 3 * kPi * std::pow(1.1e-3, 3) * 0.3 * 64;
     device->advance(4000, 0);
     CHECK(device->contacts().size() > 20);
     // Pair forces cancel to the last bit; what is left is each velocity's own rounding, 6e-8 a step at random.

@@ -10,7 +10,7 @@ inline constexpr double kDrumRate = 12;  // [rad/s]
 
 inline RigidBody bodyOf(const char* name, std::vector<geometry::Shape> shapes,
                         geometry::Motion motion = geometry::Rest{}, Clock clock = Clock::Time) {
-    return {name, std::move(shapes), {geometry::Pose{}, std::move(motion), {}}, clock, ContactClass::ParticleWall};
+    return {name, std::move(shapes), {geometry::Pose{}, std::move(motion), {}}, clock, kWallMaterial};
 }
 
 inline std::shared_ptr<const geometry::MeshSurface> meshOf(const geometry::Shape& shape, double facet) {
@@ -31,7 +31,7 @@ inline RuledWorld deviceWorld() {
     RigidBody block = bodyOf("block", {meshOf(geometry::Block{Vec3(-3e-3), Vec3(3e-3)}, 2e-3)},
                              geometry::Shake{Vec3(0, 1, 0), 0.2e-3, 80, 0.3});
     block.course.start = {glm::angleAxis(0.6, glm::normalize(Vec3(1, 2, 3))), Vec3(6e-3, -14e-3, 5e-3)};
-    block.kind = ContactClass::ParticleCoil;
+    block.material = kCoilMaterial;
     w.bodies.push_back(std::move(block));
     w.bodies.push_back(bodyOf("stirrer", {geometry::Ball{Vec3(-14e-3, 0, 5e-3), 3e-3}}, geometry::Turn{z, Vec3(0), 0.7},
                               Clock::Drive));

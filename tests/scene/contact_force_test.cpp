@@ -14,7 +14,7 @@ std::unique_ptr<Backend> made(bool reference) {
 }
 
 double massOf(const RuledWorld& w, double radius) {
-    return w.density * (4.0 / 3.0) * kPi * radius * radius * radius;
+    return w.density() * (4.0 / 3.0) * kPi * radius * radius * radius;
 }
 
 std::vector<Vec3> sums(const Backend& backend) {

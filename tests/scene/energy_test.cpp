@@ -18,7 +18,7 @@ RuledWorld dosingWorld() {
     w.energyBook = true;
     w.maxOverlapRatio = 1;
     w.timeStep = 4e-6;
-    for (ContactParameters& p : w.law.classes) {
+    for (ContactParameters& p : w.law.pairs) {
         p.k1 /= 10, p.k2Max /= 10, p.kc /= 10, p.kt /= 10, p.kr /= 10, p.kTo /= 10;
         p.gamma /= 3, p.gammaT /= 3, p.gammaR /= 3, p.gammaTo /= 3;
     }
@@ -43,7 +43,7 @@ void follow(NormalLaw law, RuledWorld& w) {
                          : law == NormalLaw::Jkr ? elasticAdhesive
                                                  : hertzMindlin;
     if (law == NormalLaw::Jkr) rest.surfaceEnergy = 1;
-    for (ContactParameters& p : w.law.classes) {
+    for (ContactParameters& p : w.law.pairs) {
         ContactParameters elastic = between({3e6, 0.25}, {3e6, 0.25}, 0.6, rest);
         elastic.mu = p.mu, elastic.muR = p.muR, elastic.muTo = p.muTo;
         elastic.kr = elastic.kTo = 0.3;
@@ -170,7 +170,7 @@ TEST_CASE("energy: a bed under the coil that doses closes on the device, and los
         dosed = s.count[2];
         CHECK(near(ledger.residual(), 0, scaleOf(ledger), kRounding));
         if (n == 20) {
-            for (ContactParameters& p : w.law.classes) p.kc *= 2;
+            for (ContactParameters& p : w.law.pairs) p.kc *= 2;
             device->setLaw(w.law);
         }
     }
@@ -186,7 +186,7 @@ TEST_CASE(
     "energy: an elastic settling and the plastic law behind it close, and forget alike, on device and reference") {
     RuledWorld w = dosingWorld();
     const ContactLaw plastic = w.law;
-    for (ContactParameters& p : w.law.classes) p.k2Max = p.k1;
+    for (ContactParameters& p : w.law.pairs) p.k2Max = p.k1;
     const Particles p = thrownAbout(45);
     auto device = gpu();
     auto reference = makeReferenceBackend();
@@ -237,7 +237,7 @@ TEST_CASE("energy: the book stays closed when gravity changes") {
         };
         closed(400, 0);
         const Vec3 gentle = w.gravity, strong = 20.0 * w.gravity;
-        const double jump = energyOfGravityChange(backend->particles(), w.density, w.timeStep, gentle, strong);
+        const double jump = energyOfGravityChange(w, backend->particles(), gentle, strong);
         CHECK(std::abs(jump) > 100 * kRounding * scaleOf(ledger));
         ledger.sum.loaded += jump;
         backend->setGravity(strong);

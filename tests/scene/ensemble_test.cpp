@@ -39,17 +39,17 @@ Outcome play(Backend& backend, const Script& s, const Record* from = nullptr, Re
     w.maxOverlapRatio = 1;
     w.timeStep = s.timeStep;
     w.energyBook = s.energyBook;
-    if (s.law == NormalLaw::HertzMindlin) w.law.classes.fill(hertzMindlin({2e6, 0.25}, {2e6, 0.25}, 0.7));
+    if (s.law == NormalLaw::HertzMindlin) w.law.pairs.fill(hertzMindlin({2e6, 0.25}, {2e6, 0.25}, 0.7));
     if (s.law == NormalLaw::Eepa) {
         ContactParameters sticky;
         sticky.plasticityRatio = 0.5;
         sticky.surfaceEnergy = 2;
-        w.law.classes.fill(elastoPlasticAdhesive({2e6, 0.25}, {2e6, 0.25}, 0.7, sticky));
+        w.law.pairs.fill(elastoPlasticAdhesive({2e6, 0.25}, {2e6, 0.25}, 0.7, sticky));
     }
     if (s.law == NormalLaw::Jkr) {
         ContactParameters sticky;
         sticky.surfaceEnergy = 0.5;
-        w.law.classes.fill(elasticAdhesive({2e6, 0.25}, {2e6, 0.25}, 0.7, sticky));
+        w.law.pairs.fill(elasticAdhesive({2e6, 0.25}, {2e6, 0.25}, 0.7, sticky));
     }
     Particles p = thrownIn(s.particles);
     p.velocity[0] += s.throwFirst;
@@ -62,7 +62,7 @@ Outcome play(Backend& backend, const Script& s, const Record* from = nullptr, Re
         }
         for (std::size_t call = 0; call < s.calls.size(); ++call) {
             if (call == 2) {
-                for (ContactParameters& c : w.law.classes) c.mu = s.friction;
+                for (ContactParameters& c : w.law.pairs) c.mu = s.friction;
                 backend.setLaw(w.law);
             }
             o.sensors.push_back(backend.advance(s.calls[call], s.rate));

@@ -29,7 +29,7 @@ ContactParameters gluey(double restitution = 0.05) {
 
 RuledWorld glueyWorld(double restitution = 0.05) {
     RuledWorld w = emptyWorld();
-    w.law.classes.fill(gluey(restitution));
+    w.law.pairs.fill(gluey(restitution));
     w.law.coulombLimit = CoulombLimit::Luding;
     w.energyBook = true;
     return w;
@@ -65,9 +65,9 @@ Particles hanging(double pressed) {
 /// Gravity under which the more strained of the two contacts bears this share of its pull-off force [m/s2].
 double gravityFor(double share, const RuledWorld& w, const Particles& p) {
     const double a = p.radius[0], b = p.radius[1];
-    const double above = JkrContact(w.law.classes[1], 2 * a).pullOff,
-                 below = JkrContact(w.law.classes[0], 2 * a * b / (a + b)).pullOff;
-    const double lower = sphereMass(w.density, b), both = lower + sphereMass(w.density, a);
+    const double above = JkrContact(w.law.between(0, 1), 2 * a).pullOff,
+                 below = JkrContact(w.law.between(0, 0), 2 * a * b / (a + b)).pullOff;
+    const double lower = sphereMass(w.density(), b), both = lower + sphereMass(w.density(), a);
     return share / std::max(both / above, lower / below);
 }
 
@@ -109,7 +109,7 @@ TEST_CASE("elastic adhesive spheres hang from a ceiling and from each other unti
                 fresh->restore(backend->snapshot());
                 fresh->advance(50, 0);
                 CHECK(fresh->contacts().size() == 2);
-                const double weight = sphereMass(w.density, p.radius[1]) * glm::length(w.gravity);
+                const double weight = sphereMass(w.density(), p.radius[1]) * glm::length(w.gravity);
                 for (const Contact& c : contacts)
                     if (c.kind == ContactClass::ParticleParticle) CHECK(nearRelative(-c.force.y, weight, 2e-2));
                 CHECK(near(now.velocity[1], Vec3(0), 0.1, 2e-2));

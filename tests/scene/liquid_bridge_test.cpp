@@ -77,7 +77,7 @@ TEST_CASE("the rupture of a bridge of liquid costs the work of its closed form")
     const auto steps = std::uint32_t(std::lround(c.schedule.settleTime / c.world.timeStep));
     const Sensors s = device->advance(steps, 0);
     CHECK(device->contacts().empty());
-    const double mass = sphereMass(c.world.density, kRadius), before = mass * 0.05 * 0.05;
+    const double mass = sphereMass(c.world.density(), kRadius), before = mass * 0.05 * 0.05;
     // The contact begins and ends at a step, the way of which is 1/840 of the reach. The pull at touch is 2.6 times the
     // mean one.
     CHECK(near(before - s.kineticEnergy, workOfRupture(), workOfRupture(), 3e-3));

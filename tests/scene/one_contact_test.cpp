@@ -77,7 +77,7 @@ TEST_CASE("an elastic law (k1 = k2) has no plastic limit to divide by") {
     p.add({0, 0, 0}, single(1.25e-3), {0.1, 0, 0});
     p.add({2.5e-3, 0, 0}, single(1.25e-3), {-0.1, 0, 0});
     RuledWorld w = emptyWorld();
-    for (ContactParameters& c : w.law.classes) c.k1 = c.k2Max;
+    for (ContactParameters& c : w.law.pairs) c.k1 = c.k2Max;
     requireClose(run(w, p, 15));
 }
 
@@ -88,7 +88,7 @@ TEST_CASE("elastic spheres of Hertz and Mindlin collide off centre, and graze a 
     elastic.mu = usual.mu, elastic.muR = usual.muR, elastic.muTo = usual.muTo;
     elastic.kr = elastic.kTo = 0.3;
     elastic.gammaR = elastic.gammaTo = 0.2;
-    w.law.classes.fill(elastic);
+    w.law.pairs.fill(elastic);
     w.surfaces = {geometry::Plane{{0, -2e-3, 0}, {0, 1, 0}}};
     Particles p;
     p.add({0.031, 0.02, 0.045}, single(1.875e-3), {0.2, 0.05, 0}, {30, 60, -20});
@@ -117,7 +117,7 @@ TEST_CASE("elasto-plastic adhesive spheres collide off centre, and graze a floor
             rest.surfaceEnergy = a.energy;
             rest.constantPull = a.pull;
             rest.adhesionExponent = a.exponent;
-            w.law.classes.fill(elastoPlasticAdhesive({2e6, 0.25}, {2e7, 0.3}, 0.7, rest));
+            w.law.pairs.fill(elastoPlasticAdhesive({2e6, 0.25}, {2e7, 0.3}, 0.7, rest));
             w.law.coulombLimit = a.pull > 0 ? CoulombLimit::Luding : CoulombLimit::Absolute;
             w.surfaces = {geometry::Plane{{0, -2e-3, 0}, {0, 1, 0}}};
             Particles p;
@@ -130,8 +130,8 @@ TEST_CASE("elasto-plastic adhesive spheres collide off centre, and graze a floor
 
 TEST_CASE("an elasto-plastic adhesive law without plasticity moves spheres as Hertz does") {
     RuledWorld plastic = emptyWorld(), elastic = emptyWorld();
-    plastic.law.classes.fill(elastoPlasticAdhesive({2e6, 0.25}, {2e7, 0.3}, 0.7, {}));
-    elastic.law.classes.fill(hertzMindlin({2e6, 0.25}, {2e7, 0.3}, 0.7));
+    plastic.law.pairs.fill(elastoPlasticAdhesive({2e6, 0.25}, {2e7, 0.3}, 0.7, {}));
+    elastic.law.pairs.fill(hertzMindlin({2e6, 0.25}, {2e7, 0.3}, 0.7));
     Particles p;
     p.add({0, 0, 0}, single(1.25e-3), {0.2, 0, 0});
     p.add({2.5005e-3, 0, 0}, single(1.25e-3), {-0.2, 0, 0});

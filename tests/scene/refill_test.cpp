@@ -79,7 +79,7 @@ TEST_CASE("refill: those that wait move nothing and are counted nowhere, those t
         // The velocity is that of half a step before.
         CHECK(now.velocity[kFirst + i].y == Approx(-9.81 * (t - w.timeStep / 2)).epsilon(1e-4));
     }
-    const double mass = sphereMass(w.density, 1e-3), speed = 9.81 * (t - w.timeStep / 2);
+    const double mass = sphereMass(w.density(), 1e-3), speed = 9.81 * (t - w.timeStep / 2);
     CHECK(after.kineticEnergy - still.kineticEnergy == Approx(kLate * mass * speed * speed / 2).epsilon(1e-3));
     if (!reference) requireClean(*backend);
 }

@@ -61,7 +61,7 @@ TEST_CASE("regions: a slanted plane and a box dose what comes into them, and not
         CHECK(dosedAt[i] > expected[i] - 1e-8);
         CHECK(dosedAt[i] < expected[i] + step);
     }
-    const double mass = sphereMass(w.density, single(1e-3));
+    const double mass = sphereMass(w.density(), single(1e-3));
     CHECK(book.counts()[0].particles == 4);
     CHECK(book.counts()[1].particles == 1);
     CHECK(book.counts()[2].particles == 5);

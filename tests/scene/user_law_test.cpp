@@ -62,20 +62,24 @@ struct Twins {
     RuledWorld own, users;
 };
 
-Twins ludingTwins() {
-    Twins t{bowl(), bowl()};
+Twins ludingTwins(RuledWorld world = bowl()) {
+    Twins t{world, world};
     t.own.law = t.users.law = paperLaw(0.3);
+    const int materials = int(world.materials.size());
+    t.own.law.pairs.resize(materials);
+    t.users.law.pairs.resize(materials);
     t.users.law.user = shippedLaw("luding.glsl");
-    for (std::size_t k = 0; k < kContactClasses; ++k) {
-        ContactParameters& p = t.own.law.classes[k];
+    for (const MaterialPair& pair : occurringPairs(world)) {
+        ContactParameters& p = t.own.law.of(pair) = t.own.law.between(0, std::min(pair.b, 2));
         // Powers of two, so that ratio times stiffness is the stiffness in single precision. The program's dashpots of
         // sliding act while it slips too, those of a user's law do not.
-        p.k2Max = 16384, p.k1 = 4096, p.kc = 5000;
-        p.kt = p.kr = p.kTo = 4096;
+        const double stiffer = pair.a == pair.b && pair.a > 0 ? 2 : 1;  // the second powder's own contacts
+        p.k2Max = 16384 * stiffer, p.k1 = 4096 + 300 * pair.b, p.kc = 5000;
+        p.kt = p.kr = p.kTo = 4096 * stiffer;
         p.gammaT = p.gammaR = p.gammaTo = 0;
         ContactParameters ratios = p;
         ratios.kt = ratios.kr = ratios.kTo = 0.25;
-        t.users.law.classes[k] =
+        t.users.law.of(pair) =
             userOf(ratios, *t.users.law.user,
                    {{"k1", p.k1}, {"k", p.k2Max}, {"kc", p.kc}, {"depth", p.plasticityDepth}, {"gamma", p.gamma}});
     }
@@ -87,8 +91,7 @@ bool sameBits(const Backend& a, const Backend& b) {
     return p.position == q.position && p.velocity == q.velocity && p.spin == q.spin;
 }
 
-void requireSameBits(const RuledWorld& first, const RuledWorld& second) {
-    const Particles spheres = threeSpheres();
+void requireSameBits(const RuledWorld& first, const RuledWorld& second, const Particles& spheres = threeSpheres()) {
     auto a = gpu(), b = gpu();
     a->load(first, spheres);
     b->load(second, spheres);
@@ -113,16 +116,28 @@ TEST_CASE("a user's law that repeats luding has luding's bits") {
     requireSameBits(t.own, t.users);
 }
 
+TEST_CASE("a user's law has the parameters of each pair of materials") {
+    constexpr int kSecond = 3, kPlate = 4;
+    RuledWorld world = bowl();
+    world.materials.push_back({"second", true, 2854});
+    world.materials.push_back({"plate", false, 0});
+    world.bodies[0].material = kPlate;
+    Particles spheres = threeSpheres();
+    spheres.material = {kSecond, 0, kSecond};
+    const Twins t = ludingTwins(world);
+    requireSameBits(t.own, t.users, spheres);
+}
+
 TEST_CASE("a user's law that repeats hertz-mindlin has its bits") {
     RuledWorld own = bowl();
     const auto text = shippedLaw("hertz-mindlin.glsl");
     ContactParameters elastic = hertzMindlin({2e6, 0.25}, {2e7, 0.3}, 0.7, own.law.of(ContactClass::ParticleParticle));
     elastic.kr = elastic.kTo = 0.3;
     elastic.gammaR = elastic.gammaTo = 0.2;
-    own.law.classes.fill(elastic);
+    own.law.pairs.fill(elastic);
     RuledWorld users = own;
     users.law.user = text;
-    users.law.classes.fill(userOf(
+    users.law.pairs.fill(userOf(
         elastic, *text, {{"modulus_Pa", elastic.modulus}, {"damping_ratio", kHertzDamping * elastic.dampingShare}}));
     requireSameBits(own, users);
 }
@@ -173,7 +188,7 @@ TEST_CASE("the energy ledger closes under a user's law") {
 TEST_CASE("members of an ensemble share a user's law, each with its own parameters") {
     const RuledWorld first = ludingTwins().users;
     RuledWorld second = first;
-    for (ContactParameters& p : second.law.classes) p.own[2] *= 0.5;  // kc
+    for (ContactParameters& p : second.law.pairs) p.own[2] *= 0.5;  // kc
     auto together = gpuEnsemble(2);
     std::thread other([&] {
         together[1]->load(second, threeSpheres());

@@ -47,12 +47,12 @@ class Wrong : public Backend {
 Case fallingSpheres() {
     Case c;
     c.name = "falling";
-    c.world.density = 1500;
+    c.world.density() = 1500;
     c.world.timeStep = 1e-5;
     c.world.skin = 2e-4;
     c.world.domain = {Vec3(-1), Vec3(1)};
     c.world.surfaces.push_back(geometry::Plane{Vec3(0), Vec3(0, 1, 0)});
-    for (ContactParameters& p : c.dosingLaw.classes) {
+    for (ContactParameters& p : c.dosingLaw.pairs) {
         p.k1 = 400;
         p.k2Max = 2000;
         p.kc = 100;
@@ -109,19 +109,19 @@ TEST_CASE("a backend that is a little wrong is found out") {
     }
     SECTION("5 % more stiffness") {
         Wrong wrong([](RuledWorld& w) {
-            for (ContactParameters& p : w.law.classes) p.k1 *= 1.05;
+            for (ContactParameters& p : w.law.pairs) p.k1 *= 1.05;
         });
         CHECK(against(wrong).verdict() == Verdict::Differs);
     }
     SECTION("5 % less damping") {
         Wrong wrong([](RuledWorld& w) {
-            for (ContactParameters& p : w.law.classes) p.gamma *= 0.95;
+            for (ContactParameters& p : w.law.pairs) p.gamma *= 0.95;
         });
         CHECK(against(wrong).verdict() == Verdict::Differs);
     }
     SECTION("no rolling resistance") {
         Wrong wrong([](RuledWorld& w) {
-            for (ContactParameters& p : w.law.classes) p.muR = 0;
+            for (ContactParameters& p : w.law.pairs) p.muR = 0;
         });
         CHECK(against(wrong).verdict() == Verdict::Differs);
     }

@@ -132,7 +132,7 @@ inline Case smallCase() {
     Case c;
     c.name = "fake";
     c.world.timeStep = 1e-3;
-    c.world.density = 1000;
+    c.world.density() = 1000;
     c.dosingLaw.of(ContactClass::ParticleParticle).kc = 7;
     c.settlingLaw.of(ContactClass::ParticleParticle).kc = 3;
     geometry::Coil coil{};

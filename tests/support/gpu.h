@@ -40,7 +40,7 @@ inline ContactLaw paperLaw(double kcOverK = 0.3) {
     ContactLaw law;
     const double k = 24067;
     for (int c = 0; c < kContactClasses; ++c) {
-        ContactParameters& p = law.classes[c];
+        ContactParameters& p = law.between(0, c);
         p.k1 = k / 5;
         p.k2Max = k;
         p.kc = kcOverK * k;
@@ -60,7 +60,7 @@ inline ContactLaw paperLaw(double kcOverK = 0.3) {
 inline RuledWorld emptyWorld() {
     RuledWorld w;
     w.law = paperLaw();
-    w.density = 1427;
+    w.density() = 1427;
     w.timeStep = 2.26e-6;
     w.skin = 0.15e-3;
     w.domain = {Vec3(-1), Vec3(1)};

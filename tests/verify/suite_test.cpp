@@ -62,7 +62,7 @@ class Skewed final : public Backend {
 /// A change of one parameter of every class.
 std::function<void(RuledWorld&)> scaled(double ContactParameters::*parameter, double factor) {
     return [=](RuledWorld& world) {
-        for (ContactParameters& p : world.law.classes) p.*parameter *= factor;
+        for (ContactParameters& p : world.law.pairs) p.*parameter *= factor;
     };
 }
 
@@ -207,10 +207,29 @@ std::vector<Mutant> mutants() {
          {"bodies/mesh-incline", "bodies/mesh-block"},
          "rolling"},
         {"density 1 % up",
-         [](RuledWorld& w) { w.density *= 1.01; },
+         [](RuledWorld& w) { w.density() *= 1.01; },
          1,
          {"collisions/head-on", "bed/weight", "energy/friction", "energy/cluster"},
          "free-fall"},
+        {"the second powder 2 % heavier",
+         [](RuledWorld& w) {
+             if (w.materials.size() > 3) w.density(3) *= 1.02;
+         },
+         1,
+         {"materials/hertz", "materials/luding", "materials/cluster"},
+         "head-on"},
+        {"every pair as the first powder's",
+         [](RuledWorld& w) {
+             for (int m = 3; m < int(w.materials.size()); ++m) w.law.between(0, m) = w.law.between(0, 0);
+         },
+         1,
+         {"materials/hertz", "materials/luding", "materials/sliding"},
+         "head-on"},
+        {"one floor as another",
+         [](RuledWorld& w) { w.surfaceMaterials.clear(); },
+         1,
+         {"materials/sliding"},
+         "materials/cluster"},
         {"a wire 2 % thicker",
          [](RuledWorld& w) {
              if (w.coil) w.coil->wireRadius *= 1.02;
@@ -227,7 +246,7 @@ std::vector<Mutant> mutants() {
          "rolling"},
         {"contacts that should stick slip",
          [](RuledWorld& w) {
-             for (ContactParameters& p : w.law.classes) p.mu = std::min(p.mu, 0.2);
+             for (ContactParameters& p : w.law.pairs) p.mu = std::min(p.mu, 0.2);
          },
          1,
          {"size-ratio/wedge-bounce", "size-ratio/wedge-rest", "size-ratio/neck", "collisions/oblique-sticking"},
@@ -239,7 +258,7 @@ std::vector<Mutant> mutants() {
          "column"},
         {"neither friction nor rolling friction",
          [](RuledWorld& w) {
-             for (ContactParameters& p : w.law.classes) p.mu = p.muR = 0;
+             for (ContactParameters& p : w.law.pairs) p.mu = p.muR = 0;
          },
          1,
          {"bed/heap", "bed/weight", "rolling/gentle-incline", "energy/friction"},

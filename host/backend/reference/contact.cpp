@@ -51,8 +51,8 @@ Vec3 contactVelocity(const Body& i, const Vec3& leverI, const Body& j, const Vec
     return (i.velocity + glm::cross(i.spin, leverI)) - (j.velocity + glm::cross(j.spin, leverJ));
 }
 
-Response contactResponse(const ContactLaw& law, ContactClass kind, const Touch& touch, double dt, History& history) {
-    const ContactParameters& p = law.of(kind);
+Response contactResponse(const ContactLaw& law, MaterialPair pair, const Touch& touch, double dt, History& history) {
+    const ContactParameters& p = law.of(pair);
     const Vec3& n = touch.normal;
 
     const double normalVelocity = glm::dot(touch.velocity, n);

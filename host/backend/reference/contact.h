@@ -74,7 +74,8 @@ struct Response {
     Parts parts{};
 };
 
-/// The contact law. `dt` [s] is the time by which the springs advance; `history` is updated.
-Response contactResponse(const ContactLaw& law, ContactClass kind, const Touch& touch, double dt, History& history);
+/// The law of a contact of these two materials. `dt` [s] is the time by which the springs advance; `history` is
+/// updated.
+Response contactResponse(const ContactLaw& law, MaterialPair pair, const Touch& touch, double dt, History& history);
 
 }  // namespace vkdose::reference

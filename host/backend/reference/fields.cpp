@@ -67,14 +67,17 @@ std::vector<double> touchesOf(const Particles& particles, const std::vector<Bran
 
 }  // namespace
 
-FieldPoints coarseGrain(const FieldRequest& request, double density, const Particles& p,
+FieldPoints coarseGrain(const FieldRequest& request, const World& world, const Particles& p,
                         const std::vector<Branch>& branches) {
     FieldPoints points(request.grid.points());
     Smear smear(request);
     const std::vector<double> touches = touchesOf(p, branches);
-    const auto mass = [&](std::size_t i) { return sphereMass(density, p.radius[i]); };
+    const auto counts = [&](std::size_t i) {
+        return p.status[i] == Status::Active && (!request.material || p.material[i] == *request.material);
+    };
+    const auto mass = [&](std::size_t i) { return massOf(world, p, i); };
     for (std::size_t i = 0; i < p.size(); ++i) {
-        if (p.status[i] != Status::Active) continue;
+        if (!counts(i)) continue;
         for (const Weight& w : smear.around(p.position[i])) {
             FieldPoint& at = points[w.point];
             at.density += mass(i) * w.value;
@@ -84,7 +87,7 @@ FieldPoints coarseGrain(const FieldRequest& request, double density, const Parti
         }
     }
     for (std::size_t i = 0; i < p.size(); ++i) {  // a second loop, because it needs the velocity field
-        if (p.status[i] != Status::Active) continue;
+        if (!counts(i)) continue;
         for (const Weight& w : smear.around(p.position[i])) {
             FieldPoint& at = points[w.point];
             const Vec3 stray = p.velocity[i] - at.velocity();

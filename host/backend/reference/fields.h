@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "host/model/field.h"
-#include "host/model/particles.h"
+#include "host/model/world.h"
 
 namespace vkdose::reference {
 
@@ -19,8 +19,8 @@ struct Branch {
     Vec3 force{0};   ///< on the particle [N]
 };
 
-/// Computes the fields. `density` is that of the particles [kg/m3].
-FieldPoints coarseGrain(const FieldRequest& request, double density, const Particles& particles,
+/// Computes the fields. The world has the densities of the powders.
+FieldPoints coarseGrain(const FieldRequest& request, const World& world, const Particles& particles,
                         const std::vector<Branch>& branches);
 
 }  // namespace vkdose::reference

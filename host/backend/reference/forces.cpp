@@ -55,7 +55,7 @@ void Forces::evaluate(const RuledWorld& world, const Particles& particles, const
 Body Forces::body(std::size_t i) const {
     const double radius = particles_->radius[i];
     return {particles_->position[i], particles_->velocity[i], particles_->spin[i], radius,
-            sphereMass(world_->density, radius)};
+            massOf(*world_, *particles_, i)};
 }
 
 void Forces::note(const Touch& touch, ContactClass kind, std::size_t particle, std::size_t other) {
@@ -64,12 +64,12 @@ void Forces::note(const Touch& touch, ContactClass kind, std::size_t particle, s
         loads_->deepest = {ratio, kind, static_cast<std::uint32_t>(particle), static_cast<std::uint32_t>(other)};
 }
 
-Exerted Forces::exertedBy(ContactClass kind, const Touch& touch, const Response& response,
+Exerted Forces::exertedBy(MaterialPair pair, const Touch& touch, const Response& response,
                           const History& history) const {
     Exerted exerted;
     exerted.force = response.force;
     if (!world_->energyBook) return exerted;
-    const Elastic elastic = elasticEnergy(world_->law.of(kind), response.parts, touch.overlap, touch.reduced, history);
+    const Elastic elastic = elasticEnergy(world_->law.of(pair), response.parts, touch.overlap, touch.reduced, history);
     return {true, touch.normal, touch.overlap, touch.leverI, touch.leverJ, response.parts, elastic, response.force};
 }
 
@@ -118,21 +118,21 @@ void Forces::pairs(std::size_t i) {
         partThoseBefore(j);
         const bool continues = known != before_.cend() && known->other == j;
         const double reduced = reducedSize(particles_->radius[i], particles_->radius[j]);
-        const ContactParameters& law = world_->law.of(ContactClass::ParticleParticle);
-        const std::optional<Touch> touch = touchSphere(body(i), body(j), reachOf(law, reduced, continues));
+        const MaterialPair pair{materialOf(i), materialOf(j)};
+        const std::optional<Touch> touch =
+            touchSphere(body(i), body(j), reachOf(world_->law.of(pair), reduced, continues));
         if (!touch) continue;
         const Known before = continues ? *known++ : Known{j, {}, {}};
         History history = before.history;
 
-        const Response response =
-            contactResponse(world_->law, ContactClass::ParticleParticle, *touch, springDt_, history);
+        const Response response = contactResponse(world_->law, pair, *touch, springDt_, history);
         loads_->force[i] += response.force;
         loads_->force[j] -= response.force;
         loads_->torque[i] += response.torqueI;
         loads_->torque[j] += response.torqueJ;
         loads_->branches.push_back({static_cast<std::uint32_t>(i), j, true, particles_->position[i],
                                     particles_->position[i] - particles_->position[j], response.force});
-        const Exerted now = exertedBy(ContactClass::ParticleParticle, *touch, response, history);
+        const Exerted now = exertedBy(pair, *touch, response, history);
         book(before.exerted, now, body(i), body(j));
         pairs_[i].push_back({j, history, now});
         note(*touch, ContactClass::ParticleParticle, i, j);
@@ -141,17 +141,17 @@ void Forces::pairs(std::size_t i) {
 }
 
 /// The caller books the force, because it knows that of the last step.
-Forces::Pushed Forces::wall(std::size_t i, ContactClass kind, std::uint32_t other, const Touch& touch,
-                            History& history) {
-    const Response response = contactResponse(world_->law, kind, touch, springDt_, history);
+Forces::Pushed Forces::wall(std::size_t i, int material, std::uint32_t other, const Touch& touch, History& history) {
+    const MaterialPair pair{materialOf(i), material};
+    const Response response = contactResponse(world_->law, pair, touch, springDt_, history);
     loads_->force[i] += response.force;
     loads_->torque[i] += response.torqueI;
     const Vec3 toWall = (particles_->radius[i] - touch.overlap) * touch.normal;
     loads_->branches.push_back(
         {static_cast<std::uint32_t>(i), other, false, particles_->position[i], toWall, response.force});
-    note(touch, kind, i, other);
+    note(touch, classAtWall(material), i, other);
     const Vec3 point = particles_->position[i] + touch.leverI;
-    Pushed pushed{exertedBy(kind, touch, response, history), point, response.couple};
+    Pushed pushed{exertedBy(pair, touch, response, history), point, response.couple};
     pushed.exerted.leverJ = point;
     return pushed;
 }
@@ -167,7 +167,7 @@ void Forces::meetSurfaces(std::size_t i) {
         if (particles_->status[i] == Status::Active) {
             met.closest = geometry::closestPoint(world_->surfaces[s], particles_->position[i]);
             const double radius = particles_->radius[i];
-            met.reach = reachOf(world_->law.of(ContactClass::ParticleWall), 2 * radius, continues);
+            met.reach = reachOf(world_->law.between(materialOf(i), world_->materialOf(s)), 2 * radius, continues);
             met.touches = radius - met.closest.distance > -met.reach;
         }
         met_.push_back(met);
@@ -211,7 +211,7 @@ void Forces::surfaces(std::size_t i) {
             continue;
         }
         History history = met.known.history;
-        const Exerted now = wall(i, ContactClass::ParticleWall, met.known.other, *touch, history).exerted;
+        const Exerted now = wall(i, world_->materialOf(met.known.other), met.known.other, *touch, history).exerted;
         book(met.known.exerted, now, body(i), kFixed);
         surfaces_[i].push_back({met.known.other, history, now});
     }
@@ -230,7 +230,8 @@ std::vector<Contact> Forces::contacts() const {
         for (const Known& known : surfaces_[i])
             add(ContactClass::ParticleWall, i, known.other, known.history, known.exerted);
     for (std::size_t i = 0; i < onBodies_.size(); ++i)
-        for (const OnBody& c : onBodies_[i]) add(bodies_[c.body].kind, i, walls_ + c.body, c.history, c.exerted);
+        for (const OnBody& c : onBodies_[i])
+            add(classAtWall(bodies_[c.body].material), i, walls_ + c.body, c.history, c.exerted);
     return list;
 }
 

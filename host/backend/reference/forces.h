@@ -99,12 +99,13 @@ class Forces {
     void touchBody(std::size_t i, std::uint32_t b, std::span<const OnBody> before);
     void loadBody(std::uint32_t b, const Pushed& pushed);
     void bookBody(std::size_t i, std::uint32_t b, const Exerted& before, const Exerted& now);
-    Pushed wall(std::size_t i, ContactClass kind, std::uint32_t other, const Touch& touch, History& history);
-    Exerted exertedBy(ContactClass kind, const Touch& touch, const Response& response, const History& history) const;
+    Pushed wall(std::size_t i, int material, std::uint32_t other, const Touch& touch, History& history);
+    Exerted exertedBy(MaterialPair pair, const Touch& touch, const Response& response, const History& history) const;
     void book(const Exerted& before, const Exerted& now, const Body& i, const Body& j);
     void partPair(std::size_t i, const Known& known);
     void partWall(std::size_t i, const Exerted& before);
     Body body(std::size_t i) const;
+    int materialOf(std::size_t i) const { return particles_->material[i]; }
     void note(const Touch& touch, ContactClass kind, std::size_t particle, std::size_t other);
 
     std::vector<std::vector<Known>> pairs_, surfaces_;  ///< per particle, ascending in `other`

@@ -45,7 +45,7 @@ void Forces::touchBody(std::size_t i, std::uint32_t b, std::span<const OnBody> b
     const Placed& placed = placed_[b];
     const double radius = particles_->radius[i];
     const double reduced = body.curvature > 0 ? reducedSize(radius, body.curvature) : 2 * radius;
-    const double reach = before.empty() ? 0 : reachOf(world_->law.of(body.kind), reduced);
+    const double reach = before.empty() ? 0 : reachOf(world_->law.between(materialOf(i), body.material), reduced);
     std::vector<geometry::Feature> found;
     if (particles_->status[i] == Status::Active) try {
             found = geometry::touched(body.shapes, placed.pose.toBody(particles_->position[i]), radius + reach);
@@ -78,7 +78,7 @@ void Forces::touchBody(std::size_t i, std::uint32_t b, std::span<const OnBody> b
             now.history.rolling = geometry::turnedAlong(known.history.rolling, from, normal);
             last = known.exerted;
         }
-        Pushed pushed = wall(i, body.kind, other, *touch, now.history);
+        Pushed pushed = wall(i, body.material, other, *touch, now.history);
         pushed.exerted.leverJ = pushed.point - placed.moving.centre;
         now.exerted = pushed.exerted;
         loadBody(b, pushed);

@@ -47,6 +47,7 @@ class ReferenceBackend final : public Backend {
                 fmt::format("contact.law = \"{}\" is written in the language of devices, and the backend "
                             "reference cannot run it: use --backend vulkan",
                             law.user->name));
+        checkMaterials(world, law, particles);
         world_ = {world, law};
         particles_ = particles;
         forces_.reset(particles.size(), world);
@@ -60,6 +61,7 @@ class ReferenceBackend final : public Backend {
     }
 
     void setLaw(const ContactLaw& law) override {
+        checkMaterials(world_, law, particles_);
         if (reachIn(law) > reach_) throw RunError(kReachesFarther);
         world_.law = law;
     }
@@ -76,7 +78,7 @@ class ReferenceBackend final : public Backend {
     std::vector<Contact> contacts() const override { return forces_.contacts(); }
     FieldPoints fields(const FieldRequest& request) override {
         if (const std::optional<std::string> fault = faultOf(request)) throw RunError(*fault);
-        return reference::coarseGrain(request, world_.density, particles_, loads_.branches);
+        return reference::coarseGrain(request, world_, particles_, loads_.branches);
     }
     double coilAngle() const override { return angle_; }
     std::string description() const override { return "reference"; }
@@ -97,9 +99,10 @@ class ReferenceBackend final : public Backend {
     Mechanical mechanicalEnergy(std::size_t i) const;
     EnergyBook senseEnergy() const;
 
-    double reachIn(const ContactLaw& law) const { return longestReach(law, largestRadius(particles_)); }
+    double reachIn(const ContactLaw& law) const { return longestReach(world_, law, largestRadius(particles_)); }
     double mass(std::size_t i) const {
-        return world_.density * (4.0 / 3.0) * kPi * particles_.radius[i] * particles_.radius[i] * particles_.radius[i];
+        return world_.density(particles_.material[i]) * (4.0 / 3.0) * kPi * particles_.radius[i] *
+               particles_.radius[i] * particles_.radius[i];
     }
     std::string when() const {
         return fmt::format("step {} (t = {:.6g} s)", steps_, static_cast<double>(steps_) * world_.timeStep);

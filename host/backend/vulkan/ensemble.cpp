@@ -125,7 +125,8 @@ void Ensemble::writeBlocks() {
 
 void Ensemble::setLaw(std::uint32_t member, const ContactLaw& law) {
     MemberState& m = members_[member];
-    if (float(longestReach(law, largestRadius(m.loaded))) > reachOf(m.block)) throw RunError(kReachesFarther);
+    checkMaterials(m.world, law, m.loaded);
+    if (float(longestReach(m.world, law, largestRadius(m.loaded))) > reachOf(m.block)) throw RunError(kReachesFarther);
     packLaw(law, m.block);
 }
 
@@ -140,7 +141,7 @@ void Ensemble::addParticles(std::uint32_t member, std::size_t first, const std::
     Particles added;
     for (std::size_t k = 0; k < positions.size(); ++k)
         added.add(positions[k], m.loaded.radius.at(first + k),
-                  velocityOfRest(m.world.timeStep, m.world.gravity, m.step));
+                  velocityOfRest(m.world.timeStep, m.world.gravity, m.step), Vec3(0), m.loaded.material[first + k]);
     writeParticles(*passes_, member, first, added, m.half());
 }
 
@@ -390,8 +391,8 @@ std::vector<Contact> Ensemble::contacts(std::uint32_t member) const {
             c.history[1], c.force);
     for (const PlaceContact& c : touchingPlaces(*passes_, member)) {
         const MemberState& m = members_[member];
-        add(m.bodies.at(c.body).kind, c.particle, std::uint32_t(m.world.surfaces.size() + c.body), c.history[0],
-            c.history[1], c.force);
+        add(classAtWall(m.bodies.at(c.body).material), c.particle, std::uint32_t(m.world.surfaces.size() + c.body),
+            c.history[0], c.history[1], c.force);
     }
     std::stable_sort(contacts.begin(), contacts.end(),
                      [](const Contact& a, const Contact& b) { return a.particle < b.particle; });

@@ -56,6 +56,7 @@ gpu::FieldParams pack(const FieldRequest& r, const TableSizes& sizes, double lar
     p.tile = gpu::uvec4(tile[0], tile[1], tile[2], r.contactStress ? 1 : 0);
     for (int d = 0; d < 3; ++d) p.tiles[d] = (p.cells[d] + p.tile[d] - 1) / p.tile[d];
     p.tiles.w = sizes.bodies > 0 ? kSliceBesideBodies : kSlice;
+    p.chosen.x = r.material ? std::uint32_t(*r.material) + 1 : 0;
     return p;
 }
 

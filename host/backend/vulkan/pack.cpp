@@ -20,9 +20,9 @@ using gpu::vec4;
 // The device uses the same numbers as the host.
 static_assert(gpu::kStatusActive == uint32_t(Status::Active) && gpu::kStatusDosed == uint32_t(Status::Dosed) &&
               gpu::kStatusLost == uint32_t(Status::Lost) && gpu::kStatusAbsent == uint32_t(Status::Waiting));
-static_assert(gpu::kParticleParticle == uint32_t(ContactClass::ParticleParticle) &&
-              gpu::kParticleWall == uint32_t(ContactClass::ParticleWall) &&
-              gpu::kParticleCoil == uint32_t(ContactClass::ParticleCoil));
+static_assert(gpu::kFirstPowder == kFirstPowder && gpu::kWallMaterial == kWallMaterial &&
+              gpu::kCoilMaterial == kCoilMaterial && gpu::kMostMaterials == kMostMaterials);
+static_assert(gpu::pairIndex(2, 5) == PairTable::index({2, 5}) && gpu::pairIndex(5, 2) == gpu::pairIndex(2, 5));
 static_assert(gpu::kCoulombLuding == uint32_t(CoulombLimit::Luding) &&
               gpu::kCoulombAbsolute == uint32_t(CoulombLimit::Absolute));
 static_assert(gpu::kLawLuding == uint32_t(NormalLaw::Luding) &&
@@ -113,19 +113,20 @@ float reachOf(const gpu::Member& member) {
 }
 
 void packLaw(const ContactLaw& law, gpu::Member& member) {
-    for (int i = 0; i < kContactClasses; ++i) member.contact[i] = packContact(law.classes[i]);
+    std::transform(law.pairs.begin(), law.pairs.end(), member.contact, packContact);
     member.choices.x = float(law.coulombLimit);
     member.choices.y = float(law.rollingLever);
 }
 
 void packGravity(const World& world, gpu::Member& m) {
-    m.gravity = vec4(glm::vec3(world.gravity), float(world.density));
+    m.gravity = vec4(glm::vec3(world.gravity), float(world.density()));
 }
 
 gpu::Member packMember(const World& world, const ContactLaw& law, const Particles& particles) {
     if (world.surfaces.size() > gpu::kMaxSurfaces)
         throw RunError(fmt::format("{} surfaces; the Vulkan backend holds {}", world.surfaces.size(),
                                    uint32_t(gpu::kMaxSurfaces)));
+    checkMaterials(world, law, particles);
     gpu::Member m{};
     packLaw(law, m);
     m.choices.z = 1.0f;
@@ -133,10 +134,13 @@ gpu::Member packMember(const World& world, const ContactLaw& law, const Particle
         if (std::holds_alternative<geometry::Front>(world.surfaces[i]) && i + 1 < world.surfaces.size())
             throw std::logic_error("the front wall must be the last surface");
         m.surface[i] = std::visit(PackSurface{}, world.surfaces[i]);
+        m.surface[i].radius.z = float(world.materialOf(i));
     }
-    const double largest = largestRadius(particles), reach = longestReach(law, largest);
+    const double largest = largestRadius(particles), reach = longestReach(world, law, largest);
     const auto finite = [](double x) { return float(std::clamp(x, -1e30, 1e30)); };
     packGravity(world, m);
+    for (std::size_t k = 0; k < world.materials.size(); ++k)
+        m.densities[k / 4][int(k % 4)] = float(world.materials[k].density);
     m.domainLow = vec4(glm::vec3(world.domain.low), finite(world.throatZ));
     m.domainHigh = vec4(glm::vec3(world.domain.high), finite(world.outletZ));
     packOutlets(world, m);
@@ -161,7 +165,7 @@ void packState(const Particles& p, std::size_t share, std::size_t first, std::ve
         Split3 x(p.position[i]);
         const bool active = p.status[i] == Status::Active;
         position = vec4(x.high, float(active ? p.radius[i] : -p.radius[i]));
-        at(gpu::kResidue, i) = vec4(x.low, 0.0f);
+        at(gpu::kResidue, i) = vec4(x.low, float(p.material[i]));
         at(gpu::kVelocity, i) = vec4(glm::vec3(p.velocity[i]), 0.0f);
         spin = vec4(glm::vec3(p.spin[i]), float(uint32_t(p.status[i])));
     }

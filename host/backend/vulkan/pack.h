@@ -18,7 +18,7 @@ float reachOf(const gpu::Member& member);
 
 /// Replaces the contact law of a packed member, but not its reach.
 void packLaw(const ContactLaw& law, gpu::Member& member);
-/// Gravity, with the density beside it.
+/// Gravity, with the density of the first powder beside it.
 void packGravity(const World& world, gpu::Member& member);
 
 /// Writes a member's part of one half of the state buffer (gpu::stateOffset): `share` slots from `first` on. Slots that

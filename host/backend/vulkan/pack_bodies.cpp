@@ -258,7 +258,7 @@ gpu::BodyMotion packMotion(const RigidBody& body, const geometry::Pose& pose, co
         m.toBodyHigh[i] = vec4(row.high, origin.high[i]);
         m.toBodyLow[i] = vec4(row.low, origin.low[i]);
     }
-    m.velocity = vec4(glm::vec3(moving.velocity), float(body.kind));
+    m.velocity = vec4(glm::vec3(moving.velocity), float(body.material));
     m.spin = vec4(glm::vec3(moving.spin), body.surfaceMoves ? 1.0f : 0.0f);
     m.centre = vec4(glm::vec3(moving.centre), float(body.curvature));
     return m;

@@ -154,9 +154,9 @@ std::vector<const char*> Passes::names() {
     return names;
 }
 
-std::array<std::uint32_t, 11> Passes::constants(const TableSizes& s) {
-    return {s.workgroup, s.surfaces, s.surfaceKinds, s.kindSet, s.members,   s.mostGroups,
-            s.front,     s.bodies,   s.shapeKinds,   s.laws,    s.mostPlaces};
+std::array<std::uint32_t, 13> Passes::constants(const TableSizes& s) {
+    return {s.workgroup, s.surfaces,   s.surfaceKinds, s.kindSet,    s.members, s.mostGroups, s.front,
+            s.bodies,    s.shapeKinds, s.laws,         s.mostPlaces, s.powders, s.manyWalls};
 }
 
 void Passes::reset() {

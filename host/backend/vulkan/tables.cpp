@@ -38,6 +38,14 @@ std::uint64_t meanRow(const World& world, const Crowd& crowd, double reach) {
     return std::uint64_t(std::clamp(mean, 12.0, double(gpu::kMaxRow)));
 }
 
+/// Whether a surface or body is of another material than walls and coil.
+bool hasManyWalls(const World& world) {
+    for (std::size_t s = 0; s < world.surfaces.size(); ++s)
+        if (world.materialOf(s) != kWallMaterial) return true;
+    return std::any_of(world.bodies.begin(), world.bodies.end(),
+                       [](const RigidBody& b) { return b.material != kWallMaterial && b.material != kCoilMaterial; });
+}
+
 std::string hashOf(const std::shared_ptr<const UserLaw>& law) {
     return law ? law->hash : "";
 }
@@ -60,6 +68,8 @@ void TableSizes::growTo(const TableSizes& other) {
     shapeKinds |= other.shapeKinds;
     mostPlaces = std::max(mostPlaces, other.mostPlaces);
     laws |= other.laws;
+    powders = std::max(powders, other.powders);
+    manyWalls = std::max(manyWalls, other.manyWalls);
 }
 
 TableCounts::TableCounts(const TableSizes& s)
@@ -163,7 +173,11 @@ TableSizes tableSizes(const World& world, const Crowd& crowd, const gpu::Member&
         if (wall && member.surface[i].pointLow.w != 0) s.kindSet |= gpu::kEndingWalls;
         if (i < gpu::kUnrolledSurfaces) s.surfaceKinds |= kind << (4 * i);
     }
-    for (const gpu::ContactParams& contact : member.contact) s.laws |= 1U << std::uint32_t(contact.springs.w);
+    for (const MaterialPair& pair : occurringPairs(world))
+        s.laws |= 1U << std::uint32_t(member.contact[PairTable::index(pair)].springs.w);
+    const std::vector<int> powders = powdersOf(world);
+    s.powders = powders == std::vector{kFirstPowder} ? 1U : std::max(2U, std::uint32_t(powders.size()));
+    s.manyWalls = hasManyWalls(world) ? 1U : 0U;
     if (userLaw && reachOf(member) > 0) s.laws |= 1U << gpu::kUserReaches;
     s.energyBook = world.energyBook;
 

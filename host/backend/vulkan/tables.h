@@ -21,14 +21,16 @@ struct TableSizes {
     std::uint32_t workgroup = 64;
     std::uint32_t mostGroups = 65535;  ///< in a row of a dispatch; 65535 is what every device can do
     std::uint32_t surfaces = 0;
-    std::uint32_t surfaceKinds = 0;  ///< of the first kUnrolledSurfaces, 4 bits each
-    std::uint32_t kindSet = 0;       ///< bit k: there is a surface of kind k; and kEndingWalls
-    std::uint32_t front = 0;         ///< the front wall among the surfaces, if there is one
-    std::uint32_t bodies = 0;        ///< most bodies of a member, its coil counted
+    std::uint32_t surfaceKinds = 0;          ///< of the first kUnrolledSurfaces, 4 bits each
+    std::uint32_t kindSet = 0;               ///< bit k: there is a surface of kind k; and kEndingWalls
+    std::uint32_t front = 0;                 ///< the front wall among the surfaces, if there is one
+    std::uint32_t bodies = 0;                ///< most bodies of a member, its coil counted
     std::shared_ptr<const UserLaw> userLaw;  ///< of all members; null: they follow the program's own
-    std::uint32_t laws = 0;          ///< bit k: contacts of some class follow the law k (NormalLaw)
-    std::uint32_t shapeKinds = 0;    ///< bit k: a body has a shape of kind k (shaders/shared/geometry.h)
-    std::uint32_t mostPlaces = 1;    ///< in which a sphere touches a body at once; gpu::kFewPlaces: that or more
+    std::uint32_t laws = 0;                  ///< bit k: contacts of some pair follow the law k (NormalLaw)
+    std::uint32_t powders = 1;               ///< 1: all particles are of the first powder
+    std::uint32_t manyWalls = 0;             ///< 1: a surface or body is of another material than walls and coil
+    std::uint32_t shapeKinds = 0;            ///< bit k: a body has a shape of kind k (shaders/shared/geometry.h)
+    std::uint32_t mostPlaces = 1;  ///< in which a sphere touches a body at once; gpu::kFewPlaces: that or more
     // Of each member:
     std::uint32_t share = 0;  ///< slots for particles, a multiple of the workgroup
     std::uint32_t cells = 0;  ///< a power of two
