@@ -66,7 +66,8 @@ Evaluation beverloo(const std::vector<Run>& runs, const std::filesystem::path&) 
     }
     double off = 0, largest = 0;
     for (const Point& p : points) {
-        off = std::max(off, std::abs(p.root - fit.at(p.hole)));
+        const double distance = std::abs(p.root - fit.at(p.hole));
+        if (!(distance <= off)) off = distance;  // what is not a number stays
         largest = std::max(largest, p.root);
     }
 
