@@ -185,8 +185,19 @@ Table withStopColumns(const Table& older) {
     return now;
 }
 
+/// The table without the columns of regions, which follow those that every run has.
+Table withoutRegions(const Table& whole) {
+    const Row known = columnNames(kDoseColumns);
+    const Row& names = whole.names();
+    if (names.size() <= known.size() || !std::equal(known.begin(), known.end(), names.begin())) return whole;
+    const auto count = std::ptrdiff_t(known.size());
+    Table table(known);
+    for (std::size_t i = 0; i < whole.rows(); ++i) table.add(Row(whole.row(i).begin(), whole.row(i).begin() + count));
+    return table;
+}
+
 Table dosesIn(const fs::path& folder) {
-    Table table = Table::salvage(folder / "doses.csv");
+    Table table = withoutRegions(Table::salvage(folder / "doses.csv"));
     if (table.names() == columnNames(kPlainDoseColumns)) table = withStopColumns(table);
     return table.names() == columnNames(kDoseColumns) ? table : Table();
 }

@@ -24,6 +24,21 @@ TEST_CASE("an older table of doses gets the columns of the stop, without figures
     CHECK(dosesIn(file.parent_path()).names().empty());
 }
 
+TEST_CASE("the doses of a case with regions are taken without the regions' columns, which follow the others") {
+    const Folder folder;
+    std::string names, values;
+    for (const std::string& name : columnNames(kDoseColumns)) {
+        names += (names.empty() ? "" : ",") + name;
+        values += values.empty() ? "1" : ",2";
+    }
+    const auto file = folder.write("doses.csv", names + ",pan.mass_kg,pan.count\n" + values + ",7,8\n");
+    const Table table = dosesIn(file.parent_path());
+    CHECK(table.names() == columnNames(kDoseColumns));
+    REQUIRE(table.rows() == 1);
+    CHECK(table.row(0).size() == table.names().size());
+    CHECK(table.row(0).back() == "2");
+}
+
 TEST_CASE("an older table of members gets the columns of doses to a mass, without figures") {
     Row names{"member", "seed"};
     for (const std::string& name : kOutputColumns)
