@@ -57,9 +57,9 @@ Result impacts(const ValidateOptions& options) {
             if (!(share <= finding.got)) finding.got = share;  // NaN stays
         }
         finding.high = 1;
-        finding.source = test <= 2                ? "published figures and closed forms"
-                         : test <= 4 || test == 7 ? "closed forms"
-                                                  : "closed forms, integrated impacts";
+        finding.source = test <= 2   ? "published figures and closed forms"
+                         : test <= 4 ? "closed forms"
+                                     : "closed forms, integrated impacts";
         finding.remark = fmt::format("{} figures of vkdose verify --only {}", checks.size(), name);
         result.evaluation.findings.push_back(finding);
     }
@@ -73,14 +73,15 @@ fs::path outOf(const ValidateOptions& options) {
     return fs::path("out") / (options.full ? "validate-full" : "validate");
 }
 
-/// "4 runs, 61 s of stepping, 2.4e+08 particle-steps"
+/// "4 runs, 61 s of stepping by the clock, 2.4e+08 particle-steps"
 std::string costOf(const std::vector<validate::Run>& runs) {
     double seconds = 0, steps = 0;
     for (const validate::Run& run : runs) {
         seconds += run.figure("/stepping_wall_time_s");
         steps += run.figure("/particle_steps");
     }
-    return fmt::format("{}, {:.0f} s of stepping, {:.2g} particle-steps", counted(runs.size(), "run"), seconds, steps);
+    return fmt::format("{}, {:.0f} s of stepping by the clock, {:.2g} particle-steps", counted(runs.size(), "run"),
+                       seconds, steps);
 }
 
 void tellFindings(const Result& result) {
