@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "host/core/json.h"
 
 namespace vkdose::validate {
@@ -23,6 +25,7 @@ std::string expectedText(const Finding& f) {
 }
 
 std::string gotText(const Finding& f) {
+    if (!std::isfinite(f.got)) return "none";
     return f.error > 0 ? fmt::format("{:.4g} ± {:.2g}", f.got, f.error) : fmt::format("{:.4g}", f.got);
 }
 

@@ -41,7 +41,7 @@ TEST_CASE("validate runs the study of a comparison, judges it, and finds it done
     box.write("cases/validate/small.toml",
               "base = \"" VKDOSE_SOURCE_DIR
               "/cases/validate/flat-silo.toml\"\n"
-              "[particles]\nmass_g = 0.5\n[settle]\ntime_s = 0.02\n[time]\nstep_s = 1e-4\n"
+              "[particles]\nmass_g = 0.5\n[settle]\ntime_s = 0.02\n"
               "[measure.settled]\ntime_s = 0.01\n[measure.discharge]\nfrom_s = 0.0\nto_s = 0.02\n");
     const auto outcome = box.vkdose("validate beverloo --backend reference --jobs 2");
     INFO(outcome.out << outcome.err);

@@ -143,6 +143,8 @@ TEST_CASE("the tables tell every figure with its verdict, and what could not be 
     const std::string text = markdownTable(results, "reference");
     CHECK(text.find("| C | 0.55 to 0.65 | 0.7") != std::string::npos);
     CHECK(text.find("| differs |") != std::string::npos);
+    CHECK(markdownTable({{"c", "what", "", {{Finding{"f", "-"}}, {}}, "", ""}}, "x").find("| none |") !=
+          std::string::npos);
     CHECK(text.find("Not made: no powder") != std::string::npos);
     const auto json = nlohmann::json::parse(jsonTable(results, "reference"));
     CHECK(json["comparisons"][0]["findings"][0]["verdict"] == "differs");
