@@ -85,6 +85,7 @@ int commandLine(int argc, const char* const* argv) {
     if (program.got_subcommand("sweep")) return guarded([&] { return sweepCommand(studied(given.sweep)); });
     if (program.got_subcommand("calibrate"))
         return guarded([&] { return calibrateCommand(studied(given.calibration)); });
+    if (program.got_subcommand("validate")) return guarded([&] { return validateCommand(given.validation); });
     if (program.got_subcommand("report")) return guarded([&] { return reportCommand(given.report); });
     if (program.got_subcommand("profile")) return guarded([&] { return profileCommand(given.profile); });
     if (program.got_subcommand("render")) return guarded([&] { return renderCommand(given.render); });

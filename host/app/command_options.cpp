@@ -186,6 +186,28 @@ CLI::App& addSweep(CLI::App& program, const char* name, const char* what, SweepO
     return command;
 }
 
+void addValidate(CLI::App& program, ValidateOptions& options) {
+    CLI::App& command =
+        *program.add_subcommand("validate", "run the comparisons with the literature and judge the results");
+    command.add_option("name", options.names, "comparisons to run (default: all)")
+        ->check(CLI::IsMember(comparisonNames()));
+    command
+        .add_option("--out", options.sweep.out,
+                    "folder for validate.md, validate.json, validate.html and the runs (default: out/validate, "
+                    "with --full out/validate-full)")
+        ->type_name("DIR");
+    command.add_flag("--full", options.full, "at full size: hours on a CPU");
+    command.add_flag("--list", options.list, "tell which comparisons there are, and run none");
+    command
+        .add_option("--jobs", options.sweep.jobs,
+                    "runs at once, each in a process of its own (default on a CPU: one for each core)")
+        ->check(CLI::Range(1, 1024));
+    command.add_flag("--retry-failed", options.sweep.retryFailed,
+                     "run those that failed again, from their checkpoints if these can be read");
+    command.add_flag("--quiet", options.sweep.quiet, "print the verdicts and errors only");
+    addBackend(command, options.sweep.backend);
+}
+
 void addReport(CLI::App& program, ReportOptions& options) {
     CLI::App& command = *program.add_subcommand(
         "report", "write an HTML report of a run or a sweep, or of several runs beside each other");
@@ -356,6 +378,7 @@ void declareCommands(CLI::App& program, Options& options) {
     program.get_subcommand("sweep")->add_flag("--prepare", options.sweep.prepare,
                                               "only make the members' folders, for a queue (tools/slurm-array)");
     addSweep(program, "calibrate", "find the parameters of a study that dose the measured mass", options.calibration);
+    addValidate(program, options.validation);
     addReport(program, options.report);
     addProfile(program, options.profile);
     addRender(program, options.render);

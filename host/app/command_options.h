@@ -2,6 +2,7 @@
 // The commands and options of the program: what can be given, and where the values go.
 
 #include "host/app/commands.h"
+#include "host/app/validate.h"
 
 namespace CLI {
 class App;
@@ -29,6 +30,7 @@ struct Options {
     ExportBodyOptions exportBody;
     SweepOptions sweep;
     SweepOptions calibration;
+    ValidateOptions validation;
     ReportOptions report;
     ProfileOptions profile;
     RenderOptions render;

@@ -69,6 +69,28 @@ void dropRivals(Node& lower, const Node& upper, std::string_view path) {
     }
 }
 
+void mergeAt(Node& lower, Node upper, const std::string& path);
+
+/// A table over a list of tables changes those that it names: `body.gate.at` is a key of the [[body]] named gate.
+void mergeNamed(Node& list, Node upper, const std::string& path) {
+    for (Node& value : upper.children) {
+        std::string names;
+        Node* meant = nullptr;
+        for (Node& item : list.children) {
+            const Node* name = item.child("name");
+            if (name == nullptr || name->kind != Node::Kind::String) continue;
+            names += (names.empty() ? "" : ", ") + name->string;
+            if (name->string == value.key) meant = &item;
+        }
+        if (meant == nullptr || value.kind != Node::Kind::Table)
+            throw CaseError(
+                {{value.file, value.line, path + "." + value.key, value.text,
+                  fmt::format("is no table of the list [[{}]]", path),
+                  names.empty() ? "give the whole list" : fmt::format("give a key of one of these: {}", names)}});
+        mergeAt(*meant, std::move(value), path);
+    }
+}
+
 void mergeAt(Node& lower, Node upper, const std::string& path) {
     dropRivals(lower, upper, path);
     for (Node& value : upper.children) {
@@ -77,6 +99,8 @@ void mergeAt(Node& lower, Node upper, const std::string& path) {
             lower.children.push_back(std::move(value));
         else if (below->kind == Node::Kind::Table && value.kind == Node::Kind::Table)
             mergeAt(*below, std::move(value), path.empty() ? below->key : path + "." + below->key);
+        else if (below->kind == Node::Kind::Array && value.kind == Node::Kind::Table)
+            mergeNamed(*below, std::move(value), path.empty() ? below->key : path + "." + below->key);
         else
             *below = std::move(value);
     }

@@ -5,7 +5,7 @@ try {
   const main = document.querySelector("main");
   add(main, "h1", report.name);
   if (report.reason) add(main, "p", report.reason, "reason");
-  ({run: runPage, runs: runsPage, study: studyPage})[report.kind](main, report);
+  ({run: runPage, runs: runsPage, study: studyPage, validation: validationPage})[report.kind](main, report);
   // The first charts were drawn before their neighbours took part of the width, so all are drawn again.
   const draw = width => drawings.forEach(again => again(width));
   draw();

@@ -59,7 +59,7 @@ std::vector<std::string> scriptsOf(bool player) {
                           parts::kPlayerScene + parts::kPlayer);
     }
     scripts.push_back(std::string(parts::kCharts) + parts::kRamp + parts::kControls + parts::kStream + parts::kFields +
-                      parts::kRun + parts::kRuns + parts::kStudy + parts::kMain);
+                      parts::kRun + parts::kRuns + parts::kStudy + parts::kValidation + parts::kMain);
     return scripts;
 }
 

@@ -7,7 +7,7 @@ find_file(THREE_LICENCE copyright PATHS /usr/share/doc/libjs-three NO_DEFAULT_PA
 
 set(parts "")
 foreach(part Page:page.html Style:page.css Charts:charts.js Ramp:ramp.js Controls:controls.js Stream:stream.js
-        Fields:fields.js Run:run.js Runs:runs.js Study:study.js Main:main.js
+        Fields:fields.js Run:run.js Runs:runs.js Study:study.js Validation:validation.js Main:main.js
         Player:player.js PlayerFrames:player_frames.js PlayerColours:player_colours.js PlayerBodies:player_bodies.js
         PlayerScene:player_scene.js
         D3:${D3_SCRIPT} Licence:${D3_LICENCE} Three:${THREE_SCRIPT} ThreeLicence:${THREE_LICENCE})

@@ -61,6 +61,12 @@ void hertzRestitution(Stage& stage);
 void hertzOblique(Stage& stage);
 void hertzLedger(Stage& stage);
 
+// chung_ooi.cpp
+void hertzObliqueSticking(Stage& stage);
+void hertzSpinningWall(Stage& stage);
+void hertzSpinningPair(Stage& stage);
+void hertzSpinningUnequal(Stage& stage);
+
 // eepa.cpp
 void eepaPath(Stage& stage);
 void eepaRestitution(Stage& stage);

@@ -184,6 +184,25 @@ TEST_CASE("an override replaces its rival") {
     CHECK(loadCase(file, {"particles.size.distribution=uniform"}).filling.size.radiusMax == 1.3e-3);
 }
 
+TEST_CASE("a key of one table of a list is reached by the table's name") {
+    const Folder folder;
+    const std::string disc = "shape = \"disc\"\nradius_mm = 8\nat = [0, 0, 0.1]\n";
+    const auto file = folder.write("case.toml", std::string(kGoodCase) + "[[body]]\nname = \"gate\"\n" + disc +
+                                                    "[body.motion]\nkind = \"slide\"\nvelocity = [1, 0, 0]\n" +
+                                                    "[[body]]\nname = \"lid\"\n" + disc);
+    const Case c = loadCase(file, {"body.gate.motion.velocity=[2, 0, 0]", "body.gate.radius_mm=7.5"});
+    CHECK_THAT(c.resolved, Catch::Contains("velocity = [2") && Catch::Contains("radius_mm = 7.5"));
+    CHECK_THAT(c.resolved, Catch::Contains("radius_mm = 8"));  // the lid's
+    const auto upper = folder.write("upper.toml", "base = \"case.toml\"\n[body.lid]\nradius_mm = 6.5\n");
+    CHECK_THAT(loadCase(upper).resolved, Catch::Contains("radius_mm = 6.5") && Catch::Contains("radius_mm = 8"));
+    for (const char* wrong : {"body.door.radius_mm=3", "body.gate=3"}) try {
+            loadCase(file, {wrong});
+            FAIL(wrong);
+        } catch (const CaseError& error) {
+            CHECK_THAT(error.what(), Catch::Contains("one of these: gate, lid"));
+        }
+}
+
 TEST_CASE("a base file is overridden key by key, faults name the file they stand in") {
     const Folder folder;
     std::filesystem::create_directory(folder.path() / "variants");

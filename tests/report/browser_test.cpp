@@ -127,6 +127,37 @@ TEST_CASE("a browser draws the page of a study") {
     CHECK(dom.find("1 failed: particle 3 at (0, 0, 1) \"left\" the domain") != std::string::npos);
 }
 
+TEST_CASE("a browser draws the page of a validation") {
+    if (browserMissing()) return;
+    const Sandbox box;
+    const Json finding{
+        {"figure", "C"},        {"expected", "0.55 to 0.65"}, {"got", 0.7},     {"error", 0.02}, {"unit", "-"},
+        {"verdict", "differs"}, {"source", "a <b>book</b>"},  {"remark", "fit"}};
+    const Json chart{{"title", "Rate over hole"},
+                     {"note", ""},
+                     {"x", "D"},
+                     {"y", "W"},
+                     {"curves",
+                      {{{"name", "vkdose"}, {"line", false}, {"dots", true}, {"points", {{1, 2, 0.1}, {2, 3, 0.1}}}},
+                       {{"name", "fit"}, {"line", true}, {"dots", false}, {"points", {{1, 2, 0}, {2, 3, 0}}}}}}};
+    const Json made{{"name", "beverloo"}, {"what", "rate"},        {"source", ""},     {"cost", "4 runs"},
+                    {"missing", ""},      {"findings", {finding}}, {"charts", {chart}}};
+    const Json missing{{"name", "drum"},
+                       {"what", "mixing"},
+                       {"source", ""},
+                       {"cost", ""},
+                       {"missing", "no second powder"},
+                       {"findings", Json::array()},
+                       {"charts", Json::array()}};
+    const std::string dom = drawn(
+        box, {{"kind", "validation"}, {"name", "Validation"}, {"reason", "all"}, {"comparisons", {made, missing}}});
+    CHECK(dom.find("data-state=\"ready\"") != std::string::npos);
+    CHECK(count(dom, "<figure>") == 1);
+    CHECK(dom.find("0.7 ± 0.02") != std::string::npos);
+    CHECK(dom.find("a &lt;b&gt;book") != std::string::npos);
+    CHECK(dom.find("Not made: no second powder") != std::string::npos);
+}
+
 TEST_CASE("a browser shows of a calibration its targets, and what each of them tells of each parameter") {
     if (browserMissing()) return;
     const Sandbox box;

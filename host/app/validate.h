@@ -1,0 +1,23 @@
+#pragma once
+// `vkdose validate`: the comparisons with the literature (host/validate), run and judged.
+
+#include <string>
+#include <vector>
+
+#include "host/app/commands.h"
+
+namespace vkdose {
+
+struct ValidateOptions {
+    std::vector<std::string> names;  ///< of comparisons; empty: all
+    bool full = false;               ///< the studies at full size
+    bool list = false;               ///< only tell which there are
+    SweepOptions sweep;              ///< of each study: `study` is the comparison's own
+};
+
+/// Those that `vkdose validate` can be told.
+std::vector<std::string> comparisonNames();
+
+int validateCommand(const ValidateOptions& options);
+
+}  // namespace vkdose

@@ -1,0 +1,29 @@
+#include "host/validate/comparisons.h"
+
+namespace vkdose::validate {
+
+const std::vector<Comparison>& comparisons() {
+    static const std::vector<Comparison> kAll{
+        {"beverloo", "rate of discharge through holes in a flat floor",
+         "W. A. Beverloo, H. A. Leniger, J. van de Velde, Chem. Eng. Sci. 15 (1961) 260", beverloo},
+        {"heap", "angle of repose over friction, rolling friction and size",
+         "Y. C. Zhou, B. H. Xu, A. B. Yu, P. Zulli, Powder Technol. 125 (2002) 45", heap},
+        {"dosta-silo", "spheres left in a silo over time, two materials and two holes",
+         "M. Dosta and others, Comput. Phys. Commun. 296 (2024) 109066", dostaSilo},
+    };
+    return kAll;
+}
+
+const std::vector<Missing>& missingComparisons() {
+    static const std::vector<Missing> kAll{
+        {"dosta-drum", "two powders mixing in a drum (Dosta and others 2024)",
+         "a case has one powder of one material; the drum has two, and counts each"},
+        {"dosta-penetration", "a steel ball of 20 mm falls into spheres of 2 mm (Dosta and others 2024)",
+         "a case has one powder of one material, and a row holds 64 neighbours; the ball touches more"},
+        {"published curves", "the curves of Chung and Ooi (2011) and of Dosta and others (2024)",
+         "they are figures in the papers and not public as numbers; other programs stand in for them"},
+    };
+    return kAll;
+}
+
+}  // namespace vkdose::validate

@@ -1,0 +1,57 @@
+// `vkdose validate` as a user meets it. Its figures and verdicts have their tests in tests/validate.
+
+#include <nlohmann/json.hpp>
+
+#include "tests/app/sandbox.h"
+#include "tests/support/catch.h"
+
+using namespace vkdose::test;
+
+TEST_CASE("validate tells its comparisons, and refuses one that it does not know") {
+    const Sandbox box;
+    const auto listed = box.vkdose("validate --list");
+    CHECK(listed.code == 0);
+    for (const char* name : {"chung-ooi", "beverloo", "heap", "dosta-silo", "dosta-drum"})
+        CHECK(listed.out.find(name) != std::string::npos);
+    const auto unknown = box.vkdose("validate beverlo --backend reference");
+    CHECK(unknown.code == 2);
+    CHECK(unknown.err.find("beverlo not in {chung-ooi,beverloo,") != std::string::npos);
+    CHECK(box.files().empty());
+}
+
+TEST_CASE("validate plays the published impacts and writes what it prints") {
+    const Sandbox box;
+    const auto outcome = box.vkdose("validate chung-ooi --backend reference");
+    INFO(outcome.out << outcome.err);
+    CHECK(outcome.code == 0);
+    CHECK(outcome.out.find("8 agrees") != std::string::npos);
+    const auto json = nlohmann::json::parse(readText(box / "out/validate/validate.json"));
+    CHECK(json["comparisons"][0]["findings"].size() == 8);
+    CHECK(readText(box / "out/validate/validate.md").find("test 8") != std::string::npos);
+    CHECK(readText(box / "out/validate/validate.html").find("chung-ooi") != std::string::npos);
+}
+
+TEST_CASE("validate runs the study of a comparison, judges it, and finds it done the next time") {
+    const Sandbox box;
+    // A folder cases goes before that of the program: a silo of a few spheres, which run out at once.
+    std::filesystem::create_directories(box / "cases/validate");
+    box.write("cases/validate/beverloo.toml",
+              "base = \"small.toml\"\n[[axis]]\nkey = \"body.floor.hole_radius_mm\"\n"
+              "values = [6.0, 8.0]\n");
+    box.write("cases/validate/small.toml",
+              "base = \"" VKDOSE_SOURCE_DIR
+              "/cases/validate/flat-silo.toml\"\n"
+              "[particles]\nmass_g = 0.5\n[settle]\ntime_s = 0.02\n"
+              "[measure.settled]\ntime_s = 0.01\n[measure.discharge]\nfrom_s = 0.0\nto_s = 0.02\n");
+    const auto outcome = box.vkdose("validate beverloo --backend reference --jobs 2");
+    INFO(outcome.out << outcome.err);
+    CHECK(outcome.code == 1);  // nothing has run out: no figure, so it differs
+    CHECK(outcome.out.find("3 differs") != std::string::npos);
+    CHECK(readText(box / "out/validate/beverloo/members.csv").find("\n1,") != std::string::npos);
+    CHECK(readText(box / "out/validate/beverloo.csv").find("chart,curve") == 0);
+
+    const auto summary = box / "out/validate/beverloo/members/0000/summary.json";
+    const auto before = std::filesystem::last_write_time(summary);
+    CHECK(box.vkdose("validate beverloo --backend reference --jobs 2").code == 1);
+    CHECK(std::filesystem::last_write_time(summary) == before);
+}

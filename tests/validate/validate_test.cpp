@@ -1,0 +1,153 @@
+// Figures and verdicts of the comparisons, from runs whose results are made up so that the answer is known.
+
+#include <cmath>
+#include <limits>
+
+#include "host/validate/comparisons.h"
+#include "host/validate/tables.h"
+#include "tests/support/catch.h"
+#include "tests/support/folder.h"
+
+using namespace vkdose;
+using namespace vkdose::validate;
+
+namespace {
+
+Run beverlooRun(double radiusMm, double constant, double gap, double density) {
+    const double open = 2e-3 * radiusMm - gap * 2e-3;
+    Run run;
+    run.at["body.floor.hole_radius_mm"] = std::to_string(radiusMm);
+    const double rate = constant * density * std::sqrt(9.81) * std::pow(open, 2.5);
+    run.summary["measures"]["discharge"] = {{"rate_kg_s", rate}, {"rate_error_kg_s", 0.01 * rate}};
+    run.summary["measures"]["settled"]["density_kg_m3"] = density;
+    return run;
+}
+
+std::vector<Run> silos(double constant, double gap) {
+    std::vector<Run> runs;
+    for (const double radius : {4.0, 5.0, 6.0, 8.0}) runs.push_back(beverlooRun(radius, constant, gap, 1500));
+    return runs;
+}
+
+/// A heap whose angle is 20 degrees at friction 0.4, rolling 0.05 and 1 mm, and follows these exponents.
+Run heapRun(double friction, double rolling, double radius, const std::array<double, 3>& exponents) {
+    Run run;
+    run.at = {{"contact.friction", std::to_string(friction)},
+              {"contact.rolling_friction", std::to_string(rolling)},
+              {"particles.size.radius_mm", std::to_string(radius)}};
+    // With the size the coefficient of rolling falls; what the angle follows is the length of the lever.
+    const double angle = 20 * std::pow(friction / 0.4, exponents[0]) * std::pow(rolling * radius / 0.05, exponents[1]) *
+                         std::pow(radius, exponents[2]);
+    run.summary["measures"]["heap"] = {{"angle_deg", angle}, {"angle_error_deg", 0.5}};
+    return run;
+}
+
+std::vector<Run> heaps(const std::array<double, 3>& exponents) {
+    std::vector<Run> runs;
+    for (int seed = 0; seed < 2; ++seed)
+        for (const auto& [friction, rolling, radius] : std::vector<std::array<double, 3>>{{0.4, 0.05, 1},
+                                                                                          {0.2, 0.05, 1},
+                                                                                          {0.8, 0.05, 1},
+                                                                                          {0.4, 0.0125, 1},
+                                                                                          {0.4, 0.2, 1},
+                                                                                          {0.4, 0.0625, 0.8},
+                                                                                          {0.4, 0.0385, 1.3}})
+            runs.push_back(heapRun(friction, rolling, radius, exponents));
+    return runs;
+}
+
+}  // namespace
+
+TEST_CASE("a verdict takes the range and twice the standard error") {
+    Finding f{"figure", "-", 1.0, 0.1, 0.5, 1.5};
+    CHECK(f.verdict() == Verdict::Agrees);
+    f.got = 1.69;
+    CHECK(f.verdict() == Verdict::Undecided);
+    f.got = 1.71;
+    CHECK(f.verdict() == Verdict::Differs);
+    f.got = 0.29;
+    CHECK(f.verdict() == Verdict::Differs);
+    f.got = std::numeric_limits<double>::quiet_NaN();
+    CHECK(f.verdict() == Verdict::Differs);
+    f.error = f.got;
+    f.got = 2;
+    CHECK(f.verdict() == Verdict::Differs);
+    f.comparable = false;
+    CHECK(f.verdict() == Verdict::NotComparable);
+}
+
+TEST_CASE("the fit of Beverloo's law gives back its constants") {
+    const Evaluation good = beverloo(silos(0.58, 1.4), "");
+    REQUIRE(good.findings.size() == 3);
+    CHECK(good.findings[0].got == Approx(0.58).epsilon(1e-6));
+    CHECK(good.findings[1].got == Approx(1.4).epsilon(1e-6));
+    CHECK(good.findings[2].got < 1e-6);
+    for (const Finding& f : good.findings) CHECK(f.verdict() == Verdict::Agrees);
+    CHECK(beverloo(silos(0.7, 1.4), "").findings[0].verdict() == Verdict::Differs);
+    CHECK(beverloo(silos(0.58, 2.3), "").findings[1].verdict() == Verdict::Differs);
+
+    std::vector<Run> bent = silos(0.58, 1.4);
+    bent[1].summary["measures"]["discharge"]["rate_kg_s"] = 1.5 * bent[1].figure("/measures/discharge/rate_kg_s");
+    CHECK(beverloo(bent, "").findings[2].verdict() == Verdict::Differs);
+    CHECK(beverloo(bent, "").findings[1].error > 0.1);
+    bent[1].summary["measures"].erase("discharge");  // nothing ran out
+    for (const Finding& f : beverloo(bent, "").findings) CHECK(f.verdict() == Verdict::Differs);
+}
+
+TEST_CASE("the angle of repose gives back the exponents that its runs follow, and their signs are judged") {
+    const Evaluation good = heap(heaps({0.27, 0.06, -0.2}), "");
+    REQUIRE(good.findings.size() == 6);
+    CHECK(good.findings[0].got == Approx(0.27).epsilon(1e-6));
+    CHECK(good.findings[2].got == Approx(0.06).epsilon(1e-6));
+    CHECK(good.findings[4].got == Approx(-0.2).epsilon(1e-2));  // 0.0385 is 0.05/1.3 to three digits
+    for (const std::size_t i : {0, 2, 4}) CHECK(good.findings[i].verdict() == Verdict::Agrees);
+    for (const std::size_t i : {1, 3, 5}) CHECK(good.findings[i].verdict() == Verdict::NotComparable);
+    const Evaluation bad = heap(heaps({-0.27, -0.2, 0.3}), "");
+    for (const std::size_t i : {0, 2, 4}) CHECK(bad.findings[i].verdict() == Verdict::Differs);
+    // Angles known to half a degree do not tell a weak trend from none.
+    CHECK(heap(heaps({0.27, -0.005, -0.2}), "").findings[2].verdict() == Verdict::Undecided);
+}
+
+TEST_CASE("a silo is judged by the programs that ran the same inputs, and by none without them") {
+    const test::Folder folder;
+    Run run;
+    run.folder = folder.path();
+    run.at = {{"particles.density", "2500.0"}, {"body.cone.radius_mm", "20.0"}};
+    run.summary["inputs"]["filled_mass_kg"] = 2.0;
+    folder.write("timeseries.csv", "time_s,pan.mass_kg\n0,0\n0.1,0\n0.2,0.4\n0.3,0.8\n0.4,1.6\n");
+    // 90 % are left at 0.15 s and 40 % at 0.35 s.
+    const Evaluation alone = dostaSilo({run}, folder.path());
+    REQUIRE(alone.findings.size() == 1);
+    CHECK(alone.findings[0].got == Approx(0.2));
+    CHECK(alone.findings[0].verdict() == Verdict::NotComparable);
+
+    const auto peers = [&](const char* last) {
+        return folder.write(
+            "dosta-silo-peers.csv",
+            std::string("program,material,hole_mm,time_s,left\nA,M1,40,0.5,1\nA,M1,40,0.6,0.8\nA,M1,40,") + last +
+                ",0.4\nA,M2,40,0.5,1\nA,M2,40,9,0.1\n");
+    };
+    peers("0.76");
+    const Evaluation beside = dostaSilo({run}, folder.path());  // theirs: 0.55 to 0.76 s
+    CHECK(beside.findings[0].verdict() == Verdict::Agrees);
+    CHECK(beside.charts[0].curves.size() == 2);
+    peers("0.80");
+    CHECK(dostaSilo({run}, folder.path()).findings[0].verdict() == Verdict::Differs);
+}
+
+TEST_CASE("the tables tell every figure with its verdict, and what could not be compared") {
+    const std::vector<Result> results{{"a", "what", "source", beverloo(silos(0.7, 1.4), ""), "4 runs", ""},
+                                      {"b", "what", "", {}, "", "no powder"}};
+    CHECK(differing(results) == 1);
+    CHECK(tally(results) == "verdicts: 2 agrees, 1 differs");
+    const std::string text = markdownTable(results, "reference");
+    CHECK(text.find("| C | 0.55 to 0.65 | 0.7") != std::string::npos);
+    CHECK(text.find("| differs |") != std::string::npos);
+    CHECK(markdownTable({{"c", "what", "", {{Finding{"f", "-"}}, {}}, "", ""}}, "x").find("| none |") !=
+          std::string::npos);
+    CHECK(text.find("Not made: no powder") != std::string::npos);
+    const auto json = nlohmann::json::parse(jsonTable(results, "reference"));
+    CHECK(json["comparisons"][0]["findings"][0]["verdict"] == "differs");
+    CHECK(json["tally"]["differs"] == 1);
+    CHECK(curvesCsv(results[0].evaluation).find("\"Beverloo's law\",\"fit\",8,") != std::string::npos);
+}
