@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <future>
@@ -60,12 +61,13 @@ double since(std::chrono::steady_clock::time_point start) {
 }
 
 /// Mean time of a rebuild of the neighbour rows and the refresh of the contact lists that follows. It covers all passes
-/// except those of every step. It is taken from the first steps after loading; the very first of them builds the rows.
+/// except `decide` and those of every step. It is taken from the first steps after loading; the very first of them
+/// builds the rows.
 double rebuildSeconds(const VulkanProfile& first) {
+    constexpr std::array kOthers{"decide", "pairs", "surfaces", "bodies", "move"};
     double seconds = 0;
     for (const VulkanProfile::Pass& p : first.passes)
-        if (p.name != "pairs" && p.name != "surfaces" && p.name != "coil" && p.name != "move" && p.name != "decide")
-            seconds += p.seconds;
+        if (std::find(kOthers.begin(), kOthers.end(), p.name) == kOthers.end()) seconds += p.seconds;
     return first.rebuilds > 0 ? seconds / double(first.rebuilds) : 0;
 }
 

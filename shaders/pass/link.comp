@@ -6,9 +6,7 @@
 #include "shared/buffers.glsl"
 #include "pass/margin.glsl"
 
-uint links[kMaxLinks];
-
-void adopt(uint slot) {
+void adoptSprings(uint slot) {
     entries[slot] = entries[comingEntryIndex(slot)];
     for (uint part = 0u; part < kParts; ++part) history[historyIndex(part, slot)] = carried[historyIndex(part, slot)];
 }
@@ -17,6 +15,15 @@ void adoptBody(uint slot) {
     entries[slot] = entries[comingEntryIndex(slot)];
     for (uint part = 0u; part < kBodyHistory; ++part)
         history[placeHistoryIndex(slot, 0u, part)] = carried[placeHistoryIndex(slot, 0u, part)];
+}
+
+/// Makes the prepared slots of the member current, each invocation some of them, whoever owns them. Lists that found no
+/// room hold less than they counted.
+void adopt() {
+    uvec3 most = min(control.coming.xyz, uvec3(push.pairSlots, push.surfaceSlots, push.bodySlots));
+    for (uint k = invocation(); k < most.x; k += push.share) adoptSprings(firstPairSlot() + k);
+    for (uint k = invocation(); k < most.y; k += push.share) adoptSprings(firstSurfaceSlot() + k);
+    for (uint k = invocation(); k < most.z; k += push.share) adoptBody(firstBodySlot() + k);
 }
 
 /// The slot of the pair (j, i) among those that j owns.
@@ -36,34 +43,41 @@ void main() {
     float slack = slackOfParticle(i);
     uvec4 range = rangesAt(rowRangeIndex(i)), own = rangesAt(slotRangeIndex(i));
 
-    uint count = 0u, mine = own.x;
+    uvec2 near = uvec2(0u);  // the others of the row, a bit each
     for (uint s = 0u; s < range.y; ++s) {
         uint j = rowsAt(rowIndex(range.x + s));
-        if (!nearPair(p, slack, readState(source, kPosition, j), slackOfParticle(j))) continue;
+        bool meets = nearPair(p, slack, readState(source, kPosition, j), slackOfParticle(j));
+        if (meets) near |= s < 32u ? uvec2(1u << s, 0u) : uvec2(0u, 1u << (s - 32u));
+    }
+    uvec4 ofBodies = uvec4(0u);
+    if (BODIES > 0u) ofBodies = rangesAt(bodyRangeIndex(i));
+
+    uint count = bitCount(near.x) + bitCount(near.y) + own.w + ofBodies.y;
+    uint first = atomicAdd(control.coming.w, count);
+    if (first + count > push.linkEntries) {
+        report(kErrorTables, i);
+        count = 0u;
+        near = uvec2(0u);
+        own.w = 0u;
+        ofBodies.y = 0u;
+    }
+    first += self * push.linkEntries;
+    uint at = linkIndex(first), mine = own.x;
+    for (; near != uvec2(0u); ++at) {
+        uint j = rowsAt(rowIndex(range.x) + (near.x != 0u ? findLSB(near.x) : 32u + findLSB(near.y)));
+        near = uvec2(near.x & (near.x - 1u), near.x != 0u ? near.y : near.y & (near.y - 1u));
         uint slot = mine;
         if (j > i)
             ++mine;
         else
             slot = slotOfOwner(j, i);
-        if (slot == kEmpty || j > i && mine > own.x + own.y) continue;  // the owner found no room, and has said so
-        links[count] = slot << 1u | (j > i ? 0u : 1u);
-        ++count;
+        // If the owner found no room, and said so, any slot will do for the one step that follows.
+        if (slot == kEmpty || mine > own.x + own.y) slot = firstPairSlot();
+        rows[at] = slot << 1u | (j > i ? 0u : 1u);
     }
-    for (uint k = 0u; k < own.w; ++k, ++count) links[count] = (own.z + k) << 1u;
-    uvec4 ofBodies = uvec4(0u);
-    if (BODIES > 0u) ofBodies = rangesAt(bodyRangeIndex(i));
-    for (uint k = 0u; k < ofBodies.y; ++k, ++count) links[count] = (ofBodies.x + k) << 1u;
-    for (uint k = 0u; k < ofBodies.y; ++k) adoptBody(ofBodies.x + k);
-    for (uint k = 0u; k < own.y; ++k) adopt(own.x + k);
-    for (uint k = 0u; k < own.w; ++k) adopt(own.z + k);
-
-    uint first = atomicAdd(control.coming.w, count);
-    if (first + count > push.linkEntries) {
-        report(kErrorTables, i);
-        count = 0u;
-    }
-    first += self * push.linkEntries;
-    for (uint k = 0u; k < count; ++k) rows[linkIndex(first + k)] = links[k];
+    for (uint k = 0u; k < own.w; ++k, ++at) rows[at] = (own.z + k) << 1u;
+    for (uint k = 0u; k < ofBodies.y; ++k, ++at) rows[at] = (ofBodies.x + k) << 1u;
+    adopt();
     ranges[rowRangeIndex(i)].zw = uvec2(first, count);
     anchors[listAnchorIndex(i)] = vec4(p.xyz, slack);
 }

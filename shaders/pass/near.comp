@@ -16,20 +16,7 @@
 #include "pass/books.glsl"
 #endif
 
-uint partners[kMaxRow];
-uint pairs, surfaces, firstPair, firstSurface;
-
-/// The coming slot of the contact that is in `slot` now; kEmpty if its two bodies are no longer near.
-uint comingSlot(uint slot, uint other) {
-    uint to = kEmpty;
-    if (ofPair(slot)) {
-        for (uint k = 0u; k < pairs; ++k)
-            if (partners[k] == other) to = firstPair + k;
-    } else if ((surfaces & (1u << surfaceOf(other))) != 0u) {
-        to = firstSurface + bitCount(surfaces & ((1u << surfaceOf(other)) - 1u));
-    }
-    return to;
-}
+uint surfaces, firstSurface;
 
 #ifdef WITH_BODIES
 uint bodies, firstBody;
@@ -135,9 +122,48 @@ void listBodies(uint i, uvec4 range, float reach) {
 }
 #endif
 
-void prepare(uint slot, uint i, uint other) {
-    entries[comingEntryIndex(slot)] = uvec2(i, other);
-    for (uint part = 0u; part < kParts; ++part) carried[historyIndex(part, slot)] = vec4(0.0);
+/// Lists the pairs of i and the others that `near` marks in its row. Carries on what was remembered of those that were
+/// listed before, in the slots `old`. Both go by ascending index, so that one walk along both finds what they share.
+void listPairs(uint i, uint firstPair, uint row, uvec2 near, uint old, uint oldCount) {
+    uint to = firstPair, from = old, oldEnd = old + oldCount;
+    for (; near != uvec2(0u) || from < oldEnd;) {
+        uint comes = kEmpty, was = kEmpty;
+        if (near != uvec2(0u)) comes = rowsAt(row + (near.x != 0u ? findLSB(near.x) : 32u + findLSB(near.y)));
+        if (from < oldEnd) was = entriesAt(from).y;
+        bool carries = comes == was;
+        if (comes <= was) {
+            entries[comingEntryIndex(to)] = uvec2(i, comes);
+            for (uint part = 0u; part < kParts; ++part)
+                carried[historyIndex(part, to)] = carries ? readHistory(part, from) : vec4(0.0);
+            ++to;
+            near = uvec2(near.x & (near.x - 1u), near.x != 0u ? near.y : near.y & (near.y - 1u));
+        }
+#ifdef ENERGY_BOOK
+        if (was < comes) bookDeparture(i, from);
+#endif
+        if (was <= comes) ++from;
+    }
+}
+
+/// The same for surfaces. The first contact of a sphere that touches several at the rim works on all of them.
+void listSurfaces(uint i, bool joined, uint old, uint oldCount) {
+    uint to = firstSurface;
+    for (uint left = surfaces; left != 0u; left &= left - 1u, ++to) {
+        uint works = !joined ? 1u : to == firstSurface ? bitCount(surfaces) : 0u;
+        entries[comingEntryIndex(to)] = uvec2(i, findLSB(left) | works << kSurfaceBits);
+        for (uint part = 0u; part < kParts; ++part) carried[historyIndex(part, to)] = vec4(0.0);
+    }
+    for (uint from = old; from < old + oldCount; ++from) {
+        uint surface = surfaceOf(entriesAt(from).y), before = surfaces & ((1u << surface) - 1u);
+        to = firstSurface + bitCount(before);
+        if ((surfaces >> surface & 1u) != 0u) {
+            for (uint part = 0u; part < kParts; ++part) carried[historyIndex(part, to)] = readHistory(part, from);
+        }
+#ifdef ENERGY_BOOK
+        else
+            bookDeparture(i, from);
+#endif
+    }
 }
 
 /// Whether the contact with a wall that ends at the front wall may, before the next refresh, become one with the
@@ -154,51 +180,31 @@ void main() {
     vec4 p = readState(source, kPosition, i);
     Sphere me = Sphere(p.xyz, vec3(0.0), p.w);
     float slack = slackOfParticle(i);
-    uvec4 range = rangesAt(rowRangeIndex(i));
+    uvec4 range = rangesAt(rowRangeIndex(i)), old = rangesAt(slotRangeIndex(i));
 
-    pairs = 0u;
+    uvec2 near = uvec2(0u);  // the others of the row, a bit each
     for (uint s = 0u; s < range.y; ++s) {
         uint j = rowsAt(rowIndex(range.x + s));
-        if (j > i && nearPair(p, slack, readState(source, kPosition, j), slackOfParticle(j))) {
-            partners[pairs] = j;
-            ++pairs;
-        }
+        bool lists = j > i && nearPair(p, slack, readState(source, kPosition, j), slackOfParticle(j));
+        if (lists) near |= s < 32u ? uvec2(1u << s, 0u) : uvec2(0u, 1u << (s - 32u));
     }
     surfaces = nearSurfaces(me, slack);
-    uint met = bitCount(surfaces);
+    uint pairs = bitCount(near.x) + bitCount(near.y), met = bitCount(surfaces);
 
-    firstPair = atomicAdd(control.coming.x, pairs);
+    uint firstPair = atomicAdd(control.coming.x, pairs);
     firstSurface = atomicAdd(control.coming.y, met);
     bool fits = firstPair + pairs <= push.pairSlots && firstSurface + met <= push.surfaceSlots;
     if (!fits) {
         report(kErrorTables, i);
-        pairs = 0u;
+        near = uvec2(0u);
         surfaces = 0u;
+        pairs = 0u;
         met = 0u;
     }
     firstPair += firstPairSlot();
     firstSurface += firstSurfaceSlot();
-
-    for (uint k = 0u; k < pairs; ++k) prepare(firstPair + k, i, partners[k]);
-    uint at = firstSurface;
-    bool joined = joinsAtFront(me, slack);
-    for (uint left = surfaces; left != 0u; left &= left - 1u, ++at) {
-        uint works = !joined ? 1u : at == firstSurface ? met : 0u;
-        prepare(at, i, findLSB(left) | works << kSurfaceBits);
-    }
-
-    for (uint k = 0u; k < range.w; ++k) {
-        uint link = rowsAt(linkIndex(range.z + k)), slot = link >> 1u;
-        if ((link & 1u) != 0u) continue;  // the other particle's
-        if (slot >= springSlotCount()) continue;
-        uint to = comingSlot(slot, entriesAt(slot).y);
-        if (to != kEmpty) {
-            for (uint part = 0u; part < kParts; ++part) carried[historyIndex(part, to)] = readHistory(part, slot);
-        }
-#ifdef ENERGY_BOOK
-        if (to == kEmpty) bookDeparture(i, slot);
-#endif
-    }
+    listPairs(i, firstPair, rowIndex(range.x), near, old.x, old.y);
+    listSurfaces(i, joinsAtFront(me, slack), old.z, old.w);
 #ifdef WITH_BODIES
     openBodies();
     float bodyReach = reachOfBodies(p.w, slack);

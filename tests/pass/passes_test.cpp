@@ -72,10 +72,23 @@ TEST_CASE("the rows hold every neighbour within reach and the skin, ascending, a
     world.timeStep = 1e-9;  // the one step that follows the rebuild moves nothing
     world.skin = 0.4e-3;
     world.maxOverlapRatio = 1e9;  // the cloud is of overlapping spheres
-    for (const std::size_t n : {1u, 63u, 65u, 257u}) {
-        DYNAMIC_SECTION(n << " particles") {
-            Particles p = cloud(n, 0.003 * std::cbrt(double(n)), unsigned(n));
-            if (n > 60) p.status[5] = Status::Dosed;  // takes no part
+    world.domain = {Vec3(-4), Vec3(4)};
+    struct Cloud {
+        std::size_t n;
+        double apart;  // [m]
+        double x;      // of its middle [m]
+        bool dense;    // rows are found sixteen at a time; some have more
+    };
+    for (const auto& [n, apart, x, dense] : {Cloud{1, 0.003, 0, false},
+                                             {63, 0.003, 0, false},
+                                             {65, 0.003, 0, false},
+                                             {257, 0.003, 0, false},
+                                             {257, 0.0016, 0, true},
+                                             {257, 0.003, -3, false}}) {
+        DYNAMIC_SECTION(n << " particles, " << apart << " m apart, at " << x << " m") {
+            Particles p = cloud(n, apart * std::cbrt(double(n)), unsigned(n));
+            for (Vec3& at : p.position) at = Vec3(glm::vec3(at + Vec3(x)));  // as exact as the device knows them here
+            if (n > 60) p.status[5] = Status::Dosed;                         // takes no part
             Rig rig(world, p);
             rig.run([&](vk::Commands& c) { rig.passes->recordSteps(c, 1, true); });
             const auto control = rig.passes->controlOf(0);
@@ -84,7 +97,7 @@ TEST_CASE("the rows hold every neighbour within reach and the skin, ascending, a
             CHECK(control.error.x == gpu::kEmpty);
             const auto ranges = rig.passes->ranges.readAll<gpu::uvec4>(rig.sizes.particles());
             const auto rows = rig.passes->rows.readAll<std::uint32_t>(rig.sizes.rowEntries);
-            std::size_t wrong = 0, listed = 0;
+            std::size_t wrong = 0, listed = 0, longest = 0;
             for (std::size_t i = 0; i < n; ++i) {
                 std::vector<std::uint32_t> expected, row;
                 for (std::size_t j = 0; j < n; ++j)
@@ -94,9 +107,12 @@ TEST_CASE("the rows hold every neighbour within reach and the skin, ascending, a
                 for (std::uint32_t s = 0; s < ranges[i].y; ++s) row.push_back(rows[ranges[i].x + s]);
                 wrong += row != expected;
                 listed += row.size();
+                longest = std::max(longest, row.size());
             }
             CHECK(wrong == 0);
             CHECK((n < 60 || listed > n));
+            CHECK(longest == control.list.z);
+            if (dense) CHECK(longest > 32);
         }
     }
 }

@@ -143,14 +143,20 @@ void restoreContacts(Passes& passes, std::uint32_t member, std::size_t particles
     SlotRun pairs{t.firstPairSlot(member), t.pairSlots, {}, {}};
     SlotRun surfaces{t.firstSurfaceSlot(member), t.surfaceSlots, {}, {}};
     std::vector<std::vector<std::uint32_t>> slotsOf(particles);
+    std::vector<uvec4> owned(t.share, uvec4(0U));
     for (std::size_t c = 0; c < count; ++c) {
         const bool pair = isPair[c] != 0;
         if (owner[c] >= particles || other[c] >= (pair ? particles : t.surfaces))
             throw RecordError("contact_particle or contact_other names what there is not");
-        if (c > 0 && owner[c] < owner[c - 1]) throw RecordError("contact_particle is not in order");
+        const auto place = [&](std::size_t k) { return std::tuple(owner[k], isPair[k] == 0, other[k]); };
+        if (c > 0 && place(c) <= place(c - 1)) throw RecordError("contact_particle or contact_other is not in order");
         SlotRun& run = pair ? pairs : surfaces;
         if (run.entries.size() == run.room) throw RecordError("there are too many contacts");
-        slotsOf[owner[c]].push_back(run.first + std::uint32_t(run.entries.size()));
+        const std::uint32_t slot = run.first + std::uint32_t(run.entries.size());
+        slotsOf[owner[c]].push_back(slot);
+        uvec4& ofOwner = owned[owner[c]];
+        std::uint32_t &first = pair ? ofOwner.x : ofOwner.z, &held = pair ? ofOwner.y : ofOwner.w;
+        if (held++ == 0) first = slot;
         run.entries.emplace_back(firstParticle + owner[c], pair ? firstParticle + other[c] : other[c]);
         for (std::size_t part = 0; part < parts; ++part) {
             const float* v = &springs[4 * (parts * c + part)];
@@ -170,6 +176,7 @@ void restoreContacts(Passes& passes, std::uint32_t member, std::size_t particles
     surfaces.write(passes);
     passes.rows.writeAll(links, passes.at.linkIndex(firstLink) * sizeof(std::uint32_t));
     passes.ranges.writeAll(ranges, passes.at.rowRangeIndex(firstParticle) * sizeof(uvec4));
+    passes.ranges.writeAll(owned, passes.at.slotRangeIndex(firstParticle) * sizeof(uvec4));
     const std::uint32_t first = t.firstBodySlot(member);
     passes.entries.writeAll(bodies.entries, passes.at.entryIndex(first) * sizeof(glm::uvec2));
     passes.history.writeAll(bodies.history,
