@@ -62,7 +62,8 @@ std::string valueText(const Node& value);
 /// The tree as TOML that `readTreeText` reads from any folder: the paths of files that it names are absolute.
 std::string treeText(Node tree);
 
-/// Lays `upper` over `lower`, table by table. A key of `upper` also removes the keys in `lower` that it excludes:
+/// Lays `upper` over `lower`, table by table. A table over a list of tables, as in `body.gate.at`, changes the one of
+/// that name; throws CaseError if there is none. A key of `upper` also removes the keys in `lower` that it excludes:
 /// `pitch_mm` removes `turns`, and another `distribution` removes the keys of the old one.
 void merge(Node& lower, Node upper);
 

@@ -102,6 +102,7 @@ TEST_CASE("the angle of repose gives back the exponents that its runs follow, an
     CHECK(good.findings[4].got == Approx(-0.2).epsilon(1e-2));  // 0.0385 is 0.05/1.3 to three digits
     for (const std::size_t i : {0, 2, 4}) CHECK(good.findings[i].verdict() == Verdict::Agrees);
     for (const std::size_t i : {1, 3, 5}) CHECK(good.findings[i].verdict() == Verdict::NotComparable);
+    for (const Chart& chart : good.charts) CHECK(chart.curves[0].points.size() == 3);
     const Evaluation bad = heap(heaps({-0.27, -0.2, 0.3}), "");
     for (const std::size_t i : {0, 2, 4}) CHECK(bad.findings[i].verdict() == Verdict::Differs);
     // Angles known to half a degree do not tell a weak trend from none.
