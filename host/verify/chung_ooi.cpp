@@ -58,7 +58,7 @@ Particles played(Stage& stage, const Impacts& impacts, const Elasticity& a, cons
     const double reduced = pairs ? 2 * first.radius * second.radius / (first.radius + second.radius) : 2 * first.radius;
     const double duration = 2.943275 * overlapOfImpact(p, mass, reduced, impacts.towards) / impacts.towards;
     RuledWorld world = space(p, duration / kSteps);
-    world.density = density;
+    world.density() = density;
     world.skin = first.radius / 10;
     world.domain = {Vec3(-1e3 * first.radius), Vec3(1e3 * first.radius)};
     const double apart = 4 * std::max(first.radius, pairs ? second.radius : 0);
