@@ -51,6 +51,7 @@ const std::vector<Slip> kSlips{
     {{"gravity=[0, -0.00981, 0]"}, "gravity", {"hardly moves"}, false},
     {{"particles.mass_g=1.5"}, "few-spheres", {"55 spheres"}, false},
     {{"particles.size.radius_min_mm=0.3"}, "size-ratio", {"7.31 times"}, false},
+    {{"material=[{name = \"steel\"}]"}, "unused-material", {"nothing is made of \"steel\"", "or remove it"}},
     {{"contact.friction=30"}, "friction", {"contact.friction = 30", "30 degrees are 0.577"}},
     {{"contact.wall.friction=22"}, "friction", {"contact.wall.friction = 22", "0.404"}},
     {{"contact.rolling_friction=25"}, "friction", {"contact.rolling_friction = 25"}},
@@ -205,7 +206,7 @@ TEST_CASE("two bodies at rest that meet in a seam where powder comes are told") 
                Catch::Contains("body \"left\" and body \"right\" meet in a seam") &&
                    Catch::Contains("export-body CASE left right"));
     CHECK(warned(box("left", "-0.005, 0, 0") + box("right", "0.005, -0.001, 0.001")).empty());  // a step
-    CHECK(warned(box("left", "-0.005, 0, 0") + box("right", "0.0055, 0, 0")).empty());      // a gap
+    CHECK(warned(box("left", "-0.005, 0, 0") + box("right", "0.0055, 0, 0")).empty());          // a gap
     // A funnel and its spout: the rim is met from within, where the way grows steeper.
     const std::string funnel =
         "[[body]]\nname = \"funnel\"\nshape = \"cone\"\nradius_mm = 4\nend_radius_mm = 12\nlength_mm = 6\n"
