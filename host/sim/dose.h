@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "host/core/columns.h"
+#include "host/sim/powder_book.h"
 #include "host/sim/region_count.h"
 
 namespace vkdose {
@@ -42,6 +43,7 @@ struct Dose {
     double endTime = std::numeric_limits<double>::quiet_NaN();  ///< [s]
 
     std::vector<RegionCount> regions;  ///< into each of the world's regions; not kept in a checkpoint
+    std::vector<PowderDose> powders;   ///< of each powder; none if there is one; not kept in a checkpoint
 
     double overshoot() const { return mass - stopMass; }  ///< dosed after the coil was told to stop [kg]
 };
