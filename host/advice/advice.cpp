@@ -24,6 +24,7 @@ constexpr std::array kRules{
     Rule{"gravity", strangeGravity},
     Rule{"few-spheres", fewSpheres},
     Rule{"size-ratio", wideSizes},
+    Rule{"unused-material", unusedMaterial},
     Rule{"friction", strangeFriction},
     Rule{"overdamped", overdampedContacts},
     Rule{"restitution", strangeRestitution},

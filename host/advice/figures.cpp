@@ -7,6 +7,7 @@
 
 #include "host/model/bed_weight.h"
 #include "host/model/normal_law.h"
+#include "host/model/powders.h"
 #include "host/model/pull_off.h"
 #include "host/model/restitution.h"
 #include "host/model/stability.h"
@@ -30,7 +31,8 @@ void addBed(Figures& f, const Case& c, const Insertion& filled) {
     f.bedTop = f.bedDepth = f.fall = f.fallTime = f.fallSpeed = f.overlapUnderBed = f.overlapOfFall = kNaN;
     f.bondUnderBed = f.bondLargest = kNaN;
     if (!c.canister || !(down > 0)) return;
-    f.bedDepth = bedDepth(*c.canister, filled.mass, c.world.density());
+    const double density = solidDensity(c);
+    f.bedDepth = bedDepth(*c.canister, filled.mass, density);
     f.bedTop = f.bedDepth - c.canister->width / 2;
     f.fall = std::max(0.0, filled.fillHeight - f.bedTop);
     const double settling = -c.settlingGravity().y;
@@ -39,11 +41,10 @@ void addBed(Figures& f, const Case& c, const Insertion& filled) {
 
     const ContactParameters& pair = c.dosingLaw.of(ContactClass::ParticleParticle);
     const ContactParameters& wall = c.dosingLaw.of(ContactClass::ParticleWall);
-    const double load = loadUnderBed(c.world.density(), down, f.bedDepth, f.mean);
+    const double load = loadUnderBed(density, down, f.bedDepth, f.mean);
     f.overlapUnderBed = overlapUnder(pair, f.mean, load) / f.mean;
-    f.overlapOfFall =
-        overlapOfImpact(wall, sphereMass(c.world.density(), f.largest), 2 * f.largest, f.fallSpeed) / f.largest;
-    const double weight = sphereMass(c.world.density(), f.mean) * down;
+    f.overlapOfFall = overlapOfImpact(wall, sphereMass(density, f.largest), 2 * f.largest, f.fallSpeed) / f.largest;
+    const double weight = sphereMass(density, f.mean) * down;
     f.bondUnderBed = pullOffUnder(pair, f.mean, load) / weight;
     f.bondLargest = pullOffUnder(pair, f.mean, std::numeric_limits<double>::infinity()) / weight;
 }

@@ -8,6 +8,7 @@
 
 #include "host/advice/rules.h"
 #include "host/model/bed_weight.h"
+#include "host/model/powders.h"
 #include "host/model/restitution.h"
 #include "host/model/stability.h"
 
@@ -63,18 +64,35 @@ std::string dampingCure(const Subject& s, const Restitution& e) {
 }  // namespace
 
 Found lightOrHeavyPowder(const Subject& s) {
-    const double density = s.c.world.density();
-    if (density >= kLightest && density <= kHeaviest) return {};
-    return Finding{
-        "particles.density",
-        fmt::format("particles of {:.4g} kg/m3 are {} than any material", density,
-                    density < kLightest ? "lighter" : "heavier"),
-        density < kLightest ? fmt::format("give kg/m3: {:.4g} g/cm3 is {:.4g}", density, density * 1e3) : "give kg/m3"};
+    for (const PowderOf& p : powdersOf(s.c)) {
+        const double density = s.c.world.density(p.material);
+        if (density >= kLightest && density <= kHeaviest) continue;
+        return Finding{p.path + ".density",
+                       fmt::format("particles of {:.4g} kg/m3 are {} than any material", density,
+                                   density < kLightest ? "lighter" : "heavier"),
+                       density < kLightest ? fmt::format("give kg/m3: {:.4g} g/cm3 is {:.4g}", density, density * 1e3)
+                                           : "give kg/m3"};
+    }
+    return {};
+}
+
+Found unusedMaterial(const Subject& s) {
+    const World& w = s.c.world;
+    for (std::size_t m = kUsualMaterials; m < w.materials.size(); ++m) {
+        const auto isOf = [&](int material) { return material == int(m); };
+        const bool used =
+            w.materials[m].powder || std::any_of(w.surfaceMaterials.begin(), w.surfaceMaterials.end(), isOf) ||
+            std::any_of(w.bodies.begin(), w.bodies.end(), [&](const RigidBody& body) { return isOf(body.material); });
+        if (used) continue;
+        return Finding{"material", fmt::format("nothing is made of \"{}\"", w.materials[m].name),
+                       "name it as `material` of a powder, a wall or a body, or remove it"};
+    }
+    return {};
 }
 
 Found strangeBulkDensity(const Subject& s) {
     if (!s.c.world.coil || s.c.schedule.rotateTime == 0) return {};
-    const double density = s.c.world.density(), fraction = s.c.bulkDensity / density;
+    const double density = solidDensity(s.c), fraction = s.c.bulkDensity / density;
     const std::string cure =
         fmt::format("give the density of the settled powder; spheres settle to about {:.3g}", kBedFraction * density);
     if (s.c.bulkDensity == kCocoaBulk && std::abs(density / kCocoa - 1) > 0.02)

@@ -67,6 +67,7 @@ Found deepUnderWeight(const Subject& s);
 Found deepOfFall(const Subject& s);
 Found fewSpheres(const Subject& s);
 Found wideSizes(const Subject& s);
+Found unusedMaterial(const Subject& s);
 
 // body_rules.cpp: bodies
 Found bodyBackwards(const Subject& s);

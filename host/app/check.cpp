@@ -12,6 +12,7 @@
 #include "host/core/json.h"
 #include "host/core/printable.h"
 #include "host/model/bed_weight.h"
+#include "host/model/powders.h"
 #include "host/model/stability.h"
 #include "host/sim/runner.h"
 
@@ -41,13 +42,22 @@ Checked checked(const CaseOptions& input) {
 
 // ---- text ---------------------------------------------------------------------------------------------------------
 
-void printFilling(const Insertion& filled) {
+void printFilling(const Case& c, const Insertion& filled) {
     const auto [low, high] = std::minmax_element(filled.particles.radius.begin(), filled.particles.radius.end());
     fmt::print("particles  {}, {:.4g} g", filled.particles.size(), filled.mass * 1e3);
     if (filled.targetMass > 0) fmt::print(" (target {:.4g} g)", filled.targetMass * 1e3);
     if (low != filled.particles.radius.end()) fmt::print(", radius {:.4g} to {:.4g} mm", *low * 1e3, *high * 1e3);
     if (filled.redrawn > 0) fmt::print(", {} draws outside the bounds drawn again", filled.redrawn);
     fmt::print("\n");
+    if (c.furtherPowders.empty()) return;
+    const std::vector<PowderOf> powders = powdersOf(c);
+    for (std::size_t k = 0; k < powders.size(); ++k) {
+        const SizeRange size = powderSizes(c).at(std::size_t(powders[k].material));
+        fmt::print("powder     {}: {}, {:.4g} g (target {:.4g} g), {:.4g} kg/m3, radius {:.4g} to {:.4g} mm\n",
+                   powders[k].name, filled.powders[k].particles, filled.powders[k].mass * 1e3,
+                   filled.powders[k].targetMass * 1e3, c.world.density(powders[k].material), size.smallest * 1e3,
+                   size.largest * 1e3);
+    }
 }
 
 void printRefills(const Case& c, const Insertion& filled) {
@@ -142,7 +152,7 @@ void printWarnings(const std::vector<Warning>& warnings) {
 void printText(const CheckOptions& options, const Checked& all) {
     const Timeline timeline(all.c);
     fmt::print("case       {}: {}\n", all.c.name, printableLines(all.c.reason));
-    printFilling(all.filled);
+    printFilling(all.c, all.filled);
     printRefills(all.c, all.filled);
     if (all.c.softened > 1) printSoftening(all.c);
     if (const auto& law = all.c.dosingLaw.user) fmt::print("law        {} ({})\n", printable(law->name), law->hash);

@@ -320,7 +320,7 @@ void addRender(CLI::App& program, RenderOptions& options) {
         ->capture_default_str()
         ->needs(movie);
     command.add_option("--color", options.color, "quantity that the colour tells")
-        ->check(CLI::IsMember({"kinetic-energy", "speed", "overlap", "radius", "fill-layer"}))
+        ->check(CLI::IsMember({"kinetic-energy", "speed", "overlap", "radius", "fill-layer", "powder"}))
         ->capture_default_str();
     command.add_option("--from", options.from, "value where the colours begin, in the unit of the colour bar");
     command.add_option("--to", options.to, "value where the colours end");

@@ -4,6 +4,7 @@
 
 #include "host/app/interrupt.h"
 #include "host/core/json.h"
+#include "host/model/powders.h"
 
 namespace vkdose {
 
@@ -55,6 +56,8 @@ void EventsDisplay::onSample(const Sample& sample) {
         putColumns(kBodyColumns, sample.bodies[b], event["bodies"][case_.world.bodies.at(b).name]);
     for (std::size_t r = 0; r < sample.regions.size(); ++r)
         putColumns(kRegionColumns, sample.regions[r], event["regions"][case_.world.regions.at(r).name]);
+    for (std::size_t k = 0; k < sample.powders.size(); ++k)
+        putColumns(kPowderColumns, sample.powders[k], event["powders"][powdersOf(case_).at(k).name]);
     say(event);
 }
 
@@ -74,6 +77,8 @@ void EventsDisplay::onDose(const Dose& dose) {
         putColumns(kDoseBodyColumns, dose.bodies[b], event["bodies"][case_.world.bodies.at(b).name]);
     for (std::size_t r = 0; r < dose.regions.size(); ++r)
         putColumns(kRegionColumns, dose.regions[r], event["regions"][case_.world.regions.at(r).name]);
+    for (std::size_t k = 0; k < dose.powders.size(); ++k)
+        putColumns(kPowderDoseColumns, dose.powders[k], event["powders"][powdersOf(case_).at(k).name]);
     say(event);
 }
 

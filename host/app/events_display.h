@@ -18,9 +18,9 @@ namespace vkdose {
 ///     run      case, particles, filled_kg, output, backend, version, from_s (simulated time of the checkpoint, or 0)
 ///     warning  name, key, value, text, cure, accepted
 ///     phase    phase, dose, time_s, step, expected_steps (of the whole run; 0: not known)
-///     sample   the columns of timeseries.csv; "bodies" and "regions": the columns of each, by their names
+///     sample   the columns of timeseries.csv; "bodies", "regions" and "powders": the columns of each, by their names
 ///     settled  time_s, at_rest, speed_m_s, fall_speed_m_s, spilled_kg
-///     dose     the columns of doses.csv; "bodies" and "regions" as above
+///     dose     the columns of doses.csv; "bodies", "regions" and "powders" as above
 ///     end      stop_reason, stop_sentence, code (exit code of the program), error or null, output
 ///
 /// If nobody reads any longer, the run is interrupted as by Ctrl-C and can be resumed.

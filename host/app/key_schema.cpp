@@ -97,7 +97,9 @@ Json& tableAt(Json& root, std::string_view path) {
         path = dot == std::string_view::npos ? "" : path.substr(dot + 1);
         const bool list = name.ends_with("[]");
         if (list) name.resize(name.size() - 2);
-        Json& place = (*table)["properties"][name];
+        const bool pair = name == kPairOfNames;
+        Json& place =
+            pair ? (*table)["patternProperties"]["^[A-Za-z0-9_]+-[A-Za-z0-9_]+$"] : (*table)["properties"][name];
         if (place.is_null()) place = list ? Json{{"type", "array"}, {"items", emptyTable()}} : emptyTable();
         table = list ? &place["items"] : &place;
     }

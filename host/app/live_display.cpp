@@ -8,6 +8,8 @@
 #include <string_view>
 #include <utility>
 
+#include "host/model/powders.h"
+
 namespace vkdose {
 
 namespace {
@@ -33,7 +35,7 @@ terminal::Style styleOfTerminal() {
 LiveDisplay::LiveDisplay(const Case& c, const Derived& derived, const Backend& backend, std::vector<Dose> before,
                          std::FILE* stream)
     : backend_(backend),
-      density_(c.world.density()),
+      density_(solidDensity(c)),
       scene_(terminal::sceneOf(c, derived.tipVelocity)),
       style_(styleOfTerminal()),
       stream_(stream),

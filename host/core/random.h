@@ -11,7 +11,7 @@
 namespace vkdose {
 
 /// The use of the numbers. Two uses with the same index get different numbers.
-enum class Stream : std::uint32_t { Radius = 1, Jitter = 2 };
+enum class Stream : std::uint32_t { Radius = 1, Jitter = 2, Shuffle = 3 };
 
 /// Two independent numbers, uniform in the open interval (0, 1), 53 bits each.
 inline std::array<double, 2> uniforms(std::uint64_t seed, Stream stream, std::uint64_t index,

@@ -18,6 +18,7 @@ constexpr Key kCanister[] = {
     number("outlet_diameter_mm", kMillimetre, kPositive, kRequired,
            "of the hole in the front wall and of the throat behind it; at most `width_mm`"),
     number("throat_length_mm", kMillimetre, kPositive, kRequired, "powder that passes the throat's end is dosed"),
+    text("material", told("that of the walls"), "name of a `[[material]]` that its walls are made of"),
     boolean("lid", false,
             "closes the canister at its height, or above the grid that the fill starts from where that reaches higher. "
             "Without a lid a sphere that the coil pinches and flings out is lost, which ends the run"),
@@ -26,6 +27,7 @@ constexpr Key kCanister[] = {
 constexpr Key kPlane[] = {
     vector("point", kMetre, kRequired, "a point of the plane"),
     vector("normal", kPlain, kRequired, "points to the side of the particles; of any length but zero"),
+    text("material", told("that of the walls"), "name of a `[[material]]` that it is made of"),
 };
 constexpr Key kCylinder[] = {
     vector("base", kMetre, kRequired, "centre of the first end; of an endless one any point of the axis"),
@@ -33,6 +35,7 @@ constexpr Key kCylinder[] = {
     number("radius_mm", kMillimetre, kPositive, kRequired, "inner radius if the particles are inside, else outer"),
     number("length_mm", kMillimetre, kPositive, told("endless"), "the cylinder is open at both ends"),
     boolean("inside", true, "whether the particles are inside"),
+    text("material", told("that of the walls"), "name of a `[[material]]` that it is made of"),
 };
 
 constexpr Key kCoil[] = {
@@ -68,7 +71,10 @@ constexpr Key kBody[] = {
          "from z = 0 on")
         .replacing("*"),
     word("contact", "wall coil", "wall",
-         "whose contact parameters it has: those of `[contact.wall]` or `[contact.coil]`"),
+         "whose contact parameters it has: those of `[contact.wall]` or `[contact.coil]`")
+        .replacing("material"),
+    text("material", told("none"), "in place of `contact`: name of a `[[material]]` that it is made of")
+        .replacing("contact"),
     vector("at", kMetre, {0, 0, 0}, "where the origin of its frame is at the start"),
     vector("rotation_axis", kPlain, {0, 0, 1}, "direction of the axis about which its frame is turned at the start"),
     number("rotation_deg", kDegree, Bound::Any, 0.0, "the angle of that turn"),

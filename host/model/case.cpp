@@ -15,6 +15,7 @@
 #include "host/model/case_reader.h"
 #include "host/model/case_sections.h"
 #include "host/model/checks.h"
+#include "host/model/powders.h"
 #include "host/model/shared_places.h"
 #include "host/model/size_distribution.h"
 #include "host/model/stability.h"
@@ -122,7 +123,7 @@ void readBulkDensity(Section& root, Case& c) {
 /// The estimate that stands for a measured bulk density until the bed has settled.
 void estimateBulkDensity(Section& root, Case& c) {
     if (!c.bulkDensityMeasured) return;
-    c.bulkDensity = kBedFraction * c.world.density();
+    c.bulkDensity = kBedFraction * solidDensity(c);
     if (!(c.bulkDensity > 0)) return;  // the density is at fault
     const std::string words = fmt::format(
         "bulk_density = {:.4g} kg/m3, {} of the particles' density, until the bed has settled; then its own",
@@ -155,15 +156,17 @@ Case interpret(const std::filesystem::path& file, Node tree, std::vector<std::fi
     c.world.gravity = root.vector("gravity");
     readBulkDensity(root, c);
     readParticles(reader, root, c);
+    const MaterialTables materials = readMaterials(reader, root, c);
+    readList(reader, root, c);
     estimateBulkDensity(root, c);
-    placeContact(root);
+    placeContact(reader, root, c);
     const std::optional<Boundaries> kind = readBoundaries(reader, root, c);
     readCoil(reader, root, c);
     readTime(reader, root, c);
     readBodies(reader, root, reader.faulty() ? std::numeric_limits<double>::quiet_NaN() : meshReach(c), c);
     alignWithDrive(c);
     readRegions(reader, root, c);
-    readContact(reader, root, reader.faulty() ? std::numeric_limits<double>::quiet_NaN() : sizeRange(c).mean, c);
+    readContact(reader, root, materials, c);
     readRegion(root, kind, c);
     if (!reader.faulty()) fillAboveDriven(root, c);
     readSchedule(reader, root, c);
@@ -195,6 +198,8 @@ Case interpret(const std::filesystem::path& file, Node tree, std::vector<std::fi
     if (c.canister && c.canister->lid) {
         const geometry::Plane lid{{0, canisterTop(*c.canister, filled), 0}, {0, -1, 0}};
         c.world.surfaces.insert(c.world.surfaces.end() - 1, lid);  // the front wall stays the last (world.h)
+        auto& ofWalls = c.world.surfaceMaterials;                  // of all walls the same, or none stated
+        if (!ofWalls.empty()) ofWalls.push_back(ofWalls.back());
     }
     if (!domainGiven) {
         c.world.domain = defaultDomain(c, sizes, filled);

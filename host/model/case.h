@@ -45,10 +45,18 @@ struct Filling {
     Box region;                 ///< of the grid, open upwards in a canister (high.y infinite); unused with a list
 };
 
-/// Powder that is added while the run goes on: spheres of the sizes of the filling, on a grid over the powder that is
+/// A powder beside that of [particles].
+struct Powder {
+    std::string name;  ///< of its columns
+    int material = 0;  ///< World::materials; of no other powder, and of no wall or body
+    Filling filling;   ///< without a list: that of Case::filling holds the particles of all powders
+};
+
+/// Powder that is added while the run goes on: spheres of the sizes of its powder, on a grid over the powder that is
 /// there. Without a time or a dose it waits for an order.
 struct Refill {
     std::string name;
+    int material = kFirstPowder;    ///< of its powder
     double mass = 0;                ///< target [kg]
     std::optional<double> time;     ///< it is added at the first reading of the sensors that is not earlier [s]
     std::optional<int> beforeDose;  ///< it is added before this dose begins
@@ -136,7 +144,9 @@ struct Case {
     std::optional<double> stepsPerContact;  ///< least number of time steps in the fastest mode (stability.h), if stated
     double softened = 1;                    ///< by which factor both laws are softer than the file's parameters
     std::optional<Canister> canister;       ///< absent for free boundaries
-    Filling filling;
+    Filling filling;                        ///< of the first powder; a list holds the particles of all
+    std::vector<Powder> furtherPowders;
+    bool mixed = false;  ///< all powders start at random places of one grid, in the region of the first
     std::vector<Refill> refills;
     Schedule schedule;
     double sensorInterval = 0;  ///< [s], a whole number of steps after loading
@@ -187,6 +197,13 @@ struct Insertion {
     double cutAbove = 0;        ///< Quantiles, Sieve: mass fraction coarser than the upper bound [-]
     double fillHeight = 0;      ///< top of the grid, or of a list's highest sphere [m, y]
 
+    /// What the fill has of one powder.
+    struct Share {
+        std::size_t particles = 0;
+        double mass = 0, targetMass = 0;  ///< [kg]
+    };
+    std::vector<Share> powders;  ///< in the order of the case
+
     /// The powder of a refill. Its particles wait; they stand on the grid as it would be without any powder.
     struct Waiting {
         Particles particles;
@@ -201,8 +218,9 @@ struct Insertion {
     std::size_t firstOf(std::size_t refill) const;
 };
 Insertion insertParticles(const Case& c);
-/// How many particles the mass of a case without a list takes, exactly; those of refills are not among them.
-std::size_t drawnParticles(const Case& c);
+/// How many particles the mass of each powder of a case without a list takes, exactly; those of refills are not among
+/// them.
+std::vector<std::size_t> drawnParticles(const Case& c);
 
 /// Contact duration of the reduced mass m12 [kg] on stiffness k [N/m]: pi / sqrt(k/m12 - (gamma/(2 m12))^2).
 double contactDuration(const ContactParameters& p, double mass, double k);

@@ -1,7 +1,8 @@
 #pragma once
-// The tables of a case file, read into a Case. Every key is read in read_powder.cpp, read_sieve.cpp, read_contact.cpp,
-// read_apparatus.cpp, read_bodies.cpp, read_field.cpp or read_measure.cpp.
+// The tables of a case file, read into a Case. Every key is read in read_powder.cpp, read_materials.cpp,
+// read_sieve.cpp, read_contact.cpp, read_apparatus.cpp, read_bodies.cpp, read_field.cpp or read_measure.cpp.
 
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -14,6 +15,8 @@ namespace vkdose {
 enum class Boundaries { Canister, List, None };
 
 // read_powder.cpp
+/// Reads the size distribution of a table [particles.size] or [powder.size].
+SizeDistribution readSize(CaseReader& reader, Section& section, Case& c);
 void readParticles(CaseReader& reader, Section& root, Case& c);
 /// Reads the box of the insertion grid. By default it is the canister above its coil. Call after readBoundaries and
 /// readCoil.
@@ -23,6 +26,20 @@ void readRefills(CaseReader& reader, Section& root, Case& c);
 /// Raises the grid of a canister above the bodies that follow the drive and so stand in the place of a coil.
 void fillAboveDriven(Section& root, Case& c);
 
+// read_materials.cpp
+/// The tables [[material]], by the index of their material.
+using MaterialTables = std::map<int, Section*>;
+/// Reads [[powder]] and [[material]], and gives the materials their indices. Call after readParticles, before anything
+/// else that names a material; readList comes after it.
+MaterialTables readMaterials(CaseReader& reader, Section& root, Case& c);
+/// Reads the file of particles.list, if the case has one.
+void readList(CaseReader& reader, Section& root, Case& c);
+/// Index of the material of a wall or body that the key `material` of its table names; `usual` if the table does not
+/// have it.
+int readMaterialName(CaseReader& reader, Section& section, const Case& c, int usual);
+/// Index among World::materials of the powder that the key `powder` names; nothing if the table does not have it.
+std::optional<int> readPowderName(CaseReader& reader, Section& section, const Case& c);
+
 // read_sieve.cpp
 /// Reads the table of a sieve analysis into `size.sieve`, which stays empty after a fault. `size.scaleUp` is read
 /// already. A file that it reads is added to `files`.
@@ -30,12 +47,13 @@ void readSieve(CaseReader& reader, Section& section, SizeDistribution& size, std
 /// The number distribution that such a table makes, in words.
 std::string sieveDerivation(const SizeDistribution& size);
 
-// read_contact.cpp
-/// Gives the tables that readContact reads their place in the resolved case, before those of the apparatus.
-void placeContact(Section& root);
+// read_contact.cpp, read_luding.cpp, read_elastic.cpp
+/// Gives the tables that readContact reads their place in the resolved case, before those of the apparatus. Call after
+/// readMaterials.
+void placeContact(CaseReader& reader, Section& root, const Case& c);
 /// Reads contacts and the adhesion of settling. Call after readParticles, readBoundaries and readCoil: parameters may
-/// follow from the weight of the bed. The mean radius of the particles [m] is NaN if it is not known.
-void readContact(CaseReader& reader, Section& root, double meanRadius, Case& c);
+/// follow from the weight of the bed.
+void readContact(CaseReader& reader, Section& root, const MaterialTables& materials, Case& c);
 
 // read_apparatus.cpp
 /// A direction from the file as a unit vector; a zero vector is a fault.

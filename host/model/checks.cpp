@@ -5,9 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <set>
 
 #include "geometry/coincidence.h"
+#include "host/model/contact_pairs.h"
 #include "host/model/grid.h"
+#include "host/model/powders.h"
 #include "host/model/size_distribution.h"
 #include "host/model/stability.h"
 
@@ -25,17 +29,16 @@ double mm(double metres) {
 }
 
 void checkContact(CaseReader& reader, const Case& c) {
-    const std::array<const char*, kContactClasses> path{"contact", "contact.wall", "contact.coil"};
-    for (int i = 0; i < kContactClasses; ++i) {
-        const ContactParameters& p = c.dosingLaw.between(0, i);
-        // An inherited fault is reported once, where the value is written.
-        const ContactParameters* parent = i == 0 ? nullptr : &c.dosingLaw.between(0, i - 1);
-        const bool sameK1 = parent != nullptr && p.k1 / p.k2Max == parent->k1 / parent->k2Max;
-        if (p.k1 > p.k2Max && !sameK1)
-            reader.fault(fmt::format("{}.k1_over_k", path[i]), "the plastic stiffness exceeds the elastic one",
+    std::set<std::string> told;  // an inherited fault is reported once, where the value is written
+    for (const MaterialPair pair : statedPairs(c.world)) {
+        const ContactParameters& p = c.dosingLaw.of(pair);
+        const std::string path = contactPath(reader, c.world, pair);
+        const std::string ratio = fmt::format("{}", p.k1 / p.k2Max);
+        if (p.k1 > p.k2Max && told.insert(ratio).second)
+            reader.fault(path + ".k1_over_k", "the plastic stiffness exceeds the elastic one",
                          "give a ratio > 0 and <= 1 (the paper's table prints the inverse, 5 for 0.2)");
-        if (p.k1 < p.k2Max && p.plasticityDepth == 0 && !(sameK1 && parent->plasticityDepth == 0))
-            reader.fault(fmt::format("{}.plasticity_depth", path[i]), "is zero, which leaves k2 undefined while k1 < k",
+        if (p.k1 < p.k2Max && p.plasticityDepth == 0 && told.insert(ratio + " without a depth").second)
+            reader.fault(path + ".plasticity_depth", "is zero, which leaves k2 undefined while k1 < k",
                          "give a fraction > 0 of the radius, e.g. 0.05, or k1_over_k = 1");
     }
 }
@@ -46,24 +49,23 @@ void checkOverlapLimit(CaseReader& reader, const Case& c) {
         reader.fault("contact.max_overlap_ratio", "lets spheres pass through each other", "give at most 2");
 }
 
-void checkSize(CaseReader& reader, const SizeDistribution& s) {
+void checkSize(CaseReader& reader, const std::string& table, const SizeDistribution& s) {
     using Kind = SizeDistribution::Kind;
+    const std::string smallest = table + ".size.radius_min_mm";
     const bool bounded = s.kind != Kind::Fixed;
     if (bounded && s.radiusMin > s.radiusMax)
-        reader.fault("particles.size.radius_min_mm", "exceeds radius_max_mm",
-                     fmt::format("give at most {:.6g} mm", mm(s.radiusMax)));
+        reader.fault(smallest, "exceeds radius_max_mm", fmt::format("give at most {:.6g} mm", mm(s.radiusMax)));
     if (s.kind == Kind::Quantiles && (s.r10 >= s.r50 || s.r50 >= s.r90)) {
-        reader.fault("particles.size.d50_um", "the quantiles do not increase", "give d10_um < d50_um < d90_um");
+        reader.fault(table + ".size.d50_um", "the quantiles do not increase", "give d10_um < d50_um < d90_um");
         return;
     }
     const bool ofPowder = s.kind == Kind::Quantiles || (s.kind == Kind::Sieve && !s.sieve.empty());
     if (ofPowder && s.radiusMin <= s.radiusMax && finerVolume(s, s.radiusMax) - finerVolume(s, s.radiusMin) <= 0)
-        reader.fault("particles.size.radius_min_mm", "the bounds leave nothing of the scaled powder",
+        reader.fault(smallest, "the bounds leave nothing of the scaled powder",
                      fmt::format("keep them between {:.4g} and {:.4g} mm", mm(finestRadius(s)), mm(coarsestRadius(s))));
     const bool drawnAgain = s.kind == Kind::Normal || s.kind == Kind::Lognormal;
     if (drawnAgain && s.radiusMin <= s.radiusMax && acceptance(s) < 0.01)
-        reader.fault("particles.size.radius_min_mm",
-                     fmt::format("the bounds keep only {:.2g} of the draws", acceptance(s)),
+        reader.fault(smallest, fmt::format("the bounds keep only {:.2g} of the draws", acceptance(s)),
                      "move them nearer to the middle of the distribution");
 }
 
@@ -128,13 +130,6 @@ void checkCoil(CaseReader& reader, const Case& c) {
             fmt::format("wind fewer than {:.4g} turns", coil.length / (2 * coil.wireRadius)));
 }
 
-double fillMass(const Case& c) {
-    if (!c.filling.list) return c.filling.mass;
-    double mass = 0;
-    for (const double r : c.filling.list->radius) mass += sphereMass(c.world.density(), r);
-    return mass;
-}
-
 void checkStages(CaseReader& reader, const Schedule& s) {
     double before = 0;
     for (std::size_t k = 0; k < s.stages.size(); ++k) {
@@ -151,8 +146,8 @@ void checkStages(CaseReader& reader, const Schedule& s) {
 void checkDoses(CaseReader& reader, const Case& c) {
     const Schedule& s = c.schedule;
     const bool doses = s.rotateTime > 0;
-    if (s.targetMass > fillMass(c))
-        reader.fault("dose.mass_g", fmt::format("is more than the fill of {:.4g} g", fillMass(c) * 1e3),
+    if (s.targetMass > fillOf(c).mass)
+        reader.fault("dose.mass_g", fmt::format("is more than the fill of {:.4g} g", fillOf(c).mass * 1e3),
                      "give less, or fill in more");
     if (!s.stages.empty() && s.targetMass == 0 && !reader.root().table("dose").has("mass_g"))
         reader.fault("dose.stage", "the stages are fractions of a mass that is not given",
@@ -200,7 +195,7 @@ void checkSchedule(CaseReader& reader, const Case& c) {
                      fmt::format("give 0, at least {:.6g}, or a shorter sensors.interval_s", c.sensorInterval));
 }
 
-void checkBox(CaseReader& reader, const char* path, const Box& box) {
+void checkBox(CaseReader& reader, const std::string& path, const Box& box) {
     if (box.low.x >= box.high.x || box.low.y >= box.high.y || box.low.z >= box.high.z)
         reader.fault(path, "low is not below high in every coordinate",
                      "give the lower corner as low, the upper as high");
@@ -215,30 +210,45 @@ void checkBed(CaseReader& reader, const Case& c) {
     const ContactParameters& pair = c.dosingLaw.of(ContactClass::ParticleParticle);
     const bool sticky = pair.kc > 0 || pair.surfaceEnergy > 0 || pair.constantPull > 0;
     const double loosest = sticky ? kLoosestBed : kLoosestFreeBed;
-    const double bed = c.filling.mass / c.world.density() / loosest;
+    const Fill fill = fillOf(c);
+    const double bed = fill.volume / loosest;
     // No powder is lighter than this. A lower density was probably given in g/cm3; without this bound the message would
     // blame the mass.
     constexpr double kLightest = 20;
-    if (bed > volume && c.world.density() < kLightest)
+    const std::vector<PowderOf> powders = powdersOf(c);
+    const auto light = std::find_if(powders.begin(), powders.end(),
+                                    [&](const PowderOf& p) { return c.world.density(p.material) < kLightest; });
+    if (bed > volume && light != powders.end()) {
+        const double density = c.world.density(light->material);
         reader.fault(
-            "particles.density",
+            light->path + ".density",
             fmt::format("makes the fill too large: {:.4g} cm3 for a canister of {:.4g} cm3", bed * 1e6, volume * 1e6),
-            fmt::format("give kg/m3; {:.6g} g/cm3 is {:.6g} kg/m3", c.world.density(), 1e3 * c.world.density()));
-    else if (bed > volume)
-        reader.fault(
-            "particles.mass_g",
-            fmt::format("the fill does not fit: a loose bed of it (volume fraction {}) takes {:.4g} cm3, the "
-                        "canister holds {:.4g} cm3",
-                        loosest, bed * 1e6, volume * 1e6),
-            fmt::format("give at most {:.4g} g or a higher canister", volume * loosest * c.world.density() * 1e3));
+            fmt::format("give kg/m3; {:.6g} g/cm3 is {:.6g} kg/m3", density, 1e3 * density));
+    } else if (bed > volume) {
+        // The powder that takes the most room is most probably the wrong one.
+        const auto most = std::max_element(powders.begin(), powders.end(), [&](const PowderOf& a, const PowderOf& b) {
+            return a.filling.mass / c.world.density(a.material) < b.filling.mass / c.world.density(b.material);
+        });
+        const double rest = bed - most->filling.mass / c.world.density(most->material) / loosest;
+        const double room = (volume - rest) * loosest * c.world.density(most->material);
+        reader.fault(most->path + ".mass_g",
+                     fmt::format("the fill does not fit: a loose bed of it (volume fraction {}) takes {:.4g} cm3, the "
+                                 "canister holds {:.4g} cm3",
+                                 loosest, bed * 1e6, volume * 1e6),
+                     room > 0 ? fmt::format("give at most {:.4g} g or a higher canister", room * 1e3)
+                              : "give less of all powders, or a higher canister");
+    }
 }
 
 /// The largest sphere must pass the canister and its outlet.
 void checkLargest(CaseReader& reader, const Case& c, double largest) {
     const Canister& can = *c.canister;
-    const char* key = c.filling.list                                         ? "particles.list"
-                      : c.filling.size.kind == SizeDistribution::Kind::Fixed ? "particles.size.radius_mm"
-                                                                             : "particles.size.radius_max_mm";
+    std::string key = "particles.list";
+    if (!c.filling.list)
+        for (const PowderOf& p : powdersOf(c))
+            if (largestRadius(p.filling.size) == largest)
+                key = p.path + (p.filling.size.kind == SizeDistribution::Kind::Fixed ? ".size.radius_mm"
+                                                                                     : ".size.radius_max_mm");
     const double narrowest = std::min(can.width, can.outletDiameter);
     if (largest >= narrowest / 2)
         reader.fault(key,
@@ -248,40 +258,69 @@ void checkLargest(CaseReader& reader, const Case& c, double largest) {
                                  c.filling.list ? "; a list is in metres" : ""));
 }
 
+/// Where a mass of the case is given, and how many particles it takes about.
+struct Amount {
+    std::string key;
+    double mass = 0, particles = 0;
+};
+
+std::vector<Amount> amountsOf(const Case& c) {
+    const std::vector<PowderOf> powders = powdersOf(c);
+    std::vector<Amount> amounts;
+    const auto add = [&](std::string key, double mass, const PowderOf& p) {
+        const double each = sphereMass(c.world.density(p.material), std::cbrt(meanCubedRadius(p.filling.size)));
+        amounts.push_back({std::move(key), mass, mass / each});
+    };
+    for (const PowderOf& p : powders) add(p.path + ".mass_g", p.filling.mass, p);
+    for (std::size_t k = 0; k < c.refills.size(); ++k)
+        add(fmt::format("refill[{}].mass_g", k), c.refills[k].mass, powders[powderIndex(c, c.refills[k].material)]);
+    return amounts;
+}
+
+/// Refuses absurd numbers of particles. Returns whether there are as many as that.
+bool checkNumber(CaseReader& reader, const Case& c) {
+    const std::vector<Amount> amounts = amountsOf(c);
+    // The key that makes the most particles is most probably the wrong one.
+    const auto most = std::max_element(amounts.begin(), amounts.end(),
+                                       [](const Amount& a, const Amount& b) { return a.particles < b.particles; });
+    double particles = 0;
+    for (const Amount& a : amounts) particles += a.particles;
+    if (particles <= kMaxParticles) return false;
+    const SizeDistribution::Kind kind = c.filling.size.kind;
+    reader.fault(most->key,
+                 amounts.size() == 1 ? fmt::format("takes about {:.2g} particles", particles)
+                                     : fmt::format("takes about {:.2g} particles, and with the other masses {:.2g}",
+                                                   most->particles, particles),
+                 kind == SizeDistribution::Kind::Quantiles
+                     ? "give less mass or a larger scale_up; d10_um, d50_um and d90_um are in micrometres"
+                 : kind == SizeDistribution::Kind::Sieve
+                     ? "give less mass, a larger scale_up, or a radius_min_mm that leaves the finest out"
+                     : "give less mass or larger meso-particles");
+    return true;
+}
+
 void checkGrid(CaseReader& reader, const Case& c, double largest) {
-    const Filling& f = c.filling;
-    const double meanMass = sphereMass(c.world.density(), std::cbrt(meanCubedRadius(f.size)));
-    // The key whose mass is the largest is most probably the wrong one.
-    std::string key = "particles.mass_g";
-    double mass = f.mass, largestMass = f.mass;
-    for (std::size_t k = 0; k < c.refills.size(); ++k) {
-        mass += c.refills[k].mass;
-        if (c.refills[k].mass <= largestMass) continue;
-        key = fmt::format("refill[{}].mass_g", k);
-        largestMass = c.refills[k].mass;
+    if (checkNumber(reader, c)) return;
+    const std::vector<PowderOf> powders = powdersOf(c);
+    const std::vector<std::size_t> counts = drawnParticles(c);
+    const auto inMixture = static_cast<double>(std::accumulate(counts.begin(), counts.end(), std::size_t{0}));
+    for (std::size_t k = 0; k < powders.size(); ++k) {
+        const PowderOf& p = powders[k];
+        const double widest = c.mixed ? largest : largestRadius(p.filling.size);
+        // In a canister all grids have the same sites in a layer, and layers without end.
+        const Box& region = c.canister || c.mixed ? c.filling.region : p.filling.region;
+        const double capacity = InsertionGrid(region, widest, p.filling.gridGap).capacity();
+        const double count = c.mixed ? inMixture : static_cast<double>(counts[k]);
+        if (counts[k] == 0)
+            reader.fault(p.path + ".mass_g", "is less than half of the first particle drawn", "give more mass");
+        else if (capacity < 1 && c.canister)
+            reader.fault(p.path + ".size", "the largest sphere does not fit between the walls",
+                         "give smaller particles");
+        else if (capacity < count && (!c.mixed || k == 0))
+            reader.fault(p.path + ".region",
+                         fmt::format("has {:.0f} sites of the grid for {:.0f} particles", capacity, count),
+                         "give a larger region, less mass or smaller particles");
     }
-    if (mass / meanMass > kMaxParticles) {
-        reader.fault(key,
-                     c.refills.empty() ? fmt::format("takes about {:.2g} particles", mass / meanMass)
-                                       : fmt::format("takes about {:.2g} particles, and with the other masses {:.2g}",
-                                                     largestMass / meanMass, mass / meanMass),
-                     f.size.kind == SizeDistribution::Kind::Quantiles
-                         ? "give less mass or a larger scale_up; d10_um, d50_um and d90_um are in micrometres"
-                     : f.size.kind == SizeDistribution::Kind::Sieve
-                         ? "give less mass, a larger scale_up, or a radius_min_mm that leaves the finest out"
-                         : "give less mass or larger meso-particles");
-        return;
-    }
-    const double capacity = InsertionGrid(f.region, largest, f.gridGap).capacity();
-    const auto count = static_cast<double>(drawnParticles(c));
-    if (count == 0)
-        reader.fault("particles.mass_g", "is less than half of the first particle drawn", "give more mass");
-    else if (capacity < 1 && c.canister)
-        reader.fault("particles.size", "the largest sphere does not fit between the walls", "give smaller particles");
-    else if (capacity < count)
-        reader.fault("particles.region",
-                     fmt::format("has {:.0f} sites of the grid for {:.0f} particles", capacity, count),
-                     "give a larger region, less mass or smaller particles");
 }
 
 /// The key that makes a surface. Surfaces that a file lists come in the order of the file, planes first.
@@ -299,12 +338,16 @@ std::string surfaceKey(const Case& c, std::size_t surface) {
 void checkFields(CaseReader& reader, const Case& c) {
     checkContact(reader, c);
     checkOverlapLimit(reader, c);
-    if (!c.filling.list) checkSize(reader, c.filling.size);
+    if (!c.filling.list)
+        for (const PowderOf& p : powdersOf(c)) checkSize(reader, p.path, p.filling.size);
     if (c.canister) checkCanister(reader, c);
     if (c.world.coil) checkCoil(reader, c);
     checkSchedule(reader, c);
     checkBox(reader, "domain", c.world.domain);
     if (!c.filling.list) checkBox(reader, "particles.region", c.filling.region);
+    if (c.filling.list || c.canister || c.mixed) return;
+    for (std::size_t k = 0; k < c.furtherPowders.size(); ++k)
+        checkBox(reader, fmt::format("powder[{}].region", k), c.furtherPowders[k].filling.region);
 }
 
 void checkRefills(CaseReader& reader, const Case& c, const Insertion& filled) {

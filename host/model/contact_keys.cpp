@@ -104,21 +104,29 @@ constexpr Key kContactClass[] = {
     number("damping_to_ratio", kPlain, kNonNegative, kTwoSevenths, "γ_to/γ, damping of torsion"),
 };
 
+constexpr Key kPairAlone[] = {
+    number("settling_kc_over_k", kPlain, kNonNegative,
+           told("that of `[settle]` for two powders, the walls or the coil, if it gives one; else `kc_over_k`"),
+           "k_c/k while the powder settles"),
+};
+
 constexpr Key kLawParameters[] = {
     other("\"NAME\"", told("required"), "a number, in the unit that the law says"),
 };
 
 constexpr KeyTable kTables[] = {
-    {"contact contact.wall contact.coil", kContactClass,
+    {"contact contact.wall contact.coil contact.A-B", kContactClass,
      "`[contact]` holds the parameters between particles. `[contact.wall]` replaces single ones for the walls,\n"
      "`[contact.coil]` for the coil. The coil takes what it does not state from the wall, and the wall from "
      "`[contact]`. What is given in place of `k`, `kc_over_k` or `damping` holds for two spheres of the mean radius; "
      "at\n"
      "a wall and at the coil for one such sphere. It is inherited as it is given: with one `restitution` each class "
      "gets\n"
-     "the damping that its own mass needs."},
+     "the damping that its own mass needs. `[contact.A-B]` is for a "
+     "[pair of materials](#several-powders-and-materials), under their names in any order."},
+    {"contact.A-B", kPairAlone, "A pair of materials, `[contact.cocoa-steel]`, takes this too under the law `luding`:"},
     {"contact", kContactAlone, "These hold for all contacts."},
-    {"contact.parameters contact.wall.parameters contact.coil.parameters", kLawParameters,
+    {"contact.parameters contact.wall.parameters contact.coil.parameters contact.A-B.parameters", kLawParameters,
      "The parameters of [a law of your own](laws/README.md), under the names that its file declares. `[contact]` needs "
      "all of\nthem; the wall replaces single ones, and the coil takes from the wall what it does not state."},
 };

@@ -14,6 +14,7 @@ constexpr Key kField[] = {
     word("preset", "grid height-profile mid-plane outlet", "grid",
          "sets box and cells; `\"grid\"` is the whole canister in three directions"),
     text("name", told("the preset's; of grids `field-1`, ..."), "of its files: letters, digits, `-` and `_`"),
+    text("powder", told("all"), "name of a powder, where there are several: the field is that of its particles alone"),
     word("kernel", "gaussian lucy", "gaussian", "`\"gaussian\"` is cut at three widths; `\"lucy\"` ends at its width"),
     number("width_mm", kMillimetre, kPositive, told("mean diameter; Lucy: two"), "width of the kernel"),
     boolean("average", false, "the mean of all sensor intervals since the field before, in place of the instant"),

@@ -1,30 +1,29 @@
 // From a validated case to its particles: draw sizes up to the mass, stack them on a grid.
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 #include <stdexcept>
 
 #include "host/core/random.h"
 #include "host/model/case.h"
 #include "host/model/grid.h"
+#include "host/model/powders.h"
 #include "host/model/refill.h"
 #include "host/model/size_distribution.h"
 
 namespace vkdose {
 namespace {
 
-double listedMass(const World& world, const Particles& list) {
-    double mass = 0;
-    for (std::size_t i = 0; i < list.size(); ++i) mass += massOf(world, list, i);
-    return mass;
-}
-
-/// Draws radii, from the draw `first` on, until one more would not bring the mass closer to the target. Adds to `mass`
-/// and `redrawn`.
-std::vector<double> drawRadii(const Case& c, double target, std::uint64_t first, double& mass, std::uint64_t& redrawn) {
+/// Draws radii of a powder, from the draw `first` on, until one more would not bring the mass closer to the target.
+/// Adds to `mass` and `redrawn`.
+std::vector<double> drawRadii(const Case& c, const PowderOf& powder, double target, std::uint64_t first, double& mass,
+                              std::uint64_t& redrawn) {
+    const double density = c.world.density(powder.material);
     std::vector<double> radii;
     for (std::uint64_t index = first;; ++index) {
-        const double r = drawRadius(c.filling.size, c.seed, index, redrawn);
-        const double next = mass + sphereMass(c.world.density(), r);
+        const double r = drawRadius(powder.filling.size, c.seed, index, redrawn);
+        const double next = mass + sphereMass(density, r);
         if (std::abs(next - target) >= std::abs(mass - target)) break;
         radii.push_back(r);
         mass = next;
@@ -44,14 +43,74 @@ Vec3 jitter(std::uint64_t seed, std::uint64_t index, double amplitude) {
     return amplitude * (2.0 * Vec3(x, y, z) - 1.0);
 }
 
-/// Particles with these radii on the grid. `first` is the draw of the first of them.
-Particles onGrid(const Case& c, const InsertionGrid& grid, const std::vector<double>& radii, std::uint64_t first) {
+/// Adds particles of a powder with these radii on the grid. `first` is the draw of the first of them. With `sites` they
+/// take those, from `first` on, else the grid's in their order.
+void addOnGrid(const Case& c, const InsertionGrid& grid, const std::vector<double>& radii, std::uint64_t first,
+               int material, Particles& particles, const std::vector<std::uint64_t>& sites = {}) {
     if (static_cast<double>(radii.size()) > grid.capacity())
         throw std::logic_error("the grid is too small for the powder");  // loadCase refuses such a case
-    Particles particles;
-    for (std::size_t i = 0; i < radii.size(); ++i)
-        particles.add(grid.site(i) + jitter(c.seed, first + i, grid.jitterAmplitude()), radii[i]);
-    return particles;
+    for (std::size_t i = 0; i < radii.size(); ++i) {
+        const std::uint64_t site = sites.empty() ? i : sites.at(first + i);
+        particles.add(grid.site(site) + jitter(c.seed, first + i, grid.jitterAmplitude()), radii[i], Vec3(0), Vec3(0),
+                      material);
+    }
+}
+
+/// The numbers below `count` in an order that the seed sets (Fisher and Yates).
+std::vector<std::uint64_t> shuffled(std::uint64_t seed, std::uint64_t count) {
+    std::vector<std::uint64_t> order(count);
+    std::iota(order.begin(), order.end(), std::uint64_t{0});
+    for (std::uint64_t i = count; i > 1; --i) {
+        const double u = uniforms(seed, Stream::Shuffle, i)[0];
+        std::swap(order[i - 1], order[std::min(i - 1, static_cast<std::uint64_t>(u * static_cast<double>(i)))]);
+    }
+    return order;
+}
+
+/// The radii of a powder of the fill.
+struct Drawn {
+    PowderOf powder;
+    std::uint64_t first = 0;  ///< draw of the first of them
+    std::vector<double> radii;
+};
+
+/// Draws the radii of all powders, one after the other. The draws are numbered on from powder to powder.
+std::vector<Drawn> drawFill(const Case& c, Insertion& result) {
+    std::vector<Drawn> all;
+    std::uint64_t draws = 0;
+    for (const PowderOf& powder : powdersOf(c)) {
+        double mass = 0;
+        all.push_back({powder, draws, drawRadii(c, powder, powder.filling.mass, draws, mass, result.redrawn)});
+        draws += all.back().radii.size();
+        result.mass += mass;
+        result.targetMass += powder.filling.mass;
+        result.powders.push_back({all.back().radii.size(), mass, powder.filling.mass});
+    }
+    return all;
+}
+
+/// Puts each powder on a grid of its own. In a canister it stands on the one before.
+void fillApart(const Case& c, const std::vector<Drawn>& all, Insertion& result) {
+    double top = c.filling.region.low.y;
+    for (const Drawn& d : all) {
+        Box region = d.powder.filling.region;
+        if (c.canister) region = {Vec3(c.filling.region.low.x, top, c.filling.region.low.z), c.filling.region.high};
+        const InsertionGrid grid(region, largestRadius(d.powder.filling.size), d.powder.filling.gridGap);
+        addOnGrid(c, grid, d.radii, d.first, d.powder.material, result.particles);
+        top = grid.top(d.radii.size());
+        result.fillHeight = std::max(result.fillHeight, top);
+    }
+}
+
+/// Puts all powders at random places of one grid, in the region of the first.
+void fillMixed(const Case& c, const std::vector<Drawn>& all, Insertion& result) {
+    double largest = 0;
+    for (const Drawn& d : all) largest = std::max(largest, largestRadius(d.powder.filling.size));
+    const InsertionGrid grid(c.filling.region, largest, c.filling.gridGap);
+    const std::uint64_t count = all.back().first + all.back().radii.size();
+    const std::vector<std::uint64_t> sites = shuffled(c.seed, count);
+    for (const Drawn& d : all) addOnGrid(c, grid, d.radii, d.first, d.powder.material, result.particles, sites);
+    result.fillHeight = grid.top(count);
 }
 
 /// The draws of the refills go on where those of the filling end.
@@ -59,13 +118,27 @@ void drawRefills(const Case& c, Insertion& result) {
     std::uint64_t draws = result.particles.size();
     for (const Refill& refill : c.refills) {
         Insertion::Waiting& waiting = result.waiting.emplace_back();
-        const InsertionGrid grid(refillRegion(c), largestRadius(c.filling.size), c.filling.gridGap);
-        const std::vector<double> radii = drawRadii(c, refill.mass, draws, waiting.mass, result.redrawn);
-        waiting.particles = onGrid(c, grid, radii, draws);
+        const PowderOf powder = powdersOf(c)[powderIndex(c, refill.material)];
+        const Box region = refillRegion(c, refill);
+        const InsertionGrid grid(region, largestRadius(powder.filling.size), powder.filling.gridGap);
+        const std::vector<double> radii = drawRadii(c, powder, refill.mass, draws, waiting.mass, result.redrawn);
+        addOnGrid(c, grid, radii, draws, refill.material, waiting.particles);
         waiting.particles.status.assign(radii.size(), Status::Waiting);
-        waiting.height = grid.top(radii.size()) - c.filling.region.low.y;
+        waiting.height = grid.top(radii.size()) - region.low.y;
         draws += radii.size();
     }
+}
+
+/// How much of a list is of one powder. What is there is what was asked for.
+Insertion::Share shareOf(const Case& c, const Particles& list, int material) {
+    Insertion::Share share;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        if (list.material[i] != material) continue;
+        share.particles += 1;
+        share.mass += massOf(c.world, list, i);
+    }
+    share.targetMass = share.mass;
+    return share;
 }
 
 }  // namespace
@@ -108,10 +181,11 @@ double InsertionGrid::top(std::uint64_t count) const {
     return (count == 0 ? low_.y : site(count - 1).y) + 0.5 * pitch_;
 }
 
-std::size_t drawnParticles(const Case& c) {
-    double mass = 0;
-    std::uint64_t redrawn = 0;
-    return drawRadii(c, c.filling.mass, 0, mass, redrawn).size();
+std::vector<std::size_t> drawnParticles(const Case& c) {
+    Insertion drawn;
+    std::vector<std::size_t> counts;
+    for (const Drawn& d : drawFill(c, drawn)) counts.push_back(d.radii.size());
+    return counts;
 }
 
 void Particles::append(const Particles& more) {
@@ -138,9 +212,11 @@ std::size_t Insertion::firstOf(std::size_t refill) const {
 
 Insertion insertParticles(const Case& c) {
     Insertion result;
+    result.fillHeight = -std::numeric_limits<double>::infinity();
     if (c.filling.list) {
         result.particles = *c.filling.list;
-        result.mass = result.targetMass = listedMass(c.world, result.particles);
+        result.mass = result.targetMass = fillOf(c).mass;
+        for (const PowderOf& p : powdersOf(c)) result.powders.push_back(shareOf(c, result.particles, p.material));
         result.fillHeight = c.world.domain.low.y;
         for (std::size_t i = 0; i < result.particles.size(); ++i)
             result.fillHeight =
@@ -148,15 +224,12 @@ Insertion insertParticles(const Case& c) {
         return result;
     }
     const SizeDistribution& size = c.filling.size;
-    result.targetMass = c.filling.mass;
     if (size.kind == SizeDistribution::Kind::Quantiles || size.kind == SizeDistribution::Kind::Sieve) {
         result.cutBelow = finerVolume(size, size.radiusMin);
         result.cutAbove = 1 - finerVolume(size, size.radiusMax);
     }
-    const InsertionGrid grid(c.filling.region, largestRadius(size), c.filling.gridGap);
-    const std::vector<double> radii = drawRadii(c, c.filling.mass, 0, result.mass, result.redrawn);
-    result.particles = onGrid(c, grid, radii, 0);
-    result.fillHeight = grid.top(radii.size());
+    const std::vector<Drawn> all = drawFill(c, result);
+    c.mixed ? fillMixed(c, all, result) : fillApart(c, all, result);
     drawRefills(c, result);
     return result;
 }

@@ -20,6 +20,19 @@ std::string withoutIndex(std::string_view path) {
     return plain;
 }
 
+/// Whether a table that is declared at `declared` may stand at `path`, both without indices. A part "A-B" of it stands
+/// for any two names with a hyphen between them.
+bool declares(std::string_view declared, std::string_view path) {
+    while (true) {
+        const std::size_t end = declared.find('.'), pathEnd = path.find('.');
+        const std::string_view part = declared.substr(0, end), name = path.substr(0, pathEnd);
+        if (part != name && !(part == kPairOfNames && name.find('-') != std::string_view::npos)) return false;
+        if (end == std::string_view::npos || pathEnd == std::string_view::npos) return end == pathEnd;
+        declared.remove_prefix(end + 1);
+        path.remove_prefix(pathEnd + 1);
+    }
+}
+
 std::string heading(std::string_view paths) {
     if (paths.empty()) return "At the top of the file";
     std::string text;
@@ -87,7 +100,7 @@ std::vector<const Key*> keysOf(std::span<const KeyTable> tables, std::string_vie
     for (const KeyTable& table : tables) {
         const std::vector<std::string> paths = wordsOf(table.paths);
         const bool here = wanted.empty() ? paths.empty() : std::any_of(paths.begin(), paths.end(), [&](const auto& p) {
-            return withoutIndex(p) == wanted;
+            return declares(withoutIndex(p), wanted);
         });
         if (!here) continue;
         for (const Key& key : table.keys)

@@ -138,10 +138,14 @@ constexpr Key other(std::string_view name, Default standard, std::string_view me
 
 /// The keys of one table of a file, or of several tables with the same keys.
 struct KeyTable {
-    std::string_view paths;  ///< "contact contact.wall"; "": the top of the file; "plane[]": each [[plane]]
+    std::string_view
+        paths;  ///< "contact contact.wall"; "": the top of the file; "plane[]": each [[plane]]; kPairOfNames
     std::span<const Key> keys;
     std::string_view about;  ///< for the manual, in Markdown; may be empty
 };
+
+/// A part of a path that stands for two names with a hyphen between them: "contact.A-B" is each [contact.cocoa-sugar].
+inline constexpr std::string_view kPairOfNames = "A-B";
 
 /// The words of a list that is separated by blanks.
 std::vector<std::string> wordsOf(std::string_view list);

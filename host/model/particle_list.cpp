@@ -27,7 +27,8 @@ constexpr std::size_t kAbsent = std::numeric_limits<std::size_t>::max();
 
 class ListReader {
   public:
-    ListReader(std::string file, std::vector<Diagnostic>& faults) : file_(std::move(file)), faults_(faults) {
+    ListReader(std::string file, std::vector<Diagnostic>& faults, const std::vector<ListedPowder>& powders)
+        : file_(std::move(file)), faults_(faults), powders_(powders) {
         place_.fill(kAbsent);
     }
 
@@ -73,11 +74,16 @@ class ListReader {
                 status_ = i;
                 continue;
             }
+            if (names[i] == "powder") {
+                powder_ = i;
+                continue;
+            }
             const std::size_t column = columnOf(names[i]);
             if (column == kAbsent) {
                 const std::string meant = closestColumn(names[i]);
-                fault(names[i], "", "unknown column",
-                      meant.empty() ? "known: x,y,z,r,vx,vy,vz,wx,wy,wz" : fmt::format("did you mean {}?", meant));
+                fault(
+                    names[i], "", "unknown column",
+                    meant.empty() ? "known: x,y,z,r,vx,vy,vz,wx,wy,wz,powder" : fmt::format("did you mean {}?", meant));
                 continue;
             }
             std::size_t& place = place_[column];
@@ -86,6 +92,8 @@ class ListReader {
         }
         for (std::size_t i = 0; i < 4; ++i)
             if (place_[i] == kAbsent) fault(kColumns[i], "", "is missing in the header", "begin with x,y,z,r");
+        if (powders_.size() > 1 && powder_ == kAbsent)
+            fault("powder", "", "is missing in the header", "name the powder of each particle: the case has several");
         for (const std::size_t first : {std::size_t{4}, std::size_t{7}}) {
             const auto missing = std::count(place_.begin() + first, place_.begin() + first + 3, kAbsent);
             if (missing == 1 || missing == 2)
@@ -130,10 +138,22 @@ class ListReader {
             fault("r", fields[place_[3]], "is not positive", "give a radius > 0 [m]");
         else if (count_ == before && value[3] < kSmallestNumber)
             fault("r", fields[place_[3]], "is smaller than anything in a canister", "give a radius in m");
+        const int material = powder_ == kAbsent ? kFirstPowder : powderOf(fields[powder_]);
         if (count_ == before)
             particles_.add({value[0], value[1], value[2]}, value[3], {value[4], value[5], value[6]},
-                           {value[7], value[8], value[9]});
+                           {value[7], value[8], value[9]}, material);
         ++rows_;
+    }
+
+    /// The material of a powder by its name. A list that is read without a case may hold any name.
+    int powderOf(const std::string& name) {
+        std::string known;
+        for (const ListedPowder& p : powders_) {
+            if (p.name == name) return p.material;
+            known += (known.empty() ? "" : ", ") + p.name;
+        }
+        if (!powders_.empty()) fault("powder", name, "is no powder of the case", "known: " + known);
+        return kFirstPowder;
     }
 
     double number(const std::string& text, const std::string& column) {
@@ -160,8 +180,10 @@ class ListReader {
 
     std::string file_;
     std::vector<Diagnostic>& faults_;
+    const std::vector<ListedPowder>& powders_;
     std::array<std::size_t, 10> place_{};
     std::size_t status_ = kAbsent;
+    std::size_t powder_ = kAbsent;
     std::size_t columns_ = 0;
     std::size_t rows_ = 0;
     std::size_t count_ = 0;
@@ -171,14 +193,15 @@ class ListReader {
 
 }  // namespace
 
-Particles readParticleList(const std::filesystem::path& file, std::vector<Diagnostic>& faults) {
+Particles readParticleList(const std::filesystem::path& file, std::vector<Diagnostic>& faults,
+                           const std::vector<ListedPowder>& powders) {
     std::ifstream stream = inputFile(file);
     if (!stream) {
         faults.push_back(
             {file.string(), 0, "", "", readFault(file), "give the path of a CSV, relative to the case file"});
         return {};
     }
-    return ListReader(file.string(), faults).read(stream);
+    return ListReader(file.string(), faults, powders).read(stream);
 }
 
 }  // namespace vkdose

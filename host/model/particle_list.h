@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "host/core/error.h"
@@ -8,9 +9,17 @@
 
 namespace vkdose {
 
-/// Reads particles from a CSV in SI units with the header x,y,z,r and optionally vx,vy,vz and wx,wy,wz (in any order).
-/// The particles.csv of a run is read too; only its active particles are taken.
+/// A powder that a list may name.
+struct ListedPowder {
+    std::string name;
+    int material = kFirstPowder;
+};
+
+/// Reads particles from a CSV in SI units with the header x,y,z,r and optionally vx,vy,vz, wx,wy,wz and powder (in any
+/// order). The particles.csv of a run is read too; only its active particles are taken. The column powder names one of
+/// `powders`; where there are several, it must be there.
 /// Every fault, with the file and its line, is appended to `faults`; after 20 the rest is only counted.
-Particles readParticleList(const std::filesystem::path& file, std::vector<Diagnostic>& faults);
+Particles readParticleList(const std::filesystem::path& file, std::vector<Diagnostic>& faults,
+                           const std::vector<ListedPowder>& powders = {});
 
 }  // namespace vkdose

@@ -87,14 +87,15 @@ void checkMotion(CaseReader& reader, const Case& c, const Particles& p, const st
     }
 }
 
-/// Overlaps among the particles.
-void checkPairs(CaseReader& reader, const Particles& p, const std::string& path) {
+/// Overlaps among the particles of more than `allowed` of the smaller radius.
+void checkPairs(CaseReader& reader, const Particles& p, const std::string& path, double allowed,
+                const std::string& remedy) {
     Few faults(reader, path);
     forEachOverlap(p, [&](std::size_t i, std::size_t j, double ratio) {
-        if (ratio > kMaxOverlapRatio)
+        if (ratio > allowed)
             faults.add(fmt::format("{} overlaps particle {} by {:.3g} of the smaller radius", named(p, std::min(i, j)),
                                    std::max(i, j), ratio),
-                       fmt::format("keep the overlap below {}", kMaxOverlapRatio));
+                       remedy);
     });
 }
 
@@ -104,9 +105,14 @@ void checkPlacement(CaseReader& reader, const Case& c, const Particles& particle
     const std::string path = c.filling.list ? "particles.list" : c.canister ? "particles.mass_g" : "particles.region";
     checkDomain(reader, c, particles, path);
     checkWalls(reader, c, particles, path, c.filling.list ? kMaxOverlapRatio : 0.0);
-    if (!c.filling.list) return;  // the grid keeps its particles apart and at rest
-    checkMotion(reader, c, particles, path);
-    checkPairs(reader, particles, path);
+    if (c.filling.list) {
+        checkMotion(reader, c, particles, path);
+        checkPairs(reader, particles, path, kMaxOverlapRatio,
+                   fmt::format("keep the overlap below {}", kMaxOverlapRatio));
+    } else if (!c.canister && !c.mixed && !c.furtherPowders.empty()) {
+        // A grid keeps its particles apart and at rest; those of two powders may stand in one place.
+        checkPairs(reader, particles, "powder[0].region", 0, "give each powder a region of its own");
+    }
 }
 
 }  // namespace vkdose

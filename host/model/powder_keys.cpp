@@ -14,8 +14,14 @@ constexpr Bound kNonNegative = Bound::NonNegative;
 constexpr Key kParticles[] = {
     number("density", kDensity, kPositive, kRequired, "of the particles themselves, not of the bed"),
     number("mass_g", kGram, kPositive, told("required without `list`"),
-           "mass of the fill; it is met as closely as one particle allows")
+           "mass of the fill, of the first powder where there are several; it is met as closely as one particle allows")
         .replacing("list"),
+    text("material", "powder",
+         "name of what the powder is made of, where there are [several](#several-powders-and-materials): letters, "
+         "digits and `_`. It names the powder too"),
+    boolean("mixed", false,
+            "whether all powders start mixed, at random places of one grid in the region of the first. `false`: each "
+            "on a grid of its own"),
     text("list", told("none"),
          "a CSV of particles to start from in place of a fill; the path is relative to the case file")
         .replacing("mass_g size region grid_gap drop_mm"),
@@ -88,8 +94,24 @@ constexpr Key kRegion[] = {
     vector("high", kMetre, kRequired, "upper corner"),
 };
 
+constexpr Key kPowder[] = {
+    text("name", kRequired, "of the powder, in columns and pictures: letters, digits and `_`"),
+    text("material", told("`name`"), "name of what it is made of, in the names of pairs and in `[[material]]`"),
+    number("density", kDensity, kPositive, told("that of its `[[material]]`"), "of the particles themselves"),
+    number("mass_g", kGram, kPositive, told("required without `particles.list`"),
+           "mass of the fill; it is met as closely as one particle allows"),
+};
+
+constexpr Key kMaterial[] = {
+    text("name", kRequired, "letters, digits and `_`; not `wall` and `coil`, which `[contact]` knows"),
+    number("density", kDensity, kPositive, told("none"), "if a powder is made of it and does not state its own"),
+    number("youngs_modulus", {1, "Pa"}, kPositive, told("required unless `luding`"), "E"),
+    number("poisson_ratio", kPlain, kNonNegative, told("required unless `luding`"), "ν; at most 0.5"),
+};
+
 constexpr Key kRefill[] = {
     text("name", kRequired, "of the refill, in messages and for `add_powder`: letters, digits, `-` and `_`"),
+    text("powder", told("the first"), "name of the powder that is added, where there are several"),
     number("mass_g", kGram, kPositive, kRequired, "mass of the powder; it is met as closely as one particle allows"),
     number("time_s", kSecond, kPositive, told("none"),
            "simulated time, settling included: it is added at the first sensor interval that ends no earlier")
@@ -100,16 +122,24 @@ constexpr Key kRefill[] = {
 
 constexpr KeyTable kTables[] = {
     {"particles", kParticles, ""},
-    {"particles.size", kUniform, "Radii spread evenly, `distribution = \"uniform\"`:"},
-    {"particles.size", kFixed, "One radius, `\"fixed\"`:"},
-    {"particles.size", kNormal, "Normal radii, `\"normal\"`. A draw outside the bounds is drawn again:"},
-    {"particles.size", kLognormal, "Lognormal radii, `\"lognormal\"`. A draw outside the bounds is drawn again:"},
-    {"particles.size", kQuantiles, "Measured quantiles of the volume, `\"quantiles\"`:"},
-    {"particles.size", kSieve,
+    {"particles.size powder[].size", kUniform, "Radii spread evenly, `distribution = \"uniform\"`:"},
+    {"particles.size powder[].size", kFixed, "One radius, `\"fixed\"`:"},
+    {"particles.size powder[].size", kNormal, "Normal radii, `\"normal\"`. A draw outside the bounds is drawn again:"},
+    {"particles.size powder[].size", kLognormal,
+     "Lognormal radii, `\"lognormal\"`. A draw outside the bounds is drawn again:"},
+    {"particles.size powder[].size", kQuantiles, "Measured quantiles of the volume, `\"quantiles\"`:"},
+    {"particles.size powder[].size", kSieve,
      "A sieve analysis, `\"sieve\"`. Between two sieves the mass is spread evenly over the logarithm of the size:"},
-    {"particles.region", kRegion, "The box to fill, where `boundaries` is `\"list\"` or `\"none\"`."},
+    {"particles.region powder[].region", kRegion,
+     "The box to fill, where `boundaries` is `\"list\"` or `\"none\"`. In a canister the grid of each further powder "
+     "stands on the one before."},
+    {"powder[]", kPowder, "A further powder, a table for each; the first one is that of `[particles]`."},
+    {"material[]", kMaterial,
+     "What further powders, bodies and walls are made of. Under `luding` only bodies and walls need it; else every one "
+     "does, for its moduli. Those of the first powder, of the walls and of the coil stand in `[contact]`, "
+     "`[contact.wall]` and `[contact.coil]`."},
     {"refill[]", kRefill,
-     "Powder that is added while the run goes on, a table for each. Its spheres have the sizes of `[particles.size]`. "
+     "Powder that is added while the run goes on, a table for each. Its spheres have the sizes of its powder. "
      "They begin at rest on a grid like that of the fill, over the powder that is there. Without `time_s` and "
      "`before_dose` it waits until a program says `add_powder`."},
 };

@@ -34,7 +34,7 @@ void addCanister(Case& c) {
     c.world.outletZ = can.length + can.throatLength;
 }
 
-void readCanister(Section& root, Case& c) {
+void readCanister(CaseReader& reader, Section& root, Case& c) {
     Section& section = root.requiredTable("canister");
     Canister can;
     can.length = section.number("length_mm");
@@ -46,12 +46,20 @@ void readCanister(Section& root, Case& c) {
     can.lid = section.boolean("lid");
     c.canister = can;
     addCanister(c);
+    if (section.has("material"))
+        c.world.surfaceMaterials.assign(c.world.surfaces.size(),
+                                        std::uint8_t(readMaterialName(reader, section, c, kWallMaterial)));
+    section.know("material");
 }
 
 void readSurfaces(CaseReader& reader, Section& root, Case& c) {
+    const auto made = [&](Section& surface) {
+        c.world.surfaceMaterials.push_back(std::uint8_t(readMaterialName(reader, surface, c, kWallMaterial)));
+    };
     for (Section* plane : root.tables("plane")) {
         const Vec3 point = plane->vector("point");
         c.world.surfaces.push_back(geometry::Plane{point, readDirection(reader, *plane, "normal")});
+        made(*plane);
     }
     for (Section* tube : root.tables("cylinder")) {
         geometry::Tube shape;
@@ -62,6 +70,7 @@ void readSurfaces(CaseReader& reader, Section& root, Case& c) {
         tube->know("length_mm");
         shape.inside = tube->boolean("inside");
         c.world.surfaces.push_back(shape);
+        made(*tube);
     }
     if (c.world.surfaces.empty() && !root.has("body") && !reader.faulty())
         reader.fault("boundaries", "the list is empty",
@@ -96,7 +105,7 @@ std::optional<Boundaries> readBoundaries(CaseReader& reader, Section& root, Case
         if (!index || !root.has(key)) root.know(key);
     if (!index) return std::nullopt;
     const auto kind = static_cast<Boundaries>(*index);
-    if (kind == Boundaries::Canister) readCanister(root, c);
+    if (kind == Boundaries::Canister) readCanister(reader, root, c);
     if (kind == Boundaries::List) readSurfaces(reader, root, c);
     refuseUnused(reader, root, kind);
     return kind;

@@ -327,7 +327,11 @@ void readBodies(CaseReader& reader, Section& root, double meshReach, Case& c) {
             body.shapes = readShape(b, static_cast<Kind>(*shape));
         else
             section->abandon();
-        body.material = section->choice("contact") == std::size_t{1} ? kCoilMaterial : kWallMaterial;
+        if (section->has("material") && section->has("contact"))
+            b.fault("contact", "stands beside material, which says the same otherwise", "give one of the two");
+        if (section->has("material")) section->know("contact");
+        const bool asCoil = !section->has("material") && section->choice("contact") == std::size_t{1};
+        body.material = readMaterialName(reader, *section, c, asCoil ? kCoilMaterial : kWallMaterial);
         body.course.start = readPlace(b);
         readMotion(reader, *section, body);
         c.world.bodies.push_back(std::move(body));

@@ -110,11 +110,17 @@ void readFields(CaseReader& reader, Section& root, double meanDiameter, Case& c)
         if (!section->has("name") || section->isString("name"))
             checkName(reader, section->path("name"), sensor.name, names);
         FieldRequest& request = sensor.request;
+        request.material = readPowderName(reader, *section, c);
         request.kernel = static_cast<Kernel>(section->choice("kernel").value_or(0));
         const double width = (request.kernel == Kernel::Lucy ? 2 : 1) * meanDiameter;
         request.width = section->number("width_mm", std::round(width * 1e9) / 1e6);
         sensor.average = section->boolean("average");
         sensor.stress = request.contactStress = section->boolean("stress");
+        if (sensor.stress && request.material) {
+            reader.fault(section->path("stress"), "is of all powders together: one powder bears no stress of its own",
+                         "leave powder out, or stress");
+            request.contactStress = false;
+        }
         readGrid(reader, *section, c, sensor);
         const bool map = request.grid.resolvedDirections() > 1;
         sensor.interval = section->number("interval_s", (map ? 10 : 1) * c.sensorInterval);

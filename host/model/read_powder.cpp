@@ -6,10 +6,8 @@
 #include <limits>
 #include <set>
 
-#include "host/core/file.h"
 #include "host/model/body_form.h"
 #include "host/model/case_sections.h"
-#include "host/model/particle_list.h"
 #include "host/model/size_distribution.h"
 
 namespace vkdose {
@@ -25,8 +23,10 @@ void recordDerivation(Section& section, const SizeDistribution& size, Case& c) {
     if (size.sieve.empty() || !(size.radiusMin < size.radiusMax)) return;  // told elsewhere
     const std::string words = sieveDerivation(size);
     section.record("derived", words);
-    c.derivations.push_back("particles.size: " + words);
+    c.derivations.push_back(fmt::format("{}: {}", section.path(), words));
 }
+
+}  // namespace
 
 SizeDistribution readSize(CaseReader& reader, Section& section, Case& c) {
     using Kind = SizeDistribution::Kind;
@@ -76,28 +76,15 @@ SizeDistribution readSize(CaseReader& reader, Section& section, Case& c) {
     return size;
 }
 
-}  // namespace
-
 void readParticles(CaseReader& reader, Section& root, Case& c) {
     Section& section = root.requiredTable("particles");
     c.world.density() = section.number("density");
     if (section.has("list")) {
-        const std::string path = section.string("list");
         if (section.has("mass_g"))
             reader.fault("particles.mass_g", "a list of particles has its own mass", "give mass_g or list, not both");
         section.know("mass_g");
-        std::vector<Diagnostic> faults;
-        const std::filesystem::path file = reader.folderOf("particles.list") / path;
         c.filling.list.emplace();
-        if (!section.isString("list")) return;  // already reported
-        if (!inputFile(file)) {
-            reader.fault("particles.list", unreadable(file), "give the path of a CSV, relative to the case file");
-            return;
-        }
-        c.filling.list = readParticleList(file, faults);
-        c.files.push_back(file);
-        section.record("list", std::filesystem::absolute(file).lexically_normal().string());
-        for (Diagnostic& fault : faults) reader.add(std::move(fault));
+        (void)section.string("list");  // readList reads the file, once the powders have names
         return;
     }
     section.know("list");
@@ -120,8 +107,11 @@ void readRegion(Section& root, std::optional<Boundaries> kind, Case& c) {
         c.filling.region = {{-can.width / 2, floor, 0}, {can.width / 2, kInfinity, can.length}};
         return;
     }
-    Section& region = particles.requiredTable("region");
-    c.filling.region = {region.vector("low"), region.vector("high")};
+    const auto readBox = [](Section& region) { return Box{region.vector("low"), region.vector("high")}; };
+    c.filling.region = readBox(particles.requiredTable("region"));
+    if (c.mixed) return;
+    for (std::size_t k = 0; k < c.furtherPowders.size(); ++k)
+        c.furtherPowders[k].filling.region = readBox(root.item("powder", k).requiredTable("region"));
 }
 
 void readRefills(CaseReader& reader, Section& root, Case& c) {
@@ -130,6 +120,7 @@ void readRefills(CaseReader& reader, Section& root, Case& c) {
         Section& s = *section;
         Refill refill;
         refill.name = readName(reader, s, "refill", names);
+        refill.material = readPowderName(reader, s, c).value_or(kFirstPowder);
         refill.mass = s.number("mass_g");
         if (s.has("time_s")) refill.time = s.number("time_s");
         if (s.has("before_dose")) refill.beforeDose = static_cast<int>(s.integer("before_dose"));
@@ -139,7 +130,7 @@ void readRefills(CaseReader& reader, Section& root, Case& c) {
         if (refill.beforeDose && c.schedule.rotateTime == 0)
             reader.fault(s.path("before_dose"), "there are no doses", "give time_s, or dose.rotate_s");
         if (c.filling.list)
-            reader.fault(s.path("name"), "the powder is a list, and a refill is drawn from particles.size",
+            reader.fault(s.path("name"), "the powder is a list, and a refill is drawn from the sizes of its powder",
                          "give particles.mass_g and particles.size in place of particles.list");
         c.refills.push_back(std::move(refill));
     }

@@ -68,6 +68,9 @@ std::array<double, kMostLawParameters> readOwn(CaseReader& reader, Section& sect
             reader.fault(table.path(name), "is not a number that a device holds", "give a number");
         else if (node == nullptr && above == nullptr)
             reader.fault(table.path(name), fmt::format("is missing: {} declares it", law.name), "give a number");
+        else if (node == nullptr && std::isnan((*above)[k]))
+            reader.fault(table.path(name), "is missing: the two powders differ in it, and no rule says how it mixes",
+                         "give a number");
         if (above != nullptr) own[k] = (*above)[k];
         if (node != nullptr && node->isNumber()) own[k] = node->number;
         table.record(name, own[k]);

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "host/core/error.h"
+#include "host/model/powders.h"
 
 namespace vkdose {
 namespace {
@@ -25,8 +26,9 @@ double topUnder(const Box& box, const Particles& p) {
 
 }  // namespace
 
-Box refillRegion(const Case& c) {
-    Box region = c.filling.region;
+Box refillRegion(const Case& c, const Refill& refill) {
+    const bool first = c.canister || c.mixed;
+    Box region = first ? c.filling.region : powdersOf(c)[powderIndex(c, refill.material)].filling.region;
     region.high.y = std::numeric_limits<double>::infinity();
     return region;
 }
@@ -34,7 +36,7 @@ Box refillRegion(const Case& c) {
 std::vector<Vec3> placeRefill(const Case& c, const Insertion& filled, std::size_t index, const Particles& now,
                               const Clearance& around) {
     const Particles& powder = filled.waiting.at(index).particles;
-    const Box region = refillRegion(c);
+    const Box region = refillRegion(c, c.refills.at(index));
     const double lift = topUnder(region, now) - region.low.y;
     std::vector<Vec3> places = powder.position;
     for (std::size_t i = 0; i < places.size(); ++i) {

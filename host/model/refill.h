@@ -9,8 +9,9 @@
 
 namespace vkdose {
 
-/// The box of a refill's grid, were there no powder: that of the filling, open upwards.
-Box refillRegion(const Case& c);
+/// The box of a refill's grid, were there no powder: that of the filling, open upwards. In a canister and with mixed
+/// powders it is that of the first powder.
+Box refillRegion(const Case& c, const Refill& refill);
 
 /// Positions of the spheres of refill `index` [m]. Their grid stands as low as the filling's did, but above all active
 /// particles of `now` that are in the way of its fall. Throws RunError if a sphere would be outside of the domain, in a

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "host/model/checks.h"
+#include "host/model/powders.h"
 
 namespace vkdose {
 namespace {
@@ -26,22 +27,27 @@ constexpr double kMostSteps = 1e15;
 /// this ratio.
 constexpr double kFlattestCoil = 100;
 
-std::string sizeKey(const Case& c, const char* bound) {
-    if (c.filling.list) return "particles.list";
-    if (c.filling.size.kind == SizeDistribution::Kind::Fixed) return "particles.size.radius_mm";
-    return fmt::format("particles.size.radius_{}_mm", bound);
+std::string sizeKey(const PowderOf& p, const char* bound) {
+    if (p.filling.list) return "particles.list";
+    if (p.filling.size.kind == SizeDistribution::Kind::Fixed) return p.path + ".size.radius_mm";
+    return fmt::format("{}.size.radius_{}_mm", p.path, bound);
 }
 
-void checkMasses(CaseReader& reader, const Case& c, const SizeRange& radii) {
-    const auto inertia = [&](double r) { return 0.4 * sphereMass(c.world.density(), r) * r * r; };
-    if (inertia(radii.smallest) < kSmallestFloat)
-        reader.fault(sizeKey(c, "min"),
-                     fmt::format("a sphere of {:.3g} mm is too light to compute", radii.smallest * 1e3),
-                     "give larger spheres, or fewer and larger ones in their place");
-    if (inertia(radii.largest) > kLargestFloat)
-        reader.fault(sizeKey(c, "max"),
-                     fmt::format("a sphere of {:.3g} mm is too heavy to compute", radii.largest * 1e3),
-                     "give smaller spheres");
+void checkMasses(CaseReader& reader, const Case& c) {
+    const PowderSizes sizes = powderSizes(c);
+    for (const PowderOf& p : powdersOf(c)) {
+        const SizeRange& radii = sizes[std::size_t(p.material)];
+        const double density = c.world.density(p.material);
+        const auto inertia = [&](double r) { return 0.4 * sphereMass(density, r) * r * r; };
+        if (inertia(radii.smallest) < kSmallestFloat)
+            reader.fault(sizeKey(p, "min"),
+                         fmt::format("a sphere of {:.3g} mm is too light to compute", radii.smallest * 1e3),
+                         "give larger spheres, or fewer and larger ones in their place");
+        if (inertia(radii.largest) > kLargestFloat)
+            reader.fault(sizeKey(p, "max"),
+                         fmt::format("a sphere of {:.3g} mm is too heavy to compute", radii.largest * 1e3),
+                         "give smaller spheres");
+    }
 }
 
 void checkSteps(CaseReader& reader, const Case& c) {
@@ -81,7 +87,7 @@ void checkWays(CaseReader& reader, const Case& c, double smallest) {
 }  // namespace
 
 void checkScales(CaseReader& reader, const Case& c, const SizeRange& radii) {
-    checkMasses(reader, c, radii);
+    checkMasses(reader, c);
     checkSteps(reader, c);
     checkWays(reader, c, radii.smallest);
     if (c.world.skin > kWidestSkin * radii.largest)

@@ -246,7 +246,10 @@ Section& Section::table(std::string_view key) {
 
 Section& Section::requiredTable(std::string_view key) {
     if (has(key) || broken_ || reader_.opened(path(key)) != nullptr) return table(key);
-    reader_.fault(path(key), "the table is missing", fmt::format("add [{}]", path(key)));
+    std::string header = path(key);  // in an item of a list it stands without the item's index
+    if (const std::size_t index = header.find('['); index != std::string::npos)
+        header.erase(index, header.find(']') + 1 - index);
+    reader_.fault(path(key), "the table is missing", fmt::format("add [{}]", header));
     know(key);
     return reader_.open(nullptr, path(key), true);
 }
@@ -268,6 +271,10 @@ std::vector<Section*> Section::tables(std::string_view key) {
         found.push_back(&item);
     }
     return found;
+}
+
+Section& Section::item(std::string_view key, std::size_t index) {
+    return *reader_.opened(fmt::format("{}[{}]", path(key), index));
 }
 
 const Node* Section::node(std::string_view key) {

@@ -31,6 +31,7 @@ class Section {
     bool has(std::string_view key) const { return node_ != nullptr && node_->child(key) != nullptr; }
     bool isString(std::string_view key) const;
     std::string path(std::string_view key) const;
+    const std::string& path() const { return path_; }
 
     /// Unit, bounds, words and default are those that the key was declared with (key.h). A `fallback` is a default that
     /// follows from other keys. It is in the unit of the file; NaN means that one of those other keys is at fault. A
@@ -53,6 +54,8 @@ class Section {
     Section& requiredTable(std::string_view key);
     /// The tables of [[key]]; none when the key is absent.
     std::vector<Section*> tables(std::string_view key);
+    /// One of the tables that `tables` gave.
+    Section& item(std::string_view key, std::size_t index);
 
     /// The value as it is in the file, for kinds of values that no getter above reads; null if there is none.
     const Node* node(std::string_view key);

@@ -8,6 +8,7 @@
 #include "host/model/case.h"
 #include "host/model/normal_law.h"
 #include "host/model/particles.h"
+#include "host/model/powders.h"
 #include "host/model/restitution.h"
 #include "host/model/size_distribution.h"
 
@@ -42,8 +43,10 @@ double reducedMass(const World& world, MaterialPair pair, double a, double b) {
 PowderSizes powderSizes(const Case& c) {
     if (c.filling.list) return powderSizes(c.world, *c.filling.list);
     PowderSizes sizes(c.world.materials.size());
-    const SizeDistribution& size = c.filling.size;
-    sizes[kFirstPowder] = {smallestRadius(size), largestRadius(size), meanRadius(size)};
+    for (const PowderOf& p : powdersOf(c)) {
+        const SizeDistribution& size = p.filling.size;
+        sizes[std::size_t(p.material)] = {smallestRadius(size), largestRadius(size), meanRadius(size)};
+    }
     return sizes;
 }
 

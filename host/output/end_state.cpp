@@ -8,6 +8,7 @@
 #include "host/core/error.h"
 #include "host/core/file.h"
 #include "host/model/particle_list.h"
+#include "host/model/powders.h"
 #include "host/output/summary.h"
 
 namespace vkdose {
@@ -48,7 +49,9 @@ Frame readEndState(const std::filesystem::path& folder, const Case& c) {
     if (ledger.value("canister_count", 1) + ledger.value("throat_count", 1) == 0)
         return frame;  // no particles are left, so none are read
     std::vector<Diagnostic> faults;
-    frame.particles = readParticleList(list, faults);
+    std::vector<ListedPowder> powders;
+    for (const PowderOf& p : powdersOf(c)) powders.push_back({p.name, p.material});
+    frame.particles = readParticleList(list, faults, powders);
     if (!faults.empty()) throw OutputError(faults.front().text());
     return frame;
 }

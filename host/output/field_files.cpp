@@ -9,6 +9,7 @@
 #include "host/core/csv_table.h"
 #include "host/core/error.h"
 #include "host/core/file.h"
+#include "host/model/powders.h"
 #include "host/output/field_row.h"
 #include "host/output/series.h"
 #include "host/output/vtkhdf.h"
@@ -56,24 +57,31 @@ std::string quantityNames(const FieldSensor& s) {
     return "," + csvHeader(kQuantityColumns) + (s.stress ? "," + csvHeader(kStressColumns) : "");
 }
 
+/// Density of the particles of each field, of which its volume fraction is [kg/m3].
+std::vector<double> solidDensities(const Case& c) {
+    std::vector<double> densities;
+    for (const FieldSensor& s : c.fields) densities.push_back(solidDensity(c, s.request.material));
+    return densities;
+}
+
 }  // namespace
 
 FieldFiles::FieldFiles(const fs::path& run, const Case& c)
-    : folder_(run / kFieldsFolder), sensors_(c.fields), density_(c.world.density()) {
+    : folder_(run / kFieldsFolder), sensors_(c.fields), densities_(solidDensities(c)) {
     if (sensors_.empty()) return;
     createFolder(folder_);
     for (const FieldSensor& s : sensors_) files_.emplace_back(folder_ / (s.name + ".csv"), header(s));
 }
 
 FieldFiles::FieldFiles(const fs::path& run, const Case& c, const std::vector<CsvMark>& marks)
-    : folder_(run / kFieldsFolder), sensors_(c.fields), density_(c.world.density()) {
+    : folder_(run / kFieldsFolder), sensors_(c.fields), densities_(solidDensities(c)) {
     if (marks.size() != sensors_.size()) throw OutputError("the checkpoint has another number of fields than the case");
     for (std::size_t k = 0; k < sensors_.size(); ++k)
         files_.emplace_back(folder_ / (sensors_[k].name + ".csv"), marks[k]);
 }
 
 std::string FieldFiles::quantities(const FieldSensor& s, const FieldPoint& p) const {
-    const FieldRow row{Vec3(0), p, density_};
+    const FieldRow row{Vec3(0), p, densities_[std::size_t(&s - sensors_.data())]};
     return "," + csvRow(kQuantityColumns, row) + (s.stress ? "," + csvRow(kStressColumns, row) : "");
 }
 
@@ -132,7 +140,8 @@ std::string FieldFiles::image(const FieldSensor& s, const FieldSample& f) const 
     using One = std::array<double, 1>;
     const auto three = [](const Vec3& v) { return std::array<double, 3>{v.x, v.y, v.z}; };
     add("density", "kg/m3", 1, [](const FieldPoint& p) { return One{p.density}; });
-    add("volume_fraction", "", 1, [&](const FieldPoint& p) { return One{p.density / density_}; });
+    add("volume_fraction", "", 1,
+        [&](const FieldPoint& p) { return One{p.density / densities_[std::size_t(&s - sensors_.data())]}; });
     add("momentum", "kg/m2/s", 3, [&](const FieldPoint& p) { return three(p.momentum); });
     add("velocity", "m/s", 3, [&](const FieldPoint& p) { return three(p.velocity()); });
     if (s.stress) {

@@ -39,7 +39,7 @@ class FieldFiles {
 
     std::filesystem::path folder_;
     std::vector<FieldSensor> sensors_;
-    double density_;  ///< of the particles [kg/m3]
+    std::vector<double> densities_;  ///< of the particles, for each field [kg/m3]
     std::vector<CsvFile> files_;
 };
 

@@ -148,6 +148,7 @@ vtkhdf::Grid particlesGrid(const Frame& frame, const World& world, std::uint32_t
                       {"kinetic_energy", "J", 1, std::move(energy)},
                       {"status", "", 1, std::move(status)},
                       {"member", "", 1, std::vector<std::uint32_t>(n, member)}};
+    if (powdersOf(world).size() > 1) grid.pointData.push_back({"material", "", 1, p.material});
     grid.fieldData = fieldsOf(frame);
     return grid;
 }
@@ -251,6 +252,10 @@ void readParticlesFile(std::string bytes, Frame& frame) {
     p.velocity = data.vector("velocity");
     p.spin = data.vector("spin");
     p.radius = data.get<double>("radius");
+    p.material.assign(n, kFirstPowder);
+    if (reader.has("/VTKHDF/PointData/material"))
+        for (std::size_t i = 0; const std::uint32_t m : data.get<std::uint32_t>("material"))
+            p.material[i++] = static_cast<std::uint8_t>(m);
     p.status.clear();
     for (const std::uint32_t s : data.get<std::uint32_t>("status")) p.status.push_back(static_cast<Status>(s));
 }

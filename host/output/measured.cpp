@@ -14,6 +14,7 @@
 #include "host/analysis/shear.h"
 #include "host/core/csv_table.h"
 #include "host/model/key.h"
+#include "host/model/powders.h"
 #include "host/output/frames.h"
 #include "host/sim/density.h"
 
@@ -172,7 +173,7 @@ class Measuring {
             why = "a mean diameter away from wall, floor and surface there is room for fewer than a hundred spheres";
             return {};
         }
-        return named(kBulk, {bulk->density, bulk->density / c_.world.density(), bulk->volume, state.time});
+        return named(kBulk, {bulk->density, bulk->density / solidDensity(c_), bulk->volume, state.time});
     }
 
     Figures drum(const ElementTest& m, std::string& why) const {

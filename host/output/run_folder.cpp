@@ -9,6 +9,7 @@
 #include "host/core/error.h"
 #include "host/core/file.h"
 #include "host/core/printable.h"
+#include "host/model/powders.h"
 #include "host/output/particle_row.h"
 #include "host/output/run_files.h"
 #include "host/output/run_history.h"
@@ -97,17 +98,22 @@ std::string regionHeader(const World& world) {
     return header;
 }
 
+/// The columns of the powders, likewise; none with one powder.
 template <class Columns>
-std::string bodyRow(const Columns& columns, const std::vector<BodySample>& bodies) {
-    std::string row;
-    for (const BodySample& body : bodies) row += "," + csvRow(columns, body);
-    return row;
+std::string powderHeader(const Case& c, const Columns& columns) {
+    std::string header;
+    if (c.furtherPowders.empty()) return header;
+    for (const PowderOf& powder : powdersOf(c))
+        forEachColumn(columns, [&](const auto& column) { header += fmt::format(",{}.{}", powder.name, column.name); });
+    return header;
 }
 
-std::string regionRow(const std::vector<RegionCount>& regions) {
-    std::string row;
-    for (const RegionCount& region : regions) row += "," + csvRow(kRegionColumns, region);
-    return row;
+/// The cells of the rows, with a comma before each.
+template <class Columns, class R>
+std::string cellsOf(const Columns& columns, const std::vector<R>& rows) {
+    std::string cells;
+    for (const R& row : rows) cells += "," + csvRow(columns, row);
+    return cells;
 }
 
 }  // namespace
@@ -127,10 +133,11 @@ RunFolder::RunFolder(fs::path folder, bool force, const Case& c, std::string bac
         removeRun(folder_, replacedIn(folder_, c));  // a stale summary would mislead if this run is killed
         const std::string energy = c.world.energyBook ? "," + csvHeader(kEnergyColumns) : "";
         timeSeries_.emplace(folder_ / "timeseries.csv", csvHeader(kSampleColumns) + energy +
-                                                            bodyHeader(kBodyColumns, c.world) + regionHeader(c.world));
+                                                            bodyHeader(kBodyColumns, c.world) + regionHeader(c.world) +
+                                                            powderHeader(c, kPowderColumns));
         if (!hadCase) replaceFile(folder_ / "case.toml", c.resolved);
-        doses_.emplace(folder_ / "doses.csv",
-                       csvHeader(kDoseColumns) + bodyHeader(kDoseBodyColumns, c.world) + regionHeader(c.world));
+        doses_.emplace(folder_ / "doses.csv", csvHeader(kDoseColumns) + bodyHeader(kDoseBodyColumns, c.world) +
+                                                  regionHeader(c.world) + powderHeader(c, kPowderDoseColumns));
         if (c.frames.interval > 0) frames_.emplace(folder_, c, role_.member);
         fields_.emplace(folder_, c);
     } catch (const OutputError&) {
@@ -160,13 +167,15 @@ RunFolder::RunFolder(fs::path folder, FolderLock lock, const Checkpoint& from, c
 }
 
 void RunFolder::onSample(const Sample& s) {
-    const std::string energy = s.energy ? "," + csvRow(kEnergyColumns, *s.energy) : "";
-    timeSeries_->line(csvRow(kSampleColumns, s) + energy + bodyRow(kBodyColumns, s.bodies) + regionRow(s.regions));
+    std::string line = csvRow(kSampleColumns, s) + (s.energy ? "," + csvRow(kEnergyColumns, *s.energy) : "");
+    line += cellsOf(kBodyColumns, s.bodies) + cellsOf(kRegionColumns, s.regions) + cellsOf(kPowderColumns, s.powders);
+    timeSeries_->line(line);
     timeSeries_->flush();
 }
 
 void RunFolder::onDose(const Dose& d) {
-    doses_->line(csvRow(kDoseColumns, d) + bodyRow(kDoseBodyColumns, d.bodies) + regionRow(d.regions));
+    doses_->line(csvRow(kDoseColumns, d) + cellsOf(kDoseBodyColumns, d.bodies) + cellsOf(kRegionColumns, d.regions) +
+                 cellsOf(kPowderDoseColumns, d.powders));
     doses_->flush();
 }
 
@@ -199,7 +208,7 @@ void RunFolder::storeTables() {
 
 void RunFolder::finish(const Case& c, const RunResult& result) {
     storeTables();
-    if (result.endState) writeParticles(folder_ / "particles.csv", result.particles);
+    if (result.endState) writeParticles(folder_ / "particles.csv", result.particles, powderNames(c));
     RunHistory history = historyOf(folder_, c, result);
     history.origin = role_.origin;
     replaceFile(folder_ / "summary.json", summaryJson(c, result, backend_, history) + "\n");
@@ -213,11 +222,20 @@ void RunFolder::finish(const Case& c, const RunResult& result) {
     checkpointTime_.reset();
 }
 
-void writeParticles(const fs::path& file, const Particles& p) {
-    CsvFile csv(file, csvHeader(kParticleColumns));
-    for (std::size_t i = 0; i < p.size(); ++i)
-        csv.line(csvRow(kParticleColumns,
-                        ParticleRow{i, p.position[i], p.velocity[i], p.spin[i], p.radius[i], p.status[i]}));
+std::vector<std::string> powderNames(const Case& c) {
+    std::vector<std::string> names;
+    if (c.furtherPowders.empty()) return names;
+    names.resize(c.world.materials.size());
+    for (const PowderOf& powder : powdersOf(c)) names[std::size_t(powder.material)] = powder.name;
+    return names;
+}
+
+void writeParticles(const fs::path& file, const Particles& p, const std::vector<std::string>& powders) {
+    CsvFile csv(file, csvHeader(kParticleColumns) + (powders.empty() ? "" : ",powder"));
+    for (std::size_t i = 0; i < p.size(); ++i) {
+        const ParticleRow row{i, p.position[i], p.velocity[i], p.spin[i], p.radius[i], p.status[i]};
+        csv.line(csvRow(kParticleColumns, row) + (powders.empty() ? "" : "," + powders.at(p.material[i])));
+    }
     csv.flush();
 }
 

@@ -80,8 +80,12 @@ class RunFolder : public RunObserver {
 };
 
 /// particles.csv: id, position [m], velocity [m/s], spin [rad/s], radius [m] and status of every particle, with enough
-/// digits to read the same numbers back. Throws OutputError if it cannot be written.
-void writeParticles(const std::filesystem::path& file, const Particles& particles);
+/// digits to read the same numbers back. With `powders`, the names by the material (powderNames), the name of its
+/// powder too. Throws OutputError if it cannot be written.
+void writeParticles(const std::filesystem::path& file, const Particles& particles,
+                    const std::vector<std::string>& powders = {});
+/// Names of the powders by their material; none with one powder.
+std::vector<std::string> powderNames(const Case& c);
 
 /// Takes the folder of a run for this process. Throws FolderError if another one holds it or it cannot be opened.
 FolderLock lockRun(const std::filesystem::path& folder);

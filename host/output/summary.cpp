@@ -10,6 +10,7 @@
 #include "host/analysis/targets.h"
 #include "host/core/file.h"
 #include "host/core/json.h"
+#include "host/model/powders.h"
 
 namespace vkdose {
 
@@ -252,6 +253,11 @@ std::string summaryJson(const Case& c, const RunResult& r, const std::string& ba
         j["regions"].push_back({{"name", c.world.regions.at(i).name},
                                 {"mass_kg", jsonNumber(r.last.regions[i].mass)},
                                 {"particles", r.last.regions[i].particles}});
+    for (std::size_t k = 0; k < r.last.powders.size(); ++k) {
+        Json powder{{"name", powdersOf(c).at(k).name}};
+        putColumns(kPowderColumns, r.last.powders[k], powder);
+        j["powders"].push_back(std::move(powder));
+    }
     j["settled"] = settled(c, r.settled);
     j["dosed_while_settling_kg"] = jsonNumber(r.dosedWhileSettling);
     j["closed_form"] = closedForms(c, r.derived);

@@ -12,6 +12,7 @@
 #include "host/backend/vulkan/law_trial.h"
 #include "host/core/error.h"
 #include "host/model/key.h"
+#include "host/model/powders.h"
 #include "host/output/frame_files.h"
 #include "host/output/run_folder.h"
 #include "host/play/backend_choice.h"
@@ -86,13 +87,16 @@ py::dict sampleOf(const Simulation& run) {
     const Sample& s = run.last();
     py::dict dict = dictOf(kSampleColumns, s);
     if (s.energy) dict.attr("update")(dictOf(kEnergyColumns, *s.energy));
-    py::dict bodies, regions;
+    py::dict bodies, regions, powders;
     for (std::size_t b = 0; b < s.bodies.size(); ++b)
         bodies[run.theCase().world.bodies.at(b).name.c_str()] = dictOf(kBodyColumns, s.bodies[b]);
     for (std::size_t r = 0; r < s.regions.size(); ++r)
         regions[run.theCase().world.regions.at(r).name.c_str()] = dictOf(kRegionColumns, s.regions[r]);
+    for (std::size_t k = 0; k < s.powders.size(); ++k)
+        powders[powdersOf(run.theCase()).at(k).name.c_str()] = dictOf(kPowderColumns, s.powders[k]);
     if (!bodies.empty()) dict["bodies"] = bodies;
     if (!regions.empty()) dict["regions"] = regions;
+    if (!powders.empty()) dict["powders"] = powders;
     return dict;
 }
 
@@ -105,7 +109,8 @@ py::list dosesOf(const Simulation& run) {
 /// A field of the case, now.
 py::dict fieldOf(const Simulation& run, const std::string& name) {
     for (const FieldSensor& sensor : run.theCase().fields)
-        if (sensor.name == name) return arraysOf(sensor, run.field(sensor.request), run.theCase().world.density());
+        if (sensor.name == name)
+            return arraysOf(sensor, run.field(sensor.request), solidDensity(run.theCase(), sensor.request.material));
     throw py::key_error(name);
 }
 

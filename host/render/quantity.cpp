@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "host/analysis/overlap.h"
+#include "host/model/powders.h"
 #include "host/render/colour.h"
 
 namespace vkdose::render {
@@ -100,6 +101,11 @@ std::vector<double> valuesOf(Quantity quantity, const Case& c, const Frame& fram
     const Particles& p = frame.particles;
     if (quantity == Quantity::Overlap) return overlapRatios(p, c.world, frame.coilAngle, frame.time, frame.bodyClocks);
     if (quantity == Quantity::Radius) return p.radius;
+    if (quantity == Quantity::Powder) {
+        std::vector<double> numbers;
+        for (const std::uint8_t m : p.material) numbers.push_back(static_cast<double>(powderIndex(c, m)));
+        return numbers;
+    }
     std::vector<double> values(p.size(), std::numeric_limits<double>::quiet_NaN());
     for (std::size_t i = 0; i < p.size(); ++i) {
         const double square = glm::dot(p.velocity[i], p.velocity[i]);
@@ -131,7 +137,9 @@ std::vector<Scale::Tick> Scale::ticks() const {
         if (t > -1e-6 && t < 1 + 1e-6)
             ticks.push_back({t, fmt::format("{:.4g}", std::abs(shown) < 1e-12 ? 0.0 : shown)});
     };
-    if (logarithmic) {
+    if (!names.empty()) {
+        for (std::size_t k = 0; k < names.size(); ++k) ticks.push_back({along(static_cast<double>(k)), names[k]});
+    } else if (logarithmic) {
         const int first = int(std::ceil(std::log10(low / unit) - 1e-6)), last = int(std::log10(high / unit) + 1e-6);
         const int stride = std::max(1, int(std::ceil((last - first) / kMostTicks)));
         for (int decade = first; decade <= last; decade += stride) add(std::pow(10.0, decade));
@@ -165,6 +173,13 @@ Scale scaleFor(Quantity quantity, const Case& c, const std::vector<double>& valu
             s = {"height when settled [mm]", 1e-3};
             s.bands = kLayers;
             spread(s, e);
+            break;
+        case Quantity::Powder:
+            s = {"powder"};
+            for (const PowderOf& powder : powdersOf(c)) s.names.push_back(powder.name);
+            s.bands = static_cast<int>(s.names.size());
+            s.low = -0.5;
+            s.high = s.bands - 0.5;
             break;
     }
     apply(range, s);

@@ -11,14 +11,16 @@
 
 namespace vkdose::render {
 
-enum class Quantity { KineticEnergy, Speed, Overlap, Radius, FillLayer };
+enum class Quantity { KineticEnergy, Speed, Overlap, Radius, FillLayer, Powder };
 
 /// As on the command line, in the order of Quantity.
-inline constexpr const char* kQuantityNames[] = {"kinetic-energy", "speed", "overlap", "radius", "fill-layer"};
+inline constexpr const char* kQuantityNames[] = {"kinetic-energy", "speed",      "overlap",
+                                                 "radius",         "fill-layer", "powder"};
 std::optional<Quantity> quantityNamed(std::string_view name);
 
 /// The values of every particle, in SI: m v^2/2 of the centre, |v|, the largest overlap over the smaller radius, the
-/// radius, or the height (y) in `fill`, the state when the powder had settled. Without `fill` the height is NaN.
+/// radius, the height (y) in `fill`, the state when the powder had settled, or the number of the powder, from 0.
+/// Without `fill` the height is NaN.
 std::vector<double> valuesOf(Quantity quantity, const Case& c, const Frame& frame, const Particles* fill);
 
 /// Values to places on the colour map.
@@ -27,7 +29,8 @@ struct Scale {
     double unit = 1;           ///< of the ticks, in SI
     double low = 0, high = 1;  ///< in SI, low < high
     bool logarithmic = false;
-    int bands = 0;  ///< equal bands of one colour each; 0: no bands
+    int bands = 0;                     ///< equal bands of one colour each; 0: no bands
+    std::vector<std::string> names{};  ///< of the bands, in place of ticks
 
     /// The place on the scale: 0 at `low`, 1 at `high`, less than 0 or more than 1 beyond.
     double along(double value) const;
@@ -50,7 +53,8 @@ struct Range {
 
 /// A scale that all pictures of a run share wherever possible. Speed reaches up to the speed of the turning coil's
 /// wire. Kinetic energy reaches up to that of a sphere of mean mass at this speed, and three decades down. Overlap goes
-/// from 0.001 to 1. Radius and layer go from the least to the largest value. Without a coil that turns, speed and
+/// from 0.001 to 1. Radius and layer go from the least to the largest value. Each powder has a
+/// band. Without a coil that turns, speed and
 /// kinetic energy reach up to the largest of `values`. Throws std::invalid_argument, saying why, if the range asked for
 /// is empty or, on a logarithmic scale, not positive.
 Scale scaleFor(Quantity quantity, const Case& c, const std::vector<double>& values, const Range& range = {});

@@ -12,7 +12,8 @@ function quantities(player, frames) {
   const speedEntries = d3.range(256).map(level => (level === 0 ? 0 : rampEntry(speed(speedOf(level)))));
 
   // Kinetic energy of translation, as powers of ten [J]: that of 1 m/s of each particle, and that of each level.
-  const heavy = Float64Array.from(frames.radius, r => Math.log10(2 / 3 * Math.PI * player.density * r ** 3));
+  const heavy = Float64Array.from(frames.radius, (r, i) =>
+    Math.log10(2 / 3 * Math.PI * player.powders[frames.powder[i]].density * r ** 3));
   const quick = Float64Array.from(d3.range(256), level => (level === 0 ? -Infinity : 2 * Math.log10(speedOf(level))));
   let most = -Infinity;
   for (let j = from; j < frames.speed.length; ++j) most = Math.max(most, heavy[j % n] + quick[frames.speed[j]]);
@@ -31,7 +32,15 @@ function quantities(player, frames) {
     {name: "radius", unit: "mm", scale: d3.scale.linear().domain(radius.domain().map(r => r * 1e3)),
      entry: (f, i) => (flat ? kRampSize / 2 : rampEntry(radius(frames.radius[i])))},
     layers(player, frames),
+    ...(player.powders.length > 1 ? [powders(player, frames)] : []),
   ];
+}
+
+/// A step of the scale for each powder, numbered in the order of the case.
+function powders(player, frames) {
+  const n = player.powders.length;
+  return {name: "powder", unit: player.powders.map((p, k) => `${k + 1}: ${p.name}`).join(", "), steps: n,
+          scale: d3.scale.linear().domain([0.5, n + 0.5]), entry: (f, i) => rampEntry(frames.powder[i] / (n - 1))};
 }
 
 /// Eight layers of equal height, by where a particle lies when dosing starts.

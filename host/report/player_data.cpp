@@ -10,6 +10,7 @@
 #include "host/analysis/overlap.h"
 #include "host/core/error.h"
 #include "host/core/json.h"
+#include "host/model/powders.h"
 #include "host/report/deflate.h"
 #include "host/report/player_bodies.h"
 #include "host/report/thinning.h"
@@ -117,6 +118,10 @@ class Encoder {
         std::vector<std::uint16_t> radii;
         for (const double r : p.radius) radii.push_back(sixteenBits(r, radiusRange_[0], radiusRange_[1]));
         addPlanes(stream_, radii);
+        if (case_.furtherPowders.empty()) return;
+        std::vector<std::uint8_t> powders;
+        for (const std::uint8_t m : p.material) powders.push_back(static_cast<std::uint8_t>(powderIndex(case_, m)));
+        stream_.add(powders);
     }
 
     void addParticles(const Particles& p, const std::vector<double>& overlap) {
@@ -162,7 +167,9 @@ Json sceneJson(const Case& c) {
     Json j;
     j["low"] = vectorJson(c.world.domain.low);
     j["high"] = vectorJson(c.world.domain.high);
-    j["density"] = jsonNumber(c.world.density());
+    j["powders"] = Json::array();
+    for (const PowderOf& p : powdersOf(c))
+        j["powders"].push_back({{"name", p.name}, {"density", jsonNumber(c.world.density(p.material))}});
     j["slowest_m_s"] = kSlowest;
     j["fastest_m_s"] = kFastest;
     j["most_overlap"] = jsonNumber(c.world.maxOverlapRatio);

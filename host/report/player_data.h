@@ -6,7 +6,8 @@
 // 10 um/s, the others evenly on a logarithmic scale up to 10 m/s (2.8 % off at most). The overlap has 8 bits on the
 // scale of its square root from 0 to the case's max_overlap_ratio.
 //
-// The stream holds the radii; then for each frame x, y, z, speed and overlap of every particle and the heights of the
+// The stream holds the radii; where there are several powders, a byte for each particle, the number of its powder; then
+// for each frame x, y, z, speed and overlap of every particle and the heights of the
 // surface; then for each particle the first frame without it. Values of 16 bits are stored as the low bytes of all,
 // then the high bytes. Values of a frame are differences from the frame before (the first one's from 0), modulo 2^16 or
 // 2^8. A difference of 16 bits has its sign in the lowest bit.

@@ -1,6 +1,6 @@
 // The frames of a run out of the page; how they are packed stands in host/report/player_data.h.
 
-/// Resolves to {count, particles, radius [m], here (whether a particle is in a frame), position (three of 65535 parts of
+/// Resolves to {count, particles, radius [m], powder (its number), here (whether a particle is in a frame), position (three of 65535 parts of
 /// the box for each particle and frame), speed, overlap (levels), surface (of 65535 parts of the box's height)}.
 async function readFrames(player) {
   const bytes = await inflated(player.stream);
@@ -30,6 +30,7 @@ function unpackFrames(player, bytes) {
 
   const [low, high] = player.radius_m;
   frames.radius = Float64Array.from(words(n), w => low + (high - low) * w / 65535);
+  frames.powder = player.powders.length > 1 ? levels() : new Uint8Array(n);
   for (let f = 0; f < count; ++f) {
     const before = size => (f > 0 ? (f - 1) * size : -1);
     for (let axis = 0; axis < 3; ++axis)

@@ -78,6 +78,17 @@ function regionChart(parent, run, time) {
   });
 }
 
+/// The mass of each powder that has been dosed, where there are several.
+function powderChart(parent, run, time) {
+  const s = run.series, powders = s.powders || [];
+  if (powders.length === 0) return;
+  chart(parent, {
+    title: "Dosed mass of each powder", link: overTime(run), x: time, y: {label: "g"}, bands: run.rotations,
+    series: powders.map((p, i) => ({name: p.name, points: zip(s.time_s, p.mass_kg, gram), colour: colour(i, powders.length), thin: true})),
+    note: "Since the start of the run.",
+  });
+}
+
 function timeCharts(parent, run) {
   const s = run.series, turning = "Shaded: the coil turns; numbered by dose.";
   const time = {label: "time [s]", from: 0, to: d3.max(s.time_s)};
@@ -91,6 +102,7 @@ function timeCharts(parent, run) {
         turning + " No curve where the throat is empty; what falls out while settling may leave the frame.");
   bodyCharts(parent, run, time);
   regionChart(parent, run, time);
+  powderChart(parent, run, time);
 
   let below = s.time_s.map(() => 0);
   const layers = [["dosed", s.dosed_mass_kg, "var(--s0)"], ["throat", s.throat_mass_kg, "var(--s4)"],

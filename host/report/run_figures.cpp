@@ -11,6 +11,7 @@
 #include "host/analysis/targets.h"
 #include "host/analysis/work.h"
 #include "host/core/grams.h"
+#include "host/model/powders.h"
 #include "host/output/measured.h"
 #include "host/output/particle_row.h"
 #include "host/sim/density.h"
@@ -278,11 +279,15 @@ class Facts {
 
 }  // namespace
 
-Particles readEndState(const std::filesystem::path& file) {
+Particles readEndState(const std::filesystem::path& file, const Case& c) {
     const Table table = Table::read(file);
+    const std::vector<PowderOf> powders = powdersOf(c);
     Particles p;
     for (std::size_t i = 0; i < table.rows(); ++i) {
         p.add({table.number(i, "x_m"), table.number(i, "y_m"), table.number(i, "z_m")}, table.number(i, "radius_m"));
+        if (table.has("powder"))
+            for (const PowderOf& powder : powders)
+                if (powder.name == table.text(i, "powder")) p.material.back() = std::uint8_t(powder.material);
         const std::string& status = table.text(i, "status");
         const auto& names = Words<Status>::kNames;
         const auto word = std::find(names.begin(), names.end(), status);
@@ -292,7 +297,7 @@ Particles readEndState(const std::filesystem::path& file) {
 }
 
 double filledMass(const RunSources& run) {
-    if (run.series.rows() == 0) return run.c.filling.mass;
+    if (run.series.rows() == 0) return fillOf(run.c).mass;
     double sum = 0;
     for (const char* name : {"dosed_mass_kg", "canister_mass_kg", "throat_mass_kg", "lost_mass_kg"})
         sum += run.series.number(run.series.rows() - 1, name);

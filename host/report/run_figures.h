@@ -17,7 +17,7 @@ struct RunSources {
 };
 
 /// The particles of a run's particles.csv; dosed and lost ones with their status.
-Particles readEndState(const std::filesystem::path& file);
+Particles readEndState(const std::filesystem::path& file, const Case& c);
 
 /// Mass in the canister at the start [kg], from the first line of the time series.
 double filledMass(const RunSources& run);

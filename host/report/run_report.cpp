@@ -64,15 +64,14 @@ Json bodySeries(const Table& series, std::size_t size) {
     return bodies;
 }
 
-/// What has come into each region, whose columns begin with its name and a dot.
-Json regionSeries(const Table& series, std::size_t size) {
-    Json regions = Json::array();
-    constexpr std::string_view kMass = ".mass_kg";
+/// The masses in the columns with this ending, behind the name of a region or powder.
+Json massSeries(const Table& series, std::string_view ending, std::size_t size) {
+    Json list = Json::array();
     for (const std::string& column : series.names())
-        if (column.ends_with(kMass))
-            regions.push_back({{"name", column.substr(0, column.size() - kMass.size())},
-                               {"mass_kg", numbers(thinned(series.column(column), size, false))}});
-    return regions;
+        if (column.ends_with(ending))
+            list.push_back({{"name", column.substr(0, column.size() - ending.size())},
+                            {"mass_kg", numbers(thinned(series.column(column), size, false))}});
+    return list;
 }
 
 Json seriesJson(const Table& series) {
@@ -83,7 +82,8 @@ Json seriesJson(const Table& series) {
     for (const char* name : {"outlet_velocity_m_s", "coil_torque_Nm", "coil_power_W"})
         j[name] = numbers(thinned(series.column(name), std::max<std::size_t>(size, 1), true));
     j["bodies"] = bodySeries(series, std::max<std::size_t>(size, 1));
-    j["regions"] = regionSeries(series, std::max<std::size_t>(size, 1));
+    j["regions"] = massSeries(series, ".mass_kg", std::max<std::size_t>(size, 1));
+    j["powders"] = massSeries(series, ".dosed_mass_kg", std::max<std::size_t>(size, 1));
     return j;
 }
 
@@ -172,7 +172,7 @@ Json runJson(const fs::path& folder, const std::optional<fs::path>& experiment, 
     const Table doseTable = Table::read(folder / "doses.csv");
     RunSources sources{c, series, dosesOf(doseTable), summaryOf(folder, series), {}};
     if (sources.summary.is_object() && fs::exists(folder / "particles.csv"))
-        sources.particles = readEndState(folder / "particles.csv");
+        sources.particles = readEndState(folder / "particles.csv", sources.c);
 
     Json j;
     j["kind"] = "run";

@@ -10,6 +10,7 @@
 
 #include "host/core/columns.h"
 #include "host/sim/body_loads.h"
+#include "host/sim/powder_book.h"
 #include "host/sim/region_count.h"
 
 namespace vkdose {
@@ -44,6 +45,7 @@ struct Dose {
 
     std::vector<RegionCount> regions;  ///< into each of the world's regions; not kept in a checkpoint
     std::vector<BodySample> bodies;    ///< of each of the world's bodies, as kDoseBodyColumns tell
+    std::vector<PowderDose> powders;   ///< of each powder; none if there is one; not kept in a checkpoint
 
     double overshoot() const { return mass - stopMass; }  ///< dosed after the coil was told to stop [kg]
 };

@@ -165,12 +165,14 @@ void RunLoop::openDose() {
     book_.open(stretch_.dose, timeline_.time(step_), result_.last.sensors);
     regions_.openDose();
     loads_.openDose();
+    powders_.openDose();
 }
 
 void RunLoop::closeDose(bool complete) {
     result_.doses.push_back(book_.close(complete, result_.last.sensors, timeline_.time(step_)));
     result_.doses.back().regions = regions_.sinceDose();
     result_.doses.back().bodies = loads_.sinceDose(case_.world.timeStep);
+    result_.doses.back().powders = powders_.sinceDose();
     observer_.onDose(result_.doses.back());
 }
 

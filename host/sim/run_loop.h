@@ -158,6 +158,7 @@ class RunLoop {
     BodyClocks clocks_{case_.world};
     BodyLoads loads_{case_.world.bodies.size()};
     RegionBook regions_{case_.world};
+    PowderBook powders_{case_.world};
     double impulse_ = 0;   ///< torque times steps since the last sample
     double rate_ = 0;      ///< of the coil in the last call [rad/s about +z]
     bool varied_ = false;  ///< it was another since the last sample

@@ -56,8 +56,13 @@ void RunLoop::sample() {
     s.outletVelocity = throat > 0 ? now_.throatMomentumZ / throat : std::numeric_limits<double>::quiet_NaN();
     s.energy = energy_;
     s.bodies = loads_.take(gathered_, case_.world.timeStep);
-    if (!regions_.empty()) regions_.look(backend_.particles());
+    if (!regions_.empty() || !powders_.empty()) {
+        const Particles particles = backend_.particles();
+        regions_.look(particles);
+        powders_.look(particles);
+    }
     s.regions = regions_.counts();
+    s.powders = powders_.places();
     gathered_ = 0;
     impulse_ = 0;
     observer_.onSample(s);

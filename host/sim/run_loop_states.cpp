@@ -126,6 +126,7 @@ Record RunLoop::save() const {
     clocks_.save(r);
     loads_.save(r);
     regions_.save(r);
+    powders_.save(r);
     put(r, "energy", energy_);
     timeline_.save(r);
     book_.save(r);
@@ -155,6 +156,7 @@ void RunLoop::restore(const Record& r) {
     clocks_.restore(r);
     loads_.restore(r);
     regions_.restore(r);
+    powders_.restore(r);
     impulse_ = sums[0];
     powerSum_ = sums[1];
     rate_ = sums[2];
@@ -173,6 +175,7 @@ void RunLoop::restore(const Record& r) {
     get(r, "doses", result_.doses);
     get(r, "last", result_.last);
     result_.last.regions = regions_.counts();
+    result_.last.powders = powders_.places();
     get(r, result_.particles, result_.settled);
     measureDensity();
     get(r, result_.settling);

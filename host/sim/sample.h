@@ -9,6 +9,7 @@
 #include "host/core/columns.h"
 #include "host/sim/body_loads.h"
 #include "host/sim/energy_ledger.h"
+#include "host/sim/powder_book.h"
 #include "host/sim/region_count.h"
 #include "host/sim/timeline.h"
 
@@ -29,6 +30,7 @@ struct Sample {
     std::optional<EnergyLedger> energy;  ///< if the case asks for it
     std::vector<BodySample> bodies;      ///< of the world's bodies, in their order
     std::vector<RegionCount> regions;    ///< of the world's regions likewise, since the start of the run
+    std::vector<PowderPlaces> powders;   ///< of each powder; none if there is one
 };
 
 // The columns of the sensors, by regions in the order of Region.

@@ -55,6 +55,7 @@ const std::vector<Slip> kSlips{
      false},
     {{"particles.mass_g=1.5"}, "few-spheres", {"55 spheres"}, false},
     {{"particles.size.radius_min_mm=0.3"}, "size-ratio", {"7.31 times"}, false},
+    {{"material=[{name = \"steel\"}]"}, "unused-material", {"nothing is made of \"steel\"", "or remove it"}},
     {{"contact.friction=30"}, "friction", {"contact.friction = 30", "30 degrees are 0.577"}},
     {{"contact.wall.friction=22"}, "friction", {"contact.wall.friction = 22", "0.404"}},
     {{"contact.rolling_friction=25"}, "friction", {"contact.rolling_friction = 25"}},

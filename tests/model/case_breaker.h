@@ -177,7 +177,8 @@ class Breaker {
             add(kind, withLine(lines_, i, now), culprit, i);
         };
         header("a header without its end", "[" + name, "");
-        header("a table nobody knows", "[" + name + "q]", name + "q");
+        // A table in an item of a list is named with the item's index.
+        header("a table nobody knows", "[" + name + "q]", name.substr(name.find_last_of('.') + 1) + "q");
         if (list) {
             header("one table where a list belongs", "[" + name + "]", name);
         } else {

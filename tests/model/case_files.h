@@ -73,6 +73,16 @@ rest_s = 0.1
 rule = "experiment"
 )";
 
+/// A second powder for it.
+inline const std::string kSugar = R"([[powder]]
+name = "sugar"
+density = 1590.0
+mass_g = 0.4
+[powder.size]
+distribution = "fixed"
+radius_mm = 1.0
+)";
+
 /// Two particles and nothing else.
 inline const std::string kFreeCase = R"(boundaries = "none"
 gravity = [0, 0, 0]

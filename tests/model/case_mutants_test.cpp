@@ -107,8 +107,9 @@ TEST_CASE("hundreds of case files that are certainly wrong are refused, each wit
     std::size_t count = 0;
     std::set<std::string> kinds;
     std::uint32_t seed = 1;
-    for (const std::string& text : {textOf(shippedCase("mini.toml")), textOf(shippedCase("quickstart.toml")),
-                                    textOf(shippedCase("paper-48g.toml")), kListed}) {
+    for (const std::string& text :
+         {textOf(shippedCase("mini.toml")), textOf(shippedCase("quickstart.toml")),
+          textOf(shippedCase("paper-48g.toml")), kListed, textOf(shippedCase("mixture.toml"))}) {
         for (const Mutant& m : Breaker(text, seed++).all()) {
             checkRefused(folder, m);
             kinds.insert(m.kind);

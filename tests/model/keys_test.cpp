@@ -12,6 +12,7 @@ using namespace vkdose;
 using test::Folder;
 using test::kFreeCase;
 using test::kGoodCase;
+using test::kSugar;
 using test::replaced;
 
 namespace {
@@ -35,11 +36,26 @@ std::string withKey(const std::string& text, const std::string& header, const st
     return out;
 }
 
+/// A case in which the keys of a table that stands under `header` have a use, of those of several powders.
+std::string caseWithPowders(const std::string& header, const std::string& kind) {
+    if (header == "[powder.region]")
+        return replaced(kFreeCase, "list = \"two.csv\"",
+                        "mass_g = 0.1\n[particles.size]\ndistribution = \"fixed\"\nradius_mm = 1") +
+               kSugar;
+    if (header == "[powder.size]") {
+        std::string text = withKey(kGoodCase + kSugar, header, "distribution", "\"" + kind + "\"");
+        for (const char* bound : {"radius_min_mm", "radius_max_mm"}) text = withKey(text, header, bound, "1");
+        return text;
+    }
+    return kGoodCase + kSugar;
+}
+
 /// A case in which the keys of the table have a use; of the sizes that of distribution `kind`.
-std::string caseFor(const KeyTable& table, const std::string& kind, const Key& key) {
+std::string caseFor(const KeyTable& table, const std::string& header, const std::string& kind, const Key& key) {
+    if (header.find("powder") != std::string::npos) return caseWithPowders(header, kind);
     std::string filled = replaced(kFreeCase, "list = \"two.csv\"",
                                   "mass_g = 0.1\n[particles.size]\ndistribution = \"fixed\"\nradius_mm = 1");
-    if (table.paths == "particles.region") return filled;
+    if (header == "[particles.region]") return filled;
     if (table.paths == "plane[]" || table.paths == "cylinder[]")
         return replaced(filled, "boundaries = \"none\"", "boundaries = \"list\"");
     // A key of some shapes or motions begins its meaning with the first of them.
@@ -60,7 +76,7 @@ std::string caseFor(const KeyTable& table, const std::string& kind, const Key& k
                "[[body]]\nname = \"b\"\nshape = \"plane\"\n[body.motion]\nkind = \"turn\"\n"
                "follows = \"drive\"\n";
     if (table.paths == "field[]") return kGoodCase + "[[field]]\npreset = \"height-profile\"\n";
-    if (table.paths != "particles.size") return kGoodCase;
+    if (header != "[particles.size]") return kGoodCase;
     std::string text = withKey(kGoodCase, "[particles.size]", "distribution", "\"" + kind + "\"");
     for (const char* bound : {"radius_min_mm", "radius_max_mm"}) text = withKey(text, "[particles.size]", bound, "1");
     return text;
@@ -72,6 +88,8 @@ std::vector<std::string> headersOf(const KeyTable& table) {
     for (const std::string& path : wordsOf(table.paths)) {
         const std::size_t bracket = path.find("[]");
         std::string plain = path;
+        if (const std::size_t pair = plain.find(kPairOfNames); pair != std::string::npos)
+            plain.replace(pair, kPairOfNames.size(), "powder-sugar");
         if (bracket != std::string::npos) plain.erase(bracket, 2);
         headers.push_back(path.ends_with("[]") ? "[[" + plain + "]]" : "[" + plain + "]");
     }
@@ -84,7 +102,7 @@ TEST_CASE("every declared key is read: a date for its value is a fault of that k
     const std::vector<std::string> kinds = wordsOf(keysOf(caseKeys(), "particles.size").front()->words);
     std::size_t distribution = 0, keys = 0;
     for (const KeyTable& table : caseKeys()) {
-        const std::string kind = table.paths == "particles.size" ? kinds.at(distribution++) : "";
+        const std::string kind = table.paths.starts_with("particles.size") ? kinds.at(distribution++) : "";
         for (const std::string& header : headersOf(table)) {
             for (const Key& key : table.keys) {
                 const std::string name(key.name);
@@ -92,7 +110,7 @@ TEST_CASE("every declared key is read: a date for its value is a fault of that k
                 const Folder folder;
                 folder.write("two.csv", "x,y,z,r\n0,0,0,1e-3\n0,5e-3,0,1e-3\n");
                 const auto file =
-                    folder.write("case.toml", withKey(caseFor(table, kind, key), header, name, "1979-05-27"));
+                    folder.write("case.toml", withKey(caseFor(table, header, kind, key), header, name, "1979-05-27"));
                 CAPTURE(header, kind, name);
                 ++keys;
                 try {
@@ -140,10 +158,11 @@ TEST_CASE("a default that is declared is the one that a case gets") {
 
 TEST_CASE("the reference of the keys has a heading for each table and a row for each key") {
     const std::string text = keyReference(caseKeys());
-    for (const char* row : {"### `[contact]`, `[contact.wall]`, `[contact.coil]`\n", "### `[[plane]]`\n",
-                            "| `density` | kg/m3 | required | > 0 | ", "| `speed_rpm` | rpm | required | ≥ 0 | ",
-                            "| `gravity` | m/s2 | [0, -9.81, 0] | three numbers | ", "| `lid` |  | `false` | "})
+    for (const char* row :
+         {"### `[contact]`, `[contact.wall]`, `[contact.coil]`, `[contact.A-B]`\n", "### `[[plane]]`\n",
+          "| `density` | kg/m3 | required | > 0 | ", "| `speed_rpm` | rpm | required | ≥ 0 | ",
+          "| `gravity` | m/s2 | [0, -9.81, 0] | three numbers | ", "| `lid` |  | `false` | "})
         CHECK_THAT(text, Catch::Contains(row));
-    const std::string heading = "### `[particles.size]`\n";
+    const std::string heading = "### `[particles.size]`, `[powder.size]`\n";
     CHECK(text.find(heading) == text.rfind(heading));  // one for its five kinds
 }

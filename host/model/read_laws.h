@@ -1,0 +1,82 @@
+#pragma once
+// What the readers of the laws of contacts share: read_contact.cpp, read_luding.cpp, read_elastic.cpp.
+
+#include <fmt/format.h>
+
+#include <initializer_list>
+#include <string>
+#include <vector>
+
+#include "host/model/case_sections.h"
+#include "host/model/contact_pairs.h"
+
+namespace vkdose {
+
+/// A pair of materials with the table that states its contacts, or would.
+struct PairSection {
+    StatedPair stated;
+    Section* section = nullptr;
+    bool given = false;  ///< the file has the table
+
+    std::size_t index() const { return PairTable::index(stated.pair); }
+    std::size_t parent() const { return PairTable::index(stated.parent); }
+    /// It is named by two materials, [contact.A-B], not by [contact], [contact.wall] or [contact.coil].
+    bool isNamed() const { return section->path().find('-') != std::string::npos; }
+};
+
+/// The tables of the contacts of a case, in the order of pairsToState.
+struct LawTables {
+    CaseReader& reader;
+    std::vector<PairSection> pairs;
+    Section& settle;
+    const MaterialTables& materials;
+    Case& c;
+
+    Section& contact() const { return *pairs.front().section; }
+    /// Room for something of each pair, by PairTable::index.
+    std::size_t size() const { return PairTable::index({int(c.world.materials.size()), 0}); }
+};
+
+inline constexpr std::initializer_list<const char*> kLudingKeys{
+    "k",         "contact_duration_s", "overlap_under_bed", "k1_over_k",         "kc_over_k", "bond_number",
+    "bond_load", "plasticity_depth",   "damping",           "restitution_speed", "kt_over_k", "damping_t_ratio"};
+inline constexpr std::initializer_list<const char*> kElasticKeys{"youngs_modulus", "poisson_ratio"};
+inline constexpr std::initializer_list<const char*> kPlasticKeys{"plasticity_ratio", "pull_off_force",
+                                                                 "adhesion_exponent"};
+inline constexpr std::initializer_list<const char*> kAdhesiveKeys{"surface_energy"};
+
+/// Tells of keys that belong to another law than the case's.
+void refuseKeys(CaseReader& reader, Section& section, std::initializer_list<const char*> keys, const char* law);
+/// The same for keys of a pair that only Luding's law has.
+void refusePairKeys(CaseReader& reader, const PairSection& pair);
+
+/// Puts words of how a pair came to its values into the resolved case, and among what is told. A resolved case that has
+/// such words keeps them.
+void tell(const LawTables& in, const PairSection& pair, std::string words);
+/// What there is to tell of a pair that takes all from another one.
+std::string inheritanceOf(const LawTables& in, const PairSection& pair);
+/// "geometric means of cocoa-cocoa and sugar-sugar"
+std::string meansOf(const LawTables& in, const PairSection& pair, const char* kind);
+
+/// A key of a pair that two powders mix, and its member of T.
+template <class T>
+struct MixedKey {
+    const char* name;
+    double T::*member;
+};
+
+/// Those keys that the table of the pair does not give, with their values: "friction = 0.3, kr_over_k = 0.286".
+template <class T, class Keys>
+std::string mixedWords(const PairSection& pair, const T& values, const Keys& keys) {
+    std::string text;
+    for (const MixedKey<T>& key : keys)
+        if (!pair.section->has(key.name))
+            text += fmt::format("{}{} = {:.6g}", text.empty() ? "" : ", ", key.name, values.*key.member);
+    return text;
+}
+
+void readLuding(const LawTables& in);
+/// The laws of spheres whose materials have moduli.
+void readElastic(const LawTables& in, NormalLaw law);
+
+}  // namespace vkdose
