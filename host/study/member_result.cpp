@@ -185,8 +185,21 @@ Table withStopColumns(const Table& older) {
     return now;
 }
 
+/// The table without the columns of regions and powders, which stand behind those of every run.
+Table withoutFurtherColumns(const Table& table) {
+    const std::size_t usual = columnNames(kDoseColumns).size();
+    if (table.names().size() <= usual) return table;
+    const auto first = [&](Row row) {
+        row.resize(usual);
+        return row;
+    };
+    Table now(first(table.names()));
+    for (std::size_t i = 0; i < table.rows(); ++i) now.add(first(table.row(i)));
+    return now;
+}
+
 Table dosesIn(const fs::path& folder) {
-    Table table = Table::salvage(folder / "doses.csv");
+    Table table = withoutFurtherColumns(Table::salvage(folder / "doses.csv"));
     if (table.names() == columnNames(kPlainDoseColumns)) table = withStopColumns(table);
     return table.names() == columnNames(kDoseColumns) ? table : Table();
 }
