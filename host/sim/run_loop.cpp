@@ -165,6 +165,7 @@ void RunLoop::openDose() {
     book_.open(stretch_.dose, timeline_.time(step_), result_.last.sensors);
     regions_.openDose();
     loads_.openDose();
+    if (!powders_.empty()) powders_.look(backend_.particles());  // a run from a settled bed has not looked yet
     powders_.openDose();
 }
 

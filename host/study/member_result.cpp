@@ -188,7 +188,7 @@ Table withStopColumns(const Table& older) {
 Table dosesIn(const fs::path& folder) {
     Table table = Table::salvage(folder / "doses.csv");
     if (table.names() == columnNames(kPlainDoseColumns)) table = withStopColumns(table);
-    // Those of bodies and regions follow; members of a study may differ in them.
+    // Those of bodies, regions and powders follow; members of a study may differ in them.
     const Row common = columnNames(kDoseColumns);
     const Row& names = table.names();
     if (names.size() < common.size() || !std::equal(common.begin(), common.end(), names.begin())) return {};

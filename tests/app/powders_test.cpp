@@ -131,11 +131,12 @@ TEST_CASE("a run of two powders that is killed and resumed, or begun from its be
     const std::vector<std::string> options{(box / "two.toml").string(), "--quiet", "--set", "checkpoint.time_s=0.005"};
     REQUIRE(box.vkdose("run " + words(options) + "--out whole --backend " + backend).code == 0);
     CHECK(killedUntilItEnds(box, options, backend, 3) >= 1);
-    REQUIRE(box.vkdose("run --from whole --quiet --out again --backend " + backend).code == 0);
+    REQUIRE(box.vkdose("run --from whole --quiet --out again").code == 0);
     for (const std::string& name : kTables) {
         CAPTURE(name);
         CHECK(readText(box / "whole" / name) == readText(box / "cut" / name));
-        CHECK(readText(box / "whole" / name) == readText(box / "again" / name));
+        // The time series of a run from a settled bed begins there.
+        if (name != "timeseries.csv") CHECK(readText(box / "whole" / name) == readText(box / "again" / name));
     }
 }
 
