@@ -25,6 +25,13 @@ FieldRequest request(const Vec3& low, const Vec3& high, std::array<std::uint32_t
     return r;
 }
 
+/// A world of one powder of the density kDensity.
+World onePowder() {
+    World world;
+    world.density() = kDensity;
+    return world;
+}
+
 Particles cloud(std::size_t n, double box) {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> unit(-0.5, 0.5), radius(0.6e-3, 1.8e-3), speed(-1, 1);
@@ -73,7 +80,7 @@ TEST_CASE("fields: the density integrates to the mass in the grid, to rounding, 
     }
     REQUIRE(inside > 20);
     REQUIRE((half > 0.5) == (inside == p.size()));
-    const FieldPoint sum = sumOf(r, coarseGrain(r, kDensity, p, {}));
+    const FieldPoint sum = sumOf(r, coarseGrain(r, onePowder(), p, {}));
     CHECK(nearRelative(sum.density, mass, 1e-13));  // some 200 roundings
     CHECK(nearRelative(sum.number, double(inside), 1e-13));
     CHECK(near(sum.momentum.z, momentum, mass, 1e-13));
@@ -87,7 +94,7 @@ TEST_CASE("fields: a sphere far from every face shows the kernel with its closed
     const FieldRequest r = request(Vec3(-depth / 2), Vec3(depth / 2), cells, w, kernel);
     Particles p;
     p.add(Vec3(0), kRadius);  // on the middle point
-    const FieldPoints points = coarseGrain(r, kDensity, p, {});
+    const FieldPoints points = coarseGrain(r, onePowder(), p, {});
     const int directions = r.grid.resolvedDirections();
     const double m = massOf(kRadius) / std::pow(depth, 3 - directions);
     const double top = m * peak(kernel, directions, w);
@@ -116,7 +123,7 @@ TEST_CASE("fields: a bed that moves as one has exactly that velocity everywhere,
     for (Vec3& velocity : p.velocity) velocity = v;
     const FieldRequest r = request(Vec3(-0.02), Vec3(0.02), {9, 8, 7}, 0.006, Kernel::Lucy);
     std::size_t filled = 0;
-    for (const FieldPoint& at : coarseGrain(r, kDensity, p, {})) {
+    for (const FieldPoint& at : coarseGrain(r, onePowder(), p, {})) {
         if (at.density == 0) {
             CHECK(std::isnan(at.velocity().x));
             continue;
@@ -138,7 +145,7 @@ TEST_CASE("fields: a rigid rotation of a lattice is seen as such within it") {
                 p.add(at, 0.5e-3, glm::cross(spin, at));
             }
     const FieldRequest r = request(Vec3(-8.5e-3), Vec3(8.5e-3), {17, 17, 17}, 2.5e-3, Kernel::Lucy);
-    const FieldPoints points = coarseGrain(r, kDensity, p, {});
+    const FieldPoints points = coarseGrain(r, onePowder(), p, {});
     const double speed = glm::length(spin) * 5e-3;
     for (std::size_t k = 0; k < points.size(); ++k) {
         const Vec3 at = r.grid.point(k);
@@ -153,7 +160,7 @@ TEST_CASE("fields: the kinetic stress is that of the strays from the mean veloci
     p.add(Vec3(0), 1e-3, {-1, 1, 2});
     p.add(Vec3(0), 1e-3, {0, -1, 2});
     const FieldRequest r = request(Vec3(-0.01), Vec3(0.01), {5, 5, 5}, 0.006, Kernel::Lucy);
-    const FieldPoint sum = sumOf(r, coarseGrain(r, kDensity, p, {}));
+    const FieldPoint sum = sumOf(r, coarseGrain(r, onePowder(), p, {}));
     const double m = massOf(1e-3);
     const std::array<double, 6> strays{2, 2, 0, 0, 0, -1};  // xx yy zz yz zx xy
     for (std::size_t k = 0; k < 6; ++k) CHECK(near(sum.kineticStress[k], strays[k] * m, m, 1e-12));
@@ -171,7 +178,7 @@ TEST_CASE("fields: the stress of a contact integrates to force times branch, and
     const auto [ratio, tolerance] = GENERATE(std::pair(2.0, 2e-5), std::pair(4.0, 1e-2));
     const double w = length / ratio;
     const FieldRequest r = request(Vec3(-0.008), Vec3(0.008), {25, 25, 25}, w);
-    const FieldPoints points = coarseGrain(r, kDensity, p, branches);
+    const FieldPoints points = coarseGrain(r, onePowder(), p, branches);
     const FieldPoint sum = sumOf(r, points);
     for (std::size_t a = 0; a < 3; ++a)
         CHECK(near(sum.contactStress[a], force[int(a)] * along, glm::length(force) * length, 1e-13));

@@ -12,7 +12,7 @@ namespace {
 RunResult playRefilled(std::optional<int> beforeDose) {
     Case c = smallCase();
     c.schedule.stop.maxDoses = 5;
-    c.refills = {{"spoon", 5e-3, {}, beforeDose}};
+    c.refills = {{.name = "spoon", .mass = 5e-3, .time = {}, .beforeDose = beforeDose}};
     Insertion filled = smallFilling();
     Insertion::Waiting& spoon = filled.waiting.emplace_back();
     spoon.particles = smallFilling(5).particles;

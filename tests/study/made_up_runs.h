@@ -51,14 +51,16 @@ class MadeUpRuns : public MemberRunner {
                          .coilTorque = 0.5,
                          .complete = true,
                          .regions = {},
-                         .bodies = {}};
+                         .bodies = {},
+                         .powders = {}};
         const Dose cut{.index = 2,
                        .mass = 0.001,
                        .particles = 1,
                        .cumulative = 0.003,
                        .coilTorque = 0.7,
                        .regions = {},
-                       .bodies = {}};
+                       .bodies = {},
+                       .powders = {}};
         std::ofstream(task.folder / "doses.csv") << csvHeader(kDoseColumns) << "\n"
                                                  << csvRow(kDoseColumns, whole) << "\n"
                                                  << csvRow(kDoseColumns, cut) << "\n";
