@@ -191,7 +191,7 @@ TEST_CASE("each slip with a body has its warning with figures and a cure") {
     }
 }
 
-TEST_CASE("bodies that move as one, or past one another, do not cross; the coil is a body too") {
+TEST_CASE("bodies that move as one, or past one another, do not cross, and the coil is a body too") {
     const test::Folder folder;
     const std::string free = test::replaced(test::kFreeCase, "time_s = 0.01", "time_s = 1");
     const auto warned = [&](const std::string& bodies) {
