@@ -5,24 +5,16 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <set>
 
 #include "geometry/coincidence.h"
 #include "host/model/contact_pairs.h"
-#include "host/model/grid.h"
 #include "host/model/powders.h"
 #include "host/model/size_distribution.h"
 #include "host/model/stability.h"
 
 namespace vkdose {
 namespace {
-
-/// Smallest volume fraction that a settled bed can keep: a cohesive one (measured beds: about 0.46), and one without
-/// adhesion (measured: 0.56).
-constexpr double kLoosestBed = 0.35, kLoosestFreeBed = 0.5;
-/// More particles than this mean that a unit is wrong.
-constexpr double kMaxParticles = 5e6;
 
 double mm(double metres) {
     return metres * 1e3;
@@ -201,128 +193,6 @@ void checkBox(CaseReader& reader, const std::string& path, const Box& box) {
                      "give the lower corner as low, the upper as high");
 }
 
-/// Compares the volume of the bed with that of the canister. The bed is taken at the loosest packing that it can keep.
-void checkBed(CaseReader& reader, const Case& c) {
-    const Canister& can = *c.canister;
-    const double half = can.width / 2;
-    const double below = can.flatFloor ? can.width * half : 0.5 * kPi * half * half;
-    const double volume = can.length * (below + can.width * (can.height - half));
-    const ContactParameters& pair = c.dosingLaw.of(ContactClass::ParticleParticle);
-    const bool sticky = pair.kc > 0 || pair.surfaceEnergy > 0 || pair.constantPull > 0;
-    const double loosest = sticky ? kLoosestBed : kLoosestFreeBed;
-    const Fill fill = fillOf(c);
-    const double bed = fill.volume / loosest;
-    // No powder is lighter than this. A lower density was probably given in g/cm3; without this bound the message would
-    // blame the mass.
-    constexpr double kLightest = 20;
-    const std::vector<PowderOf> powders = powdersOf(c);
-    const auto light = std::find_if(powders.begin(), powders.end(),
-                                    [&](const PowderOf& p) { return c.world.density(p.material) < kLightest; });
-    if (bed > volume && light != powders.end()) {
-        const double density = c.world.density(light->material);
-        reader.fault(
-            light->path + ".density",
-            fmt::format("makes the fill too large: {:.4g} cm3 for a canister of {:.4g} cm3", bed * 1e6, volume * 1e6),
-            fmt::format("give kg/m3; {:.6g} g/cm3 is {:.6g} kg/m3", density, 1e3 * density));
-    } else if (bed > volume) {
-        // The powder that takes the most room is most probably the wrong one.
-        const auto most = std::max_element(powders.begin(), powders.end(), [&](const PowderOf& a, const PowderOf& b) {
-            return a.filling.mass / c.world.density(a.material) < b.filling.mass / c.world.density(b.material);
-        });
-        const double rest = bed - most->filling.mass / c.world.density(most->material) / loosest;
-        const double room = (volume - rest) * loosest * c.world.density(most->material);
-        reader.fault(most->path + ".mass_g",
-                     fmt::format("the fill does not fit: a loose bed of it (volume fraction {}) takes {:.4g} cm3, the "
-                                 "canister holds {:.4g} cm3",
-                                 loosest, bed * 1e6, volume * 1e6),
-                     room > 0 ? fmt::format("give at most {:.4g} g or a higher canister", room * 1e3)
-                              : "give less of all powders, or a higher canister");
-    }
-}
-
-/// The largest sphere must pass the canister and its outlet.
-void checkLargest(CaseReader& reader, const Case& c, double largest) {
-    const Canister& can = *c.canister;
-    std::string key = "particles.list";
-    if (!c.filling.list)
-        for (const PowderOf& p : powdersOf(c))
-            if (largestRadius(p.filling.size) == largest)
-                key = p.path + (p.filling.size.kind == SizeDistribution::Kind::Fixed ? ".size.radius_mm"
-                                                                                     : ".size.radius_max_mm");
-    const double narrowest = std::min(can.width, can.outletDiameter);
-    if (largest >= narrowest / 2)
-        reader.fault(key,
-                     fmt::format("spheres of radius {:.4g} mm do not pass the {:.4g} mm {}", mm(largest), mm(narrowest),
-                                 can.outletDiameter < can.width ? "outlet" : "trough"),
-                     fmt::format("keep radii below {:.4g} mm{}", mm(narrowest / 2),
-                                 c.filling.list ? "; a list is in metres" : ""));
-}
-
-/// Where a mass of the case is given, and how many particles it takes about.
-struct Amount {
-    std::string key;
-    double mass = 0, particles = 0;
-};
-
-std::vector<Amount> amountsOf(const Case& c) {
-    const std::vector<PowderOf> powders = powdersOf(c);
-    std::vector<Amount> amounts;
-    const auto add = [&](std::string key, double mass, const PowderOf& p) {
-        const double each = sphereMass(c.world.density(p.material), std::cbrt(meanCubedRadius(p.filling.size)));
-        amounts.push_back({std::move(key), mass, mass / each});
-    };
-    for (const PowderOf& p : powders) add(p.path + ".mass_g", p.filling.mass, p);
-    for (std::size_t k = 0; k < c.refills.size(); ++k)
-        add(fmt::format("refill[{}].mass_g", k), c.refills[k].mass, powders[powderIndex(c, c.refills[k].material)]);
-    return amounts;
-}
-
-/// Refuses absurd numbers of particles. Returns whether there are as many as that.
-bool checkNumber(CaseReader& reader, const Case& c) {
-    const std::vector<Amount> amounts = amountsOf(c);
-    // The key that makes the most particles is most probably the wrong one.
-    const auto most = std::max_element(amounts.begin(), amounts.end(),
-                                       [](const Amount& a, const Amount& b) { return a.particles < b.particles; });
-    double particles = 0;
-    for (const Amount& a : amounts) particles += a.particles;
-    if (particles <= kMaxParticles) return false;
-    const SizeDistribution::Kind kind = c.filling.size.kind;
-    reader.fault(most->key,
-                 amounts.size() == 1 ? fmt::format("takes about {:.2g} particles", particles)
-                                     : fmt::format("takes about {:.2g} particles, and with the other masses {:.2g}",
-                                                   most->particles, particles),
-                 kind == SizeDistribution::Kind::Quantiles
-                     ? "give less mass or a larger scale_up; d10_um, d50_um and d90_um are in micrometres"
-                 : kind == SizeDistribution::Kind::Sieve
-                     ? "give less mass, a larger scale_up, or a radius_min_mm that leaves the finest out"
-                     : "give less mass or larger meso-particles");
-    return true;
-}
-
-void checkGrid(CaseReader& reader, const Case& c, double largest) {
-    if (checkNumber(reader, c)) return;
-    const std::vector<PowderOf> powders = powdersOf(c);
-    const std::vector<std::size_t> counts = drawnParticles(c);
-    const auto inMixture = static_cast<double>(std::accumulate(counts.begin(), counts.end(), std::size_t{0}));
-    for (std::size_t k = 0; k < powders.size(); ++k) {
-        const PowderOf& p = powders[k];
-        const double widest = c.mixed ? largest : largestRadius(p.filling.size);
-        // In a canister all grids have the same sites in a layer, and layers without end.
-        const Box& region = c.canister || c.mixed ? c.filling.region : p.filling.region;
-        const double capacity = InsertionGrid(region, widest, p.filling.gridGap).capacity();
-        const double count = c.mixed ? inMixture : static_cast<double>(counts[k]);
-        if (counts[k] == 0)
-            reader.fault(p.path + ".mass_g", "is less than half of the first particle drawn", "give more mass");
-        else if (capacity < 1 && c.canister)
-            reader.fault(p.path + ".size", "the largest sphere does not fit between the walls",
-                         "give smaller particles");
-        else if (capacity < count && (!c.mixed || k == 0))
-            reader.fault(p.path + ".region",
-                         fmt::format("has {:.0f} sites of the grid for {:.0f} particles", capacity, count),
-                         "give a larger region, less mass or smaller particles");
-    }
-}
-
 /// The key that makes a surface. Surfaces that a file lists come in the order of the file, planes first.
 std::string surfaceKey(const Case& c, std::size_t surface) {
     if (c.canister) return "canister";
@@ -348,13 +218,6 @@ void checkFields(CaseReader& reader, const Case& c) {
     if (c.filling.list || c.canister || c.mixed) return;
     for (std::size_t k = 0; k < c.furtherPowders.size(); ++k)
         checkBox(reader, fmt::format("powder[{}].region", k), c.furtherPowders[k].filling.region);
-}
-
-void checkRefills(CaseReader& reader, const Case& c, const Insertion& filled) {
-    for (std::size_t k = 0; k < c.refills.size(); ++k)
-        if (filled.waiting[k].particles.size() == 0)
-            reader.fault(fmt::format("refill[{}].mass_g", k), "is less than half of the first particle drawn",
-                         "give more mass");
 }
 
 void checkSurfaces(CaseReader& reader, const Case& c, double radius) {
@@ -419,12 +282,6 @@ void checkTimeStep(CaseReader& reader, const Case& c, const PowderSizes& sizes) 
                      automatic);
     if (c.sensorInterval > 1e9 * dt)
         reader.fault("sensors.interval_s", "is more than 1e9 time steps", "give a shorter interval");
-}
-
-void checkFilling(CaseReader& reader, const Case& c, double largestRadius) {
-    if (c.canister) checkLargest(reader, c, largestRadius);
-    if (c.canister && !c.filling.list) checkBed(reader, c);
-    if (!reader.faulty() && !c.filling.list) checkGrid(reader, c, largestRadius);
 }
 
 void checkTouches(CaseReader& reader, const Case& c, double largestRadius) {

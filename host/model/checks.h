@@ -19,14 +19,15 @@ void checkFields(CaseReader& reader, const Case& c);
 /// Checks the time step against the fastest contact motion of the smallest spheres.
 void checkTimeStep(CaseReader& reader, const Case& c, const PowderSizes& sizes);
 
+/// Checks whether a sphere of this radius [m] can touch too many turns of the coil.
+void checkTouches(CaseReader& reader, const Case& c, double largestRadius);
+
+// fill_checks.cpp
 /// Checks whether the largest sphere passes the outlet, the mass fits the canister, and the grid fits its region.
 void checkFilling(CaseReader& reader, const Case& c, double largestRadius);
 
 /// Checks whether each refill holds a particle.
 void checkRefills(CaseReader& reader, const Case& c, const Insertion& filled);
-
-/// Checks whether a sphere of this radius [m] can touch too many turns of the coil.
-void checkTouches(CaseReader& reader, const Case& c, double largestRadius);
 
 // scales.cpp
 /// Checks for numbers that do not go together: masses beyond single precision, a way in one step so long that contacts
