@@ -53,7 +53,7 @@ void EventsDisplay::onSample(const Sample& sample) {
     putColumns(kSampleColumns, sample, event);
     if (sample.energy) putColumns(kEnergyColumns, *sample.energy, event);
     for (std::size_t b = 0; b < sample.bodies.size(); ++b)
-        putColumns(kBodyColumns, sample.bodies[b], event["bodies"][case_.world.bodies.at(b).name]);
+        putColumns(kBodyColumns, sample.bodies[b], event["bodies"][bodyNames(case_.world).at(b)]);
     for (std::size_t r = 0; r < sample.regions.size(); ++r)
         putColumns(kRegionColumns, sample.regions[r], event["regions"][case_.world.regions.at(r).name]);
     for (std::size_t k = 0; k < sample.powders.size(); ++k)
@@ -74,7 +74,7 @@ void EventsDisplay::onDose(const Dose& dose) {
     Json event{{"event", "dose"}};
     putColumns(kDoseColumns, dose, event);
     for (std::size_t b = 0; b < dose.bodies.size(); ++b)
-        putColumns(kDoseBodyColumns, dose.bodies[b], event["bodies"][case_.world.bodies.at(b).name]);
+        putColumns(kDoseBodyColumns, dose.bodies[b], event["bodies"][bodyNames(case_.world).at(b)]);
     for (std::size_t r = 0; r < dose.regions.size(); ++r)
         putColumns(kRegionColumns, dose.regions[r], event["regions"][case_.world.regions.at(r).name]);
     for (std::size_t k = 0; k < dose.powders.size(); ++k)

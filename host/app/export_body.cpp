@@ -18,8 +18,6 @@ namespace vkdose {
 
 namespace {
 
-constexpr const char* kCoilName = "coil";
-
 /// A part of the case that can be written, in its place.
 struct Part {
     std::string name;

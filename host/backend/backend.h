@@ -55,7 +55,7 @@ struct EnergyBook {
     double loaded = 0;     ///< of the loaded state, contacts included; booked in the call that makes the first step
 };
 
-/// What the particles do to a body of World::bodies during a call.
+/// What the particles do to one of the bodies during a call.
 struct BodyLoad {
     Vec3 force{0};      ///< on the body, mean over the call [N]
     double torque = 0;  ///< on the body about its axis (RigidBody::axis), mean over the call [N m]
@@ -69,7 +69,7 @@ struct Sensors {
     double kineticEnergy = 0;                     ///< translational, active particles, half-step velocities [J]
     double rotationalEnergy = 0;                  ///< [J]
     double coilTorque = 0;         ///< torque about +z that the particles exert on the coil, mean over the call [N m]
-    std::vector<BodyLoad> bodies;  ///< of each of the world's bodies
+    std::vector<BodyLoad> bodies;  ///< of each of allBodies
     double throatMomentumZ = 0;    ///< sum of m v_z in the throat; divided by the mass there: outlet velocity [kg m/s]
     double maxOverlapRatio = 0;    ///< largest overlap over smaller radius seen during the call [-]
     std::uint64_t rebuilds = 0;    ///< neighbour-list builds since load

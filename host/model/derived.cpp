@@ -50,8 +50,13 @@ void deriveBodies(const Case& c, Derived& d) {
         const std::vector<geometry::Triangle> mesh = trianglesOf(body);
         if (mesh.empty()) continue;
         const TurningReach reach = reachOf(mesh, turn->axis, turn->through);
-        const double advance = turn->rate * turn->axis.z * advancePerTurn(mesh, turn->axis, turn->through);
-        const double section = kPi * reach.radius * reach.radius - solidSection(body, reach.high - reach.low);
+        double lead = advancePerTurn(mesh, turn->axis, turn->through);
+        // Of a wire the pitch, and the section within its centre line, as of [coil].
+        const auto* wire = std::get_if<geometry::Coil>(&body.shapes.front());
+        if (wire) lead = std::copysign(wire->pitch, lead);
+        const double advance = turn->rate * turn->axis.z * lead;
+        const double section = wire ? kPi * wire->radius * wire->radius
+                                    : kPi * reach.radius * reach.radius - solidSection(body, reach.high - reach.low);
         const double perTurn = c.bulkDensity * advance * section;
         // Less is the rounding of a paddle's facets.
         if (section <= 0 || advance < 0.02 * reach.radius || perTurn <= d.massPerTurn) continue;

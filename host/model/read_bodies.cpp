@@ -322,6 +322,8 @@ void readBodies(CaseReader& reader, Section& root, double meshReach, Case& c) {
         const BodyReader b{reader, *section, meshReach, c};
         RigidBody body;
         body.name = readName(reader, *section, "body", names);
+        if (body.name == kCoilName && root.has("coil"))
+            reader.fault(section->path("name"), "is the name of [coil]", "give the body a name of its own");
         const auto shape = section->choice("shape");
         if (shape)
             body.shapes = readShape(b, static_cast<Kind>(*shape));

@@ -57,7 +57,7 @@ std::vector<RigidBody> allBodies(const World& world) {
     std::vector<RigidBody> bodies = world.bodies;
     if (!world.coil) return bodies;
     RigidBody coil;
-    coil.name = "coil";
+    coil.name = kCoilName;
     coil.shapes = {*world.coil};
     coil.course.motion = geometry::Turn{Vec3(0, 0, 1), Vec3(0), 1};  // a radian for each of the drive
     coil.clock = Clock::Drive;
@@ -66,6 +66,13 @@ std::vector<RigidBody> allBodies(const World& world) {
     coil.curvature = world.coilWireCurved ? world.coil->wireRadius : 0;
     bodies.push_back(std::move(coil));
     return bodies;
+}
+
+std::vector<std::string> bodyNames(const World& world) {
+    std::vector<std::string> names;
+    for (const RigidBody& body : world.bodies) names.push_back(body.name);
+    if (world.coil) names.emplace_back(kCoilName);
+    return names;
 }
 
 }  // namespace vkdose

@@ -88,8 +88,12 @@ void checkMaterials(const World& world, const ContactLaw& law, const Particles& 
 /// Name of a pair in messages: "particle-wall", ...
 std::string nameOf(const World& world, MaterialPair pair);
 
-/// All that moves or may move: World::bodies, and behind them the coil as the body "coil", which the drive turns.
+/// The name of World::coil among the bodies.
+inline constexpr const char* kCoilName = "coil";
+/// All that moves or may move: World::bodies, and behind them the coil, which the drive turns.
 std::vector<RigidBody> allBodies(const World& world);
+/// Their names, in the same order.
+std::vector<std::string> bodyNames(const World& world);
 
 /// Most turns of the coil that one sphere may touch at once: a backend keeps contact history for as many places of a
 /// body.

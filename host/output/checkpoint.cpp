@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kUserBlock = 512;
 constexpr std::string_view kMagic = "vkdose checkpoint";
-constexpr int kVersion = 6;  // 5: doses without what stopped the coil, and a schedule without decisions
+constexpr int kVersion = 7;  // 6: no loads of the coil
 
 /// It belongs to the format. With another checksum (zlib's, say) existing checkpoints could not be read.
 std::uint64_t checksum(std::string_view bytes) {

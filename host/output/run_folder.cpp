@@ -85,8 +85,8 @@ namespace {
 template <class Columns>
 std::string bodyHeader(const Columns& columns, const World& world) {
     std::string header;
-    for (const RigidBody& body : world.bodies)
-        forEachColumn(columns, [&](const auto& c) { header += fmt::format(",{}.{}", body.name, c.name); });
+    for (const std::string& body : bodyNames(world))
+        forEachColumn(columns, [&](const auto& c) { header += fmt::format(",{}.{}", body, c.name); });
     return header;
 }
 

@@ -21,12 +21,12 @@ std::vector<OutputTable> runTables() {
          columnTexts(kSampleColumns)},
         {"timeseries.csv, with sensors.energy", "These columns follow in the same line.", columnTexts(kEnergyColumns)},
         {"timeseries.csv, with bodies",
-         "These columns follow in the same line, for each `[[body]]`. The name of the body and a dot stand before "
-         "each.",
+         "These columns follow in the same line, for each `[[body]]` and, behind them, for `[coil]` as the body coil. The "
+         "name of the body and a dot stand before each.",
          columnTexts(kBodyColumns)},
         {"doses.csv, with bodies",
-         "These columns follow in the same line, for each `[[body]]`. The name of the body and a dot stand before "
-         "each.",
+         "These columns follow in the same line, for each `[[body]]` and, behind them, for `[coil]` as the body coil. The "
+         "name of the body and a dot stand before each.",
          columnTexts(kDoseBodyColumns)},
         {"timeseries.csv and doses.csv, with regions",
          "These columns follow in the same line, for each `[[region]]`. The name of the region and a dot stand before "

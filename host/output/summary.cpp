@@ -62,7 +62,7 @@ Json doseList(const Case& c, const std::vector<Dose>& doses) {
         Json& one = list.emplace_back(Json::object());
         putColumns(kDoseColumns, d, one);
         for (std::size_t b = 0; b < d.bodies.size(); ++b)
-            putColumns(kDoseBodyColumns, d.bodies[b], one["bodies"][c.world.bodies.at(b).name]);
+            putColumns(kDoseBodyColumns, d.bodies[b], one["bodies"][bodyNames(c.world).at(b)]);
     }
     return list;
 }
@@ -72,7 +72,7 @@ Json bodyList(const Case& c, const RunResult& r) {
     Json list = Json::array();
     for (std::size_t b = 0; b < r.last.bodies.size(); ++b) {
         Json& one = list.emplace_back(Json::object());
-        one["name"] = c.world.bodies.at(b).name;
+        one["name"] = bodyNames(c.world).at(b);
         one["work_J"] = jsonNumber(r.last.bodies[b].work);
         if (b < r.bodyPeaks.size()) putColumns(kBodyPeakColumns, r.bodyPeaks[b], one);
         if (b < r.bodyClocks.size()) one["moved_s"] = jsonNumber(r.bodyClocks[b]);

@@ -89,7 +89,7 @@ py::dict sampleOf(const Simulation& run) {
     if (s.energy) dict.attr("update")(dictOf(kEnergyColumns, *s.energy));
     py::dict bodies, regions, powders;
     for (std::size_t b = 0; b < s.bodies.size(); ++b)
-        bodies[run.theCase().world.bodies.at(b).name.c_str()] = dictOf(kBodyColumns, s.bodies[b]);
+        bodies[bodyNames(run.theCase().world).at(b).c_str()] = dictOf(kBodyColumns, s.bodies[b]);
     for (std::size_t r = 0; r < s.regions.size(); ++r)
         regions[run.theCase().world.regions.at(r).name.c_str()] = dictOf(kRegionColumns, s.regions[r]);
     for (std::size_t k = 0; k < s.powders.size(); ++k)

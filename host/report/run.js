@@ -61,6 +61,7 @@ function bodyCharts(parent, run, time) {
   (s.bodies || []).forEach(b => {
     drawn(`Force on ${b.name}`, "N", 1, [["along x", b.force_x_N, "var(--s0)"], ["along y", b.force_y_N, "var(--s1)"],
                                          ["along z", b.force_z_N, "var(--s2)"]], note);
+    if (!b.torque_Nm) return;
     drawn(`Torque on ${b.name}`, "mN m", milli, [["about its axis", b.torque_Nm, "var(--s0)"]], note);
     if (b.power_W.some(p => p !== 0))
       drawn(`Power of ${b.name}`, "mW", milli, [["on the particles", b.power_W, "var(--s3)"]], "Mean between two lines of the time series.");

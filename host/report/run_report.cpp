@@ -49,15 +49,18 @@ std::vector<double> thinned(const std::vector<double>& values, std::size_t size,
     return few;
 }
 
-/// The loads of each body, whose columns begin with its name and a dot.
-Json bodySeries(const Table& series, std::size_t size) {
+/// The loads of each body, whose columns begin with its name and a dot. Of [coil] only the force: its torque and power
+/// are those of the drive.
+Json bodySeries(const Table& series, const World& world, std::size_t size) {
     Json bodies = Json::array();
     constexpr std::string_view kLast = ".torque_Nm";
     for (const std::string& column : series.names()) {
         if (!column.ends_with(kLast)) continue;
         const std::string name = column.substr(0, column.size() - kLast.size());
         Json j{{"name", name}};
-        for (const char* load : {"force_x_N", "force_y_N", "force_z_N", "torque_Nm", "power_W"})
+        std::vector<const char*> loads{"force_x_N", "force_y_N", "force_z_N"};
+        if (!world.coil || name != kCoilName) loads.insert(loads.end(), {"torque_Nm", "power_W"});
+        for (const char* load : loads)
             j[load] = numbers(thinned(series.column(name + "." + load), size, true));
         bodies.push_back(std::move(j));
     }
@@ -74,14 +77,14 @@ Json massSeries(const Table& series, std::string_view ending, std::size_t size) 
     return list;
 }
 
-Json seriesJson(const Table& series) {
+Json seriesJson(const Table& series, const World& world) {
     const std::size_t size = (series.rows() + kMostLines - 1) / kMostLines;
     Json j;
     for (const char* name : {"time_s", "dosed_mass_kg", "canister_mass_kg", "throat_mass_kg", "lost_mass_kg"})
         j[name] = numbers(thinned(series.column(name), std::max<std::size_t>(size, 1), false));
     for (const char* name : {"outlet_velocity_m_s", "coil_torque_Nm", "coil_power_W"})
         j[name] = numbers(thinned(series.column(name), std::max<std::size_t>(size, 1), true));
-    j["bodies"] = bodySeries(series, std::max<std::size_t>(size, 1));
+    j["bodies"] = bodySeries(series, world, std::max<std::size_t>(size, 1));
     j["regions"] = massSeries(series, ".mass_kg", std::max<std::size_t>(size, 1));
     j["powders"] = massSeries(series, ".dosed_mass_kg", std::max<std::size_t>(size, 1));
     return j;
@@ -180,7 +183,7 @@ Json runJson(const fs::path& folder, const std::optional<fs::path>& experiment, 
     j["reason"] = c.reason;
     j["facts"] = runFacts(sources);
     j["doses"] = dosesJson(doseTable, sources);
-    j["series"] = seriesJson(series);
+    j["series"] = seriesJson(series, c.world);
     j["rotations"] = rotations(series);
     j["beta_below_kg"] =
         jsonNumber(figuresOf(sources.doses, filledMass(sources), sources.c.schedule.stop).window.cumulativeBelow);

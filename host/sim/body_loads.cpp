@@ -80,14 +80,15 @@ void BodyLoads::save(Record& record) const {
 }
 
 void BodyLoads::restore(const Record& record) {
-    sums_ = samplesOf(record.get<double>("bodies", 6 * sums_.size()));
+    const std::size_t n = sums_.size();
+    sums_ = samplesOf(record.get<double>("bodies", 6 * n));
     openDose();
-    peaks_.assign(sums_.size(), {});
-    if (!record.arrays().contains("bodies_peaks")) return;
-    turned_ = samplesOf(record.get<double>("bodies_in_dose", 6 * sums_.size()));
+    peaks_.assign(n, {});
+    if (n == 0) return;
+    turned_ = samplesOf(record.get<double>("bodies_in_dose", 6 * n));
     turnedSteps_ = record.one<std::uint64_t>("bodies_dose_steps");
-    const auto& peaks = record.get<double>("bodies_peaks", 3 * sums_.size());
-    for (std::size_t b = 0; b < peaks_.size(); ++b) peaks_[b] = {peaks[3 * b], peaks[3 * b + 1], peaks[3 * b + 2]};
+    const auto& peaks = record.get<double>("bodies_peaks", 3 * n);
+    for (std::size_t b = 0; b < n; ++b) peaks_[b] = {peaks[3 * b], peaks[3 * b + 1], peaks[3 * b + 2]};
 }
 
 void BodyLoads::takeOver(const Record& record) {

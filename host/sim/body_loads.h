@@ -55,6 +55,7 @@ std::vector<BodySample> samplesOf(const std::vector<double>& numbers);
 /// Joins the calls of a backend between two samples.
 class BodyLoads {
   public:
+    /// `bodies`: how many there are, the coil counted.
     explicit BodyLoads(std::size_t bodies) : sums_(bodies), turned_(bodies), peaks_(bodies) {}
 
     /// `rotates`: the drive conveys in these steps.
@@ -67,8 +68,7 @@ class BodyLoads {
     /// Of the dose under way: means over its rotation, and the work since it was opened.
     std::vector<BodySample> sinceDose(double timeStep) const;
 
-    /// For a checkpoint, and back. Throws RecordError if the record has other bodies. One of an earlier version holds
-    /// neither peaks nor the dose under way: both then count from there.
+    /// For a checkpoint, and back. Throws RecordError if the record has other bodies.
     void save(Record& record) const;
     void restore(const Record& record);
     /// From the state of another run, whose work counts on and whose peaks do not.

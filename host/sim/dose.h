@@ -44,7 +44,7 @@ struct Dose {
     double endTime = std::numeric_limits<double>::quiet_NaN();  ///< [s]
 
     std::vector<RegionCount> regions;  ///< into each of the world's regions; not kept in a checkpoint
-    std::vector<BodySample> bodies;    ///< of each of the world's bodies, as kDoseBodyColumns tell
+    std::vector<BodySample> bodies;    ///< of each of allBodies, as kDoseBodyColumns tell
     std::vector<PowderDose> powders;   ///< of each powder; none if there is one; not kept in a checkpoint
 
     double overshoot() const { return mass - stopMass; }  ///< dosed after the coil was told to stop [kg]

@@ -156,7 +156,7 @@ class RunLoop {
     Sensors now_;                 ///< of the last call, joined with the calls since the last sample
     std::uint64_t gathered_ = 0;  ///< steps since the last sample
     BodyClocks clocks_{case_.world};
-    BodyLoads loads_{case_.world.bodies.size()};
+    BodyLoads loads_{bodyNames(case_.world).size()};
     RegionBook regions_{case_.world};
     PowderBook powders_{case_.world};
     double impulse_ = 0;   ///< torque times steps since the last sample

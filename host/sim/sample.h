@@ -28,7 +28,7 @@ struct Sample {
     double coilTorque = 0;               ///< the drive's: positive when the powder resists conveying [N m]
     double coilPower = 0;                ///< drive torque times speed [W]
     std::optional<EnergyLedger> energy;  ///< if the case asks for it
-    std::vector<BodySample> bodies;      ///< of the world's bodies, in their order
+    std::vector<BodySample> bodies;      ///< of allBodies, in their order
     std::vector<RegionCount> regions;    ///< of the world's regions likewise, since the start of the run
     std::vector<PowderPlaces> powders;   ///< of each powder; none if there is one
 };

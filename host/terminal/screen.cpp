@@ -60,13 +60,13 @@ std::string loadText(double x) {
 }
 
 int loadRowsOf(const Scene& scene) {
-    const std::size_t shown = std::min(scene.bodies.size(), kMostBodies);
-    return shown == 0 ? 0 : 1 + int(shown) + (scene.bodies.size() > shown ? 1 : 0);
+    const std::size_t shown = std::min(scene.loaded.size(), kMostBodies);
+    return shown == 0 ? 0 : 1 + int(shown) + (scene.loaded.size() > shown ? 1 : 0);
 }
 
 /// Force, torque, power and work of the first bodies; nothing if that does not fit into so many rows.
 std::vector<std::string> loadRows(const Scene& scene, const LiveState& s, int columns, int rows) {
-    if (rows < loadRowsOf(scene) || scene.bodies.empty()) return {};
+    if (rows < loadRowsOf(scene) || scene.loaded.empty()) return {};
     const int width = std::min(columns - 4 * kLoad, kLongestName);
     const auto line = [width](const std::string& name, const std::array<std::string, 4>& figures) {
         std::string text = fmt::format("{:<{}}", name.substr(0, std::size_t(width - 1)), width);
@@ -74,13 +74,13 @@ std::vector<std::string> loadRows(const Scene& scene, const LiveState& s, int co
         return text;
     };
     std::vector<std::string> lines{line("body", {"N", "mN m", "mW", "mJ"})};
-    const std::size_t shown = std::min(scene.bodies.size(), kMostBodies);
+    const std::size_t shown = std::min(scene.loaded.size(), kMostBodies);
     for (std::size_t b = 0; b < shown; ++b) {
         const BodySample load = b < s.loads.size() ? s.loads[b] : BodySample{};
-        lines.push_back(line(scene.bodies[b].name, {loadText(glm::length(load.force)), loadText(load.torque * 1e3),
-                                                    loadText(load.power * 1e3), loadText(load.work * 1e3)}));
+        lines.push_back(line(scene.loaded[b], {loadText(glm::length(load.force)), loadText(load.torque * 1e3),
+                                               loadText(load.power * 1e3), loadText(load.work * 1e3)}));
     }
-    if (scene.bodies.size() > shown) lines.push_back(fmt::format("and {} more", scene.bodies.size() - shown));
+    if (scene.loaded.size() > shown) lines.push_back(fmt::format("and {} more", scene.loaded.size() - shown));
     return lines;
 }
 

@@ -15,7 +15,7 @@ struct LiveState {
     std::vector<Dose> doses;        ///< that are over
     double underWay = 0;            ///< mass dosed so far in the dose of `frame` [kg]
     double closedForm = 0;          ///< of a dose; 0: there is none [kg]
-    std::vector<BodySample> loads;  ///< of the scene's bodies, in their order; empty before the first sample
+    std::vector<BodySample> loads;  ///< of Scene::loaded, in its order; empty before the first sample
     std::string progress;           ///< one line of ASCII
 };
 

@@ -170,6 +170,57 @@ std::string phasedDrum() {
 
 }  // namespace
 
+TEST_CASE("the coil tells the loads that the same wire tells as a body") {
+    std::string asBody = readText(VKDOSE_SOURCE_DIR "/cases/mini.toml");
+    const std::size_t coil = asBody.find("[coil]"), settle = asBody.find("[settle]");
+    REQUIRE(settle > coil);
+    asBody.replace(coil, settle - coil, R"([[body]]
+name = "coil"
+shape = "wire"
+contact = "coil"
+length_mm = 21.0
+pitch_mm = 7.0
+wire_diameter_mm = 1.6
+radius_mm = 5.9
+[body.motion]
+kind = "turn"
+follows = "drive"
+turns_per_turn = -1
+
+)");
+    const std::size_t dose = asBody.find("[dose]\n");
+    asBody.insert(dose + 7, "speed_rpm = 120.0\n");
+    for (const std::string backend : {"reference", "vulkan"}) {
+        CAPTURE(backend);
+        const Sandbox box;
+        box.write("body.toml", asBody);
+        box.write("coil.toml", readText(VKDOSE_SOURCE_DIR "/cases/mini.toml"));
+        for (const std::string run : {"body", "coil"}) {
+            const auto end = box.vkdose("run " + run + ".toml --quiet --out out/" + run +
+                                        " --set stop.max_doses=1 --backend " + backend);
+            INFO(end.err);
+            REQUIRE(end.code == 0);
+        }
+        const auto of = [&](const std::string& run) { return readCsv(box / ("out/" + run + "/doses.csv")); };
+        const auto body = of("body"), wire = of("coil");
+        REQUIRE(body.size() == 2);
+        REQUIRE(body[0] == wire[0]);
+        for (std::size_t at = 0; at < body[1].size(); ++at) {
+            CAPTURE(body[0][at]);
+            // The drive's torque is gathered in another order.
+            if (body[0][at] == "coil_torque_Nm")
+                CHECK(std::stod(body[1][at]) == Approx(std::stod(wire[1][at])).epsilon(1e-6));
+            else
+                CHECK(body[1][at] == wire[1][at]);
+        }
+        CHECK(std::stod(wire[1][column(wire, "coil.force_z_N")]) != 0);
+        const auto summary = nlohmann::json::parse(readText(box / "out/coil/summary.json"));
+        REQUIRE(summary["bodies"].size() == 1);
+        CHECK(summary["bodies"][0]["name"] == "coil");
+        CHECK(summary["bodies"][0]["largest_force_N"].get<double>() > 0);
+    }
+}
+
 TEST_CASE("bodies move in the phases that the case names, and stand in the others") {
     for (const std::string backend : {"reference", "vulkan"}) {
         CAPTURE(backend);

@@ -22,7 +22,7 @@ TEST_CASE("a checkpoint that cannot be used is refused by name") {
     refused(good.substr(0, good.size() / 2), "cut off");
     refused(good + "x", "damaged");
     std::string later = good;
-    later.replace(good.find("version 6"), 9, "version 7");
+    later.replace(good.find("version 7"), 9, "version 8");
     refused(later, "format version 7");
     const auto missing = box.vkdose("resume nowhere");
     CHECK(missing.code == 2);

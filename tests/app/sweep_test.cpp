@@ -103,8 +103,8 @@ TEST_CASE("a member whose checkpoint is of another version is started anew when 
     kill(sweep, SIGINT);
     waitpid(sweep, nullptr, 0);
     std::string older = readText(box / file);
-    REQUIRE(older.find("version 6") != std::string::npos);
-    box.write(file, older.replace(older.find("version 6"), 9, "version 3"));
+    REQUIRE(older.find("version 7") != std::string::npos);
+    box.write(file, older.replace(older.find("version 7"), 9, "version 3"));
     const auto refused = box.vkdose("sweep study.toml --backend reference --out cut");
     CHECK(refused.code == 1);
     CHECK_THAT(refused.err, Catch::Contains("version 3") && Catch::Contains("--retry-failed"));

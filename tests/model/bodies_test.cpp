@@ -283,6 +283,11 @@ TEST_CASE("bodies: faults name the key, the value and what would be right") {
         CAPTURE(f.keys);
         CHECK_THAT(read.fault(body(f.keys)), Contains(f.said));
     }
+    const std::string coil = "[coil]\nturns = 3\nlength_mm = 20\nwire_diameter_mm = 1\nradius_mm = 5\nspeed_rpm = 9\n";
+    const std::string namesake = "[[body]]\nname = \"coil\"\nshape = \"plane\"\nat = [0, -1, 0]\n";
+    CHECK(read.fault(namesake) == "no fault");
+    CHECK_THAT(read.fault(coil + namesake),
+               Contains("body[0].name = \"coil\": is the name of [coil]"));
     CHECK_THAT(read.fault("[[body]]\nname = \"a b\"\nshape = \"plane\"\n"), Contains("is no name of a body"));
     std::string many;
     for (int i = 0; i < 17; ++i)

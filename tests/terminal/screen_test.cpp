@@ -259,6 +259,7 @@ TEST_CASE("force, torque, power and work of bodies stand below the doses, or bes
     Scene s = scene();
     for (const char* name : {"screw", "an-agitator-with-a-long-name", "flap", "hopper", "gate"}) {
         s.bodies.emplace_back().name = name;
+        s.loaded.emplace_back(name);
         s.skins.emplace_back();
     }
     LiveState now = state();

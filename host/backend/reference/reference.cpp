@@ -187,10 +187,7 @@ Sensors ReferenceBackend::advance(std::uint32_t steps, double coilRate) {
         deepest = std::max(deepest, loads_.deepest.ratio);
     }
     Sensors sensors = sense();
-    if (world_.coil) {
-        sensors.coilTorque = bodies.back().torque;
-        bodies.pop_back();
-    }
+    if (world_.coil) sensors.coilTorque = bodies.back().torque;  // the last of allBodies
     sensors.bodies = std::move(bodies);
     sensors.maxOverlapRatio = deepest;
     if (world_.energyBook && steps_ > 0) sensors.energy = senseEnergy();

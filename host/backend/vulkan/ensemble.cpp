@@ -323,7 +323,6 @@ Sensors Ensemble::sense(std::uint32_t member, std::uint32_t steps) {
             s.energy->coilWork = s.bodies.back().work;
             s.energy->bodyWork -= s.energy->coilWork;
         }
-        s.bodies.pop_back();
     }
     s.rebuilds = passes_->controlOf(member).list.y;
     return s;
