@@ -99,11 +99,11 @@ bool mayBeNear(uint body, Two3 centre, float reach) {
 uint touchedFeatures(uint body, Two3 centre, float radius) {
     uvec2 shapes = geometryAt(kBodyVectors * body).xy;
     clearPlaces();
-    uint n = 0u;
-    for (; n < shapes.y; ++n) {
+    // A body has a shape at least, so the loop looks at its end whether it goes on (shaders/README.md, Drivers).
+    for (uint n = 0u;; ++n) {
         uint shape = shapes.x + kShapeVectors * n;
         uvec4 head = geometryAt(shape);
-        if (!withinSphere(shape + 1u, centre.high, radius)) continue;
+        if (!withinSphere(shape + 1u, centre.high, radius)) head.x = kNoShape;
         if (HAS_SHAPE(kShapeMesh) && head.x == kShapeMesh) meshPlaces(shape, head, centre, radius);
         if (HAS_SHAPE(kShapeFlight) && head.x == kShapeFlight) flightPlaces(shape, head.y, centre, radius);
         if (HAS_SHAPE(kShapeWire) && head.x == kShapeWire) wirePlaces(shapeData(shape), head.y, centre, radius);
@@ -118,8 +118,8 @@ uint touchedFeatures(uint body, Two3 centre, float radius) {
             Overlap o = exactOverlap(head.x, shapeData(shape), centre, radius);
             if (o.depth > 0.0) addPlace(o.depth, o.normal, head.y);
         }
+        if (n + 1u >= shapes.y) break;
     }
-    if (n < shapes.y) placesLost = true;
     return distinctFeatures(radius);
 }
 

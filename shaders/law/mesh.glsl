@@ -10,8 +10,12 @@
 // one of its triangles, so that it is looked at once. What a step leaves over is kept as bits of a word: lavapipe takes
 // minutes to compile arrays with many readers.
 //
+// A sphere that stays near where it is needs the first two steps once: partsToCome gives the parts of a triangle that
+// may be a place until it has gone a given way. Where such a list was made, only the third step is left.
+//
 // The including file defines uvec4 geometryAt(uint i): vector i of the table `geometry`; and uint nearbyAt(uint i):
-// triangle i of those near the sphere, if it sets `nearbyCount`.
+// entry i of the list near the sphere, triangle << kPartBits | parts, if it sets `nearbyCount`. One that makes lists
+// defines KEEPS_NEARBY, and keepNearby(uint i, uint entry).
 //
 //   shape     2: low corner of the grid, 1 / edge of a cell      3: numbers of cells, margin [m]
 //             4: triangles, edges, vertices, - (where their records begin)      5: numbers of triangles, of edges
@@ -36,7 +40,7 @@
 
 const float kSquare = 1e-6;  // directions count as square to each other to this
 const uint kRound = 32u;     // triangles of a round, one bit of a word each
-// So many triangles are all that can be near the sphere: nearbyAt has them. kWholeCell: those of its cell may be.
+// So many entries of nearbyAt hold all that can be a place. kWholeCell: there is no list, and all of the cell may be.
 const uint kWholeCell = 0xffffffffu;
 uint nearbyCount = kWholeCell;
 
@@ -67,13 +71,6 @@ bool mayReach(uint triangle, vec3 centre, float reach) {
 }
 
 uint nthTriangle(uint lists, uint list, uint n) { return geometryAt(lists + list + n / 4u)[n & 3u]; }
-
-uint nthListed(bool known, uint lists, uint list, uint n) {
-    uint t = 0u;
-    if (known) t = nearbyAt(n);
-    if (!known) t = nthTriangle(lists, list, n);
-    return t;
-}
 
 /// Of four triangles of a list, from number n on, a bit for each that may have a point within `reach` of a point.
 uint reachAmongFour(uint lists, uvec2 list, uint n, uint triangles, vec3 centre, float reach) {
@@ -145,7 +142,11 @@ MeshPlace vertexPlace(uint vertices, uint number, Two3 centre, float radius) {
 const uint kPartCorner = 8u;
 const uint kPartFace = 64u;
 const uint kPartBits = 7u;
+const uint kAllParts = 127u;
 const uint kPartsInWord = 4u;  // of so many triangles
+
+uint edgeWord(uint at, uint n) { return geometryAt(at + 2u + n).w; }
+uint cornerWord(uint at, uint n) { return geometryAt(at + (n == 2u ? 1u : 5u + n)).w; }
 
 /// The parts of a triangle that may be a place, as plain floats tell, and those edges that decide about its face.
 uint partsInReach(uint at, Two3 centre, float radius, float margin) {
@@ -186,34 +187,63 @@ MeshPlace facePlace(uint at, Two3 centre, float radius) {
     return MeshPlace(depth, up * normal, 0.0);
 }
 
-/// Adds the places of some parts of a triangle. `at` is its record, `tags` are the first ones of faces, edges,
-/// vertices.
-void trianglePlaces(uint at, uint triangle, uint parts, uvec3 starts, uvec3 tags, Two3 centre, float radius) {
-    uvec3 edges = uvec3(geometryAt(at + 2u).w, geometryAt(at + 3u).w, geometryAt(at + 4u).w);
-    uvec3 corners = uvec3(geometryAt(at + 5u).w, geometryAt(at + 6u).w, geometryAt(at + 1u).w);
-    // The face comes last, when its edges have had their say.
-    bool inFace = true;
-    for (uint n = 0u; n < 7u && parts != 0u; ++n) {
-        uint part = parts & (~parts + 1u);
-        parts &= ~part;
-        MeshPlace place;
-        uint tag;
-        if (part < kPartCorner) {
-            uint word = part == 1u ? edges.x : part == 2u ? edges.y : edges.z;
-            place = edgePlace(starts.y, word, centre, radius);
-            tag = tags.y + (word >> 2);
-            inFace = inFace && place.intoOwn >= -kSquare;
-        } else if (part < kPartFace) {
-            uint number = (part == kPartCorner ? corners.x : part == 2u * kPartCorner ? corners.y : corners.z) >> 1;
-            place = vertexPlace(starts.z, number, centre, radius);
-            tag = tags.z + number;
-        } else {
-            place = facePlace(at, centre, radius);
-            tag = tags.x + triangle;
-            if (!inFace) place.depth = -1.0;
-        }
-        if (place.depth > 0.0) addPlace(place.depth, place.direction, tag);
+/// Whether an edge may be a place, as far as its two faces tell in plain floats.
+bool edgeMayLead(uint edges, uint word, vec3 centre, float margin) {
+    uint at = edges + kEdgeVectors * (word >> 2);
+    vec4 begin = realsAt(at), beginLow = realsAt(at + 1u), along = realsAt(at + 2u);
+    vec3 first = realsAt(at + 4u).xyz, second = vec3(begin.w, beginLow.w, along.w);
+    vec3 d = centre - begin.xyz;
+    vec3 off = d - dot(d, along.xyz) * along.xyz;
+    return max(dot(off, first), dot(off, second)) <= margin + kSquare * length(off);
+}
+
+/// The same of a vertex, as far as its edges tell.
+bool vertexMayLead(uint vertices, uint word, vec3 centre, float margin) {
+    uvec4 place = geometryAt(vertices + kVertexVectors * (word >> 1));
+    uint edges = geometryAt(vertices + kVertexVectors * (word >> 1) + 1u).w;
+    vec3 d = centre - uintBitsToFloat(place.xyz);
+    float most = margin + kSquare * length(d);
+    bool may = true;
+    for (uint k = 0u; k < edges && may; ++k) may = dot(realsAt(place.w + k).xyz, d) <= most;
+    return may;
+}
+
+/// The parts of a triangle that may be a place, or that decide about one, until the centre has gone `slack`.
+uint partsToCome(uint at, uvec3 starts, Two3 centre, float radius, float margin, float slack) {
+    float room = margin + slack;
+    uint parts = partsInReach(at, centre, radius, room);
+    bool face = (parts & kPartFace) != 0u;  // its edges decide about it
+    for (uint n = 0u; n < 3u; ++n) {
+        bool edge = (parts >> n & 1u) != 0u && !face;
+        if (edge && !edgeMayLead(starts.y, edgeWord(at, n), centre.high, room)) parts &= ~(1u << n);
+        bool corner = (parts & kPartCorner << n) != 0u;
+        if (corner && !vertexMayLead(starts.z, cornerWord(at, n), centre.high, room)) parts &= ~(kPartCorner << n);
     }
+    return parts;
+}
+
+/// Adds the place of a part of a triangle, if it is one. `at` is the triangle's record, `tags` are the first ones of
+/// faces, edges and vertices. `inFace` is true before a triangle's first part; its face comes last, when its edges have
+/// had their say.
+void partPlace(uint at, uint triangle, uint part, uvec3 starts, uvec3 tags, Two3 centre, float radius,
+               inout bool inFace) {
+    MeshPlace place;
+    uint tag;
+    if (part < 3u) {
+        uint word = edgeWord(at, part);
+        place = edgePlace(starts.y, word, centre, radius);
+        tag = tags.y + (word >> 2);
+        inFace = inFace && place.intoOwn >= -kSquare;
+    } else if (part < 6u) {
+        uint number = cornerWord(at, part - 3u) >> 1;
+        place = vertexPlace(starts.z, number, centre, radius);
+        tag = tags.z + number;
+    } else {
+        place = facePlace(at, centre, radius);
+        tag = tags.x + triangle;
+        if (!inFace) place.depth = -1.0;
+    }
+    if (place.depth > 0.0) addPlace(place.depth, place.direction, tag);
 }
 
 /// Adds the places of the mesh to the list. `shape` is its record, `head` the first vector of it.
@@ -225,37 +255,95 @@ void meshPlaces(uint shape, uvec4 head, Two3 centre, float radius) {
     bool known = nearbyCount != kWholeCell;
     uvec2 list = uvec2(0u, nearbyCount);
     if (!known) list = cellList(shape, head.z, centre.high);
-    float reach = radius + margin;
-    uint n = 0u;
-    for (; n < list.y; n += kRound) {
-        uint left = 0u, end = min(n + kRound, list.y);
-        for (uint k = n; k < end && known; ++k)
-            if (mayReach(starts.x + kTriangleVectors * nearbyAt(k), centre.high, reach)) left |= 1u << (k - n);
-        for (uint k = n; k < end && !known; k += 4u)
-            left |= reachAmongFour(head.w, list, k, starts.x, centre.high, reach) << (k - n);
-        // A few at a time, so that their parts find room in one word.
-        for (uint k = n; k < end && left != 0u; ++k) {
-            uint touching = 0u, parts = 0u, taken = 0u;
-            for (; left != 0u && taken < kPartsInWord; left &= left - 1u) {
-                uint bit = left & (~left + 1u);
-                uint at = starts.x + kTriangleVectors * nthListed(known, head.w, list.x, n + uint(findLSB(bit)));
-                uint here = partsInReach(at, centre, radius, margin);
-                parts |= here << (kPartBits * taken);
-                if (here == 0u) continue;
-                touching |= bit;
-                ++taken;
-            }
-            for (; touching != 0u; touching &= touching - 1u, parts >>= kPartBits) {
-                uint t = nthListed(known, head.w, list.x, n + uint(findLSB(touching)));
-                uint here = parts & ((1u << kPartBits) - 1u);
-                trianglePlaces(starts.x + kTriangleVectors * t, t, here, starts, tags, centre, radius);
-            }
-            if (touching != 0u) placesLost = true;
+    if (list.y == 0u) return;
+    // Each of these loops looks at its end whether it goes on (shaders/README.md, Drivers).
+    uint end = 0u;
+    for (uint n = 0u;; n += kRound) {
+        uint left = 0u;
+        end = min(n + kRound, list.y);
+        for (uint k = n;; k += 4u) {
+            if (!known) left |= reachAmongFour(head.w, list, k, starts.x, centre.high, radius + margin) << (k - n);
+            if (known || k + 4u >= end) break;
         }
-        if (left != 0u) placesLost = true;
+        if (known) left = 0xffffffffu >> (kRound - (end - n));
+        // A few at a time, so that their parts find room in one word.
+        for (;;) {
+            uint touching = 0u, packed = 0u, taken = 0u;
+            if (known) {
+                touching = left;
+                left = 0u;
+            }
+            for (;;) {
+                if (left != 0u) {
+                    uint bit = left & (~left + 1u);
+                    left &= left - 1u;
+                    uint at = starts.x + kTriangleVectors * nthTriangle(head.w, list.x, n + uint(findLSB(bit)));
+                    uint here = partsInReach(at, centre, radius, margin);
+                    packed |= here << (kPartBits * taken);
+                    if (here != 0u) {
+                        touching |= bit;
+                        ++taken;
+                    }
+                }
+                if (left == 0u || taken == kPartsInWord) break;
+            }
+            // One loop over the parts of all these triangles: two loops would wait for the longest twice.
+            uint parts = 0u, triangle = 0u;
+            bool inFace = true;
+            for (;;) {
+                if (parts == 0u && touching != 0u) {
+                    uint nth = n + uint(findLSB(touching));
+                    touching &= touching - 1u;
+                    if (known) parts = nearbyAt(nth);
+                    if (!known) parts = nthTriangle(head.w, list.x, nth) << kPartBits | packed & kAllParts;
+                    packed >>= kPartBits;
+                    triangle = parts >> kPartBits;
+                    parts &= kAllParts;
+                    inFace = true;
+                }
+                if (parts != 0u) {
+                    uint part = uint(findLSB(parts));
+                    parts &= parts - 1u;
+                    uint at = starts.x + kTriangleVectors * triangle;
+                    partPlace(at, triangle, part, starts, tags, centre, radius, inFace);
+                }
+                if ((touching | parts) == 0u) break;
+            }
+            placesLost = placesLost || (touching | parts) != 0u;
+            if (left == 0u) break;
+        }
+        placesLost = placesLost || left != 0u;
+        if (end == list.y) break;
     }
-    if (n < list.y) placesLost = true;
+    placesLost = placesLost || end != list.y;
 }
+
+#ifdef KEEPS_NEARBY
+/// Makes the list near a sphere: all that may be a place until its centre has gone `slack` in the body's frame. Gives
+/// the number of entries, or kWholeCell if there are more than the list holds. The sphere's radius and the slack
+/// together must not be more than the reach for which the table was packed.
+uint listNearby(uint shape, uvec4 head, Two3 centre, float radius, float slack) {
+    float margin = uintBitsToFloat(geometryAt(shape + 3u).w);
+    uvec3 starts = geometryAt(shape + 4u).xyz;
+    uvec2 list = cellList(shape, head.z, centre.high);
+    // First the triangles within reach, then what of them may be a place.
+    uint found = 0u, k = 0u;
+    for (; k < list.y && found < kNearbyWords; ++k) {
+        uint t = nthTriangle(head.w, list.x, k);
+        if (!mayReach(starts.x + kTriangleVectors * t, centre.high, radius + slack + margin)) continue;
+        if (found + 1u < kNearbyWords) keepNearby(found, t);
+        ++found;
+    }
+    if (k < list.y || found == kNearbyWords) return kWholeCell;
+    uint kept = 0u;
+    for (k = 0u; k < found; ++k) {
+        uint t = nearbyAt(k);
+        uint parts = partsToCome(starts.x + kTriangleVectors * t, starts, centre, radius, margin, slack);
+        if (parts != 0u) keepNearby(kept++, t << kPartBits | parts);
+    }
+    return kept;
+}
+#endif
 
 /// Whether a triangle of the mesh may come within `reach` of the centre. Never wrongly false.
 bool mayTouchMesh(uint shape, uvec4 head, vec3 centre, float reach) {

@@ -84,14 +84,16 @@ bool covered(BodyFeature deeper, vec4 place, float radius) {
 uint deepestLeft() {
     uint best = 0u, tag = 0xffffffffu;
     float depth = 0.0;
-    for (uint i = 0u; i < placeCount; ++i) {
+    for (uint i = 0u;; ++i) {
         float other = placeAt[i].w;
         uint otherTag = placeTag[i];
         bool first = other > depth || (other == depth && otherTag < tag);
-        if (placeFeature[i] != kNotLookedAt || !first) continue;
-        best = i;
-        depth = other;
-        tag = otherTag;
+        if (placeFeature[i] == kNotLookedAt && first) {
+            best = i;
+            depth = other;
+            tag = otherTag;
+        }
+        if (i + 1u >= placeCount) break;
     }
     return best;
 }
@@ -152,57 +154,61 @@ uint distinctFeatures(float radius) {
         uint count = distinctFew(radius);
         return placesLost ? kMaxBodyFeatures + 1u : count;
     }
+    if (placeCount == 0u) return placesLost ? kMaxBodyFeatures + 1u : 0u;
+    // These loops look at their end whether they go on (shaders/README.md, Drivers).
     uint made = 0u, alive = 0u;  // features; a bit for each that no other has joined
-    uint n = 0u;
-    for (; n < placeCount; ++n) {
+    uint looked = 0u;
+    for (;;) {
         uint at = deepestLeft();
         vec4 place = placeAt[at];
         uint touching = 0u;  // features that it belongs to, a bit each
-        for (uint i = 0u; i < placeCount && made > 0u; ++i) {
+        for (uint i = 0u;; ++i) {
             uint f = placeFeature[i];
             if (f < kMaxBodyFeatures && dot(placeAt[i].xyz, place.xyz) >= kOneFeature) touching |= 1u << f;
+            if (i + 1u >= placeCount) break;
         }
         bool hidden = false;
 #define MEET(f) hidden = hidden || ((alive >> f & 1u) != 0u && covered(features[f], place, radius));
         EACH_FEATURE(MEET)
-        if (touching == 0u && hidden) {
-            placeFeature[at] = kCovered;
-            continue;
-        }
+        bool counts = touching != 0u || !hidden;
         uint mine = touching != 0u ? uint(findLSB(touching)) : made;
-        if (mine == kMaxBodyFeatures) {
+        if (counts && mine == kMaxBodyFeatures) {
             placesLost = true;
             break;
         }
         // It joins features that are no deeper than itself: nothing lies between them.
         uint joins = 0u;
-#define JOIN(f) \
-    if (f > mine && (touching >> f & 1u) != 0u && features[f].depth - place.w <= kSameDepth * radius) joins |= 1u << f;
+#define JOIN(f)                                                                                                 \
+    if (counts && f > mine && (touching >> f & 1u) != 0u && features[f].depth - place.w <= kSameDepth * radius) \
+        joins |= 1u << f;
         EACH_FEATURE(JOIN)
-        for (uint i = 0u; i < placeCount && joins != 0u; ++i) {
+        for (uint i = 0u;; ++i) {
             uint f = placeFeature[i];
             if (f < kMaxBodyFeatures && (joins >> f & 1u) != 0u) placeFeature[i] = mine;
+            if (joins == 0u || i + 1u >= placeCount) break;
         }
         alive &= ~joins;
-        if (touching == 0u) {
+        if (counts && touching == 0u) {
             ++made;
             alive |= 1u << mine;
 #define ENTER(f) \
     if (f == mine) features[f] = BodyFeature(place.w, place.xyz, placeTag[at]);
             EACH_FEATURE(ENTER)
         }
-        placeFeature[at] = mine;
+        placeFeature[at] = counts ? mine : kCovered;
+        if (++looked >= placeCount) break;
     }
-    if (n < placeCount) placesLost = true;  // broken off, by a driver perhaps
+    if (looked < placeCount) placesLost = true;  // broken off, by a driver perhaps
     // Those that another has joined leave gaps.
     uint gaps = ~alive & ((1u << made) - 1u), found = made;
-    for (uint k = 0u; k < made && gaps != 0u; ++k) {
-        uint gap = uint(findLSB(gaps));
+    for (;;) {
+        uint gap = gaps != 0u ? uint(findLSB(gaps)) : kMaxBodyFeatures;
 #define CLOSE(f) \
     if (f >= gap && f + 1u < kMaxBodyFeatures) features[f] = features[min(f + 1u, kMaxBodyFeatures - 1u)];
         EACH_FEATURE(CLOSE)
-        gaps = gaps >> (gap + 1u) << gap;
-        --found;
+        if (gaps != 0u) --found;
+        gaps = gaps != 0u ? gaps >> (gap + 1u) << gap : 0u;
+        if (gaps == 0u) break;
     }
     return placesLost ? kMaxBodyFeatures + 1u : found;
 }

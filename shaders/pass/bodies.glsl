@@ -18,6 +18,9 @@ bool openNearby(uint slot) {
     return (SHAPE_KINDS & (1u << kShapeMesh)) != 0u && nearbyStart + kNearbyWords <= uint(nearby.length());
 }
 uint nearbyAt(uint i) { return nearby[nearbyStart + 1u + i]; }
+#ifdef KEEPS_NEARBY
+void keepNearby(uint i, uint entry) { nearby[nearbyStart + 1u + i] = entry; }
+#endif
 
 /// Where the member's shapes begin: call openBodies first.
 uint geometryBegin;

@@ -10,6 +10,7 @@
 #include "shared/buffers.glsl"
 #include "pass/margin.glsl"
 #ifdef WITH_BODIES
+#define KEEPS_NEARBY
 #include "pass/bodies.glsl"
 #endif
 #ifdef ENERGY_BOOK
@@ -38,13 +39,9 @@ void bookDepartureFromBody(uint i, uint slot, uint body) {
 }
 #endif
 
-/// How near a body must be. A body and the particle may both go their slack, and the body a step more before it is told
-/// that it has.
-float reachOfBodies(float radius, float slack) {
-    float reach = radius + slack + bodySlack() + 2.0 * member.choices.w + 1e-7;
-    if (reaches()) reach += longestReach();
-    return reach;
-}
+/// How far a particle and a body can come nearer before the next refresh. Both may go their slack, and the body a step
+/// more before it is told that it has.
+float slackToBodies(float slack) { return slack + bodySlack() + 2.0 * member.choices.w + 1e-7; }
 
 Two3 centreOn(uint body, uint i) {
     return toBody(motionOf(body), readState(source, kPosition, i).xyz, readState(source, kResidue, i).xyz);
@@ -61,33 +58,24 @@ uint nearBodies(uint i, float radius, float reach) {
     return near;
 }
 
-/// Keeps the triangles that the slot's particle can touch before the next refresh.
-void listTriangles(uint slot, uint body, Two3 centre, float reach) {
+/// Keeps the parts of triangles that the slot's particle can touch before the next refresh: until it and the body have
+/// gone `slack` in all.
+void listParts(uint slot, uint body, Two3 centre, float radius, float slack) {
     if (!openNearby(slot)) return;
-    uint kept = 0u, meshes = 0u;
+    uint kept = kWholeCell, meshes = 0u;
     uvec2 shapes = geometryAt(kBodyVectors * body).xy;
     for (uint s = 0u; s < shapes.y; ++s) {
         uint shape = shapes.x + kShapeVectors * s;
         uvec4 head = geometryAt(shape);
         if (head.x != kShapeMesh) continue;
         ++meshes;
-        float margin = uintBitsToFloat(geometryAt(shape + 3u).w);
-        uint triangles = geometryAt(shape + 4u).x;
-        uvec2 list = cellList(shape, head.z, centre.high);
-        uint k = 0u;
-        for (; k < list.y && kept < kNearbyWords; ++k) {
-            uint t = nthTriangle(head.w, list.x, k);
-            if (!mayReach(triangles + kTriangleVectors * t, centre.high, reach + margin)) continue;
-            if (kept + 1u < kNearbyWords) nearby[nearbyStart + 1u + kept] = t;
-            ++kept;
-        }
-        if (k < list.y) kept = kNearbyWords;
+        kept = listNearby(shape, head, centre, radius, slack);
     }
-    nearby[nearbyStart] = meshes == 1u && kept < kNearbyWords ? kept : kWholeCell;
+    nearby[nearbyStart] = meshes == 1u ? kept : kWholeCell;
 }
 
 /// Lists the bodies, and carries on what the particle remembers of them.
-void listBodies(uint i, uvec4 range, float reach) {
+void listBodies(uint i, uvec4 range, float radius, float slack) {
     uint count = bitCount(bodies);
     firstBody = atomicAdd(control.coming.z, count);
     if (firstBody + count > push.bodySlots) {
@@ -100,7 +88,7 @@ void listBodies(uint i, uvec4 range, float reach) {
     for (uint left = bodies; left != 0u; left &= left - 1u, ++to) {
         uint body = uint(findLSB(left));
         entries[comingEntryIndex(to)] = uvec2(i, body);
-        listTriangles(to, body, centreOn(body, i), reach);
+        listParts(to, body, centreOn(body, i), radius, slack);
         for (uint part = 0u; part < kBodyHistory; ++part) carried[placeHistoryIndex(to, 0u, part)] = vec4(0.0);
     }
     uint first = springSlotCount();
@@ -207,9 +195,10 @@ void main() {
     listSurfaces(i, joinsAtFront(me, slack), old.z, old.w);
 #ifdef WITH_BODIES
     openBodies();
-    float bodyReach = reachOfBodies(p.w, slack);
-    bodies = nearBodies(i, p.w, bodyReach);
-    listBodies(i, range, bodyReach);
+    float most = p.w, toBodies = slackToBodies(slack);
+    if (reaches()) most += longestReach();
+    bodies = nearBodies(i, p.w, most + toBodies);
+    listBodies(i, range, most, toBodies);
 #endif
     ranges[slotRangeIndex(i)] = uvec4(firstPair, pairs, firstSurface, met);
 }

@@ -46,6 +46,7 @@ SHARED_CONST kShapeRoom = 7u;
 SHARED_CONST kShapeWire = 8u;
 SHARED_CONST kShapeMesh = 9u;
 SHARED_CONST kShapeFlight = 10u;
+SHARED_CONST kNoShape = 31u;
 
 // Vectors of the parts of a mesh.
 SHARED_CONST kTriangleVectors = 7u;
@@ -57,6 +58,8 @@ SHARED_CONST kMostAtVertex = 4096u;
 SHARED_CONST kMostFlightTurns = 64u;  // of a screw that one sphere reaches
 
 SHARED_CONST kNearbyWords = 32u;  // of a body slot in the table `nearby`
+// Of a mesh. An entry of `nearby` keeps a triangle's number above the bits of its seven parts.
+SHARED_CONST kMostTriangles = 1u << 25;
 
 /// The wire of a shape of that kind, but for the angle of its start.
 struct CoilParams {

@@ -43,12 +43,36 @@ uvec4 geometryAt(uint i) {
 }
 #endif
 
+uint listed[kNearbyWords];
 uint nearbyAt(uint i) {
-    return 0u;
+    return listed[i];
 }
+void keepNearby(uint i, uint entry) {
+    listed[i] = entry;
+}
+#define KEEPS_NEARBY
 
 #include "law/features.glsl"
 #include "law/pose.glsl"
+
+/// Whether the answer is the same to the bit with the list of a mesh that was made at another place, from which the
+/// centre has come here. For bodies of one mesh.
+bool sameFromList(uint body, Two3 centre, float radius, uint q, uint count) {
+    BodyFeature before[kMaxBodyFeatures];
+    for (uint k = 0u; k < kMaxBodyFeatures; ++k) before[k] = features[k];
+    // All about the sphere in turn, by a little less than the slack: the length of the direction is below 1.
+    float slack = 0.04 * radius, turn = 2.399963 * float(q), height = 2.0 * fract(0.618034 * float(q)) - 1.0;
+    vec3 way = vec3(sqrt(1.0 - height * height) * vec2(cos(turn), sin(turn)), height);
+    Two3 was = Two3(centre.high + 0.999 * slack * way, centre.low);
+    uint shape = geometryAt(kBodyVectors * body).x;
+    if (geometryAt(kBodyVectors * body).y != 1u) return true;
+    nearbyCount = listNearby(shape, geometryAt(shape), was, radius, slack);
+    if (nearbyCount == kWholeCell) return true;
+    bool same = touchedFeatures(body, centre, radius) == count;
+    for (uint k = 0u; k < min(count, kMaxBodyFeatures); ++k)
+        same = same && features[k].depth == before[k].depth && features[k].direction == before[k].direction;
+    return same;
+}
 
 void main() {
     uint q = gl_GlobalInvocationID.x;
@@ -59,9 +83,11 @@ void main() {
     Two3 centre = toBody(motion, high.xyz, low.xyz);
     uint count = touchedFeatures(body, centre, high.w);
     bool may = mayTouch(body, centre, high.w), near = mayBeNear(body, centre, high.w);
-    counts[q] = uvec4(count, may ? 1u : 0u, near ? 1u : 0u, 0u);
     for (uint k = 0u; k < kMaxBodyFeatures; ++k)
         if (k < count)
             answers[kMaxBodyFeatures * q + k] =
                 vec4(directionToWorld(motion, features[k].direction), features[k].depth);
+    bool same = true;
+    if (SHAPE_KINDS == 1u << kShapeMesh) same = sameFromList(body, centre, high.w, q, count);
+    counts[q] = uvec4(count, may ? 1u : 0u, near ? 1u : 0u, same ? 1u : 0u);
 }

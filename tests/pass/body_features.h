@@ -71,7 +71,7 @@ struct Setup {
 
 struct Tally {
     std::size_t asked = 0, met = 0, several = 0, left = 0, wrongNumber = 0, wrongPlace = 0, wrongOrder = 0, missed = 0,
-                farNear = 0;
+                farNear = 0, otherFromList = 0;
     double worstDepth = 0;  ///< error of an overlap, as a fraction of what is allowed
     double worstTurn = 0;   ///< error of a direction
 };
@@ -115,6 +115,7 @@ inline Tally compare(Narrow& narrow, const Setup& setup, std::size_t spheres, un
         if (expected[i].size() > 1) ++tally.several;
         if (!expected[i].empty() && !(a.mayTouch && a.mayBeNear)) ++tally.missed;
         if (expected[i].empty() && a.mayBeNear) ++tally.farNear;
+        if (!a.sameFromList) ++tally.otherFromList;
         if (a.count != expected[i].size()) {
             ++tally.wrongNumber;
             continue;
@@ -141,13 +142,14 @@ inline Tally compare(Narrow& narrow, const Setup& setup, std::size_t spheres, un
 inline void check(Narrow& narrow, const Setup& setup, std::size_t spheres, std::size_t atLeast) {
     const Tally t = compare(narrow, setup, spheres);
     CAPTURE(setup.name, setup.radius, t.asked, t.met, t.several, t.left, t.wrongNumber, t.wrongPlace, t.wrongOrder,
-            t.missed, t.farNear, t.worstDepth, t.worstTurn);
+            t.missed, t.farNear, t.otherFromList, t.worstDepth, t.worstTurn);
     CHECK(t.met >= atLeast);
     CHECK(t.left * 100 <= t.asked);
     CHECK(t.wrongNumber == 0);
     CHECK(t.wrongPlace == 0);
     CHECK(t.wrongOrder == 0);
     CHECK(t.missed == 0);
+    CHECK(t.otherFromList == 0);
     CHECK(t.worstDepth <= 1);
     CHECK(t.worstTurn <= setup.turnError);
 }

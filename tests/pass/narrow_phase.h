@@ -37,6 +37,7 @@ inline std::shared_ptr<const geometry::MeshSurface> meshOf(const Facets& facets,
 struct Answer {
     std::uint32_t count = 0;
     bool mayTouch = false, mayBeNear = false;
+    bool sameFromList = true;  ///< what a list of the mesh's parts, made a little way off, gives
     std::vector<geometry::Feature> features;  ///< normal in the world; distance
 };
 
@@ -100,7 +101,7 @@ class Narrow {
         const auto places = places_.readAll<gpu::vec4>(queries.size() * geometry::kMaxFeatures);
         std::vector<Answer> all;
         for (std::size_t q = 0; q < queries.size(); ++q) {
-            Answer a{counts[q].x, counts[q].y != 0, counts[q].z != 0, {}};
+            Answer a{counts[q].x, counts[q].y != 0, counts[q].z != 0, counts[q].w != 0, {}};
             for (std::size_t k = 0; k < std::min<std::size_t>(a.count, geometry::kMaxFeatures); ++k) {
                 const gpu::vec4 p = places[q * geometry::kMaxFeatures + k];
                 geometry::Feature f;
