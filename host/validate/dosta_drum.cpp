@@ -175,7 +175,10 @@ Evaluation dostaDrum(const std::vector<Run>& runs, const std::filesystem::path& 
                 finding.high = std::max(finding.high, their + figure.spread);
                 finding.source += (finding.source.empty() ? "" : ", ") + fmt::format("{} {:.3g}", program, their);
             }
-            finding.remark = fmt::format("{:.2g} beyond the other programs are allowed", figure.spread);
+            const auto [least, most] = std::minmax_element(ours.begin(), ours.end());
+            finding.remark = fmt::format(
+                "{} fillings here lie between {:.3g} and {:.3g}; {:.2g} beyond the other programs are allowed",
+                ours.size(), *least, *most, figure.spread);
         }
         result.findings.push_back(finding);
     }

@@ -226,6 +226,7 @@ TEST_CASE("a drum takes the mean of its fillings, and differs where nothing goes
     const Evaluation both = dostaDrum({first, second}, one.path());
     CHECK(both.findings[3].got == Approx(0.23));
     CHECK(both.findings[3].error == Approx(0.02));
+    CHECK(both.findings[3].remark.find("2 fillings here lie between 0.21 and 0.25") == 0);
     CHECK(both.charts[0].curves[0].points[3][2] == Approx(0.02));
 
     const test::Folder still;
