@@ -20,9 +20,6 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-/// How far fillings and programs may be apart, in seconds and in shares.
-constexpr double kTime = 0.05, kShare = 0.05;
-
 /// The quadrants of the paper: beside the axis where the bed rises and above it, and on the other side and below it.
 /// The drum turns clockwise, seen from +z.
 enum Counted { M1Rise, M1Fall, M2Rise, M2Fall, kCounted };
@@ -126,7 +123,7 @@ Curve meanCurve(const std::vector<Shares>& fillings, Counted what) {
 struct Figure {
     std::string name, unit;
     double (*of)(const Shares&);
-    double spread;  ///< beyond the other programs
+    double spread;  ///< of three fillings at reduced size, rounded up: so far beyond the other programs it may be
 };
 
 /// M1 begins below on the falling side, goes round with the bed and comes back.
@@ -139,12 +136,12 @@ double backQuarter(const Shares& s) {
 
 const std::vector<Figure>& figures() {
     static const std::vector<Figure> kAll{
-        {"half of M1 has left the quadrant below", "s", goneHalf, kTime},
-        {"a quarter of M1 is back below", "s", backQuarter, kTime},
-        {"most of M1 below after that", "-", [](const Shares& s) { return s.most(M1Fall, backQuarter(s)); }, kShare},
-        {"most of M1 above", "-", [](const Shares& s) { return s.most(M1Rise, goneHalf(s)); }, kShare},
-        {"most of M2 below", "-", [](const Shares& s) { return s.most(M2Fall, goneHalf(s)); }, kShare},
-        {"most of M2 above", "-", [](const Shares& s) { return s.most(M2Rise, goneHalf(s)); }, kShare},
+        {"half of M1 has left the quadrant below", "s", goneHalf, 0.02},
+        {"a quarter of M1 is back below", "s", backQuarter, 0.08},
+        {"most of M1 below after that", "-", [](const Shares& s) { return s.most(M1Fall, backQuarter(s)); }, 0.05},
+        {"most of M1 above", "-", [](const Shares& s) { return s.most(M1Rise, goneHalf(s)); }, 0.04},
+        {"most of M2 below", "-", [](const Shares& s) { return s.most(M2Fall, goneHalf(s)); }, 0.03},
+        {"most of M2 above", "-", [](const Shares& s) { return s.most(M2Rise, goneHalf(s)); }, 0.02},
     };
     return kAll;
 }
