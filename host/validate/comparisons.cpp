@@ -10,14 +10,14 @@ const std::vector<Comparison>& comparisons() {
          "Y. C. Zhou, B. H. Xu, A. B. Yu, P. Zulli, Powder Technol. 125 (2002) 45", heap},
         {"dosta-silo", "spheres left in a silo over time, two materials and two holes",
          "M. Dosta and others, Comput. Phys. Commun. 296 (2024) 109066", dostaSilo},
+        {"dosta-drum", "two powders in a drum: the spheres of each in two quadrants over time",
+         "M. Dosta and others, Comput. Phys. Commun. 296 (2024) 109066", dostaDrum},
     };
     return kAll;
 }
 
 const std::vector<Missing>& missingComparisons() {
     static const std::vector<Missing> kAll{
-        {"dosta-drum", "two powders mixing in a drum (Dosta and others 2024)",
-         "a case has one powder of one material; the drum has two, and counts each"},
         {"dosta-penetration", "a steel ball of 20 mm falls into spheres of 2 mm (Dosta and others 2024)",
          "a case has one powder of one material, and a row holds 64 neighbours; the ball touches more"},
         {"published curves", "the curves of Chung and Ooi (2011) and of Dosta and others (2024)",

@@ -97,6 +97,31 @@ TEST_CASE("an axis may carry words, and keys that replace others of the base") {
     CHECK(sizes[0].particles > sizes[1].particles);
 }
 
+TEST_CASE("an axis varies mass and sizes of a powder, a material and a pair by their names") {
+    const StudyFolder folder;
+    folder.write("good.toml", kGoodCase + kSugar);
+    const auto masses =
+        folder.members(withAxis("key = \"powder.sugar.mass_g\"\nfrom = 0.2\nto = 0.6\nsteps = 3\n[[axis]]\n"
+                                "keys = [\"powder.sugar.density\", \"contact.powder-sugar.friction\"]\n"
+                                "values = [[1590.0, 0.3], [1700.0, 0.1]]\n"));
+    REQUIRE(masses.size() == 6);
+    CHECK(masses[4].values == std::vector<std::string>{"0.6", "1590.0", "0.3"});
+    const Case least = caseOf(masses[0]), most = caseOf(masses[5]);
+    REQUIRE(most.furtherPowders.size() == 1);
+    CHECK(least.furtherPowders[0].filling.mass == Approx(0.2e-3).epsilon(1e-12));  // grams, to rounding
+    CHECK(most.furtherPowders[0].filling.mass == Approx(0.6e-3).epsilon(1e-12));
+    CHECK(most.filling.mass == Approx(0.9e-3).epsilon(1e-12));  // the first powder stays
+    CHECK(least.world.materials[std::size_t(least.furtherPowders[0].material)].density == 1590);
+    CHECK(most.world.materials[std::size_t(most.furtherPowders[0].material)].density == 1700);
+    CHECK(most.dosingLaw.between(kFirstPowder, most.furtherPowders[0].material).mu == 0.1);
+    CHECK(masses[5].particles > masses[0].particles);
+
+    const auto faults = faultsOf(folder, withAxis("key = \"powder.suger.mass_g\"\nvalues = [0.2]\n"));
+    REQUIRE(faults.size() == 1);
+    CHECK(faults[0].line == 4);
+    CHECK(faults[0].text().find("give a key of one of these: sugar") != std::string::npos);
+}
+
 TEST_CASE("every fault of a study names its line, its key and a remedy") {
     const StudyFolder folder;
     struct Fault {

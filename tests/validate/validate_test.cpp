@@ -1,8 +1,11 @@
 // Figures and verdicts of the comparisons, from runs whose results are made up so that the answer is known.
 
+#include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
 
+#include "host/output/frame_writer.h"
 #include "host/validate/comparisons.h"
 #include "host/validate/tables.h"
 #include "tests/support/catch.h"
@@ -54,6 +57,54 @@ std::vector<Run> heaps(const std::array<double, 3>& exponents) {
                                                                                           {0.4, 0.0385, 1.3}})
             runs.push_back(heapRun(friction, rolling, radius, exponents));
     return runs;
+}
+
+/// Of a hundred spheres of each powder, how many lie in a quadrant at a time: M1 above on the rising side, M1 below on
+/// the other, M2 likewise. A few times of a drum that turns M1 round once, and carries M2 behind it.
+struct Drum {
+    double time;
+    std::array<int, 4> count;
+};
+const std::vector<Drum> kDrum{{0.0, {0, 70, 30, 10}},  {0.5, {0, 90, 0, 20}}, {1.0, {0, 40, 10, 30}},
+                              {1.5, {25, 10, 20, 60}}, {2.0, {5, 35, 5, 40}}, {2.5, {0, 55, 8, 20}}};
+
+/// A run of it, of two powders, with frames.
+Run drumRun(const std::filesystem::path& folder, const std::vector<Drum>& drum) {
+    Case c;
+    c.world.materials.push_back({"M2", true, 2000});
+    c.frames = {0.5, false};
+    const int powders[]{kFirstPowder, static_cast<int>(c.world.materials.size()) - 1};
+    FrameWriter writer(folder, c, 0);
+    for (const Drum& line : drum) {
+        Frame frame;
+        frame.time = line.time;
+        for (int powder = 0; powder < 2; ++powder)
+            for (int i = 0; i < 100; ++i) {
+                const int above = line.count[2 * powder], below = line.count[2 * powder + 1];
+                // The others lie in the two quadrants that do not count.
+                const Vec3 at = i < above           ? Vec3(-0.01, 0.02, 0)
+                                : i < above + below ? Vec3(0.02, -0.01, 0)
+                                : i % 2 == 0        ? Vec3(-0.01, -0.02, 0)
+                                                    : Vec3(0.02, 0.01, 0);
+                frame.particles.add(at, 1e-3, Vec3(0), Vec3(0), powders[powder]);
+            }
+        writer.put(frame);
+    }
+    writer.store();
+    Run run;
+    run.folder = folder;
+    return run;
+}
+
+/// The same as another program's table tells it, later by `late` and with `more` of M1 everywhere.
+std::string drumRows(const std::string& program, double late, double more) {
+    std::string rows;
+    for (const Drum& line : kDrum) {
+        rows += program + "," + std::to_string(line.time + late);
+        for (int k = 0; k < 4; ++k) rows += "," + std::to_string(line.count[k] / 100.0 + (k < 2 ? more : 0));
+        rows += "\n";
+    }
+    return rows;
 }
 
 }  // namespace
@@ -134,6 +185,54 @@ TEST_CASE("a silo is judged by the programs that ran the same inputs, and by non
     CHECK(beside.charts[0].curves.size() == 2);
     peers("0.80");
     CHECK(dostaSilo({run}, folder.path()).findings[0].verdict() == Verdict::Differs);
+}
+
+TEST_CASE("a drum is judged by the quadrants its two powders lie in, beside other programs") {
+    const test::Folder folder;
+    const Run run = drumRun(folder.path(), kDrum);
+    const Evaluation alone = dostaDrum({run}, folder.path());
+    REQUIRE(alone.findings.size() == 6);
+    CHECK(alone.findings[0].got == Approx(0.9));   // 90 % at 0.5 s, 40 % at 1 s
+    CHECK(alone.findings[1].got == Approx(1.8));   // 10 % at 1.5 s, 35 % at 2 s
+    CHECK(alone.findings[2].got == Approx(0.55));  // after that, not the 0.9 before
+    CHECK(alone.findings[3].got == Approx(0.25));
+    CHECK(alone.findings[4].got == Approx(0.6));
+    CHECK(alone.findings[5].got == Approx(0.2));  // not the 0.3 with which M2 starts
+    for (const Finding& f : alone.findings) CHECK(f.verdict() == Verdict::NotComparable);
+
+    const auto peers = [&](const std::string& rows) {
+        folder.write("dosta-drum-peers.csv", "program,time_s,M1_rise,M1_fall,M2_rise,M2_fall\n" + rows);
+        return dostaDrum({run}, folder.path());
+    };
+    const Evaluation same = peers(drumRows("A", 0.01, 0) + drumRows("B", 0, 0.02));
+    for (const Finding& f : same.findings) CHECK(f.verdict() == Verdict::Agrees);
+    REQUIRE(same.charts.size() == 4);
+    for (const Chart& chart : same.charts) CHECK(chart.curves.size() == 3);
+    CHECK(same.charts[3].curves[0].points[3][1] == Approx(0.6));
+    const Evaluation late = peers(drumRows("A", 0.2, 0));
+    for (const std::size_t i : {0, 1}) CHECK(late.findings[i].verdict() == Verdict::Differs);
+    for (const std::size_t i : {2, 3, 4, 5}) CHECK(late.findings[i].verdict() == Verdict::Agrees);
+    const Evaluation other = peers(drumRows("A", 0, 0.1));
+    for (const std::size_t i : {2, 3}) CHECK(other.findings[i].verdict() == Verdict::Differs);
+    for (const std::size_t i : {4, 5}) CHECK(other.findings[i].verdict() == Verdict::Agrees);
+}
+
+TEST_CASE("a drum takes the mean of its fillings, and differs where nothing goes round") {
+    const test::Folder one, two;
+    std::vector<Drum> less = kDrum;
+    less[3].count[0] = 21;  // of M1 above
+    const Run first = drumRun(one.path(), kDrum), second = drumRun(two.path(), less);
+    one.write("dosta-drum-peers.csv", "program,time_s,M1_rise,M1_fall,M2_rise,M2_fall\n" + drumRows("A", 0, 0));
+    const Evaluation both = dostaDrum({first, second}, one.path());
+    CHECK(both.findings[3].got == Approx(0.23));
+    CHECK(both.findings[3].error == Approx(0.02));
+    CHECK(both.findings[3].remark.find("2 fillings here lie between 0.21 and 0.25") == 0);
+    CHECK(both.charts[0].curves[0].points[3][2] == Approx(0.02));
+
+    const test::Folder still;
+    const std::vector<Drum> resting(4, kDrum[1]);
+    const Evaluation bad = dostaDrum({drumRun(still.path(), resting)}, one.path());
+    for (const Finding& f : bad.findings) CHECK(f.verdict() == Verdict::Differs);
 }
 
 TEST_CASE("the tables tell every figure with its verdict, and what could not be compared") {
