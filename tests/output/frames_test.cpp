@@ -57,7 +57,7 @@ void checkSame(const Frame& a, const Frame& b) {
     CHECK(a.phase == b.phase);
     CHECK(a.dose == b.dose);
     CHECK(a.coilAngle == b.coilAngle);
-    CHECK(a.bodyClocks == b.bodyClocks);
+    CHECK(a.bodiesMoved == b.bodiesMoved);
     CHECK(a.particles.position == b.particles.position);
     CHECK(a.particles.velocity == b.particles.velocity);
     CHECK(a.particles.spin == b.particles.spin);
@@ -339,7 +339,7 @@ TEST_CASE("frames hold the bodies: those at rest beside the walls, those that mo
     // In phases it stands where its own clock says.
     c.world.bodies[1].clock = Clock::Phases;
     f.time = 9;
-    f.bodyClocks = {0, 0.5};
+    f.bodiesMoved = {0, 0.5};
     const Sandbox phased;
     {
         FrameWriter writer(phased.path(), c, 0);
@@ -350,7 +350,7 @@ TEST_CASE("frames hold the bodies: those at rest beside the walls, those that mo
     CHECK(hdf5::Reader(*bytes).array<double>("/VTKHDF/Points") == moving);
     CHECK(hdf5::Reader(*fileContent(phased / "frames/contacts_000000.hdf")).array<double>("/VTKHDF/Points") == ends);
     const Frames frames(phased.path());
-    CHECK(frames.read(frames.entries().at(0)).bodyClocks == f.bodyClocks);
+    CHECK(frames.read(frames.entries().at(0)).bodiesMoved == f.bodiesMoved);
 
     const auto owners = read("walls.hdf").array<std::uint32_t>("/VTKHDF/CellData/body");
     CHECK(std::count(owners.begin(), owners.end(), 1U) == 12);
