@@ -89,6 +89,8 @@ constexpr Key kBodyShape[] = {
     boolean("inside", false, "`box`: whether it is a room with the particles inside"),
     number("radius_mm", kMillimetre, kPositive, kRequired,
            "`ball`, `cylinder`, `disc`, `screw`: outer radius; `cone`: radius at z = 0; `wire`: of its centre line"),
+    boolean("curvature", false,
+            "`ball`: whether the reduced size a* of a contact counts its radius. `false`: it is as flat as a wall"),
     number("end_radius_mm", kMillimetre, kNonNegative, kRequired, "`cone`: radius at its other end"),
     number("hole_radius_mm", kMillimetre, kNonNegative, 0.0, "`disc`: of the hole in its middle"),
     number("length_mm", kMillimetre, kPositive, kRequired, "`cylinder`, `cone`, `wire`, `screw`: along z"),

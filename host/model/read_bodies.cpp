@@ -365,6 +365,8 @@ void readBodies(CaseReader& reader, Section& root, double meshReach, Case& c) {
             body.shapes = readShape(b, static_cast<Kind>(*shape));
         else
             section->abandon();
+        if (shape == std::size_t(Kind::Ball) && section->boolean("curvature"))
+            body.curvature = std::get<geometry::Ball>(body.shapes.front()).radius;
         if (section->has("material") && section->has("contact"))
             b.fault("contact", "stands beside material, which says the same otherwise", "give one of the two");
         if (section->has("material")) section->know("contact");

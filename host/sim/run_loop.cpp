@@ -144,6 +144,7 @@ void RunLoop::frame() {
 std::vector<Moved> RunLoop::moved() const {
     const std::vector<double> times = clocks_.times();
     std::vector<Moved> moved(times.begin(), times.end());
+    if (!moveFreely(case_.world.bodies)) return moved;
     const std::vector<FreeBody> free = backend_.freeBodies();
     moved.resize(std::max(moved.size(), free.size()));
     for (std::size_t b = 0; b < free.size(); ++b) moved[b].shift = free[b].shift;
@@ -152,6 +153,7 @@ std::vector<Moved> RunLoop::moved() const {
 
 std::vector<FreePlace> RunLoop::freePlaces() const {
     std::vector<FreePlace> places;
+    if (!moveFreely(case_.world.bodies)) return places;
     const std::vector<FreeBody> free = backend_.freeBodies();
     for (std::size_t b = 0; b < free.size(); ++b) {
         const RigidBody& body = case_.world.bodies[b];

@@ -40,7 +40,7 @@ void RunLoop::addPowder() {
         if (isAdded(k) || (!due(k) && !observer_.wantsRefill(k))) continue;
         const Insertion::Waiting& powder = result_.filled.waiting[k];
         const Clearance around(case_.world, timeline_.time(step_), backend_.coilAngle(), clocks_.now(),
-                               backend_.freeBodies());
+                               moveFreely(case_.world.bodies) ? backend_.freeBodies() : std::vector<FreeBody>());
         const std::vector<Vec3> places = placeRefill(case_, result_.filled, k, backend_.particles(), around);
         backend_.addParticles(result_.filled.firstOf(k), places);
         if (energy_) energy_->sum.loaded += energyOfRest(powder.particles, places);

@@ -38,10 +38,21 @@ void bookDepartureFromBody(uint i, uint slot, uint body) {
 }
 #endif
 
+/// The largest of the bodies that move freely, which have the slack of a particle as fast (pass/free_bodies.comp).
+float slackOfFreeBodies() {
+    float most = 0.0;
+    for (uint b = 0u; b < member.bodies.x; ++b) {
+        BodyMotion motion = motionOf(b);
+        if (motion.free.w != 0.0) most = max(most, slackOf(motion.velocity.xyz));
+    }
+    return most;
+}
+
 /// How near a body must be. A body and the particle may both go their slack, and the body a step more before it is told
 /// that it has.
 float reachOfBodies(float radius, float slack) {
     float reach = radius + slack + bodySlack() + 2.0 * member.choices.w + 1e-7;
+    if ((SHAPE_KINDS & kFreeBodies) != 0u) reach += slackOfFreeBodies();
     if (reaches()) reach += longestReach();
     return reach;
 }
