@@ -21,9 +21,7 @@ struct Fall {
     std::vector<double> time, height, speed;
 
     /// When it meets the bed: it is fastest downwards.
-    std::size_t meets() const {
-        return std::size_t(std::min_element(speed.begin(), speed.end()) - speed.begin());
-    }
+    std::size_t meets() const { return std::size_t(std::min_element(speed.begin(), speed.end()) - speed.begin()); }
     double depth(std::size_t i) const { return height[meets()] - height[i]; }
     double largestDepth() const {
         if (time.empty()) return std::numeric_limits<double>::quiet_NaN();

@@ -15,8 +15,8 @@
     layout(std430, set = 0, binding = number) buffer name##Buffer { element name[]; };
 #include "shared/body_tables.h"
 
-/// Of an acceleration: how many to one m/s2, and the most that one contact may give [m/s2]. Each then takes 52 bits, and
-/// 2048 contacts that push as hard as they may still fit.
+/// Of an acceleration: how many to one m/s2, and the most that one contact may give [m/s2]. Each then takes 52 bits,
+/// and 2048 contacts that push as hard as they may still fit.
 const float kFine = 1073741824.0;  // 2^30
 const float kHardest = 4194304.0;  // 2^22
 const float kWord = 4294967296.0;  // 2^32

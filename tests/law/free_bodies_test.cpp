@@ -34,9 +34,8 @@ Particles farAway() {
 
 /// A disc of 12 mm that lies on 13 spheres on a floor, a little above or below touch.
 RuledWorld lidWorld(const ContactParameters& p, double mass, double gap) {
-    RuledWorld world =
-        worldWith({geometry::Cone{Vec3(0), Vec3(0, 0, 1), 0, 12e-3, 0}}, {mass, Vec3(0), Vec3(0, 0, 1)},
-                  Vec3(0, 0, 2 * kRadius + gap), p);
+    RuledWorld world = worldWith({geometry::Cone{Vec3(0), Vec3(0, 0, 1), 0, 12e-3, 0}}, {mass, Vec3(0), Vec3(0, 0, 1)},
+                                 Vec3(0, 0, 2 * kRadius + gap), p);
     world.surfaces.push_back(geometry::Plane{Vec3(0), Vec3(0, 0, 1)});
     return world;
 }
@@ -111,8 +110,8 @@ TEST_CASE("free bodies: a lid that rests on spheres weighs on them, and on the f
 }
 
 TEST_CASE("free bodies: what the spheres gain in momentum the body loses") {
-    RuledWorld world =
-        worldWith({geometry::Ball{Vec3(0), 6e-3}}, {2e-3, Vec3(0.1, 0, -0.5), {}}, Vec3(0, 0, 8e-3), paperParameters(0.1));
+    RuledWorld world = worldWith({geometry::Ball{Vec3(0), 6e-3}}, {2e-3, Vec3(0.1, 0, -0.5), {}}, Vec3(0, 0, 8e-3),
+                                 paperParameters(0.1));
     world.gravity = Vec3(0);
     Particles particles;
     for (int i = 0; i < 9; ++i)

@@ -10,7 +10,8 @@ using Catch::Contains;
 
 namespace {
 
-const std::string kBall = "[[body]]\nname = \"ball\"\nshape = \"ball\"\nradius_mm = 10\nat = [0, 0.1, 0]\n[body.motion]\n";
+const std::string kBall =
+    "[[body]]\nname = \"ball\"\nshape = \"ball\"\nradius_mm = 10\nat = [0, 0.1, 0]\n[body.motion]\n";
 
 const geometry::Free& freeOf(const RigidBody& body) {
     return std::get<geometry::Free>(body.course.motion);

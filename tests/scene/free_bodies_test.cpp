@@ -23,8 +23,8 @@ RuledWorld dropWorld() {
     const Vec3 y(0, 1, 0);
     w.bodies.push_back(bodyOf("tube", {geometry::Cone{Vec3(0), y, 9e-3, 9e-3, 50e-3}}));
     w.bodies.push_back(bodyOf("floor", {geometry::Cone{Vec3(0), y, 0, 9e-3, 0}}));
-    RigidBody ball = bodyOf("ball", {geometry::Ball{Vec3(0), 5e-3}}, geometry::Free{kMass, Vec3(0.05, -1, 0.02), {}},
-                            Clock::Forces);
+    RigidBody ball =
+        bodyOf("ball", {geometry::Ball{Vec3(0), 5e-3}}, geometry::Free{kMass, Vec3(0.05, -1, 0.02), {}}, Clock::Forces);
     ball.course.start.origin = Vec3(0.2e-3, 17.1e-3, -0.3e-3);
     w.bodies.push_back(std::move(ball));
     return w;
@@ -40,10 +40,6 @@ Particles bed() {
                   single(1.25e-3 - 0.01e-3 * (i % 5)), Vec3(0.01 * (i % 3), -0.02, 0));
         }
     return p;
-}
-
-double way(const Backend& a, const Backend& b) {
-    return glm::length(a.freeBodies().at(2).shift - b.freeBodies().at(2).shift);
 }
 
 bool sameBody(const Backend& a, const Backend& b) {

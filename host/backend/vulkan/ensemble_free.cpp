@@ -97,7 +97,8 @@ void Ensemble::restoreFree(const Record& record, std::uint64_t step, MemberState
         if (!m.bodies[b].movesFreely()) continue;
         eachNumber(m.at[b], [&](float& x) { x = *next++; });
         // A state of another time step may know it as standing where it begins to move here.
-        if (step <= m.bodies[b].firstFreeStep(m.world.timeStep)) m.at[b] = standing(m.bodies[b], step, m.world.timeStep);
+        if (step <= m.bodies[b].firstFreeStep(m.world.timeStep))
+            m.at[b] = standing(m.bodies[b], step, m.world.timeStep);
     }
 }
 
