@@ -154,6 +154,7 @@ TEST_CASE("free bodies: the work of a body is what its own energy falls by, and 
     const double last = energyAt(before, after, mass, kPull);
     CHECK(booked > 0.1 * first);
     CHECK(near(first - last, booked, booked, 1e-9));
+    CHECK(near(ledger.residual(), 0, booked, 1e-9));
 }
 
 TEST_CASE("free bodies: a run goes on from its record with the same bits") {
