@@ -300,8 +300,7 @@ void readFreeBody(CaseReader& reader, Section& s, RigidBody& made) {
                          "leave it out; from_s says when it is free");
         s.know(key);
     }
-    if (made.clock == Clock::Drive)
-        reader.fault(s.path("follows"), "only a turn can follow the drive", "leave it out");
+    if (made.clock == Clock::Drive) reader.fault(s.path("follows"), "only a turn can follow the drive", "leave it out");
     made.clock = Clock::Forces;
     const double from = s.number("from_s");
     if (from > 0) made.course.schedule.intervals = {{from, geometry::kEndless}};

@@ -86,7 +86,8 @@ bool moveFreely(const std::vector<RigidBody>& bodies) {
 std::vector<FreeBody> freeAtStart(const std::vector<RigidBody>& bodies) {
     std::vector<FreeBody> start(bodies.size());
     for (std::size_t b = 0; b < bodies.size(); ++b)
-        if (const auto* free = std::get_if<geometry::Free>(&bodies[b].course.motion)) start[b].velocity = free->velocity;
+        if (const auto* free = std::get_if<geometry::Free>(&bodies[b].course.motion))
+            start[b].velocity = free->velocity;
     return start;
 }
 

@@ -17,8 +17,8 @@ namespace vkdose {
 
 /// What a body's motion follows.
 enum class Clock {
-    Time,   ///< the time since load [s]
-    Drive,  ///< the angle of the drive since load [rad]: the motion goes on while powder is dosed, and with its speed
+    Time,    ///< the time since load [s]
+    Drive,   ///< the angle of the drive since load [rad]: the motion goes on while powder is dosed, and with its speed
     Phases,  ///< a clock of its own, which runs in some phases of the schedule and stands in all others [s]
     Forces,  ///< the forces on the body: it moves freely (geometry::Free)
 };

@@ -330,7 +330,7 @@ std::shared_ptr<const Particles> Simulation::particles() const {
 Frame Simulation::frame() const {
     const Sample& s = last();
     const auto& seen = thread_->seen();
-    return {seen.steps,           time(),         s.phase, s.dose, backend_->coilAngle(), *particles(),
+    return {seen.steps,           time(),          s.phase, s.dose, backend_->coilAngle(), *particles(),
             backend_->contacts(), seen.bodiesMoved};
 }
 

@@ -92,8 +92,7 @@ py::dict sampleOf(const Simulation& run) {
         bodies[run.theCase().world.bodies.at(b).name.c_str()] = dictOf(kBodyColumns, s.bodies[b]);
     for (std::size_t b = 0, free = 0; b < s.bodies.size() && free < s.free.size(); ++b) {
         const RigidBody& body = run.theCase().world.bodies.at(b);
-        if (body.movesFreely())
-            bodies[body.name.c_str()].attr("update")(dictOf(kFreeBodyColumns, s.free[free++]));
+        if (body.movesFreely()) bodies[body.name.c_str()].attr("update")(dictOf(kFreeBodyColumns, s.free[free++]));
     }
     for (std::size_t r = 0; r < s.regions.size(); ++r)
         regions[run.theCase().world.regions.at(r).name.c_str()] = dictOf(kRegionColumns, s.regions[r]);

@@ -73,16 +73,16 @@ class Ensemble {
         Particles loaded;
         gpu::Member block{};
         std::uint64_t step = 0;
-        std::uint32_t made = 0;         ///< steps since load (gpu::Control::steps)
-        std::int64_t drive = 0;         ///< of the drive since load [kDrive turns]; the same for any batches
-        std::vector<BodyClock> clocks;  ///< of bodies that move in phases; empty: they stand
-        bool moves = false;             ///< one of its bodies
-        bool free = false;              ///< one of its bodies moves freely
+        std::uint32_t made = 0;           ///< steps since load (gpu::Control::steps)
+        std::int64_t drive = 0;           ///< of the drive since load [kDrive turns]; the same for any batches
+        std::vector<BodyClock> clocks;    ///< of bodies that move in phases; empty: they stand
+        bool moves = false;               ///< one of its bodies
+        bool free = false;                ///< one of its bodies moves freely
         std::vector<gpu::BodyMotion> at;  ///< of the bodies that move freely: as in the next step
-        std::vector<gpu::vec4> around;  ///< of each body: a sphere around it in its own frame: centre, radius [m]
+        std::vector<gpu::vec4> around;    ///< of each body: a sphere around it in its own frame: centre, radius [m]
         /// Of each body that turns about the z axis of its frame: how much nearer it comes at most [m per s or rad].
         std::vector<std::optional<double>> approach;
-        std::uint32_t row = 0;          ///< on the roster
+        std::uint32_t row = 0;  ///< on the roster
         std::optional<std::string> failure;
 
         std::uint32_t half() const { return made % 2; }  ///< of the state, which is current

@@ -41,7 +41,7 @@ struct StepPass {
     VkDeviceSize arguments = 0;
     bool readsBodies = false;      ///< binds the tables of shaders/shared/body_tables.h, if there are bodies
     bool forBodies = false;        ///< has nothing to do without bodies
-    bool forFree = false;  ///< has nothing to do without bodies that move freely
+    bool forFree = false;          ///< has nothing to do without bodies that move freely
     const char* source = nullptr;  ///< of a pass that knows the law or what contacts remember
 };
 
