@@ -98,7 +98,7 @@ Finding judged(const std::string& what, const char* unit, double scale, const Fa
         finding.high = std::max(finding.high, (1 + kSpread) * value);
         finding.source += (finding.source.empty() ? "" : ", ") + fmt::format("{} {:.4g} {}", program, value, unit);
     }
-    finding.remark = "5 % beyond the other programs are allowed";
+    finding.remark = "three fillings in vkdose differ by 5 %; 5 % beyond the other programs are allowed";
     return finding;
 }
 
