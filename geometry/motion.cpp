@@ -74,6 +74,10 @@ Displacement at(const Table& m, double t) {
     return d;
 }
 
+Displacement at(const Free&, double) {
+    return {};
+}
+
 Displacement displacement(const Motion& motion, double t) {
     return std::visit([&](const auto& m) { return at(m, t); }, motion);
 }
@@ -121,6 +125,15 @@ std::string fault(const Turn& m) {
 
 std::string fault(const Slide& m) {
     return finite(m.velocity) ? "" : "the velocity is not finite";
+}
+
+std::string fault(const Free& m) {
+    if (!std::isfinite(m.mass) || !finite(m.velocity)) return "mass and velocity must be finite";
+    if (m.mass <= 0) return "the mass must be positive";
+    if (!m.line) return "";
+    if (const std::string said = axisFault(*m.line, Vec3(0)); !said.empty()) return said;
+    const double speed = glm::length(m.velocity);
+    return glm::length(glm::cross(*m.line, m.velocity)) <= 1e-9 * speed ? "" : "the velocity leads off the line";
 }
 
 std::string waveFault(double amplitude, double frequency, double phase) {

@@ -1,8 +1,9 @@
 #pragma once
 // How a body moves: a closed form of time, so that a place and a velocity at any time follow from the time alone. A
-// restart, or a longer step, finds the body where it would have been.
+// restart, or a longer step, finds the body where it would have been. A free body is the exception.
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -81,7 +82,14 @@ struct Table {
     std::vector<Row> rows;
 };
 
-using Motion = std::variant<Rest, Turn, Swing, Shake, Slide, Table>;
+/// Moves as the forces on it say, without turning. Its place is no function of time: who computes the forces knows it.
+struct Free {
+    double mass = 0;                ///< [kg]
+    Vec3 velocity{0};               ///< at the start [m/s]
+    std::optional<Vec3> line = {};  ///< it moves only along this direction; none: anywhere
+};
+
+using Motion = std::variant<Rest, Turn, Swing, Shake, Slide, Table, Free>;
 
 /// When a motion goes on: in intervals [from, to) of the run's time [s], in order and apart. Outside of them the body
 /// stands where it is, and its own clock with it. No interval: always.

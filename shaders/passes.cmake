@@ -19,6 +19,7 @@ set(passes
     "pass/pairs texel packed energy texel_energy packed_energy"
     "pass/surfaces texel packed energy texel_energy packed_energy"
     "pass/bodies texel packed energy texel_energy packed_energy"
+    "pass/free_bodies"
     "pass/move texel packed energy texel_energy packed_energy"
     "pass/decide"
     "pass/sense"

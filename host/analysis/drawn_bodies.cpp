@@ -54,7 +54,7 @@ Skin endlessSkin(const RigidBody& body, const geometry::Pose& pose, const Box& c
 }
 
 geometry::Pose poseOf(const DrawnBody& body, const Case& c, const Frame& frame) {
-    return c.world.bodies[body.index].pose(frame.time, frame.coilAngle, frame.clockOf(body.index));
+    return c.world.bodies[body.index].pose(frame.time, frame.coilAngle, frame.movedOf(body.index));
 }
 
 void lookThrough(std::vector<DrawnBody>& bodies, const Case& c, const Frame& frame, const Vec3& towards,

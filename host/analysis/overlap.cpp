@@ -8,7 +8,7 @@
 namespace vkdose {
 
 std::vector<double> overlapRatios(const Particles& particles, const World& world, double coilAngle, double time,
-                                  const std::vector<double>& clocks) {
+                                  const std::vector<Moved>& moved) {
     std::vector<double> ratio(particles.size(), 0.0);
     forEachOverlap(particles, [&](std::size_t i, std::size_t j, double deep) {
         ratio[i] = std::max(ratio[i], deep);
@@ -16,7 +16,7 @@ std::vector<double> overlapRatios(const Particles& particles, const World& world
     });
     std::vector<geometry::Pose> poses;
     for (std::size_t b = 0; b < world.bodies.size(); ++b)
-        poses.push_back(world.bodies[b].pose(time, coilAngle, b < clocks.size() ? clocks[b] : 0));
+        poses.push_back(world.bodies[b].pose(time, coilAngle, b < moved.size() ? moved[b] : Moved{}));
     for (std::size_t i = 0; i < particles.size(); ++i) {
         if (particles.status[i] != Status::Active) continue;
         const Vec3& x = particles.position[i];

@@ -9,10 +9,10 @@
 namespace vkdose {
 
 /// For each particle the deepest of its overlaps at this instant [-]. An overlap with another particle is divided by
-/// the smaller radius of the two; one with a surface, a body (at `time` [s], in phases at `clocks` [s]) or the
-/// coil (turned by `coilAngle` about +z [rad]) by the particle's own. 0 if the particle touches nothing, is dosed or
-/// lost.
+/// the smaller radius of the two; one with a surface, a body (at `time` [s], in phases or freely as `moved` tells) or
+/// the coil (turned by `coilAngle` about +z [rad]) by the particle's own. 0 if the particle touches nothing, is dosed
+/// or lost.
 std::vector<double> overlapRatios(const Particles& particles, const World& world, double coilAngle, double time = 0,
-                                  const std::vector<double>& clocks = {});
+                                  const std::vector<Moved>& moved = {});
 
 }  // namespace vkdose

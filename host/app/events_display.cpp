@@ -54,6 +54,10 @@ void EventsDisplay::onSample(const Sample& sample) {
     if (sample.energy) putColumns(kEnergyColumns, *sample.energy, event);
     for (std::size_t b = 0; b < sample.bodies.size(); ++b)
         putColumns(kBodyColumns, sample.bodies[b], event["bodies"][bodyNames(case_.world).at(b)]);
+    for (std::size_t b = 0, free = 0; b < sample.bodies.size() && free < sample.free.size(); ++b) {
+        const RigidBody& body = case_.world.bodies.at(b);
+        if (body.movesFreely()) putColumns(kFreeBodyColumns, sample.free[free++], event["bodies"][body.name]);
+    }
     for (std::size_t r = 0; r < sample.regions.size(); ++r)
         putColumns(kRegionColumns, sample.regions[r], event["regions"][case_.world.regions.at(r).name]);
     for (std::size_t k = 0; k < sample.powders.size(); ++k)

@@ -77,7 +77,7 @@ void LiveDisplay::onDose(const Dose& dose) {
 }
 
 void LiveDisplay::read(const Progress& p) {
-    state_.frame = {p.step, p.time, p.phase, p.dose, backend_.coilAngle(), backend_.particles(), {}, p.bodyClocks};
+    state_.frame = {p.step, p.time, p.phase, p.dose, backend_.coilAngle(), backend_.particles(), {}, p.bodiesMoved};
     const Particles& particles = state_.frame.particles;
     double dosed = 0;
     for (std::size_t i = 0; i < particles.size(); ++i)

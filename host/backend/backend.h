@@ -30,6 +30,8 @@ inline constexpr int kRegions = 4;
 ///
 ///   change of (motion + potential + elastic) = loaded + coilWork + bodyWork - all losses - left,
 ///
+/// in which bodies have no energy. That of a body that moves freely, likewise at the full step, falls by its bodyWork.
+///
 /// The reason is that summation by parts turns the work of a contact force into (F(n-1) + F(n))/2 . v(n-1/2) dt. Each
 /// contact books this work for every part of its force, with its own relative motion as the velocity.
 struct EnergyBook {
@@ -139,6 +141,9 @@ class Backend {
     virtual void restore(const Record& record) = 0;
 
     virtual Particles particles() const = 0;
+    /// Of each of the world's bodies where it is and how it moves, if it moves freely; of the others it means nothing.
+    /// Empty if none does.
+    virtual std::vector<FreeBody> freeBodies() const { return {}; }
     virtual std::vector<Contact> contacts() const = 0;
 
     /// Coarse-grained fields of the particles that are active now, at the points of the grid. A device returns only

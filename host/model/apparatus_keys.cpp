@@ -89,6 +89,8 @@ constexpr Key kBodyShape[] = {
     boolean("inside", false, "`box`: whether it is a room with the particles inside"),
     number("radius_mm", kMillimetre, kPositive, kRequired,
            "`ball`, `cylinder`, `disc`, `screw`: outer radius; `cone`: radius at z = 0; `wire`: of its centre line"),
+    boolean("curvature", false,
+            "`ball`: whether the reduced size a* of a contact counts its radius. `false`: it is as flat as a wall"),
     number("end_radius_mm", kMillimetre, kNonNegative, kRequired, "`cone`: radius at its other end"),
     number("hole_radius_mm", kMillimetre, kNonNegative, 0.0, "`disc`: of the hole in its middle"),
     number("length_mm", kMillimetre, kPositive, kRequired, "`cylinder`, `cone`, `wire`, `screw`: along z"),
@@ -102,10 +104,10 @@ constexpr Key kBodyShape[] = {
     word("hand", "right left", "right", "`wire`, `screw`: hand of the helix"),
 };
 constexpr Key kMotion[] = {
-    word("kind", "turn swing shake slide table", kRequired,
+    word("kind", "turn swing shake slide table free", kRequired,
          "`turn`: about an axis at a speed; `swing`: to and fro about it; `shake`: to and fro along it; `slide`: along "
          "a "
-         "line; `table`: as a file says")
+         "line; `table`: as a file says; `free`: as gravity and the forces of the particles say, without turning")
         .replacing("*"),
     word("follows", "time drive", "time",
          "`\"time\"`: the body moves by itself; `\"drive\"`: it turns while powder is dosed, with the coil's speed or "
@@ -118,10 +120,12 @@ constexpr Key kMotion[] = {
     number("amplitude_mm", kMillimetre, kPositive, kRequired, "`shake`: to each side"),
     number("frequency_hz", {1, "1/s"}, kPositive, kRequired, "`swing`, `shake`: how often to and fro in a second"),
     number("phase_deg", kDegree, Bound::Any, 0.0, "`swing`, `shake`: of the sine at the start"),
-    vector("velocity", {1, "m/s"}, kRequired, "`slide`: of the body"),
+    vector("velocity", {1, "m/s"}, told("required; `free`: [0, 0, 0]"), "`slide`: of the body; `free`: at its start"),
+    number("mass_g", kGram, kPositive, kRequired, "`free`: of the body, whatever its form"),
+    vector("along", kPlain, told("anywhere"), "`free`: the direction of the line on which it is guided, either way"),
     text("file", kRequired,
          "`table`: a CSV with the columns `time_s`, and `angle_deg`, `x`, `y`, `z` (m) or some of them"),
-    number("from_s", kSecond, kNonNegative, 0.0, "by time: the body stands until then"),
+    number("from_s", kSecond, kNonNegative, 0.0, "by time, or `free`: the body stands until then"),
     number("to_s", kSecond, kPositive, told("for ever"), "by time: and from then on"),
     text("during", told("at all times"),
          "by time: the phases in which the body moves, separated by blanks: `settle`, `rotate`, `reverse`, `rest`. In "

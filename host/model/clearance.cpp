@@ -19,10 +19,12 @@ double coilDistance(const geometry::Coil& coil, double angle, const Vec3& x, dou
 
 }  // namespace
 
-Clearance::Clearance(const World& world, double time, double coilAngle, std::span<const BodyClock> clocks)
+Clearance::Clearance(const World& world, double time, double coilAngle, std::span<const BodyClock> clocks,
+                     std::span<const FreeBody> free)
     : world_(world), coilAngle_(coilAngle) {
     for (std::size_t b = 0; b < world.bodies.size(); ++b) {
-        const double own = static_cast<double>(clockOf(clocks, b).steps) * world.timeStep;
+        Moved own = static_cast<double>(clockOf(clocks, b).steps) * world.timeStep;
+        if (b < free.size()) own.shift = free[b].shift;
         poses_.push_back(world.bodies[b].pose(time, coilAngle, own));
     }
 }

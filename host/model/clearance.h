@@ -21,7 +21,7 @@ class Clearance {
     /// Of a world at `time` [s], when the coil has turned by `coilAngle` [rad] since the start. `world` must live as
     /// long as this.
     explicit Clearance(const World& world, double time = 0, double coilAngle = 0,
-                       std::span<const BodyClock> clocks = {});
+                       std::span<const BodyClock> clocks = {}, std::span<const FreeBody> free = {});
 
     /// What is nearest to `x` within `reach` [m]; at the distance `reach` and without a name if nothing is. Bodies of
     /// meshes are known as far as backends ask for them.

@@ -187,7 +187,20 @@ std::vector<geometry::Table::Row> readMotionTable(CaseReader& reader, Section& s
     return rows;
 }
 
-enum class MotionKind { Turn, Swing, Shake, Slide, Table };
+enum class MotionKind { Turn, Swing, Shake, Slide, Table, Free };
+
+geometry::Free readFree(CaseReader& reader, Section& s) {
+    geometry::Free free{s.number("mass_g"), s.vector("velocity", Vec3(0)), {}};
+    if (!s.has("along")) {
+        s.know("along");
+        return free;
+    }
+    free.line = readDirection(reader, s, "along");
+    if (glm::length(glm::cross(*free.line, free.velocity)) > 1e-9 * glm::length(free.velocity))
+        reader.fault(s.path("velocity"), "leads off the line of along",
+                     "give a velocity along that line, or leave out along");
+    return free;
+}
 
 geometry::Motion readMotionOf(CaseReader& reader, Section& s, MotionKind kind, Clock clock) {
     switch (kind) {
@@ -212,6 +225,8 @@ geometry::Motion readMotionOf(CaseReader& reader, Section& s, MotionKind kind, C
             const Vec3 axis = readDirection(reader, s, "axis"), through = s.vector("through");
             return geometry::Table{axis, through, readMotionTable(reader, s)};
         }
+        case MotionKind::Free:
+            break;  // readFreeBody
     }
     return geometry::Rest{};
 }
@@ -276,6 +291,27 @@ void readTimes(CaseReader& reader, Section& s, RigidBody& made) {
     if (from > 0 || to < geometry::kEndless) made.course.schedule.intervals = {{from, to}};
 }
 
+/// A body that moves freely, from a time on.
+void readFreeBody(CaseReader& reader, Section& s, RigidBody& made) {
+    made.course.motion = readFree(reader, s);
+    for (const char* key : {"to_s", "during", "anew"}) {
+        if (s.has(key))
+            reader.fault(s.path(key), "does not go with kind = \"free\": once it is free, the body follows its forces",
+                         "leave it out; from_s says when it is free");
+        s.know(key);
+    }
+    if (made.clock == Clock::Drive) reader.fault(s.path("follows"), "only a turn can follow the drive", "leave it out");
+    made.clock = Clock::Forces;
+    const double from = s.number("from_s");
+    if (from > 0) made.course.schedule.intervals = {{from, geometry::kEndless}};
+    const auto endless = [](const Shape& shape) {
+        return std::holds_alternative<geometry::Plane>(shape) || std::holds_alternative<geometry::Trough>(shape);
+    };
+    if (std::any_of(made.shapes.begin(), made.shapes.end(), endless))
+        reader.fault(s.path("kind"), "is not for a plane or a trough, which have no end",
+                     "give the body another shape, such as a box or a disc");
+}
+
 void readMotion(CaseReader& reader, Section& body, RigidBody& made) {
     if (!body.has("motion")) {
         body.know("motion");
@@ -286,6 +322,7 @@ void readMotion(CaseReader& reader, Section& body, RigidBody& made) {
     const auto follows = s.choice("follows");
     if (!kind || !follows) return s.abandon();
     made.clock = static_cast<Clock>(*follows);
+    if (static_cast<MotionKind>(*kind) == MotionKind::Free) return readFreeBody(reader, s, made);
     if (made.clock == Clock::Drive && static_cast<MotionKind>(*kind) != MotionKind::Turn) {
         reader.fault(s.path("follows"), "only a turn can follow the drive",
                      "write kind = \"turn\", or follows = \"time\"");
@@ -329,6 +366,8 @@ void readBodies(CaseReader& reader, Section& root, double meshReach, Case& c) {
             body.shapes = readShape(b, static_cast<Kind>(*shape));
         else
             section->abandon();
+        if (shape == std::size_t(Kind::Ball) && section->boolean("curvature"))
+            body.curvature = std::get<geometry::Ball>(body.shapes.front()).radius;
         if (section->has("material") && section->has("contact"))
             b.fault("contact", "stands beside material, which says the same otherwise", "give one of the two");
         if (section->has("material")) section->know("contact");

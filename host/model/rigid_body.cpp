@@ -1,15 +1,30 @@
 #include "host/model/rigid_body.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace vkdose {
 
-geometry::Pose RigidBody::pose(double time, double driveAngle, double own) const {
-    return course.pose(clock == Clock::Time ? time : clock == Clock::Drive ? driveAngle : own);
+geometry::Pose RigidBody::pose(double time, double driveAngle, const Moved& own) const {
+    geometry::Pose pose = course.pose(clock == Clock::Time ? time : clock == Clock::Drive ? driveAngle : own.time);
+    if (clock == Clock::Forces) pose.origin += own.shift;
+    return pose;
+}
+
+std::uint64_t RigidBody::firstFreeStep(double timeStep) const {
+    if (course.schedule.intervals.empty()) return 0;
+    const double from = course.schedule.intervals.front().from / timeStep;
+    return static_cast<std::uint64_t>(std::ceil(from - 1e-6));  // but for rounding
+}
+
+double RigidBody::kickOf(std::uint64_t step, double timeStep) const {
+    const std::uint64_t first = firstFreeStep(timeStep);
+    return step < first ? 0 : step == first ? timeStep / 2 : timeStep;
 }
 
 geometry::Moving RigidBody::moving(double time, double driveAngle, double driveRate, std::optional<double> own) const {
     if (clock == Clock::Time) return course.moving(time);
+    if (clock == Clock::Forces) return {};
     if (clock == Clock::Phases) return own ? course.moving(*own) : geometry::Moving{};
     // The course gives the motion per radian of the drive.
     geometry::Moving moving = course.moving(driveAngle);
@@ -62,6 +77,18 @@ bool followsDrive(const std::vector<RigidBody>& bodies) {
 
 bool movesInPhases(const std::vector<RigidBody>& bodies) {
     return std::any_of(bodies.begin(), bodies.end(), [](const RigidBody& b) { return b.clock == Clock::Phases; });
+}
+
+bool moveFreely(const std::vector<RigidBody>& bodies) {
+    return std::any_of(bodies.begin(), bodies.end(), [](const RigidBody& b) { return b.movesFreely(); });
+}
+
+std::vector<FreeBody> freeAtStart(const std::vector<RigidBody>& bodies) {
+    std::vector<FreeBody> start(bodies.size());
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+        if (const auto* free = std::get_if<geometry::Free>(&bodies[b].course.motion))
+            start[b].velocity = free->velocity;
+    return start;
 }
 
 }  // namespace vkdose

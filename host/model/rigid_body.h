@@ -17,9 +17,27 @@ namespace vkdose {
 
 /// What a body's motion follows.
 enum class Clock {
-    Time,   ///< the time since load [s]
-    Drive,  ///< the angle of the drive since load [rad]: the motion goes on while powder is dosed, and with its speed
-    Phases  ///< a clock of its own, which runs in some phases of the schedule and stands in all others [s]
+    Time,    ///< the time since load [s]
+    Drive,   ///< the angle of the drive since load [rad]: the motion goes on while powder is dosed, and with its speed
+    Phases,  ///< a clock of its own, which runs in some phases of the schedule and stands in all others [s]
+    Forces,  ///< the forces on the body: it moves freely (geometry::Free)
+};
+
+/// How far a body has come by what neither time nor drive tells.
+struct Moved {
+    double time = 0;  ///< on its own clock, if it moves in phases [s]
+    Vec3 shift{0};    ///< from its place at the start, if it moves freely [m]
+
+    Moved() = default;
+    Moved(double t) : time(t) {}  // NOLINT(google-explicit-constructor): most bodies have a clock or nothing
+    explicit Moved(const Vec3& way) : shift(way) {}
+    friend bool operator==(const Moved&, const Moved&) = default;
+};
+
+/// A body that moves freely.
+struct FreeBody {
+    Vec3 shift{0};     ///< from its place at the start [m]
+    Vec3 velocity{0};  ///< half a step before; before the first step, at the instant [m/s]
 };
 
 /// The clock of a body that moves in phases.
@@ -50,9 +68,15 @@ struct RigidBody {
     bool surfaceMoves = true;  ///< the velocity of its surface; false: they see it at rest
     double curvature = 0;      ///< radius of its surface, which a* counts [m]; 0: it is as flat as a wall
 
-    /// Where the body is. `driveAngle` [rad]; `own` is the time on its own clock, if it moves in phases [s].
-    geometry::Pose pose(double time, double driveAngle, double own = 0) const;
-    /// How it moves there. `driveRate` [rad/s]; `own` [s] as above, none while that clock stands.
+    bool movesFreely() const { return clock == Clock::Forces; }
+    /// Of a body that moves freely: the first step in which it does.
+    std::uint64_t firstFreeStep(double timeStep) const;
+    /// For how much of a step the forces act on it [s]: for half of the first one, as on particles.
+    double kickOf(std::uint64_t step, double timeStep) const;
+    /// Where the body is. `driveAngle` [rad].
+    geometry::Pose pose(double time, double driveAngle, const Moved& own = {}) const;
+    /// How it moves there, unless it moves freely. `driveRate` [rad/s]; `own` is the time on its own clock, if it moves
+    /// in phases [s], none while that clock stands.
     geometry::Moving moving(double time, double driveAngle, double driveRate, std::optional<double> own = {}) const;
     /// The direction of the axis about which the body's torque is told: that of its motion, or +z.
     Vec3 axis() const;
@@ -69,6 +93,10 @@ void advanceClocks(std::vector<BodyClock>& clocks, std::uint64_t steps);
 bool followsDrive(const std::vector<RigidBody>& bodies);
 /// Whether one of the bodies moves in phases.
 bool movesInPhases(const std::vector<RigidBody>& bodies);
+/// Whether one of the bodies moves freely.
+bool moveFreely(const std::vector<RigidBody>& bodies);
+/// All bodies at their start; of those that do not move freely it means nothing.
+std::vector<FreeBody> freeAtStart(const std::vector<RigidBody>& bodies);
 
 /// Most bodies of a world.
 inline constexpr std::size_t kMaxBodies = 16;

@@ -39,9 +39,14 @@ Frame readEndState(const std::filesystem::path& folder, const Case& c) {
     // Summaries without this key may be so old that they give the angle as positive when conveying. In their time the
     // coil only turned in that sense, which tells the sign.
     if (!summary.contains("settling")) frame.coilAngle = std::abs(frame.coilAngle) * Timeline(c).conveyingSense();
-    for (const Json& body : summary.value("bodies", Json::array()))
-        if (body.is_object() && body.contains("moved_s")) frame.bodyClocks.push_back(numberIn(body, "moved_s", file));
-    if (frame.bodyClocks.size() != c.world.bodies.size()) frame.bodyClocks.clear();
+    for (const Json& body : summary.value("bodies", Json::array())) {
+        if (!body.is_object() || !body.contains("moved_s")) continue;
+        Moved& moved = frame.bodiesMoved.emplace_back(numberIn(body, "moved_s", file));
+        if (!body.contains("moved_x_m")) continue;
+        moved.shift = {numberIn(body, "moved_x_m", file), numberIn(body, "moved_y_m", file),
+                       numberIn(body, "moved_z_m", file)};
+    }
+    if (frame.bodiesMoved.size() != c.world.bodies.size()) frame.bodiesMoved.clear();
     const Json doses = summary.value("doses", Json::array());
     frame.dose = int(doses.size());
     frame.phase = frame.dose == 0 ? Phase::Settle : Phase::Rest;

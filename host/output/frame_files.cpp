@@ -14,6 +14,7 @@ namespace {
 using vtkhdf::Array;
 
 constexpr const char* kBodyClocks = "body_clocks";
+constexpr const char* kBodyShifts = "body_shifts";
 
 std::vector<double> flat(const std::vector<Vec3>& vectors) {
     std::vector<double> values;
@@ -67,7 +68,7 @@ class ContactGeometry {
 
     Geometry placeOn(std::size_t index, const Contact& c) const {
         const RigidBody& body = bodies_.at(index);
-        const geometry::Pose pose = body.pose(frame_.time, frame_.coilAngle, frame_.clockOf(index));
+        const geometry::Pose pose = body.pose(frame_.time, frame_.coilAngle, frame_.movedOf(index));
         const Vec3 x = pose.toBody(frame_.particles.position[c.particle]), force = pose.directionToBody(c.force);
         const double r = frame_.particles.radius[c.particle];
         std::optional<geometry::Closest> best;
@@ -106,7 +107,15 @@ std::vector<vtkhdf::Array> fieldsOf(const Frame& f) {
         {"phase", "", 1, number(f.phase)},
         {"dose", "", 1, number(f.dose)},
         {"coil_angle", "rad", 1, std::vector<double>{f.coilAngle}}};
-    if (!f.bodyClocks.empty()) fields.push_back({kBodyClocks, "s", 1, f.bodyClocks});
+    if (f.bodiesMoved.empty()) return fields;
+    std::vector<double> clocks, shifts;
+    for (const Moved& body : f.bodiesMoved) {
+        clocks.push_back(body.time);
+        shifts.insert(shifts.end(), {body.shift.x, body.shift.y, body.shift.z});
+    }
+    fields.push_back({kBodyClocks, "s", 1, std::move(clocks)});
+    if (std::any_of(shifts.begin(), shifts.end(), [](double x) { return x != 0; }))
+        fields.push_back({kBodyShifts, "m", 3, std::move(shifts)});
     return fields;
 }
 
@@ -242,9 +251,15 @@ void readParticlesFile(std::string bytes, Frame& frame) {
     frame.phase = static_cast<Phase>(field.get<std::uint32_t>("phase")[0]);
     frame.dose = static_cast<int>(field.get<std::uint32_t>("dose")[0]);
     frame.coilAngle = field.get<double>("coil_angle")[0];
-    frame.bodyClocks.clear();
-    if (reader.has("/VTKHDF/FieldData/" + std::string(kBodyClocks)))
-        frame.bodyClocks = reader.array<double>("/VTKHDF/FieldData/" + std::string(kBodyClocks));
+    frame.bodiesMoved.clear();
+    const std::string fields = "/VTKHDF/FieldData/";
+    if (reader.has(fields + kBodyClocks))
+        for (const double time : reader.array<double>(fields + kBodyClocks)) frame.bodiesMoved.emplace_back(time);
+    if (reader.has(fields + kBodyShifts)) {
+        const std::vector<double> shifts = reader.array<double>(fields + kBodyShifts);
+        for (std::size_t b = 0; b < std::min(frame.bodiesMoved.size(), shifts.size() / 3); ++b)
+            frame.bodiesMoved[b].shift = {shifts[3 * b], shifts[3 * b + 1], shifts[3 * b + 2]};
+    }
     const std::size_t n = one(reader, "NumberOfPoints");
     const Columns data(reader, "/VTKHDF/PointData", n);
     Particles& p = frame.particles;

@@ -90,6 +90,15 @@ std::string bodyHeader(const Columns& columns, const World& world) {
     return header;
 }
 
+/// The columns of the bodies that move freely, likewise.
+std::string freeHeader(const World& world) {
+    std::string header;
+    for (const RigidBody& body : world.bodies)
+        if (body.movesFreely())
+            forEachColumn(kFreeBodyColumns, [&](const auto& c) { header += fmt::format(",{}.{}", body.name, c.name); });
+    return header;
+}
+
 /// The columns of the regions, likewise.
 std::string regionHeader(const World& world) {
     std::string header;
@@ -133,8 +142,8 @@ RunFolder::RunFolder(fs::path folder, bool force, const Case& c, std::string bac
         removeRun(folder_, replacedIn(folder_, c));  // a stale summary would mislead if this run is killed
         const std::string energy = c.world.energyBook ? "," + csvHeader(kEnergyColumns) : "";
         timeSeries_.emplace(folder_ / "timeseries.csv", csvHeader(kSampleColumns) + energy +
-                                                            bodyHeader(kBodyColumns, c.world) + regionHeader(c.world) +
-                                                            powderHeader(c, kPowderColumns));
+                                                            bodyHeader(kBodyColumns, c.world) + freeHeader(c.world) +
+                                                            regionHeader(c.world) + powderHeader(c, kPowderColumns));
         if (!hadCase) replaceFile(folder_ / "case.toml", c.resolved);
         doses_.emplace(folder_ / "doses.csv", csvHeader(kDoseColumns) + bodyHeader(kDoseBodyColumns, c.world) +
                                                   regionHeader(c.world) + powderHeader(c, kPowderDoseColumns));
@@ -168,7 +177,8 @@ RunFolder::RunFolder(fs::path folder, FolderLock lock, const Checkpoint& from, c
 
 void RunFolder::onSample(const Sample& s) {
     std::string line = csvRow(kSampleColumns, s) + (s.energy ? "," + csvRow(kEnergyColumns, *s.energy) : "");
-    line += cellsOf(kBodyColumns, s.bodies) + cellsOf(kRegionColumns, s.regions) + cellsOf(kPowderColumns, s.powders);
+    line += cellsOf(kBodyColumns, s.bodies) + cellsOf(kFreeBodyColumns, s.free);
+    line += cellsOf(kRegionColumns, s.regions) + cellsOf(kPowderColumns, s.powders);
     timeSeries_->line(line);
     timeSeries_->flush();
 }

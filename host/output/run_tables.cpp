@@ -24,6 +24,9 @@ std::vector<OutputTable> runTables() {
          "These columns follow in the same line, for each `[[body]]` and, behind them, for `[coil]` as the body coil. The "
          "name of the body and a dot stand before each.",
          columnTexts(kBodyColumns)},
+        {"timeseries.csv, with bodies that move freely",
+         "These columns follow in the same line, for each `[[body]]` of `kind = \"free\"`, likewise.",
+         columnTexts(kFreeBodyColumns)},
         {"doses.csv, with bodies",
          "These columns follow in the same line, for each `[[body]]` and, behind them, for `[coil]` as the body coil. The "
          "name of the body and a dot stand before each.",

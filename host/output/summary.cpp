@@ -75,7 +75,13 @@ Json bodyList(const Case& c, const RunResult& r) {
         one["name"] = bodyNames(c.world).at(b);
         one["work_J"] = jsonNumber(r.last.bodies[b].work);
         if (b < r.bodyPeaks.size()) putColumns(kBodyPeakColumns, r.bodyPeaks[b], one);
-        if (b < r.bodyClocks.size()) one["moved_s"] = jsonNumber(r.bodyClocks[b]);
+        if (b >= r.bodiesMoved.size()) continue;
+        const Moved& moved = r.bodiesMoved[b];
+        one["moved_s"] = jsonNumber(moved.time);
+        if (!c.world.bodies[b].movesFreely()) continue;
+        one["moved_x_m"] = jsonNumber(moved.shift.x);
+        one["moved_y_m"] = jsonNumber(moved.shift.y);
+        one["moved_z_m"] = jsonNumber(moved.shift.z);
     }
     return list;
 }

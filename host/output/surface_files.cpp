@@ -48,7 +48,7 @@ struct Collection {
         for (std::size_t b = 0; b < world.bodies.size(); ++b) {
             const RigidBody& body = world.bodies[b];
             if (moves(body) != moving) continue;
-            const geometry::Pose pose = body.pose(frame.time, frame.coilAngle, frame.clockOf(b));
+            const geometry::Pose pose = body.pose(frame.time, frame.coilAngle, frame.movedOf(b));
             add(placed(bodyMesh(body, world.domain), pose), b + 1);
         }
     }

@@ -103,7 +103,7 @@ class Simulation::Thread final : public RunObserver {
         std::vector<bool> refills;       ///< which of the case have been added, or will be with the next step
         RunResult result;                ///< if it is over
         std::uint64_t steps = 0;         ///< made
-        std::vector<double> bodyClocks;  ///< as in Frame
+        std::vector<Moved> bodiesMoved;  ///< as in Frame
         Sample last;                     ///< as in `samples`; before the first, what was filled in
         std::vector<Sample> samples;
         std::vector<Dose> doses;
@@ -180,7 +180,7 @@ class Simulation::Thread final : public RunObserver {
 
     void onProgress(const Progress& p) override {
         seen_.steps = p.step;
-        seen_.bodyClocks = p.bodyClocks;
+        seen_.bodiesMoved = p.bodiesMoved;
     }
     void onSample(const Sample& s) override {
         if (s.dose != seen_.last.dose) seen_.dosedBefore = dosedMass(seen_.last);
@@ -330,8 +330,8 @@ std::shared_ptr<const Particles> Simulation::particles() const {
 Frame Simulation::frame() const {
     const Sample& s = last();
     const auto& seen = thread_->seen();
-    return {seen.steps,           time(),         s.phase, s.dose, backend_->coilAngle(), *particles(),
-            backend_->contacts(), seen.bodyClocks};
+    return {seen.steps,           time(),          s.phase, s.dose, backend_->coilAngle(), *particles(),
+            backend_->contacts(), seen.bodiesMoved};
 }
 
 FieldPoints Simulation::field(const FieldRequest& request) const {

@@ -90,6 +90,10 @@ py::dict sampleOf(const Simulation& run) {
     py::dict bodies, regions, powders;
     for (std::size_t b = 0; b < s.bodies.size(); ++b)
         bodies[bodyNames(run.theCase().world).at(b).c_str()] = dictOf(kBodyColumns, s.bodies[b]);
+    for (std::size_t b = 0, free = 0; b < s.bodies.size() && free < s.free.size(); ++b) {
+        const RigidBody& body = run.theCase().world.bodies.at(b);
+        if (body.movesFreely()) bodies[body.name.c_str()].attr("update")(dictOf(kFreeBodyColumns, s.free[free++]));
+    }
     for (std::size_t r = 0; r < s.regions.size(); ++r)
         regions[run.theCase().world.regions.at(r).name.c_str()] = dictOf(kRegionColumns, s.regions[r]);
     for (std::size_t k = 0; k < s.powders.size(); ++k)

@@ -99,7 +99,7 @@ std::optional<Quantity> quantityNamed(std::string_view name) {
 
 std::vector<double> valuesOf(Quantity quantity, const Case& c, const Frame& frame, const Particles* fill) {
     const Particles& p = frame.particles;
-    if (quantity == Quantity::Overlap) return overlapRatios(p, c.world, frame.coilAngle, frame.time, frame.bodyClocks);
+    if (quantity == Quantity::Overlap) return overlapRatios(p, c.world, frame.coilAngle, frame.time, frame.bodiesMoved);
     if (quantity == Quantity::Radius) return p.radius;
     if (quantity == Quantity::Powder) {
         std::vector<double> numbers;

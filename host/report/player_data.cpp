@@ -95,7 +95,7 @@ class Encoder {
                               fmt::format("particles in the frame at {} s, {} in the first", frame.time, gone_.size()),
                               "give the frames of one run"}});
         if (frames_ == 0) addRadii(p);
-        addParticles(p, overlapRatios(p, case_.world, frame.coilAngle, frame.time, frame.bodyClocks));
+        addParticles(p, overlapRatios(p, case_.world, frame.coilAngle, frame.time, frame.bodiesMoved));
         addSurface(p);
         ++frames_;
     }
@@ -212,7 +212,7 @@ Frame placesOf(const FrameEntry& entry, const Frame& frame) {
     Frame places;
     places.time = entry.time;
     places.coilAngle = entry.coilAngle;
-    places.bodyClocks = frame.bodyClocks;
+    places.bodiesMoved = frame.bodiesMoved;
     return places;
 }
 

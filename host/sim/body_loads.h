@@ -29,6 +29,21 @@ inline constexpr auto kBodyColumns = columns(
     column<&BodySample::power>("power_W", "W", "Power of the body on the particles, mean."),
     column<&BodySample::work>("work_J", "J", "Work of the body on the particles since the start."));
 
+/// Where a body is that moves freely, in one line of the time series.
+struct FreePlace {
+    Vec3 at{0};        ///< [m]
+    Vec3 velocity{0};  ///< half a step before [m/s]
+};
+
+/// The columns of timeseries.csv for each body that moves freely, behind those of all bodies.
+inline constexpr auto kFreeBodyColumns = columns(
+    column<&FreePlace::at, 0>("x_m", "m", "Where the origin of the body's frame is, along x."),
+    column<&FreePlace::at, 1>("y_m", "m", "The same along y."),
+    column<&FreePlace::at, 2>("z_m", "m", "The same along z."),
+    column<&FreePlace::velocity, 0>("velocity_x_m_s", "m/s", "Velocity of the body along x, half a step before."),
+    column<&FreePlace::velocity, 1>("velocity_y_m_s", "m/s", "The same along y."),
+    column<&FreePlace::velocity, 2>("velocity_z_m_s", "m/s", "The same along z."));
+
 /// The columns of doses.csv for each body, likewise.
 inline constexpr auto kDoseBodyColumns = columns(
     column<&BodySample::force, 0>("force_x_N", "N",

@@ -18,10 +18,10 @@ struct Frame {
     double coilAngle = 0;  ///< of Backend::coilAngle: rotation about +z since load [rad]
     Particles particles;
     std::vector<Contact> contacts;  ///< none if they were not stored
-    /// Of each of the world's bodies, for which time it has moved if it moves in phases [s]; empty if none does.
-    std::vector<double> bodyClocks{};
+    /// Of each of the world's bodies, how far it has come in phases or freely; empty if none moves so.
+    std::vector<Moved> bodiesMoved{};
 
-    double clockOf(std::size_t body) const { return body < bodyClocks.size() ? bodyClocks[body] : 0; }
+    Moved movedOf(std::size_t body) const { return body < bodiesMoved.size() ? bodiesMoved[body] : Moved{}; }
 };
 
 }  // namespace vkdose

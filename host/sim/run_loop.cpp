@@ -137,8 +137,29 @@ void RunLoop::measureDensity() {
 void RunLoop::frame() {
     if (!observer_.storesFrames()) return;
     observer_.onFrame({step_, timeline_.time(step_), stretch_.phase, stretch_.dose, backend_.coilAngle(),
-                       backend_.particles(), backend_.contacts(), clocks_.times()});
+                       backend_.particles(), backend_.contacts(), moved()});
     if (case_.frames.states && step_ > 0) keepState(KeptState::Frame);
+}
+
+std::vector<Moved> RunLoop::moved() const {
+    const std::vector<double> times = clocks_.times();
+    std::vector<Moved> moved(times.begin(), times.end());
+    if (!moveFreely(case_.world.bodies)) return moved;
+    const std::vector<FreeBody> free = backend_.freeBodies();
+    moved.resize(std::max(moved.size(), free.size()));
+    for (std::size_t b = 0; b < free.size(); ++b) moved[b].shift = free[b].shift;
+    return moved;
+}
+
+std::vector<FreePlace> RunLoop::freePlaces() const {
+    std::vector<FreePlace> places;
+    if (!moveFreely(case_.world.bodies)) return places;
+    const std::vector<FreeBody> free = backend_.freeBodies();
+    for (std::size_t b = 0; b < free.size(); ++b) {
+        const RigidBody& body = case_.world.bodies[b];
+        if (body.movesFreely()) places.push_back({body.course.start.origin + free[b].shift, free[b].velocity});
+    }
+    return places;
 }
 
 void RunLoop::beginDosing() {
@@ -198,7 +219,7 @@ void RunLoop::fail(StopReason reason, const char* what) {
 
 void RunLoop::keepEndState() {
     result_.particles = backend_.particles();
-    result_.bodyClocks = clocks_.times();
+    result_.bodiesMoved = moved();
     result_.bodyPeaks = loads_.peaks();
     result_.endState = true;
 }
@@ -215,7 +236,7 @@ void RunLoop::report() {
     p.steps = step_ - before_.steps;
     p.particleSteps = result_.particleSteps - before_.particleSteps;
     p.wallTime = result_.wallTime - before_.wallTime;
-    p.bodyClocks = clocks_.times();
+    p.bodiesMoved = moved();
     observer_.onProgress(p);
 }
 

@@ -109,6 +109,10 @@ class RunLoop {
     /// is large enough to tell it.
     void measureDensity();
     void frame();
+    /// How far the bodies have come, as in Frame.
+    std::vector<Moved> moved() const;
+    /// As in Sample.
+    std::vector<FreePlace> freePlaces() const;
     void beginDosing();
     /// The world of the case under the gravity that is in force.
     World worldNow() const;

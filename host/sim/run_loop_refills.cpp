@@ -39,7 +39,8 @@ void RunLoop::addPowder() {
     for (std::size_t k = 0; k < case_.refills.size(); ++k) {
         if (isAdded(k) || (!due(k) && !observer_.wantsRefill(k))) continue;
         const Insertion::Waiting& powder = result_.filled.waiting[k];
-        const Clearance around(case_.world, timeline_.time(step_), backend_.coilAngle(), clocks_.now());
+        const Clearance around(case_.world, timeline_.time(step_), backend_.coilAngle(), clocks_.now(),
+                               moveFreely(case_.world.bodies) ? backend_.freeBodies() : std::vector<FreeBody>());
         const std::vector<Vec3> places = placeRefill(case_, result_.filled, k, backend_.particles(), around);
         backend_.addParticles(result_.filled.firstOf(k), places);
         if (energy_) energy_->sum.loaded += energyOfRest(powder.particles, places);

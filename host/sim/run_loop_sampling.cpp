@@ -56,6 +56,7 @@ void RunLoop::sample() {
     s.outletVelocity = throat > 0 ? now_.throatMomentumZ / throat : std::numeric_limits<double>::quiet_NaN();
     s.energy = energy_;
     s.bodies = loads_.take(gathered_, case_.world.timeStep);
+    s.free = freePlaces();
     if (!regions_.empty() || !powders_.empty()) {
         const Particles particles = backend_.particles();
         regions_.look(particles);

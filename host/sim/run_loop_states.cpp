@@ -28,6 +28,7 @@ void RunLoop::goOn(const RunCheckpoint& from) {
     backend_.load(worldNow(), dosing_ ? case_.dosingLaw : case_.settlingLaw, result_.particles);
     backend_.restore(from.backend);
     before_ = {step_, result_.particleSteps, result_.wallTime};
+    result_.last.free = freePlaces();
     // The adhesion of the doses may be another than that of the run that settled this bed.
     if (!dosing_ && result_.settled) look();
 }
@@ -90,6 +91,7 @@ void RunLoop::takeSample(const Record& run, const StateFacts& facts) {
     s.dose = 0;
     s.coilAngle = backend_.coilAngle();
     s.energy = energy_;
+    s.free = freePlaces();
 }
 
 void RunLoop::takeSettled(const Record& run, const StateFacts& facts) {

@@ -34,7 +34,7 @@ struct Progress {
     std::uint64_t steps = 0;
     double particleSteps = 0;          ///< active particles times steps
     double wallTime = 0;               ///< spent stepping [s]
-    std::vector<double> bodyClocks{};  ///< as in Frame
+    std::vector<Moved> bodiesMoved{};  ///< as in Frame
 };
 
 /// A state to resume from: the runner's own and the backend's snapshot.
@@ -111,9 +111,9 @@ struct RunResult {
     std::string error;  ///< what stopped the run, for RunError, DeviceError and OutputError
     Ledger ledger{0, 0};
     Particles particles;             ///< end state; those that were loaded if the backend cannot give it any more
-    std::vector<double> bodyClocks;  ///< at the end, as in Frame
+    std::vector<Moved> bodiesMoved;  ///< at the end, as in Frame
     std::vector<BodyPeaks> bodyPeaks;
-    bool endState = false;       ///< true if `particles`, `bodyClocks` and `bodyPeaks` are those of the end
+    bool endState = false;       ///< true if `particles`, `bodiesMoved` and `bodyPeaks` are those of the end
     double maxOverlapRatio = 0;  ///< largest overlap over smaller radius of the whole run
     double maxOverlapTime = 0;   ///< when the call in which it occurred ended [s]
     double particleSteps = 0;

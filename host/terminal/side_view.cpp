@@ -43,7 +43,7 @@ std::vector<Edge> edgesOf(const Scene& scene, const Frame& frame) {
     std::vector<Edge> edges;
     for (std::size_t i = 0; i < scene.bodies.size(); ++i)
         for (const Edge& e :
-             placed(scene.skins[i], scene.bodies[i].pose(frame.time, frame.coilAngle, frame.clockOf(i))).edges)
+             placed(scene.skins[i], scene.bodies[i].pose(frame.time, frame.coilAngle, frame.movedOf(i))).edges)
             if (e.sharp() || e.onLimb({-1, 0, 0})) edges.push_back(e);
     return edges;
 }

@@ -24,6 +24,7 @@ const std::vector<Comparison>& comparisons();
 
 Evaluation beverloo(const std::vector<Run>& runs, const std::filesystem::path& studies);
 Evaluation heap(const std::vector<Run>& runs, const std::filesystem::path& studies);
+Evaluation dostaBall(const std::vector<Run>& runs, const std::filesystem::path& studies);
 Evaluation dostaSilo(const std::vector<Run>& runs, const std::filesystem::path& studies);
 Evaluation dostaDrum(const std::vector<Run>& runs, const std::filesystem::path& studies);
 

@@ -39,9 +39,23 @@ void bookDepartureFromBody(uint i, uint slot, uint body) {
 }
 #endif
 
+/// The largest of the bodies that move freely, which have the slack of a particle as fast (pass/free_bodies.comp).
+float slackOfFreeBodies() {
+    float most = 0.0;
+    for (uint b = 0u; b < member.bodies.x; ++b) {
+        BodyMotion motion = motionOf(b);
+        if (motion.free.w != 0.0) most = max(most, slackOf(motion.velocity.xyz));
+    }
+    return most;
+}
+
 /// How far a particle and a body can come nearer before the next refresh. Both may go their slack, and the body a step
 /// more before it is told that it has.
-float slackToBodies(float slack) { return slack + bodySlack() + 2.0 * member.choices.w + 1e-7; }
+float slackToBodies(float slack) {
+    float most = slack + bodySlack() + 2.0 * member.choices.w + 1e-7;
+    if ((SHAPE_KINDS & kFreeBodies) != 0u) most += slackOfFreeBodies();
+    return most;
+}
 
 Two3 centreOn(uint body, uint i) {
     return toBody(motionOf(body), readState(source, kPosition, i).xyz, readState(source, kResidue, i).xyz);

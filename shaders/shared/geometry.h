@@ -46,7 +46,8 @@ SHARED_CONST kShapeRoom = 7u;
 SHARED_CONST kShapeWire = 8u;
 SHARED_CONST kShapeMesh = 9u;
 SHARED_CONST kShapeFlight = 10u;
-SHARED_CONST kNoShape = 31u;
+SHARED_CONST kNoShape = 30u;
+SHARED_CONST kFreeBodies = 1u << 31u;  // a bit beside those of the kinds: a body moves freely
 
 // Vectors of the parts of a mesh.
 SHARED_CONST kTriangleVectors = 7u;
@@ -77,8 +78,13 @@ struct BodyMotion {
     vec4 spin;           // xyz [rad/s]; w: 1 if contacts see the motion of its surface
     vec4 centre;         // xyz: a point x fixed to the body has velocity + spin x (x - centre) [m]; w: radius of its
                          // surface, which a* counts [m]; 0: flat
+    // Of a body that moves freely (pass/free_bodies.comp):
+    vec4 free;  // xyz: what is left of its velocity [m/s]; w: one over its mass [1/kg], 0 if it does not move freely
+    vec4 line;  // xyz: direction of the line that it keeps to, 0 if it keeps to none; w: for how much of the step the
+                // forces act on it [s]; 0: it stands
+    vec4 way;   // x: how far it may still go before the contact lists must be made anew [m]
 };
-SHARED_CONST kMotionVectors = 9u;
+SHARED_CONST kMotionVectors = 12u;
 
 #ifdef __cplusplus
 #undef SHARED_CONST

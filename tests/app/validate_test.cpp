@@ -11,7 +11,7 @@ TEST_CASE("validate tells its comparisons, and refuses one that it does not know
     const Sandbox box;
     const auto listed = box.vkdose("validate --list");
     CHECK(listed.code == 0);
-    for (const char* name : {"chung-ooi", "beverloo", "heap", "dosta-silo", "dosta-drum"})
+    for (const char* name : {"chung-ooi", "beverloo", "heap", "dosta-silo", "dosta-ball", "dosta-drum"})
         CHECK(listed.out.find(name) != std::string::npos);
     const auto unknown = box.vkdose("validate beverlo --backend reference");
     CHECK(unknown.code == 2);

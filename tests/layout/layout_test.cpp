@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 
+#include "shaders/shared/geometry.h"
 #include "shaders/shared/layout.h"
 #include "shaders/shared/picture.h"
 #include "spirv/passes.h"
@@ -61,6 +62,11 @@ const std::map<std::string, Layout>& hostLayouts() {
          {{FIELD(EnergyRecord, normal), FIELD(EnergyRecord, sliders), FIELD(EnergyRecord, flow),
            FIELD(EnergyRecord, elastic), FIELD(EnergyRecord, momentum), FIELD(EnergyRecord, angular)},
           sizeof(EnergyRecord)}},
+        {"BodyMotion",
+         {{FIELD(BodyMotion, toBodyHigh), FIELD(BodyMotion, toBodyLow), FIELD(BodyMotion, velocity),
+           FIELD(BodyMotion, spin), FIELD(BodyMotion, centre), FIELD(BodyMotion, free), FIELD(BodyMotion, line),
+           FIELD(BodyMotion, way)},
+          sizeof(BodyMotion)}},
         {"GroupRecord", {{FIELD(GroupRecord, sensors), FIELD(GroupRecord, energy)}, sizeof(GroupRecord)}},
         {"FieldParams",
          {{FIELD(FieldParams, low), FIELD(FieldParams, size), FIELD(FieldParams, cell), FIELD(FieldParams, along),
@@ -155,7 +161,7 @@ TEST_CASE("C++ and GLSL see the same structs") {
          {structsOf(pairs_spv), structsOf(pairs_texel_spv), structsOf(surfaces_packed_energy_spv), structsOf(move_spv),
           structsOf(move_texel_energy_spv), structsOf(near_spv), structsOf(near_texel_energy_spv),
           structsOf(commit_lists_spv), structsOf(sense_spv), structsOf(sense_energy_spv), structsOf(neighbours_spv),
-          structsOf(field_sums_spv), structsOf(cast_spv)})
+          structsOf(field_sums_spv), structsOf(free_bodies_spv), structsOf(cast_spv)})
         seen.insert(structs.begin(), structs.end());
     for (const auto& [name, layout] : hostLayouts()) {
         INFO("struct " << name << " is in no pass: nothing was compared");

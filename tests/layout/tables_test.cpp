@@ -138,6 +138,7 @@ TEST_CASE("every binding of a pass is that of its table in the list, or of the t
     std::set<std::string> met, ofBodies;
     for (const auto variants :
          {std::span<const vk::Variant>(spirv::near), std::span<const vk::Variant>(spirv::bodies),
+          std::span<const vk::Variant>(spirv::free_bodies),
           std::span<const vk::Variant>(spirv::link), std::span<const vk::Variant>(spirv::pairs),
           std::span<const vk::Variant>(spirv::surfaces), std::span<const vk::Variant>(spirv::move),
           std::span<const vk::Variant>(spirv::sense), std::span<const vk::Variant>(spirv::neighbours)})

@@ -57,7 +57,7 @@ void checkSame(const Frame& a, const Frame& b) {
     CHECK(a.phase == b.phase);
     CHECK(a.dose == b.dose);
     CHECK(a.coilAngle == b.coilAngle);
-    CHECK(a.bodyClocks == b.bodyClocks);
+    CHECK(a.bodiesMoved == b.bodiesMoved);
     CHECK(a.particles.position == b.particles.position);
     CHECK(a.particles.velocity == b.particles.velocity);
     CHECK(a.particles.spin == b.particles.spin);
@@ -339,7 +339,7 @@ TEST_CASE("frames hold the bodies: those at rest beside the walls, those that mo
     // In phases it stands where its own clock says.
     c.world.bodies[1].clock = Clock::Phases;
     f.time = 9;
-    f.bodyClocks = {0, 0.5};
+    f.bodiesMoved = {0, 0.5};
     const Sandbox phased;
     {
         FrameWriter writer(phased.path(), c, 0);
@@ -350,7 +350,23 @@ TEST_CASE("frames hold the bodies: those at rest beside the walls, those that mo
     CHECK(hdf5::Reader(*bytes).array<double>("/VTKHDF/Points") == moving);
     CHECK(hdf5::Reader(*fileContent(phased / "frames/contacts_000000.hdf")).array<double>("/VTKHDF/Points") == ends);
     const Frames frames(phased.path());
-    CHECK(frames.read(frames.entries().at(0)).bodyClocks == f.bodyClocks);
+    CHECK(frames.read(frames.entries().at(0)).bodiesMoved == f.bodiesMoved);
+
+    // And where its forces have brought it, if it moves freely: the slide went 5 mm by then.
+    c.world.bodies[1].clock = Clock::Forces;
+    c.world.bodies[1].course.motion = geometry::Free{1, {}, {}};
+    f.bodiesMoved = {Moved(), Moved(Vec3(0, 0.005, 0))};
+    const Sandbox thrown;
+    {
+        FrameWriter writer(thrown.path(), c, 0);
+        writer.put(f);
+        writer.store();
+    }
+    const auto free = fileContent(thrown / "frames/bodies_000000.hdf");
+    CHECK(hdf5::Reader(*free).array<double>("/VTKHDF/Points") == moving);
+    CHECK(hdf5::Reader(*fileContent(thrown / "frames/contacts_000000.hdf")).array<double>("/VTKHDF/Points") == ends);
+    const Frames freeFrames(thrown.path());
+    CHECK(freeFrames.read(freeFrames.entries().at(0)).bodiesMoved == f.bodiesMoved);
 
     const auto owners = read("walls.hdf").array<std::uint32_t>("/VTKHDF/CellData/body");
     CHECK(std::count(owners.begin(), owners.end(), 1U) == 12);

@@ -143,8 +143,8 @@ TEST_CASE("a frame tells for which time a body has moved that moves in phases") 
     c.world.bodies = {body};
     const Led run = led(c);
     run.advance(0.03);
-    REQUIRE(run.simulation->frame().bodyClocks.size() == 1);
-    CHECK(run.simulation->frame().clockOf(0) == Approx(run.simulation->time()));
+    REQUIRE(run.simulation->frame().bodiesMoved.size() == 1);
+    CHECK(run.simulation->frame().movedOf(0).time == Approx(run.simulation->time()));
 }
 
 TEST_CASE("a halt makes it rest between two readings, and it goes on as if it had not") {

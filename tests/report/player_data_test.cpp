@@ -170,10 +170,10 @@ TEST_CASE("the player's bodies stand where their clocks have brought them") {
     std::vector<Frame> frames{frameOf(0.1, 0, 0, anywhere(c, 5, 0)), frameOf(0.3, 1, 0, anywhere(c, 5, 1))};
     for (Frame& f : frames) {
         f.particles.radius = frames[0].particles.radius;
-        f.bodyClocks = {0, f.time};
+        f.bodiesMoved = {0, f.time};
     }
     const Json bodies = playerJson(c, sourceOf(frames), 0)["bodies"];
     CHECK(bodies[0]["poses"] == bodies[1]["poses"]);
-    frames[1].bodyClocks[1] = 0.1;
+    frames[1].bodiesMoved[1] = 0.1;
     CHECK(playerJson(c, sourceOf(frames), 0)["bodies"][1]["poses"] != bodies[1]["poses"]);
 }

@@ -60,15 +60,15 @@ TEST_CASE("bodies move in their phases, and stand in all others") {
     REQUIRE(notes.frames.size() > 30);
     for (const Frame& f : notes.frames) {
         CAPTURE(f.step);
-        REQUIRE(f.bodyClocks.size() == 4);
-        CHECK(f.clockOf(kAlways) == 0);
-        CHECK(f.clockOf(kStirrer) == secondsOf(rotating(f.step)));
-        CHECK(f.clockOf(kTapper) == secondsOf(std::min<std::uint64_t>(f.step, 100)));
+        REQUIRE(f.bodiesMoved.size() == 4);
+        CHECK(f.movedOf(kAlways) == 0);
+        CHECK(f.movedOf(kStirrer) == secondsOf(rotating(f.step)));
+        CHECK(f.movedOf(kTapper) == secondsOf(std::min<std::uint64_t>(f.step, 100)));
         // The flap's table is as long as a dose, and begins with it. At the end of a dose it is closed.
         const std::uint64_t inDose = f.step <= 100 ? 0 : (f.step - 101) % 70 + 1;
-        CHECK(f.clockOf(kFlap) == secondsOf(inDose));
+        CHECK(f.movedOf(kFlap) == secondsOf(inDose));
 
-        const auto poseOf = [&](Body b) { return c.world.bodies[b].pose(f.time, f.coilAngle, f.clockOf(b)); };
+        const auto poseOf = [&](Body b) { return c.world.bodies[b].pose(f.time, f.coilAngle, f.movedOf(b)); };
         const double turned = 3.0 * secondsOf(rotating(f.step));
         CHECK(std::abs(poseOf(kStirrer).toWorld(Vec3(1, 0, 0)).x - std::cos(turned)) < 1e-12);
         const double shaken = 1e-3 * std::sin(2 * kPi * 40 * secondsOf(std::min<std::uint64_t>(f.step, 100)) + 0.3);
@@ -77,7 +77,7 @@ TEST_CASE("bodies move in their phases, and stand in all others") {
         CHECK(std::abs(poseOf(kFlap).toWorld(Vec3(0, 1, 0)).y - std::cos(open)) < 1e-12);
         CHECK(std::abs(poseOf(kAlways).origin.x - f.time) < 1e-12);
     }
-    CHECK(r.bodyClocks == notes.frames.back().bodyClocks);
+    CHECK(r.bodiesMoved == notes.frames.back().bodiesMoved);
     // The backend was told before each of its calls, and counts as the run does.
     std::vector<BodyClock> last = backend.clocks;
     advanceClocks(last, backend.calls.back().steps);
@@ -97,7 +97,7 @@ TEST_CASE("a table that is longer than its phases comes to its end before it sta
                                  : f.step < 200 ? f.step - 100
                                  : f.step < 300 ? f.step - 200
                                                 : f.step - 300;
-        CHECK(f.clockOf(kFlap) == secondsOf(at));
+        CHECK(f.movedOf(kFlap) == secondsOf(at));
     }
     // A table that is over waits for the next dose.
     FakeBackend other;
@@ -106,8 +106,8 @@ TEST_CASE("a table that is longer than its phases comes to its end before it sta
     const RigidBody body = phasedCase(0.03).world.bodies[kFlap];
     for (const Frame& f : shorter.frames) {
         const std::uint64_t inDose = f.step <= 100 ? 0 : (f.step - 101) % 70 + 1;
-        CHECK(f.clockOf(kFlap) == secondsOf(inDose));
-        if (inDose >= 30) CHECK(body.pose(0, 0, f.clockOf(kFlap)).toWorld(Vec3(0, 1, 0)).y == 1);
+        CHECK(f.movedOf(kFlap) == secondsOf(inDose));
+        if (inDose >= 30) CHECK(body.pose(0, 0, f.movedOf(kFlap)).toWorld(Vec3(0, 1, 0)).y == 1);
     }
 }
 
@@ -120,8 +120,8 @@ TEST_CASE("a dose that ends early ends the motion of its phase") {
     play(c, backend, notes);
     // The first dose finds its mass at 120, and rests until 140; the others turn for all of their time.
     for (const Frame& f : notes.frames)
-        if (f.step >= 120 && f.step <= 140) CHECK(f.clockOf(kStirrer) == secondsOf(20));
-    CHECK(notes.frames.back().clockOf(kStirrer) == secondsOf(20 + 50 + 50));
+        if (f.step >= 120 && f.step <= 140) CHECK(f.movedOf(kStirrer) == secondsOf(20));
+    CHECK(notes.frames.back().movedOf(kStirrer) == secondsOf(20 + 50 + 50));
 }
 
 TEST_CASE("clocks go on from any checkpoint as if nothing had been") {
@@ -139,10 +139,10 @@ TEST_CASE("clocks go on from any checkpoint as if nothing had been") {
         FakeBackend again;
         Notebook rest;
         const RunResult r = runFilled(c, smallFilling(), derived, again, rest, stop, &from);
-        CHECK(r.bodyClocks == whole.bodyClocks);
+        CHECK(r.bodiesMoved == whole.bodiesMoved);
         const std::size_t behind = notes.frames.size() - rest.frames.size();
         for (std::size_t i = 0; i < rest.frames.size(); ++i)
-            CHECK(rest.frames[i].bodyClocks == notes.frames[behind + i].bodyClocks);
+            CHECK(rest.frames[i].bodiesMoved == notes.frames[behind + i].bodiesMoved);
     }
     // A record of a world without such bodies has none.
     Case plain = smallCase();

@@ -33,6 +33,7 @@ class Wrong : public Backend {
     Record snapshot() const override { return inner_->snapshot(); }
     void restore(const Record& record) override { inner_->restore(record); }
     Particles particles() const override { return inner_->particles(); }
+    std::vector<FreeBody> freeBodies() const override { return inner_->freeBodies(); }
     std::vector<Contact> contacts() const override { return inner_->contacts(); }
     FieldPoints fields(const FieldRequest& request) override { return inner_->fields(request); }
     double coilAngle() const override { return inner_->coilAngle(); }

@@ -50,6 +50,7 @@ class Skewed final : public Backend {
     Record snapshot() const override { return sound_->snapshot(); }
     void restore(const Record& record) override { sound_->restore(record); }
     Particles particles() const override { return sound_->particles(); }
+    std::vector<FreeBody> freeBodies() const override { return sound_->freeBodies(); }
     std::vector<Contact> contacts() const override { return sound_->contacts(); }
     FieldPoints fields(const FieldRequest& request) override { return sound_->fields(request); }
     double coilAngle() const override { return sound_->coilAngle(); }

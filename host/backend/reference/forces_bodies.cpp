@@ -18,6 +18,11 @@ void Forces::placeBodies() {
     const double back = springDt_ / 2;
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
         const RigidBody& body = bodies_[b];
+        if (body.movesFreely()) {
+            const geometry::Pose pose = body.pose(0, 0, Moved(drive_.free[b].shift));
+            placed_.push_back({pose, {drive_.free[b].velocity, Vec3(0), pose.origin}});
+            continue;
+        }
         const BodyClock clock = clockOf(drive_.clocks, b);
         const double own = static_cast<double>(clock.steps) * world_->timeStep;
         placed_.push_back({body.pose(drive_.time, drive_.angle, own),

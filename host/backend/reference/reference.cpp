@@ -57,6 +57,7 @@ class ReferenceBackend final : public Backend {
         steps_ = 0;
         angle_ = 0;
         clocks_.clear();
+        free_ = freeAtStart(world.bodies);
         book_ = {};
     }
 
@@ -75,6 +76,7 @@ class ReferenceBackend final : public Backend {
     void restore(const Record& record) override;
 
     Particles particles() const override { return particles_; }
+    std::vector<FreeBody> freeBodies() const override;
     std::vector<Contact> contacts() const override { return forces_.contacts(); }
     FieldPoints fields(const FieldRequest& request) override {
         if (const std::optional<std::string> fault = faultOf(request)) throw RunError(*fault);
@@ -86,6 +88,7 @@ class ReferenceBackend final : public Backend {
   private:
     void step(double coilRate);
     void move(std::size_t i, double kick);
+    void moveBodies();
     void settleStatus(std::size_t i);
     void bookStep(bool opening);
     void refuseDeepOverlap() const;
@@ -119,6 +122,7 @@ class ReferenceBackend final : public Backend {
     std::uint64_t steps_ = 0;        ///< since load
     double angle_ = 0;               ///< of the coil since load [rad]
     std::vector<BodyClock> clocks_;  ///< of bodies that move in phases; empty: they stand
+    std::vector<FreeBody> free_;     ///< of the world's bodies those that move freely
     std::string lost_;               ///< the first loss of the step, as an error message
 };
 
@@ -138,6 +142,15 @@ Record ReferenceBackend::snapshot() const {
     record.putOne(kSnapshotSteps, steps_);
     record.putOne("coil_angle", angle_);
     record.putOne("rebuilds", neighbours_.builds());
+    if (moveFreely(world_.bodies)) {
+        std::vector<Vec3> shifts, velocities;
+        for (const FreeBody& body : free_) {
+            shifts.push_back(body.shift);
+            velocities.push_back(body.velocity);
+        }
+        record.put("body_shift", flat(shifts));
+        record.put("body_velocity", flat(velocities));
+    }
     forces_.save(record);
     return record;
 }
@@ -145,14 +158,20 @@ Record ReferenceBackend::snapshot() const {
 void ReferenceBackend::restore(const Record& record) {
     const std::size_t n = particles_.size();
     const auto vectors = [&](const char* name, std::vector<Vec3>& to) {
-        const auto& values = record.get<double>(name, 3 * n);
-        for (std::size_t i = 0; i < n; ++i) to[i] = Vec3(values[3 * i], values[3 * i + 1], values[3 * i + 2]);
+        const auto& values = record.get<double>(name, 3 * to.size());
+        for (std::size_t i = 0; i < to.size(); ++i) to[i] = Vec3(values[3 * i], values[3 * i + 1], values[3 * i + 2]);
     };
     vectors("position", particles_.position);
     vectors("velocity", particles_.velocity);
     vectors("spin", particles_.spin);
     const auto& status = record.get<std::uint32_t>("status", n);
     for (std::size_t i = 0; i < n; ++i) particles_.status[i] = static_cast<Status>(status[i]);
+    if (moveFreely(world_.bodies)) {
+        std::vector<Vec3> shifts(free_.size()), velocities(free_.size());
+        vectors("body_shift", shifts);
+        vectors("body_velocity", velocities);
+        for (std::size_t b = 0; b < free_.size(); ++b) free_[b] = {shifts[b], velocities[b]};
+    }
     steps_ = record.one<std::uint64_t>(kSnapshotSteps);
     angle_ = record.one<double>("coil_angle");
     neighbours_.reset(world_.skin, reach_, record.one<std::uint64_t>("rebuilds"));
@@ -199,10 +218,13 @@ void ReferenceBackend::step(double coilRate) {
     const bool opening = steps_ == 0;
     const double dt = world_.timeStep;
     neighbours_.update(particles_);
+    const std::vector<FreeBody> free = freeBodies();
     forces_.evaluate(world_, particles_, neighbours_,
-                     Drive{angle_, coilRate, static_cast<double>(steps_) * dt, clocks_}, opening ? 0 : dt, loads_);
+                     Drive{angle_, coilRate, static_cast<double>(steps_) * dt, clocks_, free}, opening ? 0 : dt,
+                     loads_);
     refuseDeepOverlap();
     if (world_.energyBook) before_ = particles_;
+    moveBodies();
 
     ++steps_;
     advanceClocks(clocks_, 1);
@@ -222,6 +244,29 @@ void ReferenceBackend::move(std::size_t i, double kick) {
     particles_.velocity[i] += kick * (loads_.force[i] / m + world_.gravity);
     particles_.spin[i] += kick / inertia * loads_.torque[i];
     particles_.position[i] += world_.timeStep * particles_.velocity[i];
+}
+
+/// As `move`, of the bodies that move freely.
+void ReferenceBackend::moveBodies() {
+    for (std::size_t b = 0; b < free_.size(); ++b) {
+        const RigidBody& body = world_.bodies[b];
+        if (!body.movesFreely()) continue;
+        const double kick = body.kickOf(steps_, world_.timeStep);
+        if (kick == 0) continue;
+        const auto& motion = std::get<geometry::Free>(body.course.motion);
+        Vec3 push = kick * (loads_.bodies[b].force / motion.mass + world_.gravity);
+        if (motion.line) push = glm::dot(push, *motion.line) * *motion.line;
+        free_[b].velocity += push;
+        free_[b].shift += world_.timeStep * free_[b].velocity;
+    }
+}
+
+std::vector<FreeBody> ReferenceBackend::freeBodies() const {
+    if (!moveFreely(world_.bodies)) return {};
+    std::vector<FreeBody> bodies = free_;
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+        if (steps_ < world_.bodies[b].firstFreeStep(world_.timeStep)) bodies[b].velocity = Vec3(0);
+    return bodies;
 }
 
 /// Takes a particle out of the motion if it is dosed or lost.

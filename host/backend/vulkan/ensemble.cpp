@@ -48,6 +48,9 @@ const char* text(std::uint32_t error) {
             return "touches one body in more than four places, or more than 128 facets of its mesh at once: use "
                    "smaller "
                    "spheres, a smoother body, a coarser mesh, or --backend reference";
+        case gpu::kErrorForce:
+            return "pushes a body that moves freely harder than the device can add up: give the body more mass, or use "
+                   "a smaller time step";
         default:
             return "has an error that this program does not know: report this case";
     }
@@ -156,6 +159,7 @@ Record Ensemble::snapshot(std::uint32_t member) const {
     record.putOne(kSnapshotSteps, m.step);
     if (const auto& law = passes_->sizes.userLaw) record.putOne("user_law", fnv1a(law->text));
     record.putOne("drive", std::uint64_t(m.drive));
+    saveFree(m, record);
     return record;
 }
 
@@ -168,6 +172,7 @@ void Ensemble::restore(std::uint32_t member, const Record& record) {
     if (before != (law ? fnv1a(law->text) : 0))
         throw RecordError(fmt::format("it was made under another law than {}", law ? law->name : "that of the case"));
     restoreState(*passes_, member, m.loaded.size(), m.half(), record);
+    restoreFree(record, step, m);
     m.drive = drive;
     m.step = step;
 }
@@ -194,6 +199,7 @@ void Ensemble::runBatch(std::uint32_t count, const std::vector<double>& coilRate
         m.drive += drivePerStep(coilRates[index], m.world.timeStep) * count;
         advanceClocks(m.clocks, count);
         m.step += count;
+        readFree(m, count);
     }
 }
 

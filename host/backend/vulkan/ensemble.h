@@ -52,6 +52,7 @@ class Ensemble {
     Record snapshot(std::uint32_t member) const;
     void restore(std::uint32_t member, const Record& record);
     Particles particles(std::uint32_t member) const;
+    std::vector<FreeBody> freeBodies(std::uint32_t member) const;
     std::vector<Contact> contacts(std::uint32_t member) const;
 
     /// As in Backend, of a live member.
@@ -72,14 +73,16 @@ class Ensemble {
         Particles loaded;
         gpu::Member block{};
         std::uint64_t step = 0;
-        std::uint32_t made = 0;         ///< steps since load (gpu::Control::steps)
-        std::int64_t drive = 0;         ///< of the drive since load [kDrive turns]; the same for any batches
-        std::vector<BodyClock> clocks;  ///< of bodies that move in phases; empty: they stand
-        bool moves = false;             ///< one of its bodies
-        std::vector<gpu::vec4> around;  ///< of each body: a sphere around it in its own frame: centre, radius [m]
+        std::uint32_t made = 0;           ///< steps since load (gpu::Control::steps)
+        std::int64_t drive = 0;           ///< of the drive since load [kDrive turns]; the same for any batches
+        std::vector<BodyClock> clocks;    ///< of bodies that move in phases; empty: they stand
+        bool moves = false;               ///< one of its bodies
+        bool free = false;                ///< one of its bodies moves freely
+        std::vector<gpu::BodyMotion> at;  ///< of the bodies that move freely: as in the next step
+        std::vector<gpu::vec4> around;    ///< of each body: a sphere around it in its own frame: centre, radius [m]
         /// Of each body that turns about the z axis of its frame: how much nearer it comes at most [m per s or rad].
         std::vector<std::optional<double>> approach;
-        std::uint32_t row = 0;          ///< on the roster
+        std::uint32_t row = 0;  ///< on the roster
         std::optional<std::string> failure;
 
         std::uint32_t half() const { return made % 2; }  ///< of the state, which is current
@@ -91,6 +94,15 @@ class Ensemble {
     void makeBodies(TableSizes& sizes);
     void writeMotions(std::uint32_t count, const std::vector<double>& coilRates);
     std::vector<BodyLoad> takeLoads(std::uint32_t member, std::uint32_t steps);
+    // ensemble_free.cpp, the bodies that move freely
+    /// At their start.
+    static void placeFree(MemberState& m);
+    /// Body `b` in step `n` of the next batch, as far as the host can tell: the device goes on from the first one.
+    static gpu::BodyMotion motionOfFree(const MemberState& m, std::size_t b, std::uint32_t n);
+    /// After a batch of so many steps.
+    void readFree(MemberState& m, std::uint32_t count) const;
+    static void saveFree(const MemberState& m, Record& record);
+    static void restoreFree(const Record& record, std::uint64_t step, MemberState& m);
 
     void writeBlocks();
     /// `count` steps of every live member.

@@ -80,6 +80,7 @@ double longestWay(const World& world, const RigidBody& body, const gpu::vec4& ar
         centre = pose.toBody((room.low + room.high) / 2.0);
         radius = reach;
     }
+    if (body.movesFreely()) return 0;  // the device watches its way
     const bool byDrive = body.clock == Clock::Drive;
     if (body.clock == Clock::Phases && !now.runs) return 0;
     const double span = byDrive ? std::abs(now.rate) * world.timeStep : world.timeStep;
@@ -109,6 +110,9 @@ void Ensemble::makeBodies(TableSizes& sizes) {
         m.moves = std::any_of(m.bodies.begin(), m.bodies.end(), [](const RigidBody& b) {
             return !std::holds_alternative<geometry::Rest>(b.course.motion);
         });
+        m.free = moveFreely(m.bodies);
+        if (m.free) sizes.shapeKinds |= gpu::kFreeBodies;
+        placeFree(m);
         m.block.bodies = gpu::uvec4(m.bodies.size(), geometry.size(), 0, 0);
         for (std::size_t b = 0; b < m.bodies.size(); ++b) {
             m.around.push_back(aroundOf(packed, b));
@@ -128,7 +132,7 @@ void Ensemble::makeBodies(TableSizes& sizes) {
         slots =
             std::min<std::size_t>(std::size_t(sizes.members) * sizes.bodySlots,
                                   device_.limits().maxStorageBufferRange / (gpu::kNearbyWords * sizeof(std::uint32_t)));
-    bodies_ = std::make_unique<BodyTables>(device_, geometry, std::size_t(mostBatch_) * motions, slots);
+    bodies_ = std::make_unique<BodyTables>(device_, geometry, std::size_t(mostBatch_ + 1) * motions, slots);
 }
 
 /// Where the bodies of all live members are in each step of the next batch.
@@ -143,10 +147,14 @@ void Ensemble::writeMotions(std::uint32_t count, const std::vector<double>& coil
         m.block.bodies.z = std::uint32_t(motions.size());
         m.block.bodies.w = m.moves ? std::uint32_t(bodies.size()) : 0;
         double way = 0;
-        for (std::uint32_t n = 0; n < (m.moves ? count : 1); ++n) {
+        for (std::uint32_t n = 0; n < (m.free ? count + 1 : m.moves ? count : 1); ++n) {
             const double angle = driveAngle(m.drive + perStep * n);
             const double back = m.step + n == 0 ? 0 : dt / 2;  // velocities are those half a step before
             for (std::size_t b = 0; b < bodies.size(); ++b) {
+                if (bodies[b].movesFreely()) {
+                    motions.push_back(motionOfFree(m, b, n));
+                    continue;
+                }
                 const Instant now(m.world, m.step + n, angle, rate, clockOf(m.clocks, b), n);
                 motions.push_back(packMotion(bodies[b], now.pose(bodies[b]), now.moving(bodies[b], back)));
                 way = std::max(way, longestWay(m.world, bodies[b], m.around[b], m.approach[b], now));
@@ -164,6 +172,7 @@ std::vector<BodyLoad> Ensemble::takeLoads(std::uint32_t member, std::uint32_t st
     const std::size_t n = m.loaded.size();
     const double share = steps > 0 ? 1.0 / steps : 0.0;
     const std::vector<float> none(n, 0.0F);
+    const std::vector<FreeBody> free = freeBodies(member);
     for (std::uint32_t b = 0; b < m.bodies.size(); ++b) {
         std::array<double, gpu::kBodyLoads> sums{};
         for (std::uint32_t k = 0; k < gpu::kBodyLoads; ++k) {
@@ -175,7 +184,9 @@ std::vector<BodyLoad> Ensemble::takeLoads(std::uint32_t member, std::uint32_t st
         const RigidBody& body = m.bodies[b];
         const Vec3 force = -share * Vec3(sums[0], sums[1], sums[2]), moment = -share * Vec3(sums[3], sums[4], sums[5]);
         const Instant now(m.world, m.step, driveAngle(m.drive), 0, clockOf(m.clocks, b), 0);
-        const Vec3 pivot = body.pivot(now.pose(body));
+        geometry::Pose pose = now.pose(body);
+        if (body.movesFreely()) pose.origin += free.at(b).shift;
+        const Vec3 pivot = body.pivot(pose);
         loads.push_back({force, glm::dot(body.axis(), moment - glm::cross(pivot, force)), sums[6]});
     }
     return loads;

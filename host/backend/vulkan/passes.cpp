@@ -30,6 +30,7 @@ unsigned macrosFor(const Access& access, const TableSizes& s) {
 enum class Extent {
     OfDevice,   ///< the device decides: `arguments` are in gpu::Dispatches
     Particles,  ///< those of all live members
+    Bodies,     ///< one for each body of all live members
     One,
 };
 
@@ -40,6 +41,7 @@ struct StepPass {
     VkDeviceSize arguments = 0;
     bool readsBodies = false;      ///< binds the tables of shaders/shared/body_tables.h, if there are bodies
     bool forBodies = false;        ///< has nothing to do without bodies
+    bool forFree = false;          ///< has nothing to do without bodies that move freely
     const char* source = nullptr;  ///< of a pass that knows the law or what contacts remember
 };
 
@@ -49,18 +51,21 @@ constexpr std::array kPasses{
     StepPass{"clear", spirv::clear, Extent::OfDevice, offsetof(gpu::Dispatches, cells)},
     StepPass{"bin", spirv::bin, Extent::OfDevice, offsetof(gpu::Dispatches, particles)},
     StepPass{"neighbours", spirv::neighbours, Extent::OfDevice, offsetof(gpu::Dispatches, particles)},
-    StepPass{"near", spirv::near, Extent::OfDevice, offsetof(gpu::Dispatches, refresh), true, false, "pass/near.comp"},
-    StepPass{"link", spirv::link, Extent::OfDevice, offsetof(gpu::Dispatches, refresh), false, false, "pass/link.comp"},
+    StepPass{"near", spirv::near, Extent::OfDevice, offsetof(gpu::Dispatches, refresh), true, false, false,
+             "pass/near.comp"},
+    StepPass{"link", spirv::link, Extent::OfDevice, offsetof(gpu::Dispatches, refresh), false, false, false,
+             "pass/link.comp"},
     StepPass{"commit_lists", spirv::commit_lists, Extent::OfDevice, offsetof(gpu::Dispatches, settle)},
-    StepPass{"pairs", spirv::pairs, Extent::OfDevice, offsetof(gpu::Dispatches, pairs), false, false,
+    StepPass{"pairs", spirv::pairs, Extent::OfDevice, offsetof(gpu::Dispatches, pairs), false, false, false,
              "pass/pairs.comp"},
-    StepPass{"surfaces", spirv::surfaces, Extent::OfDevice, offsetof(gpu::Dispatches, surfaces), false, false,
+    StepPass{"surfaces", spirv::surfaces, Extent::OfDevice, offsetof(gpu::Dispatches, surfaces), false, false, false,
              "pass/surfaces.comp"},
-    StepPass{"bodies", spirv::bodies, Extent::OfDevice, offsetof(gpu::Dispatches, bodies), true, true,
+    StepPass{"bodies", spirv::bodies, Extent::OfDevice, offsetof(gpu::Dispatches, bodies), true, true, false,
              "pass/bodies.comp"},
+    StepPass{"free_bodies", spirv::free_bodies, Extent::Bodies, 0, true, true, true},
     StepPass{"move", spirv::move, Extent::Particles},
 };
-constexpr std::size_t kDecide = 0, kFirstOfStep = 7, kMove = kPasses.size() - 1;
+constexpr std::size_t kDecide = 0, kFirstOfStep = 7, kMove = kPasses.size() - 1, kFree = kMove - 1;
 
 }  // namespace
 
@@ -139,6 +144,7 @@ Passes::Passes(const vk::Device& device, const TableSizes& s, const BodyTables* 
     for (const StepPass& pass : kPasses) {
         std::optional<vk::Pipeline>& made = passes_.emplace_back();
         if (pass.forBodies && !bodyBindings_) continue;  // drivers take their time with it
+        if (pass.forFree && (s.shapeKinds & gpu::kFreeBodies) == 0) continue;
         const unsigned macros = macrosFor(access, s);
         const bool ofUser = s.userLaw != nullptr && pass.source != nullptr;
         made.emplace(
@@ -224,6 +230,9 @@ void Passes::record(vk::Commands& commands, std::size_t n) const {
         case Extent::Particles:
             commands.dispatch(sizes.inRow(sizes.groups()), live_, sizes.layers(sizes.groups()));
             break;
+        case Extent::Bodies:
+            commands.dispatch(sizes.bodies, live_, 1);
+            break;
         case Extent::One:
             commands.dispatch(1, 1, 1);
     }
@@ -256,9 +265,10 @@ void Passes::recordSteps(vk::Commands& commands, std::uint32_t count, bool openi
             pushStep(step, opening && done + step == 0);
             if (step == 0)
                 for (std::size_t n = kDecide + 1; n < kFirstOfStep; ++n) one(n, true);
-            // Contacts of different kinds have different parts of the tables, and need not wait for one another. The
-            // validation layer knows whole tables only, so with it they do.
-            for (std::size_t n = kFirstOfStep; n < kMove; ++n) one(n, n + 1 == kMove || validated_);
+            // Contacts of different kinds have different parts of the tables, and need not wait for one another. Nor
+            // need particles and bodies that move. The validation layer knows whole tables only, so with it they do.
+            for (std::size_t n = kFirstOfStep; n < kFree; ++n) one(n, n + 1 == kFree || validated_);
+            if (passes_[kFree]) one(kFree, validated_);
             one(kMove, true);
         }
         pushStep(stride, false);

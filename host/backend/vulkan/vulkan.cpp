@@ -68,6 +68,9 @@ class VulkanBackend final : public Backend {
     Particles particles() const override {
         return alone([](Ensemble& e, std::uint32_t member) { return e.particles(member); });
     }
+    std::vector<FreeBody> freeBodies() const override {
+        return alone([](Ensemble& e, std::uint32_t member) { return e.freeBodies(member); });
+    }
     std::vector<Contact> contacts() const override {
         return alone([](Ensemble& e, std::uint32_t member) { return e.contacts(member); });
     }

@@ -1,0 +1,105 @@
+// The bodies of an ensemble that move freely. The host knows where they are between two batches; in a batch the device
+// goes on from there by itself (shaders/pass/free_bodies.comp).
+
+#include <array>
+
+#include "host/backend/vulkan/ensemble.h"
+#include "host/backend/vulkan/pack.h"
+#include "host/backend/vulkan/pack_bodies.h"
+#include "host/backend/vulkan/split.h"
+
+namespace vkdose {
+
+namespace {
+
+constexpr const char* kSaved = "free_bodies";
+constexpr std::size_t kNumbers = 12;  // of each body: its place and its velocity, high and low parts
+
+/// Calls `visit` for each of these numbers.
+template <class Motion, class Visit>
+void eachNumber(Motion& m, Visit visit) {
+    for (int d = 0; d < 3; ++d) {
+        visit(m.toBodyHigh[d].w);
+        visit(m.toBodyLow[d].w);
+        visit(m.velocity[d]);
+        visit(m.free[d]);
+    }
+}
+
+gpu::BodyMotion packed(const RigidBody& body, const Vec3& shift, const Vec3& velocity) {
+    const geometry::Pose pose = body.pose(0, 0, Moved(shift));
+    gpu::BodyMotion m = packMotion(body, pose, {velocity, Vec3(0), pose.origin});
+    const auto& motion = std::get<geometry::Free>(body.course.motion);
+    const Split3 speed(velocity);
+    m.velocity = gpu::vec4(speed.high, m.velocity.w);
+    m.free = gpu::vec4(speed.low, float(1 / motion.mass));
+    m.line = gpu::vec4(motion.line ? glm::vec3(*motion.line) : glm::vec3(0), 0);
+    return m;
+}
+
+/// A body that has not moved freely yet: it stands, until the step at whose beginning it has its first velocity.
+gpu::BodyMotion standing(const RigidBody& body, std::uint64_t step, double timeStep) {
+    const bool begins = step >= body.firstFreeStep(timeStep);
+    return packed(body, Vec3(0), begins ? std::get<geometry::Free>(body.course.motion).velocity : Vec3(0));
+}
+
+}  // namespace
+
+void Ensemble::placeFree(MemberState& m) {
+    m.at.assign(m.bodies.size(), {});
+    for (std::size_t b = 0; b < m.bodies.size(); ++b)
+        if (m.bodies[b].movesFreely()) m.at[b] = standing(m.bodies[b], 0, m.world.timeStep);
+}
+
+gpu::BodyMotion Ensemble::motionOfFree(const MemberState& m, std::size_t b, std::uint32_t n) {
+    const double dt = m.world.timeStep;
+    gpu::BodyMotion motion = n == 0 ? m.at[b] : standing(m.bodies[b], m.step + n, dt);
+    motion.line.w = float(m.bodies[b].kickOf(m.step + n, dt));
+    return motion;
+}
+
+void Ensemble::readFree(MemberState& m, std::uint32_t count) const {
+    if (!m.free) return;
+    const std::size_t first = m.block.bodies.z + std::size_t(count) * m.block.bodies.w;
+    m.at = bodies_->motions.readAll<gpu::BodyMotion>(m.bodies.size(), first * sizeof(gpu::BodyMotion));
+}
+
+std::vector<FreeBody> Ensemble::freeBodies(std::uint32_t member) const {
+    const MemberState& m = members_[member];
+    if (!m.free) return {};
+    std::vector<FreeBody> bodies(m.world.bodies.size());
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+        if (!m.bodies[b].movesFreely()) continue;
+        const gpu::BodyMotion& at = m.at[b];
+        for (int d = 0; d < 3; ++d) {
+            const double place = double(at.toBodyHigh[d].w) + double(at.toBodyLow[d].w);
+            bodies[b].shift[d] = place - m.bodies[b].course.start.origin[d];
+            bodies[b].velocity[d] = double(at.velocity[d]) + double(at.free[d]);
+        }
+    }
+    return bodies;
+}
+
+void Ensemble::saveFree(const MemberState& m, Record& record) {
+    if (!m.free) return;
+    std::vector<float> numbers;
+    for (std::size_t b = 0; b < m.bodies.size(); ++b)
+        if (m.bodies[b].movesFreely()) eachNumber(m.at[b], [&](float x) { numbers.push_back(x); });
+    record.put(kSaved, std::move(numbers));
+}
+
+void Ensemble::restoreFree(const Record& record, std::uint64_t step, MemberState& m) {
+    if (!m.free) return;
+    std::size_t count = 0;
+    for (const RigidBody& body : m.bodies) count += body.movesFreely() ? 1 : 0;
+    auto next = record.get<float>(kSaved, kNumbers * count).begin();
+    for (std::size_t b = 0; b < m.bodies.size(); ++b) {
+        if (!m.bodies[b].movesFreely()) continue;
+        eachNumber(m.at[b], [&](float& x) { x = *next++; });
+        // A state of another time step may know it as standing where it begins to move here.
+        if (step <= m.bodies[b].firstFreeStep(m.world.timeStep))
+            m.at[b] = standing(m.bodies[b], step, m.world.timeStep);
+    }
+}
+
+}  // namespace vkdose

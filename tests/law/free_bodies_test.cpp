@@ -1,0 +1,172 @@
+// Bodies that move freely in the reference backend: closed forms, momentum, energy, restart.
+
+#include <cmath>
+
+#include "host/core/record.h"
+#include "host/sim/energy_ledger.h"
+#include "tests/law/setups.h"
+#include "tests/support/catch.h"
+#include "tests/support/near.h"
+
+using namespace vkdose;
+using namespace vkdose::test;
+
+namespace {
+
+constexpr double kStep = 2e-6;
+const Vec3 kPull(0, 0, -kGravity);
+
+/// A world with one body that moves freely.
+RuledWorld worldWith(std::vector<geometry::Shape> shapes, const geometry::Free& free, const Vec3& at,
+                     const ContactParameters& p) {
+    RuledWorld world = freeWorld(p, kStep);
+    world.gravity = kPull;
+    world.bodies.push_back({"ball", std::move(shapes), {{{1, 0, 0, 0}, at}, free, {}}, Clock::Forces, kWallMaterial});
+    return world;
+}
+
+/// A sphere far away from all, which falls.
+Particles farAway() {
+    Particles p;
+    p.add(Vec3(0.5, 0.5, 0), kRadius);
+    return p;
+}
+
+/// A disc of 12 mm that lies on 13 spheres on a floor, a little above or below touch.
+RuledWorld lidWorld(const ContactParameters& p, double mass, double gap) {
+    RuledWorld world = worldWith({geometry::Cone{Vec3(0), Vec3(0, 0, 1), 0, 12e-3, 0}}, {mass, Vec3(0), Vec3(0, 0, 1)},
+                                 Vec3(0, 0, 2 * kRadius + gap), p);
+    world.surfaces.push_back(geometry::Plane{Vec3(0), Vec3(0, 0, 1)});
+    return world;
+}
+
+Particles underLid() {
+    Particles p;
+    for (int i = 0; i < 13; ++i) {
+        const double angle = 2.4 * i, out = 2.5e-3 * std::sqrt(double(i));
+        p.add(Vec3(out * std::cos(angle), out * std::sin(angle), kRadius), kRadius);
+    }
+    return p;
+}
+
+/// Kinetic and potential energy of the body at the full step between two calls of one step [J].
+double energyAt(const FreeBody& before, const FreeBody& after, double mass, const Vec3& gravity) {
+    return mass * (0.5 * glm::dot(before.velocity, after.velocity) - glm::dot(gravity, before.shift));
+}
+
+}  // namespace
+
+TEST_CASE("free bodies: one that nothing touches is thrown as the closed form says") {
+    const Vec3 thrown(0.3, -0.1, 1);
+    RuledWorld world = worldWith({geometry::Ball{Vec3(0), 3e-3}}, {0.01, thrown, {}}, Vec3(0), spring(1e3));
+    const int steps = 40'000;
+    const double t = steps * kStep;
+    const auto backend = makeReferenceBackend();
+    SECTION("everywhere") {
+        backend->load(world, farAway());
+        backend->advance(steps, 0);
+        const FreeBody ball = backend->freeBodies().at(0);
+        CHECK(near(ball.shift, t * thrown + 0.5 * t * t * kPull, t, 1e-12));
+        CHECK(near(ball.velocity, thrown + (t - kStep / 2) * kPull, 1, 1e-12));
+    }
+    SECTION("along its line") {
+        const Vec3 line = glm::normalize(Vec3(1, 2, -2));
+        world.bodies[0].course.motion = geometry::Free{0.01, 0.5 * line, line};
+        backend->load(world, farAway());
+        backend->advance(steps, 0);
+        const double pull = glm::dot(kPull, line);
+        CHECK(near(backend->freeBodies().at(0).shift, (0.5 * t + 0.5 * t * t * pull) * line, t, 1e-12));
+    }
+    SECTION("from a time on") {
+        world.bodies[0].course.schedule.intervals = {{0.02, geometry::kEndless}};
+        backend->load(world, farAway());
+        backend->advance(9'999, 0);
+        CHECK(backend->freeBodies().at(0).shift == Vec3(0));
+        CHECK(backend->freeBodies().at(0).velocity == Vec3(0));
+        backend->advance(steps - 9'999, 0);
+        const double since = t - 0.02;
+        CHECK(near(backend->freeBodies().at(0).shift, since * thrown + 0.5 * since * since * kPull, t, 1e-12));
+    }
+}
+
+TEST_CASE("free bodies: a lid that rests on spheres weighs on them, and on the floor with their weight") {
+    const double mass = 0.02, weight = mass * kGravity;
+    const RuledWorld world = lidWorld(paperParameters(), mass, -2e-6);
+    const auto backend = makeReferenceBackend();
+    backend->load(world, underLid());
+    backend->advance(400'000, 0);
+    Vec3 lid(0), floor(0);
+    for (const Contact& c : backend->contacts()) {
+        if (c.kind != ContactClass::ParticleWall) continue;
+        (c.other == 1 ? lid : floor) += c.force;
+    }
+    double spheres = 0;
+    for (const double r : underLid().radius) spheres += massOf(r) * kGravity;
+    CHECK(near(-lid.z, weight, weight, 1e-3));
+    CHECK(near(floor.z, weight + spheres, weight, 1e-3));
+    const Sensors s = backend->advance(1000, 0);
+    CHECK(near(s.bodies.at(0).force.z, weight, weight, 1e-3));
+    CHECK(std::abs(backend->freeBodies().at(0).velocity.z) < 1e-4);
+}
+
+TEST_CASE("free bodies: what the spheres gain in momentum the body loses") {
+    RuledWorld world = worldWith({geometry::Ball{Vec3(0), 6e-3}}, {2e-3, Vec3(0.1, 0, -0.5), {}}, Vec3(0, 0, 8e-3),
+                                 paperParameters(0.1));
+    world.gravity = Vec3(0);
+    Particles particles;
+    for (int i = 0; i < 9; ++i)
+        particles.add(Vec3((i % 3 - 1) * 2.6e-3, (i / 3 - 1) * 2.6e-3, 0), kRadius * (1 - 0.01 * i));
+    const auto backend = makeReferenceBackend();
+    backend->load(world, particles);
+    const auto momentum = [&] {
+        const Particles p = backend->particles();
+        Vec3 sum = 2e-3 * backend->freeBodies().at(0).velocity;
+        for (std::size_t i = 0; i < p.size(); ++i) sum += massOf(p.radius[i]) * p.velocity[i];
+        return sum;
+    };
+    const Vec3 first = momentum();
+    backend->advance(5'000, 0);
+    CHECK(glm::length(backend->freeBodies().at(0).velocity - Vec3(0.1, 0, -0.5)) > 0.01);
+    CHECK(near(momentum(), first, glm::length(first), 1e-13));
+}
+
+TEST_CASE("free bodies: the work of a body is what its own energy falls by, and the ledger closes") {
+    const double mass = 1e-3;
+    RuledWorld world = lidWorld(paperParameters(0.1), mass, 0.5e-3);
+    world.bodies[0].course.motion = geometry::Free{mass, Vec3(0.02, 0.01, -0.1), {}};
+    world.energyBook = true;
+    const auto backend = makeReferenceBackend();
+    backend->load(world, underLid());
+    EnergyLedger ledger;
+    backend->advance(1, 0);
+    FreeBody before = backend->freeBodies().at(0);
+    ledger.add(*backend->advance(1, 0).energy);
+    FreeBody after = backend->freeBodies().at(0);
+    const double first = energyAt(before, after, mass, kPull);
+    double booked = 0;
+    for (int n = 0; n < 8'000; ++n) {
+        before = after;
+        const Sensors s = backend->advance(1, 0);
+        after = backend->freeBodies().at(0);
+        booked += s.energy.value().bodyWork;
+        ledger.add(*s.energy);
+    }
+    const double last = energyAt(before, after, mass, kPull);
+    CHECK(booked > 0.1 * first);
+    CHECK(near(first - last, booked, booked, 1e-9));
+    CHECK(near(ledger.residual(), 0, booked, 1e-9));
+}
+
+TEST_CASE("free bodies: a run goes on from its record with the same bits") {
+    RuledWorld world = lidWorld(paperParameters(0.1), 5e-3, 0.1e-3);
+    world.bodies[0].course.motion = geometry::Free{5e-3, Vec3(0, 0.05, -0.1), {}};
+    auto whole = makeReferenceBackend(), cut = makeReferenceBackend(), on = makeReferenceBackend();
+    for (Backend* b : {whole.get(), cut.get(), on.get()}) b->load(world, underLid());
+    whole->advance(3'000, 0);
+    cut->advance(2'000, 0);
+    on->restore(cut->snapshot());
+    on->advance(1'000, 0);
+    CHECK(whole->freeBodies().at(0).shift == on->freeBodies().at(0).shift);
+    CHECK(whole->freeBodies().at(0).velocity == on->freeBodies().at(0).velocity);
+    CHECK(whole->particles().position == on->particles().position);
+}
