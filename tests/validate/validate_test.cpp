@@ -78,7 +78,7 @@ Run drumRun(const std::filesystem::path& folder, const std::vector<Drum>& drum) 
     for (const Drum& line : drum) {
         Frame frame;
         frame.time = line.time;
-        for (int powder = 0; powder < 2; ++powder)
+        for (std::size_t powder = 0; powder < 2; ++powder)
             for (int i = 0; i < 100; ++i) {
                 const int above = line.count[2 * powder], below = line.count[2 * powder + 1];
                 // The others lie in the two quadrants that do not count.
@@ -101,7 +101,8 @@ std::string drumRows(const std::string& program, double late, double more) {
     std::string rows;
     for (const Drum& line : kDrum) {
         rows += program + "," + std::to_string(line.time + late);
-        for (int k = 0; k < 4; ++k) rows += "," + std::to_string(line.count[k] / 100.0 + (k < 2 ? more : 0));
+        for (int k = 0; k < 4; ++k)
+            rows += "," + std::to_string(line.count[std::size_t(k)] / 100.0 + (k < 2 ? more : 0));
         rows += "\n";
     }
     return rows;
