@@ -138,7 +138,7 @@ TEST_CASE("free bodies: the work of a body is what its own energy falls by, and 
     const auto backend = makeReferenceBackend();
     backend->load(world, underLid());
     EnergyLedger ledger;
-    backend->advance(1, 0);
+    ledger.add(*backend->advance(1, 0).energy);
     FreeBody before = backend->freeBodies().at(0);
     ledger.add(*backend->advance(1, 0).energy);
     FreeBody after = backend->freeBodies().at(0);
