@@ -108,11 +108,11 @@ CoilTouch coilCandidate(CoilParams c, CoilView w, uint window) {
     float m = w.phase - kTwoPi * float(int(window) - int(c.reach.y));
     float limit = c.reach.x;
     float v = m / (1.0 + eps), step = 1.0;
-    for (int i = 0; abs(v) < limit; ++i) {
+    for (int i = 0; i < 8 && abs(v) < limit; ++i) {
         vec2 h = halfSinCos(v);
         step = (v + eps * (2.0 * h.x * h.y) - m) / (1.0 + eps * (1.0 - 2.0 * h.x * h.x));
         v -= step;  // quadratic: after a step of 1e-4 what is left is below a float's rounding
-        if (i == 7 || abs(step) <= 1e-4) break;
+        if (i == 7 || abs(step) <= 1e-4) break;  // at the end: shaders/README.md, Drivers
     }
     float dz = (m - v) / kappa, s = w.z - dz, wireAngle = w.wirePhase + (v - m);
     bool valid = abs(v) < limit, failed = valid && abs(step) > 1e-4;

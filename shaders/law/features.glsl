@@ -99,8 +99,8 @@ bool mayBeNear(uint body, Two3 centre, float reach) {
 uint touchedFeatures(uint body, Two3 centre, float radius) {
     uvec2 shapes = geometryAt(kBodyVectors * body).xy;
     clearPlaces();
-    // A body has a shape at least, so the loop looks at its end whether it goes on (shaders/README.md, Drivers).
-    for (uint n = 0u;; ++n) {
+    uint n = 0u;
+    for (; n < shapes.y; ++n) {
         uint shape = shapes.x + kShapeVectors * n;
         uvec4 head = geometryAt(shape);
         if (!withinSphere(shape + 1u, centre.high, radius)) head.x = kNoShape;
@@ -118,8 +118,9 @@ uint touchedFeatures(uint body, Two3 centre, float radius) {
             Overlap o = exactOverlap(head.x, shapeData(shape), centre, radius);
             if (o.depth > 0.0) addPlace(o.depth, o.normal, head.y);
         }
-        if (n + 1u >= shapes.y) break;
+        if (n + 1u >= shapes.y) break;  // at the end: shaders/README.md, Drivers
     }
+    if (n + 1u < shapes.y) placesLost = true;
     return distinctFeatures(radius);
 }
 

@@ -255,42 +255,39 @@ void meshPlaces(uint shape, uvec4 head, Two3 centre, float radius) {
     bool known = nearbyCount != kWholeCell;
     uvec2 list = uvec2(0u, nearbyCount);
     if (!known) list = cellList(shape, head.z, centre.high);
-    if (list.y == 0u) return;
-    // Each of these loops looks at its end whether it goes on (shaders/README.md, Drivers).
+    // These loops leave at their end when they are through (shaders/README.md, Drivers).
     uint end = 0u;
-    for (uint n = 0u;; n += kRound) {
+    for (uint n = 0u; n < list.y; n += kRound) {
         uint left = 0u;
         end = min(n + kRound, list.y);
-        for (uint k = n;; k += 4u) {
+        for (uint k = n; k < end; k += 4u) {
             if (!known) left |= reachAmongFour(head.w, list, k, starts.x, centre.high, radius + margin) << (k - n);
             if (known || k + 4u >= end) break;
         }
         if (known) left = 0xffffffffu >> (kRound - (end - n));
         // A few at a time, so that their parts find room in one word.
-        for (;;) {
+        while (left != 0u) {
             uint touching = 0u, packed = 0u, taken = 0u;
             if (known) {
                 touching = left;
                 left = 0u;
             }
-            for (;;) {
-                if (left != 0u) {
-                    uint bit = left & (~left + 1u);
-                    left &= left - 1u;
-                    uint at = starts.x + kTriangleVectors * nthTriangle(head.w, list.x, n + uint(findLSB(bit)));
-                    uint here = partsInReach(at, centre, radius, margin);
-                    packed |= here << (kPartBits * taken);
-                    if (here != 0u) {
-                        touching |= bit;
-                        ++taken;
-                    }
+            while (left != 0u) {
+                uint bit = left & (~left + 1u);
+                left &= left - 1u;
+                uint at = starts.x + kTriangleVectors * nthTriangle(head.w, list.x, n + uint(findLSB(bit)));
+                uint here = partsInReach(at, centre, radius, margin);
+                packed |= here << (kPartBits * taken);
+                if (here != 0u) {
+                    touching |= bit;
+                    ++taken;
                 }
                 if (left == 0u || taken == kPartsInWord) break;
             }
             // One loop over the parts of all these triangles: two loops would wait for the longest twice.
             uint parts = 0u, triangle = 0u;
             bool inFace = true;
-            for (;;) {
+            while ((touching | parts) != 0u) {
                 if (parts == 0u && touching != 0u) {
                     uint nth = n + uint(findLSB(touching));
                     touching &= touching - 1u;

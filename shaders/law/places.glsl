@@ -84,7 +84,7 @@ bool covered(BodyFeature deeper, vec4 place, float radius) {
 uint deepestLeft() {
     uint best = 0u, tag = 0xffffffffu;
     float depth = 0.0;
-    for (uint i = 0u;; ++i) {
+    for (uint i = 0u; i < placeCount; ++i) {
         float other = placeAt[i].w;
         uint otherTag = placeTag[i];
         bool first = other > depth || (other == depth && otherTag < tag);
@@ -154,18 +154,17 @@ uint distinctFeatures(float radius) {
         uint count = distinctFew(radius);
         return placesLost ? kMaxBodyFeatures + 1u : count;
     }
-    if (placeCount == 0u) return placesLost ? kMaxBodyFeatures + 1u : 0u;
-    // These loops look at their end whether they go on (shaders/README.md, Drivers).
+    // These loops leave at their end when they are through (shaders/README.md, Drivers).
     uint made = 0u, alive = 0u;  // features; a bit for each that no other has joined
     uint looked = 0u;
-    for (;;) {
+    while (looked < placeCount) {
         uint at = deepestLeft();
         vec4 place = placeAt[at];
         uint touching = 0u;  // features that it belongs to, a bit each
-        for (uint i = 0u;; ++i) {
+        for (uint i = 0u; i < placeCount; ++i) {
             uint f = placeFeature[i];
             if (f < kMaxBodyFeatures && dot(placeAt[i].xyz, place.xyz) >= kOneFeature) touching |= 1u << f;
-            if (i + 1u >= placeCount) break;
+            if (made == 0u || i + 1u >= placeCount) break;
         }
         bool hidden = false;
 #define MEET(f) hidden = hidden || ((alive >> f & 1u) != 0u && covered(features[f], place, radius));
@@ -182,7 +181,7 @@ uint distinctFeatures(float radius) {
     if (counts && f > mine && (touching >> f & 1u) != 0u && features[f].depth - place.w <= kSameDepth * radius) \
         joins |= 1u << f;
         EACH_FEATURE(JOIN)
-        for (uint i = 0u;; ++i) {
+        for (uint i = 0u; i < placeCount; ++i) {
             uint f = placeFeature[i];
             if (f < kMaxBodyFeatures && (joins >> f & 1u) != 0u) placeFeature[i] = mine;
             if (joins == 0u || i + 1u >= placeCount) break;
@@ -196,18 +195,19 @@ uint distinctFeatures(float radius) {
             EACH_FEATURE(ENTER)
         }
         placeFeature[at] = counts ? mine : kCovered;
-        if (++looked >= placeCount) break;
+        ++looked;
+        if (looked >= placeCount) break;
     }
     if (looked < placeCount) placesLost = true;  // broken off, by a driver perhaps
     // Those that another has joined leave gaps.
     uint gaps = ~alive & ((1u << made) - 1u), found = made;
-    for (;;) {
-        uint gap = gaps != 0u ? uint(findLSB(gaps)) : kMaxBodyFeatures;
+    for (uint k = 0u; k < made && gaps != 0u; ++k) {
+        uint gap = uint(findLSB(gaps));
 #define CLOSE(f) \
     if (f >= gap && f + 1u < kMaxBodyFeatures) features[f] = features[min(f + 1u, kMaxBodyFeatures - 1u)];
         EACH_FEATURE(CLOSE)
-        if (gaps != 0u) --found;
-        gaps = gaps != 0u ? gaps >> (gap + 1u) << gap : 0u;
+        gaps = gaps >> (gap + 1u) << gap;
+        --found;
         if (gaps == 0u) break;
     }
     return placesLost ? kMaxBodyFeatures + 1u : found;

@@ -19,8 +19,10 @@ const float kFarthest = 0.70710678;  // cosine of 45 degrees
 /// How many contacts with a body a particle can have.
 uint mostTouches() { return fewPlaces() ? MOST_PLACES : kMaxBodyTouches; }
 
-/// Whether a loop over `count` features, which looks at its end (shaders/README.md, Drivers), is through after number
-/// n. One over a single feature is no loop when the pipeline is made.
+/// How often a loop over `count` features runs. A loop over one at most has a constant bound: see law/places.glsl.
+uint trips(uint count) { return mostTouches() == 1u ? 1u : count; }
+
+/// Whether such a loop is through after number n. It leaves at its end then: shaders/README.md, Drivers.
 bool isLast(uint n, uint count) { return mostTouches() == 1u || n + 1u >= count; }
 
 /// Of the last step: the places that were touched, a bit each, and the direction of each. A contact keeps its place.
@@ -46,10 +48,10 @@ uint placeOf(uint n) { return places >> (4u * n) & 15u; }
 uint match(uint count) {
     uint left = touched, taken = 0u, rounds = min(count, bitCount(touched));
     places = 0xffffu;
-    for (uint round = 0u;; ++round) {
+    for (uint round = 0u; round < trips(rounds); ++round) {
         float nearest = kFarthest;
         uint now = kEmpty, before = 0u;
-        for (uint n = 0u;; ++n) {
+        for (uint n = 0u; n < trips(count); ++n) {
             vec3 direction = features[n].direction;
             bool free = n < count && (taken >> n & 1u) == 0u;
             for (uint k = 0u; k < mostTouches(); ++k) {
@@ -62,12 +64,11 @@ uint match(uint count) {
             }
             if (isLast(n, count)) break;
         }
-        if (now != kEmpty) {
-            places ^= (kNowhere ^ before) << (4u * now);
-            taken |= 1u << now;
-            left &= ~(1u << before);
-        }
-        if (now == kEmpty || isLast(round, rounds)) break;
+        if (now == kEmpty) break;
+        places ^= (kNowhere ^ before) << (4u * now);
+        taken |= 1u << now;
+        left &= ~(1u << before);
+        if (isLast(round, rounds)) break;
     }
     return left;
 }
@@ -140,56 +141,55 @@ void main() {
         history[placeHistoryIndex(slot, place, 2u)] = vec4(0.0);
         writeForce(forceOfPlace(slot, place), vec4(0.0));
     }
-    for (uint k = 0u;; ++k) {
+    for (uint k = 0u; k < trips(count); ++k) {
+        if (k >= count) continue;
         uint place = placeOf(k);
-        bool known = place != kNowhere, acts = k < count;
+        bool known = place != kNowhere;
         BodyFeature feature = features[k];
         if (reaches()) {
             feature.depth -= reach;
-            acts = acts && (known || feature.depth > 0.0);
+            if (!known && feature.depth <= 0.0) continue;
         }
         if (!known) place = uint(findLSB(~inUse));
-        if (reaches() && acts && place >= kMaxBodyTouches) {
+        if (reaches() && place >= kMaxBodyTouches) {
             report(kErrorFeatures, i);
-            acts = false;
+            continue;
         }
-        if (acts) {
-            inUse |= 1u << place;
-            vec3 normal = directionToWorld(motion, feature.direction);
-            History h = noHistory();
-            vec3 was = historyAt(placeHistoryIndex(slot, place, 2u)).xyz;
-            if (known) {
-                h = historyOfPlace(slot, place);
-                vec3 from = directionToWorld(motion, was);
-                h.slidingMax.xyz = turnedAlong(h.slidingMax.xyz, from, normal);
-                h.rollingTorsion.xyz = turnedAlong(h.rollingTorsion.xyz, from, normal);
-            }
-            vec3 point = me.sphere.high - normal * (radius - 0.5 * feature.depth);
-            vec3 wall = bodyVelocity(motion, point);
-            float seen = motion.spin.w;
-            Response r;
-#ifdef ENERGY_BOOK
-            History before = h;
-            Exerted exerted = kNothing;
-            if (known) exerted = exertedAt(slot, place);
-#endif
-            WallForce f = meetWall(me, Overlap(feature.depth, normal), reduced, law, chosen, density, springDt,
-                                   seen * wall, seen * motion.spin.xyz, h, r);
-            keepHistoryOfPlace(slot, place, h);
-            history[placeHistoryIndex(slot, place, 2u)] = vec4(feature.direction, float(place + 1u));
-            // The host asks for single contacts, and `field_branches` for their overlaps.
-            writeForce(forceOfPlace(slot, place), vec4(f.force, feature.depth));
-#ifdef ENERGY_BOOK
-            bookPlace(law, springDt, moving, reduced, slot, place, me, Overlap(feature.depth, normal), r, known,
-                      exerted, before, h);
-#endif
-            force += f.force;
-            torque += f.torque;
-            moment += cross(point, f.force) + f.couple;
-            work += springDt * (dot(f.force, wall) + dot(f.couple, motion.spin.xyz));
-            overlap = max(overlap, feature.depth / radius);
-            if (reaches()) gap = min(gap, feature.depth / radius);
+        inUse |= 1u << place;
+        vec3 normal = directionToWorld(motion, feature.direction);
+        History h = noHistory();
+        vec3 was = historyAt(placeHistoryIndex(slot, place, 2u)).xyz;
+        if (known) {
+            h = historyOfPlace(slot, place);
+            vec3 from = directionToWorld(motion, was);
+            h.slidingMax.xyz = turnedAlong(h.slidingMax.xyz, from, normal);
+            h.rollingTorsion.xyz = turnedAlong(h.rollingTorsion.xyz, from, normal);
         }
+        vec3 point = me.sphere.high - normal * (radius - 0.5 * feature.depth);
+        vec3 wall = bodyVelocity(motion, point);
+        float seen = motion.spin.w;
+        Response r;
+#ifdef ENERGY_BOOK
+        History before = h;
+        Exerted exerted = kNothing;
+        if (known) exerted = exertedAt(slot, place);
+#endif
+        WallForce f = meetWall(me, Overlap(feature.depth, normal), reduced, law, chosen, density, springDt, seen * wall,
+                               seen * motion.spin.xyz, h, r);
+        keepHistoryOfPlace(slot, place, h);
+        history[placeHistoryIndex(slot, place, 2u)] = vec4(feature.direction, float(place + 1u));
+        // The host asks for single contacts, and `field_branches` for their overlaps.
+        writeForce(forceOfPlace(slot, place), vec4(f.force, feature.depth));
+#ifdef ENERGY_BOOK
+        bookPlace(law, springDt, moving, reduced, slot, place, me, Overlap(feature.depth, normal), r, known, exerted,
+                  before, h);
+#endif
+        force += f.force;
+        torque += f.torque;
+        moment += cross(point, f.force) + f.couple;
+        work += springDt * (dot(f.force, wall) + dot(f.couple, motion.spin.xyz));
+        overlap = max(overlap, feature.depth / radius);
+        if (reaches()) gap = min(gap, feature.depth / radius);
         if (isLast(k, count)) break;
     }
     if (overlap == 0.0) overlap = gap;  // of contacts that hold on beyond touch

@@ -59,7 +59,7 @@ void main() {
     float bodyWork = 0.0;
     vec4 normal = vec4(0.0), sliders = vec4(0.0);
 #endif
-    for (uint k = 0u; range.w > 0u; ++k) {  // looks at its end whether it goes on: shaders/README.md, Drivers
+    for (uint k = 0u; k < range.w; ++k) {
         uint link = rowsAt(linkIndex(range.z + k));
         vec4 f = forcesAt(link >> 1u), t = torquesAt(torqueIndex(link >> 1u, link & 1u));
         force += (link & 1u) == 0u ? f.xyz : -f.xyz;
@@ -72,7 +72,7 @@ void main() {
             sliders += books[slotBookIndex(kBookSliders, link >> 1u)];
         }
 #endif
-        if (k + 1u >= range.w) break;
+        if (k + 1u >= range.w) break;  // at the end: shaders/README.md, Drivers
     }
 
     // Leapfrog. The loaded velocity belongs to t = 0, so the opening kick is half a step.

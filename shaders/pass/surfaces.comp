@@ -70,7 +70,7 @@ void main() {
     Memory frontMemory = recall(end - 1u);  // the front wall is the last; of a single contact this is its own
     bool frontTouches = joints() && holds(law, front.depth, reduced, frontMemory.history.slidingMax.w);
 
-    for (;; ++slot) {  // looks at its end whether it goes on: shaders/README.md, Drivers
+    for (; slot < end; ++slot) {
         SurfaceParams p = readSurface(surfaceOf(entriesAt(slot).y));
         uint kind = uint(p.pointHigh.w);
         if (ownLaws()) law = lawOf(pairIndex(me.material, materialOfWall(p)));
@@ -122,6 +122,6 @@ void main() {
 #ifdef ENERGY_BOOK
         bookSurface(law, springDt, slot, me, o, r, touching, lawBefore, memory.exerted, memory.history, h);
 #endif
-        if (slot + 1u >= end) break;
+        if (slot + 1u >= end) break;  // at the end: shaders/README.md, Drivers
     }
 }
