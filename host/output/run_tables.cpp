@@ -21,14 +21,16 @@ std::vector<OutputTable> runTables() {
          columnTexts(kSampleColumns)},
         {"timeseries.csv, with sensors.energy", "These columns follow in the same line.", columnTexts(kEnergyColumns)},
         {"timeseries.csv, with bodies",
-         "These columns follow in the same line, for each `[[body]]` and, behind them, for `[coil]` as the body coil. The "
+         "These columns follow in the same line, for each `[[body]]` and, behind them, for `[coil]` as the body coil. "
+         "The "
          "name of the body and a dot stand before each.",
          columnTexts(kBodyColumns)},
         {"timeseries.csv, with bodies that move freely",
          "These columns follow in the same line, for each `[[body]]` of `kind = \"free\"`, likewise.",
          columnTexts(kFreeBodyColumns)},
         {"doses.csv, with bodies",
-         "These columns follow in the same line, for each `[[body]]` and, behind them, for `[coil]` as the body coil. The "
+         "These columns follow in the same line, for each `[[body]]` and, behind them, for `[coil]` as the body coil. "
+         "The "
          "name of the body and a dot stand before each.",
          columnTexts(kDoseBodyColumns)},
         {"timeseries.csv and doses.csv, with regions",

@@ -23,7 +23,7 @@ TEST_CASE("a checkpoint that cannot be used is refused by name") {
     refused(good + "x", "damaged");
     std::string later = good;
     later.replace(good.find("version 7"), 9, "version 8");
-    refused(later, "format version 7");
+    refused(later, "format version 8");
     const auto missing = box.vkdose("resume nowhere");
     CHECK(missing.code == 2);
     CHECK_THAT(missing.err, Catch::Contains("nowhere/checkpoint.h5"));

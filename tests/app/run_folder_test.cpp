@@ -69,7 +69,13 @@ TEST_CASE("the folder of a run parses back to what was computed") {
                                           "outlet_velocity_m_s",
                                           "coil_torque_Nm",
                                           "coil_power_W",
-                                          "max_overlap_ratio"};
+                                          "max_overlap_ratio",
+                                          "coil.force_x_N",
+                                          "coil.force_y_N",
+                                          "coil.force_z_N",
+                                          "coil.torque_Nm",
+                                          "coil.power_W",
+                                          "coil.work_J"};
     CHECK(series[0] == header);
     for (std::size_t i = 1; i < series.size(); ++i) {
         REQUIRE(series[i].size() == header.size());

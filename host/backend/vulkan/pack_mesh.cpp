@@ -38,8 +38,9 @@ class MeshPacker {
         const MeshSurface::Grid& grid = surface_.grid();
         const std::size_t triangles = table_.size();
         if (mesh.triangles.size() > gpu::kMostTriangles)
-            throw RunError(fmt::format("body \"{}\": its mesh has {} triangles; the device holds {}. Use a coarser mesh",
-                                       name_, mesh.triangles.size(), uint32_t(gpu::kMostTriangles)));
+            throw RunError(
+                fmt::format("body \"{}\": its mesh has {} triangles; the device holds {}. Use a coarser mesh", name_,
+                            mesh.triangles.size(), uint32_t(gpu::kMostTriangles)));
         const std::vector<uint32_t> owners = ownersOf(mesh);
         for (uint32_t t = 0; t < mesh.triangles.size(); ++t) packTriangle(t, owners);
         const std::size_t edges = table_.size();
