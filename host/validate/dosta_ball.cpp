@@ -84,21 +84,12 @@ Setup setupOf(const Run& run, const Fall& fall) {
 Finding judged(const std::string& what, const char* unit, double scale, const Fall& ours,
                const std::map<std::string, Fall>* others, double (*figure)(const Fall&)) {
     Finding finding{what, unit, scale * figure(ours)};
-    if (others == nullptr) {
-        finding.comparable = false;
-        finding.source = "Dosta and others 2024";
-        finding.remark = "the published curve is not public, and no other program has run these inputs";
-        return finding;
-    }
-    finding.low = std::numeric_limits<double>::infinity();
-    finding.high = -finding.low;
-    for (const auto& [program, theirs] : *others) {
-        const double value = scale * figure(theirs);
-        finding.low = std::min(finding.low, (1 - kSpread) * value);
-        finding.high = std::max(finding.high, (1 + kSpread) * value);
-        finding.source += (finding.source.empty() ? "" : ", ") + fmt::format("{} {:.4g} {}", program, value, unit);
-    }
+    finding.source = "Dosta and others 2024";
     finding.remark = "three fillings in vkdose differ by 5 %; 5 % beyond the other programs are allowed";
+    std::map<std::string, double> values;
+    if (others != nullptr)
+        for (const auto& [program, theirs] : *others) values[program] = scale * figure(theirs);
+    holdAgainst(finding, values, kSpread, 0);
     return finding;
 }
 

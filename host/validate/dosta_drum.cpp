@@ -159,24 +159,14 @@ Evaluation dostaDrum(const std::vector<Run>& runs, const std::filesystem::path& 
         for (const Shares& one : fillings) ours.push_back(figure.of(one));
         const Mean mean = meanOf(ours);
         Finding finding{figure.name, figure.unit, mean.value, mean.error};
-        if (peers.empty()) {
-            finding.comparable = false;
-            finding.source = "Dosta and others 2024";
-            finding.remark = "the published curve is not public, and no other program has run these inputs";
-        } else {
-            finding.low = std::numeric_limits<double>::infinity();
-            finding.high = -finding.low;
-            for (const auto& [program, theirs] : peers) {
-                const double their = figure.of(theirs);
-                finding.low = std::min(finding.low, their - figure.spread);
-                finding.high = std::max(finding.high, their + figure.spread);
-                finding.source += (finding.source.empty() ? "" : ", ") + fmt::format("{} {:.3g}", program, their);
-            }
-            const auto [least, most] = std::minmax_element(ours.begin(), ours.end());
-            finding.remark = fmt::format(
-                "{} fillings here lie between {:.3g} and {:.3g}; {:.2g} beyond the other programs are allowed",
-                ours.size(), *least, *most, figure.spread);
-        }
+        const auto [least, most] = std::minmax_element(ours.begin(), ours.end());
+        finding.source = "Dosta and others 2024";
+        finding.remark =
+            fmt::format("{} fillings here lie between {:.3g} and {:.3g}; {:.2g} beyond the other programs are allowed",
+                        ours.size(), *least, *most, figure.spread);
+        std::map<std::string, double> others;
+        for (const auto& [program, theirs] : peers) others[program] = figure.of(theirs);
+        holdAgainst(finding, others, 0, figure.spread);
         result.findings.push_back(finding);
     }
     for (std::size_t k = 0; k < kCounted; ++k) {

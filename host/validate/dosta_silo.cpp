@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <compare>
 #include <limits>
@@ -75,23 +74,15 @@ Evaluation dostaSilo(const std::vector<Run>& runs, const std::filesystem::path& 
         const Emptying ours = emptyingOf(run);
         Chart chart{"Spheres left, " + setup.name(), "", "time [s]", "share of all", {ours.curve("vkdose")}};
         Finding finding{fmt::format("from 90 to 40 % left, {}", setup.name()), "s", ours.middle()};
-        const auto others = peers.find(setup);
-        if (others == peers.end()) {
-            finding.comparable = false;
-            finding.source = "Dosta and others 2024";
-            finding.remark = "the published curve is not public, and no other program has run these inputs";
-        } else {
-            finding.low = std::numeric_limits<double>::infinity();
-            finding.high = -finding.low;
-            for (const auto& [program, theirs] : others->second) {
-                finding.low = std::min(finding.low, (1 - kSpread) * theirs.middle());
-                finding.high = std::max(finding.high, (1 + kSpread) * theirs.middle());
-                finding.source +=
-                    (finding.source.empty() ? "" : ", ") + fmt::format("{} {:.4g} s", program, theirs.middle());
+        finding.source = "Dosta and others 2024";
+        finding.remark = "three fillings in vkdose differ by 4 %; 5 % beyond the other programs are allowed";
+        std::map<std::string, double> others;
+        if (const auto found = peers.find(setup); found != peers.end())
+            for (const auto& [program, theirs] : found->second) {
+                others[program] = theirs.middle();
                 chart.curves.push_back(theirs.curve(program));
             }
-            finding.remark = "three fillings in vkdose differ by 4 %; 5 % beyond the other programs are allowed";
-        }
+        holdAgainst(finding, others, kSpread, 0);
         result.findings.push_back(finding);
         result.charts.push_back(chart);
     }

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <limits>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,11 @@ struct Finding {
 };
 
 const char* wordOf(Verdict verdict);
+
+/// Holds a figure against those of other programs that ran the same inputs, by name. The range is theirs, wider on both
+/// sides by `share` of each and by `spread` [unit of the figure]. Without others it cannot be compared, the remark
+/// says so, and the source stays.
+void holdAgainst(Finding& finding, const std::map<std::string, double>& others, double share, double spread);
 
 struct Curve {
     std::string name;

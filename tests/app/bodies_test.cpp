@@ -2,12 +2,11 @@
 // backends; and what a device does not do.
 
 #include <algorithm>
-#include <csignal>
 #include <nlohmann/json.hpp>
 #include <numbers>
-#include <thread>
 
 #include "geometry/mesh_file.h"
+#include "tests/app/killed_run.h"
 #include "tests/app/sandbox.h"
 #include "tests/support/catch.h"
 #include "tests/support/drum_case.h"
@@ -257,25 +256,7 @@ TEST_CASE("a run with bodies that is killed leaves the same files after all") {
         CAPTURE(backend, text);
         const Sandbox box;
         box.write("drum.toml", text);
-        const std::vector<std::string> words{
-            "run", "drum.toml", "--quiet", "--backend", backend, "--set", "checkpoint.time_s=0.004", "--out"};
-        const auto with = [&](const char* out) {
-            auto all = words;
-            all.emplace_back(out);
-            return all;
-        };
-        int status = 0;
-        waitpid(box.start(with("whole")), &status, 0);
-        REQUIRE(status == 0);
-        const pid_t child = box.start(with("cut"));
-        while (!std::filesystem::exists(box / "cut/checkpoint.h5")) {
-            REQUIRE(waitpid(child, &status, WNOHANG) == 0);  // it must not end before
-            std::this_thread::yield();
-        }
-        kill(child, SIGKILL);
-        waitpid(child, &status, 0);
-        REQUIRE(std::filesystem::exists(box / "cut/checkpoint.h5"));
-        REQUIRE(box.vkdose("resume cut --quiet").code == 0);
+        runWholeAndCut(box, {"run", "drum.toml", "--quiet", "--backend", backend, "--set", "checkpoint.time_s=0.004"});
         for (const char* file : {"timeseries.csv", "doses.csv", "particles.csv"})
             CHECK(readText(box / "cut" / file) == readText(box / "whole" / file));
         const auto part = [&](const char* out, const char* key) {

@@ -2,11 +2,10 @@
 // beginning or an interruption, on both backends.
 
 #include <algorithm>
-#include <csignal>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
-#include <thread>
 
+#include "tests/app/killed_run.h"
 #include "tests/app/sandbox.h"
 #include "tests/support/catch.h"
 #include "tests/support/drum_case.h"
@@ -72,24 +71,7 @@ TEST_CASE("a run with a lid that is killed leaves the same files after all") {
         CAPTURE(backend);
         const Sandbox box;
         box.write("lid.toml", lidCase());
-        const std::vector<std::string> words{
-            "run", "lid.toml", "--quiet", "--backend", backend, "--set", "checkpoint.time_s=0.03", "--out"};
-        const auto with = [&](const char* out) {
-            auto all = words;
-            all.emplace_back(out);
-            return all;
-        };
-        int status = 0;
-        waitpid(box.start(with("whole")), &status, 0);
-        REQUIRE(status == 0);
-        const pid_t child = box.start(with("cut"));
-        while (!std::filesystem::exists(box / "cut/checkpoint.h5")) {
-            REQUIRE(waitpid(child, &status, WNOHANG) == 0);  // it must not end before
-            std::this_thread::yield();
-        }
-        kill(child, SIGKILL);
-        waitpid(child, &status, 0);
-        REQUIRE(box.vkdose("resume cut --quiet").code == 0);
+        runWholeAndCut(box, {"run", "lid.toml", "--quiet", "--backend", backend, "--set", "checkpoint.time_s=0.03"});
         for (const char* file : {"timeseries.csv", "particles.csv"})
             CHECK(readText(box / "cut" / file) == readText(box / "whole" / file));
     }

@@ -56,7 +56,10 @@ class Bits(InFolder):
         short(**changes).run("out", backend="reference").wait()
         table = pandas.read_csv("out/timeseries.csv", float_precision="round_trip")
         with simulation(short(**changes)) as sim:
-            samples = pandas.DataFrame(sim.samples())
+            samples = pandas.DataFrame(
+                {**{key: value for key, value in sample.items() if key != "bodies"},
+                 **{f"coil.{key}": value for key, value in sample["bodies"]["coil"].items()}}
+                for sample in sim.samples())
         self.assertEqual(list(samples.columns), list(table.columns))
         for name in table.columns:
             with self.subTest(column=name):

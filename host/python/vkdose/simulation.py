@@ -171,10 +171,9 @@ class Simulation:
 
     @property
     def sample(self) -> dict[str, Any]:
-        """The latest reading of the sensors: a dict with the columns of timeseries.csv, and with those of bodies and
-        regions by their names in "bodies" and "regions" if the case has any, and those of the powders in "powders" if it
-        has several. Its "time_s" is ``time``, unless Ctrl-C
-        stopped the run between two readings."""
+        """The latest reading of the sensors: a dict with the columns of timeseries.csv, and with those of bodies, the coil
+        among them, and regions by their names in "bodies" and "regions" if the case has any, and those of the powders in
+        "powders" if it has several. Its "time_s" is ``time``, unless Ctrl-C stopped the run between two readings."""
         return self._run.sample
 
     @property
