@@ -196,7 +196,8 @@ turns_per_turn = -1
         box.write("coil.toml", readText(VKDOSE_SOURCE_DIR "/cases/mini.toml"));
         for (const std::string run : {"body", "coil"}) {
             const auto end = box.vkdose("run " + run + ".toml --quiet --out out/" + run +
-                                        " --set stop.max_doses=1 --backend " + backend);
+                                        " --set stop.max_doses=1 --set settle.time_s=0.06 --set dose.rotate_s=0.1" +
+                                        " --set dose.rest_s=0.02 --backend " + backend);
             INFO(end.err);
             REQUIRE(end.code == 0);
         }
