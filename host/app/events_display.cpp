@@ -52,8 +52,9 @@ void EventsDisplay::onSample(const Sample& sample) {
     Json event{{"event", "sample"}};
     putColumns(kSampleColumns, sample, event);
     if (sample.energy) putColumns(kEnergyColumns, *sample.energy, event);
+    const std::vector<std::string> names = bodyNames(case_.world);
     for (std::size_t b = 0; b < sample.bodies.size(); ++b)
-        putColumns(kBodyColumns, sample.bodies[b], event["bodies"][bodyNames(case_.world).at(b)]);
+        putColumns(kBodyColumns, sample.bodies[b], event["bodies"][names.at(b)]);
     for (std::size_t b = 0, free = 0; b < sample.bodies.size() && free < sample.free.size(); ++b) {
         const RigidBody& body = case_.world.bodies.at(b);
         if (body.movesFreely()) putColumns(kFreeBodyColumns, sample.free[free++], event["bodies"][body.name]);
@@ -77,8 +78,9 @@ void EventsDisplay::onSettled(const Settling& settling, const Schedule&) {
 void EventsDisplay::onDose(const Dose& dose) {
     Json event{{"event", "dose"}};
     putColumns(kDoseColumns, dose, event);
+    const std::vector<std::string> names = bodyNames(case_.world);
     for (std::size_t b = 0; b < dose.bodies.size(); ++b)
-        putColumns(kDoseBodyColumns, dose.bodies[b], event["bodies"][bodyNames(case_.world).at(b)]);
+        putColumns(kDoseBodyColumns, dose.bodies[b], event["bodies"][names.at(b)]);
     for (std::size_t r = 0; r < dose.regions.size(); ++r)
         putColumns(kRegionColumns, dose.regions[r], event["regions"][case_.world.regions.at(r).name]);
     for (std::size_t k = 0; k < dose.powders.size(); ++k)

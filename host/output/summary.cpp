@@ -58,11 +58,12 @@ Json closedForms(const Case& c, const Derived& d) {
 
 Json doseList(const Case& c, const std::vector<Dose>& doses) {
     Json list = Json::array();
+    const std::vector<std::string> names = bodyNames(c.world);
     for (const Dose& d : doses) {
         Json& one = list.emplace_back(Json::object());
         putColumns(kDoseColumns, d, one);
         for (std::size_t b = 0; b < d.bodies.size(); ++b)
-            putColumns(kDoseBodyColumns, d.bodies[b], one["bodies"][bodyNames(c.world).at(b)]);
+            putColumns(kDoseBodyColumns, d.bodies[b], one["bodies"][names.at(b)]);
     }
     return list;
 }
@@ -70,9 +71,10 @@ Json doseList(const Case& c, const std::vector<Dose>& doses) {
 /// Of the whole run.
 Json bodyList(const Case& c, const RunResult& r) {
     Json list = Json::array();
+    const std::vector<std::string> names = bodyNames(c.world);
     for (std::size_t b = 0; b < r.last.bodies.size(); ++b) {
         Json& one = list.emplace_back(Json::object());
-        one["name"] = bodyNames(c.world).at(b);
+        one["name"] = names.at(b);
         one["work_J"] = jsonNumber(r.last.bodies[b].work);
         if (b < r.bodyPeaks.size()) putColumns(kBodyPeakColumns, r.bodyPeaks[b], one);
         if (b >= r.bodiesMoved.size()) continue;

@@ -88,8 +88,9 @@ py::dict sampleOf(const Simulation& run) {
     py::dict dict = dictOf(kSampleColumns, s);
     if (s.energy) dict.attr("update")(dictOf(kEnergyColumns, *s.energy));
     py::dict bodies, regions, powders;
+    const std::vector<std::string> names = bodyNames(run.theCase().world);
     for (std::size_t b = 0; b < s.bodies.size(); ++b)
-        bodies[bodyNames(run.theCase().world).at(b).c_str()] = dictOf(kBodyColumns, s.bodies[b]);
+        bodies[names.at(b).c_str()] = dictOf(kBodyColumns, s.bodies[b]);
     for (std::size_t b = 0, free = 0; b < s.bodies.size() && free < s.free.size(); ++b) {
         const RigidBody& body = run.theCase().world.bodies.at(b);
         if (body.movesFreely()) bodies[body.name.c_str()].attr("update")(dictOf(kFreeBodyColumns, s.free[free++]));
