@@ -84,7 +84,7 @@ TEST_CASE("a bed of odd size follows the reference through its first contacts, t
     requireClean(*device);
 }
 
-TEST_CASE("history follows the pair: how often the rows are rebuilt does not change a bit") {
+TEST_CASE("history follows the pair: how often the rows are rebuilt does not change a bit", "[one-driver]") {
     RuledWorld w = canisterWorld();
     const Particles p = thrownIn(97);
     w.skin = 0.05e-3;
@@ -97,7 +97,7 @@ TEST_CASE("history follows the pair: how often the rows are rebuilt does not cha
     CHECK(sameBits(often->contacts(), seldom->contacts()));
 }
 
-TEST_CASE("the same case gives the same bits, whatever the workgroup and the way of reading") {
+TEST_CASE("the same case gives the same bits, whatever the workgroup and the way of reading", "[one-driver]") {
     const RuledWorld w = canisterWorld();
     const Particles p = thrownIn(131);
     const auto first = played(w, p);
@@ -120,7 +120,7 @@ TEST_CASE("the same case gives the same bits, whatever the workgroup and the way
     CHECK(sameBits(first->contacts(), second->contacts()));
 }
 
-TEST_CASE("the bits do not depend on how the steps are cut into calls") {
+TEST_CASE("the bits do not depend on how the steps are cut into calls", "[one-driver]") {
     const RuledWorld w = canisterWorld();
     const Particles p = thrownIn(65);
     const auto whole = played(w, p);

@@ -105,7 +105,7 @@ TEST_CASE("bodies: a heap in a turning drum stays close to the reference") {
     requireClean(*device);
 }
 
-TEST_CASE("bodies: a restart, other batches and other canisters change no bit") {
+TEST_CASE("bodies: a restart, other batches and other canisters change no bit", "[one-driver]") {
     const RuledWorld w = deviceWorld();
     const Particles p = layers(60);
     VulkanOptions small;
@@ -181,7 +181,7 @@ std::vector<BodyClock> drumClock(std::uint64_t steps, bool runs) {
 
 }  // namespace
 
-TEST_CASE("bodies: by a clock of its own that runs from the start a body moves as by time, bit by bit") {
+TEST_CASE("bodies: by a clock of its own that runs from the start a body moves as by time, bit by bit", "[one-driver]") {
     for (const bool onDevice : {false, true}) {
         CAPTURE(onDevice);
         const auto byTime = onDevice ? gpu() : makeReferenceBackend(), own = onDevice ? gpu() : makeReferenceBackend();
@@ -198,7 +198,7 @@ TEST_CASE("bodies: by a clock of its own that runs from the start a body moves a
     }
 }
 
-TEST_CASE("bodies: one that stands in a phase does no work, and goes on from where it stood") {
+TEST_CASE("bodies: one that stands in a phase does no work, and goes on from where it stood", "[one-driver]") {
     const RuledWorld w = phasedWorld();
     const Particles p = atDrum();
     VulkanOptions small;
@@ -250,7 +250,7 @@ TEST_CASE("bodies: one that stands in a phase does no work, and goes on from whe
     CHECK(sameBits(together, other->particles()));
 }
 
-TEST_CASE("bodies: one that starts anew within a call stands where it began") {
+TEST_CASE("bodies: one that starts anew within a call stands where it began", "[one-driver]") {
     // A ball that sinks by half a radius and comes back meets a sphere that rests on it in the air.
     RuledWorld w = emptyWorld();
     geometry::Table table{Vec3(0, 1, 0), Vec3(0), {}};

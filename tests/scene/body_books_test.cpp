@@ -69,7 +69,7 @@ TEST_CASE("body books: device and reference book contacts with moving bodies ali
     }
 }
 
-TEST_CASE("body books: a heap in a turning drum closes on the device, and the book moves nothing") {
+TEST_CASE("body books: a heap in a turning drum closes on the device, and the book moves nothing", "[one-driver]") {
     RuledWorld w = bookedWorld();
     const Particles p = layers(60);
     VulkanOptions options;

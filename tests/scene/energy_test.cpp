@@ -248,7 +248,7 @@ TEST_CASE("energy: the book stays closed when gravity changes") {
     requireClean(*device);
 }
 
-TEST_CASE("energy: keeping the book changes no bit of the motion") {
+TEST_CASE("energy: keeping the book changes no bit of the motion", "[one-driver]") {
     RuledWorld w = dosingWorld();
     const Particles p = thrownAbout(97);
     VulkanOptions options;

@@ -147,7 +147,7 @@ TEST_CASE("a canister computes the same bits alone and in an ensemble") {
     }
 }
 
-TEST_CASE("canisters whose contacts follow different laws share tables") {
+TEST_CASE("canisters whose contacts follow different laws share tables", "[one-driver]") {
     std::vector<Script> scripts{
         {90, -9.5, 2.26e-6, 0.3}, {120, 7.0, 2.26e-6, 0.3}, {70, 7.0, 2.26e-6, 0.3}, {60, 7.0, 2.26e-6, 0.3}};
     scripts[3].law = NormalLaw::Jkr;
@@ -168,7 +168,7 @@ TEST_CASE("canisters whose contacts follow different laws share tables") {
     CHECK(together[3].sensors[1].energy->adhesive > 0);
 }
 
-TEST_CASE("a canister that fails names its own particle and leaves the others alone") {
+TEST_CASE("a canister that fails names its own particle and leaves the others alone", "[one-driver]") {
     std::vector<Script> scripts{{100, -9.5, 2.26e-6, 0.3}, {61, -9.5, 2.26e-6, 0.3}, {80, -9.5, 2.26e-6, 0.3}};
     scripts[1].throwFirst = {0, 0, -2000};  // through the back
     const std::vector<Outcome> together = playTogether(scripts);
@@ -179,7 +179,7 @@ TEST_CASE("a canister that fails names its own particle and leaves the others al
     CHECK_THAT(together[1].error, Catch::StartsWith("particle 0 "));
 }
 
-TEST_CASE("a canister goes on in an ensemble from where it was alone, and the other way round") {
+TEST_CASE("a canister goes on in an ensemble from where it was alone, and the other way round", "[one-driver]") {
     std::vector<Script> scripts{{120, -9.5, 2.26e-6, 0.3}, {77, 5.0, 2.26e-6, 0.3}, {203, -9.5, 2.26e-6, 0.3}};
     const bool energyBook = GENERATE(false, true);
     for (Script& s : scripts) s.energyBook = energyBook;
@@ -197,7 +197,7 @@ TEST_CASE("a canister goes on in an ensemble from where it was alone, and the ot
     }
 }
 
-TEST_CASE("canisters with surfaces of other kinds cannot share tables") {
+TEST_CASE("canisters with surfaces of other kinds cannot share tables", "[one-driver]") {
     std::vector<std::unique_ptr<Backend>> backends = gpuEnsemble(2);
     RuledWorld odd = canisterWorld();
     odd.surfaces.pop_back();

@@ -99,7 +99,7 @@ TEST_CASE("a full neighbour row is reported") {
     requireRunError(w, p, 1, "more neighbours than a row holds");
 }
 
-TEST_CASE("a skin that fills a row at the first step, and no other, is refused with the case") {
+TEST_CASE("a skin that fills a row at the first step, and no other, is refused with the case", "[one-driver]") {
     const auto file = std::filesystem::path(VKDOSE_SOURCE_DIR) / "cases" / "mini.toml";
     const Case c = loadCase(file);
     const Insertion filled = insertParticles(c);

@@ -65,9 +65,9 @@ TEST_CASE("fields: the device's are the reference's, of a packing on walls and c
     RuledWorld world = canisterWorld();
     world.maxOverlapRatio = 1;
     const auto device = gpu(), reference = makeReferenceBackend();
-    device->load(world, thrownIn(307));
-    device->advance(6000, kRate);  // until they lie on each other, on walls and coil
-    const Particles p = device->particles();
+    reference->load(world, thrownIn(307));
+    reference->advance(6000, kRate);  // until they lie on each other, on walls and coil
+    const Particles p = reference->particles();
     for (Backend* b : {device.get(), reference.get()}) {
         b->load(world, p);
         b->advance(50, kRate);
@@ -144,7 +144,7 @@ TEST_CASE("fields: on the device, a bed that moves as one has that velocity to t
     requireClean(*device);
 }
 
-TEST_CASE("fields: asking for them changes nothing, and gives the same bits however the steps were cut") {
+TEST_CASE("fields: asking for them changes nothing, and gives the same bits however the steps were cut", "[one-driver]") {
     const RuledWorld world = canisterWorld();
     const Particles p = thrownIn(211);
     const FieldRequest r = request({1, 23, 31}, 2e-3), small = request({1, 1, 5}, 0.02);
@@ -178,7 +178,7 @@ TEST_CASE("fields: asking for them changes nothing, and gives the same bits howe
     for (const Backend* backend : {a.get(), b.get(), c.get(), again.get()}) requireClean(*backend);
 }
 
-TEST_CASE("fields: a canister has the same in an ensemble as alone") {
+TEST_CASE("fields: a canister has the same in an ensemble as alone", "[one-driver]") {
     const FieldRequest r = request({1, 11, 17}, 3e-3);
     const RuledWorld world = canisterWorld();
     const std::array<Particles, 2> beds{thrownIn(67), thrownIn(130)};

@@ -213,7 +213,7 @@ TEST_CASE("materials: a mixed bed on the device is that of the reference") {
     requireClean(*device);
 }
 
-TEST_CASE("materials: restored and uninterrupted are the same bits") {
+TEST_CASE("materials: restored and uninterrupted are the same bits", "[one-driver]") {
     RuledWorld w = mixedWorld();
     w.energyBook = GENERATE(false, true);
     const Particles p = mixedParticles(150);
@@ -229,7 +229,7 @@ TEST_CASE("materials: restored and uninterrupted are the same bits") {
     checkSame({a, whole->particles(), whole->contacts()}, {b, second->particles(), second->contacts()});
 }
 
-TEST_CASE("materials: the numbers of materials do not matter to the bit") {
+TEST_CASE("materials: the numbers of materials do not matter to the bit", "[one-driver]") {
     const bool onDevice = GENERATE(false, true);
     RuledWorld w = mixedWorld();
     w.energyBook = GENERATE(false, true);
@@ -240,7 +240,7 @@ TEST_CASE("materials: the numbers of materials do not matter to the bit") {
     checkSame(run(*one, w, p, 1000), run(*two, other.world, other.particles, 1000));
 }
 
-TEST_CASE("materials: powders that are all alike are one powder to the bit") {
+TEST_CASE("materials: powders that are all alike are one powder to the bit", "[one-driver]") {
     const bool onDevice = GENERATE(false, true);
     RuledWorld w = canisterWorld();
     w.maxOverlapRatio = 1;
@@ -257,7 +257,7 @@ TEST_CASE("materials: powders that are all alike are one powder to the bit") {
     checkSame(run(*one, w, p, 2000), run(*two, alike, marked, 2000));
 }
 
-TEST_CASE("materials: canisters of one powder and of several share a device, each with its own bits") {
+TEST_CASE("materials: canisters of one powder and of several share a device, each with its own bits", "[one-driver]") {
     const std::array<RuledWorld, 2> worlds{canisterWorld(), mixedWorld()};
     const std::array<Particles, 2> particles{thrownIn(130), mixedParticles(90)};
     auto backends = gpuEnsemble(2);

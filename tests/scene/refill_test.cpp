@@ -84,7 +84,7 @@ TEST_CASE("refill: those that wait move nothing and are counted nowhere, those t
     if (!reference) requireClean(*backend);
 }
 
-TEST_CASE("refill: before the first step it is the same as to load them") {
+TEST_CASE("refill: before the first step it is the same as to load them", "[one-driver]") {
     const bool reference = GENERATE(true, false);
     RuledWorld w = world();
     w.energyBook = true;
@@ -100,7 +100,7 @@ TEST_CASE("refill: before the first step it is the same as to load them") {
     CHECK(a.energy->loaded == b.energy->loaded);
 }
 
-TEST_CASE("refill: a restart before or after it goes on with the same bits") {
+TEST_CASE("refill: a restart before or after it goes on with the same bits", "[one-driver]") {
     const bool reference = GENERATE(true, false);
     RuledWorld w = world();
     w.energyBook = true;
@@ -133,7 +133,7 @@ TEST_CASE("refill: a restart before or after it goes on with the same bits") {
     CHECK(touching > 0);
 }
 
-TEST_CASE("refill: one member of an ensemble is refilled, the other is not") {
+TEST_CASE("refill: one member of an ensemble is refilled, the other is not", "[one-driver]") {
     const RuledWorld w = world();
     const auto alone = gpu();
     alone->load(w, someWait());

@@ -84,7 +84,7 @@ TEST_CASE("reference: restored and uninterrupted are the same bits") {
     restartAgrees(true);
 }
 
-TEST_CASE("a snapshot that does not fit is refused") {
+TEST_CASE("a snapshot that does not fit is refused", "[one-driver]") {
     const bool reference = GENERATE(false, true);
     const auto backend = made(reference), other = made(!reference);
     backend->load(canisterWorld(), thrownIn(20));
@@ -96,7 +96,7 @@ TEST_CASE("a snapshot that does not fit is refused") {
     CHECK_THROWS_AS(backend->restore(taken), RecordError);
 }
 
-TEST_CASE("the bits do not depend on how many steps a submission holds") {
+TEST_CASE("the bits do not depend on how many steps a submission holds", "[one-driver]") {
     RuledWorld w = canisterWorld();
     w.maxOverlapRatio = 1;
     const Particles p = thrownIn(67);

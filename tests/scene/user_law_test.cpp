@@ -142,7 +142,7 @@ TEST_CASE("a user's law that repeats hertz-mindlin has its bits") {
     requireSameBits(own, users);
 }
 
-TEST_CASE("a run under a user's law goes on from a snapshot with the same bits") {
+TEST_CASE("a run under a user's law goes on from a snapshot with the same bits", "[one-driver]") {
     RuledWorld w = ludingTwins().users;
     w.energyBook = GENERATE(false, true);
     auto whole = gpu(), resumed = gpu();
@@ -158,7 +158,7 @@ TEST_CASE("a run under a user's law goes on from a snapshot with the same bits")
     requireClean(*resumed);
 }
 
-TEST_CASE("a state of a user's law is refused under another law") {
+TEST_CASE("a state of a user's law is refused under another law", "[one-driver]") {
     const Twins t = ludingTwins();
     auto first = gpu(), second = gpu(), third = gpu();
     first->load(t.users, threeSpheres());
@@ -185,7 +185,7 @@ TEST_CASE("the energy ledger closes under a user's law") {
     requireClean(*device);
 }
 
-TEST_CASE("members of an ensemble share a user's law, each with its own parameters") {
+TEST_CASE("members of an ensemble share a user's law, each with its own parameters", "[one-driver]") {
     const RuledWorld first = ludingTwins().users;
     RuledWorld second = first;
     for (ContactParameters& p : second.law.pairs) p.own[2] *= 0.5;  // kc
