@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "host/core/csv_lines.h"
 #include "host/report/toml_values.h"
 
 namespace vkdose::report {
@@ -32,6 +34,7 @@ std::vector<std::string> axisColumns(const Table& members) {
 /// Members that belong together, and what is gathered of them.
 struct Gathering {
     StudyPoint result;
+    double firstMember = std::numeric_limits<double>::infinity();  ///< its number
     std::map<std::string, std::vector<double>> outputs;
     std::vector<double> betaErrors;
     std::vector<std::vector<double>> doses, cumulative;  ///< [dose][member]
@@ -73,12 +76,35 @@ class PointReader {
 
     std::vector<StudyPoint> read() {
         for (std::size_t row = 0; row < members_.rows(); ++row) take(row, gatheringOf(row));
+        putInOrder();
         std::vector<StudyPoint> points;
         for (Gathering& g : gatherings_) points.push_back(finish(g));
         return points;
     }
 
   private:
+    /// Along each axis by the numbers there. Words stand in the order of the study, behind numbers.
+    void putInOrder() {
+        std::vector<std::map<std::string, double>> firstWith(head_.axes.size());
+        for (const Gathering& g : gatherings_)
+            for (std::size_t axis = 0; axis < firstWith.size(); ++axis) {
+                double& first = firstWith[axis].emplace(g.result.point.places[axis].label, g.firstMember).first->second;
+                first = std::min(first, g.firstMember);
+            }
+        const auto placeOf = [&](const Gathering& g) {
+            std::vector<std::pair<double, double>> at;
+            for (std::size_t axis = 0; axis < firstWith.size(); ++axis) {
+                const std::string& label = g.result.point.places[axis].label;
+                const double number = numberIn(label);
+                at.emplace_back(std::isnan(number) ? std::numeric_limits<double>::infinity() : number,
+                                firstWith[axis].at(label));
+            }
+            return at;
+        };
+        std::sort(gatherings_.begin(), gatherings_.end(),
+                  [&](const Gathering& a, const Gathering& b) { return placeOf(a) < placeOf(b); });
+    }
+
     void merge(const std::map<std::string, Setting>& settings) {
         for (const auto& [key, value] : settings) common_[key] = value;
     }
@@ -114,6 +140,8 @@ class PointReader {
     }
 
     void take(std::size_t row, Gathering& g) {
+        const int member = static_cast<int>(members_.number(row, "member"));
+        g.firstMember = std::min(g.firstMember, double(member));
         const std::string status = members_.text(row, "status");
         if (status == "failed") {
             ++g.result.failed;
@@ -124,7 +152,7 @@ class PointReader {
         }
         if (status != "ok") return;
         ++g.result.finished;
-        const auto doses = doses_.find(static_cast<int>(members_.number(row, "member")));
+        const auto doses = doses_.find(member);
         const MemberDoses none, &own = doses == doses_.end() ? none : doses->second;
         addDoses(own.mass, g.doses);
         addDoses(own.cumulative, g.cumulative);

@@ -234,4 +234,44 @@ void pushedByBodies(Stage& stage) {
     }
 }
 
+// Two bodies that move freely. One meets a sphere at rest while both fall. Its impact leaves the share
+// exp(-pi zeta/sqrt(1 - zeta^2)) of their relative speed, with zeta = gamma/(2 sqrt(k mu)) of the reduced mass mu, and
+// keeps their momentum. The other falls alone.
+void freeBall(Stage& stage) {
+    const double k = 500, gamma = 0.03, speed = 0.5, dt = 1e-6, radius = 2 * kRadius;
+    const double sphere = massOf(kRadius), ball = 3 * sphere, reduced = ball * sphere / (ball + sphere);
+    const double zeta = gamma / (2 * std::sqrt(k * reduced)),
+                 restitution = std::exp(-kPi * zeta / std::sqrt(1 - zeta * zeta));
+    const Vec3 way = glm::normalize(Vec3(2, 1, -2)), thrown(0.3, 0.4, 0);
+    RuledWorld world = space(spring(k, gamma), dt);
+    world.gravity = Vec3(0, -kGravity, 0);
+    const auto bodyAt = [&](const Vec3& at, const Vec3& velocity) {
+        RigidBody body = bodyOf({geometry::Ball{Vec3(0), radius}}, geometry::Free{ball, velocity, {}});
+        body.clock = Clock::Forces;
+        body.course.start.origin = at;
+        return body;
+    };
+    world.bodies = {bodyAt(Vec3(0), speed * way), bodyAt(Vec3(0, 20 * kRadius, 0), thrown)};
+    world.bodies[0].name = "first";
+    Particles one;
+    one.add(1.01 * (radius + kRadius) * way, kRadius);
+    Trial trial(stage, world, one);
+    trial.advance(2000);  // the impact takes 420 of them
+    const Vec3 fallen = trial.halfStep() * world.gravity, of = trial.now().velocity[0] - fallen;
+    const FreeBody met = trial.freeBodies().at(0), alone = trial.freeBodies().at(1);
+    const Tolerance damping{3e-3, "damping is first order in the time step: gamma dt/2m = 1.3e-3"};
+    stage.check("speed that the ball gives to the sphere", "m/s", ball * (1 + restitution) / (ball + sphere) * speed,
+                glm::dot(of, way), damping);
+    stage.check("speed that is left to the ball", "m/s", (ball - restitution * sphere) / (ball + sphere) * speed,
+                glm::dot(met.velocity - fallen, way), damping);
+    stage.check(
+        "momentum that both gain beside their weight's", "kg m/s", 0,
+        glm::length(ball * (met.velocity - fallen) + sphere * of - ball * speed * way),
+        {5e-5, "single precision of a device's speeds in 2000 steps, in units of the ball's momentum", ball * speed});
+    const double t = trial.time();
+    stage.check("way of the ball that falls alone", "m", 0,
+                glm::length(alone.shift - t * thrown - 0.5 * t * t * world.gravity),
+                {1e-6, "rounding, in units of the way", t * glm::length(thrown)});
+}
+
 }  // namespace vkdose::verify

@@ -39,6 +39,7 @@ void meshIncline(Stage& stage);
 void meshBlock(Stage& stage);
 void drumBalance(Stage& stage);
 void pushedByBodies(Stage& stage);
+void freeBall(Stage& stage);
 
 // bed.cpp
 void column(Stage& stage);

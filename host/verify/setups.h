@@ -49,6 +49,8 @@ class Trial {
     /// The ledger of the calls so far, if the world keeps the book.
     const EnergyLedger& energy() const { return energy_; }
     std::vector<Contact> contacts() const { return backend_->contacts(); }
+    /// The bodies that move freely; none for others. Their velocities belong to `halfStep()`.
+    std::vector<FreeBody> freeBodies() const { return backend_->freeBodies(); }
     double time() const { return static_cast<double>(steps_) * timeStep_; }
     double halfStep() const { return time() - timeStep_ / 2; }
 

@@ -31,6 +31,7 @@ std::vector<Scene> scenes() {
         {"bodies/drum-balance", "what a turning drum of triangles bears, and what it gives", drumBalance},
         {"bodies/pushed-sphere", "a screw, and meshes of screw and coil, push a sphere along the trough",
          pushedByBodies},
+        {"bodies/free-ball", "a ball that moves freely meets a sphere, another falls", freeBall},
         {"bed/column", "spheres stacked upon each other", column},
         {"bed/weight", "a bed in a box and what its floor and walls bear", bedWeight},
         {"bed/heap", "a block of spheres slumps, with friction and without", heap},

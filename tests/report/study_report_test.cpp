@@ -35,6 +35,24 @@ TEST_CASE("members that differ in the seed alone make a point") {
     CHECK(nearRelative(points[0].point.cumulative.at(1), 10e-3, 1e-12));
 }
 
+TEST_CASE("points stand in the order of their numbers, and of the study where they have none") {
+    const Sandbox box;
+    std::filesystem::create_directories(box / "sweep");
+    box.write("sweep/study.toml",
+              "[[axis]]\nkey = \"canister.floor\"\nvalues = [\"trough\", \"flat\"]\n"
+              "[[axis]]\nkey = \"contact.kc_over_k\"\nvalues = [0.873, 10.0, 0.0]\n");
+    // As members end, which is no order of the study.
+    box.write("sweep/members.csv",
+              "member,seed,canister.floor,contact.kc_over_k,status,error\n"
+              "3,1,flat,0.873,ok,\n1,1,trough,10.0,ok,\n0,1,trough,0.873,ok,\n2,1,trough,0.0,ok,\n");
+    std::vector<std::string> order;
+    for (const StudyPoint& p : pointsIn(box / "sweep")) {
+        order.push_back("");
+        for (const auto& place : p.point.places) order.back() += place.label + " ";
+    }
+    CHECK(order == std::vector<std::string>{"trough 0.0 ", "trough 0.873 ", "trough 10.0 ", "flat 0.873 "});
+}
+
 TEST_CASE("with one seed the error is the slope's own, and failed members are counted, not averaged") {
     const Sandbox box;
     const auto last = pointsIn(writeSweep(box)).at(3);
@@ -153,8 +171,8 @@ TEST_CASE("turns of the coil in a dose follow from speed and time") {
     box.write("sweep/members.csv", head + "0,1,60,ok,,0.001\n1,1,15,ok,,0.002\n");
     box.write("sweep/study.toml", "name = \"s\"\n[[axis]]\nkey = \"coil.speed_rpm\"\nvalues = [60, 15]\n");
     const Json points = studyJson(folder, {})["points"];
-    CHECK(nearRelative(points[0]["turns_per_dose"].get<double>(), 1.0, 1e-12));  // the base's 1 s
-    CHECK(nearRelative(points[1]["turns_per_dose"].get<double>(), 0.25, 1e-12));
+    CHECK(nearRelative(points[1]["turns_per_dose"].get<double>(), 1.0, 1e-12));  // the base's 1 s
+    CHECK(nearRelative(points[0]["turns_per_dose"].get<double>(), 0.25, 1e-12));
     box.write("sweep/base.toml", "[coil]\nturns = 8\n");
     CHECK(studyJson(folder, {})["points"][0]["turns_per_dose"].is_null());
 }

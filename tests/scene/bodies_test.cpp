@@ -181,7 +181,8 @@ std::vector<BodyClock> drumClock(std::uint64_t steps, bool runs) {
 
 }  // namespace
 
-TEST_CASE("bodies: by a clock of its own that runs from the start a body moves as by time, bit by bit", "[one-driver]") {
+TEST_CASE("bodies: by a clock of its own that runs from the start a body moves as by time, bit by bit",
+          "[one-driver]") {
     for (const bool onDevice : {false, true}) {
         CAPTURE(onDevice);
         const auto byTime = onDevice ? gpu() : makeReferenceBackend(), own = onDevice ? gpu() : makeReferenceBackend();

@@ -144,7 +144,8 @@ TEST_CASE("fields: on the device, a bed that moves as one has that velocity to t
     requireClean(*device);
 }
 
-TEST_CASE("fields: asking for them changes nothing, and gives the same bits however the steps were cut", "[one-driver]") {
+TEST_CASE("fields: asking for them changes nothing, and gives the same bits however the steps were cut",
+          "[one-driver]") {
     const RuledWorld world = canisterWorld();
     const Particles p = thrownIn(211);
     const FieldRequest r = request({1, 23, 31}, 2e-3), small = request({1, 1, 5}, 0.02);

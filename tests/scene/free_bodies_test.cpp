@@ -121,7 +121,8 @@ TEST_CASE("free bodies: on the device free fall is good to a millionth of the wa
     requireClean(*device);
 }
 
-TEST_CASE("free bodies: a ball that falls into a bed changes no bit by batches, a restart or other canisters", "[one-driver]") {
+TEST_CASE("free bodies: a ball that falls into a bed changes no bit by batches, a restart or other canisters",
+          "[one-driver]") {
     const RuledWorld w = dropWorld();
     const Particles p = bed();
     VulkanOptions small;

@@ -117,7 +117,8 @@ TEST_CASE("elastic adhesive spheres hang from a ceiling and from each other unti
             }
 }
 
-TEST_CASE("elastic adhesive spheres go on after a restart with the same bits, in contacts beyond touch", "[one-driver]") {
+TEST_CASE("elastic adhesive spheres go on after a restart with the same bits, in contacts beyond touch",
+          "[one-driver]") {
     for (const Ceiling& ceiling : ceilings())
         for (const bool reference : {true, false}) {
             CAPTURE(ceiling.name, reference);
