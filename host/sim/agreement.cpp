@@ -56,7 +56,7 @@ bool turning(const Moment& m) {
 /// While the coil turns the powder sticks and slips, so that only means over the phase say anything. The floors are:
 /// - energies and torques: 2 % of the largest, the order of the change by one particle more or less in motion in a
 ///   small packing;
-/// - height: a fiftieth of a radius;
+/// - height, and way of the bodies that move freely: a fiftieth of a radius;
 /// - contacts: 0.1 in the number of each particle;
 /// - overlap: 5 %, because it is an extreme of a few hard contacts;
 /// - dosed mass: two particles, because they leave one by one and those near the edge may or may not.
@@ -67,6 +67,7 @@ std::vector<Quantity> quantities(const Scales& s) {
     const auto contacts = [](const Moment& m) { return m.contactsEach; };
     const auto overlap = [](const Moment& m) { return m.maxOverlap; };
     const auto torque = [](const Moment& m) { return m.meanTorque; };
+    const auto freeWay = [](const Moment& m) { return m.freeWay; };
     const auto dosed = [](const Moment& m) { return m.dosedMass; };
     const auto late = [](const Moment& m) { return m.lateInPhase; };
     const auto lateTurn = [](const Moment& m) { return turning(m) && m.lateInPhase; };
@@ -76,6 +77,7 @@ std::vector<Quantity> quantities(const Scales& s) {
         {"kinetic energy, turning", "of its largest", meanEnergy, lateTurn, 0, 0.02, 0.5},
         {"mean height, settling", "mean radii", height, settling, s.radius, 0.02, 1},
         {"mean height, dosing", "mean radii", height, dosing, s.radius, 0.02, 1},
+        {"way of free bodies", "mean radii", freeWay, [](const Moment&) { return true; }, s.radius, 0.02, 1},
         {"contacts per particle", "contacts", contacts, late, 1, 0.1, 0.5},
         {"largest overlap, settling", "of its largest", overlap, settling, 0, 0.05, 0.5},
         {"largest overlap, dosing", "of its largest", overlap, dosing, 0, 0.05, 0.5},

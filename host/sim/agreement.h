@@ -64,6 +64,7 @@ struct Moment {
     double meanHeight = 0;         ///< of the active particles [m]
     double contactsEach = 0;       ///< contacts over active particles, mean since the start of the phase
     double dosedMass = 0;          ///< [kg]
+    double freeWay = 0;            ///< from where the bodies that move freely began, their sum [m]
 };
 using History = std::vector<Moment>;
 

@@ -119,6 +119,7 @@ class Walker {
             active += 1;
         }
         m.meanHeight = active > 0 ? height / active : 0;
+        for (const FreeBody& body : backend_.freeBodies()) m.freeWay += glm::length(body.shift);
         // Means over the phase; energy and contacts from the values at the checkpoints.
         impulse_ += s.coilTorque * n;
         energySteps_ += m.kineticEnergy * n;

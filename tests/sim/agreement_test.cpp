@@ -27,7 +27,7 @@ History flat(double value) {
         m.phase = i <= 2 ? Phase::Settle : Phase::Rotate;
         m.lateInPhase = i >= 5;
         m.kineticEnergy = m.meanKineticEnergy = m.meanTorque = m.maxOverlap = m.contactsEach = value;
-        m.meanHeight = value * 1e-3;
+        m.meanHeight = m.freeWay = value * 1e-3;
         m.dosedMass = value * 3e-5;
         h.push_back(m);
     }
@@ -85,7 +85,7 @@ TEST_CASE("what the twins amplified, the candidate may have amplified, until it 
 TEST_CASE("a history agrees with itself in every quantity") {
     const History h = flat(1);
     const auto rows = judgeQuantities(h, {&h}, h, kScales);
-    CHECK(rows.size() == 9);
+    CHECK(rows.size() == 10);
     for (const QuantityRow& r : rows) CHECK(r.verdict == Verdict::Agrees);
 }
 
@@ -120,9 +120,9 @@ TEST_CASE("the twins' spread widens the tolerance, up to where agreement means n
 TEST_CASE("a quantity in which hardly anything happens proves nothing, and has no row") {
     History h = flat(1), more = flat(1);
     for (Moment& m : h) m.dosedMass = 1.9e-5;  // less than two particles, the floor
-    CHECK(judgeQuantities(h, {&h}, h, kScales).size() == 8);
+    CHECK(judgeQuantities(h, {&h}, h, kScales).size() == 9);
     for (Moment& m : h) m.dosedMass = m.meanTorque = 0;
-    CHECK(judgeQuantities(h, {&h}, h, kScales).size() == 7);
+    CHECK(judgeQuantities(h, {&h}, h, kScales).size() == 8);
     // It has its row as soon as one of them shows something.
     CHECK(named(judgeQuantities(h, {&h}, more, kScales), "dosed mass").verdict == Verdict::Differs);
     CHECK(named(judgeQuantities(h, {&h}, flat(kNan), kScales), "dosed mass").verdict == Verdict::Differs);
