@@ -200,6 +200,14 @@ std::vector<Mutant> mutants() {
          1,
          {"bodies/drum-balance", "bodies/pushed-sphere"},
          "rolling"},
+        {"bodies that move freely 1 % heavier",
+         [](RuledWorld& w) {
+             for (RigidBody& body : w.bodies)
+                 if (auto* free = std::get_if<geometry::Free>(&body.course.motion)) free->mass *= 1.01;
+         },
+         1,
+         {"bodies/free-ball"},
+         "drum"},
         {"every body twice, so that spheres touch it twice",
          [](RuledWorld& w) {
              const std::vector<RigidBody> once = w.bodies;

@@ -1,6 +1,7 @@
 """Spheres of several materials among meshes, in Yade: a part of tools/bench-peers, which calls it by
 `yade -n -x dosta-yade.py INPUT.json`. It prints a line STEP SPHERES COUNT ... at the start and after every `every` steps,
-as the other programs do: how many spheres there are, and how many of a powder lie in each box.
+as the other programs do: how many spheres there are, and how many of a powder lie in each box. With a ball it prints the
+ball's height and speed upwards in place of the counts; the ball stands still until its step `from`.
 Yade runs this text with its own names (O, FrictMat, facet ...) in place of modules."""
 # ruff: noqa: F821
 import csv
@@ -32,6 +33,12 @@ powder = {}
 for row in csv.DictReader(open(task["spheres"])):
     at = tuple(float(row[axis]) for axis in ("x", "y", "z"))
     powder[O.bodies.append(sphere(at, float(row["radius"]), material=row["powder"]))] = row["powder"]
+
+ball = None
+if "ball" in task:
+    number = O.bodies.append(sphere(task["ball"]["at"], task["ball"]["radius"], material="steel"))
+    ball = O.bodies[number].state
+    ball.blockedDOFs = "xyzXYZ"
 
 movers = []
 for motion in task.get("motions", []):
@@ -67,6 +74,9 @@ O.dynDt = False
 
 
 def tell():
+    if ball is not None:
+        print(O.iter, len(powder) + 1, f"{ball.pos[1]:.9g} {ball.vel[1]:.9g}", flush=True)
+        return
     places = {i: O.bodies[i].state.pos for i in powder}
     counts = [
         sum(
@@ -85,5 +95,8 @@ tell()
 while O.iter < task["steps"]:
     for motion, engine in movers:  # they begin and end at steps that are told
         engine.dead = not motion["from"] <= O.iter < motion.get("to", math.inf)
+    if ball is not None and O.iter == task["ball"]["from"]:
+        ball.blockedDOFs = ""
+        ball.vel = task["ball"]["velocity"]
     O.run(task["every"], True)
     tell()
