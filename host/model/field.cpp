@@ -35,8 +35,6 @@ std::optional<std::string> faultOf(const FieldRequest& r) {
         if (r.grid.resolved(d)) widest = std::max(widest, cell[d]);
     }
     if (!(r.width > 0)) return "the kernel has no width";
-    if (r.material && r.contactStress)
-        return "there is no contact stress of one material alone: ask for that of all particles";
     if (double(r.grid.cells[0]) * r.grid.cells[1] * r.grid.cells[2] > double(kMostFieldPoints))
         return fmt::format("the grid has more than {} points: use fewer cells", kMostFieldPoints);
     // A point must be in reach of every particle in its cell. The furthest is half a diagonal away.

@@ -11,8 +11,10 @@
 // in the grid, and not at all if its centre is outside. A direction with a single cell is not resolved: there the field
 // is the mean over the grid's extent.
 //
-// Source: I. Goldhirsch, Stress, stress asymmetry and couple stress: from discrete particles to continuous fields,
-// Granular Matter 12 (2010) 239-252; with the paper's Gaussian kernel or Lucy's polynomial.
+// Sources: I. Goldhirsch, Stress, stress asymmetry and couple stress: from discrete particles to continuous fields,
+// Granular Matter 12 (2010) 239-252; with the paper's Gaussian kernel or Lucy's polynomial. The contact stress of one
+// of several materials: D. Tunuguntla, A. Thornton, T. Weinhart, From discrete elements to continuum fields: extension
+// to bidisperse systems, Computational Particle Mechanics 3 (2016) 349-365.
 
 #include <array>
 #include <cstddef>
@@ -48,7 +50,8 @@ struct FieldRequest {
     Kernel kernel = Kernel::Gaussian;
     double width = 0;            ///< w [m]
     bool contactStress = false;  ///< also compute the contact stress, the most expensive of the fields
-    /// Only particles of this material count; those of others may still touch them. Has no contact stress.
+    /// Only particles of this material count; those of others may still touch them. The contact stress is then of the
+    /// parts of the branches that lie in particles of this material. Those of all materials add up to that of all.
     std::optional<int> material;
 
     double reach() const { return kernel == Kernel::Gaussian ? 3 * width : width; }  ///< of the kernel [m]

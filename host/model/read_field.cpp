@@ -116,11 +116,6 @@ void readFields(CaseReader& reader, Section& root, double meanDiameter, Case& c)
         request.width = section->number("width_mm", std::round(width * 1e9) / 1e6);
         sensor.average = section->boolean("average");
         sensor.stress = request.contactStress = section->boolean("stress");
-        if (sensor.stress && request.material) {
-            reader.fault(section->path("stress"), "is of all powders together: one powder bears no stress of its own",
-                         "leave powder out, or stress");
-            request.contactStress = false;
-        }
         readGrid(reader, *section, c, sensor);
         const bool map = request.grid.resolvedDirections() > 1;
         sensor.interval = section->number("interval_s", (map ? 10 : 1) * c.sensorInterval);

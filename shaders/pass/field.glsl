@@ -19,6 +19,10 @@
 #undef forceEntries
 #define field fields[0]
 
+// A branch in its table: xyz is the part of it that lies in wanted particles, w how far from the first particle's
+// centre that part begins, in its own lengths.
+const vec4 kNoBranch = vec4(0.0, 0.0, 0.0, -1.0);
+
 // Gauss-Legendre on [0, 1] (host/model/field.h).
 const vec4 kNodes = vec4(0.06943184420297371, 0.33000947820757187, 0.66999052179242813, 0.93056815579702629);
 const vec4 kShares = vec4(0.17392742256872693, 0.32607257743127307, 0.32607257743127307, 0.17392742256872693);
@@ -47,6 +51,9 @@ Place memberContact(uint k) {
     uint place = k % kMaxBodyTouches, slot = firstBodySlot() + k / kMaxBodyTouches;
     return slot - firstBodySlot() < control.listed.z ? Place(forceOfPlace(slot, place), slot, place) : none;
 }
+
+/// Whether the fields are of this particle's material.
+bool isWanted(uint i) { return field.chosen.x == 0u || field.chosen.x == materialOf(i) + 1u; }
 
 vec3 offsetOf(uint side, uint i) {
     return (state[stateIndex(side, kPosition, i)].xyz - field.low.xyz) + state[stateIndex(side, kResidue, i)].xyz;

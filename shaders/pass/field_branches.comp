@@ -1,5 +1,6 @@
 #version 450
-// field_branches: the branch of every contact that touched in the last step, one contact per invocation.
+// field_branches: the branch of every contact that touched in the last step, one contact per invocation. If the fields
+// are of one material, it is the part of the branch that lies in particles of that material.
 // Reads the state before that step (the half that is not the source), entries, forces,
 // history, and bodies as they stood in the last step. Writes the branches (pass/field.glsl).
 #extension GL_GOOGLE_include_directive : require
@@ -16,11 +17,21 @@ Sphere sphereBefore(uint i) {
     return Sphere(position.xyz, state[stateIndex(side, kResidue, i)].xyz, position.w);
 }
 
+/// A branch between two particles is divided by the contact point, half of the overlap inside each.
+vec4 wantedPart(vec3 branch, uvec2 who, Sphere a, Sphere b) {
+    bool first = isWanted(who.x), second = isWanted(who.y);
+    if (first && second) return vec4(branch, 0.0);
+    float share = clamp(0.5 + 0.5 * (a.radius - b.radius) / length(branch), 0.0, 1.0);  // of the first
+    if (first) return vec4(share * branch, 0.0);
+    if (!second || share == 1.0) return kNoBranch;
+    return vec4((1.0 - share) * branch, share / (1.0 - share));
+}
+
 #ifdef WITH_BODIES
 vec4 fromBody(float radius, Place at, uint body) {
     float depth = forces[at.contact].w;
     vec3 normal = directionToWorld(motionOf(body), history[placeHistoryIndex(at.slot, at.part, 2u)].xyz);
-    return depth != 0.0 ? vec4((radius - depth) * normal, 1.0) : vec4(0.0);
+    return depth != 0.0 ? vec4((radius - depth) * normal, 0.0) : kNoBranch;
 }
 #endif
 
@@ -32,16 +43,18 @@ void main() {
     if (at.contact == kEmpty) return;
     uvec2 who = entries[at.slot];
     Sphere a = sphereBefore(who.x);
-    vec4 branch = vec4(vec3(0.0), 1.0);
+    vec4 branch = kNoBranch;
     if (forces[at.slot].w == 0.0) {
-        branch.w = 0.0;
+        // apart
     } else if (ofPair(at.slot)) {
         Sphere b = sphereBefore(who.y);
-        branch.xyz = (a.high - b.high) + (a.low - b.low);
+        branch = wantedPart((a.high - b.high) + (a.low - b.low), who, a, b);
+    } else if (!isWanted(who.x)) {
+        // at a wall or a body the whole branch is the particle's
     } else if (at.slot < springSlotCount()) {
         SurfaceParams p = readSurface(surfaceOf(who.y));
         Overlap o = surfaceOverlap(KIND_SET, uint(p.pointHigh.w), p, a);
-        branch.xyz = (a.radius - o.depth) * o.normal;
+        branch = vec4((a.radius - o.depth) * o.normal, 0.0);
     } else {
 #ifdef WITH_BODIES
         branch = fromBody(a.radius, at, who.y);

@@ -13,11 +13,11 @@ mat3 stress;       // column a: row a of the stress
 
 void addBranch(uint contact, vec3 from) {
     vec4 branch = branches[contact];
-    if (branch.w == 0.0) return;
+    if (branch.w < 0.0) return;
     float w = 0.0;
     for (uint node = 0u; node < kFieldNodes; ++node)
-        w +=
-            kShares[node] * weights[nodeWeightIndex(contact, node)] * kernel(here - (from - kNodes[node] * branch.xyz));
+        w += kShares[node] * weights[nodeWeightIndex(contact, node)] *
+             kernel(here - (from - (branch.w + kNodes[node]) * branch.xyz));
     stress += outerProduct(branch.xyz * w, forces[contact].xyz);
 }
 

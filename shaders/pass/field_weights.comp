@@ -26,9 +26,6 @@ float weightAt(vec3 offset) {
     return sum > 0.0 ? 1.0 / (sum * field.cell.w) : 0.0;
 }
 
-/// Whether the fields are of this particle's material.
-bool isWanted(uint i) { return field.chosen.x == 0u || field.chosen.x == materialOf(i) + 1u; }
-
 /// The number of other particles that touched particle i in the last step.
 float touching(uint i) {
     uvec4 range = ranges[rowRangeIndex(i)];
@@ -58,5 +55,6 @@ void main() {
     if (at.contact == kEmpty) return;
     vec4 branch = branches[at.contact];
     vec3 from = offsetOf(1u - source, entries[at.slot].x);
-    weights[nodeWeightIndex(at.contact, node)] = branch.w > 0.0 ? weightAt(from - kNodes[node] * branch.xyz) : 0.0;
+    float away = branch.w + kNodes[node];
+    weights[nodeWeightIndex(at.contact, node)] = branch.w >= 0.0 ? weightAt(from - away * branch.xyz) : 0.0;
 }

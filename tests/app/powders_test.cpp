@@ -48,11 +48,13 @@ interval_s = 0.05
 [[field]]
 name = "sugar-alone"
 powder = "sugar"
+stress = true
 cells = [1, 1, 4]
 low = [-0.007, -0.007, 0]
 high = [0.007, 0.06, 0.021]
 [[field]]
 name = "both"
+stress = true
 cells = [1, 1, 4]
 low = [-0.007, -0.007, 0]
 high = [0.007, 0.06, 0.021]
@@ -105,14 +107,18 @@ TEST_CASE("what a run tells of its powders adds up to what it tells of all") {
     const auto ofSugar = static_cast<double>(std::count(end.material.begin(), end.material.end(), 3));
     CHECK(ofSugar == lastOf(series, "sugar.canister_count") + lastOf(series, "sugar.throat_count"));
 
-    // The field of one powder holds its mass.
+    // The field of one powder holds its mass, and bears a part of the stress.
     const Table alone = Table::read(box / "out/fields/sugar-alone.csv"),
                 both = Table::read(box / "out/fields/both.csv");
-    double mass = 0;
+    double mass = 0, borne = 0, borneByBoth = 0;
     for (std::size_t i = alone.rows() - 4; i < alone.rows(); ++i) {
         CHECK(alone.number(i, "density_kg_m3") <= both.number(i, "density_kg_m3") * (1 + 1e-5));
         mass += alone.number(i, "density_kg_m3") * 0.014 * 0.067 * 0.021 / 4;
+        borne += alone.number(i, "contact_stress_yy_Pa");
+        borneByBoth += both.number(i, "contact_stress_yy_Pa");
     }
+    CHECK(borne > 0);
+    CHECK(borne < borneByBoth);
     const double inside = lastOf(series, "sugar.canister_mass_kg") + lastOf(series, "sugar.throat_mass_kg");
     CHECK(mass == Approx(inside).epsilon(1e-4));
 

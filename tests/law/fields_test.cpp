@@ -205,6 +205,44 @@ TEST_CASE("fields: the stress of a contact integrates to force times branch, and
     }
 }
 
+TEST_CASE("fields: each of two powders bears the stress of the branch from its centres to the contact point") {
+    const double large = 1.5e-3, small = 0.5e-3, overlap = 0.1e-3;
+    const Vec3 force(1, -2, 3), direction = glm::normalize(Vec3(0.3, 0.1, -1));
+    const double length = large + small - overlap;
+    const bool largeFirst = GENERATE(true, false);
+    Particles p;
+    p.add(Vec3(0), largeFirst ? large : small, Vec3(0), Vec3(0), largeFirst ? 0 : 1);
+    p.add(-length * direction, largeFirst ? small : large, Vec3(0), Vec3(0), largeFirst ? 1 : 0);
+    const std::vector<Branch> branches{{0, 1, true, Vec3(0), length * direction, force},
+                                       {1, 0, false, p.position[1], 0.4e-3 * direction, 2.0 * force}};
+    FieldRequest r = request(Vec3(-0.012), Vec3(0.012), {33, 33, 33}, 1.5e-3, Kernel::Lucy);
+    const std::array<double, 2> inside{large - overlap / 2, small - overlap / 2};
+    World world = onePowder();
+    world.density(1) = kDensity;
+    for (const int material : {0, 1}) {
+        r.material = material;
+        const bool first = (material == 0) == largeFirst;
+        const FieldPoints points = coarseGrain(r, world, p, branches);
+        const FieldPoint sum = sumOf(r, points);
+        // The wall's branch is wholly of the particle that touches it.
+        const double along = inside[std::size_t(material)] + (first ? 0 : 2 * 0.4e-3);
+        for (std::size_t a = 0; a < 3; ++a)
+            CHECK(near(sum.contactStress[a], force[int(a)] * along * direction, glm::length(force) * length, 1e-13));
+    }
+    // Where: the middle of the stress is the middle of the part. The grid places the middle of a kernel that it
+    // resolves to a small part of a cell.
+    r.material = 0;
+    const FieldPoints points = coarseGrain(r, world, p, {branches[0]});
+    Vec3 middle(0);
+    double whole = 0;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+        middle += points[k].contactStress[2].z * r.grid.point(k);
+        whole += points[k].contactStress[2].z;
+    }
+    const Vec3 expected = (largeFirst ? 0.5 * inside[0] : length - 0.5 * inside[0]) * -direction;
+    CHECK(near(middle / whole, expected, length, 0.02));
+}
+
 TEST_CASE("fields: in a column at rest the vertical stress balances the weight above, and the floor's reaction") {
     constexpr int kSpheres = 12;
     const double k = 2000, m = massOf(kRadius), weight = m * kGravity;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace vkdose::reference {
 
@@ -55,6 +56,24 @@ class Smear {
     std::vector<Weight> weights_;
 };
 
+/// A piece of a branch: it begins at `from` and, like the branch, points back there.
+struct Line {
+    Vec3 from, along;
+};
+
+/// The part of a branch that lies in particles of the wanted material. The branch of a pair is divided by the contact
+/// point, half of the overlap inside each of the two.
+std::optional<Line> wantedPart(const FieldRequest& request, const Particles& p, const Branch& b) {
+    const auto wanted = [&](std::uint32_t i) { return !request.material || p.material[i] == *request.material; };
+    const bool first = wanted(b.particle), second = b.pair ? wanted(b.other) : first;
+    if (!first && !second) return std::nullopt;
+    if (first && second) return Line{b.centre, b.along};
+    const double length = glm::length(b.along), ours = p.radius[b.particle], other = p.radius[b.other];
+    const double overlap = ours + other - length;
+    const double share = std::clamp((ours - overlap / 2) / length, 0.0, 1.0);
+    return first ? Line{b.centre, share * b.along} : Line{b.centre - share * b.along, (1 - share) * b.along};
+}
+
 std::vector<double> touchesOf(const Particles& particles, const std::vector<Branch>& branches) {
     std::vector<double> touches(particles.size(), 0);
     for (const Branch& b : branches) {
@@ -103,11 +122,13 @@ FieldPoints coarseGrain(const FieldRequest& request, const World& world, const P
     if (!request.contactStress) return points;
     for (const Branch& b : branches) {
         if (p.status[b.particle] != Status::Active) continue;
+        const std::optional<Line> part = wantedPart(request, p, b);
+        if (!part) continue;
         for (std::size_t node = 0; node < kBranchNodes.size(); ++node)
-            for (const Weight& w : smear.around(b.centre - kBranchNodes[node] * b.along))
+            for (const Weight& w : smear.around(part->from - kBranchNodes[node] * part->along))
                 for (int a = 0; a < 3; ++a)
                     points[w.point].contactStress[std::size_t(a)] +=
-                        kBranchShares[node] * w.value * b.force[a] * b.along;
+                        kBranchShares[node] * w.value * b.force[a] * part->along;
     }
     return points;
 }
