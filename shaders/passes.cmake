@@ -28,6 +28,7 @@ set(passes
     "pass/field_weights"
     "pass/field_sums"
     "pass/field_kinetic"
+    "pass/store_trial packed"
     "render/cast")
 
 set(spirv_dir ${CMAKE_BINARY_DIR}/spirv)

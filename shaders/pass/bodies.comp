@@ -93,6 +93,7 @@ void load(uint body, uint i, uint number, float value) {
 
 void main() {
     openMember();
+    openBodies();
     ContactParams ofWall = lawOf(pairIndex(kFirstPowder, kWallMaterial));  // before any branch, as in `pairs`
     ContactParams ofCoil = lawOf(pairIndex(kFirstPowder, kCoilMaterial));
     uvec4 chosen = choices();
@@ -111,7 +112,6 @@ void main() {
     density = densityOf(me.material, density);
 
     float radius = me.sphere.radius, reduced = reducedAtWall(radius, motion.centre.w);
-    openBodies();
     if (openNearby(slot)) nearbyCount = nearby[nearbyStart];
     // Features beyond touch, in which a contact may hold on, have a depth as well: `most` is the radius with the reach.
     precise float most = radius;

@@ -22,9 +22,14 @@ uint nearbyAt(uint i) { return nearby[nearbyStart + 1u + i]; }
 void keepNearby(uint i, uint entry) { nearby[nearbyStart + 1u + i] = entry; }
 #endif
 
-/// Where the member's shapes begin: call openBodies first.
-uint geometryBegin;
-void openBodies() { geometryBegin = member.bodies.y; }
+// Where the member's shapes and the motions of this step begin.
+uint geometryBegin, motionsBegin;
+/// Call it before shapes or motions are asked for, and before any branch.
+void openBodies() {
+    uvec4 bodies = member.bodies;
+    geometryBegin = bodies.y;
+    motionsBegin = bodies.z + stepInBatch * bodies.w;
+}
 #ifdef TEXEL_READS
 layout(set = 0, binding = kFirstView + geometryBinding) uniform utextureBuffer geometryView;
 uvec4 geometryAt(uint i) { return texelFetch(geometryView, int(geometryBegin + i)); }
@@ -35,6 +40,6 @@ uvec4 geometryAt(uint i) { return geometry[geometryBegin + i]; }
 #include "law/features.glsl"
 #include "law/pose.glsl"
 
-BodyMotion motionOf(uint body) { return motions[member.bodies.z + stepInBatch * member.bodies.w + body]; }
+BodyMotion motionOf(uint body) { return motions[motionsBegin + body]; }
 
 #endif

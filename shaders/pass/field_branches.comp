@@ -38,6 +38,9 @@ vec4 fromBody(float radius, Place at, uint body) {
 void main() {
     openMember();
     --stepInBatch;  // the last one
+#ifdef WITH_BODIES
+    openBodies();
+#endif
     uint k = invocation();
     Place at = memberContact(k);
     if (at.contact == kEmpty) return;

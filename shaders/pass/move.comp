@@ -18,16 +18,17 @@ bool finite(vec3 v) { return !(any(isnan(v)) || any(isinf(v))); }
 
 bool beyond(vec3 way, float limit) { return dot(way, way) > limit * limit; }
 
-/// Whether a particle has come past the outlet, or into a region that deletes.
-bool isDosed(vec3 x, float outletZ) {
+/// Whether a particle has come past the outlet, or into a region that deletes. `first` is the first vector of the first
+/// region.
+bool isDosed(vec3 x, float outletZ, vec4 first) {
     bool dosed = x.z > outletZ;
     for (uint k = 0u; k < kMaxRegionOutlets; ++k) {
-        vec4 first = outletVector(2u * k);
         if (first.w == 0.0) break;
         vec4 second = outletVector(2u * k + 1u);
         bool beyond = dot(first.xyz, x) > second.w;
         bool within = all(greaterThan(x, first.xyz)) && all(lessThan(x, second.xyz));
         dosed = dosed || (first.w == 1.0 ? beyond : within);
+        if (k + 1u < kMaxRegionOutlets) first = outletVector(2u * k + 2u);
     }
     return dosed;
 }
@@ -37,6 +38,9 @@ void main() {
     uint i = firstParticle() + invocation();
     vec4 pull = gravity(), numbers = numerics();
     vec4 bottom = domainLow(), top = domainHigh();
+    vec4 outlet = outletVector(0u);
+    float unit = slackUnit();
+    bool opens = opening();
     if (waits()) {  // and the next step does so, too
         if (push.stepInStride < control.steps.y && callOfStep >= kCallSoon) callOfStep = kCallWaits;
         return;
@@ -78,7 +82,7 @@ void main() {
     // Leapfrog. The loaded velocity belongs to t = 0, so the opening kick is half a step.
     float dt = numbers.x, r = abs(position.w);
     float mass = sphereMass(densityOf(materialIn(residue.w), pull.w), r);
-    float kick = opening() ? 0.5 * dt : dt;
+    float kick = opens ? 0.5 * dt : dt;
     vec3 velocity = velocity4.xyz + kick * (force / mass + pull.xyz);
     vec3 spin = spin4.xyz + kick / (0.4 * mass * r * r) * torque;
 
@@ -89,11 +93,12 @@ void main() {
 
     bool sound = finite(high) && finite(velocity) && finite(spin);
     bool outside = any(lessThan(high, bottom.xyz)) || any(greaterThan(high, top.xyz));
-    uint now = !sound ? kStatusLost : isDosed(high, top.w) ? kStatusDosed : outside ? kStatusLost : kStatusActive;
+    bool dosed = isDosed(high, top.w, outlet);
+    uint now = !sound ? kStatusLost : dosed ? kStatusDosed : outside ? kStatusLost : kStatusActive;
     bool leaves = moving && now != kStatusActive;
 
     // Lists may be made from the rows at any time, so the rows must always hold all that is within the slack.
-    bool rebuild = leaves || beyond(high - rowAnchor, (1.0 - kMostSlack) * slackUnit());
+    bool rebuild = leaves || beyond(high - rowAnchor, (1.0 - kMostSlack) * unit);
     vec3 way = high - listAnchor.xyz;
     bool refresh = beyond(way, listAnchor.w), soon = beyond(way + float(kStride) * dt * velocity, listAnchor.w);
     uint kind = !sound                ? kErrorNan

@@ -150,9 +150,17 @@ uvec2 spread(uint groups) {
     return uvec2((groups + layers - 1u) / layers, layers);
 }
 
-bool opening() { return push.opening == 1u && choices().z == 1u; }
+/// Whether this is the member's first step. The record is read before a branch, and so should this be called: behind
+/// one lavapipe reads lane by lane.
+bool opening() {
+    uvec4 chosen = choices();
+    return push.opening == 1u && chosen.z == 1u;
+}
 /// By how much springs grow in this step: not at all in a member's first.
-float springStep() { return opening() ? 0.0 : numerics().x; }
+float springStep() {
+    float dt = numerics().x;
+    return opening() ? 0.0 : dt;
+}
 
 uint particleCount() { return push.particles; }
 uint rowEntryCount() { return push.rowEntries; }

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "host/backend/vulkan/store_trial.h"
 #include "host/backend/vulkan/user_shader.h"
 #include "spirv/passes.h"
 
@@ -17,7 +18,7 @@ Access accessOn(const vk::Device& device, const TableSizes& s, const BodyTables*
     for (const TableShape& table : TableCounts(s).shapes())
         if (table.view != VK_FORMAT_UNDEFINED) most = std::max(most, table.texels);
     const bool texel = s.texelReads && most <= device.limits().maxTexelBufferElements;
-    return {texel, texel && device.hasInt64()};
+    return {texel, texel && storesFasterPacked(device)};
 }
 
 /// The macros that choose the variant of a pass (shaders/passes.cmake).

@@ -22,7 +22,7 @@ namespace vkdose {
 /// The way in which passes read and store. It is chosen for the device.
 struct Access {
     bool texelReads = false;    ///< through texel-buffer views
-    bool packedStores = false;  ///< 64 bits at a time; only with texelReads
+    bool packedStores = false;  ///< 64 bits at a time, where a trial finds it faster; only with texelReads
 };
 
 /// The tables of shaders/shared/tables.h, each under its name.
