@@ -41,8 +41,8 @@ StoreTrial tryStores(const vk::Device& device) {
     const vk::Buffer packedBuffer(device, "the trial of packed stores", kVectors * sizeof(gpu::vec4));
     const vk::BindingSet toPlain(device, {&plainBuffer}, 4), toPacked(device, {&packedBuffer}, 4);
     const vk::Pipeline plain(device, toPlain, vk::pick(spirv::store_trial, 0), {});
-    const vk::Pipeline packed(device, toPacked,
-                              vk::pick(spirv::store_trial, spirv::TEXEL_READS | spirv::PACKED_STORES), {});
+    const vk::Pipeline packed(device, toPacked, vk::pick(spirv::store_trial, spirv::TEXEL_READS | spirv::PACKED_STORES),
+                              {});
     vk::Commands commands(device);
     StoreTrial trial;
     trial.plain.seconds = trial.packed.seconds = std::numeric_limits<double>::infinity();
