@@ -94,7 +94,7 @@ TEST_CASE("a call that fails is named with what to do") {
         {"no-queue", "vkCreateDevice", "try another with --device"},
         {"no-memory", "for the shapes of the bodies failed",
          "out of device memory: use fewer particles or another device"},
-        {"no-memory:3", "for the particle state failed", "out of device memory"},
+        {"no-memory:5", "for the particle state failed", "out of device memory"},  // behind two of the store trial
         {"no-map", "vkMapMemory", "cannot be mapped"},
         {"no-pipeline", "vkCreateComputePipelines", "out of host memory: use fewer particles"},
         {"lost", "vkQueueSubmit", "the device was lost"},

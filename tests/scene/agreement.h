@@ -35,6 +35,21 @@ inline std::vector<Contact> comparable(std::vector<Contact> contacts) {
     return contacts;
 }
 
+/// The largest difference between the contact stresses of two fields, in units of the largest in `b`.
+inline double stressDifference(const FieldPoints& a, const FieldPoints& b) {
+    REQUIRE(a.size() == b.size());
+    double worst = 0, most = 0;
+    for (std::size_t k = 0; k < b.size(); ++k)
+        for (std::size_t row = 0; row < 3; ++row)
+            for (int column = 0; column < 3; ++column) {
+                const double stress = b[k].contactStress[row][column];
+                most = std::max(most, std::abs(stress));
+                worst = std::max(worst, std::abs(a[k].contactStress[row][column] - stress));
+            }
+    REQUIRE(most > 0);
+    return worst / most;
+}
+
 inline Differences differences(const Backend& a, const Backend& b, double speed) {
     constexpr double kStiffness = 24067;  // k of paperLaw [N/m]
     const Particles p = a.particles(), q = b.particles();
