@@ -3,6 +3,8 @@
 // shared/buffers.glsl), so that the host can time which of the two ways is faster. Writes a buffer of its own.
 #ifdef PACKED_STORES
 #extension GL_ARB_gpu_shader_int64 : require
+#extension GL_GOOGLE_include_directive : require
+#include "shared/pack.glsl"
 layout(std430, set = 0, binding = 0) buffer PackedBuffer { u64vec4 stored[]; };
 #else
 layout(std430, set = 0, binding = 0) buffer PlainBuffer { vec4 stored[]; };
@@ -13,9 +15,7 @@ void main() {
     uint i = gl_GlobalInvocationID.x;
     vec4 a = float(i) * vec4(1.0, 0.5, 0.25, 0.125), b = a + 1.0;
 #ifdef PACKED_STORES
-    u64vec2 first = u64vec2(packUint2x32(floatBitsToUint(a.xy)), packUint2x32(floatBitsToUint(a.zw)));
-    u64vec2 second = u64vec2(packUint2x32(floatBitsToUint(b.xy)), packUint2x32(floatBitsToUint(b.zw)));
-    stored[i] = u64vec4(first, second);
+    stored[i] = pack(a, b);
 #else
     stored[2u * i] = a;
     stored[2u * i + 1u] = b;

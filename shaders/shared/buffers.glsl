@@ -252,8 +252,7 @@ layout(std430, set = 0, binding = historyBinding) buffer PackedHistoryBuffer { u
 layout(std430, set = 0, binding = forcesBinding) buffer PackedForceBuffer { u64vec2 packedForces[]; };
 layout(std430, set = 0, binding = torquesBinding) buffer PackedTorqueBuffer { u64vec4 packedTorques[]; };
 
-u64vec2 pack(vec4 a) { return u64vec2(packUint2x32(floatBitsToUint(a.xy)), packUint2x32(floatBitsToUint(a.zw))); }
-u64vec4 pack(vec4 a, vec4 b) { return u64vec4(pack(a), pack(b)); }
+#include "shared/pack.glsl"
 
 /// `field` and the one after it, kPosition or kVelocity.
 void writeState(uint side, uint field, uint i, vec4 a, vec4 b) {

@@ -1,7 +1,6 @@
 // The trial by which passes store plainly or packed.
 #include "host/backend/vulkan/store_trial.h"
 
-#include <bit>
 #include <cmath>
 
 #include "tests/support/catch.h"

@@ -7,7 +7,7 @@
 
 #include "host/model/normal_law.h"
 #include "host/sim/energy_ledger.h"
-#include "tests/scene/beds.h"
+#include "tests/scene/mixed_beds.h"
 #include "tests/support/catch.h"
 #include "tests/support/records.h"
 
@@ -15,84 +15,6 @@ using namespace vkdose;
 using namespace vkdose::test;
 
 namespace {
-
-constexpr int kSecond = 3, kThird = 4, kTrough = 5, kBlock = 6;
-constexpr int kHere = 7;  // materials
-constexpr double kRate = -2 * kPi * 1.5;
-
-/// Every pair has parameters of its own.
-void vary(ContactLaw& law) {
-    law.pairs.resize(kHere);
-    for (int a = 0; a < kHere; ++a)
-        for (int b = 0; b <= a; ++b) {
-            ContactParameters p = law.between(0, std::min(b, 2));
-            const double share = double(PairTable::index({a, b})) / 28;
-            p.k1 *= 1 - 0.3 * share;
-            p.kc *= 0.5 + share;
-            p.mu = 0.1 + 0.5 * share;
-            p.muR = 0.5 - 0.4 * share;
-            p.gamma *= 0.7 + 0.3 * share;
-            p.modulus *= 0.5 + share;
-            p.dampingShare *= 0.5 + 0.5 * share;
-            p.surfaceEnergy *= 0.5 + share;
-            law.between(a, b) = p;
-        }
-}
-
-/// The canister with three powders, a trough and a block of their own materials.
-RuledWorld mixedWorld() {
-    RuledWorld w = canisterWorld();
-    w.maxOverlapRatio = 1;
-    w.materials.push_back({"second", true, 2600});
-    w.materials.push_back({"third", true, 1100});
-    w.materials.push_back({"trough", false, 0});
-    w.materials.push_back({"block", false, 0});
-    w.surfaceMaterials = {std::uint8_t(kTrough)};
-    RigidBody block;
-    block.name = "block";
-    block.shapes = {geometry::Block{{-0.004, -0.001, -0.02}, {0.004, 0.001, 0.02}}};
-    block.course.start.origin = {0, 0.012, 0.03};
-    block.material = kBlock;
-    w.bodies.push_back(block);
-    vary(w.law);
-    return w;
-}
-
-Particles mixedParticles(std::size_t n) {
-    constexpr std::array<std::uint8_t, 3> kPowders{0, kSecond, kThird};
-    Particles p = thrownIn(n);
-    for (Vec3& x : p.position)
-        if (x.y > 0.005) x.y += 0.004;  // above the block
-    for (std::size_t i = 0; i < p.size(); ++i) p.material[i] = kPowders[i * i % 7 % 3];
-    return p;
-}
-
-/// Spheres of all powders that touch each other, the block, the trough and the coil, and move.
-Particles packed(const RuledWorld& w) {
-    constexpr std::array<std::uint8_t, 3> kPowders{0, kSecond, kThird};
-    const double a = single(1.2e-3);
-    Particles p;
-    const Particles pressed = aroundTheWire(*w.coil, a);
-    for (const Vec3& x : pressed.position)
-        if (x.z > 2 * a && x.z < 0.05 && std::hypot(x.x, x.y) + a < 0.0115) p.add(x, a);
-    const auto add = [&](const Vec3& x) {
-        const auto i = int(p.size());
-        p.add(x, single(1.22e-3 + 0.015e-3 * (i % 4)));
-    };
-    for (int z = 0; z < 8; ++z)
-        for (int x = -1; x < 2; ++x)
-            for (int y = 0; y < 3; ++y) add({2.5e-3 * x, 0.013 + 1.23e-3 + 2.47e-3 * y, 0.021 + 2.48e-3 * z});
-    for (int z = 0; z < 6; ++z) add({0.0115 - 1.21e-3, 0.03, 0.01 + 2.47e-3 * z});
-    const std::size_t inBlock = 72, after = p.size() - 6, before = after - inBlock;
-    std::mt19937 random(5);
-    std::uniform_real_distribution<double> speed(-0.1, 0.1);
-    for (std::size_t i = 0; i < p.size(); ++i) {
-        const Vec3 velocity(single(speed(random)), single(speed(random)), single(speed(random)));
-        if (i >= before) p.velocity[i] = velocity;  // those at the wire stay there for a while
-        p.material[i] = kPowders[(i >= before && i < after ? i + i / 9 : i) % 3];
-    }
-    return p;
-}
 
 /// The materials by new numbers; everything else as it was.
 struct Renumbered {
@@ -311,80 +233,6 @@ TEST_CASE("materials: the ledger closes where a wall hands a contact to one of a
     CHECK(touched == std::set<std::uint32_t>{0, 1});
     const double share = std::abs(ledger.residual()) / ledger.sum.loaded;
     CHECK(share < (onDevice ? 2e-6 : 1e-12));  // rounding of the motion in single precision
-}
-
-TEST_CASE("materials: fields of each powder add up to the field of all") {
-    const bool onDevice = GENERATE(false, true);
-    const RuledWorld w = mixedWorld();
-    const Particles p = mixedParticles(150);
-    const auto backend = onDevice ? gpu() : makeReferenceBackend();
-    backend->load(w, p);
-    backend->advance(500, kRate);
-    FieldRequest request;
-    request.grid = {{-0.012, -0.012, 0}, {0.012, 0.06, 0.06}, {2, 6, 4}};
-    request.kernel = Kernel::Lucy;  // has no edge in which single nodes of a quadrature are and others are not
-    request.width = 0.03;
-    request.contactStress = true;
-    const FieldPoints all = backend->fields(request);
-    FieldPoints sum(all.size());
-    double massOfSecond = 0, number = 0;
-    for (const int powder : powdersOf(w)) {
-        request.material = powder;
-        const FieldPoints part = backend->fields(request);
-        for (std::size_t k = 0; k < sum.size(); ++k) {
-            sum[k].density += part[k].density;
-            sum[k].momentum += part[k].momentum;
-            sum[k].number += part[k].number;
-            for (std::size_t row = 0; row < 3; ++row) sum[k].contactStress[row] += part[k].contactStress[row];
-            if (powder == kSecond) massOfSecond += part[k].density * request.grid.cellVolume();
-        }
-    }
-    for (std::size_t k = 0; k < all.size(); ++k) {
-        CHECK(std::abs(sum[k].density - all[k].density) <= 1e-5 * all[k].density);
-        CHECK(std::abs(sum[k].number - all[k].number) <= 1e-5 * all[k].number);
-        CHECK(glm::length(sum[k].momentum - all[k].momentum) <= 1e-5 * (glm::length(all[k].momentum) + all[k].density));
-        number += all[k].number;
-    }
-    CHECK(number > 0);
-    double known = 0;
-    const Particles now = backend->particles();
-    for (std::size_t i = 0; i < now.size(); ++i) {
-        const Vec3& x = now.position[i];
-        const bool within =
-            glm::all(glm::greaterThanEqual(x, request.grid.low)) && glm::all(glm::lessThanEqual(x, request.grid.high));
-        if (now.material[i] == kSecond && now.status[i] == Status::Active && within) known += massOf(w, now, i);
-    }
-    CHECK(nearRelative(massOfSecond, known, 1e-5));
-    // Rounding, and two quadratures of a branch in place of one: its length is a tenth of the kernel's width.
-    CHECK(stressDifference(sum, all) < 1e-4);
-}
-
-TEST_CASE("materials: the device divides the contact stress among the powders as the reference does") {
-    const RuledWorld w = mixedWorld();
-    const Particles p = packed(w);
-    const auto device = gpu(), reference = makeReferenceBackend();
-    for (Backend* b : {device.get(), reference.get()}) {
-        b->load(w, p);
-        b->advance(5, kRate);
-    }
-    int alike = 0, mixed = 0, others = 0;
-    for (const Contact& c : reference->contacts()) {
-        if (c.kind != ContactClass::ParticleParticle)
-            ++others;
-        else
-            ++(p.material[c.particle] == p.material[c.other] ? alike : mixed);
-    }
-    REQUIRE(alike > 5);
-    REQUIRE(mixed > 20);
-    REQUIRE(others > 20);
-    FieldRequest request;
-    request.grid = {{-0.012, -0.012, 0}, {0.012, 0.06, 0.06}, {6, 15, 15}};
-    request.width = 0.004;
-    request.contactStress = true;
-    for (const int powder : powdersOf(w)) {
-        request.material = powder;
-        CHECK(stressDifference(device->fields(request), reference->fields(request)) < 4e-4);
-    }
 }
 
 TEST_CASE("materials: what does not fit the world is refused") {

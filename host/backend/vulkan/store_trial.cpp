@@ -15,7 +15,7 @@
 namespace vkdose {
 namespace {
 
-// A try stores half a megabyte, which takes a processor some 0.3 ms: many times as long as a submission.
+// A try stores half a megabyte. That takes a core some 0.1 to 0.2 ms, several times as long as a submission.
 constexpr std::uint32_t kGroups = 64, kInvocations = 64 * kGroups, kRounds = 4;
 constexpr int kTries = 5;
 

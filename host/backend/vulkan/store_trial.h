@@ -1,7 +1,6 @@
 #pragma once
 // Times the two ways in which passes can store their vectors on a device.
 
-#include <array>
 #include <vector>
 
 #include "host/vk/device.h"
