@@ -48,7 +48,9 @@ std::vector<bench::Plan> chosenPlans(const BenchOptions& options) {
     std::string known;
     for (const bench::Plan& p : plans) {
         known += "\n  " + p.name;
-        if (p.name.find(options.only) != std::string::npos && (p.quick || !options.quick)) chosen.push_back(p);
+        if (p.name.find(options.only) != std::string::npos && (p.quick || !options.quick) &&
+            (!p.huge || options.only == p.name))
+            chosen.push_back(p);
     }
     if (chosen.empty())
         throw UsageError(fmt::format("--only {}: no {}workload has this in its name; the workloads are{}", options.only,
@@ -69,6 +71,12 @@ double rebuildSeconds(const VulkanProfile& first) {
     for (const VulkanProfile::Pass& p : first.passes)
         if (std::find(kOthers.begin(), kOthers.end(), p.name) == kOthers.end()) seconds += p.seconds;
     return first.rebuilds > 0 ? seconds / double(first.rebuilds) : 0;
+}
+
+/// Steps of the profile: fewer of a large bed, so that it takes no longer than the repeats.
+std::uint32_t profiledSteps(std::size_t particles) {
+    constexpr std::size_t kMostParticleSteps = 256'000'000;
+    return std::uint32_t(std::clamp<std::size_t>(kMostParticleSteps / particles, kFirstSteps, kProfiledSteps));
 }
 
 void fillProfile(bench::Row& row, const VulkanProfile& p) {
@@ -102,7 +110,7 @@ void measure(bench::Row& row, const Workload& w, const BackendChoice& choice, co
     row.rebuildsPer1000 = 1e3 * double(rebuilds - lastRebuilds) / double(lastSteps);
     row.coordination = bench::coordinationOf(*backend, row.particles);
     row.contactsPerSecond = row.speed.particleSteps.median * (row.coordination.touching / 2 + row.coordination.walls);
-    fillProfile(row, profile(*backend, kProfiledSteps, w.coilRate));
+    fillProfile(row, profile(*backend, profiledSteps(row.particles), w.coilRate));
     if (!validationClean(choice, *backend)) throw DeviceError("the validation layer found faults");
 }
 

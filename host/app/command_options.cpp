@@ -111,7 +111,10 @@ void addBench(CLI::App& program, BenchOptions& options) {
                     "case with a list of settled particles, which is run at rest and turning (default: " +
                         std::string(kSettledBed) + ")")
         ->type_name("CASE");
-    command.add_option("--only", options.only, "run only the workloads with this in their name")->type_name("NAME");
+    command
+        .add_option("--only", options.only,
+                    "run only the workloads with this in their name; bed-4M, which takes 8 GB, runs only by its name")
+        ->type_name("NAME");
     command.add_option("--repeats", options.repeats, "timed repeats of each workload")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();

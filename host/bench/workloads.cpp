@@ -116,11 +116,12 @@ std::vector<Plan> plans(const std::optional<Case>& bed) {
                        }});
     }
     all.push_back({"bed-3k", true, [] { return box(1, 1, 1); }});
-    all.push_back({"bed-3k-mesh", false, boxWithMesh, "bed-3k"});
+    all.push_back({"bed-3k-mesh", false, boxWithMesh, false, "bed-3k"});
     all.push_back({"bed-27k", false, [] { return box(2, 2, 2); }});
     all.push_back({"bed-100k", false, [] { return box(3, 5, 2); }});
     all.push_back({"bed-300k", false, [] { return box(5, 6, 3); }});
     all.push_back({"bed-1M", false, [] { return box(6, 10, 5); }});
+    all.push_back({"bed-4M", false, [] { return box(10, 12, 10); }, true});
     return all;
 }
 

@@ -22,10 +22,11 @@ struct Plan {
     std::string name;
     bool quick;  ///< small enough for a test
     std::function<Workload()> make;
+    bool huge = false;      ///< takes 8 GB and ten minutes: runs only if it is asked for by its whole name
     std::string without{};  ///< the workload that is the same but for one thing, with which it is compared
 };
 
-/// The workloads are `free-fall` (no contacts, one speed), `bed-3k` ... `bed-1M` (boxes full of spheres that press on
+/// The workloads are `free-fall` (no contacts, one speed), `bed-3k` ... `bed-4M` (boxes full of spheres that press on
 /// each other and are at rest, without gravity), `bed-3k-mesh` (the spheres of `bed-3k` around a resting coil of
 /// 10,000 triangles), and, for a case with a list of settled particles, `<name>-rest` and `<name>-turning`. These two
 /// are its bed with the law of the doses, the coil still or at the case's speed.

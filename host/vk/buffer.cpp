@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "host/vk/commands.h"
@@ -30,7 +31,11 @@ Buffer::Memory Buffer::allocate(VkDeviceSize size, VkBufferUsageFlags usage, VkM
         flags = second;
         type = device_.memoryType(needs.memoryTypeBits, second);
     }
-    VkMemoryAllocateInfo allocation{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, nullptr, needs.size, std::uint32_t(type)};
+    VkMemoryAllocateFlagsInfo addressable{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO, nullptr,
+                                          VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT, 0};
+    const bool addressed = (usage & VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT) != 0;
+    VkMemoryAllocateInfo allocation{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, addressed ? &addressable : nullptr,
+                                    needs.size, std::uint32_t(type)};
     VkResult result =
         type < 0 ? VK_ERROR_OUT_OF_DEVICE_MEMORY : vkAllocateMemory(device_.handle(), &allocation, nullptr, &m.memory);
     if (result != VK_SUCCESS) {
@@ -49,8 +54,7 @@ Buffer::Memory Buffer::allocate(VkDeviceSize size, VkBufferUsageFlags usage, VkM
 }
 
 Buffer::Memory Buffer::staging(VkDeviceSize bytes) const {
-    Memory stage =
-        allocate(bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, kHost, kHost);
+    Memory stage = allocate(bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, kHost, kHost);
     if (stage.mapped == nullptr) throw std::logic_error("staging memory is host-visible");
     return stage;
 }
@@ -64,16 +68,19 @@ void Buffer::release(Memory& m) const {
 Buffer::Buffer(const Device& device, const char* name, VkDeviceSize size, std::nullptr_t)
     : device_(device), name_(name), size_(size) {}
 
-Buffer::Buffer(const Device& device, const char* name, VkDeviceSize size, VkFormat texelFormat)
+Buffer::Buffer(const Device& device, const char* name, VkDeviceSize size, VkFormat texelFormat, Reach reach)
     : Buffer(device, name, size, nullptr) {
-    if (size > device.limits().maxStorageBufferRange)
+    const VkDeviceSize most =
+        reach == Reach::Addressed ? device.longestBuffer() : device.limits().maxStorageBufferRange;
+    if (size > most)
         throw DeviceError(
             fmt::format("{} needs {} bytes, but {} allows storage buffers of {} bytes: use fewer particles "
                         "or another device",
-                        name, size, device.info().name, device.limits().maxStorageBufferRange));
+                        name, size, device.info().name, most));
     VkBufferUsageFlags usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
                                VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     if (texelFormat != VK_FORMAT_UNDEFINED) usage |= VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
+    if (reach == Reach::Addressed) usage |= VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
     // A CPU device, or one with a large window into its memory, lets the host touch what the kernels use.
     own_ = allocate(size, usage, kLocal | kHost, kLocal);
     buffer_ = own_.buffer;
@@ -82,6 +89,7 @@ Buffer::Buffer(const Device& device, const char* name, VkDeviceSize size, VkForm
             VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO, nullptr, 0, buffer_, texelFormat, 0, VK_WHOLE_SIZE};
         check(vkCreateBufferView(device_.handle(), &view, nullptr, &view_), "vkCreateBufferView");
     }
+    if (reach == Reach::Addressed) address_ = device_.addressOf(buffer_);
     Commands commands(device_);
     commands.begin();
     vkCmdFillBuffer(commands.handle(), buffer_, 0, VK_WHOLE_SIZE, 0);
@@ -92,6 +100,10 @@ Buffer::Buffer(const Device& device, const char* name, VkDeviceSize size, VkForm
 Buffer::~Buffer() {
     if (view_ != VK_NULL_HANDLE) vkDestroyBufferView(device_.handle(), view_, nullptr);
     release(own_);
+}
+
+VkDeviceSize Buffer::bound() const {
+    return std::min<VkDeviceSize>(size_, device_.limits().maxStorageBufferRange);
 }
 
 void Buffer::write(VkDeviceSize offset, const void* data, VkDeviceSize bytes) {

@@ -12,11 +12,16 @@
 
 namespace vkdose::vk {
 
+/// How passes come to a buffer: through its binding, or by its address.
+enum class Reach { Bound, Addressed };
+
 class Buffer {
   public:
     /// Zero-filled. `texelFormat` other than undefined adds a uniform texel view over the whole buffer.
-    /// Throws DeviceError, naming `name`, if the size exceeds the device's storage-buffer range or its memory.
-    Buffer(const Device& device, const char* name, VkDeviceSize size, VkFormat texelFormat = VK_FORMAT_UNDEFINED);
+    /// Throws DeviceError, naming `name`, if the size exceeds what the device can bind, or allocate where it gives
+    /// addresses, or its memory.
+    Buffer(const Device& device, const char* name, VkDeviceSize size, VkFormat texelFormat = VK_FORMAT_UNDEFINED,
+           Reach reach = Reach::Bound);
     ~Buffer();
     Buffer(const Buffer&) = delete;
     Buffer& operator=(const Buffer&) = delete;
@@ -24,6 +29,8 @@ class Buffer {
     VkBuffer handle() const { return buffer_; }
     VkDeviceSize size() const { return size_; }
     VkBufferView texelView() const { return view_; }
+    VkDeviceAddress address() const { return address_; }  ///< 0 unless it is reached by address
+    VkDeviceSize bound() const;                           ///< as much as a binding shows of it [bytes]
 
     /// Host access, through a staging buffer where the memory is not host-visible. The device must be idle.
     void write(VkDeviceSize offset, const void* data, VkDeviceSize bytes);
@@ -58,6 +65,7 @@ class Buffer {
     VkBuffer buffer_ = VK_NULL_HANDLE;
     Memory own_;
     VkBufferView view_ = VK_NULL_HANDLE;
+    VkDeviceAddress address_ = 0;
 };
 
 }  // namespace vkdose::vk

@@ -169,7 +169,7 @@ VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
 
 VkInstance makeInstance(bool validation) {
     VkApplicationInfo application{
-        VK_STRUCTURE_TYPE_APPLICATION_INFO, nullptr, "vkdose", 1, "vkdose", 1, VK_API_VERSION_1_1};
+        VK_STRUCTURE_TYPE_APPLICATION_INFO, nullptr, "vkdose", 1, "vkdose", 1, VK_API_VERSION_1_2};
     VkInstanceCreateInfo create{
         VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO, nullptr, 0, &application, 0, nullptr, 0, nullptr};
     const char* extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
@@ -290,6 +290,24 @@ void Device::createDevice(std::uint32_t family) {
     wanted.shaderInt64 = has.shaderInt64;
     int64_ = has.shaderInt64 == VK_TRUE;
     create.pEnabledFeatures = &wanted;
+    VkPhysicalDeviceBufferDeviceAddressFeatures addresses{};
+    addresses.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_BUFFER_DEVICE_ADDRESS_FEATURES;
+    const char* const extension = VK_KHR_BUFFER_DEVICE_ADDRESS_EXTENSION_NAME;  // a part of Vulkan from 1.2 on
+    VkPhysicalDeviceProperties properties{};
+    vkGetPhysicalDeviceProperties(physical_, &properties);
+    const bool inCore = properties.apiVersion >= VK_API_VERSION_1_2;
+    if (inCore || hasExtension(extension)) {
+        VkPhysicalDeviceFeatures2 all{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &addresses, {}};
+        vkGetPhysicalDeviceFeatures2(physical_, &all);
+    }
+    addresses_ = addresses.bufferDeviceAddress == VK_TRUE;
+    if (addresses_) {
+        addresses.bufferDeviceAddressCaptureReplay = addresses.bufferDeviceAddressMultiDevice = VK_FALSE;
+        create.pNext = &addresses;
+        create.enabledExtensionCount = inCore ? 0 : 1;
+        create.ppEnabledExtensionNames = &extension;
+    }
+    addressOf_ = inCore ? vkGetBufferDeviceAddress : vkGetBufferDeviceAddressKHR;
     check(vkCreateDevice(physical_, &create, nullptr, &device_), "vkCreateDevice");
     vkGetDeviceQueue(device_, family, 0, &queue_);
     VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, nullptr,
@@ -335,16 +353,33 @@ Device::~Device() {
     if (instance_ != VK_NULL_HANDLE) vkDestroyInstance(instance_, nullptr);
 }
 
-std::uint64_t Device::freeMemory() const {
+bool Device::hasExtension(const char* name) const {
     std::uint32_t n = 0;
     check(vkEnumerateDeviceExtensionProperties(physical_, nullptr, &n, nullptr),
           "vkEnumerateDeviceExtensionProperties");
     std::vector<VkExtensionProperties> has(n);
     check(vkEnumerateDeviceExtensionProperties(physical_, nullptr, &n, has.data()),
           "vkEnumerateDeviceExtensionProperties");
-    const bool told = std::any_of(has.begin(), has.end(), [](const VkExtensionProperties& e) {
-        return std::strcmp(e.extensionName, VK_EXT_MEMORY_BUDGET_EXTENSION_NAME) == 0;
-    });
+    return std::any_of(has.begin(), has.end(),
+                       [name](const VkExtensionProperties& e) { return std::strcmp(e.extensionName, name) == 0; });
+}
+
+VkDeviceAddress Device::addressOf(VkBuffer buffer) const {
+    const VkBufferDeviceAddressInfo which{VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO, nullptr, buffer};
+    return addressOf_(device_, &which);
+}
+
+VkDeviceSize Device::longestBuffer() const {
+    if (!addresses_) return limits_.maxStorageBufferRange;
+    VkPhysicalDeviceMaintenance3Properties allocations{};
+    allocations.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES;
+    VkPhysicalDeviceProperties2 all{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &allocations, {}};
+    vkGetPhysicalDeviceProperties2(physical_, &all);
+    return std::max<VkDeviceSize>(allocations.maxMemoryAllocationSize, limits_.maxStorageBufferRange);
+}
+
+std::uint64_t Device::freeMemory() const {
+    const bool told = hasExtension(VK_EXT_MEMORY_BUDGET_EXTENSION_NAME);
     VkPhysicalDeviceMemoryBudgetPropertiesEXT budget{};
     budget.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MEMORY_BUDGET_PROPERTIES_EXT;
     VkPhysicalDeviceMemoryProperties2 all{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MEMORY_PROPERTIES_2, nullptr, {}};

@@ -64,6 +64,13 @@ class Device {
     const DeviceInfo& info() const { return info_; }
     /// Whether shaders may use 64-bit integers; enabled where the device has them.
     bool hasInt64() const { return int64_; }
+    /// Whether shaders may reach buffers by address; enabled where the device can.
+    bool hasAddresses() const { return addresses_; }
+    /// Of a buffer that was made for it. Needs hasAddresses.
+    VkDeviceAddress addressOf(VkBuffer buffer) const;
+    /// The longest buffer that can be allocated, and reached whole by its address [bytes]. Without addresses, the
+    /// longest that can be bound.
+    VkDeviceSize longestBuffer() const;
 
     /// Free memory of the device's largest heap [bytes]. The driver says how much other programs leave
     /// (VK_EXT_memory_budget). Where it does not say, the whole heap counts as free.
@@ -81,6 +88,7 @@ class Device {
     Device();
     void createInstance(bool validation);
     void createDevice(std::uint32_t family);
+    bool hasExtension(const char* name) const;
 
     VkInstance instance_ = VK_NULL_HANDLE;
     VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
@@ -91,7 +99,8 @@ class Device {
     VkPhysicalDeviceLimits limits_{};
     VkPhysicalDeviceMemoryProperties memory_{};
     DeviceInfo info_;
-    bool int64_ = false;
+    bool int64_ = false, addresses_ = false;
+    PFN_vkGetBufferDeviceAddress addressOf_ = nullptr;
     std::unique_ptr<ValidationMessages> messages_;
 };
 

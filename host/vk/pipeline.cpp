@@ -50,7 +50,7 @@ BindingSet::BindingSet(const Device& device, const std::vector<const Buffer*>& b
         return writes.emplace_back(w);
     };
     for (std::uint32_t i = 0; i < count; ++i) {
-        whole[i] = {buffers[i]->handle(), 0, VK_WHOLE_SIZE};
+        whole[i] = {buffers[i]->handle(), 0, buffers[i]->bound()};
         write(i, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER).pBufferInfo = &whole[i];
     }
     for (const std::uint32_t i : viewed) {

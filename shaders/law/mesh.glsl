@@ -49,11 +49,11 @@ vec4 realsAt(uint i) { return uintBitsToFloat(geometryAt(i)); }
 /// Where the list of the cell around a point begins, and how many triangles it has.
 uvec2 cellList(uint shape, uint heads, vec3 centre) {
     vec4 corner = realsAt(shape + 2u);
-    uvec3 cells = geometryAt(shape + 3u).xyz;
+    uvec3 size = geometryAt(shape + 3u).xyz;
     vec3 x = floor((centre - corner.xyz) * corner.w);
-    bool inside = all(greaterThanEqual(x, vec3(0.0))) && all(lessThan(x, vec3(cells)));
-    uvec3 cell = uvec3(clamp(x, vec3(0.0), vec3(cells - 1u)));
-    uint c = cell.x + cells.x * (cell.y + cells.y * cell.z);
+    bool inside = all(greaterThanEqual(x, vec3(0.0))) && all(lessThan(x, vec3(size)));
+    uvec3 cell = uvec3(clamp(x, vec3(0.0), vec3(size - 1u)));
+    uint c = cell.x + size.x * (cell.y + size.y * cell.z);
     uvec4 two = geometryAt(heads + c / 2u);
     uvec2 list = (c & 1u) == 0u ? two.xy : two.zw;
     return inside ? list : uvec2(0u);

@@ -64,7 +64,7 @@ void main() {
     if (gl_LocalInvocationID.x != 0u) return;
     bool rebuild = (wished & kRebuild) != 0u, refresh = (wished & kRefresh) != 0u;
     uvec2 none = uvec2(0u, 1u), groups = spread(push.share / gl_WorkGroupSize.x);
-    dispatches.cells.xz = rebuild ? spread((push.cellMask + gl_WorkGroupSize.x) / gl_WorkGroupSize.x) : none;
+    dispatches.heads.xz = rebuild ? spread((push.cellMask + gl_WorkGroupSize.x) / gl_WorkGroupSize.x) : none;
     dispatches.particles.xz = rebuild ? groups : none;
     dispatches.refresh.xz = refresh ? groups : none;
     dispatches.settle.x = refresh ? 1u : 0u;

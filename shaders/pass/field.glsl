@@ -4,10 +4,12 @@
 #ifndef VKDOSE_PASS_FIELD_GLSL
 #define VKDOSE_PASS_FIELD_GLSL
 
-#define TABLE(number, name, element, count, title) \
-    layout(std430, set = 0, binding = number) buffer name##Buffer { element name[]; };
-#define PARAMETERS(number, name, element, count, title) \
-    layout(std430, set = 0, binding = number) readonly buffer name##Buffer { element name[]; };
+#define TABLE(number, name, element, count, title) BOUND(number, name, element, )
+#define PARAMETERS(number, name, element, count, title) BOUND(number, name, element, readonly)
+#ifdef ADDRESSED
+#define LONG(number, name, element, count, title) \
+    layout(buffer_reference, std430, buffer_reference_align = 16) buffer name##Elements { element at[]; };
+#endif
 #define ROW(table, function, first, length) \
     uint function(uint i) { return (first) + i; }
 #define ROWS(table, function, first, rows, length) \
@@ -18,6 +20,12 @@
 #undef particles
 #undef forceEntries
 #define field fields[0]
+#ifdef ADDRESSED
+weightsElements weightsTable = weightsElements(field.tables.xy);
+branchesElements branchesTable = branchesElements(field.tables.zw);
+#define weights weightsTable.at
+#define branches branchesTable.at
+#endif
 
 // A branch in its table: xyz is the part of it that lies in wanted particles, w how far from the first particle's
 // centre that part begins, in its own lengths.
@@ -66,7 +74,7 @@ float kernel(vec3 away) {
     vec3 d = field.along.xyz * away;
     float square = dot(d, d), reach = field.low.w, width = field.size.w;
     if (square >= reach * reach) return 0.0;
-    if (field.cells.w == kGaussian) return exp(-0.5 * square / (width * width));
+    if (field.points.w == kGaussian) return exp(-0.5 * square / (width * width));
     float q = sqrt(square) / width, rest = 1.0 - q;
     return (1.0 + 3.0 * q) * rest * rest * rest;
 }

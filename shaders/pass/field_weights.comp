@@ -9,7 +9,7 @@
 
 float weightAt(vec3 offset) {
     if (any(lessThan(offset, vec3(0.0))) || any(greaterThan(offset, field.size.xyz))) return 0.0;
-    vec3 most = vec3(field.cells.xyz) - 1.0, middle = offset / field.cell.xyz - 0.5;
+    vec3 most = vec3(field.points.xyz) - 1.0, middle = offset / field.cell.xyz - 0.5;
     vec3 span = field.low.w / field.cell.xyz * field.along.xyz + (1.0 - field.along.xyz);
     uvec3 first = uvec3(clamp(floor(middle - span), vec3(0.0), most));
     uvec3 last = uvec3(clamp(ceil(middle + span), vec3(0.0), most));

@@ -16,7 +16,7 @@
 
 /// A slot's memory of the last step; all zero if the contact did not touch.
 struct Memory {
-    History history;
+    History springs;
 #ifdef ENERGY_BOOK
     Exerted exerted;
 #endif
@@ -24,18 +24,18 @@ struct Memory {
 
 Memory nothing() {
     Memory m;
-    m.history = noHistory();
+    m.springs = noHistory();
 #ifdef ENERGY_BOOK
     m.exerted = kNothing;
 #endif
     return m;
 }
 
-bool known(Memory m) { return m.history.slidingMax.w > 0.0; }
+bool known(Memory m) { return m.springs.slidingMax.w > 0.0; }
 
 Memory recall(uint slot) {
     Memory m;
-    m.history = historyOfSlot(slot);
+    m.springs = historyOfSlot(slot);
 #ifdef ENERGY_BOOK
     m.exerted = exertedBefore(slot, known(m));
 #endif
@@ -68,7 +68,7 @@ void main() {
     ContactParams frontLaw = law;  // under which the front wall's memory came about
 #endif
     Memory frontMemory = recall(end - 1u);  // the front wall is the last; of a single contact this is its own
-    bool frontTouches = joints() && holds(law, front.depth, reduced, frontMemory.history.slidingMax.w);
+    bool frontTouches = joints() && holds(law, front.depth, reduced, frontMemory.springs.slidingMax.w);
 
     for (; slot < end; ++slot) {
         SurfaceParams p = readSurface(surfaceOf(entriesAt(slot).y));
@@ -79,10 +79,10 @@ void main() {
 #ifdef ENERGY_BOOK
         ContactParams lawBefore = law;
 #endif
-        bool touching = holds(law, o.depth, reduced, memory.history.slidingMax.w);
+        bool touching = holds(law, o.depth, reduced, memory.springs.slidingMax.w);
         if (joined) {
             if (slot + 1u < end) memory = recall(slot);
-            touching = holds(law, o.depth, reduced, memory.history.slidingMax.w);
+            touching = holds(law, o.depth, reduced, memory.springs.slidingMax.w);
             if (kind == kFront) {
                 o = front;
                 touching = frontTouches;
@@ -113,14 +113,14 @@ void main() {
                 }
             }
         }
-        History h = memory.history;
+        History h = memory.springs;
         Response r;
         WallForce f = meetWall(me, o, reduced, law, chosen, density, springDt, vec3(0.0), vec3(0.0), h, r);
         keepHistory(slot, h, touching);
         writeForce(slot, touching ? vec4(f.force, o.depth / me.sphere.radius) : vec4(0.0));
         writeTorque(slot, touching ? vec4(f.torque, 0.0) : vec4(0.0));
 #ifdef ENERGY_BOOK
-        bookSurface(law, springDt, slot, me, o, r, touching, lawBefore, memory.exerted, memory.history, h);
+        bookSurface(law, springDt, slot, me, o, r, touching, lawBefore, memory.exerted, memory.springs, h);
 #endif
         if (slot + 1u >= end) break;  // at the end: shaders/README.md, Drivers
     }

@@ -18,15 +18,15 @@ void add(uint i);
 /// False for workgroups beyond the last tile.
 bool openTile(out vec3 low, out vec3 high) {
     uint n = gl_WorkGroupID.z * gl_NumWorkGroups.x + gl_WorkGroupID.x;
-    uvec3 tiles = field.tiles.xyz, tile = field.tile.xyz, cells = field.cells.xyz;
+    uvec3 tiles = field.tiles.xyz, tile = field.tile.xyz, points = field.points.xyz;
     uvec3 corner = uvec3(n % tiles.x, n / tiles.x % tiles.y, n / (tiles.x * tiles.y)) * tile;
     uint lane = gl_LocalInvocationID.x;
     uvec3 cell = corner + uvec3(lane % tile.x, lane / tile.x % tile.y, lane / (tile.x * tile.y));
-    onGrid = all(lessThan(cell, cells)) && lane < tile.x * tile.y * tile.z;
+    onGrid = all(lessThan(cell, points)) && lane < tile.x * tile.y * tile.z;
     here = pointAt(cell);
-    pointIndex = (cell.z * cells.y + cell.y) * cells.x + cell.x;
+    pointIndex = (cell.z * points.y + cell.y) * points.x + cell.x;
     low = pointAt(corner);
-    high = pointAt(min(corner + tile, cells) - 1u);
+    high = pointAt(min(corner + tile, points) - 1u);
     return n < tiles.x * tiles.y * tiles.z;
 }
 
@@ -36,8 +36,8 @@ bool reaches(uint i, vec3 low, vec3 high, float margin) {
     vec3 outside = max(-offset, offset - field.size.xyz);
     vec3 away = field.along.xyz * max(max(low - offset, offset - high), vec3(0.0));
     float reach = field.low.w + margin;
-    return uint(state[stateIndex(source, kSpin, i)].w) == kStatusActive &&
-           all(lessThanEqual(outside, vec3(margin))) && dot(away, away) < reach * reach;
+    return uint(state[stateIndex(source, kSpin, i)].w) == kStatusActive && all(lessThanEqual(outside, vec3(margin))) &&
+           dot(away, away) < reach * reach;
 }
 
 /// Adds those of the slice (at most 128) that can reach the tile.

@@ -20,23 +20,29 @@ layout(constant_id = 7) const uint BODIES = 0u;           // most bodies of a me
 layout(constant_id = 8) const uint SHAPE_KINDS = 0u;      // bit k: a body has a shape of kind k (shared/geometry.h)
 layout(constant_id = 10) const uint MOST_PLACES = 4u;     // in which a sphere touches a body (law/places.glsl)
 
-layout(constant_id = 11) const uint POWDERS = 1u;         // 1: all particles are of the first powder
-layout(constant_id = 12) const uint MANY_WALLS = 0u;      // 1: a surface or body is of a material of its own
+layout(constant_id = 11) const uint POWDERS = 1u;     // 1: all particles are of the first powder
+layout(constant_id = 12) const uint MANY_WALLS = 0u;  // 1: a surface or body is of a material of its own
 
 layout(push_constant) uniform Push { StepPush push; };
 
 // The tables (shared/tables.h), and their bindings by name.
-#define TABLE(number, name, element, count, title) \
-    const uint name##Binding = number;             \
-    layout(std430, set = 0, binding = number) buffer name##Buffer { element name[]; };
-#define PARAMETERS(number, name, element, count, title) \
-    layout(std430, set = 0, binding = number) readonly buffer name##Buffer { element name[]; };
-#define HEADED(number, name, element, count, title, head, headName) \
+#define BOUND(number, name, element, access) \
+    layout(std430, set = 0, binding = number) access buffer name##Buffer { element name[]; };
+#define BOUND_HEADED(number, name, element, head, headName)         \
     layout(std430, set = 0, binding = number) buffer name##Buffer { \
         head headName;                                              \
         element name[];                                             \
     };
+#ifdef ADDRESSED
+#include "shared/addressed.glsl"
+#else
+#define TABLE(number, name, element, count, title) \
+    const uint name##Binding = number;             \
+    BOUND(number, name, element, )
+#define PARAMETERS(number, name, element, count, title) BOUND(number, name, element, readonly)
+#define HEADED(number, name, element, count, title, head, headName) BOUND_HEADED(number, name, element, head, headName)
 #include "shared/tables.h"
+#endif
 
 // Some devices read faster through texel views. There stateAt(at) is state[at] read through the view, and likewise for
 // every table that has a view. The views' bindings come after those of the tables.

@@ -3,6 +3,9 @@
 #ifndef PARAMETERS
 #define PARAMETERS TABLE
 #endif
+#ifndef LONG  // a table that may be longer than a device binds
+#define LONG TABLE
+#endif
 #ifndef ROW
 #define ROW(table, function, first, length)
 #endif
@@ -13,14 +16,15 @@
 TABLE(8, grid, vec4, kFieldVectors * points, the fields)
 // One over the sum of the kernel around each particle, then around the nodes of each contact's branch. Then: how many
 // others touch each particle.
-TABLE(10, weights, float, 2 * particles + kFieldNodes * forceEntries, the weights of the fields)
+LONG(10, weights, float, 2 * particles + kFieldNodes * forceEntries, the weights of the fields)
 ROW(weights, particleWeightIndex, 0, particles)
 ROWS(weights, nodeWeightIndex, particles, forceEntries, kFieldNodes)
 ROW(weights, touchesIndex, particles + kFieldNodes * forceEntries, particles)
 PARAMETERS(11, fields, FieldParams, 1, the parameters of the fields)
-TABLE(14, branches, vec4, forceEntries, the branches of the contacts)
+LONG(14, branches, vec4, forceEntries, the branches of the contacts)
 
 #undef TABLE
 #undef PARAMETERS
+#undef LONG
 #undef ROW
 #undef ROWS

@@ -181,13 +181,14 @@ SHARED_CONST kStride = 8u;              // most steps between two decisions
 
 struct Dispatches {   // indirect arguments, three words each: workgroups in a row, a row for each live member, layers.
                       // For all members together: as many workgroups as the one that wants most.
-    uvec4 cells;      // workgroups that clear the cell table, 0 while no rebuild of the rows is wanted
+    uvec4 heads;      // workgroups that clear the cell table, 0 while no rebuild of the rows is wanted
     uvec4 particles;  // workgroups over the particles, ditto
     uvec4 refresh;    // workgroups over the particles, 0 while no refresh of the contact lists is wanted
     uvec4 settle;     // one workgroup, ditto
     uvec4 pairs;      // workgroups over the entries of the contact lists: pairs ...
     uvec4 surfaces;   // ... contacts with surfaces ...
     uvec4 bodies;     // ... particles near a body
+    uvec4 tables[kTables];  // xy: address of each table, its low word first, where passes reach tables by address
 };
 
 struct Control {   // a member's
@@ -251,10 +252,11 @@ struct FieldParams {
     vec4 size;    // xyz: of the grid [m]; w: width of the kernel [m]
     vec4 cell;    // xyz: size of a cell [m]; w: its volume [m3]
     vec4 along;   // xyz: 1 in directions that are resolved, else 0; w: a contact's branch is no longer than this [m]
-    uvec4 cells;  // xyz: number; w: kernel
+    uvec4 points;  // xyz: number of cells, a point in the middle of each; w: kernel
     uvec4 tile;   // xyz: points of a workgroup; w: 1 if contact stress is wanted
     uvec4 tiles;  // xyz: workgroups; w: particles of a slice
     uvec4 chosen;  // x: 1 + the material whose particles count; 0: all do
+    uvec4 tables;  // xy, zw: addresses of `weights` and `branches`, where passes reach tables by address
 };
 
 // --- per dispatch -------------------------------------------------------------------------------------------------

@@ -112,6 +112,13 @@ TEST_CASE("the same case gives the same bits, whatever the workgroup and the way
     SECTION("storage reads only") {
         other.reads = VulkanOptions::Reads::Storage;
     }
+    SECTION("tables reached by address") {
+        other = byAddress();
+    }
+    SECTION("tables reached by address, storage reads only") {
+        other = byAddress();
+        other.reads = VulkanOptions::Reads::Storage;
+    }
     SECTION("dispatches in layers of two workgroups") {
         other.mostGroups = 2;
     }

@@ -74,7 +74,7 @@ TEST_CASE("body books: a heap in a turning drum closes on the device, and the bo
     const Particles p = layers(60);
     VulkanOptions options;
     options.reads = GENERATE(VulkanOptions::Reads::Automatic, VulkanOptions::Reads::Storage);
-    auto device = gpu(options), plain = gpu(options), second = gpu(options);
+    auto device = gpu(options), plain = gpu(options), second = gpu(byAddress(options));
     device->load(w, p);
     second->load(w, p);
     w.energyBook = false;

@@ -144,7 +144,7 @@ TEST_CASE("fields: asking for them changes nothing, and gives the same bits howe
     VulkanOptions wide;
     wide.workgroup = 128;
     wide.mostGroups = 3;  // in layers
-    const auto a = gpu(), b = gpu(few), c = gpu(wide);
+    const auto a = gpu(), b = gpu(few), c = gpu(byAddress(wide));
     for (Backend* backend : {a.get(), b.get(), c.get()}) backend->load(world, p);
     for (int n = 0; n < 4; ++n) {
         a->advance(100, kRate);

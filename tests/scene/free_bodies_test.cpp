@@ -127,7 +127,7 @@ TEST_CASE("free bodies: a ball that falls into a bed changes no bit by batches, 
     const Particles p = bed();
     VulkanOptions small;
     small.batch = 7;
-    const auto whole = gpu(), other = gpu(small), second = gpu();
+    const auto whole = gpu(), other = gpu(small), second = gpu(byAddress());
     for (Backend* b : {whole.get(), other.get(), second.get()}) b->load(w, p);
     whole->advance(2501, 0);
     other->advance(2501, 0);

@@ -145,7 +145,7 @@ TEST_CASE("a user's law that repeats hertz-mindlin has its bits") {
 TEST_CASE("a run under a user's law goes on from a snapshot with the same bits", "[one-driver]") {
     RuledWorld w = ludingTwins().users;
     w.energyBook = GENERATE(false, true);
-    auto whole = gpu(), resumed = gpu();
+    auto whole = gpu(), resumed = gpu(byAddress());
     whole->load(w, threeSpheres());
     whole->advance(400, 0);
     resumed->load(w, threeSpheres());

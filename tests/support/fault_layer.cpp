@@ -6,7 +6,8 @@
 //   vulkan-1.0      the devices say Vulkan 1.0
 //   few-buffers     4 storage buffers per stage, the fewest that Vulkan allows
 //   least-limits    the limits of compute are the least that Vulkan 1.1 promises, except storage buffers per stage
-//   small-range     storage buffers of 64 KiB
+//   small-range:N   storage buffers of N bytes, 64 KiB without N
+//   no-addresses    shaders cannot reach buffers by address
 //   few-groups      dispatches of 2 workgroups
 //   split-memory    device memory that the host cannot map, as on a discrete card, beside host memory
 //   no-queue        vkCreateDevice fails
@@ -161,7 +162,7 @@ void spoil(VkPhysicalDeviceProperties& p) {
     if (fault("vulkan-1.0")) p.apiVersion = VK_API_VERSION_1_0;
     if (fault("least-limits")) lower(p.limits);
     if (fault("few-buffers")) p.limits.maxPerStageDescriptorStorageBuffers = 4;
-    if (fault("small-range")) p.limits.maxStorageBufferRange = 65536;
+    if (const auto bytes = fault("small-range")) p.limits.maxStorageBufferRange = *bytes > 0 ? *bytes : 65536;
     if (fault("few-groups")) p.limits.maxComputeWorkGroupCount[0] = 2;
 }
 
@@ -172,6 +173,13 @@ VKAPI_ATTR void VKAPI_CALL properties(VkPhysicalDevice physical, VkPhysicalDevic
 VKAPI_ATTR void VKAPI_CALL properties2(VkPhysicalDevice physical, VkPhysicalDeviceProperties2* p) {
     NEXT(instanceOf(physical), vkGetPhysicalDeviceProperties2)(physical, p);
     spoil(p->properties);
+}
+
+VKAPI_ATTR void VKAPI_CALL features2(VkPhysicalDevice physical, VkPhysicalDeviceFeatures2* features) {
+    NEXT(instanceOf(physical), vkGetPhysicalDeviceFeatures2)(physical, features);
+    for (auto* at = static_cast<VkBaseOutStructure*>(features->pNext); at != nullptr; at = at->pNext)
+        if (fault("no-addresses") && at->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_BUFFER_DEVICE_ADDRESS_FEATURES)
+            reinterpret_cast<VkPhysicalDeviceBufferDeviceAddressFeatures*>(at)->bufferDeviceAddress = VK_FALSE;
 }
 
 // split-memory: type 0 is the device's own, type 1 the host's. Both are made of the driver's first host-visible type.
@@ -275,6 +283,7 @@ const Functions& intercepted() {
         add("vkGetPhysicalDeviceQueueFamilyProperties", queueFamilies);
         add("vkGetPhysicalDeviceProperties", properties);
         add("vkGetPhysicalDeviceProperties2", properties2);
+        add("vkGetPhysicalDeviceFeatures2", features2);
         add("vkGetPhysicalDeviceMemoryProperties", memoryProperties);
         add("vkGetBufferMemoryRequirements", bufferRequirements);
         add("vkCreateDevice", createDevice);

@@ -20,6 +20,14 @@ inline std::unique_ptr<Backend> gpu(VulkanOptions options = {}) {
     return makeVulkanBackend(options);
 }
 
+/// The same, with tables that passes reach by address. A device without addresses binds them, and says so.
+inline VulkanOptions byAddress(VulkanOptions options = {}) {
+    static const bool has = vk::Device(testDevice()).hasAddresses();
+    if (!has) WARN("the device gives no addresses of buffers; its tables are bound");
+    options.addressed = has;
+    return options;
+}
+
 inline std::vector<std::unique_ptr<Backend>> gpuEnsemble(std::size_t members) {
     VulkanOptions options;
     options.device = testDevice();

@@ -64,6 +64,8 @@ Ensemble::Ensemble(const VulkanOptions& options) : options_(options), device_(op
     if (options_.workgroup > most)
         throw DeviceError(fmt::format("workgroups of {} exceed the {} invocations of {}", options_.workgroup, most,
                                       device_.info().name));
+    if (options_.addressed && !device_.hasAddresses())
+        throw DeviceError(fmt::format("{} gives no addresses of buffers to shaders", device_.info().name));
 }
 
 void Ensemble::load(const std::vector<Canister>& canisters) {
@@ -72,9 +74,7 @@ void Ensemble::load(const std::vector<Canister>& canisters) {
         throw DeviceError(fmt::format("{} canisters at once; {} allows {}", canisters.size(), device_.info().name,
                                       limits.maxComputeWorkGroupCount[1]));
     const std::uint32_t mostGroups = std::min(options_.mostGroups, limits.maxComputeWorkGroupCount[0]);
-    const DeviceShape shape{options_.workgroup, mostGroups, limits.maxStorageBufferRange};
     members_.clear();
-    std::vector<TableSizes> rooms;
     for (const Canister& c : canisters) {
         if (c.particles.size() == 0) throw RunError("there are no particles to simulate");
         MemberState m;
@@ -82,11 +82,20 @@ void Ensemble::load(const std::vector<Canister>& canisters) {
         m.bodies = allBodies(c.world);
         m.loaded = c.particles;
         m.block = packMember(c.world, c.law, c.particles);
-        rooms.push_back(
-            tableSizes(c.world, Crowd(c.particles), m.block, shape, std::uint32_t(canisters.size()), c.law.user));
         members_.push_back(std::move(m));
     }
-    TableSizes sizes = roomForAll(rooms);
+    const auto sizesWithin = [&](VkDeviceSize range) {
+        const DeviceShape shape{options_.workgroup, mostGroups, range};
+        std::vector<TableSizes> rooms;
+        for (std::size_t m = 0; m < members_.size(); ++m)
+            rooms.push_back(tableSizes(members_[m].world, Crowd(members_[m].loaded), members_[m].block, shape,
+                                       std::uint32_t(members_.size()), canisters[m].law.user));
+        return roomForAll(rooms);
+    };
+    TableSizes sizes = sizesWithin(limits.maxStorageBufferRange);
+    // Tables that are bound are the faster ones, so that only beds that they do not hold are reached by address.
+    if (sizes.longestBytes() > limits.maxStorageBufferRange) sizes = sizesWithin(device_.longestBuffer());
+    sizes.addressed = options_.addressed;
     sizes.texelReads = options_.reads == VulkanOptions::Reads::Automatic;
     recorded_.clear();
     fieldPasses_.reset();

@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "host/backend/vulkan/user_shader.h"
+#include "host/backend/vulkan/pass_code.h"
 #include "spirv/passes.h"
 
 namespace vkdose {
@@ -51,10 +51,10 @@ gpu::FieldParams pack(const FieldRequest& r, const TableSizes& sizes, double lar
     // A branch is at most two radii long. The factor is a little larger, because the particle has moved since the force
     // acted.
     p.along = gpu::vec4(g.resolved(0), g.resolved(1), g.resolved(2), float(2.1 * largestRadius));
-    p.cells =
+    p.points =
         gpu::uvec4(g.cells[0], g.cells[1], g.cells[2], r.kernel == Kernel::Gaussian ? gpu::kGaussian : gpu::kLucy);
     p.tile = gpu::uvec4(tile[0], tile[1], tile[2], r.contactStress ? 1 : 0);
-    for (int d = 0; d < 3; ++d) p.tiles[d] = (p.cells[d] + p.tile[d] - 1) / p.tile[d];
+    for (int d = 0; d < 3; ++d) p.tiles[d] = (p.points[d] + p.tile[d] - 1) / p.tile[d];
     p.tiles.w = sizes.bodies > 0 ? kSliceBesideBodies : kSlice;
     p.chosen.x = r.material ? std::uint32_t(*r.material) + 1 : 0;
     return p;
@@ -104,9 +104,10 @@ unsigned macrosFor(const TableSizes& s) {
 
 FieldTables::FieldTables(const vk::Device& device, const Tables& tables, std::size_t n)
     : points(n)
-#define TABLE(number, name, element, count, title) \
-    , name(device, #title,                         \
-           FieldCounts{n, tables.sizes.particles(), tables.forces.size() / sizeof(gpu::vec4)}.name##Bytes())
+#define TABLE(number, name, element, count, title)                                                           \
+    , name(device, #title,                                                                                   \
+           FieldCounts{n, tables.sizes.particles(), tables.forces.size() / sizeof(gpu::vec4)}.name##Bytes(), \
+           VK_FORMAT_UNDEFINED, tables.access.addressed ? vk::Reach::Addressed : vk::Reach::Bound)
 #include "shaders/shared/field_tables.h"
 {
 }
@@ -119,13 +120,15 @@ FieldPasses::FieldPasses(const vk::Device& device, const Passes& p, std::size_t 
       branchBindings_(device, p.bodies != nullptr ? with(*p.bodies, with(own_, p.all())) : with(own_, p.all()),
                       sizeof(gpu::StepPush)),
       branches_(device, branchBindings_,
-                p.sizes.userLaw ? userShader("pass/field_branches.comp", *p.sizes.userLaw, spirv::field_branches,
-                                             macrosFor(p.sizes))
-                                : vk::pick(spirv::field_branches, macrosFor(p.sizes)),
+                passCode("field_branches", spirv::field_branches,
+                         {macrosFor(p.sizes), p.sizes.userLaw.get(), p.access.addressed}),
                 Passes::constants(p.sizes)),
-      weigh_(device, bindings_, vk::pick(spirv::field_weights, 0), Passes::constants(p.sizes)),
-      sums_(device, bindings_, vk::pick(spirv::field_sums, 0), Passes::constants(p.sizes)),
-      kinetic_(device, bindings_, vk::pick(spirv::field_kinetic, 0), Passes::constants(p.sizes)) {}
+      weigh_(device, bindings_, passCode("field_weights", spirv::field_weights, {0, nullptr, p.access.addressed}),
+             Passes::constants(p.sizes)),
+      sums_(device, bindings_, passCode("field_sums", spirv::field_sums, {0, nullptr, p.access.addressed}),
+            Passes::constants(p.sizes)),
+      kinetic_(device, bindings_, passCode("field_kinetic", spirv::field_kinetic, {0, nullptr, p.access.addressed}),
+               Passes::constants(p.sizes)) {}
 
 void FieldPasses::dispatch(vk::Commands& commands, const vk::Pipeline& pass, std::uint32_t groups) const {
     pass.bind(commands.handle());
@@ -135,7 +138,8 @@ void FieldPasses::dispatch(vk::Commands& commands, const vk::Pipeline& pass, std
 
 FieldPoints FieldPasses::compute(const FieldRequest& request, const Moment& moment) {
     const TableSizes& s = passes_.sizes;
-    const gpu::FieldParams params = pack(request, s, moment.largestRadius);
+    gpu::FieldParams params = pack(request, s, moment.largestRadius);
+    params.tables = gpu::uvec4(addressWords(own_.weights), addressWords(own_.branches));
     own_.fields.write(0, &params, sizeof params);
     const std::uint32_t contacts = s.pairSlots + s.surfaceSlots + gpu::kMaxBodyTouches * s.bodySlots;
     const std::uint32_t tiles = params.tiles.x * params.tiles.y * params.tiles.z;

@@ -5,7 +5,7 @@
 #include <map>
 #include <mutex>
 
-#include "host/backend/vulkan/user_shader.h"
+#include "host/backend/vulkan/pass_code.h"
 #include "host/vk/buffer.h"
 #include "host/vk/commands.h"
 #include "host/vk/pipeline.h"
@@ -59,7 +59,7 @@ std::vector<std::vector<LawPoint>> tryLaw(const vk::DeviceChoice& device, const 
     const std::lock_guard lock(mutex);
     auto found = known.find(key);
     if (found == known.end()) {
-        const std::span<const std::uint32_t> shader = userShader("law/trial.comp", law, std::vector<std::string>{});
+        const std::span<const std::uint32_t> shader = compiledNow("law/trial.comp", &law, {});
         found = known.emplace(key, answersOf(device, shader, questions)).first;
     }
     std::vector<std::vector<LawPoint>> points(loadings.size());

@@ -5,11 +5,15 @@
 #include <span>
 #include <vector>
 
+#include "host/backend/vulkan/pass_code.h"
 #include "host/backend/vulkan/store_trial.h"
-#include "host/backend/vulkan/user_shader.h"
 #include "spirv/passes.h"
 
 namespace vkdose {
+
+glm::uvec2 addressWords(const vk::Buffer& table) {
+    return {std::uint32_t(table.address()), std::uint32_t(table.address() >> 32)};
+}
 
 namespace {
 
@@ -18,7 +22,9 @@ Access accessOn(const vk::Device& device, const TableSizes& s, const BodyTables*
     for (const TableShape& table : TableCounts(s).shapes())
         if (table.view != VK_FORMAT_UNDEFINED) most = std::max(most, table.texels);
     const bool texel = s.texelReads && most <= device.limits().maxTexelBufferElements;
-    return {texel, texel && storesFasterPacked(device)};
+    const bool tooLong = s.longestBytes() > device.limits().maxStorageBufferRange;
+    const bool addressed = device.hasAddresses() && (s.addressed || tooLong);
+    return {texel, texel && !addressed && storesFasterPacked(device), addressed};
 }
 
 /// The macros that choose the variant of a pass (shaders/passes.cmake).
@@ -40,29 +46,25 @@ struct StepPass {
     std::span<const vk::Variant> variants;
     Extent extent;
     VkDeviceSize arguments = 0;
-    bool readsBodies = false;      ///< binds the tables of shaders/shared/body_tables.h, if there are bodies
-    bool forBodies = false;        ///< has nothing to do without bodies
-    bool forFree = false;          ///< has nothing to do without bodies that move freely
-    const char* source = nullptr;  ///< of a pass that knows the law or what contacts remember
+    bool readsBodies = false;  ///< binds the tables of shaders/shared/body_tables.h, if there are bodies
+    bool forBodies = false;    ///< has nothing to do without bodies
+    bool forFree = false;      ///< has nothing to do without bodies that move freely
+    bool knowsLaw = false;     ///< knows the law, or what contacts remember
 };
 
 /// A stride: `decide`, the passes that make new lists, then steps of the other passes.
 constexpr std::array kPasses{
     StepPass{"decide", spirv::decide, Extent::One},
-    StepPass{"clear", spirv::clear, Extent::OfDevice, offsetof(gpu::Dispatches, cells)},
+    StepPass{"clear", spirv::clear, Extent::OfDevice, offsetof(gpu::Dispatches, heads)},
     StepPass{"bin", spirv::bin, Extent::OfDevice, offsetof(gpu::Dispatches, particles)},
     StepPass{"neighbours", spirv::neighbours, Extent::OfDevice, offsetof(gpu::Dispatches, particles)},
-    StepPass{"near", spirv::near, Extent::OfDevice, offsetof(gpu::Dispatches, refresh), true, false, false,
-             "pass/near.comp"},
-    StepPass{"link", spirv::link, Extent::OfDevice, offsetof(gpu::Dispatches, refresh), false, false, false,
-             "pass/link.comp"},
+    StepPass{"near", spirv::near, Extent::OfDevice, offsetof(gpu::Dispatches, refresh), true, false, false, true},
+    StepPass{"link", spirv::link, Extent::OfDevice, offsetof(gpu::Dispatches, refresh), false, false, false, true},
     StepPass{"commit_lists", spirv::commit_lists, Extent::OfDevice, offsetof(gpu::Dispatches, settle)},
-    StepPass{"pairs", spirv::pairs, Extent::OfDevice, offsetof(gpu::Dispatches, pairs), false, false, false,
-             "pass/pairs.comp"},
+    StepPass{"pairs", spirv::pairs, Extent::OfDevice, offsetof(gpu::Dispatches, pairs), false, false, false, true},
     StepPass{"surfaces", spirv::surfaces, Extent::OfDevice, offsetof(gpu::Dispatches, surfaces), false, false, false,
-             "pass/surfaces.comp"},
-    StepPass{"bodies", spirv::bodies, Extent::OfDevice, offsetof(gpu::Dispatches, bodies), true, true, false,
-             "pass/bodies.comp"},
+             true},
+    StepPass{"bodies", spirv::bodies, Extent::OfDevice, offsetof(gpu::Dispatches, bodies), true, true, false, true},
     StepPass{"free_bodies", spirv::free_bodies, Extent::Bodies, 0, true, true, true},
     StepPass{"move", spirv::move, Extent::Particles},
 };
@@ -72,7 +74,8 @@ constexpr std::size_t kDecide = 0, kFirstOfStep = 7, kMove = kPasses.size() - 1,
 
 vk::Buffer Tables::make(const vk::Device& device, const TableSizes& sizes, const Access& access, std::size_t number) {
     const TableShape table = TableCounts(sizes).shapes()[number];
-    return {device, table.title, table.bytes, access.texelReads ? table.view : VK_FORMAT_UNDEFINED};
+    return {device, table.title, table.bytes, access.texelReads ? table.view : VK_FORMAT_UNDEFINED,
+            access.addressed ? vk::Reach::Addressed : vk::Reach::Bound};
 }
 
 Tables::Tables(const vk::Device& device, const TableSizes& s, const Access& a)
@@ -138,21 +141,23 @@ Passes::Passes(const vk::Device& device, const TableSizes& s, const BodyTables* 
       bodies(bodyTables),
       bindings_(device, all(), sizeof(gpu::StepPush)),
       validated_(device.validated()),
-      sense_(device, bindings_, vk::pick(spirv::sense, macrosFor(access, s)), constants(s)),
-      senseEnergy_(device, bindings_, vk::pick(spirv::sense_energy, macrosFor(access, s)), constants(s)) {
+      sense_(device, bindings_, codeOf("sense", spirv::sense, false), constants(s)),
+      senseEnergy_(device, bindings_, codeOf("sense_energy", spirv::sense_energy, false), constants(s)) {
     if (bodies != nullptr)
         bodyBindings_ = std::make_unique<vk::BindingSet>(device, with(*bodies, all()), sizeof(gpu::StepPush));
     for (const StepPass& pass : kPasses) {
         std::optional<vk::Pipeline>& made = passes_.emplace_back();
         if (pass.forBodies && !bodyBindings_) continue;  // drivers take their time with it
         if (pass.forFree && (s.shapeKinds & gpu::kFreeBodies) == 0) continue;
-        const unsigned macros = macrosFor(access, s);
-        const bool ofUser = s.userLaw != nullptr && pass.source != nullptr;
-        made.emplace(
-            device, pass.readsBodies && bodyBindings_ ? *bodyBindings_ : bindings_,
-            ofUser ? userShader(pass.source, *s.userLaw, pass.variants, macros) : vk::pick(pass.variants, macros),
-            constants(s));
+        made.emplace(device, pass.readsBodies && bodyBindings_ ? *bodyBindings_ : bindings_,
+                     codeOf(pass.name, pass.variants, pass.knowsLaw), constants(s));
     }
+}
+
+std::span<const std::uint32_t> Passes::codeOf(const char* name, std::span<const vk::Variant> variants,
+                                              bool knowsLaw) const {
+    const UserLaw* law = knowsLaw ? sizes.userLaw.get() : nullptr;
+    return passCode(name, variants, {macrosFor(access, sizes), law, access.addressed});
 }
 
 std::vector<const char*> Passes::names() {
@@ -180,12 +185,14 @@ void Passes::setLive(std::uint32_t live) {
     const auto groups = [&](std::uint32_t n) { return gpu::uvec4(sizes.inRow(n), live, sizes.layers(n), 0); };
     // The largest numbers of workgroups. The device sets the number from the work there is.
     gpu::Dispatches d{};
-    d.cells = groups((sizes.cells + sizes.workgroup - 1) / sizes.workgroup);
+    d.heads = groups((sizes.cells + sizes.workgroup - 1) / sizes.workgroup);
     d.particles = d.refresh = groups(sizes.groups());
     d.settle = gpu::uvec4(1, 1, 1, 0);
     d.pairs = groups(sizes.pairSlots / sizes.workgroup);
     d.surfaces = groups(sizes.surfaceSlots / sizes.workgroup);
     d.bodies = groups(sizes.bodySlots / sizes.workgroup);
+    const std::vector<const vk::Buffer*> tables = all();
+    for (std::size_t n = 0; n < tables.size(); ++n) d.tables[n] = gpu::uvec4(addressWords(*tables[n]), 0, 0);
     controls.write(0, &d, sizeof d);
     live_ = live;
 }

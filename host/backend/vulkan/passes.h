@@ -6,6 +6,7 @@
 #include <deque>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "host/backend/vulkan/tables.h"
@@ -14,6 +15,7 @@
 #include "host/vk/device.h"
 #include "host/vk/pipeline.h"
 #include "host/vk/timestamps.h"
+#include "host/vk/variant.h"
 #include "shaders/shared/geometry.h"
 #include "shaders/shared/layout.h"
 
@@ -23,7 +25,11 @@ namespace vkdose {
 struct Access {
     bool texelReads = false;    ///< through texel-buffer views
     bool packedStores = false;  ///< 64 bits at a time, where a trial finds it faster; only with texelReads
+    bool addressed = false;     ///< tables by their addresses, because one is longer than the device binds
 };
+
+/// A table's address as passes read it, the low word first; zero where they do not reach it by address.
+glm::uvec2 addressWords(const vk::Buffer& table);
 
 /// The tables of shaders/shared/tables.h, each under its name.
 class Tables {
@@ -119,6 +125,8 @@ class Passes : public Tables {
     static VkDeviceSize controlOffset(std::uint32_t member) {
         return sizeof(gpu::Dispatches) + member * sizeof(gpu::Control);
     }
+
+    std::span<const std::uint32_t> codeOf(const char* name, std::span<const vk::Variant> variants, bool knowsLaw) const;
 
     /// The pass `n` of a stride.
     void record(vk::Commands& commands, std::size_t n) const;

@@ -38,6 +38,7 @@ struct TableSizes {
     std::uint32_t pairSlots = 0, surfaceSlots = 0, bodySlots = 0;  ///< multiples of the workgroup
     bool energyBook = false;
     bool texelReads = true;  ///< wanted; used if every view fits the device's limit
+    bool addressed = false;  ///< wanted; used in any case where a table is longer than the device binds
 
     /// Whether canisters of these sizes can share tables: surfaces of the same kinds in the same order, an energy book
     /// for all or for none, and one user's law or none.
@@ -114,7 +115,7 @@ struct Crowd {
 struct DeviceShape {
     std::uint32_t workgroup = 64;
     std::uint32_t mostGroups = 65535;
-    std::uint64_t range = 1ULL << 27;  ///< longest buffer that can be bound [bytes]
+    std::uint64_t range = 1ULL << 27;  ///< longest table [bytes]
 };
 
 /// Sizes for one member if `members` of its kind share the tables. All particles of a member share its rows and slots,

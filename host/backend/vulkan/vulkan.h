@@ -15,6 +15,7 @@ struct VulkanOptions {
     /// The way to read particle state: through texel-buffer views if the device's limit allows it (Automatic), or
     /// always from storage buffers (Storage).
     enum class Reads { Automatic, Storage } reads = Reads::Automatic;
+    bool addressed = false;            ///< reach tables by address even where they can be bound
     std::uint32_t workgroup = 64;      ///< invocations; a power of two, at most 128
     std::uint32_t mostGroups = 65535;  ///< in one row of a dispatch, what every device can do; more go in layers
     std::uint32_t batch = 0;  ///< steps per submission; 0: adapted to the device. Changes no bit of the result.

@@ -1,4 +1,4 @@
-#include "host/backend/vulkan/user_shader.h"
+#include "host/backend/vulkan/pass_code.h"
 
 #include <fmt/format.h>
 
@@ -24,7 +24,7 @@ std::string_view sourceOf(std::string_view file) {
 }
 
 /// The text with each file that it includes in its place.
-std::string expanded(std::string_view text, const UserLaw& law) {
+std::string expanded(std::string_view text, const UserLaw* law) {
     constexpr std::string_view kInclude = "#include \"";
     std::string out;
     std::istringstream lines{std::string(text)};
@@ -35,7 +35,7 @@ std::string expanded(std::string_view text, const UserLaw& law) {
         }
         const std::string file = line.substr(kInclude.size(), line.rfind('"') - kInclude.size());
         if (file == kUserText)
-            out += law.shader;
+            out += law != nullptr ? law->shader : "";
         else  // beside tables.h and field_tables.h, files name what they include from the folder of shaders
             out += expanded(sourceOf(file.find('/') == std::string::npos ? "shared/" + file : file), law);
     }
@@ -59,33 +59,36 @@ LawError told(const std::vector<GlslFault>& faults) {
 
 }  // namespace
 
-std::span<const std::uint32_t> userShader(const std::string& file, const UserLaw& law,
-                                          const std::vector<std::string>& macros) {
+std::span<const std::uint32_t> compiledNow(const std::string& file, const UserLaw* law,
+                                           const std::vector<std::string>& macros) {
     static std::mutex mutex;
     static std::map<std::string, std::vector<std::uint32_t>> made;
-    std::string defines = "#define USER_LAW\n";
+    std::string defines = law != nullptr ? "#define USER_LAW\n" : "";
     for (const std::string& macro : macros) defines += fmt::format("#define {}\n", macro);
     const std::lock_guard lock(mutex);
-    const auto [place, added] = made.try_emplace(file + "\n" + defines + law.shader);
+    const auto [place, added] = made.try_emplace(file + "\n" + defines + (law != nullptr ? law->shader : ""));
     if (!added) return place->second;
     std::string source = expanded(sourceOf(file), law);
     source.insert(source.find('\n') + 1, defines);
     GlslResult result = compileGlsl(source);
     if (!result.faults.empty()) {
         made.erase(place);
-        throw told(result.faults);
+        if (law != nullptr) throw told(result.faults);
+        throw std::logic_error(fmt::format("shaders/{} does not compile: {}", file, result.faults.front().text));
     }
     place->second = std::move(result.spirv);
     return place->second;
 }
 
-std::span<const std::uint32_t> userShader(const std::string& file, const UserLaw& law,
-                                          std::span<const vk::Variant> variants, unsigned wanted) {
-    const unsigned chosen = vk::best(variants, wanted).macros;
+std::span<const std::uint32_t> passCode(const std::string& name, std::span<const vk::Variant> variants,
+                                        const CodeWish& wish) {
+    const vk::Variant& chosen = vk::best(variants, wish.macros);
+    if (wish.law == nullptr && !wish.addressed) return chosen.code;
     std::vector<std::string> macros;
-    for (const auto& [bit, name] : spirv::kMacros)
-        if ((chosen & bit) != 0) macros.emplace_back(name);
-    return userShader(file, law, macros);
+    for (const auto& [bit, macro] : spirv::kMacros)
+        if ((chosen.macros & bit) != 0) macros.emplace_back(macro);
+    if (wish.addressed) macros.emplace_back("ADDRESSED");
+    return compiledNow("pass/" + name + ".comp", wish.law, macros);
 }
 
 }  // namespace vkdose
