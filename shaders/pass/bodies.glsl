@@ -40,6 +40,25 @@ uvec4 geometryAt(uint i) { return geometry[geometryBegin + i]; }
 #include "law/features.glsl"
 #include "law/pose.glsl"
 
+#ifdef TEXEL_READS
+layout(set = 0, binding = kFirstView + motionsBinding) uniform textureBuffer motionsView;
+BodyMotion motionOf(uint body) {
+    int at = int(kMotionVectors * (motionsBegin + body));
+    BodyMotion m;
+    for (int row = 0; row < 3; ++row) {
+        m.toBodyHigh[row] = texelFetch(motionsView, at + row);
+        m.toBodyLow[row] = texelFetch(motionsView, at + 3 + row);
+    }
+    m.velocity = texelFetch(motionsView, at + 6);
+    m.spin = texelFetch(motionsView, at + 7);
+    m.centre = texelFetch(motionsView, at + 8);
+    m.free = texelFetch(motionsView, at + 9);
+    m.line = texelFetch(motionsView, at + 10);
+    m.way = texelFetch(motionsView, at + 11);
+    return m;
+}
+#else
 BodyMotion motionOf(uint body) { return motions[motionsBegin + body]; }
+#endif
 
 #endif

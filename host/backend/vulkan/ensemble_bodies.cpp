@@ -123,9 +123,12 @@ void Ensemble::makeBodies(TableSizes& sizes) {
         sizes.mostPlaces = std::max(sizes.mostPlaces, packed.places);
         motions += std::uint32_t(m.bodies.size());
     }
-    mostBatch_ =
-        std::uint32_t(std::max<std::size_t>(1, kMostMotionBytes / sizeof(gpu::BodyMotion) / std::max(motions, 1U)));
-    mostBatch_ = std::min(mostBatch_, 1024U);
+    const VkPhysicalDeviceLimits& limits = device_.limits();
+    const std::size_t room =
+        std::min({kMostMotionBytes, std::size_t(limits.maxStorageBufferRange),
+                  std::size_t(limits.maxTexelBufferElements) * sizeof(gpu::vec4)});  // so that there is a view
+    const std::size_t stepsOfRoom = room / (sizeof(gpu::BodyMotion) * std::max(motions, 1U));
+    mostBatch_ = std::uint32_t(std::clamp<std::size_t>(stepsOfRoom, 2, 1025) - 1);  // and one more is kept
     // A slot beyond what the device can bind keeps no triangles: its particle looks at all of its cell.
     std::size_t slots = 0;
     if ((sizes.shapeKinds & 1U << gpu::kShapeMesh) != 0)

@@ -18,7 +18,8 @@ glm::uvec2 addressWords(const vk::Buffer& table) {
 namespace {
 
 Access accessOn(const vk::Device& device, const TableSizes& s, const BodyTables* bodies) {
-    std::uint64_t most = bodies != nullptr ? bodies->geometry.size() / sizeof(gpu::uvec4) : 0;
+    std::uint64_t most = 0;  // vectors of a table that has a view
+    if (bodies != nullptr) most = std::max(bodies->geometry.size(), bodies->motions.size()) / sizeof(gpu::vec4);
     for (const TableShape& table : TableCounts(s).shapes())
         if (table.view != VK_FORMAT_UNDEFINED) most = std::max(most, table.texels);
     const bool texel = s.texelReads && most <= device.limits().maxTexelBufferElements;
@@ -100,14 +101,23 @@ VkDeviceSize Tables::bytes() const {
     return sum;
 }
 
+namespace {
+
+/// The format of a view of so many vectors, if the device can have it.
+VkFormat viewOf(const vk::Device& device, std::size_t vectors, VkFormat format) {
+    return vectors <= device.limits().maxTexelBufferElements ? format : VK_FORMAT_UNDEFINED;
+}
+
+}  // namespace
+
 BodyTables::BodyTables(const vk::Device& device, const std::vector<gpu::uvec4>& shapes, std::size_t motionCount,
                        std::size_t slots)
-    : geometry(
-          device, "the shapes of the bodies", shapes.size() * sizeof(gpu::uvec4),
-          shapes.size() <= device.limits().maxTexelBufferElements ? VK_FORMAT_R32G32B32A32_UINT : VK_FORMAT_UNDEFINED),
+    : geometry(device, "the shapes of the bodies", shapes.size() * sizeof(gpu::uvec4),
+               viewOf(device, shapes.size(), VK_FORMAT_R32G32B32A32_UINT)),
       nearby(device, "the triangles near each particle",
              std::max<std::size_t>(1, slots) * gpu::kNearbyWords * sizeof(std::uint32_t)),
-      motions(device, "the motions of the bodies", motionCount * sizeof(gpu::BodyMotion)) {
+      motions(device, "the motions of the bodies", motionCount * sizeof(gpu::BodyMotion),
+              viewOf(device, motionCount * gpu::kMotionVectors, VK_FORMAT_R32G32B32A32_SFLOAT)) {
     geometry.writeAll(shapes);
 }
 
