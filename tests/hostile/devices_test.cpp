@@ -35,6 +35,15 @@ End run(Backend& backend, std::uint32_t steps = 1500, int count = 131) {
     return {backend.advance(steps, -9.0), backend.particles()};
 }
 
+/// To the bit, after contacts and rebuilds.
+void checkSame(const End& end, const End& expected) {
+    CHECK(end.particles.position == expected.particles.position);
+    CHECK(end.particles.spin == expected.particles.spin);
+    CHECK(end.sensors.coilTorque == expected.sensors.coilTorque);
+    CHECK(end.sensors.maxOverlapRatio > 0);
+    CHECK(end.sensors.rebuilds > 1);
+}
+
 std::string failure() {
     try {
         const auto backend = makeVulkanBackend(VulkanOptions{{testDevice().name, false}});
@@ -129,11 +138,7 @@ TEST_CASE("a device of the least limits gives the same bits") {
     const Fault fault("least-limits");
     const auto least = gpu();
     const End end = run(*least, 1200, kMany);
-    CHECK(end.particles.position == expected.particles.position);
-    CHECK(end.particles.spin == expected.particles.spin);
-    CHECK(end.sensors.coilTorque == expected.sensors.coilTorque);
-    CHECK(end.sensors.maxOverlapRatio > 0);
-    CHECK(end.sensors.rebuilds > 1);
+    checkSame(end, expected);
     requireClean(*least);
 }
 
@@ -148,11 +153,7 @@ TEST_CASE("a device that binds less than a table gives the same bits where it ha
     const Fault fault("small-range:200000");
     const auto least = gpu();
     const End end = run(*least, 1200, kMany);
-    CHECK(end.particles.position == expected.particles.position);
-    CHECK(end.particles.spin == expected.particles.spin);
-    CHECK(end.sensors.coilTorque == expected.sensors.coilTorque);
-    CHECK(end.sensors.maxOverlapRatio > 0);
-    CHECK(end.sensors.rebuilds > 1);
+    checkSame(end, expected);
     const FieldPoints got = least->fields(fields);
     for (std::size_t n = 0; n < field.size(); ++n) CHECK(got[n].numbers() == field[n].numbers());
     requireClean(*least);
