@@ -12,17 +12,42 @@ namespace vkdose {
 
 namespace {
 
-/// For a small canister, waking lavapipe's threads in every pass costs more time than they save. Other drivers ignore
-/// this variable. A value that the user has set is kept.
-void chooseThreads(std::size_t particles) {
-    constexpr const char* kVariable = "LP_NUM_THREADS";
-    constexpr std::size_t kWorthThreads = 10000;
-    static const bool chosen = std::getenv(kVariable) != nullptr;
-    if (chosen) return;
-    if (particles < kWorthThreads)
-        setenv(kVariable, "0", 1);
-    else
-        unsetenv(kVariable);
+bool hasAvx512() {
+#ifdef __x86_64__
+    return __builtin_cpu_supports("avx512f") != 0;
+#else
+    return false;
+#endif
+}
+
+/// Sets an environment variable that lavapipe reads when it is loaded and that other drivers ignore. A value that the
+/// user has set is kept.
+class LavapipeVariable {
+  public:
+    explicit LavapipeVariable(const char* name) : name_(name), chosen_(std::getenv(name) != nullptr) {}
+    void set(const char* value, bool wanted) const {
+        if (chosen_) return;
+        if (wanted)
+            setenv(name_, value, 1);
+        else
+            unsetenv(name_);
+    }
+
+  private:
+    const char* name_;
+    bool chosen_;  ///< by the user
+};
+
+void tuneLavapipe(std::size_t particles) {
+    // For a small canister, waking lavapipe's threads in every pass costs more time than they save.
+    constexpr std::size_t kWorthThreads = 10'000;
+    static const LavapipeVariable threads("LP_NUM_THREADS");
+    threads.set("0", particles < kWorthThreads);
+    // Beyond what lavapipe binds, tables are reached by address, and vectors of 256 bits are slow at that where AVX-512
+    // gives eight addresses a register of their own (tools/results/README.md, "Four million spheres").
+    constexpr std::size_t kMostBound = 1'030'000;
+    static const LavapipeVariable vectors("LP_NATIVE_VECTOR_WIDTH");
+    vectors.set("128", particles > kMostBound && hasAvx512());
 }
 
 std::vector<std::string> findingsOf(const ValidationReport& report) {
@@ -42,13 +67,13 @@ bool saidNone(const std::vector<std::string>& findings) {
 }  // namespace
 
 std::unique_ptr<Backend> makeBackend(const BackendChoice& choice, std::size_t particles) {
-    chooseThreads(particles);
+    tuneLavapipe(particles);
     return openBackend(choice);
 }
 
 std::vector<std::unique_ptr<Backend>> makeEnsemble(const BackendChoice& choice, std::size_t members,
                                                    std::size_t particles) {
-    chooseThreads(particles);
+    tuneLavapipe(particles);
     return openEnsemble(choice, members);
 }
 

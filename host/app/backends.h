@@ -10,8 +10,8 @@
 
 namespace vkdose {
 
-/// openBackend in a process of our own: the number of `particles` decides how many threads lavapipe uses, which this
-/// sets in the environment.
+/// openBackend in a process of our own: the number of `particles` decides how many threads lavapipe uses and how long
+/// its vectors are, which this sets in the environment.
 std::unique_ptr<Backend> makeBackend(const BackendChoice& choice, std::size_t particles);
 
 /// openEnsemble likewise; `particles` is the number in all canisters together.
