@@ -66,12 +66,16 @@ std::string workText(const Derived& derived) {
 }
 
 std::string runTimeText(const Derived& derived, const Speed& speed) {
-    std::string text = fmt::format("run time   {} {}\n", duration(workOf(derived) / speed.rate), speedText(speed));
-    if (speed.measured)
-        text +=
-            "           with the fresh, loose filling; a settled bed touches more and takes up to about twice as "
-            "long\n";
-    return text;
+    const std::string text =
+        fmt::format("run time   {} {}\n", duration(workOf(derived) / speed.rate), speedText(speed));
+    return text + caveatText(speed, 11);
+}
+
+std::string caveatText(const Speed& speed, int indent) {
+    if (!speed.measured) return "";
+    return fmt::format(
+        "{:{}}with the fresh, loose filling; a settled bed touches more and takes two to three times as long\n", "",
+        indent);
 }
 
 }  // namespace vkdose

@@ -29,4 +29,7 @@ std::string speedText(const Speed& speed);
 std::string workText(const Derived& derived);
 std::string runTimeText(const Derived& derived, const Speed& speed);
 
+/// A line that says what a measured speed does not know, behind so many spaces; empty if it is assumed.
+std::string caveatText(const Speed& speed, int indent);
+
 }  // namespace vkdose

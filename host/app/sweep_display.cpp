@@ -66,8 +66,9 @@ std::string membersText(const Study& study, const std::vector<Member>& members, 
             fmt::format("{} settle{} once, for {}, which saves up to {}particle-steps\n", counted(beds.size(), "bed"),
                         beds.size() == 1 ? "s" : "", counted(bedOf.size(), "member"), large(saved));
     if (members.empty()) return text;
-    return text + fmt::format("run time {} with {} at a time, {}\n", duration(work / speed.rate / atOnce), atOnce,
-                              speedText(speed));
+    text += fmt::format("run time {} with {} at a time, {}\n", duration(work / speed.rate / atOnce), atOnce,
+                        speedText(speed));
+    return text + caveatText(speed, 9);
 }
 
 SweepDisplay::SweepDisplay(std::string command, const Study& study, bool quiet)
