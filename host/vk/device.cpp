@@ -278,7 +278,7 @@ void Device::createInstance(bool validation) {
     check(make(instance_, &create, nullptr, &messenger_), "vkCreateDebugUtilsMessengerEXT");
 }
 
-void Device::createDevice(std::uint32_t family) {
+void Device::createDevice(std::uint32_t family, std::uint32_t apiVersion) {
     float priority = 1.0f;
     VkDeviceQueueCreateInfo queue{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO, nullptr, 0, family, 1, &priority};
     VkDeviceCreateInfo create{};
@@ -293,9 +293,7 @@ void Device::createDevice(std::uint32_t family) {
     VkPhysicalDeviceBufferDeviceAddressFeatures addresses{};
     addresses.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_BUFFER_DEVICE_ADDRESS_FEATURES;
     const char* const extension = VK_KHR_BUFFER_DEVICE_ADDRESS_EXTENSION_NAME;  // a part of Vulkan from 1.2 on
-    VkPhysicalDeviceProperties properties{};
-    vkGetPhysicalDeviceProperties(physical_, &properties);
-    const bool inCore = properties.apiVersion >= VK_API_VERSION_1_2;
+    const bool inCore = apiVersion >= VK_API_VERSION_1_2;
     if (inCore || hasExtension(extension)) {
         VkPhysicalDeviceFeatures2 all{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &addresses, {}};
         vkGetPhysicalDeviceFeatures2(physical_, &all);
@@ -336,7 +334,7 @@ Device::Device(const DeviceChoice& choice) : Device() {
     vkGetPhysicalDeviceProperties(physical_, &properties);
     limits_ = properties.limits;
     vkGetPhysicalDeviceMemoryProperties(physical_, &memory_);
-    createDevice(std::uint32_t(computeFamily(physical_)));
+    createDevice(std::uint32_t(computeFamily(physical_)), properties.apiVersion);
 }
 
 Device::~Device() {

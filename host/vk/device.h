@@ -87,7 +87,7 @@ class Device {
   private:
     Device();
     void createInstance(bool validation);
-    void createDevice(std::uint32_t family);
+    void createDevice(std::uint32_t family, std::uint32_t apiVersion);
     bool hasExtension(const char* name) const;
 
     VkInstance instance_ = VK_NULL_HANDLE;
