@@ -111,8 +111,8 @@ std::string energyLine(const EnergyLedger& ledger) {
     const auto share = [whole](double x) { return whole != 0 ? 100 * x / whole : 0.0; };
     return fmt::format(
         "energy   coil work {:.4g} mJ{} + loaded {:.4g} mJ = present {:.4g} + left {:.4g} + plastic {:.4g} + adhesive "
-        "{:.4g} "
-        "+ viscous {:.4g} + sliding {:.4g} + rolling {:.4g} + torsion {:.4g} + numerical {:.4g} ({:.2g} %) + residual "
+        "{:.4g} + viscous {:.4g} + sliding {:.4g} + rolling {:.4g} + torsion {:.4g} + numerical {:.4g} ({:.2g} %) + "
+        "residual "
         "{:.2g} ({:.2g} % of the {})\n",
         b.coilWork * 1e3, bodies, b.loaded * 1e3, ledger.present() * 1e3, b.left * 1e3, b.plastic * 1e3,
         b.adhesive * 1e3, b.viscous * 1e3, b.sliding * 1e3, b.rolling * 1e3, b.torsion * 1e3, b.numerical * 1e3,

@@ -106,8 +106,7 @@ constexpr Key kBodyShape[] = {
 constexpr Key kMotion[] = {
     word("kind", "turn swing shake slide table free", kRequired,
          "`turn`: about an axis at a speed; `swing`: to and fro about it; `shake`: to and fro along it; `slide`: along "
-         "a "
-         "line; `table`: as a file says; `free`: as gravity and the forces of the particles say, without turning")
+         "a line; `table`: as a file says; `free`: as gravity and the forces of the particles say, without turning")
         .replacing("*"),
     word("follows", "time drive", "time",
          "`\"time\"`: the body moves by itself; `\"drive\"`: it turns while powder is dosed, with the coil's speed or "

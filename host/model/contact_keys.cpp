@@ -21,8 +21,7 @@ constexpr Key kContactAlone[] = {
         "stiffer with the overlap, and the time step is right up to `max_overlap_ratio`. `\"eepa\"`: the same spheres, "
         "which stay flattened and adhere where they were. `\"jkr\"`: the same spheres, elastic and adhesive, which "
         "hold on to each other a little beyond touch. `\"NAME.glsl\"`: [a law of your own](laws/README.md), the path "
-        "of "
-        "its file relative to this one")
+        "of its file relative to this one")
         .orEndingIn(".glsl")
         .replacing("*"),
     text("law_text", told("none"), "the text of a law of your own; the resolved case has it, so that it needs no file"),
@@ -82,8 +81,7 @@ constexpr Key kContactClass[] = {
     number("restitution", kPlain, kNonNegative, told("in place of `damping`"),
            "γ so that a head-on impact rebounds with this share of its speed; above 0 and at most 1. "
            "`\"hertz-mindlin\"` requires it, and every impact rebounds so; so do `\"eepa\"` and `\"jkr\"`, where "
-           "plasticity "
-           "and adhesion take more")
+           "plasticity and adhesion take more")
         .replacing("damping derived"),
     number("restitution_speed", {1, "m/s"}, kNonNegative, 0.0,
            "speed of the impact with that `restitution`. 0: the limit of slow impacts, in which damping alone takes "

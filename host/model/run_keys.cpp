@@ -65,8 +65,7 @@ constexpr Key kStage[] = {
 constexpr Key kStop[] = {
     word("rule", "none experiment simulation", told("`\"experiment\"`; without doses `\"none\"`"),
          "`\"experiment\"`: the last `doses` doses together gave no more than `threshold_g`; `\"simulation\"`: they "
-         "gave "
-         "nothing; `\"none\"`: `max_doses` or `end_time_s` is required")
+         "gave nothing; `\"none\"`: `max_doses` or `end_time_s` is required")
         .replacing("threshold_g doses"),
     number("threshold_g", kGram, kNonNegative, 0.15, "for `\"experiment\"`"),
     integer("doses", 1, kMostDoses, 3, "for `\"experiment\"` and `\"simulation\"`"),

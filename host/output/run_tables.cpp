@@ -22,16 +22,14 @@ std::vector<OutputTable> runTables() {
         {"timeseries.csv, with sensors.energy", "These columns follow in the same line.", columnTexts(kEnergyColumns)},
         {"timeseries.csv, with bodies",
          "These columns follow in the same line, for each `[[body]]` and, behind them, for `[coil]` as the body coil. "
-         "The "
-         "name of the body and a dot stand before each.",
+         "The name of the body and a dot stand before each.",
          columnTexts(kBodyColumns)},
         {"timeseries.csv, with bodies that move freely",
          "These columns follow in the same line, for each `[[body]]` of `kind = \"free\"`, likewise.",
          columnTexts(kFreeBodyColumns)},
         {"doses.csv, with bodies",
          "These columns follow in the same line, for each `[[body]]` and, behind them, for `[coil]` as the body coil. "
-         "The "
-         "name of the body and a dot stand before each.",
+         "The name of the body and a dot stand before each.",
          columnTexts(kDoseBodyColumns)},
         {"timeseries.csv and doses.csv, with regions",
          "These columns follow in the same line, for each `[[region]]`. The name of the region and a dot stand before "

@@ -38,8 +38,7 @@ constexpr Key kCalibrate[] = {
            "standard error of the target"),
     text("measured", told("none"),
          "a balance's CSV with the columns `dose` (1, 2, ...) and `mass_g` or `cumulative_g`, in place of a target: β "
-         "is "
-         "the slope until 80 % of all is out"),
+         "is the slope until 80 % of all is out"),
     text("along", "contact.kc_over_k", "grid: the axis to interpolate along"),
     integer("max_runs", 3, 500, 30, "surrogate: points at most, each run with every seed"),
 };

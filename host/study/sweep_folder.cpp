@@ -62,6 +62,13 @@ std::string today(const fs::path& file) {
     }
 }
 
+/// Its reason says why somebody runs a case. Another one does not make it another case.
+std::string withoutReason(const std::string& resolved) {
+    const std::size_t line = resolved.find("\nreason = ");
+    if (line == std::string::npos) return resolved;
+    return resolved.substr(0, line) + resolved.substr(resolved.find('\n', line + 1));
+}
+
 /// Whether a sweep has begun in the folder. The sign is its table, or at least members and the base of this very study,
 /// because other files of these names may be the user's own.
 bool isSweep(const fs::path& folder, const Case& base) {
@@ -217,7 +224,7 @@ void SweepFolder::requireSame(const Member& member) const {
                     fmt::format("member {} was another point in members.csv; {}", member.number, kAppendable));
     }
     const fs::path file = memberFolder(member.number) / "case.toml";
-    if (fs::exists(file) && fileContent(file).value_or("") != member.caseText && today(file) != member.caseText)
+    if (fs::exists(file) && withoutReason(today(file)) != withoutReason(member.caseText))
         changed(study_, folder_,
                 fmt::format("member {} was another case ({}); {}", member.number, file.string(), kAppendable));
 }

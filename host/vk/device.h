@@ -1,5 +1,5 @@
 #pragma once
-// Instance, device and queue: choosing where to compute. Knows no physics.
+// Instance, device and queue. Knows no physics.
 
 #include <volk.h>
 
@@ -9,15 +9,12 @@
 #include <vector>
 
 #include "host/core/error.h"
+#include "host/vk/device_info.h"
 
 namespace vkdose::vk {
 
 /// Throws DeviceError naming the call and the result unless `result` is VK_SUCCESS.
 void check(VkResult result, const char* call);
-
-/// The largest number of storage buffers in one binding set. A device that allows fewer per stage is refused before
-/// anything is built on it. The passes of a step bind all tables, and no other set is larger.
-extern const std::uint32_t kStorageBuffers;
 
 struct DeviceChoice {
     /// Empty: automatic (discrete, then integrated, then virtual, then CPU). Else an index of listDevices() or a
@@ -26,26 +23,8 @@ struct DeviceChoice {
     bool validation = false;  ///< load the validation layer with synchronisation checks, if it is installed
 };
 
-struct DeviceInfo {
-    int index = 0;
-    std::string name;
-    std::string type;  ///< "discrete GPU", "integrated GPU", "virtual GPU", "CPU", "other"
-    std::string driver;  ///< name and version, as "llvmpipe: Mesa 22.3.6 (LLVM 15.0.6)"; before Vulkan 1.2 a number
-    std::string apiVersion;
-    unsigned subgroupSize = 0;
-    std::uint64_t maxStorageBufferRange = 0;  ///< [bytes]
-    unsigned timestampBits = 0;               ///< of the compute queue's clock; 0: it keeps none
-    bool usable = false;
-    std::string reason;  ///< why not usable
-
-    bool isGpu() const { return type.find("GPU") != std::string::npos; }
-};
-
 /// Every device the Vulkan loader shows. Throws DeviceError if there is no loader or no driver.
 std::vector<DeviceInfo> listDevices();
-
-/// The usable devices of the best kind among `devices`. The automatic choice takes the first of them.
-std::vector<DeviceInfo> bestOf(const std::vector<DeviceInfo>& devices);
 
 struct ValidationMessages;
 

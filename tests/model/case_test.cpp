@@ -4,75 +4,16 @@
 
 #include "host/core/error.h"
 #include "tests/model/case_files.h"
+#include "tests/model/same_case.h"
 #include "tests/support/catch.h"
 
 using namespace vkdose;
+using test::checkSame;
 using test::Folder;
 using test::kFreeCase;
 using test::kGoodCase;
 using test::replaced;
 using test::shippedCase;
-
-namespace {
-
-void checkSameLaw(const ContactLaw& a, const ContactLaw& b) {
-    CHECK(a.coulombLimit == b.coulombLimit);
-    CHECK(a.rollingLever == b.rollingLever);
-    for (int i = 0; i < kContactClasses; ++i) {
-        const ContactParameters& p = a.between(0, i);
-        const ContactParameters& q = b.between(0, i);
-        CHECK(std::vector<double>{p.k1, p.k2Max, p.kc, p.plasticityDepth, p.gamma, p.kt, p.gammaT, p.mu, p.kr, p.gammaR,
-                                  p.muR, p.kTo, p.gammaTo, p.muTo} ==
-              std::vector<double>{q.k1, q.k2Max, q.kc, q.plasticityDepth, q.gamma, q.kt, q.gammaT, q.mu, q.kr, q.gammaR,
-                                  q.muR, q.kTo, q.gammaTo, q.muTo});
-    }
-}
-
-/// Everything but `resolved`, to the last bit.
-void checkSame(const Case& a, const Case& b) {
-    CHECK(a.name == b.name);
-    CHECK(a.reason == b.reason);
-    CHECK(a.seed == b.seed);
-    checkSameLaw(a.dosingLaw, b.dosingLaw);
-    checkSameLaw(a.settlingLaw, b.settlingLaw);
-    CHECK(a.world.surfaces.size() == b.world.surfaces.size());
-    CHECK(a.world.gravity == b.world.gravity);
-    CHECK(a.world.density() == b.world.density());
-    CHECK(a.world.coilSurfaceMoves == b.world.coilSurfaceMoves);
-    CHECK(a.world.coilWireCurved == b.world.coilWireCurved);
-    CHECK(a.world.timeStep == b.world.timeStep);
-    CHECK(a.world.skin == b.world.skin);
-    CHECK(a.world.domain.low == b.world.domain.low);
-    CHECK(a.world.domain.high == b.world.domain.high);
-    CHECK(a.world.throatZ == b.world.throatZ);
-    CHECK(a.world.outletZ == b.world.outletZ);
-    REQUIRE(a.world.coil.has_value() == b.world.coil.has_value());
-    if (a.world.coil) {
-        CHECK(a.world.coil->radius == b.world.coil->radius);
-        CHECK(a.world.coil->pitch == b.world.coil->pitch);
-        CHECK(a.world.coil->wireRadius == b.world.coil->wireRadius);
-        CHECK(a.world.coil->length == b.world.coil->length);
-        CHECK(a.world.coil->hand == b.world.coil->hand);
-    }
-    CHECK(a.schedule.settleTime == b.schedule.settleTime);
-    CHECK(a.schedule.rotateTime == b.schedule.rotateTime);
-    CHECK(a.schedule.restTime == b.schedule.restTime);
-    CHECK(a.schedule.coilSpeed == b.schedule.coilSpeed);
-    CHECK(a.schedule.stop.kind == b.schedule.stop.kind);
-    CHECK(a.schedule.stop.threshold == b.schedule.stop.threshold);
-    CHECK(a.schedule.stop.doses == b.schedule.stop.doses);
-    CHECK(a.schedule.stop.maxDoses == b.schedule.stop.maxDoses);
-    CHECK(a.schedule.stop.endTime == b.schedule.stop.endTime);
-    CHECK(a.sensorInterval == b.sensorInterval);
-    CHECK(a.bulkDensity == b.bulkDensity);
-    const Insertion x = insertParticles(a);
-    const Insertion y = insertParticles(b);
-    CHECK(x.particles.position == y.particles.position);
-    CHECK(x.particles.radius == y.particles.radius);
-    CHECK(x.particles.velocity == y.particles.velocity);
-}
-
-}  // namespace
 
 TEST_CASE("the paper's case, value by value") {
     const Case c = loadCase(shippedCase("paper-48g.toml"));
@@ -245,21 +186,6 @@ TEST_CASE("the overlap that stops a run is the case's choice") {
     CHECK_THROWS_AS(loadCase(file, {"contact.wall.max_overlap_ratio=0.3"}), CaseError);
 }
 
-TEST_CASE("settling adhesion: for every class without one of its own") {
-    const Folder folder;
-    const auto file = folder.write("case.toml", kGoodCase);
-    const Case plain = loadCase(file);  // no settling value: the doses' law from the start
-    CHECK(plain.settlingLaw.between(0, 0).kc == plain.dosingLaw.between(0, 0).kc);
-    const Case c = loadCase(file, {"settle.kc_over_k=0.3", "contact.wall.kc_over_k=0.1"});
-    CHECK(c.settlingLaw.of(ContactClass::ParticleParticle).kc == Approx(600));
-    CHECK(c.settlingLaw.of(ContactClass::ParticleWall).kc == Approx(200));
-    CHECK(c.settlingLaw.of(ContactClass::ParticleCoil).kc == Approx(200));
-    CHECK(c.dosingLaw.of(ContactClass::ParticleCoil).kc == Approx(200));
-    const Case d = loadCase(file, {"settle.kc_over_k=0.3", "settle.coil_kc_over_k=0"});
-    CHECK(d.settlingLaw.of(ContactClass::ParticleWall).kc == Approx(600));
-    CHECK(d.settlingLaw.of(ContactClass::ParticleCoil).kc == 0);
-}
-
 TEST_CASE("softer spheres: every class, settling included, once and not again when the resolved case is read") {
     const Folder folder;
     const auto file = folder.write(
@@ -289,62 +215,6 @@ TEST_CASE("softer spheres: every class, settling included, once and not again wh
     CHECK(loadCase(file, {"contact.soften=1"}).resolved == hard.resolved);
     CHECK_THROWS_WITH(loadCase(file, {"contact.soften=0.5"}),
                       Catch::Contains("contact.soften = 0.5: makes the spheres harder"));
-}
-
-TEST_CASE("damping while settling: a factor on the dashpot of the normal direction, which may need a shorter step") {
-    const Folder folder;
-    const auto file = folder.write("case.toml", kGoodCase);
-    const Case usual = loadCase(file), damped = loadCase(file, {"settle.damping_factor=3"});
-    checkSameLaw(usual.dosingLaw, damped.dosingLaw);
-    for (int i = 0; i < kContactClasses; ++i) {
-        const ContactParameters &p = usual.settlingLaw.between(0, i), &q = damped.settlingLaw.between(0, i);
-        CHECK(q.gamma == 3 * p.gamma);
-        CHECK(std::vector<double>{q.gammaT, q.gammaR, q.gammaTo} == std::vector<double>{p.gammaT, p.gammaR, p.gammaTo});
-        CHECK(q.k2Max == p.k2Max);
-        CHECK(q.kc == p.kc);
-    }
-    checkSame(damped, loadResolvedCase(damped.resolved, file));
-    const Case overdamped = loadCase(file, {"settle.damping_factor=60"});
-    CHECK(overdamped.world.timeStep < 0.2 * usual.world.timeStep);
-}
-
-TEST_CASE("gravity while settling: a factor on that of the case, which stays as it is") {
-    const Folder folder;
-    const auto file = folder.write("case.toml", kGoodCase);
-    const Case usual = loadCase(file), gentle = loadCase(file, {"settle.gravity_factor=0.25"});
-    CHECK(gentle.world.gravity == usual.world.gravity);
-    CHECK(usual.settlingGravity() == usual.world.gravity);
-    CHECK(gentle.settlingGravity() == 0.25 * usual.world.gravity);
-    CHECK(gentle.settlingWorld().gravity == gentle.settlingGravity());
-    checkSame(gentle, loadResolvedCase(gentle.resolved, file));
-    CHECK(loadResolvedCase(gentle.resolved, file).settlingGravity() == gentle.settlingGravity());
-    for (const char* bad : {"0", "-1", "true"})
-        CHECK_THROWS_WITH(loadCase(file, {std::string("settle.gravity_factor=") + bad}),
-                          Catch::Contains("settle.gravity_factor"));
-    CHECK_THROWS_WITH(loadCase(file, {"settle.gravity_factor=1e12"}), Catch::Contains("tenth of its radius"));
-}
-
-TEST_CASE("elastic settling: springs of stiffness k1 in every class, and nothing else is changed") {
-    const Folder folder;
-    const auto file = folder.write("case.toml", kGoodCase);
-    const Case usual = loadCase(file), elastic = loadCase(file, {"settle.elastic=true"});
-    checkSameLaw(usual.dosingLaw, elastic.dosingLaw);
-    ContactLaw law = usual.settlingLaw;
-    for (const MaterialPair pair : occurringPairs(usual.world)) {
-        ContactParameters& p = law.between(pair.a, pair.b);
-        REQUIRE(p.k2Max > p.k1);
-        p.k2Max = p.k1;
-    }
-    checkSameLaw(law, elastic.settlingLaw);
-    CHECK(elastic.world.timeStep == usual.world.timeStep);
-    checkSame(elastic, loadResolvedCase(elastic.resolved, file));
-    checkSame(usual, loadCase(file, {"settle.elastic=false"}));
-    const Case soft = loadCase(file, {"settle.elastic=true", "contact.soften=4"});
-    for (int i = 0; i < kContactClasses; ++i) {
-        CHECK(soft.settlingLaw.between(0, i).k2Max == soft.settlingLaw.between(0, i).k1);
-        CHECK(soft.settlingLaw.between(0, i).k1 == Approx(usual.settlingLaw.between(0, i).k1 / 4));
-    }
-    checkSame(soft, loadResolvedCase(soft.resolved, file));
 }
 
 TEST_CASE("whether contacts see the coil's surface move is the case's choice, and survives being resolved") {

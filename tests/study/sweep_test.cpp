@@ -286,6 +286,11 @@ TEST_CASE("a study that has changed is refused, one that has only grown goes on"
         CHECK(readText(sweep.out / "members.csv") == before);
         CHECK(readText(sweep.out / "study.toml") == kGoodStudy);
     }
+    // A case that tells its reason is the same case.
+    (void)sweep.place.write("good.toml", replaced(kGoodCase, "seed = 3", "reason = \"a sample\"\nseed = 3"));
+    MadeUpRuns none(1);
+    CHECK(sweep.run(none).ok == 12);
+    CHECK(none.started.empty());
     MadeUpRuns more(1);
     CHECK(sweep.run(more, replaced(kGoodStudy, "[4, 9]", "[4, 9, 11]")).ok == 18);
     CHECK(more.started == std::vector<int>{12, 13, 14, 15, 16, 17});

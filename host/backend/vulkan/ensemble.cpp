@@ -13,7 +13,6 @@
 #include "host/core/fnv.h"
 #include "host/model/normal_law.h"
 #include "host/model/user_law_trial.h"
-#include "host/vk/copy_bandwidth.h"
 
 namespace vkdose {
 
@@ -29,8 +28,7 @@ const char* text(std::uint32_t error) {
             return "has more neighbours than a row holds: use a smaller skin or a narrower size distribution";
         case gpu::kErrorCrowded:
             return "has thousands of others around it, within the size of the largest: use a narrower size "
-                   "distribution "
-                   "or a smaller skin";
+                   "distribution or a smaller skin";
         case gpu::kErrorTables:
             return "finds no room in the tables of neighbours and contacts, which are sized for a dense packing: use a "
                    "smaller skin";
@@ -39,15 +37,13 @@ const char* text(std::uint32_t error) {
                    "started in one place";
         case gpu::kErrorOverlap:
             return "is in an overlap deeper than the case allows (contact.max_overlap_ratio, of the smaller radius): "
-                   "use "
-                   "a smaller time step or a stiffer k; if it is pinched between coil and wall, allow more";
+                   "use a smaller time step or a stiffer k; if it is pinched between coil and wall, allow more";
         case gpu::kErrorLost:
             return "left the domain: close the boundaries around it (canister.lid = true if it flew out at the top) or "
                    "use a smaller time step";
         case gpu::kErrorFeatures:
             return "touches one body in more than four places, or more than 128 facets of its mesh at once: use "
-                   "smaller "
-                   "spheres, a smoother body, a coarser mesh, or --backend reference";
+                   "smaller spheres, a smoother body, a coarser mesh, or --backend reference";
         case gpu::kErrorForce:
             return "pushes a body that moves freely harder than the device can add up: give the body more mass, or use "
                    "a smaller time step";
@@ -277,140 +273,6 @@ void Ensemble::keepError(std::uint32_t member, const gpu::uvec4& error) {
     if (error.y == gpu::kErrorNan && passes_->sizes.userLaw)
         *m.failure +=
             fmt::format("; or the law {} answered something that is not a number", passes_->sizes.userLaw->name);
-}
-
-VulkanProfile Ensemble::profile(std::uint32_t steps, double coilRate) {
-    constexpr std::uint32_t kBatch = 32;
-    VulkanProfile p;
-    std::unique_ptr<PassTimes> times;
-    if (vk::Timestamps::available(device_)) {
-        times = std::make_unique<PassTimes>(device_, Passes::mostDispatches(kBatch));
-        for (const char* name : Passes::names()) p.passes.push_back({name});
-    }
-    const gpu::uvec4 before = passes_->controlOf(0).list;
-    while (p.steps < steps) {
-        const std::uint32_t count = std::min(kBatch, steps - p.steps);
-        runBatch(count, {coilRate}, times.get());
-        if (failure(0)) throw RunError(*failure(0));
-        p.steps += count;
-    }
-    for (std::size_t n = 0; n < p.passes.size(); ++n) p.passes[n].seconds = times->seconds(n);
-    const gpu::uvec4 after = passes_->controlOf(0).list;
-    p.rebuilds = after.y - before.y;
-    p.refreshes = after.w - before.w;
-    const std::size_t n = members_[0].loaded.size();
-    for (const gpu::uvec4& range : passes_->ranges.readAll<gpu::uvec4>(n)) p.listed += range.y;
-    p.listed /= double(n);
-    p.tableBytes = double(passes_->bytes());
-    p.copyBandwidth = vk::copyBandwidth(device_);
-    p.texelReads = passes_->access.texelReads;
-    return p;
-}
-
-Sensors Ensemble::sense(std::uint32_t member, std::uint32_t steps) {
-    const MemberState& m = members_[member];
-    const std::uint32_t groups = passes_->sizes.groups();
-    vk::Commands commands(device_);
-    commands.begin();
-    passes_->recordSensing(commands, m.row);
-    const bool energy = m.world.energyBook && m.step > 0;
-    if (energy) passes_->recordEnergySensing(commands, m.step == 1, m.row);
-    commands.hostBarrier();
-    commands.submit();
-    Sensors s;
-    for (const gpu::GroupRecord& group :
-         passes_->records.readAll<gpu::GroupRecord>(groups, sizeof(gpu::GroupRecord) * member * groups)) {
-        const gpu::SensorRecord& r = group.sensors;
-        for (int region = 0; region < kRegions; ++region) {
-            s.count[region] += r.count[region];
-            s.mass[region] += double(r.mass[region]);
-        }
-        s.kineticEnergy += double(r.motion.x);
-        s.rotationalEnergy += double(r.motion.y);
-        s.throatMomentumZ += double(r.motion.z);
-        s.maxOverlapRatio = std::max(s.maxOverlapRatio, double(r.extremes.x));
-    }
-    s.bodies = takeLoads(member, steps);
-    if (energy) s.energy = readEnergy(member);
-    if (m.world.coil) {  // the last of allBodies
-        s.coilTorque = s.bodies.back().torque;
-        if (energy) {
-            s.energy->coilWork = s.bodies.back().work;
-            s.energy->bodyWork -= s.energy->coilWork;
-        }
-    }
-    s.rebuilds = passes_->controlOf(member).list.y;
-    return s;
-}
-
-FieldPoints Ensemble::fields(std::uint32_t member, const FieldRequest& request) {
-    if (const std::optional<std::string> fault = faultOf(request)) throw RunError(*fault);
-    if (!fieldPasses_ || !fieldPasses_->holds(request))
-        fieldPasses_ = std::make_unique<FieldPasses>(device_, *passes_, request.grid.points());
-    const MemberState& m = members_[member];
-    const std::vector<double>& radii = m.loaded.radius;
-    return fieldPasses_->compute(request, {m.row, *std::max_element(radii.begin(), radii.end())});
-}
-
-EnergyBook Ensemble::readEnergy(std::uint32_t member) const {
-    const std::uint32_t groups = passes_->sizes.groups();
-    EnergyBook b;
-    for (const gpu::GroupRecord& group :
-         passes_->records.readAll<gpu::GroupRecord>(groups, sizeof(gpu::GroupRecord) * member * groups)) {
-        const gpu::EnergyRecord& r = group.energy;
-        b.plastic += double(r.normal.x);
-        b.adhesive += double(r.normal.y);
-        b.viscous += double(r.normal.z);
-        b.numerical += double(r.normal.w);
-        b.sliding += double(r.sliders.x);
-        b.rolling += double(r.sliders.y);
-        b.torsion += double(r.sliders.z);
-        b.loaded += double(r.flow.x);
-        b.left += double(r.flow.y);
-        b.kinetic += double(r.flow.z);
-        b.rotational += double(r.flow.w);
-        b.elasticNormal += double(r.elastic.x);
-        b.elasticSliding += double(r.elastic.y);
-        b.elasticRolling += double(r.elastic.z);
-        b.elasticTorsion += double(r.elastic.w);
-        b.momentum += Vec3(glm::vec3(r.momentum));
-        b.potential += double(r.momentum.w);
-        b.angularMomentum += Vec3(glm::vec3(r.angular));
-        b.bodyWork += double(r.angular.w);
-    }
-    return b;
-}
-
-Particles Ensemble::particles(std::uint32_t member) const {
-    const TableSizes& t = passes_->sizes;
-    std::vector<gpu::vec4> share;
-    for (std::uint32_t couple = 0; couple < gpu::kFields / 2; ++couple) {
-        const std::uint64_t row = members_[member].half() * (gpu::kFields / 2) + couple;
-        const auto part = passes_->state.readAll<gpu::vec4>(
-            2ULL * t.share, 2 * (row * t.particles() + std::uint64_t(member) * t.share) * sizeof(gpu::vec4));
-        share.insert(share.end(), part.begin(), part.end());
-    }
-    return unpackState(share, t.share, members_[member].loaded);
-}
-
-std::vector<Contact> Ensemble::contacts(std::uint32_t member) const {
-    std::vector<Contact> contacts;
-    const auto add = [&](ContactClass kind, std::uint32_t i, std::uint32_t other, const gpu::vec4& a,
-                         const gpu::vec4& b, const gpu::vec4& force) {
-        contacts.push_back(
-            {kind, i, other, double(a.w), Vec3(glm::vec3(a)), Vec3(glm::vec3(b)), double(b.w), Vec3(glm::vec3(force))});
-    };
-    for (const SlotContact& c : touchingSlots(*passes_, member))
-        add(c.pair ? ContactClass::ParticleParticle : ContactClass::ParticleWall, c.particle, c.other, c.history[0],
-            c.history[1], c.force);
-    for (const PlaceContact& c : touchingPlaces(*passes_, member)) {
-        const MemberState& m = members_[member];
-        add(classAtWall(m.bodies.at(c.body).material), c.particle, std::uint32_t(m.world.surfaces.size() + c.body),
-            c.history[0], c.history[1], c.force);
-    }
-    std::stable_sort(contacts.begin(), contacts.end(),
-                     [](const Contact& a, const Contact& b) { return a.particle < b.particle; });
-    return contacts;
 }
 
 }  // namespace vkdose
