@@ -112,8 +112,7 @@ std::string energyLine(const EnergyLedger& ledger) {
     return fmt::format(
         "energy   coil work {:.4g} mJ{} + loaded {:.4g} mJ = present {:.4g} + left {:.4g} + plastic {:.4g} + adhesive "
         "{:.4g} + viscous {:.4g} + sliding {:.4g} + rolling {:.4g} + torsion {:.4g} + numerical {:.4g} ({:.2g} %) + "
-        "residual "
-        "{:.2g} ({:.2g} % of the {})\n",
+        "residual {:.2g} ({:.2g} % of the {})\n",
         b.coilWork * 1e3, bodies, b.loaded * 1e3, ledger.present() * 1e3, b.left * 1e3, b.plastic * 1e3,
         b.adhesive * 1e3, b.viscous * 1e3, b.sliding * 1e3, b.rolling * 1e3, b.torsion * 1e3, b.numerical * 1e3,
         share(b.numerical), ledger.residual() * 1e3, share(ledger.residual()),

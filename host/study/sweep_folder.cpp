@@ -224,7 +224,8 @@ void SweepFolder::requireSame(const Member& member) const {
                     fmt::format("member {} was another point in members.csv; {}", member.number, kAppendable));
     }
     const fs::path file = memberFolder(member.number) / "case.toml";
-    if (fs::exists(file) && withoutReason(today(file)) != withoutReason(member.caseText))
+    if (fs::exists(file) && fileContent(file).value_or("") != member.caseText &&
+        withoutReason(today(file)) != withoutReason(member.caseText))
         changed(study_, folder_,
                 fmt::format("member {} was another case ({}); {}", member.number, file.string(), kAppendable));
 }
