@@ -71,6 +71,12 @@ std::string membersText(const Study& study, const std::vector<Member>& members, 
     return text + caveatText(speed, 9);
 }
 
+double SweepPace::secondsLeft(const SweepProgress& p, Clock::time_point now) {
+    if (!began_ && p.running > 0) began_ = now;
+    if (!began_ || p.fractionHere <= 0) return -1;
+    return std::chrono::duration<double>(now - *began_).count() * (1 - p.fraction) / p.fractionHere;
+}
+
 SweepDisplay::SweepDisplay(std::string command, const Study& study, bool quiet)
     : command_(std::move(command)), study_(study), quiet_(quiet), terminal_(isatty(fileno(stderr)) == 1) {}
 
@@ -98,11 +104,10 @@ void SweepDisplay::onMember(const Member& member, const MemberResult& result) {
 }
 
 void SweepDisplay::onProgress(const SweepProgress& p) {
-    const auto now = Clock::now();
+    const auto now = SweepPace::Clock::now();
+    const double left = pace_.secondsLeft(p, now);
     if (quiet_ || (!terminal_ && now - last_ < kLine)) return;
     last_ = now;
-    const double spent = std::chrono::duration<double>(now - start_).count();
-    const double left = p.fractionHere > 0 ? spent * (1 - p.fraction) / p.fractionHere : -1;
     std::string text =
         fmt::format("{} of {} done, {} running", p.ok + p.failed, counted(p.members, "member"), p.running);
     if (p.failed > 0) text += fmt::format(", {} failed", p.failed);

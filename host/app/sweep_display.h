@@ -2,6 +2,7 @@
 // The messages of a sweep: a line for every member that ends, and how far the whole study is.
 
 #include <chrono>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,18 @@
 #include "host/study/sweep.h"
 
 namespace vkdose {
+
+/// How long a sweep will still take, by the pace of its members. The settling of beds before them does not count: its
+/// work is no part of the progress.
+class SweepPace {
+  public:
+    using Clock = std::chrono::steady_clock;
+    /// Seconds from `now` to the end; negative while no member has done any work.
+    double secondsLeft(const SweepProgress& progress, Clock::time_point now);
+
+  private:
+    std::optional<Clock::time_point> began_;  ///< when the first member was seen to run
+};
 
 class SweepDisplay : public SweepObserver {
   public:
@@ -29,7 +42,6 @@ class SweepDisplay : public SweepObserver {
     void finish(const SweepFolder& folder, const SweepOutcome& outcome);
 
   private:
-    using Clock = std::chrono::steady_clock;
     void close();
 
     std::string command_;
@@ -37,8 +49,8 @@ class SweepDisplay : public SweepObserver {
     bool quiet_;
     bool terminal_;
     bool open_ = false;  ///< the progress stands on the current line
-    Clock::time_point start_ = Clock::now();
-    Clock::time_point last_ = start_;
+    SweepPace pace_;
+    SweepPace::Clock::time_point last_ = SweepPace::Clock::now();  ///< of the last line of progress
 };
 
 /// "contact.friction 0.5, seed 2"

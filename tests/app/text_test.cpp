@@ -6,6 +6,7 @@
 
 #include "host/app/end_table.h"
 #include "host/app/progress.h"
+#include "host/app/sweep_display.h"
 #include "tests/app/sandbox.h"
 #include "tests/sim/fake_backend.h"
 #include "tests/support/catch.h"
@@ -60,6 +61,25 @@ TEST_CASE("a progress line says phase, dose, time, speed and what is left") {
                                     Catch::Contains("ETA 25 min 00 s"));
     p.expectedSteps = 0;
     CHECK_THAT(progressText(p), !Catch::Contains("ETA"));
+}
+
+TEST_CASE("the pace of a sweep is that of its members, without the settling before them") {
+    using std::chrono::seconds;
+    const SweepPace::Clock::time_point start{};
+    SweepPace pace;
+    SweepProgress p;
+    p.members = 4;
+    CHECK(pace.secondsLeft(p, start) < 0);
+    CHECK(pace.secondsLeft(p, start + seconds(500)) < 0);  // beds settle
+    p.running = 2;
+    CHECK(pace.secondsLeft(p, start + seconds(600)) < 0);
+    p.fraction = 0.4;  // of which 0.3 was done by an earlier call
+    p.fractionHere = 0.1;
+    CHECK(pace.secondsLeft(p, start + seconds(650)) == Approx(300));
+    p.running = 0;  // the last member is noted
+    p.fraction = 1;
+    p.fractionHere = 0.7;
+    CHECK(pace.secondsLeft(p, start + seconds(950)) == 0);
 }
 
 TEST_CASE("where there is no terminal, progress is plain lines at phase ends") {
