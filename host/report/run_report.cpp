@@ -60,8 +60,7 @@ Json bodySeries(const Table& series, const World& world, std::size_t size) {
         Json j{{"name", name}};
         std::vector<const char*> loads{"force_x_N", "force_y_N", "force_z_N"};
         if (!world.coil || name != kCoilName) loads.insert(loads.end(), {"torque_Nm", "power_W"});
-        for (const char* load : loads)
-            j[load] = numbers(thinned(series.column(name + "." + load), size, true));
+        for (const char* load : loads) j[load] = numbers(thinned(series.column(name + "." + load), size, true));
         bodies.push_back(std::move(j));
     }
     return bodies;

@@ -4,19 +4,26 @@ const axisName = keys => keys.join(", ");
 const said = x => (typeof x === "number" ? short(x) : String(x));
 const massOf = (x, digits) => (isNumber(x) ? (x * gram).toFixed(digits) : "");
 
-/// Values of an axis in order, and whether they are numbers.
+/// Values of an axis in order, and whether numbers tell them apart. Keys that move together are drawn along the first.
 function axisOf(study, a) {
-  const values = Array.from(new Set(study.points.map(p => p.at[a])));
-  const numeric = values.every(isNumber);
-  if (numeric) values.sort((u, v) => u - v);
-  return {name: axisName(study.axes[a]), values, numeric};
+  const along = new Map(study.points.map(p => [p.at[a], p.along[a]]));
+  const values = Array.from(along.keys());
+  const numeric = values.every(v => isNumber(along.get(v))) && new Set(along.values()).size === values.length;
+  if (numeric) values.sort((u, v) => along.get(u) - along.get(v));
+  return {name: numeric ? study.axes[a][0] : axisName(study.axes[a]), values, numeric};
+}
+
+/// Where a point lies on axis `a`: "coil.turns 8".
+function placeOn(study, a, p) {
+  const axis = axisOf(study, a);
+  return `${axis.name} ${said(axis.numeric ? p.along[a] : p.at[a])}`;
 }
 
 /// Points in lines along axis `a`: one for each place on the others, with its label.
 function linesAlong(study, a) {
   const lines = new Map();
   study.points.forEach(p => {
-    const label = p.at.map((v, b) => (b === a ? null : `${axisName(study.axes[b])} ${said(v)}`)).filter(t => t !== null).join(", ");
+    const label = study.axes.map((_, b) => (b === a ? null : placeOn(study, b, p))).filter(t => t !== null).join(", ");
     if (!lines.has(label)) lines.set(label, []);
     lines.get(label).push(p);
   });
@@ -29,7 +36,7 @@ const kMostLines = 12;
 function alongAxis(parent, study, a, spec, of) {
   const axis = axisOf(study, a);
   if (axis.values.length < 2) return;
-  const place = p => (axis.numeric ? p.at[a] : axis.values.indexOf(p.at[a]));
+  const place = p => (axis.numeric ? p.along[a] : axis.values.indexOf(p.at[a]));
   const lines = linesAlong(study, a), shown = lines.slice(0, kMostLines);
   const series = shown.map((line, i) => ({
     name: line.label || spec.name, colour: colour(i, shown.length), dots: true, line: axis.numeric,
@@ -77,7 +84,7 @@ function calibrationMap(parent, study) {
   });
 }
 
-const pointName = (study, p) => p.at.map((v, a) => `${axisName(study.axes[a])} ${said(v)}`).join(", ") || "all members";
+const pointName = (study, p) => study.axes.map((_, a) => placeOn(study, a, p)).join(", ") || "all members";
 
 function doseCurves(parent, study) {
   const known = study.points.filter(p => p.dose_mass_kg.length > 0);

@@ -83,7 +83,7 @@ class PointReader {
     }
 
   private:
-    /// Along each axis by the numbers there. Words stand in the order of the study, behind numbers.
+    /// Along each axis by the numbers of its first key. Words stand in the order of the study, behind numbers.
     void putInOrder() {
         std::vector<std::map<std::string, double>> firstWith(head_.axes.size());
         for (const Gathering& g : gatherings_)
@@ -94,10 +94,10 @@ class PointReader {
         const auto placeOf = [&](const Gathering& g) {
             std::vector<std::pair<double, double>> at;
             for (std::size_t axis = 0; axis < firstWith.size(); ++axis) {
-                const std::string& label = g.result.point.places[axis].label;
-                const double number = numberIn(label);
+                const Point::Place& place = g.result.point.places[axis];
+                const double number = g.result.point.keys.at(place.keys.front()).number;
                 at.emplace_back(std::isnan(number) ? std::numeric_limits<double>::infinity() : number,
-                                firstWith[axis].at(label));
+                                firstWith[axis].at(place.label));
             }
             return at;
         };

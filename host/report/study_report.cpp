@@ -34,9 +34,12 @@ double turnsPerDose(const Point& p) {
 }
 
 Json pointJson(const StudyPoint& p) {
-    Json at = Json::array();
-    for (const Point::Place& place : p.point.places)
-        at.push_back(place.keys.size() == 1 ? valueJson(p.point.keys.at(place.keys.front())) : Json(place.label));
+    Json at = Json::array(), along = Json::array();
+    for (const Point::Place& place : p.point.places) {
+        const Setting& first = p.point.keys.at(place.keys.front());
+        at.push_back(place.keys.size() == 1 ? valueJson(first) : Json(place.label));
+        along.push_back(jsonNumber(first.number));
+    }
     Json doses = Json::array();
     for (const Estimate& d : p.doses) doses.push_back({jsonNumber(d.mean), jsonNumber(d.standardError), d.count});
     Json outputs;
@@ -44,6 +47,7 @@ Json pointJson(const StudyPoint& p) {
         outputs[name] = {jsonNumber(output.mean), jsonNumber(output.standardError)};
     Json j;
     j["at"] = at;
+    j["along"] = along;
     j["finished"] = p.finished;
     j["failed"] = p.failed;
     j["errors"] = p.errors;

@@ -113,8 +113,10 @@ TEST_CASE("keys that move together are one axis") {
               "0,1,8,90,ok,,0.004\n1,1,4,45,ok,,0.005\n");
     const Json study = studyJson(box / "sweep", {});
     CHECK(study["axes"] == Json::parse(R"([["coil.turns", "coil.speed_rpm"]])"));
-    CHECK(study["points"][0]["at"] == Json::parse(R"(["8, 90"])"));
-    CHECK(study["points"][1]["beta_kg_per_dose"] == 0.005);
+    CHECK(study["points"][0]["at"] == Json::parse(R"(["4, 45"])"));
+    CHECK(study["points"][0]["along"] == Json::parse("[4.0]"));
+    CHECK(study["points"][0]["beta_kg_per_dose"] == 0.005);
+    CHECK(study["points"][1]["at"] == Json::parse(R"(["8, 90"])"));
     CHECK(study["verdicts"].is_null());
 }
 
