@@ -28,6 +28,8 @@ function frame(parent, title, note) {
   return {legend, holder};
 }
 
+const dotStyle = s => (s.hollow ? {fill: "var(--panel)", stroke: s.colour, "stroke-width": 2} : {fill: s.colour});
+
 function legendEntry(legend, series) {
   const item = document.createElement("li");
   const svg = d3.select(item).append("svg").attr("viewBox", "0 0 22 10");
@@ -37,7 +39,7 @@ function legendEntry(legend, series) {
     if (series.line !== false)
       svg.append("line").attr({x1: 0, x2: 22, y1: 5, y2: 5, "stroke-dasharray": series.dash || null})
         .style("stroke", series.colour).style("stroke-width", 2);
-    if (series.dots) svg.append("circle").attr({cx: 11, cy: 5, r: 3.5}).style("fill", series.colour);
+    if (series.dots) svg.append("circle").attr({cx: 11, cy: 5, r: 3.5}).style(dotStyle(series));
   }
   item.appendChild(document.createTextNode(series.name));
   legend.appendChild(item);
@@ -115,7 +117,7 @@ function drawSeries(parent, series, x, y) {
     if (isNumber(p[2]) && p[2] > 0) errorBar(group, x(p[0]), y(p[1] - p[2]), y(p[1] + p[2]), series.colour);
     if (!series.dots) return;
     const dot = group.append("circle").attr({cx: x(p[0]), cy: y(p[1]), r: 3.5});
-    dot.style(series.hollow ? {fill: "var(--panel)", stroke: series.colour, "stroke-width": 2} : {fill: series.colour});
+    dot.style(dotStyle(series));
     dot.append("title").text(`${series.name}: ${short(p[1])}${isNumber(p[2]) ? " ± " + short(p[2]) : ""} at ${short(p[0])}`);
   });
 }

@@ -32,7 +32,7 @@ function linesAlong(study, a) {
 
 const kMostLines = 12;
 
-/// Some quantity along an axis; `of(point)` gives [value, error].
+/// Some quantity along an axis; `of(point)` gives [value, error]. A point without one has that of `spec.instead`, drawn hollow.
 function alongAxis(parent, study, a, spec, of) {
   const axis = axisOf(study, a);
   if (axis.values.length < 2) return;
@@ -42,6 +42,16 @@ function alongAxis(parent, study, a, spec, of) {
     name: line.label || spec.name, colour: colour(i, shown.length), dots: true, line: axis.numeric,
     points: line.points.map(p => [place(p)].concat(of(p))).sort((u, v) => u[0] - v[0]),
   }));
+  if (spec.instead) {
+    let named = false;
+    shown.forEach((line, i) => {
+      const without = line.points.filter(p => !isNumber(of(p)[0]) && isNumber(spec.instead.of(p)[0]));
+      if (without.length === 0) return;
+      series.push({name: spec.instead.name, unnamed: named, colour: colour(i, shown.length), dots: true, hollow: true, line: false,
+                   points: without.map(p => [place(p)].concat(spec.instead.of(p)))});
+      named = true;
+    });
+  }
   if (spec.beside) {
     const curves = shown.map(line => line.points.map(p => [place(p), spec.beside.of(p)]).sort((u, v) => u[0] - v[0]));
     const same = curves.every(points => JSON.stringify(points) === JSON.stringify(curves[0]));
@@ -64,6 +74,7 @@ function betaCharts(parent, study) {
     title: "β", name: "β", unit: "g/dose", level: isNumber(study.target_kg_per_dose) ? target : null,
     note: single ? "Bars: standard error over the seeds; with one seed, that of the slope."
                  : "Bars: standard error over the seeds.",
+    instead: {name: "mean dose, where there is no slope", of: p => output(p, "mean_dose_kg", gram)},
     beside: {name: "closed form", of: p => isNumber(p.closed_form_kg_per_dose) ? p.closed_form_kg_per_dose * gram : null},
   }, p => [isNumber(p.beta_kg_per_dose) ? p.beta_kg_per_dose * gram : null,
            isNumber(p.beta_standard_error_kg_per_dose) ? p.beta_standard_error_kg_per_dose * gram : null]));

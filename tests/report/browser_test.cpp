@@ -145,6 +145,23 @@ TEST_CASE("keys that move together are drawn along the first of them, where its 
     CHECK(dom.find("<h3>β against dose.rotate_s, stop.max_doses</h3>") != std::string::npos);
 }
 
+TEST_CASE("where the doses of a point have no slope, its mean dose stands in the chart of beta") {
+    if (browserMissing()) return;
+    const Sandbox box;
+    std::filesystem::create_directories(box / "sweep");
+    const std::string head = "member,seed,coil.turns,status,error,mean_dose_kg,beta_kg_per_dose\n";
+    const std::string legend = "mean dose, where there is no slope";
+    box.write("sweep/members.csv", head + "0,1,2,ok,,0.012,\n1,1,6,ok,,0.006,0.007\n2,1,8,ok,,0.004,0.005\n");
+    std::string dom = drawn(box, studyJson(box / "sweep", {}));
+    CHECK(count(dom, "</svg>" + legend) == 1);
+    CHECK(count(dom, "<title>" + legend) == 1);
+    CHECK(dom.find("<title>" + legend + ": 12 at 2<") != std::string::npos);
+    box.write("sweep/members.csv", head + "1,1,6,ok,,0.006,0.007\n2,1,8,ok,,0.004,0.005\n");
+    dom = drawn(box, studyJson(box / "sweep", {}));
+    CHECK(dom.find("β against coil.turns") != std::string::npos);
+    CHECK(dom.find("</svg>" + legend) == std::string::npos);
+}
+
 TEST_CASE("a browser draws the page of a validation") {
     if (browserMissing()) return;
     const Sandbox box;
