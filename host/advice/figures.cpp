@@ -83,6 +83,7 @@ Figures figuresOf(const Case& c, const Insertion& filled) {
     addStep(f, c, filled);
     const PowderSizes sizes = powderSizes(c.world, filled.particles);
     for (const MaterialPair& pair : occurringPairs(c.world)) {
+        if (!haveSpheres(c.world, pair, sizes)) continue;
         const auto of = [&](double SizeRange::*size) {
             const double a = sizes[std::size_t(pair.a)].*size, b = otherSide(c.world, pair, sizes, size);
             return restitution(c.dosingLaw.of(pair), reducedMass(c.world, pair, a, b));

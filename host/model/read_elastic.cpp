@@ -19,10 +19,16 @@ void checkEepaClass(CaseReader& reader, Section& section, const ContactParameter
     if (p.adhesionExponent < 1 && section.has("adhesion_exponent"))
         reader.fault(section.path("adhesion_exponent"), "makes the pull end abruptly where the contact opens",
                      "give a number >= 1, as a rule 1.5");
-    if (p.surfaceEnergy > 0 && p.plasticityRatio == 0 && section.has("surface_energy"))
+    if (p.surfaceEnergy == 0 || p.plasticityRatio > 0) return;
+    const char* remedy = "give a plasticity_ratio > 0, or a surface energy of 0";
+    if (section.has("surface_energy"))
         reader.fault(section.path("surface_energy"),
-                     "acts on flattened contacts, and with plasticity_ratio = 0 none is",
-                     "give a plasticity_ratio > 0, or a surface energy of 0");
+                     "acts on flattened contacts, and with plasticity_ratio = 0 none is", remedy);
+    else if (section.has("plasticity_ratio"))
+        reader.fault(section.path("plasticity_ratio"),
+                     fmt::format("flattens no contact, and its surface_energy = {:.6g} acts on flattened ones alone",
+                                 p.surfaceEnergy),
+                     remedy);
 }
 
 /// Reads the moduli that stand in [contact], [contact.wall] and [contact.coil]: those of the material on the other

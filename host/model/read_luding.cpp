@@ -139,13 +139,15 @@ double readSoftness(CaseReader& reader, Section& contact) {
     return s;
 }
 
-/// The radius of the mean sphere of each material [m]; infinite for walls, NaN while the case is at fault.
+/// The radius of the mean sphere of each material [m]; infinite for walls, NaN while the case is at fault. A powder
+/// without particles has that of the others, so that its targets lead to figures of the right order.
 std::vector<double> meanRadii(const LawTables& in) {
     const std::vector<Material>& materials = in.c.world.materials;
     std::vector<double> radii(materials.size(), std::numeric_limits<double>::quiet_NaN());
     if (!in.reader.faulty()) {
         const PowderSizes sizes = powderSizes(in.c);
-        for (std::size_t m = 0; m < radii.size(); ++m) radii[m] = sizes[m].mean;
+        for (std::size_t m = 0; m < radii.size(); ++m)
+            radii[m] = std::isfinite(sizes[m].smallest) ? sizes[m].mean : overall(sizes).mean;
     }
     for (std::size_t m = 0; m < radii.size(); ++m)
         if (!materials[m].powder) radii[m] = kInfinity;
@@ -232,7 +234,8 @@ std::string wordsOf(const LawTables& in, const PairSection& pair, const Stated& 
 /// Adhesion while the powder settles, k_c/k of each pair. A pair whose table gives its adhesion keeps it by default,
 /// and so does every one where the case says nothing of adhesion while settling.
 std::vector<double> settlingAdhesion(const LawTables& in, const std::vector<Stated>& stated) {
-    const auto own = [](const Section& section) { return section.has("kc_over_k") || section.has("bond_number"); };
+    const auto isPowder = [&](int material) { return in.c.world.materials[std::size_t(material)].powder; };
+    std::vector<char> owns(in.size());  // the walls of a pair state its adhesion, or those from which it takes all
     Section& settle = in.settle;
     const bool pairStated = settle.has("kc_over_k"), wallStated = settle.has("wall_kc_over_k");
     const bool coilStated = settle.has("coil_kc_over_k");
@@ -242,15 +245,18 @@ std::vector<double> settlingAdhesion(const LawTables& in, const std::vector<Stat
         Section& section = *p.section;
         const MaterialPair pair = p.stated.pair;
         const double usual = stated[p.index()].ratios.kc;
+        const bool inherits = p.isNamed() && p.stated.source == PairSource::Parent && !isPowder(p.stated.parent.b);
+        const bool own = section.has("kc_over_k") || section.has("bond_number") || (inherits && owns[p.parent()]);
+        owns[p.index()] = own;
         double& value = kc[p.index()];
-        if (in.c.world.materials[std::size_t(pair.b)].powder) {
+        if (isPowder(pair.b)) {
             value = pairStated ? pairKc : usual;
         } else if (pair.b != kCoilMaterial) {
-            value = own(section) || !pairStated ? usual : pairKc;
+            value = own || !pairStated ? usual : pairKc;
             if (wallStated) value = kc[PairTable::index({kFirstPowder, kWallMaterial})];
             if (!p.isNamed()) value = settle.number("wall_kc_over_k", value);
         } else {
-            value = own(section) || !(pairStated || wallStated) ? usual : kc[PairTable::index({pair.a, kWallMaterial})];
+            value = own || !(pairStated || wallStated) ? usual : kc[PairTable::index({pair.a, kWallMaterial})];
             if (coilStated) value = kc[PairTable::index({kFirstPowder, kCoilMaterial})];
             if (!p.isNamed()) value = settle.number("coil_kc_over_k", value);
         }

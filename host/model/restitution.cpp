@@ -150,7 +150,8 @@ double dampingRatioFor(double e) {
 }
 
 double restitution(const ContactParameters& p, double mass) {
-    if (p.law == NormalLaw::HertzMindlin || p.law == NormalLaw::Eepa) return ofDampingRatio(p.dampingShare);
+    if (p.law == NormalLaw::HertzMindlin || p.law == NormalLaw::Eepa || p.law == NormalLaw::Jkr)
+        return ofDampingRatio(p.dampingShare);
     return ofDampingRatio(p.gamma / (2 * std::sqrt(p.k1 * mass)));
 }
 

@@ -26,9 +26,10 @@ constexpr Key kSettle[] = {
            "adhesion between particle and wall while settling"),
     number("coil_kc_over_k", kPlain, kNonNegative, told("the coil's own, or the wall's above"),
            "adhesion between particle and coil while settling"),
-    number("damping_factor", kPlain, kPositive, 1.0,
-           "γ of the normal direction while settling over that of `[contact]`. More of it makes the impacts of the "
-           "filling shallower, and may need a shorter time step"),
+    number(
+        "damping_factor", kPlain, kPositive, 1.0,
+        "damping while settling over that of `[contact]`: under `luding` γ of the normal direction, under the elastic "
+        "laws all of it. More of it makes the impacts of the filling shallower, and may need a shorter time step"),
     number("gravity_factor", kPlain, kPositive, 1.0,
            "gravity while settling over `gravity`. With less of it the powder falls gently, and contacts remember "
            "shallower impacts; the doses begin under the whole of it"),

@@ -1,8 +1,11 @@
 #include "host/model/stability.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <variant>
 
 #include "host/core/vec.h"
 #include "host/model/case.h"
@@ -17,6 +20,9 @@ namespace {
 
 /// Radius of a wall, beside a sphere.
 constexpr double kWall = std::numeric_limits<double>::infinity();
+
+/// So many spheres may carry a body that is light enough to swing on them.
+constexpr double kSpheresOnBody = 12;
 
 bool isNormal(const ContactMode& mode) {
     return mode.name.ends_with(" normal");
@@ -81,6 +87,14 @@ double otherSide(const World& world, MaterialPair pair, const PowderSizes& sizes
     return world.materials.at(other).powder ? sizes.at(other).*size : kWall;
 }
 
+bool haveSpheres(const World& world, MaterialPair pair, const PowderSizes& sizes) {
+    const auto some = [&](int material) {
+        return !world.materials.at(std::size_t(material)).powder ||
+               std::isfinite(sizes.at(std::size_t(material)).smallest);
+    };
+    return some(pair.a) && some(pair.b);
+}
+
 ContactParameters stiffest(const ContactParameters& p, double mass, double a, double b, double maxOverlapRatio) {
     return linearised(p, mass, reducedSize(a, b), maxOverlapRatio * std::min(a, b));
 }
@@ -95,7 +109,7 @@ std::vector<ContactMode> contactModes(const World& world, const ContactLaw& law,
         const double a = sizes.at(static_cast<std::size_t>(pair.a)).smallest;
         const double b = otherSide(world, pair, sizes, &SizeRange::smallest);
         const bool wall = !world.materials[static_cast<std::size_t>(pair.b)].powder;
-        if (std::isinf(a) || (!wall && std::isinf(b))) continue;
+        if (!haveSpheres(world, pair, sizes)) continue;
         const double massA = sphereMass(world.density(pair.a), a);
         const double massB = wall ? kWall : sphereMass(world.density(pair.b), b);
         const double normal = massA / (1 + massA / massB);
@@ -110,6 +124,23 @@ std::vector<ContactMode> contactModes(const World& world, const ContactLaw& law,
         const double turning = 0.4 * std::min(massA, massB) / (lever * lever);
         if (p.muR > 0) add(name + " rolling", p.kr, p.gammaR, turning);
         if (p.muTo > 0) add(name + " torsion", p.kTo, p.gammaTo, turning);
+    }
+    // A body that moves freely swings on all spheres that carry it. It does not turn.
+    for (const RigidBody& body : world.bodies) {
+        const auto* free = std::get_if<geometry::Free>(&body.course.motion);
+        if (free == nullptr) continue;
+        for (const int powder : powdersOf(world)) {
+            const MaterialPair pair{powder, body.material};
+            if (!haveSpheres(world, pair, sizes)) continue;
+            const double a = sizes.at(std::size_t(powder)).smallest, mass = sphereMass(world.density(powder), a);
+            const ContactParameters p = stiffest(law.of(pair), mass, a, kWall, world.maxOverlapRatio);
+            const auto swinging = [&](double sphere) {
+                return std::min(sphere / (1 + sphere / free->mass), free->mass / kSpheresOnBody);
+            };
+            const std::string name = fmt::format("{}-{}", world.materials[std::size_t(powder)].name, body.name);
+            add(name + " normal", p.k2Max, p.gamma, swinging(mass));
+            if (p.mu > 0) add(name + " sliding", p.kt, p.gammaT, swinging(mass / 3.5));
+        }
     }
     return modes;
 }

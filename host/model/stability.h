@@ -40,6 +40,9 @@ SizeRange overall(const PowderSizes& sizes);
 /// wall, infinity.
 double otherSide(const World& world, MaterialPair pair, const PowderSizes& sizes, double SizeRange::*size);
 
+/// Whether there are spheres for a contact of this pair: a powder may have none, or none left.
+bool haveSpheres(const World& world, MaterialPair pair, const PowderSizes& sizes);
+
 struct ContactMode {
     std::string name;     ///< "particle-wall rolling"
     double duration = 0;  ///< half a period without damping, pi sqrt(m/k) [s]
@@ -48,7 +51,7 @@ struct ContactMode {
 
 /// Every mode of every pair that can occur, for particles no smaller than the smallest of their powder. Powders of no
 /// particles are left out. A law whose stiffness grows with the overlap counts at the largest overlap that the world
-/// allows.
+/// allows. A body that moves freely counts as if a dozen of the smallest spheres carried it.
 std::vector<ContactMode> contactModes(const World& world, const ContactLaw& law, const PowderSizes& sizes);
 
 /// The parameters of a contact at that overlap, as linear springs and dashpots between the spheres a and b [m], b =

@@ -252,6 +252,10 @@ class Parser {
         const LawToken& t = next("a bound");
         const auto value = integer(t);
         if (!value) refuseLoop(t);
+        // The device counts in 32 bits: beyond them a counter would begin again, and the loop would not end.
+        if (*value > kMostLoopBound)
+            refuse(t, fmt::format("{} is beyond what a loop may count to", t.text),
+                   fmt::format("stay within {} and its negative", kMostLoopBound));
         return negative ? -*value : *value;
     }
 

@@ -13,6 +13,8 @@ inline constexpr std::size_t kMostLawParameters = 16;
 inline constexpr std::size_t kMostLawMemories = 7;
 /// Most trips of loops that one evaluation may take, the loops of called functions counted.
 inline constexpr double kMostLawTrips = 10000;
+/// The largest whole number in the head of a loop.
+inline constexpr long kMostLoopBound = 1'000'000;
 
 /// Its names stand behind this prefix in the shader, so that they meet no name of the engine.
 inline constexpr std::string_view kUserPrefix = "User";

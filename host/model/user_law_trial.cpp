@@ -29,7 +29,8 @@ struct Probe {
 std::vector<Probe> probesOf(const Case& c, const PowderSizes& sizes) {
     constexpr double kSpeeds[] = {0, 0.01, 1};  // [m/s]
     std::vector<Probe> probes;
-    for (const MaterialPair& pair : occurringPairs(c.world))
+    for (const MaterialPair& pair : occurringPairs(c.world)) {
+        if (!haveSpheres(c.world, pair, sizes)) continue;
         for (const auto size : {&SizeRange::smallest, &SizeRange::mean, &SizeRange::largest})
             for (const double speed : kSpeeds) {
                 const double a = sizes[std::size_t(pair.a)].*size, b = otherSide(c.world, pair, sizes, size);
@@ -38,6 +39,7 @@ std::vector<Probe> probesOf(const Case& c, const PowderSizes& sizes) {
                                   {c.dosingLaw.of(pair).own, reducedSize(a, b) / 2, reducedMass(c.world, pair, a, b),
                                    c.world.maxOverlapRatio * std::min(a, b), speed}});
             }
+    }
     return probes;
 }
 

@@ -56,7 +56,7 @@ float storedIn(ContactParams p, Exerted e, float reduced, History h) {
 /// stiffer [J].
 vec3 stiffening(ContactParams p, Exerted before, Exerted now, float reduced, vec3 stored, bool goesOn) {
 #ifdef USER_LAW
-    return stored * (userGrowth - 1.0);
+    return goesOn ? stored * (userGrowth - 1.0) : vec3(0.0);  // a law need not say anything of a contact that parts
 #else
     if (follows(p, kLawJkr)) {
         float was = jkrStiffness(p, before.rest.w, reduced), is = jkrStiffness(p, now.rest.w, reduced);

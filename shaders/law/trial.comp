@@ -26,6 +26,7 @@ void main() {
     vec4 memory[2];
     memory[0] = vec4(0.0);
     memory[1] = vec4(0.0);
+    userRecall(memory);
     float reach = userReach(UserContact(0.0, 0.0, contact.x, 0.0));
     for (uint k = 0u; k < kPoints; ++k) {
         bool presses = k < kPart;

@@ -21,6 +21,7 @@ struct UserContact {
 /// As in law/normal.glsl. Lists reach no farther than the trial found.
 float reachOf(ContactParams p, float reduced) {
     userParameters(p);
+    userRecall(vec4[2](vec4(0.0), vec4(0.0)));  // the reach is known before the contact
     return min(userReach(UserContact(0.0, 0.0, 0.5 * reduced, 0.0)), p.friction.w);
 }
 bool holds(ContactParams p, float overlap, float reduced, float memory) {

@@ -6,6 +6,7 @@
 
 #include "host/backend/reference/normal.h"
 #include "host/model/bed_weight.h"
+#include "host/model/normal_law.h"
 #include "host/model/pull_off.h"
 #include "host/model/restitution.h"
 #include "tests/model/case_files.h"
@@ -68,6 +69,27 @@ TEST_CASE("restitution by the closed form is that of the spring and dashpot") {
         thick.gamma = dampingFor(e, p, kDensity, a, a);
         CHECK(restitution(thick, kDensity, a, a) == Approx(e));
     }
+}
+
+TEST_CASE("restitution of a law that is given one is that one") {
+    ContactParameters rest;
+    rest.surfaceEnergy = 0.2;
+    rest.plasticityRatio = 0.5;
+    const Elasticity elastic{5e6, 0.25};
+    for (const auto make : {hertzMindlin, elastoPlasticAdhesive, elasticAdhesive})
+        CHECK(restitution(make(elastic, elastic, 0.6, rest), 1e-6) == Approx(0.6));
+}
+
+TEST_CASE("restitutions are told of the pairs of powders that have particles") {
+    const test::Folder folder;
+    const auto file = folder.write("case.toml", test::kFreeCase + "[[powder]]\nname = \"sugar\"\ndensity = 1590.0\n");
+    const auto pairs = [&](const char* second) {
+        folder.write("two.csv", std::string("x,y,z,r,powder\n0,0,0,1e-3,powder\n0,3e-3,0,1e-3,") + second);
+        const Case c = loadCase(file);
+        return figuresOf(c, insertParticles(c)).restitutions.size();
+    };
+    CHECK(pairs("sugar\n") == 3);
+    CHECK(pairs("powder\n") == 1);
 }
 
 TEST_CASE("the pull-off force is the strongest pull of the contact law") {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <random>
 
+#include "host/model/normal_law.h"
 #include "host/sim/energy_ledger.h"
 #include "tests/law/setups.h"
 #include "tests/support/catch.h"
@@ -282,6 +283,39 @@ TEST_CASE("energy: keeping the book changes no bit of the motion") {
     CHECK(booked->advance(3000, -12).energy);
     CHECK(plain->particles().position == booked->particles().position);
     CHECK(plain->particles().spin == booked->particles().spin);
+}
+
+TEST_CASE("energy: a state that is loaded again books the next steps as if nothing had happened") {
+    const ContactParameters friction = paperParameters(0.5);
+    const Elasticity elastic{2e6, 0.25};
+    ContactParameters sticky = friction, flattened = friction;
+    sticky.surfaceEnergy = flattened.surfaceEnergy = 0.05;
+    flattened.plasticityRatio = 0.5;
+    flattened.adhesionExponent = 1.5;
+    for (const ContactParameters& p :
+         {friction, hertzMindlin(elastic, elastic, 0.7, friction),
+          elastoPlasticAdhesive(elastic, elastic, 0.7, flattened), elasticAdhesive(elastic, elastic, 0.7, sticky)}) {
+        CAPTURE(int(p.law));
+        RuledWorld world = freeWorld(p, 2e-7);
+        world.energyBook = true;
+        Particles two;
+        two.add(Vec3(0), kRadius, Vec3(0.1, 0, 0), Vec3(10, 20, 30));
+        two.add(Vec3(1.95 * kRadius, 0.5e-3, 0), kRadius, Vec3(-0.1, 0.05, 0));
+        auto whole = makeReferenceBackend(), resumed = makeReferenceBackend();
+        whole->load(world, two);
+        resumed->load(world, two);
+        whole->advance(100, 0);
+        REQUIRE(whole->contacts().size() == 1);
+        resumed->restore(whole->snapshot());
+        for (const std::uint32_t steps : {1U, 1U, 5000U}) {  // in the last the two part
+            const EnergyBook a = *whole->advance(steps, 0).energy, b = *resumed->advance(steps, 0).energy;
+            const auto losses = [](const EnergyBook& e) {
+                return std::vector<double>{e.plastic, e.adhesive, e.viscous,  e.sliding,
+                                           e.rolling, e.torsion,  e.numerical};
+            };
+            CHECK(losses(a) == losses(b));
+        }
+    }
 }
 
 TEST_CASE("energy: the book's momenta are the particles'") {

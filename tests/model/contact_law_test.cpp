@@ -205,6 +205,9 @@ TEST_CASE("keys and figures that the elasto-plastic adhesive law cannot have are
     refused(other("plasticity_ratio = 0.5", "plasticity_ratio = 0"),
             "contact.surface_energy = 0.2: acts on flattened contacts, and with plasticity_ratio = 0 none is; "
             "give a plasticity_ratio > 0, or a surface energy of 0");
+    refused(other("plasticity_ratio = 0.3", "plasticity_ratio = 0"),
+            "contact.coil.plasticity_ratio = 0: flattens no contact, and its surface_energy = 0.05 acts on flattened "
+            "ones alone");
     refused(other("0.25", "0.6"), "contact.poisson_ratio = 0.6");
 }
 

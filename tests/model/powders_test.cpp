@@ -182,6 +182,24 @@ TEST_CASE("softening and settling hold for all pairs") {
     CHECK(own.settlingLaw.between(0, 3).kc / own.settlingLaw.between(0, 3).k2Max == Approx(0.05));
 }
 
+TEST_CASE("where the walls state their adhesion, all that takes it from them keeps it while settling") {
+    const std::string steel =
+        "[[material]]\nname = \"steel\"\n"
+        "[[body]]\nname = \"rod\"\nshape = \"ball\"\nradius_mm = 1\nat = [0, 0.05, 0.01]\nmaterial = \"steel\"\n";
+    const std::vector<std::string> settling{"contact.wall.kc_over_k=0", "settle.kc_over_k=0.3"};
+    const Case c = loadText(kMixture + steel, settling);
+    for (const MaterialPair pair : occurringPairs(c.world)) {
+        CAPTURE(pair.a, pair.b);
+        const bool powders = c.world.materials[std::size_t(pair.b)].powder;
+        CHECK(c.settlingLaw.of(pair).kc / c.settlingLaw.of(pair).k2Max == Approx(powders ? 0.3 : 0.0));
+    }
+    const Case own = loadText(kMixture + steel + "[contact.sugar-steel]\nkc_over_k = 0.1\n", settling);
+    CHECK(own.settlingLaw.between(kSecond, 4).kc / own.settlingLaw.between(kSecond, 4).k2Max == Approx(0.1));
+    // Without a word of the walls they settle with the powder's adhesion, whatever they are made of.
+    const Case plain = loadText(kMixture + steel, {"settle.kc_over_k=0.3"});
+    CHECK(plain.settlingLaw.between(kSecond, 4).kc / plain.settlingLaw.between(kSecond, 4).k2Max == Approx(0.3));
+}
+
 TEST_CASE("faults of powders, materials and pairs name the culprit and the remedy") {
     const auto refused = [](const std::string& text, const std::string& what) {
         INFO(text);
@@ -298,6 +316,17 @@ TEST_CASE("a refill is of the powder that it names") {
     CHECK(waiting.size() == static_cast<std::size_t>(std::llround(0.1e-3 / sphereMass(1590, 1e-3))));
     CHECK(std::all_of(waiting.material.begin(), waiting.material.end(), [](int m) { return m == 3; }));
     CHECK(std::all_of(waiting.radius.begin(), waiting.radius.end(), [](double r) { return r == 1e-3; }));
+}
+
+TEST_CASE("the targets of a powder without particles are met as if its spheres were as large as the others'") {
+    const Folder folder;
+    const auto file = folder.write(
+        "case.toml", replaced(kFreeCase, "damping = 0.0827", "restitution = 0.5") +
+                         "[[powder]]\nname = \"sugar\"\ndensity = 1590.0\n[contact.sugar-sugar]\nrestitution = 0.3\n");
+    folder.write("two.csv", "x,y,z,r,powder\n0,0,0,1e-3,powder\n0,3e-3,0,1e-3,powder\n");
+    const Case c = loadCase(file);
+    CHECK(restitution(c.dosingLaw.between(3, 3), reducedMass(1590, 1e-3, 1e-3)) == Approx(0.3).epsilon(1e-9));
+    CHECK(loadResolvedCase(c.resolved, "again.toml").resolved == c.resolved);
 }
 
 TEST_CASE("a list names the powder of each particle") {

@@ -118,6 +118,8 @@ const std::vector<Broken>& loops() {
         {"another condition", inForce("for (int i = 0; k < 3.0; ++i) {}"), 4, "no constant bound"},
         {"a counter that is set back", inForce("for (int i = 0; i < 3; ++i) { i = 0; }"), 4, "changes its counter"},
         {"a counter that is counted down", inForce("for (int i = 0; i < 3; ++i) i--;"), 4, "changes its counter"},
+        {"a bound beyond 32 bits", inForce("for (int i = 2147483640; i <= 2147483647; ++i) {}"), 4, "may count to"},
+        {"a step beyond 32 bits", inForce("for (int i = 0; i < 5; i += 2000000000) {}"), 4, "may count to"},
         {"too many trips", inForce("for (int i = 0; i < 1000000; ++i) {}"), 4, "trips"},
         {"too many in a nest", inForce("for (int i = 0; i < 999; ++i) for (int j = 0; j < 999; ++j) {}"), 4, "trips"},
         {"too many by a call",

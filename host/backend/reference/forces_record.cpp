@@ -34,9 +34,12 @@ void eachNumber(Exerted& e, Visit visit) {
     flag(e.parts.twists);
     for (Vec3* v : {&e.normal, &e.leverI, &e.leverJ, &e.parts.sliding, &e.parts.rolling, &e.parts.torsion})
         for (int d = 0; d < 3; ++d) visit((*v)[d]);
-    for (double* x : {&e.overlap, &e.parts.hysteretic, &e.parts.damping, &e.elastic.normal, &e.elastic.sliding,
-                      &e.elastic.rolling, &e.elastic.torsion})
+    for (double* x : {&e.overlap, &e.parts.hysteretic, &e.parts.damping, &e.parts.kt, &e.parts.kr, &e.parts.kTo,
+                      &e.elastic.normal, &e.elastic.sliding, &e.elastic.rolling, &e.elastic.torsion})
         visit(*x);
+    double law = double(e.parts.law);
+    visit(law);
+    e.parts.law = NormalLaw(int(law));
 }
 
 }  // namespace
