@@ -18,6 +18,12 @@ Window beforeSaturation(double filled) {
     return window;
 }
 
+Window windowOf(double filled) {
+    Window w;
+    w.cumulativeBelow = std::min(w.cumulativeBelow, beforeSaturation(filled).cumulativeBelow);
+    return w;
+}
+
 Slope betaOf(std::span<const double> cumulativeMass, const Window& window) {
     const int first = std::max(window.from, 1);
     int last = first - 1;

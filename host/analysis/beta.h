@@ -21,6 +21,9 @@ struct Window {
 /// before 80 % of `filled` [kg] is out.
 Window beforeSaturation(double filled);
 
+/// The doses over which a run's slope is taken: less than 15 g, and before saturation.
+Window windowOf(double filled);
+
 struct Slope {
     double beta = std::numeric_limits<double>::quiet_NaN();           ///< [kg/dose]; NaN for fewer than two doses
     double standardError = std::numeric_limits<double>::quiet_NaN();  ///< [kg/dose]; NaN for fewer than three

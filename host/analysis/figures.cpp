@@ -1,7 +1,5 @@
 #include "host/analysis/figures.h"
 
-#include <algorithm>
-
 #include "host/analysis/emptying.h"
 
 namespace vkdose {
@@ -9,7 +7,7 @@ namespace vkdose {
 DosingFigures figuresOf(const std::vector<Dose>& doses, double filled, const StopRule& stop) {
     DosingFigures f;
     // A canister of less than 19 g saturates within the paper's 15 g.
-    f.window.cumulativeBelow = std::min(f.window.cumulativeBelow, beforeSaturation(filled).cumulativeBelow);
+    f.window = windowOf(filled);
     const std::vector<double> cumulative = cumulativeMasses(doses);
     f.beta = betaOf(cumulative, f.window);
     f.dosesTo99 = dosesToFraction(cumulative, filled);

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "geometry/surface.h"
-#include "host/sim/density.h"
 #include "host/analysis/line_fit.h"
 #include "host/analysis/surface_map.h"
+#include "host/sim/density.h"
 
 namespace vkdose {
 

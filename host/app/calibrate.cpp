@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <limits>
-#include <nlohmann/json.hpp>
 
-#include "host/analysis/beta.h"
 #include "host/app/commands.h"
 #include "host/app/exit_code.h"
 #include "host/app/interrupt.h"
+#include "host/app/search_runs.h"
 #include "host/app/sweep_display.h"
 #include "host/app/sweep_setup.h"
 #include "host/app/tell.h"
@@ -19,10 +17,9 @@
 #include "host/core/printable.h"
 #include "host/model/closest_word.h"
 #include "host/output/measured.h"
-#include "host/output/summary.h"
+#include "host/output/run_folder.h"
 #include "host/study/calibration_finding.h"
 #include "host/study/grid_calibration.h"
-#include "host/study/surrogate.h"
 
 namespace vkdose {
 
@@ -84,9 +81,16 @@ void writeCase(const Study& study, const SweepFolder& folder, const std::vector<
     tell("calibrated {}\nnext       vkdose run {}\n", printable(file.string()), shellWord(file.string()));
 }
 
+/// Takes away the case of an earlier target.
+void forgetCase(const SweepFolder& folder) {
+    std::error_code error;
+    std::filesystem::remove(folder.path() / "calibrated.toml", error);
+}
+
 /// After the sweep: the table, and the case at the crossing that is chosen.
 int reportGrid(const Study& study, const SweepFolder& folder) {
     const CalibrationAim& aim = *study.calibration;
+    forgetCase(folder);
     const GridCalibration grid = calibrateGrid(folder.members(), study.keys(), aim);
     tell("{}\n", targetText(aim));
     for (std::size_t i = 0; i < grid.curves.size(); ++i)
@@ -105,19 +109,6 @@ int reportGrid(const Study& study, const SweepFolder& folder) {
               fmt::format("{} {} meets {:.4g} g a dose", aim.along, withError(crossing.along, crossing.alongError),
                           aim.target * 1e3));
     return kOk;
-}
-
-std::vector<Setting> settingsAt(const Study& study, const Parameters& p) {
-    std::vector<Setting> all;
-    for (std::size_t i = 0; i < p.size(); ++i)
-        all.push_back(settingOf(study, study.calibration->parameters[i].key, p[i]));
-    return all;
-}
-
-/// The cases that every point of a search runs.
-std::vector<std::filesystem::path> basesOf(const Study& study) {
-    const std::vector<std::filesystem::path> bases = study.calibration->bases();
-    return bases.empty() ? std::vector{study.base} : bases;
 }
 
 /// Refuses a target whose figure the run of its case will not have.
@@ -150,103 +141,6 @@ void checkCorners(const Study& study) {
             (void)memberAt(study, 0, std::nullopt, settingsAt(study, p), base);
         }
 }
-
-/// A figure of a run that is over, and its error; NaN where there is none.
-Measured figureIn(const std::filesystem::path& folder, const std::string& figure) {
-    const auto summary = readSummary(folder).value_or(nlohmann::ordered_json::object());
-    const auto at = [&](const std::string& pointer) {
-        const auto value = summary.value(nlohmann::ordered_json::json_pointer(pointer), nlohmann::ordered_json());
-        return value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
-    };
-    if (figure == kMassPerDose)
-        return {at("/analysis/beta_kg_per_dose") * 1e3, at("/analysis/beta_standard_error_kg_per_dose") * 1e3};
-    std::string pointer = "/measures/" + figure;
-    std::replace(pointer.begin(), pointer.end(), '.', '/');
-    return {at(pointer), std::numeric_limits<double>::quiet_NaN()};
-}
-
-/// Runs the points that a search asks for as members of a sweep, every one with every case and every seed.
-class SearchRuns {
-  public:
-    SearchRuns(const Study& study, SweepFolder& folder, MemberRunner& runner, SweepObserver& observer,
-               const std::atomic<bool>& stop, bool retryFailed)
-        : study_(study),
-          bases_(basesOf(study)),
-          folder_(folder),
-          runner_(runner),
-          observer_(observer),
-          stop_(stop),
-          retry_(retryFailed) {}
-
-    std::optional<std::vector<Trials>> operator()(const std::vector<Parameters>& points) {
-        std::vector<Member> members;
-        for (const Parameters& p : points)
-            for (const std::filesystem::path& base : bases_)
-                for (const auto& seed : seeds())
-                    members.push_back(memberAt(study_, next_++, seed, settingsAt(study_, p), base));
-        for (const Member& m : members) folder_.requireSame(m);
-        if (!runMembers(folder_, members, runner_, observer_, stop_, retry_).whole) return std::nullopt;
-        std::vector<Trials> trials;
-        for (std::size_t i = 0; i < points.size(); ++i)
-            trials.push_back(trialsOf(members[i * bases_.size() * seeds().size()].number));
-        return trials;
-    }
-
-  private:
-    std::vector<std::optional<std::uint64_t>> seeds() const {
-        if (study_.seeds.empty()) return {std::nullopt};
-        return {study_.seeds.begin(), study_.seeds.end()};
-    }
-
-    /// The trials of a point, whose members have numbers from `first` on.
-    Trials trialsOf(int first) const {
-        const int count = int(seeds().size());
-        if (study_.calibration->targets.empty()) return {massPerDoseOf(first, first + count)};
-        Trials trials;
-        for (const CalibrationTarget& t : study_.calibration->targets) {
-            const auto place = std::find(bases_.begin(), bases_.end(), t.base) - bases_.begin();
-            trials.push_back(figureOf(t.figure, first + int(place) * count, first + int(place + 1) * count));
-        }
-        return trials;
-    }
-
-    Trial figureOf(const std::string& figure, int from, int to) const {
-        Trial trial;
-        for (int number = from; number < to; ++number) {
-            const Measured value = figureIn(folder_.memberFolder(number), figure);
-            if (folder_.status(number) != MemberStatus::Ok || !std::isfinite(value.value)) continue;
-            trial.values.push_back(value.value);
-            trial.error = value.error;
-        }
-        return trial;
-    }
-
-    /// From the table, so that a search that goes on sees the same digits as one that was not interrupted.
-    Trial massPerDoseOf(int from, int to) const {
-        const Table& table = folder_.members();
-        Trial trial;
-        for (int number = from; number < to; ++number) {
-            for (std::size_t row = 0; row < table.rows(); ++row) {
-                const double beta = table.number(row, "beta_kg_per_dose");
-                if (table.text(row, "member") != std::to_string(number) || table.text(row, "status") != "ok" ||
-                    std::isnan(beta))
-                    continue;
-                trial.values.push_back(beta);
-                trial.error = table.number(row, "beta_standard_error_kg_per_dose");
-            }
-        }
-        return trial;
-    }
-
-    const Study& study_;
-    std::vector<std::filesystem::path> bases_;
-    SweepFolder& folder_;
-    MemberRunner& runner_;
-    SweepObserver& observer_;
-    const std::atomic<bool>& stop_;
-    bool retry_;
-    int next_ = 0;
-};
 
 std::string targetsText(const CalibrationAim& aim, const CalibrationFinding& f) {
     if (aim.targets.empty()) return targetText(aim) + "\n";
@@ -298,9 +192,21 @@ std::string sensitivityText(const CalibrationFinding& f) {
     return text;
 }
 
+/// The members that have ended so far, of a search that was interrupted.
+SweepOutcome countedIn(const SweepFolder& folder) {
+    SweepOutcome outcome;
+    const Table& members = folder.members();
+    for (std::size_t row = 0; row < members.rows(); ++row) {
+        outcome.ok += members.text(row, "status") == statusText(MemberStatus::Ok) ? 1 : 0;
+        outcome.failed += members.text(row, "status") == statusText(MemberStatus::Failed) ? 1 : 0;
+    }
+    return outcome;
+}
+
 int reportSearch(const Study& study, const SweepFolder& folder, const SearchResult& result) {
     const CalibrationAim& aim = *study.calibration;
     const CalibrationFinding f = findingOf(study, result);
+    forgetCase(folder);
     writeFinding(folder.path(), f);
     tell("{}{}", targetsText(aim, f), pointsText(f));
     const std::string believed = believedText(f);
@@ -320,7 +226,8 @@ int reportSearch(const Study& study, const SweepFolder& folder, const SearchResu
     }
     tell("{}", sensitivityText(f));
     if (!f.met) {
-        tell(stderr, "vkdose: no case is written; give a larger max_runs, other bounds or a wider {}\n",
+        tell(stderr,
+             "vkdose: no case is written; give a larger max_runs, or in another folder other bounds or a wider {}\n",
              aim.targets.empty() ? "tolerance_g" : "uncertainty");
         return kDisagree;
     }
@@ -343,7 +250,9 @@ int calibrateCommand(const SweepOptions& options) {
               "add [calibrate] with target_g_per_dose and tolerance_g, with measured, or with [[calibrate.target]]"}});
     const bool isSearch = study.calibration->method == CalibrationAim::Method::Surrogate;
     if (isSearch) checkCorners(study);
-    const std::vector<Member> members = isSearch ? std::vector<Member>{} : membersOf(study);
+    const std::vector<Member> members = !isSearch        ? membersOf(study)
+                                        : options.dryRun ? std::vector<Member>{}
+                                                         : SearchRuns::first(study);
     if (options.dryRun) {
         tell("{}", planText(options, study, members));
         return kOk;
@@ -353,11 +262,16 @@ int calibrateCommand(const SweepOptions& options) {
     SweepDisplay display("calibrate", study, options.quiet);
     SweepFolder folder(sweepFolder(options), study, members);
     if (isSearch) {
-        forgetFinding(folder.path());
         SearchRuns runs(study, folder, *runner, display, stop, options.retryFailed);
-        const auto result = search(*study.calibration, std::ref(runs));
+        std::optional<SearchResult> result;
+        try {
+            result = search(*study.calibration, std::ref(runs));
+        } catch (const FolderError&) {  // a later point was another one
+            folder.keepFormerStudy();
+            throw;
+        }
         if (!result) {
-            display.finish(folder, {});
+            display.finish(folder, countedIn(folder));
             return kInterrupted;
         }
         folder.sort();

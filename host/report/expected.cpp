@@ -8,6 +8,7 @@
 
 #include "host/core/error.h"
 #include "host/report/toml_values.h"
+#include "host/study/member_result.h"
 
 namespace vkdose::report {
 
@@ -44,8 +45,8 @@ class ExpectedReader {
 
   private:
     void fault(const Node& at, const std::string& key, const std::string& problem, const std::string& remedy) {
-        faults_.push_back(
-            {file_, at.line, key, "", problem.empty() ? "is not what a table of results holds" : problem, remedy});
+        faults_.push_back({file_, at.line, key, at.kind == Node::Kind::Table ? "" : valueText(at),
+                           problem.empty() ? "is not what a table of results holds" : problem, remedy});
     }
 
     Expected readRow(const Node& row) {
@@ -66,9 +67,19 @@ class ExpectedReader {
         e.matches = number(row, "matches", e.matches);
         e.near = number(row, "near", e.near);
         e.kind = kind(row);
-        if (const Node* where = row.child("where")) e.where = settingsOf(*where);
+        if (const Node* where = row.child("where")) readWhere(*where, e);
         requireWhole(row, e);
         return e;
+    }
+
+    void readWhere(const Node& where, Expected& e) {
+        if (where.kind != Node::Kind::Table)
+            return fault(where, "where", "is no table", "write where = { KEY = VALUE }");
+        for (const Node& condition : where.children)
+            if (condition.kind == Node::Kind::Array)
+                fault(condition, "where." + condition.key, "is a list, which is compared with nothing",
+                      "give keys of one value");
+        e.where = settingsOf(where);
     }
 
     Kind kind(const Node& row) {
@@ -78,17 +89,24 @@ class ExpectedReader {
         if (!name.empty()) {
             std::string all;
             for (const KindName& k : kKinds) all += (all.empty() ? "" : ", ") + std::string(k.name);
-            fault(row, "kind", "is not known", "known: " + all);
+            fault(*row.child("kind"), "kind", "is not known", "known: " + all);
         }
         return Kind::NotJudged;
     }
 
     void requireWhole(const Node& row, const Expected& e) {
         if (e.kind == Kind::NotJudged) return;
-        if (e.quantity.empty()) fault(row, "quantity", "is missing", "name a column of members.csv");
+        const auto& columns = kOutputColumns;
+        if (e.quantity.empty())
+            fault(row, "quantity", "is missing", "name a column of members.csv");
+        else if (e.quantity != "cumulative_mass_kg" &&
+                 std::find(columns.begin(), columns.end(), e.quantity) == columns.end())
+            fault(*row.child("quantity"), "quantity", "is no column of members.csv that a run fills",
+                  fmt::format("known: {}, cumulative_mass_kg", fmt::join(columns, ", ")));
         const bool figure = e.kind == Kind::Value || e.kind == Kind::AtMost;
         if (figure && row.child("value") == nullptr) fault(row, "value", "is missing", "give the published figure");
-        if (figure && e.value == 0) fault(row, "value", "is zero", "differences are relative to it");
+        if (const Node* value = row.child("value"); figure && value != nullptr && e.value == 0)
+            fault(*value, "value", "is zero", "differences are relative to it");
         if (!figure && e.along.empty()) fault(row, "along", "is missing", "name the key that varies");
         if (e.quantity == "cumulative_mass_kg" && e.dose < 1) fault(row, "dose", "is missing", "say after which dose");
     }
@@ -96,14 +114,14 @@ class ExpectedReader {
     std::string text(const Node& row, const char* key, bool required) {
         const Node* value = row.child(key);
         if (value != nullptr && value->kind == Node::Kind::String) return value->string;
-        if (required || value != nullptr) fault(row, key, "is missing or no text", "give a text");
+        if (required || value != nullptr) fault(value ? *value : row, key, "is missing or no text", "give a text");
         return "";
     }
 
     double number(const Node& row, const char* key, double otherwise) {
         const Node* value = row.child(key);
         if (value == nullptr) return otherwise;
-        if (!value->isNumber() || !std::isfinite(value->number)) fault(row, key, "is not a number", "give a number");
+        if (!value->isNumber() || !std::isfinite(value->number)) fault(*value, key, "is not a number", "give a number");
         return value->isNumber() ? value->number : otherwise;
     }
 
@@ -172,21 +190,32 @@ std::string besides(const Point& point, const std::string& key) {
     return rest;
 }
 
-/// One curve along the key for every place on the other axes, sorted along it.
-std::vector<Curve> curvesOf(const Expected& e, const std::vector<Point>& points) {
+/// The curves along a key, and from how many of the points that the result is about.
+struct Curves {
+    std::vector<Curve> list;
+    int points = 0, known = 0;  ///< of these the ones that have the quantity
+};
+
+/// One curve along the key for every place on the other axes, sorted along it. What has too few points to tell is no
+/// curve.
+Curves curvesOf(const Expected& e, const std::vector<Point>& points) {
+    Curves all;
     std::map<std::string, Curve> curves;
     for (const Point& p : points) {
         const auto x = p.keys.find(e.along);
+        if (!carries(p, e) || x == p.keys.end() || std::isnan(x->second.number)) continue;
+        ++all.points;
         const auto y = outputOf(p, e);
-        if (!carries(p, e) || !y || x == p.keys.end() || std::isnan(x->second.number)) continue;
+        if (!y) continue;
+        ++all.known;
         curves[besides(p, e.along)].push_back({x->second.number, *y});
     }
-    std::vector<Curve> list;
+    const std::size_t least = e.kind == Kind::Linear ? 3 : 2;
     for (auto& [rest, curve] : curves) {
         std::sort(curve.begin(), curve.end(), [](const Step& a, const Step& b) { return a.x < b.x; });
-        if (curve.size() > 1 && curve.front().x < curve.back().x) list.push_back(curve);
+        if (curve.size() >= least && curve.front().x < curve.back().x) all.list.push_back(curve);
     }
-    return list;
+    return all;
 }
 
 /// `sense` +1 for a rise, -1 for a fall.
@@ -229,13 +258,14 @@ bool holds(const Expected& e, const Curve& curve) {
         case Kind::Independent:
             return variation(curve) <= e.matches;
         case Kind::Linear:
-            return curve.size() > 2 && crookedness(curve) <= e.matches;
+            return crookedness(curve) <= e.matches;
         default:
             return false;
     }
 }
 
-Verdict judgeTrend(const Expected& e, const std::vector<Curve>& curves) {
+Verdict judgeTrend(const Expected& e, const Curves& known) {
+    const std::vector<Curve>& curves = known.list;
     constexpr std::size_t kShown = 2;
     int good = 0;
     std::string found;
@@ -248,6 +278,7 @@ Verdict judgeTrend(const Expected& e, const std::vector<Curve>& curves) {
     }
     const int all = static_cast<int>(curves.size());
     if (curves.size() > kShown) found += fmt::format("; and {} more", curves.size() - kShown);
+    if (known.known < known.points) found += fmt::format(" ({} of {} points have it)", known.known, known.points);
     if (good == all) return {Verdict::Kind::TrendHolds, "trend holds", found};
     return {Verdict::Kind::Contradicts,
             all == 1 ? "contradicts" : fmt::format("contradicts in {} of {}", all - good, all), found};
@@ -269,8 +300,8 @@ Verdict judge(const Expected& e, const std::vector<Point>& points) {
         }
         return outputs.empty() ? Verdict{Verdict::Kind::NotRun, "not run", ""} : judgeValue(e, outputs);
     }
-    const std::vector<Curve> curves = curvesOf(e, points);
-    return curves.empty() ? Verdict{Verdict::Kind::NotRun, "not run", ""} : judgeTrend(e, curves);
+    const Curves curves = curvesOf(e, points);
+    return curves.list.empty() ? Verdict{Verdict::Kind::NotRun, "not run", ""} : judgeTrend(e, curves);
 }
 
 }  // namespace vkdose::report

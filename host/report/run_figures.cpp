@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "host/analysis/blockage.h"
 #include "host/analysis/emptying.h"
@@ -163,7 +164,8 @@ class Facts {
 
     /// Means by time. Values while the throat is nearly empty come from few particles, but count like the rest.
     void outlet() {
-        double turning = 0, turns = 0, peak = 0, lowest = 0;
+        double turning = 0, turns = 0;
+        double peak = -std::numeric_limits<double>::infinity(), lowest = -peak;
         for (std::size_t i = 0; i < run_.series.rows(); ++i) {
             const double v = run_.series.number(i, "outlet_velocity_m_s");
             if (std::isnan(v) || run_.series.text(i, "phase") != "rotate") continue;
@@ -261,9 +263,12 @@ class Facts {
                 "wherever powder lies above; voids under arches included");
         const double last = run_.c.canister->length - coil->pitch;
         if (const auto d = coilDensity(w, *run_.particles, *run_.c.canister, *coil, last)) {
-            const double turns = run_.c.schedule.coilSpeed * run_.c.schedule.rotateTime / (2 * kPi);
+            const Schedule& s = run_.c.schedule;
+            const double turns = s.coilSpeed * s.rotateTime / (2 * kPi);  // if nothing but the time ends a dose
+            const std::string closed =
+                fmt::format("closed form with it: {} g/dose", grams(closedFormMass(d->density, *coil, turns)));
             add("the same, in the last turn before the outlet", fmt::format("{:.4g} kg/m³", d->density),
-                fmt::format("closed form with it: {} g/dose", grams(closedFormMass(d->density, *coil, turns))));
+                s.isPlain() ? closed : "");
         }
         if (const auto arch = archAbove(*coil, *run_.c.canister, *run_.particles))
             add("arch over the coil, at the end", fmt::format("{:.3g} mm high", arch->height * 1e3),

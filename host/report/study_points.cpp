@@ -8,17 +8,13 @@
 
 #include "host/core/csv_lines.h"
 #include "host/report/toml_values.h"
+#include "host/study/member_result.h"
 
 namespace vkdose::report {
 
 namespace fs = std::filesystem;
 
 namespace {
-
-/// Columns of members.csv that are averaged over the seeds.
-constexpr const char* kOutputs[] = {"doses",       "dosed_mass_kg",          "mean_dose_kg",   "sd_dose_kg",
-                                    "rsd",         "beta_kg_per_dose",       "coil_torque_Nm", "doses_to_99_percent",
-                                    "wall_time_s", "closed_form_kg_per_dose"};
 
 std::vector<std::string> axisColumns(const Table& members) {
     std::vector<std::string> names;
@@ -129,11 +125,10 @@ class PointReader {
     }
 
     std::map<std::string, Setting> keysOf(std::size_t row) const {
-        std::map<std::string, Setting> keys = common_;
         const fs::path resolved =
             folder_ / "members" / fmt::format("{:04}", static_cast<int>(members_.number(row, "member"))) / "case.toml";
-        if (fs::exists(resolved))
-            for (const auto& [key, value] : settingsOf(readTreeAlone(resolved))) keys[key] = value;
+        // The member's case has every key that counts. One of the base that another has replaced is not among them.
+        std::map<std::string, Setting> keys = fs::exists(resolved) ? settingsOf(readTreeAlone(resolved)) : common_;
         for (const std::vector<std::string>& axis : head_.axes)
             for (const std::string& key : axis) keys[key] = settingOf(members_.text(row, key));
         return keys;
@@ -156,9 +151,11 @@ class PointReader {
         const MemberDoses none, &own = doses == doses_.end() ? none : doses->second;
         addDoses(own.mass, g.doses);
         addDoses(own.cumulative, g.cumulative);
-        for (const char* name : kOutputs)
-            if (members_.has(name)) g.outputs[name].push_back(members_.number(row, name));
-        const Slope slope = betaOf(own.cumulative);
+        for (const std::string& name : kOutputColumns)
+            if (members_.has(name)) g.outputs[name].push_back(numberIn(members_.text(row, name)));
+        Window window;
+        if (members_.has("filled_mass_kg")) window = windowOf(members_.number(row, "filled_mass_kg"));
+        const Slope slope = betaOf(own.cumulative, window);
         std::vector<double>& betas = g.outputs["beta_kg_per_dose"];
         if (!members_.has("beta_kg_per_dose")) betas.push_back(slope.beta);
         if (std::isnan(betas.back())) betas.back() = slope.beta;
@@ -173,6 +170,9 @@ class PointReader {
             const Estimate e = estimateOf(values);
             p.point.outputs[name] = {e.mean, e.standardError};
         }
+        // Were the seeds that never got there left out, a blocked one would make the figure better.
+        if (auto emptied = g.outputs.find("doses_to_99_percent"); emptied != g.outputs.end())
+            if (estimateOf(emptied->second).count < p.finished) p.point.outputs.erase(emptied->first);
         const Estimate beta = estimateOf(g.outputs["beta_kg_per_dose"]);
         p.beta = beta.mean;
         p.errorOverSeeds = beta.count > 1;

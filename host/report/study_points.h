@@ -34,8 +34,8 @@ struct StudyPoint {
 };
 
 /// The points in the order in which their first members stand in members.csv. The doses are taken from doses.csv. So is
-/// beta where members.csv has none. The conditions of a point come from its columns, from its member's resolved case,
-/// from [set] of study.toml and from base.toml, in this order.
+/// beta where members.csv has none. The conditions of a point come from its columns and from its member's resolved
+/// case. Without that case they come from [set] of study.toml and from base.toml, in this order.
 std::vector<StudyPoint> readPoints(const std::filesystem::path& folder, const StudyHead& head, const Table& members);
 
 }  // namespace vkdose::report

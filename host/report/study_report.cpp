@@ -24,13 +24,15 @@ Json valueJson(const Setting& s) {
     return std::isnan(s.number) ? Json(s.text) : Json(s.number);
 }
 
-/// NaN unless the point's case says how fast and how long the coil turns.
+/// NaN unless the point's case says how fast and how long the coil turns, and nothing else ends a dose.
 double turnsPerDose(const Point& p) {
     const auto value = [&](const char* key) {
         const auto found = p.keys.find(key);
         return found == p.keys.end() ? NAN : found->second.number;
     };
-    return value("coil.speed_rpm") / 60 * value("dose.rotate_s");
+    if (value("dose.mass_g") > 0 || std::isfinite(value("dose.max_torque_mNm"))) return NAN;
+    const double ramp = value("dose.ramp_s");  // up and down: each is as good as half of it at full speed
+    return value("coil.speed_rpm") / 60 * (value("dose.rotate_s") - (std::isnan(ramp) ? 0 : ramp));
 }
 
 Json pointJson(const StudyPoint& p) {

@@ -31,7 +31,12 @@ void readMeasured(CaseReader& reader, const std::filesystem::path& file, Calibra
             return;
         }
         aim.target = slope.beta;
-        if (aim.tolerance == 0) aim.tolerance = slope.standardError;
+        if (aim.tolerance > 0) return;
+        aim.tolerance = slope.standardError;
+        constexpr double kRounding = 1e-9;  // equal doses scatter by no more than this share of their mass
+        if (!(aim.tolerance > kRounding * slope.beta))
+            reader.fault("calibrate.tolerance_g", "is missing, and the balance's doses are too equal to give one",
+                         "give the tolerance, the balance's resolution at least");
     } catch (const CaseError& error) {
         Diagnostic fault = error.faults().at(0);
         const std::string remedy = std::exchange(fault.remedy, "");

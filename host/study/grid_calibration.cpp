@@ -82,13 +82,18 @@ void findNearest(Curve& curve, const CalibrationAim& aim) {
     curve.crossings.push_back({nearest->along, kUnknown, nearest->rsd, nearest->rsdError, nearest->beta - aim.target});
 }
 
+/// A crossing beside a point that dosed nothing has no RSD. It can be chosen only where no other has one either.
 std::optional<std::size_t> choose(const std::vector<Curve>& curves) {
     std::optional<std::size_t> steadiest, choice;
     const auto lowest = [&](std::size_t i) -> const Crossing& { return curves[i].crossings.front(); };
+    const auto hasRsd = [&](std::size_t i) { return !curves[i].crossings.empty() && std::isfinite(lowest(i).rsd); };
+    bool known = false;
+    for (std::size_t i = 0; i < curves.size(); ++i) known = known || hasRsd(i);
+    const auto may = [&](std::size_t i) { return known ? hasRsd(i) : !curves[i].crossings.empty(); };
     for (std::size_t i = 0; i < curves.size(); ++i)
-        if (!curves[i].crossings.empty() && (!steadiest || lowest(i).rsd < lowest(*steadiest).rsd)) steadiest = i;
+        if (may(i) && (!steadiest || lowest(i).rsd < lowest(*steadiest).rsd)) steadiest = i;
     for (std::size_t i = 0; steadiest && i < curves.size(); ++i) {
-        if (curves[i].crossings.empty()) continue;
+        if (!may(i)) continue;
         const double more = lowest(i).rsd - lowest(*steadiest).rsd;
         const bool asSteady = i == *steadiest || more <= std::hypot(lowest(i).rsdError, lowest(*steadiest).rsdError);
         if (asSteady && (!choice || lowest(i).along < lowest(*choice).along)) choice = i;

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <utility>
 
+#include "host/core/csv_lines.h"
 #include "host/core/error.h"
 #include "host/model/case.h"
 #include "host/sim/timeline.h"
@@ -71,7 +73,10 @@ void forEachPoint(const std::vector<Axis>& axes, const Visit& visit) {
 }  // namespace
 
 std::string tableText(const Node& value) {
-    return value.kind == Node::Kind::String ? value.string : valueText(value);
+    if (value.kind == Node::Kind::String) return value.string;
+    const std::string text = valueText(value);
+    // TOML allows 2_000 and +0.5, which are no numbers for who reads the table.
+    return value.isNumber() && std::isnan(numberIn(text)) ? fmt::format("{}", value.number) : text;
 }
 
 Setting settingOf(const Study& study, const std::string& key, double value) {

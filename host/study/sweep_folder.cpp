@@ -23,6 +23,7 @@ namespace {
 
 constexpr const char* kAppendable =
     "what can be added to a sweep are seeds at the end and, with a single seed, values at the end of the first axis";
+constexpr const char* kSearchGoesOn = "a search goes on with the same case, seeds, parameters and targets";
 
 Row joined(Row a, const Row& b) {
     a.insert(a.end(), b.begin(), b.end());
@@ -120,10 +121,11 @@ SweepFolder::SweepFolder(fs::path folder, const Study& study, const std::vector<
     if (error) throw FolderError(fmt::format("cannot create {}: {}", folder_.string(), error.message()));
     lock();
     read(study.keys());
-    // A search decides on its members as it goes. It calls requireSame when it comes to them.
-    const bool search = study.calibration && study.calibration->method == CalibrationAim::Method::Surrogate;
+    // A search decides on its members as it goes. It gives the first ones, and calls requireSame when it comes to
+    // others.
+    search_ = study.calibration && study.calibration->method == CalibrationAim::Method::Surrogate;
     for (std::size_t i = 0; i < members_.rows(); ++i)
-        if (!search && std::size_t(numberOf(members_.row(i))) >= members.size())
+        if (!search_ && std::size_t(numberOf(members_.row(i))) >= members.size())
             changed(
                 study_, folder_,
                 fmt::format("member {} of members.csv is no longer in it; {}", numberOf(members_.row(i)), kAppendable));
@@ -136,6 +138,8 @@ SweepFolder::SweepFolder(fs::path folder, const Study& study, const std::vector<
     gatherResults();
     requireNothingLost(folder_, study, base);
     try {
+        formerStudy_ = fileContent(folder_ / "study.toml");
+        formerBase_ = fileContent(folder_ / "base.toml");
         rewrite();  // the tables come first, because they tell that a sweep is here
         replaceFile(folder_ / "study.toml", study.text);
         replaceFile(folder_ / "base.toml", base.resolved);
@@ -221,13 +225,20 @@ void SweepFolder::requireSame(const Member& member) const {
         const Row& row = members_.row(i);
         if (numberOf(row) == member.number && !std::equal(now.begin(), now.end(), row.begin()))
             changed(study_, folder_,
-                    fmt::format("member {} was another point in members.csv; {}", member.number, kAppendable));
+                    fmt::format("member {} was another point in members.csv; {}", member.number,
+                                search_ ? kSearchGoesOn : kAppendable));
     }
     const fs::path file = memberFolder(member.number) / "case.toml";
     if (fs::exists(file) && fileContent(file).value_or("") != member.caseText &&
         withoutReason(today(file)) != withoutReason(member.caseText))
         changed(study_, folder_,
-                fmt::format("member {} was another case ({}); {}", member.number, file.string(), kAppendable));
+                fmt::format("member {} was another case ({}); {}", member.number, file.string(),
+                            search_ ? kSearchGoesOn : kAppendable));
+}
+
+void SweepFolder::keepFormerStudy() const {
+    if (formerStudy_) replaceFile(folder_ / "study.toml", *formerStudy_);
+    if (formerBase_) replaceFile(folder_ / "base.toml", *formerBase_);
 }
 
 void SweepFolder::rewrite() {

@@ -40,6 +40,9 @@ class SweepFolder {
     /// Throws FolderError if this member has begun in the folder as another case.
     void requireSame(const Member& member) const;
 
+    /// Puts study.toml and base.toml back as they were before this object: a search has found that it is another one.
+    void keepFormerStudy() const;
+
     /// Makes the member's folder, with its case. Throws OutputError if it cannot.
     void begin(const Member& member) const;
 
@@ -59,7 +62,9 @@ class SweepFolder {
     void rewrite();
 
     std::filesystem::path folder_;
-    std::string study_;  ///< its file, for messages
+    std::string study_;                                    ///< its file, for messages
+    bool search_ = false;                                  ///< it is a calibration's search
+    std::optional<std::string> formerStudy_, formerBase_;  ///< study.toml and base.toml that were there
     std::optional<FolderLock> lock_;
     Table members_;
     Table doses_;

@@ -181,6 +181,7 @@ TEST_CASE("calibrate interpolates a finished sweep without running it again, and
     box.write("study.toml", study + "[calibrate]\ntarget_g_per_dose = 1000\ntolerance_g = 0.001\n");
     const auto far = box.vkdose("calibrate study.toml --backend reference --out out");
     CHECK(far.code == 1);
+    CHECK_FALSE(fs::exists(box / "out/calibrated.toml"));  // it was for another target
     CHECK_THAT(far.err, Catch::Contains("no curve meets the target or comes within 0.001 g of it"));
     CHECK(box.vkdose("calibrate none.toml").code == 2);
     box.write("plain.toml", kStudy);
@@ -211,6 +212,54 @@ TEST_CASE("a search runs members until its target is met or its runs are used up
     CHECK(timeless(box / "cut") == timeless(box / "whole"));
     CHECK(readText(box / "cut/calibration.json") == readText(box / "whole/calibration.json"));
     CHECK(box.vkdose("sweep study.toml").code == 2);
+}
+
+TEST_CASE("a search that has become another one is refused, and loses nothing") {
+    const Sandbox box;
+    const auto study = [](const std::string& target, const std::string& low) {
+        return kStudy.substr(0, kStudy.find("[[axis]]")) +
+               "[calibrate]\nmethod = \"surrogate\"\ntarget_g_per_dose = " + target +
+               "\ntolerance_g = 1e-7\nmax_runs = 4\n[[calibrate.parameter]]\nkey = \"contact.kc_over_k\"\nlow = " +
+               low + "\nhigh = 0.6\n";
+    };
+    const std::string command = "calibrate study.toml --backend reference --out out";
+    box.write("study.toml", study("0.02", "0.1"));
+    REQUIRE(box.vkdose(command).code == 1);
+    const auto kept = [&] {
+        std::vector<std::string> files;
+        for (const char* name : {"study.toml", "base.toml", "members.csv", "calibration.json"})
+            files.push_back(readText(box / "out" / name));
+        return files;
+    };
+    const auto before = kept();
+    for (const auto& changed : {study("0.02", "0.2"), study("0.5", "0.1")}) {  // from the first point on, and later
+        box.write("study.toml", changed);
+        const auto o = box.vkdose(command);
+        CAPTURE(o.out, o.err);
+        CHECK(o.code == 2);
+        CHECK_THAT(o.err, Catch::Contains("a search goes on with the same case, seeds, parameters and targets"));
+        CHECK(kept() == before);
+    }
+    box.write("study.toml", study("0.02", "0.1"));
+    CHECK(box.vkdose(command).code == 1);
+}
+
+TEST_CASE("a failed member from which a search has gone on is not run again") {
+    const Sandbox box;
+    box.write("study.toml", kStudy.substr(0, kStudy.find("[[axis]]")) +
+                                "[calibrate]\nmethod = \"surrogate\"\ntarget_g_per_dose = 0.02\ntolerance_g = 1e-7\n"
+                                "max_runs = 5\n[[calibrate.parameter]]\nkey = \"contact.max_overlap_ratio\"\n"
+                                "low = 1e-9\nhigh = 0.2\n");
+    const std::string command = "calibrate study.toml --backend reference --out out";
+    const auto first = box.vkdose(command);
+    CAPTURE(first.out, first.err);
+    REQUIRE_THAT(first.err, Catch::Contains("failed"));
+    const auto table = readText(box / "out/members.csv");
+    const auto again = box.vkdose(command + " --retry-failed");
+    CAPTURE(again.err);
+    CHECK(again.code == first.code);
+    CHECK_THAT(again.err, Catch::Contains("is left so, because later points of the search follow from it"));
+    CHECK(readText(box / "out/members.csv") == table);
 }
 
 TEST_CASE("members of a prepared sweep run as tasks of a job array, and are gathered") {

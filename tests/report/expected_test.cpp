@@ -127,6 +127,14 @@ TEST_CASE("one point along the key is no trend") {
     CHECK(judge(trend(Kind::Falls, "k"), {at({{"j", 1}}, 4), at({{"j", 2}}, 3)}).kind == Verdict::Kind::NotRun);
 }
 
+TEST_CASE("a trend says how many of its points have the quantity, and three make a line") {
+    const std::vector<Point> half{at({{"k", 1}}, kNone), at({{"k", 2}}, 4), at({{"k", 3}}, 3)};
+    const Verdict v = judge(trend(Kind::Falls, "k"), half);
+    CHECK(v.kind == Verdict::Kind::TrendHolds);
+    CHECK(v.found == "4 g to 3 g (2 of 3 points have it)");
+    CHECK(judge(trend(Kind::Linear, "k"), half).kind == Verdict::Kind::NotRun);
+}
+
 TEST_CASE("the cumulative mass after a dose is a quantity too") {
     Expected e = value(12);
     e.quantity = "cumulative_mass_kg";
@@ -140,18 +148,22 @@ TEST_CASE("the cumulative mass after a dose is a quantity too") {
 
 TEST_CASE("faults of a table are told, all at once") {
     const Sandbox box;
-    const auto file = box.write(
-        "e.toml",
-        "[[expected]]\nid = \"S1\"\nwhat = \"x\"\nsection = \"y\"\nkind = \"valeu\"\n"
-        "[[expected]]\nid = \"S2\"\nwhat = \"x\"\nsection = \"y\"\nkind = \"falls\"\nquantity = \"q\"\nspeed = 2\n");
+    const auto file =
+        box.write("e.toml",
+                  "[[expected]]\nid = \"S1\"\nwhat = \"x\"\nsection = \"y\"\nkind = \"valeu\"\n"
+                  "[[expected]]\nid = \"S2\"\nwhat = \"x\"\nsection = \"y\"\nkind = \"falls\"\nquantity = \"betta\"\n"
+                  "speed = 2\nwhere = { gravity = [0, 1, 0] }\n");
     try {
         readExpected(file);
         FAIL("accepted");
     } catch (const CaseError& e) {
-        REQUIRE(e.faults().size() == 3);
-        CHECK_THAT(e.faults()[0].text(), Catch::Contains("kind") && Catch::Contains("known: value, at most"));
-        CHECK_THAT(e.faults()[1].text(), Catch::Contains("e.toml:12") && Catch::Contains("speed"));
-        CHECK_THAT(e.faults()[2].text(), Catch::Contains("along"));
+        REQUIRE(e.faults().size() == 5);
+        CHECK_THAT(e.faults()[0].text(),
+                   Catch::Contains("e.toml:5: kind = \"valeu\": is not known; known: value, at most"));
+        CHECK_THAT(e.faults()[1].text(), Catch::Contains("e.toml:12: speed = 2"));
+        CHECK_THAT(e.faults()[2].text(), Catch::Contains("e.toml:13: where.gravity = [0, 1, 0]"));
+        CHECK_THAT(e.faults()[3].text(), Catch::Contains("e.toml:11: quantity = \"betta\": is no column"));
+        CHECK_THAT(e.faults()[4].text(), Catch::Contains("along"));
     }
     CHECK_THROWS_AS(readExpected(box / "none.toml"), CaseError);
     CHECK_THROWS_AS(readExpected(box.write("f.toml", "[[expected\n")), CaseError);

@@ -64,7 +64,7 @@ TEST_CASE("with one seed the error is the slope's own, and failed members are co
     CHECK(last.errors == std::vector<std::string>{"particle 3 at (0, 0, 1) \"left\" the domain"});
 }
 
-TEST_CASE("conditions of a point: column, then resolved case, then what the study sets, then base") {
+TEST_CASE("conditions of a point: column, then resolved case, and without it what the study sets, then base") {
     const Sandbox box;
     const auto folder = writeSweep(box);
     auto keys = pointsIn(folder).at(0).point.keys;
@@ -77,6 +77,7 @@ TEST_CASE("conditions of a point: column, then resolved case, then what the stud
     CHECK(keys.at("coil.turns").number == 6);
     CHECK(keys.at("coil.hand").text == "left");
     CHECK(keys.at("contact.kc_over_k").number == 0.2);
+    CHECK_FALSE(keys.contains("dose.rotate_s"));  // the member's case has another key in its place
 }
 
 TEST_CASE("beta is taken from the doses where the table has none") {
@@ -88,6 +89,32 @@ TEST_CASE("beta is taken from the doses where the table has none") {
     box.write("sweep/members.csv", rows);
     const StudyPoint first = pointsIn(folder).at(0);
     CHECK(nearRelative(first.beta, 5e-3, 1e-12));  // both members: 5 g from the first to the second dose
+}
+
+TEST_CASE("where no slope is known, the window of the doses is that of the run: less than 80 % of the fill") {
+    const Sandbox box;
+    std::filesystem::create_directories(box / "sweep");
+    box.write("sweep/members.csv",
+              "member,seed,contact.friction,status,error,filled_mass_kg,beta_kg_per_dose\n0,1,0.5,ok,,0.013,\n");
+    box.write("sweep/doses.csv", std::string("member,seed,contact.friction,") + kDosesHeader +
+                                     "0,1,0.5,1,2,0.005,0.005,300,0.01,0.0042,1\n"
+                                     "0,1,0.5,2,4.5,0.004,0.009,300,0.01,0.0042,1\n"
+                                     "0,1,0.5,3,7,0.003,0.012,300,0.01,0.0042,1\n");
+    const StudyPoint only = pointsIn(box / "sweep").at(0);
+    CHECK(nearRelative(only.beta, 4e-3, 1e-12));
+    CHECK(std::isnan(only.betaError));  // two doses are below 10.4 g
+}
+
+TEST_CASE("a seed that never emptied the canister leaves no mean of the doses to 99 %") {
+    const Sandbox box;
+    std::filesystem::create_directories(box / "sweep");
+    const std::string head = "member,seed,contact.friction,status,error,doses_to_99_percent,overshoot_kg\n";
+    box.write("sweep/members.csv", head + "0,1,0.5,ok,,16,0.001\n1,2,0.5,ok,,,0.003\n");
+    auto outputs = pointsIn(box / "sweep").at(0).point.outputs;
+    CHECK_FALSE(outputs.contains("doses_to_99_percent"));
+    CHECK(nearRelative(outputs.at("overshoot_kg").mean, 2e-3, 1e-12));  // every column can be judged
+    box.write("sweep/members.csv", head + "0,1,0.5,ok,,16,\n1,2,0.5,ok,,18,\n");
+    CHECK(pointsIn(box / "sweep").at(0).point.outputs.at("doses_to_99_percent").mean == 17);
 }
 
 TEST_CASE("doses of a point: complete ones, and the mean curve ends with the shortest member") {

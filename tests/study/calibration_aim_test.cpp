@@ -41,6 +41,9 @@ TEST_CASE("a balance's file gives the target: the slope before saturation, with 
     }
     const Study study = folder.study(withAim("measured = \"mass.csv\"\ntolerance_g = 0.3\n"));
     CHECK(study.calibration->tolerance == Approx(0.3e-3).epsilon(1e-12));
+    folder.write("equal.csv", "dose,mass_g\n1,0.1\n2,0.1\n3,0.1\n4,0.1\n5,0.1\n6,0.1\n7,0.1\n");
+    CHECK_THROWS_WITH(folder.study(withAim("measured = \"equal.csv\"\n")), Catch::Contains("calibrate.tolerance_g"));
+    CHECK_NOTHROW(folder.study(withAim("measured = \"equal.csv\"\ntolerance_g = 0.01\n")));
 }
 
 TEST_CASE("a search has free parameters for keys") {

@@ -44,7 +44,7 @@ struct Members {
         set("status", status);
         set("beta_kg_per_dose", std::isnan(beta) ? "" : fmt::format("{:.17g}", beta));
         set("beta_standard_error_kg_per_dose", fmt::format("{:.17g}", betaError));
-        set("rsd", fmt::format("{:.17g}", rsd));
+        set("rsd", std::isnan(rsd) ? "" : fmt::format("{:.17g}", rsd));
         set("doses", "9");
         table.add(row);
     }
@@ -150,6 +150,25 @@ TEST_CASE("chosen is the steadiest crossing, and of equally steady ones that wit
     CHECK(choiceOf(0.5, 0.20, 0.21) == "0.65");
     CHECK(choiceOf(0.5, 0.21, 0.20) == "0.65");
     CHECK(choiceOf(0.20, 0.21, 0.9) == "0.5");
+}
+
+TEST_CASE("a crossing beside a point that dosed nothing is not chosen where another has a known RSD") {
+    for (const char* blocked : {"0.2", "0.9"}) {  // before the other curve, and behind it
+        Members m;
+        const auto add = [&](bool stuck) {
+            m.add(stuck ? blocked : "0.5", 0, stuck ? 8e-5 : 7e-5, stuck ? 0.9 : 0.1);
+            m.add(stuck ? blocked : "0.5", 1, stuck ? 0 : 4e-5, stuck ? std::nan("") : 0.1);
+        };
+        add(std::string(blocked) == "0.2");
+        add(std::string(blocked) != "0.2");
+        const GridCalibration grid = calibrateGrid(m.table, kKeys, aimAt(5e-5));
+        REQUIRE(grid.choice);
+        CHECK(grid.curves[*grid.choice].values == Row{"0.5"});
+    }
+    Members alone;
+    alone.add("0.2", 0, 8e-5, 0.9);
+    alone.add("0.2", 1, 0, std::nan(""));
+    CHECK(calibrateGrid(alone.table, kKeys, aimAt(5e-5)).choice == 0U);
 }
 
 TEST_CASE("members that failed or gave nothing are left out, without a crossing there is no choice") {
