@@ -113,13 +113,14 @@ bool under(const std::string& key, std::initializer_list<const char*> tables) {
 /// The space around the powder, and what its state cannot do without. The speed and the surface of the coil may change.
 bool isSpace(const std::string& key) {
     if (key == "coil.speed_rpm" || key == "coil.surface_velocity" || key == "coil.wire_curvature") return false;
+    if (under(key, {"powder", "material"}) && key.ends_with(".density")) return true;
     return under(key, {"boundaries", "canister", "coil", "plane", "cylinder", "body", "region", "particles.density",
-                       "sensors.energy"});
+                       "particles.material", "sensors.energy"});
 }
 
 /// What the particles follow from.
 bool isPowder(const std::string& key) {
-    return under(key, {"seed", "particles", "refill"});
+    return under(key, {"seed", "particles", "powder", "refill"});
 }
 
 template <class Fits>

@@ -103,6 +103,15 @@ void requireLater(const std::vector<std::string>& overrides, const std::filesyst
     if (!faults.empty()) throw CaseError(faults);
 }
 
+/// The files of a run cannot be taken back to before its checkpoint.
+void requireAhead(const Checkpoint& from, const Case& c) {
+    const double end = c.schedule.stop.endTime;
+    if (end > from.time) return;
+    throw CaseError(
+        {{kCommandLine, 0, "stop.end_time_s", fmt::format("{}", end),
+          fmt::format("is over: the checkpoint is of t = {:.6g} s", from.time), "give a later time, or leave it out"}});
+}
+
 /// Puts the overrides into the case of a checkpoint.
 void change(Checkpoint& from, const Case& c, const std::vector<std::string>& overrides) {
     Node given = readTreeText(from.given, "case.toml");
@@ -142,6 +151,7 @@ ReadyRun readyToResume(const std::filesystem::path& folder, const std::vector<st
     if (!overrides.empty()) {
         run.c = loadResolvedCase(from.caseText, folder / "case.toml", overrides);
         (void)Timeline(run.c);
+        requireAhead(from, run.c);
         change(from, run.c, overrides);
         run.changed = true;
     }

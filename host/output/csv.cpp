@@ -60,9 +60,14 @@ void CsvFile::requireSame(const CsvMark& mark) {
     if (std::fseek(file_.get(), static_cast<long>(mark.bytes), SEEK_SET) != 0) fail();
 }
 
-void CsvFile::line(const std::string& fields) {
+/// What stood behind the mark is of a course that the run does not take again.
+void CsvFile::cut() {
     if (cut_ && ::ftruncate(fileno(file_.get()), std::ftell(file_.get())) != 0) fail();
     cut_ = false;
+}
+
+void CsvFile::line(const std::string& fields) {
+    cut();
     if (std::fputs(fields.c_str(), file_.get()) < 0 || std::fputc('\n', file_.get()) < 0) fail();
     checksum_ = crcOf(crcOf(checksum_, fields), "\n");
 }
@@ -81,6 +86,7 @@ bool CsvFile::isWhereItWas() const {
 }
 
 CsvMark CsvFile::store() {
+    cut();
     flush();
     if (::fsync(fileno(file_.get())) != 0) fail();
     const long at = std::ftell(file_.get());

@@ -40,6 +40,7 @@ class CsvFile {
     struct Close {
         void operator()(std::FILE* file) const { std::fclose(file); }
     };
+    void cut();
     [[noreturn]] void fail() const;
     void requireSame(const CsvMark& mark);
     bool isWhereItWas() const;

@@ -83,7 +83,8 @@ class RunLoop {
     /// Energy that these particles bring, at rest at these positions after the steps so far [J].
     double energyOfRest(const Particles& powder, const std::vector<Vec3>& positions) const;
     void saveAdded(Record& r) const;
-    void restoreAdded(const Record& r);
+    /// `scale`: steps of this run for one of the run that kept the record.
+    void restoreAdded(const Record& r, double scale = 1);
 
     // run_loop_sampling.cpp: from the calls of the backend to samples.
 

@@ -74,13 +74,13 @@ void RunLoop::saveAdded(Record& r) const {
     r.put("refills", std::move(added));
 }
 
-void RunLoop::restoreAdded(const Record& r) {
+void RunLoop::restoreAdded(const Record& r, double scale) {
     if (case_.refills.empty() || !r.arrays().contains("refills")) return;
     const auto& added = r.get<std::uint64_t>("refills");
     for (std::size_t i = 0; i + 1 < added.size(); i += 2) {
         const std::uint64_t k = added[i];
         if (k >= case_.refills.size() || isAdded(k)) throw RecordError("refills names what there is not");
-        bookAdded(k, added[i + 1]);
+        bookAdded(k, static_cast<std::uint64_t>(std::llround(static_cast<double>(added[i + 1]) * scale)));
     }
 }
 

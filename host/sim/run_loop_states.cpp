@@ -45,7 +45,10 @@ void RunLoop::takeOver(const RunCheckpoint& from, double time) {
     backend_.restore(state);
     if (facts.step > 0) clocks_.takeOver(from.run, static_cast<double>(step_) / static_cast<double>(facts.step));
     active_ = facts.active;
-    restoreAdded(from.run);
+    // A refill keeps its time, not its step.
+    restoreAdded(from.run, facts.step > 0 ? static_cast<double>(step_) / static_cast<double>(facts.step) : 1);
+    regions_.restore(from.run);
+    if (!powders_.empty()) powders_.look(backend_.particles());
     takeSample(from.run, facts);
     before_.steps = step_;
     const bool settled = facts.settled || step_ >= timeline_.settleSteps();
@@ -92,6 +95,8 @@ void RunLoop::takeSample(const Record& run, const StateFacts& facts) {
     s.coilAngle = backend_.coilAngle();
     s.energy = energy_;
     s.free = freePlaces();
+    s.regions = regions_.counts();
+    s.powders = powders_.places();
 }
 
 void RunLoop::takeSettled(const Record& run, const StateFacts& facts) {
@@ -105,6 +110,7 @@ void RunLoop::takeSettled(const Record& run, const StateFacts& facts) {
                                     fall,  mass(result_.last.sensors, Region::Dosed)};
     }
     look();
+    measureDensity();
 }
 
 void RunLoop::keepState(KeptState kind) {

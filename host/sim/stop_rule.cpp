@@ -78,7 +78,7 @@ void DoseJudge::restore(const Record& record) {
 bool DoseJudge::over(double mass, std::uint64_t particles, std::uint64_t left) {
     ++doses_;
     recent_.push_back(particles == 0 ? 0.0 : mass);
-    if (static_cast<int>(recent_.size()) > rule_.doses) recent_.pop_front();
+    while (static_cast<int>(recent_.size()) > rule_.doses) recent_.pop_front();  // a resumed run may look at fewer
 
     if (left == 0) {
         reason_ = StopReason::Empty;

@@ -159,6 +159,28 @@ TEST_CASE("another adhesion, speed and time of a dose begin with one bed, as the
     CHECK(d["dosed_while_settling_kg"] == summary(box / "a")["ledger"]["dosed_mass_kg"]);
 }
 
+TEST_CASE("with regions and a second powder the doses from a settled bed are those of the other run") {
+    const Sandbox box;
+    const auto mixture = [](const char* density) {
+        return "base = \"" VKDOSE_SOURCE_DIR "/cases/mini.toml\"\n[[powder]]\nname = \"sugar\"\ndensity = " +
+               std::string(density) +
+               "\nmass_g = 0.2\n[powder.size]\ndistribution = \"fixed\"\nradius_mm = 0.8\n"
+               "[[region]]\nname = \"low\"\nkind = \"beyond\"\npoint = [0, 0, 0]\nnormal = [0, -1, 0]\ndeletes = "
+               "false\n";
+    };
+    box.write("two.toml", mixture("1590"));
+    const auto first = box.vkdose("run two.toml " + kShort + "--backend reference --out a");
+    CAPTURE(first.out, first.err);
+    REQUIRE(first.code == 0);
+    REQUIRE(box.vkdose("run --from a --out b").code == 0);
+    CHECK(readText(box / "b/doses.csv") == readText(box / "a/doses.csv"));
+    CHECK(box.vkdose("report b").code == 0);  // it reads every line of the time series
+    box.write("two.toml", mixture("1591"));
+    const auto other = box.vkdose("run two.toml " + kShort + "--from a --out c");
+    CHECK(other.code == 2);
+    CHECK_THAT(other.err, Catch::Contains("powder[0].density = 1591: is 1590"));
+}
+
 TEST_CASE("powder that does not fit is refused by key, with both values, and nothing is written") {
     const Sandbox box;
     REQUIRE(box.vkdose("run " + kMini + kShort + "--backend reference --out a").code == 0);

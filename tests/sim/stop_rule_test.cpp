@@ -59,6 +59,19 @@ TEST_CASE("the number of doses in a row is the case's") {
     CHECK(dosesUntilOver(judge, {4e-3, 4e-3, 0}) == 3);
 }
 
+TEST_CASE("a resumed run that is to look at fewer doses looks at the last ones") {
+    StopRule r = rule(StopRule::Kind::Simulation);
+    r.doses = 12;
+    DoseJudge before(r);
+    for (int i = 0; i < 9; ++i) REQUIRE_FALSE(before.over(0, 0, 5));
+    Record record;
+    before.save(record);
+    r.doses = 3;
+    DoseJudge after(r);
+    after.restore(record);
+    CHECK(after.over(0, 0, 5));
+}
+
 TEST_CASE("without a rule on mass only the dose count and emptiness end a run") {
     StopRule r = rule(StopRule::Kind::None);
     DoseJudge endless(r);
