@@ -9,6 +9,13 @@
 
 namespace vkdose {
 
+void countPressure(std::vector<LidSample>& samples) {
+    double sum = 0;
+    for (const LidSample& s : samples) sum += s.force;
+    if (sum >= 0) return;
+    for (LidSample& s : samples) s.force = -s.force;
+}
+
 std::optional<ShearPoint> shearPoint(const std::vector<LidSample>& samples, double from, double to, double inner,
                                      double outer) {
     const double area = kPi * (outer * outer - inner * inner);

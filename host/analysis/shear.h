@@ -9,9 +9,13 @@ namespace vkdose {
 /// The lid of the cell at a line of the time series.
 struct LidSample {
     double time = 0;    ///< [s]
-    double force = 0;   ///< of the powder on it along the axis, away from the powder, mean since the line before [N]
+    double force = 0;   ///< of the powder on it, away from the powder, mean since the line before [N]
     double torque = 0;  ///< of the powder on it about the axis, likewise [N m]
 };
+
+/// The axis of a lid may point away from the powder or to it. Turns all forces round if they pull on the whole, so that
+/// what presses on the lid is above 0.
+void countPressure(std::vector<LidSample>& samples);
 
 /// Stresses in a window of time.
 struct ShearPoint {

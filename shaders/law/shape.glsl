@@ -33,12 +33,6 @@ vec3 overlapInPlane(vec2 x, vec2 y, float radius, vec2 fallback) {
     return vec3(depth, away > 0.0 ? off.high.xy / away : fallback);
 }
 
-/// Some unit vector square to a unit vector: geometry/surface.h, anyNormal.
-vec3 anyNormal(vec3 axis) {
-    vec3 other = abs(axis.x) < 0.5 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0);
-    return normalize(other - axis * dot(axis, other));
-}
-
 /// A point seen from an axis.
 struct AxisView {
     vec2 along;  // from the axis' origin, two floats [m]

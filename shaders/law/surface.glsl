@@ -30,14 +30,20 @@ Overlap planeOverlap(SurfaceParams p, Sphere a) {
     return Overlap(depth, p.axis.xyz);
 }
 
+/// Some unit vector square to a unit vector: geometry/surface.h, anyNormal.
+vec3 anyNormal(vec3 axis) {
+    vec3 other = abs(axis.x) < 0.5 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0);
+    return normalize(other - axis * dot(axis, other));
+}
+
 /// Cylinder of radius `r` (high, low): `d` is the offset from its axis, perpendicular to it.
 /// `side` = 1: touched from inside; -1: from outside.
-Overlap cylinderOverlap(vec2 r, Two3 d, float side, float radius) {
+Overlap cylinderOverlap(vec2 r, Two3 d, vec3 axis, float side, float radius) {
     float rho = length(d.high);
     vec2 contact = twoSum(r.x, -side * radius);  // distance from the axis at which the sphere just touches
     contact.y += r.y;
     float depth = -side * differenceOfSquares(contact, d) / (contact.x + rho);
-    vec3 outward = rho > 0.0 ? d.high / rho : vec3(1.0, 0.0, 0.0);
+    vec3 outward = rho > 0.0 ? d.high / rho : anyNormal(axis);
     return Overlap(depth, -side * outward);
 }
 
@@ -45,7 +51,7 @@ Overlap cylinderOverlap(vec2 r, Two3 d, float side, float radius) {
 Overlap edgeOverlap(vec2 r, Two3 d, vec3 axis, float along, float radius) {
     float rho = length(d.high);
     float off = -differenceOfSquares(r, d) / (r.x + rho);  // rho - r
-    vec3 outward = rho > 0.0 ? d.high / rho : vec3(1.0, 0.0, 0.0);
+    vec3 outward = rho > 0.0 ? d.high / rho : anyNormal(axis);
     vec3 e = outward * off + axis * along;
     float distance = length(e);
     return Overlap(radius - distance, distance > 0.0 ? e / distance : axis);
@@ -57,7 +63,8 @@ Overlap troughOverlap(SurfaceParams p, Sphere a) {
         precise float depth = a.radius - ((p.radius.x - side * a.high.x) + (p.radius.y - side * a.low.x));
         return Overlap(depth, vec3(-side, 0.0, 0.0));
     }
-    return cylinderOverlap(p.radius.xy, Two3(vec3(a.high.xy, 0.0), vec3(a.low.xy, 0.0)), 1.0, a.radius);
+    Two3 d = Two3(vec3(a.high.xy, 0.0), vec3(a.low.xy, 0.0));
+    return cylinderOverlap(p.radius.xy, d, vec3(0.0, 0.0, 1.0), 1.0, a.radius);
 }
 
 Overlap tubeOverlap(SurfaceParams p, Sphere a) {
@@ -69,7 +76,7 @@ Overlap tubeOverlap(SurfaceParams p, Sphere a) {
     bool endless = p.axis.w > 1e29;
     float beyond = along < 0.0 ? along : max(along - p.axis.w, 0.0);
     if (beyond != 0.0 && !endless) return edgeOverlap(p.radius.xy, d, axis, beyond, a.radius);
-    return cylinderOverlap(p.radius.xy, d, p.pointLow.w, a.radius);
+    return cylinderOverlap(p.radius.xy, d, axis, p.pointLow.w, a.radius);
 }
 
 /// A wall along z that ends at `p.pointHigh.z`. Beyond the end, its closest point lies on the edge of that end.
@@ -93,7 +100,7 @@ Overlap frontOverlap(SurfaceParams p, Sphere a) {
     }
     float beyond = -before - p.axis.w;
     if (beyond > 0.0) return edgeOverlap(p.radius.xy, d, z, beyond, a.radius);
-    Overlap throat = cylinderOverlap(p.radius.xy, d, 1.0, a.radius);
+    Overlap throat = cylinderOverlap(p.radius.xy, d, z, 1.0, a.radius);
     // A centre inside the wall leaves by the nearer face.
     if (rho > p.radius.x && a.radius - before < throat.depth) return Overlap(a.radius - before, -z);
     return throat;

@@ -70,3 +70,14 @@ TEST_CASE("one point gives a friction angle and no cohesion, none or equal loads
     CHECK_FALSE(yieldLocus({{1000, 700, 0, 0, 5}, {1000, 800, 0, 0, 5}}));
     CHECK_FALSE(shearPoint(lines(0, 0.1, 1, 1, 0), 0.2, 0.3, kInner, kOuter));
 }
+
+TEST_CASE("a lid whose axis points to the powder has the same pressure") {
+    std::vector<LidSample> samples = lines(0.2, 0.4, 1000, 500, 10), turned = samples;
+    for (LidSample& s : turned) s.force = -s.force;
+    for (std::vector<LidSample>* one : {&samples, &turned}) {
+        countPressure(*one);
+        const auto p = shearPoint(*one, 0.2 + 1e-9, 0.4 + 1e-9, kInner, kOuter);
+        REQUIRE(p);
+        CHECK(nearRelative(p->normal, 1000, 0.05));
+    }
+}

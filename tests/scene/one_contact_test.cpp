@@ -178,6 +178,15 @@ TEST_CASE("a sphere meets every surface") {
             requireClose(run(w, thrown(shot.target, shot.direction, a, sideways), 100));
         }
     }
+    SECTION("not the end of a tube along x from a place on its axis") {
+        w.surfaces = {geometry::Tube{{0, 0, 0}, {1, 0, 0}, 0.01, 0.05, true}};
+        Particles p;
+        p.add({0.06, 0, 0}, a, Vec3(0));
+        auto device = gpu();
+        device->load(w, p);
+        device->advance(1, 0);
+        CHECK(device->contacts().empty());
+    }
     SECTION("behind surfaces whose kind no constant holds") {
         for (int i = 0; i < 9; ++i) w.surfaces.push_back(geometry::Plane{{0, -0.5, 0}, {0, 1, 0}});
         w.surfaces.push_back(geometry::Trough{rho});
