@@ -75,11 +75,17 @@ class ExpectedReader {
     void readWhere(const Node& where, Expected& e) {
         if (where.kind != Node::Kind::Table)
             return fault(where, "where", "is no table", "write where = { KEY = VALUE }");
-        for (const Node& condition : where.children)
-            if (condition.kind == Node::Kind::Array)
-                fault(condition, "where." + condition.key, "is a list, which is compared with nothing",
-                      "give keys of one value");
+        refuseLists(where, "where.");
         e.where = settingsOf(where);
+    }
+
+    void refuseLists(const Node& conditions, const std::string& path) {
+        for (const Node& condition : conditions.children) {
+            if (condition.kind == Node::Kind::Table) refuseLists(condition, path + condition.key + ".");
+            if (condition.kind == Node::Kind::Array)
+                fault(condition, path + condition.key, "is a list, which is compared with nothing",
+                      "give keys of one value");
+        }
     }
 
     Kind kind(const Node& row) {

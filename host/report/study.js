@@ -14,16 +14,15 @@ function axisOf(study, a) {
 }
 
 /// Where a point lies on axis `a`: "coil.turns 8".
-function placeOn(study, a, p) {
-  const axis = axisOf(study, a);
+function placeOn(axis, a, p) {
   return `${axis.name} ${said(axis.numeric ? p.along[a] : p.at[a])}`;
 }
 
 /// Points in lines along axis `a`: one for each place on the others, with its label.
 function linesAlong(study, a) {
-  const lines = new Map();
+  const lines = new Map(), axes = study.axes.map((_, b) => axisOf(study, b));
   study.points.forEach(p => {
-    const label = study.axes.map((_, b) => (b === a ? null : placeOn(study, b, p))).filter(t => t !== null).join(", ");
+    const label = axes.map((axis, b) => (b === a ? null : placeOn(axis, b, p))).filter(t => t !== null).join(", ");
     if (!lines.has(label)) lines.set(label, []);
     lines.get(label).push(p);
   });
@@ -95,7 +94,7 @@ function calibrationMap(parent, study) {
   });
 }
 
-const pointName = (study, p) => study.axes.map((_, a) => placeOn(study, a, p)).join(", ") || "all members";
+const pointName = (study, p) => study.axes.map((_, a) => placeOn(axisOf(study, a), a, p)).join(", ") || "all members";
 
 function doseCurves(parent, study) {
   const known = study.points.filter(p => p.dose_mass_kg.length > 0);

@@ -152,18 +152,19 @@ TEST_CASE("faults of a table are told, all at once") {
         box.write("e.toml",
                   "[[expected]]\nid = \"S1\"\nwhat = \"x\"\nsection = \"y\"\nkind = \"valeu\"\n"
                   "[[expected]]\nid = \"S2\"\nwhat = \"x\"\nsection = \"y\"\nkind = \"falls\"\nquantity = \"betta\"\n"
-                  "speed = 2\nwhere = { gravity = [0, 1, 0] }\n");
+                  "speed = 2\nwhere = { gravity = [0, 1, 0], coil.at = [0, 1] }\n");
     try {
         readExpected(file);
         FAIL("accepted");
     } catch (const CaseError& e) {
-        REQUIRE(e.faults().size() == 5);
+        REQUIRE(e.faults().size() == 6);
         CHECK_THAT(e.faults()[0].text(),
                    Catch::Contains("e.toml:5: kind = \"valeu\": is not known; known: value, at most"));
         CHECK_THAT(e.faults()[1].text(), Catch::Contains("e.toml:12: speed = 2"));
-        CHECK_THAT(e.faults()[2].text(), Catch::Contains("e.toml:13: where.gravity = [0, 1, 0]"));
-        CHECK_THAT(e.faults()[3].text(), Catch::Contains("e.toml:11: quantity = \"betta\": is no column"));
-        CHECK_THAT(e.faults()[4].text(), Catch::Contains("along"));
+        CHECK_THAT(e.faults()[3].text(), Catch::Contains("e.toml:13: where.gravity = [0, 1, 0]"));
+        CHECK_THAT(e.faults()[2].text(), Catch::Contains("where.coil.at = [0, 1]"));
+        CHECK_THAT(e.faults()[4].text(), Catch::Contains("e.toml:11: quantity = \"betta\": is no column"));
+        CHECK_THAT(e.faults()[5].text(), Catch::Contains("along"));
     }
     CHECK_THROWS_AS(readExpected(box / "none.toml"), CaseError);
     CHECK_THROWS_AS(readExpected(box.write("f.toml", "[[expected\n")), CaseError);
