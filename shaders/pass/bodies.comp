@@ -111,6 +111,7 @@ void main() {
     if (ownLaws()) law = lawOf(pairIndex(me.material, uint(motion.velocity.w)));
     density = densityOf(me.material, density);
 
+    float perMass = motion.line.w > 0.0 ? motion.free.w : 0.0;  // a free body that still stands is as a wall
     float radius = me.sphere.radius, reduced = reducedAtWall(radius, motion.centre.w);
     if (openNearby(slot)) nearbyCount = nearby[nearbyStart];
     // Features beyond touch, in which a contact may hold on, have a depth as well: `most` is the radius with the reach.
@@ -126,7 +127,8 @@ void main() {
     recall(slot);
     uint gone = match(count), inUse = touched & ~gone;
 
-    vec3 force = vec3(0.0), torque = vec3(0.0), moment = vec3(0.0);
+    vec3 force = vec3(0.0), torque = vec3(0.0);
+    vec3 moment = vec3(0.0);  // about the body's pivot, which may move
     float overlap = 0.0, gap = 0.0, work = 0.0, booked = 0.0;
 #ifdef ENERGY_BOOK
     WallMotion moving = WallMotion(motion.velocity.xyz, motion.spin.xyz, motion.centre.xyz);
@@ -174,8 +176,8 @@ void main() {
         Exerted exerted = kNothing;
         if (known) exerted = exertedAt(slot, place);
 #endif
-        WallForce f = meetWall(me, Overlap(feature.depth, normal), reduced, law, chosen, density, springDt, seen * wall,
-                               seen * motion.spin.xyz, h, r);
+        WallForce f = meetWall(me, Overlap(feature.depth, normal), reduced, law, chosen, density, perMass, springDt,
+                               seen * wall, seen * motion.spin.xyz, h, r);
         keepHistoryOfPlace(slot, place, h);
         history[placeHistoryIndex(slot, place, 2u)] = vec4(feature.direction, float(place + 1u));
         // The host asks for single contacts, and `field_branches` for their overlaps.
@@ -186,7 +188,7 @@ void main() {
 #endif
         force += f.force;
         torque += f.torque;
-        moment += cross(point, f.force) + f.couple;
+        moment += cross(point - motion.pivot.xyz, f.force) + f.couple;
         work += springDt * (dot(f.force, wall) + dot(f.couple, motion.spin.xyz));
         overlap = max(overlap, feature.depth / radius);
         if (reaches()) gap = min(gap, feature.depth / radius);

@@ -55,6 +55,7 @@ BodyMotion motionOf(uint body) {
     m.free = texelFetch(motionsView, at + 9);
     m.line = texelFetch(motionsView, at + 10);
     m.way = texelFetch(motionsView, at + 11);
+    m.pivot = texelFetch(motionsView, at + 12);
     return m;
 }
 #else

@@ -111,6 +111,7 @@ void main() {
         motions[next].toBodyHigh[d].w = high[d];
         motions[next].toBodyLow[d].w = low[d];
     }
+    motions[next].pivot.xyz = high;
     motions[next].velocity.xyz = velocity;
     motions[next].free.xyz = velocityLow;
 

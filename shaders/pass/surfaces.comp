@@ -115,7 +115,7 @@ void main() {
         }
         History h = memory.springs;
         Response r;
-        WallForce f = meetWall(me, o, reduced, law, chosen, density, springDt, vec3(0.0), vec3(0.0), h, r);
+        WallForce f = meetWall(me, o, reduced, law, chosen, density, 0.0, springDt, vec3(0.0), vec3(0.0), h, r);
         keepHistory(slot, h, touching);
         writeForce(slot, touching ? vec4(f.force, o.depth / me.sphere.radius) : vec4(0.0));
         writeTorque(slot, touching ? vec4(f.torque, 0.0) : vec4(0.0));

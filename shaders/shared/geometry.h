@@ -83,8 +83,10 @@ struct BodyMotion {
     vec4 line;  // xyz: direction of the line that it keeps to, 0 if it keeps to none; w: for how much of the step the
                 // forces act on it [s]; 0: it stands
     vec4 way;   // x: how far it may still go before the contact lists must be made anew [m]
+    // Of any body:
+    vec4 pivot;  // xyz: the point about which its torque is told [m]
 };
-SHARED_CONST kMotionVectors = 12u;
+SHARED_CONST kMotionVectors = 13u;
 
 #ifdef __cplusplus
 #undef SHARED_CONST

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "host/core/record.h"
+#include "host/model/normal_law.h"
 #include "host/model/stability.h"
 #include "host/sim/energy_ledger.h"
 #include "tests/law/setups.h"
@@ -109,6 +110,25 @@ TEST_CASE("free bodies: the automatic step resolves the impact of one that is fa
         // An elastic impact. Eight steps in a contact leave an error of some 1 %.
         CHECK(near(backend->particles().velocity[0].z, 2 * mass / (mass + sphere) * 0.5, 0.5, 0.02));
         CHECK(near(backend->freeBodies().at(0).velocity.z, (mass - sphere) / (mass + sphere) * 0.5, 0.5, 0.02));
+    }
+}
+
+TEST_CASE("free bodies: a sphere rebounds from one of any mass with the law's restitution") {
+    const Elasticity soft{5e6, 0.25};
+    const double sphere = massOf(kRadius), speed = 0.3;
+    for (const double share : {0.5, 1.0, 20.0}) {
+        CAPTURE(share);
+        RuledWorld world = worldWith({geometry::Ball{Vec3(0), 1e-3}}, {share * sphere, Vec3(0, 0, speed), {}},
+                                     Vec3(0, 0, -1.1e-3), hertzMindlin(soft, soft, 0.5));
+        world.gravity = Vec3(0);
+        Particles one;
+        one.add(Vec3(0, 0, kRadius), kRadius);
+        const auto backend = makeReferenceBackend();
+        backend->load(world, one);
+        backend->advance(std::uint32_t(3e-3 / world.timeStep), 0);
+        REQUIRE(backend->contacts().empty());
+        const double apart = backend->particles().velocity[0].z - backend->freeBodies().at(0).velocity.z;
+        CHECK(near(apart, 0.5 * speed, speed, 0.01));
     }
 }
 

@@ -89,6 +89,37 @@ TEST_CASE("bodies: a screw that turns moves spheres on the device as in the refe
     requireClean(*device);
 }
 
+TEST_CASE("bodies: the torque on a body that moves is about its axis where that is in each step") {
+    const Vec3 z(0, 0, 1);
+    RuledWorld w = emptyWorld();
+    w.domain = {Vec3(-0.03), Vec3(0.03)};
+    geometry::Motion motion;
+    SECTION("it slides") {
+        motion = geometry::Slide{Vec3(1.5, 0, 0)};
+    }
+    SECTION("it shakes") {
+        motion = geometry::Shake{Vec3(1, 0, 0), 2e-3, 120, 0};
+    }
+    SECTION("it follows a table, turned about a line that stays") {
+        motion = geometry::Table{z, Vec3(-4e-3, 1e-3, 0), {{0, 0, Vec3(0)}, {0.01, 1.5, Vec3(15e-3, 0, 0)}}};
+    }
+    w.bodies.push_back(bodyOf("pusher", {geometry::Block{Vec3(-2e-3), Vec3(2e-3)}}, motion));
+    w.bodies[0].course.start.origin = Vec3(-10e-3, 0, 0);
+    Particles p;
+    p.add({-6.9e-3, 1.1e-3, 0.2e-3}, single(1.05e-3));
+    auto device = gpu();
+    auto reference = makeReferenceBackend();
+    const auto steps = std::uint32_t(2e-3 / w.timeStep);  // the body goes up to 3 mm
+    device->load(w, p);
+    reference->load(w, p);
+    const BodyLoad a = device->advance(steps, 0).bodies.at(0), b = reference->advance(steps, 0).bodies.at(0);
+    const double lever = 1e-3, force = glm::length(b.force);  // where the sphere lies above the block's middle
+    CHECK(force > 1e-4);
+    CHECK(near(a.force, b.force, force, 2e-3));
+    CHECK(near(a.torque, b.torque, force * lever, 5e-3));
+    requireClean(*device);
+}
+
 TEST_CASE("bodies: a heap in a turning drum stays close to the reference") {
     const RuledWorld w = deviceWorld();
     const Particles p = layers(60);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <thread>
 
+#include "host/model/normal_law.h"
 #include "host/sim/energy_ledger.h"
 #include "tests/scene/body_beds.h"
 #include "tests/support/catch.h"
@@ -58,6 +59,10 @@ TEST_CASE("free bodies: on the device a ball flies and meets spheres as in the r
         free.line = line;
         free.velocity = 1.0 * line;
     }
+    SECTION("no heavier than a few spheres, under a law whose damping knows the masses") {
+        w.law.pairs.fill(hertzMindlin({2e6, 0.25}, {2e6, 0.25}, 0.5));
+        free.mass = 5e-5;
+    }
     SECTION("from a time on") {
         w.bodies[2].course.schedule.intervals = {{33.5 * w.timeStep, geometry::kEndless}};
     }
@@ -74,6 +79,7 @@ TEST_CASE("free bodies: on the device a ball flies and meets spheres as in the r
         met = met || b.maxOverlapRatio > 1e-3;
         const double scale = std::max(1e-2, glm::length(b.bodies[2].force));
         CHECK(near(a.bodies[2].force, b.bodies[2].force, scale, 2e-3));
+        CHECK(near(a.bodies[2].torque, b.bodies[2].torque, scale * 5e-3, 2e-3));  // about the centre of the ball
         const FreeBody one = device->freeBodies().at(2), other = reference->freeBodies().at(2);
         CHECK(near(one.shift, other.shift, 1.25e-3, 1e-4));  // a ten-thousandth of a sphere's radius
         CHECK(near(one.velocity, other.velocity, 1, 1e-5));

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "geometry/matching.h"
 #include "host/backend/reference/forces.h"
@@ -16,11 +17,15 @@ namespace vkdose::reference {
 void Forces::placeBodies() {
     placed_.clear();
     const double back = springDt_ / 2;
+    const auto step = static_cast<std::uint64_t>(std::llround(drive_.time / world_->timeStep));
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
         const RigidBody& body = bodies_[b];
         if (body.movesFreely()) {
             const geometry::Pose pose = body.pose(0, 0, Moved(drive_.free[b].shift));
-            placed_.push_back({pose, {drive_.free[b].velocity, Vec3(0), pose.origin}});
+            const bool stands = body.kickOf(step, world_->timeStep) == 0;  // as a wall, still
+            placed_.push_back({pose,
+                               {drive_.free[b].velocity, Vec3(0), pose.origin},
+                               stands ? 0 : 1 / std::get<geometry::Free>(body.course.motion).mass});
             continue;
         }
         const BodyClock clock = clockOf(drive_.clocks, b);
@@ -72,6 +77,7 @@ void Forces::touchBody(std::size_t i, std::uint32_t b, std::span<const OnBody> b
         std::optional<Touch> touch = touchWall(this->body(i), normal, found[k].distance, seen, goes ? reach : 0);
         if (!touch) continue;
         touch->reduced = reduced;
+        touch->mass /= 1 + touch->mass * placed.perMass;
         OnBody now{b, directions[k], {}, {}};
         Exerted last;
         if (goes) {

@@ -175,7 +175,6 @@ std::vector<BodyLoad> Ensemble::takeLoads(std::uint32_t member, std::uint32_t st
     const std::size_t n = m.loaded.size();
     const double share = steps > 0 ? 1.0 / steps : 0.0;
     const std::vector<float> none(n, 0.0F);
-    const std::vector<FreeBody> free = freeBodies(member);
     for (std::uint32_t b = 0; b < m.bodies.size(); ++b) {
         std::array<double, gpu::kBodyLoads> sums{};
         for (std::uint32_t k = 0; k < gpu::kBodyLoads; ++k) {
@@ -186,11 +185,7 @@ std::vector<BodyLoad> Ensemble::takeLoads(std::uint32_t member, std::uint32_t st
         }
         const RigidBody& body = m.bodies[b];
         const Vec3 force = -share * Vec3(sums[0], sums[1], sums[2]), moment = -share * Vec3(sums[3], sums[4], sums[5]);
-        const Instant now(m.world, m.step, driveAngle(m.drive), 0, clockOf(m.clocks, b), 0);
-        geometry::Pose pose = now.pose(body);
-        if (body.movesFreely()) pose.origin += free.at(b).shift;
-        const Vec3 pivot = body.pivot(pose);
-        loads.push_back({force, glm::dot(body.axis(), moment - glm::cross(pivot, force)), sums[6]});
+        loads.push_back({force, glm::dot(body.axis(), moment), sums[6]});
     }
     return loads;
 }

@@ -55,6 +55,7 @@ gpu::BodyMotion Ensemble::motionOfFree(const MemberState& m, std::size_t b, std:
     const double dt = m.world.timeStep;
     gpu::BodyMotion motion = n == 0 ? m.at[b] : standing(m.bodies[b], m.step + n, dt);
     motion.line.w = float(m.bodies[b].kickOf(m.step + n, dt));
+    for (int d = 0; d < 3; ++d) motion.pivot[d] = motion.toBodyHigh[d].w;  // RigidBody::pivot
     return motion;
 }
 

@@ -261,6 +261,7 @@ gpu::BodyMotion packMotion(const RigidBody& body, const geometry::Pose& pose, co
     m.velocity = vec4(glm::vec3(moving.velocity), float(body.material));
     m.spin = vec4(glm::vec3(moving.spin), body.surfaceMoves ? 1.0f : 0.0f);
     m.centre = vec4(glm::vec3(moving.centre), float(body.curvature));
+    m.pivot = vec4(glm::vec3(body.pivot(pose)), 0);
     return m;
 }
 
