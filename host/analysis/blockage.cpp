@@ -20,13 +20,23 @@ BlockageRule blockageRule(const StopRule& stop, double closedForm) {
     return rule;
 }
 
-std::optional<int> blockedAt(std::span<const double> cumulative, double filled, const BlockageRule& rule,
-                             double before) {
-    const auto after = [&](int dose) { return dose == 0 ? before : cumulative[dose - 1]; };
-    const int last = static_cast<int>(cumulative.size());
+double Supply::until(double time) const {
+    double given = mass;
+    for (const Refill& refill : refills)
+        if (refill.time > time) given -= refill.mass;
+    return given;
+}
+
+std::optional<int> blockedAt(const std::vector<Dose>& doses, const Supply& supply, const BlockageRule& rule) {
+    std::vector<const Dose*> complete;
+    for (const Dose& d : doses)
+        if (d.complete) complete.push_back(&d);
+    const int last = static_cast<int>(complete.size());
     for (int dose = 1; dose + rule.doses - 1 <= last; ++dose) {
-        const double end = after(dose + rule.doses - 1);
-        if (end - after(dose - 1) <= rule.threshold && filled - end > rule.remaining * filled) return dose;
+        const Dose& first = *complete[dose - 1];
+        const double end = complete[dose + rule.doses - 2]->cumulative, before = first.cumulative - first.mass;
+        const double given = supply.until(first.startTime);  // powder that was there all the while
+        if (end - before <= rule.threshold && given - end > rule.remaining * given) return dose;
     }
     return std::nullopt;
 }

@@ -2,10 +2,11 @@
 // Blocked outlets and arches: powder is there and does not come out.
 
 #include <optional>
-#include <span>
+#include <vector>
 
 #include "geometry/coil.h"
 #include "host/model/case.h"
+#include "host/sim/dose.h"
 
 namespace vkdose {
 
@@ -21,11 +22,23 @@ struct BlockageRule {
 /// then the paper's threshold is taken in proportion to the mass that a dose has by the closed form [kg].
 BlockageRule blockageRule(const StopRule& stop, double closedForm);
 
+/// The powder that a run was given.
+struct Supply {
+    struct Refill {
+        double time = 0, mass = 0;  ///< [s], [kg]
+    };
+
+    Supply(double all) : mass(all) {}  // NOLINT(google-explicit-constructor): most runs have no refill
+    double mass;                       ///< refills included [kg]
+    std::vector<Refill> refills{};     ///< those that were made
+
+    double until(double time) const;  ///< what had been given by that time [kg]
+};
+
 /// The first of the doses that gave nothing (counted from 1), even if an avalanche freed the outlet later; none if the
-/// flow never stopped, or too few doses were made to tell. `cumulative` [kg] holds the masses after dose 1, 2, ...;
-/// `before` [kg] is the mass that had come out before the first dose.
-std::optional<int> blockedAt(std::span<const double> cumulative, double filled, const BlockageRule& rule = {},
-                             double before = 0);
+/// flow never stopped, or too few doses were made to tell. Doses that an empty canister made before its refill do not
+/// count. Incomplete doses are left out.
+std::optional<int> blockedAt(const std::vector<Dose>& doses, const Supply& supply, const BlockageRule& rule = {});
 
 /// A void under powder that spans it.
 struct Arch {

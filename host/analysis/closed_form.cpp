@@ -40,7 +40,7 @@ std::vector<std::string> reasonsForLess(const Case& c, const RunResult& r, const
         reasons.push_back(fmt::format("the canister runs empty, {} g are left in it", grams(left)));
     reasons.push_back(
         fmt::format("powder turns with the {0}, or passes it by (friction of {0} and wall, clearance)", carrier));
-    const auto blocked = figuresOf(r.doses, r.ledger.filledMass(), c.schedule.stop).blocked;
+    const auto blocked = figuresOf(r.doses, supplyOf(r), c.schedule.stop).blocked;
     reasons.push_back(blocked ? fmt::format("the outlet is blocked from dose {} on", *blocked)
                               : fmt::format("an arch keeps powder off the {}", carrier));
     return reasons;

@@ -4,16 +4,21 @@
 
 namespace vkdose {
 
-DosingFigures figuresOf(const std::vector<Dose>& doses, double filled, const StopRule& stop) {
+Supply supplyOf(const RunResult& result) {
+    Supply supply = result.ledger.filledMass();
+    for (const AddedPowder& p : result.added) supply.refills.push_back({p.time, p.mass});
+    return supply;
+}
+
+DosingFigures figuresOf(const std::vector<Dose>& doses, const Supply& supply, const StopRule& stop) {
     DosingFigures f;
     // A canister of less than 19 g saturates within the paper's 15 g.
-    f.window = windowOf(filled);
+    f.window = windowOf(supply.mass);
     const std::vector<double> cumulative = cumulativeMasses(doses);
     f.beta = betaOf(cumulative, f.window);
-    f.dosesTo99 = dosesToFraction(cumulative, filled);
-    const double before = doses.empty() ? 0.0 : doses.front().cumulative - doses.front().mass;
+    f.dosesTo99 = dosesToFraction(cumulative, supply.mass);
     f.rule = blockageRule(stop, doses.empty() ? 0.0 : doses.front().closedForm);
-    f.blocked = blockedAt(cumulative, filled, f.rule, before);
+    f.blocked = blockedAt(doses, supply, f.rule);
     return f;
 }
 

@@ -6,6 +6,7 @@
 
 #include "host/analysis/beta.h"
 #include "host/analysis/blockage.h"
+#include "host/sim/runner.h"
 
 namespace vkdose {
 
@@ -17,8 +18,10 @@ struct DosingFigures {
     std::optional<int> blocked;    ///< see blockage.h
 };
 
-/// From the complete ones of `doses`; `filled` is what the canister held [kg], `stop` the run's rule, by which a dose
-/// counts as nothing.
-DosingFigures figuresOf(const std::vector<Dose>& doses, double filled, const StopRule& stop);
+/// What a run was given, with its refills.
+Supply supplyOf(const RunResult& result);
+
+/// From the complete ones of `doses`; `stop` is the run's rule, by which a dose counts as nothing.
+DosingFigures figuresOf(const std::vector<Dose>& doses, const Supply& supply, const StopRule& stop);
 
 }  // namespace vkdose

@@ -46,7 +46,7 @@ std::string targetLine(const std::vector<Dose>& doses) {
 
 /// The figures by which the paper judges a run; those that need more doses are left out.
 std::string figureLines(const RunResult& r, const StopRule& stop) {
-    const DosingFigures f = figuresOf(r.doses, r.ledger.filledMass(), stop);
+    const DosingFigures f = figuresOf(r.doses, supplyOf(r), stop);
     std::string text;
     if (f.beta.doses > 1) {
         text += fmt::format("beta     {} g/dose", grams(f.beta.beta));

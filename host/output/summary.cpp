@@ -123,7 +123,7 @@ Json doseCount(const std::optional<int>& dose) {
 }
 
 Json analysis(const Case& c, const RunResult& r) {
-    const DosingFigures f = figuresOf(r.doses, r.ledger.filledMass(), c.schedule.stop);
+    const DosingFigures f = figuresOf(r.doses, supplyOf(r), c.schedule.stop);
     Json j;
     j["beta_kg_per_dose"] = jsonNumber(f.beta.beta);
     j["beta_standard_error_kg_per_dose"] = jsonNumber(f.beta.standardError);

@@ -94,7 +94,7 @@ class Facts {
             add("overshoot after the stop", fmt::format("{} g", grams(t.overshoot)),
                 fmt::format("{} g at the stop", grams(t.stopMass)));
         }
-        const DosingFigures f = figuresOf(run_.doses, filled_, run_.c.schedule.stop);
+        const DosingFigures f = figuresOf(run_.doses, supplyOf(run_), run_.c.schedule.stop);
         if (f.beta.doses > 1) {
             const std::string error = f.beta.doses > 2 ? " ± " + grams(f.beta.standardError) : std::string();
             add("β", fmt::format("{}{} g/dose", grams(f.beta.beta), error),
@@ -131,7 +131,7 @@ class Facts {
         for (const Dose& d : run_.doses)
             if (d.complete) dosed.push_back(d.mass);
         if (dosed.empty()) return;
-        const DosingFigures f = figuresOf(run_.doses, filled_, run_.c.schedule.stop);
+        const DosingFigures f = figuresOf(run_.doses, supplyOf(run_), run_.c.schedule.stop);
         const auto say = [&](const std::string& name, std::optional<int> dose, const std::string& note) {
             add(name, dose ? fmt::format("after dose {}", *dose) : "not reached", note);
         };
@@ -307,6 +307,15 @@ double filledMass(const RunSources& run) {
     for (const char* name : {"dosed_mass_kg", "canister_mass_kg", "throat_mass_kg", "lost_mass_kg"})
         sum += run.series.number(run.series.rows() - 1, name);
     return sum;
+}
+
+Supply supplyOf(const RunSources& run) {
+    Supply supply = filledMass(run);
+    if (run.summary.is_object())
+        for (const Json& refill : run.summary.value("refills", Json::array()))
+            if (refill.value("time_s", Json()).is_number())
+                supply.refills.push_back({refill["time_s"].get<double>(), refill.value("mass_kg", 0.0)});
+    return supply;
 }
 
 Json runFacts(const RunSources& run) {

@@ -19,8 +19,10 @@ struct RunSources {
 /// The particles of a run's particles.csv; dosed and lost ones with their status.
 Particles readEndState(const std::filesystem::path& file, const Case& c);
 
-/// Mass in the canister at the start [kg], from the first line of the time series.
+/// What the canister was given until the last line of the time series [kg]; before the first line, the fill.
 double filledMass(const RunSources& run);
+/// The same with the refills that the summary tells.
+Supply supplyOf(const RunSources& run);
 
 /// [{"name", "value", "note"}, ...]. The value has its unit; the note gives the rule where a rule decides. Figures are
 /// left out for which the run is too short.

@@ -185,7 +185,7 @@ Json runJson(const fs::path& folder, const std::optional<fs::path>& experiment, 
     j["series"] = seriesJson(series, c.world);
     j["rotations"] = rotations(series);
     j["beta_below_kg"] =
-        jsonNumber(figuresOf(sources.doses, filledMass(sources), sources.c.schedule.stop).window.cumulativeBelow);
+        jsonNumber(figuresOf(sources.doses, supplyOf(sources), sources.c.schedule.stop).window.cumulativeBelow);
     j["filled_mass_kg"] = jsonNumber(filledMass(sources));
     j["experiment"] = experiment ? experimentJson(*experiment) : Json(nullptr);
     const int lastDose = sources.doses.empty() ? 0 : sources.doses.back().index;

@@ -1,10 +1,12 @@
 #include "host/analysis/blockage.h"
 
 #include "tests/analysis/beds.h"
+#include "tests/analysis/doses.h"
 #include "tests/support/catch.h"
 #include "tests/support/near.h"
 
 using namespace vkdose;
+using vkdose::test::dosesOf;
 using vkdose::test::layers;
 using vkdose::test::near;
 using vkdose::test::paperCanister;
@@ -12,20 +14,33 @@ using vkdose::test::paperCoil;
 
 TEST_CASE("blocked: three doses that give nothing while powder is left") {
     const double filled = 0.048;
-    CHECK(blockedAt(std::vector<double>{0.004, 0.008, 0.008, 0.00805, 0.0081}, filled) == 3);
-    CHECK(blockedAt(std::vector<double>{0.004, 0.008, 0.008, 0.00805}, filled) == std::nullopt);  // two tell nothing
-    CHECK(blockedAt(std::vector<double>{0.004, 0.008, 0.012, 0.016}, filled) == std::nullopt);
-    CHECK(blockedAt(std::vector<double>{0, 0, 0}, filled) == 1);  // from the beginning
+    CHECK(blockedAt(dosesOf({4e-3, 4e-3, 0, 0.05e-3, 0.05e-3}), filled) == 3);
+    CHECK(blockedAt(dosesOf({4e-3, 4e-3, 0, 0.05e-3}), filled) == std::nullopt);  // two tell nothing
+    CHECK(blockedAt(dosesOf({4e-3, 4e-3, 4e-3, 4e-3}), filled) == std::nullopt);
+    CHECK(blockedAt(dosesOf({0, 0, 0}), filled) == 1);  // from the beginning
+    std::vector<Dose> cutShort = dosesOf({4e-3, 0, 0, 0});
+    cutShort.back().complete = false;
+    CHECK(blockedAt(cutShort, filled) == std::nullopt);
 }
 
 TEST_CASE("blocked: an empty canister is none, and an avalanche later does not undo it") {
-    CHECK(blockedAt(std::vector<double>{0.04, 0.048, 0.048, 0.048, 0.048}, 0.048) == std::nullopt);
-    CHECK(blockedAt(std::vector<double>{0.004, 0.004, 0.004, 0.004, 0.02}, 0.048) == 2);
+    CHECK(blockedAt(dosesOf({40e-3, 8e-3, 0, 0, 0}), 0.048) == std::nullopt);
+    CHECK(blockedAt(dosesOf({4e-3, 0, 0, 0, 16e-3}), 0.048) == 2);
 }
 
 TEST_CASE("blocked: what fell out while settling is no dose") {
-    CHECK(blockedAt(std::vector<double>{0.001, 0.001, 0.001}, 0.048, {}, 0.001) == 1);
-    CHECK(blockedAt(std::vector<double>{0.001, 0.001, 0.001}, 0.048) == std::nullopt);
+    CHECK(blockedAt(dosesOf({0, 0, 0}, 1e-3), 0.048) == 1);
+    CHECK(blockedAt(dosesOf({1e-3, 0, 0}), 0.048) == std::nullopt);
+}
+
+TEST_CASE("blocked: an empty canister that waits for its refill is none") {
+    Supply supply = 0.030;
+    supply.refills = {{4.5, 0.020}};
+    CHECK(supply.until(4.4) == Approx(0.010));
+    CHECK(supply.until(4.5) == Approx(0.030));
+    CHECK(blockedAt(dosesOf({6e-3, 4e-3, 0, 0, 0, 5e-3}), supply) == std::nullopt);  // doses 3 to 5 had no powder
+    CHECK(blockedAt(dosesOf({6e-3, 4e-3, 0, 0, 0, 0, 0, 0}), supply) == 6);
+    CHECK(blockedAt(dosesOf({6e-3, 0, 0, 0, 0, 5e-3}), supply) == 2);  // 4 g were left
 }
 
 TEST_CASE("no arch in a bed without voids, nor over an empty coil") {

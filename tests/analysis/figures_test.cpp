@@ -1,27 +1,12 @@
 #include "host/analysis/figures.h"
 
+#include "tests/analysis/doses.h"
 #include "tests/support/catch.h"
 #include "tests/support/near.h"
 
 using namespace vkdose;
+using vkdose::test::dosesOf;
 using vkdose::test::nearRelative;
-
-namespace {
-
-/// Complete doses of these masses [kg] on top of what fell out while settling.
-std::vector<Dose> dosesOf(const std::vector<double>& masses, double settling) {
-    std::vector<Dose> doses;
-    for (const double m : masses) {
-        Dose d;
-        d.mass = m;
-        d.cumulative = (doses.empty() ? settling : doses.back().cumulative) + m;
-        d.complete = true;
-        doses.push_back(d);
-    }
-    return doses;
-}
-
-}  // namespace
 
 TEST_CASE("the paper's window in a large canister, the saturation of a small one") {
     const DosingFigures large = figuresOf(dosesOf({4e-3, 4e-3, 4e-3, 4e-3}, 0), 0.048, {});
