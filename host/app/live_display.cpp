@@ -8,8 +8,6 @@
 #include <string_view>
 #include <utility>
 
-#include "host/model/powders.h"
-
 namespace vkdose {
 
 namespace {
@@ -35,7 +33,6 @@ terminal::Style styleOfTerminal() {
 LiveDisplay::LiveDisplay(const Case& c, const Derived& derived, const Backend& backend, std::vector<Dose> before,
                          std::FILE* stream)
     : backend_(backend),
-      density_(solidDensity(c)),
       scene_(terminal::sceneOf(c, derived.tipVelocity)),
       style_(styleOfTerminal()),
       stream_(stream),
@@ -78,12 +75,7 @@ void LiveDisplay::onDose(const Dose& dose) {
 
 void LiveDisplay::read(const Progress& p) {
     state_.frame = {p.step, p.time, p.phase, p.dose, backend_.coilAngle(), backend_.particles(), {}, p.bodiesMoved};
-    const Particles& particles = state_.frame.particles;
-    double dosed = 0;
-    for (std::size_t i = 0; i < particles.size(); ++i)
-        if (particles.status[i] == Status::Dosed) dosed += sphereMass(density_, particles.radius[i]);
-    if (p.dose == 0) dosedBefore_ = dosed;
-    state_.underWay = dosed - (state_.doses.empty() ? dosedBefore_ : state_.doses.back().cumulative);
+    state_.underWay = p.doseMass;
 }
 
 void LiveDisplay::draw() {

@@ -36,11 +36,9 @@ class LiveDisplay : public RunDisplay {
     void draw();
 
     const Backend& backend_;
-    double density_;
     terminal::Scene scene_;
     terminal::LiveState state_;
     Progress progress_;
-    double dosedBefore_ = 0;  ///< while settling [kg]
     terminal::Style style_;
     std::FILE* stream_;
     terminal::Pace pace_;

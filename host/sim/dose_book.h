@@ -24,6 +24,9 @@ class DoseBook {
     /// Whether the coil conveys and has not been told to stop.
     bool conveys() const { return underWay() && dose_.stoppedBy == StopCause::None; }
 
+    /// Dosed so far in the dose under way [kg]; 0 while there is none.
+    double soFar(const Sensors& now) const { return underWay() ? dosed(now) : 0; }
+
     /// Begins a dose at `time` [s]; `now` are the latest sensors.
     void open(int index, double time, const Sensors& now);
     /// Adds `steps` of its rotation: the sum of the particles' torque on the coil over them [N m], at this rate of the

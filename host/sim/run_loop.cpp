@@ -228,6 +228,7 @@ void RunLoop::report() {
     Progress p;
     p.phase = stretch_.phase;
     p.dose = stretch_.dose;
+    p.doseMass = book_.soFar(now_);
     p.time = timeline_.time(step_);
     p.step = step_;
     const std::uint64_t expected = expectedSteps(case_, timeline_, result_);

@@ -26,7 +26,8 @@ namespace vkdose {
 struct Progress {
     Phase phase = Phase::Settle;
     int dose = 0;
-    double time = 0;  ///< simulated [s]
+    double doseMass = 0;  ///< dosed so far in the dose under way [kg]; 0 while there is none
+    double time = 0;      ///< simulated [s]
     std::uint64_t step = 0;
     std::uint64_t expectedSteps = 0;  ///< of the whole run, estimated from the doses so far; 0 when nothing can be said
     bool phaseEnd = false;

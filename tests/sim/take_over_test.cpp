@@ -136,6 +136,13 @@ TEST_CASE("from the end of another run its doses are over, and the first one beg
     CHECK(r.doses[0].index == 1);
     CHECK(r.doses[0].startTime == whole.last.time);
     CHECK(r.dosedWhileSettling == whole.doses.back().cumulative);
+    double most = 0;  // of a dose under way, without what the other run dosed
+    for (const Progress& p : after.progress) {
+        CAPTURE(p.step);
+        CHECK(p.doseMass <= (p.dose > 0 ? r.doses.at(p.dose - 1).mass : 0));
+        most = std::max(most, p.doseMass);
+    }
+    CHECK(most == r.doses.back().mass);
     REQUIRE(r.settling);
     CHECK(r.settling->time == whole.last.time);
     CHECK(after.samples.front().phase == Phase::Settle);
