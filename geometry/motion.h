@@ -50,25 +50,31 @@ struct Moving {
 };
 
 /// Axes are unit vectors, and they and the points stand in the world.
-struct Rest {};
+struct Rest {
+    bool operator==(const Rest&) const = default;
+};
 /// Turns about the line through `through` along `axis` at `rate` [rad/s].
 struct Turn {
     Vec3 axis{0, 0, 1}, through{0};
     double rate = 0;
+    bool operator==(const Turn&) const = default;
 };
 /// Swings about a line by amplitude sin(2 pi frequency t + phase) [rad].
 struct Swing {
     Vec3 axis{0, 0, 1}, through{0};
     double amplitude = 0, frequency = 0, phase = 0;  ///< [rad], [Hz], [rad]
+    bool operator==(const Swing&) const = default;
 };
 /// Shakes along a direction by amplitude sin(2 pi frequency t + phase) [m].
 struct Shake {
     Vec3 direction{0, 0, 1};
     double amplitude = 0, frequency = 0, phase = 0;  ///< [m], [Hz], [rad]
+    bool operator==(const Shake&) const = default;
 };
 /// Goes along at `velocity` [m/s].
 struct Slide {
     Vec3 velocity{0};
+    bool operator==(const Slide&) const = default;
 };
 /// Follows a table: turned by angles about a line and moved by shifts, straight in between, at its first and last row
 /// before and after. Times ascend.
@@ -77,9 +83,11 @@ struct Table {
         double time = 0;   ///< [s]
         double angle = 0;  ///< [rad]
         Vec3 shift{0};     ///< [m]
+        bool operator==(const Row&) const = default;
     };
     Vec3 axis{0, 0, 1}, through{0};
     std::vector<Row> rows;
+    bool operator==(const Table&) const = default;
 };
 
 /// Moves as the forces on it say, without turning. Its place is no function of time: who computes the forces knows it.
@@ -87,6 +95,7 @@ struct Free {
     double mass = 0;                ///< [kg]
     Vec3 velocity{0};               ///< at the start [m/s]
     std::optional<Vec3> line = {};  ///< it moves only along this direction; none: anywhere
+    bool operator==(const Free&) const = default;
 };
 
 using Motion = std::variant<Rest, Turn, Swing, Shake, Slide, Table, Free>;
@@ -96,8 +105,10 @@ using Motion = std::variant<Rest, Turn, Swing, Shake, Slide, Table, Free>;
 struct Schedule {
     struct Interval {
         double from = 0, to = 0;
+        bool operator==(const Interval&) const = default;
     };
     std::vector<Interval> intervals;
+    bool operator==(const Schedule&) const = default;
 
     /// The time for which the motion has gone on until `time` [s].
     double elapsed(double time) const;

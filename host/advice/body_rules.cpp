@@ -28,13 +28,12 @@ double turnsPerTurn(const Subject& s, const geometry::Turn& turn) {
 Found bodySeam(const Subject& s) {
     const std::vector<RigidBody>& bodies = s.c.world.bodies;
     if (s.c.sharedPlaces.empty()) return {};
-    std::vector<Triangle> still;
+    std::vector<Triangle> all;
     for (const RigidBody& body : bodies) {
-        const bool rests = std::holds_alternative<geometry::Rest>(body.course.motion);
-        const std::vector<Triangle> mesh = rests ? trianglesOf(body) : std::vector<Triangle>();
-        still.insert(still.end(), mesh.begin(), mesh.end());
+        const std::vector<Triangle> mesh = trianglesOf(body);
+        all.insert(all.end(), mesh.begin(), mesh.end());
     }
-    const Cells cells(still);
+    const Cells cells(all);
     const std::vector<Vec3>& powder = s.filled.particles.position;
     // The outer side of a vessel has seams that no powder meets. A place that a straight way leads to is met.
     const auto met = [&](const Vec3& place) {
@@ -43,22 +42,25 @@ Found bodySeam(const Subject& s) {
             if (!cells.passedBy(place, powder[i])) return true;
         return false;
     };
+    const SharedPlace* worst = nullptr;  // the first area, or else the first seam
     for (const SharedPlace& place : s.c.sharedPlaces) {
-        if (!met(place.centre)) continue;
-        const std::string first = bodies[place.first].name;
-        const bool wall = place.second >= bodies.size();
-        const std::string second = wall ? "" : bodies[place.second].name;
-        return Finding{keyOf(place.first, "at"),
-                       fmt::format("body \"{}\" and {} meet in a seam: a sphere at ({:.3g}, {:.3g}, {:.3g}) mm touches "
-                                   "both in one place and has two contacts there",
-                                   first, wall ? "a wall" : fmt::format("body \"{}\"", second), mm(place.centre.x),
-                                   mm(place.centre.y), mm(place.centre.z)),
-                       wall ? "let it end before the wall, or pass through it"
-                            : fmt::format("join the two in one mesh (vkdose export-body CASE {} {} --out both.stl), or "
-                                          "move them apart",
-                                          first, second)};
+        if (worst != nullptr && (worst->area || !place.area)) continue;
+        if (met(place.centre)) worst = &place;
     }
-    return {};
+    if (worst == nullptr) return {};
+    const std::string first = bodies[worst->first].name;
+    const bool wall = worst->second >= bodies.size();
+    const std::string second = wall ? "" : bodies[worst->second].name;
+    return Finding{keyOf(worst->first, "at"),
+                   fmt::format("body \"{}\" and {} {}: a sphere at ({:.3g}, {:.3g}, {:.3g}) mm touches both in one "
+                               "place and has two contacts there",
+                               first, wall ? "a wall" : fmt::format("body \"{}\"", second),
+                               worst->area ? "coincide" : "meet in a seam", mm(worst->centre.x), mm(worst->centre.y),
+                               mm(worst->centre.z)),
+                   wall ? "let it end before the wall, or pass through it"
+                        : fmt::format("join the two in one mesh (vkdose export-body CASE {} {} --out both.stl), or "
+                                      "move them apart",
+                                      first, second)};
 }
 
 Found bodyBackwards(const Subject& s) {
@@ -192,6 +194,67 @@ Found bodyPhases(const Subject& s) {
                                    "does not start anew in every dose",
                                    body.name, table, time),
                        fmt::format("give a table of at most {:.4g} s, or more phases", time)};
+    }
+    return {};
+}
+
+namespace {
+
+/// Whether one of the body's shapes is a surface without anything behind it: a mesh, or the wall of a round shape.
+bool isThin(const RigidBody& body) {
+    return std::any_of(body.shapes.begin(), body.shapes.end(), [](const geometry::Shape& shape) {
+        return std::holds_alternative<geometry::Cone>(shape) ||
+               std::holds_alternative<std::shared_ptr<const geometry::MeshSurface>>(shape);
+    });
+}
+
+/// An upper bound of the speed of the body's points, by its motion [m/s].
+double largestSpeed(const Subject& s, const RigidBody& body) {
+    const geometry::Motion& motion = body.course.motion;
+    if (const auto* free = std::get_if<geometry::Free>(&motion)) return glm::length(free->velocity);
+    const std::vector<Triangle> mesh = trianglesOf(body);
+    // Of a body without an end, what is in the domain counts.
+    Vec3 low = s.c.world.domain.low, high = s.c.world.domain.high;
+    if (!mesh.empty()) low = high = mesh.front()[0];
+    for (const Triangle& t : mesh)
+        for (const Vec3& p : t) {
+            low = glm::min(low, p);
+            high = glm::max(high, p);
+        }
+    const geometry::Course always{body.course.start, motion, {}};
+    const auto* table = std::get_if<geometry::Table>(&motion);
+    const double from = table == nullptr ? 0 : table->rows.front().time;
+    const double span = table == nullptr ? 1 : table->rows.back().time - from;
+    const double way = geometry::wayBound(always, always.start.toBody((low + high) / 2.0), glm::length(high - low) / 2,
+                                          from, span);  // [m], of a body that the drive moves in so many rad
+    return way / span * (body.clock == Clock::Drive ? s.c.schedule.coilSpeed : 1);
+}
+
+}  // namespace
+
+Found thinBody(const Subject& s) {
+    if (s.c.world.maxOverlapRatio < 1) return {};
+    const std::vector<RigidBody>& bodies = s.c.world.bodies;
+    const auto thin = std::find_if(bodies.begin(), bodies.end(), isThin);
+    if (thin == bodies.end()) return {};
+    return Finding{"contact.max_overlap_ratio",
+                   fmt::format("the surfaces of body \"{}\" have no thickness: a sphere that is pressed in deeper than "
+                               "its radius comes out on the other side, and the run goes on",
+                               thin->name),
+                   "give less than 1, as 0.95: such a sphere then ends the run"};
+}
+
+Found bodyTooFast(const Subject& s) {
+    constexpr double kFarInAStep = 0.1;  // of the smallest radius
+    for (std::size_t b = 0; b < s.c.world.bodies.size(); ++b) {
+        const RigidBody& body = s.c.world.bodies[b];
+        const double speed = largestSpeed(s, body), far = speed * s.c.world.timeStep / s.f.smallest;
+        if (!(far > kFarInAStep)) continue;
+        return Finding{keyOf(b, "motion.kind"),
+                       fmt::format("body \"{}\" moves at up to {:.3g} m/s and goes {:.2g} radii of the smallest sphere "
+                                   "in a time step: it enters spheres before they touch it, or passes them",
+                                   body.name, speed, far),
+                       fmt::format("stay below {:.3g} m/s, or give a shorter time.step_s", speed * kFarInAStep / far)};
     }
     return {};
 }

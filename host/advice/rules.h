@@ -77,6 +77,8 @@ Found bodyOutside(const Subject& s);
 Found bodyPhases(const Subject& s);
 Found bodySeam(const Subject& s);
 Found sphereInBody(const Subject& s);
+Found thinBody(const Subject& s);
+Found bodyTooFast(const Subject& s);
 
 // sweep_rules.cpp: bodies that move through something
 Found bodyInWall(const Subject& s);
@@ -88,6 +90,7 @@ Found longDose(const Subject& s);
 Found shortLongestTime(const Subject& s);
 Found smallDose(const Subject& s);
 Found earlyStop(const Subject& s);
+Found lateRefill(const Subject& s);
 Found fewFrames(const Subject& s);
 Found fewSensors(const Subject& s);
 Found shortStep(const Subject& s);

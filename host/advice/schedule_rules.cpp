@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "host/advice/advice.h"
 #include "host/advice/rules.h"
@@ -93,6 +94,28 @@ Found earlyStop(const Subject& s) {
                     "give {:.3g} g",
                     stop.doses, expected * 1e3),
         fmt::format("give about {:.2g}, a hundredth of a dose for each", 1e3 * expected / 100)};
+}
+
+Found lateRefill(const Subject& s) {
+    const Schedule& plan = s.c.schedule;
+    const StopRule& stop = plan.stop;
+    const bool counted = plan.rotateTime > 0 && stop.maxDoses < std::numeric_limits<int>::max();
+    const double dose = plan.rotateTime + plan.reverseTime() + plan.restTime;
+    const double end = std::min(stop.endTime, counted ? plan.settleTime + stop.maxDoses * dose : stop.endTime);
+    for (std::size_t k = 0; k < s.c.refills.size(); ++k) {
+        const Refill& refill = s.c.refills[k];
+        if (refill.time && *refill.time > end)
+            return Finding{
+                fmt::format("refill[{}].time_s", k),
+                fmt::format("refill \"{}\" never comes: the run ends after {:.4g} s at the latest", refill.name, end),
+                "give an earlier time, or let the run go on for longer"};
+        if (refill.beforeDose && counted && *refill.beforeDose > stop.maxDoses)
+            return Finding{
+                fmt::format("refill[{}].before_dose", k),
+                fmt::format("refill \"{}\" never comes: the run ends after {} doses", refill.name, stop.maxDoses),
+                "give an earlier dose, or a larger stop.max_doses"};
+    }
+    return {};
 }
 
 Found fewFrames(const Subject& s) {

@@ -110,7 +110,10 @@ void writeContacts(CaseText& out, const NewDesign& d) {
     out.line("friction", figureText(d.friction), "assumed; between particles");
     out.line("rolling_friction", figureText(d.rollingFriction), "assumed; stands for the shape of the grains");
     out.word("coulomb_limit", "absolute", "friction of the force that a contact bears");
-    out.line("max_overlap_ratio", "1", "spheres are wedged between coil and wall; the report tells how deep");
+    if (d.mesh)
+        out.line("max_overlap_ratio", "0.95", "a sphere pressed in deeper than its radius would pass through the mesh");
+    else
+        out.line("max_overlap_ratio", "1", "spheres are wedged between coil and wall; the report tells how deep");
     out.table("contact.wall");
     out.line("friction", "0.3",
              fmt::format("assumed; of the powder on the wall and, as there is no [contact.coil], on the {}",

@@ -15,6 +15,7 @@
 #include "host/model/case_reader.h"
 #include "host/model/case_sections.h"
 #include "host/model/checks.h"
+#include "host/model/normal_law.h"
 #include "host/model/powders.h"
 #include "host/model/shared_places.h"
 #include "host/model/size_distribution.h"
@@ -30,12 +31,24 @@ SizeRange sizeRange(const Case& c) {
     return overall(powderSizes(c));
 }
 
-/// The largest distance from a centre at which a backend asks for a mesh: within the skin [m]. The factor covers the
-/// rounding of a skin that is read back.
-double meshReach(const Case& c) {
+/// The largest distance from a centre at which a backend asks for a mesh: within the skin and the longest reach of a
+/// contact [m]. The factor covers the rounding of a skin that is read back.
+double meshReach(const Case& c, double contactReach) {
     const SizeRange sizes = sizeRange(c);
     const double skin = c.world.skin > 0 ? c.world.skin : kUsualSkin * sizes.mean;
-    return (sizes.largest + skin) * (1 + 1e-12);
+    return (sizes.largest + contactReach + skin) * (1 + 1e-12);
+}
+
+/// Makes meshes anew that were read for a shorter reach, because the law was not known yet.
+void widenMeshes(Case& c) {
+    const double largest = sizeRange(c).largest;
+    const double reach = meshReach(
+        c, std::max(longestReach(c.world, c.settlingLaw, largest), longestReach(c.world, c.dosingLaw, largest)));
+    for (RigidBody& body : c.world.bodies)
+        for (geometry::Shape& shape : body.shapes)
+            if (auto* mesh = std::get_if<std::shared_ptr<const geometry::MeshSurface>>(&shape))
+                if ((*mesh)->reach() < reach)
+                    *mesh = std::make_shared<const geometry::MeshSurface>((*mesh)->mesh(), reach);
 }
 
 /// The name becomes the name of a folder and is written into the summary, which is UTF-8. It has to be checked even by
@@ -163,7 +176,7 @@ Case interpret(const std::filesystem::path& file, Node tree, std::vector<std::fi
     const std::optional<Boundaries> kind = readBoundaries(reader, root, c);
     readCoil(reader, root, c);
     readTime(reader, root, c);
-    readBodies(reader, root, reader.faulty() ? std::numeric_limits<double>::quiet_NaN() : meshReach(c), c);
+    readBodies(reader, root, reader.faulty() ? std::numeric_limits<double>::quiet_NaN() : meshReach(c, 0), c);
     alignWithDrive(c);
     readRegions(reader, root, c);
     readContact(reader, root, materials, c);
@@ -186,6 +199,7 @@ Case interpret(const std::filesystem::path& file, Node tree, std::vector<std::fi
     reader.throwIfFaulty();
     tryUserLaw(reader, c, powderSizes(c));
     reader.throwIfFaulty();
+    widenMeshes(c);
     completeTime(root.table("time"), c, sizes);
     checkTimeStep(reader, c, powderSizes(c));
     checkScales(reader, c, sizes);

@@ -113,7 +113,7 @@ struct Canister {
     bool lid = false;  ///< closed at the top, or above the fill if the loose grid is higher than the top
 };
 
-/// Where a sphere touches two things that rest in one and the same place (shared_places.h).
+/// Where a sphere touches two things in one and the same place (shared_places.h).
 struct SharedPlace {
     /// Bodies by their index; a wall by the number of bodies and its index. The first is a body, below the second.
     std::size_t first = 0, second = 0;

@@ -158,6 +158,11 @@ void checkRefills(CaseReader& reader, const Case& c, const Insertion& filled) {
         if (filled.waiting[k].particles.size() == 0)
             reader.fault(fmt::format("refill[{}].mass_g", k), "is less than half of the first particle drawn",
                          "give more mass");
+    const Vec3& g = c.world.gravity;
+    if (!c.refills.empty() && -g.y < glm::length(g) * std::sqrt(0.5))  // more than 45 degrees from -y
+        reader.fault("gravity",
+                     "does not point along -y; a refill stands over the powder along +y and would not fall onto it",
+                     "turn the device so that gravity points along -y, or leave the refill out");
 }
 
 }  // namespace vkdose

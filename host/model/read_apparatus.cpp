@@ -179,8 +179,14 @@ void readDose(CaseReader& reader, Section& dose, Case& c) {
     if (dose.has("max_torque_mNm")) s.maxTorque = dose.number("max_torque_mNm");
     s.torqueEndsRun = dose.choice("at_max_torque") == std::size_t{1};
     s.restTime = dose.number("rest_s");
-    if (!c.world.coil && followsDrive(c.world.bodies)) s.coilSpeed = dose.number("speed_rpm");
     dose.know("speed_rpm");
+    if (!c.world.coil && followsDrive(c.world.bodies))
+        s.coilSpeed = dose.number("speed_rpm");
+    else if (dose.has("speed_rpm"))
+        reader.fault(dose.path("speed_rpm"),
+                     c.world.coil ? "has no use beside a coil" : "has no use, because no body follows the drive",
+                     c.world.coil ? "give coil.speed_rpm alone; bodies that follow the drive go with the coil"
+                                  : "leave it out, or let a body follow the drive (follows = \"drive\")");
 }
 
 void readStop(Section& root, Case& c) {

@@ -175,6 +175,9 @@ std::vector<geometry::Table::Row> readMotionTable(CaseReader& reader, Section& s
             if (column != "time_s" && column != "angle_deg" && column != "x" && column != "y" && column != "z")
                 reader.fault(s.path("file"), fmt::format("has a column \"{}\"", printable(column)),
                              "name the columns time_s, angle_deg, x, y, z; lengths in m");
+        if (table.names().size() < 2)
+            reader.fault(s.path("file"), "has no column but the time, so that the body would stand",
+                         "add angle_deg, or x, y and z in m");
         const auto at = [&](std::size_t row, const char* column) {
             return table.has(column) ? table.number(row, column) : 0.0;
         };

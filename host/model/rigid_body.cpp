@@ -11,6 +11,12 @@ geometry::Pose RigidBody::pose(double time, double driveAngle, const Moved& own)
     return pose;
 }
 
+bool RigidBody::movesAs(const RigidBody& other) const {
+    if (rests() || other.rests()) return rests() && other.rests();
+    return !movesFreely() && clock == other.clock && phases == other.phases && anew == other.anew &&
+           course.motion == other.course.motion && course.schedule == other.course.schedule;
+}
+
 std::uint64_t RigidBody::firstFreeStep(double timeStep) const {
     if (course.schedule.intervals.empty()) return 0;
     const double from = course.schedule.intervals.front().from / timeStep;

@@ -69,6 +69,9 @@ struct RigidBody {
     double curvature = 0;      ///< radius of its surface, which a* counts [m]; 0: it is as flat as a wall
 
     bool movesFreely() const { return clock == Clock::Forces; }
+    bool rests() const { return std::holds_alternative<geometry::Rest>(course.motion); }
+    /// Whether the two stay as they are to each other: both rest, or both follow the same motion.
+    bool movesAs(const RigidBody& other) const;
     /// Of a body that moves freely: the first step in which it does.
     std::uint64_t firstFreeStep(double timeStep) const;
     /// For how much of a step the forces act on it [s]: for half of the first one, as on particles.

@@ -27,7 +27,7 @@ constexpr int kCoinciding = 3;       // of the four places around that coincide 
 
 using Nearest = std::optional<geometry::Closest>;
 
-/// A body at rest, or a wall.
+/// A body as it stands at the start, or a wall.
 struct Thing {
     std::function<Nearest(const Vec3&)> nearest;  ///< none beyond the reach
     Vec3 low{-geometry::kEndless}, high{geometry::kEndless};
@@ -84,10 +84,9 @@ class Search {
     std::vector<SharedPlace> all() {
         std::vector<SharedPlace> found;
         for (std::size_t a = 0; a < c_.world.bodies.size(); ++a) {
-            if (!rests(a)) continue;
             std::vector<SharedPlace> ofPair;
             for (std::size_t b = a + 1; b < things_.size(); ++b) {
-                if (!rests(b)) continue;
+                if (!together(a, b)) continue;
                 ofPair.clear();
                 search(a, b, ofPair);
                 found.insert(found.end(), ofPair.begin(), ofPair.end());
@@ -97,9 +96,10 @@ class Search {
     }
 
   private:
-    bool rests(std::size_t thing) const {
-        return thing >= c_.world.bodies.size() ||
-               std::holds_alternative<geometry::Rest>(c_.world.bodies[thing].course.motion);
+    /// Whether body a stays where it is as seen from b.
+    bool together(std::size_t a, std::size_t b) const {
+        const std::vector<RigidBody>& bodies = c_.world.bodies;
+        return b < bodies.size() ? bodies[a].movesAs(bodies[b]) : bodies[a].rests();
     }
 
     void add(const RigidBody& body, const Particles& particles) {
@@ -220,9 +220,10 @@ class Search {
 }  // namespace
 
 std::vector<SharedPlace> sharedPlaces(const Case& c, const Particles& particles, double radius) {
-    const bool any = std::any_of(c.world.bodies.begin(), c.world.bodies.end(), [](const RigidBody& body) {
-        return std::holds_alternative<geometry::Rest>(body.course.motion);
-    });
+    const std::vector<RigidBody>& bodies = c.world.bodies;
+    bool any = false;  // whose places could coincide
+    for (auto a = bodies.begin(); a != bodies.end(); ++a)
+        any = any || a->rests() || std::any_of(a + 1, bodies.end(), [&](const RigidBody& b) { return a->movesAs(b); });
     if (!any) return {};
     return Search(c, particles, radius).all();
 }

@@ -1,6 +1,7 @@
 #pragma once
-// Finds where a sphere touches two things that rest in one and the same place: two bodies, or a body and a wall. Such a
-// sphere would have two contacts with one surface, and so twice the stiffness, damping, friction and adhesion.
+// Finds where a sphere touches two things in one and the same place: a body and a wall, or two bodies. Only what
+// rests, or moves in the same way, is looked at. Such a sphere would have two contacts with one surface, and so twice
+// the stiffness, damping, friction and adhesion.
 
 #include <cstddef>
 #include <vector>
@@ -11,8 +12,8 @@ namespace vkdose {
 
 /// Places for spheres of `radius` [m], some for each pair that shares any. Both are touched from the same side: their
 /// normals are within 2.5 degrees of each other, and the distances from the centre are within a fiftieth of the radius.
-/// A sphere there is in the domain, in no region that deletes, and in no other thing's way. The inside of a closed mesh
-/// counts as free only if all particles start there.
+/// The bodies stand as at the start. A sphere there is in the domain, in no region that deletes, and in no other
+/// thing's way. The inside of a closed mesh counts as free only if all particles start there.
 std::vector<SharedPlace> sharedPlaces(const Case& c, const Particles& particles, double radius);
 
 }  // namespace vkdose

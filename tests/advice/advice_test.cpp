@@ -92,6 +92,10 @@ const std::vector<Slip> kSlips{
     {{"dose.rotate_s=1e9"}, "dose-length", {"more than the fill of 13 g"}, false},
     {{"dose.rotate_s=0.1"}, "dose-spheres", {"spheres, so that one sphere is"}, false},
     {{"stop.threshold_g=5"}, "stop-threshold", {"stop.threshold_g = 5", "7.2 g"}},
+    {{"refill=[{name = \"late\", mass_g = 1, time_s = 2.5}]"},
+     "refill",
+     {"refill[0].time_s", "refill \"late\" never comes", "after 2.4 s"}},
+    {{"refill=[{name = \"late\", mass_g = 1, before_dose = 3}]"}, "refill", {"never comes", "after 2 doses"}},
     {{"frames.interval_s=10"}, "frames", {"2.4 s"}},
     {{"sensors.interval_s=0.5"}, "sensors", {"a rotation of 0.8 s"}},
     {{"time.step_s=1e-7"}, "time-step", {"times as long", "\"auto\""}},
@@ -145,7 +149,22 @@ const std::vector<BodySlip> kBodySlips{
      part("bar", "9, 0.6, 0.6", "0, -0.003, 0.003") + kOwnTurn +
          "axis = [0, 1, 0]\nthrough = [0, -0.003, 0.003]\n[settle]",
      "body-wall",
-     {"\"bar\" moves through the wall of the canister, by 1.5"}}};
+     {"\"bar\" moves through the wall of the canister, by 1.5"}},
+    {"max_overlap_ratio = 0.95",
+     "max_overlap_ratio = 1",
+     "body-thin",
+     {"contact.max_overlap_ratio = 1", "body \"spring\"", "the other side", "0.95"}},
+    // 10 m/s would do; the end of the bar goes at 200 m/s.
+    {"[settle]",
+     part("pusher", "0.6, 0.6, 0.6", "0, -0.004, 0.010") +
+         "[body.motion]\nkind = \"slide\"\nvelocity = [0, 0, 50]\n[settle]",
+     "body-speed",
+     {"body \"pusher\" moves at up to 50 m/s"}},
+    {"[settle]",
+     part("bar", "4, 0.6, 0.6", "0, 0, 0.003") + "[body.motion]\nkind = \"turn\"\nspeed_rpm = 1e6\naxis = [0, 0, 1]\n" +
+         "[settle]",
+     "body-speed",
+     {"body \"bar\" moves at up to"}}};
 
 std::vector<Warning> warningsOfText(const test::Folder& folder, const std::string& text) {
     const Case c = loadCase(folder.write("case.toml", text));
@@ -270,7 +289,7 @@ TEST_CASE("a body that is to move in a phase that the run lacks is told, and a t
     CHECK(warned(table + "during = \"settle\"\nanew = true\n").empty());
 }
 
-TEST_CASE("two bodies at rest that meet in a seam where powder comes are told") {
+TEST_CASE("two bodies that meet in a seam where powder comes are told, at rest or moving as one") {
     const test::Folder folder;
     folder.write("two.csv", "x,y,z,r\n0.002,0.01,0.001,1e-3\n-0.01,0.01,0,1e-3\n");
     const auto warned = [&](const std::string& bodies) {
@@ -299,6 +318,13 @@ TEST_CASE("two bodies at rest that meet in a seam where powder comes are told") 
         "[[body]]\nname = \"bin\"\nshape = \"cylinder\"\nradius_mm = 12\nlength_mm = 20\nat = [0, 0.006, 0]\n"
         "rotation_axis = [1, 0, 0]\nrotation_deg = -90\n";
     CHECK(warned(funnel + bin).empty());
+    // Bodies that move as one, and two that part.
+    const std::string sinks = "[body.motion]\nkind = \"slide\"\nvelocity = [0, -0.1, 0]\n";
+    const std::string left = box("left", "-0.005, 0, 0") + sinks, right = box("right", "0.005, 0, 0");
+    CHECK_THAT(warned(left + box("again", "-0.005, 0, 0") + sinks),
+               Catch::Contains("body \"left\" and body \"again\" coincide: a sphere at"));
+    CHECK_THAT(warned(left + right + sinks), Catch::Contains("meet in a seam"));
+    CHECK(warned(left + right + test::replaced(sinks, "-0.1", "-0.2")).empty());
 }
 
 TEST_CASE("every rule is shown by a slip") {

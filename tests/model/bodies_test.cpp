@@ -6,6 +6,7 @@
 #include "geometry/tessellate.h"
 #include "host/core/error.h"
 #include "host/model/body_form.h"
+#include "host/model/normal_law.h"
 #include "tests/model/body_reader.h"
 #include "tests/support/catch.h"
 #include "tests/support/near.h"
@@ -171,6 +172,9 @@ TEST_CASE("bodies: two that coincide where a sphere can be are refused, by name"
     };
     const std::string floor = "[[body]]\nname = \"floor\"\nshape = \"plane\"\nat = [0, 0.01, 0]\n";
     const std::string block = "[[body]]\nname = \"casting\"\nmesh = \"block.stl\"\nunit = \"mm\"\n";
+    const auto sliding = [](const char* velocity) {
+        return fmt::format("[body.motion]\nkind = \"slide\"\nvelocity = [{}]\n", velocity);
+    };
     struct Refused {
         std::string bodies, first, second;
     };
@@ -201,8 +205,9 @@ TEST_CASE("bodies: two that coincide where a sphere can be are refused, by name"
              // Both sides of one plate, and two floors of which one lies under the other.
              box("plate", "20, 2, 20", "0, 0.01, 0") + floor,
              floor + replaced(replaced(floor, "floor", "under"), "0.01", "0.008"),
-             // Bodies that move are none of these.
-             floor + replaced(floor, "floor", "lift") + "[body.motion]\nkind = \"slide\"\nvelocity = [0, -1, 0]\n",
+             // Bodies that move, apart or as one.
+             floor + replaced(floor, "floor", "lift") + sliding("0, -1, 0"),
+             floor + sliding("0, -1, 0") + replaced(floor, "floor", "lift") + sliding("0, -1, 0"),
          }) {
         CAPTURE(fine);
         CHECK_NOTHROW(read.load(fine));
@@ -212,6 +217,22 @@ TEST_CASE("bodies: two that coincide where a sphere can be are refused, by name"
     const std::string plate = "[[body]]\nname = \"plate\"\nshape = \"plane\"\nat = [0, 0, 0]\nnormal = [0, 0, 1]\n";
     CHECK_THAT(faultOf(folder.write("case.toml", kGoodCase + plate)),
                Contains("body \"plate\" coincides with canister for a sphere at"));
+}
+
+TEST_CASE("bodies: a mesh is made for the reach of contacts that hold on beyond touch") {
+    Read read;
+    read.mesh();
+    const std::string block = "[[body]]\nname = \"casting\"\nmesh = \"block.stl\"\nunit = \"mm\"\n";
+    std::string text = withBodies(block + "[time]\nstep_s = \"auto\"\nskin_mm = 0.001\n");
+    const std::size_t begin = text.find("[contact]"), end = text.find("\n[", begin);
+    text.replace(begin, end - begin,
+                 "[contact]\nlaw = \"jkr\"\nyoungs_modulus = 1e5\npoisson_ratio = 0.25\nrestitution = 0.6\n"
+                 "surface_energy = 0.5\nfriction = 0.5");
+    const Case c = loadCase(read.folder.write("case.toml", text));
+    const double reach = longestReach(c.world, c.dosingLaw, 1.25e-3);
+    CHECK(reach > 2 * c.world.skin);
+    const auto mesh = std::get<std::shared_ptr<const geometry::MeshSurface>>(c.world.bodies.at(0).shapes.at(0));
+    CHECK(mesh->reach() >= 1.25e-3 + reach);
 }
 
 TEST_CASE("bodies: a file of a hundred thousand triangles loads, beside a floor and a box") {
@@ -286,8 +307,7 @@ TEST_CASE("bodies: faults name the key, the value and what would be right") {
     const std::string coil = "[coil]\nturns = 3\nlength_mm = 20\nwire_diameter_mm = 1\nradius_mm = 5\nspeed_rpm = 9\n";
     const std::string namesake = "[[body]]\nname = \"coil\"\nshape = \"plane\"\nat = [0, -1, 0]\n";
     CHECK(read.fault(namesake) == "no fault");
-    CHECK_THAT(read.fault(coil + namesake),
-               Contains("body[0].name = \"coil\": is the name of [coil]"));
+    CHECK_THAT(read.fault(coil + namesake), Contains("body[0].name = \"coil\": is the name of [coil]"));
     CHECK_THAT(read.fault("[[body]]\nname = \"a b\"\nshape = \"plane\"\n"), Contains("is no name of a body"));
     std::string many;
     for (int i = 0; i < 17; ++i)

@@ -29,6 +29,11 @@ TEST_CASE("bodies: one that follows the drive turns about its axis while powder 
     CHECK_THAT(read.fault(driven + "[dose]\nrotate_s = 1\n"), Contains("dose.speed_rpm: is missing"));
     CHECK_THAT(read.fault("[dose]\nrotate_s = 1\nspeed_rpm = 30\n[stop]\nmax_doses = 1\n"),
                Contains("follows = \"drive\""));
+    CHECK_THAT(read.fault("[dose]\nspeed_rpm = 30\n"),
+               Contains("dose.speed_rpm = 30: has no use, because no body follows the drive"));
+    const Folder folder;
+    const std::string both = replaced(kGoodCase, "rotate_s = 0.3", "rotate_s = 0.3\nspeed_rpm = 30");
+    CHECK_THAT(faultOf(folder.write("case.toml", both)), Contains("dose.speed_rpm = 30: has no use beside a coil"));
 }
 
 TEST_CASE("bodies: the form tells which way a turning body conveys, and how far") {
@@ -89,6 +94,8 @@ TEST_CASE("bodies: a table of motion comes from its file") {
     CHECK(near(flap.pose(0.5, 0).directionToWorld(Vec3(1, 0, 0)), Vec3(std::sqrt(0.5), std::sqrt(0.5), 0), 1, 1e-12));
     read.folder.write("way.csv", "time_s,angle\n0,0\n1,1\n");
     CHECK_THAT(read.fault(body), Contains("has a column \"angle\"") && Contains("time_s, angle_deg, x, y, z"));
+    read.folder.write("way.csv", "time_s\n0\n1\n");
+    CHECK_THAT(read.fault(body), Contains("has no column but the time") && Contains("add angle_deg"));
     read.folder.write("way.csv", "time_s,angle_deg\n1,0\n1,1\n");
     CHECK_THAT(read.fault(body), Contains("row 2 of the table is not later"));
     CHECK_THAT(read.fault(replaced(body, "way.csv", "gone.csv")), Contains("there is no file"));

@@ -122,4 +122,8 @@ TEST_CASE("refills that cannot be are refused by name") {
     refused(kFilled + kSpoon + "before_dose = 2\n", "give one of the two");
     refused(kFilled + replaced(kSpoon, "time_s = 0.5", "before_dose = 2"), "there are no doses");
     refused(kFreeCase + kSpoon, "the powder is a list");
+    refused(replaced(kFilled, "[0, 0, 0]", "[0, 0, -9.81]") + kSpoon,
+            "gravity = [0, 0, -9.81]: does not point along -y");
+    refused(replaced(kFilled, "[0, 0, 0]", "[0, 9.81, 0]") + kSpoon, "would not fall onto it");
+    CHECK_NOTHROW(loadText(replaced(kFilled, "[0, 0, 0]", "[3, -9.3, 0]") + kSpoon));
 }
