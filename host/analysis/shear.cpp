@@ -9,7 +9,7 @@
 
 namespace vkdose {
 
-void countPressure(std::vector<LidSample>& samples) {
+void makePressurePositive(std::vector<LidSample>& samples) {
     double sum = 0;
     for (const LidSample& s : samples) sum += s.force;
     if (sum >= 0) return;

@@ -15,7 +15,7 @@ struct LidSample {
 
 /// The axis of a lid may point away from the powder or to it. Turns all forces round if they pull on the whole, so that
 /// what presses on the lid is above 0.
-void countPressure(std::vector<LidSample>& samples);
+void makePressurePositive(std::vector<LidSample>& samples);
 
 /// Stresses in a window of time.
 struct ShearPoint {

@@ -155,11 +155,7 @@ void requireFit(const Case& source, const Checkpoint& state, const ReadyRun& run
                               fmt::format("are not those of the run of {}", folder.string()),
                               "give its list of particles as it was, or the vkdose that made it"});
     }
-    const double end = run.c.schedule.stop.endTime;
-    if (end <= state.time)
-        faults.push_back({"case", 0, "stop.end_time_s", fmt::format("{}", end),
-                          fmt::format("is over: the clock goes on from t = {:.6g} s", state.time),
-                          "give a later time, or leave it out"});
+    if (const auto over = endIsOver("case", run.c, state.time)) faults.push_back(*over);
     if (!faults.empty()) throw CaseError(faults);
     if (facts.active == 0)
         throw UsageError(fmt::format("the canister in {} is empty: there is nothing to begin with", folder.string()));

@@ -103,15 +103,6 @@ void requireLater(const std::vector<std::string>& overrides, const std::filesyst
     if (!faults.empty()) throw CaseError(faults);
 }
 
-/// The files of a run cannot be taken back to before its checkpoint.
-void requireAhead(const Checkpoint& from, const Case& c) {
-    const double end = c.schedule.stop.endTime;
-    if (end > from.time) return;
-    throw CaseError(
-        {{kCommandLine, 0, "stop.end_time_s", fmt::format("{}", end),
-          fmt::format("is over: the checkpoint is of t = {:.6g} s", from.time), "give a later time, or leave it out"}});
-}
-
 /// Puts the overrides into the case of a checkpoint.
 void change(Checkpoint& from, const Case& c, const std::vector<std::string>& overrides) {
     Node given = readTreeText(from.given, "case.toml");
@@ -129,6 +120,17 @@ std::string deeper(const Case& c, const RunResult& result, const RunFolder& fold
 }
 
 }  // namespace
+
+std::optional<Diagnostic> endIsOver(const std::string& file, const Case& c, double time) {
+    const double end = c.schedule.stop.endTime;
+    if (end > time) return {};
+    return Diagnostic{file,
+                      0,
+                      "stop.end_time_s",
+                      fmt::format("{}", end),
+                      fmt::format("is over: the run goes on from t = {:.6g} s", time),
+                      "give a later time, or leave it out"};
+}
 
 ReadyRun readyRun(const CaseOptions& input) {
     ReadyRun run;
@@ -151,7 +153,8 @@ ReadyRun readyToResume(const std::filesystem::path& folder, const std::vector<st
     if (!overrides.empty()) {
         run.c = loadResolvedCase(from.caseText, folder / "case.toml", overrides);
         (void)Timeline(run.c);
-        requireAhead(from, run.c);
+        // The files of a run cannot be taken back to before its checkpoint.
+        if (const auto over = endIsOver(kCommandLine, run.c, from.time)) throw CaseError({*over});
         change(from, run.c, overrides);
         run.changed = true;
     }

@@ -31,6 +31,9 @@ ReadyRun readyRun(const CaseOptions& input);
 /// over, and CaseError, also for an override of a key that would have changed what has been.
 ReadyRun readyToResume(const std::filesystem::path& folder, const std::vector<std::string>& overrides = {});
 
+/// Why a run cannot go on from a state at `time` [s]: its end is not later. None if it can.
+std::optional<Diagnostic> endIsOver(const std::string& file, const Case& c, double time);
+
 /// Goes on in the folder, or starts over in it as `force` allows (RunFolder).
 RunFolder folderOf(ReadyRun& run, const std::filesystem::path& folder, bool force, const Backend& backend);
 

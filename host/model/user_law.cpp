@@ -10,6 +10,7 @@
 
 #include "host/core/fnv.h"
 #include "host/model/law_tokens.h"
+#include "host/model/user_law_shader.h"
 
 namespace vkdose {
 namespace {
@@ -326,51 +327,6 @@ class Parser {
     double trips_ = 0;
 };
 
-std::string vectorPart(const char* array, std::size_t k) {
-    return fmt::format("{}[{}].{}", array, k / 4, "xyzw"[k % 4]);
-}
-
-/// The text with the prefix, line by line.
-std::string prefixed(const std::string& bare, const std::vector<LawToken>& tokens, const Parser& parser) {
-    std::string out;
-    std::size_t done = 0;
-    for (std::size_t k = 0; k < tokens.size(); ++k) {
-        const LawToken& t = tokens[k];
-        if (t.kind != LawToken::Kind::Name || (k > 0 && tokens[k - 1].is("."))) continue;
-        const bool called = k + 1 < tokens.size() && tokens[k + 1].is("(");
-        const bool declares =
-            (t.is("parameter") || t.is("memory")) && k + 1 < tokens.size() && tokens[k + 1].is("float");
-        const bool ofGlsl = isLawWord(t.text) || (called && isLawFunction(t.text) && !parser.isFunction(t.text));
-        if (ofGlsl) continue;
-        out += bare.substr(done, t.at - done);
-        done = t.at + t.text.size();
-        out += declares ? "" : std::string(kUserPrefix) + t.text;
-    }
-    return out + bare.substr(done);
-}
-
-/// The functions by which shaders/law/user_functions.glsl reads parameters and memory.
-std::string glue(const UserLaw& law) {
-    std::string load, recall, keep;
-    for (std::size_t k = 0; k < law.parameters.size(); ++k)
-        load += fmt::format("    {}{} = {};\n", kUserPrefix, law.parameters[k], vectorPart("p.own", k));
-    for (std::size_t k = 0; k < law.memories.size(); ++k) {
-        recall += fmt::format("    {}{} = {};\n", kUserPrefix, law.memories[k], vectorPart("own", k));
-        keep += fmt::format("    {} = {}{};\n", vectorPart("own", k), kUserPrefix, law.memories[k]);
-    }
-    const auto optional = [](const char* wrapper, const char* function, bool has) {
-        return has ? fmt::format("float {}(UserContact c) {{ return {}{}(c); }}\n", wrapper, kUserPrefix, function)
-                   : fmt::format("float {}(UserContact c) {{ return 0.0; }}\n", wrapper);
-    };
-    return fmt::format(
-               "void userParameters(ContactParams p) {{\n{}}}\n"
-               "void userRecall(vec4 own[2]) {{\n{}}}\n"
-               "void userKeep(inout vec4 own[2]) {{\n{}}}\n",
-               load, recall, keep) +
-           optional("userDamping", "damping", law.hasDamping) + optional("userPull", "pull", law.hasPull) +
-           optional("userEnergy", "energy", law.hasEnergy) + optional("userReach", "reach", law.hasReach);
-}
-
 }  // namespace
 
 std::string lawHash(std::string_view text) {
@@ -393,8 +349,7 @@ LawReading readLaw(const std::string& name, const std::string& text) {
         reading.faults.push_back(refused.fault);
         return reading;
     }
-    // A second source string, so that the compiler's messages tell the user's own lines.
-    law.shader = fmt::format("#line 1 1\n{}\n#line 1 0\n{}", prefixed(bare, tokens, parser), glue(law));
+    law.shader = lawShader(law, bare, tokens, [&](const std::string& f) { return parser.isFunction(f); });
     return reading;
 }
 

@@ -259,7 +259,7 @@ class Measuring {
             }
             samples.push_back(s);
         }
-        countPressure(samples);
+        makePressurePositive(samples);
         std::vector<ShearPoint> points;
         for (const ElementTest::Window& w : m.windows)
             if (const auto p = shearPoint(samples, w.from, w.to, m.innerRadius, m.radius)) points.push_back(*p);

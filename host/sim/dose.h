@@ -71,7 +71,8 @@ inline constexpr auto kStopColumns =
                                      "Mass dosed after the coil was told to stop, to the end of the dose's rest."),
             column<&Dose::rotation>("rotation_s", "s", "Time from its start until the coil was told to stop."),
             column<&Dose::stoppedBy>("stopped_by", "",
-                                     "What told the coil to stop: time, mass or torque; none if the run ended before."),
+                                     "What told the coil to stop: time, mass, torque or order; none if the run ended "
+                                     "before."),
             column<&Dose::endTime>("end_time_s", "s", "Simulated time at which the dose ended."));
 inline constexpr auto kDoseColumns = std::tuple_cat(kPlainDoseColumns, kStopColumns);
 
