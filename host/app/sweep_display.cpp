@@ -50,12 +50,13 @@ std::string membersText(const Study& study, const std::vector<Member>& members, 
     for (const Bed& bed : beds)
         for (const int number : bed.members) bedOf[number] = bed.number;
     std::string text;
-    double work = 0;
+    double work = 0, longest = 0;
     for (const Member& m : members) {
         const std::string bed = bedOf.contains(m.number) ? fmt::format(", bed {:04}", bedOf.at(m.number)) : "";
         text += fmt::format("member {:04}  {:>7} particles  {:>9}particle-steps  {:>12}  {}{}\n", m.number, m.particles,
                             large(m.expectedWork), duration(m.expectedWork / speed.rate), memberText(study, m), bed);
         work += m.expectedWork;
+        longest = std::max(longest, m.expectedWork);
     }
     const double saved = workSaved(beds, members);
     work -= saved;
@@ -66,8 +67,10 @@ std::string membersText(const Study& study, const std::vector<Member>& members, 
             fmt::format("{} settle{} once, for {}, which saves up to {}particle-steps\n", counted(beds.size(), "bed"),
                         beds.size() == 1 ? "s" : "", counted(bedOf.size(), "member"), large(saved));
     if (members.empty()) return text;
-    text += fmt::format("run time {} with {} at a time, {}\n", duration(work / speed.rate / atOnce), atOnce,
-                        speedText(speed));
+    // Fewer members than places, or one that takes longer than all others together, leave places empty.
+    const int places = std::min(atOnce, static_cast<int>(members.size()));
+    text += fmt::format("run time {} with {} at a time, {}\n", duration(std::max(work / places, longest) / speed.rate),
+                        places, speedText(speed));
     return text + caveatText(speed, 9);
 }
 

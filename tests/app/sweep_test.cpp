@@ -144,6 +144,14 @@ TEST_CASE("a dry run prints the members, a faulty study is refused, neither writ
     CHECK(dry.code == 0);
     CHECK_THAT(dry.out, Catch::Contains("member 0003") && Catch::Contains("contact.friction 0.4, seed 1") &&
                             Catch::Contains("4 members"));
+    // More places than members do not make it shorter.
+    const auto told = [&](const std::string& jobs) {
+        const std::string out = box.vkdose("sweep study.toml --dry-run --assume --jobs " + jobs).out;
+        const std::size_t at = out.find("run time");
+        return out.substr(at, out.find(',', at) - at);
+    };
+    CHECK_THAT(told("4"), Catch::Contains("with 4 at a time"));
+    CHECK(told("400") == told("4"));
     std::string faulty = kStudy;
     faulty.replace(faulty.find("[0.2, 0.4]"), 10, "[0.2, -0.4]");
     box.write("study.toml", faulty);
