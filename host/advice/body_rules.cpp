@@ -16,6 +16,17 @@ using geometry::Triangle;
 /// From so many particles is looked whether a place can be met.
 constexpr std::size_t kMostWays = 60;
 
+/// The box around the corners; if there are none, low is above high.
+Box extentOf(const std::vector<Triangle>& mesh) {
+    Box box{Vec3(1e300), Vec3(-1e300)};
+    for (const Triangle& t : mesh)
+        for (const Vec3& p : t) {
+            box.low = glm::min(box.low, p);
+            box.high = glm::max(box.high, p);
+        }
+    return box;
+}
+
 /// The body's turns about its axis for one of the drive, as the case file gives them. Where a coil turns clockwise
 /// seen from its end, the angle of the drive counts backwards.
 double turnsPerTurn(const Subject& s, const geometry::Turn& turn) {
@@ -112,12 +123,7 @@ Found bodyOutOfScale(const Subject& s) {
         if (body.shapes.size() != 1 ||
             !std::holds_alternative<std::shared_ptr<const geometry::MeshSurface>>(body.shapes.front()))
             continue;
-        Vec3 low(1e300), high(-1e300);
-        for (const Triangle& t : trianglesOf(body))
-            for (const Vec3& p : t) {
-                low = glm::min(low, p);
-                high = glm::max(high, p);
-            }
+        const auto [low, high] = extentOf(trianglesOf(body));
         const double size = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
         const double device =
             s.c.canister
@@ -140,12 +146,7 @@ Found bodyOutside(const Subject& s) {
         const RigidBody& body = s.c.world.bodies[b];
         if (!std::holds_alternative<geometry::Rest>(body.course.motion)) continue;
         const std::vector<Triangle> mesh = trianglesOf(body);  // none of a shape without an end
-        Vec3 low(1e300), high(-1e300);
-        for (const Triangle& t : mesh)
-            for (const Vec3& p : t) {
-                low = glm::min(low, p);
-                high = glm::max(high, p);
-            }
+        const auto [low, high] = extentOf(mesh);
         const bool apart = glm::any(glm::greaterThan(low, room.high)) || glm::any(glm::lessThan(high, room.low));
         if (mesh.empty() || !apart) continue;
         const Vec3 at = body.course.start.origin;
@@ -214,13 +215,7 @@ double largestSpeed(const Subject& s, const RigidBody& body) {
     if (const auto* free = std::get_if<geometry::Free>(&motion)) return glm::length(free->velocity);
     const std::vector<Triangle> mesh = trianglesOf(body);
     // Of a body without an end, what is in the domain counts.
-    Vec3 low = s.c.world.domain.low, high = s.c.world.domain.high;
-    if (!mesh.empty()) low = high = mesh.front()[0];
-    for (const Triangle& t : mesh)
-        for (const Vec3& p : t) {
-            low = glm::min(low, p);
-            high = glm::max(high, p);
-        }
+    const auto [low, high] = mesh.empty() ? s.c.world.domain : extentOf(mesh);
     const geometry::Course always{body.course.start, motion, {}};
     const auto* table = std::get_if<geometry::Table>(&motion);
     const double from = table == nullptr ? 0 : table->rows.front().time;
