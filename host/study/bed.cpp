@@ -11,6 +11,7 @@
 #include "host/core/error.h"
 #include "host/core/file.h"
 #include "host/model/case_tree.h"
+#include "host/model/stability.h"
 #include "host/output/checkpoint.h"
 #include "host/output/field_files.h"
 #include "host/study/member_result.h"
@@ -41,6 +42,17 @@ void settleAlone(Node& contact, const Node& settle) {
     }
 }
 
+/// The step is stated by now, so that the number of steps in a contact that led to it does not matter. The least that
+/// is allowed takes its place: without any, a step that was taken for few steps would be refused as too long.
+void forgetSteps(Node& time) {
+    time.drop("steps_per_contact");
+    Node fewest;
+    fewest.kind = Node::Kind::Float;
+    fewest.number = kFewestSteps;
+    fewest.text = fmt::format("{}", kFewestSteps);
+    plant(time, "steps_per_contact", std::move(fewest));
+}
+
 void copyFile(const fs::path& from, const fs::path& to) {
     const std::optional<std::string> content = fileContent(from);
     if (!content) throw CheckpointError(unreadable(from));
@@ -56,7 +68,7 @@ std::string bedText(const Case& c) {
     Node tree = readTreeText(c.resolved, "case.toml");
     const bool driven = tree.child("dose") != nullptr && tree.child("dose")->child("speed_rpm") != nullptr;
     for (const char* key : kLater) tree.drop(key);
-    if (Node* time = tree.child("time")) time->drop("steps_per_contact");
+    if (Node* time = tree.child("time")) forgetSteps(*time);
     Node* contact = tree.child("contact");
     const Node* settle = tree.child("settle");
     if (contact == nullptr || settle == nullptr) return "";

@@ -40,6 +40,21 @@ TEST_CASE("members share a bed if what differs acts from the first dose on") {
     }
 }
 
+TEST_CASE("members share a bed with any number of steps in a contact, and it has their time step") {
+    const StudyFolder place;
+    for (const char* steps : {"4", "8", "30"}) {
+        CAPTURE(steps);
+        const std::vector<Member> members =
+            place.members(std::string("base = \"good.toml\"\n[set]\nsettle.time_s = 0.1\nsettle.kc_over_k = 0.3\n"
+                                      "time.step_s = \"auto\"\ntime.steps_per_contact = ") +
+                          steps + "\n[[axis]]\nkey = \"contact.kc_over_k\"\nvalues = [0.1, 0.2]\n");
+        const std::vector<Bed> shared = bedsOf(members);
+        REQUIRE(shared.size() == 1);
+        CHECK(loadResolvedCase(shared[0].caseText, "bed.toml").world.timeStep ==
+              loadResolvedCase(members[0].caseText, "case.toml").world.timeStep);
+    }
+}
+
 TEST_CASE("members do not share a bed if what differs acts while the powder settles") {
     for (const auto& [key, values] :
          std::vector<std::pair<std::string, std::string>>{{"settle.kc_over_k", "[0.1, 0.2]"},

@@ -1,0 +1,134 @@
+// The warnings of bodies: each slip has its own, and what is right has none.
+#include <filesystem>
+
+#include "geometry/mesh_writer.h"
+#include "geometry/tessellate.h"
+#include "tests/advice/slips.h"
+#include "tests/advice/warnings.h"
+#include "tests/support/catch.h"
+#include "tests/support/drum_case.h"
+
+using namespace vkdose;
+using test::shippedCase;
+
+TEST_CASE("each slip with a body has its warning with figures and a cure") {
+    const test::Folder folder;
+    std::filesystem::copy_file(shippedCase("devices/spring.stl"), folder.path() / "spring.stl");
+    const std::string good = test::readText(shippedCase("devices/mesh-lactose.toml"));
+    for (const test::BodySlip& slip : test::kBodySlips) {
+        CAPTURE(slip.name);
+        CHECK(test::warningOf(test::warningsOfText(folder, good), slip.name) == nullptr);
+        const std::vector<Warning> found = test::warningsOfText(folder, test::replaced(good, slip.from, slip.to));
+        const Warning* warning = test::warningOf(found, slip.name);
+        CAPTURE(test::namesOf(found));
+        REQUIRE(warning != nullptr);
+        for (const std::string& words : slip.says) CHECK_THAT(warning->line(), Catch::Contains(words));
+        CHECK_FALSE(warning->cure.empty());
+    }
+}
+
+TEST_CASE("bodies that move as one, or past one another, do not cross, and the coil is a body too") {
+    const test::Folder folder;
+    const std::string free = test::replaced(test::kFreeCase, "time_s = 0.01", "time_s = 1");
+    const auto warned = [&](const std::string& bodies) {
+        folder.write("two.csv", "x,y,z,r\n0.05,0.05,0.05,1e-3\n0.06,0.05,0.05,1e-3\n");
+        return test::lineOf(folder, free + bodies, "body-cross");
+    };
+    const std::string shaft = test::part("shaft", "2, 2, 30", "0, 0, 0") + test::kOwnTurn;
+    const auto arm = [](const std::string& speed) {
+        return test::part("arm", "20, 1, 1", "0.001, 0, 0.005") +
+               "[body.motion]\nkind = \"turn\"\nspeed_rpm = " + speed + "\n";
+    };
+    CHECK(warned(shaft + arm("60")).empty());
+    CHECK_THAT(warned(shaft + arm("61")), Catch::Contains("\"shaft\" turns through body \"arm\""));
+    const std::string swing = test::part("swing", "1, 20, 1", "0, 0, 0") +
+                              "[body.motion]\nkind = \"swing\"\namplitude_deg = 20\nfrequency_hz = 3\n";
+    CHECK(warned(swing + test::part("post", "1, 1, 1", "0.005, 0.009, 0")).empty());
+    CHECK_THAT(warned(swing + test::part("post", "1, 1, 1", "0.003, 0.009, 0")),
+               Catch::Contains("\"swing\" moves through body \"post\""));
+    // A lid that turns in a round cell of its own size touches no wall of it: what remains is the error of facets.
+    const std::string cell = "[[body]]\nname = \"cell\"\nshape = \"cylinder\"\nradius_mm = 20\nlength_mm = 30\n";
+    const std::string lid =
+        "[[body]]\nname = \"lid\"\nshape = \"disc\"\nradius_mm = 20\nat = [0, 0, 0.02]\n" + test::kOwnTurn;
+    CHECK(warned(cell + lid).empty());
+    CHECK_THAT(warned(cell + test::replaced(lid, "radius_mm = 20", "radius_mm = 21")),
+               Catch::Contains("\"lid\" turns through"));
+
+    const std::string mini = test::readText(shippedCase("mini.toml"));
+    const auto crosses = [&](const std::string& pin) { return test::lineOf(folder, mini + pin, "body-cross"); };
+    CHECK(crosses(test::part("pin", "1, 1, 1", "0, 0, 0.008")).empty());
+    CHECK_THAT(crosses(test::part("pin", "1, 1, 1", "0, -0.0055, 0.008")),
+               Catch::Contains("\"coil\" turns through body \"pin\""));
+}
+
+TEST_CASE("spheres that start inside of a closed mesh are told, unless it holds all of them") {
+    const test::Folder folder;
+    const geometry::Block block{Vec3(-0.01), Vec3(0.01)};
+    folder.write("block.stl", geometry::stlBytes(geometry::tessellated(block, 1, Vec3(-1), Vec3(1)), "block", 1));
+    const auto warned = [&](const std::string& spheres) {
+        folder.write("two.csv", "x,y,z,r\n" + spheres);
+        return test::lineOf(folder,
+                            test::kFreeCase + "[[body]]\nname = \"block\"\nmesh = \"block.stl\"\nunit = \"m\"\n",
+                            "body-inside");
+    };
+    CHECK_THAT(warned("0.003,0.001,-0.002,1e-3\n0.02,0,0,1e-3\n"),
+               Catch::Contains("1 of 2 spheres start inside of body \"block\"") && Catch::Contains("(3, 1, -2) mm"));
+    CHECK(warned("0.003,0.001,-0.002,1e-3\n-0.004,0,0,1e-3\n").empty());  // a vessel
+    CHECK(warned("0.03,0.001,-0.002,1e-3\n0.02,0,0.003,1e-3\n").empty());
+}
+
+TEST_CASE("a body that is to move in a phase that the run lacks is told, and a table too long to start anew") {
+    const test::Folder folder;
+    folder.write("way.csv", "time_s,angle_deg\n0,0\n0.02,90\n0.06,0\n");
+    const auto warned = [&](const std::string& motion) {
+        std::string text = test::kDrum;
+        const std::string turn = "kind = \"turn\"\nspeed_rpm = 60\n";
+        text.replace(text.find(turn), turn.size(), motion);
+        return test::lineOf(folder, text, "body-phases");
+    };
+    const std::string turn = "kind = \"turn\"\nspeed_rpm = 60\n", table = "kind = \"table\"\nfile = \"way.csv\"\n";
+    CHECK_THAT(warned(turn + "during = \"rotate rest\"\n"),
+               Catch::Contains("body \"drum\" is to move in the phase rest") && Catch::Contains("dose.rest_s"));
+    CHECK_THAT(warned(turn + "during = \"reverse\"\n"), Catch::Contains("dose.reverse_turns"));
+    CHECK(warned(turn + "during = \"rotate\"\n").empty());
+    CHECK_THAT(warned(table + "during = \"rotate\"\nanew = true\n"),
+               Catch::Contains("takes 0.06 s") && Catch::Contains("at most 0.05 s"));
+    CHECK(warned(table + "during = \"rotate\"\n").empty());
+    CHECK(warned(table + "during = \"settle\"\nanew = true\n").empty());
+}
+
+TEST_CASE("two bodies that meet in a seam where powder comes are told, at rest or moving as one") {
+    const test::Folder folder;
+    folder.write("two.csv", "x,y,z,r\n0.002,0.01,0.001,1e-3\n-0.01,0.01,0,1e-3\n");
+    const auto warned = [&](const std::string& bodies) {
+        return test::lineOf(folder, test::kFreeCase + bodies, "body-seam");
+    };
+    const auto box = [](const std::string& name, const std::string& at) {
+        return "[[body]]\nname = \"" + name + "\"\nshape = \"box\"\nsize_mm = [10, 4, 10]\nat = [" + at + "]\n";
+    };
+    CHECK_THAT(warned(box("left", "-0.005, 0, 0") + box("right", "0.005, 0, 0")),
+               Catch::Contains("body \"left\" and body \"right\" meet in a seam") &&
+                   Catch::Contains("export-body CASE left right"));
+    CHECK(warned(box("left", "-0.005, 0, 0") + box("right", "0.005, -0.001, 0.001")).empty());  // a step
+    CHECK(warned(box("left", "-0.005, 0, 0") + box("right", "0.0055, 0, 0")).empty());          // a gap
+    // A funnel and its spout: the rim is met from within, where the way grows steeper.
+    const std::string funnel =
+        "[[body]]\nname = \"funnel\"\nshape = \"cone\"\nradius_mm = 4\nend_radius_mm = 12\nlength_mm = 6\n"
+        "rotation_axis = [1, 0, 0]\nrotation_deg = -90\n";
+    const std::string spout =
+        "[[body]]\nname = \"spout\"\nshape = \"cylinder\"\nradius_mm = 4\nlength_mm = 6\n"
+        "rotation_axis = [1, 0, 0]\nrotation_deg = 90\n";
+    CHECK_THAT(warned(funnel + spout), Catch::Contains("\"funnel\" and body \"spout\" meet in a seam"));
+    // A bin on a funnel: within it is a corner, which has two contacts by right; without it no powder comes.
+    const std::string bin =
+        "[[body]]\nname = \"bin\"\nshape = \"cylinder\"\nradius_mm = 12\nlength_mm = 20\nat = [0, 0.006, 0]\n"
+        "rotation_axis = [1, 0, 0]\nrotation_deg = -90\n";
+    CHECK(warned(funnel + bin).empty());
+    // Bodies that move as one, and two that part.
+    const std::string sinks = "[body.motion]\nkind = \"slide\"\nvelocity = [0, -0.1, 0]\n";
+    const std::string left = box("left", "-0.005, 0, 0") + sinks, right = box("right", "0.005, 0, 0");
+    CHECK_THAT(warned(left + box("again", "-0.005, 0, 0") + sinks),
+               Catch::Contains("body \"left\" and body \"again\" coincide: a sphere at"));
+    CHECK_THAT(warned(left + right + sinks), Catch::Contains("meet in a seam"));
+    CHECK(warned(left + right + test::replaced(sinks, "-0.1", "-0.2")).empty());
+}
