@@ -166,26 +166,6 @@ std::string fault(const Table& m) {
 
 }  // namespace
 
-FixedAngle FixedAngle::of(double radians) {
-    double turns = radians / (2 * kPi);
-    turns -= std::floor(turns);
-    // Two words, so that the double's 53 bits are kept and 1.0 never overflows the conversion.
-    const double high = std::floor(turns * 0x1p32), low = (turns * 0x1p32 - high) * 0x1p32;
-    return {(static_cast<std::uint64_t>(high) << 32U) + static_cast<std::uint64_t>(low)};
-}
-
-double FixedAngle::radians() const {
-    return static_cast<double>(static_cast<std::int64_t>(part)) * 0x1p-64 * (2 * kPi);
-}
-
-FixedAngle operator+(FixedAngle a, FixedAngle b) {
-    return {a.part + b.part};
-}
-
-FixedAngle operator*(FixedAngle a, std::uint64_t times) {
-    return {a.part * times};
-}
-
 double Schedule::elapsed(double time) const {
     if (intervals.empty()) return time;
     double sum = 0;

@@ -2,7 +2,6 @@
 // How a body moves: a closed form of time, so that a place and a velocity at any time follow from the time alone. A
 // restart, or a longer step, finds the body where it would have been. A free body is the exception.
 
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <variant>
@@ -15,18 +14,6 @@
 namespace vkdose::geometry {
 
 using Rotation = glm::dquat;
-
-/// An angle as a fraction of a turn in 64-bit fixed point: [2^-64 turns]. Sums are exact, and whole turns drop out by
-/// themselves, so that a million turns lose no digit.
-struct FixedAngle {
-    std::uint64_t part = 0;
-
-    static FixedAngle of(double radians);  ///< of any finite angle, whole turns dropped
-    double radians() const;                ///< in [-pi, pi)
-    friend bool operator==(FixedAngle a, FixedAngle b) { return a.part == b.part; }
-};
-FixedAngle operator+(FixedAngle a, FixedAngle b);
-FixedAngle operator*(FixedAngle a, std::uint64_t times);
 
 /// Where a body is: a point x of its frame lies at rotation x + origin.
 struct Pose {
@@ -126,7 +113,7 @@ struct Course {
 };
 
 /// Upper bound of the way that any point within `radius` [m] of `centre`, a point of the body's frame, goes from
-/// `time` to `time` + `duration` [m]. It may be used as a body's share of the slack.
+/// `time` to `time` + `duration` [m]. From it a device knows when the contacts with the body have to be sought anew.
 double wayBound(const Course& course, const Vec3& centre, double radius, double time, double duration);
 
 /// Why a motion cannot be: an axis that is no unit vector, times that do not ascend, numbers that are not finite. Empty

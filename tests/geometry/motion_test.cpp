@@ -1,4 +1,4 @@
-// Motions are closed forms of time: velocities are derivatives of places, bounds hold, and angles lose no digit.
+// Motions are closed forms of time: velocities are derivatives of places, and bounds hold.
 
 #include "geometry/motion.h"
 
@@ -131,21 +131,6 @@ TEST_CASE("no point of a body goes further in a step than the bound, and the bou
             }
             CHECK(bounded <= 2 * gone);
         }
-}
-
-TEST_CASE("an angle in fixed point drops whole turns and loses no digit in a million steps") {
-    CHECK(FixedAngle::of(0).part == 0);
-    CHECK(FixedAngle::of(kPi).part == std::uint64_t(1) << 63U);
-    CHECK(FixedAngle::of(-kPi / 2).part == std::uint64_t(3) << 62U);
-    CHECK(FixedAngle::of(-1e-30).part == 0);
-    for (const double angle : {0.1, -2.0, 3.1, 100.0})
-        CHECK(near(std::remainder(FixedAngle::of(angle).radians() - angle, 2 * kPi), 0, 1, 1e-14));
-    // Steps of a third of a degree, a million and one of them.
-    const FixedAngle step = FixedAngle::of(kPi / 540);
-    FixedAngle sum;
-    for (int n = 0; n < 1000001; ++n) sum = sum + step;
-    CHECK(sum == step * 1000001);
-    CHECK(near(sum.radians(), std::remainder(1000001 * (kPi / 540), 2 * kPi), 1, 1e-9));
 }
 
 TEST_CASE("motions that cannot be are refused") {
