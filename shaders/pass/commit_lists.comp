@@ -11,7 +11,7 @@ void commit() {
     // A full table is reported; until the host hears of it nothing may reach outside.
     control.listed = uvec4(min(control.coming.xyz, uvec3(push.pairSlots, push.surfaceSlots, push.bodySlots)), 0u);
     control.coming = uvec4(0u);
-    control.drift = vec4(0.0);
+    control.drift.x = 0.0;
     control.list.w += 1u;
 }
 

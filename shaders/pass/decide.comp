@@ -39,11 +39,15 @@ void account() {
 /// Returns the wishes of the member.
 uint plan() {
     uint left = control.error.x == kEmpty ? member.roster.z - control.steps.x : 0u;
-    float way = bodyWay(), slack = bodySlack(), drift = control.drift.x;
-    bool drifts = drift + float(kStride - 1u) * way > slack;
+    float way = bodyWay(), drift = control.drift.x;
+    bool drifts = drift + float(kStride - 1u) * way > control.drift.y;
     uvec2 wanted = control.wanted.xy | control.wanted.zw | uvec2(0u, drifts ? 1u : 0u);
     wanted.y |= wanted.x;
-    if (wanted.y != 0u) drift = 0.0;
+    if (wanted.y != 0u) {
+        drift = 0.0;
+        control.drift.y = bodySlack(way);
+    }
+    float slack = control.drift.y;
     // The steps in which all is within its slack; at least one, because the lists are new if need be.
     float within = min((slack - drift) / max(way, 1e-30), float(kStride));
     control.steps.y = min(left, min(kStride, 1u + uint(max(0.0, within))));

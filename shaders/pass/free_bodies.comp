@@ -86,7 +86,8 @@ void main() {
 
     // The lists were made with this slack, if they were made before this step (pass/near.comp).
     bool renewed = control.wanted.y != 0u && push.stepInStride == 0u;
-    float dt = numerics().x, kick = now.line.w, left = renewed ? slackOf(now.velocity.xyz) : now.way.x;
+    float dt = numerics().x, kick = now.line.w;
+    float left = renewed ? bodySlack(dt * length(now.velocity.xyz)) : now.way.x;
     if (kick == 0.0) {  // it stands, where the host has put it
         motions[next].way.x = left;
         return;

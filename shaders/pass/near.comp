@@ -39,12 +39,12 @@ void bookDepartureFromBody(uint i, uint slot, uint body) {
 }
 #endif
 
-/// The largest of the bodies that move freely, which have the slack of a particle as fast (pass/free_bodies.comp).
+/// The largest of the bodies that move freely (pass/free_bodies.comp).
 float slackOfFreeBodies() {
     float most = 0.0;
     for (uint b = 0u; b < member.bodies.x; ++b) {
         BodyMotion motion = motionOf(b);
-        if (motion.free.w != 0.0) most = max(most, slackOf(motion.velocity.xyz));
+        if (motion.free.w != 0.0) most = max(most, bodySlack(numerics().x * length(motion.velocity.xyz)));
     }
     return most;
 }
@@ -52,7 +52,7 @@ float slackOfFreeBodies() {
 /// How far a particle and a body can come nearer before the next refresh. Both may go their slack, and the body a step
 /// more before it is told that it has.
 float slackToBodies(float slack) {
-    float most = slack + bodySlack() + 2.0 * member.choices.w + 1e-7;
+    float most = slack + control.drift.y + 2.0 * member.choices.w + 1e-7;
     if ((SHAPE_KINDS & kFreeBodies) != 0u) most += slackOfFreeBodies();
     return most;
 }

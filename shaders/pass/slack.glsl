@@ -1,6 +1,6 @@
 // Slack: the distance that a particle, or a body, may go before the contact lists are made anew.
-// It grows with the speed of the particle. One slack for all is worse: in a canister being emptied, the particles that
-// fall from the outlet ask for new lists every 30 steps, and the bed at rest lists twice as many contacts as touch.
+// It grows with the speed. One slack for all is worse: in a canister being emptied, the particles that fall from the
+// outlet ask for new lists every 30 steps, and the bed at rest lists twice as many contacts as touch.
 #ifndef VKDOSE_PASS_SLACK_GLSL
 #define VKDOSE_PASS_SLACK_GLSL
 
@@ -11,6 +11,9 @@ float slackOf(vec3 velocity) {
     return min(kLeastSlack * slackUnit() + some, kMostSlack * slackUnit());
 }
 
-float bodySlack() { return kBodySlack * slackUnit(); }
+/// Of a body whose points go at most `way` in a step [m].
+float bodySlack(float way) {
+    return clamp(kSlackSteps * way, kLeastBodySlack * slackUnit(), kMostBodySlack * slackUnit());
+}
 
 #endif

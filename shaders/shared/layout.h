@@ -46,7 +46,9 @@ SHARED_CONST kBodyLoads = 7u;
 SHARED_REAL kLeastSlack = 0.0067f;
 SHARED_REAL kMostSlack = 0.2f;
 SHARED_REAL kSlackSteps = 256.0f;  // steps at the present speed
-SHARED_REAL kBodySlack = 0.03f;    // of any point of a body
+SHARED_REAL kLeastBodySlack = 0.03f;  // of any point of a body
+SHARED_REAL kMostBodySlack = 0.8f;    // Bodies are not in the rows. This slack of a driven body and of a free one and
+                                      // the most slack of a particle are less than the skin together.
 
 // --- particle state: vec4 state[2 halves][2 couples][particles][2 fields] -------------------------------------------
 // The halves take turns as source and destination. Two fields side by side are 32 bytes, which a device with 64-bit
@@ -197,7 +199,7 @@ struct Control {   // a member's
     uvec4 listed;  // entries of the contact lists in use: pairs, surfaces, particles near bodies
     uvec4 coming;  // entries taken so far by the refresh at work: those, and links
     uvec4 list;   // x: entries of the rows in use; y: rebuilds since load; z: longest row ever; w: refreshes since load
-    vec4 drift;   // x: longest way of a body since the last refresh [m]
+    vec4 drift;   // x: longest way of a driven body since the last refresh, y: the one that the lists allow for [m]
     uvec4 call;   // x: the most urgent call of the even steps of this stride, y: of the odd ones; kEmpty: none
     uvec4 error;  // the first: x: step of the batch, y: kind, z: particle; x is kEmpty while there is none. It is the
                   // last step that the member makes.

@@ -308,6 +308,26 @@ TEST_CASE("bodies: one that starts anew within a call stands where it began", "[
     CHECK(differences(*whole, *reference, 0.5).position < 1e-4);
 }
 
+TEST_CASE("bodies: one that sets off after a rest is met in time", "[one-driver]") {
+    // The lists of the rest leave out a sphere that is 20 micrometres away. The ball comes nearer by two in a step.
+    RuledWorld w = emptyWorld();
+    geometry::Table table{Vec3(0, 1, 0), Vec3(0), {}};
+    const double dt = w.timeStep;
+    for (const auto& [at, height] : {std::pair(0, 0.0), std::pair(64, 0.0), std::pair(164, 0.2e-3)})
+        table.rows.push_back({at * dt, 0, Vec3(0, height, 0)});
+    w.bodies.push_back(bodyOf("lift", {geometry::Ball{Vec3(0), 3e-3}}, table));
+    Particles p;
+    p.add(Vec3(0, 4.27e-3, 0), 1.25e-3);
+    const auto device = gpu();
+    const auto reference = makeReferenceBackend();
+    for (Backend* b : {device.get(), reference.get()}) b->load(w, p);
+    device->advance(64, 0);
+    reference->advance(64, 0);
+    CHECK(device->advance(20, 0).maxOverlapRatio > 0);
+    reference->advance(20, 0);
+    CHECK(differences(*device, *reference, 0.5).position < 1e-4);
+}
+
 TEST_CASE("bodies: a mesh of a hundred thousand triangles steps on the device as in the reference, and as its rod") {
     const double radius = 20e-3;
     const geometry::Cone rod{Vec3(0, 0, -20e-3), Vec3(0, 0, 1), radius, radius, 40e-3};
@@ -340,7 +360,7 @@ TEST_CASE("bodies: a mesh of a hundred thousand triangles steps on the device as
     requireClean(*device);
 }
 
-TEST_CASE("bodies: a turning coil, or a drum about its axis, leaves the contact lists as they are for long") {
+TEST_CASE("bodies: one that moves leaves the contact lists as they are for long") {
     RuledWorld w = emptyWorld();
     w.timeStep = 2e-6;
     w.skin = 0.4e-3;
@@ -354,7 +374,8 @@ TEST_CASE("bodies: a turning coil, or a drum about its axis, leaves the contact 
         drum.shapes = {geometry::Tube{Vec3(0), Vec3(0, 0, 1), 40e-3, 70e-3, true}};
         w.bodies = {drum};
     }
-    SECTION("but not a box, whose corners go far in a step") {
+    SECTION("a box, whose corners go far in a step") {
+        w.domain = {Vec3(-45e-3, -45e-3, -5e-3), Vec3(45e-3, 45e-3, 75e-3)};
         drum.shapes = {geometry::Block{Vec3(-40e-3, -40e-3, 0), Vec3(40e-3, 40e-3, 70e-3), true}};
         w.bodies = {drum};
     }
@@ -363,9 +384,5 @@ TEST_CASE("bodies: a turning coil, or a drum about its axis, leaves the contact 
     auto device = gpu();
     device->load(w, p);
     device->advance(8, 10);
-    const std::uint64_t refreshes = profile(*device, 256, 10).refreshes;
-    if (!w.bodies.empty() && std::holds_alternative<geometry::Block>(drum.shapes[0]))
-        CHECK(refreshes > 20);
-    else
-        CHECK(refreshes <= 4);
+    CHECK(profile(*device, 256, 10).refreshes <= 4);
 }
