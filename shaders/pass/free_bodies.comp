@@ -86,8 +86,7 @@ void main() {
 
     // The lists were made with this slack, if they were made before this step (pass/near.comp).
     bool renewed = control.wanted.y != 0u && push.stepInStride == 0u;
-    float dt = numerics().x, kick = now.line.w;
-    float left = renewed ? bodySlack(dt * length(now.velocity.xyz)) : now.way.x;
+    float dt = numerics().x, kick = now.line.w, left = renewed ? slackOfFreeBody(now.velocity.xyz) : now.way.x;
     if (kick == 0.0) {  // it stands, where the host has put it
         motions[next].way.x = left;
         return;

@@ -16,4 +16,6 @@ float bodySlack(float way) {
     return clamp(kSlackSteps * way, kLeastBodySlack * slackUnit(), kMostBodySlack * slackUnit());
 }
 
+float slackOfFreeBody(vec3 velocity) { return bodySlack(numerics().x * length(velocity)); }
+
 #endif

@@ -46,9 +46,10 @@ SHARED_CONST kBodyLoads = 7u;
 SHARED_REAL kLeastSlack = 0.0067f;
 SHARED_REAL kMostSlack = 0.2f;
 SHARED_REAL kSlackSteps = 256.0f;  // steps at the present speed
-SHARED_REAL kLeastBodySlack = 0.03f;  // of any point of a body
-SHARED_REAL kMostBodySlack = 0.8f;    // Bodies are not in the rows. This slack of a driven body and of a free one and
-                                      // the most slack of a particle are less than the skin together.
+// Of any point of a body. It may be longer than a particle's, because bodies are not in the rows. That of a driven
+// body, that of a free one and that of a particle are less than the skin together.
+SHARED_REAL kLeastBodySlack = 0.03f;
+SHARED_REAL kMostBodySlack = 0.8f;
 
 // --- particle state: vec4 state[2 halves][2 couples][particles][2 fields] -------------------------------------------
 // The halves take turns as source and destination. Two fields side by side are 32 bytes, which a device with 64-bit

@@ -132,8 +132,8 @@ std::vector<Page> readPages(const fs::path& root) {
     std::vector<Page> pages;
     for (auto at = fs::recursive_directory_iterator(root); at != fs::recursive_directory_iterator(); ++at) {
         const std::string name = at->path().filename().string();
-        const bool ours = name != "build" && name != "out" && name != "runs";  // .gitignore
-        const bool skipped = name.front() == '.' || (at.depth() == 0 && !ours);
+        const bool made = name == "build" || name == "out" || name == "runs";  // as in .gitignore
+        const bool skipped = name.front() == '.' || (at.depth() == 0 && made);
         if (at->is_directory() && skipped) at.disable_recursion_pending();
         if (skipped || at->path().extension() != ".md") continue;
         std::ifstream stream(at->path(), std::ios::binary);

@@ -320,9 +320,10 @@ TEST_CASE("bodies: one that sets off after a rest is met in time", "[one-driver]
     p.add(Vec3(0, 4.27e-3, 0), 1.25e-3);
     const auto device = gpu();
     const auto reference = makeReferenceBackend();
-    for (Backend* b : {device.get(), reference.get()}) b->load(w, p);
-    device->advance(64, 0);
-    reference->advance(64, 0);
+    for (Backend* b : {device.get(), reference.get()}) {
+        b->load(w, p);
+        b->advance(64, 0);
+    }
     CHECK(device->advance(20, 0).maxOverlapRatio > 0);
     reference->advance(20, 0);
     CHECK(differences(*device, *reference, 0.5).position < 1e-4);
