@@ -201,12 +201,17 @@ void addValidate(CLI::App& program, ValidateOptions& options) {
         ->type_name("DIR");
     command.add_flag("--full", options.full, "at full size: hours on a CPU");
     command.add_flag("--list", options.list, "tell which comparisons there are, and run none");
+    CLI::Option* judge = command.add_flag("--judge", options.judge,
+                                          "begin no run: judge those that have ended, while others may still go on");
     command
         .add_option("--jobs", options.sweep.jobs,
                     "runs at once, each in a process of its own (default on a CPU: one for each core)")
-        ->check(CLI::Range(1, 1024));
-    command.add_flag("--retry-failed", options.sweep.retryFailed,
-                     "run those that failed again, from their checkpoints if these can be read");
+        ->check(CLI::Range(1, 1024))
+        ->excludes(judge);
+    command
+        .add_flag("--retry-failed", options.sweep.retryFailed,
+                  "run those that failed again, from their checkpoints if these can be read")
+        ->excludes(judge);
     command.add_flag("--quiet", options.sweep.quiet, "print the verdicts and errors only");
     addBackend(command, options.sweep.backend);
 }

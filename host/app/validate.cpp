@@ -14,6 +14,8 @@
 #include "host/core/file.h"
 #include "host/core/printable.h"
 #include "host/report/page.h"
+#include "host/study/member.h"
+#include "host/study/study.h"
 #include "host/validate/comparisons.h"
 #include "host/validate/tables.h"
 #include "host/verify/suite.h"
@@ -73,19 +75,23 @@ fs::path outOf(const ValidateOptions& options) {
     return fs::path("out") / (options.full ? "validate-full" : "validate");
 }
 
-/// "4 runs, 61 s of stepping by the clock, 2.4e+08 particle-steps"
-std::string costOf(const std::vector<validate::Run>& runs) {
+/// "4 runs, 61 s of stepping by the clock, 2.4e+08 particle-steps"; "3 of 4 runs, ..." as long as others have to end.
+std::string costOf(const std::vector<validate::Run>& runs, std::size_t members) {
     double seconds = 0, steps = 0;
     for (const validate::Run& run : runs) {
         seconds += run.figure("/stepping_wall_time_s");
         steps += run.figure("/particle_steps");
     }
-    return fmt::format("{}, {:.0f} s of stepping by the clock, {:.2g} particle-steps", counted(runs.size(), "run"),
-                       seconds, steps);
+    const std::string count = runs.size() == members ? counted(members, "run")
+                                                     : fmt::format("{} of {}", runs.size(), counted(members, "run"));
+    return fmt::format("{}, {:.0f} s of stepping by the clock, {:.2g} particle-steps", count, seconds, steps);
 }
 
 void tellFindings(const Result& result) {
-    tell("\n{}: {}\n", result.name, result.missing.empty() ? result.what : "not made: " + result.missing);
+    if (result.missing.empty())
+        tell("\n{}: {} ({})\n", result.name, result.what, result.cost);
+    else
+        tell("\n{}: not made: {}\n", result.name, result.missing);
     for (const validate::Finding& f : result.evaluation.findings) tell("{}\n", validate::tableLine(f));
     std::fflush(stdout);
 }
@@ -121,23 +127,33 @@ int validateCommand(const ValidateOptions& options) {
     for (const Comparison& c : validate::comparisons())
         studies.push_back(findCase(fmt::format("validate/{}{}.toml", options.full ? "full/" : "", c.name)));
     const fs::path out = outOf(options);
-    createFolder(out);
+    if (!options.judge) createFolder(out);
 
     std::vector<Result> results;
     int failed = kOk;
-    if (chosen(options, kImpacts)) results.push_back(impacts(options));
+    if (!options.judge && chosen(options, kImpacts)) results.push_back(impacts(options));
     for (std::size_t i = 0; i < studies.size() && failed != kInterrupted; ++i) {
         const Comparison& c = validate::comparisons()[i];
         if (!chosen(options, c.name)) continue;
         SweepOptions sweep = options.sweep;
         sweep.study = studies[i];
         sweep.out = out / c.name;
-        if (const int code = sweepCommand(sweep); code != kOk) failed = code;
+        if (options.judge) {
+            if (!fs::exists(sweep.out / "members.csv")) continue;
+        } else if (const int code = sweepCommand(sweep); code != kOk) {
+            failed = code;
+        }
         if (failed == kInterrupted) break;
         const std::vector<validate::Run> runs = validate::readRuns(sweep.out);
-        results.push_back({c.name, c.what, c.source, c.evaluate(runs, studies[i].parent_path()), costOf(runs), ""});
+        if (options.judge && runs.empty()) continue;
+        const std::size_t members = membersOf(readStudy(sweep.study)).size();
+        results.push_back(
+            {c.name, c.what, c.source, c.evaluate(runs, studies[i].parent_path()), costOf(runs, members), ""});
     }
-    if (options.names.empty())
+    if (options.judge && results.empty())
+        throw UsageError(fmt::format("{} has no run of a comparison that has ended; run it without --judge first",
+                                     printable(out.string())));
+    if (options.names.empty() && !options.judge)
         for (const validate::Missing& m : validate::missingComparisons())
             results.push_back({m.name, m.what, "", {}, "", m.why});
 

@@ -12,6 +12,7 @@ struct ValidateOptions {
     std::vector<std::string> names;  ///< of comparisons; empty: all
     bool full = false;               ///< the studies at full size
     bool list = false;               ///< only tell which there are
+    bool judge = false;              ///< begin no run: judge those that have ended
     SweepOptions sweep;              ///< of each study: `study` is the comparison's own
 };
 

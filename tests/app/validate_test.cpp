@@ -31,9 +31,10 @@ TEST_CASE("validate plays the published impacts and writes what it prints") {
     CHECK(readText(box / "out/validate/validate.html").find("chung-ooi") != std::string::npos);
 }
 
-TEST_CASE("validate runs the study of a comparison, judges it, and finds it done the next time") {
-    const Sandbox box;
-    // A folder cases goes before that of the program: a silo of a few spheres, which run out at once.
+namespace {
+
+/// A folder cases goes before that of the program: two silos of a few spheres, which run out at once.
+void smallBeverloo(const Sandbox& box) {
     std::filesystem::create_directories(box / "cases/validate");
     box.write("cases/validate/beverloo.toml",
               "base = \"small.toml\"\n[[axis]]\nkey = \"body.floor.hole_radius_mm\"\n"
@@ -43,6 +44,13 @@ TEST_CASE("validate runs the study of a comparison, judges it, and finds it done
               "/cases/validate/flat-silo.toml\"\n"
               "[particles]\nmass_g = 0.5\n[settle]\ntime_s = 0.02\n"
               "[measure.settled]\ntime_s = 0.01\n[measure.discharge]\nfrom_s = 0.0\nto_s = 0.02\n");
+}
+
+}  // namespace
+
+TEST_CASE("validate runs the study of a comparison, judges it, and finds it done the next time") {
+    const Sandbox box;
+    smallBeverloo(box);
     const auto outcome = box.vkdose("validate beverloo --backend reference --jobs 2");
     INFO(outcome.out << outcome.err);
     CHECK(outcome.code == 1);  // nothing has run out: no figure, so it differs
@@ -54,4 +62,26 @@ TEST_CASE("validate runs the study of a comparison, judges it, and finds it done
     const auto before = std::filesystem::last_write_time(summary);
     CHECK(box.vkdose("validate beverloo --backend reference --jobs 2").code == 1);
     CHECK(std::filesystem::last_write_time(summary) == before);
+}
+
+TEST_CASE("validate --judge judges the runs that have ended, tells how many have not, and begins none") {
+    const Sandbox box;
+    const auto nothing = box.vkdose("validate --judge");
+    CHECK(nothing.code == 2);
+    CHECK(nothing.err.find("has no run of a comparison that has ended") != std::string::npos);
+    CHECK(box.files().empty());
+
+    smallBeverloo(box);
+    CHECK(box.vkdose("validate beverloo --backend reference --jobs 2").code == 1);
+    // As if the second run had not ended yet.
+    const std::string members = readText(box / "out/validate/beverloo/members.csv");
+    box.write("out/validate/beverloo/members.csv", members.substr(0, members.find("\n1,") + 1));
+    std::filesystem::remove_all(box / "out/validate/beverloo/members/0001");
+    const auto judged = box.vkdose("validate --judge --backend reference");
+    INFO(judged.out << judged.err);
+    CHECK(judged.code == 1);
+    CHECK(judged.out.find("1 of 2 runs") != std::string::npos);
+    CHECK(judged.out.find("chung-ooi") == std::string::npos);
+    CHECK(readText(box / "out/validate/validate.md").find("1 of 2 runs") != std::string::npos);
+    CHECK_FALSE(std::filesystem::exists(box / "out/validate/beverloo/members/0001"));
 }
