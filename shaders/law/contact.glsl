@@ -66,18 +66,18 @@ Response contactResponse(ContactParams p, uvec4 choices, Meeting m, float dt, in
 
     bool slides, rolls, twists;
     vec3 spring = h.slidingMax.xyz;
-    vec3 ft = frictionForce(answer.springs.x, answer.dampings.x, answer.slipping.x, p.friction.x * bearing, m.normal,
+    vec3 ft = frictionForce(answer.springs.x, answer.dampings.x, answer.slipping.x, p.friction.x, bearing, m.normal,
                             vt, dt, spring, slides);
     h.slidingMax.xyz = spring;
 
     float lever = rollingLever(m.reduced, choices.y);
     spring = h.rollingTorsion.xyz;
-    vec3 fr = frictionForce(answer.springs.y, answer.dampings.y, answer.slipping.y, p.friction.y * bearing, m.normal,
+    vec3 fr = frictionForce(answer.springs.y, answer.dampings.y, answer.slipping.y, p.friction.y, bearing, m.normal,
                             rollingVelocity(lever, m.normal, m.spin), dt, spring, rolls);
     h.rollingTorsion.xyz = spring;
 
     float twist = h.rollingTorsion.w;
-    float fto = torsionForce(answer.springs.z, answer.dampings.z, answer.slipping.z, p.friction.z * bearing,
+    float fto = torsionForce(answer.springs.z, answer.dampings.z, answer.slipping.z, p.friction.z, bearing,
                              lever * dot(m.normal, m.spin), dt, twist, twists);
     h.rollingTorsion.w = twist;
 

@@ -10,18 +10,22 @@ vec3 intoTangentPlane(vec3 spring, vec3 n) {
     return now > 0.0 ? tangent * sqrt(old / now) : vec3(0.0);
 }
 
-/// `v` tangential velocity [m/s], `slipping` the damping while it slips [kg/s], `limit` Coulomb force [N], `dt` advance
-/// of the spring [s]. Returns the force [N] that resists v. `spring` [m] becomes the spring of the next step; `slips`
-/// tells whether the slider slips.
-vec3 frictionForce(float k, float gamma, float slipping, float limit, vec3 n, vec3 v, float dt, inout vec3 spring,
-                   out bool slips) {
+/// Coulomb's limit [N]. Without friction it is 0 however large the force that bears on the contact is.
+float coulombLimit(float mu, float bearing) { return mu > 0.0 ? mu * bearing : 0.0; }
+
+/// `v` tangential velocity [m/s], `slipping` the damping while it slips [kg/s], `mu` coefficient of friction, `bearing`
+/// the force that it is of [N], `dt` advance of the spring [s]. Returns the force [N] that resists v. `spring` [m]
+/// becomes the spring of the next step; `slips` tells whether the slider slips. A contact with friction that bears
+/// nothing keeps what the dashpot leaves in its spring.
+vec3 frictionForce(float k, float gamma, float slipping, float mu, float bearing, vec3 n, vec3 v, float dt,
+                   inout vec3 spring, out bool slips) {
     spring = intoTangentPlane(spring, n) + v * dt;
     vec3 f = -k * spring - gamma * v;
-    float size = length(f);
+    float size = length(f), limit = coulombLimit(mu, bearing);
     slips = size > limit;
     if (slips) {
         f *= limit / size;
-        spring = k > 0.0 && limit > 0.0 ? -(f + slipping * v) / k : vec3(0.0);
+        spring = k > 0.0 && mu > 0.0 ? -(f + slipping * v) / k : vec3(0.0);
     }
     return f;
 }
