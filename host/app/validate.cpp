@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <set>
 
 #include "host/app/exit_code.h"
 #include "host/app/find_case.h"
@@ -46,18 +47,17 @@ Result impacts(const ValidateOptions& options) {
                   "Y. C. Chung, J. Y. Ooi, Granular Matter 13 (2011) 643",
                   {},
                   "",
+                  "",
                   ""};
     const auto start = std::chrono::steady_clock::now();
     const std::unique_ptr<Backend> backend = makeBackend(options.sweep.backend, 1);
+    result.backend = backend->description();
     int test = 0;
     for (const char* name : kImpactCases) {
         const verify::Scene scene = verify::scenesNamed(name).front();
         validate::Finding finding{fmt::format("test {}: largest error over what is allowed", ++test), "-", 0};
         const std::vector<verify::Check> checks = verify::play(scene, *backend);
-        for (const verify::Check& check : checks) {
-            const double share = check.error() / check.tolerance.share;
-            if (!(share <= finding.got)) finding.got = share;  // NaN stays
-        }
+        finding.got = verify::worstShare(checks);
         finding.high = 1;
         finding.source = test <= 2   ? "published figures and closed forms"
                          : test <= 4 ? "closed forms"
@@ -87,19 +87,38 @@ std::string costOf(const std::vector<validate::Run>& runs, std::size_t members) 
     return fmt::format("{}, {:.0f} s of stepping by the clock, {:.2g} particle-steps", count, seconds, steps);
 }
 
+/// The backends that runs name, each once: those of an earlier call may be of another one.
+std::string backendsOf(const std::vector<validate::Run>& runs) {
+    std::set<std::string> all;
+    for (const validate::Run& run : runs) all.insert(run.summary.at("backend").get<std::string>());
+    return all.empty() ? "no backend" : fmt::format("{}", fmt::join(all, " and "));
+}
+
+/// Whether a run of this sweep has ended well.
+bool hasRuns(const fs::path& sweep) {
+    return fs::exists(sweep / "members.csv") && !validate::readRuns(sweep).empty();
+}
+
+Result judged(const Comparison& c, const SweepOptions& sweep) {
+    const std::vector<validate::Run> runs = validate::readRuns(sweep.out);
+    const std::size_t members = membersOf(readStudy(sweep.study)).size();
+    return {c.name,           c.what, c.source, c.evaluate(runs, sweep.study.parent_path()), costOf(runs, members),
+            backendsOf(runs), ""};
+}
+
 void tellFindings(const Result& result) {
     if (result.missing.empty())
-        tell("\n{}: {} ({})\n", result.name, result.what, result.cost);
+        tell("\n{}: {} ({}, on {})\n", result.name, result.what, result.cost, result.backend);
     else
         tell("\n{}: not made: {}\n", result.name, result.missing);
     for (const validate::Finding& f : result.evaluation.findings) tell("{}\n", validate::tableLine(f));
     std::fflush(stdout);
 }
 
-void write(const fs::path& out, const std::vector<Result>& results, const std::string& backend) {
-    replaceFile(out / "validate.md", validate::markdownTable(results, backend));
-    replaceFile(out / "validate.json", validate::jsonTable(results, backend));
-    replaceFile(out / "validate.html", report::page(validate::pageData(results, backend)));
+void write(const fs::path& out, const std::vector<Result>& results) {
+    replaceFile(out / "validate.md", validate::markdownTable(results));
+    replaceFile(out / "validate.json", validate::jsonTable(results));
+    replaceFile(out / "validate.html", report::page(validate::pageData(results)));
     for (const Result& r : results)
         if (!r.evaluation.charts.empty())
             replaceFile(out / fmt::format("{}.csv", r.name), validate::curvesCsv(r.evaluation));
@@ -132,35 +151,25 @@ int validateCommand(const ValidateOptions& options) {
     std::vector<Result> results;
     int failed = kOk;
     if (!options.judge && chosen(options, kImpacts)) results.push_back(impacts(options));
-    for (std::size_t i = 0; i < studies.size() && failed != kInterrupted; ++i) {
+    for (std::size_t i = 0; i < studies.size(); ++i) {
         const Comparison& c = validate::comparisons()[i];
         if (!chosen(options, c.name)) continue;
         SweepOptions sweep = options.sweep;
         sweep.study = studies[i];
         sweep.out = out / c.name;
-        if (options.judge) {
-            if (!fs::exists(sweep.out / "members.csv")) continue;
-        } else if (const int code = sweepCommand(sweep); code != kOk) {
-            failed = code;
-        }
+        if (!options.judge)
+            if (const int code = sweepCommand(sweep); code != kOk) failed = code;
         if (failed == kInterrupted) break;
-        const std::vector<validate::Run> runs = validate::readRuns(sweep.out);
-        if (options.judge && runs.empty()) continue;
-        const std::size_t members = membersOf(readStudy(sweep.study)).size();
-        results.push_back(
-            {c.name, c.what, c.source, c.evaluate(runs, studies[i].parent_path()), costOf(runs, members), ""});
+        if (!options.judge || hasRuns(sweep.out)) results.push_back(judged(c, sweep));
     }
     if (options.judge && results.empty())
         throw UsageError(fmt::format("{} has no run of a comparison that has ended; run it without --judge first",
                                      printable(out.string())));
     if (options.names.empty() && !options.judge)
         for (const validate::Missing& m : validate::missingComparisons())
-            results.push_back({m.name, m.what, "", {}, "", m.why});
+            results.push_back({m.name, m.what, "", {}, "", "", m.why});
 
-    const std::string backend = options.sweep.backend.backend == "reference"
-                                    ? "reference"
-                                    : makeBackend(options.sweep.backend, 1)->description();
-    if (!results.empty()) write(out, results, backend);
+    if (!results.empty()) write(out, results);
     tell("{}\n", validate::headLine());
     for (const Result& r : results) tellFindings(r);
     tell("\n{}; {} has the curves, validate.md and validate.json the same figures\n", validate::tally(results),

@@ -3,7 +3,7 @@
 function comparisonPart(main, comparison) {
   add(main, "h2", comparison.name);
   add(main, "p", `${comparison.what}. ${comparison.source ? "Source: " + comparison.source + ". " : ""}` +
-                 (comparison.missing ? `Not made: ${comparison.missing}.` : `${comparison.cost}.`));
+                 (comparison.missing ? `Not made: ${comparison.missing}.` : `${comparison.cost}, on ${comparison.backend}.`));
   if (comparison.findings.length > 0)
     table(main, [["figure", false], ["expected", true], ["got", true], ["unit", false], ["verdict", false], ["source", false], ["remark", false]],
           comparison.findings.map(f => [f.figure, f.expected, f.error > 0 ? within(f.got, f.error) : short(f.got), f.unit, f.verdict, f.source, f.remark]));

@@ -5,16 +5,13 @@
 #include <functional>
 #include <limits>
 
+#include "host/core/worse.h"
+
 namespace vkdose {
 
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-/// The larger of two differences. NaN counts as infinitely large, because std::max would drop it.
-double worse(double a, double b) {
-    return std::isnan(b) ? kInfinity : std::max(a, b);
-}
 
 double rootMeanSquareSpeed(const Particles& p) {
     double sum = 0, active = 0;

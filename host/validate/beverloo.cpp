@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <set>
 
 #include "host/analysis/line_fit.h"
+#include "host/core/worse.h"
 #include "host/validate/comparisons.h"
 
 namespace vkdose::validate {
@@ -15,9 +17,10 @@ constexpr double kGravity = 9.81;   // [m/s2], as the case has it
 constexpr double kDiameter = 2e-3;  // of the spheres [m], as the case has it
 constexpr double kSmall = 0.02;     // of W^(2/5), how far off the line it may be
 
+constexpr std::size_t kFewest = 3;  // holes: two always lie on a straight line
+
 struct Point {
     double hole;             ///< diameter [m]
-    double rate, error;      ///< [kg/s]
     double root, rootError;  ///< W^(2/5)
 };
 
@@ -30,11 +33,11 @@ Law lawOf(double slope, double zero, double density) {
     return {std::pow(slope, 2.5) / (density * std::sqrt(kGravity)), zero / kDiameter};
 }
 
-/// The line through all points but `left`; none is left out if that is no index.
-LineFit lineThrough(const std::vector<Point>& points, std::size_t left) {
+/// The line through all points but those of one hole; none is left out if no point has it.
+LineFit lineThrough(const std::vector<Point>& points, double leftOut) {
     LineFit fit;
-    for (std::size_t i = 0; i < points.size(); ++i)
-        if (i != left) fit.add(points[i].hole, points[i].root);
+    for (const Point& p : points)
+        if (p.hole != leftOut) fit.add(p.hole, p.root);
     return fit;
 }
 
@@ -51,23 +54,24 @@ Evaluation beverloo(const std::vector<Run>& runs, const std::filesystem::path&) 
         const double rate = run.figure("/measures/discharge/rate_kg_s");
         const double error = run.figure("/measures/discharge/rate_error_kg_s");
         const double root = std::pow(rate, 0.4);
-        points.push_back({2e-3 * run.value("body.floor.hole_radius_mm"), rate, error, root, 0.4 * root * error / rate});
+        points.push_back({2e-3 * run.value("body.floor.hole_radius_mm"), root, 0.4 * root * error / rate});
         density += run.figure("/measures/settled/density_kg_m3") / static_cast<double>(runs.size());
     }
-    const LineFit fit = lineThrough(points, points.size());
+    const LineFit fit = lineThrough(points, 0);
     const Law law = lawOf(fit, density);
-    // The error of C and k by leaving out one point at a time (jackknife).
+    // The error of C and k by leaving out one hole at a time, with all of its fillings (jackknife).
+    std::set<double> holes;
+    for (const Point& p : points) holes.insert(p.hole);
     Law error{0, 0};
-    const double n = static_cast<double>(points.size());
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        const Law other = lawOf(lineThrough(points, i), density);
+    const double n = static_cast<double>(holes.size());
+    for (const double hole : holes) {
+        const Law other = lawOf(lineThrough(points, hole), density);
         error.constant += (n - 1) / n * std::pow(other.constant - law.constant, 2);
         error.gap += (n - 1) / n * std::pow(other.gap - law.gap, 2);
     }
     double off = 0, largest = 0;
     for (const Point& p : points) {
-        const double distance = std::abs(p.root - fit.at(p.hole));
-        if (!(distance <= off)) off = distance;  // what is not a number stays
+        off = worse(off, std::abs(p.root - fit.at(p.hole)));
         largest = std::max(largest, p.root);
     }
 
@@ -81,6 +85,9 @@ Evaluation beverloo(const std::vector<Run>& runs, const std::filesystem::path&) 
         {"W^(2/5) off a straight line over D, at most", "-", off / largest, 0, 0, kSmall, "the law's own shape",
          "in units of the largest W^(2/5)", true},
     };
+    if (holes.size() < kFewest)
+        for (Finding& f : result.findings)
+            notComparable(f, fmt::format("{} holes of at least {}", holes.size(), kFewest));
     Curve found{"vkdose", {}, false, true}, fitted{"fit", {}, true, false},
         published{"C = 0.58, k = 1.4", {}, true, false};
     for (const Point& p : points) {

@@ -3,26 +3,49 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace vkdose::validate {
 
 Verdict Finding::verdict() const {
     if (!comparable) return Verdict::NotComparable;
+    if (wanted != Wanted::Range) {
+        const double right = wanted == Wanted::Positive ? got : -got;
+        if (right > 2 * error) return Verdict::Agrees;
+        return right >= -2 * error ? Verdict::Undecided : Verdict::Differs;
+    }
     if (got >= low && got <= high) return Verdict::Agrees;
     const double outside = got < low ? low - got : got - high;
     return outside <= 2 * error ? Verdict::Undecided : Verdict::Differs;
 }
 
+void notComparable(Finding& finding, const std::string& why) {
+    finding.comparable = false;
+    finding.remark = why;
+}
+
 void holdAgainst(Finding& finding, const std::map<std::string, double>& others, double share, double spread) {
-    if (others.empty()) {
-        finding.comparable = false;
-        finding.remark = "the published curve is not public, and no other program has run these inputs";
+    std::map<std::string, double> known;
+    std::string without;
+    for (const auto& [program, value] : others) {
+        if (std::isfinite(value))
+            known[program] = value;
+        else
+            without += fmt::format("{}{}", without.empty() ? "" : ", ", program);
+    }
+    if (!without.empty()) finding.remark += fmt::format("; without {}, whose curve does not have it", without);
+    if (known.empty()) {
+        notComparable(finding,
+                      without.empty()
+                          ? "the published curve is not public, and no other program has run these inputs"
+                          : fmt::format("the published curve is not public, and that of {} does not have it", without));
         return;
     }
     finding.low = std::numeric_limits<double>::infinity();
     finding.high = -finding.low;
     finding.source.clear();
-    for (const auto& [program, value] : others) {
+    for (const auto& [program, value] : known) {
         finding.low = std::min(finding.low, (1 - share) * value - spread);
         finding.high = std::max(finding.high, (1 + share) * value + spread);
         finding.source += fmt::format("{}{} {:.4g}", finding.source.empty() ? "" : ", ", program, value);

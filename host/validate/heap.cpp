@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -15,7 +16,7 @@ namespace vkdose::validate {
 
 namespace {
 
-/// The angle at one point of the study: mean over the seeds, and its standard error.
+/// The angle at one point of the study: mean over the fillings, and its standard error.
 struct Angle {
     double friction, rolling, radius;  ///< contact.friction, contact.rolling_friction, [mm]
     double mean = 0, error = 0;        ///< [degrees]
@@ -36,17 +37,24 @@ std::vector<Angle> anglesOf(const std::vector<Run>& runs) {
             angle.mean += value / n;
             squares += error * error;
         }
-        angle.error = std::sqrt(squares) / n;  // of the four quarters of each heap
+        double spread = 0;
+        for (const auto& [value, error] : values) spread += (value - angle.mean) * (value - angle.mean);
+        // The quarters of a heap tell little of what another filling would be.
+        const double ofQuarters = std::sqrt(squares) / n, ofFillings = n > 1 ? std::sqrt(spread / (n - 1) / n) : 0;
+        angle.error = std::max(ofQuarters, ofFillings);
         angles.push_back(angle);
     }
     return angles;
 }
 
-/// The exponent of `of` in the angle over those points that share the other two values, and its error from the angles'.
+/// The exponent of `of` in the angle over those points that share the other two values. Its error is the larger of two:
+/// what follows from the errors of the angles, and what follows from how far these are off a power of `of`.
 struct Exponent {
     double value = 0, error = 0;
     Curve curve;
 };
+
+constexpr std::size_t kFewest = 3;  // points: two always follow a power
 
 Exponent exponentOf(const std::vector<Angle>& angles, const char* name, double (*of)(const Angle&),
                     bool (*along)(const Angle&)) {
@@ -59,22 +67,26 @@ Exponent exponentOf(const std::vector<Angle>& angles, const char* name, double (
             points.push_back({of(a), a.mean, a.error});
             mean += std::log(of(a));
         }
-    mean /= static_cast<double>(points.size());
-    double spread = 0, noise = 0;
+    const double count = static_cast<double>(points.size());
+    mean /= count;
+    double spread = 0, noise = 0, misfit = 0;
     for (const auto& [x, angle, error] : points) {
         const double off = std::log(x) - mean;
         spread += off * off;
         noise += std::pow(off * error / angle, 2);
+        misfit += std::pow(std::log(angle) - fit.at(std::log(x)), 2);
     }
-    return {fit.slope(), std::sqrt(noise) / spread, {name, points, true, true}};
+    const double ofAngles = std::sqrt(noise) / spread, ofFit = std::sqrt(misfit / (count - 2) / spread);
+    return {fit.slope(), std::max(ofAngles, ofFit), {name, points, true, true}};
 }
 
 Finding trend(const char* of, const Exponent& exponent, bool grows) {
     Finding finding{fmt::format("exponent of {}", of), "-", exponent.value, exponent.error};
-    finding.low = grows ? 0 : -10;
-    finding.high = grows ? 10 : 0;
+    finding.wanted = grows ? Wanted::Positive : Wanted::Negative;
     finding.source = grows ? "the angle grows with it" : "the angle falls with it";
     finding.remark = "the sign is judged";
+    if (exponent.curve.points.size() < kFewest)
+        notComparable(finding, fmt::format("{} points of at least {}", exponent.curve.points.size(), kFewest));
     return finding;
 }
 
@@ -105,7 +117,7 @@ Evaluation heap(const std::vector<Run>& runs, const std::filesystem::path&) {
     result.findings = {trend("sliding friction", friction, true), number("sliding friction", friction, 0.27),
                        trend("rolling friction", rolling, true),  number("rolling friction", rolling, 0.06),
                        trend("the diameter", size, false),        number("the diameter", size, -0.2)};
-    const char* note = "Bars: standard error, from the quarters of each heap.";
+    const char* note = "Bars: standard error, from the quarters of each heap or from the fillings.";
     result.charts = {{"Angle of repose over sliding friction", note, "sliding friction", "degrees", {friction.curve}},
                      {"Angle of repose over rolling friction", note, "rolling friction", "degrees", {rolling.curve}},
                      {"Angle of repose over size", note, "diameter [mm]", "degrees", {size.curve}}};

@@ -16,11 +16,10 @@ std::string rangeOf(const Finding& f) {
     return f.low == f.high ? fmt::format("{:.4g}", f.low) : fmt::format("{:.4g} to {:.4g}", f.low, f.high);
 }
 
-/// What the figure must be. A sign has one end, and a figure without a partner none.
+/// What the figure must be. Nothing is expected of one without a partner.
 std::string expectedText(const Finding& f) {
+    if (f.wanted != Wanted::Range) return f.wanted == Wanted::Positive ? "> 0" : "< 0";
     if (!f.comparable && f.low == 0 && f.high == 0) return "";
-    if (f.low == 0 && f.high == 10) return "> 0";
-    if (f.low == -10 && f.high == 0) return "< 0";
     return rangeOf(f);
 }
 
@@ -64,8 +63,8 @@ Json resultJson(const Result& r) {
     Json findings = Json::array(), charts = Json::array();
     for (const Finding& f : r.evaluation.findings) findings.push_back(findingJson(f));
     for (const Chart& c : r.evaluation.charts) charts.push_back(chartJson(c));
-    return {{"name", r.name},       {"what", r.what},       {"source", r.source}, {"cost", r.cost},
-            {"missing", r.missing}, {"findings", findings}, {"charts", charts}};
+    return {{"name", r.name},       {"what", r.what},       {"source", r.source},   {"cost", r.cost},
+            {"backend", r.backend}, {"missing", r.missing}, {"findings", findings}, {"charts", charts}};
 }
 
 }  // namespace
@@ -93,8 +92,8 @@ std::size_t differing(const std::vector<Result>& results) {
     return count(results, Verdict::Differs);
 }
 
-std::string markdownTable(const std::vector<Result>& results, const std::string& backend) {
-    std::string text = fmt::format("# Validation\n\n{}; on {}.\n", tally(results), backend);
+std::string markdownTable(const std::vector<Result>& results) {
+    std::string text = fmt::format("# Validation\n\n{}.\n", tally(results));
     for (const Result& r : results) {
         text += fmt::format("\n## {}\n\n{}. Source: {}.", r.name, r.what, r.source.empty() ? "none" : r.source);
         if (!r.missing.empty()) {
@@ -102,9 +101,9 @@ std::string markdownTable(const std::vector<Result>& results, const std::string&
             continue;
         }
         text += fmt::format(
-            " {}.\n\n| figure | expected | got | unit | verdict | source | remark |\n"
+            " {}, on {}.\n\n| figure | expected | got | unit | verdict | source | remark |\n"
             "| --- | --- | --- | --- | --- | --- | --- |\n",
-            r.cost);
+            r.cost, r.backend);
         for (const Finding& f : r.evaluation.findings)
             text += fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", cell(f.figure), expectedText(f), gotText(f),
                                 f.unit, wordOf(f.verdict()), cell(f.source), cell(f.remark));
@@ -112,20 +111,19 @@ std::string markdownTable(const std::vector<Result>& results, const std::string&
     return text;
 }
 
-std::string jsonTable(const std::vector<Result>& results, const std::string& backend) {
+std::string jsonTable(const std::vector<Result>& results) {
     Json j;
-    j["backend"] = backend;
     for (const Verdict v : {Verdict::Agrees, Verdict::Undecided, Verdict::Differs, Verdict::NotComparable})
         j["tally"][wordOf(v)] = count(results, v);
-    j["comparisons"] = pageData(results, backend)["comparisons"];
+    j["comparisons"] = pageData(results)["comparisons"];
     return j.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-Json pageData(const std::vector<Result>& results, const std::string& backend) {
+Json pageData(const std::vector<Result>& results) {
     Json j;
     j["kind"] = "validation";
     j["name"] = "Validation";
-    j["reason"] = tally(results) + "; on " + backend + ".";
+    j["reason"] = tally(results) + ".";
     j["comparisons"] = Json::array();
     for (const Result& r : results) j["comparisons"].push_back(resultJson(r));
     return j;

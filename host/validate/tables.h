@@ -15,6 +15,7 @@ struct Result {
     Evaluation evaluation;
 
     std::string cost;     ///< "4 runs, 61 s"
+    std::string backend;  ///< that of the runs
     std::string missing;  ///< why it could not be made; empty: it was
 };
 
@@ -25,10 +26,10 @@ std::string tally(const std::vector<Result>& results);
 /// Figures that differ.
 std::size_t differing(const std::vector<Result>& results);
 
-std::string markdownTable(const std::vector<Result>& results, const std::string& backend);
-std::string jsonTable(const std::vector<Result>& results, const std::string& backend);
+std::string markdownTable(const std::vector<Result>& results);
+std::string jsonTable(const std::vector<Result>& results);
 /// The data of the page (report::page).
-nlohmann::ordered_json pageData(const std::vector<Result>& results, const std::string& backend);
+nlohmann::ordered_json pageData(const std::vector<Result>& results);
 
 /// The curves of a comparison as CSV: chart, curve, x, y, error.
 std::string curvesCsv(const Evaluation& evaluation);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "host/core/worse.h"
 #include "host/verify/cases.h"
 #include "host/verify/setups.h"
 
@@ -101,9 +102,9 @@ void pressedAgainstWire(Stage& stage) {
             // The opening kick is half a step.
             const Vec3 force = trial.now().velocity[i] * (m / (dt / 2));
             const Vec3 tangential = force - glm::dot(force, c.normal) * c.normal;
-            worstForce = std::max(worstForce, std::abs(glm::length(tangential) / friction - 1));
+            worstForce = worse(worstForce, std::abs(glm::length(tangential) / friction - 1));
             worstDirection =
-                std::max(worstDirection, glm::length(tangential / glm::length(tangential) - c.tangential / speed));
+                worse(worstDirection, glm::length(tangential / glm::length(tangential) - c.tangential / speed));
             const Vec3 onSphere = normal * c.normal + friction * c.tangential / speed;
             torque -= glm::cross(c.point, onSphere).z;
             size += std::abs(glm::cross(c.point, onSphere).z);

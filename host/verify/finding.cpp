@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "host/core/worse.h"
+
 namespace vkdose::verify {
 
 double Check::error() const {
@@ -14,6 +16,15 @@ double Check::error() const {
 
 bool Check::passes() const {
     return std::isfinite(tolerance.share) && error() <= tolerance.share;
+}
+
+double worstShare(const std::vector<Check>& checks) {
+    double worst = 0;
+    for (const Check& check : checks) {
+        const double error = check.error();
+        worst = worse(worst, error == 0 ? 0 : error / check.tolerance.share);  // an exact figure may be allowed nothing
+    }
+    return worst;
 }
 
 }  // namespace vkdose::verify

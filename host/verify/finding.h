@@ -2,6 +2,7 @@
 // A finding of the verification suite: one figure of one small case beside the value it must have.
 
 #include <string>
+#include <vector>
 
 namespace vkdose::verify {
 
@@ -31,5 +32,9 @@ struct Check {
     /// NaN never passes.
     bool passes() const;
 };
+
+/// The largest error of several checks, each in units of what it may be: 1 is just allowed. It is infinite if one of
+/// them is not a number.
+double worstShare(const std::vector<Check>& checks);
 
 }  // namespace vkdose::verify

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "host/core/worse.h"
 #include "host/verify/cases.h"
 #include "host/verify/setups.h"
 
@@ -133,7 +134,7 @@ void rollOff(Stage& stage) {
             const Vec3 x = trial.now().position[i] - axes[i] - 0.5 * dt * v;  // at the half step of the velocity
             const double angle = std::atan2(x.x, x.y);
             if (touching[i])
-                worst[i] = std::max(worst[i], std::abs(glm::length(v) - speedAt(i, angle)));
+                worst[i] = worse(worst[i], std::abs(glm::length(v) - speedAt(i, angle)));
             else
                 parted[i] = angle;
         }

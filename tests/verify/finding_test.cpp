@@ -37,6 +37,15 @@ TEST_CASE("a check passes within its tolerance and fails beyond") {
     CHECK_FALSE(checkOf(1, std::nextafter(1.0, 2.0), 0).passes());
 }
 
+TEST_CASE("the worst of several checks is one that is not a number, wherever it stands") {
+    const Check good = checkOf(2, 2.002, 0.01), exact = checkOf(2, 2, 0), bad = checkOf(2, kNan, 0.01);
+    CHECK(worstShare({good, exact, checkOf(2, 2.01, 0.01)}) == Approx(0.5));
+    CHECK(worstShare({exact}) == 0);
+    for (const std::vector<Check>& checks : {std::vector{bad, good}, {good, bad, good}, {good, bad}})
+        CHECK(worstShare(checks) == kInfinity);
+    CHECK(worstShare({checkOf(2, 3, 0)}) == kInfinity);
+}
+
 TEST_CASE("what is not a number never passes") {
     for (const double bad : {kNan, kInfinity, -kInfinity}) {
         CHECK_FALSE(checkOf(1, bad, 10).passes());
