@@ -40,7 +40,7 @@ void addBed(Figures& f, const Case& c, const Insertion& filled) {
     f.fallSpeed = settling * f.fallTime;
 
     const ContactParameters& pair = c.dosingLaw.of(ContactClass::ParticleParticle);
-    const ContactParameters& wall = c.dosingLaw.of(ContactClass::ParticleWall);
+    const ContactParameters& wall = c.dosingLaw.of(canisterPair(c));
     const double load = loadUnderBed(density, down, f.bedDepth, f.mean);
     f.overlapUnderBed = overlapUnder(pair, f.mean, load) / f.mean;
     f.overlapOfFall = overlapOfImpact(wall, sphereMass(density, f.largest), 2 * f.largest, f.fallSpeed) / f.largest;
@@ -74,6 +74,10 @@ void addStep(Figures& f, const Case& c, const Insertion& filled) {
 }
 
 }  // namespace
+
+MaterialPair canisterPair(const Case& c) {
+    return {kFirstPowder, c.world.materialOf(0)};  // the walls of a canister come first, and are of one material
+}
 
 Figures figuresOf(const Case& c, const Insertion& filled) {
     Figures f;

@@ -37,6 +37,9 @@ struct Figures {
     double runTime = 0;        ///< simulated, as far as it can be foreseen [s]
 };
 
+/// The first powder and the material of the canister's walls.
+MaterialPair canisterPair(const Case& c);
+
 Figures figuresOf(const Case& c, const Insertion& filled);
 
 }  // namespace vkdose

@@ -35,10 +35,13 @@ std::string pairKey(const World& world, MaterialPair pair, const char* key) {
     return fmt::format("contact.{}.{}", nameOf(world, pair), key);
 }
 
-/// The key that says how stiff the contacts are.
-const char* stiffnessKey(const ContactParameters& p) {
-    if (p.law == NormalLaw::User) return "contact.law";
-    return p.law == NormalLaw::Luding ? "contact.k" : "contact.youngs_modulus";
+/// The key that says how stiff the contacts of a pair are. Walls of no material of their own are as stiff as the
+/// powder, unless the case says otherwise.
+std::string stiffnessKey(const Subject& s, MaterialPair pair) {
+    const NormalLaw law = s.c.dosingLaw.of(pair).law;
+    if (law == NormalLaw::User) return "contact.law";
+    if (pair.b == kWallMaterial) pair = pairOf(ContactClass::ParticleParticle);
+    return pairKey(s.c.world, pair, law == NormalLaw::Luding ? "k" : "youngs_modulus");
 }
 
 /// The cure of overlaps that are too large: `linear` times the stiffness of Luding's law, or `elastic` times the
@@ -183,25 +186,25 @@ Found deepUnderWeight(const Subject& s) {
     const double limit = s.c.world.maxOverlapRatio;
     if (!(kChain * s.f.overlapUnderBed > limit)) return {};
     const double growth = kChain * s.f.overlapUnderBed / limit;
-    const ContactParameters& pair = s.c.dosingLaw.of(ContactClass::ParticleParticle);
-    return Finding{stiffnessKey(pair),
+    const MaterialPair pair = pairOf(ContactClass::ParticleParticle);
+    return Finding{stiffnessKey(s, pair),
                    fmt::format("under {:.3g} mm of powder mean spheres overlap by {:.2g} of their radius, in chains of "
                                "force {} times that; the run ends at {:.3g}",
                                s.f.bedDepth * 1e3, s.f.overlapUnderBed, kChain, limit),
-                   stiffer(pair, growth, std::pow(growth, 1.5))};
+                   stiffer(s.c.dosingLaw.of(pair), growth, std::pow(growth, 1.5))};
 }
 
 Found deepOfFall(const Subject& s) {
     const double limit = s.c.world.maxOverlapRatio;
     if (!(s.f.overlapOfFall > kDeepFall * limit)) return {};
     const double growth = s.f.overlapOfFall / (kDeepFall * limit);
-    const ContactParameters& wall = s.c.dosingLaw.of(ContactClass::ParticleWall);
+    const MaterialPair pair = canisterPair(s.c);
     return Finding{
-        stiffnessKey(wall),
+        stiffnessKey(s, pair),
         fmt::format("the fill falls {:.3g} mm and arrives at {:.2g} m/s, where a largest sphere alone goes "
                     "{:.2g} of its radius into the wall and several at once go deeper; the run ends at {:.3g}",
                     s.f.fall * 1e3, s.f.fallSpeed, s.f.overlapOfFall, limit),
-        stiffer(wall, growth * growth, std::pow(growth, 2.5)) + ", or a larger max_overlap_ratio"};
+        stiffer(s.c.dosingLaw.of(pair), growth * growth, std::pow(growth, 2.5)) + ", or a larger max_overlap_ratio"};
 }
 
 Found fewSpheres(const Subject& s) {

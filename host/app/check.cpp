@@ -53,10 +53,12 @@ void printFilling(const Case& c, const Insertion& filled) {
     const std::vector<PowderOf> powders = powdersOf(c);
     for (std::size_t k = 0; k < powders.size(); ++k) {
         const SizeRange size = powderSizes(c).at(std::size_t(powders[k].material));
-        fmt::print("powder     {}: {}, {:.4g} g (target {:.4g} g), {:.4g} kg/m3, radius {:.4g} to {:.4g} mm\n",
-                   powders[k].name, filled.powders[k].particles, filled.powders[k].mass * 1e3,
-                   filled.powders[k].targetMass * 1e3, c.world.density(powders[k].material), size.smallest * 1e3,
-                   size.largest * 1e3);
+        fmt::print("powder     {}: {}, {:.4g} g (target {:.4g} g), {:.4g} kg/m3", powders[k].name,
+                   filled.powders[k].particles, filled.powders[k].mass * 1e3, filled.powders[k].targetMass * 1e3,
+                   c.world.density(powders[k].material));
+        if (filled.powders[k].particles > 0)
+            fmt::print(", radius {:.4g} to {:.4g} mm", size.smallest * 1e3, size.largest * 1e3);
+        fmt::print("\n");
     }
 }
 

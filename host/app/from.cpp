@@ -146,6 +146,11 @@ void requireFit(const Case& source, const Checkpoint& state, const ReadyRun& run
     std::vector<Diagnostic> faults;
     const Values before = valuesOf(source), now = valuesOf(run.c);
     compare(before, now, folder, isSpace, faults);
+    // What a contact remembers means something else under another law.
+    const auto lawOf = [](const Case& c) { return c.dosingLaw.of(ContactClass::ParticleParticle).law; };
+    if (lawOf(source) != lawOf(run.c))
+        compare(
+            before, now, folder, [](const auto& key) { return key == "contact.law"; }, faults);
     const StateFacts facts = factsOf(state.run.run);
     if (facts.radii != run.filled.allParticles().radius) {
         const std::size_t known = faults.size();

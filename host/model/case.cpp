@@ -16,6 +16,7 @@
 #include "host/model/case_sections.h"
 #include "host/model/checks.h"
 #include "host/model/normal_law.h"
+#include "host/model/parse_toml.h"
 #include "host/model/powders.h"
 #include "host/model/shared_places.h"
 #include "host/model/size_distribution.h"
@@ -231,6 +232,7 @@ Case interpret(const std::filesystem::path& file, Node tree, std::vector<std::fi
     checkRows(reader, c, filled.particles, sizes);
     reader.throwIfFaulty();
     c.resolved = reader.resolved();
+    (void)parseToml(c.resolved, "the case with all its defaults");  // or a run could not go on from its folder
     return c;
 }
 

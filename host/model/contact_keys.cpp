@@ -49,7 +49,7 @@ constexpr Key kContactClass[] = {
     number("pull_off_force", {1, "N"}, kNonNegative, 0.0,
            "-f₀, a pull that every contact of the law `eepa` has, pressed or not"),
     number("adhesion_exponent", kPlain, kPositive, 1.5,
-           "χ of the law `eepa`, at least 1: with it the pull fades while a contact opens"),
+           "χ of the law `eepa`, 1 to 10: with it the pull fades while a contact opens"),
     number("k", {1, "N/m"}, kPositive, told("this or one of the next two"),
            "k̂₂, the largest stiffness of unloading; all other stiffnesses are ratios to it")
         .replacing("contact_duration_s overlap_under_bed derived"),
@@ -64,7 +64,7 @@ constexpr Key kContactClass[] = {
     number("k1_over_k", kPlain, kPositive, told("required with `luding`"),
            "k₁/k, stiffness of plastic loading; at most 1")
         .replacing("derived"),
-    number("kc_over_k", kPlain, kNonNegative, told("this or `bond_number`"), "k_c/k, adhesion, during the doses")
+    number("kc_over_k", kPlain, kNonNegative, told("this or `bond_number`"), "k_c/k, adhesion, during the doses; without effect where k₁ = k")
         .replacing("bond_number bond_load derived"),
     number("bond_number", kPlain, kNonNegative, told("in place of `kc_over_k`"),
            "k_c so that the strongest pull of a contact is so many weights of a mean sphere")

@@ -126,7 +126,7 @@ ContactParameters Ratios::parameters(double adhesion) const {
     ContactParameters p;
     p.k2Max = k;
     p.k1 = k1 * k;
-    p.kc = adhesion * k;
+    p.kc = k1 < 1 ? adhesion * k : 0;  // without plasticity there is no adhesive branch that it could act on
     p.plasticityDepth = plasticity;
     p.gamma = damping;
     p.mu = mu;

@@ -105,6 +105,7 @@ Derived derive(const Case& c, const Insertion& filled) {
     const PowderSizes sizes = powderSizes(c);
     d.stiffest = std::numeric_limits<double>::infinity();
     for (const MaterialPair& pair : occurringPairs(c.world)) {
+        if (!haveSpheres(c.world, pair, sizes)) continue;
         /// Of spheres of these sizes, without damping if that is not wanted, on the stiffness that `k` names.
         const auto duration = [&](double SizeRange::*size, bool damped, double ContactParameters::*k) {
             const double a = sizes[std::size_t(pair.a)].*size, b = otherSide(c.world, pair, sizes, size);

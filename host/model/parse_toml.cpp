@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -89,28 +88,68 @@ Node convert(const toml::node& from, const Source& source, std::string key) {
     return node;
 }
 
-/// Largest number of dots. The parser works by recursion, one level for every part of a dotted key and for every
-/// bracket. It limits the brackets itself (256). With this limit on the dots, the deepest text stays far from the end
-/// of the stack.
-constexpr std::ptrdiff_t kMostDots = 64;
+/// Largest number of dots in the keys of a line. The parser works by recursion, one level for every part of a dotted
+/// key and for every bracket. It limits the brackets itself (256). With this limit on the dots, the deepest text stays
+/// far from the end of the stack.
+constexpr int kMostDots = 64;
 /// Longest text that is read. A case is only a few kilobytes long.
 constexpr std::size_t kMostBytes = 1U << 20U;
+
+bool isDigit(char c) {
+    return c >= '0' && c <= '9';
+}
+
+/// Whether a dot between two digits is that of a number. A key of digits may be dotted too, and has other dots beside.
+bool isOfNumber(const std::string& text, std::size_t dot) {
+    std::size_t first = dot, behind = dot + 1;
+    while (first > 0 && isDigit(text[first - 1])) --first;
+    while (behind < text.size() && isDigit(text[behind])) ++behind;
+    return first < dot && behind > dot + 1 && (first == 0 || text[first - 1] != '.') &&
+           (behind == text.size() || text[behind] != '.');
+}
+
+/// The first line in whose keys there are more than `most` dots; 0 if there is none. Dots in strings, comments and
+/// numbers do not count: the text of a law is one long string, a list of sizes one long line of numbers.
+int lineOfManyDots(const std::string& text, int most) {
+    int line = 1, dots = 0;
+    char quote = 0;      // of the string in which `i` is
+    bool multi = false;  // that string may have several lines
+    const auto three = [&](std::size_t i) { return text.compare(i, 3, std::string(3, text[i])) == 0; };
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (c == '\n') {
+            ++line;
+            dots = 0;
+            if (!multi) quote = 0;
+        } else if (quote == '"' && c == '\\' && i + 1 < text.size() && text[i + 1] != '\n') {
+            ++i;
+        } else if (quote != 0) {
+            if (c != quote || (multi && !three(i))) continue;
+            if (multi)
+                for (i += 2; i + 1 < text.size() && text[i + 1] == quote;) ++i;  // it may end with quotes of its own
+            quote = 0;
+            multi = false;
+        } else if (c == '"' || c == '\'') {
+            quote = c;
+            multi = three(i);
+            if (multi) i += 2;
+        } else if (c == '#') {
+            i = std::min(text.find('\n', i), text.size()) - 1;
+        } else if (c == '.' && !isOfNumber(text, i) && ++dots > most) {
+            return line;
+        }
+    }
+    return 0;
+}
 
 /// Refuses a text that cannot be a case before the parser sees it.
 void requirePlain(const std::string& text, const std::string& name) {
     const char* remedy = "give the path of a case file";
     if (text.size() > kMostBytes)
         throw CaseError({{name, 0, "", "", fmt::format("not a case: {} MiB long", text.size() >> 20U), remedy}});
-    std::istringstream stream(text);
-    int number = 0;
-    for (std::string line; std::getline(stream, line);) {
-        ++number;
-        const std::size_t first = line.find_first_not_of(" \t");
-        const bool comment = first != std::string::npos && line[first] == '#';
-        if (!comment && std::count(line.begin(), line.end(), '.') > kMostDots)
-            throw CaseError(
-                {{name, number, "", "", fmt::format("not a case: more than {} dots in a line", kMostDots), remedy}});
-    }
+    if (const int line = lineOfManyDots(text, kMostDots); line > 0)
+        throw CaseError({{name, line, "", "",
+                          fmt::format("not a case: more than {} dots in the keys of a line", kMostDots), remedy}});
 }
 
 /// Turns an error of the parser into a message in the words of a case. The parser knows only the grammar, not the

@@ -11,6 +11,8 @@ struct StatedContact {
     ContactParameters rest;  ///< friction, the ratios and what EEPA and JKR have beside
 };
 
+constexpr double kSteepest = 10;  ///< largest exponent of EEPA's adhesive branch
+
 /// What EEPA has beside the elastic law.
 void checkEepaClass(CaseReader& reader, Section& section, const ContactParameters& p) {
     if (p.plasticityRatio >= 1 && section.has("plasticity_ratio"))
@@ -19,6 +21,10 @@ void checkEepaClass(CaseReader& reader, Section& section, const ContactParameter
     if (p.adhesionExponent < 1 && section.has("adhesion_exponent"))
         reader.fault(section.path("adhesion_exponent"), "makes the pull end abruptly where the contact opens",
                      "give a number >= 1, as a rule 1.5");
+    if (p.adhesionExponent > kSteepest && section.has("adhesion_exponent"))
+        reader.fault(section.path("adhesion_exponent"),
+                     "lets the force from which friction is counted grow without measure beyond the pole",
+                     fmt::format("give at most {}, as a rule 1.5", kSteepest));
     if (p.surfaceEnergy == 0 || p.plasticityRatio > 0) return;
     const char* remedy = "give a plasticity_ratio > 0, or a surface energy of 0";
     if (section.has("surface_energy"))

@@ -204,7 +204,8 @@ Stated mixture(const Stated& a, const Ratios& ofA, const Stated& b, const Ratios
     Ratios& r = mixed.ratios;
     for (const auto& key : kInSeries) r.*key.member = harmonicMean(ofA.*key.member, ofB.*key.member);
     for (const auto& key : kGeometric) r.*key.member = geometricMean(ofA.*key.member, ofB.*key.member);
-    // A powder without plasticity has no depth of its own.
+    // A powder without plasticity has neither adhesion nor a depth of its own.
+    if (ofA.k1 == 1 || ofB.k1 == 1) r.kc = 0;
     if (ofA.k1 == 1) r.plasticity = ofB.plasticity;
     if (ofB.k1 == 1) r.plasticity = ofA.plasticity;
     // One restitution each makes one restitution, with the damping that it needs.

@@ -9,9 +9,31 @@
 #include <optional>
 #include <utility>
 
+#include "host/core/error.h"
 #include "host/core/file.h"
 
 namespace vkdose {
+namespace {
+
+/// Longest text of a law. It becomes a part of the case, which may not be much longer.
+constexpr std::size_t kMostBytes = 64U << 10U;
+
+/// What keeps a text from being a part of a case, which is text in UTF-8; nothing if it can be one.
+std::optional<LawFault> unwritable(const std::string& text) {
+    if (text.size() > kMostBytes)
+        return LawFault{0, fmt::format("has {} KiB", text.size() >> 10U),
+                        fmt::format("a law may have {} KiB", kMostBytes >> 10U)};
+    if (isUtf8(text)) return {};
+    int line = 1;
+    for (std::size_t begin = 0; begin < text.size(); ++line) {
+        const std::size_t end = std::min(text.find('\n', begin), text.size());
+        if (!isUtf8(std::string_view(text).substr(begin, end - begin))) break;
+        begin = end + 1;
+    }
+    return LawFault{line, "is not UTF-8", "save the file as UTF-8"};
+}
+
+}  // namespace
 
 std::shared_ptr<const UserLaw> readUserLaw(CaseReader& reader, Section& contact) {
     const std::string name = contact.string("law");
@@ -30,7 +52,11 @@ std::shared_ptr<const UserLaw> readUserLaw(CaseReader& reader, Section& contact)
     }
     if (!text) {
         reader.fault("contact.law", fmt::format("{} cannot be read", file.string()),
-                     "give luding, hertz-mindlin, eepa, or the path of a law of your own");
+                     "give luding, hertz-mindlin, eepa, jkr, or the path of a law of your own");
+        return nullptr;
+    }
+    if (const auto fault = unwritable(*text)) {
+        reader.add({file.string(), fault->line, "", "", fault->problem, fault->remedy});
         return nullptr;
     }
     LawReading reading = readLaw(name, *text);

@@ -4,6 +4,7 @@
 
 #include "host/backend/reference/reference.h"
 #include "host/backend/vulkan/vulkan.h"
+#include "host/core/error.h"
 
 namespace vkdose {
 
@@ -14,6 +15,13 @@ std::unique_ptr<Backend> openBackend(const BackendChoice& choice) {
         return makeReferenceBackend();
     }
     return std::move(openEnsemble(choice, 1)[0]);
+}
+
+void requireLaw(const Case& c, const std::string& backend) {
+    if (c.dosingLaw.user && backend == "reference")
+        throw CaseError({{"case", 0, "contact.law", c.dosingLaw.user->name,
+                          "is written in the language of devices, and the backend reference cannot run it",
+                          "use --backend vulkan"}});
 }
 
 std::vector<std::unique_ptr<Backend>> openEnsemble(const BackendChoice& choice, std::size_t members) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/backend/backend.h"
+#include "host/model/case.h"
 
 namespace vkdose {
 
@@ -24,6 +25,9 @@ struct BackendChoice {
 /// Makes the chosen backend. Throws UsageError if there is no backend of this name or if a device is asked for on the
 /// reference backend, and DeviceError if there is no device.
 std::unique_ptr<Backend> openBackend(const BackendChoice& choice);
+
+/// Throws CaseError if the backend of this name cannot run the contact law of the case.
+void requireLaw(const Case& c, const std::string& backend);
 
 /// Makes the backends of canisters that share a device (makeVulkanEnsemble). Throws as above.
 std::vector<std::unique_ptr<Backend>> openEnsemble(const BackendChoice& choice, std::size_t members);

@@ -125,6 +125,21 @@ TEST_CASE("the settled bed fills the canister to its volume") {
     CHECK(f.fallSpeed == Approx(9.81 * f.fallTime));
 }
 
+TEST_CASE("the fall ends on the canister's own material") {
+    const auto figures = [](std::vector<std::string> overrides) {
+        const Case c = loadCase(test::shippedCase("quickstart.toml"), overrides);
+        return figuresOf(c, insertParticles(c));
+    };
+    const double stiffness =
+        loadCase(test::shippedCase("quickstart.toml")).dosingLaw.of(ContactClass::ParticleWall).k2Max;
+    const std::vector<std::string> steel{"particles.material=\"cocoa\"", "material=[{name=\"steel\"}]",
+                                         "canister.material=\"steel\"",
+                                         "contact.cocoa-steel.k=" + std::to_string(stiffness / 4)};
+    // The overlap of a linear spring goes with the root of its stiffness.
+    CHECK(figures(steel).overlapOfFall == Approx(2 * figures({}).overlapOfFall));
+    CHECK(figures(steel).overlapUnderBed == Approx(figures({}).overlapUnderBed));
+}
+
 TEST_CASE("gaps of the coil are measured across the wire") {
     const Case c = loadCase(test::shippedCase("quickstart.toml"));
     const Figures f = figuresOf(c, insertParticles(c));

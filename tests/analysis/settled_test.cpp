@@ -81,6 +81,20 @@ TEST_CASE("settled bed: pull-off over the lighter's weight, overlaps over the sm
     CHECK_FALSE(f.bulk);  // no canister
 }
 
+TEST_CASE("settled bed: what a law remembers is told as an overlap") {
+    Particles two;
+    two.add(Vec3(0), 1e-3);
+    two.add(Vec3(1.99e-3, 0, 0), 1e-3);
+    const auto largest = [&](const ContactParameters& p) {
+        return settledBed(caseWith(p), 0.5, two, {pairOf(0, 1, 30e-6)}).largestOverlap.at(0);
+    };
+    CHECK(largest(paperLike()) == Approx(0.03));
+    ContactParameters own;
+    own.law = NormalLaw::User;
+    own.reach = 0.2;  // it holds on far beyond touch, and remembers overlaps all the same
+    CHECK(largest(own) == Approx(0.03));
+}
+
 TEST_CASE("settled bed: the density is that of the bed in its canister") {
     Case c = caseWith(paperLike());
     c.canister = paperCanister();

@@ -198,6 +198,16 @@ TEST_CASE("powder that does not fit is refused by key, with both values, and not
     CHECK_THAT(refused("--set particles.mass_g=0.8"), Catch::Contains("particles.mass_g = 0.8: is 0.9"));
     CHECK_THAT(refused("--set particles.density=1500"), Catch::Contains("particles.density = 1500: is 1427"));
     CHECK_THAT(refused("--set sensors.energy=true"), Catch::Contains("sensors.energy = true: is false"));
+    // What a contact remembers means something else under another law.
+    std::string elastic = readText(VKDOSE_SOURCE_DIR "/cases/mini.toml");
+    const std::size_t contact = elastic.find("[contact]"), wall = elastic.find("[contact.wall]");
+    elastic.replace(contact, wall - contact,
+                    "[contact]\nlaw = \"hertz-mindlin\"\nyoungs_modulus = 1e6\npoisson_ratio = 0.3\nrestitution = 0.5\n"
+                    "friction = 0.5\n");
+    elastic.erase(elastic.find("kc_over_k"), std::string("kc_over_k = 0.2").size());
+    box.write("elastic.toml", elastic);
+    CHECK_THAT(refused("elastic.toml"),
+               Catch::Contains("contact.law = \"hertz-mindlin\": is \"luding\" in the run of a"));
     CHECK_THAT(refused("--set stop.end_time_s=0.04"),
                Catch::Contains("stop.end_time_s") && Catch::Contains("t = 0.05"));
     CHECK_THAT(refused("--at checkpoint"),

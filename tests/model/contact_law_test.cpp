@@ -201,6 +201,8 @@ TEST_CASE("keys and figures that the elasto-plastic adhesive law cannot have are
     refused(other("plasticity_ratio = 0.5", "plasticity_ratio = 1"),
             "contact.plasticity_ratio = 1: lets nothing of the overlap spring back; give a number >= 0 and < 1");
     refused(other("adhesion_exponent = 3", "adhesion_exponent = 0.5"), "contact.coil.adhesion_exponent = 0.5");
+    refused(other("adhesion_exponent = 3", "adhesion_exponent = 11"),
+            "contact.coil.adhesion_exponent = 11: lets the force from which friction is counted grow");
     refused(other("pull_off_force = 1e-6", "pull_off_force = -1e-6"), "contact.pull_off_force = -1e-6");
     refused(other("plasticity_ratio = 0.5", "plasticity_ratio = 0"),
             "contact.surface_energy = 0.2: acts on flattened contacts, and with plasticity_ratio = 0 none is; "

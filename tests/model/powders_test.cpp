@@ -105,6 +105,18 @@ TEST_CASE("a powder without plasticity leaves the depth to the other") {
     CHECK(c.dosingLaw.between(0, 3).k1 / c.dosingLaw.between(0, 3).k2Max == Approx(std::sqrt(0.2)));
 }
 
+TEST_CASE("without plasticity there is no adhesion, with itself or with another powder") {
+    const Case c = loadText(replaced(kMixture, "[contact.wall]\n", "[contact.wall]\nk1_over_k = 1.0\n") +
+                            "[contact.sugar-sugar]\nk1_over_k = 1.0\n");
+    CHECK(c.dosingLaw.between(0, 0).kc > 0);
+    CHECK(c.settlingLaw.between(0, 0).kc > 0);
+    for (const ContactLaw& law : {c.dosingLaw, c.settlingLaw}) {
+        CHECK(law.between(3, 3).kc == 0);
+        CHECK(law.between(0, kWallMaterial).kc == 0);
+    }
+    CHECK(c.dosingLaw.between(0, 3).kc == 0);
+}
+
 TEST_CASE("two restitutions make one, with the damping that the pair needs") {
     const std::string text = replaced(kGoodCase, "damping = 0.02", "restitution = 0.5") + kSugar;
     const Case c = loadText(text + "[contact.sugar-sugar]\nrestitution = 0.3\n");

@@ -57,6 +57,31 @@ TEST_CASE("each class of contacts has the parameters of a user's law, or those o
     CHECK(of(ContactClass::ParticleWall, 1) == 0.01);
 }
 
+TEST_CASE("the text of a law is read again from the resolved case, however many dots it has") {
+    const Folder folder;
+    std::string many = kSpring;
+    for (int i = 0; i < 30; ++i) many += "// a comment ... with dots\n";
+    write(folder.path() / "spring.glsl", many);
+    write(folder.path() / "two.csv", "x,y,z,r\n0,0,0,1e-3\n2.1e-3,0,0,1e-3\n");
+    write(folder.path() / "case.toml", kCase);
+    tryLawsOnDevices();
+    const Case c = loadCase(folder.path() / "case.toml");
+    std::filesystem::remove(folder.path() / "spring.glsl");
+    CHECK(loadResolvedCase(c.resolved, folder.path() / "case.toml").dosingLaw.user->hash == c.dosingLaw.user->hash);
+}
+
+TEST_CASE("a law that could not stand in the resolved case is refused") {
+    const Folder folder;
+    const auto refused = [&](const std::string& text, const char* why) {
+        (void)loaded(folder);
+        write(folder.path() / "spring.glsl", text);
+        CHECK_THROWS_WITH(loadCase(folder.path() / "case.toml"),
+                          Catch::Contains("spring.glsl") && Catch::Contains(why));
+    };
+    refused(kSpring + std::string("// Steifigkeit\n// Stei\xdf"), ":6: is not UTF-8; save the file as UTF-8");
+    refused(kSpring + std::string(70000, ' '), "has 68 KiB; a law may have 64 KiB");
+}
+
 TEST_CASE("the time step of a user's law follows from the stiffness that a device tells") {
     const Folder folder;
     const Case c = loaded(folder);
