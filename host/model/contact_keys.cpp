@@ -64,7 +64,8 @@ constexpr Key kContactClass[] = {
     number("k1_over_k", kPlain, kPositive, told("required with `luding`"),
            "k₁/k, stiffness of plastic loading; at most 1")
         .replacing("derived"),
-    number("kc_over_k", kPlain, kNonNegative, told("this or `bond_number`"), "k_c/k, adhesion, during the doses; without effect where k₁ = k")
+    number("kc_over_k", kPlain, kNonNegative, told("this or `bond_number`"),
+           "k_c/k, adhesion, during the doses; without effect where k₁ = k")
         .replacing("bond_number bond_load derived"),
     number("bond_number", kPlain, kNonNegative, told("in place of `kc_over_k`"),
            "k_c so that the strongest pull of a contact is so many weights of a mean sphere")

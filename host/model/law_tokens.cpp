@@ -73,6 +73,9 @@ constexpr Refusal kRefusals[] = {
     {"attribute", "is not in the language of laws"},
 };
 
+/// What some editors put before a text.
+constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+
 bool isNameStart(char c) {
     return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_';
 }
@@ -112,15 +115,23 @@ std::size_t numberEnd(const std::string& text, std::size_t at) {
 }  // namespace
 
 std::vector<LawToken> lawTokens(const std::string& text, std::string& bare, std::vector<LawFault>& faults) {
-    constexpr std::array<std::string_view, 18> kDoubles{
-        "++", "--", "+=", "-=", "*=", "/=", "%=", "==", "!=", "<=", ">=", "&&", "||", "^^", "<<", ">>", "|=", "&="};
+    constexpr std::array<std::string_view, 2> kTriples{"<<=", ">>="};
+    constexpr std::array<std::string_view, 19> kDoubles{"++", "--", "+=", "-=", "*=", "/=", "%=", "==", "!=", "<=",
+                                                        ">=", "&&", "||", "^^", "<<", ">>", "|=", "&=", "^="};
     constexpr std::string_view kSigns = "+-*/%=<>!&|^~?:;,.(){}[]";
     std::vector<LawToken> tokens;
     bare = text;
     int line = 1;
-    for (std::size_t at = 0; at < text.size();) {
+    std::size_t at = 0;
+    if (text.starts_with(kByteOrderMark))
+        for (; at < kByteOrderMark.size(); ++at) bare[at] = ' ';
+    while (at < text.size()) {
         const char c = text[at];
         if (const std::size_t length = commentAt(text, at); length > 0) {
+            if (text[at + 1] == '*' && text.find("*/", at + 2) == std::string::npos) {
+                faults.push_back({line, "a comment that begins here has no end", "add */ where it should end"});
+                return tokens;
+            }
             for (std::size_t end = at + length; at < end; ++at)
                 if (text[at] == '\n')
                     ++line;
@@ -136,7 +147,10 @@ std::vector<LawToken> lawTokens(const std::string& text, std::string& bare, std:
             end = numberEnd(text, at);
             tokens.push_back({LawToken::Kind::Number, text.substr(at, end - at), line, at});
         } else if (kSigns.find(c) != std::string_view::npos) {
-            if (holds(kDoubles, std::string_view(text).substr(at, 2))) ++end;
+            if (holds(kTriples, std::string_view(text).substr(at, 3)))
+                end += 2;
+            else if (holds(kDoubles, std::string_view(text).substr(at, 2)))
+                ++end;
             tokens.push_back({LawToken::Kind::Sign, text.substr(at, end - at), line, at});
         } else if (c == '\n') {
             ++line;

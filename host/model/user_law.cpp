@@ -9,44 +9,43 @@
 #include <set>
 
 #include "host/core/fnv.h"
+#include "host/model/closest_word.h"
+#include "host/model/law_checks.h"
+#include "host/model/law_cursor.h"
 #include "host/model/law_tokens.h"
 #include "host/model/user_law_shader.h"
 
 namespace vkdose {
 namespace {
 
-constexpr std::string_view kRequired[] = {"force", "stiffness"};
-constexpr std::string_view kOptional[] = {"damping", "pull", "energy", "reach"};
+const std::vector<std::string> kRequired{"force", "stiffness"};
+const std::vector<std::string> kAnswers{"force", "stiffness", "damping", "pull", "energy", "reach"};
 
 bool isAnswer(std::string_view name) {
-    return std::ranges::find(kRequired, name) != std::end(kRequired) ||
-           std::ranges::find(kOptional, name) != std::end(kOptional);
+    return std::ranges::find(kAnswers, name) != kAnswers.end();
 }
 
-/// Thrown at the first fault: what comes after it may follow from it.
-struct Refused {
-    LawFault fault;
+struct Function {
+    double trips = 1;   ///< of the loops in one call
+    double tokens = 0;  ///< of its body, with those of the functions that it calls
+    bool called = false;
+    const LawToken* ofContact = nullptr;  ///< its name, if its only argument is a Contact
 };
 
 /// Reads the tokens of a law from the first to the last.
-class Parser {
+class Parser : private LawCursor {
   public:
-    Parser(const std::vector<LawToken>& tokens, UserLaw& law) : tokens_(tokens), law_(law) {}
+    Parser(const std::vector<LawToken>& tokens, UserLaw& law) : LawCursor(tokens), law_(law) {}
 
     void read() {
-        for (const LawToken& t : tokens_) {
-            if (t.kind != LawToken::Kind::Name) continue;
-            if (const std::string_view why = refusalOf(t.text); !why.empty())
-                refuse(t, fmt::format("{}: {}", t.text, why), "write it without");
-            if (t.text.find("__") != std::string::npos)
-                refuse(t, fmt::format("{}: names with two underscores are the compiler's", t.text),
-                       "choose another name");
-        }
+        checkLawTokens(tokens_);
         while (at_ < tokens_.size()) readDeclaration();
-        for (const std::string_view name : kRequired)
-            if (!functions_.contains(std::string(name)))
-                refuse(last(), fmt::format("the function {} is missing", name),
-                       fmt::format("add float {}(Contact c) {{ return ...; }}", name));
+        refuseUncalled();
+        for (const std::string& name : kRequired)
+            if (!functions_.contains(name))
+                refuseLaw(last(), fmt::format("the function {} is missing", name),
+                          fmt::format("add float {}(Contact c) {{ return ...; }}", name));
+        refuseTrips();
         law_.hasDamping = functions_.contains("damping");
         law_.hasPull = functions_.contains("pull");
         law_.hasEnergy = functions_.contains("energy");
@@ -56,31 +55,9 @@ class Parser {
     bool isFunction(const std::string& name) const { return functions_.contains(name); }
 
   private:
-    [[noreturn]] static void refuse(const LawToken& t, std::string problem, std::string remedy) {
-        throw Refused{{t.line, std::move(problem), std::move(remedy)}};
-    }
-    LawToken last() const { return tokens_.empty() ? LawToken{LawToken::Kind::Sign, "", 1, 0} : tokens_.back(); }
-
-    const LawToken& next(const char* wanted) {
-        if (at_ >= tokens_.size()) refuse(last(), fmt::format("the text ends where {} should come", wanted), "add it");
-        return tokens_[at_++];
-    }
-    const LawToken& expect(std::string_view sign) {
-        const LawToken& t = next(std::string(sign).c_str());
-        if (!t.is(sign)) refuse(t, fmt::format("{} stands where {} should come", t.text, sign), "write it so");
-        return t;
-    }
-    const LawToken& name(const char* of) {
-        const LawToken& t = next(of);
-        if (t.kind != LawToken::Kind::Name || isLawWord(t.text) || t.is("parameter") || t.is("memory") ||
-            t.is("Contact"))
-            refuse(t, fmt::format("{} is no name of {}", t.text, of), "give a name");
-        return t;
-    }
-    bool here(std::string_view word) const { return at_ < tokens_.size() && tokens_[at_].is(word); }
-
     void declare(const LawToken& t) {
-        if (!names_.insert(t.text).second) refuse(t, fmt::format("{} is declared twice", t.text), "remove one of them");
+        if (!names_.insert(t.text).second)
+            refuseLaw(t, fmt::format("{} is declared twice", t.text), "remove one of them");
     }
 
     void readNames(std::vector<std::string>& names, const char* kind, std::size_t most) {
@@ -88,11 +65,12 @@ class Parser {
         for (;;) {
             const LawToken& t = name(kind);
             declare(t);
-            if (isAnswer(t.text)) refuse(t, fmt::format("{} is the name of a function", t.text), "choose another name");
+            if (isAnswer(t.text))
+                refuseLaw(t, fmt::format("{} is the name of a function", t.text), "choose another name");
             names.push_back(t.text);
             if (names.size() > most)
-                refuse(t, fmt::format("is {} {} of a law, and there is room for {}", names.size(), kind, most),
-                       "do with fewer");
+                refuseLaw(t, fmt::format("is {} {} of a law, and there is room for {}", names.size(), kind, most),
+                          "do with fewer");
             if (!here(",")) break;
             ++at_;
         }
@@ -105,8 +83,8 @@ class Parser {
         if (first.is("memory")) return readNames(law_.memories, "memory", kMostLawMemories);
         if (first.is("const")) return readConstant();
         if (!isLawType(first.text))
-            refuse(first, fmt::format("{} begins no declaration", first.text),
-                   "outside of functions there are `parameter float`, `memory float`, `const` and functions");
+            refuseLaw(first, fmt::format("{} begins no declaration", first.text),
+                      "outside of functions there are `parameter float`, `memory float`, `const` and functions");
         readFunction(first);
     }
 
@@ -119,13 +97,14 @@ class Parser {
             if (const auto value = integer(tokens_[at_])) integers_[constant.text] = *value;
         while (!here(";")) {
             const LawToken& t = next(";");
-            if (t.is("{") || t.is("}")) refuse(t, "the constant's line has no ;", "add it");
+            if (t.is("{") || t.is("}")) refuseLaw(t, "the constant's line has no ;", "add it");
         }
         ++at_;
     }
 
     std::optional<long> integer(const LawToken& t) const {
         if (const auto known = integers_.find(t.text); known != integers_.end()) return known->second;
+        if (t.text.size() > 1 && t.text.front() == '0') return {};  // GLSL takes it as octal
         long value = 0;
         const auto [end, error] = std::from_chars(t.text.data(), t.text.data() + t.text.size(), value);
         if (error != std::errc() || end != t.text.data() + t.text.size()) return {};
@@ -135,24 +114,24 @@ class Parser {
     /// A bound of a loop must stay what it is.
     void refuseShadow(const LawToken& t) const {
         if (integers_.contains(t.text))
-            refuse(t, fmt::format("{} is a constant already", t.text), "choose another name");
+            refuseLaw(t, fmt::format("{} is a constant already", t.text), "choose another name");
     }
 
     void readFunction(const LawToken& type) {
         const LawToken& function = name("a function");
         if (!here("("))
-            refuse(function, fmt::format("{} is a variable outside of the functions", function.text),
-                   "declare `parameter float`, `memory float` or `const`, or move it into a function");
+            refuseLaw(function, fmt::format("{} is a variable outside of the functions", function.text),
+                      "declare `parameter float`, `memory float` or `const`, or move it into a function");
         ++at_;
         declare(function);
         if (isLawFunction(function.text))
-            refuse(function, fmt::format("{} is a function of GLSL", function.text), "choose another name");
+            refuseLaw(function, fmt::format("{} is a function of GLSL", function.text), "choose another name");
         std::vector<std::string> types;
         while (!here(")")) {
             const LawToken* t = &next(")");
             while (t->is("const") || t->is("in")) t = &next("a type");
             if (!isLawType(t->text) && !t->is("Contact"))
-                refuse(*t, fmt::format("{} is no type", t->text), "give float, int, bool, vec2 ... or Contact");
+                refuseLaw(*t, fmt::format("{} is no type", t->text), "give float, int, bool, vec2 ... or Contact");
             types.push_back(t->text);
             if (t->is("void") && here(")")) break;
             refuseShadow(name("an argument"));
@@ -160,17 +139,56 @@ class Parser {
         }
         expect(")");
         if (isAnswer(function.text) && (!type.is("float") || types != std::vector<std::string>{"Contact"}))
-            refuse(function, fmt::format("{} has another signature", function.text),
-                   fmt::format("write float {}(Contact c) {{ ... }}", function.text));
+            refuseLaw(function, fmt::format("{} has another signature", function.text),
+                      fmt::format("write float {}(Contact c) {{ ... }}", function.text));
         if (here(";"))
-            refuse(tokens_[at_], fmt::format("{} has no body", function.text), "define a function before it is called");
+            refuseLaw(tokens_[at_], fmt::format("{} has no body", function.text),
+                      "define a function before it is called");
         expect("{");
-        function_ = function.text;
-        trips_ = 1;
+        name_ = function.text;
+        function_ = {};
+        if (types == std::vector<std::string>{"Contact"}) function_.ofContact = &function;
+        const std::size_t body = at_;
         const std::map<std::string, long> outside = integers_;
         readBlock(1);
         integers_ = outside;
-        functions_[function_] = trips_;
+        grow(function, double(at_ - body));
+        refuseChanges(body);
+        functions_[name_] = function_;
+    }
+
+    /// A law changes its memory in `force`, and nothing else that outlives the call.
+    void refuseChanges(std::size_t body) const {
+        const auto is = [](const auto& names, const LawToken& t) {
+            return std::ranges::find(names, t.text) != names.end();
+        };
+        for (std::size_t k = body; k < at_; ++k) {
+            const LawToken& t = tokens_[k];
+            if (t.kind != LawToken::Kind::Name || !isChanged(tokens_, k)) continue;
+            if (is(law_.parameters, t))
+                refuseLaw(t, fmt::format("{} is a parameter, and {} changes it", t.text, name_),
+                          "use a local variable of another name");
+            if (name_ != "force" && is(law_.memories, t))
+                refuseLaw(t, fmt::format("{} is a memory, and {} changes it, which only force may do", t.text, name_),
+                          "use a local variable of another name, or change it in force");
+        }
+    }
+
+    /// A slip in the name of an optional function would go unseen.
+    void refuseUncalled() const {
+        for (const auto& [function, is] : functions_) {
+            if (is.ofContact == nullptr || is.called || isAnswer(function)) continue;
+            const std::string meant = closestWord(function, kAnswers);
+            refuseLaw(*is.ofContact, fmt::format("nobody calls the function {}", function),
+                      meant.empty() ? "call it, or remove it" : fmt::format("did you mean {}?", meant));
+        }
+    }
+
+    /// One contact calls all answers. Some devices end the loops of a shader after some ten thousand trips.
+    void refuseTrips() const {
+        double trips = 0;
+        for (const auto& [function, is] : functions_)
+            if (isAnswer(function)) addTrips(*is.ofContact, is.trips, trips);
     }
 
     /// To the brace that ends the block. `times` it is made in one call of the function.
@@ -179,37 +197,57 @@ class Parser {
         ++at_;
     }
 
+    /// A statement within another one, which begins with `outer`. Its constants end with it.
+    void readInner(const LawToken& outer, double times) {
+        if (++nesting_ > kMostLawNesting) refuseNesting(outer);
+        const std::map<std::string, long> outside = integers_;
+        if (outer.is("{"))
+            readBlock(times);
+        else
+            readStatement(times);
+        integers_ = outside;
+        --nesting_;
+    }
+
     void readStatement(double times) {
         const LawToken& t = next("}");
-        if (t.is("{")) return readBlock(times);
+        if (t.is("{")) return readInner(t, times);
         if (t.is("for")) return readLoop(t, times);
         if (t.is("if")) {
             expect("(");
             readUntilClosed(times);
-            readStatement(times);
-            if (here("else")) {
-                ++at_;
-                readStatement(times);
-            }
+            readInner(t, times);
+            if (here("else")) readInner(next("else"), times);
             return;
         }
-        if (t.is("const") && here("int") && at_ + 4 < tokens_.size() && tokens_[at_ + 4].is(";"))
-            if (const auto value = integer(tokens_[at_ + 3])) {
-                refuseShadow(tokens_[at_ + 1]);
-                integers_[tokens_[at_ + 1].text] = *value;
-            }
-        const bool declaration = isLawType(t.text);
+        if ((t.is("parameter") || t.is("memory")) && here("float"))
+            refuseLaw(t, fmt::format("a {} is declared inside of {}", t.text, name_),
+                      "declare it before the functions");
         --at_;
+        readPlain(times);
+    }
+
+    /// A declaration or an expression.
+    void readPlain(double times) {
+        const std::size_t first = at_;
+        std::size_t type = first;
+        while (type + 1 < tokens_.size() && (tokens_[type].is("const") || tokens_[type].is("precise"))) ++type;
+        const bool declaration = isLawType(tokens_[type].text);
         int depth = 0;
         while (depth > 0 || !here(";")) {
             const LawToken& part = next(";");
-            if (part.is("{") || part.is("}")) refuse(part, "the statement before it has no ; or no )", "add it");
+            if (part.is("{") && declaration && at_ > first + 3 && tokens_[type + 2].is("("))
+                refuseLaw(tokens_[first], fmt::format("a function begins inside of {}", name_),
+                          fmt::format("add the }} that ends {} before it", name_));
+            if (part.is("{") || part.is("}")) refuseLaw(part, "the statement before it has no ; or no )", "add it");
             if (part.is("(")) ++depth;
             if (part.is(")")) --depth;
             const LawToken& before = tokens_[at_ > 1 ? at_ - 2 : 0];
             if (declaration && depth == 0 && (before.is(",") || isLawType(before.text))) refuseShadow(part);
             count(part, times);
         }
+        if (at_ == first + 5 && tokens_[first].is("const") && tokens_[first + 1].is("int"))
+            if (const auto value = integer(tokens_[first + 4])) integers_[tokens_[first + 2].text] = *value;
         ++at_;
     }
 
@@ -219,7 +257,7 @@ class Parser {
             const LawToken& t = next(")");
             if (t.is("(")) ++depth;
             if (t.is(")")) --depth;
-            if (t.is(";") || t.is("{") || t.is("}")) refuse(t, "a parenthesis before it is not closed", "add )");
+            if (t.is(";") || t.is("{") || t.is("}")) refuseLaw(t, "a parenthesis before it is not closed", "add )");
             count(t, times);
         }
     }
@@ -227,24 +265,36 @@ class Parser {
     /// Counts the trips of a function that is called.
     void count(const LawToken& t, double times) {
         if (t.kind != LawToken::Kind::Name || !here("(")) return;
-        if (t.text == function_) refuse(t, fmt::format("{} calls itself", t.text), "write a loop");
-        if (const auto called = functions_.find(t.text); called != functions_.end()) add(t, times * called->second);
+        if (t.text == name_) refuseLaw(t, fmt::format("{} calls itself", t.text), "write a loop");
+        if (const auto called = functions_.find(t.text); called != functions_.end()) {
+            called->second.called = true;
+            addTrips(t, times * called->second.trips, function_.trips);
+            grow(t, called->second.tokens);
+        }
         if (std::ranges::find(loops_, t.text) != loops_.end())
-            refuse(t, "a loop's counter is no function", "rename it");
+            refuseLaw(t, "a loop's counter is no function", "rename it");
     }
 
-    void add(const LawToken& t, double trips) {
-        trips_ += trips;
-        if (trips_ > kMostLawTrips)
-            refuse(
-                t,
-                fmt::format("the loops take {:.6g} trips together; at most {:.0f} are allowed", trips_, kMostLawTrips),
+    static void addTrips(const LawToken& t, double trips, double& sum) {
+        sum += trips;
+        if (sum > kMostLawTrips)
+            refuseLaw(
+                t, fmt::format("the loops take {:.6g} trips together; at most {:.0f} are allowed", sum, kMostLawTrips),
                 "loop less often");
     }
 
+    void grow(const LawToken& t, double tokens) {
+        function_.tokens += tokens;
+        if (function_.tokens > double(kMostLawTokens))
+            refuseLaw(t,
+                      fmt::format("{} has more than {} words and signs, with those of the functions that it calls",
+                                  name_, kMostLawTokens),
+                      "call them less often, or in a loop");
+    }
+
     [[noreturn]] static void refuseLoop(const LawToken& t) {
-        refuse(t, "the loop has no constant bound",
-               "write for (int i = 0; i < 10; ++i), with whole numbers or constants of the type int");
+        refuseLaw(t, "the loop has no constant bound",
+                  "write for (int i = 0; i < 10; ++i), with whole numbers or constants of the type int");
     }
 
     long bound() {
@@ -255,8 +305,8 @@ class Parser {
         if (!value) refuseLoop(t);
         // The device counts in 32 bits: beyond them a counter would begin again, and the loop would not end.
         if (*value > kMostLoopBound)
-            refuse(t, fmt::format("{} is beyond what a loop may count to", t.text),
-                   fmt::format("stay within {} and its negative", kMostLoopBound));
+            refuseLaw(t, fmt::format("{} is beyond what a loop may count to", t.text),
+                      fmt::format("stay within {} and its negative", kMostLoopBound));
         return negative ? -*value : *value;
     }
 
@@ -280,10 +330,10 @@ class Parser {
         if ((!up && !down) || (up && step <= 0) || (down && step >= 0)) refuseLoop(loop);
         const double way = up ? double(end) - double(start) : double(start) - double(end);
         const double trips = std::max(0.0, way / double(std::abs(step)) + 1);
-        add(loop, times * trips);
+        addTrips(loop, times * trips, function_.trips);
         const std::size_t body = at_;
         loops_.push_back(counter);
-        readStatement(times * trips);
+        readInner(loop, times * trips);
         loops_.pop_back();
         refuseChange(body, counter);
     }
@@ -304,27 +354,21 @@ class Parser {
 
     /// The counter of a loop may not change in its body, which ends here.
     void refuseChange(std::size_t from, const std::string& counter) const {
-        constexpr std::string_view kChanges[] = {"=", "+=", "-=", "*=", "/=", "%=", "|=", "&=", "++", "--", "<<", ">>"};
-        const auto changes = [&](std::size_t k) {
-            return k < at_ && std::ranges::find(kChanges, tokens_[k].text) != std::end(kChanges);
-        };
         for (std::size_t k = from; k < at_; ++k)
-            if (tokens_[k].is(counter) &&
-                (changes(k + 1) || (k > from && (tokens_[k - 1].is("++") || tokens_[k - 1].is("--")))))
-                refuse(tokens_[k],
-                       fmt::format("the loop changes its counter {}, so that it has no constant bound", counter),
-                       "use another variable");
+            if (tokens_[k].is(counter) && isChanged(tokens_, k))
+                refuseLaw(tokens_[k],
+                          fmt::format("the loop changes its counter {}, so that it has no constant bound", counter),
+                          "use another variable");
     }
 
-    const std::vector<LawToken>& tokens_;
     UserLaw& law_;
-    std::size_t at_ = 0;
     std::set<std::string> names_;
-    std::map<std::string, long> integers_;     ///< constants
-    std::map<std::string, double> functions_;  ///< with the trips of their loops
-    std::vector<std::string> loops_;           ///< counters of those at work
-    std::string function_;
-    double trips_ = 0;
+    std::map<std::string, long> integers_;  ///< constants
+    std::map<std::string, Function> functions_;
+    std::vector<std::string> loops_;  ///< counters of those at work
+    std::string name_;                ///< of the function that is read
+    Function function_;               ///< the same
+    int nesting_ = 0;                 ///< statements around the one that is read
 };
 
 }  // namespace
@@ -345,7 +389,7 @@ LawReading readLaw(const std::string& name, const std::string& text) {
     Parser parser(tokens, law);
     try {
         parser.read();
-    } catch (const Refused& refused) {
+    } catch (const LawRefused& refused) {
         reading.faults.push_back(refused.fault);
         return reading;
     }

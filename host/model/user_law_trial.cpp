@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "host/model/law_checks.h"
 #include "host/model/restitution.h"
 #include "host/model/stability.h"
 
@@ -27,7 +28,7 @@ struct Probe {
 };
 
 std::vector<Probe> probesOf(const Case& c, const PowderSizes& sizes) {
-    constexpr double kSpeeds[] = {0, 0.01, 1};  // [m/s]
+    constexpr double kSpeeds[] = {0, 0.01, 0.1, 1};  // [m/s]
     std::vector<Probe> probes;
     for (const MaterialPair& pair : occurringPairs(c.world)) {
         if (!haveSpheres(c.world, pair, sizes)) continue;
@@ -56,13 +57,6 @@ std::optional<std::string> wrongIn(const LawPoint& p) {
     if (!std::isfinite(p.energy)) return answers("energy", p.energy);
     if (!(std::isfinite(p.reach) && p.reach >= 0)) return answers("reach", p.reach) + ", which is not >= 0";
     return {};
-}
-
-/// The line on which the law defines a function.
-int lineOf(const UserLaw& law, const std::string& function) {
-    const std::size_t at = law.text.find(" " + function + "(");
-    return at == std::string::npos ? 1
-                                   : 1 + int(std::count(law.text.begin(), law.text.begin() + std::ptrdiff_t(at), '\n'));
 }
 
 }  // namespace
@@ -99,16 +93,24 @@ void tryUserLaw(CaseReader& reader, Case& c, const PowderSizes& sizes) {
     for (std::size_t k = 0; k < probes.size(); ++k) {
         const Probe& probe = probes[k];
         ContactParameters& p = c.dosingLaw.of(probe.pair);
-        for (const LawPoint& point : answers[k]) {
-            if (!(point.overlap > 0) && point.reach == 0) break;  // touch itself is no contact
+        for (std::size_t n = 0; n < answers[k].size(); ++n) {
+            const LawPoint& point = answers[k][n];
+            const bool pressed = 3 * n < 2 * answers[k].size();  // the last third is beyond touch
+            if (!pressed && point.reach == 0) break;             // touch itself is no contact
+            if (pressed && !(point.overlap > 0)) {
+                refuse(lineOfFunction(law.text, "force"),
+                       fmt::format("the device did not answer when {} was tried on it", law.name),
+                       "make its loops shorter; if that does not help, take another device");
+                return;
+            }
             if (point.reach > overall(sizes).smallest) {
-                refuse(lineOf(law, "reach"),
+                refuse(lineOfFunction(law.text, "reach"),
                        fmt::format("reach answers {:.4g} m, more than the smallest radius", point.reach),
                        "let contacts break nearer by");
                 return;
             }
             if (const auto wrong = wrongIn(point)) {
-                refuse(lineOf(law, wrong->substr(0, wrong->find(' '))),
+                refuse(lineOfFunction(law.text, wrong->substr(0, wrong->find(' '))),
                        fmt::format(
                            "{} ({}, overlap {:.4g} m, approach {:.4g} m/s, reduced radius {:.4g} m and mass {:.4g} kg)",
                            *wrong, nameOf(c.world, probe.pair), point.overlap, point.speed, probe.loading.radius,

@@ -1,6 +1,7 @@
 #version 450
 // trial: presses a contact to its deepest overlap and draws it apart, once for each loading, and writes down what a
-// user's law answers. Only the host's trial runs it (host/backend/vulkan/law_trial.cpp).
+// user's law answers. Each dispatch makes one point of every loading. Only the host's trial runs it
+// (host/backend/vulkan/law_trial.cpp).
 #extension GL_GOOGLE_include_directive : require
 #include "law/contact.glsl"
 
@@ -13,32 +14,37 @@ struct Loading {
 layout(std430, binding = 0) readonly buffer LoadingBuffer { Loading loadings[]; };
 // Of each point: overlap, speed, force, stiffness; damping, pull, energy, reach.
 layout(std430, binding = 1) writeonly buffer AnswerBuffer { vec4 answers[]; };
+// Of each loading: what the law remembers from point to point.
+layout(std430, binding = 2) buffer MemoryBuffer { vec4 memories[]; };
+layout(push_constant) uniform PointBlock { uint number; } point;
 
 const uint kPart = 32u;           // of a loading: pressed, drawn apart, beyond touch
 const uint kPoints = 3u * kPart;  // as in law_trial.cpp
 
 void main() {
-    uint which = gl_WorkGroupID.x;
+    uint which = gl_WorkGroupID.x, k = point.number;
     ContactParams p;
     p.own = loadings[which].own;
-    userParameters(p);
     vec4 contact = loadings[which].contact;
     vec4 memory[2];
     memory[0] = vec4(0.0);
     memory[1] = vec4(0.0);
+    userParameters(p);
     userRecall(memory);
     float reach = userReach(UserContact(0.0, 0.0, contact.x, 0.0));
-    for (uint k = 0u; k < kPoints; ++k) {
-        bool presses = k < kPart;
-        float share = float(presses ? k + 1u : 2u * kPart - k) / float(kPart);
-        float overlap = contact.z * share * share * share;
-        if (k >= 2u * kPart) overlap = -reach * float(k - 2u * kPart) / float(kPart);
-        UserContact c = UserContact(overlap, presses ? contact.w : -contact.w, contact.x, contact.y);
-        userRecall(memory);
-        float force = Userforce(c);
-        userKeep(memory);
-        uint at = 2u * (kPoints * which + k);
-        answers[at] = vec4(c.overlap, c.speed, force, Userstiffness(c));
-        answers[at + 1u] = vec4(userDamping(c), userPull(c), userEnergy(c), reach);
-    }
+    bool presses = k < kPart;
+    float share = float(presses ? k + 1u : 2u * kPart - k) / float(kPart);
+    float overlap = contact.z * share * share * share;
+    if (k >= 2u * kPart) overlap = -reach * float(k - 2u * kPart) / float(kPart);
+    UserContact c = UserContact(overlap, presses ? contact.w : -contact.w, contact.x, contact.y);
+    memory[0] = memories[2u * which];
+    memory[1] = memories[2u * which + 1u];
+    userRecall(memory);
+    float force = Userforce(c);
+    userKeep(memory);
+    memories[2u * which] = memory[0];
+    memories[2u * which + 1u] = memory[1];
+    uint at = 2u * (kPoints * which + k);
+    answers[at] = vec4(c.overlap, c.speed, force, Userstiffness(c));
+    answers[at + 1u] = vec4(userDamping(c), userPull(c), userEnergy(c), reach);
 }

@@ -116,7 +116,8 @@ SHARED_CONST kReachingLaws = 1u << kLawJkr | 1u << kUserReaches;
 // its damping. A user's law: ratios to its own stiffness and damping.
 struct ContactParams {
     // Luding: k1, k2Max, kc [N/m], plasticity depth; Hertz-Mindlin: E* [Pa], 2 sqrt(5/6) beta; EEPA: these, then 1.5 pi
-    // delta gamma [N/m], lambda_p; JKR: as Hertz-Mindlin, then the cube root of sqrt(2 pi delta gamma/E*)/4 [m^(1/6)]
+    // delta gamma [N/m], lambda_p; JKR: as Hertz-Mindlin, then the cube root of sqrt(2 pi delta gamma/E*)/4 [m^(1/6)];
+    // a user's law: the largest stiffness that is taken from it [N/m]
     vec4 normal;
     vec4 springs;   // of sliding, rolling, torsion: kt, kr, kTo [N/m]; w: law (kLawLuding ...)
     vec4 friction;  // coefficients of sliding, rolling, torsion: mu, muR, muTo; w: EEPA: f0 [N]; a

@@ -1,48 +1,13 @@
 // A hundred broken laws, and some more: each is refused in the user's own file and line, with the reason.
 
-#include <fmt/format.h>
-
-#include <filesystem>
-#include <fstream>
 #include <set>
 
-#include "host/backend/vulkan/law_trial.h"
-#include "host/model/case.h"
-#include "tests/support/folder.h"
-#include "tests/support/gpu.h"
+#include "tests/scene/broken_laws.h"
 
 using namespace vkdose;
 using namespace vkdose::test;
 
 namespace {
-
-struct Broken {
-    const char* name;
-    std::string text;
-    int line;
-    const char* reason;  ///< words of the message
-};
-
-/// A law that is right but for a line in its force, the fourth of the file.
-std::string inForce(const std::string& line) {
-    return "parameter float k;\nfloat stiffness(Contact c) { return k; }\nfloat force(Contact c) {\n" + line +
-           "\nreturn k * c.overlap;\n}\n";
-}
-
-/// The same but for a declaration, the second line of the file.
-std::string atTop(const std::string& line) {
-    return "parameter float k;\n" + line +
-           "\nfloat stiffness(Contact c) { return k; }\nfloat force(Contact c) { return k * c.overlap; }\n";
-}
-
-/// The same but for what a function returns, in the second line.
-std::string answers(const std::string& function, const std::string& value) {
-    std::string text = "parameter float k;\n";
-    text += fmt::format("float {}(Contact c) {{ return {}; }}\n", function, value);
-    for (const char* other : {"stiffness", "force"})
-        if (function != other) text += fmt::format("float {}(Contact c) {{ return k; }}\n", other);
-    return text;
-}
 
 std::string many(const char* kind, int count) {
     std::string text = kind + std::string(" float a0");
@@ -129,6 +94,21 @@ const std::vector<Broken>& loops() {
         {"a constant in the shade",
          atTop("const int n = 3;\nfloat f(int n) { for (int i = 0; i < n; ++i) {} return 1.0; }"), 3,
          "constant already"},
+        {"a constant in the shade of a sum",
+         atTop("const int n = 3;\nfloat f() { const int n = 3 * 100000; for (int i = 0; i < n; ++i) {} return 1.0; }"),
+         3, "constant already"},
+        {"a constant in the shade of a precise number",
+         atTop("const int n = 3;\nfloat f() { precise int n = 30000; for (int i = 0; i < n; ++i) {} return 1.0; }"), 3,
+         "constant already"},
+        {"a constant whose block has ended",
+         atTop("const int n = 3 * 100000;\nfloat f() { { const int n = 3; } for (int i = 0; i < n; ++i) {} return 1.0; "
+               "}"),
+         3, "no constant bound"},
+        {"a number to the base of eight", inForce("for (int i = 0777770; i < 777771; ++i) {}"), 4, "no constant bound"},
+        {"too many by two answers",
+         "float f(float x) { for (int i = 0; i < 6000; ++i) x += 1.0; return x; }\n"
+         "float force(Contact c) { return f(1.0); }\nfloat stiffness(Contact c) { return f(1.0); }\n",
+         3, "trips"},
         {"recursion", atTop("float f(float x) { return f(x - 1.0); }"), 2, "calls itself"},
     };
     return laws;
@@ -136,11 +116,11 @@ const std::vector<Broken>& loops() {
 
 const std::vector<Broken>& engine() {
     static const std::vector<Broken> laws{
-        {"state", inForce("vec4 s = state[0];"), 4, "'state' : undeclared"},
-        {"history", inForce("history[0] = vec4(0.0);"), 4, "'history' : undeclared"},
-        {"forces", inForce("forces[0] = vec4(0.0);"), 4, "'forces' : undeclared"},
+        {"state", inForce("vec4 s = state;"), 4, "'state' : undeclared"},
+        {"history", inForce("history = vec4(0.0);"), 4, "'history' : undeclared"},
+        {"forces", inForce("forces = vec4(0.0);"), 4, "'forces' : undeclared"},
         {"member", inForce("vec4 g = member.gravity;"), 4, "'member' : undeclared"},
-        {"members", inForce("vec4 g = members[0].gravity;"), 4, "'members' : undeclared"},
+        {"members", inForce("vec4 g = members.gravity;"), 4, "'members' : undeclared"},
         {"control", inForce("uint s = control.steps.x;"), 4, "'control' : undeclared"},
         {"push", inForce("uint s = push.share;"), 4, "'push' : undeclared"},
         {"source", inForce("uint s = source;"), 4, "'source' : undeclared"},
@@ -161,7 +141,12 @@ const std::vector<Broken>& wrongForms() {
         {"no stiffness", "float force(Contact c) { return 1.0; }\n", 1, "stiffness is missing"},
         {"nothing", "", 1, "force is missing"},
         {"a comment", "// nothing\n", 1, "force is missing"},
-        {"a comment without an end", "/* float force(Contact c)\n", 1, "force is missing"},
+        {"a comment without an end", atTop("/* float damping(Contact c) { return 1.0; }"), 2, "no end"},
+        {"a slip in damping", atTop("float dampning(Contact c) { return 1.0; }"), 2,
+         "nobody calls the function dampning"},
+        {"a slip in force", "float Force(Contact c) { return 1.0; }\nfloat stiffness(Contact c) { return 1.0; }\n", 1,
+         "nobody calls the function Force"},
+        {"a parameter inside", inForce("parameter float q;"), 4, "inside of force"},
         {"force of nothing", answers("stiffness", "k") + "float damping() { return 1.0; }\n", 4, "signature"},
         {"pull of a number", atTop("float pull(float x) { return x; }"), 2, "signature"},
         {"a vector of force", "vec3 force(Contact c) { return vec3(0.0); }\n", 1, "signature"},
@@ -194,6 +179,9 @@ const std::vector<Broken>& syntax() {
         {"no semicolon", inForce("float x = 1.0"), 5, "syntax error"},
         {"no parenthesis", inForce("float x = (1.0;"), 6, "no )"},
         {"no brace", "float stiffness(Contact c) { return 1.0; }\nfloat force(Contact c) { return 1.0;\n", 2, "ends"},
+        {"no brace before a function",
+         "float force(Contact c) { return 1.0;\nfloat stiffness(Contact c) { return 1.0; }\n", 2,
+         "begins inside of force"},
         {"a brace too many", "float stiffness(Contact c) { return 1.0; }\nfloat force(Contact c) { return 1.0; }}\n", 2,
          "begins no declaration"},
         {"half a product", inForce("float x = k *;"), 4, "syntax error"},
@@ -248,44 +236,7 @@ const std::vector<Broken>& badAnswers() {
     return laws;
 }
 
-/// Loads a case with this law in a file of its own.
-void loadWith(const Folder& folder, const std::string& law) {
-    const auto write = [&](const char* name, const std::string& text) {
-        std::ofstream(folder.path() / name, std::ios::binary) << text;
-    };
-    write("broken.glsl", law);
-    write("two.csv", "x,y,z,r\n0,0,0,1e-3\n2.1e-3,0,0,1e-3\n");
-    write("broken.toml",
-          "boundaries = \"none\"\n[particles]\ndensity = 2500.0\nlist = \"two.csv\"\n[contact]\nlaw = \"broken.glsl\"\n"
-          "friction = 0.3\n[contact.parameters]\nk = 1000.0\n[settle]\ntime_s = 0.001\n");
-    tryLawsOnDevices();
-    loadCase(folder.path() / "broken.toml");
-}
-
-void refuseAll(const std::vector<Broken>& laws) {
-    const Folder folder;
-    for (const Broken& law : laws) {
-        CAPTURE(law.name, law.text);
-        try {
-            loadWith(folder, law.text);
-            FAIL_CHECK("it is not refused");
-        } catch (const CaseError& error) {
-            const Diagnostic& first = error.faults().front();
-            CAPTURE(error.what());
-            CHECK(std::filesystem::path(first.file).filename() == "broken.glsl");
-            CHECK(first.line == law.line);
-            CHECK_THAT(first.problem, Catch::Contains(law.reason));
-        }
-    }
-}
-
 }  // namespace
-
-TEST_CASE("a law without a fault is taken") {
-    const Folder folder;
-    CHECK_NOTHROW(loadWith(folder, inForce("float x = 1.0; for (int i = 0; i < 3; ++i) x *= 2.0;")));
-    CHECK_NOTHROW(loadWith(folder, answers("force", "k * c.overlap")));
-}
 
 TEST_CASE("what belongs to the program or the device is refused in a law") {
     refuseAll(forbidden());

@@ -52,6 +52,27 @@ const char* text(std::uint32_t error) {
     }
 }
 
+/// The same under a user's law, which may be at fault itself.
+std::string text(std::uint32_t error, const UserLaw* law) {
+    if (law != nullptr && error == gpu::kErrorNan)
+        return fmt::format(
+            "has a position or velocity that is not a number: the law {} answered something that is not a number, a "
+            "stiffness that is not > 0 or is far above that of its trial, or a damping or pull that is not >= 0; or "
+            "the "
+            "time step is too large, or two particles started in one place",
+            law->name);
+    if (law != nullptr && error == gpu::kErrorOverlap)
+        return fmt::format(
+            "is in an overlap deeper than the case allows (contact.max_overlap_ratio, of the smaller radius): let the "
+            "law {} push harder, let its stiffness be no less than the slope of its force, or use a smaller time "
+            "step; if the particle is pinched between coil and wall, allow more",
+            law->name);
+    if (law != nullptr && error == gpu::kErrorLost)
+        return fmt::format("{}; if the law {} flung it out, let its stiffness be no less than the slope of its force",
+                           text(error), law->name);
+    return text(error);
+}
+
 }  // namespace
 
 Ensemble::Ensemble(const VulkanOptions& options) : options_(options), device_(options.device) {
@@ -269,10 +290,8 @@ void Ensemble::keepError(std::uint32_t member, const gpu::uvec4& error) {
     const Vec3& x = now.position[i];
     const std::uint64_t step = m.step + error.x;
     m.failure = fmt::format("particle {} (radius {:.6g} m) at ({:.6g}, {:.6g}, {:.6g}) m {} (step {}, t = {:.6g} s)", i,
-                            now.radius[i], x.x, x.y, x.z, text(error.y), step, double(step) * m.world.timeStep);
-    if (error.y == gpu::kErrorNan && passes_->sizes.userLaw)
-        *m.failure +=
-            fmt::format("; or the law {} answered something that is not a number", passes_->sizes.userLaw->name);
+                            now.radius[i], x.x, x.y, x.z, text(error.y, passes_->sizes.userLaw.get()), step,
+                            double(step) * m.world.timeStep);
 }
 
 }  // namespace vkdose

@@ -16,7 +16,7 @@ namespace {
 
 using gpu::vec4;
 
-constexpr std::size_t kPoints = 96, kPointVectors = 2, kLoadingVectors = 1 + kMostLawParameters / 4;
+constexpr std::size_t kPoints = 96, kPointVectors = 2, kLoadingVectors = 1 + kMostLawParameters / 4, kMemoryVectors = 2;
 
 std::vector<vec4> packed(const std::vector<LawLoading>& loadings) {
     std::vector<vec4> vectors;
@@ -35,13 +35,19 @@ std::vector<vec4> answersOf(const vk::DeviceChoice& choice, std::span<const std:
     vk::Buffer asked(device, "the loadings of a law", questions.size() * sizeof(vec4));
     const vk::Buffer answered(device, "the answers of a law", vectors * sizeof(vec4));
     asked.writeAll(questions);
-    const vk::BindingSet bindings(device, {&asked, &answered}, 4);
+    const vk::Buffer remembered(device, "the memory of a law", count * kMemoryVectors * sizeof(vec4));
+    const vk::BindingSet bindings(device, {&asked, &answered, &remembered}, sizeof(std::uint32_t));
     const vk::Pipeline pipeline(device, bindings, shader, {});
     vk::Commands commands(device);
     commands.begin();
     bindings.bind(commands.handle());
     pipeline.bind(commands.handle());
-    commands.dispatch(std::uint32_t(count), 1, 1);
+    // A dispatch for each point: lavapipe ends the loops of an invocation after 65536 trips together.
+    for (std::uint32_t point = 0; point < kPoints; ++point) {
+        bindings.push(commands.handle(), &point);
+        commands.dispatch(std::uint32_t(count), 1, 1);
+        commands.barrier();
+    }
     commands.hostBarrier();
     commands.submit();
     return answered.readAll<vec4>(vectors);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "host/backend/vulkan/split.h"
@@ -32,6 +33,14 @@ static_assert(gpu::kLawLuding == uint32_t(NormalLaw::Luding) &&
 static_assert(gpu::kOwnParameters == kMostLawParameters && gpu::kOwnMemories == kMostLawMemories);
 static_assert(gpu::kLeverFull == uint32_t(RollingLever::Full) && gpu::kLeverHalf == uint32_t(RollingLever::Half));
 
+/// The largest stiffness that a run takes from a user's law [N/m]. The trial found those of the mean and the smallest
+/// spheres, from which the time step follows; a sphere is larger than these by less than the factor here.
+float mostStiffness(const ContactParameters& c) {
+    constexpr double kFactor = 1000, kMost = std::numeric_limits<float>::max();
+    const double found = std::max(c.k1, c.k2Max);
+    return found > 0 ? float(std::min(kFactor * found, kMost)) : float(kMost);
+}
+
 gpu::ContactParams packContact(const ContactParameters& c) {
     gpu::ContactParams p{};
     p.springs = vec4(float(c.kt), float(c.kr), float(c.kTo), float(c.law));
@@ -40,6 +49,7 @@ gpu::ContactParams packContact(const ContactParameters& c) {
     if (c.law == NormalLaw::User) {
         for (std::size_t k = 0; k < c.own.size(); ++k) p.own[k / 4][int(k % 4)] = float(c.own[k]);
         p.friction.w = float(c.reach);
+        p.normal.x = mostStiffness(c);
         return p;
     }
     if (c.law == NormalLaw::Luding) {

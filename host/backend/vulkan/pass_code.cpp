@@ -42,16 +42,35 @@ std::string expanded(std::string_view text, const UserLaw* law) {
     return out;
 }
 
+/// A message without the prefix, and with types as a law has them: the compiler tells a Contact by all its fields.
+std::string inUsersWords(const std::string& text) {
+    static const std::regex kPrefixed(fmt::format("\\b{}([A-Za-z_])", kUserPrefix));
+    static const std::regex kContact(R"(structure ?\{[^}]*\})");
+    static const std::regex kType(R"(' ?(?:(?:global|temp|const|in|inout|out|smooth|flat|highp|mediump|lowp) )+)");
+    std::string told = std::regex_replace(text, kPrefixed, "$1");
+    told = std::regex_replace(told, kContact, "Contact");
+    return std::regex_replace(told, kType, "'");
+}
+
+/// Whether a message only follows from those before it: the compiler goes on after the first of a line.
+bool follows(const GlslFault& fault, const GlslFault* before) {
+    if (fault.text.starts_with("'' : compilation terminated") || fault.text.starts_with("'' : missing #endif"))
+        return true;
+    return before != nullptr && before->source == fault.source && before->line == fault.line &&
+           fault.text.find("structure{") != std::string::npos;
+}
+
 /// The compiler's faults, in the user's words. One outside of the user's text is told with the text's first line.
 LawError told(const std::vector<GlslFault>& faults) {
-    static const std::regex kPrefixed(fmt::format("\\b{}([A-Za-z_])", kUserPrefix));
     constexpr std::size_t kMost = 5;
     LawError error;
+    const GlslFault* before = nullptr;
     for (const GlslFault& f : faults) {
         if (error.faults.size() == kMost) break;
-        if (f.text.starts_with("'' : compilation terminated")) continue;
+        if (follows(f, before) && (before != nullptr || faults.size() > 1)) continue;
+        before = &f;
         const bool ofUser = f.source == 1;
-        error.faults.push_back({ofUser ? f.line : 1, std::regex_replace(f.text, kPrefixed, "$1"),
+        error.faults.push_back({ofUser ? f.line : 1, inUsersWords(f.text),
                                 ofUser ? "the law must be valid GLSL" : "outside of the law's own text"});
     }
     return error;

@@ -1,0 +1,85 @@
+// What the host makes of a user's law without a device.
+
+#include "host/model/user_law.h"
+#include "host/model/law_checks.h"
+#include "host/model/user_law_trial.h"
+#include "tests/model/case_files.h"
+#include "tests/support/catch.h"
+
+using namespace vkdose;
+using namespace vkdose::test;
+
+namespace {
+
+const std::string kSpring =
+    "parameter float k;\nfloat force(Contact c) { return k * c.overlap; }\n"
+    "float stiffness(Contact c) { return k; }\n";
+
+constexpr std::size_t kPoints = 96;  // of a loading: 64 pressed and drawn apart, 32 beyond touch
+
+/// What a law answers at a point, as a device tells it.
+LawPoint answerAt(const LawLoading& loading, std::size_t point, double reach) {
+    LawPoint p;
+    p.overlap = point < 64 ? loading.deepest : -reach;
+    p.force = loading.own[0] * p.overlap;
+    p.stiffness = loading.own[0];
+    p.reach = reach;
+    return p;
+}
+
+/// Loads a case with the spring, whose trial on a device ends after some points, or at once.
+void loadTried(std::size_t answered, double reach = 0) {
+    const Folder folder;
+    folder.write("spring.glsl", kSpring);
+    folder.write("two.csv", "x,y,z,r\n0,0,0,1e-3\n2.1e-3,0,0,1e-3\n");
+    setLawTrial([&](const UserLaw&, const std::vector<LawLoading>& loadings) {
+        std::vector<std::vector<LawPoint>> answers;
+        for (const LawLoading& loading : loadings) {
+            answers.emplace_back(kPoints);
+            for (std::size_t k = 0; k < answered; ++k) answers.back()[k] = answerAt(loading, k, reach);
+        }
+        return answers;
+    });
+    const auto file =
+        folder.write("case.toml",
+                     "boundaries = \"none\"\n[particles]\ndensity = 2500.0\nlist = \"two.csv\"\n[contact]\nlaw = "
+                     "\"spring.glsl\"\nfriction = 0.3\n[contact.parameters]\nk = 1000.0\n[settle]\ntime_s = 0.001\n");
+    try {
+        loadCase(file);
+    } catch (...) {
+        setLawTrial({});
+        throw;
+    }
+    setLawTrial({});
+}
+
+}  // namespace
+
+TEST_CASE("a trial that the device does not make, or not to its end, is a fault of the law") {
+    CHECK_NOTHROW(loadTried(kPoints));
+    CHECK_NOTHROW(loadTried(kPoints, 1e-6));
+    for (const std::size_t answered : {0, 1, 40, 63})
+        CHECK_THROWS_WITH(loadTried(answered), Catch::Contains("spring.glsl:2") && Catch::Contains("did not answer"));
+}
+
+TEST_CASE("the line of a law's function is that of its name") {
+    CHECK(lineOfFunction(kSpring, "force") == 2);
+    CHECK(lineOfFunction(kSpring, "stiffness") == 3);
+    CHECK(lineOfFunction("// float force(Contact c)\nfloat\n  force (Contact c) { return 1.0; }\n", "force") == 3);
+    CHECK(lineOfFunction(kSpring, "pull") == 1);
+}
+
+TEST_CASE("a mark of the byte order before a law counts as nothing") {
+    const LawReading plain = readLaw("a.glsl", kSpring), marked = readLaw("a.glsl", "\xef\xbb\xbf" + kSpring);
+    CHECK(marked.faults.empty());
+    CHECK(marked.law.parameters == plain.law.parameters);
+    CHECK(marked.law.text != plain.law.text);
+    CHECK_FALSE(readLaw("a.glsl", kSpring + "\xef\xbb\xbf").faults.empty());
+}
+
+TEST_CASE("what a slip in the name of a law's function was meant to be is asked") {
+    const LawReading reading = readLaw("a.glsl", kSpring + "float dampning(Contact c) { return 1.0; }\n");
+    REQUIRE(reading.faults.size() == 1);
+    CHECK(reading.faults[0].line == 4);
+    CHECK_THAT(reading.faults[0].remedy, Catch::Contains("damping"));
+}
