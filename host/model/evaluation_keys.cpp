@@ -39,8 +39,8 @@ constexpr Key kMeasure[] = {
     number("time_s", kSecond, kNonNegative, told("the end of the run"),
            "`angle_of_repose`, `bulk_density`: the frame nearest to it is looked at"),
     text("body", kRequired,
-         "`drum_angle`: the body that turns as the drum; `compression`: the piston; `shear`: the lid, and behind "
-         "it, separated by blanks, what is fixed to it"),
+         "`drum_angle`: the body that turns as the drum; `compression`: the piston; `shear`: the lid, which "
+         "turns, swings or follows a table, and behind it, separated by blanks, what is fixed to it"),
     number("area_mm2", {1e6, "mm2"}, kPositive, kRequired, "`compression`: cross-section of the bed"),
     number("height_mm", kMillimetre, kPositive, kRequired,
            "`compression`: from the floor of the bed to the piston's face before it moves"),

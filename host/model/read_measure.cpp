@@ -73,10 +73,16 @@ std::vector<double> readTimes(CaseReader& reader, Section& s, const char* key, b
     return times;
 }
 
-std::vector<ElementTest::Window> readWindows(CaseReader& reader, Section& s, bool endRequired) {
+/// Windows from `from_s` to `to_s`; of a kind with one window, which may end with the run, `several` is false.
+std::vector<ElementTest::Window> readWindows(CaseReader& reader, Section& s, bool several) {
+    const bool endRequired = several;
     const std::vector<double> from = readTimes(reader, s, "from_s", true),
                               to = readTimes(reader, s, "to_s", endRequired);
     std::vector<ElementTest::Window> windows;
+    for (const auto& [key, times] : {std::pair("from_s", &from), std::pair("to_s", &to)})
+        if (!several && times->size() > 1)
+            reader.fault(s.path(key), fmt::format("has {} times, and this measure has one window", times->size()),
+                         "give one time, and a [[measure]] for each window");
     if (!endRequired && to.empty() && !from.empty()) return {{from.front(), geometry::kEndless}};
     if (!from.empty() && !to.empty() && from.size() != to.size())
         reader.fault(s.path("to_s"), fmt::format("has {} times, from_s {}", to.size(), from.size()),
@@ -87,6 +93,12 @@ std::vector<ElementTest::Window> readWindows(CaseReader& reader, Section& s, boo
         windows.push_back({from[i], to[i]});
     }
     return windows;
+}
+
+/// Whether a motion is about a line, which says along which direction and about what the loads of a body count.
+bool hasAxis(const geometry::Motion& motion) {
+    return std::holds_alternative<Turn>(motion) || std::holds_alternative<geometry::Swing>(motion) ||
+           std::holds_alternative<geometry::Table>(motion);
 }
 
 /// A state before the end of the run is that of a frame.
@@ -130,6 +142,10 @@ void readKind(CaseReader& reader, Section& s, Kind kind, const Case& c, ElementT
             return;
         case Kind::Shear:
             m.bodies = readBodyNames(reader, s, kMaxBodies, c);
+            for (const std::size_t body : m.bodies)
+                if (!hasAxis(c.world.bodies[body].course.motion))
+                    reader.fault(s.path("body"), "has no axis, so that its load is no pressure and no torque",
+                                 "let the lid turn, swing or follow a table, and the base stand");
             m.radius = s.number("radius_mm");
             m.innerRadius = s.number("inner_radius_mm");
             if (m.innerRadius >= m.radius)

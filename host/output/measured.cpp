@@ -173,7 +173,7 @@ class Measuring {
             why = "a mean diameter away from wall, floor and surface there is room for fewer than a hundred spheres";
             return {};
         }
-        return named(kBulk, {bulk->density, bulk->density / solidDensity(c_), bulk->volume, state.time});
+        return named(kBulk, {bulk->density, bulk->solid / bulk->volume, bulk->volume, state.time});
     }
 
     Figures drum(const ElementTest& m, std::string& why) const {
@@ -212,8 +212,14 @@ class Measuring {
         const std::vector<double>& radii = result_.particles.radius;
         const double grain = 2 * std::accumulate(radii.begin(), radii.end(), 0.0) / static_cast<double>(radii.size());
         const double gravity = glm::length(c_.world.gravity);
-        return named(kDischarge,
-                     {d->rate, d->error, beverlooConstant(d->rate, c_.bulkDensity, gravity, m.hole, grain)});
+        return named(kDischarge, {d->rate, d->error, beverlooConstant(d->rate, bulkDensity(), gravity, m.hole, grain)});
+    }
+
+    /// That of the settled bed if the case has it measured.
+    double bulkDensity() const {
+        if (c_.bulkDensityMeasured && result_.settled)
+            if (const auto bulk = settledDensity(c_, result_.settled->particles)) return bulk->density;
+        return c_.bulkDensity;
     }
 
     double senseOfDrive() const {

@@ -20,13 +20,32 @@ constexpr double kLeastSpheres = 100;
 /// diameter.
 constexpr int kLattice = 16;
 
-/// Squares of `side` over the floor plan x in [-halfWidth, halfWidth], z in [begin, end], each with the top of the
-/// highest sphere whose centre is over it. The last row and column are cut by the plan's edge.
+/// How one side of a floor plan is divided.
+struct Division {
+    double low, high;  ///< ends of the side [m]
+    double piece;      ///< length of a piece [m]
+    int count;
+};
+
+constexpr double kRounding = 1e-9;  ///< of a piece: what is left over by rounding is no piece
+
+/// Pieces of this length. The last one is cut by the end.
+Division piecesOf(double length, double low, double high) {
+    return {low, high, length, std::max(0, static_cast<int>(std::ceil((high - low) / length - kRounding)))};
+}
+
+/// Equal pieces at least so long, or one that is shorter. Over a narrow rest at a wall there may be no centre of a
+/// sphere, however deep the bed is.
+Division equalPieces(double least, double low, double high) {
+    const int count = std::max(1, static_cast<int>((high - low) / least + kRounding));
+    return {low, high, (high - low) / count, count};
+}
+
+/// Rectangles over a floor plan, each with the top of the highest sphere whose centre is over it.
 class Surface {
   public:
-    Surface(const Particles& p, double halfWidth, double begin, double end, double side)
-        : low_{-halfWidth, begin}, high_{halfWidth, end}, side_(side) {
-        for (int k = 0; k < 2; ++k) cells_[k] = std::max(0, static_cast<int>(std::ceil((high_[k] - low_[k]) / side)));
+    Surface(const Particles& p, const Division& x, const Division& z)
+        : low_{x.low, z.low}, high_{x.high, z.high}, side_{x.piece, z.piece}, cells_{x.count, z.count} {
         top_.assign(static_cast<std::size_t>(cells_[0]) * cells_[1], kNothing);
         for (std::size_t i = 0; i < p.size(); ++i) {
             const int cell = p.status[i] == Status::Active ? cellOf(p.position[i]) : -1;
@@ -40,7 +59,7 @@ class Surface {
         int index[2];
         for (int k = 0; k < 2; ++k) {
             if (!(place[k] >= low_[k]) || !(place[k] < high_[k])) return -1;
-            index[k] = std::min(static_cast<int>((place[k] - low_[k]) / side_), cells_[k] - 1);
+            index[k] = std::min(static_cast<int>((place[k] - low_[k]) / side_[k]), cells_[k] - 1);
         }
         return index[0] * cells_[1] + index[1];
     }
@@ -52,17 +71,20 @@ class Surface {
     double sliceLength(int slice) const { return extent(1, slice); }
 
   private:
-    double extent(int k, int i) const { return std::min(side_, high_[k] - low_[k] - i * side_); }
+    double extent(int k, int i) const { return std::min(side_[k], high_[k] - low_[k] - i * side_[k]); }
 
-    double low_[2], high_[2], side_;
-    int cells_[2] = {0, 0};
+    double low_[2], high_[2], side_[2];
+    int cells_[2];
     std::vector<double> top_;
 };
 
-/// Mass [kg] of the parts of active spheres for which `inside(point)` holds. Each sphere is a lattice of points that
-/// together weigh as much as the sphere.
+/// The parts of active spheres for which `inside(point)` holds. Each sphere is a lattice of points that together weigh
+/// as much as the sphere.
+struct Parts {
+    double mass = 0, solid = 0;  ///< [kg], [m3]
+};
 template <typename Inside>
-double massWithin(const World& world, const Particles& p, const Inside& inside) {
+Parts partsWithin(const World& world, const Particles& p, const Inside& inside) {
     std::vector<Vec3> lattice;
     for (int i = 0; i < kLattice; ++i)
         for (int j = 0; j < kLattice; ++j)
@@ -70,19 +92,21 @@ double massWithin(const World& world, const Particles& p, const Inside& inside) 
                 const Vec3 x = (Vec3(i, j, k) + 0.5) * (2.0 / kLattice) - 1.0;
                 if (glm::dot(x, x) < 1) lattice.push_back(x);
             }
-    double mass = 0;
+    Parts parts;
     for (std::size_t i = 0; i < p.size(); ++i) {
         if (p.status[i] != Status::Active) continue;
         int hits = 0;
         for (const Vec3& x : lattice) hits += inside(p.position[i] + p.radius[i] * x) ? 1 : 0;
-        mass += world.density(p.material[i]) * sphereVolume(p.radius[i]) * hits / static_cast<double>(lattice.size());
+        const double solid = sphereVolume(p.radius[i]) * hits / static_cast<double>(lattice.size());
+        parts.mass += world.density(p.material[i]) * solid;
+        parts.solid += solid;
     }
-    return mass;
+    return parts;
 }
 
-std::optional<BulkDensity> densityOf(double mass, double volume, double meanRadius) {
+std::optional<BulkDensity> densityOf(const Parts& parts, double volume, double meanRadius) {
     if (!(volume > kLeastSpheres * sphereVolume(meanRadius))) return std::nullopt;
-    return BulkDensity{mass / volume, mass, volume};
+    return BulkDensity{parts.mass / volume, parts.mass, volume, parts.solid};
 }
 
 }  // namespace
@@ -101,17 +125,19 @@ std::optional<BulkDensity> bedDensity(const World& world, const Particles& parti
                                       const geometry::Coil* coil) {
     const double a = meanActiveRadius(particles), margin = 2 * a;
     if (!(a > 0)) return std::nullopt;
-    const Surface surface(particles, canister.width / 2 - margin, margin, canister.length - margin, 2 * margin);
+    const double across = canister.width / 2 - margin;
+    const Surface surface(particles, piecesOf(2 * margin, -across, across),
+                          piecesOf(2 * margin, margin, canister.length - margin));
     const double low = (coil ? coil->radius + coil->wireRadius : 0.0) + margin;
     double volume = 0;
     for (int cell = 0; cell < surface.columns(); ++cell)
         volume += surface.area(cell) * std::max(0.0, surface.top(cell) - margin - low);
-    const double mass = massWithin(world, particles, [&](const Vec3& x) {
+    const Parts parts = partsWithin(world, particles, [&](const Vec3& x) {
         if (x.y < low) return false;
         const int cell = surface.cellOf(x);
         return cell >= 0 && x.y < surface.top(cell) - margin;
     });
-    return densityOf(mass, volume, a);
+    return densityOf(parts, volume, a);
 }
 
 std::optional<BulkDensity> coilDensity(const World& world, const Particles& particles, const Canister& canister,
@@ -120,7 +146,7 @@ std::optional<BulkDensity> coilDensity(const World& world, const Particles& part
     if (!(a > 0)) return std::nullopt;
     const double outer = coil.radius + coil.wireRadius;
     const double begin = std::max({coil.zStart, 0.0, from}), end = std::min(coil.zStart + coil.length, canister.length);
-    const Surface surface(particles, outer, begin, end, 2 * margin);
+    const Surface surface(particles, equalPieces(2 * margin, -outer, outer), piecesOf(2 * margin, begin, end));
     std::vector<double> lowestTop(surface.slices(), std::numeric_limits<double>::infinity());
     for (int cell = 0; cell < surface.columns(); ++cell) {
         double& top = lowestTop[surface.sliceOf(cell)];
@@ -132,12 +158,12 @@ std::optional<BulkDensity> coilDensity(const World& world, const Particles& part
     double volume = 0;
     for (int slice = 0; slice < surface.slices(); ++slice)
         if (covered(slice)) volume += surface.sliceLength(slice) * (kPi * outer * outer - wire);
-    const double mass = massWithin(world, particles, [&](const Vec3& x) {
+    const Parts parts = partsWithin(world, particles, [&](const Vec3& x) {
         if (x.x * x.x + x.y * x.y >= outer * outer) return false;
         const int cell = surface.cellOf(x);
         return cell >= 0 && covered(surface.sliceOf(cell));
     });
-    return densityOf(mass, volume, a);
+    return densityOf(parts, volume, a);
 }
 
 std::optional<BulkDensity> settledDensity(const Case& c, const Particles& particles) {
@@ -153,15 +179,15 @@ std::optional<BulkDensity> containerDensity(const World& world, const Particles&
     if (!(a > 0) || !(within > 0)) return std::nullopt;
     // The square in the cylinder: its columns are all full.
     const double half = within / std::sqrt(2.0);
-    const int columns = std::max(1, static_cast<int>(half / margin));
-    const Surface surface(particles, half, -half, half, 2 * half / columns);
+    const Division side = equalPieces(2 * margin, -half, half);
+    const Surface surface(particles, side, side);
     double top = std::numeric_limits<double>::infinity();
     for (int cell = 0; cell < surface.columns(); ++cell) top = std::min(top, surface.top(cell) - margin);
     if (!(top > margin)) return std::nullopt;
-    const double mass = massWithin(world, particles, [&](const Vec3& x) {
+    const Parts parts = partsWithin(world, particles, [&](const Vec3& x) {
         return x.y > margin && x.y < top && x.x * x.x + x.z * x.z < within * within;
     });
-    return densityOf(mass, kPi * within * within * (top - margin), a);
+    return densityOf(parts, kPi * within * within * (top - margin), a);
 }
 
 double closedFormMass(double bulkDensity, const geometry::Coil& coil, double turns) {
@@ -173,7 +199,6 @@ double closedFormDensity(const Derived& derived, const geometry::Coil& coil) {
 }
 
 bool wasMeasured(const Case& c, double density) {
-    constexpr double kRounding = 1e-9;
     return c.bulkDensityMeasured && std::abs(density / c.bulkDensity - 1) > kRounding;
 }
 

@@ -15,6 +15,7 @@ struct BulkDensity {
     double density = 0;  ///< mass / volume [kg/m3]
     double mass = 0;     ///< of the parts of spheres within the region [kg]
     double volume = 0;   ///< of the region [m3]
+    double solid = 0;    ///< volume of the parts of spheres [m3]
 };
 
 /// Bulk density in the bed. The region covers the floor plan of the canister up to a mean diameter from every wall. It

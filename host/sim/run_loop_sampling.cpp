@@ -8,11 +8,16 @@
 namespace vkdose {
 
 double RunLoop::driveImpulse(const Sensors& s, std::uint64_t n) const {
-    double impulse = s.coilTorque * static_cast<double>(n);
-    if (stretch_.rate == 0) return impulse;
+    const auto steps = static_cast<double>(n);
+    double impulse = s.coilTorque * steps;
     const std::vector<RigidBody>& bodies = case_.world.bodies;
-    for (std::size_t b = 0; b < bodies.size(); ++b)
-        if (bodies[b].clock == Clock::Drive) impulse -= s.bodies[b].work / (stretch_.rate * case_.world.timeStep);
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+        if (bodies[b].clock != Clock::Drive) continue;
+        if (stretch_.rate != 0)
+            impulse -= s.bodies[b].work / (stretch_.rate * case_.world.timeStep);
+        else if (const auto* turn = std::get_if<geometry::Turn>(&bodies[b].course.motion))
+            impulse += s.bodies[b].torque * turn->rate * steps;  // held, the drive still bears the load
+    }
     return impulse;
 }
 

@@ -83,6 +83,16 @@ TEST_CASE("density between the turns: slices without powder above are left out")
     CHECK(nearRelative(half->density, all->density, 0.03));
 }
 
+TEST_CASE(
+    "density between the turns: a narrow rest of the floor plan at the wall, over which no centre can lie, is no "
+    "column") {
+    Particles bed = layers(-10e-3, 40e-3);
+    for (std::size_t i = 0; i < bed.size(); ++i)
+        if (std::abs(bed.position[i].x) > 8.5e-3) bed.status[i] = Status::Dosed;
+    const geometry::Coil coil = paperCoil();  // its 22.8 mm are five columns of 4 mm and a rest from 8.6 mm on
+    CHECK(coilDensity(solid(), bed, paperCanister(), coil));
+}
+
 TEST_CASE("density between the turns: only beyond where it is asked for") {
     const geometry::Coil coil = paperCoil();
     const Particles bed = layers(-10e-3, 40e-3);
@@ -102,6 +112,26 @@ TEST_CASE("too little powder has no density") {
 
 TEST_CASE("the closed form with a measured density") {
     CHECK(nearRelative(closedFormMass(471, paperCoil(), 3), 4.2011e-3, 1e-4));  // the paper's, 4.20 g, as printed
+}
+
+TEST_CASE("density in a round container, whatever its radius and its powders") {
+    World two = solid();
+    two.materials.push_back({"heavy", true, 8 * kSolid});
+    Particles bed;
+    constexpr double a = 0.6e-3;
+    for (int i = -11; i <= 11; ++i)
+        for (int j = 0; j < 12; ++j)
+            for (int k = -11; k <= 11; ++k)
+                bed.add({2 * a * i, a + 2 * a * j, 2 * a * k}, a, Vec3(0), Vec3(0),
+                        j < 3 ? int(two.materials.size()) - 1 : kFirstPowder);
+    // At 13.5 and 14.2 mm seven columns are as wide as the plan but for the last bit.
+    for (const int tenths : {130, 135, 138, 142, 145}) {
+        CAPTURE(tenths);
+        const auto found = containerDensity(two, bed, tenths * 1e-4);
+        REQUIRE(found);
+        CHECK(nearRelative(found->solid / found->volume, kPi / 6, 0.03));
+        CHECK(found->density > 1.5 * kCubic);  // the lowest layers are of the heavy powder
+    }
 }
 
 TEST_CASE("density in a round container, of a cubic lattice and below the lowest place of its surface") {

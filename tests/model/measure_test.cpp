@@ -38,6 +38,15 @@ at = [0, 0.08, 0]
 [body.motion]
 kind = "slide"
 velocity = [0, -0.01, 0]
+[[body]]
+name = "vane"
+shape = "disc"
+radius_mm = 5.0
+at = [0, 0.01, 0]
+[body.motion]
+kind = "turn"
+axis = [0, 0, 1]
+speed_rpm = 30.0
 )" + frames + measures);
 }
 
@@ -67,7 +76,7 @@ height_mm = 80.0
 axis = [0, 2, 0]
 [[measure]]
 kind = "shear"
-body = "piston plate"
+body = "drum vane"
 radius_mm = 16.0
 inner_radius_mm = 8.0
 from_s = [0.02, 0.05]
@@ -102,7 +111,7 @@ TEST_CASE("measures: every kind comes from its keys, and the resolved case gives
         CHECK(nearRelative(m[3].area, 78.5e-6, 1e-12));
         CHECK(m[3].height == 80e-3);
         CHECK(m[3].axis == Vec3(0, 1, 0));
-        CHECK(m[4].bodies == std::vector<std::size_t>{2, 0});
+        CHECK(m[4].bodies == std::vector<std::size_t>{1, 3});
         CHECK(m[4].innerRadius == 8e-3);
         REQUIRE(m[4].windows.size() == 2);
         CHECK(m[4].windows[1].from == 0.05);
@@ -133,14 +142,21 @@ TEST_CASE("measures: a fault names file, line, key, value and remedy") {
     const std::string byPhase = replaced(withMeasures(press), "-0.01, 0]\n", "-0.01, 0]\nduring = \"settle\"\n");
     CHECK_THAT(read.fault(byPhase), Contains("measure[0].body = \"piston\": does not move by time") &&
                                         Contains("let the piston move by from_s and to_s"));
-    CHECK_THAT(says("kind = \"shear\"\nbody = \"piston\"\nradius_mm = 5\nfrom_s = 0.1\n"),
+    CHECK_THAT(says("kind = \"shear\"\nbody = \"drum\"\nradius_mm = 5\nfrom_s = 0.1\n"),
                Contains("measure[0].to_s") && Contains("is missing"));
-    CHECK_THAT(says("kind = \"shear\"\nbody = \"piston\"\nradius_mm = 5\nfrom_s = [0, 1]\nto_s = [1]\n"),
+    CHECK_THAT(says("kind = \"shear\"\nbody = \"drum\"\nradius_mm = 5\nfrom_s = [0, 1]\nto_s = [1]\n"),
                Contains("give each window"));
-    CHECK_THAT(says("kind = \"shear\"\nbody = \"piston\"\nradius_mm = 5\nfrom_s = 1\nto_s = 0.5\n"),
+    CHECK_THAT(says("kind = \"shear\"\nbody = \"drum\"\nradius_mm = 5\nfrom_s = 1\nto_s = 0.5\n"),
                Contains("is not later"));
-    CHECK_THAT(says("kind = \"shear\"\nbody = \"piston\"\nradius_mm = 5\ninner_radius_mm = 6\nfrom_s = 0\nto_s = 1\n"),
+    CHECK_THAT(says("kind = \"shear\"\nbody = \"drum\"\nradius_mm = 5\ninner_radius_mm = 6\nfrom_s = 0\nto_s = 1\n"),
                Contains("inner_radius_mm") && Contains("is no smaller"));
+    CHECK_THAT(says("kind = \"shear\"\nbody = \"drum plate\"\nradius_mm = 5\nfrom_s = 0\nto_s = 1\n"),
+               Contains("has no axis") && Contains("let the lid turn"));
+    for (const std::string kind : {"drum_angle\"\nbody = \"drum\"\n", "discharge\"\nregion = \"pan\"\n"}) {
+        CHECK_THAT(says("kind = \"" + kind + "from_s = [0.1, 0.2]\n"),
+                   Contains("from_s") && Contains("has 2 times, and this measure has one window"));
+        CHECK_THAT(says("kind = \"" + kind + "from_s = 0.1\nto_s = [0.2, 0.3]\n"), Contains("to_s"));
+    }
     CHECK_THAT(says("kind = \"discharge\"\nregion = \"pam\"\nfrom_s = 0\n"),
                Contains("there is no region \"pam\"") && Contains("did you mean \"pan\""));
     CHECK_THAT(says("kind = \"discharge\"\nregion = \"pan\"\n"), Contains("from_s") && Contains("is missing"));

@@ -58,8 +58,7 @@ std::string text(std::uint32_t error, const UserLaw* law) {
         return fmt::format(
             "has a position or velocity that is not a number: the law {} answered something that is not a number, a "
             "stiffness that is not > 0 or is far above that of its trial, or a damping or pull that is not >= 0; or "
-            "the "
-            "time step is too large, or two particles started in one place",
+            "the time step is too large, or two particles started in one place",
             law->name);
     if (law != nullptr && error == gpu::kErrorOverlap)
         return fmt::format(
