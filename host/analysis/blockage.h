@@ -19,7 +19,8 @@ struct BlockageRule {
 };
 
 /// The rule for a run: that of its `stop` if it is the experiment's. Another stop rule has no threshold of its own;
-/// then the paper's threshold is taken in proportion to the mass that a dose has by the closed form [kg].
+/// then the paper's threshold is taken in proportion to the mass that a dose has by the closed form, or to its target
+/// if that is less [kg].
 BlockageRule blockageRule(const StopRule& stop, double closedForm);
 
 /// The powder that a run was given.

@@ -49,9 +49,10 @@ std::vector<std::string> reasonsForLess(const Case& c, const RunResult& r, const
 std::vector<std::string> reasonsForMore(const Case& c, const RunResult& r) {
     std::vector<std::string> reasons;
     const std::string itself = "powder runs out by itself (throat too short, outlet too high, little friction)";
-    reasons.push_back(r.dosedWhileSettling > 0
-                          ? fmt::format("{}, as {} g did while settling", itself, grams(r.dosedWhileSettling))
-                          : itself);
+    // In a run with the powder of another this is what had come out there, in its doses too.
+    reasons.push_back(r.dosedWhileSettling > 0 ? fmt::format("{}, and {} g had left before the first dose", itself,
+                                                             grams(r.dosedWhileSettling))
+                                               : itself);
     reasons.push_back(fmt::format("powder above and beside the {} is dragged along", c.world.coil ? "coil" : "body"));
     return reasons;
 }

@@ -1,8 +1,22 @@
 #include "host/analysis/figures.h"
 
+#include <algorithm>
+
 #include "host/analysis/emptying.h"
 
 namespace vkdose {
+
+namespace {
+
+/// The mass of a dose by which the rule for a blockage goes [kg]. A dose to a mass turns until the mass is out. The
+/// closed form of its turns is the greater the longer that took, and is no measure of what should come.
+double expectedDose(const std::vector<Dose>& doses) {
+    if (doses.empty()) return 0;
+    const Dose& first = doses.front();
+    return first.target > 0 ? std::min(first.closedForm, first.target) : first.closedForm;
+}
+
+}  // namespace
 
 Supply supplyOf(const RunResult& result) {
     Supply supply = result.ledger.filledMass();
@@ -17,7 +31,7 @@ DosingFigures figuresOf(const std::vector<Dose>& doses, const Supply& supply, co
     const std::vector<double> cumulative = cumulativeMasses(doses);
     f.beta = betaOf(cumulative, f.window);
     f.dosesTo99 = dosesToFraction(cumulative, supply.mass);
-    f.rule = blockageRule(stop, doses.empty() ? 0.0 : doses.front().closedForm);
+    f.rule = blockageRule(stop, expectedDose(doses));
     f.blocked = blockedAt(doses, supply, f.rule);
     return f;
 }

@@ -53,6 +53,9 @@ OutletFlow outletFlow(const std::vector<FlowSample>& samples, double filled, dou
     bool begun = false;
     FlowSample before;
     before.inside = filled;
+    // A run after another's doses has its powder in the first line, before the coil turns. What was out is not of this
+    // run.
+    if (!samples.empty() && !samples.front().turning && samples.front().angle != 0) before = samples.front();
     for (const FlowSample& s : samples) {
         const bool flowed = s.dosed > before.dosed;
         if (s.turning && !begun) turned += s.time - before.time;

@@ -41,7 +41,7 @@ struct OutletFlow {
 };
 
 /// `filled` is the mass that the canister held [kg]. With the part `remaining` of it or less inside, the canister is
-/// empty, not blocked.
+/// empty, not blocked. What another run had dosed before this one does not count.
 OutletFlow outletFlow(const std::vector<FlowSample>& samples, double filled, double remaining = 0.01);
 
 }  // namespace vkdose

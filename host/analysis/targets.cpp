@@ -17,9 +17,10 @@ TargetFigures targetFigures(const std::vector<Dose>& doses) {
         f.overshoot += d.overshoot();
         f.error += d.mass - d.target;
         f.rotation += d.rotation;
+        f.closedForm += d.closedForm;
     }
     if (f.doses == 0) return f;
-    for (double* sum : {&f.target, &f.stopMass, &f.overshoot, &f.error, &f.rotation}) *sum /= f.doses;
+    for (double* sum : {&f.target, &f.stopMass, &f.overshoot, &f.error, &f.rotation, &f.closedForm}) *sum /= f.doses;
     return f;
 }
 

@@ -17,6 +17,9 @@ struct TargetFigures {
     double overshoot = 0;  ///< dosed after that, to the end of the dose's rest [kg]
     double error = 0;      ///< mass of the dose less its target [kg]
     double rotation = 0;   ///< time until the coil was told to stop [s]
+    /// Mass by the closed form of the turns that the doses made [kg]. These turns follow from the target, and the first
+    /// dose, which fills the throat too, may make twice as many as the others.
+    double closedForm = 0;
 };
 TargetFigures targetFigures(const std::vector<Dose>& doses);
 

@@ -25,8 +25,9 @@ namespace vkdose {
 
 namespace {
 
-/// "0.872 +- 0.031"; a "?" where the error is not known.
+/// "0.872 +- 0.031"; a "?" where the error is not known, or the value itself.
 std::string withError(double value, double error, double scale = 1) {
+    if (!std::isfinite(value)) return "?";
     const std::string by = std::isfinite(error) ? fmt::format("{:.2g}", error * scale) : "?";
     return fmt::format("{:.4g} +- {}", value * scale, by);
 }

@@ -130,8 +130,10 @@ std::string reportText(const Case& c, const RunResult& r, const std::string& bac
     if (controlled && !r.doses.empty()) text += stopTable(r.doses);
     const DoseStatistics& s = r.statistics;
     if (s.doses > 1) {
-        text += fmt::format("mean {} g, standard deviation {} g, RSD {:.1f} % over {} doses\n", grams(s.mean),
-                            grams(s.deviation), s.relative * 100, s.doses);
+        const std::string rsd =
+            s.mean > 0 ? fmt::format("RSD {:.1f} %", s.relative * 100) : "no RSD: nothing was dosed";
+        text += fmt::format("mean {} g, standard deviation {} g, {} over {} doses\n", grams(s.mean), grams(s.deviation),
+                            rsd, s.doses);
     } else if (s.doses == 1) {
         text += fmt::format("mean {} g (one dose: no standard deviation, no RSD)\n", grams(s.mean));
     }

@@ -41,7 +41,16 @@ Json inputs(const Case& c, const RunResult& r) {
     return j;
 }
 
-Json closedForms(const Case& c, const Derived& d) {
+/// Doses to a mass have the closed form of the turns that they made. What `derive` gives of them is their target, by
+/// which their number is planned.
+Json closedFormDose(const Case& c, const RunResult& r) {
+    if (c.schedule.targetMass == 0) return jsonNumber(r.derived.massPerDose);
+    const TargetFigures f = targetFigures(r.doses);
+    return f.doses > 0 ? jsonNumber(f.closedForm) : Json(nullptr);
+}
+
+Json closedForms(const Case& c, const RunResult& r) {
+    const Derived& d = r.derived;
     Json j;
     if (c.world.coil) {
         const double density = closedFormDensity(d, *c.world.coil);
@@ -50,7 +59,7 @@ Json closedForms(const Case& c, const Derived& d) {
     }
     j["push_velocity_m_s"] = jsonNumber(d.pushVelocity);
     j["tip_velocity_m_s"] = jsonNumber(d.tipVelocity);
-    j["mass_per_dose_kg"] = jsonNumber(d.massPerDose);
+    j["mass_per_dose_kg"] = closedFormDose(c, r);
     j["doses"] = jsonNumber(d.doses);
     j["stiffest_contact_duration_s"] = jsonNumber(d.stiffest);
     return j;
@@ -268,7 +277,7 @@ std::string summaryJson(const Case& c, const RunResult& r, const std::string& ba
     }
     j["settled"] = settled(c, r.settled);
     j["dosed_while_settling_kg"] = jsonNumber(r.dosedWhileSettling);
-    j["closed_form"] = closedForms(c, r.derived);
+    j["closed_form"] = closedForms(c, r);
     if (const std::string note = closedFormNote(c, r); !note.empty()) j["closed_form"]["note"] = note;
     if (!c.refills.empty()) j["refills"] = refills(c, r);
     j["ledger"] = ledger(r);

@@ -17,6 +17,9 @@ function add(parent, name, text, className) {
 const isNumber = x => typeof x === "number" && isFinite(x);
 
 /// Four significant digits, without a tail of zeros.
+/// A mass [kg] in grams. Below a tenth of a gram three significant digits, because doses can be milligrams.
+const gramsText = x =>
+  (!isNumber(x) ? "" : x === 0 || Math.abs(x * gram) >= 0.1 ? (x * gram).toFixed(3) : String(Number((x * gram).toPrecision(3))));
 const short = x => (isNumber(x) ? String(Number(x.toPrecision(4))) : "");
 
 function frame(parent, title, note) {

@@ -156,8 +156,7 @@ function surfaceChart(parent, run) {
 }
 
 function doseTable(main, d) {
-  // Below a tenth of a gram three significant digits, because doses can be milligrams.
-  const g = x => (!isNumber(x) ? "" : x === 0 || Math.abs(x * gram) >= 0.1 ? (x * gram).toFixed(3) : String(Number((x * gram).toPrecision(3))));
+  const g = gramsText;
   if ((d.target_mass_kg || []).some(x => x > 0) || d.stopped_by.includes("torque"))
     table(main, [["dose", true], ["target [g]", true], ["mass [g]", true], ["at the stop [g]", true], ["overshoot [g]", true],
                  ["turned [s]", true], ["stopped by", false]],

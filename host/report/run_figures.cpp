@@ -76,7 +76,10 @@ class Facts {
         add("bed when settling ended", fmt::format("{} at t = {:.4g} s", rested ? "at rest" : "not at rest", time),
             s.value("until_rest", Json(false)) == Json(true) && !rested ? still + "; the longest time was over"
                                                                         : still);
-        add("fallen out while settling", fmt::format("{} g", grams(spilled)), "in no dose");
+        // With another run's powder this is what had come out there, in its doses too.
+        const bool fromOther = run_.summary.contains("from");
+        add(fromOther ? "left before this run's first dose" : "fallen out while settling",
+            fmt::format("{} g", grams(spilled)), fromOther ? "in no dose of this run" : "in no dose");
     }
 
     void masses() {
@@ -84,7 +87,7 @@ class Facts {
         if (s.doses > 0) add("complete doses", fmt::format("{}", s.doses));
         if (s.doses > 1)
             add("mass per dose", fmt::format("{} g, standard deviation {} g", grams(s.mean), grams(s.deviation)),
-                fmt::format("RSD {:.1f} %", s.relative * 100));
+                s.mean > 0 ? fmt::format("RSD {:.1f} %", s.relative * 100) : "no RSD: nothing was dosed");
         else if (s.doses == 1)
             add("mass per dose", fmt::format("{} g", grams(s.mean)), "one dose: no standard deviation");
         const TargetFigures t = targetFigures(run_.doses);
@@ -101,8 +104,11 @@ class Facts {
                 fmt::format("slope over {} doses with less than {:.3g} g out", f.beta.doses,
                             f.window.cumulativeBelow * 1e3));
         }
-        if (!run_.doses.empty() && run_.doses.front().closedForm > 0)
-            add("closed form", fmt::format("{} g/dose", grams(run_.doses.front().closedForm)), closedFormNote());
+        const bool toMass = run_.c.schedule.targetMass > 0;
+        const double closedForm = toMass ? t.closedForm : run_.doses.empty() ? 0.0 : run_.doses.front().closedForm;
+        if (closedForm > 0)
+            add("closed form", fmt::format("{} g/dose", grams(closedForm)),
+                closedFormNote() + (toMass ? ", mean for the turns that the doses made" : ""));
         farFromClosedForm();
     }
 

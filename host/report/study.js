@@ -2,7 +2,6 @@
 
 const axisName = keys => keys.join(", ");
 const said = x => (typeof x === "number" ? short(x) : String(x));
-const massOf = (x, digits) => (isNumber(x) ? (x * gram).toFixed(digits) : "");
 
 /// Values of an axis in order, and whether numbers tell them apart. Keys that move together are drawn along the first.
 function axisOf(study, a) {
@@ -127,8 +126,8 @@ function output(p, name, scale) {
 function pointTable(main, study) {
   const outcome = p => `${p.finished} done${p.failed ? `, ${p.failed} failed: ${p.errors.join("; ")}` : ""}`;
   const figures = [
-    ["β [g/dose]", p => massOf(p.beta_kg_per_dose, 3)], ["±", p => massOf(p.beta_standard_error_kg_per_dose, 3)],
-    ["closed form", p => (p.closed_form_kg_per_dose > 0 ? massOf(p.closed_form_kg_per_dose, 3) : "")], ["RSD [%]", p => short(output(p, "rsd", 100)[0])],
+    ["β [g/dose]", p => gramsText(p.beta_kg_per_dose)], ["±", p => gramsText(p.beta_standard_error_kg_per_dose)],
+    ["closed form", p => (p.closed_form_kg_per_dose > 0 ? gramsText(p.closed_form_kg_per_dose) : "")], ["RSD [%]", p => short(output(p, "rsd", 100)[0])],
     ["doses to 99 %", p => short(output(p, "doses_to_99_percent", 1)[0])],
   ].filter(([, of]) => study.points.some(p => of(p) !== ""));
   table(main, study.axes.map(keys => [axisName(keys), true]).concat(figures.map(([name]) => [name, true]), [["members", false]]),

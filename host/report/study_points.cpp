@@ -178,9 +178,14 @@ class PointReader {
         p.errorOverSeeds = beta.count > 1;
         p.betaError = beta.count == 1 ? estimateOf(g.betaErrors).mean : beta.standardError;
         p.point.outputs["beta_kg_per_dose"] = {p.beta, p.betaError};
+        // Nor has a seed that dosed nothing an RSD. Left out, it would make the point pass for a steady one.
+        if (auto rsd = g.outputs.find("rsd"); rsd != g.outputs.end())
+            if (estimateOf(rsd->second).count < beta.count) p.point.outputs.erase(rsd->first);
         p.closedForm = estimateOf(g.outputs["closed_form_kg_per_dose"]).mean;
-        for (const auto& masses : g.doses) p.doses.push_back(estimateOf(masses));
-        for (const auto& masses : g.cumulative)  // a mean over fewer members than began would be another curve
+        // A mean over fewer members than began would be another curve: that of the seeds that still had powder.
+        for (const auto& masses : g.doses)
+            if (masses.size() == g.doses.front().size()) p.doses.push_back(estimateOf(masses));
+        for (const auto& masses : g.cumulative)
             if (masses.size() == g.cumulative.front().size()) p.point.cumulative.push_back(estimateOf(masses).mean);
         return p;
     }

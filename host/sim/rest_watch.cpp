@@ -60,7 +60,7 @@ std::string settlingSentence(const Settling& s, const Schedule& schedule) {
                 fmt::format(" (speed {:.2g} % of that after a fall from the fill's top, not below {:.2g} % for long)",
                             100 * s.speed / s.fallSpeed, 100 * schedule.restSpeedRatio);
     }
-    if (s.spilled > 0) text += fmt::format("; {} g had fallen out by then, in no dose", grams(s.spilled));
+    if (s.spilled > 0) text += fmt::format("; {} g had left by then, in no dose of this run", grams(s.spilled));
     return text;
 }
 

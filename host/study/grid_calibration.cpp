@@ -39,12 +39,17 @@ CurvePoint pointOf(double along, const Found& found, const Scatter& scatter) {
     const Estimate beta = estimateOf(found.beta), rsd = estimateOf(found.rsd);
     point.beta = beta.mean;
     point.seeds = beta.count;
+    point.betaError =
+        std::isfinite(scatter.beta) ? scatter.beta / std::sqrt(double(beta.count)) : found.betaError.front();
+    // A seed that dosed nothing has no RSD. Were it left out of the mean, the point would pass for a steady one.
+    if (rsd.count < beta.count) {
+        point.rsd = point.rsdError = std::numeric_limits<double>::quiet_NaN();
+        return point;
+    }
     point.rsd = rsd.mean;
-    const double root = std::sqrt(double(beta.count));
     // A standard deviation of n doses, and so the RSD, is known to one part in sqrt(2 (n - 1)).
     const double single = rsd.mean / std::sqrt(2 * (found.doses.front() - 1));
-    point.betaError = std::isfinite(scatter.beta) ? scatter.beta / root : found.betaError.front();
-    point.rsdError = std::isfinite(scatter.rsd) ? scatter.rsd / root : single;
+    point.rsdError = std::isfinite(scatter.rsd) ? scatter.rsd / std::sqrt(double(rsd.count)) : single;
     return point;
 }
 
@@ -82,7 +87,8 @@ void findNearest(Curve& curve, const CalibrationAim& aim) {
     curve.crossings.push_back({nearest->along, kUnknown, nearest->rsd, nearest->rsdError, nearest->beta - aim.target});
 }
 
-/// A crossing beside a point that dosed nothing has no RSD. It can be chosen only where no other has one either.
+/// A crossing beside a point with a seed that dosed nothing has no RSD. It can be chosen only where no other has one
+/// either.
 std::optional<std::size_t> choose(const std::vector<Curve>& curves) {
     std::optional<std::size_t> steadiest, choice;
     const auto lowest = [&](std::size_t i) -> const Crossing& { return curves[i].crossings.front(); };

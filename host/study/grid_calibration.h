@@ -19,7 +19,7 @@ struct CurvePoint {
     double along = 0;      ///< value of the interpolated key
     double beta = 0;       ///< mass per dose, mean over the seeds [kg]
     double betaError = 0;  ///< standard error, see above [kg]
-    double rsd = 0;        ///< from dose to dose, mean over the seeds [-]
+    double rsd = 0;        ///< from dose to dose, mean over the seeds [-]; NaN if a seed dosed nothing
     double rsdError = 0;   ///< likewise [-]
     int seeds = 0;
 };

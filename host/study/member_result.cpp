@@ -84,7 +84,8 @@ constexpr MemberColumn kColumns[] = {
      "/analysis/beta_standard_error_kg_per_dose"},
     {"beta_doses", "1", "Number of doses that the slope was taken from.", "/analysis/beta_doses"},
     {"closed_form_kg_per_dose", "kg",
-     "Mass per dose by the closed form: bulk density times the volume that the coil sweeps.",
+     "Mass per dose by the closed form: bulk density times the volume that the coil sweeps. Of doses to a mass, the "
+     "mean for the turns that they made; empty without a complete one.",
      "/closed_form/mass_per_dose_kg"},
     {"doses_to_99_percent", "1",
      "Number of doses until 99 % of the filled mass was out; empty if it did not come to "

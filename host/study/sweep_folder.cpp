@@ -205,9 +205,16 @@ void SweepFolder::gatherResults() {
         const Row head(member.begin(), outputs);
         const std::vector<Row>& table = noted[number];
         const bool lost = found.doses.size() < table.size();  // the folder itself has lost some, or is gone
-        if (!lost && status(number) == MemberStatus::Ok && found.status == MemberStatus::Ok)
+        // Somebody may have let a failed member go on by himself, to its end. In a search later points may follow from
+        // its failure.
+        const bool failed = !search_ && status(number) == MemberStatus::Failed;
+        const bool finished = failed && isOver(memberFolder(number));
+        const bool ok = status(number) == MemberStatus::Ok || finished;
+        if (!lost && ok && found.status == MemberStatus::Ok) {
+            status_[number] = MemberStatus::Ok;
             for (std::size_t k = 0; k < found.outputs.size(); ++k)
                 if (found.told[k]) outputs[std::ptrdiff_t(k)] = found.outputs[k];
+        }
         members.add(member);
         if (lost) {
             for (const Row& row : table) doses.add(row);

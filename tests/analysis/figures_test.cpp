@@ -50,3 +50,19 @@ TEST_CASE("next to nothing is what the case says, or the paper's share of a dose
     for (Dose& d : doses) d.closedForm = 5e-6;
     CHECK_FALSE(figuresOf(doses, 1e-3, none).blocked);
 }
+
+TEST_CASE("doses to a mass that all reach it are not blocked, however far the coil turned for them") {
+    std::vector<Dose> doses = dosesOf(std::vector<double>(8, 3e-5), 0);
+    for (Dose& d : doses) {
+        d.target = 3e-5;
+        d.closedForm = 1e-3;
+    }
+    doses[0].closedForm = 4e-3;  // it fills the throat too; its share of the paper's threshold would be 0.14 g
+    StopRule none;
+    none.kind = StopRule::Kind::None;
+    const DosingFigures f = figuresOf(doses, 1e-2, none);
+    CHECK_FALSE(f.blocked);
+    CHECK(nearRelative(f.rule.threshold, 0.15e-3 * 3e-5 / 4.2e-3, 1e-12));
+    for (Dose& d : doses) d.closedForm = 1e-5;  // the coil stopped before the target, by its time or torque
+    CHECK(nearRelative(figuresOf(doses, 1e-2, none).rule.threshold, 0.15e-3 * 1e-5 / 4.2e-3, 1e-12));
+}

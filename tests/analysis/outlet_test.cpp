@@ -104,3 +104,25 @@ TEST_CASE("the lines of a time series by their columns") {
     CHECK(samples[0].dosed == 0.01);
     CHECK(near(samples[0].inside, 0.025, 0.025, 1e-12));  // a sum of two numbers
 }
+
+TEST_CASE("what another run dosed, whose powder a run takes, is not the first powder of this one") {
+    // Its first line is the state that the other's doses left, before the coil turns.
+    std::vector<FlowSample> before = series("s--xx."), after = series("--xx--");
+    FlowSample first = before.back();
+    first.dose = 0;
+    for (FlowSample& s : after) {
+        s.time += first.time;
+        s.angle += first.angle;
+        s.dosed += first.dosed;
+    }
+    after.insert(after.begin(), first);
+    const OutletFlow flow = outletFlow(after, kFill);
+    CHECK(same(flow.lead.value(), 0.3));
+    CHECK(flow.longest.dose == 1);
+    CHECK(same(flow.longest.time, 0.2));
+    CHECK(same(flow.longest.start, first.time + 0.4));
+    // Nothing at all in this run: its whole rotation is a stop.
+    std::vector<FlowSample> never(after.begin(), after.begin() + 3);
+    CHECK_FALSE(outletFlow(never, kFill).lead);
+    CHECK(same(outletFlow(never, kFill).longest.turns, 0.2));
+}

@@ -186,6 +186,14 @@ TEST_CASE("calibrate interpolates a finished sweep without running it again, and
     CHECK(check.code == 0);
     CHECK_THAT(check.out, Catch::Contains("study-calibrated"));
 
+    // As if member 0 had dosed nothing: its point has no RSD.
+    std::string told = readText(box / "out/members/0000/summary.json");
+    const std::size_t rsd = told.find("\"rsd\": ") + 7;
+    REQUIRE(rsd > 7);
+    box.write("out/members/0000/summary.json", told.replace(rsd, told.find_first_of(",\n", rsd) - rsd, "null"));
+    const auto unsteady = box.vkdose("calibrate study.toml --backend reference --out out");
+    CHECK_THAT(unsteady.out, Catch::Contains("RSD ? ") && Catch::Contains("RSD ? %") && !Catch::Contains("nan"));
+
     box.write("study.toml", study + "[calibrate]\ntarget_g_per_dose = 1000\ntolerance_g = 0.001\n");
     const auto far = box.vkdose("calibrate study.toml --backend reference --out out");
     CHECK(far.code == 1);

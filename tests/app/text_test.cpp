@@ -137,3 +137,13 @@ TEST_CASE("the table at the end shows doses beside the closed form, statistics, 
     CHECK_THAT(text, Catch::Contains("the 3 doses asked for are done at t = 0.31 s"));
     CHECK_THAT(text, !Catch::Contains("note"));  // the mean is the closed form
 }
+
+TEST_CASE("where nothing was dosed the table at the end has no RSD") {
+    FakeBackend backend;
+    Notebook notes;
+    const RunResult r = play(smallCase(), backend, notes);
+    REQUIRE(r.statistics.doses == 3);
+    REQUIRE(r.statistics.mean == 0);
+    const std::string text = reportText(smallCase(), r, "fake");
+    CHECK_THAT(text, Catch::Contains("no RSD: nothing was dosed over 3 doses") && !Catch::Contains("RSD 0"));
+}

@@ -14,6 +14,7 @@ from support import ROOT, SHORT, InFolder, run, short  # first: it tells what is
 import h5py
 import numpy
 import vkdose
+from vkdose.case import placed
 
 
 def is_alive(process):
@@ -202,6 +203,73 @@ class Results(InFolder):
     def test_a_folder_without_a_run(self):
         with self.assertRaises(vkdose.InputError):
             vkdose.Result(".")
+
+
+class Paths(InFolder):
+    """Relative paths in a dict start from the current folder, though its file lies in another."""
+
+    def setUp(self):
+        super().setUp()
+        for name in ("p.csv", "s.csv", "own.glsl", "b.toml"):
+            Path(name).write_text("", encoding="utf-8")
+
+    def at(self, name):
+        return str(Path(name).resolve())
+
+    def test_of_a_case(self):
+        case = {"contact": {"law": "own.glsl"}, "particles": {"size": {"sieves": "s.csv"}}, "base": "b.toml"}
+        self.assertEqual(
+            placed(case),
+            {
+                "contact": {"law": self.at("own.glsl")},
+                "particles": {"size": {"sieves": self.at("s.csv")}},
+                "base": self.at("b.toml"),
+            },
+        )
+        words = {"contact": {"law": "luding"}, "base": "mini", "coil": {"hand": "b.toml"}}
+        self.assertEqual(placed(words), words)
+
+    def test_of_a_study(self):
+        study = {
+            "set": {"particles.list": "p.csv"},
+            "axis": [
+                {"key": "particles.size.sieves", "values": ["s.csv", "none.csv"]},
+                {"keys": ["contact.law", "seed"], "values": [["own.glsl", 1], ("luding", 2), ["own.glsl"]]},
+                {"key": "name", "values": ["p.csv"]},
+            ],
+        }
+        self.assertEqual(
+            placed(study),
+            {
+                "set": {"particles.list": self.at("p.csv")},
+                "axis": [
+                    {"key": "particles.size.sieves", "values": [self.at("s.csv"), "none.csv"]},
+                    {"keys": ["contact.law", "seed"], "values": [[self.at("own.glsl"), 1], ["luding", 2], ["own.glsl"]]},
+                    {"key": "name", "values": ["p.csv"]},
+                ],
+            },
+        )
+
+    def test_a_sweep_over_lists_of_particles(self):
+        Path("p.csv").write_text("x,y,z,r\n0,0.002,0.005,0.001\n0,0.002,0.008,0.001\n", encoding="utf-8")
+        axis = {"key": "particles.list", "values": ["p.csv"]}
+        swept = vkdose.Study({"base": "mini", "set": dict(SHORT), "axis": [axis]}).sweep("swept", backend="reference")
+        self.assertEqual(list(swept.members.particles), [2])
+
+    def test_the_base_of_a_target_may_be_the_name_of_a_case(self):
+        target = {"figure": "mass_per_dose_g", "value": 1, "uncertainty": 1, "base": "mini"}
+        study = vkdose.Study({"base": "mini", "calibrate": {"method": "surrogate", "target": [target, dict(target)]}})
+        with study._file() as file:
+            written = Path(file).read_text(encoding="utf-8")
+        self.assertEqual(written.count(str(ROOT / "cases" / "mini.toml")), 3)
+
+    def test_a_name_with_a_slash(self):
+        self.assertTrue(vkdose.Case({"base": "mini", "name": "a/b", "seed": 2}).check())
+        self.assertTrue(vkdose.Case({"name": "a/b", "boundaries": "none"}).check().errors)
+        study = vkdose.Study({"name": "/kc/mu", "base": "mini"})
+        self.assertEqual(study._name(), "-kc-mu")
+        with study._file() as file:
+            self.assertTrue(Path(file).is_file())
 
 
 class Studies(InFolder):

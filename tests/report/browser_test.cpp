@@ -124,6 +124,19 @@ TEST_CASE("a browser draws the page of a study") {
     CHECK(count(dom, "class=\"contour\"") == 1);
     CHECK(dom.find("class=\"verdict holds\">trend holds") != std::string::npos);
     CHECK(dom.find("1 failed: particle 3 at (0, 0, 1) \"left\" the domain") != std::string::npos);
+    CHECK(dom.find(">4.900</td>") != std::string::npos);
+}
+
+TEST_CASE("doses of a milligram keep their digits in the table of points") {
+    if (browserMissing()) return;
+    const Sandbox box;
+    std::filesystem::create_directories(box / "sweep");
+    box.write("sweep/members.csv",
+              "member,seed,coil.turns,status,error,beta_kg_per_dose,beta_standard_error_kg_per_dose\n"
+              "0,1,2,ok,,1.2345e-7,2.5e-9\n1,1,6,ok,,0.007,0.0001\n");
+    const std::string dom = drawn(box, studyJson(box / "sweep", {}));
+    for (const char* cell : {">0.000123</td>", ">0.0000025</td>", ">7.000</td>", ">0.100</td>"})
+        CHECK(dom.find(cell) != std::string::npos);
 }
 
 TEST_CASE("keys that move together are drawn along the first of them, where its numbers tell the points apart") {

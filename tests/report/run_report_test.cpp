@@ -11,6 +11,7 @@
 using namespace vkdose;
 using namespace vkdose::report;
 using vkdose::test::faultOf;
+using vkdose::test::kDosesHeader;
 using vkdose::test::readCsv;
 using vkdose::test::readText;
 using vkdose::test::Sandbox;
@@ -216,4 +217,43 @@ TEST_CASE("the stop rules of a report are those of the case") {
     const Json data = runJson(writeRun(box, "why"), {});
     CHECK_THAT(fact(data, "experiment's stop rule", "note"), Catch::Contains("at most 0.02 g"));  // mini's
     CHECK_THAT(fact(data, "blocked", "note"), Catch::Contains("at most 0.02 g"));
+}
+
+TEST_CASE("of doses to a mass the closed form is the mean for the turns that they made") {
+    const Sandbox box;
+    const auto folder = writeRun(box, "why");
+    CHECK(fact(runJson(folder, {}), "closed form") == "1.600 g/dose");
+    std::string header = kDosesHeader;
+    header.pop_back();
+    for (const char* column :
+         {"target_mass_kg", "stop_mass_kg", "overshoot_kg", "rotation_s", "stopped_by", "end_time_s"})
+        header += std::string(",") + column;
+    box.write("run/doses.csv", header +
+                                   "\n1,0.1,0.002,0.002,9,0.002,0.009,1,0.002,0.002,0,1,mass,0.4\n"
+                                   "2,0.4,0.002,0.004,12,0.002,0.003,1,0.002,0.002,0,0.4,mass,0.7\n");
+    const Case c = loadCase(VKDOSE_SOURCE_DIR "/cases/mini.toml", {"dose.mass_g=0.2", "dose.max_rotate_s=2"});
+    box.write("run/case.toml", c.resolved);
+    const Json data = runJson(folder, {});
+    CHECK(fact(data, "closed form") == "6.000 g/dose");
+    CHECK_THAT(fact(data, "closed form", "note"), Catch::Contains("for the turns that the doses made"));
+}
+
+TEST_CASE("where nothing was dosed there is no RSD") {
+    const Sandbox box;
+    const auto folder = writeRun(box, "why");
+    CHECK_THAT(fact(runJson(folder, {}), "mass per dose", "note"), Catch::StartsWith("RSD "));
+    box.write("run/doses.csv", std::string(kDosesHeader) + "1,0.1,0,0,0,0.002,0.0016,1\n2,0.4,0,0,0,0.002,0.0016,1\n");
+    CHECK(fact(runJson(folder, {}), "mass per dose", "note") == "no RSD: nothing was dosed");
+}
+
+TEST_CASE("what another run had dosed is not told as a spill of this one") {
+    const Sandbox box;
+    const auto folder = writeRun(box, "why");
+    const std::string settling =
+        R"("settling": {"time_s": 0.3, "speed_m_s": 0, "fall_speed_m_s": 1, "spilled_kg": 0.002, "at_rest": true}})";
+    box.write("run/summary.json", "{" + settling);
+    CHECK(fact(runJson(folder, {}), "fallen out while settling") == "2.000 g");
+    box.write("run/summary.json", R"({"from": "the end of a, at t = 0.3 s", )" + settling);
+    CHECK(fact(runJson(folder, {}), "fallen out while settling") == "no such fact");
+    CHECK(fact(runJson(folder, {}), "left before this run's first dose") == "2.000 g");
 }

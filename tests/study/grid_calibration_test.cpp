@@ -202,3 +202,23 @@ TEST_CASE("a curve that only comes within the tolerance of the target meets it a
     // Where a curve crosses the target, a nearer point does not count.
     CHECK(calibrateGrid(m.table, kKeys, aimAt(3.3e-3, 0.2e-3)).curves[0].crossings.front().along == Approx(0.5));
 }
+
+TEST_CASE("a point with a seed that dosed nothing has no RSD, and is not chosen for that of its other seed") {
+    Members m;
+    for (const double beta : {8e-5, 8.2e-5}) m.add("0.2", 0, beta, 0.1);
+    m.add("0.2", 1, 0, std::nan(""));
+    m.add("0.2", 1, 2e-5, 0.05);  // it looks steadier than the other curve
+    for (const double kc : {0.0, 1.0})
+        for (const double rsd : {0.30, 0.32}) m.add("0.5", kc, 8e-5 - 6e-5 * kc, rsd);
+    const GridCalibration grid = calibrateGrid(m.table, kKeys, aimAt(5e-5));
+    REQUIRE(grid.curves.size() == 2);
+    const CurvePoint& blocked = grid.curves[0].points.at(1);
+    CHECK(blocked.seeds == 2);
+    CHECK(blocked.beta == Approx(1e-5));
+    CHECK(std::isfinite(blocked.betaError));
+    CHECK(std::isnan(blocked.rsd));
+    CHECK(std::isnan(blocked.rsdError));
+    CHECK(std::isfinite(grid.curves[0].points[0].rsdError));
+    REQUIRE(grid.choice);
+    CHECK(grid.curves[*grid.choice].values == Row{"0.5"});
+}

@@ -100,6 +100,33 @@ TEST_CASE("a member that fails does not keep the others from running, it is run 
     CHECK(sweep.doses().rows() == 24);
 }
 
+TEST_CASE("a failed member that somebody let go on to its end is taken over as ok") {
+    const Sweeping sweep;
+    MadeUpRuns whole(1);
+    (void)sweep.run(whole);
+    const std::string good = readText(sweep.out / "members.csv");
+    fs::remove_all(sweep.out);
+    MadeUpRuns runs(1);
+    runs.codes = {{4, 3}};
+    CHECK(sweep.run(runs).failed == 1);
+    const fs::path member = sweep.out / "members/0004";
+    SECTION("it is over") {
+        fs::copy_file(sweep.out / "members/0005/summary.json", member / "summary.json");
+        fs::remove(member / kCheckpointName);
+        MadeUpRuns nothing(1);
+        CHECK(sweep.run(nothing).ok == 12);
+        CHECK(nothing.started.empty());
+        CHECK(readText(sweep.out / "members.csv") == good);  // its status and error too
+        CHECK(sweep.doses().rows() == 24);
+    }
+    SECTION("it goes on") {
+        fs::copy_file(sweep.out / "members/0005/summary.json", member / "summary.json");
+        MadeUpRuns nothing(1);
+        CHECK(sweep.run(nothing).failed == 1);
+        CHECK(sweep.members().text(4, "error") == "particle 7, \"lost\"");
+    }
+}
+
 TEST_CASE("a checkpoint that cannot be read is given up only when failed members are to run again") {
     const Sweeping sweep;
     MadeUpRuns runs(2);

@@ -143,9 +143,15 @@ class Case:
 def written(tables: Mapping[str, Any], name: str) -> Iterator[Path]:
     """A file with these tables, for the time of the ``with``."""
     with tempfile.TemporaryDirectory(prefix="vkdose-") as folder:
-        file = Path(folder) / f"{tables.get('name', name)}.toml"
+        file = Path(folder) / f"{file_name(tables.get('name', name))}.toml"
         file.write_text(tomli_w.dumps(tables), encoding="utf-8")
         yield file
+
+
+def file_name(name: Any) -> str:
+    """A name as that of a file or folder: without a slash it stays where it is put."""
+    safe = str(name).replace("/", "-").replace("\0", "-")
+    return "-" if safe in ("", ".", "..") else safe
 
 
 def flat(tables: Mapping[str, Any], above: str = "") -> dict[str, Any]:
@@ -159,12 +165,31 @@ def flat(tables: Mapping[str, Any], above: str = "") -> dict[str, Any]:
     return keys
 
 
+# The last parts of the keys whose values may be paths of files.
+PATHS = ("base", "list", "sieves", "mesh", "file", "law", "measured")
+
+
 def placed(value: Any, key: str = "") -> Any:
-    """The tables of a case with the paths of files made absolute: a case file counts them from its own folder."""
+    """The tables of a case or study with the paths of files made absolute: a file counts them from its own folder."""
     if isinstance(value, Mapping):
-        return {k: placed(v, k) for k, v in value.items()}
-    if isinstance(value, list):
+        parts = {k: placed(v, k) for k, v in value.items()}
+        if not isinstance(value.get("values"), (list, tuple)):
+            return parts
+        if "key" in value:  # an axis
+            parts["values"] = placed(value["values"], str(value["key"]))
+        elif "keys" in value:  # one whose keys move together
+            parts["values"] = [_placed_point(point, value["keys"]) for point in value["values"]]
+        return parts
+    if isinstance(value, (list, tuple)):
         return [placed(v, key) for v in value]
-    if key in ("base", "list", "mesh", "measured") and isinstance(value, (str, os.PathLike)):
+    if key.rpartition(".")[2] in PATHS and isinstance(value, (str, os.PathLike)):
+        # A law may be a word, and a base the name of a case: no file has it, and it stays.
         return str(Path(value).resolve()) if Path(value).is_file() else os.fspath(value)
     return value
+
+
+def _placed_point(point: Any, keys: Any) -> Any:
+    """A value of an axis whose keys move together. One of a wrong shape stays, for the program to refuse."""
+    if not isinstance(point, (list, tuple)) or not isinstance(keys, (list, tuple)) or len(point) != len(keys):
+        return point
+    return [placed(value, str(key)) for key, value in zip(keys, point)]

@@ -7,10 +7,22 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, Iterator, Mapping, Optional, Union
 
-from .case import Case, Source, placed, written
+from .case import Case, Source, file_name, placed, written
 from .errors import error_for
 from .program import Process
 from .results import SweepResult
+
+
+def _targets(study: Mapping[str, Any]) -> list[dict[str, Any]]:
+    """The targets of a calibration. Each may have a base of its own."""
+    aim = study.get("calibrate")
+    targets = aim.get("target", []) if isinstance(aim, Mapping) else []
+    return [t for t in targets if isinstance(t, dict)] if isinstance(targets, list) else []
+
+
+def _case_file(base: str) -> str:
+    """A study file names its base case by a path; a dict may name one that comes with vkdose."""
+    return base if Path(base).is_file() else Case(base).check().file
 
 
 class Study:
@@ -29,9 +41,9 @@ class Study:
     def _file(self) -> Iterator[str]:
         if isinstance(self.source, Mapping):
             study = placed(self.source)
-            # A study file names its base case by a path; a dict may name one that comes with vkdose.
-            if "base" in study and not Path(study["base"]).is_file():
-                study["base"] = Case(study["base"]).check().file
+            for table in (study, *_targets(study)):
+                if "base" in table:
+                    table["base"] = _case_file(table["base"])
             with written(study, "study") as file:
                 yield str(file)
         else:
@@ -39,7 +51,7 @@ class Study:
 
     def _name(self) -> str:
         if isinstance(self.source, Mapping):
-            return str(self.source.get("name", "study"))
+            return file_name(self.source.get("name", "study"))
         return Path(self.source).stem
 
     def _play(self, command: str, out: Any, jobs: Optional[int], options: Mapping[str, Optional[str]]) -> SweepResult:
