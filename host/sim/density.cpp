@@ -34,8 +34,7 @@ Division piecesOf(double length, double low, double high) {
     return {low, high, length, std::max(0, static_cast<int>(std::ceil((high - low) / length - kRounding)))};
 }
 
-/// Equal pieces at least so long, or one that is shorter. Over a narrow rest at a wall there may be no centre of a
-/// sphere, however deep the bed is.
+/// Equal pieces at least so long, or one that is shorter.
 Division equalPieces(double least, double low, double high) {
     const int count = std::max(1, static_cast<int>((high - low) / least + kRounding));
     return {low, high, (high - low) / count, count};
@@ -146,7 +145,7 @@ std::optional<BulkDensity> coilDensity(const World& world, const Particles& part
     if (!(a > 0)) return std::nullopt;
     const double outer = coil.radius + coil.wireRadius;
     const double begin = std::max({coil.zStart, 0.0, from}), end = std::min(coil.zStart + coil.length, canister.length);
-    const Surface surface(particles, equalPieces(2 * margin, -outer, outer), piecesOf(2 * margin, begin, end));
+    const Surface surface(particles, piecesOf(2 * margin, -outer, outer), piecesOf(2 * margin, begin, end));
     std::vector<double> lowestTop(surface.slices(), std::numeric_limits<double>::infinity());
     for (int cell = 0; cell < surface.columns(); ++cell) {
         double& top = lowestTop[surface.sliceOf(cell)];

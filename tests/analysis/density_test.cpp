@@ -83,16 +83,6 @@ TEST_CASE("density between the turns: slices without powder above are left out")
     CHECK(nearRelative(half->density, all->density, 0.03));
 }
 
-TEST_CASE(
-    "density between the turns: a narrow rest of the floor plan at the wall, over which no centre can lie, is no "
-    "column") {
-    Particles bed = layers(-10e-3, 40e-3);
-    for (std::size_t i = 0; i < bed.size(); ++i)
-        if (std::abs(bed.position[i].x) > 8.5e-3) bed.status[i] = Status::Dosed;
-    const geometry::Coil coil = paperCoil();  // its 22.8 mm are five columns of 4 mm and a rest from 8.6 mm on
-    CHECK(coilDensity(solid(), bed, paperCanister(), coil));
-}
-
 TEST_CASE("density between the turns: only beyond where it is asked for") {
     const geometry::Coil coil = paperCoil();
     const Particles bed = layers(-10e-3, 40e-3);
