@@ -94,13 +94,7 @@ std::string backendsOf(const std::vector<validate::Run>& runs) {
     return all.empty() ? "no backend" : fmt::format("{}", fmt::join(all, " and "));
 }
 
-/// Whether a run of this sweep has ended well.
-bool hasRuns(const fs::path& sweep) {
-    return fs::exists(sweep / "members.csv") && !validate::readRuns(sweep).empty();
-}
-
-Result judged(const Comparison& c, const SweepOptions& sweep) {
-    const std::vector<validate::Run> runs = validate::readRuns(sweep.out);
+Result judged(const Comparison& c, const SweepOptions& sweep, const std::vector<validate::Run>& runs) {
     const std::size_t members = membersOf(readStudy(sweep.study)).size();
     return {c.name,           c.what, c.source, c.evaluate(runs, sweep.study.parent_path()), costOf(runs, members),
             backendsOf(runs), ""};
@@ -160,7 +154,9 @@ int validateCommand(const ValidateOptions& options) {
         if (!options.judge)
             if (const int code = sweepCommand(sweep); code != kOk) failed = code;
         if (failed == kInterrupted) break;
-        if (!options.judge || hasRuns(sweep.out)) results.push_back(judged(c, sweep));
+        if (options.judge && !fs::exists(sweep.out / "members.csv")) continue;
+        const std::vector<validate::Run> runs = validate::readRuns(sweep.out);
+        if (!options.judge || !runs.empty()) results.push_back(judged(c, sweep, runs));
     }
     if (options.judge && results.empty())
         throw UsageError(fmt::format("{} has no run of a comparison that has ended; run it without --judge first",

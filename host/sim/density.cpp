@@ -27,16 +27,16 @@ struct Division {
     int count;
 };
 
-constexpr double kRounding = 1e-9;  ///< of a piece: what is left over by rounding is no piece
+constexpr double kLeftOver = 1e-9;  ///< of a piece: so much is left over by rounding, and is no piece
 
 /// Pieces of this length. The last one is cut by the end.
 Division piecesOf(double length, double low, double high) {
-    return {low, high, length, std::max(0, static_cast<int>(std::ceil((high - low) / length - kRounding)))};
+    return {low, high, length, std::max(0, static_cast<int>(std::ceil((high - low) / length - kLeftOver)))};
 }
 
 /// Equal pieces at least so long, or one that is shorter.
 Division equalPieces(double least, double low, double high) {
-    const int count = std::max(1, static_cast<int>((high - low) / least + kRounding));
+    const int count = std::max(1, static_cast<int>((high - low) / least + kLeftOver));
     return {low, high, (high - low) / count, count};
 }
 
@@ -198,6 +198,7 @@ double closedFormDensity(const Derived& derived, const geometry::Coil& coil) {
 }
 
 bool wasMeasured(const Case& c, double density) {
+    constexpr double kRounding = 1e-9;
     return c.bulkDensityMeasured && std::abs(density / c.bulkDensity - 1) > kRounding;
 }
 

@@ -56,7 +56,7 @@ struct Settling {
     double spilled = 0;      ///< mass that had left the throat by then; it is in no dose [kg]
 };
 
-/// "at rest at t = 0.31 s; 0.083 g had fallen out by then, which is in no dose": for people. `schedule` is the case's.
+/// "at rest at t = 0.31 s; 0.083 g had left by then, in no dose of this run": for people. `schedule` is the case's.
 std::string settlingSentence(const Settling& settling, const Schedule& schedule);
 
 /// For a checkpoint. Nothing is read if the settling had not ended.

@@ -124,7 +124,7 @@ Curve meanCurve(const std::vector<Shares>& fillings, Counted what) {
 struct Figure {
     std::string name, unit;
     double (*of)(const Shares&);
-    double spread;  ///< of three fillings at reduced size, rounded up: so far beyond the other programs it may be
+    double spread;  ///< of three fillings at reduced size, about: so far beyond the other programs it may be
 };
 
 /// M1 begins below on the falling side, goes round with the bed and comes back.
@@ -163,8 +163,8 @@ Evaluation dostaDrum(const std::vector<Run>& runs, const std::filesystem::path& 
         const auto [least, most] = std::minmax_element(ours.begin(), ours.end());
         finding.source = "Dosta and others 2024";
         finding.remark = fmt::format(
-            "{} here between {:.3g} and {:.3g}; {:.2g} beyond the other programs are allowed, which "
-            "is what three fillings of 1824 spheres differ by",
+            "{} here between {:.3g} and {:.3g}; {:.2g} beyond the other programs are allowed; "
+            "three fillings of 1824 spheres differ by about as much, or less",
             ours.size() == 1 ? "1 filling" : fmt::format("{} fillings", ours.size()), *least, *most, figure.spread);
         std::map<std::string, double> others;
         for (const auto& [program, theirs] : peers) others[program] = figure.of(theirs);

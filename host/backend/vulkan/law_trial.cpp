@@ -42,7 +42,7 @@ std::vector<vec4> answersOf(const vk::DeviceChoice& choice, std::span<const std:
     commands.begin();
     bindings.bind(commands.handle());
     pipeline.bind(commands.handle());
-    // A dispatch for each point: lavapipe ends the loops of an invocation after 65536 trips together.
+    // A dispatch for each point: lavapipe ends the loops of an invocation after 65,535 trips together.
     for (std::uint32_t point = 0; point < kPoints; ++point) {
         bindings.push(commands.handle(), &point);
         commands.dispatch(std::uint32_t(count), 1, 1);
