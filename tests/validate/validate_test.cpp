@@ -243,6 +243,15 @@ TEST_CASE("a silo is judged by the programs that ran the same inputs, and by non
     CHECK(beside.charts[0].curves.size() == 2);
     peers("0.80");
     CHECK(dostaSilo({run}, folder.path()).findings[0].verdict() == Verdict::Differs);
+
+    // A silo that does not come to 40 % left is timed to 70 %, and the programs with it.
+    folder.write("timeseries.csv", "time_s,pan.mass_kg\n0,0\n0.1,0\n0.2,0.4\n0.3,0.8\n");
+    peers("0.76");
+    const Finding slow = dostaSilo({run}, folder.path()).findings[0];
+    CHECK(slow.figure == "from 90 to 70 % left, M1, hole of 40 mm");
+    CHECK(slow.got == Approx(0.1));    // 0.15 to 0.25 s
+    CHECK(slow.source == "A 0.09 s");  // 0.55 to 0.64 s
+    CHECK(slow.verdict() == Verdict::Differs);
 }
 
 TEST_CASE("a drum is judged by the quadrants its two powders lie in, beside other programs") {
