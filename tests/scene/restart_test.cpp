@@ -76,7 +76,7 @@ void restartAgrees(bool reference) {
 
 }  // namespace
 
-TEST_CASE("vulkan: restored and uninterrupted are the same bits") {
+TEST_CASE("vulkan: restored and uninterrupted are the same bits", "[one-driver]") {
     restartAgrees(false);
 }
 
