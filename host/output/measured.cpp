@@ -217,8 +217,9 @@ class Measuring {
 
     /// That of the settled bed if the case has it measured.
     double bulkDensity() const {
-        if (c_.bulkDensityMeasured && result_.settled)
-            if (const auto bulk = settledDensity(c_, result_.settled->particles)) return bulk->density;
+        if (c_.bulkDensityMeasured && result_.settled && result_.settling)
+            if (const auto bulk = settledDensity(c_, *result_.settling, result_.settled->particles))
+                return bulk->density;
         return c_.bulkDensity;
     }
 

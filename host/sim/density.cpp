@@ -16,6 +16,9 @@ constexpr double kNothing = -std::numeric_limits<double>::infinity();
 /// With fewer mean spheres than this, a region says more about its edge than about the powder.
 constexpr double kLeastSpheres = 100;
 
+/// A bed whose spheres move faster than this share of the speed after a fall from its top has not settled.
+constexpr double kStillFalls = 0.1;
+
 /// Points along a side of the lattice that stands for a sphere. A part of a sphere is known to about 1/16 of its
 /// diameter.
 constexpr int kLattice = 16;
@@ -145,7 +148,8 @@ std::optional<BulkDensity> coilDensity(const World& world, const Particles& part
     if (!(a > 0)) return std::nullopt;
     const double outer = coil.radius + coil.wireRadius;
     const double begin = std::max({coil.zStart, 0.0, from}), end = std::min(coil.zStart + coil.length, canister.length);
-    const Surface surface(particles, piecesOf(2 * margin, -outer, outer), piecesOf(2 * margin, begin, end));
+    // No narrow column across: it could have no sphere over it however full the canister is.
+    const Surface surface(particles, equalPieces(2 * margin, -outer, outer), piecesOf(2 * margin, begin, end));
     std::vector<double> lowestTop(surface.slices(), std::numeric_limits<double>::infinity());
     for (int cell = 0; cell < surface.columns(); ++cell) {
         double& top = lowestTop[surface.sliceOf(cell)];
@@ -165,8 +169,8 @@ std::optional<BulkDensity> coilDensity(const World& world, const Particles& part
     return densityOf(parts, volume, a);
 }
 
-std::optional<BulkDensity> settledDensity(const Case& c, const Particles& particles) {
-    if (!c.canister) return std::nullopt;
+std::optional<BulkDensity> settledDensity(const Case& c, const Settling& settling, const Particles& particles) {
+    if (!c.canister || settling.speed > kStillFalls * settling.fallSpeed) return std::nullopt;
     const geometry::Coil* coil = c.world.coil ? &*c.world.coil : nullptr;
     auto bulk = bedDensity(c.world, particles, *c.canister, coil);
     if (!bulk && coil != nullptr) bulk = coilDensity(c.world, particles, *c.canister, *coil);

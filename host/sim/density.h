@@ -5,6 +5,7 @@
 
 #include "geometry/coil.h"
 #include "host/model/case.h"
+#include "host/sim/rest_watch.h"
 
 namespace vkdose {
 
@@ -34,8 +35,9 @@ std::optional<BulkDensity> coilDensity(const World& world, const Particles& part
                                        const geometry::Coil& coil, double from = 0);
 
 /// The bulk density of a settled canister: in the bed, or between the turns of the coil where the bed above them is too
-/// small. None if both regions are too small, or without a canister.
-std::optional<BulkDensity> settledDensity(const Case& c, const Particles& particles);
+/// small. None if both regions are too small, if the spheres still move by more than a tenth of the speed after a fall
+/// from the fill's top, or without a canister.
+std::optional<BulkDensity> settledDensity(const Case& c, const Settling& settling, const Particles& particles);
 
 /// Bulk density in an upright round container of this radius [m] about the y axis, whose floor is at y = 0 (`upright`
 /// in heap.h). The region is a cylinder, a mean diameter from wall, floor and surface. It ends below the lowest place

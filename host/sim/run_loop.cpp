@@ -125,8 +125,8 @@ void RunLoop::look() {
 }
 
 void RunLoop::measureDensity() {
-    if (!case_.bulkDensityMeasured || !result_.settled) return;
-    const auto bulk = settledDensity(case_, result_.settled->particles);
+    if (!case_.bulkDensityMeasured || !result_.settled || !result_.settling) return;
+    const auto bulk = settledDensity(case_, *result_.settling, result_.settled->particles);
     if (!bulk) return;
     Case measured = case_;
     measured.bulkDensity = bulk->density;

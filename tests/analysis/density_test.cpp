@@ -93,6 +93,30 @@ TEST_CASE("density between the turns: only beyond where it is asked for") {
     CHECK(nearRelative(end->density, all->density, 0.03));  // the cut through spheres, as above
 }
 
+TEST_CASE("density between the turns, whatever the width of the coil") {
+    // From 22.8 to 24.6 mm: columns of just 4 mm would leave 2.8 mm over, or 0.2 mm with no sphere's centre in them.
+    const Particles bed = layers(-14e-3, 40e-3);
+    for (geometry::Coil coil = paperCoil(); coil.radius < 11.35e-3; coil.radius += 0.1e-3) {
+        CAPTURE(coil.radius);
+        const auto measured = coilDensity(solid(), bed, paperCanister(), coil);
+        REQUIRE(measured);
+        CHECK(measured->volume > 60e-3 * kPi * coil.radius * coil.radius);
+    }
+}
+
+TEST_CASE("a bed that still falls has no settled density") {
+    Case c;
+    c.world = solid();
+    c.canister = paperCanister();
+    const Particles bed = layers(-10e-3, 40e-3);
+    Settling settling;
+    settling.fallSpeed = 1;
+    settling.speed = 0.09;
+    CHECK(settledDensity(c, settling, bed));
+    settling.speed = 0.11;
+    CHECK_FALSE(settledDensity(c, settling, bed));
+}
+
 TEST_CASE("too little powder has no density") {
     const geometry::Coil coil = paperCoil();
     CHECK_FALSE(bedDensity(solid(), Particles(), paperCanister(), &coil));
