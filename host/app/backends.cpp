@@ -82,7 +82,8 @@ BackendChoice sameBackend(const std::string& description, const BackendChoice& c
     BackendChoice same = choice;
     const bool onDevice = description.rfind(vulkan, 0) == 0;
     same.backend = onDevice ? "vulkan" : "reference";
-    if (onDevice && same.device.empty()) same.device = description.substr(vulkan.size());
+    if (onDevice && same.device.empty())
+        same.device = std::to_string(vk::chooseAgain(vk::listDevices(), description.substr(vulkan.size())).index);
     return same;
 }
 

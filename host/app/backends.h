@@ -18,7 +18,8 @@ std::unique_ptr<Backend> makeBackend(const BackendChoice& choice, std::size_t pa
 std::vector<std::unique_ptr<Backend>> makeEnsemble(const BackendChoice& choice, std::size_t members,
                                                    std::size_t particles);
 
-/// The backend and device a description (Backend::description) stands for; `device` of `choice` wins, if given.
+/// The backend and device a description (Backend::description) stands for; `device` of `choice` wins, if given. Throws
+/// DeviceError if that device is not there (vk::chooseAgain).
 BackendChoice sameBackend(const std::string& description, const BackendChoice& choice);
 
 /// The choice for one of several processes that share a machine; `localRank` counts them from 0. If the choice names no

@@ -143,4 +143,13 @@ DeviceInfo choose(const std::vector<DeviceInfo>& infos, const std::string& wante
     return *found;
 }
 
+DeviceInfo chooseAgain(const std::vector<DeviceInfo>& infos, const std::string& name) {
+    const auto model = [](const std::string& full) { return full.substr(0, full.rfind(" (")); };
+    for (const bool exact : {true, false})
+        for (const DeviceInfo& d : infos)
+            if (d.usable && (exact ? d.name == name : model(d.name) == model(name))) return d;
+    throw DeviceError(fmt::format("the run was made on '{}', which is not here; there are: {}; name one with --device",
+                                  name, choices(infos)));
+}
+
 }  // namespace vkdose::vk

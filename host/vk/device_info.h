@@ -43,4 +43,9 @@ std::vector<DeviceInfo> bestOf(const std::vector<DeviceInfo>& devices);
 /// `infos` fits or the one that does cannot be used.
 DeviceInfo choose(const std::vector<DeviceInfo>& infos, const std::string& wanted);
 
+/// The device on which a run was made that is to go on, by its full name. If it is not there, the one that has the same
+/// name without a last part in parentheses: lavapipe's names its compiler's version and changes with an update. Throws
+/// DeviceError as `choose` does, and says how to go on with another.
+DeviceInfo chooseAgain(const std::vector<DeviceInfo>& infos, const std::string& name);
+
 }  // namespace vkdose::vk

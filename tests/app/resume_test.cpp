@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <future>
 
+#include "host/vk/device_info.h"
 #include "tests/app/cut_runs.h"
 #include "tests/support/records.h"
 
@@ -91,6 +92,39 @@ TEST_CASE("interrupted before it makes a step, a resumed run still ends with the
     CAPTURE(on.err);
     CHECK(on.code == 0);
     checkSame(box / "whole", box / "cut");
+}
+
+TEST_CASE("a run goes on where an update has given its device another version") {
+    const Sandbox box;
+    // A parent that is gone interrupts at once.
+    REQUIRE(box.vkdose("run " + words(kDoses) + "--out cut --parent 999999").code == 130);
+    const std::string device = readCheckpoint(box / "cut" / kCheckpointName).backend;
+    if (device.find("llvmpipe") == std::string::npos) {
+        WARN("skipped: only lavapipe's name can be changed");
+        return;
+    }
+    // The length of its vectors is a part of lavapipe's name.
+    const auto on = box.vkdose("resume cut", "LP_NATIVE_VECTOR_WIDTH=128 ");
+    CAPTURE(on.err);
+    CHECK(on.code == 0);
+    CHECK_THAT(on.err, Catch::Contains("not bound to give the same bits") && Catch::Contains("128 bits"));
+}
+
+TEST_CASE("the device of a run that goes on is the one of its name, or the one of its model") {
+    std::vector<vk::DeviceInfo> devices;
+    for (const char* name : {"Radeon 7 (LLVM 15)", "llvmpipe (LLVM 19, 256 bits)", "Radeon 7 (ACO)", "Graphics"}) {
+        devices.emplace_back();
+        devices.back().index = static_cast<int>(devices.size()) - 1;
+        devices.back().name = name;
+        devices.back().usable = true;
+    }
+    CHECK(vk::chooseAgain(devices, "Radeon 7 (ACO)").index == 2);
+    CHECK(vk::chooseAgain(devices, "Graphics").index == 3);
+    CHECK(vk::chooseAgain(devices, "llvmpipe (LLVM 15, 256 bits)").index == 1);
+    devices[2].usable = false;
+    CHECK(vk::chooseAgain(devices, "Radeon 7 (ACO)").index == 0);
+    for (const char* gone : {"Radeon 77 (ACO)", "Radeon", "llvm", "1", ""})
+        CHECK_THROWS_WITH(vk::chooseAgain(devices, gone), Catch::Contains("name one with --device"));
 }
 
 TEST_CASE("the bits do not depend on the number of driver threads") {
