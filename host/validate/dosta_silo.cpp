@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <compare>
 #include <limits>
@@ -64,7 +65,7 @@ std::map<Setup, std::map<std::string, Emptying>> peersOf(const std::filesystem::
 Emptying emptyingOf(const Run& run) {
     Emptying found{run.series("time_s"), run.series("pan.mass_kg")};
     const double filled = run.figure("/inputs/filled_mass_kg");
-    for (double& left : found.left) left = 1 - left / filled;
+    for (double& left : found.left) left = std::max(0.0, 1 - left / filled);  // rounding may leave less than nothing
     return found;
 }
 
