@@ -148,8 +148,10 @@ DeviceInfo chooseAgain(const std::vector<DeviceInfo>& infos, const std::string& 
     for (const bool exact : {true, false})
         for (const DeviceInfo& d : infos)
             if (d.usable && (exact ? d.name == name : model(d.name) == model(name))) return d;
-    throw DeviceError(fmt::format("the run was made on '{}', which is not here; there are: {}; name one with --device",
-                                  name, choices(infos)));
+    throw DeviceError(
+        fmt::format("the run was made on '{}', which is not here or cannot be used; there are: {}; name one "
+                    "with --device",
+                    name, choices(infos)));
 }
 
 }  // namespace vkdose::vk

@@ -187,7 +187,7 @@ TEST_CASE("energy: a bed under the coil that doses closes on the device, and los
     bedClosesOnTheDevice(CoulombLimit::Luding);
 }
 
-TEST_CASE("energy: such a bed closes under the absolute Coulomb limit as well", "[one-driver]") {
+TEST_CASE("energy: a bed under the coil that doses closes under the absolute Coulomb limit", "[one-driver]") {
     bedClosesOnTheDevice(CoulombLimit::Absolute);
 }
 
