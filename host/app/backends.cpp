@@ -20,8 +20,7 @@ bool hasAvx512() {
 #endif
 }
 
-/// Sets an environment variable that lavapipe reads when it is loaded and that other drivers ignore. A value that the
-/// user has set is kept.
+/// Sets an environment variable that lavapipe reads when it is loaded. A value that the user has set is kept.
 class LavapipeVariable {
   public:
     explicit LavapipeVariable(const char* name) : name_(name), chosen_(std::getenv(name) != nullptr) {}
@@ -48,6 +47,12 @@ void tuneLavapipe(std::size_t particles) {
     constexpr std::size_t kMostBound = 1'030'000;
     static const LavapipeVariable vectors("LP_NATIVE_VECTOR_WIDTH");
     vectors.set("128", particles > kMostBound && hasAvx512());
+    // lavapipe keeps compiled passes on the disk, and does not note for which length of vectors it made them. With Mesa
+    // 25.0 a pass whose parts differ in that crashes, hangs or yields NaN. So passes are kept for the usual length
+    // alone. All drivers of Mesa read this variable. Without kept passes they compile at every start, lavapipe for two
+    // seconds.
+    static const LavapipeVariable noCache("MESA_SHADER_CACHE_DISABLE");
+    noCache.set("true", std::getenv("LP_NATIVE_VECTOR_WIDTH") != nullptr);
 }
 
 std::vector<std::string> findingsOf(const ValidationReport& report) {
