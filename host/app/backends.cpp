@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <cstdlib>
 
 #include "host/app/tell.h"
 #include "host/backend/vulkan/vulkan.h"
+#include "host/vk/driver_variable.h"
 
 namespace vkdose {
 
@@ -20,39 +20,14 @@ bool hasAvx512() {
 #endif
 }
 
-/// Sets an environment variable that lavapipe reads when it is loaded. A value that the user has set is kept.
-class LavapipeVariable {
-  public:
-    explicit LavapipeVariable(const char* name) : name_(name), chosen_(std::getenv(name) != nullptr) {}
-    void set(const char* value, bool wanted) const {
-        if (chosen_) return;
-        if (wanted)
-            setenv(name_, value, 1);
-        else
-            unsetenv(name_);
-    }
-
-  private:
-    const char* name_;
-    bool chosen_;  ///< by the user
-};
-
 void tuneLavapipe(std::size_t particles) {
     // For a small canister, waking lavapipe's threads in every pass costs more time than they save.
     constexpr std::size_t kWorthThreads = 10'000;
-    static const LavapipeVariable threads("LP_NUM_THREADS");
-    threads.set("0", particles < kWorthThreads);
+    vk::setForDriver("LP_NUM_THREADS", "0", particles < kWorthThreads);
     // Beyond what lavapipe binds, tables are reached by address, and vectors of 256 bits are slow at that where AVX-512
     // gives eight addresses a register of their own (tools/results/README.md, "Four million spheres").
     constexpr std::size_t kMostBound = 1'030'000;
-    static const LavapipeVariable vectors("LP_NATIVE_VECTOR_WIDTH");
-    vectors.set("128", particles > kMostBound && hasAvx512());
-    // lavapipe keeps compiled passes on the disk, and does not note for which length of vectors it made them. With Mesa
-    // 25.0 a pass whose parts differ in that crashes, hangs or yields NaN. So passes are kept for the usual length
-    // alone. All drivers of Mesa read this variable. Without kept passes they compile at every start, lavapipe for two
-    // seconds.
-    static const LavapipeVariable noCache("MESA_SHADER_CACHE_DISABLE");
-    noCache.set("true", std::getenv("LP_NATIVE_VECTOR_WIDTH") != nullptr);
+    vk::setForDriver("LP_NATIVE_VECTOR_WIDTH", "128", particles > kMostBound && hasAvx512());
 }
 
 std::vector<std::string> findingsOf(const ValidationReport& report) {

@@ -11,11 +11,11 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
-#include <cstdlib>
 #include <cstring>
 
 #include "host/app/exit_code.h"
 #include "host/core/error.h"
+#include "host/vk/driver_variable.h"
 
 namespace vkdose {
 
@@ -31,11 +31,12 @@ std::vector<char*> pointers(std::vector<std::string>& words) {
     return list;
 }
 
-/// Our environment; members side by side share the cores best with one thread each.
+/// The user's environment; members side by side share the cores best with one thread each.
 std::vector<std::string> environmentFor(int slots) {
-    std::vector<std::string> variables;
-    for (char** v = environ; *v != nullptr; ++v) variables.emplace_back(*v);
-    if (slots > 1 && std::getenv("LP_NUM_THREADS") == nullptr) variables.emplace_back("LP_NUM_THREADS=0");
+    std::vector<std::string> variables = vk::usersEnvironment();
+    const auto ofThreads = [](const std::string& v) { return v.starts_with("LP_NUM_THREADS="); };
+    if (slots > 1 && std::none_of(variables.begin(), variables.end(), ofThreads))
+        variables.emplace_back("LP_NUM_THREADS=0");
     return variables;
 }
 

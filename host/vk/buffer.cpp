@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <stdexcept>
 
 #include "host/vk/commands.h"
 
@@ -14,59 +13,45 @@ constexpr VkMemoryPropertyFlags kHost = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK
 constexpr VkMemoryPropertyFlags kLocal = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
 }  // namespace
 
-Buffer::Memory Buffer::allocate(VkDeviceSize size, VkBufferUsageFlags usage, VkMemoryPropertyFlags first,
-                                VkMemoryPropertyFlags second) const {
-    Memory m;
+Buffer::Memory::~Memory() {
+    if (buffer != VK_NULL_HANDLE) vkDestroyBuffer(device, buffer, nullptr);
+    if (memory != VK_NULL_HANDLE) vkFreeMemory(device, memory, nullptr);
+}
+
+void Buffer::allocate(Memory& m, VkDeviceSize size, VkBufferUsageFlags usage,
+                      std::initializer_list<VkMemoryPropertyFlags> wishes) const {
     VkBufferCreateInfo create{};
     create.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
     create.size = size;
     create.usage = usage;
     create.sharingMode = VK_SHARING_MODE_EXCLUSIVE;
-    check(vkCreateBuffer(device_.handle(), &create, nullptr, &m.buffer), "vkCreateBuffer");
+    check(vkCreateBuffer(m.device, &create, nullptr, &m.buffer), "vkCreateBuffer");
     VkMemoryRequirements needs{};
-    vkGetBufferMemoryRequirements(device_.handle(), m.buffer, &needs);
-    VkMemoryPropertyFlags flags = first;
-    int type = device_.memoryType(needs.memoryTypeBits, first);
-    if (type < 0) {
-        flags = second;
-        type = device_.memoryType(needs.memoryTypeBits, second);
-    }
+    vkGetBufferMemoryRequirements(m.device, m.buffer, &needs);
     VkMemoryAllocateFlagsInfo addressable{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO, nullptr,
                                           VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT, 0};
     const bool addressed = (usage & VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT) != 0;
     VkMemoryAllocateInfo allocation{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, addressed ? &addressable : nullptr,
-                                    needs.size, std::uint32_t(type)};
-    VkResult result =
-        type < 0 ? VK_ERROR_OUT_OF_DEVICE_MEMORY : vkAllocateMemory(device_.handle(), &allocation, nullptr, &m.memory);
-    if (result != VK_SUCCESS) {
-        vkDestroyBuffer(device_.handle(), m.buffer, nullptr);
-        check(result, fmt::format("allocating {} bytes for {}", size, name_).c_str());
-    }
-    const char* call = "vkBindBufferMemory";
-    result = vkBindBufferMemory(device_.handle(), m.buffer, m.memory, 0);
-    if (result == VK_SUCCESS && (flags & kHost) == kHost) {
-        call = "vkMapMemory";
-        result = vkMapMemory(device_.handle(), m.memory, 0, VK_WHOLE_SIZE, 0, &m.mapped);
-    }
-    if (result != VK_SUCCESS) release(m);
-    check(result, call);
-    return m;
+                                    needs.size, 0};
+    VkResult result = VK_ERROR_OUT_OF_DEVICE_MEMORY;
+    for (const VkMemoryPropertyFlags wish : wishes)
+        for (const std::uint32_t type : device_.memoryTypes(needs.memoryTypeBits, wish, needs.size)) {
+            if (result == VK_SUCCESS) break;
+            allocation.memoryTypeIndex = type;
+            result = vkAllocateMemory(m.device, &allocation, nullptr, &m.memory);
+        }
+    check(result, fmt::format("allocating {} bytes for {}", size, name_).c_str());
+    check(vkBindBufferMemory(m.device, m.buffer, m.memory, 0), "vkBindBufferMemory");
+    if ((device_.memoryFlags(allocation.memoryTypeIndex) & kHost) == kHost)
+        check(vkMapMemory(m.device, m.memory, 0, VK_WHOLE_SIZE, 0, &m.mapped), "vkMapMemory");
 }
 
-Buffer::Memory Buffer::staging(VkDeviceSize bytes) const {
-    Memory stage = allocate(bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, kHost, kHost);
-    if (stage.mapped == nullptr) throw std::logic_error("staging memory is host-visible");
-    return stage;
-}
-
-void Buffer::release(Memory& m) const {
-    if (m.buffer != VK_NULL_HANDLE) vkDestroyBuffer(device_.handle(), m.buffer, nullptr);
-    if (m.memory != VK_NULL_HANDLE) vkFreeMemory(device_.handle(), m.memory, nullptr);
-    m = {};
+void Buffer::allocateStaging(Memory& stage, VkDeviceSize bytes) const {
+    allocate(stage, bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, {kHost});
 }
 
 Buffer::Buffer(const Device& device, const char* name, VkDeviceSize size, std::nullptr_t)
-    : device_(device), name_(name), size_(size) {}
+    : device_(device), name_(name), size_(size), own_(device.handle()) {}
 
 Buffer::Buffer(const Device& device, const char* name, VkDeviceSize size, VkFormat texelFormat, Reach reach)
     : Buffer(device, name, size, nullptr) {
@@ -81,8 +66,10 @@ Buffer::Buffer(const Device& device, const char* name, VkDeviceSize size, VkForm
                                VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     if (texelFormat != VK_FORMAT_UNDEFINED) usage |= VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
     if (reach == Reach::Addressed) usage |= VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
-    // A CPU device, or one with a large window into its memory, lets the host touch what the kernels use.
-    own_ = allocate(size, usage, kLocal | kHost, kLocal);
+    // Best is the device's own memory where the host sees it, as on a CPU device or through the window into a card's
+    // memory. A window may be small; what it has no room for goes into the rest. Beside some processors there is little
+    // memory of its own at all, and the machine's has to do.
+    allocate(own_, size, usage, {kLocal | kHost, kLocal, kHost});
     buffer_ = own_.buffer;
     if (texelFormat != VK_FORMAT_UNDEFINED) {
         VkBufferViewCreateInfo view{
@@ -99,7 +86,6 @@ Buffer::Buffer(const Device& device, const char* name, VkDeviceSize size, VkForm
 
 Buffer::~Buffer() {
     if (view_ != VK_NULL_HANDLE) vkDestroyBufferView(device_.handle(), view_, nullptr);
-    release(own_);
 }
 
 VkDeviceSize Buffer::bound() const {
@@ -112,14 +98,14 @@ void Buffer::write(VkDeviceSize offset, const void* data, VkDeviceSize bytes) {
         std::memcpy(static_cast<char*>(own_.mapped) + offset, data, bytes);
         return;
     }
-    Memory stage = staging(bytes);
+    Memory stage(device_.handle());
+    allocateStaging(stage, bytes);
     std::memcpy(stage.mapped, data, bytes);
     Commands commands(device_);
     commands.begin();
     commands.copy(stage.buffer, 0, buffer_, offset, bytes);
     commands.barrier();
     commands.submit();
-    release(stage);
 }
 
 void Buffer::read(VkDeviceSize offset, void* data, VkDeviceSize bytes) const {
@@ -128,14 +114,14 @@ void Buffer::read(VkDeviceSize offset, void* data, VkDeviceSize bytes) const {
         std::memcpy(data, static_cast<const char*>(own_.mapped) + offset, bytes);
         return;
     }
-    Memory stage = staging(bytes);
+    Memory stage(device_.handle());
+    allocateStaging(stage, bytes);
     Commands commands(device_);
     commands.begin();
     commands.copy(buffer_, offset, stage.buffer, 0, bytes);
     commands.hostBarrier();
     commands.submit();
     std::memcpy(data, stage.mapped, bytes);
-    release(stage);
 }
 
 }  // namespace vkdose::vk

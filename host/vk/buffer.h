@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstring>
+#include <initializer_list>
 #include <span>
 #include <vector>
 
@@ -48,16 +49,23 @@ class Buffer {
     }
 
   private:
+    /// A buffer of Vulkan and its memory, freed with it.
     struct Memory {
+        explicit Memory(VkDevice owner) : device(owner) {}
+        ~Memory();
+        Memory(const Memory&) = delete;
+        Memory& operator=(const Memory&) = delete;
+
+        VkDevice device;
         VkBuffer buffer = VK_NULL_HANDLE;
         VkDeviceMemory memory = VK_NULL_HANDLE;
-        void* mapped = nullptr;
+        void* mapped = nullptr;  ///< null where the host does not see it
     };
     Buffer(const Device& device, const char* name, VkDeviceSize size, std::nullptr_t);
-    Memory allocate(VkDeviceSize size, VkBufferUsageFlags usage, VkMemoryPropertyFlags first,
-                    VkMemoryPropertyFlags second) const;
-    Memory staging(VkDeviceSize bytes) const;
-    void release(Memory& memory) const;
+    /// In the first of the wished kinds of memory that has room for it.
+    void allocate(Memory& memory, VkDeviceSize size, VkBufferUsageFlags usage,
+                  std::initializer_list<VkMemoryPropertyFlags> wishes) const;
+    void allocateStaging(Memory& memory, VkDeviceSize bytes) const;
 
     const Device& device_;
     const char* name_;

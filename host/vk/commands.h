@@ -23,7 +23,7 @@ class Commands {
 
     /// Every write of a dispatch or copy before is visible to every dispatch, indirect argument or copy after.
     void barrier();
-    /// As `barrier`, towards reads and writes of the host.
+    /// Likewise, and to reads and writes of the host. A submission ends with it, so that later ones see what it wrote.
     void hostBarrier();
     /// Workgroups.
     void dispatch(std::uint32_t x, std::uint32_t y, std::uint32_t z);

@@ -7,6 +7,8 @@
 #include <mutex>
 #include <type_traits>
 
+#include "host/vk/driver_variable.h"
+
 namespace vkdose::vk {
 
 /// Messages of the validation layer, which may speak from a thread of its own.
@@ -89,6 +91,7 @@ VkInstance makeInstance(bool validation) {
         create.ppEnabledExtensionNames = &extension;
         create.pNext = &features;
     }
+    keepPassesOfOneLength();
     VkInstance instance = VK_NULL_HANDLE;
     const VkResult result = vkCreateInstance(&create, nullptr, &instance);
     // The loader says so of a driver's file that it cannot make sense of.
@@ -257,10 +260,14 @@ std::uint64_t Device::freeMemory() const {
     return most;
 }
 
-int Device::memoryType(std::uint32_t typeBits, VkMemoryPropertyFlags wanted) const {
-    for (std::uint32_t i = 0; i < memory_.memoryTypeCount; ++i)
-        if ((typeBits & (1u << i)) && (memory_.memoryTypes[i].propertyFlags & wanted) == wanted) return int(i);
-    return -1;
+std::vector<std::uint32_t> Device::memoryTypes(std::uint32_t typeBits, VkMemoryPropertyFlags wanted,
+                                               VkDeviceSize size) const {
+    std::vector<std::uint32_t> types;
+    for (std::uint32_t i = 0; i < memory_.memoryTypeCount; ++i) {
+        const bool roomy = memory_.memoryHeaps[memory_.memoryTypes[i].heapIndex].size >= size;
+        if ((typeBits & (1u << i)) && (memoryFlags(i) & wanted) == wanted && roomy) types.push_back(i);
+    }
+    return types;
 }
 
 }  // namespace vkdose::vk

@@ -55,8 +55,10 @@ class Device {
     /// (VK_EXT_memory_budget). Where it does not say, the whole heap counts as free.
     std::uint64_t freeMemory() const;
 
-    /// Index of a memory type allowed by `typeBits` with all of `wanted`; -1 if none.
-    int memoryType(std::uint32_t typeBits, VkMemoryPropertyFlags wanted) const;
+    /// The memory types among `typeBits` that have all of `wanted` and a heap of at least `size` bytes; best first.
+    std::vector<std::uint32_t> memoryTypes(std::uint32_t typeBits, VkMemoryPropertyFlags wanted,
+                                           VkDeviceSize size) const;
+    VkMemoryPropertyFlags memoryFlags(std::uint32_t type) const { return memory_.memoryTypes[type].propertyFlags; }
 
     /// Messages of the validation layer since creation (warnings and errors).
     std::vector<std::string> validationMessages() const;

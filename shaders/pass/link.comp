@@ -63,6 +63,7 @@ void main() {
     }
     first += self * push.linkEntries;
     uint at = linkIndex(first), mine = own.x;
+    bool agrees = true;
     for (; near != uvec2(0u); ++at) {
         uint j = rowsAt(rowIndex(range.x) + (near.x != 0u ? findLSB(near.x) : 32u + findLSB(near.y)));
         near = uvec2(near.x & (near.x - 1u), near.x != 0u ? near.y : near.y & (near.y - 1u));
@@ -72,9 +73,12 @@ void main() {
         else
             slot = slotOfOwner(j, i);
         // If the owner found no room, and said so, any slot will do for the one step that follows.
-        if (slot == kEmpty || mine > own.x + own.y) slot = firstPairSlot();
+        bool owned = slot != kEmpty && mine <= own.x + own.y;
+        if (!owned) slot = firstPairSlot();
+        agrees = agrees && owned;
         rows[at] = slot << 1u | (j > i ? 0u : 1u);
     }
+    if (p.w > 0.0 && !(agrees && mine == own.x + own.y)) report(kErrorLists, i);
     for (uint k = 0u; k < own.w; ++k, ++at) rows[at] = (own.z + k) << 1u;
     for (uint k = 0u; k < ofBodies.y; ++k, ++at) rows[at] = (ofBodies.x + k) << 1u;
     adopt();

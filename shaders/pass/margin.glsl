@@ -8,12 +8,14 @@
 
 float slackOfParticle(uint i) { return slackOf(readState(source, kVelocity, i).xyz); }
 
-/// Symmetric to the last bit, so that both particles of a pair decide the same. The factor covers the rounding.
+/// Symmetric to the last bit, so that both particles of a pair decide the same, and `precise`, so that all passes do.
+/// The factor covers the rounding.
 bool nearPair(vec4 p, float slackP, vec4 q, float slackQ) {
-    vec3 d = p.xyz - q.xyz;
-    float reach = 1.00001 * (p.w + q.w) + (slackP + slackQ);
+    precise vec3 d = p.xyz - q.xyz;
+    precise float reach = 1.00001 * (p.w + q.w) + (slackP + slackQ);
     if (reaches()) reach += longestReach();
-    return q.w > 0.0 && dot(d, d) < reach * reach;
+    precise float apart = dot(d, d), most = reach * reach;
+    return q.w > 0.0 && apart < most;
 }
 
 // The kind is known when the pipeline is made, so that all but one branch of surfaceGap fold away, and the parameters

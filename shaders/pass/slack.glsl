@@ -6,9 +6,11 @@
 
 float slackUnit() { return 0.5 * numerics().y; }
 
+/// The same bits in every pass that asks, so `precise`: near and link must find the same contacts.
 float slackOf(vec3 velocity) {
-    float some = kSlackSteps * numerics().x * length(velocity);
-    return min(kLeastSlack * slackUnit() + some, kMostSlack * slackUnit());
+    precise float some = kSlackSteps * numerics().x * sqrt(dot(velocity, velocity));
+    precise float all = kLeastSlack * slackUnit() + some;
+    return min(all, kMostSlack * slackUnit());
 }
 
 /// Of a body whose points go at most `way` in a step [m].

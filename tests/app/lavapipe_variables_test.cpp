@@ -1,9 +1,11 @@
 // What the program sets in the environment of lavapipe.
 
+#include <algorithm>
 #include <cstdlib>
 #include <string>
 
 #include "host/app/backends.h"
+#include "host/vk/driver_variable.h"
 #include "tests/app/sandbox.h"
 #include "tests/support/catch.h"
 
@@ -31,14 +33,38 @@ TEST_CASE("lavapipe gets short vectors for a bed that it cannot bind, on a proce
     CHECK(set(kWidth, 3000).empty());
 }
 
-TEST_CASE("lavapipe keeps no passes of short vectors") {
-    constexpr const char* kNoCache = "MESA_SHADER_CACHE_DISABLE";
-    if (std::getenv(kNoCache) != nullptr) FAIL("this test needs " << kNoCache << " to be unset");
-    CHECK(set(kNoCache, 3000).empty());
-#ifdef __x86_64__
-    CHECK(set(kNoCache, 2'000'000) == (__builtin_cpu_supports("avx512f") != 0 ? "true" : ""));
-#endif
-    CHECK(set(kNoCache, 3000).empty());
+TEST_CASE("drivers keep no passes while the length of lavapipe's vectors is set") {
+    constexpr const char *kNoCache = "MESA_SHADER_CACHE_DISABLE", *kWidth = "LP_NATIVE_VECTOR_WIDTH";
+    for (const char* variable : {kNoCache, kWidth})
+        if (std::getenv(variable) != nullptr) FAIL("this test needs " << variable << " to be unset");
+    const auto kept = [] {
+        (void)vk::listDevices();  // loads the drivers
+        return std::getenv(kNoCache) == nullptr;
+    };
+    CHECK(kept());
+    setenv(kWidth, "128", 1);
+    CHECK_FALSE(kept());
+    unsetenv(kWidth);
+    CHECK(kept());
+}
+
+TEST_CASE("what is set for a driver is not handed on to other processes, and what the user has set is") {
+    constexpr const char *kOurs = "VKDOSE_TEST_OURS", *kUsers = "VKDOSE_TEST_USERS";
+    const auto handedOn = [](const std::string& variable) {
+        const std::vector<std::string> all = vk::usersEnvironment();
+        return std::find(all.begin(), all.end(), variable) != all.end();
+    };
+    setenv(kUsers, "1", 1);
+    vk::setForDriver(kOurs, "2", true);
+    vk::setForDriver(kUsers, "2", true);
+    CHECK(std::getenv(kOurs) == std::string("2"));
+    CHECK_FALSE(handedOn("VKDOSE_TEST_OURS=2"));
+    CHECK(handedOn("VKDOSE_TEST_USERS=1"));
+    vk::setForDriver(kOurs, "2", false);
+    vk::setForDriver(kUsers, "2", false);
+    CHECK(std::getenv(kOurs) == nullptr);
+    CHECK(handedOn("VKDOSE_TEST_USERS=1"));
+    unsetenv(kUsers);
 }
 
 TEST_CASE("passes that lavapipe has kept for vectors of one length are not taken for another") {

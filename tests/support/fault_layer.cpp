@@ -10,6 +10,8 @@
 //   no-addresses    shaders cannot reach buffers by address
 //   few-groups      dispatches of 2 workgroups
 //   split-memory    device memory that the host cannot map, as on a discrete card, beside host memory
+//   small-window:N  the same, with a window of N bytes into the device memory
+//   little-local:N  device memory of N bytes, which the host can map, beside host memory, as some integrated GPUs have
 //   no-queue        vkCreateDevice fails
 //   no-pipeline     vkCreateComputePipelines fails
 //   no-memory:N     vkAllocateMemory fails
@@ -27,6 +29,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace {
 
@@ -63,6 +66,7 @@ struct Device {
     PFN_vkGetDeviceProcAddr next = nullptr;
     Functions functions;
     std::atomic<int> allocations{0}, submissions{0}, waits{0};
+    std::atomic<VkDeviceSize> narrowBytes{0};  ///< that were ever allocated of the narrow heap
 };
 
 std::mutex mutex;
@@ -182,19 +186,42 @@ VKAPI_ATTR void VKAPI_CALL features2(VkPhysicalDevice physical, VkPhysicalDevice
             reinterpret_cast<VkPhysicalDeviceBufferDeviceAddressFeatures*>(at)->bufferDeviceAddress = VK_FALSE;
 }
 
-// split-memory: type 0 is the device's own, type 1 the host's. Both are made of the driver's first host-visible type.
+// The types and heaps of split-memory and its kin. All are made of the driver's first host-visible type. Heap 0 of the
+// last two has N bytes.
 constexpr VkMemoryPropertyFlags kHost = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+constexpr VkMemoryPropertyFlags kLocal = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
+
+/// The size of heap 0, if it has room for so much only.
+std::optional<VkDeviceSize> narrowHeap() {
+    for (const char* name : {"small-window", "little-local"})
+        if (const auto bytes = fault(name)) return VkDeviceSize(*bytes);
+    return std::nullopt;
+}
+
+/// The types that are shown; none if the driver's own are.
+std::vector<VkMemoryType> shownTypes() {
+    if (fault("split-memory")) return {{kLocal, 0}, {kHost, 0}};
+    if (fault("small-window")) return {{kLocal | kHost, 0}, {kLocal, 1}, {kHost, 2}};
+    if (fault("little-local")) return {{kLocal | kHost, 0}, {kHost, 1}};
+    return {};
+}
 
 VKAPI_ATTR void VKAPI_CALL memoryProperties(VkPhysicalDevice physical, VkPhysicalDeviceMemoryProperties* p) {
     NEXT(instanceOf(physical), vkGetPhysicalDeviceMemoryProperties)(physical, p);
-    if (!fault("split-memory")) return;
-    p->memoryTypeCount = 2;
-    p->memoryTypes[0] = {VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, 0};
-    p->memoryTypes[1] = {kHost, 0};
+    const std::vector<VkMemoryType> shown = shownTypes();
+    if (shown.empty()) return;
+    p->memoryTypeCount = std::uint32_t(shown.size());
+    std::copy(shown.begin(), shown.end(), p->memoryTypes);
+    const auto narrow = narrowHeap();
+    if (!narrow) return;
+    p->memoryHeapCount = shown.back().heapIndex + 1;
+    for (std::uint32_t h = 1; h < p->memoryHeapCount; ++h) p->memoryHeaps[h] = {p->memoryHeaps[0].size, 0};
+    if (fault("small-window")) p->memoryHeaps[1].flags = VK_MEMORY_HEAP_DEVICE_LOCAL_BIT;
+    p->memoryHeaps[0] = {*narrow, VK_MEMORY_HEAP_DEVICE_LOCAL_BIT};
 }
 VKAPI_ATTR void VKAPI_CALL bufferRequirements(VkDevice device, VkBuffer buffer, VkMemoryRequirements* needs) {
     NEXT(deviceOf(device), vkGetBufferMemoryRequirements)(device, buffer, needs);
-    if (fault("split-memory")) needs->memoryTypeBits = 3;
+    if (const std::size_t shown = shownTypes().size(); shown > 0) needs->memoryTypeBits = (1u << shown) - 1;
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL createDevice(VkPhysicalDevice physical, const VkDeviceCreateInfo* create,
@@ -213,6 +240,7 @@ VKAPI_ATTR VkResult VKAPI_CALL createDevice(VkPhysicalDevice physical, const VkD
     device.next = belowDevice;
     for (const auto& [name, ours] : intercepted()) device.functions[name] = belowDevice(*made, name.data());
     device.allocations = device.submissions = device.waits = 0;
+    device.narrowBytes = 0;
     return VK_SUCCESS;
 }
 
@@ -229,7 +257,12 @@ VKAPI_ATTR VkResult VKAPI_CALL allocateMemory(VkDevice device, const VkMemoryAll
     Device& d = deviceOf(device);
     if (failsNow("no-memory", d.allocations)) return VK_ERROR_OUT_OF_DEVICE_MEMORY;
     VkMemoryAllocateInfo real = *info;
-    if (fault("split-memory")) real.memoryTypeIndex = 0;
+    if (!shownTypes().empty()) real.memoryTypeIndex = 0;
+    const auto narrow = narrowHeap();
+    if (narrow && info->memoryTypeIndex == 0 && (d.narrowBytes += info->allocationSize) > *narrow) {
+        d.narrowBytes -= info->allocationSize;
+        return VK_ERROR_OUT_OF_DEVICE_MEMORY;
+    }
     return NEXT(d, vkAllocateMemory)(device, &real, allocator, memory);
 }
 VKAPI_ATTR VkResult VKAPI_CALL mapMemory(VkDevice device, VkDeviceMemory memory, VkDeviceSize offset, VkDeviceSize size,

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numeric>
 
@@ -47,6 +46,9 @@ const char* text(std::uint32_t error) {
         case gpu::kErrorForce:
             return "pushes a body that moves freely harder than the device can add up: give the body more mass, or use "
                    "a smaller time step";
+        case gpu::kErrorLists:
+            return "has other contacts in one pass than in another, which is a fault of the device or of this program: "
+                   "use another device or --backend reference, and report this case";
         default:
             return "has an error that this program does not know: report this case";
     }
@@ -264,21 +266,14 @@ std::uint32_t Ensemble::submit(std::uint32_t count, bool opening, PassTimes* tim
 }
 
 void Ensemble::advance(std::uint32_t steps, const std::vector<double>& coilRates) {
-    using clock = std::chrono::steady_clock;
-    // Long submissions starve the display and trip watchdogs. Short ones waste time on the fence. The batch is adapted
-    // so that a submission takes a time between these two [s].
-    constexpr double kShortest = 0.05, kLongest = 0.25;
-    constexpr std::uint32_t kMostSteps = 4096;
     for (std::uint32_t done = 0; done < steps;) {
-        std::uint32_t count = std::min(options_.batch > 0 ? options_.batch : batch_, steps - done);
+        std::uint32_t count = std::min(options_.batch > 0 ? options_.batch : pace_.count(), steps - done);
         if (bodies_) count = std::min(count, mostBatch_);
-        const auto start = clock::now();
+        pace_.begin();
         runBatch(count, coilRates);
         done += count;
         if (std::all_of(live_.begin(), live_.end(), [&](std::uint32_t m) { return failure(m).has_value(); })) return;
-        const double seconds = std::chrono::duration<double>(clock::now() - start).count();
-        if (count == batch_ && seconds < kShortest && batch_ < kMostSteps) batch_ *= 2;
-        if (seconds > kLongest && batch_ > 1) batch_ /= 2;
+        pace_.end(count);
     }
 }
 

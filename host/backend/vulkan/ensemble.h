@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "host/backend/vulkan/field_passes.h"
+#include "host/backend/vulkan/pace.h"
 #include "host/backend/vulkan/passes.h"
 #include "host/backend/vulkan/vulkan.h"
 
@@ -123,7 +124,7 @@ class Ensemble {
     std::map<std::uint32_t, vk::Commands> recorded_;
     std::vector<MemberState> members_;
     std::vector<std::uint32_t> live_;
-    std::uint32_t batch_ = 16;  // steps per submission, adapted to the device
+    Pace pace_{16, 4096};  // steps
 };
 
 }  // namespace vkdose

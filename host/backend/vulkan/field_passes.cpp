@@ -157,13 +157,22 @@ FieldPoints FieldPasses::compute(const FieldRequest& request, const Moment& mome
     bindings_.push(commands.handle(), &push);
     const std::uint32_t places = s.share + (request.contactStress ? gpu::kFieldNodes * contacts : 0);
     dispatch(commands, weigh_, places / s.workgroup);
-    for (const vk::Pipeline* pass : {&sums_, &kinetic_})
-        for (push.slice = 0; push.slice < s.share; push.slice += params.tiles.w) {
-            bindings_.push(commands.handle(), &push);
-            dispatch(commands, *pass, tiles);
-        }
     commands.hostBarrier();
     commands.submit();
+    for (const vk::Pipeline* pass : {&sums_, &kinetic_})
+        for (push.slice = 0; push.slice < s.share;) {
+            std::uint32_t count = 0;
+            commands.begin();
+            bindings_.bind(commands.handle());
+            slices_.begin();
+            for (; count < slices_.count() && push.slice < s.share; ++count, push.slice += params.tiles.w) {
+                bindings_.push(commands.handle(), &push);
+                dispatch(commands, *pass, tiles);
+            }
+            commands.hostBarrier();
+            commands.submit();
+            slices_.end(count);
+        }
 
     const auto vectors = own_.grid.readAll<gpu::vec4>(gpu::kFieldVectors * request.grid.points());
     FieldPoints points;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "host/backend/vulkan/pace.h"
 #include "host/backend/vulkan/passes.h"
 #include "host/model/field.h"
 
@@ -40,6 +41,7 @@ class FieldPasses {
     FieldTables own_;
     vk::BindingSet bindings_, branchBindings_;  ///< the second has the tables of the bodies, if there are any
     vk::Pipeline branches_, weigh_, sums_, kinetic_;
+    Pace slices_{16, 1u << 20};  ///< of the particles, one dispatch each
 };
 
 }  // namespace vkdose
