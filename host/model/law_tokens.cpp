@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <regex>
 #include <utility>
 
 namespace vkdose {
@@ -100,16 +101,26 @@ std::size_t commentAt(const std::string& text, std::size_t at) {
     return (end == std::string::npos ? text.size() : end + 2) - at;
 }
 
+/// Where the characters end that may belong to a number which begins at `at`.
 std::size_t numberEnd(const std::string& text, std::size_t at) {
+    const std::string begins = text.substr(at, 2);
+    const bool hexadecimal = begins == "0x" || begins == "0X";
     std::size_t end = at;
     while (end < text.size()) {
         const bool exponentSign = (text[end] == '+' || text[end] == '-') && end > at &&
-                                  (text[end - 1] == 'e' || text[end - 1] == 'E') &&
-                                  !text.substr(at, 2).starts_with("0x");
+                                  (text[end - 1] == 'e' || text[end - 1] == 'E') && !hexadecimal;
         if (!isNamePart(text[end]) && text[end] != '.' && !exponentSign) break;
         ++end;
     }
     return end;
+}
+
+/// What GLSL takes for one number. Behind anything else a name could hide.
+bool isNumber(const std::string& text) {
+    static const std::regex whole("(0[xX][0-9a-fA-F]+|[0-9]+)[uU]?");
+    static const std::regex real("([0-9]+\\.[0-9]*|\\.[0-9]+|[0-9]+)([eE][+-]?[0-9]+)?([fF]|lf|LF)?");
+    constexpr std::size_t kLongest = 60;  // std::regex calls itself for each character
+    return text.size() <= kLongest && (std::regex_match(text, whole) || std::regex_match(text, real));
 }
 
 }  // namespace
@@ -146,6 +157,11 @@ std::vector<LawToken> lawTokens(const std::string& text, std::string& bare, std:
         } else if (isDigit(c) || (c == '.' && end < text.size() && isDigit(text[end]))) {
             end = numberEnd(text, at);
             tokens.push_back({LawToken::Kind::Number, text.substr(at, end - at), line, at});
+            if (!isNumber(tokens.back().text)) {
+                faults.push_back({line, fmt::format("{} is no number", tokens.back().text.substr(0, 60)),
+                                  "write it as 2, 2.0, 2e-3 or 0x2"});
+                return tokens;
+            }
         } else if (kSigns.find(c) != std::string_view::npos) {
             if (holds(kTriples, std::string_view(text).substr(at, 3)))
                 end += 2;

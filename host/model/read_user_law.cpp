@@ -39,20 +39,25 @@ std::shared_ptr<const UserLaw> readUserLaw(CaseReader& reader, Section& contact)
     const std::string name = contact.string("law");
     std::filesystem::path file = reader.folderOf("contact.law") / name;
     std::optional<std::string> text;
-    if (contact.has("law_text")) {
+    const bool within = contact.has("law_text");
+    if (within) {
         text = contact.string("law_text");
         file = name;
-        if (contact.has("law_hash") && contact.string("law_hash") != lawHash(*text)) {
-            reader.fault("contact.law_text", fmt::format("is not the text of {} that law_hash was made of", name),
-                         "put the text back, or run the case that names the file");
-            return nullptr;
-        }
     } else {
         text = fileContent(file);
     }
     if (!text) {
         reader.fault("contact.law", fmt::format("{} cannot be read", file.string()),
                      "give luding, hertz-mindlin, eepa, jkr, or the path of a law of your own");
+        return nullptr;
+    }
+    if (contact.has("law_hash") && contact.string("law_hash") != lawHash(*text)) {
+        if (within)
+            reader.fault("contact.law_text", fmt::format("is not the text of {} that law_hash was made of", name),
+                         "put the text back, or run the case that names the file");
+        else
+            reader.fault("contact.law", fmt::format("{} is not the law that law_hash was made of", file.string()),
+                         "put its text back, or leave out law_hash");
         return nullptr;
     }
     if (const auto fault = unwritable(*text)) {

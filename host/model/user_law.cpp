@@ -60,13 +60,17 @@ class Parser : private LawCursor {
             refuseLaw(t, fmt::format("{} is declared twice", t.text), "remove one of them");
     }
 
+    /// A variable that the engine would take for a function that is missing.
+    static void refuseAnswer(const LawToken& t) {
+        if (isAnswer(t.text)) refuseLaw(t, fmt::format("{} is the name of a function", t.text), "choose another name");
+    }
+
     void readNames(std::vector<std::string>& names, const char* kind, std::size_t most) {
         expect("float");
         for (;;) {
             const LawToken& t = name(kind);
             declare(t);
-            if (isAnswer(t.text))
-                refuseLaw(t, fmt::format("{} is the name of a function", t.text), "choose another name");
+            refuseAnswer(t);
             names.push_back(t.text);
             if (names.size() > most)
                 refuseLaw(t, fmt::format("is {} {} of a law, and there is room for {}", names.size(), kind, most),
@@ -88,16 +92,25 @@ class Parser : private LawCursor {
         readFunction(first);
     }
 
+    const LawToken& nameOfConstant() {
+        const LawToken& t = name("a constant");
+        declare(t);
+        refuseAnswer(t);
+        return t;
+    }
+
     void readConstant() {
         const LawToken& type = next("a type");
-        const LawToken& constant = name("a constant");
-        declare(constant);
+        const LawToken& constant = nameOfConstant();
         expect("=");
         if (type.is("int") && at_ + 1 < tokens_.size() && tokens_[at_ + 1].is(";"))
             if (const auto value = integer(tokens_[at_])) integers_[constant.text] = *value;
-        while (!here(";")) {
+        for (int depth = 0; !here(";");) {
             const LawToken& t = next(";");
             if (t.is("{") || t.is("}")) refuseLaw(t, "the constant's line has no ;", "add it");
+            if (t.is("(")) ++depth;
+            if (t.is(")")) --depth;
+            if (t.is(",") && depth == 0) nameOfConstant();
         }
         ++at_;
     }
@@ -150,8 +163,11 @@ class Parser : private LawCursor {
         if (types == std::vector<std::string>{"Contact"}) function_.ofContact = &function;
         const std::size_t body = at_;
         const std::map<std::string, long> outside = integers_;
-        readBlock(1);
+        const bool returns = readBlock(1);
         integers_ = outside;
+        if (!returns && !type.is("void") && !hidesReturn(body))
+            refuseLaw(function, fmt::format("{} may end without a return, and has no value then", function.text),
+                      "end it with one");
         grow(function, double(at_ - body));
         refuseChanges(body);
         functions_[name_] = function_;
@@ -191,40 +207,71 @@ class Parser : private LawCursor {
             if (isAnswer(function)) addTrips(*is.ofContact, is.trips, trips);
     }
 
-    /// To the brace that ends the block. `times` it is made in one call of the function.
-    void readBlock(double times) {
-        while (!here("}")) readStatement(times);
+    /// To the brace that ends the block. `times` it is made in one call of the function. Returns whether the function
+    /// ends in it, whatever happens.
+    bool readBlock(double times) {
+        bool returns = false;
+        while (!here("}")) returns = readStatement(times) || returns;
         ++at_;
+        return returns;
     }
 
     /// A statement within another one, which begins with `outer`. Its constants end with it.
-    void readInner(const LawToken& outer, double times) {
+    bool readInner(const LawToken& outer, double times) {
         if (++nesting_ > kMostLawNesting) refuseNesting(outer);
         const std::map<std::string, long> outside = integers_;
-        if (outer.is("{"))
-            readBlock(times);
-        else
-            readStatement(times);
+        const bool returns = outer.is("{") ? readBlock(times) : readStatement(times);
         integers_ = outside;
         --nesting_;
+        return returns;
     }
 
-    void readStatement(double times) {
+    bool readStatement(double times) {
         const LawToken& t = next("}");
         if (t.is("{")) return readInner(t, times);
-        if (t.is("for")) return readLoop(t, times);
+        if (t.is("for")) {
+            readLoop(t, times);
+            return false;
+        }
         if (t.is("if")) {
             expect("(");
             readUntilClosed(times);
-            readInner(t, times);
-            if (here("else")) readInner(next("else"), times);
-            return;
+            const bool then = readInner(t, times);
+            return here("else") && readInner(next("else"), times) && then;
         }
         if ((t.is("parameter") || t.is("memory")) && here("float"))
             refuseLaw(t, fmt::format("a {} is declared inside of {}", t.text, name_),
                       "declare it before the functions");
         --at_;
         readPlain(times);
+        return t.is("return");
+    }
+
+    /// Whether a statement goes on into a `return`, for want of a semicolon. The compiler tells that in its place.
+    bool hidesReturn(std::size_t body) const {
+        for (std::size_t k = body; k < at_; ++k) {
+            const LawToken& before = tokens_[k - 1];
+            const bool begins =
+                before.is("{") || before.is("}") || before.is(";") || before.is(")") || before.is("else");
+            if (tokens_[k].is("return") && !begins) return true;
+        }
+        return false;
+    }
+
+    static bool isDeclaredType(const LawToken& t) { return isLawType(t.text) || t.is("Contact"); }
+
+    /// What is read before it is written has no value, or another one on each device. `at` is behind the type.
+    void refuseUnset(std::size_t at) const {
+        for (int depth = 0; !tokens_[at].is(";"); ++at) {
+            const LawToken& t = tokens_[at];
+            const LawToken& before = tokens_[at - 1];
+            if (t.is("(")) ++depth;
+            if (t.is(")")) --depth;
+            const bool declared = before.is(",") || isDeclaredType(before);
+            if (depth == 0 && t.kind == LawToken::Kind::Name && declared && !tokens_[at + 1].is("="))
+                refuseLaw(t, fmt::format("{} is declared without a value", t.text),
+                          fmt::format("give it one: {} = ...", t.text));
+        }
     }
 
     /// A declaration or an expression.
@@ -246,6 +293,7 @@ class Parser : private LawCursor {
             if (declaration && depth == 0 && (before.is(",") || isLawType(before.text))) refuseShadow(part);
             count(part, times);
         }
+        if (isDeclaredType(tokens_[type]) && !tokens_[type + 1].is("(")) refuseUnset(type + 1);
         if (at_ == first + 5 && tokens_[first].is("const") && tokens_[first + 1].is("int"))
             if (const auto value = integer(tokens_[first + 4])) integers_[tokens_[first + 2].text] = *value;
         ++at_;

@@ -77,6 +77,14 @@ TEST_CASE("a mark of the byte order before a law counts as nothing") {
     CHECK_FALSE(readLaw("a.glsl", kSpring + "\xef\xbb\xbf").faults.empty());
 }
 
+TEST_CASE("a law's functions may return in each branch, and its variables take their values one after the other") {
+    const std::string branches =
+        kSpring +
+        "float damping(Contact c) {\n  const float a = 1.0, b = max(a, 2.0);\n"
+        "  if (c.overlap > 0.0) { return b; } else if (c.speed > 0.0) return 0x1F; else { return .5e-3; }\n}\n";
+    CHECK(readLaw("a.glsl", branches).faults.empty());
+}
+
 TEST_CASE("what a slip in the name of a law's function was meant to be is asked") {
     const LawReading reading = readLaw("a.glsl", kSpring + "float dampning(Contact c) { return 1.0; }\n");
     REQUIRE(reading.faults.size() == 1);
