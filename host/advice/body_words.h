@@ -6,12 +6,9 @@
 #include <cmath>
 
 #include "host/advice/rules.h"
+#include "host/core/millimetres.h"
 
 namespace vkdose {
-
-inline double mm(double metres) {
-    return metres * 1e3;
-}
 
 inline std::string keyOf(std::size_t body, const char* key) {
     return fmt::format("body[{}].{}", body, key);

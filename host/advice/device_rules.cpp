@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "host/advice/rules.h"
+#include "host/core/millimetres.h"
 #include "host/model/key.h"
 
 namespace vkdose {
@@ -24,10 +25,6 @@ constexpr double kSteepest = 45, kUsualSlope = 30;
 /// Strongest pull over weight of a sphere above which adhesion holds powder in an open throat. With 5 a sixteenth of
 /// the fill of cases/devices/bulk-sugar.toml ran out while it settled, with 50 nothing of tiny-drug.toml.
 constexpr double kHeldByBond = 10;
-
-double mm(double metres) {
-    return metres * 1e3;
-}
 
 double coilEnd(const Subject& s) {
     return s.c.world.coil->zStart + s.c.world.coil->length;

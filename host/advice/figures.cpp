@@ -15,9 +15,6 @@
 namespace vkdose {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kWall = std::numeric_limits<double>::infinity();
-
 void addSizes(Figures& f, const std::vector<double>& radii) {
     const auto [low, high] = std::minmax_element(radii.begin(), radii.end());
     f.smallest = *low;

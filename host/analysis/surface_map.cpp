@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace vkdose {
 
 SurfaceMap::SurfaceMap(const Particles& particles, double step) {
-    constexpr double kInfinity = std::numeric_limits<double>::infinity(), kMostSpots = 1e6;
+    constexpr double kMostSpots = 1e6;
     double lowX = kInfinity, lowZ = kInfinity, highX = -kInfinity, highZ = -kInfinity;
     for (std::size_t i = 0; i < particles.size(); ++i) {
         if (particles.status[i] != Status::Active) continue;

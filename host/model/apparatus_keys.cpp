@@ -6,9 +6,6 @@ namespace {
 
 using namespace key;
 
-constexpr Bound kPositive = Bound::Positive;
-constexpr Bound kNonNegative = Bound::NonNegative;
-
 constexpr Key kCanister[] = {
     number("length_mm", kMillimetre, kPositive, kRequired, "along the coil, from the rear wall to the front wall"),
     number("width_mm", kMillimetre, kPositive, kRequired, "inside width, which is also the diameter of the trough"),

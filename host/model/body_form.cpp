@@ -58,7 +58,6 @@ std::vector<Triangle> trianglesOf(const RigidBody& body) {
 }
 
 TurningReach reachOf(const std::vector<Triangle>& mesh, const Vec3& axis, const Vec3& through) {
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
     TurningReach reach{0, kInfinity, -kInfinity};
     for (const Triangle& t : mesh)
         for (const Vec3& corner : t) {

@@ -26,8 +26,6 @@
 namespace vkdose {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 SizeRange sizeRange(const Case& c) {
     return overall(powderSizes(c));
 }

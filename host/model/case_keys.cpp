@@ -7,7 +7,6 @@ namespace {
 
 using namespace key;
 
-constexpr Unit kDensity{1, "kg/m3"};
 constexpr std::int64_t kAnyCount = std::numeric_limits<std::int64_t>::max();
 
 constexpr Key kTop[] = {
@@ -20,7 +19,7 @@ constexpr Key kTop[] = {
          "names of warnings of `vkdose check`, separated by blanks, that are expected here and not told by a run"),
     integer("seed", 0, kAnyCount, 1, "sets sizes and positions: the same seed gives the same particles"),
     vector("gravity", {1, "m/s2"}, {0, -9.81, 0}, "acceleration of gravity"),
-    number("bulk_density", kDensity, Bound::Positive, 471.0,
+    number("bulk_density", kKilogramPerCubicMetre, Bound::Positive, 471.0,
            "of the settled powder; only the closed form of the mass per dose uses it. `\"measure\"`: that of this "
            "run's own bed when it has settled; until then, and if the bed is too small or still falls (at more than a "
            "tenth of the speed after a fall from its top), 0.46 of the particles' density")

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "geometry/coincidence.h"
+#include "host/core/millimetres.h"
 #include "host/model/contact_pairs.h"
 #include "host/model/powders.h"
 #include "host/model/size_distribution.h"
@@ -15,10 +16,6 @@
 
 namespace vkdose {
 namespace {
-
-double mm(double metres) {
-    return metres * 1e3;
-}
 
 void checkContact(CaseReader& reader, const Case& c) {
     std::set<std::string> told;  // an inherited fault is reported once, where the value is written

@@ -7,8 +7,6 @@ namespace {
 
 using namespace key;
 
-constexpr Bound kPositive = Bound::Positive;
-constexpr Bound kNonNegative = Bound::NonNegative;
 /// Ratio of the sliding (or rolling) stiffness to the normal one with which sliding (or rolling) oscillates as fast as
 /// the normal direction (paper).
 constexpr double kTwoSevenths = 0.286;

@@ -12,7 +12,6 @@
 namespace vkdose {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr const char* kNoBed = "the weight of a bed is known only in a canister into which gravity pulls down";
 
 /// The parameters as they follow from a share of critical damping. Where a restitution is wanted, that share is what

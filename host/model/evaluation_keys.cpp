@@ -7,9 +7,6 @@ namespace {
 
 using namespace key;
 
-constexpr Bound kPositive = Bound::Positive;
-constexpr Bound kNonNegative = Bound::NonNegative;
-
 constexpr Key kField[] = {
     word("preset", "grid height-profile mid-plane outlet", "grid",
          "sets box and cells; `\"grid\"` is the whole canister in three directions"),

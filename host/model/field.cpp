@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace vkdose {
 
@@ -45,10 +44,6 @@ std::optional<std::string> faultOf(const FieldRequest& r) {
         return fmt::format("the kernel reaches {:.0f} points, at most {:.0f} can be: use larger cells",
                            r.pointsInReach(), kMostPointsInReach);
     return std::nullopt;
-}
-
-namespace {
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 }
 
 Vec3 FieldPoint::velocity() const {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "host/core/millimetres.h"
 #include "host/model/checks.h"
 #include "host/model/grid.h"
 #include "host/model/powders.h"
@@ -18,10 +19,6 @@ namespace {
 constexpr double kLoosestBed = 0.35, kLoosestFreeBed = 0.5;
 /// More particles than this mean that a unit is wrong.
 constexpr double kMaxParticles = 5e6;
-
-double mm(double metres) {
-    return metres * 1e3;
-}
 
 /// Compares the volume of the bed with that of the canister. The bed is taken at the loosest packing that it can keep.
 void checkBed(CaseReader& reader, const Case& c) {

@@ -26,8 +26,11 @@ inline constexpr Unit kMicrometre{1e6, "um"};
 inline constexpr Unit kGram{1e3, "g"};
 inline constexpr Unit kRpm{60 / (2 * kPi), "rpm"};
 inline constexpr Unit kDegree{180 / kPi, "degrees"};
+inline constexpr Unit kKilogramPerCubicMetre{1, "kg/m3"};
 
 enum class Bound { Any, NonNegative, Positive };
+inline constexpr Bound kNonNegative = Bound::NonNegative;
+inline constexpr Bound kPositive = Bound::Positive;
 
 /// The value of a key that a file leaves out.
 struct Default {

@@ -7,12 +7,8 @@ namespace {
 
 using namespace key;
 
-constexpr Unit kDensity{1, "kg/m3"};
-constexpr Bound kPositive = Bound::Positive;
-constexpr Bound kNonNegative = Bound::NonNegative;
-
 constexpr Key kParticles[] = {
-    number("density", kDensity, kPositive, kRequired, "of the particles themselves, not of the bed"),
+    number("density", kKilogramPerCubicMetre, kPositive, kRequired, "of the particles themselves, not of the bed"),
     number("mass_g", kGram, kPositive, told("required without `list`"),
            "mass of the fill, of the first powder where there are several; it is met as closely as one particle allows")
         .replacing("list"),
@@ -97,14 +93,16 @@ constexpr Key kRegion[] = {
 constexpr Key kPowder[] = {
     text("name", kRequired, "of the powder, in columns and pictures: letters, digits and `_`"),
     text("material", told("`name`"), "name of what it is made of, in the names of pairs and in `[[material]]`"),
-    number("density", kDensity, kPositive, told("that of its `[[material]]`"), "of the particles themselves"),
+    number("density", kKilogramPerCubicMetre, kPositive, told("that of its `[[material]]`"),
+           "of the particles themselves"),
     number("mass_g", kGram, kPositive, told("required without `particles.list`"),
            "mass of the fill; it is met as closely as one particle allows"),
 };
 
 constexpr Key kMaterial[] = {
     text("name", kRequired, "letters, digits and `_`; not `wall` and `coil`, which `[contact]` knows"),
-    number("density", kDensity, kPositive, told("none"), "if a powder is made of it and does not state its own"),
+    number("density", kKilogramPerCubicMetre, kPositive, told("none"),
+           "if a powder is made of it and does not state its own"),
     number("youngs_modulus", {1, "Pa"}, kPositive, told("required unless `luding`"), "E"),
     number("poisson_ratio", kPlain, kNonNegative, told("required unless `luding`"), "ν; at most 0.5"),
 };

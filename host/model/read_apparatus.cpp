@@ -4,15 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "host/model/case_sections.h"
 #include "host/model/stability.h"
 
 namespace vkdose {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 // ---- boundaries ---------------------------------------------------------------------------------------------------
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
 
 #include "host/model/body_form.h"
@@ -12,9 +11,6 @@
 
 namespace vkdose {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// Says what number distribution the sieves make. An older text, in a resolved case, gives way to it.
 void recordDerivation(Section& section, const SizeDistribution& size, Case& c) {

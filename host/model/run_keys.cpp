@@ -7,8 +7,6 @@ namespace {
 
 using namespace key;
 
-constexpr Bound kPositive = Bound::Positive;
-constexpr Bound kNonNegative = Bound::NonNegative;
 constexpr Unit kMillinewtonMetre{1e3, "mN m"};
 
 constexpr Key kSettle[] = {

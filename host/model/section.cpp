@@ -13,8 +13,6 @@
 namespace vkdose {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
 /// Shortest text that reads back as the same double.
 std::string numeral(double value) {
     return fmt::format("{}", value);

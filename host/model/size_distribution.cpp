@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include "host/core/random.h"
@@ -11,7 +10,6 @@ namespace vkdose {
 namespace {
 
 constexpr std::uint32_t kMaxAttempts = 100000;
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 double normalCdf(double z) {
     return 0.5 * std::erfc(-z / std::sqrt(2.0));

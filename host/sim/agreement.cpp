@@ -3,15 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 
 #include "host/core/worse.h"
 
 namespace vkdose {
 
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 double rootMeanSquareSpeed(const Particles& p) {
     double sum = 0, active = 0;

@@ -49,7 +49,6 @@ std::vector<Edge> edgesOf(const Scene& scene, const Frame& frame) {
 }
 
 Extent extentOf(const Scene& scene, const Particles& p, const std::vector<Edge>& edges) {
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
     Extent e{kInfinity, -kInfinity, kInfinity, -kInfinity};
     if (const auto& k = scene.canister) {
         e.hold(0, -k->width / 2, 0);

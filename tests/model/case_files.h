@@ -124,6 +124,12 @@ time_s = 0.1
 )" + tables;
 }
 
+/// The case that a file with this text holds.
+inline Case loadText(const std::string& text, const std::vector<std::string>& overrides = {}) {
+    const Folder folder;
+    return loadCase(folder.write("case.toml", text), overrides);
+}
+
 /// What is wrong with the case in this file, as it is told; "no fault" if it loads.
 inline std::string faultOf(const std::filesystem::path& file) {
     try {

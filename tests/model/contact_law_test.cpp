@@ -51,11 +51,6 @@ adhesion_exponent = 3
 pull_off_force = 0
 )";
 
-Case loadText(const std::string& text) {
-    const Folder folder;
-    return loadCase(folder.write("case.toml", text));
-}
-
 void refused(const std::string& text, const std::string& said) {
     CAPTURE(text, said);
     CHECK_THROWS_WITH(loadText(text), Catch::Contains(said));

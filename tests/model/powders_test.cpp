@@ -20,11 +20,6 @@ namespace {
 
 constexpr int kSecond = 3;  // the second powder's material, behind those of walls and coil
 
-Case loadText(const std::string& text, const std::vector<std::string>& overrides = {}) {
-    const Folder folder;
-    return loadCase(folder.write("case.toml", text), overrides);
-}
-
 std::string refusal(const std::string& text) {
     try {
         loadText(text);

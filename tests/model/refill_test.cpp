@@ -21,11 +21,6 @@ const std::string kFilled = replaced(kFreeCase, "list = \"two.csv\"",
 const std::string kSpoon = "[[refill]]\nname = \"spoon\"\nmass_g = 0.1\ntime_s = 0.5\n";
 const std::string kHandful = "[[refill]]\nname = \"handful\"\nmass_g = 0.3\n";
 
-Case loadText(const std::string& text) {
-    const Folder folder;
-    return loadCase(folder.write("case.toml", text));
-}
-
 Particles added(const Insertion& filled, std::size_t refill, const std::vector<Vec3>& places) {
     Particles p = filled.waiting[refill].particles;
     p.position = places;

@@ -8,11 +8,6 @@ using namespace vkdose::test;
 
 namespace {
 
-Case loadText(const std::string& text) {
-    const Folder folder;
-    return loadCase(folder.write("case.toml", text));
-}
-
 const std::string kPan = R"([[region]]
 name = "pan"
 kind = "beyond"

@@ -9,10 +9,6 @@ using namespace vkdose::test;
 
 namespace {
 
-std::unique_ptr<Backend> made(bool reference) {
-    return reference ? makeReferenceBackend() : gpu();
-}
-
 double massOf(const RuledWorld& w, double radius) {
     return w.density() * (4.0 / 3.0) * kPi * radius * radius * radius;
 }

@@ -71,10 +71,6 @@ double gravityFor(double share, const RuledWorld& w, const Particles& p) {
     return share / std::max(both / above, lower / below);
 }
 
-std::unique_ptr<Backend> made(bool reference) {
-    return reference ? makeReferenceBackend() : gpu();
-}
-
 double gapBelow(const Particles& p) {
     return glm::distance(p.position[0], p.position[1]) - p.radius[0] - p.radius[1];
 }

@@ -12,10 +12,6 @@ using namespace vkdose::test;
 
 namespace {
 
-std::unique_ptr<Backend> made(bool reference) {
-    return reference ? makeReferenceBackend() : gpu();
-}
-
 constexpr std::size_t kFirst = 150, kLate = 40;
 
 /// Particles that fly about, and as many as kLate behind them that wait, on a grid that is free for them.

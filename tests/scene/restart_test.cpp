@@ -12,10 +12,6 @@ namespace {
 
 constexpr double kRate = -2 * kPi * 1.5 * 1.0000001;  // no round number of 2^-64 turns a step
 
-std::unique_ptr<Backend> made(bool reference, const VulkanOptions& options = {}) {
-    return reference ? makeReferenceBackend() : gpu(options);
-}
-
 std::size_t coilContacts(const Backend& backend) {
     const auto contacts = backend.contacts();
     return std::size_t(std::count_if(contacts.begin(), contacts.end(),

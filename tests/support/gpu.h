@@ -20,7 +20,12 @@ inline std::unique_ptr<Backend> gpu(VulkanOptions options = {}) {
     return makeVulkanBackend(options);
 }
 
-/// The same, with tables that passes reach by address. A device without addresses binds them, and says so.
+/// The reference, or a Vulkan backend.
+inline std::unique_ptr<Backend> made(bool reference, const VulkanOptions& options = {}) {
+    return reference ? makeReferenceBackend() : gpu(options);
+}
+
+/// Options of a backend whose tables are reached by address. A device without addresses binds them, and says so.
 inline VulkanOptions byAddress(VulkanOptions options = {}) {
     static const bool has = vk::Device(testDevice()).hasAddresses();
     if (!has) WARN("the device gives no addresses of buffers; its tables are bound");

@@ -19,7 +19,6 @@ using namespace vkdose::verify;
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 Check checkOf(double expected, double got, double share, double scale = 0) {
     return {"family/case", "quantity", "m", expected, got, {share, "a reason", scale}};
