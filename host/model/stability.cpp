@@ -4,10 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <variant>
 
 #include "host/core/vec.h"
+#include "host/model/body_form.h"
+#include "host/model/body_mesh.h"
 #include "host/model/case.h"
 #include "host/model/normal_law.h"
 #include "host/model/particles.h"
@@ -19,10 +20,21 @@ namespace vkdose {
 namespace {
 
 /// Radius of a wall, beside a sphere.
-constexpr double kWall = std::numeric_limits<double>::infinity();
+constexpr double kWall = kInfinity;
 
-/// So many spheres may carry a body that is light enough to swing on them.
-constexpr double kSpheresOnBody = 12;
+/// The most spheres of radius `a` that can touch the body at once: so many as cover a ball with its surface, packed as
+/// densely as can be, and no more than there are.
+double mostOnBody(const RigidBody& body, const SizeRange& size, double a) {
+    double area = 0;
+    for (const geometry::Triangle& t : trianglesOf(body)) area += glm::length(glm::cross(t[1] - t[0], t[2] - t[0])) / 2;
+    for (const geometry::Shape& shape : body.shapes) {
+        if (isEndless(shape)) return size.count;
+        if (!isSolid(shape)) area *= 2;  // it has two sides
+    }
+    const double around = std::sqrt(area / (4 * kPi)) + a;
+    const double room = 2 * std::sqrt(3.0) * a * a;
+    return std::min(4 * kPi * around * around / room, size.count);
+}
 
 bool isNormal(const ContactMode& mode) {
     return mode.name.ends_with(" normal");
@@ -47,11 +59,19 @@ double reducedMass(const World& world, MaterialPair pair, double a, double b) {
 }
 
 PowderSizes powderSizes(const Case& c) {
-    if (c.filling.list) return powderSizes(c.world, *c.filling.list);
+    if (c.filling.list) {
+        PowderSizes sizes = powderSizes(c.world, *c.filling.list);
+        if (!c.refills.empty())
+            for (SizeRange& size : sizes) size.count = kInfinity;
+        return sizes;
+    }
     PowderSizes sizes(c.world.materials.size());
     for (const PowderOf& p : powdersOf(c)) {
         const SizeDistribution& size = p.filling.size;
-        sizes[std::size_t(p.material)] = {smallestRadius(size), largestRadius(size), meanRadius(size)};
+        double mass = p.filling.mass;
+        for (const Refill& r : c.refills) mass += r.material == p.material ? r.mass : 0;
+        const double count = mass / sphereMass(c.world.density(p.material), std::cbrt(meanCubedRadius(size)));
+        sizes[std::size_t(p.material)] = {smallestRadius(size), largestRadius(size), meanRadius(size), count};
     }
     return sizes;
 }
@@ -66,6 +86,7 @@ PowderSizes powderSizes(const World& world, const Particles& particles) {
         size.smallest = std::min(size.smallest, r);
         size.largest = std::max(size.largest, r);
         size.mean += r / count[particles.material[i]];
+        size.count = count[particles.material[i]];
     }
     return sizes;
 }
@@ -132,14 +153,18 @@ std::vector<ContactMode> contactModes(const World& world, const ContactLaw& law,
         for (const int powder : powdersOf(world)) {
             const MaterialPair pair{powder, body.material};
             if (!haveSpheres(world, pair, sizes)) continue;
-            const double a = sizes.at(std::size_t(powder)).smallest, mass = sphereMass(world.density(powder), a);
-            const ContactParameters p = stiffest(law.of(pair), mass, a, kWall, world.maxOverlapRatio);
-            const auto swinging = [&](double sphere) {
-                return std::min(sphere / (1 + sphere / free->mass), free->mass / kSpheresOnBody);
-            };
+            const SizeRange& size = sizes.at(std::size_t(powder));
             const std::string name = fmt::format("{}-{}", world.materials[std::size_t(powder)].name, body.name);
-            add(name + " normal", p.k2Max, p.gamma, swinging(mass));
-            if (p.mu > 0) add(name + " sliding", p.kt, p.gammaT, swinging(mass / 3.5));
+            // There is room for more small spheres, but under some laws large ones are stiffer.
+            for (const double a : {size.smallest, size.largest}) {
+                const double mass = sphereMass(world.density(powder), a), many = mostOnBody(body, size, a);
+                const ContactParameters p = stiffest(law.of(pair), mass, a, kWall, world.maxOverlapRatio);
+                const auto swinging = [&](double sphere) {
+                    return std::min(sphere / (1 + sphere / free->mass), free->mass / std::max(1.0, many));
+                };
+                add(name + " normal", p.k2Max, p.gamma, swinging(mass));
+                if (p.mu > 0) add(name + " sliding", p.kt, p.gammaT, swinging(mass / 3.5));
+            }
         }
     }
     return modes;
@@ -153,7 +178,7 @@ std::vector<ContactMode> modesOf(const Case& c, const PowderSizes& sizes) {
 }
 
 double automaticTimeStep(const std::vector<ContactMode>& modes, std::optional<double> stepsPerContact) {
-    double step = std::numeric_limits<double>::infinity();
+    double step = kInfinity;
     for (const ContactMode& mode : modes) {
         step = std::min(step, mode.duration / stepsPerContact.value_or(isNormal(mode) ? 8 : 6));
         if (mode.decay > 0) step = std::min(step, 0.5 / mode.decay);

@@ -26,6 +26,7 @@ struct SizeRange {
     double smallest = std::numeric_limits<double>::infinity();
     double largest = 0;
     double mean = 0;
+    double count = std::numeric_limits<double>::infinity();  ///< of the particles, at most about
 };
 using PowderSizes = std::vector<SizeRange>;  ///< by the material
 
@@ -51,7 +52,7 @@ struct ContactMode {
 
 /// Every mode of every pair that can occur, for particles no smaller than the smallest of their powder. Powders of no
 /// particles are left out. A law whose stiffness grows with the overlap counts at the largest overlap that the world
-/// allows. A body that moves freely counts as if a dozen of the smallest spheres carried it.
+/// allows. A body that moves freely counts as if the spheres covered it, as densely as they can.
 std::vector<ContactMode> contactModes(const World& world, const ContactLaw& law, const PowderSizes& sizes);
 
 /// The parameters of a contact at that overlap, as linear springs and dashpots between the spheres a and b [m], b =

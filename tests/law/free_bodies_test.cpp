@@ -113,6 +113,31 @@ TEST_CASE("free bodies: the automatic step resolves the impact of one that is fa
     }
 }
 
+TEST_CASE("free bodies: with the automatic step a lid comes to rest on hundreds of spheres that it is lighter than") {
+    constexpr double kLid = 25e-3, kApart = 2.02 * kRadius;
+    ContactParameters p = spring(1e3);
+    p.gamma = 0.2 * std::sqrt(p.k1 * massOf(kRadius));
+    RuledWorld world = worldWith({geometry::Cone{Vec3(0), Vec3(0, 0, 1), 0, kLid, 0}}, {1, Vec3(0, 0, -0.02), {}},
+                                 Vec3(0, 0, 2 * kRadius + 1e-5), p);
+    world.surfaces.push_back(geometry::Plane{Vec3(0), Vec3(0, 0, 1)});
+    Particles layer;
+    for (int i = -12; i <= 12; ++i)
+        for (int j = -12; j <= 12; ++j) {
+            const Vec3 x(kApart * (i + 0.5 * (j & 1)), kApart * std::sqrt(0.75) * j, kRadius);
+            if (std::hypot(x.x, x.y) < kLid - kRadius) layer.add(x, kRadius);
+        }
+    REQUIRE(layer.size() > 250);
+    const double mass = double(layer.size()) * massOf(kRadius) / GENERATE(1.0, 100.0);
+    CAPTURE(mass);
+    std::get<geometry::Free>(world.bodies[0].course.motion).mass = mass;
+    world.timeStep = automaticTimeStep(contactModes(world, world.law, powderSizes(world, layer)), {});
+    const auto backend = makeReferenceBackend();
+    backend->load(world, layer);
+    backend->advance(std::uint32_t(0.03 / world.timeStep), 0);
+    CHECK(glm::length(backend->freeBodies().at(0).velocity) < 1e-3);
+    CHECK(std::abs(backend->freeBodies().at(0).shift.z + 1e-5) < 1e-5);
+}
+
 TEST_CASE("free bodies: a sphere rebounds from one of any mass with the law's restitution") {
     const Elasticity soft{5e6, 0.25};
     const double sphere = massOf(kRadius), speed = 0.3;
