@@ -27,21 +27,23 @@ constexpr double kDeepFall = 0.5;  ///< share of the largest overlap that one sp
 constexpr std::size_t kFewest = 60;
 constexpr double kWidest = 7;  ///< size ratio up to which the automatic step is exact (host/verify/README.md)
 
-/// The key of a pair's table.
-std::string pairKey(const World& world, MaterialPair pair, const char* key) {
+/// The key of a pair's table, whose name has the two materials in the order that the case has.
+std::string pairKey(const Subject& s, MaterialPair pair, const char* key) {
     constexpr std::array<const char*, kUsualMaterials> kTable{"contact", "contact.wall", "contact.coil"};
     if (pair.a == kFirstPowder && pair.b < kUsualMaterials)
         return fmt::format("{}.{}", kTable[std::size_t(pair.b)], key);
-    return fmt::format("contact.{}.{}", nameOf(world, pair), key);
+    const std::string turned = fmt::format("contact.{}.{}", nameOf(s.c.world, {pair.b, pair.a}), key);
+    return s.node(turned) != nullptr ? turned : fmt::format("contact.{}.{}", nameOf(s.c.world, pair), key);
 }
 
-/// The key that says how stiff the contacts of a pair are. Walls of no material of their own are as stiff as the
-/// powder, unless the case says otherwise.
+/// The key that says how stiff the contacts of the first powder with itself, or with a wall, are. Walls that are as
+/// stiff as the powder have it from there. Of two moduli that of the powder counts, which is softer than its walls.
 std::string stiffnessKey(const Subject& s, MaterialPair pair) {
     const NormalLaw law = s.c.dosingLaw.of(pair).law;
     if (law == NormalLaw::User) return "contact.law";
-    if (pair.b == kWallMaterial) pair = pairOf(ContactClass::ParticleParticle);
-    return pairKey(s.c.world, pair, law == NormalLaw::Luding ? "k" : "youngs_modulus");
+    if (law != NormalLaw::Luding) return "contact.youngs_modulus";
+    const bool asPowder = pair.b == kWallMaterial && s.value("contact.wall.k") == s.value("contact.k");
+    return pairKey(s, asPowder ? pairOf(ContactClass::ParticleParticle) : pair, "k");
 }
 
 /// The cure of overlaps that are too large: `linear` times the stiffness of Luding's law, or `elastic` times the
@@ -143,7 +145,7 @@ Found strangeFriction(const Subject& s) {
         for (const Coefficient& k : kAll) {
             const double value = s.c.dosingLaw.of(pair).*k.value;
             if (!(value > kMostFriction)) continue;
-            return Finding{pairKey(s.c.world, pair, k.key),
+            return Finding{pairKey(s, pair, k.key),
                            fmt::format("a coefficient of {:.3g} bears {:.3g} times the normal force", value, value),
                            value < 90 ? fmt::format("give the coefficient, not the angle: {:.3g} degrees are {:.3g}",
                                                     value, std::tan(value * kPi / 180))
@@ -157,7 +159,7 @@ Found overdampedContacts(const Subject& s) {
     for (const Restitution& e : s.f.restitutions) {
         if (e.mean > 0 || s.c.dosingLaw.user) continue;  // what a user's law damps, its file says
         return Finding{
-            pairKey(s.c.world, e.pair, "damping"),
+            pairKey(s, e.pair, "damping"),
             fmt::format("{} contacts of mean spheres are overdamped: they creep apart and never rebound, and "
                         "their duration is infinite",
                         nameOf(s.c.world, e.pair)),
@@ -173,7 +175,7 @@ Found strangeRestitution(const Subject& s) {
         if (p.law != NormalLaw::Luding) continue;  // the case states the restitution itself
         const bool elastic = e.mean > kMostRestitution && p.k1 == p.k2Max;
         if (!elastic && e.mean >= kLeastRestitution && e.smallest > 0) continue;
-        return Finding{pairKey(s.c.world, e.pair, "damping"),
+        return Finding{pairKey(s, e.pair, "damping"),
                        fmt::format("gives {} contacts of mean spheres a restitution of {:.2g}, of the smallest {:.2g}, "
                                    "of the largest {:.2g}",
                                    nameOf(s.c.world, e.pair), e.mean, e.smallest, e.largest),

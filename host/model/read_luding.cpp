@@ -13,8 +13,6 @@
 namespace vkdose {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 /// One pair of materials as its table states it, together with what it takes from others.
 struct Stated {
     Ratios ratios{};
@@ -51,10 +49,8 @@ void readStiffness(CaseReader& reader, Section& section, ContactTargets& t) {
 void readAdhesion(CaseReader& reader, Section& section, ContactTargets& t) {
     refuseBoth(reader, section, "bond_number", "kc_over_k");
     const auto bond = target(section, "bond_number");
-    if (section.has("kc_over_k") || bond) {
-        t.bond = bond;
-        t.bondUnderBed = false;
-    }
+    if (section.has("kc_over_k")) t.bondUnderBed = false;
+    if (section.has("kc_over_k") || bond) t.bond = bond;
     if (!section.has("bond_load")) {
         section.know("bond_load");
         return;
@@ -69,10 +65,8 @@ void readAdhesion(CaseReader& reader, Section& section, ContactTargets& t) {
 void readDamping(CaseReader& reader, Section& section, ContactTargets& t) {
     refuseBoth(reader, section, "restitution", "damping");
     const auto restitution = target(section, "restitution");
-    if (section.has("damping") || restitution) {
-        t.restitution = restitution;
-        t.speed = 0;
-    }
+    if (section.has("damping")) t.speed = 0;
+    if (section.has("damping") || restitution) t.restitution = restitution;
     if (restitution && *restitution == 0)
         reader.fault(section.path("restitution"), "is that of contacts that creep apart and never rebound",
                      "give a number > 0, 0.05 for hardly any rebound");

@@ -23,11 +23,19 @@ struct Fall {
     /// When it meets the bed: it is fastest downwards.
     std::size_t meets() const { return std::size_t(std::min_element(speed.begin(), speed.end()) - speed.begin()); }
     double depth(std::size_t i) const { return height[meets()] - height[i]; }
-    double largestDepth() const {
-        if (time.empty()) return std::numeric_limits<double>::quiet_NaN();
-        return height[meets()] - *std::min_element(height.begin() + std::ptrdiff_t(meets()), height.end());
+    /// The largest depth of the first part of the curve, up to this share of its time since it met the bed.
+    double depthWithin(double share) const {
+        const double end = time[meets()] + share * (time.back() - time[meets()]);
+        double most = 0;
+        for (std::size_t i = meets(); i < time.size() && time[i] <= end; ++i) most = std::max(most, depth(i));
+        return most;
     }
-    /// How long it takes to this share of its largest depth; NaN if it meets no bed.
+    /// NaN if it still sinks when the curve ends: by a hundredth in the last tenth of the time.
+    double largestDepth() const {
+        if (time.empty() || depthWithin(1) > 1.01 * depthWithin(0.9)) return std::numeric_limits<double>::quiet_NaN();
+        return depthWithin(1);
+    }
+    /// How long it takes to this share of its largest depth; NaN if it has none, or meets no bed.
     double timeTo(double share) const {
         const double depth = share * largestDepth();
         for (std::size_t i = time.empty() ? 0 : meets() + 1; i < time.size(); ++i) {

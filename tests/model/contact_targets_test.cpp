@@ -262,3 +262,25 @@ TEST_CASE("targets that cannot be met are refused with what can be") {
     CHECK_THAT(messageOf(kGoodCase, {"contact.overlap_under_bed=0.01", "gravity=[0, 9.81, 0]"}),
                Catch::Contains("contact.overlap_under_bed = 0.01: the weight of a bed is known only"));
 }
+
+TEST_CASE("a class that states a restitution or a bond alone keeps the speed or the load that it inherits") {
+    const Folder folder;
+    const auto gammaAtWall = [&](std::vector<std::string> wall) {
+        const auto file =
+            folder.write("case.toml", withContact("damping = 0.02", "restitution = 0.3\nrestitution_speed = 0.05"));
+        wall.emplace_back("contact.kc_over_k=0");
+        return loadCase(file, wall).dosingLaw.of(kAtWall).gamma;
+    };
+    const double inherited = gammaAtWall({"contact.wall.restitution=0.25"});
+    CHECK(inherited == gammaAtWall({"contact.wall.restitution=0.25", "contact.wall.restitution_speed=0.05"}));
+    CHECK(inherited != Approx(gammaAtWall({"contact.wall.restitution=0.25", "contact.wall.restitution_speed=0"})));
+
+    const auto kcAtWall = [&](const std::vector<std::string>& wall) {
+        const auto file =
+            folder.write("case.toml", withContact("kc_over_k = 0.5", "bond_number = 0.02\nbond_load = \"bed\""));
+        return loadCase(file, wall).dosingLaw.of(kAtWall).kc;
+    };
+    const double ofBed = kcAtWall({"contact.wall.bond_number=0.01"});
+    CHECK(ofBed == kcAtWall({"contact.wall.bond_number=0.01", "contact.wall.bond_load=bed"}));
+    CHECK(ofBed != Approx(kcAtWall({"contact.wall.bond_number=0.01", "contact.wall.bond_load=limit"})));
+}

@@ -28,7 +28,7 @@ LawPoint answerAt(const LawLoading& loading, std::size_t point, double reach) {
 }
 
 /// Loads a case with the spring, whose trial on a device ends after some points, or at once.
-void loadTried(std::size_t answered, double reach = 0) {
+void loadTried(std::size_t answered, double reach = 0, const std::vector<std::string>& overrides = {}) {
     const Folder folder;
     folder.write("spring.glsl", kSpring);
     folder.write("two.csv", "x,y,z,r\n0,0,0,1e-3\n2.1e-3,0,0,1e-3\n");
@@ -45,7 +45,7 @@ void loadTried(std::size_t answered, double reach = 0) {
                      "boundaries = \"none\"\n[particles]\ndensity = 2500.0\nlist = \"two.csv\"\n[contact]\nlaw = "
                      "\"spring.glsl\"\nfriction = 0.3\n[contact.parameters]\nk = 1000.0\n[settle]\ntime_s = 0.001\n");
     try {
-        loadCase(file);
+        loadCase(file, overrides);
     } catch (...) {
         setLawTrial({});
         throw;
@@ -60,6 +60,12 @@ TEST_CASE("a trial that the device does not make, or not to its end, is a fault 
     CHECK_NOTHROW(loadTried(kPoints, 1e-6));
     for (const std::size_t answered : {0, 1, 40, 63})
         CHECK_THROWS_WITH(loadTried(answered), Catch::Contains("spring.glsl:2") && Catch::Contains("did not answer"));
+}
+
+TEST_CASE("law_hash pins the text of a law's file") {
+    CHECK_NOTHROW(loadTried(kPoints, 0, {"contact.law_hash=" + lawHash(kSpring)}));
+    CHECK_THROWS_WITH(loadTried(kPoints, 0, {"contact.law_hash=" + lawHash(kSpring + " ")}),
+                      Catch::Contains("spring.glsl is not the law that law_hash was made of"));
 }
 
 TEST_CASE("the line of a law's function is that of its name") {

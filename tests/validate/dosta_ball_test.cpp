@@ -14,9 +14,9 @@ using namespace vkdose::validate;
 namespace {
 
 /// A ball that is let go at 1 m/s, meets the bed at 0.1 s and comes to rest `depth` [m] deep as exp(-t/10 ms).
-std::string fallRows(const std::string& before, double depth, double shift) {
+std::string fallRows(const std::string& before, double depth, double shift, int last = 110) {
     std::string rows;
-    for (int i = 0; i <= 60; ++i) {
+    for (int i = 0; i <= last; ++i) {
         const double t = 0.002 * i, since = t - 0.1;
         const double y = since < 0 ? 0.05 - 1.0 * since : 0.05 - depth * (1 - std::exp(-since / 0.01));
         const double v = t < 0.01 ? 0 : since < 0 ? -1 : since == 0 ? -1.01 : -depth / 0.01 * std::exp(-since / 0.01);
@@ -33,7 +33,7 @@ TEST_CASE("a ball in a bed is judged by the programs that ran the same inputs, a
     run.folder = folder.path();
     run.summary["inputs"]["particles"] = 5000;
     folder.write("timeseries.csv", "time_s,ball.y_m,ball.velocity_y_m_s\n" + fallRows("", 0.01, 0));
-    const double depth = 10 * (1 - std::exp(-2.0));  // at the end of the table
+    const double depth = 10 * (1 - std::exp(-12.0));  // at the end of the table
     const Evaluation alone = dostaBall({run}, folder.path());
     REQUIRE(alone.findings.size() == 2);
     CHECK(alone.findings[0].got == Approx(depth).epsilon(1e-6));
@@ -51,4 +51,13 @@ TEST_CASE("a ball in a bed is judged by the programs that ran the same inputs, a
     CHECK(beside.charts.at(0).curves.size() == 2);
     CHECK(beside.charts[0].curves[0].points.at(0)[0] == 0);
     CHECK(peers(0.012).findings[0].verdict() == Verdict::Differs);
+}
+
+TEST_CASE("a ball that still sinks when its curve ends has no largest depth") {
+    const test::Folder folder;
+    Run run;
+    run.folder = folder.path();
+    run.summary["inputs"]["particles"] = 5000;
+    folder.write("timeseries.csv", "time_s,ball.y_m,ball.velocity_y_m_s\n" + fallRows("", 0.01, 0, 60));
+    for (const Finding& f : dostaBall({run}, folder.path()).findings) CHECK(std::isnan(f.got));
 }
