@@ -63,8 +63,8 @@ TEST_CASE("a trial that the device does not make, or not to its end, is a fault 
 }
 
 TEST_CASE("law_hash pins the text of a law's file") {
-    CHECK_NOTHROW(loadTried(kPoints, 0, {"contact.law_hash=" + lawHash(kSpring)}));
-    CHECK_THROWS_WITH(loadTried(kPoints, 0, {"contact.law_hash=" + lawHash(kSpring + " ")}),
+    CHECK_NOTHROW(loadTried(kPoints, 0, {"contact.law_hash=\"" + lawHash(kSpring) + "\""}));
+    CHECK_THROWS_WITH(loadTried(kPoints, 0, {"contact.law_hash=\"" + lawHash(kSpring + " ") + "\""}),
                       Catch::Contains("spring.glsl is not the law that law_hash was made of"));
 }
 
