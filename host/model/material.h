@@ -88,6 +88,7 @@ struct ContactParameters {
     double plasticityRatio = 0;  ///< EEPA: lambda_p = 1 - k1/k2, below 1 [-]
     double constantPull = 0;     ///< EEPA: -f0, a pull that every contact has [N]
     double reach = 0;            ///< User: how far beyond touch any contact holds on, at most [m]
+    double kMost = 0;            ///< User: the largest stiffness that the law's trial found [N/m]
     std::array<double, kMostLawParameters> own{};  ///< User: in the order of UserLaw::parameters
     double adhesionExponent = 1.5;                 ///< EEPA: chi, with which the pull fades as the contact opens [-]
 };

@@ -89,7 +89,7 @@ void tryUserLaw(CaseReader& reader, Case& c, const PowderSizes& sizes) {
                      "install a Vulkan driver (mesa-vulkan-drivers), or take a law of the program's own");
         return;
     }
-    for (ContactParameters& p : c.dosingLaw.pairs) p.k1 = p.k2Max = p.gamma = 0;
+    for (ContactParameters& p : c.dosingLaw.pairs) p.k1 = p.k2Max = p.gamma = p.kMost = 0;
     for (std::size_t k = 0; k < probes.size(); ++k) {
         const Probe& probe = probes[k];
         ContactParameters& p = c.dosingLaw.of(probe.pair);
@@ -119,6 +119,7 @@ void tryUserLaw(CaseReader& reader, Case& c, const PowderSizes& sizes) {
                 return;
             }
             p.reach = std::max(p.reach, point.reach);
+            p.kMost = std::max(p.kMost, point.stiffness);
             if (probe.size == &SizeRange::mean) p.k1 = std::max(p.k1, point.stiffness);
             if (probe.size == &SizeRange::smallest) {
                 p.k2Max = std::max(p.k2Max, point.stiffness);

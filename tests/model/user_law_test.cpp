@@ -1,6 +1,11 @@
 // What the host makes of a user's law without a device.
 
 #include "host/model/user_law.h"
+
+#include <fmt/format.h>
+
+#include <functional>
+
 #include "host/model/law_checks.h"
 #include "host/model/user_law_trial.h"
 #include "tests/model/case_files.h"
@@ -27,16 +32,19 @@ LawPoint answerAt(const LawLoading& loading, std::size_t point, double reach) {
     return p;
 }
 
-/// Loads a case with the spring, whose trial on a device ends after some points, or at once.
-void loadTried(std::size_t answered, double reach = 0, const std::vector<std::string>& overrides = {}) {
+/// The device of a trial: its answer to a loading at a point. A value-initialised one stands for none.
+using Answer = std::function<LawPoint(const LawLoading&, std::size_t point)>;
+
+/// Loads a case of two spheres with the spring, tried on such a device.
+Case loadOn(const Answer& answer, double secondRadius = 1e-3, const std::vector<std::string>& overrides = {}) {
     const Folder folder;
     folder.write("spring.glsl", kSpring);
-    folder.write("two.csv", "x,y,z,r\n0,0,0,1e-3\n2.1e-3,0,0,1e-3\n");
+    folder.write("two.csv", fmt::format("x,y,z,r\n0,0,0,1e-3\n0.02,0,0,{}\n", secondRadius));
     setLawTrial([&](const UserLaw&, const std::vector<LawLoading>& loadings) {
         std::vector<std::vector<LawPoint>> answers;
         for (const LawLoading& loading : loadings) {
             answers.emplace_back(kPoints);
-            for (std::size_t k = 0; k < answered; ++k) answers.back()[k] = answerAt(loading, k, reach);
+            for (std::size_t k = 0; k < kPoints; ++k) answers.back()[k] = answer(loading, k);
         }
         return answers;
     });
@@ -45,12 +53,21 @@ void loadTried(std::size_t answered, double reach = 0, const std::vector<std::st
                      "boundaries = \"none\"\n[particles]\ndensity = 2500.0\nlist = \"two.csv\"\n[contact]\nlaw = "
                      "\"spring.glsl\"\nfriction = 0.3\n[contact.parameters]\nk = 1000.0\n[settle]\ntime_s = 0.001\n");
     try {
-        loadCase(file, overrides);
+        Case c = loadCase(file, overrides);
+        setLawTrial({});
+        return c;
     } catch (...) {
         setLawTrial({});
         throw;
     }
-    setLawTrial({});
+}
+
+/// The same, whose trial ends after some points, or at once.
+void loadTried(std::size_t answered, double reach = 0, const std::vector<std::string>& overrides = {}) {
+    const auto some = [&](const LawLoading& loading, std::size_t k) {
+        return k < answered ? answerAt(loading, k, reach) : LawPoint{};
+    };
+    (void)loadOn(some, 1e-3, overrides);
 }
 
 }  // namespace
@@ -60,6 +77,18 @@ TEST_CASE("a trial that the device does not make, or not to its end, is a fault 
     CHECK_NOTHROW(loadTried(kPoints, 1e-6));
     for (const std::size_t answered : {0, 1, 40, 63})
         CHECK_THROWS_WITH(loadTried(answered), Catch::Contains("spring.glsl:2") && Catch::Contains("did not answer"));
+}
+
+TEST_CASE("a run allows a law the stiffness of its largest spheres, and the time step is that of the smallest") {
+    const auto growing = [](const LawLoading& loading, std::size_t k) {
+        LawPoint p = answerAt(loading, k, 0);
+        p.stiffness = 1e6 * loading.radius;
+        return p;
+    };
+    const Case c = loadOn(growing, 8e-3);
+    const ContactParameters& pair = c.dosingLaw.of(ContactClass::ParticleParticle);
+    CHECK(pair.k2Max == Approx(500));  // reduced radius 0.5 mm
+    CHECK(pair.kMost == Approx(4000));
 }
 
 TEST_CASE("law_hash pins the text of a law's file") {

@@ -24,7 +24,7 @@ RuledWorld floorUnder(const std::string& law) {
     for (ContactParameters& p : w.law.pairs) {
         p = {};
         p.law = NormalLaw::User;
-        p.k1 = p.k2Max = kStiffness;
+        p.k1 = p.k2Max = p.kMost = kStiffness;
         p.mu = 0.3;
     }
     return w;

@@ -33,12 +33,10 @@ static_assert(gpu::kLawLuding == uint32_t(NormalLaw::Luding) &&
 static_assert(gpu::kOwnParameters == kMostLawParameters && gpu::kOwnMemories == kMostLawMemories);
 static_assert(gpu::kLeverFull == uint32_t(RollingLever::Full) && gpu::kLeverHalf == uint32_t(RollingLever::Half));
 
-/// The largest stiffness that a run takes from a user's law [N/m]. The trial found those of the mean and the smallest
-/// spheres, from which the time step follows; a sphere is larger than these by less than the factor here.
+/// The largest stiffness that a run takes from a user's law [N/m]. The trial asked at some points only.
 float mostStiffness(const ContactParameters& c) {
     constexpr double kFactor = 1000, kMost = std::numeric_limits<float>::max();
-    const double found = std::max(c.k1, c.k2Max);
-    return found > 0 ? float(std::min(kFactor * found, kMost)) : float(kMost);
+    return c.kMost > 0 ? float(std::min(kFactor * c.kMost, kMost)) : float(kMost);
 }
 
 gpu::ContactParams packContact(const ContactParameters& c) {
