@@ -67,9 +67,13 @@ Buffer::Buffer(const Device& device, const char* name, VkDeviceSize size, VkForm
     if (texelFormat != VK_FORMAT_UNDEFINED) usage |= VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
     if (reach == Reach::Addressed) usage |= VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
     // Best is the device's own memory where the host sees it, as on a CPU device or through the window into a card's
-    // memory. A window may be small; what it has no room for goes into the rest. Beside some processors there is little
-    // memory of its own at all, and the machine's has to do.
-    allocate(own_, size, usage, {kLocal | kHost, kLocal, kHost});
+    // memory. A window may be small; what it has no room for goes into the rest. A GPU within a processor may have
+    // little memory of its own, and takes the machine's. A card would take that too, and be slow with it without a
+    // word.
+    if (device.info().type == "discrete GPU")
+        allocate(own_, size, usage, {kLocal | kHost, kLocal});
+    else
+        allocate(own_, size, usage, {kLocal | kHost, kLocal, kHost});
     buffer_ = own_.buffer;
     if (texelFormat != VK_FORMAT_UNDEFINED) {
         VkBufferViewCreateInfo view{
