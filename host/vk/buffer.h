@@ -63,9 +63,9 @@ class Buffer {
     };
     Buffer(const Device& device, const char* name, VkDeviceSize size, std::nullptr_t);
     /// In the first of the wished kinds of memory that has room for it.
-    void allocate(Memory& memory, VkDeviceSize size, VkBufferUsageFlags usage,
+    void allocate(Memory& m, VkDeviceSize size, VkBufferUsageFlags usage,
                   std::initializer_list<VkMemoryPropertyFlags> wishes) const;
-    void allocateStaging(Memory& memory, VkDeviceSize bytes) const;
+    void allocateStaging(Memory& stage, VkDeviceSize bytes) const;
 
     const Device& device_;
     const char* name_;

@@ -18,7 +18,7 @@ std::set<std::string>& ours() {
 }  // namespace
 
 void setForDriver(const char* variable, const char* value, bool wanted) {
-    const bool set = ours().count(variable) > 0;
+    const bool set = ours().contains(variable);
     if (!set && std::getenv(variable) != nullptr) return;  // the user's
     if (wanted) {
         setenv(variable, value, 1);
@@ -37,7 +37,7 @@ std::vector<std::string> usersEnvironment() {
     std::vector<std::string> variables;
     for (char** v = environ; *v != nullptr; ++v) {
         std::string variable = *v;
-        if (ours().count(variable.substr(0, variable.find('='))) == 0) variables.push_back(std::move(variable));
+        if (!ours().contains(variable.substr(0, variable.find('=')))) variables.push_back(std::move(variable));
     }
     return variables;
 }
