@@ -22,15 +22,17 @@ namespace {
 /// Radius of a wall, beside a sphere.
 constexpr double kWall = kInfinity;
 
-/// The most spheres of radius `a` that can touch the body at once: so many as cover a ball with its surface, packed as
-/// densely as can be, and no more than there are.
-double mostOnBody(const RigidBody& body, const SizeRange& size, double a) {
+/// The surface of a body, with both sides of it if a part has no thickness; infinite if it has no end [m2].
+double surfaceOf(const RigidBody& body) {
+    if (std::any_of(body.shapes.begin(), body.shapes.end(), isEndless)) return kInfinity;
     double area = 0;
     for (const geometry::Triangle& t : trianglesOf(body)) area += glm::length(glm::cross(t[1] - t[0], t[2] - t[0])) / 2;
-    for (const geometry::Shape& shape : body.shapes) {
-        if (isEndless(shape)) return size.count;
-        if (!isSolid(shape)) area *= 2;  // it has two sides
-    }
+    return std::all_of(body.shapes.begin(), body.shapes.end(), isSolid) ? area : 2 * area;
+}
+
+/// The most spheres of radius `a` that can touch a body with this surface at once. They cover a ball of the same
+/// surface, packed as densely as can be, and there are no more than `size` counts.
+double mostOnBody(double area, const SizeRange& size, double a) {
     const double around = std::sqrt(area / (4 * kPi)) + a;
     const double room = 2 * std::sqrt(3.0) * a * a;
     return std::min(4 * kPi * around * around / room, size.count);
@@ -150,6 +152,7 @@ std::vector<ContactMode> contactModes(const World& world, const ContactLaw& law,
     for (const RigidBody& body : world.bodies) {
         const auto* free = std::get_if<geometry::Free>(&body.course.motion);
         if (free == nullptr) continue;
+        const double area = surfaceOf(body);
         for (const int powder : powdersOf(world)) {
             const MaterialPair pair{powder, body.material};
             if (!haveSpheres(world, pair, sizes)) continue;
@@ -157,7 +160,7 @@ std::vector<ContactMode> contactModes(const World& world, const ContactLaw& law,
             const std::string name = fmt::format("{}-{}", world.materials[std::size_t(powder)].name, body.name);
             // There is room for more small spheres, but under some laws large ones are stiffer.
             for (const double a : {size.smallest, size.largest}) {
-                const double mass = sphereMass(world.density(powder), a), many = mostOnBody(body, size, a);
+                const double mass = sphereMass(world.density(powder), a), many = mostOnBody(area, size, a);
                 const ContactParameters p = stiffest(law.of(pair), mass, a, kWall, world.maxOverlapRatio);
                 const auto swinging = [&](double sphere) {
                     return std::min(sphere / (1 + sphere / free->mass), free->mass / std::max(1.0, many));

@@ -1,5 +1,6 @@
 // Bodies that move freely in the reference backend: closed forms, momentum, energy, restart.
 
+#include <algorithm>
 #include <cmath>
 
 #include "host/core/record.h"
@@ -136,6 +137,22 @@ TEST_CASE("free bodies: with the automatic step a lid comes to rest on hundreds 
     backend->advance(std::uint32_t(0.03 / world.timeStep), 0);
     CHECK(glm::length(backend->freeBodies().at(0).velocity) < 1e-3);
     CHECK(std::abs(backend->freeBodies().at(0).shift.z + 1e-5) < 1e-5);
+}
+
+TEST_CASE("free bodies: the automatic step counts the spheres on both sides of each thin part, once") {
+    constexpr double kDisc = 25e-3, kMass = 1e-9, kStiffness = 1e3;
+    for (const int discs : {1, 4}) {
+        std::vector<geometry::Shape> shapes;
+        for (int k = 0; k < discs; ++k)
+            shapes.emplace_back(geometry::Cone{Vec3(0, 0, 0.1 * k), Vec3(0, 0, 1), 0, kDisc, 0});
+        const RuledWorld world = worldWith(shapes, {kMass, Vec3(0), {}}, Vec3(0), spring(kStiffness));
+        const auto modes = contactModes(world, world.law, {{kRadius, kRadius, kRadius}});
+        const double shortest = std::ranges::min(modes, {}, &ContactMode::duration).duration;
+        // Both sides have the surface of a ball of this radius.
+        const double around = kDisc * std::sqrt(discs / 2.0) + kRadius;
+        const double most = 4 * kPi * around * around / (2 * std::sqrt(3.0) * kRadius * kRadius);
+        CHECK(shortest == Approx(kPi * std::sqrt(kMass / most / kStiffness)).epsilon(0.01));
+    }
 }
 
 TEST_CASE("free bodies: a sphere rebounds from one of any mass with the law's restitution") {
