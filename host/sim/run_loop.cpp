@@ -10,11 +10,6 @@ namespace vkdose {
 
 namespace {
 
-/// Work of one `advance`. It is large enough that the call costs nothing beside it, and small enough that Ctrl-C and
-/// the progress bar answer within a second or so at the speeds of a CPU. It is a fixed number, so that the same case
-/// makes the same calls.
-constexpr double kParticleStepsPerCall = 4e6;
-
 std::uint64_t active(const Sensors& s) {
     return s.count[static_cast<std::size_t>(Region::Canister)] + s.count[static_cast<std::size_t>(Region::Throat)];
 }
@@ -90,7 +85,7 @@ StopReason RunLoop::steps() {
 
 void RunLoop::advance(std::uint64_t sampleStep) {
     sampleStep_ = sampleStep;
-    const double perCall = kParticleStepsPerCall / static_cast<double>(std::max<std::uint64_t>(active_, 1));
+    const double perCall = backend_.particleStepsPerCall() / static_cast<double>(std::max<std::uint64_t>(active_, 1));
     const auto limit = static_cast<std::uint64_t>(std::clamp(perCall, 64.0, 1e6));
     const std::uint64_t n = std::min({sampleStep_ - step_, stretch_.pieceEnd - step_, limit});
     const auto begin = WallClock::now();

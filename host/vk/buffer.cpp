@@ -11,6 +11,11 @@ namespace vkdose::vk {
 namespace {
 constexpr VkMemoryPropertyFlags kHost = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
 constexpr VkMemoryPropertyFlags kLocal = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
+constexpr VkMemoryPropertyFlags kCached = VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
+/// What the host reads from memory that it does not cache, rather than copy it first [bytes]. Each load waits for the
+/// bus, so that a card's memory gives some ten megabytes a second; a copy takes about as long as a kilobyte of that.
+constexpr VkDeviceSize kFewBytes = 1024;
+constexpr VkDeviceSize kMostStaged = 4 << 20;  ///< at once [bytes]
 }  // namespace
 
 Buffer::Memory::~Memory() {
@@ -42,12 +47,23 @@ void Buffer::allocate(Memory& m, VkDeviceSize size, VkBufferUsageFlags usage,
         }
     check(result, fmt::format("allocating {} bytes for {}", size, name_).c_str());
     check(vkBindBufferMemory(m.device, m.buffer, m.memory, 0), "vkBindBufferMemory");
-    if ((device_.memoryFlags(allocation.memoryTypeIndex) & kHost) == kHost)
-        check(vkMapMemory(m.device, m.memory, 0, VK_WHOLE_SIZE, 0, &m.mapped), "vkMapMemory");
+    const VkMemoryPropertyFlags has = device_.memoryFlags(allocation.memoryTypeIndex);
+    m.cached = (has & kCached) != 0;
+    if ((has & kHost) == kHost) check(vkMapMemory(m.device, m.memory, 0, VK_WHOLE_SIZE, 0, &m.mapped), "vkMapMemory");
 }
 
-void Buffer::allocateStaging(Memory& stage, VkDeviceSize bytes) const {
-    allocate(stage, bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, {kHost});
+VkDeviceSize Buffer::stageBytes() const {
+    return std::min(size_, kMostStaged);
+}
+
+Buffer::Memory& Buffer::stage() const {
+    if (!stage_) {
+        auto made = std::make_unique<Memory>(device_.handle());
+        allocate(*made, stageBytes(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                 {kHost | kCached, kHost});
+        stage_ = std::move(made);
+    }
+    return *stage_;
 }
 
 Buffer::Buffer(const Device& device, const char* name, VkDeviceSize size, std::nullptr_t)
@@ -98,34 +114,67 @@ VkDeviceSize Buffer::bound() const {
 
 void Buffer::write(VkDeviceSize offset, const void* data, VkDeviceSize bytes) {
     if (bytes == 0) return;
+    const char* from = static_cast<const char*>(data);
     if (own_.mapped != nullptr) {
-        std::memcpy(static_cast<char*>(own_.mapped) + offset, data, bytes);
+        std::memcpy(static_cast<char*>(own_.mapped) + offset, from, bytes);
         return;
     }
-    Memory stage(device_.handle());
-    allocateStaging(stage, bytes);
-    std::memcpy(stage.mapped, data, bytes);
     Commands commands(device_);
-    commands.begin();
-    commands.copy(stage.buffer, 0, buffer_, offset, bytes);
-    commands.barrier();
-    commands.submit();
+    for (VkDeviceSize done = 0; done < bytes;) {
+        const VkDeviceSize n = std::min(bytes - done, stageBytes());
+        std::memcpy(stage().mapped, from + done, n);
+        commands.begin();
+        commands.copy(stage().buffer, 0, buffer_, offset + done, n);
+        commands.barrier();
+        commands.submit();
+        done += n;
+    }
 }
 
-void Buffer::read(VkDeviceSize offset, void* data, VkDeviceSize bytes) const {
+void Buffer::read(const std::vector<Part>& parts, void* data) const {
+    VkDeviceSize bytes = 0;
+    for (const Part& part : parts) bytes += part.bytes;
     if (bytes == 0) return;
-    if (own_.mapped != nullptr) {
-        std::memcpy(data, static_cast<const char*>(own_.mapped) + offset, bytes);
+    char* to = static_cast<char*>(data);
+    if (own_.mapped != nullptr && (own_.cached || bytes <= kFewBytes)) {
+        for (const Part& part : parts) {
+            std::memcpy(to, static_cast<const char*>(own_.mapped) + part.offset, part.bytes);
+            to += part.bytes;
+        }
         return;
     }
-    Memory stage(device_.handle());
-    allocateStaging(stage, bytes);
+    Commands commands(device_);
+    VkDeviceSize staged = 0;
+    const auto take = [&] {
+        commands.hostBarrier();
+        commands.submit();
+        std::memcpy(to, stage().mapped, staged);
+        to += staged;
+        staged = 0;
+    };
+    for (const Part& part : parts)
+        for (VkDeviceSize done = 0; done < part.bytes;) {
+            const VkDeviceSize n = std::min(part.bytes - done, stageBytes() - staged);
+            if (staged == 0) commands.begin();
+            commands.copy(buffer_, part.offset + done, stage().buffer, staged, n);
+            staged += n;
+            done += n;
+            if (staged == stageBytes()) take();
+        }
+    if (staged > 0) take();
+}
+
+void Buffer::clear(const std::vector<Part>& parts) {
+    if (parts.empty()) return;
+    if (own_.mapped != nullptr && own_.cached) {
+        for (const Part& part : parts) std::memset(static_cast<char*>(own_.mapped) + part.offset, 0, part.bytes);
+        return;
+    }
     Commands commands(device_);
     commands.begin();
-    commands.copy(buffer_, offset, stage.buffer, 0, bytes);
+    for (const Part& part : parts) vkCmdFillBuffer(commands.handle(), buffer_, part.offset, part.bytes, 0);
     commands.hostBarrier();
     commands.submit();
-    std::memcpy(data, stage.mapped, bytes);
 }
 
 }  // namespace vkdose::vk

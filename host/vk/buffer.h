@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstring>
 #include <initializer_list>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -33,9 +34,17 @@ class Buffer {
     VkDeviceAddress address() const { return address_; }  ///< 0 unless it is reached by address
     VkDeviceSize bound() const;                           ///< as much as a binding shows of it [bytes]
 
-    /// Host access, through a staging buffer where the memory is not host-visible. The device must be idle.
+    struct Part {
+        VkDeviceSize offset, bytes;
+    };
+
+    /// Host access, through a staging buffer where the host does not see the memory or would read it slowly. The device
+    /// must be idle. What is read of several parts lies one behind the other.
     void write(VkDeviceSize offset, const void* data, VkDeviceSize bytes);
-    void read(VkDeviceSize offset, void* data, VkDeviceSize bytes) const;
+    void read(VkDeviceSize offset, void* data, VkDeviceSize bytes) const { read({{offset, bytes}}, data); }
+    void read(const std::vector<Part>& parts, void* data) const;
+    /// Fills the parts with zeros. Offsets and sizes are multiples of 4.
+    void clear(const std::vector<Part>& parts);
 
     template <class T>
     void writeAll(const std::vector<T>& values, VkDeviceSize offset = 0) {
@@ -60,18 +69,22 @@ class Buffer {
         VkBuffer buffer = VK_NULL_HANDLE;
         VkDeviceMemory memory = VK_NULL_HANDLE;
         void* mapped = nullptr;  ///< null where the host does not see it
+        bool cached = false;     ///< the host reads it as fast as its own
     };
     Buffer(const Device& device, const char* name, VkDeviceSize size, std::nullptr_t);
     /// In the first of the wished kinds of memory that has room for it.
     void allocate(Memory& m, VkDeviceSize size, VkBufferUsageFlags usage,
                   std::initializer_list<VkMemoryPropertyFlags> wishes) const;
-    void allocateStaging(Memory& stage, VkDeviceSize bytes) const;
+    /// Memory of the host for what goes in and out. It is made once, because that can take milliseconds.
+    Memory& stage() const;
+    VkDeviceSize stageBytes() const;
 
     const Device& device_;
     const char* name_;
     VkDeviceSize size_;
     VkBuffer buffer_ = VK_NULL_HANDLE;
     Memory own_;
+    mutable std::unique_ptr<Memory> stage_;
     VkBufferView view_ = VK_NULL_HANDLE;
     VkDeviceAddress address_ = 0;
 };

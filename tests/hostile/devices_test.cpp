@@ -163,8 +163,9 @@ TEST_CASE("a device whose memory the host cannot map, or only a part of it, give
     const auto good = gpu();
     const End expected = run(*good);
     const auto contacts = good->contacts();
+    const double torque = good->advance(100, -9.0).coilTorque;  // of these steps alone
     // The tables take a few hundred kilobytes, so that some of them get into a heap of 100,000 bytes.
-    const Fault fault(GENERATE("split-memory", "small-window:100000", "little-local:100000"));
+    const Fault fault(GENERATE("split-memory", "small-window:100000", "small-window:100000000", "little-local:100000"));
     const auto split = gpu();
     const End end = run(*split);
     CHECK(end.particles.position == expected.particles.position);
@@ -172,7 +173,57 @@ TEST_CASE("a device whose memory the host cannot map, or only a part of it, give
     CHECK(end.sensors.kineticEnergy == expected.sensors.kineticEnergy);
     REQUIRE(split->contacts().size() == contacts.size());
     REQUIRE_FALSE(contacts.empty());
+    CHECK(end.sensors.coilTorque == expected.sensors.coilTorque);
+    CHECK(split->advance(100, -9.0).coilTorque == torque);
+    CHECK(torque != 0);
     requireClean(*split);
+}
+
+namespace {
+int copies = 0;
+PFN_vkCmdCopyBuffer copyBuffer = nullptr;
+VKAPI_ATTR void VKAPI_CALL countedCopy(VkCommandBuffer commands, VkBuffer from, VkBuffer to, std::uint32_t count,
+                                       const VkBufferCopy* regions) {
+    ++copies;
+    copyBuffer(commands, from, to, count, regions);
+}
+}  // namespace
+
+TEST_CASE("what the host would read slowly from a card's window is copied first, unless it is a few words") {
+    const Fault fault("small-window:100000000");
+    const vk::Device device(testDevice());
+    std::vector<std::uint32_t> numbers(2500000);  // more than are copied at once
+    vk::Buffer buffer(device, "test", numbers.size() * sizeof(std::uint32_t));
+    for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = std::uint32_t(i * i);
+    copyBuffer = vkCmdCopyBuffer;
+    vkCmdCopyBuffer = countedCopy;
+    copies = 0;
+    buffer.writeAll(numbers);
+    CHECK(copies == 0);
+    CHECK(buffer.readAll<std::uint32_t>(numbers.size()) == numbers);
+    CHECK(copies == 3);
+    CHECK(buffer.readAll<std::uint32_t>(2, 4000) == std::vector{numbers[1000], numbers[1001]});
+    CHECK(copies == 3);
+    std::vector<std::uint32_t> ends(2000);
+    buffer.clear({{400, 8}, {8000, 4}});
+    buffer.read({{0, 4000}, {8000, 4000}}, ends.data());
+    CHECK(copies == 5);
+    numbers[100] = numbers[101] = numbers[2000] = 0;
+    CHECK(std::equal(ends.begin(), ends.begin() + 1000, numbers.begin()));
+    CHECK(std::equal(ends.begin() + 1000, ends.end(), numbers.begin() + 2000));
+    vkCmdCopyBuffer = copyBuffer;
+    CHECK(device.validationMessages().empty());
+}
+
+TEST_CASE("a card reads no table through a texel view, because passes write those tables too") {
+    const auto reads = [] {
+        const auto backend = gpu();
+        run(*backend, 64);
+        return profile(*backend, 64, 0).texelReads;
+    };
+    if (vk::Device(testDevice()).info().type == "CPU") CHECK(reads());
+    const Fault fault("discrete-gpu");
+    CHECK_FALSE(reads());
 }
 
 TEST_CASE("a device lost on the way ends the run with code 4 and keeps what was computed") {

@@ -105,7 +105,17 @@ bool sameBits(const Backend& a, const Backend& b) {
     return p.position == q.position && p.velocity == q.velocity && p.spin == q.spin;
 }
 
+double farthestApart(const Backend& a, const Backend& b) {
+    const Particles p = a.particles(), q = b.particles();
+    double most = 0;
+    for (std::size_t i = 0; i < p.size(); ++i) most = std::max(most, glm::length(p.position[i] - q.position[i]));
+    return most;
+}
+
+/// Two laws that say the same in other words. Vulkan promises them the same bits nowhere. A software device rounds each
+/// operation by itself and gives them; the compiler of a GPU fuses a product and a sum in one of the two only.
 void requireSameBits(const RuledWorld& first, const RuledWorld& second, const Particles& spheres = threeSpheres()) {
+    const bool fuses = vk::Device(testDevice()).info().isGpu();
     auto a = gpu(), b = gpu();
     a->load(first, spheres);
     b->load(second, spheres);
@@ -116,7 +126,8 @@ void requireSameBits(const RuledWorld& first, const RuledWorld& second, const Pa
         std::set<ContactClass> kinds;
         for (const Contact& c : a->contacts()) kinds.insert(c.kind);
         touchedAll = touchedAll || kinds.size() >= 2;
-        REQUIRE(sameBits(*a, *b));
+        if (!fuses) REQUIRE(sameBits(*a, *b));
+        if (fuses) REQUIRE(farthestApart(*a, *b) < 1e-9);
     }
     CHECK(touchedAll);
     CHECK(a->particles().position[0] != spheres.position[0]);

@@ -32,6 +32,7 @@ class FakeBackend : public Backend {
     std::optional<std::uint64_t> runErrorAt;
     std::optional<std::uint64_t> deviceErrorAt;
     double particleMass = 1e-3;
+    double perCall = 4e6;  ///< particleStepsPerCall
 
     /// The value of every point of a field after so many steps.
     std::function<FieldPoint(std::uint64_t step)> field = [](std::uint64_t) { return FieldPoint{}; };
@@ -57,6 +58,7 @@ class FakeBackend : public Backend {
     }
     void setClocks(const std::vector<BodyClock>& now) override { clocks = now; }
 
+    double particleStepsPerCall() const override { return perCall; }
     Sensors advance(std::uint32_t steps, double rate) override {
         if (runErrorAt && step >= *runErrorAt) throw RunError("particle 3 is gone (step 7)");
         if (deviceErrorAt && step >= *deviceErrorAt) throw DeviceError("device lost");

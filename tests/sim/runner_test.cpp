@@ -42,6 +42,18 @@ TEST_CASE("a run makes every phase's steps at its rate and under its law") {
     CHECK(r.endState);
 }
 
+TEST_CASE("a call makes as many steps as the backend wants, between samples, and at least 64") {
+    Case c = smallCase();  // ten particles, 100 steps of settling
+    c.sensorInterval = 1;
+    for (const auto& [perCall, steps] : {std::pair(4e6, 100U), std::pair(800.0, 80U), std::pair(10.0, 64U)}) {
+        FakeBackend backend;
+        backend.perCall = perCall;
+        Notebook notes;
+        play(c, backend, notes);
+        CHECK(backend.calls.front().steps == steps);
+    }
+}
+
 TEST_CASE("a run settles under the gravity of its settling and doses under that of the case") {
     Case c = smallCase();
     c.world.gravity = Vec3(0, -8, 0);

@@ -5,6 +5,7 @@
 //   no-compute      no queue family computes
 //   vulkan-1.0      the devices say Vulkan 1.0
 //   few-buffers     4 storage buffers per stage, the fewest that Vulkan allows
+//   discrete-gpu    the devices say that they are cards
 //   least-limits    the limits of compute are the least that Vulkan 1.1 promises, except storage buffers per stage
 //   small-range:N   storage buffers of N bytes, 64 KiB without N
 //   no-addresses    shaders cannot reach buffers by address
@@ -163,6 +164,7 @@ void lower(VkPhysicalDeviceLimits& l) {
 }
 
 void spoil(VkPhysicalDeviceProperties& p) {
+    if (fault("discrete-gpu")) p.deviceType = VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU;
     if (fault("vulkan-1.0")) p.apiVersion = VK_API_VERSION_1_0;
     if (fault("least-limits")) lower(p.limits);
     if (fault("few-buffers")) p.limits.maxPerStageDescriptorStorageBuffers = 4;

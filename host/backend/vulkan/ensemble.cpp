@@ -114,7 +114,9 @@ void Ensemble::load(const std::vector<Canister>& canisters) {
     // Tables that are bound are the faster ones, so that only beds that they do not hold are reached by address.
     if (sizes.longestBytes() > limits.maxStorageBufferRange) sizes = sizesWithin(device_.longestBuffer());
     sizes.addressed = options_.addressed;
-    sizes.texelReads = options_.reads == VulkanOptions::Reads::Automatic;
+    // A view is for memory that nothing writes meanwhile. The passes of contacts read and write their histories, and on
+    // a GPU a read through a view may see a store that stands behind it in the same invocation.
+    sizes.texelReads = options_.reads == VulkanOptions::Reads::Automatic && !device_.info().isGpu();
     recorded_.clear();
     fieldPasses_.reset();
     passes_.reset();  // the former tables make room for the new ones

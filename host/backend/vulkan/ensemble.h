@@ -46,8 +46,12 @@ class Ensemble {
     /// The error that stopped this member.
     const std::optional<std::string>& failure(std::uint32_t member) const { return members_[member].failure; }
 
-    /// Sensors of a live member. Means are over the last `steps`.
-    Sensors sense(std::uint32_t member, std::uint32_t steps);
+    /// A live member to be sensed. Means are over its last `steps`.
+    struct Look {
+        std::uint32_t member, steps;
+    };
+    /// Sensors of each. All are read together, because a device takes as long to answer one question as many.
+    std::vector<Sensors> sense(const std::vector<Look>& looks);
 
     /// As in Backend, of a live member.
     Record snapshot(std::uint32_t member) const;
@@ -94,7 +98,8 @@ class Ensemble {
     static std::int64_t drivePerStep(double rate, double dt);
     void makeBodies(TableSizes& sizes);
     void writeMotions(std::uint32_t count, const std::vector<double>& coilRates);
-    std::vector<BodyLoad> takeLoads(std::uint32_t member, std::uint32_t steps);
+    /// The loads on the bodies of each since it was last sensed, which start anew.
+    std::vector<std::vector<BodyLoad>> takeLoads(const std::vector<Look>& looks);
     // ensemble_free.cpp, the bodies that move freely
     /// At their start.
     static void placeFree(MemberState& m);
@@ -112,7 +117,6 @@ class Ensemble {
     std::uint32_t submit(std::uint32_t count, bool opening, PassTimes* times);
     /// Before the steps of the batch are counted.
     void keepError(std::uint32_t member, const gpu::uvec4& error);
-    EnergyBook readEnergy(std::uint32_t member) const;
 
     VulkanOptions options_;
     vk::Device device_;

@@ -168,26 +168,36 @@ void Ensemble::writeMotions(std::uint32_t count, const std::vector<double>& coil
     bodies_->motions.writeAll(motions);
 }
 
-/// The loads on the bodies since the last sensing, which start anew.
-std::vector<BodyLoad> Ensemble::takeLoads(std::uint32_t member, std::uint32_t steps) {
-    const MemberState& m = members_[member];
-    std::vector<BodyLoad> loads;
-    const std::size_t n = m.loaded.size();
-    const double share = steps > 0 ? 1.0 / steps : 0.0;
-    const std::vector<float> none(n, 0.0F);
-    for (std::uint32_t b = 0; b < m.bodies.size(); ++b) {
-        std::array<double, gpu::kBodyLoads> sums{};
-        for (std::uint32_t k = 0; k < gpu::kBodyLoads; ++k) {
-            const std::uint64_t at =
-                passes_->at.bodyLoadIndex(gpu::kBodyLoads * b + k, std::uint64_t(member) * passes_->sizes.share);
-            for (const float value : passes_->bodyLoads.readAll<float>(n, at * sizeof(float))) sums[k] += double(value);
-            passes_->bodyLoads.writeAll(none, at * sizeof(float));
+std::vector<std::vector<BodyLoad>> Ensemble::takeLoads(const std::vector<Look>& looks) {
+    std::vector<vk::Buffer::Part> rows;
+    std::size_t count = 0;
+    for (const Look& look : looks) {
+        const MemberState& m = members_[look.member];
+        for (std::uint32_t row = 0; row < gpu::kBodyLoads * m.bodies.size(); ++row) {
+            const std::uint64_t at = passes_->at.bodyLoadIndex(row, std::uint64_t(look.member) * passes_->sizes.share);
+            rows.push_back({at * sizeof(float), m.loaded.size() * sizeof(float)});
+            count += m.loaded.size();
         }
-        const RigidBody& body = m.bodies[b];
-        const Vec3 force = -share * Vec3(sums[0], sums[1], sums[2]), moment = -share * Vec3(sums[3], sums[4], sums[5]);
-        loads.push_back({force, glm::dot(body.axis(), moment), sums[6]});
     }
-    return loads;
+    std::vector<float> values(count);
+    passes_->bodyLoads.read(rows, values.data());
+    passes_->bodyLoads.clear(rows);
+    std::vector<std::vector<BodyLoad>> all;
+    auto value = values.begin();
+    for (const Look& look : looks) {
+        const MemberState& m = members_[look.member];
+        const double share = look.steps > 0 ? 1.0 / look.steps : 0.0;
+        std::vector<BodyLoad>& loads = all.emplace_back();
+        for (const RigidBody& body : m.bodies) {
+            std::array<double, gpu::kBodyLoads> sums{};
+            for (double& sum : sums)
+                for (std::size_t i = 0; i < m.loaded.size(); ++i) sum += double(*value++);
+            const Vec3 force = -share * Vec3(sums[0], sums[1], sums[2]),
+                       moment = -share * Vec3(sums[3], sums[4], sums[5]);
+            loads.push_back({force, glm::dot(body.axis(), moment), sums[6]});
+        }
+    }
+    return all;
 }
 
 }  // namespace vkdose

@@ -1,6 +1,7 @@
 // What an ensemble tells of its canisters: sensors, fields, particles, contacts, and the profile of its passes.
 
 #include <algorithm>
+#include <span>
 
 #include "host/backend/vulkan/ensemble.h"
 #include "host/backend/vulkan/pack.h"
@@ -9,6 +10,54 @@
 #include "host/vk/copy_bandwidth.h"
 
 namespace vkdose {
+
+namespace {
+
+/// The sums over a member's groups.
+Sensors sensorsOf(std::span<const gpu::GroupRecord> groups) {
+    Sensors s;
+    for (const gpu::GroupRecord& group : groups) {
+        const gpu::SensorRecord& r = group.sensors;
+        for (int region = 0; region < kRegions; ++region) {
+            s.count[region] += r.count[region];
+            s.mass[region] += double(r.mass[region]);
+        }
+        s.kineticEnergy += double(r.motion.x);
+        s.rotationalEnergy += double(r.motion.y);
+        s.throatMomentumZ += double(r.motion.z);
+        s.maxOverlapRatio = std::max(s.maxOverlapRatio, double(r.extremes.x));
+    }
+    return s;
+}
+
+EnergyBook energyOf(std::span<const gpu::GroupRecord> groups) {
+    EnergyBook b;
+    for (const gpu::GroupRecord& group : groups) {
+        const gpu::EnergyRecord& r = group.energy;
+        b.plastic += double(r.normal.x);
+        b.adhesive += double(r.normal.y);
+        b.viscous += double(r.normal.z);
+        b.numerical += double(r.normal.w);
+        b.sliding += double(r.sliders.x);
+        b.rolling += double(r.sliders.y);
+        b.torsion += double(r.sliders.z);
+        b.loaded += double(r.flow.x);
+        b.left += double(r.flow.y);
+        b.kinetic += double(r.flow.z);
+        b.rotational += double(r.flow.w);
+        b.elasticNormal += double(r.elastic.x);
+        b.elasticSliding += double(r.elastic.y);
+        b.elasticRolling += double(r.elastic.z);
+        b.elasticTorsion += double(r.elastic.w);
+        b.momentum += Vec3(glm::vec3(r.momentum));
+        b.potential += double(r.momentum.w);
+        b.angularMomentum += Vec3(glm::vec3(r.angular));
+        b.bodyWork += double(r.angular.w);
+    }
+    return b;
+}
+
+}  // namespace
 
 VulkanProfile Ensemble::profile(std::uint32_t steps, double coilRate) {
     constexpr std::uint32_t kBatch = 32;
@@ -38,40 +87,42 @@ VulkanProfile Ensemble::profile(std::uint32_t steps, double coilRate) {
     return p;
 }
 
-Sensors Ensemble::sense(std::uint32_t member, std::uint32_t steps) {
-    const MemberState& m = members_[member];
+std::vector<Sensors> Ensemble::sense(const std::vector<Look>& looks) {
     const std::uint32_t groups = passes_->sizes.groups();
+    const VkDeviceSize recordBytes = sizeof(gpu::GroupRecord) * groups;
+    const auto booked = [](const MemberState& m) { return m.world.energyBook && m.step > 0; };
     vk::Commands commands(device_);
     commands.begin();
-    passes_->recordSensing(commands, m.row);
-    const bool energy = m.world.energyBook && m.step > 0;
-    if (energy) passes_->recordEnergySensing(commands, m.step == 1, m.row);
+    std::vector<vk::Buffer::Part> parts;
+    for (const Look& look : looks) {
+        const MemberState& m = members_[look.member];
+        passes_->recordSensing(commands, m.row);
+        if (booked(m)) passes_->recordEnergySensing(commands, m.step == 1, m.row);
+        parts.push_back({recordBytes * look.member, recordBytes});
+    }
     commands.hostBarrier();
     commands.submit();
-    Sensors s;
-    for (const gpu::GroupRecord& group :
-         passes_->records.readAll<gpu::GroupRecord>(groups, sizeof(gpu::GroupRecord) * member * groups)) {
-        const gpu::SensorRecord& r = group.sensors;
-        for (int region = 0; region < kRegions; ++region) {
-            s.count[region] += r.count[region];
-            s.mass[region] += double(r.mass[region]);
+    std::vector<gpu::GroupRecord> records(groups * looks.size());
+    passes_->records.read(parts, records.data());
+    const std::vector<gpu::Control> controls = passes_->allControls();
+    std::vector<std::vector<BodyLoad>> loads = takeLoads(looks);
+    std::vector<Sensors> all;
+    for (std::size_t n = 0; n < looks.size(); ++n) {
+        const MemberState& m = members_[looks[n].member];
+        const std::span<const gpu::GroupRecord> own(records.data() + groups * n, groups);
+        Sensors& s = all.emplace_back(sensorsOf(own));
+        s.bodies = std::move(loads[n]);
+        if (booked(m)) s.energy = energyOf(own);
+        if (m.world.coil) {  // the last of allBodies
+            s.coilTorque = s.bodies.back().torque;
+            if (s.energy) {
+                s.energy->coilWork = s.bodies.back().work;
+                s.energy->bodyWork -= s.energy->coilWork;
+            }
         }
-        s.kineticEnergy += double(r.motion.x);
-        s.rotationalEnergy += double(r.motion.y);
-        s.throatMomentumZ += double(r.motion.z);
-        s.maxOverlapRatio = std::max(s.maxOverlapRatio, double(r.extremes.x));
+        s.rebuilds = controls[looks[n].member].list.y;
     }
-    s.bodies = takeLoads(member, steps);
-    if (energy) s.energy = readEnergy(member);
-    if (m.world.coil) {  // the last of allBodies
-        s.coilTorque = s.bodies.back().torque;
-        if (energy) {
-            s.energy->coilWork = s.bodies.back().work;
-            s.energy->bodyWork -= s.energy->coilWork;
-        }
-    }
-    s.rebuilds = passes_->controlOf(member).list.y;
-    return s;
+    return all;
 }
 
 FieldPoints Ensemble::fields(std::uint32_t member, const FieldRequest& request) {
@@ -81,35 +132,6 @@ FieldPoints Ensemble::fields(std::uint32_t member, const FieldRequest& request) 
     const MemberState& m = members_[member];
     const std::vector<double>& radii = m.loaded.radius;
     return fieldPasses_->compute(request, {m.row, *std::max_element(radii.begin(), radii.end())});
-}
-
-EnergyBook Ensemble::readEnergy(std::uint32_t member) const {
-    const std::uint32_t groups = passes_->sizes.groups();
-    EnergyBook b;
-    for (const gpu::GroupRecord& group :
-         passes_->records.readAll<gpu::GroupRecord>(groups, sizeof(gpu::GroupRecord) * member * groups)) {
-        const gpu::EnergyRecord& r = group.energy;
-        b.plastic += double(r.normal.x);
-        b.adhesive += double(r.normal.y);
-        b.viscous += double(r.normal.z);
-        b.numerical += double(r.normal.w);
-        b.sliding += double(r.sliders.x);
-        b.rolling += double(r.sliders.y);
-        b.torsion += double(r.sliders.z);
-        b.loaded += double(r.flow.x);
-        b.left += double(r.flow.y);
-        b.kinetic += double(r.flow.z);
-        b.rotational += double(r.flow.w);
-        b.elasticNormal += double(r.elastic.x);
-        b.elasticSliding += double(r.elastic.y);
-        b.elasticRolling += double(r.elastic.z);
-        b.elasticTorsion += double(r.elastic.w);
-        b.momentum += Vec3(glm::vec3(r.momentum));
-        b.potential += double(r.momentum.w);
-        b.angularMomentum += Vec3(glm::vec3(r.angular));
-        b.bodyWork += double(r.angular.w);
-    }
-    return b;
 }
 
 Particles Ensemble::particles(std::uint32_t member) const {

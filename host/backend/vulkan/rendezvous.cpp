@@ -15,14 +15,15 @@ void Rendezvous::load(std::size_t guest, const World& world, const ContactLaw& l
     await(lock, g);
 }
 
-void Rendezvous::advance(std::size_t guest, std::uint32_t steps, double coilRate) {
-    if (steps == 0) return;
+Sensors Rendezvous::advance(std::size_t guest, std::uint32_t steps, double coilRate) {
     std::unique_lock lock(mutex_);
     Guest& g = guests_[guest];
-    g.steps = steps;
+    if (steps == 0) return ensemble_.sense({{g.member, 0}}).front();
+    g.asked = g.steps = steps;
     g.coilRate = coilRate;
     g.wish = Wish::Advance;
     await(lock, g);
+    return std::move(g.sensors);
 }
 
 void Rendezvous::leave(std::size_t guest) {
@@ -101,13 +102,21 @@ void Rendezvous::grantAdvance() {
     if (!roster_) ensemble_.setLive(live);
     roster_ = true;
     ensemble_.advance(steps, rates);
+    std::vector<Guest*> through;
+    std::vector<Ensemble::Look> looks;
     for (Guest& g : guests_) {
         if (!g.present) continue;
         g.steps -= steps;
         const std::optional<std::string>& failure = ensemble_.failure(g.member);
         if (failure) g.problem = std::make_exception_ptr(RunError(*failure));
         if (failure || g.steps == 0) g.wish = Wish::None;
+        if (failure || g.steps > 0) continue;
+        through.push_back(&g);
+        looks.push_back({g.member, g.asked});
     }
+    if (looks.empty()) return;
+    std::vector<Sensors> sensed = ensemble_.sense(looks);
+    for (std::size_t n = 0; n < through.size(); ++n) through[n]->sensors = std::move(sensed[n]);
 }
 
 }  // namespace vkdose

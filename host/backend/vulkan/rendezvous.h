@@ -19,9 +19,10 @@ class Rendezvous {
     /// Returns when all guests that are present have loaded. An exception of Ensemble::load is thrown to every guest.
     void load(std::size_t guest, const World& world, const ContactLaw& law, const Particles& particles);
 
-    /// Returns when the guest's steps are made. Steps of other guests may not be finished then. Throws RunError if the
-    /// run of this guest has failed. Any other exception of the device is thrown to every guest.
-    void advance(std::size_t guest, std::uint32_t steps, double coilRate);
+    /// Returns when the guest's steps are made, with what its sensors tell of them. Steps of other guests may not be
+    /// finished then. Throws RunError if the run of this guest has failed. Any other exception of the device is thrown
+    /// to every guest.
+    Sensors advance(std::size_t guest, std::uint32_t steps, double coilRate);
 
     /// Takes this guest out, so that the others no longer wait for it.
     void leave(std::size_t guest);
@@ -41,8 +42,10 @@ class Rendezvous {
         std::uint32_t member = 0;  ///< of the ensemble, once loaded
         Wish wish = Wish::None;
         Ensemble::Canister canister;
-        std::uint32_t steps = 0;  ///< number of steps still to make
+        std::uint32_t asked = 0;  ///< number of steps of the call
+        std::uint32_t steps = 0;  ///< still to make
         double coilRate = 0;
+        Sensors sensors;
         std::exception_ptr problem;
     };
 

@@ -12,8 +12,8 @@ namespace vkdose {
 
 struct VulkanOptions {
     vk::DeviceChoice device;
-    /// The way to read particle state: through texel-buffer views if the device's limit allows it (Automatic), or
-    /// always from storage buffers (Storage).
+    /// The way to read tables: through texel-buffer views on a device that is a CPU, if its limit allows it
+    /// (Automatic), or always from storage buffers (Storage).
     enum class Reads { Automatic, Storage } reads = Reads::Automatic;
     bool addressed = false;            ///< reach tables by address even where they can be bound
     std::uint32_t workgroup = 64;      ///< invocations; a power of two, at most 128
