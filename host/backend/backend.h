@@ -130,9 +130,9 @@ class Backend {
     /// NaN, a full table or an overlap above the world's limit, naming the particle and the step.
     virtual Sensors advance(std::uint32_t steps, double coilRate) = 0;
 
-    /// Particle-steps that one call of `advance` should make: so many that the call's own cost is nothing beside them,
-    /// and so few that Ctrl-C and the progress bar answer within a second or so. The number is fixed, so that the same
-    /// case makes the same calls; this one suits a CPU.
+    /// Particle-steps that one call of `advance` should make, in an ensemble for each member: so many that the call's
+    /// own cost is nothing beside them, and so few that Ctrl-C and the progress bar answer within some seconds. The
+    /// number is fixed, so that the same case makes the same calls; this one suits a CPU.
     virtual double particleStepsPerCall() const { return 4e6; }
 
     /// Everything that the next `advance` depends on, except the world, the radii and the clocks of bodies. After

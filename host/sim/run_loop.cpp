@@ -86,7 +86,7 @@ StopReason RunLoop::steps() {
 void RunLoop::advance(std::uint64_t sampleStep) {
     sampleStep_ = sampleStep;
     const double perCall = backend_.particleStepsPerCall() / static_cast<double>(std::max<std::uint64_t>(active_, 1));
-    const auto limit = static_cast<std::uint64_t>(std::clamp(perCall, 64.0, 1e6));
+    const auto limit = static_cast<std::uint64_t>(std::clamp(perCall, 64.0, 5e4));
     const std::uint64_t n = std::min({sampleStep_ - step_, stretch_.pieceEnd - step_, limit});
     const auto begin = WallClock::now();
     clocks_.enter(stretch_.phase, stretch_.dose);

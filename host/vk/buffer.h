@@ -39,7 +39,7 @@ class Buffer {
     };
 
     /// Host access, through a staging buffer where the host does not see the memory or would read it slowly. The device
-    /// must be idle. What is read of several parts lies one behind the other.
+    /// must be idle. Several parts are put into `data` one after another.
     void write(VkDeviceSize offset, const void* data, VkDeviceSize bytes);
     void read(VkDeviceSize offset, void* data, VkDeviceSize bytes) const { read({{offset, bytes}}, data); }
     void read(const std::vector<Part>& parts, void* data) const;

@@ -26,7 +26,8 @@ Overlap sphereOverlap(Sphere a, Sphere b) {
 
 Overlap planeOverlap(SurfaceParams p, Sphere a) {
     Two3 d = twoDifference(a.high, a.low, p.pointHigh.xyz, p.pointLow.xyz);
-    precise float depth = (a.radius - dot(p.axis.xyz, d.high)) - dot(p.axis.xyz, d.low);
+    float height = dot(p.axis.xyz, d.high), rest = dot(p.axis.xyz, d.low);
+    precise float depth = (a.radius - height) - rest;
     return Overlap(depth, p.axis.xyz);
 }
 

@@ -47,7 +47,7 @@ uint placeOf(uint n) { return places >> (4u * n) & 15u; }
 /// Gives the places of the last step with which no feature goes on, a bit each.
 uint match(uint count) {
     uint left = touched, taken = 0u, rounds = min(count, bitCount(touched));
-    places = 0xffffu;
+    places = 0xffffffffu;
     for (uint round = 0u; round < trips(rounds); ++round) {
         float nearest = kFarthest;
         uint now = kEmpty, before = 0u;

@@ -31,7 +31,7 @@ uvec2 negated(uvec2 a) { return added(~a, uvec2(1u, 0u)); }
 
 uvec2 wholeOf(float acceleration) {
     precise float size = abs(acceleration) * kFine;
-    precise float high = floor(size / kWord);
+    precise float high = floor(size * (1.0 / kWord));  // exact, unlike a division
     precise float low = floor(size - high * kWord);
     uvec2 whole = uvec2(uint(low), uint(high));
     return acceleration < 0.0 ? negated(whole) : whole;

@@ -14,7 +14,7 @@ bool nearPair(vec4 p, float slackP, vec4 q, float slackQ) {
     precise vec3 d = p.xyz - q.xyz;
     precise float reach = 1.00001 * (p.w + q.w) + (slackP + slackQ);
     if (reaches()) reach += longestReach();
-    precise float apart = dot(d, d), most = reach * reach;
+    precise float apart = preciseDot(d, d), most = reach * reach;
     return q.w > 0.0 && apart < most;
 }
 

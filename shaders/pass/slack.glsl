@@ -4,11 +4,13 @@
 #ifndef VKDOSE_PASS_SLACK_GLSL
 #define VKDOSE_PASS_SLACK_GLSL
 
+#include "law/precise.glsl"
+
 float slackUnit() { return 0.5 * numerics().y; }
 
 /// The same bits in every pass that asks, so `precise`: near and link must find the same contacts.
 float slackOf(vec3 velocity) {
-    precise float some = kSlackSteps * numerics().x * sqrt(dot(velocity, velocity));
+    precise float some = kSlackSteps * numerics().x * sqrt(preciseDot(velocity, velocity));
     precise float all = kLeastSlack * slackUnit() + some;
     return min(all, kMostSlack * slackUnit());
 }

@@ -7,6 +7,7 @@
 // the cell can meet, and spheres near enough to take light from a point in it. No loop is longer than a row of cells or
 // such a part.
 #extension GL_GOOGLE_include_directive : require
+#include "law/precise.glsl"
 #include "shared/picture.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -91,11 +92,13 @@ void across(vec3 way, out vec3 u, out vec3 v) {
 /// Where a ray meets a triangle; `share` are the parts of its corners there. Seen along the ray, the sides turn the
 /// same way round the place. A side gives two triangles the same number with opposite signs, so nothing shines through.
 float meetTriangle(Ray ray, uint i, out vec3 share) {
+    share = vec3(1.0, 0.0, 0.0);
     vec3 u, v;
     across(ray.way, u, v);
     vec3 a = facets[kFacetVectors * i].xyz - ray.origin, b = facets[kFacetVectors * i + 1u].xyz - ray.origin,
          c = facets[kFacetVectors * i + 2u].xyz - ray.origin;
-    precise vec2 A = vec2(dot(a, u), dot(a, v)), B = vec2(dot(b, u), dot(b, v)), C = vec2(dot(c, u), dot(c, v));
+    precise vec2 A = vec2(preciseDot(a, u), preciseDot(a, v)), B = vec2(preciseDot(b, u), preciseDot(b, v)),
+                 C = vec2(preciseDot(c, u), preciseDot(c, v));
     precise vec3 side = vec3(B.x * C.y - C.x * B.y, C.x * A.y - A.x * C.y, A.x * B.y - B.x * A.y);
     float sum = side.x + side.y + side.z;
     bool outside = any(lessThan(side, vec3(0.0))) && any(greaterThan(side, vec3(0.0)));
@@ -161,7 +164,7 @@ void meetFacets(Ray ray, uint begin, uint end, float from, float edge, inout Hit
         if (far < from || far >= min(edge, hit.far)) continue;
         // A thin wall takes more light where it is seen aslant.
         float slope = abs(dot(ray.way, normalize(facetNormal(entries[e]))));
-        clear *= 1.0 - (0.07 + 0.4 * pow(1.0 - slope, 3.0));
+        clear *= 1.0 - (0.07 + 0.4 * pow(max(1.0 - slope, 0.0), 3.0));
     }
 }
 
@@ -240,7 +243,7 @@ float openness(vec3 p, vec3 normal) {
 
 /// The side of a body that is seen, smooth between its corners.
 vec3 bodyNormal(Ray ray, uint i) {
-    vec3 share = vec3(1.0, 0.0, 0.0);
+    vec3 share;
     meetTriangle(ray, i, share);
     vec3 normal = normalize(mat3(facets[kFacetVectors * i + 3u].xyz, facets[kFacetVectors * i + 4u].xyz,
                                  facets[kFacetVectors * i + 5u].xyz) * share);

@@ -44,7 +44,7 @@ layout(push_constant) uniform Push { StepPush push; };
 #include "shared/tables.h"
 #endif
 
-// Some devices read faster through texel views. There stateAt(at) is state[at] read through the view, and likewise for
+// Processors read faster through texel views. There stateAt(at) is state[at] read through the view, and likewise for
 // every table that has a view. The views' bindings come after those of the tables.
 #define TABLE(number, name, element, count, title)
 #define HEADED(number, name, element, count, title, head, headName)

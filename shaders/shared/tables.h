@@ -4,7 +4,7 @@
 // writes and reads each table.
 //
 //   TABLE(binding, name, element, count, title)                    elements, none of which is read through a view
-//   VIEWED(binding, name, element, count, title)                   read through a texel view on devices that gain by it
+//   VIEWED(binding, name, element, count, title)                   read through a texel view on processors
 //   PARAMETERS(binding, name, element, count, title)               records that no pass writes, viewed as vec4s
 //   HEADED(binding, name, element, count, title, head, headName)   elements after one record of another kind
 //

@@ -83,6 +83,19 @@ TEST_CASE("no shader holds a do-while loop or a loop without a condition") {
     CHECK(files >= 15);
 }
 
+// glslang carries `precise` to sums and products, and not into these functions (law/precise.glsl).
+TEST_CASE("no precise value is computed with dot or a function like it") {
+    const std::regex hidden("\\bprecise\\b[^;]*\\b(dot|length|distance|cross|normalize)\\(");
+    CHECK(std::regex_search("precise float a = b - dot(c, d);", hidden));
+    CHECK_FALSE(std::regex_search("precise float a = b - preciseDot(c, d); float e = dot(c, d);", hidden));
+    for (const auto& entry : fs::recursive_directory_iterator(VKDOSE_SOURCE_DIR "/shaders")) {
+        const std::string suffix = entry.path().extension().string();
+        if (suffix != ".comp" && suffix != ".glsl") continue;
+        INFO(entry.path());
+        CHECK_FALSE(std::regex_search(withoutComments(readText(entry.path())), hidden));
+    }
+}
+
 // A test that compiles with Catch2 2 alone would be seen on the next Debian only.
 TEST_CASE("tests take Catch2 from tests/support/catch.h, under names that both its versions have") {
     const std::regex oneVersion("#include <catch2/|Catch::Matchers::|ContainsSubstring");

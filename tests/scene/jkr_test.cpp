@@ -214,3 +214,27 @@ TEST_CASE("the lists know of contacts beyond touch: many adhesive spheres that a
     CHECK(beyond > 10);
     requireClean(*device);
 }
+
+TEST_CASE("a sphere within the reach of six faces, of which it touches one, is pulled by that one alone") {
+    for (const bool reference : {true, false})
+        for (const double pressed : {-4e-6, 4e-6}) {
+            CAPTURE(reference, pressed);
+            RuledWorld w = glueyWorld();
+            w.gravity = Vec3(0);
+            const double half = kSphere + 4e-6;
+            w.bodies = {bodyOf("cell", {meshOf(geometry::Block{Vec3(-half), Vec3(half)}, half)})};
+            Particles p;
+            p.add(Vec3(0, 0, 4e-6 + pressed), single(kSphere));
+            const auto backend = made(reference);
+            backend->load(w, p);
+            const bool touches = pressed > 0;
+            backend->advance(1, 0);
+            CHECK(backend->contacts().size() == (touches ? 1 : 0));
+            backend->advance(300, 0);
+            CHECK(backend->contacts().size() == (touches ? 1 : 0));
+            const Vec3 at = backend->particles().position[0];
+            CHECK(std::hypot(at.x, at.y) < (touches ? 1e-8 : 1e-12));
+            if (!touches) CHECK(at.z == p.position[0].z);
+            if (!reference) requireClean(*backend);
+        }
+}

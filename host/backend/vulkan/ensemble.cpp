@@ -116,7 +116,7 @@ void Ensemble::load(const std::vector<Canister>& canisters) {
     sizes.addressed = options_.addressed;
     // A view is for memory that nothing writes meanwhile. The passes of contacts read and write their histories, and on
     // a GPU a read through a view may see a store that stands behind it in the same invocation.
-    sizes.texelReads = options_.reads == VulkanOptions::Reads::Automatic && !device_.info().isGpu();
+    sizes.texelReads = options_.reads == VulkanOptions::Reads::Automatic && device_.info().type == "CPU";
     recorded_.clear();
     fieldPasses_.reset();
     passes_.reset();  // the former tables make room for the new ones
