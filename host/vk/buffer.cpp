@@ -13,7 +13,7 @@ constexpr VkMemoryPropertyFlags kHost = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK
 constexpr VkMemoryPropertyFlags kLocal = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
 constexpr VkMemoryPropertyFlags kCached = VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
 /// Up to so many bytes the host reads directly from memory that it does not cache; more is copied first. Each load
-/// waits for the bus, so that a card's memory gives some ten megabytes a second. A copy takes about as long as a
+/// waits for the bus, so that a card's memory gives some tens of megabytes a second. A copy takes about as long as a
 /// kilobyte.
 constexpr VkDeviceSize kFewBytes = 1024;
 constexpr VkDeviceSize kMostStaged = 4 << 20;  ///< at once [bytes]
