@@ -162,10 +162,13 @@ Evaluation dostaDrum(const std::vector<Run>& runs, const std::filesystem::path& 
         Finding finding{figure.name, figure.unit, mean.value, mean.error};
         const auto [least, most] = std::minmax_element(ours.begin(), ours.end());
         finding.source = "Dosta and others 2024";
+        const std::string filled =
+            ours.size() == 1 ? "one filling here"
+                             : fmt::format("{} fillings here between {:.3g} and {:.3g}", ours.size(), *least, *most);
         finding.remark = fmt::format(
-            "{} here between {:.3g} and {:.3g}; {:.2g} beyond the other programs are allowed; "
+            "{}; {:.2g} beyond the other programs are allowed; "
             "three fillings of 1824 spheres differ by about as much, or less",
-            ours.size() == 1 ? "1 filling" : fmt::format("{} fillings", ours.size()), *least, *most, figure.spread);
+            filled, figure.spread);
         std::map<std::string, double> others;
         for (const auto& [program, theirs] : peers) others[program] = figure.of(theirs);
         holdAgainst(finding, others, 0, figure.spread);

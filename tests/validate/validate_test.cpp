@@ -301,6 +301,7 @@ TEST_CASE("a drum takes the mean of its fillings, and differs where nothing goes
     CHECK(both.findings[3].error == Approx(0.02));
     CHECK(both.findings[3].remark.find("2 fillings here between 0.21 and 0.25") == 0);
     CHECK(both.charts[0].curves[0].points[3][2] == Approx(0.02));
+    CHECK(dostaDrum({first}, one.path()).findings[3].remark.find("one filling here; 0.04 beyond") == 0);
 
     const test::Folder still;
     const std::vector<Drum> resting(4, kDrum[1]);
