@@ -10,6 +10,7 @@ Inside::Inside(const Mesh& mesh) : mesh_(mesh), low_(mesh.vertices.front()), hig
         high_ = glm::max(high_, v);
     }
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        if (std::binary_search(mesh.inner.begin(), mesh.inner.end(), t)) continue;
         Vec3 from = corner(t, 0), to = from;
         for (int i = 1; i < 3; ++i) {
             from = glm::min(from, corner(t, i));
@@ -48,7 +49,7 @@ bool Inside::above(std::size_t t, const Vec3& p) const {
 }
 
 bool isClosed(const Mesh& mesh) {
-    return std::none_of(mesh.edges.begin(), mesh.edges.end(), [](const MeshEdge& e) { return e.faces[1] == kNoFace; });
+    return mesh.closed;
 }
 
 }  // namespace vkdose::geometry

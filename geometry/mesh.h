@@ -13,10 +13,13 @@ namespace vkdose::geometry {
 
 inline constexpr std::uint32_t kNoFace = std::numeric_limits<std::uint32_t>::max();
 
-/// Two vertices, and the one or two triangles that share them.
+/// Two vertices, and the one or two triangles that share them. A seam, where three or more triangles meet, has several
+/// such entries: one of the two triangles between which a sphere can have its nearest place on it, if there are such,
+/// and hidden ones of the others.
 struct MeshEdge {
     std::array<std::uint32_t, 2> vertices{};               ///< ascending
     std::array<std::uint32_t, 2> faces{kNoFace, kNoFace};  ///< the second is kNoFace at an open edge
+    bool hidden = false;  ///< of a seam, and the distance to a sphere has no local minimum there
 };
 
 struct Mesh {
@@ -26,6 +29,8 @@ struct Mesh {
     std::vector<std::array<std::uint32_t, 3>> edgesOf;  ///< of a triangle: i runs from corner i to corner i + 1
     std::vector<std::uint32_t> firstNeighbour;          ///< of a vertex, in `neighbours`; one more entry than vertices
     std::vector<std::uint32_t> neighbours;              ///< vertices at the other ends of a vertex's edges
+    bool closed = false;               ///< it parts an inside from an outside: no edge is open, no part is a mere sheet
+    std::vector<std::uint32_t> inner;  ///< triangles of walls within a closed surface, ascending
 };
 
 /// A few facts of a mesh, for the user to compare with the drawing.
@@ -37,6 +42,8 @@ struct MeshFacts {
     double area = 0;        ///< [m2]
     double volume = 0;      ///< enclosed [m3]; 0 unless closed and oriented; negative if the mesh is inside out
     Vec3 low{0}, high{0};   ///< [m]
+    std::size_t seams = 0;  ///< edges of three triangles or more
+    std::string mended;     ///< what was mended, how often and where, places in the units of the file; empty: nothing
     /// "2572 triangles, closed, 12.3 x 4.5 x 6 mm, ...".
     std::string text() const;
 };
@@ -50,9 +57,10 @@ struct CheckedMesh {
 /// digits of single precision at its coordinates if that is more [m].
 double defaultWeldTolerance(const TriangleSoup& soup);
 
-/// Welds the corners and checks the mesh. Throws MeshError with the number of faults of each kind and their first few
-/// places: triangles without area (lower than the tolerance), triangles that stand there twice, edges of more than two
-/// triangles, T-junctions (a vertex on another triangle's open edge). Open edges are allowed.
+/// Welds the corners and mends the mesh: triangles without area (lower than the tolerance) and all but one of those
+/// that stand there twice are left out, triangles are cut at vertices on their open edges, edges of more than two
+/// triangles become seams (geometry/README.md#mending). The facts tell it. Open edges are allowed. Throws MeshError
+/// with numbers and places if nothing is left, or the cuts come to no end.
 CheckedMesh makeMesh(const TriangleSoup& soup, double weldTolerance);
 CheckedMesh makeMesh(const TriangleSoup& soup);
 

@@ -62,6 +62,7 @@ SoupBuilder::SoupBuilder(std::string name, double metresPerUnit, bool placesAreL
             fmt::format("{}: a unit of {} m; name a length unit: {}", printable(name), metresPerUnit, lengthUnits()));
     soup_.name = std::move(name);
     soup_.placesAreLines = placesAreLines;
+    soup_.metresPerUnit = metresPerUnit;
 }
 
 void SoupBuilder::fail(std::uint64_t place, const std::string& problem) const {
@@ -108,6 +109,10 @@ void SoupBuilder::addPolygon(const std::vector<std::uint32_t>& corners, std::uin
     }
 }
 
+void SoupBuilder::passOver(std::uint64_t bytes) {
+    soup_.passedOver = fmt::format("{} {} behind the last triangle passed over", bytes, bytes == 1 ? "byte" : "bytes");
+}
+
 TriangleSoup SoupBuilder::finish() {
     if (soup_.triangles.empty())
         throw MeshError(fmt::format("{}: there is no triangle in it; export a surface mesh", printable(soup_.name)));
@@ -116,10 +121,10 @@ TriangleSoup SoupBuilder::finish() {
 
 bool TextLines::nextLine() {
     if (rest_.empty()) return false;
-    const std::size_t end = std::min(rest_.find('\n'), rest_.size());
+    const std::size_t end = std::min(rest_.find_first_of("\r\n"), rest_.size());
     text_ = rest_.substr(0, end);
-    rest_.remove_prefix(std::min(end + 1, rest_.size()));
-    if (!text_.empty() && text_.back() == '\r') text_.remove_suffix(1);
+    rest_.remove_prefix(end);
+    rest_.remove_prefix(rest_.starts_with("\r\n") ? 2 : std::min<std::size_t>(1, rest_.size()));
     unread_ = text_;
     line_ = next_++;
     return true;
@@ -149,11 +154,21 @@ std::string inQuotes(std::string_view word) {
     return "'" + printable(word.substr(0, kLongest)) + (word.size() > kLongest ? "...'" : "'");
 }
 
+std::string_view withoutPadding(std::string_view content) {
+    constexpr std::string_view kPadding("\0\x1a \t\r\n", 6);
+    return content.substr(0, content.find_last_not_of(kPadding) + 1);
+}
+
 TriangleSoup readMesh(std::string_view content, const std::string& name, double metresPerUnit) {
+    constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
     std::string kind = std::filesystem::path(name).extension().string();
     std::transform(kind.begin(), kind.end(), kind.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? c + 32 : c; });
     if (content.empty()) throw MeshError(printable(name) + ": the file is empty; export the mesh again");
+    if (content.starts_with("\xff\xfe") || content.starts_with("\xfe\xff"))
+        throw MeshError(printable(name) + ": the text is UTF-16; save it as UTF-8, or export the mesh as binary");
+    // The free bytes of a binary STL may begin with anything.
     if (kind == ".stl") return readStl(content, name, metresPerUnit);
+    if (content.starts_with(kByteOrderMark)) content.remove_prefix(kByteOrderMark.size());
     if (kind == ".obj") return readObj(content, name, metresPerUnit);
     if (kind == ".ply") return readPly(content, name, metresPerUnit);
     throw MeshError(printable(name) + ": its name must end in .stl, .obj or .ply");

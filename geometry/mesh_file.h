@@ -1,7 +1,7 @@
 #pragma once
 // Reads files of triangles: STL (ASCII and binary), Wavefront OBJ, PLY (ASCII and binary). A file that is not wholly in
-// order is refused at the place of its first fault; nothing is guessed and nothing is left out in silence. The decision
-// against a packaged reader is told in geometry/README.md.
+// order is refused at the place of its first fault; nothing is guessed, and of a surface nothing is left out in
+// silence. The decision against a packaged reader is told in geometry/README.md.
 
 #include <array>
 #include <cstdint>
@@ -30,6 +30,8 @@ struct TriangleSoup {
     std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices of points
     std::vector<std::uint64_t> places;                    ///< of each triangle in the file: its line or byte
     bool placesAreLines = true;
+    double metresPerUnit = 1;  ///< of the file's lengths
+    std::string passedOver;    ///< what of the file means nothing and yet should not be there; empty: nothing
 
     /// "part.stl:12" or "part.stl: byte 134", where triangle `t` stands.
     std::string place(std::size_t t) const;

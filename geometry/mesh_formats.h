@@ -21,6 +21,8 @@ class SoupBuilder {
     std::uint32_t addPoint(const Vec3& inUnits, std::uint64_t place);
     /// Adds a flat convex polygon as a fan of triangles; throws if it is none.
     void addPolygon(const std::vector<std::uint32_t>& corners, std::uint64_t place);
+    /// Tells of bytes at the end that belong to nothing.
+    void passOver(std::uint64_t bytes);
     std::size_t points() const { return soup_.points.size(); }
 
     /// Throws if there is no triangle.
@@ -31,7 +33,7 @@ class SoupBuilder {
     double scale_;
 };
 
-/// Goes through a text line by line and word by word.
+/// Goes through a text line by line and word by word. A line ends at a line feed, a carriage return or both.
 class TextLines {
   public:
     explicit TextLines(std::string_view text, std::uint64_t firstLine = 1) : rest_(text), next_(firstLine) {}
@@ -52,6 +54,9 @@ class TextLines {
 /// "nan" and "inf" are numbers.
 std::optional<double> number(std::string_view word);
 std::optional<std::int64_t> integer(std::string_view word);
+
+/// The content without what editors and transfers put behind a text: zero bytes, Ctrl-Z, blanks.
+std::string_view withoutPadding(std::string_view content);
 
 /// A word from a file for a message: in quotes, short, and safe to show.
 std::string inQuotes(std::string_view word);

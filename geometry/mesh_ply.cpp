@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <unordered_map>
 
 #include "geometry/mesh_formats.h"
 
@@ -35,12 +36,12 @@ struct Element {
     std::uint64_t count = 0;
     std::uint64_t line = 0;
     std::vector<Property> properties;
+    std::unordered_map<std::string, int> places = {};  ///< of the properties, by name
 
-    /// Index of the first property with one of the names; -1 if there is none.
-    int find(std::initializer_list<std::string_view> names) const {
-        for (std::size_t i = 0; i < properties.size(); ++i)
-            if (std::find(names.begin(), names.end(), properties[i].name) != names.end()) return int(i);
-        return -1;
+    /// Index of a property; -1 if there is none of the name.
+    int find(const std::string& property) const {
+        const auto found = places.find(property);
+        return found == places.end() ? -1 : found->second;
     }
 };
 
@@ -58,11 +59,11 @@ class Ply {
         if (!vertex || !face || element("tristrips"))
             soup_.fail(1, "the header must announce the elements 'vertex' and 'face'; export the mesh as triangles");
         for (int d = 0; d < 3; ++d) {
-            coordinates_[d] = vertex->find({std::string_view("xyz").substr(d, 1)});
+            coordinates_[d] = vertex->find(std::string(1, "xyz"[d]));
             if (coordinates_[d] < 0 || vertex->properties[coordinates_[d]].count)
                 soup_.fail(vertex->line, "'vertex' must have the properties x, y and z");
         }
-        indices_ = face->find({"vertex_indices", "vertex_index"});
+        indices_ = std::max(face->find("vertex_indices"), face->find("vertex_index"));
         if (indices_ < 0 || !face->properties[indices_].count || face->properties[indices_].value->kind == 'f')
             soup_.fail(face->line, "'face' must have a list of whole numbers 'vertex_indices'");
         if (vertex > face) soup_.fail(face->line, "the element 'vertex' must stand before 'face'");
@@ -75,17 +76,16 @@ class Ply {
         if (form_ == Form::Ascii) {
             while (token_.empty() && lines_.nextLine()) token_ = lines_.word();
             if (!token_.empty()) soup_.fail(lines_.line(), "there is more than the header announces");
-        } else if (at_ != content_.size()) {
+        } else if (withoutPadding(content_).size() > at_) {
             soup_.fail(at_, fmt::format("the data should end here, and {} bytes follow", content_.size() - at_));
         }
         return soup_.finish();
     }
 
   private:
-    const Element* element(std::string_view name) const {
-        const auto found =
-            std::find_if(elements_.begin(), elements_.end(), [&](const auto& e) { return e.name == name; });
-        return found == elements_.end() ? nullptr : &*found;
+    const Element* element(const std::string& name) const {
+        const auto found = elementPlaces_.find(name);
+        return found == elementPlaces_.end() ? nullptr : &elements_[found->second];
     }
 
     const Type* type(std::string_view name) {
@@ -101,8 +101,10 @@ class Ply {
             if (word == "end_header") {
                 if (form_ == Form::None) soup_.fail(lines_.line(), "the header has no line 'format'");
                 at_ = static_cast<std::uint64_t>(lines_.text().data() - content_.data()) + lines_.text().size();
-                if (at_ < content_.size() && content_[at_] == '\r') ++at_;
-                if (at_ < content_.size()) ++at_;
+                // A carriage return alone ends the line only where it ends the others, or a byte of the data is lost.
+                const bool alone = content_.substr(3, 1) == "\r" && content_.substr(4, 1) != "\n";
+                if (content_.substr(at_, 1) == "\r") ++at_;
+                if (content_.substr(at_, 1) == "\n" && !alone) ++at_;
                 return;
             }
             if (word == "comment" || word == "obj_info") continue;
@@ -140,6 +142,7 @@ class Ply {
         if (static_cast<std::uint64_t>(*count) > content_.size())
             soup_.fail(lines_.line(),
                        fmt::format("{} elements are announced in a file of {} bytes", *count, content_.size()));
+        elementPlaces_[name] = elements_.size();
         elements_.push_back({name, static_cast<std::uint64_t>(*count), lines_.line(), {}});
     }
 
@@ -155,9 +158,10 @@ class Ply {
         p.value = type(word);
         p.name = lines_.word();
         if (p.name.empty()) soup_.fail(lines_.line(), "a property has no name");
-        if (elements_.back().find({p.name}) >= 0)
+        Element& e = elements_.back();
+        if (!e.places.emplace(p.name, int(e.properties.size())).second)
             soup_.fail(lines_.line(), fmt::format("the property {} is announced twice", inQuotes(p.name)));
-        elements_.back().properties.push_back(std::move(p));
+        e.properties.push_back(std::move(p));
     }
 
     std::uint64_t place() const { return form_ == Form::Ascii ? lines_.line() : at_; }
@@ -237,6 +241,7 @@ class Ply {
     SoupBuilder soup_;
     Form form_ = Form::None;
     std::vector<Element> elements_;
+    std::unordered_map<std::string, std::size_t> elementPlaces_;  ///< by name
     int coordinates_[3] = {-1, -1, -1};
     int indices_ = -1;
     std::uint64_t at_ = 0;    ///< the next byte of binary data

@@ -1,5 +1,6 @@
 // STL, in both its forms. A binary file is 80 free bytes, the number of triangles, and 50 bytes for each. An ASCII file
-// begins with the word "solid", as the free bytes of some binary files do too, so the length decides first.
+// begins with the word "solid", as the free bytes of some binary files do too, so the length decides first. The normals
+// are not used, because the corners tell them; they may be zero, or no numbers.
 
 #include <fmt/format.h>
 
@@ -28,20 +29,24 @@ Vec3 vector32(std::string_view bytes, std::uint64_t at) {
     return v;
 }
 
-bool finite(const Vec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
 TriangleSoup readBinary(std::string_view content, const std::string& name, double metresPerUnit) {
     SoupBuilder soup(name, metresPerUnit, false);
     const std::uint64_t count = word32(content, 80), expected = kHead + kRecord * count;
-    if (content.size() != expected)
+    if (content.size() < expected)
         soup.fail(80,
                   fmt::format("{} triangles are announced, which take {} bytes, but the file has {}; it was cut off "
                               "or is no binary STL",
                               count, expected, content.size()));
+    // A few bytes more, or zeros, are what some programs leave there. Enough for a triangle may be one.
+    const std::uint64_t more = content.size() - expected;
+    if (more >= kRecord && withoutPadding(content).size() > expected)
+        soup.fail(
+            expected,
+            fmt::format("the {} announced triangles end here, and {} bytes follow; the number at byte 80 is wrong, "
+                        "or something was appended. Export the mesh again",
+                        count, more));
+    if (more > 0) soup.passOver(more);
     for (std::uint64_t at = kHead; at < expected; at += kRecord) {
-        if (!finite(vector32(content, at))) soup.fail(at, "a normal is not a finite number; export the mesh again");
         std::vector<std::uint32_t> corners;
         for (std::uint64_t i = 1; i <= 3; ++i) corners.push_back(soup.addPoint(vector32(content, at + 12 * i), at));
         soup.addPolygon(corners, at);
@@ -56,6 +61,16 @@ bool same(std::string_view word, std::string_view lowerCase) {
     return true;
 }
 
+bool isComment(std::string_view word) {
+    return word.starts_with('#') || word.starts_with("//") || word.starts_with(';');
+}
+
+/// How programs write a number that is none, or not finite: "-nan", "nan(ind)", "1.#QNAN".
+bool isNoNumber(std::string_view word) {
+    if (word.starts_with('-') || word.starts_with('+')) word.remove_prefix(1);
+    return same(word.substr(0, 3), "nan") || same(word.substr(0, 3), "inf") || word.starts_with("1.#");
+}
+
 class AsciiStl {
   public:
     AsciiStl(std::string_view content, const std::string& name, double metresPerUnit)
@@ -67,10 +82,10 @@ class AsciiStl {
     }
 
   private:
-    /// On to the next line that is not blank. Its first word is in `first_`.
+    /// On to the next line that is neither blank nor a comment. Its first word is in `first_`.
     bool nextFilled() {
         while (lines_.nextLine())
-            if (first_ = lines_.word(); !first_.empty()) return true;
+            if (first_ = lines_.word(); !first_.empty() && !isComment(first_)) return true;
         first_ = {};
         return false;
     }
@@ -86,6 +101,16 @@ class AsciiStl {
         if (second.empty()) return;
         const std::string_view word = lines_.word();
         require(same(word, second), word, wanted);
+    }
+
+    void normal() {
+        for (int d = 0; d < 3; ++d) {
+            const std::string_view word = lines_.word();
+            if (!number(word) && !isNoNumber(word))
+                soup_.fail(lines_.line(),
+                           fmt::format("normal: {} is not a number; three numbers belong here", inQuotes(word)));
+        }
+        lineEnds();
     }
 
     Vec3 vector(const char* of) {
@@ -120,7 +145,7 @@ class AsciiStl {
     void facet() {
         words("facet", "normal", "facet normal");
         const std::uint64_t place = lines_.line();
-        if (!finite(vector("normal"))) soup_.fail(place, "a normal is not a finite number; export the mesh again");
+        normal();
         nextFilled();
         words("outer", "loop", "outer loop");
         lineEnds();
@@ -150,9 +175,11 @@ TriangleSoup readStl(std::string_view content, const std::string& name, double m
     const bool hasHead = content.size() >= kHead;
     if (hasHead && content.size() == kHead + kRecord * word32(content, 80))
         return readBinary(content, name, metresPerUnit);
-    const std::size_t begin = std::min(content.find_first_not_of(" \t\r\n"), content.size());
-    const bool text = same(content.substr(begin, 5), "solid") && content.find('\0') == std::string_view::npos;
-    if (text) return AsciiStl(content, name, metresPerUnit).read();
+    const std::string_view text = withoutPadding(content.substr(content.starts_with("\xef\xbb\xbf") ? 3 : 0));
+    // A text that begins otherwise, as a file of another kind does, is told as one.
+    const bool readable =
+        std::all_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) >= '\t'; });
+    if (readable && !text.empty()) return AsciiStl(text, name, metresPerUnit).read();
     if (hasHead) return readBinary(content, name, metresPerUnit);
     SoupBuilder(name, metresPerUnit, false)
         .fail(content.size(), "the file ends here; an STL file begins with 'solid', or has 84 bytes or more");

@@ -80,12 +80,18 @@ MeshSurface::Place MeshSurface::closestOn(std::uint32_t triangle, const Vec3& q)
         if (share > 0 && share < 1) {
             const std::uint32_t edge = mesh_.edgesOf[triangle][i];
             best = {feature(point, mesh_.triangles.size() + edge), Part::Edge, edge};
+            best.feature.bend = Bend::Line;
+            best.feature.along = along;
         } else {
             const std::uint32_t vertex = share == 0 ? corners[i] : corners[(i + 1) % 3];
             best = {feature(point, mesh_.triangles.size() + mesh_.edges.size() + vertex), Part::Vertex, vertex};
+            best.feature.bend = Bend::Point;
         }
     }
-    if (!inside) return best;
+    if (!inside) {
+        if (best.part == Part::Edge) best.feature.along = glm::normalize(best.feature.along);
+        return best;
+    }
     // The normal of the face itself, not the difference of two near points, gives the direction.
     const double height = glm::dot(q - mesh_.vertices[corners[0]], normal);
     return {{{q - height * normal, height < 0 ? -normal : normal, std::abs(height)}, triangle}, Part::Face, triangle};
@@ -95,6 +101,7 @@ bool MeshSurface::isLocalMinimum(const Place& place) const {
     if (place.part == Part::Face) return true;
     const Vec3& u = place.feature.normal;
     if (place.part == Part::Edge) {
+        if (mesh_.edges[place.index].hidden) return false;
         const auto& in = inFaces_[place.index];
         return glm::dot(u, in[0]) <= kSquare && glm::dot(u, in[1]) <= kSquare;
     }

@@ -129,14 +129,14 @@ std::optional<double> approachByTurning(const Shape& shape) {
     return std::visit(ApproachByTurning{}, shape);
 }
 
-std::vector<Feature> touched(const std::vector<Shape>& shapes, const Vec3& centre, double radius) {
+std::vector<Feature> touched(const std::vector<Shape>& shapes, const Vec3& centre, double radius, double reach) {
     Places all;
     for (std::uint32_t s = 0; s < shapes.size(); ++s)
-        for (Feature& place : places(shapes[s], centre, radius)) {
+        for (Feature& place : places(shapes[s], centre, radius + reach)) {
             place.shape = s;
             all.push_back(place);
         }
-    return distinct(std::move(all), centre, radius);
+    return distinct(std::move(all), centre, radius, reach);
 }
 
 }  // namespace vkdose::geometry

@@ -53,7 +53,8 @@ std::vector<Feature> places(const Shape& shape, const Vec3& centre, double radiu
 /// nearer, do not count. None for all other shapes.
 std::optional<double> approachByTurning(const Shape& shape);
 
-/// The distinct features in which a body made of `shapes` touches a sphere (features.h). Throws TooManyFeatures.
-std::vector<Feature> touched(const std::vector<Shape>& shapes, const Vec3& centre, double radius);
+/// The distinct features in which a body made of `shapes` touches a sphere, or comes nearer than `reach` [m] to it
+/// (features.h). Throws TooManyFeatures.
+std::vector<Feature> touched(const std::vector<Shape>& shapes, const Vec3& centre, double radius, double reach = 0);
 
 }  // namespace vkdose::geometry

@@ -21,7 +21,7 @@ set(passes
     "pass/bodies texel packed energy texel_energy packed_energy"
     "pass/free_bodies"
     "pass/move texel packed energy texel_energy packed_energy"
-    "pass/decide"
+    "pass/decide bodies"
     "pass/sense"
     "pass/sense_energy"
     "pass/field_branches energy bodies energy_bodies"

@@ -24,6 +24,7 @@ constexpr std::array kRules{
     Rule{"gravity", strangeGravity},
     Rule{"few-spheres", fewSpheres},
     Rule{"size-ratio", wideSizes},
+    Rule{"sieve-cumulative", cumulativeSieves},
     Rule{"unused-material", unusedMaterial},
     Rule{"friction", strangeFriction},
     Rule{"overdamped", overdampedContacts},
@@ -50,6 +51,7 @@ constexpr std::array kRules{
     Rule{"body-cross", bodiesCross},
     Rule{"body-seam", bodySeam},
     Rule{"body-end", shortBody},
+    Rule{"body-mended", mendedMesh},
     Rule{"body-size", bodyOutOfScale},
     Rule{"body-place", bodyOutside},
     Rule{"body-phases", bodyPhases},
@@ -65,6 +67,7 @@ constexpr std::array kRules{
     Rule{"frames", fewFrames},
     Rule{"sensors", fewSensors},
     Rule{"time-step", shortStep},
+    Rule{"resolution", coarseNumbers},
     Rule{"run-length", longRun},
     Rule{"accepted", unknownAcceptance},
 };

@@ -1,7 +1,9 @@
 // Warnings about bodies: which way they convey, where they end and meet, what lies inside of them.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "geometry/inside.h"
 #include "host/advice/body_words.h"
@@ -117,6 +119,17 @@ Found shortBody(const Subject& s) {
                    fmt::format("move it by {:.3g} mm along z, or give a longer one", mm(missing))};
 }
 
+Found mendedMesh(const Subject& s) {
+    if (s.c.mendedMeshes.empty()) return {};
+    const auto& [b, mended] = s.c.mendedMeshes.front();
+    const std::size_t more = s.c.mendedMeshes.size() - 1;
+    return Finding{
+        keyOf(b, "mesh"),
+        fmt::format("the mesh of body \"{}\" was mended: {}{}", s.c.world.bodies[b].name, mended,
+                    more == 0 ? "" : fmt::format("; so were {} more of the case", more)),
+        "spheres touch it as if it had been drawn so; look at these places, which are in the unit of the file"};
+}
+
 Found bodyOutOfScale(const Subject& s) {
     for (std::size_t b = 0; b < s.c.world.bodies.size(); ++b) {
         const RigidBody& body = s.c.world.bodies[b];
@@ -140,10 +153,64 @@ Found bodyOutOfScale(const Subject& s) {
     return {};
 }
 
+namespace {
+
+/// A place in m that was probably meant in mm: more than a metre, and many times the size of the device, from the
+/// powder.
+bool isFar(const Subject& s, const Vec3& low, const Vec3& high) {
+    constexpr double kTimes = 20;
+    Vec3 from(1e300), to(-1e300);
+    const auto include = [&](const Vec3& p) {
+        from = glm::min(from, p);
+        to = glm::max(to, p);
+    };
+    for (const Vec3& p : s.filled.particles.position) include(p);
+    if (s.c.canister) {
+        include({-s.c.canister->width / 2, -s.c.canister->width / 2, 0});
+        include({s.c.canister->width / 2, s.c.canister->height, s.c.canister->length});
+    }
+    const double away = glm::length(glm::max(glm::max(from - high, low - to), Vec3(0)));
+    return away > 1 && away > kTimes * glm::length(to - from);
+}
+
+std::string inMillimetres(const Vec3& at) {
+    return fmt::format("places are given in m; if those are mm, give [{:.4g}, {:.4g}, {:.4g}]", at.x / 1e3, at.y / 1e3,
+                       at.z / 1e3);
+}
+
+/// A body that moves and is far from all powder, or about a place that is.
+Found misplaced(const Subject& s, std::size_t b) {
+    const RigidBody& body = s.c.world.bodies[b];
+    if (std::holds_alternative<geometry::Rest>(body.course.motion)) return {};
+    const auto [low, high] = extentOf(trianglesOf(body));
+    const Vec3 at = body.course.start.origin;
+    if (low.x <= high.x && isFar(s, low, high))
+        return Finding{keyOf(b, "at"),
+                       fmt::format("body \"{}\" stands at ({:.4g}, {:.4g}, {:.4g}) m, far from all powder", body.name,
+                                   at.x, at.y, at.z),
+                       inMillimetres(at)};
+    const auto* turn = std::get_if<geometry::Turn>(&body.course.motion);
+    const auto* swing = std::get_if<geometry::Swing>(&body.course.motion);
+    if (turn == nullptr && swing == nullptr) return {};
+    const Vec3 through = turn != nullptr ? turn->through : swing->through;
+    const Vec3 axis = turn != nullptr ? turn->axis : swing->axis;
+    // Of the axis the place nearest to the body counts.
+    const Vec3 nearest = through + glm::dot(at - through, axis) * axis;
+    if (!isFar(s, nearest, nearest)) return {};
+    return Finding{
+        keyOf(b, "motion.through"),
+        fmt::format("body \"{}\" turns about an axis through ({:.4g}, {:.4g}, {:.4g}) m, far from all powder",
+                    body.name, through.x, through.y, through.z),
+        inMillimetres(through)};
+}
+
+}  // namespace
+
 Found bodyOutside(const Subject& s) {
     const Box& room = s.c.world.domain;
     for (std::size_t b = 0; b < s.c.world.bodies.size(); ++b) {
         const RigidBody& body = s.c.world.bodies[b];
+        if (Found found = misplaced(s, b)) return found;
         if (!std::holds_alternative<geometry::Rest>(body.course.motion)) continue;
         const std::vector<Triangle> mesh = trianglesOf(body);  // none of a shape without an end
         const auto [low, high] = extentOf(mesh);
@@ -156,9 +223,7 @@ Found bodyOutside(const Subject& s) {
             fmt::format("no sphere can touch body \"{}\": it stands at ({:.4g}, {:.4g}, {:.4g}) m, outside of "
                         "the domain",
                         body.name, at.x, at.y, at.z),
-            far ? fmt::format("places are given in m; if those are mm, give [{:.4g}, {:.4g}, {:.4g}]", at.x / 1e3,
-                              at.y / 1e3, at.z / 1e3)
-                : "move the body, or widen [domain]"};
+            far ? inMillimetres(at) : "move the body, or widen [domain]"};
     }
     return {};
 }
@@ -201,12 +266,49 @@ Found bodyPhases(const Subject& s) {
 
 namespace {
 
-/// Whether one of the body's shapes is a surface without anything behind it: a mesh, or the wall of a round shape.
-bool isThin(const RigidBody& body) {
-    return std::any_of(body.shapes.begin(), body.shapes.end(), [](const geometry::Shape& shape) {
-        return std::holds_alternative<geometry::Cone>(shape) ||
-               std::holds_alternative<std::shared_ptr<const geometry::MeshSurface>>(shape);
+/// Whether each end of a round wall is the rim of another round wall or disc of the body: together they are closed.
+bool isClosedRound(const RigidBody& body, const geometry::Cone& wall) {
+    const auto rims = [](const geometry::Cone& c) {
+        return std::array{std::pair(c.base, c.baseRadius), std::pair(c.base + c.length * c.axis, c.endRadius)};
+    };
+    const auto has = [&](const geometry::Shape& shape, const Vec3& centre, double radius) {
+        const auto* other = std::get_if<geometry::Cone>(&shape);
+        if (other == nullptr || other == &wall) return false;
+        const double same = 1e-9 * (radius + glm::length(centre));
+        for (const auto& [at, r] : rims(*other))
+            if (glm::length(at - centre) <= same && std::abs(r - radius) <= same) return true;
+        return false;
+    };
+    for (const auto& [centre, radius] : rims(wall)) {
+        if (radius == 0) continue;  // a tip, or the middle of a disc
+        const auto meets = [&, c = centre, r = radius](const geometry::Shape& shape) { return has(shape, c, r); };
+        if (std::none_of(body.shapes.begin(), body.shapes.end(), meets)) return false;
+    }
+    return true;
+}
+
+/// Whether all of the powder starts inside of a body that is closed: then it is a vessel, whose wall is thin.
+bool holdsPowder(const Subject& s, const RigidBody& body) {
+    const std::vector<Triangle> triangles = trianglesOf(body);
+    const auto [low, high] = extentOf(triangles);
+    const std::vector<Vec3>& powder = s.filled.particles.position;
+    return std::all_of(powder.begin(), powder.end(), [&, lowest = low, highest = high](const Vec3& p) {
+        return glm::all(glm::greaterThan(p, lowest)) && glm::all(glm::lessThan(p, highest));
     });
+}
+
+/// Whether one of the body's shapes is a surface without anything behind it: a mesh that is not closed, or the wall of
+/// a round shape without ends.
+bool isThin(const Subject& s, const RigidBody& body) {
+    bool closed = false;
+    for (const geometry::Shape& shape : body.shapes) {
+        const auto* wall = std::get_if<geometry::Cone>(&shape);
+        const auto* mesh = std::get_if<std::shared_ptr<const geometry::MeshSurface>>(&shape);
+        if (wall == nullptr && mesh == nullptr) continue;
+        if (wall != nullptr ? !isClosedRound(body, *wall) : !geometry::isClosed((*mesh)->mesh())) return true;
+        closed = true;
+    }
+    return closed && holdsPowder(s, body);
 }
 
 /// An upper bound of the speed of the body's points, by its motion [m/s].
@@ -230,7 +332,8 @@ double largestSpeed(const Subject& s, const RigidBody& body) {
 Found thinBody(const Subject& s) {
     if (s.c.world.maxOverlapRatio < 1) return {};
     const std::vector<RigidBody>& bodies = s.c.world.bodies;
-    const auto thin = std::find_if(bodies.begin(), bodies.end(), isThin);
+    const auto thin =
+        std::find_if(bodies.begin(), bodies.end(), [&](const RigidBody& body) { return isThin(s, body); });
     if (thin == bodies.end()) return {};
     return Finding{"contact.max_overlap_ratio",
                    fmt::format("the surfaces of body \"{}\" have no thickness: a sphere that is pressed in deeper than "
@@ -244,7 +347,7 @@ Found bodyTooFast(const Subject& s) {
     for (std::size_t b = 0; b < s.c.world.bodies.size(); ++b) {
         const RigidBody& body = s.c.world.bodies[b];
         const double speed = largestSpeed(s, body), far = speed * s.c.world.timeStep / s.f.smallest;
-        if (!(far > kFarInAStep)) continue;
+        if (!(far > kFarInAStep) || misplaced(s, b)) continue;  // the place, which is told, makes the speed
         return Finding{keyOf(b, "motion.kind"),
                        fmt::format("body \"{}\" moves at up to {:.3g} m/s and goes {:.2g} radii of the smallest sphere "
                                    "in a time step: it enters spheres before they touch it, or passes them",

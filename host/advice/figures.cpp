@@ -1,5 +1,7 @@
 #include "host/advice/figures.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -58,6 +60,16 @@ void addCoil(Figures& f, const Case& c) {
     f.coilClearance = room / 2 - coil.radius - coil.wireRadius;
 }
 
+/// The bodies that a motion may be one of, in brackets, if its name is that of a powder and a material of bodies.
+std::string bodiesOf(const World& world, const std::string& motion) {
+    const std::string pair = motion.substr(0, motion.rfind(' '));
+    std::string names;
+    for (const MaterialPair& p : occurringPairs(world))
+        for (const RigidBody& body : world.bodies)
+            if (nameOf(world, p) == pair && body.material == p.b) names += (names.empty() ? "" : ", ") + body.name;
+    return names.empty() ? "" : fmt::format(" (bodies of this material: {})", names);
+}
+
 void addStep(Figures& f, const Case& c, const Insertion& filled) {
     f.automaticStep = std::numeric_limits<double>::infinity();
     for (const ContactMode& mode : modesOf(c, powderSizes(c.world, filled.particles))) {
@@ -66,7 +78,8 @@ void addStep(Figures& f, const Case& c, const Insertion& filled) {
         const double step = automaticTimeStep({mode}, c.stepsPerContact);
         if (!(step < f.automaticStep)) continue;
         f.automaticStep = step;
-        f.stepLimit = (step < automaticTimeStep({undamped}, c.stepsPerContact) ? "damping of the " : "") + mode.name;
+        f.stepLimit = (step < automaticTimeStep({undamped}, c.stepsPerContact) ? "damping of the " : "") + mode.name +
+                      bodiesOf(c.world, mode.name);
     }
 }
 

@@ -229,4 +229,32 @@ Found wideSizes(const Subject& s) {
         fmt::format("give {:.2g}, half of it, or narrower sizes", 0.5 * s.f.automaticStep)};
 }
 
+/// Amounts that lie on each sieve have a peak somewhere. Sums of all that is coarser grow to the finest sieve.
+Found cumulativeSieves(const Subject& s) {
+    constexpr std::size_t kFewestSieves = 4;  // of fewer the finest may have most by chance
+    for (const PowderOf& p : powdersOf(s.c)) {
+        const std::string key = p.path + ".size.retained";
+        const Node* table = s.node(key);
+        if (table == nullptr || table->children.size() < kFewestSieves) continue;
+        const auto& on = table->children;
+        double sum = 0;
+        bool grows = true;
+        for (std::size_t i = 0; i < on.size(); ++i) {
+            sum += on[i].number;
+            grows = grows && (i == 0 || on[i].number <= on[i - 1].number);
+        }
+        const double finest = on.front().number;
+        const bool percent = std::abs(finest - 100) < 1 || std::abs(finest - 1) < 0.01;
+        const bool several = sum > 1.2 * finest;
+        if (!grows || !several || !(percent || on.size() > kFewestSieves)) continue;
+        return Finding{
+            key,
+            fmt::format("grows from sieve to sieve up to {:.4g} on the finest, as sums of all that is coarser "
+                        "do; it is taken as what lies on each sieve alone",
+                        finest),
+            "give the differences, or passing_percent = 100 minus the sum"};
+    }
+    return {};
+}
+
 }  // namespace vkdose

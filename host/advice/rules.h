@@ -67,11 +67,13 @@ Found deepUnderWeight(const Subject& s);
 Found deepOfFall(const Subject& s);
 Found fewSpheres(const Subject& s);
 Found wideSizes(const Subject& s);
+Found cumulativeSieves(const Subject& s);
 Found unusedMaterial(const Subject& s);
 
 // body_rules.cpp: bodies
 Found bodyBackwards(const Subject& s);
 Found shortBody(const Subject& s);
+Found mendedMesh(const Subject& s);
 Found bodyOutOfScale(const Subject& s);
 Found bodyOutside(const Subject& s);
 Found bodyPhases(const Subject& s);
@@ -94,6 +96,7 @@ Found lateRefill(const Subject& s);
 Found fewFrames(const Subject& s);
 Found fewSensors(const Subject& s);
 Found shortStep(const Subject& s);
+Found coarseNumbers(const Subject& s);
 Found longRun(const Subject& s);
 Found unknownAcceptance(const Subject& s);
 

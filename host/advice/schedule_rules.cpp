@@ -19,8 +19,11 @@ constexpr double kFalls = 2.5;
 constexpr double kSpheresInDose = 20;
 /// The first dose of a cohesive powder, which fills the throat too, took 1.8 times as long as by the closed form.
 constexpr double kDoseTime = 2;
-constexpr double kShortStep = 0.1;  ///< of the automatic step
-constexpr double kLongRun = 1e9;    ///< steps
+constexpr double kShortStep = 0.1;      ///< of the automatic step
+constexpr double kLongRun = 1e9;        ///< steps
+constexpr double kTwoFloats = 0x1p-48;  ///< of a number, lost in a step
+constexpr double kCreep = 1e-3;         ///< of the speed after a fall of a sphere's own diameter
+constexpr double kCoarse = 1e-2;        ///< share of its way that may be lost
 /// Steps of a small canister in a second on the fastest devices, in round figures.
 constexpr double kFastSteps = 1e4;
 
@@ -140,6 +143,25 @@ Found shortStep(const Subject& s) {
                    fmt::format("is {:.2g} of what stability asks for, so that the run takes {:.2g} times as long",
                                s.c.world.timeStep / s.f.automaticStep, s.f.automaticStep / s.c.world.timeStep),
                    fmt::format("give \"auto\", which is {:.3g}", s.f.automaticStep)};
+}
+
+/// What two floats lose of a place in a step, beside the way of a sphere that creeps (shaders/README.md, Quantities
+/// that grow by small steps). What they lose of a speed, beside what gravity adds to it, is far less: a fall's speed
+/// over g is a second at most, and the distance from the origin over the speed of creeping some hundred.
+Found coarseNumbers(const Subject& s) {
+    const double dt = s.c.world.timeStep, g = glm::length(s.c.world.gravity);
+    double far = 0;
+    for (const Vec3& x : s.filled.particles.position) far = std::max(far, glm::length(x));
+    const double creep = kCreep * std::sqrt(4 * g * s.f.smallest), lost = kTwoFloats * far / dt;
+    if (!(lost > kCoarse * creep) || g == 0) return {};
+    return Finding{
+        "time.step_s",
+        fmt::format("is so short that a device moves spheres {:.2g} m from the origin at speeds that are off "
+                    "by up to {:.2g} m/s, {:.2g} of what a sphere has after a fall of its own diameter",
+                    far, lost, kCreep * lost / creep),
+        fmt::format("give at least {:.2g}, with softer or larger spheres, place the device nearer to the "
+                    "origin, or use --backend reference",
+                    kTwoFloats * far / (kCoarse * creep))};
 }
 
 Found longRun(const Subject& s) {

@@ -120,6 +120,17 @@ struct Form {
         return std::max({d.x, d.y, d.z});
     }
     explicit Form(const RigidBody& body) : mesh(trianglesOf(body)) {}
+    Form(const Form& other, double factor) : mesh(other.sized(factor)) {}
+    Form(const Form&) = delete;
+
+    /// The triangles so many times as large, about the middle of the body.
+    std::vector<Triangle> sized(double factor) const {
+        const Vec3 middle = (cells.low() + cells.high()) / 2.0;
+        std::vector<Triangle> all = mesh;
+        for (Triangle& t : all)
+            for (Vec3& p : t) p = middle + factor * (p - middle);
+        return all;
+    }
 };
 
 /// Whether an edge of `moved`, brought along `way`, passes `still`.
@@ -205,6 +216,9 @@ Found bodiesCross(const Subject& s) {
             const std::vector<Pose> second =
                 still ? std::vector<Pose>(first.size()) : waysInRun(bodies[b], plan, places);
             if (!meet(*forms[a], first, *forms[b], second)) continue;
+            // A lid that fits its cell, and is lowered in it, only touches: a little smaller or larger it would not.
+            const auto meetsAs = [&](double factor) { return meet(Form(*forms[a], factor), first, *forms[b], second); };
+            if (!meetsAs(1 - 2 * kFacetError) || !meetsAs(1 + 2 * kFacetError)) continue;
             const bool turns = std::holds_alternative<geometry::Turn>(bodies[a].course.motion);
             // The coil is the last, and has no such key.
             return Finding{keyOf(a < s.c.world.bodies.size() ? a : b, "at"),

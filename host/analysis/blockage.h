@@ -6,6 +6,7 @@
 
 #include "geometry/coil.h"
 #include "host/model/case.h"
+#include "host/sim/body_room.h"
 #include "host/sim/dose.h"
 
 namespace vkdose {
@@ -37,7 +38,8 @@ struct Supply {
 };
 
 /// The first of the doses that gave nothing (counted from 1), even if an avalanche freed the outlet later; none if the
-/// flow never stopped, or too few doses were made to tell. Doses that an empty canister made before its refill do not
+/// flow never stopped, or too few doses were made to tell. Doses before the first powder do not count, unless none ever
+/// came. Doses that an empty canister made before its refill do not
 /// count. Incomplete doses are left out.
 std::optional<int> blockedAt(const std::vector<Dose>& doses, const Supply& supply, const BlockageRule& rule = {});
 
@@ -51,7 +53,10 @@ struct Arch {
 /// Looks for arches over the coil in the canister. It cuts the powder into slices two mean diameters thick along the
 /// coil and looks within half the coil's radius of its axis to either side. A void is a range of heights, from the
 /// floor up, that holds no powder but has powder above it. It must be two mean diameters high and reach above the
-/// coil's axis. Returns the greatest void, or none. `particles` are those of one instant; dosed ones are left out.
-std::optional<Arch> archAbove(const geometry::Coil& coil, const Canister& canister, const Particles& particles);
+/// coil's axis. The room of a body of `world`, within a radius of its surface or closed off by it (BodyRoom), is no
+/// void, and what lies below a body is held by that and not by powder. Returns the greatest void, or none. `particles`
+/// and `bodies` are those of one instant; dosed particles are left out.
+std::optional<Arch> archAbove(const geometry::Coil& coil, const Canister& canister, const Particles& particles,
+                              const World& world = {}, const BodyPoses& bodies = {});
 
 }  // namespace vkdose

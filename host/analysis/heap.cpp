@@ -23,6 +23,14 @@ Particles upright(const Particles& particles, const Vec3& foot, const Vec3& up) 
     return turned;
 }
 
+std::vector<geometry::Pose> upright(const std::vector<geometry::Pose>& poses, const Vec3& foot, const Vec3& up) {
+    const Vec3 x = geometry::anyNormal(up), z = glm::cross(x, up);
+    const geometry::Rotation turn = glm::quat_cast(glm::transpose(glm::dmat3(x, up, z)));
+    std::vector<geometry::Pose> turned;
+    for (const geometry::Pose& p : poses) turned.push_back({turn * p.rotation, turn * (p.origin - foot)});
+    return turned;
+}
+
 namespace {
 
 /// The part of the highest ring's height within which a ring belongs to the flank.

@@ -2,13 +2,17 @@
 // The angle of repose: the slope of a heap's flank.
 
 #include <optional>
+#include <vector>
 
+#include "geometry/motion.h"
 #include "host/model/particles.h"
 
 namespace vkdose {
 
 /// `particles` in a frame whose y axis points along the unit vector `up` and whose origin is `foot` [m].
 Particles upright(const Particles& particles, const Vec3& foot, const Vec3& up);
+/// Poses of bodies in that frame.
+std::vector<geometry::Pose> upright(const std::vector<geometry::Pose>& poses, const Vec3& foot, const Vec3& up);
 
 struct HeapSlope {
     double angle = 0;   ///< of the flank to the horizontal [rad]

@@ -27,7 +27,7 @@ SettledFigures settledFigures(const Case& c, const SettledBed& bed) {
     f.overlap = spreadOf(bed.overlap);
     f.largestOverlap = spreadOf(bed.largestOverlap);
     const geometry::Coil* coil = c.world.coil ? &*c.world.coil : nullptr;
-    if (c.canister) f.bulk = bedDensity(c.world, bed.particles, *c.canister, coil);
+    if (c.canister) f.bulk = bedDensity(c.world, bed.particles, *c.canister, coil, bed.bodies);
     return f;
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <string_view>
 
 #include "host/app/tell.h"
 #include "host/backend/vulkan/vulkan.h"
@@ -11,6 +12,8 @@
 namespace vkdose {
 
 namespace {
+
+constexpr std::string_view kVulkan = "vulkan: ";  ///< at the front of a device's description
 
 bool hasAvx512() {
 #ifdef __x86_64__
@@ -51,20 +54,26 @@ std::unique_ptr<Backend> makeBackend(const BackendChoice& choice, std::size_t pa
     return openBackend(choice);
 }
 
-std::vector<std::unique_ptr<Backend>> makeEnsemble(const BackendChoice& choice, std::size_t members,
-                                                   std::size_t particles) {
+VulkanEnsemble makeEnsemble(const BackendChoice& choice, std::size_t particles) {
     tuneLavapipe(particles);
-    return openEnsemble(choice, members);
+    return openEnsemble(choice);
 }
 
 BackendChoice sameBackend(const std::string& description, const BackendChoice& choice) {
-    const std::string vulkan = "vulkan: ";
     BackendChoice same = choice;
-    const bool onDevice = description.rfind(vulkan, 0) == 0;
+    const bool onDevice = description.starts_with(kVulkan);
     same.backend = onDevice ? "vulkan" : "reference";
     if (onDevice && same.device.empty())
-        same.device = std::to_string(vk::chooseAgain(vk::listDevices(), description.substr(vulkan.size())).index);
+        same.device = std::to_string(vk::chooseAgain(vk::listDevices(), description.substr(kVulkan.size())).index);
     return same;
+}
+
+void requireSameKind(const std::string& description, const BackendChoice& choice, const Backend& backend) {
+    if (!description.starts_with(kVulkan) || !choice.device.empty()) return;
+    vk::DeviceInfo here;
+    here.name = backend.description().substr(kVulkan.size());
+    here.usable = true;
+    (void)vk::chooseAgain({here}, description.substr(kVulkan.size()));
 }
 
 BackendChoice choiceOfRank(const BackendChoice& choice, const std::vector<vk::DeviceInfo>& devices, int localRank) {

@@ -15,12 +15,15 @@ namespace vkdose {
 std::unique_ptr<Backend> makeBackend(const BackendChoice& choice, std::size_t particles);
 
 /// openEnsemble likewise; `particles` is the number in all canisters together.
-std::vector<std::unique_ptr<Backend>> makeEnsemble(const BackendChoice& choice, std::size_t members,
-                                                   std::size_t particles);
+VulkanEnsemble makeEnsemble(const BackendChoice& choice, std::size_t particles);
 
 /// The backend and device a description (Backend::description) stands for; `device` of `choice` wins, if given. Throws
 /// DeviceError if that device is not there (vk::chooseAgain).
 BackendChoice sameBackend(const std::string& description, const BackendChoice& choice);
+
+/// Throws DeviceError if a run that was made on what `description` tells would go on on a backend of another kind
+/// (vk::chooseAgain), and the choice names no device.
+void requireSameKind(const std::string& description, const BackendChoice& choice, const Backend& backend);
 
 /// The choice for one of several processes that share a machine; `localRank` counts them from 0. If the choice names no
 /// device, the processes take turns at the GPUs of the kind that the automatic choice prefers. The processor counts as

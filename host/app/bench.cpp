@@ -167,7 +167,9 @@ bench::Row measuredEnsemble(const std::string& name, const Workload& w, const Be
     row.members = options.members;
     row.particles *= members;
     try {
-        const auto backends = makeEnsemble(options.backend, members, row.particles);
+        VulkanEnsemble ensemble = makeEnsemble(options.backend, row.particles);
+        std::vector<std::unique_ptr<Backend>> backends;
+        while (backends.size() < members) backends.push_back(ensemble.enter());
         row.on = backends[0]->description();
         // Every member in a thread of its own, as Rendezvous wants it.
         const auto together = [&](const std::function<void(Backend&)>& act) {
@@ -196,7 +198,7 @@ void print(const bench::Row& row) {
     tell("{}\n", bench::tableLine(row));
     const std::string details = bench::detailLines(row);
     if (!details.empty()) tell("{}\n", details);
-    std::fflush(stdout);
+    sendText(stdout);
 }
 
 }  // namespace

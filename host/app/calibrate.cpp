@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "host/app/calibration_text.h"
 #include "host/app/commands.h"
 #include "host/app/exit_code.h"
 #include "host/app/interrupt.h"
@@ -20,45 +21,11 @@
 #include "host/output/run_folder.h"
 #include "host/study/calibration_finding.h"
 #include "host/study/grid_calibration.h"
+#include "host/study/seed_scatter.h"
 
 namespace vkdose {
 
 namespace {
-
-/// "0.872 +- 0.031"; a "?" where the error is not known, or the value itself.
-std::string withError(double value, double error, double scale = 1) {
-    if (!std::isfinite(value)) return "?";
-    const std::string by = std::isfinite(error) ? fmt::format("{:.2g}", error * scale) : "?";
-    return fmt::format("{:.4g} +- {}", value * scale, by);
-}
-
-std::string targetText(const CalibrationAim& aim) {
-    return fmt::format("target   {} g a dose", withError(aim.target, aim.tolerance, 1e3));
-}
-
-std::string pointText(const std::vector<std::string>& keys, const Row& values) {
-    std::string text;
-    for (std::size_t i = 0; i < keys.size(); ++i)
-        text += fmt::format("{}{} {}", i == 0 ? "" : ", ", keys[i], values[i]);
-    return text.empty() ? "all" : text;
-}
-
-std::string curveText(const std::string& name, const Curve& curve, const CalibrationAim& aim, bool chosen) {
-    std::string text = name + "\n";
-    for (const CurvePoint& p : curve.points)
-        text += fmt::format("    {} {:<8.4g} beta {:<18} g   RSD {:<16} %   {}\n", aim.along, p.along,
-                            withError(p.beta, p.betaError, 1e3), withError(p.rsd, p.rsdError, 100),
-                            counted(p.seeds, "seed"));
-    for (const Crossing& c : curve.crossings)
-        text +=
-            fmt::format("  {} {} {}, RSD {} %{}\n",
-                        c.off == 0 ? "meets the target at"
-                                   : fmt::format("is {:.2g} g off the target, within the tolerance, at", c.off * 1e3),
-                        aim.along, withError(c.along, c.alongError), withError(c.rsd, c.rsdError, 100),
-                        chosen && &c == &curve.crossings.front() ? "   <- chosen" : "");
-    if (curve.crossings.empty()) text += "  does not meet the target\n";
-    return text;
-}
 
 /// The values of a curve's keys as the study has them.
 std::vector<Setting> settingsOf(const Study& study, const std::vector<std::string>& keys, const Row& values) {
@@ -75,9 +42,9 @@ std::vector<Setting> settingsOf(const Study& study, const std::vector<std::strin
 }
 
 void writeCase(const Study& study, const SweepFolder& folder, const std::vector<Setting>& point,
-               const std::string& how) {
+               const CalibrationFinding& finding) {
     const std::filesystem::path file = folder.path() / "calibrated.toml";
-    const std::string reason = fmt::format("Calibrated by {}: {}", study.name, how);
+    const std::string reason = fmt::format("Calibrated by {}: {}", study.name, reasonText(finding));
     replaceFile(file, caseAt(study, point, study.file.stem().string() + "-calibrated", reason));
     tell("calibrated {}\nnext       vkdose run {}\n", printable(file.string()), shellWord(file.string()));
 }
@@ -88,27 +55,67 @@ void forgetCase(const SweepFolder& folder) {
     std::filesystem::remove(folder.path() / "calibrated.toml", error);
 }
 
-/// After the sweep: the table, and the case at the crossing that is chosen.
-int reportGrid(const Study& study, const SweepFolder& folder) {
+/// Of a calibration that was halted: the members that have ended, and those that wait of the runs begun last.
+SweepOutcome outcomeOf(const CalibrationRuns& parts) {
+    SweepOutcome outcome = parts.last;
+    const int left = outcome.members - outcome.ok - outcome.failed;
+    outcome.ok = outcome.failed = 0;
+    const Table& members = parts.folder.members();
+    for (std::size_t row = 0; row < members.rows(); ++row) {
+        outcome.ok += members.text(row, "status") == statusText(MemberStatus::Ok) ? 1 : 0;
+        outcome.failed += members.text(row, "status") == statusText(MemberStatus::Failed) ? 1 : 0;
+    }
+    outcome.members = outcome.ok + outcome.failed + left;
+    return outcome;
+}
+
+/// How a calibration ends that was halted.
+int halted(CalibrationRuns& parts) {
+    parts.display.finish(parts.folder, outcomeOf(parts), parts.options);
+    return haltCode(parts.last.halt);
+}
+
+/// The point at which the chosen curve crosses the target: a value for each key of the study, in their order.
+std::vector<Setting> crossingPoint(const Study& study, const GridCalibration& grid) {
+    const Curve& curve = grid.curves[*grid.choice];
+    std::vector<Setting> known = settingsOf(study, grid.keys, curve.values), point;
+    known.push_back(settingOf(study, study.calibration->along, curve.crossings.front().along));
+    for (const std::string& key : study.keys())
+        for (const Setting& s : known)
+            if (s.key == key) point.push_back(s);
+    return point;
+}
+
+/// After the sweep: the table, the confirming runs of the crossing that is chosen, and the case there.
+int finishGrid(CalibrationRuns& parts, const std::vector<Member>& members) {
+    const Study& study = parts.study;
     const CalibrationAim& aim = *study.calibration;
-    forgetCase(folder);
-    const GridCalibration grid = calibrateGrid(folder.members(), study.keys(), aim);
-    tell("{}\n", targetText(aim));
-    for (std::size_t i = 0; i < grid.curves.size(); ++i)
-        tell("{}", curveText(pointText(grid.keys, grid.curves[i].values), grid.curves[i], aim, grid.choice == i));
-    if (grid.leftOut > 0) tell("left out: {} without a mass per dose\n", counted(grid.leftOut, "member"));
+    forgetCase(parts.folder);
+    forgetFinding(parts.folder.path());
+    const GridCalibration grid = calibrateGrid(parts.folder.members(), study.keys(), aim);
+    tell("{}{}", targetsText(aim, {}), gridText(grid, aim));
     if (!grid.choice) {
-        tell(stderr, "vkdose: no curve meets the target or comes within {:.2g} g of it; widen the axes\n",
+        tell(stderr, "vkdose: no curve comes to the target or within {:.2g} g of it; widen the axes\n",
              aim.tolerance * 1e3);
         return kDisagree;
     }
-    const Curve& curve = grid.curves[*grid.choice];
-    const Crossing& crossing = curve.crossings.front();
-    std::vector<Setting> point = settingsOf(study, grid.keys, curve.values);
-    point.push_back(settingOf(study, aim.along, crossing.along));
-    writeCase(study, folder, point,
-              fmt::format("{} {} meets {:.4g} g a dose", aim.along, withError(crossing.along, crossing.alongError),
-                          aim.target * 1e3));
+    const std::vector<Setting> point = crossingPoint(study, grid);
+    ConfirmingRuns confirming(parts, confirmingSeeds(study, members));
+    const auto trials = confirming.at(point, parts.options.retryFailed);
+    if (!trials) return halted(parts);
+    std::vector<std::vector<double>> seeds = grid.betas;
+    seeds.push_back(trials->front().values);
+    const Confirmed confirmed =
+        confirmedBy(seeds.back(), confirming.seeds().size(), scatterOfSeeds(seeds), aim.target, aim.tolerance);
+    const double believed = aim.target + grid.curves[*grid.choice].crossings.front().off;
+    const CalibrationFinding f = findingOf(study, point, believed, confirmed, confirming.seeds());
+    writeFinding(parts.folder.path(), f);
+    tell("{}", confirmationText(f));
+    if (!f.met) {
+        tell(stderr, "vkdose: no case is written; add points beside the chosen one, seeds or confirming_seeds\n");
+        return kDisagree;
+    }
+    writeCase(study, parts.folder, point, f);
     return kOk;
 }
 
@@ -131,114 +138,84 @@ void checkFigures(const Study& study) {
 }
 
 /// Checks a search before it begins: each corner of its bounds must be a valid case. Throws CaseError if one is not.
-void checkCorners(const Study& study) {
+std::vector<Member> cornersOf(const Study& study) {
     checkFigures(study);
     const std::vector<FreeParameter>& free = study.calibration->parameters;
+    std::vector<Member> corners;
     for (const std::filesystem::path& base : basesOf(study))
         for (unsigned corner = 0; corner < 1U << free.size(); ++corner) {
             Parameters p;
             for (std::size_t i = 0; i < free.size(); ++i)
                 p.push_back((corner >> i & 1U) != 0 ? free[i].high : free[i].low);
-            (void)memberAt(study, 0, std::nullopt, settingsAt(study, p), base);
+            corners.push_back(memberAt(study, 0, std::nullopt, settingsAt(study, p), base));
         }
+    return corners;
 }
 
-std::string targetsText(const CalibrationAim& aim, const CalibrationFinding& f) {
-    if (aim.targets.empty()) return targetText(aim) + "\n";
-    std::string text;
-    for (std::size_t g = 0; g < f.targets.size(); ++g)
-        text += fmt::format("target   {} {}, weight {:.4g}, by {}\n", printable(f.targets[g].name),
-                            withError(f.targets[g].value, f.targets[g].uncertainty), f.targets[g].weight,
-                            printable(aim.targets[g].base.string()));
-    return text;
-}
-
-/// "beta 0.0764 +- 0.0041 g"
-std::string figureText(const CalibrationFinding::Target& t, double value, double error) {
-    return fmt::format("{} {}{}{}", printable(t.name), withError(value, error), t.unit.empty() ? "" : " ", t.unit);
-}
-
-std::string pointsText(const CalibrationFinding& f) {
-    std::string text;
-    for (std::size_t i = 0; i < f.points.size(); ++i) {
-        for (std::size_t k = 0; k < f.parameters.size(); ++k)
-            text += fmt::format("    {} {:<10.6g}", f.parameters[k].key, f.points[i].at[k]);
-        for (std::size_t g = 0; g < f.targets.size(); ++g)
-            text += " " + figureText(f.targets[g], f.points[i].values[g].value, f.points[i].values[g].error);
-        text += fmt::format("{}\n", i == f.best ? "   <- chosen" : "");
-    }
-    return text;
-}
-
-/// The figures that are believed at the chosen point.
-std::string believedText(const CalibrationFinding& f) {
-    std::string text;
-    for (const CalibrationFinding::Target& t : f.targets)
-        text += (text.empty() ? "" : ", ") + figureText(t, t.believed, t.deviation);
-    return text;
-}
-
-/// Which target constrains which parameter, and how well all targets together know it.
-std::string sensitivityText(const CalibrationFinding& f) {
-    std::string text = "change from bound to bound by the slope there, in uncertainties of the target:\n";
-    for (const CalibrationFinding::Parameter& p : f.parameters) {
-        std::string line;
-        for (std::size_t g = 0; g < f.targets.size(); ++g)
-            line += fmt::format("{}{} {:+.3g}", g > 0 ? ", " : "", printable(f.targets[g].name), p.change[g]);
-        text += fmt::format("    {}: {}; {}\n", p.key, line,
-                            p.constrained ? fmt::format("known to +- {:.2g}, mostly by {}", p.error,
-                                                        printable(f.targets[p.mostlyBy].name))
-                                          : "the targets do not constrain it within its bounds");
-    }
-    return text;
-}
-
-/// The members that have ended so far, of a search that was interrupted.
-SweepOutcome countedIn(const SweepFolder& folder) {
-    SweepOutcome outcome;
-    const Table& members = folder.members();
-    for (std::size_t row = 0; row < members.rows(); ++row) {
-        outcome.ok += members.text(row, "status") == statusText(MemberStatus::Ok) ? 1 : 0;
-        outcome.failed += members.text(row, "status") == statusText(MemberStatus::Failed) ? 1 : 0;
-    }
-    return outcome;
-}
-
-int reportSearch(const Study& study, const SweepFolder& folder, const SearchResult& result) {
+/// The members that a calibration may need beyond those that it begins with. Each takes no longer than the longest of
+/// `known`.
+LaterMembers laterMembers(const Study& study, const std::vector<Member>& known) {
     const CalibrationAim& aim = *study.calibration;
-    const CalibrationFinding f = findingOf(study, result);
-    forgetCase(folder);
-    writeFinding(folder.path(), f);
-    tell("{}{}", targetsText(aim, f), pointsText(f));
-    const std::string believed = believedText(f);
-    const bool one = f.targets.size() == 1;
-    tell("believed there: {}; {} {} after {} points\n", believed, one ? "the target is" : "the targets are",
-         f.met ? "met"
-         : one ? "NOT met to its tolerance"
-               : "NOT met to their uncertainties",
-         f.points.size());
-    if (!one) tell("misfit {:.3g}, the weighted sum of squares over uncertainties\n", f.misfit);
-    for (const CalibrationFinding::Parameter& p : f.parameters) {
-        if (p.mayMeet)
-            tell("{} from {:.4g} to {:.4g} may meet {}\n", p.key, p.mayMeet->first, p.mayMeet->second,
-                 one ? "it" : "them");
-        else
-            tell("no {} within its bounds is believed to meet {}\n", p.key, one ? "it" : "them");
+    const std::size_t bases = basesOf(study).size(), confirming = std::size_t(aim.confirmingSeeds);
+    const std::size_t seeds = std::max<std::size_t>(1, study.seeds.size());
+    LaterMembers later;
+    for (const Member& m : known) later.longest = std::max(later.longest, m.expectedWork);
+    if (aim.method == CalibrationAim::Method::Surrogate) {
+        // Each further point may be a confirmation that misses, and the last one is confirmed beyond their number.
+        const std::size_t points = std::size_t(aim.maxRuns) - firstPoints(aim).size();
+        later.most = bases * (points * std::max(seeds, confirming) + confirming);
+        later.atOnce = int(bases * std::min(seeds, confirming));
+        later.what = fmt::format("at {} and in confirming runs", counted(points, "more point"));
+    } else {
+        later.most = confirming;
+        later.atOnce = int(confirming);
+        later.what = "in confirming runs";
     }
-    tell("{}", sensitivityText(f));
+    later.work = double(later.most) * later.longest;
+    return later;
+}
+
+int reportSearch(const CalibrationRuns& parts, const SearchResult& result, const std::vector<std::uint64_t>& seeds) {
+    const CalibrationAim& aim = *parts.study.calibration;
+    const CalibrationFinding f = findingOf(parts.study, result, seeds);
+    forgetCase(parts.folder);
+    writeFinding(parts.folder.path(), f);
+    tell("{}{}{}", targetsText(aim, f), searchText(f), confirmationText(f));
     if (!f.met) {
         tell(stderr,
-             "vkdose: no case is written; give a larger max_runs, or in another folder other bounds or a wider {}\n",
+             "vkdose: no case is written; give a larger max_runs, or in another folder other bounds, more "
+             "confirming_seeds or a wider {}\n",
              aim.targets.empty() ? "tolerance_g" : "uncertainty");
         return kDisagree;
     }
-    std::string aims;
-    for (const CalibrationFinding::Target& t : f.targets)
-        aims += fmt::format("{}{:.4g}{}{}", aims.empty() ? "" : ", ", t.value, t.unit.empty() ? "" : " ", t.unit);
-    writeCase(
-        study, folder, settingsAt(study, result.points[result.best]),
-        fmt::format("{}{} is believed there, the target is {}", believed, aim.targets.empty() ? " a dose" : "", aims));
+    writeCase(parts.study, parts.folder, settingsAt(parts.study, result.points[result.best]), f);
     return kOk;
+}
+
+int runSearch(CalibrationRuns& parts, const std::vector<Member>& first) {
+    SearchRuns runs(parts);
+    ConfirmingRuns confirming(parts, confirmingSeeds(parts.study, first));
+    std::optional<SearchResult> result;
+    try {
+        result = search(*parts.study.calibration, std::ref(runs), [&](const Parameters& point) {
+            return confirming.at(settingsAt(parts.study, point), parts.options.retryFailed && !runs.goesOn());
+        });
+    } catch (const FolderError&) {  // a later point was another one
+        parts.folder.keepFormerStudy();
+        throw;
+    }
+    if (!result) return halted(parts);
+    parts.folder.sort();
+    return reportSearch(parts, *result, confirming.seeds());
+}
+
+int runGrid(CalibrationRuns& parts, const std::vector<Member>& members) {
+    parts.display.begin(members, parts.runner.manner());
+    const SweepOutcome outcome =
+        runMembers(parts.folder, members, parts.runner, parts.display, parts.halt, parts.options.retryFailed);
+    if (outcome.whole) parts.folder.sort();
+    parts.display.finish(parts.folder, outcome, parts.options);
+    return outcome.whole ? finishGrid(parts, members) : haltCode(outcome.halt);
 }
 
 }  // namespace
@@ -250,39 +227,21 @@ int calibrateCommand(const SweepOptions& options) {
             {{options.study.string(), 0, "calibrate", "", "the table is missing",
               "add [calibrate] with target_g_per_dose and tolerance_g, with measured, or with [[calibrate.target]]"}});
     const bool isSearch = study.calibration->method == CalibrationAim::Method::Surrogate;
-    if (isSearch) checkCorners(study);
-    const std::vector<Member> members = !isSearch        ? membersOf(study)
-                                        : options.dryRun ? std::vector<Member>{}
-                                                         : SearchRuns::first(study);
+    std::vector<Member> known = isSearch ? cornersOf(study) : std::vector<Member>();
+    const std::vector<Member> members = isSearch ? SearchRuns::first(study) : membersOf(study);
     if (options.dryRun) {
-        tell("{}", planText(options, study, members));
+        known.insert(known.end(), members.begin(), members.end());
+        tell("{}", planText(options, study, members, laterMembers(study, known)));
         return kOk;
     }
     const std::unique_ptr<MemberRunner> runner = makeRunner(options);
-    const std::atomic<bool>& stop = watchInterrupts();
+    const HaltRule halt = haltRule(watchInterrupts(), options.limit);
     SweepDisplay display("calibrate", study, options.quiet);
-    SweepFolder folder(sweepFolder(options), study, members);
-    if (isSearch) {
-        SearchRuns runs(study, folder, *runner, display, stop, options.retryFailed);
-        std::optional<SearchResult> result;
-        try {
-            result = search(*study.calibration, std::ref(runs));
-        } catch (const FolderError&) {  // a later point was another one
-            folder.keepFormerStudy();
-            throw;
-        }
-        if (!result) {
-            display.finish(folder, countedIn(folder));
-            return kInterrupted;
-        }
-        folder.sort();
-        return reportSearch(study, folder, *result);
-    }
-    display.begin(members, runner->manner());
-    const SweepOutcome outcome = runMembers(folder, members, *runner, display, stop, options.retryFailed);
-    if (outcome.whole) folder.sort();
-    display.finish(folder, outcome);
-    return outcome.whole ? reportGrid(study, folder) : kInterrupted;
+    const std::filesystem::path out = sweepFolder(options);
+    SweepFolder::requireUsable(confirmingFolder(out), study);
+    SweepFolder folder(out, study, members, isSearch ? SweepFolder::Manner::Open : SweepFolder::Manner::Whole);
+    CalibrationRuns parts{study, folder, *runner, display, halt, options};
+    return isSearch ? runSearch(parts, members) : runGrid(parts, members);
 }
 
 }  // namespace vkdose

@@ -8,7 +8,9 @@
 #include "host/app/commands.h"
 #include "host/app/exit_code.h"
 #include "host/app/speed.h"
+#include "host/app/tell.h"
 #include "host/app/text.h"
+#include "host/core/file.h"
 #include "host/core/json.h"
 #include "host/core/printable.h"
 #include "host/model/bed_weight.h"
@@ -44,21 +46,21 @@ Checked checked(const CaseOptions& input) {
 
 void printFilling(const Case& c, const Insertion& filled) {
     const auto [low, high] = std::minmax_element(filled.particles.radius.begin(), filled.particles.radius.end());
-    fmt::print("particles  {}, {:.4g} g", filled.particles.size(), filled.mass * 1e3);
-    if (filled.targetMass > 0) fmt::print(" (target {:.4g} g)", filled.targetMass * 1e3);
-    if (low != filled.particles.radius.end()) fmt::print(", radius {:.4g} to {:.4g} mm", *low * 1e3, *high * 1e3);
-    if (filled.redrawn > 0) fmt::print(", {} draws outside the bounds drawn again", filled.redrawn);
-    fmt::print("\n");
+    tell("particles  {}, {:.4g} g", filled.particles.size(), filled.mass * 1e3);
+    if (filled.targetMass > 0) tell(" (target {:.4g} g)", filled.targetMass * 1e3);
+    if (low != filled.particles.radius.end()) tell(", radius {:.4g} to {:.4g} mm", *low * 1e3, *high * 1e3);
+    if (filled.redrawn > 0) tell(", {} draws outside the bounds drawn again", filled.redrawn);
+    tell("\n");
     if (c.furtherPowders.empty()) return;
     const std::vector<PowderOf> powders = powdersOf(c);
     for (std::size_t k = 0; k < powders.size(); ++k) {
         const SizeRange size = powderSizes(c).at(std::size_t(powders[k].material));
-        fmt::print("powder     {}: {}, {:.4g} g (target {:.4g} g), {:.4g} kg/m3", powders[k].name,
-                   filled.powders[k].particles, filled.powders[k].mass * 1e3, filled.powders[k].targetMass * 1e3,
-                   c.world.density(powders[k].material));
+        tell("powder     {}: {}, {:.4g} g (target {:.4g} g), {:.4g} kg/m3", powders[k].name,
+             filled.powders[k].particles, filled.powders[k].mass * 1e3, filled.powders[k].targetMass * 1e3,
+             c.world.density(powders[k].material));
         if (filled.powders[k].particles > 0)
-            fmt::print(", radius {:.4g} to {:.4g} mm", size.smallest * 1e3, size.largest * 1e3);
-        fmt::print("\n");
+            tell(", radius {:.4g} to {:.4g} mm", size.smallest * 1e3, size.largest * 1e3);
+        tell("\n");
     }
 }
 
@@ -66,65 +68,63 @@ void printRefills(const Case& c, const Insertion& filled) {
     for (std::size_t k = 0; k < c.refills.size(); ++k) {
         const Refill& r = c.refills[k];
         const Insertion::Waiting& powder = filled.waiting[k];
-        fmt::print("refill     {}: {}, {:.4g} g, {}\n", r.name, powder.particles.size(), powder.mass * 1e3,
-                   r.time         ? fmt::format("at t = {:.4g} s", *r.time)
-                   : r.beforeDose ? fmt::format("before dose {}", *r.beforeDose)
-                                  : "when it is ordered");
+        tell("refill     {}: {}, {:.4g} g, {}\n", r.name, powder.particles.size(), powder.mass * 1e3,
+             r.time         ? fmt::format("at t = {:.4g} s", *r.time)
+             : r.beforeDose ? fmt::format("before dose {}", *r.beforeDose)
+                            : "when it is ordered");
     }
 }
 
 void printSoftening(const Case& c) {
     const ContactParameters& p = c.dosingLaw.of(ContactClass::ParticleParticle);
-    fmt::print(
-        "softened   {:.4g} times: k = {:.5g} N/m, damping {:.4g} kg/s, plasticity_depth {:.4g} between particles\n",
-        c.softened, p.k2Max, p.gamma, p.plasticityDepth);
+    tell("softened   {:.4g} times: k = {:.5g} N/m, damping {:.4g} kg/s, plasticity_depth {:.4g} between particles\n",
+         c.softened, p.k2Max, p.gamma, p.plasticityDepth);
 }
 
 void printDerivations(const Case& c) {
-    for (const std::string& line : c.derivations) fmt::print("derived    {}\n", printable(line));
+    for (const std::string& line : c.derivations) tell("derived    {}\n", printable(line));
 }
 
 void printContacts(const Case& c, const Derived& d, const Figures& f) {
     const NormalLaw law = c.dosingLaw.of(ContactClass::ParticleParticle).law;
-    fmt::print("contact duration   {}\n",
-               law == NormalLaw::Luding ? "  mean pair on k1  stiffest pair on k2"
-               : law == NormalLaw::User ? "      mean pair        smallest pair   (at the law's largest stiffness)"
+    tell("contact duration   {}\n", law == NormalLaw::Luding ? "  mean pair on k1  stiffest pair on k2"
+                                    : law == NormalLaw::User
+                                        ? "      mean pair        smallest pair   (at the law's largest stiffness)"
                                         : "      mean pair        smallest pair   (as stiff as at max_overlap_ratio)");
     for (const Derived::PairDuration& p : d.durations) {
-        fmt::print("  {:<18} {:>13.4g} s  {:>17.4g} s\n", p.name, p.mean, p.stiffest);
+        tell("  {:<18} {:>13.4g} s  {:>17.4g} s\n", p.name, p.mean, p.stiffest);
     }
-    fmt::print("restitution                mean    smallest     largest   ({})\n",
-               law == NormalLaw::HertzMindlin ? "of any impact"
-               : law == NormalLaw::User       ? "of its damping alone, at its largest stiffness"
-                                              : "of damping alone, on k1");
+    tell("restitution                mean    smallest     largest   ({})\n",
+         law == NormalLaw::HertzMindlin ? "of any impact"
+         : law == NormalLaw::User       ? "of its damping alone, at its largest stiffness"
+                                        : "of damping alone, on k1");
     for (const Restitution& e : f.restitutions)
-        fmt::print("  {:<18} {:>10.3g}  {:>10.3g}  {:>10.3g}\n", nameOf(c.world, e.pair), e.mean, e.smallest,
-                   e.largest);
-    fmt::print("time step  {:.4g} s = 1/{:.3g} of the stiffest; auto is {:.3g} s, limited by {}\n", d.timeStep,
-               d.stiffest / d.timeStep, f.automaticStep, f.stepLimit);
+        tell("  {:<18} {:>10.3g}  {:>10.3g}  {:>10.3g}\n", nameOf(c.world, e.pair), e.mean, e.smallest, e.largest);
+    tell("time step  {:.4g} s = 1/{:.3g} of the stiffest; auto is {:.3g} s, limited by {}\n", d.timeStep,
+         d.stiffest / d.timeStep, f.automaticStep, f.stepLimit);
 }
 
 /// Fall, weight and adhesion of the bed, where they are known.
 void printBed(const Checked& all) {
     const Figures& f = all.figures;
     if (!(f.bedDepth > 0)) return;
-    fmt::print("bed        {:.3g} mm deep at a volume fraction of {}; the fill falls {:.3g} mm in {:.2g} s\n",
-               f.bedDepth * 1e3, kBedFraction, f.fall * 1e3, f.fallTime);
-    fmt::print(
+    tell("bed        {:.3g} mm deep at a volume fraction of {}; the fill falls {:.3g} mm in {:.2g} s\n",
+         f.bedDepth * 1e3, kBedFraction, f.fall * 1e3, f.fallTime);
+    tell(
         "overlap    {:.2g} of the radius under the bed's weight, {:.2g} in its chains of force, {:.2g} of the fall "
         "(limit {:.3g})\n",
         f.overlapUnderBed, kChain * f.overlapUnderBed, f.overlapOfFall, all.c.world.maxOverlapRatio);
     if (std::isnan(f.bondLargest)) return;  // of a user's law nobody knows it
-    fmt::print("Bond       {:.2g} under the bed's weight, at most {:.3g} (pull-off force over weight, mean pair)\n",
-               f.bondUnderBed, f.bondLargest);
+    tell("Bond       {:.2g} under the bed's weight, at most {:.3g} (pull-off force over weight, mean pair)\n",
+         f.bondUnderBed, f.bondLargest);
 }
 
 void printGaps(const Checked& all) {
     const Figures& f = all.figures;
     const auto row = [&](const char* what, double width) {
         if (width >= 0)
-            fmt::print("{} {:.3g} mm: {:.2g} mean spheres across, {:.2g} of the largest\n", what, width * 1e3,
-                       width / (2 * f.mean), width / (2 * f.largest));
+            tell("{} {:.3g} mm: {:.2g} mean spheres across, {:.2g} of the largest\n", what, width * 1e3,
+                 width / (2 * f.mean), width / (2 * f.largest));
     };
     row("coil gap  ", f.coilGap);
     row("clearance ", f.coilClearance);
@@ -134,44 +134,44 @@ void printGaps(const Checked& all) {
 void printPredictions(const Derived& d, const Schedule& schedule, bool coil) {
     const char* form =
         coil ? "rho_b p pi r_c^2 n_t" : "rho_b times the way and the free section of the body that carries most";
-    fmt::print("push V_z   {:.4g} mm/s (p Omega / 2 pi)\n", d.pushVelocity * 1e3);
-    fmt::print("tip V_t    {:.4g} mm/s (Omega r_c)\n", d.tipVelocity * 1e3);
+    tell("push V_z   {:.4g} mm/s (p Omega / 2 pi)\n", d.pushVelocity * 1e3);
+    tell("tip V_t    {:.4g} mm/s (Omega r_c)\n", d.tipVelocity * 1e3);
     if (schedule.targetMass > 0)
-        fmt::print("per dose   {:.4g} g, which are {:.3g} turns by the closed form ({})\n", d.massPerDose * 1e3,
-                   d.massPerDose / d.massPerTurn, form);
+        tell("per dose   {:.4g} g, which are {:.3g} turns by the closed form ({})\n", d.massPerDose * 1e3,
+             d.massPerDose / d.massPerTurn, form);
     else
-        fmt::print("per dose   {:.4g} g by the closed form ({})\n", d.massPerDose * 1e3, form);
-    fmt::print("doses      {:.3g} to empty the canister by the closed form\n", d.doses);
+        tell("per dose   {:.4g} g by the closed form ({})\n", d.massPerDose * 1e3, form);
+    tell("doses      {:.3g} to empty the canister by the closed form\n", d.doses);
 }
 
 void printWarnings(const std::vector<Warning>& warnings) {
     for (const Warning& w : warnings)
-        if (!w.accepted) fmt::print("warning    {}\n", w.line());
+        if (!w.accepted) tell("warning    {}\n", w.line());
     for (const Warning& w : warnings)
-        if (w.accepted) fmt::print("accepted   {}\n", w.line());
+        if (w.accepted) tell("accepted   {}\n", w.line());
 }
 
 void printText(const CheckOptions& options, const Checked& all) {
     const Timeline timeline(all.c);
-    fmt::print("case       {}: {}\n", all.c.name, printableLines(all.c.reason));
+    tell("case       {}: {}\n", all.c.name, printableLines(all.c.reason));
     printFilling(all.c, all.filled);
     printRefills(all.c, all.filled);
     if (all.c.softened > 1) printSoftening(all.c);
-    if (const auto& law = all.c.dosingLaw.user) fmt::print("law        {} ({})\n", printable(law->name), law->hash);
+    if (const auto& law = all.c.dosingLaw.user) tell("law        {} ({})\n", printable(law->name), law->hash);
     printDerivations(all.c);
     printContacts(all.c, all.derived, all.figures);
     printBed(all);
     printGaps(all);
     if (all.derived.massPerTurn > 0) printPredictions(all.derived, all.c.schedule, all.c.world.coil.has_value());
     const Schedule& s = all.c.schedule;
-    fmt::print("schedule   settle {}{} steps, rotate {}{}, rest {}; sensors every {} steps\n",
-               s.untilRest ? "until at rest, at most " : "", timeline.settleSteps(), s.targetMass > 0 ? "at most " : "",
-               timeline.rotateSteps(), timeline.restSteps(), timeline.sensorSteps());
+    tell("schedule   settle {}{} steps, rotate {}{}, rest {}; sensors every {} steps\n",
+         s.untilRest ? "until at rest, at most " : "", timeline.settleSteps(), s.targetMass > 0 ? "at most " : "",
+         timeline.rotateSteps(), timeline.restSteps(), timeline.sensorSteps());
     if (s.targetMass > 0)
-        fmt::print("target     {:.4g} g a dose, in {} speed{}\n", s.targetMass * 1e3, s.stages.size() + 1,
-                   s.stages.empty() ? "" : "s");
-    fmt::print("{}", workText(all.derived));
-    fmt::print("{}", runTimeText(all.derived, speedOf(all.c, all.filled, options.backend, options.assume)));
+        tell("target     {:.4g} g a dose, in {} speed{}\n", s.targetMass * 1e3, s.stages.size() + 1,
+             s.stages.empty() ? "" : "s");
+    tell("{}", workText(all.derived));
+    tell("{}", runTimeText(all.derived, speedOf(all.c, all.filled, options.backend, options.assume)));
     printWarnings(all.warnings);
 }
 
@@ -259,8 +259,11 @@ int checkAsJson(const CheckOptions& options) {
     } catch (const CaseError& error) {
         out["errors"] = errorsOf(error);
         code = kBadInput;
+    } catch (const ReadError& error) {
+        out["errors"] = errorsOf(CaseError({{"", 0, "", "", error.what(), ""}}));
+        code = kBadInput;
     }
-    fmt::print("{}\n", out.dump(2));
+    tell("{}\n", out.dump(2));
     return code;
 }
 

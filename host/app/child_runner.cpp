@@ -12,9 +12,11 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <utility>
 
 #include "host/app/exit_code.h"
 #include "host/core/error.h"
+#include "host/core/output_file.h"
 #include "host/vk/driver_variable.h"
 
 namespace vkdose {
@@ -101,7 +103,7 @@ void ChildRunner::start(const MemberTask& task) {
         ::close(ends[0]);
         throw RunError(fmt::format("cannot start another process: {}", std::strerror(fault)));
     }
-    children_.push_back({task.number, process, ends[0], ""});
+    children_.push_back({task.number, process, ends[0], "", false});
 }
 
 std::optional<MemberEnd> ChildRunner::wait() {
@@ -112,9 +114,8 @@ std::optional<MemberEnd> ChildRunner::wait() {
     for (std::size_t i = 0; i < ends.size(); ++i, ++child) {
         if (ends[i].revents == 0) continue;
         std::array<char, 1024> buffer{};
-        const ssize_t n = ::read(child->said, buffer.data(), buffer.size());
-        if (n < 0) continue;
-        if (n == 0) return reap(child);  // its end of the pipe is closed: it is gone
+        const ssize_t n = retried([&] { return ::read(child->said, buffer.data(), buffer.size()); });
+        if (n <= 0) return reap(child);  // its end of the pipe is closed: it is gone
         child->text.append(buffer.data(), std::size_t(n));
         if (child->text.size() > kRemembered) child->text.erase(0, child->text.size() - kRemembered);
     }
@@ -133,7 +134,8 @@ MemberEnd ChildRunner::reap(std::list<Child>::iterator child) {
 }
 
 void ChildRunner::interrupt() {
-    for (const Child& child : children_) kill(child.process, SIGINT);
+    for (Child& child : children_)
+        if (!std::exchange(child.interrupted, true)) kill(child.process, SIGINT);
 }
 
 }  // namespace vkdose

@@ -32,6 +32,7 @@ class ChildRunner : public MemberRunner {
         pid_t process;
         int said;  ///< reading end of its stderr
         std::string text;
+        bool interrupted = false;  ///< a second interrupt would end it without a checkpoint
     };
     std::vector<std::string> arguments(const MemberTask& task) const;
     MemberEnd reap(std::list<Child>::iterator child);

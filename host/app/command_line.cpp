@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <exception>
 #include <functional>
+#include <sstream>
 #include <string>
 
 #include "host/app/command_options.h"
@@ -49,13 +50,12 @@ const SweepOptions& studied(SweepOptions& options) {
 }
 
 int printed(const std::string& page) {
-    fmt::print("{}", page);
+    say(stdout, page);
     return kOk;
 }
 
-}  // namespace
-
-int commandLine(int argc, const char* const* argv) {
+/// Runs what the command line asks for and returns its exit code.
+int played(int argc, const char* const* argv) {
     tryLawsOnDevices();
     std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files becomes an error of the write that meets it
     CLI::App program("Simulates the dosing of cohesive powder by a turning coil (discrete element method).", "vkdose");
@@ -69,7 +69,11 @@ int commandLine(int argc, const char* const* argv) {
         program.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
         // --help is a ParseError too, with code 0 and its text on stdout.
-        if (e.get_exit_code() == 0) return program.exit(e);
+        if (e.get_exit_code() == 0) {
+            std::ostringstream text;
+            program.exit(e, text, text);
+            return printed(text.str());
+        }
         tell(stderr, "{}", usageFault(program, e.what(), argc > 1 ? argv[1] : ""));
         return kBadInput;
     }
@@ -100,6 +104,13 @@ int commandLine(int argc, const char* const* argv) {
         return guarded([&] { return completionCommand(commandTexts(program), given.shells); });
     if (program.got_subcommand("man")) return guarded([&] { return manCommand(commandTexts(program), given.shells); });
     return guarded([] { return devicesCommand(); });
+}
+
+}  // namespace
+
+int commandLine(int argc, const char* const* argv) {
+    openText();
+    return closedText(played(argc, argv));
 }
 
 }  // namespace vkdose

@@ -101,6 +101,7 @@ void addVerify(CLI::App& program, VerifyOptions& options) {
         ->type_name("DIR")
         ->capture_default_str();
     command.add_option("--only", options.only, "play only the cases with this in their name")->type_name("NAME");
+    command.add_flag("--list", options.list, "tell which cases there are, and play none");
 }
 
 void addBench(CLI::App& program, BenchOptions& options) {
@@ -177,6 +178,7 @@ CLI::App& addSweep(CLI::App& program, const char* name, const char* what, SweepO
             "members at once that share the device in an ensemble (default on a GPU: as many as its memory holds)")
         ->check(CLI::Range(1, 1024))
         ->excludes("--jobs");
+    addFor(command, options.limit);
     command.add_flag("--retry-failed", options.retryFailed,
                      "run the members that failed again, from their checkpoints if these can be read");
     addSet(command, options.overrides,
@@ -208,6 +210,7 @@ void addValidate(CLI::App& program, ValidateOptions& options) {
                     "runs at once, each in a process of its own (default on a CPU: one for each core)")
         ->check(CLI::Range(1, 1024))
         ->excludes(judge);
+    addFor(command, options.sweep.limit);
     command
         .add_flag("--retry-failed", options.sweep.retryFailed,
                   "run those that failed again, from their checkpoints if these can be read")

@@ -10,6 +10,7 @@
 
 #include "host/app/backends.h"
 #include "host/app/command_table.h"
+#include "host/app/time_limit.h"
 #include "host/photo/profile.h"
 
 namespace vkdose {
@@ -72,7 +73,8 @@ struct CompareOptions {
 struct VerifyOptions {
     BackendChoice backend;
     std::filesystem::path out = "out/verify";
-    std::string only;  ///< part of the name of the cases to play; empty: all
+    std::string only;   ///< part of the name of the cases to play; empty: all
+    bool list = false;  ///< tell which cases there are, and play none
 };
 
 /// The settled bed that comes with the project, seen from its folder.
@@ -108,6 +110,8 @@ struct SweepOptions {
     bool mpi = false;           ///< a member on each rank of an MPI job instead
     int jobs = 0;               ///< members at once, in processes; 0: one for each core, if those are what it takes
     int ensemble = 0;           ///< members at once that share the device; 0: on a GPU as many as fit
+    std::optional<TimeLimit> limit;  ///< of the command's wall time
+    std::string again;  ///< the command that goes on, without what all have; empty: that of the sweep itself
     bool retryFailed = false;
     bool prepare = false;  ///< only make the members' folders
     bool dryRun = false;

@@ -103,13 +103,13 @@ int compareCommand(const CompareOptions& options) {
         tell(
             "All make the steps of the longest times: nothing that a run reads from its sensors ends a phase "
             "here.\n\n");
-    std::fflush(stdout);
+    sendText(stdout);
 
     const bool terminal = isatty(fileno(stderr)) == 1;
     const auto progress = [&](std::uint64_t step) {
         if (!terminal) return;
         tell(stderr, "\r{:>5.1f} %", 100.0 * static_cast<double>(step) / static_cast<double>(steps));
-        std::fflush(stderr);
+        sendText(stderr);
     };
     const Comparison result =
         compareBackends(c, filled, *reference, twins, *candidate, steps, progress, watchInterrupts());

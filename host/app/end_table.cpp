@@ -20,7 +20,8 @@ std::string doseTable(const std::vector<Dose>& doses) {
                                    "torque [mN m]", "closed form [g]");
     for (const Dose& d : doses) {
         text += fmt::format("{:>5} {:>10} {:>14} {:>16.3f} {:>15}{}\n", d.index, grams(d.mass), grams(d.cumulative),
-                            d.coilTorque * 1e3, grams(d.closedForm), d.complete ? "" : "  incomplete, not in the mean");
+                            d.coilTorque * 1e3, d.closedForm > 0 ? grams(d.closedForm) : "none",
+                            d.complete ? "" : "  incomplete, not in the mean");
     }
     return text;
 }

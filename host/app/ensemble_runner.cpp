@@ -6,7 +6,6 @@
 #include <chrono>
 #include <utility>
 
-#include "host/app/batches.h"
 #include "host/app/play.h"
 #include "host/core/error.h"
 #include "host/output/hdf5.h"
@@ -28,7 +27,7 @@ EnsembleRunner::EnsembleRunner(BackendChoice choice, int most, const DeviceRoom&
 EnsembleRunner::~EnsembleRunner() {
     // An error ends the sweep: what has been started is to end with it.
     stop_ = true;
-    for (std::thread& thread : threads_) thread.join();
+    for (auto& [number, thread] : threads_) thread.join();
 }
 
 std::string EnsembleRunner::manner() const {
@@ -45,48 +44,60 @@ void EnsembleRunner::order(std::vector<WaitingMember>& members) {
             {w.member->number, w.steps, roomOf(c.world, insertParticles(c).allParticles(), c.dosingLaw.user)});
         byNumber[w.member->number] = w;
     }
-    const auto batches = batchesOf(std::move(sized), room_, std::size_t(most_ > 0 ? most_ : kMostThreads));
+    batches_ = batchesOf(std::move(sized), room_, std::size_t(most_ > 0 ? most_ : kMostThreads));
     members.clear();
     places_.clear();
-    for (std::size_t batch = 0; batch < batches.size(); ++batch)
-        for (const int number : batches[batch]) {
+    for (std::size_t batch = 0; batch < batches_.size(); ++batch)
+        for (const int number : batches_[batch].members) {
             members.push_back(byNumber.at(number));
             places_[number] = {batch, byNumber.at(number).member->particles};
         }
 }
 
 bool EnsembleRunner::takes(const Member& member) const {
-    if (running_ > 0) return false;
-    return batch_.empty() || places_.at(member.number).batch == places_.at(batch_.front().number).batch;
+    const std::size_t running = threads_.size() + first_.size();
+    if (running == 0) return true;
+    const std::size_t batch = places_.at(first_.empty() ? threads_.begin()->first : first_.front().number).batch;
+    return places_.at(member.number).batch == batch && running < batches_[batch].places;
 }
 
 void EnsembleRunner::start(const MemberTask& task) {
-    batch_.push_back(task);
+    if (threads_.empty())
+        first_.push_back(task);
+    else
+        play(task, nullptr);
 }
 
 void EnsembleRunner::launch() {
     std::size_t particles = 0;
-    for (const MemberTask& task : batch_) particles += places_.at(task.number).particles;
-    std::vector<std::unique_ptr<Backend>> backends = makeEnsemble(choice_, batch_.size(), particles);
-    const std::vector<MemberTask> tasks = std::exchange(batch_, {});
-    running_ = tasks.size();
-    for (std::size_t i = 0; i < tasks.size(); ++i)
-        threads_.emplace_back([this, task = tasks[i], backend = std::move(backends[i])]() mutable {
-            MemberEnd end = run(task, std::move(backend));
-            const std::lock_guard lock(mutex_);
-            ended_.push_back(std::move(end));
-            someEnded_.notify_one();
-        });
+    for (const MemberTask& task : first_) particles += places_.at(task.number).particles;
+    ensemble_.reset();  // the former one makes room for this one
+    ensemble_.emplace(makeEnsemble(choice_, particles));
+    std::vector<std::unique_ptr<Backend>> backends;
+    while (backends.size() < first_.size()) backends.push_back(ensemble_->enter());
+    const std::vector<MemberTask> tasks = std::exchange(first_, {});
+    for (std::size_t i = 0; i < tasks.size(); ++i) play(tasks[i], std::move(backends[i]));
 }
 
-MemberEnd EnsembleRunner::run(const MemberTask& task, std::unique_ptr<Backend> backend) const {
+void EnsembleRunner::play(const MemberTask& task, std::unique_ptr<Backend> backend) {
+    threads_[task.number] = std::thread([this, task, backend = std::move(backend)]() mutable {
+        MemberEnd end = run(task, std::move(backend));
+        const std::lock_guard lock(mutex_);
+        ended_.push_back(std::move(end));
+        someEnded_.notify_one();
+    });
+}
+
+MemberEnd EnsembleRunner::run(const MemberTask& task, std::unique_ptr<Backend> backend) {
     MemberEnd end{task.number, kOk, ""};
     try {
         // As `vkdose run` and `vkdose resume` would; a member's end takes its backend with it, and nobody waits for it.
         ReadyRun ready = task.resume ? readyToResume(task.folder) : readyRun({task.folder / "case.toml", {}});
         ready.role = {task.bed ? 0 : std::uint32_t(task.number), task.bed, ""};
+        if (!backend) backend = ensemble_->enter();
+        if (ready.from) requireSameKind(ready.from->backend, choice_, *backend);
         RunFolder folder = folderOf(ready, task.folder, true, *backend);
-        const Played played = play(std::move(ready), *backend, folder, nullptr, stop_);
+        const Played played = vkdose::play(std::move(ready), *backend, folder, nullptr, stop_);
         end.code = played.code;
         end.said = played.error;
         const std::vector<std::string> found = validationFindings(choice_, *backend);
@@ -100,16 +111,14 @@ MemberEnd EnsembleRunner::run(const MemberTask& task, std::unique_ptr<Backend> b
 }
 
 std::optional<MemberEnd> EnsembleRunner::wait() {
-    if (running_ == 0) launch();
+    if (threads_.empty()) launch();
     std::unique_lock lock(mutex_);
     if (!someEnded_.wait_for(lock, kMoment, [this] { return !ended_.empty(); })) return std::nullopt;
     MemberEnd end = std::move(ended_.front());
     ended_.pop_front();
     lock.unlock();
-    if (--running_ == 0) {
-        for (std::thread& thread : threads_) thread.join();
-        threads_.clear();
-    }
+    threads_.at(end.number).join();
+    threads_.erase(end.number);
     return end;
 }
 

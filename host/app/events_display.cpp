@@ -1,8 +1,7 @@
 #include "host/app/events_display.h"
 
-#include <csignal>
-
 #include "host/app/interrupt.h"
+#include "host/app/tell.h"
 #include "host/core/json.h"
 #include "host/model/powders.h"
 
@@ -10,9 +9,7 @@ namespace vkdose {
 
 using Json = nlohmann::ordered_json;
 
-EventsDisplay::EventsDisplay(const Case& c, std::FILE* stream) : case_(c), stream_(stream) {
-    std::signal(SIGPIPE, SIG_IGN);  // a reader that has gone becomes a failed write
-}
+EventsDisplay::EventsDisplay(const Case& c, std::FILE* stream) : case_(c), stream_(stream) {}
 
 void EventsDisplay::begin(const Insertion& filled, const std::filesystem::path& output, const std::string& backend,
                           double from) {
@@ -109,7 +106,7 @@ void EventsDisplay::end(const RunResult& result, ExitCode code, const std::strin
 void EventsDisplay::say(const Json& event) {
     if (!heard_) return;
     const std::string line = event.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
-    heard_ = std::fputs(line.c_str(), stream_) >= 0 && std::fflush(stream_) == 0;
+    heard_ = vkdose::say(stream_, line) && sendText(stream_);
     if (!heard_) interruptSelf();
 }
 

@@ -3,9 +3,13 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <new>
+#include <system_error>
 
 #include "host/app/backends.h"
+#include "host/app/limits.h"
 #include "host/core/error.h"
+#include "host/core/file.h"
 #include "host/core/printable.h"
 #include "host/model/case.h"
 #include "host/output/run_folder.h"
@@ -25,6 +29,8 @@ Refusal refusalOf(const std::exception_ptr& error) {
         return {kBadInput, faults};
     } catch (const FolderError& e) {
         return because(kBadInput, e);
+    } catch (const ReadError& e) {
+        return because(kBadInput, e);
     } catch (const CheckpointError& e) {
         return because(kBadInput, e);
     } catch (const OutputError& e) {
@@ -36,11 +42,18 @@ Refusal refusalOf(const std::exception_ptr& error) {
     } catch (const RunError& e) {
         return because(kRunError, e);
     } catch (const DeviceError& e) {
-        return because(kDeviceError, e);
+        return {kDeviceError, "vkdose: " + printableLines(e.what()) + memoryLimitText()};
     } catch (const std::filesystem::filesystem_error& e) {
         // A path that cannot even be looked at: links in a circle, a folder without leave to enter.
         return {kBadInput,
                 fmt::format("vkdose: {} cannot be read: {}", printable(e.path1().string()), e.code().message())};
+    } catch (const std::bad_alloc&) {
+        return {kRunError, "vkdose: out of memory: use fewer particles or end other programs" + memoryLimitText()};
+    } catch (const std::system_error& e) {
+        if (e.code() == std::errc::resource_unavailable_try_again || e.code() == std::errc::not_enough_memory)
+            return {kRunError, fmt::format("vkdose: the system gives this program no more memory or threads: {}{}",
+                                           e.code().message(), memoryLimitText())};
+        return {kRunError, "vkdose: internal error: " + printableLines(e.what())};
     } catch (const std::exception& e) {
         return {kRunError, "vkdose: internal error: " + printableLines(e.what())};
     }

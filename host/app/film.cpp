@@ -16,6 +16,7 @@
 #include "host/app/backends.h"
 #include "host/core/error.h"
 #include "host/core/file.h"
+#include "host/core/output_file.h"
 
 namespace vkdose {
 
@@ -23,7 +24,7 @@ namespace {
 
 std::string contentOf(int file) {
     std::string text(4096, '\0');
-    const ssize_t n = ::pread(file, text.data(), text.size(), 0);
+    const ssize_t n = retried([&] { return ::pread(file, text.data(), text.size(), 0); });
     text.resize(n > 0 ? std::size_t(n) : 0);
     while (!text.empty() && text.back() == '\n') text.pop_back();
     return text;
@@ -102,12 +103,7 @@ void Film::fail() {
 
 void Film::add(const std::vector<std::uint8_t>& picture) {
     const NoPipeSignal quiet;
-    for (std::size_t done = 0; done < picture.size();) {
-        const ssize_t n = ::write(pictures_, picture.data() + done, picture.size() - done);
-        if (n < 0 && errno == EINTR) continue;
-        if (n <= 0) fail();
-        done += std::size_t(n);
-    }
+    if (!writeAll(pictures_, {reinterpret_cast<const char*>(picture.data()), picture.size()})) fail();
 }
 
 void Film::finish() {

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "host/app/backends.h"
+#include "host/core/file.h"
 #include "host/core/printable.h"
 #include "host/model/case_tree.h"
 #include "host/model/closest_word.h"
@@ -27,9 +28,8 @@ bool isThere(const fs::path& file) {
 /// `folder` and the folders in it, in the order of their names.
 std::vector<fs::path> places(const fs::path& folder) {
     std::vector<fs::path> all;
-    std::error_code code;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder, code))
-        if (entry.is_directory(code)) all.push_back(entry.path());
+    for (const fs::path& entry : entriesOf(folder))
+        if (fs::is_directory(entry)) all.push_back(entry);
     std::sort(all.begin(), all.end());
     all.insert(all.begin(), folder);
     return all;
@@ -77,12 +77,10 @@ fs::path findCase(const fs::path& name, const std::vector<fs::path>& folders) {
 
 std::vector<std::string> namesOfCases(bool studies, const std::vector<fs::path>& folders) {
     std::set<std::string> names;
-    std::error_code code;
     for (const fs::path& folder : folders)
         for (const fs::path& place : places(folder))
-            for (const fs::directory_entry& entry : fs::directory_iterator(place, code))
-                if (entry.path().extension() == ".toml" && isKind(entry.path(), studies))
-                    names.insert(entry.path().stem().string());
+            for (const fs::path& entry : entriesOf(place))
+                if (entry.extension() == ".toml" && isKind(entry, studies)) names.insert(entry.stem().string());
     return {names.begin(), names.end()};
 }
 

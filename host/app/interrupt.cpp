@@ -6,17 +6,32 @@
 
 #include <cerrno>
 #include <csignal>
+#include <ctime>
+#include <limits>
 
 namespace vkdose {
 
 namespace {
 
 std::atomic<bool> interrupted{false};
+std::atomic<double> firstRequest{std::numeric_limits<double>::infinity()};  // when it came [s]
+std::atomic<SignalClock> requestClock{monotonicSeconds};
 bool outputIsTerminal = false, errorIsTerminal = false;  // as it is when the watch begins
-static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may touch lock-free atomics only");
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<double>::is_always_lock_free &&
+                  std::atomic<SignalClock>::is_always_lock_free,
+              "a signal handler may touch lock-free atomics only");
 
-extern "C" void onSignal(int) {
+extern "C" void onSignal(int number) {
+    const int before = errno;
+    const double now = requestClock.load()();
+    double first = std::numeric_limits<double>::infinity();
+    firstRequest.compare_exchange_strong(first, now);  // `first` is then what was there before
     interrupted = true;
+    if (now - first > kSameRequest) {
+        std::signal(number, SIG_DFL);
+        raise(number);  // it ends the program when this handler returns, because until then it is held back
+    }
+    errno = before;
 }
 
 /// The terminal is closed, so output that would go to it is discarded from now on.
@@ -31,10 +46,17 @@ extern "C" void onHangup(int) {
 
 }  // namespace
 
-const std::atomic<bool>& watchInterrupts() {
+double monotonicSeconds() {
+    timespec now{};
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
+}
+
+const std::atomic<bool>& watchInterrupts(SignalClock clock) {
+    requestClock = clock;
     struct sigaction action {};
     action.sa_handler = onSignal;
-    action.sa_flags = SA_RESETHAND | SA_RESTART;
+    action.sa_flags = SA_RESTART;
     sigemptyset(&action.sa_mask);
     sigaction(SIGINT, &action, nullptr);
     sigaction(SIGTERM, &action, nullptr);

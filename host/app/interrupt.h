@@ -4,9 +4,20 @@
 
 namespace vkdose {
 
+/// A clock that a signal handler may read [s]; only differences of its readings count.
+using SignalClock = double (*)();
+
+/// The system's monotonic clock.
+double monotonicSeconds();
+
+/// The same request to end may come as several signals: timeout(1) sends one to its child and one to the group of its
+/// child, and a launcher of many processes does likewise. So signals count as one request as long as this after the
+/// first [s].
+inline constexpr double kSameRequest = 1;
+
 /// Turns Ctrl-C, a polite termination and the closing of the terminal into a flag that the run looks at between calls
-/// of the backend. A second Ctrl-C ends the program at once.
-const std::atomic<bool>& watchInterrupts();
+/// of the backend. A second Ctrl-C or termination, later than kSameRequest after the first, ends the program at once.
+const std::atomic<bool>& watchInterrupts(SignalClock clock = monotonicSeconds);
 
 /// Sets that flag, as a first Ctrl-C does.
 void interruptSelf();

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <utility>
 
+#include "host/app/tell.h"
+
 namespace vkdose {
 
 namespace {
@@ -99,8 +101,8 @@ void LiveDisplay::draw() {
     for (const std::string& line : lines) text += line + "\033[K\n";
     text += "\033[J\033[?25h";
     lines_ = lines.size();
-    std::fwrite(text.data(), 1, text.size(), stream_);
-    std::fflush(stream_);
+    say(stream_, text);
+    sendText(stream_);
 }
 
 void LiveDisplay::close() {

@@ -6,9 +6,9 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <cstdlib>
 
 #include "host/app/backends.h"
+#include "host/core/number.h"
 #include "host/core/printable.h"
 #include "host/core/vec.h"
 
@@ -35,6 +35,7 @@ const Kind& kindOf(Measure measure) {
         {{"kg/m3", 1.0}, {"g/cm3", 1e3}, {"g/l", 1.0}, {"g/ml", 1e3}, {"kg/l", 1e3}, {"kg/m\u00b3", 1.0}}, 1, 3e4};
     static const Kind kSpeed{{{"rpm", 2 * kPi / 60}, {"1/min", 2 * kPi / 60}}, 1e-4, 1e4};
     static const Kind kTime{{{"s", 1.0}, {"ms", 1e-3}, {"min", 60.0}}, 1e-4, 1e5};
+    static const Kind kWallTime{{{"s", 1.0}, {"min", 60.0}, {"h", 3600.0}}, 1e-3, 1e8};
     switch (measure) {
         case Measure::Length:
             return kLength;
@@ -44,6 +45,8 @@ const Kind& kindOf(Measure measure) {
             return kDensity;
         case Measure::Speed:
             return kSpeed;
+        case Measure::WallTime:
+            return kWallTime;
         default:
             return kTime;
     }
@@ -96,7 +99,7 @@ double withDigits(double value, int digits, double (*round)(double)) {
     // Up to a part in 10^9 a number counts as the round one that it was computed from.
     const double scaled = value / std::pow(10.0, exponent), near = std::round(scaled);
     const double whole = std::abs(scaled - near) < 1e-9 * std::abs(scaled) ? near : round(scaled);
-    return std::strtod(fmt::format("{}e{}", whole, exponent).c_str(), nullptr);
+    return numberOf(fmt::format("{}e{}", whole, exponent)).value_or(value);
 }
 
 }  // namespace

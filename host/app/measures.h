@@ -8,7 +8,7 @@
 namespace vkdose {
 
 /// A kind of measure: its units, and the bounds within which one can be meant.
-enum class Measure { Length, Mass, Density, Speed, Time };
+enum class Measure { Length, Mass, Density, Speed, Time, WallTime };
 
 /// The numbers of `text` in SI (speeds in rad/s), one or several, separated by `separator`. A unit stands behind each
 /// number, or behind the last for all. Blanks do not count. Throws UsageError that begins with `name` ("--coil") and

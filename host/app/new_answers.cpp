@@ -7,6 +7,7 @@
 #include "geometry/mesh_file.h"
 #include "host/app/backends.h"
 #include "host/app/measures.h"
+#include "host/core/number.h"
 #include "host/core/printable.h"
 
 namespace vkdose {
@@ -44,14 +45,8 @@ void takeCoil(NewAnswers& a, const NewQuestion& q, const std::string& text) {
     for (const char c : lower(withPlainCrosses(text)))
         if (c != ' ') plain += c;
     const auto count = [&](const std::string& number) {
-        std::size_t used = 0;
-        double turns = 0;
-        try {
-            turns = std::stod(number, &used);
-        } catch (const std::exception&) {
-            used = 0;
-        }
-        if (number.empty() || used != number.size() || !(turns > 0) || turns > 250)
+        const double turns = numberOf(number).value_or(0);
+        if (!(turns > 0) || turns > 250)
             throw UsageError(fmt::format("{} {}: {} is no number of turns up to 250; write {}", q.option,
                                          printable(text), number.empty() ? "that" : printable(number), kCoil));
         return turns;

@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <cstring>
 #include <iostream>
 
 #include "host/advice/advice.h"
@@ -12,6 +14,7 @@
 #include "host/app/new_answers.h"
 #include "host/app/new_design.h"
 #include "host/app/speed.h"
+#include "host/app/tell.h"
 #include "host/app/text.h"
 #include "host/core/file.h"
 #include "host/core/printable.h"
@@ -25,15 +28,16 @@ constexpr const char* kExample = "vkdose new my.toml --canister 80x30x100mm --co
 /// Asks until the answer can be understood; an empty one takes what holds without.
 void ask(const NewQuestion& q, NewAnswers& answers) {
     for (;;) {
-        fmt::print("{}\n  ", q.meaning);
+        tell("{}\n  ", q.meaning);
         if (q.standard == nullptr)
-            fmt::print("(such as {}): ", q.example);
+            tell("(such as {}): ", q.example);
         else
-            fmt::print("(such as {}; empty: {}): ", q.example, q.standard);
-        std::fflush(stdout);
+            tell("(such as {}; empty: {}): ", q.example, q.standard);
+        sendText(stdout);
         std::string line;
-        if (!std::getline(std::cin, line))
-            throw UsageError(fmt::format("new: the answers end before {}; nothing was written", q.option));
+        if (!std::getline(std::cin, line) && std::ferror(stdin) != 0)
+            throw ReadError(fmt::format("new: the answers cannot be read: {}", std::strerror(errno)));
+        if (!std::cin) throw UsageError(fmt::format("new: the answers end before {}; nothing was written", q.option));
         const bool empty = line.find_first_not_of(" \t\r") == std::string::npos;
         if (empty && q.standard != nullptr) return;
         if (empty) continue;
@@ -41,7 +45,7 @@ void ask(const NewQuestion& q, NewAnswers& answers) {
             q.take(answers, q, line);
             return;
         } catch (const UsageError& e) {
-            fmt::print("  {}\n", e.what());
+            tell("  {}\n", e.what());
         }
     }
 }
@@ -56,10 +60,10 @@ NewAnswers answersTo(const NewOptions& options) {
         any = true;
     }
     if (options.ask || (!any && ::isatty(STDIN_FILENO) == 1)) {
-        fmt::print("A device and its powder, in a few questions; units are written with the numbers.\n\n");
+        tell("A device and its powder, in a few questions; units are written with the numbers.\n\n");
         for (std::size_t i = 0; i < questions.size(); ++i)
             if (questions[i].asked && options.answers[i].empty()) ask(questions[i], answers);
-        fmt::print("\n");
+        tell("\n");
     }
     if (!answers.canister) throw UsageError(fmt::format("new: --canister is needed: `{}`, or --ask", kExample));
     if (answers.mesh.empty() != answers.meshUnit.empty())
@@ -112,41 +116,40 @@ void writeNew(const std::filesystem::path& file, const std::string& text) {
 /// with as many spheres.
 void tellRunTime(const Case& c, const Insertion& filled) {
     const Derived derived = derive(c, filled);
-    fmt::print("{}", workText(derived));
-    std::fflush(stdout);
+    tell("{}", workText(derived));
+    sendText(stdout);
     const Speed speed = speedOf(c, filled, {}, false);
     if (speed.measured)
-        fmt::print("{}", runTimeText(derived, speed));
+        tell("{}", runTimeText(derived, speed));
     else
-        fmt::print("run time   not known, because the device could not be measured: {}\n",
-                   printable(speed.told.substr(0, speed.told.find('\n'))));
+        tell("run time   not known, because the device could not be measured: {}\n",
+             printable(speed.told.substr(0, speed.told.find('\n'))));
 }
 
-void tell(const NewDesign& d, const Case& c, const std::filesystem::path& file) {
+void tellDesign(const NewDesign& d, const Case& c, const std::filesystem::path& file) {
     const Insertion filled = insertParticles(c);
-    fmt::print("wrote      {}\n", printable(file.string()));
-    fmt::print("canister   {} along the coil, {} wide, {} high; outlet {}, throat {}\n", lengthText(d.length.value),
-               lengthText(d.width.value), lengthText(d.height.value), lengthText(d.outlet.value),
-               lengthText(d.throat.value));
+    tell("wrote      {}\n", printable(file.string()));
+    tell("canister   {} along the coil, {} wide, {} high; outlet {}, throat {}\n", lengthText(d.length.value),
+         lengthText(d.width.value), lengthText(d.height.value), lengthText(d.outlet.value), lengthText(d.throat.value));
     if (d.mesh)
-        fmt::print("mesh       {}, from {} to {} behind the rear wall\n", printable(d.mesh->file.string()),
-                   lengthText(d.coilStart.value), lengthText(d.coilStart.value + d.coilLength.value));
+        tell("mesh       {}, from {} to {} behind the rear wall\n", printable(d.mesh->file.string()),
+             lengthText(d.coilStart.value), lengthText(d.coilStart.value + d.coilLength.value));
     else
-        fmt::print("coil       {} turns of {}, from {} to {} behind the rear wall, wire {}\n",
-                   figureText(d.coilLength.value / d.pitch.value, 4), lengthText(d.pitch.value),
-                   lengthText(d.coilStart.value), lengthText(d.coilStart.value + d.coilLength.value),
-                   lengthText(d.wire.value));
-    fmt::print("powder     {} in {} spheres of {} to {}\n", massText(filled.mass), filled.particles.size(),
-               lengthText(2 * d.size.radiusMin), lengthText(2 * d.size.radiusMax));
+        tell("coil       {} turns of {}, from {} to {} behind the rear wall, wire {}\n",
+             figureText(d.coilLength.value / d.pitch.value, 4), lengthText(d.pitch.value),
+             lengthText(d.coilStart.value), lengthText(d.coilStart.value + d.coilLength.value),
+             lengthText(d.wire.value));
+    tell("powder     {} in {} spheres of {} to {}\n", massText(filled.mass), filled.particles.size(),
+         lengthText(2 * d.size.radiusMin), lengthText(2 * d.size.radiusMax));
     tellRunTime(c, filled);
     std::string assumed;
     for (const std::string& what : d.assumed) assumed += (assumed.empty() ? "" : ", ") + what;
-    if (!assumed.empty()) fmt::print("assumed    {}\n", assumed);
-    for (const std::string& note : d.notes) fmt::print("note       {}\n", note);
+    if (!assumed.empty()) tell("assumed    {}\n", assumed);
+    for (const std::string& note : d.notes) tell("note       {}\n", note);
     for (const Warning& w : warningsOf(c, filled))
-        if (!w.accepted) fmt::print("warning    {}\n", w.line());
+        if (!w.accepted) tell("warning    {}\n", w.line());
     const std::string word = shellWord(file.string());
-    fmt::print(
+    tell(
         "next       vkdose check {0}   (what it implies, and how long it takes)\n"
         "           vkdose run {0}\n",
         word);
@@ -157,10 +160,10 @@ void tell(const NewDesign& d, const Case& c, const std::filesystem::path& file) 
 int newCommand(const NewOptions& options) {
     requireNewFile(options.file);
     NewDesign design = designOf(answersTo(options), options.file);
-    fitContacts(design, caseOf(design, options.file));
+    fitContacts(design, caseOf(trialOf(design), options.file));
     const Case c = caseOf(design, options.file);
     writeNew(options.file, newCaseText(design));
-    tell(design, c, options.file);
+    tellDesign(design, c, options.file);
     return kOk;
 }
 

@@ -321,6 +321,11 @@ void designFlow(NewDesign& d, const NewAnswers& a) {
 
 }  // namespace
 
+NewDesign trialOf(NewDesign design) {
+    design.bond = 0;
+    return design;
+}
+
 NewDesign designOf(const NewAnswers& answers, const std::filesystem::path& file) {
     NewDesign d;
     designCanister(d, answers);

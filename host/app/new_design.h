@@ -26,6 +26,7 @@ struct NewMesh {
     double turnsPerTurn = 1;            ///< the sense in which it conveys to the outlet
     double radius = 0, length = 0;      ///< [m]
     double advance = 0;                 ///< of the powder per turn, by the mesh's form [m]; 0: it conveys none
+    double first = 0, last = 0;         ///< the same at its end in the canister, and at the outlet [m]
     double solid = 0;                   ///< cross-section that the mesh itself takes up, mean over its length [m2]
 };
 
@@ -64,7 +65,11 @@ NewDesign designOf(const NewAnswers& answers, const std::filesystem::path& file)
 /// a coil of its size. Throws UsageError.
 void designMesh(NewDesign& d, const NewAnswers& a, const std::filesystem::path& file);
 
-/// Chooses the contacts and the time to settle by the closed forms of `vkdose check`. `trial` is the design's case.
+/// The design with contacts that load whatever its spheres are: without adhesion, which may need stiffer ones.
+NewDesign trialOf(NewDesign design);
+
+/// Chooses the contacts and the time to settle by the closed forms of `vkdose check`. `trial` is the case of the
+/// design's `trialOf`.
 void fitContacts(NewDesign& design, const Case& trial);
 
 /// The case as commented TOML.

@@ -18,6 +18,10 @@ namespace vkdose {
 
 namespace {
 
+/// Share of a surface that conveys against the rest, from which on it is more than the ends of a blade, and change of
+/// the pitch over its mean from which on it is more than the error of facets.
+constexpr double kOpposite = 0.1, kUneven = 0.1;
+
 struct Part {
     std::vector<geometry::Triangle> triangles;
     geometry::MeshFacts facts;
@@ -77,10 +81,16 @@ void designMesh(NewDesign& d, const NewAnswers& a, const std::filesystem::path& 
         for (Vec3& p : t) p = turned(m, p) - centre;
     const Vec3 axis(0, 0, 1);
     m.radius = reachOf(mesh, axis, Vec3(0)).radius;
-    const double advance = advancePerTurn(mesh, axis, Vec3(0));
+    const Conveying form = conveyingOf(mesh, axis, Vec3(0));
     // Less is the rounding of facets.
-    m.advance = std::abs(advance) > 0.02 * m.radius ? std::abs(advance) : 0;
-    m.turnsPerTurn = advance < 0 ? -1 : 1;
+    m.advance = std::abs(form.advance) > 0.02 * m.radius ? std::abs(form.advance) : 0;
+    m.turnsPerTurn = form.advance < 0 ? -1 : 1;
+    m.first = m.last = m.advance;
+    const bool opposite = form.against > kOpposite;
+    if (!opposite && std::abs(form.high - form.low) > kUneven * m.advance) {
+        m.first = m.turnsPerTurn * form.low;
+        m.last = m.turnsPerTurn * form.high;
+    }
     m.solid = part.facts.closed && part.facts.oriented ? std::abs(part.facts.volume) / m.length : 0;
 
     const double room = std::min(d.width.value, d.outlet.value) / 2;
@@ -117,6 +127,18 @@ void designMesh(NewDesign& d, const NewAnswers& a, const std::filesystem::path& 
     d.coilLength = {m.length, "of the mesh"};
     d.coilStart = {space - m.length, "so that the mesh ends with the throat"};
     d.notes.push_back(fmt::format("The mesh: {}.", part.facts.text()));
+    if (!part.facts.mended.empty())
+        d.notes.push_back(fmt::format("Mended in the mesh, places in its unit: {}.", part.facts.mended));
+    if (opposite)
+        d.notes.push_back(
+            fmt::format("Parts of the mesh convey {} a turn one way and others {} the other way, as ribbons of "
+                        "opposite hands do; of that the mean is counted. What it doses is not foreseen.",
+                        lengthText(form.forwards), lengthText(form.backwards)));
+    else if (m.first != m.last)
+        d.notes.push_back(
+            fmt::format("Its pitch changes: a turn conveys powder by {} at its end in the canister and by {} at "
+                        "the outlet; of that the mean is counted.",
+                        lengthText(m.first), lengthText(m.last)));
     d.notes.push_back(
         m.advance > 0
             ? fmt::format(

@@ -102,7 +102,7 @@ void writeContacts(CaseText& out, const NewDesign& d) {
     out.line("k1_over_k", figureText(d.k1OverK),
              free ? "elastic" : "loading is plastic, which keeps contacts together");
     if (!free) out.line("plasticity_depth", "0.05", "of the radius");
-    if (free)
+    if (d.bond == 0)
         out.line("kc_over_k", "0", "no adhesion");
     else
         out.line("bond_number", figureText(d.bond), "a contact pressed hard holds so many weights of a mean sphere");
@@ -124,6 +124,10 @@ std::string vectorText(const Vec3& v) {
     return fmt::format("[{}, {}, {}]", figureText(v.x, 6), figureText(v.y, 6), figureText(v.z, 6));
 }
 
+std::string advanceText(const NewMesh& m) {
+    return m.first == m.last ? lengthText(m.advance) : fmt::format("{} in the mean", lengthText(m.advance));
+}
+
 void writeMesh(CaseText& out, const NewDesign& d) {
     const NewMesh& m = *d.mesh;
     out.list("body");
@@ -141,9 +145,8 @@ void writeMesh(CaseText& out, const NewDesign& d) {
     out.word("follows", "drive", "it turns while powder is dosed");
     out.line("axis", "[0, 0, 1]", "the canister's axis; z points to the outlet");
     out.line("turns_per_turn", figureText(m.turnsPerTurn),
-             m.advance > 0
-                 ? fmt::format("the sense in which its form conveys to the outlet, {} a turn", lengthText(m.advance))
-                 : "assumed; its form conveys nothing along the axis");
+             m.advance > 0 ? fmt::format("the sense in which its form conveys to the outlet, {} a turn", advanceText(m))
+                           : "assumed; its form conveys nothing along the axis");
 }
 
 void writeDevice(CaseText& out, const NewDesign& d) {

@@ -4,9 +4,11 @@
 
 #include <utility>
 
+#include "host/app/reopen.h"
 #include "host/core/error.h"
 #include "host/core/file.h"
 #include "host/core/printable.h"
+#include "host/output/run_files.h"
 
 namespace vkdose {
 
@@ -103,12 +105,28 @@ void requireLater(const std::vector<std::string>& overrides, const std::filesyst
     if (!faults.empty()) throw CaseError(faults);
 }
 
+bool replaces(const std::vector<std::string>& overrides, const char* table) {
+    return overrideTree(overrides).child(table) != nullptr;
+}
+
 /// Puts the overrides into the case of a checkpoint.
 void change(Checkpoint& from, const Case& c, const std::vector<std::string>& overrides) {
     Node given = readTreeText(from.given, "case.toml");
     merge(given, overrideTree(overrides));
     from.given = treeText(given);
     from.caseText = c.resolved;
+}
+
+/// What can be done with a run that has ended before its first checkpoint.
+std::string withoutCheckpoint(const std::filesystem::path& folder) {
+    const std::string word = shellWord(folder.string()), ended = folder.string() + " holds a run with no checkpoint";
+    if (std::filesystem::exists(folder / kSettledName))
+        return fmt::format(
+            "{}, but with its settled bed: run its doses from there with `vkdose run --from {} --out "
+            "DIR`, or start again",
+            ended, word);
+    return fmt::format("{}: it ended before it had made its first; start again with `vkdose run {} --out {} --force`",
+                       ended, shellWord((folder / "case.toml").string()), word);
 }
 
 /// How to go on with a run that an overlap stopped; empty if it is not one.
@@ -145,16 +163,22 @@ ReadyRun readyToResume(const std::filesystem::path& folder, const std::vector<st
     ReadyRun run;
     if (std::filesystem::is_directory(folder)) run.lock.emplace(lockRun(folder));
     const std::filesystem::path file = folder / kCheckpointName;
-    if (!std::filesystem::exists(file) && std::filesystem::exists(folder / "summary.json"))
-        throw CheckpointError(fmt::format("the run in {} is over; there is nothing to resume", folder.string()));
-    Checkpoint from = readCheckpoint(file);
+    const bool over = !std::filesystem::exists(file) && std::filesystem::exists(folder / "summary.json");
+    if (over && !replaces(overrides, "stop"))
+        throw CheckpointError(fmt::format(
+            "the run in {0} is over; there is nothing to resume. If a stop rule ended it, replace the rule: "
+            "`vkdose resume {1} --set stop.max_doses=...`",
+            folder.string(), shellWord(folder.string())));
+    if (!over && !std::filesystem::exists(file) && holdsRun(folder)) throw CheckpointError(withoutCheckpoint(folder));
+    Checkpoint from = over ? endToReopen(folder) : readCheckpoint(file);
     run.c = loadResolvedCase(from.caseText, folder / "case.toml");
     requireSameCase(folder / "case.toml", from.caseText, run.c);
     if (!overrides.empty()) {
         run.c = loadResolvedCase(from.caseText, folder / "case.toml", overrides);
         (void)Timeline(run.c);
         // The files of a run cannot be taken back to before its checkpoint.
-        if (const auto over = endIsOver(kCommandLine, run.c, from.time)) throw CaseError({*over});
+        if (const auto past = endIsOver(kCommandLine, run.c, from.time)) throw CaseError({*past});
+        if (over) requireOpen(run.c, from);
         change(from, run.c, overrides);
         run.changed = true;
     }
@@ -169,6 +193,7 @@ RunFolder folderOf(ReadyRun& run, const std::filesystem::path& folder, bool forc
         // In this order, so that at any moment the case is that of the checkpoint, or is written again from it.
         std::filesystem::remove(folder / "case.toml");
         writeCheckpoint(folder / kCheckpointName, *run.from);
+        std::filesystem::remove(folder / kEndName);  // of a run that is not over any more
     }
     return RunFolder(folder, std::move(run.lock).value(), *run.from, run.c, backend.description());
 }
@@ -197,7 +222,7 @@ Played play(ReadyRun run, Backend& backend, RunFolder& folder, RunObserver* disp
 }
 
 std::string wayOn(const RunFolder& folder) {
-    if (!folder.checkpointTime()) return "no checkpoint had been written; start again";
+    if (!folder.checkpointTime()) return withoutCheckpoint(folder.path());
     if (!std::filesystem::exists(folder.path() / kCheckpointName))
         return fmt::format("its checkpoint is gone with it; put {} back and go on with `vkdose resume`, or start again",
                            folder.path().string());

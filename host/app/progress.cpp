@@ -7,6 +7,7 @@
 #include <string>
 
 #include "host/analysis/targets.h"
+#include "host/app/tell.h"
 #include "host/app/text.h"
 
 namespace vkdose {
@@ -62,7 +63,7 @@ void ProgressDisplay::onProgress(const Progress& p) {
         if (now - last_ < kLine && !p.phaseEnd) return;
         say(progressText(p) + "\n");
     }
-    std::fflush(stream_);
+    sendText(stream_);
     last_ = now;
 }
 
@@ -82,9 +83,8 @@ void ProgressDisplay::onRefill(const AddedPowder& p) {
     say(fmt::format("refill {}: {}\n", p.name, addedText(p)));
 }
 
-/// A failed write is ignored. A lost terminal needs no error here, because its closing interrupts the run.
 void ProgressDisplay::say(const std::string& text) {
-    (void)std::fputs(text.c_str(), stream_);
+    vkdose::say(stream_, text);
 }
 
 void ProgressDisplay::close() {

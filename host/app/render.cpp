@@ -122,9 +122,8 @@ std::string pictureName(std::size_t i) {
 
 /// Pictures of one film must not mix with those of another, nor replace a user's own.
 void requireNoPictures(const fs::path& folder) {
-    std::error_code code;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder, code)) {
-        const std::string name = entry.path().filename().string();
+    for (const fs::path& entry : entriesOf(folder)) {
+        const std::string name = entry.filename().string();
         if (name.starts_with("frame_") && name.ends_with(".png"))
             throw OutputError(fmt::format("{} holds {} already; name another folder, or remove the pictures from it",
                                           folder.string(), name));

@@ -83,7 +83,7 @@ int playAloud(ReadyRun run, Backend& backend, RunFolder& folder, const Manner& m
         tell("{}: {} particles, {} g, on {}\n", c.name, run.filled.particles.size(), grams(run.filled.mass),
              backend.description());
         if (run.state) tell("from     {}\n", printable(run.role.origin));
-        std::fflush(stdout);
+        sendText(stdout);
     }
     const std::unique_ptr<RunDisplay> display = makeDisplay(manner, run, backend);
     const Played played = play(std::move(run), backend, folder, display.get(), stop);

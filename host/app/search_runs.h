@@ -1,47 +1,71 @@
 #pragma once
-// The points of a calibration's search, run as the members of a sweep.
+// The points of a calibration's search, run as the members of a sweep, and the confirming runs of any calibration.
 
-#include <atomic>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <vector>
 
-#include "host/study/surrogate.h"
+#include "host/app/commands.h"
+#include "host/app/sweep_display.h"
 #include "host/study/sweep.h"
+#include "host/study/trials.h"
 
 namespace vkdose {
 
-/// The values of the free parameters at a point of the search.
-std::vector<Setting> settingsAt(const Study& study, const Parameters& point);
-/// The cases that every point of a search runs.
-std::vector<std::filesystem::path> basesOf(const Study& study);
+/// The parts that the runs of a calibration share.
+struct CalibrationRuns {
+    const Study& study;
+    SweepFolder& folder;  ///< of the sweep or the search
+    MemberRunner& runner;
+    SweepDisplay& display;
+    const HaltRule& halt;
+    const SweepOptions& options;
+    SweepOutcome last = {};  ///< of the runs that were begun last
+};
+
+/// The seeds of the confirming runs, none of which a member of the study has.
+std::vector<std::uint64_t> confirmingSeeds(const Study& study, const std::vector<Member>& members);
+
+/// The folder of the confirming runs in that of the study.
+std::filesystem::path confirmingFolder(const std::filesystem::path& folder);
 
 /// Runs the points that a search asks for as members of a sweep, every one with every case and every seed.
 class SearchRuns {
   public:
-    SearchRuns(const Study& study, SweepFolder& folder, MemberRunner& runner, SweepObserver& observer,
-               const std::atomic<bool>& stop, bool retryFailed);
+    explicit SearchRuns(CalibrationRuns& parts) : p_(parts) {}
 
-    /// Throws FolderError if a point has begun in the folder as another one. Returns nothing if it was interrupted.
+    /// Throws FolderError if a point has begun in the folder as another one. Returns nothing if it was halted.
     std::optional<std::vector<Trials>> operator()(const std::vector<Parameters>& points);
+
+    /// Whether a point has begun that follows from those so far. Then a failed member may not run again, because that
+    /// would lead to other points.
+    bool goesOn() const;
 
     /// The members of the points that every search of this study begins with.
     static std::vector<Member> first(const Study& study);
 
   private:
-    Trials trialsOf(int first) const;
-    Trial figureOf(const std::string& figure, int from, int to) const;
-    Trial massPerDoseOf(int from, int to) const;
-    void tellFailed(const std::vector<Member>& members) const;
-
-    const Study& study_;
-    std::vector<std::filesystem::path> bases_;
-    SweepFolder& folder_;
-    MemberRunner& runner_;
-    SweepObserver& observer_;
-    const std::atomic<bool>& stop_;
-    bool retry_;
+    CalibrationRuns& p_;
     int next_ = 0;
+};
+
+/// Runs chosen points again, every one with every case and with new seeds. Its members lie in a sweep folder of their
+/// own, so that they are in no table of the study. Those of a point that was confirmed before are found again.
+class ConfirmingRuns {
+  public:
+    ConfirmingRuns(CalibrationRuns& parts, std::vector<std::uint64_t> seeds) : p_(parts), seeds_(std::move(seeds)) {}
+
+    const std::vector<std::uint64_t>& seeds() const { return seeds_; }
+
+    /// `point` has a value for each key of the study, in their order. With `retry` failed members run again. Returns
+    /// nothing if it was halted.
+    std::optional<Trials> at(const std::vector<Setting>& point, bool retry);
+
+  private:
+    CalibrationRuns& p_;
+    std::vector<std::uint64_t> seeds_;
+    std::optional<SweepFolder> folder_;
 };
 
 }  // namespace vkdose

@@ -43,6 +43,23 @@ void addShow(CLI::App& command, bool& quiet, bool& live, bool& events) {
         ->excludes("--live");
 }
 
+void addFor(CLI::App& command, std::optional<TimeLimit>& limit) {
+    command
+        .add_option_function<std::string>(
+            "--for",
+            [&limit](const std::string& text) {
+                try {
+                    limit.emplace(text);
+                } catch (const UsageError& error) {
+                    throw CLI::ValidationError(error.what());
+                }
+            },
+            "wall time of the command, as 480s, 8min or 2h: all members stop at a checkpoint before it is over, and "
+            "the "
+            "same command goes on")
+        ->type_name("TIME");
+}
+
 CLI::Option& addAssume(CLI::App& command, bool& assume) {
     return *command.add_flag("--assume", assume,
                              "estimate the run time at an assumed speed, without measuring the device for a second");

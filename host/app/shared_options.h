@@ -1,6 +1,7 @@
 #pragma once
 // Options that several commands have.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,9 @@ void addBackend(CLI::App& command, BackendChoice& backend);
 void addParent(CLI::App& command, int& parent);
 
 void addShow(CLI::App& command, bool& quiet, bool& live, bool& events);
+
+/// --for, of commands that run members.
+void addFor(CLI::App& command, std::optional<TimeLimit>& limit);
 
 CLI::Option& addAssume(CLI::App& command, bool& assume);
 

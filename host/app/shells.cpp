@@ -6,6 +6,7 @@
 #include "host/app/exit_code.h"
 #include "host/app/find_case.h"
 #include "host/app/man_page.h"
+#include "host/app/tell.h"
 #include "host/core/file.h"
 #include "host/core/printable.h"
 #include "host/model/closest_word.h"
@@ -22,7 +23,7 @@ int completionCommand(const std::vector<CommandText>& commands, const ShellOptio
         text = (options.shell == "bash"  ? bashCompletion
                 : options.shell == "zsh" ? zshCompletion
                                          : fishCompletion)(commands);
-    fmt::print("{}", text);
+    tell("{}", text);
     return kOk;
 }
 
@@ -32,18 +33,18 @@ int manCommand(const std::vector<CommandText>& commands, const ShellOptions& opt
         replaceFile(options.out / "vkdose.1", manPage(commands));
         for (const CommandText& command : commands)
             replaceFile(options.out / ("vkdose-" + command.name + ".1"), manPage(command));
-        fmt::print("{}\n", printable(options.out.string()));
+        tell("{}\n", printable(options.out.string()));
         return kOk;
     }
     if (options.command.empty()) {
-        fmt::print("{}", manPage(commands));
+        tell("{}", manPage(commands));
         return kOk;
     }
     std::vector<std::string> names;
     for (const CommandText& command : commands) {
         names.push_back(command.name);
         if (command.name != options.command) continue;
-        fmt::print("{}", manPage(command));
+        tell("{}", manPage(command));
         return kOk;
     }
     const std::string meant = closestWord(options.command, names);

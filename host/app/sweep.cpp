@@ -44,7 +44,8 @@ int atOnce(const SweepOptions& options) {
 
 }  // namespace
 
-std::string planText(const SweepOptions& options, const Study& study, const std::vector<Member>& members) {
+std::string planText(const SweepOptions& options, const Study& study, const std::vector<Member>& members,
+                     const LaterMembers& later) {
     Speed speed = speedOf({}, {}, options.backend, true);
     if (!members.empty()) {
         const auto largest = std::max_element(
@@ -52,7 +53,7 @@ std::string planText(const SweepOptions& options, const Study& study, const std:
         const Case c = loadResolvedCase(largest->caseText, "case.toml");
         speed = speedOf(c, insertParticles(c), options.backend, options.assume);
     }
-    return membersText(study, members, speed, atOnce(options));
+    return membersText(study, members, later, speed, atOnce(options));
 }
 
 std::unique_ptr<MemberRunner> makeRunner(const SweepOptions& options) {
@@ -66,6 +67,17 @@ std::unique_ptr<MemberRunner> makeRunner(const SweepOptions& options) {
         throw UsageError("an ensemble needs a device; the reference runs one canister at a time");
     }
     return std::make_unique<ChildRunner>(options.backend, processes(options));
+}
+
+HaltRule haltRule(const std::atomic<bool>& interrupted, const std::optional<TimeLimit>& limit) {
+    return [&interrupted, &limit] {
+        if (interrupted) return Halt::Interrupted;
+        return limit && limit->isUp() ? Halt::TimeIsUp : Halt::None;
+    };
+}
+
+ExitCode haltCode(Halt halt) {
+    return halt == Halt::TimeIsUp ? kTimeIsUp : kInterrupted;
 }
 
 std::filesystem::path sweepFolder(const SweepOptions& options) {
@@ -96,14 +108,14 @@ int sweepCommand(const SweepOptions& options) {
     }
     if (!runner) runner = makeRunner(options);
     const std::filesystem::path out = sweepFolder(options);
-    const std::atomic<bool>& stop = watchInterrupts();
+    const HaltRule halt = haltRule(watchInterrupts(), options.limit);
     SweepFolder folder(out, study, members);
     SweepDisplay display("sweep", study, options.quiet);
     display.begin(members, runner->manner());
-    const SweepOutcome outcome = runMembers(folder, members, *runner, display, stop, options.retryFailed);
+    const SweepOutcome outcome = runMembers(folder, members, *runner, display, halt, options.retryFailed);
     if (outcome.whole) folder.sort();
-    display.finish(folder, outcome);
-    if (!outcome.whole) return kInterrupted;
+    display.finish(folder, outcome, options);
+    if (!outcome.whole) return haltCode(outcome.halt);
     return outcome.failed > 0 ? kDisagree : kOk;
 }
 

@@ -44,7 +44,8 @@ std::string memberText(const Study& study, const Member& member) {
     return text + fmt::format("seed {}", member.seed);
 }
 
-std::string membersText(const Study& study, const std::vector<Member>& members, const Speed& speed, int atOnce) {
+std::string membersText(const Study& study, const std::vector<Member>& members, const LaterMembers& later,
+                        const Speed& speed, int atOnce) {
     const std::vector<Bed> beds = bedsOf(members);
     std::map<int, int> bedOf;
     for (const Bed& bed : beds)
@@ -60,17 +61,25 @@ std::string membersText(const Study& study, const std::vector<Member>& members, 
     }
     const double saved = workSaved(beds, members);
     work -= saved;
-    text += fmt::format("{}: {}, {}particle-steps by the closed forms\n", printable(study.name),
-                        counted(members.size(), "member"), large(work));
+    if (later.most > 0)
+        text += fmt::format("up to {} {}: at most {}particle-steps\n", counted(later.most, "more member"), later.what,
+                            large(later.work));
+    const char* most = later.most > 0 ? "at most " : "";
+    text += fmt::format("{}: {}{}, {}{}particle-steps by the closed forms\n", printable(study.name), most,
+                        counted(members.size() + later.most, "member"), most, large(work + later.work));
     if (!beds.empty())
         text +=
             fmt::format("{} settle{} once, for {}, which saves up to {}particle-steps\n", counted(beds.size(), "bed"),
                         beds.size() == 1 ? "s" : "", counted(bedOf.size(), "member"), large(saved));
     if (members.empty()) return text;
     // Fewer members than places, or one that takes longer than all others together, leave places empty.
-    const int places = std::min(atOnce, static_cast<int>(members.size()));
-    text += fmt::format("run time {} with {} at a time, {}\n", duration(std::max(work / places, longest) / speed.rate),
-                        places, speedText(speed));
+    const auto steps = [&](double all, double one, std::size_t runs) {
+        return runs == 0 ? 0 : std::max(all / double(std::min(std::size_t(atOnce), runs)), one);
+    };
+    const double time = steps(work, longest, members.size()) +
+                        steps(later.work, later.longest, std::min(later.most, std::size_t(later.atOnce)));
+    text += fmt::format("run time {}{} with {} at a time, {}\n", most, duration(time / speed.rate),
+                        std::min(atOnce, static_cast<int>(members.size())), speedText(speed));
     return text + caveatText(speed, 9);
 }
 
@@ -90,7 +99,14 @@ SweepDisplay::~SweepDisplay() {
 void SweepDisplay::begin(const std::vector<Member>& members, const std::string& manner) {
     if (quiet_) return;
     tell("{}: {}, {}\n", printable(study_.name), counted(members.size(), "member"), manner);
-    std::fflush(stdout);
+    sendText(stdout);
+}
+
+void SweepDisplay::confirm(const std::string& place, std::size_t runs) {
+    if (quiet_) return;
+    close();
+    tell("confirming {}: {} with new seeds\n", printable(place), counted(runs, "run"));
+    sendText(stdout);
 }
 
 void SweepDisplay::onMember(const Member& member, const MemberResult& result) {
@@ -102,7 +118,7 @@ void SweepDisplay::onMember(const Member& member, const MemberResult& result) {
         tell(stderr, "{} failed: {}\n", head, printable(result.error));
     } else {
         tell("{} {}: {}\n", head, statusText(result.status), dosesText(result));
-        std::fflush(stdout);
+        sendText(stdout);
     }
 }
 
@@ -115,10 +131,9 @@ void SweepDisplay::onProgress(const SweepProgress& p) {
         fmt::format("{} of {} done, {} running", p.ok + p.failed, counted(p.members, "member"), p.running);
     if (p.failed > 0) text += fmt::format(", {} failed", p.failed);
     text += fmt::format("; {:.0f} %, ETA {}", 100 * p.fraction, duration(left));
-    // \033[K clears what a longer line before left behind. A failed write is ignored. A lost terminal needs no error
-    // here, because its closing interrupts the sweep.
-    (void)std::fputs((terminal_ ? "\r" + text + "\033[K" : text + "\n").c_str(), stderr);
-    std::fflush(stderr);
+    // \033[K clears what a longer line before left behind.
+    say(stderr, terminal_ ? "\r" + text + "\033[K" : text + "\n");
+    sendText(stderr);
     open_ = terminal_;
 }
 
@@ -126,7 +141,7 @@ void SweepDisplay::onBeds(std::size_t beds, std::size_t members) {
     if (quiet_) return;
     close();
     tell("{} settle{} once, for {}\n", counted(beds, "bed"), beds == 1 ? "s" : "", counted(members, "member"));
-    std::fflush(stdout);
+    sendText(stdout);
 }
 
 void SweepDisplay::onBusy(const std::filesystem::path& folder) {
@@ -139,23 +154,40 @@ void SweepDisplay::onAnew(const Member& member, const std::string& why) {
     tell(stderr, "vkdose: member {:04} starts anew, because {}\n", member.number, why);
 }
 
-void SweepDisplay::finish(const SweepFolder& folder, const SweepOutcome& outcome) {
+std::string SweepDisplay::again(const SweepFolder& folder, const SweepOptions& options) const {
+    std::string command = options.again;
+    if (command.empty()) {
+        command = fmt::format("vkdose {} {} --out {}", command_, shellWord(study_.file.string()),
+                              shellWord(folder.path().string()));
+        for (const std::string& text : study_.overrides) command += " --set " + shellWord(text);
+    }
+    if (options.backend.backend != BackendChoice().backend) command += " --backend " + options.backend.backend;
+    if (!options.backend.device.empty()) command += " --device " + shellWord(options.backend.device);
+    if (options.jobs > 0) command += fmt::format(" --jobs {}", options.jobs);
+    if (options.ensemble > 0) command += fmt::format(" --ensemble {}", options.ensemble);
+    return command;
+}
+
+void SweepDisplay::finish(const SweepFolder& folder, const SweepOutcome& outcome, const SweepOptions& options) {
     close();
-    std::string again = fmt::format("vkdose {} {} --out {}", command_, shellWord(study_.file.string()),
-                                    shellWord(folder.path().string()));
-    for (const std::string& text : study_.overrides) again += " --set " + shellWord(text);
-    if (!outcome.whole)
-        tell(stderr, "vkdose: interrupted; go on with `{}`\n", again);
+    const std::string command = again(folder, options);
+    const std::string timed = options.limit ? command + " --for " + shellWord(options.limit->text()) : command;
+    if (!outcome.whole && outcome.halt == Halt::TimeIsUp)
+        tell(stderr, "vkdose: the time is up; {} of {} left, {}particle-steps by the closed forms; go on with `{}`\n",
+             outcome.members - outcome.ok - outcome.failed, counted(std::size_t(outcome.members), "member"),
+             large(outcome.workLeft), timed);
+    else if (!outcome.whole)
+        tell(stderr, "vkdose: interrupted; go on with `{}`\n", timed);
     else if (outcome.failed > 0)
-        tell(stderr, "vkdose: {} failed; run again with `{} --retry-failed`\n", counted(outcome.failed, "member"),
-             again);
+        tell(stderr, "vkdose: {} failed; run again with `{} --retry-failed`\n",
+             counted(std::size_t(outcome.failed), "member"), command);
     if (quiet_) return;
     tell("{} done, {} failed\noutput   {}\n", outcome.ok, outcome.failed, printable(folder.path().string()));
     if (outcome.ok > 0) tell("next     vkdose report {}\n", shellWord(folder.path().string()));
 }
 
 void SweepDisplay::close() {
-    if (open_) (void)std::fputs("\n", stderr);
+    if (open_) say(stderr, "\n");
     open_ = false;
 }
 

@@ -1,12 +1,16 @@
 #pragma once
-// The common beginning of `vkdose sweep` and `vkdose calibrate`.
+// What is common to `vkdose sweep` and `vkdose calibrate`.
 
+#include <atomic>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "host/app/commands.h"
+#include "host/app/sweep_display.h"
+#include "host/core/exit_code.h"
 #include "host/study/sweep.h"
 
 namespace vkdose {
@@ -16,7 +20,14 @@ namespace vkdose {
 std::unique_ptr<MemberRunner> makeRunner(const SweepOptions& options);
 
 /// The members with what they cost, for a dry run. Measures the device unless the options say otherwise.
-std::string planText(const SweepOptions& options, const Study& study, const std::vector<Member>& members);
+std::string planText(const SweepOptions& options, const Study& study, const std::vector<Member>& members,
+                     const LaterMembers& later = {});
+
+/// Halts a sweep when `interrupted` is set or the limit, if there is one, is up. Both must outlive the rule.
+HaltRule haltRule(const std::atomic<bool>& interrupted, const std::optional<TimeLimit>& limit);
+
+/// The exit code of a command whose sweep this has ended.
+ExitCode haltCode(Halt halt);
 
 /// The folder of the sweep: --out, or out/<name of the study's file>.
 std::filesystem::path sweepFolder(const SweepOptions& options);

@@ -75,6 +75,14 @@ fs::path outOf(const ValidateOptions& options) {
     return fs::path("out") / (options.full ? "validate-full" : "validate");
 }
 
+/// The command that goes on with the comparisons, without the options that every sweep has.
+std::string againText(const ValidateOptions& options) {
+    std::string text = "vkdose validate";
+    for (const std::string& name : options.names) text += " " + name;
+    if (options.full) text += " --full";
+    return text + " --out " + shellWord(outOf(options).string());
+}
+
 /// "4 runs, 61 s of stepping by the clock, 2.4e+08 particle-steps"; "3 of 4 runs, ..." as long as others have to end.
 std::string costOf(const std::vector<validate::Run>& runs, std::size_t members) {
     double seconds = 0, steps = 0;
@@ -106,7 +114,7 @@ void tellFindings(const Result& result) {
     else
         tell("\n{}: not made: {}\n", result.name, result.missing);
     for (const validate::Finding& f : result.evaluation.findings) tell("{}\n", validate::tableLine(f));
-    std::fflush(stdout);
+    sendText(stdout);
 }
 
 void write(const fs::path& out, const std::vector<Result>& results) {
@@ -151,9 +159,10 @@ int validateCommand(const ValidateOptions& options) {
         SweepOptions sweep = options.sweep;
         sweep.study = studies[i];
         sweep.out = out / c.name;
+        sweep.again = againText(options);
         if (!options.judge)
             if (const int code = sweepCommand(sweep); code != kOk) failed = code;
-        if (failed == kInterrupted) break;
+        if (failed == kInterrupted || failed == kTimeIsUp) break;
         if (options.judge && !fs::exists(sweep.out / "members.csv")) continue;
         const std::vector<validate::Run> runs = validate::readRuns(sweep.out);
         if (!options.judge || !runs.empty()) results.push_back(judged(c, sweep, runs));

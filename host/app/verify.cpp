@@ -28,6 +28,10 @@ std::vector<verify::Scene> chosenScenes(const std::string& only) {
 
 int verifyCommand(const VerifyOptions& options) {
     const std::vector<verify::Scene> scenes = chosenScenes(options.only);
+    if (options.list) {
+        for (const verify::Scene& scene : scenes) tell("{:<28} {}\n", scene.name, scene.what);
+        return kOk;
+    }
     const std::unique_ptr<Backend> backend = makeBackend(options.backend, 1);
     createFolder(options.out);
 
@@ -38,7 +42,7 @@ int verifyCommand(const VerifyOptions& options) {
     tell("on {}\n\n{}\n", backend->description(), verify::headLine());
     for (const verify::Scene& scene : scenes) {
         if (stop) break;
-        std::fflush(stdout);
+        sendText(stdout);
         for (const verify::Check& check : verify::play(scene, *backend)) {
             tell("{}\n", verify::tableLine(check));
             checks.push_back(check);

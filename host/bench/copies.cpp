@@ -76,7 +76,7 @@ void pin(int copy) {
         std::copy(figures.begin(), figures.end(), shared.figures() + std::ptrdiff_t(copy) * repeats);
         status = 0;
     } catch (const std::exception& e) {
-        fmt::print(stderr, "vkdose: copy {}: {}\n", copy + 1, e.what());
+        std::fputs(fmt::format("vkdose: copy {}: {}\n", copy + 1, e.what()).c_str(), stderr);
     }
     std::fflush(stdout);
     _exit(status);

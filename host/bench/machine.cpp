@@ -1,9 +1,10 @@
 #include "host/bench/machine.h"
 
 #include <array>
-#include <fstream>
 #include <sstream>
 #include <utility>
+
+#include "host/core/file.h"
 
 namespace vkdose::bench {
 
@@ -42,10 +43,7 @@ std::string processorIn(const std::string& cpuinfo) {
 }
 
 std::string processorText() {
-    std::ifstream file("/proc/cpuinfo");
-    std::ostringstream text;
-    text << file.rdbuf();
-    return processorIn(text.str());
+    return processorIn(fileContent("/proc/cpuinfo").value_or(""));
 }
 
 }  // namespace vkdose::bench

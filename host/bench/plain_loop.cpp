@@ -106,7 +106,7 @@ struct Law {
         lever = law.rollingLever == RollingLever::Full ? 1.0f : 0.5f;
         sliding = {float(p.kt), float(p.gammaT), float(p.mu)};
         rolling = {float(p.kr), float(p.gammaR), float(p.muR)};
-        shifted = law.coulombLimit == CoulombLimit::Luding;
+        shifted = p.coulombLimit == CoulombLimit::Luding;
     }
 
     float normal(float overlap, float reduced, float& maxOverlap) const {

@@ -32,7 +32,7 @@ RuledWorld paperWorld() {
     p.mu = p.muR = 0.5;
     RuledWorld world;
     world.law.pairs.fill(p);
-    world.law.coulombLimit = CoulombLimit::Absolute;
+    world.law.limitFriction(CoulombLimit::Absolute);
     world.density() = 1427;
     world.timeStep = kTimeStep;
     world.skin = kSkin;

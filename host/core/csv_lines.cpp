@@ -45,9 +45,10 @@ std::string csvLine(const Row& fields) {
     return line;
 }
 
-std::optional<Row> csvFields(std::string_view line) {
+std::optional<Row> csvFields(std::string_view line, char separator) {
     csv_parser parser{};
     csv_init(&parser, CSV_STRICT | CSV_STRICT_FINI);
+    csv_set_delim(&parser, static_cast<unsigned char>(separator));
     Row fields;
     const auto onField = [](void* text, std::size_t size, void* out) {
         std::string_view field(static_cast<const char*>(text), size);

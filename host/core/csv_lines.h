@@ -18,7 +18,7 @@ std::string csvLine(const Row& fields);
 
 /// Takes a line apart. Returns nothing if it is not CSV (a stray quote). Blanks around a field without quotes are
 /// dropped, and so is the apostrophe that keeps a text from being a formula.
-std::optional<Row> csvFields(std::string_view line);
+std::optional<Row> csvFields(std::string_view line, char separator = ',');
 
 /// Reads a CSV line by line, so that a message about a fault can name its line.
 class CsvLines {

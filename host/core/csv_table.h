@@ -20,11 +20,13 @@ class Table {
     Table() = default;
     explicit Table(Row names) : names_(std::move(names)) {}
 
-    /// Throws CaseError, naming the line, if the file cannot be read, is not CSV, or has a row of another length.
+    /// Throws CaseError, naming the line, if there is no file, it is not CSV, or has a row of another length; ReadError
+    /// if it cannot be read to its end. In a table that a person wrote (Whole) lines that begin with # are comments,
+    /// and semicolons may part the fields, as spreadsheets do where decimals have a comma; then numbers may have one.
     static Table read(const std::filesystem::path& file, LastLine last = LastLine::Growing);
 
     /// Reads the whole lines of a table whose writer may have been killed. A line that lacks its end or a field is left
-    /// out. The table is empty if there is no such file.
+    /// out. The table is empty if there is no such file. Throws ReadError if it cannot be read to its end.
     static Table salvage(const std::filesystem::path& file);
 
     const Row& names() const { return names_; }
@@ -55,6 +57,7 @@ class Table {
     std::size_t place(std::string_view name) const;
 
     std::string file_;
+    bool semicolons_ = false;  ///< they part the fields
     Row names_;
     std::vector<Line> rows_;
 };

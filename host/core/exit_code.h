@@ -18,6 +18,8 @@ enum ExitCode {
     kDeviceError = 4,
     /// A result could not be written, for example because the disk is full.
     kOutputError = 5,
+    /// The time that --for gave a sweep is over. What was computed is kept, and the same command goes on.
+    kTimeIsUp = 6,
     /// Ctrl-C or another signal asked it to stop. What was computed is kept, and the run can go on. A shell reports the
     /// same for a program that SIGINT ended: 128 + 2.
     kInterrupted = 130,

@@ -5,13 +5,14 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <sstream>
 #include <system_error>
 
 #include "host/core/error.h"
+#include "host/core/output_file.h"
 
 namespace vkdose {
 
@@ -36,17 +37,15 @@ const char* kindOf(fs::file_type type) {
     }
 }
 
+std::string refusedBy(const fs::path& file, int why) {
+    return fmt::format("{} cannot be read: {}", shortenedPath(file.string()), std::strerror(why));
+}
+
 /// Writes into an open file and closes it. Returns false, with errno set, if that fails.
-bool writeAll(int handle, std::string_view content, bool sync) {
-    bool good = true;
-    for (std::size_t done = 0; good && done < content.size();) {
-        const ssize_t n = ::write(handle, content.data() + done, content.size() - done);
-        good = n >= 0 || errno == EINTR;
-        if (n > 0) done += static_cast<std::size_t>(n);
-    }
-    good = good && (!sync || ::fsync(handle) == 0);
+bool writeAndClose(int handle, std::string_view content, bool sync) {
+    const bool good = writeAll(handle, content) && (!sync || syncAll(handle));
     const int why = errno;
-    const bool closed = ::close(handle) == 0;
+    const bool closed = closeAll(handle);
     if (!good) errno = why;
     return good && closed;
 }
@@ -81,14 +80,84 @@ std::string writeFault(const fs::path& file) {
     return text;
 }
 
-std::ifstream inputFile(const fs::path& file) {
-    std::error_code code;
-    std::ifstream stream;
-    if (fs::is_regular_file(file, code))
-        stream.open(file, std::ios::binary);
-    else
-        stream.setstate(std::ios::failbit);
-    return stream;
+std::optional<InputFile> InputFile::open(const fs::path& file) {
+    struct stat found {};
+    // Looked at before it is opened, because opening a device may move it, and again after, because it may be another.
+    if (::stat(file.c_str(), &found) != 0) {
+        // No file can have a name that is too long.
+        if (errno == ENOENT || errno == ENOTDIR || errno == ENAMETOOLONG) return std::nullopt;
+        throw ReadError(refusedBy(file, errno));
+    }
+    if (!S_ISREG(found.st_mode)) return std::nullopt;
+    const int handle = retried([&] { return ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY); });
+    if (handle < 0 && errno == ENOENT) return std::nullopt;
+    if (handle < 0) throw ReadError(refusedBy(file, errno));
+    InputFile opened(file, handle);
+    if (::fstat(handle, &found) != 0) opened.fail();
+    if (!S_ISREG(found.st_mode)) return std::nullopt;
+    return opened;
+}
+
+std::size_t InputFile::read(char* to, std::size_t most) {
+    std::size_t done = 0;
+    while (done < most) {
+        const ssize_t n = retried([&] { return ::read(handle_, to + done, most - done); });
+        if (n < 0) fail();
+        if (n == 0) break;
+        done += static_cast<std::size_t>(n);
+        at_ += static_cast<std::uint64_t>(n);
+    }
+    return done;
+}
+
+void InputFile::skipToLast(std::uint64_t most) {
+    const std::uint64_t all = size();
+    at_ = all - std::min(all, most);
+    if (::lseek(handle_, static_cast<off_t>(at_), SEEK_SET) < 0) fail();
+}
+
+std::string InputFile::rest(std::uint64_t most) {
+    constexpr std::uint64_t kBlock = 1U << 16;
+    const std::uint64_t all = size();
+    // One byte more than the size asks for the end in the same turn. The system tells no size of files of its own
+    // (/proc), and a file may grow meanwhile.
+    std::uint64_t next = std::max(kBlock, all - std::min(all, at_) + 1);
+    std::string bytes;
+    for (;;) {
+        const std::size_t before = bytes.size();
+        const auto wanted = static_cast<std::size_t>(std::min(next, most - before));
+        bytes.resize(before + wanted);
+        const std::size_t n = read(bytes.data() + before, wanted);
+        bytes.resize(before + n);
+        if (n < wanted || bytes.size() == most) return bytes;
+        next = kBlock + bytes.size();
+    }
+}
+
+std::uint64_t InputFile::size() const {
+    struct stat found {};
+    if (::fstat(handle_, &found) != 0) fail();
+    return static_cast<std::uint64_t>(found.st_size);
+}
+
+void InputFile::fail() const {
+    const int why = errno;
+    const std::string name = shortenedPath(file_.string());
+    throw ReadError(fmt::format("{} cannot be read from byte {} on: {}", name, at_, std::strerror(why)));
+}
+
+InputFile::InputFile(InputFile&& other) noexcept
+    : file_(std::move(other.file_)), handle_(std::exchange(other.handle_, -1)), at_(other.at_) {}
+
+InputFile& InputFile::operator=(InputFile&& other) noexcept {
+    std::swap(file_, other.file_);
+    std::swap(handle_, other.handle_);
+    std::swap(at_, other.at_);
+    return *this;
+}
+
+InputFile::~InputFile() {
+    if (handle_ >= 0) ::close(handle_);
 }
 
 std::string readFault(const fs::path& file) {
@@ -102,22 +171,48 @@ std::string readFault(const fs::path& file) {
 std::string unreadable(const fs::path& file) {
     std::error_code code;
     const std::string name = shortenedPath(file.string());
-    return fs::exists(file, code) ? name + " " + readFault(file) : "there is no file " + name;
+    if (fs::exists(file, code)) return name + " " + readFault(file);
+    const bool tooLong = code == std::errc::filename_too_long;
+    return "there is no file " + name + (tooLong ? ": no name may be so long" : "");
 }
 
 std::optional<std::string> fileContent(const fs::path& file) {
-    std::ifstream stream = inputFile(file);
-    if (!stream) return std::nullopt;
-    std::ostringstream bytes;
-    bytes << stream.rdbuf();
-    return std::move(bytes).str();
+    auto opened = InputFile::open(file);
+    return opened ? std::optional(opened->rest()) : std::nullopt;
+}
+
+std::optional<std::string> fileStart(const fs::path& file, std::uint64_t most) {
+    auto opened = InputFile::open(file);
+    return opened ? std::optional(opened->rest(most)) : std::nullopt;
+}
+
+std::optional<std::string> fileEnd(const fs::path& file, std::uint64_t most) {
+    auto opened = InputFile::open(file);
+    if (!opened) return std::nullopt;
+    opened->skipToLast(most);
+    return opened->rest(most);
+}
+
+std::vector<fs::path> entriesOf(const fs::path& folder) {
+    std::vector<fs::path> entries;
+    std::error_code code;
+    fs::directory_iterator entry(folder, code);
+    while (!code && entry != fs::directory_iterator()) {
+        entries.push_back(entry->path());
+        entry.increment(code);
+    }
+    const bool absent = code == std::errc::no_such_file_or_directory || code == std::errc::not_a_directory;
+    if (code && !absent)
+        throw ReadError(
+            fmt::format("the folder {} cannot be listed: {}", shortenedPath(folder.string()), code.message()));
+    return entries;
 }
 
 int openOutput(const fs::path& file, int flags) {
     std::error_code code;
     if (fs::is_block_file(file, code))
         throw OutputError(fmt::format("cannot write {}: it is a disk; name a file", file.string()));
-    const int handle = ::open(file.c_str(), flags | O_CLOEXEC | O_NONBLOCK | O_NOCTTY, 0666);
+    const int handle = retried([&] { return ::open(file.c_str(), flags | O_CLOEXEC | O_NONBLOCK | O_NOCTTY, 0666); });
     if (handle < 0 && errno == ENXIO)
         throw OutputError(fmt::format("cannot write {}: it is a pipe or a socket, and nobody reads it", file.string()));
     if (handle < 0) throw OutputError(writeFault(file));
@@ -129,7 +224,7 @@ void replaceFile(const fs::path& file, std::string_view content) {
     std::error_code code;
     const fs::file_status status = fs::status(file, code);
     if (fs::exists(status) && !fs::is_regular_file(status)) {
-        if (!writeAll(openOutput(file, O_WRONLY), content, false)) throw OutputError(writeFault(file));
+        if (!writeAndClose(openOutput(file, O_WRONLY), content, false)) throw OutputError(writeFault(file));
         return;
     }
     const fs::path target = linkEnd(file);
@@ -139,20 +234,24 @@ void replaceFile(const fs::path& file, std::string_view content) {
     if (fs::is_symlink(fresh, code))
         throw OutputError(fmt::format("cannot write {}: it is first written as {}, which is a link; remove that",
                                       file.string(), fresh.string()));
-    const int handle = ::open(fresh.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0666);
+    constexpr int kFlags = O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW;
+    const int handle = retried([&] { return ::open(fresh.c_str(), kFlags, 0666); });
     if (handle < 0) throw OutputError(writeFault(file));
-    if (!writeAll(handle, content, true) || std::rename(fresh.c_str(), target.c_str()) != 0) {
+    if (!writeAndClose(handle, content, true) ||
+        retried([&] { return std::rename(fresh.c_str(), target.c_str()); }) != 0) {
         const std::string fault = writeFault(file);
         ::unlink(fresh.c_str());
         throw OutputError(fault);
     }
-    // The folder is synced too, so that the move itself survives a crash. A failure is ignored, because some file
-    // systems cannot sync a folder.
-    const int folder = ::open(target.has_parent_path() ? target.parent_path().c_str() : ".", O_RDONLY | O_DIRECTORY);
-    if (folder >= 0) {
-        ::fsync(folder);
-        ::close(folder);
-    }
+    // The folder is synced too, so that the move itself survives a crash. One that may be written and not read cannot
+    // be opened for that.
+    const fs::path above = target.has_parent_path() ? target.parent_path() : ".";
+    const int folder = retried([&] { return ::open(above.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); });
+    if (folder < 0) return;
+    const bool synced = syncAll(folder);
+    const std::string fault = synced ? "" : writeFault(above);
+    ::close(folder);
+    if (!synced) throw OutputError(fault);
 }
 
 void requireReplaceable(const fs::path& file) {

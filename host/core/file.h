@@ -3,26 +3,66 @@
 // opened by one of these functions, so that the program never waits for a pipe and never replaces a device or a link by
 // a file.
 
+#include <cstdint>
 #include <filesystem>
-#include <fstream>
+#include <limits>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace vkdose {
 
-/// Opens a file to read. Only a regular file is opened: a folder cannot be read, and a pipe or a device may have no
-/// end. For anything else the stream is in the failed state.
-std::ifstream inputFile(const std::filesystem::path& file);
+/// A file or a folder that is there cannot be read. The text names it, the place and what the system says.
+class ReadError : public std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
 
-/// Why `inputFile` does not open a file: "there is no such file", "cannot be read: it is a pipe, not a file", ...
+/// A file that is read from its beginning. No other place of the program opens a file to read.
+class InputFile {
+  public:
+    /// Opens a regular file: a folder cannot be read, and a pipe or a device may have no end. Returns nothing if there
+    /// is no file, or something else in its place. Throws ReadError if the system refuses to look at it or to open it.
+    static std::optional<InputFile> open(const std::filesystem::path& file);
+
+    /// Reads the next bytes into `to`; fewer than `most` only where the file ends. Throws ReadError.
+    std::size_t read(char* to, std::size_t most);
+    /// Goes to the last `most` bytes. Throws ReadError.
+    void skipToLast(std::uint64_t most);
+    /// Everything from here to the end, but no more than `most` bytes. Throws ReadError.
+    std::string rest(std::uint64_t most = std::numeric_limits<std::uint64_t>::max());
+
+    InputFile(const InputFile&) = delete;
+    InputFile& operator=(const InputFile&) = delete;
+    InputFile(InputFile&& other) noexcept;
+    InputFile& operator=(InputFile&& other) noexcept;
+    ~InputFile();
+
+  private:
+    InputFile(std::filesystem::path file, int handle) : file_(std::move(file)), handle_(handle) {}
+    std::uint64_t size() const;
+    [[noreturn]] void fail() const;
+
+    std::filesystem::path file_;
+    int handle_;
+    std::uint64_t at_ = 0;  ///< bytes before the next one
+};
+
+/// Why `InputFile` does not open what is there: "there is no such file", "cannot be read: it is a pipe, not a file".
 std::string readFault(const std::filesystem::path& file);
 /// The same with its name: "there is no file NAME", ...
 std::string unreadable(const std::filesystem::path& file);
 
-/// The bytes of a file; nothing if `inputFile` does not open it.
+/// The bytes of a file; nothing if it is not there, or no file. Throws ReadError if it cannot be read to its end.
 std::optional<std::string> fileContent(const std::filesystem::path& file);
+/// The same of its first bytes, at most `most`, and of its last ones.
+std::optional<std::string> fileStart(const std::filesystem::path& file, std::uint64_t most);
+std::optional<std::string> fileEnd(const std::filesystem::path& file, std::uint64_t most);
+
+/// What a folder holds, in no order; nothing if there is no folder. Throws ReadError if it cannot be listed.
+std::vector<std::filesystem::path> entriesOf(const std::filesystem::path& folder);
 
 /// Opens a file to write, with the flags of open(2). It never waits: a pipe that no one reads is refused. A disk is
 /// refused too. Throws OutputError.

@@ -6,10 +6,13 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <cstring>
+#include <thread>
 #include <utility>
 
 #include "host/core/error.h"
+#include "host/core/output_file.h"
 
 namespace vkdose {
 
@@ -17,7 +20,13 @@ namespace {
 
 // A child process does not inherit the handle: it would hold the lock longer than this process.
 int opened(const std::filesystem::path& folder) {
-    return ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    return retried([&] { return ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); });
+}
+
+/// Whether another process has the lock. Where the file system knows no locks, nobody has it: a run must not be
+/// forbidden there.
+bool isHeld(int handle) {
+    return retried([&] { return ::flock(handle, LOCK_EX | LOCK_NB); }) != 0 && errno == EWOULDBLOCK;
 }
 
 }  // namespace
@@ -26,7 +35,7 @@ std::optional<FolderLock> FolderLock::take(const std::filesystem::path& folder) 
     const int handle = opened(folder);
     if (handle < 0) throw OutputError(fmt::format("cannot open {}: {}", folder.string(), std::strerror(errno)));
     FolderLock lock(handle);
-    if (::flock(handle, LOCK_EX | LOCK_NB) != 0) return std::nullopt;
+    if (isHeld(handle)) return std::nullopt;
     return lock;
 }
 
@@ -34,14 +43,15 @@ bool FolderLock::isTaken(const std::filesystem::path& folder) {
     const int handle = opened(folder);
     if (handle < 0) return false;
     const FolderLock lock(handle);
-    return ::flock(handle, LOCK_EX | LOCK_NB) != 0;
+    return isHeld(handle);
 }
 
-void FolderLock::await(const std::filesystem::path& folder) {
-    const int handle = opened(folder);
-    if (handle < 0) return;
-    const FolderLock lock(handle);
-    (void)::flock(handle, LOCK_EX);
+bool FolderLock::await(const std::filesystem::path& folder, const std::function<bool()>& giveUp) {
+    while (isTaken(folder)) {
+        if (giveUp()) return false;
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    }
+    return true;
 }
 
 FolderLock::FolderLock(FolderLock&& other) noexcept : handle_(std::exchange(other.handle_, -1)) {}

@@ -2,11 +2,13 @@
 // A folder that one process at a time writes into.
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 
 namespace vkdose {
 
-/// The lock is on the folder itself, because files in it are replaced, and a lock on a file would go with it.
+/// The lock is on the folder itself, because files in it are replaced, and a lock on a file would go with it. A file
+/// system without locks gives everybody the lock.
 class FolderLock {
   public:
     /// Takes the lock. Returns nothing if another process holds it. Throws OutputError if the folder cannot be opened.
@@ -15,8 +17,9 @@ class FolderLock {
     /// Whether another process holds the lock. A folder that does not exist is free.
     static bool isTaken(const std::filesystem::path& folder);
 
-    /// Waits until no process holds the lock, or until a signal comes.
-    static void await(const std::filesystem::path& folder);
+    /// Waits until no process holds the lock. Returns false if `giveUp`, which is asked several times a second, says so
+    /// before.
+    static bool await(const std::filesystem::path& folder, const std::function<bool()>& giveUp);
 
     FolderLock(const FolderLock&) = delete;
     FolderLock& operator=(const FolderLock&) = delete;

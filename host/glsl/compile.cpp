@@ -8,17 +8,20 @@
 #include <regex>
 #include <sstream>
 
+#include "host/core/number.h"
+
 namespace vkdose {
 namespace {
 
 /// "ERROR: 1:5: 'x' : undeclared identifier", for every such line.
 std::vector<GlslFault> faultsOf(const std::string& log) {
     static const std::regex kError(R"(ERROR: (\d+):(\d+): (.*))");
+    const auto place = [](const std::string& digits) { return int(wholeNumberOf(digits).value_or(0)); };
     std::vector<GlslFault> faults;
     std::istringstream lines(log);
     for (std::string line; std::getline(lines, line);) {
         std::smatch part;
-        if (std::regex_match(line, part, kError)) faults.push_back({std::stoi(part[1]), std::stoi(part[2]), part[3]});
+        if (std::regex_match(line, part, kError)) faults.push_back({place(part[1]), place(part[2]), part[3]});
     }
     if (faults.empty()) faults.push_back({0, 0, log});
     return faults;

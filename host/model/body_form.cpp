@@ -70,10 +70,14 @@ TurningReach reachOf(const std::vector<Triangle>& mesh, const Vec3& axis, const 
     return reach;
 }
 
-double advancePerTurn(const std::vector<Triangle>& mesh, const Vec3& axis, const Vec3& through) {
+namespace {
+
+/// Calls visit(pushed, weight, height) for each triangle that pushes powder along the axis: pushed / weight is how far
+/// it does so in a radian, height is its place along the axis.
+template <class Visit>
+void forEachPush(const std::vector<Triangle>& mesh, const Vec3& axis, const Vec3& through, const Visit& visit) {
     /// Faces that turn within themselves (discs, shafts) push nothing.
     constexpr double kOblique = 1e-3;
-    double pushed = 0, weight = 0;
     for (const Triangle& t : mesh) {
         const Vec3 area = glm::cross(t[1] - t[0], t[2] - t[0]);
         const double size = glm::length(area);
@@ -83,10 +87,54 @@ double advancePerTurn(const std::vector<Triangle>& mesh, const Vec3& axis, const
         const double into = glm::dot(velocity, normal), along = glm::dot(normal, axis);
         if (std::abs(into) < kOblique * glm::length(velocity)) continue;
         // Either side of a face gives the same sign.
-        pushed += size * into * along;
-        weight += size * along * along;
+        visit(size * into * along, size * along * along, glm::dot((t[0] + t[1] + t[2]) / 3.0 - through, axis));
     }
-    return weight > 0 ? 2 * kPi * pushed / weight : 0;
+}
+
+/// A mean of pushes.
+struct Pushes {
+    double pushed = 0, weight = 0;
+    void add(double push, double of) {
+        pushed += push;
+        weight += of;
+    }
+    double advance() const { return weight > 0 ? 2 * kPi * pushed / weight : 0; }
+};
+
+}  // namespace
+
+double advancePerTurn(const std::vector<Triangle>& mesh, const Vec3& axis, const Vec3& through) {
+    Pushes all;
+    forEachPush(mesh, axis, through, [&](double push, double weight, double) { all.add(push, weight); });
+    return all.advance();
+}
+
+Conveying conveyingOf(const std::vector<Triangle>& mesh, const Vec3& axis, const Vec3& through) {
+    Pushes all, forwards, backwards;
+    const TurningReach reach = reachOf(mesh, axis, through);
+    // A straight line of least squares of the pushes over the height, from 0 to 1.
+    double s0 = 0, s1 = 0, s2 = 0, p0 = 0, p1 = 0;
+    forEachPush(mesh, axis, through, [&](double push, double weight, double height) {
+        all.add(push, weight);
+        (push > 0 ? forwards : backwards).add(push, weight);
+        const double x = (height - reach.low) / (reach.high - reach.low);
+        s0 += weight;
+        s1 += weight * x;
+        s2 += weight * x * x;
+        p0 += 2 * kPi * push;
+        p1 += 2 * kPi * push * x;
+    });
+    Conveying c;
+    c.advance = c.low = c.high = all.advance();
+    c.forwards = forwards.advance();
+    c.backwards = -backwards.advance();
+    if (all.weight > 0) c.against = std::min(forwards.weight, backwards.weight) / all.weight;
+    const double spread = s0 * s2 - s1 * s1;
+    if (spread > 1e-9 * s0 * s0) {
+        c.low = (p0 * s2 - p1 * s1) / spread;
+        c.high = c.low + (s0 * p1 - s1 * p0) / spread;
+    }
+    return c;
 }
 
 double highestOfTurn(const std::vector<Triangle>& mesh, const Vec3& axis, const Vec3& through) {

@@ -25,6 +25,17 @@ TurningReach reachOf(const std::vector<geometry::Triangle>& mesh, const Vec3& ax
 /// the normal n that moves with v pushes powder along the axis with (v n) / (n axis).
 double advancePerTurn(const std::vector<geometry::Triangle>& mesh, const Vec3& axis, const Vec3& through);
 
+/// How a thing that turns about a line conveys along it, as `advancePerTurn`, part by part.
+struct Conveying {
+    double advance = 0;  ///< in the mean [m]
+    /// At its ends, by a straight line through its parts: the low end along `axis`, and the high one [m].
+    double low = 0, high = 0;
+    double forwards = 0,
+           backwards = 0;  ///< means of the parts that convey along the axis and against it, both >= 0 [m]
+    double against = 0;    ///< share of the surface, as it is weighed, that conveys against the rest: at most one half
+};
+Conveying conveyingOf(const std::vector<geometry::Triangle>& mesh, const Vec3& axis, const Vec3& through);
+
 /// The y that no point of the thing exceeds in any place of its turn [m].
 double highestOfTurn(const std::vector<geometry::Triangle>& mesh, const Vec3& axis, const Vec3& through);
 

@@ -33,10 +33,8 @@ bool isEndless(const geometry::Shape& shape) {
 
 bool isSolid(const geometry::Shape& shape) {
     if (const auto* block = std::get_if<geometry::Block>(&shape)) return !block->inside;
-    if (const auto* mesh = std::get_if<std::shared_ptr<const geometry::MeshSurface>>(&shape)) {
-        const std::vector<geometry::MeshEdge>& edges = (*mesh)->mesh().edges;
-        return std::all_of(edges.begin(), edges.end(), [](const auto& e) { return e.faces[1] != geometry::kNoFace; });
-    }
+    if (const auto* mesh = std::get_if<std::shared_ptr<const geometry::MeshSurface>>(&shape))
+        return (*mesh)->mesh().closed;
     return std::holds_alternative<geometry::Ball>(shape) || std::holds_alternative<geometry::Coil>(shape) ||
            std::holds_alternative<geometry::Flight>(shape);
 }

@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "host/core/number.h"
 #include "host/core/printable.h"
 #include "host/model/bed_weight.h"
 #include "host/model/case_keys.h"
@@ -72,7 +73,7 @@ void completeTime(Section& time, Case& c, const SizeRange& sizes) {
         // Three digits are enough and read better in the resolved case.
         const double exact = automaticTimeStep(modes, c.stepsPerContact);
         const double unit = std::pow(10.0, std::floor(std::log10(exact)) - 2);
-        c.world.timeStep = std::stod(fmt::format("{:.2e}", std::floor(exact / unit) * unit));
+        c.world.timeStep = nearestDecimal(std::floor(exact / unit) * unit, 3);
         time.record("step_s", c.world.timeStep);
     }
     if (c.world.skin == 0) c.world.skin = time.number("skin_mm", kUsualSkin * sizes.mean * 1e3);

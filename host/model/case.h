@@ -160,6 +160,8 @@ struct Case {
     /// Values that follow from others that the file gives in their place, in words: "contact: damping = 0.02 kg/s from
     /// restitution = 0.5 of slow impacts".
     std::vector<std::string> derivations;
+    /// What was mended in the mesh of a body: its number and the words for it.
+    std::vector<std::pair<std::size_t, std::string>> mendedMeshes;
     std::string resolved;                      ///< the case as TOML with every default and --set applied
     std::string given;                         ///< as TOML, `base` and --set in it, without what follows from it
     std::vector<std::filesystem::path> files;  ///< read for this case: the case file, its bases, the particle list

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string_view>
+
+#include "host/core/number.h"
 
 namespace vkdose {
 
@@ -28,8 +31,9 @@ const Node* CaseReader::find(const std::string& path, const Node** nearest) cons
         const std::size_t end = std::min(path.find('.', start), path.size());
         std::string name = path.substr(start, end - start);
         const std::size_t bracket = name.find('[');
-        const std::size_t index = bracket == std::string::npos ? 0 : std::stoul(name.substr(bracket + 1));
-        name = name.substr(0, bracket);
+        const std::string_view inner = bracket == std::string::npos ? "0" : std::string_view(name).substr(bracket + 1);
+        const std::size_t index = wholeNumberOf(inner.substr(0, inner.find(']'))).value();
+        name.resize(std::min(bracket, name.size()));
         node = node->child(name);
         if (node != nullptr && bracket != std::string::npos) node = &node->children[index];
         if (node == nullptr) return nullptr;

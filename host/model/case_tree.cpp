@@ -47,6 +47,7 @@ Node readWithBase(const std::filesystem::path& file, const Diagnostic& whoAsks,
     }
     Node lower = readWithBase(file.parent_path() / base->string, place, above);
     tree.drop("base");
+    lower.drop("name");  // or two cases would share an output folder
     merge(lower, std::move(tree));
     return lower;
 }

@@ -24,8 +24,10 @@ constexpr Key kContactAlone[] = {
         .replacing("*"),
     text("law_text", told("none"), "the text of a law of your own; the resolved case has it, so that it needs no file"),
     text("law_hash", told("none"), "its hash; a text that was changed is refused"),
-    word("coulomb_limit", "luding absolute", "luding", "the force that friction is a fraction of"),
-    word("rolling_lever", "full half", "full", "the lever of rolling and torsion"),
+    word("rolling_lever", "full half", "full",
+         "the lever of rolling and torsion: the couple is at most μ_r f_n times the lever. A published μ_r of LIGGGHTS "
+         "belongs to `\"half\"`, one of MercuryDPM to `\"full\"` ([why]"
+         "(../host/backend/reference/physics.md#rolling))"),
     number(
         "max_overlap_ratio", kPlain, kPositive, kMaxOverlapRatio,
         "overlap over smaller radius at which the run stops; at most 2. Particles pinched between coil and wall need "
@@ -88,6 +90,8 @@ constexpr Key kContactClass[] = {
     text("derived", told("none"),
          "how `vkdose` came to values of this table; the resolved case has it, and nothing else reads it"),
     number("friction", kPlain, kNonNegative, kRequired, "μ, a coefficient, not an angle"),
+    word("coulomb_limit", "luding absolute", "luding",
+         "the force that friction is a fraction of, in sliding, rolling and torsion"),
     number("kt_over_k", kPlain, kPositive, kTwoSevenths, "k_t/k, stiffness of sliding"),
     number("damping_t_ratio", kPlain, kNonNegative, kTwoSevenths, "γ_t/γ, damping of sliding"),
     number("rolling_friction", kPlain, kNonNegative, 0.0, "μ_r; 0 switches rolling resistance off"),

@@ -28,12 +28,13 @@ double solidSection(const RigidBody& body, double length) {
             section += shaft + f->thickness / pitch * (kPi * f->outerRadius * f->outerRadius - shaft);
         } else if (const auto* m = std::get_if<std::shared_ptr<const geometry::MeshSurface>>(&shape)) {
             const geometry::Mesh& mesh = (*m)->mesh();
-            const bool open = std::any_of(mesh.edges.begin(), mesh.edges.end(),
-                                          [](const geometry::MeshEdge& e) { return e.faces[1] == geometry::kNoFace; });
             double volume = 0;
-            for (const auto& t : mesh.triangles)
+            for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+                if (std::binary_search(mesh.inner.begin(), mesh.inner.end(), i)) continue;
+                const auto& t = mesh.triangles[i];
                 volume += glm::dot(mesh.vertices[t[0]], glm::cross(mesh.vertices[t[1]], mesh.vertices[t[2]])) / 6;
-            if (!open) section += std::abs(volume) / length;
+            }
+            if (mesh.closed) section += std::abs(volume) / length;
         }
     }
     return section;

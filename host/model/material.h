@@ -81,6 +81,7 @@ struct ContactParameters {
     double kTo = 0;              ///< torsion stiffness [N/m]
     double gammaTo = 0;          ///< torsion viscosity [kg/s]
     double muTo = 0;             ///< torsion friction [-]; 0 switches torsion off
+    CoulombLimit coulombLimit = CoulombLimit::Luding;
     NormalLaw law = NormalLaw::Luding;
     double modulus = 0;          ///< Hertz-Mindlin, EEPA, JKR: E*, effective Young's modulus of the two bodies [Pa]
     double dampingShare = 0;     ///< Hertz-Mindlin, EEPA, JKR: beta, which gives the restitution (normal_law.h) [-]
@@ -131,7 +132,6 @@ class PairTable {
 /// Everything the contact law needs, for one member (canister).
 struct ContactLaw {
     PairTable pairs;
-    CoulombLimit coulombLimit = CoulombLimit::Luding;
     RollingLever rollingLever = RollingLever::Full;
     std::shared_ptr<const UserLaw> user;  ///< null unless the pairs follow NormalLaw::User
 
@@ -142,6 +142,10 @@ struct ContactLaw {
     /// Of the first powder.
     const ContactParameters& of(ContactClass c) const { return of(pairOf(c)); }
     ContactParameters& of(ContactClass c) { return of(pairOf(c)); }
+    /// Gives all pairs this limit of friction.
+    void limitFriction(CoulombLimit limit) {
+        for (ContactParameters& p : pairs) p.coulombLimit = limit;
+    }
 };
 
 }  // namespace vkdose

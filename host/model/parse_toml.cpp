@@ -15,19 +15,28 @@ namespace {
 struct Source {
     std::string name;
     std::vector<std::string> lines;
+    /// The column sought last and its byte. A search begins there, so that a long line is gone through once.
+    mutable std::size_t line = 0, column = 1, byte = 0;
 };
 
 Source makeSource(std::string name, const std::string& text) {
-    Source source{std::move(name), {}};
+    Source source;
+    source.name = std::move(name);
     std::istringstream stream(text);
     for (std::string line; std::getline(stream, line);) source.lines.push_back(line);
     return source;
 }
 
 /// Byte at which a column of toml++ begins. (toml++ counts columns in characters.)
-std::size_t byteOf(const std::string& text, std::size_t column) {
-    std::size_t at = 0;
-    for (std::size_t seen = 1; at < text.size() && seen < column; ++seen) {
+std::size_t byteOf(const Source& source, std::size_t line, std::size_t column) {
+    const std::string& text = source.lines[line - 1];
+    if (source.line != line || column < source.column) {
+        source.line = line;
+        source.column = 1;
+        source.byte = 0;
+    }
+    std::size_t& at = source.byte;
+    for (; at < text.size() && source.column < column; ++source.column) {
         ++at;
         while (at < text.size() && (static_cast<unsigned char>(text[at]) & 0xc0U) == 0x80U) ++at;
     }
@@ -39,8 +48,8 @@ std::string written(const toml::source_region& region, const Source& source) {
     const std::size_t line = region.begin.line;
     if (line == 0 || line > source.lines.size() || region.end.line != region.begin.line) return "...";
     const std::string& text = source.lines[line - 1];
-    const std::size_t first = byteOf(text, region.begin.column);
-    std::string value = text.substr(first, byteOf(text, region.end.column) - first);
+    const std::size_t first = byteOf(source, line, region.begin.column);
+    std::string value = text.substr(first, byteOf(source, line, region.end.column) - first);
     while (!value.empty() && std::isspace(static_cast<unsigned char>(value.back())) != 0) value.pop_back();
     return value;
 }
@@ -65,6 +74,16 @@ void setScalar(Node& node, const toml::node& from) {
     }
 }
 
+/// A case has some dozen keys in a table, and a list some dozen tables. Each is sought among the others.
+constexpr std::size_t kMostTogether = 2000;
+
+void requireFew(const char* what, std::size_t count, const toml::node& from, const Source& source,
+                const std::string& key) {
+    if (count <= kMostTogether) return;
+    throw CaseError({{source.name, static_cast<int>(from.source().begin.line), key, "",
+                      fmt::format("has {} {}, and may have {}", count, what, kMostTogether), "give fewer"}});
+}
+
 Node convert(const toml::node& from, const Source& source, std::string key) {
     Node node;
     node.key = std::move(key);
@@ -72,6 +91,7 @@ Node convert(const toml::node& from, const Source& source, std::string key) {
     node.line = static_cast<int>(from.source().begin.line);
     if (const toml::table* table = from.as_table()) {
         node.kind = Node::Kind::Table;
+        requireFew("keys", table->size(), from, source, node.key);
         for (const auto& [name, value] : *table)
             node.children.push_back(convert(value, source, std::string(name.str())));
         // Keep the order of the file, not of the alphabet, so that faults are reported from top to bottom.
@@ -79,6 +99,7 @@ Node convert(const toml::node& from, const Source& source, std::string key) {
                          [](const Node& a, const Node& b) { return a.line < b.line; });
     } else if (const toml::array* array = from.as_array()) {
         node.kind = Node::Kind::Array;
+        if (array->is_array_of_tables()) requireFew("tables", array->size(), from, source, node.key);
         node.text = written(from.source(), source);
         for (const toml::node& value : *array) node.children.push_back(convert(value, source, ""));
     } else {

@@ -6,8 +6,9 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <limits>
+#include <optional>
+#include <sstream>
 #include <string>
 
 #include "host/core/csv_lines.h"
@@ -35,6 +36,7 @@ class ListReader {
     Particles read(std::istream& stream) {
         for (CsvLines lines(stream); lines.next();) {
             line_ = lines.number();
+            if (lines.text().starts_with('#')) continue;  // a comment
             const std::optional<Row> fields = lines.fields();
             if (!fields) {
                 fault("", lines.text(), "is not CSV", "separate plain numbers by commas");
@@ -195,12 +197,13 @@ class ListReader {
 
 Particles readParticleList(const std::filesystem::path& file, std::vector<Diagnostic>& faults,
                            const std::vector<ListedPowder>& powders) {
-    std::ifstream stream = inputFile(file);
-    if (!stream) {
+    std::optional<std::string> content = fileContent(file);
+    if (!content) {
         faults.push_back(
             {file.string(), 0, "", "", readFault(file), "give the path of a CSV, relative to the case file"});
         return {};
     }
+    std::istringstream stream(*std::move(content));
     return ListReader(file.string(), faults, powders).read(stream);
 }
 

@@ -187,10 +187,11 @@ void readDose(CaseReader& reader, Section& dose, Case& c) {
 }
 
 void readStop(Section& root, Case& c) {
-    const bool doses = c.schedule.rotateTime > 0;
+    // The threshold is that of a canister's experiment. Other devices fill and deliver in ways of their own.
+    const bool canister = c.schedule.rotateTime > 0 && c.canister.has_value();
     Section& section = root.table("stop");
     StopRule stop;
-    const auto rule = section.choice("rule", doses ? std::size_t{1} : std::size_t{0});
+    const auto rule = section.choice("rule", canister ? std::size_t{1} : std::size_t{0});
     if (!rule) {
         section.abandon();
         return;

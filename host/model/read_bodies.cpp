@@ -7,10 +7,10 @@
 
 #include "geometry/mesh.h"
 #include "host/core/csv_table.h"
-#include "host/core/file.h"
 #include "host/core/printable.h"
 #include "host/model/case_sections.h"
 #include "host/model/closest_word.h"
+#include "host/model/named_file.h"
 
 namespace vkdose {
 namespace {
@@ -78,6 +78,21 @@ std::vector<Shape> readWire(const BodyReader& b) {
     return {wire};
 }
 
+constexpr double kLargestMesh = 5;  ///< [m]
+
+/// What a mesh of so many units would measure in each unit in which it is not too large.
+std::string otherUnits(double units) {
+    std::string text;
+    for (const char* unit : {"cm", "inch", "mm", "um"}) {
+        const double length = units * geometry::metresIn(unit).value_or(0);
+        if (length <= kLargestMesh)
+            text += fmt::format("{}{:.4g} mm in {}", text.empty() ? "" : ", ", length * 1e3, unit);
+    }
+    return text.empty()
+               ? "give a smaller mesh"
+               : fmt::format("give the unit that it was drawn in (it would be {} long), or a smaller mesh", text);
+}
+
 std::vector<Shape> readMeshShape(const BodyReader& b) {
     Section& s = b.section;
     const std::string name = s.string("mesh"), unit = s.string("unit");
@@ -88,20 +103,19 @@ std::vector<Shape> readMeshShape(const BodyReader& b) {
         return {};
     }
     const std::filesystem::path file = b.reader.folderOf(s.path("mesh")) / name;
-    if (!inputFile(file)) {
-        b.fault("mesh", unreadable(file), "give the path of an STL, OBJ or PLY file, relative to the case file");
+    if (!requireFile(b.reader, s.path("mesh"), file,
+                     "give the path of an STL, OBJ or PLY file, relative to the case file"))
         return {};
-    }
     try {
         geometry::CheckedMesh checked = geometry::makeMesh(geometry::readMeshFile(file, *metres));
         const Vec3 size = checked.facts.high - checked.facts.low;
         // Meshes know no unit. Nothing that doses powder is that large.
-        constexpr double kLargest = 5;
         const double longest = std::max({size.x, size.y, size.z});
-        if (longest > kLargest)
-            b.fault("unit", fmt::format("makes the mesh {:.4g} m long", longest),
-                    fmt::format("the file is probably in {}: write unit = \"{}\"", unit == "mm" ? "um" : "mm",
-                                unit == "mm" ? "um" : "mm"));
+        if (longest > kLargestMesh)
+            b.fault("unit",
+                    fmt::format("makes the mesh {:.4g} m long, and at most {} m are computed", longest, kLargestMesh),
+                    otherUnits(longest / *metres));
+        if (!checked.facts.mended.empty()) b.c.mendedMeshes.emplace_back(b.c.world.bodies.size(), checked.facts.mended);
         s.record("mesh", std::filesystem::absolute(file).lexically_normal().string());
         b.c.files.push_back(file);
         if (!(b.meshReach > 0)) return {};
@@ -163,10 +177,7 @@ std::vector<geometry::Table::Row> readMotionTable(CaseReader& reader, Section& s
     const std::string name = s.string("file");
     if (!s.isString("file")) return {};
     const std::filesystem::path file = reader.folderOf(s.path("file")) / name;
-    if (!inputFile(file)) {
-        reader.fault(s.path("file"), unreadable(file), "give the path of a CSV, relative to the case file");
-        return {};
-    }
+    if (!requireFile(reader, s.path("file"), file, "give the path of a CSV, relative to the case file")) return {};
     s.record("file", std::filesystem::absolute(file).lexically_normal().string());
     std::vector<geometry::Table::Row> rows;
     try {

@@ -135,11 +135,25 @@ void placeContact(CaseReader& reader, Section& root, const Case& c) {
     root.table("settle");
 }
 
+/// The limit of friction of each pair. A pair that states none has that of the pair whose other values it takes, and
+/// two powders that mix have that of [contact].
+void readFrictionLimits(const LawTables& in) {
+    std::vector<std::size_t> limits(in.size());
+    for (const PairSection& p : in.pairs) {
+        std::optional<std::size_t> inherited;
+        if (p.stated.source == PairSource::Parent) inherited = limits[p.parent()];
+        if (p.stated.source == PairSource::Mixture) inherited = limits.front();
+        const std::size_t limit = p.section->choice("coulomb_limit", inherited).value_or(0);
+        limits[p.index()] = limit;
+        for (ContactLaw* law : {&in.c.dosingLaw, &in.c.settlingLaw})
+            law->of(p.stated.pair).coulombLimit = static_cast<CoulombLimit>(limit);
+    }
+}
+
 void readContact(CaseReader& reader, Section& root, const MaterialTables& materials, Case& c) {
     Section& contact = root.requiredTable("contact");
     const bool user = namesFile(contact, contact.node("law"));
     const auto law = user ? NormalLaw::User : static_cast<NormalLaw>(contact.choice("law").value_or(0));
-    c.dosingLaw.coulombLimit = static_cast<CoulombLimit>(contact.choice("coulomb_limit").value_or(0));
     c.dosingLaw.rollingLever = static_cast<RollingLever>(contact.choice("rolling_lever").value_or(0));
     c.world.maxOverlapRatio = contact.number("max_overlap_ratio");
     c.dosingLaw.pairs.resize(int(c.world.materials.size()));
@@ -154,6 +168,7 @@ void readContact(CaseReader& reader, Section& root, const MaterialTables& materi
         readLuding(in);
     else
         readElastic(in, law);
+    readFrictionLimits(in);
 }
 
 }  // namespace vkdose

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <set>
 
-#include "host/core/file.h"
 #include "host/core/printable.h"
 #include "host/model/case_sections.h"
 #include "host/model/closest_word.h"
+#include "host/model/named_file.h"
 #include "host/model/particle_list.h"
 #include "host/model/powders.h"
 
@@ -159,10 +159,7 @@ void readList(CaseReader& reader, Section& root, Case& c) {
     Section& section = root.table("particles");
     if (!section.isString("list")) return;  // already reported
     const std::filesystem::path file = reader.folderOf("particles.list") / section.node("list")->string;
-    if (!inputFile(file)) {
-        reader.fault("particles.list", unreadable(file), "give the path of a CSV, relative to the case file");
-        return;
-    }
+    if (!requireFile(reader, "particles.list", file, "give the path of a CSV, relative to the case file")) return;
     std::vector<Diagnostic> faults;
     std::vector<ListedPowder> powders;
     for (const PowderOf& p : powdersOf(c)) powders.push_back({p.name, p.material});

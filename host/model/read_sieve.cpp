@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "host/core/csv_table.h"
-#include "host/core/file.h"
 #include "host/model/case_sections.h"
+#include "host/model/named_file.h"
 #include "host/model/size_distribution.h"
 
 namespace vkdose {
@@ -73,10 +73,8 @@ std::optional<SieveTable> tableOfFile(CaseReader& reader, Section& section, std:
     }
     if (!section.isString("sieves")) return {};  // already told
     const std::filesystem::path file = reader.folderOf(section.path("sieves")) / path;
-    if (!inputFile(file)) {
-        reader.fault(section.path("sieves"), unreadable(file), "give the path of a CSV, relative to the case file");
+    if (!requireFile(reader, section.path("sieves"), file, "give the path of a CSV, relative to the case file"))
         return {};
-    }
     files.push_back(file);
     SieveTable table;
     table.openingsPath = table.amountsPath = section.path("sieves");

@@ -11,6 +11,7 @@
 
 #include "host/core/error.h"
 #include "host/core/file.h"
+#include "host/model/named_file.h"
 
 namespace vkdose {
 namespace {
@@ -43,14 +44,11 @@ std::shared_ptr<const UserLaw> readUserLaw(CaseReader& reader, Section& contact)
     if (within) {
         text = contact.string("law_text");
         file = name;
-    } else {
+    } else if (requireFile(reader, "contact.law", file,
+                           "give luding, hertz-mindlin, eepa, jkr, or the path of a law of your own")) {
         text = fileContent(file);
     }
-    if (!text) {
-        reader.fault("contact.law", fmt::format("{} cannot be read", file.string()),
-                     "give luding, hertz-mindlin, eepa, jkr, or the path of a law of your own");
-        return nullptr;
-    }
+    if (!text) return nullptr;
     if (contact.has("law_hash") && contact.string("law_hash") != lawHash(*text)) {
         if (within)
             reader.fault("contact.law_text", fmt::format("is not the text of {} that law_hash was made of", name),

@@ -62,9 +62,10 @@ constexpr Key kStage[] = {
     number("until", kPlain, kPositive, kRequired, "fraction of `mass_g` at which the stage ends; at most 1"),
 };
 constexpr Key kStop[] = {
-    word("rule", "none experiment simulation", told("`\"experiment\"`; without doses `\"none\"`"),
+    word("rule", "none experiment simulation", told("`\"experiment\"`; without doses or a canister `\"none\"`"),
          "`\"experiment\"`: the last `doses` doses together gave no more than `threshold_g`; `\"simulation\"`: they "
-         "gave nothing; `\"none\"`: `max_doses` or `end_time_s` is required")
+         "gave nothing. Both count from the first dose that gives powder. If none does, they end a run without "
+         "`max_doses` and `end_time_s` after ten times as many doses. `\"none\"`: one of these two is required")
         .replacing("threshold_g doses"),
     number("threshold_g", kGram, kNonNegative, 0.15, "for `\"experiment\"`"),
     integer("doses", 1, kMostDoses, 3, "for `\"experiment\"` and `\"simulation\"`"),
@@ -102,7 +103,7 @@ constexpr Key kFrames[] = {
 };
 constexpr Key kCheckpoint[] = {
     number("wall_s", kSecond, kNonNegative, CheckpointInterval{}.wall,
-           "wall time between two checkpoints; 0: none by the clock"),
+           "longest wall time between two checkpoints; a young run makes them more often; 0: none by the clock"),
     number("time_s", kSecond, kNonNegative, CheckpointInterval{}.simulated,
            "simulated time between two checkpoints; 0: none by simulated time"),
 };

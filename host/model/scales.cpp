@@ -68,6 +68,21 @@ void checkSteps(CaseReader& reader, const Case& c) {
     }
 }
 
+/// Spheres as large as a head make the time step so long that everything else seems wrong; a list has them if its
+/// lengths are in mm.
+bool largeSpheresTold(CaseReader& reader, const Case& c, double largest) {
+    constexpr double kLarge = 0.1, kStrongest = 100;  // [m], [m/s2]
+    const double g = std::max(glm::length(c.world.gravity), glm::length(c.settlingGravity()));
+    const double dt = c.world.timeStep;
+    if (largest < kLarge || g > kStrongest || g * dt * dt <= kLongestWay * largest) return false;
+    const PowderOf first = powdersOf(c).front();
+    reader.fault(
+        sizeKey(first, "max"),
+        fmt::format("has spheres of radius {:.4g} mm, for which a time step is {:.3g} s long", largest * 1e3, dt),
+        first.filling.list ? "give radii and places in m: a list is in metres" : "give smaller spheres");
+    return true;
+}
+
 void checkWays(CaseReader& reader, const Case& c, double smallest) {
     const double dt = c.world.timeStep;
     const double longest = kLongestWay * smallest;
@@ -88,6 +103,7 @@ void checkWays(CaseReader& reader, const Case& c, double smallest) {
 
 void checkScales(CaseReader& reader, const Case& c, const SizeRange& radii) {
     checkMasses(reader, c);
+    if (largeSpheresTold(reader, c, radii.largest)) return;
     checkSteps(reader, c);
     checkWays(reader, c, radii.smallest);
     if (c.world.skin > kWidestSkin * radii.largest)

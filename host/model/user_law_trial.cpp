@@ -85,8 +85,8 @@ void tryUserLaw(CaseReader& reader, Case& c, const PowderSizes& sizes) {
         for (const LawFault& fault : error.faults) refuse(fault.line, fault.problem, fault.remedy);
         return;
     } catch (const DeviceError& error) {
-        reader.fault("contact.law", fmt::format("is tried on a device, and there is none: {}", error.what()),
-                     "install a Vulkan driver (mesa-vulkan-drivers), or take a law of the program's own");
+        reader.fault("contact.law", fmt::format("could not be tried on a device: {}", error.what()),
+                     "or take a law of the program's own, which needs no trial");
         return;
     }
     for (ContactParameters& p : c.dosingLaw.pairs) p.k1 = p.k2Max = p.gamma = p.kMost = 0;

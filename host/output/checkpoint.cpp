@@ -2,11 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <cstdlib>
 #include <optional>
+#include <string_view>
 
 #include "host/core/file.h"
 #include "host/core/fnv.h"
+#include "host/core/number.h"
 #include "host/output/hdf5.h"
 
 namespace vkdose {
@@ -15,7 +16,7 @@ namespace {
 
 constexpr std::size_t kUserBlock = 512;
 constexpr std::string_view kMagic = "vkdose checkpoint";
-constexpr int kVersion = 7;  // 6: no loads of the coil
+constexpr unsigned kVersion = 7;  // 6: no loads of the coil
 
 /// It belongs to the format. With another checksum (zlib's, say) existing checkpoints could not be read.
 std::uint64_t checksum(std::string_view bytes) {
@@ -29,19 +30,27 @@ std::string head(std::string_view body) {
     return block;
 }
 
+/// The whole number behind `word` at the front of `head`, which loses both.
+std::optional<unsigned long long> takeLine(std::string_view& head, std::string_view word) {
+    if (!head.starts_with(word)) return std::nullopt;
+    head.remove_prefix(word.size());
+    const std::string_view digits = head.substr(0, head.find('\n'));
+    head.remove_prefix(digits.size());
+    return wholeNumberOf(digits);
+}
+
 /// The HDF5 part of a checkpoint whose head has been checked.
 std::string_view body(const std::string& bytes, const std::string& name) {
     const auto refuse = [&](const std::string& why) { throw CheckpointError(fmt::format("{} {}", name, why)); };
     if (bytes.compare(0, kMagic.size(), kMagic) != 0) refuse("is not a checkpoint of vkdose");
     if (bytes.size() < kUserBlock) refuse("is cut off");
-    int version = 0;
-    unsigned long long size = 0;
-    const std::string text(bytes.data() + kMagic.size(), kUserBlock - kMagic.size());
-    if (std::sscanf(text.c_str(), "\nversion %d\nbytes %llu\n", &version, &size) != 2) refuse("has a damaged head");
-    if (version != kVersion)
-        refuse(fmt::format("has format version {}; this vkdose reads version {}", version, kVersion));
+    std::string_view lines = std::string_view(bytes).substr(kMagic.size(), kUserBlock - kMagic.size());
+    const auto version = takeLine(lines, "\nversion "), size = takeLine(lines, "\nbytes ");
+    if (!version || !size) refuse("has a damaged head");
+    if (*version != kVersion)
+        refuse(fmt::format("has format version {}; this vkdose reads version {}", *version, kVersion));
     const std::string_view rest = std::string_view(bytes).substr(kUserBlock);
-    if (rest.size() < size) refuse(fmt::format("is cut off: {} of {} bytes are there", rest.size(), size));
+    if (rest.size() < *size) refuse(fmt::format("is cut off: {} of {} bytes are there", rest.size(), *size));
     if (std::string_view(bytes).substr(0, kUserBlock) != head(rest)) refuse("is damaged: its checksum does not fit");
     return rest;
 }

@@ -2,8 +2,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/stat.h>
-#include <unistd.h>
 #include <zlib.h>
 
 #include <algorithm>
@@ -24,30 +22,31 @@ std::uint32_t crcOf(std::uint32_t before, std::string_view text) {
 }  // namespace
 
 CsvFile::CsvFile(std::filesystem::path path, std::string_view header)
-    : path_(std::move(path)), file_(::fdopen(openOutput(path_, O_WRONLY | O_CREAT | O_TRUNC), "w")) {
-    if (!file_) fail();
+    : path_(std::move(path)), file_(path_, O_WRONLY | O_CREAT | O_TRUNC) {
     line(std::string(header));
     flush();
 }
 
 CsvFile::CsvFile(std::filesystem::path path, const CsvMark& mark)
-    : path_(std::move(path)), file_(::fdopen(openOutput(path_, O_RDWR), "r+")) {
-    if (!file_) fail();
+    : path_(std::move(path)), file_(path_, O_WRONLY), at_(mark.bytes) {
     std::error_code error;
     const std::uint64_t size = std::filesystem::file_size(path_, error);
     if (error || size < mark.bytes)
         throw OutputError(fmt::format("{} has {} bytes; it had {} when the checkpoint was written", path_.string(),
                                       error ? 0 : size, mark.bytes));
     requireSame(mark);
+    file_.goTo(mark.bytes);
     cut_ = size > mark.bytes;
 }
 
-/// Reads up to the mark and stops there. Throws OutputError if the checksum differs.
+/// Throws OutputError if the content up to the mark has another checksum.
 void CsvFile::requireSame(const CsvMark& mark) {
     std::array<char, 1U << 16> block{};
+    std::optional<InputFile> content = InputFile::open(path_);
+    if (!content) throw OutputError(unreadable(path_));
     for (std::uint64_t left = mark.bytes; left > 0;) {
-        const std::size_t n = std::fread(block.data(), 1, std::min<std::uint64_t>(left, block.size()), file_.get());
-        if (n == 0) throw OutputError(fmt::format("{} cannot be read", path_.string()));
+        const std::size_t n = content->read(block.data(), std::min<std::uint64_t>(left, block.size()));
+        if (n == 0) throw OutputError(fmt::format("{} has become shorter", path_.string()));
         checksum_ = crcOf(checksum_, {block.data(), n});
         left -= n;
     }
@@ -56,46 +55,44 @@ void CsvFile::requireSame(const CsvMark& mark) {
             fmt::format("{} has been changed since the checkpoint was written: its first {} bytes are no "
                         "longer what they were; put the file back as it was, or start the run again",
                         path_.string(), mark.bytes));
-    // C requires a seek between reading and writing.
-    if (std::fseek(file_.get(), static_cast<long>(mark.bytes), SEEK_SET) != 0) fail();
 }
 
 /// What stood behind the mark is of a course that the run does not take again.
 void CsvFile::cut() {
-    if (cut_ && ::ftruncate(fileno(file_.get()), std::ftell(file_.get())) != 0) fail();
+    if (cut_) file_.cutAt(at_);
     cut_ = false;
 }
 
+void CsvFile::hold(std::string_view text) {
+    held_ += text;
+    at_ += text.size();
+    checksum_ = crcOf(checksum_, text);
+}
+
+void CsvFile::write() {
+    const std::string lines = std::exchange(held_, "");
+    file_.write(lines);
+}
+
 void CsvFile::line(const std::string& fields) {
+    constexpr std::size_t kMost = 1U << 16;
     cut();
-    if (std::fputs(fields.c_str(), file_.get()) < 0 || std::fputc('\n', file_.get()) < 0) fail();
-    checksum_ = crcOf(crcOf(checksum_, fields), "\n");
+    hold(fields);
+    hold("\n");
+    if (held_.size() > kMost) write();
 }
 
 void CsvFile::flush() {
-    if (std::fflush(file_.get()) != 0) fail();
-    if (!isWhereItWas())
+    write();
+    if (!file_.isWhereItWas())
         throw OutputError(fmt::format("cannot write {}: it has been removed or moved away", path_.string()));
-}
-
-bool CsvFile::isWhereItWas() const {
-    struct stat named {
-    }, ours{};
-    return ::stat(path_.c_str(), &named) == 0 && ::fstat(fileno(file_.get()), &ours) == 0 &&
-           named.st_dev == ours.st_dev && named.st_ino == ours.st_ino;
 }
 
 CsvMark CsvFile::store() {
     cut();
     flush();
-    if (::fsync(fileno(file_.get())) != 0) fail();
-    const long at = std::ftell(file_.get());
-    if (at < 0) fail();
-    return {static_cast<std::uint64_t>(at), checksum_};
-}
-
-void CsvFile::fail() const {
-    throw OutputError(writeFault(path_));
+    file_.sync();
+    return {at_, checksum_};
 }
 
 }  // namespace vkdose

@@ -2,12 +2,12 @@
 // A CSV file that is written line by line and can be read while the run goes on.
 
 #include <cstdint>
-#include <cstdio>
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+
+#include "host/core/output_file.h"
 
 namespace vkdose {
 
@@ -37,16 +37,15 @@ class CsvFile {
     CsvMark store();
 
   private:
-    struct Close {
-        void operator()(std::FILE* file) const { std::fclose(file); }
-    };
-    void cut();
-    [[noreturn]] void fail() const;
     void requireSame(const CsvMark& mark);
-    bool isWhereItWas() const;
+    void cut();
+    void hold(std::string_view text);
+    void write();
 
     std::filesystem::path path_;
-    std::unique_ptr<std::FILE, Close> file_;
+    OutputFile file_;
+    std::string held_;            ///< lines that are not yet written
+    std::uint64_t at_ = 0;        ///< bytes before the next line
     std::uint32_t checksum_ = 0;  ///< of the content before the present place
     bool cut_ = false;            ///< the content after the present place must be cut off
 };

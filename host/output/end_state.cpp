@@ -28,7 +28,7 @@ double numberIn(const Json& summary, const char* key, const std::filesystem::pat
 
 Frame readEndState(const std::filesystem::path& folder, const Case& c) {
     const std::filesystem::path file = folder / "summary.json", list = folder / "particles.csv";
-    if (!inputFile(file)) throw OutputError(unreadable(file));
+    if (!InputFile::open(file)) throw OutputError(unreadable(file));
     const std::optional<Json> read = readSummary(folder);
     if (!read) throw OutputError(fmt::format("{}: no summary", file.string()));
     const Json& summary = *read;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <optional>
 #include <string>
 #include <system_error>
 
@@ -27,10 +28,10 @@ fs::path madeFolder(const fs::path& run) {
 
 /// Times of the frames named in the first `bytes` of an index.
 std::vector<double> timesIn(const fs::path& index, std::uint64_t bytes) {
-    std::string text(bytes, '\0');
-    inputFile(index).read(text.data(), static_cast<std::streamsize>(bytes));
+    const std::optional<std::string> text = fileStart(index, bytes);
+    if (!text) throw OutputError(unreadable(index));
     std::vector<double> times;
-    for (const FrameEntry& e : framesListed(text, index)) times.push_back(e.time);
+    for (const FrameEntry& e : framesListed(*text, index)) times.push_back(e.time);
     return times;
 }
 

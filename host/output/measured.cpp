@@ -129,12 +129,16 @@ class Measuring {
     struct State {
         Particles particles;
         double time = 0;
+        BodyPoses bodies;
     };
 
     State stateAt(const std::optional<double>& time) const {
-        if (!time || frames_.entries().empty()) return {result_.particles, result_.last.time};
+        if (!time || frames_.entries().empty())
+            return {result_.particles, result_.last.time,
+                    bodyPoses(c_.world, result_.last.time, result_.last.coilAngle, result_.bodiesMoved)};
         const FrameEntry& entry = frames_.entries()[nearestOf(frames_.entries(), *time)];
-        return {frames_.read(entry).particles, entry.time};
+        const Frame frame = frames_.read(entry);
+        return {frame.particles, entry.time, bodyPoses(c_.world, frame.time, frame.coilAngle, frame.bodiesMoved)};
     }
 
     Figures figuresOf(const ElementTest& m, std::string& why) const {
@@ -168,7 +172,8 @@ class Measuring {
 
     Figures bulk(const ElementTest& m, std::string& why) const {
         const State state = stateAt(m.time);
-        const auto bulk = containerDensity(c_.world, upright(state.particles, m.at, up_), m.radius);
+        const auto bulk =
+            containerDensity(c_.world, upright(state.particles, m.at, up_), m.radius, upright(state.bodies, m.at, up_));
         if (!bulk) {
             why = "a mean diameter away from wall, floor and surface there is room for fewer than a hundred spheres";
             return {};
@@ -218,7 +223,8 @@ class Measuring {
     /// That of the settled bed if the case has it measured.
     double bulkDensity() const {
         if (c_.bulkDensityMeasured && result_.settled && result_.settling)
-            if (const auto bulk = settledDensity(c_, *result_.settling, result_.settled->particles))
+            if (const auto bulk =
+                    settledDensity(c_, *result_.settling, result_.settled->particles, result_.settled->bodies))
                 return bulk->density;
         return c_.bulkDensity;
     }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <fstream>
+#include <optional>
 #include <set>
 #include <string_view>
 #include <system_error>
@@ -27,16 +27,6 @@ namespace {
 /// which one.
 constexpr std::array kFiles{kCheckpointName, kSettledName, kEndName,    "summary.json",
                             "particles.csv", "doses.csv",  "case.toml", "timeseries.csv"};
-
-/// The first `most` bytes of a file.
-std::string startOf(const fs::path& file, std::size_t most) {
-    std::ifstream stream = inputFile(file);
-    std::string text(most, '\0');
-    if (!stream) return "";
-    stream.read(text.data(), std::streamsize(most));
-    text.resize(std::size_t(stream.gcount()));
-    return text;
-}
 
 /// "NAME_000012.hdf"
 bool isNumbered(std::string_view file, std::string_view name, std::string_view extension) {
@@ -80,27 +70,24 @@ std::set<std::string> fieldsIn(const fs::path& folder) {
 }  // namespace
 
 bool holdsRun(const fs::path& folder) {
-    std::error_code code;
-    const fs::path file = folder / "timeseries.csv";
-    if (!fs::is_regular_file(file, code)) return false;
-    const std::string header = csvHeader(kWhenColumns), start = startOf(file, header.size());
-    return start.empty() || start == header;  // empty: the run was killed in its first moment
+    const std::string header = csvHeader(kWhenColumns);
+    const std::optional<std::string> start = fileStart(folder / "timeseries.csv", header.size());
+    return start && (start->empty() || *start == header);  // empty: the run was killed in its first moment
 }
 
 std::vector<fs::path> filesOfRun(const fs::path& folder) {
-    std::error_code code;
     std::vector<fs::path> files;
     const auto add = [&](const fs::path& file) {
-        if (fs::exists(fs::symlink_status(file, code))) files.push_back(file);
+        if (fs::exists(fs::symlink_status(file))) files.push_back(file);
     };
-    if (startOf(folder / "report.html", 1024).find(kReportMark) != std::string::npos) add(folder / "report.html");
+    const std::string page = fileStart(folder / "report.html", 1024).value_or("");
+    if (page.find(kReportMark) != std::string::npos) add(folder / "report.html");
     const std::set<std::string> fields = fieldsIn(folder);
     for (const char* name : {kFramesFolder, kFieldsFolder})
-        for (const auto& entry : fs::directory_iterator(folder / name, code)) {
-            std::string file = entry.path().filename().string();
+        for (const fs::path& entry : entriesOf(folder / name)) {
+            std::string file = entry.filename().string();
             if (file.ends_with(".new")) file.resize(file.size() - 4);
-            if (std::string_view(name) == kFramesFolder ? isFrame(file) : isField(file, fields))
-                files.push_back(entry.path());
+            if (std::string_view(name) == kFramesFolder ? isFrame(file) : isField(file, fields)) files.push_back(entry);
         }
     for (const char* name : kFiles) {
         add(folder / (std::string(name) + ".new"));

@@ -13,7 +13,10 @@ std::vector<DoseArch> archesAtDoseEnds(const Frames& frames, const Case& c, cons
         const double end = std::isfinite(d.endTime) ? d.endTime : planned;  // an older table does not tell it
         const FrameEntry& entry = frames.entries()[nearestOf(frames.entries(), end)];
         if (!d.complete || std::abs(entry.time - end) > reach) continue;
-        arches.push_back({d.index, entry.time, archAbove(*c.world.coil, *c.canister, frames.read(entry).particles)});
+        const Frame frame = frames.read(entry);
+        const BodyPoses bodies = bodyPoses(c.world, frame.time, frame.coilAngle, frame.bodiesMoved);
+        arches.push_back(
+            {d.index, entry.time, archAbove(*c.world.coil, *c.canister, frame.particles, c.world, bodies)});
     }
     return arches;
 }

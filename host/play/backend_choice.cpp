@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "host/backend/reference/reference.h"
-#include "host/backend/vulkan/vulkan.h"
 #include "host/core/error.h"
 
 namespace vkdose {
@@ -14,7 +13,7 @@ std::unique_ptr<Backend> openBackend(const BackendChoice& choice) {
             throw UsageError("a device (--device) is for the vulkan backend; the reference runs on the CPU");
         return makeReferenceBackend();
     }
-    return std::move(openEnsemble(choice, 1)[0]);
+    return openEnsemble(choice).enter();
 }
 
 void requireLaw(const Case& c, const std::string& backend) {
@@ -24,14 +23,14 @@ void requireLaw(const Case& c, const std::string& backend) {
                           "use --backend vulkan"}});
 }
 
-std::vector<std::unique_ptr<Backend>> openEnsemble(const BackendChoice& choice, std::size_t members) {
+VulkanEnsemble openEnsemble(const BackendChoice& choice) {
     if (choice.backend == "reference") throw UsageError("an ensemble needs a device; the reference runs one canister");
     if (choice.backend != "vulkan")
         throw UsageError(fmt::format("there is no backend \"{}\"; give vulkan or reference", choice.backend));
     VulkanOptions options;
     options.device.name = choice.device;
     options.device.validation = choice.validation;
-    return makeVulkanEnsemble(options, members);
+    return VulkanEnsemble(options);
 }
 
 }  // namespace vkdose

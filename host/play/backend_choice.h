@@ -4,9 +4,9 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
 #include "host/backend/backend.h"
+#include "host/backend/vulkan/vulkan.h"
 #include "host/model/case.h"
 
 namespace vkdose {
@@ -29,7 +29,7 @@ std::unique_ptr<Backend> openBackend(const BackendChoice& choice);
 /// Throws CaseError if the backend of this name cannot run the contact law of the case.
 void requireLaw(const Case& c, const std::string& backend);
 
-/// Makes the backends of canisters that share a device (makeVulkanEnsemble). Throws as above.
-std::vector<std::unique_ptr<Backend>> openEnsemble(const BackendChoice& choice, std::size_t members);
+/// An ensemble for backends of canisters that share a device. Throws as above.
+VulkanEnsemble openEnsemble(const BackendChoice& choice);
 
 }  // namespace vkdose

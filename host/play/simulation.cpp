@@ -1,6 +1,7 @@
 #include "host/play/simulation.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
@@ -218,32 +219,57 @@ class Simulation::Thread final : public RunObserver {
 };
 
 Simulation::Simulation(Case c, std::unique_ptr<Backend> backend)
-    : case_(std::move(c)), backend_(std::move(backend)), thread_(std::make_unique<Thread>(case_, *backend_)) {
+    : process_(getpid()),
+      case_(std::move(c)),
+      backend_(std::move(backend)),
+      thread_(std::make_unique<Thread>(case_, *backend_)) {
     while (!awaitRest(std::chrono::hours(1))) {
     }
 }
 
-Simulation::~Simulation() = default;
+Simulation::~Simulation() {
+    if (inOwnProcess()) return;
+    // The thread is not in this process and cannot be joined, and a driver waits for threads of its own.
+    (void)thread_.release();
+    (void)backend_.release();
+}
+
+bool Simulation::inOwnProcess() const {
+    return getpid() == process_;
+}
+
+void Simulation::requireOwnProcess() const {
+    if (!inOwnProcess())
+        throw ForkError(
+            fmt::format("the simulation was opened in process {}, and can be used only there; this process "
+                        "was forked off from it and has the number {}: open one here",
+                        process_, getpid()));
+}
+
+Simulation::Thread& Simulation::thread() const {
+    requireOwnProcess();
+    return *thread_;
+}
 
 void Simulation::advance(double seconds) {
     if (!(seconds >= 0)) throw std::invalid_argument("a run goes on for a time >= 0 s");
-    thread_->wake(time() + seconds, false);
+    thread().wake(time() + seconds, false);
 }
 
 void Simulation::advanceToDose() {
-    thread_->wake(std::numeric_limits<double>::infinity(), true);
+    thread().wake(std::numeric_limits<double>::infinity(), true);
 }
 
 bool Simulation::awaitRest(std::chrono::milliseconds most) {
-    return thread_->awaitRest(most);
+    return thread().awaitRest(most);
 }
 
 void Simulation::halt() {
-    thread_->halt();
+    thread().halt();
 }
 
 bool Simulation::takesOrders() const {
-    return thread_->seen().takesOrders;
+    return thread().seen().takesOrders;
 }
 
 void Simulation::changeSpeed(double speed) {
@@ -253,16 +279,16 @@ void Simulation::changeSpeed(double speed) {
         const std::string key = case_.world.coil ? "coil.speed_rpm" : "dose.speed_rpm";
         (void)loadResolvedCase(case_.resolved, case_.name, {fmt::format("{}={}", key, speed * kRpm.perSI)});
     }
-    thread_->seen().order.speed = speed;
+    thread().seen().order.speed = speed;
 }
 
 void Simulation::stopDrive() {
     requireOrders();
-    thread_->seen().order.stop = true;
+    thread().seen().order.stop = true;
 }
 
 void Simulation::addPowder(const std::string& refill) {
-    auto& seen = thread_->seen();
+    auto& seen = thread().seen();
     const auto found =
         std::find_if(case_.refills.begin(), case_.refills.end(), [&](const Refill& r) { return r.name == refill; });
     if (found == case_.refills.end())
@@ -276,11 +302,11 @@ void Simulation::addPowder(const std::string& refill) {
 
 void Simulation::store(const std::filesystem::path& folder, bool force) {
     if (!over()) {
-        thread_->wakeToKeep();
+        thread().wakeToKeep();
         while (!awaitRest(std::chrono::hours(1))) {
         }
     }
-    auto& seen = thread_->seen();
+    auto& seen = thread().seen();
     RunFolder out(folder, force, case_, backend_->description());
     for (const Sample& s : seen.samples) out.onSample(s);
     for (const Dose& d : seen.doses) out.onDose(d);
@@ -297,45 +323,45 @@ void Simulation::requireOrders() const {
 }
 
 bool Simulation::over() const {
-    return thread_->seen().over;
+    return thread().seen().over;
 }
 
 StopReason Simulation::reason() const {
-    return thread_->seen().result.reason;
+    return thread().seen().result.reason;
 }
 
 double Simulation::time() const {
-    return double(thread_->seen().steps) * case_.world.timeStep;
+    return double(thread().seen().steps) * case_.world.timeStep;
 }
 
 const Sample& Simulation::last() const {
-    return thread_->seen().last;
+    return thread().seen().last;
 }
 
 const std::vector<Dose>& Simulation::doses() const {
-    return thread_->seen().doses;
+    return thread().seen().doses;
 }
 
 double Simulation::doseMass() const {
-    const auto& seen = thread_->seen();
+    const auto& seen = thread().seen();
     return seen.last.dose > 0 ? dosedMass(seen.last) - seen.dosedBefore : 0;
 }
 
 std::shared_ptr<const Particles> Simulation::particles() const {
-    std::shared_ptr<const Particles>& now = thread_->seen().particles;
+    std::shared_ptr<const Particles>& now = thread().seen().particles;
     if (!now) now = std::make_shared<const Particles>(backend_->particles());
     return now;
 }
 
 Frame Simulation::frame() const {
     const Sample& s = last();
-    const auto& seen = thread_->seen();
+    const auto& seen = thread().seen();
     return {seen.steps,           time(),          s.phase, s.dose, backend_->coilAngle(), *particles(),
             backend_->contacts(), seen.bodiesMoved};
 }
 
 FieldPoints Simulation::field(const FieldRequest& request) const {
-    (void)thread_->seen();  // the run rests
+    (void)thread().seen();  // the run rests
     return backend_->fields(request);
 }
 

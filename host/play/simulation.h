@@ -3,10 +3,13 @@
 // at and stored. It prints nothing, writes nothing of its own accord and ends no process. Its bits are those of
 // `vkdose run`, however often it rests.
 
+#include <sys/types.h>
+
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -19,10 +22,18 @@
 
 namespace vkdose {
 
+/// A call in a process that was forked off after the simulation had been opened.
+class ForkError : public std::logic_error {
+    using std::logic_error::logic_error;
+};
+
 /// It keeps its readings, doses and fields in memory, for `store`.
 ///
 /// The run is made by a thread of its own, which sleeps while the run rests. All calls but `awaitRest` and `halt` are
 /// refused with std::logic_error while the run goes on. Only one thread may call at a time.
+///
+/// It belongs to the process that opened it, because a fork takes no other thread along. In a process that was forked
+/// off later all calls but `theCase`, `backend` and `inOwnProcess` throw ForkError, and the destructor does nothing.
 class Simulation {
   public:
     /// Loads the case; the run rests before its first step. Throws CaseError, and what Backend::load throws.
@@ -69,6 +80,10 @@ class Simulation {
     /// a second on a CPU. It then rests between two readings of the sensors.
     void halt();
 
+    /// Whether this is the process that opened it. requireOwnProcess throws ForkError if it is not.
+    bool inOwnProcess() const;
+    void requireOwnProcess() const;
+
     const Case& theCase() const { return case_; }
     std::string backend() const { return backend_->description(); }
 
@@ -90,7 +105,10 @@ class Simulation {
   private:
     class Thread;
     void requireOrders() const;
+    /// Throws ForkError.
+    Thread& thread() const;
 
+    pid_t process_;  ///< that opened it
     Case case_;
     std::unique_ptr<Backend> backend_;
     std::unique_ptr<Thread> thread_;  // after what it uses

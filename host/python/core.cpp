@@ -4,13 +4,18 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <chrono>
 #include <cmath>
+#include <set>
+#include <stdexcept>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
 #include "host/backend/vulkan/law_trial.h"
 #include "host/core/error.h"
+#include "host/core/file.h"
 #include "host/model/key.h"
 #include "host/model/powders.h"
 #include "host/output/frame_files.h"
@@ -27,6 +32,9 @@ namespace {
 /// How long Ctrl-C may wait at most. The run itself may take a second until it rests, so a shorter time would only
 /// cost.
 constexpr std::chrono::milliseconds kLookEvery(200);
+
+/// How long a thread that has been told to return may take to do so before it is looked at again.
+constexpr std::chrono::milliseconds kMoment(5);
 
 /// The package's exception of this name, with `arguments`.
 template <class... A>
@@ -58,12 +66,58 @@ void translate(std::exception_ptr error) {
         raise("InputError", std::string(e.what()));
     } catch (const FolderError& e) {
         raise("InputError", std::string(e.what()));
+    } catch (const ReadError& e) {
+        raise("InputError", std::string(e.what()));
     } catch (const OutputError& e) {
         raise("OutputError", std::string(e.what()));
     } catch (const RunError& e) {
         raise("RunError", std::string(e.what()));
     } catch (const DeviceError& e) {
         raise("DeviceError", std::string(e.what()));
+    } catch (const ForkError& e) {
+        raise("VkdoseError", std::string(e.what()));
+    }
+}
+
+/// Calls in which another thread of Python may work: their simulations, once for each call. Python's lock guards it.
+std::multiset<Simulation*> underWay;
+bool pythonEnds = false;
+
+void requirePython() {
+    if (pythonEnds) throw std::runtime_error("Python is ending, so no simulation goes on");
+}
+
+/// Such a call, while it lives.
+class Call {
+  public:
+    explicit Call(Simulation& run) {
+        run.requireOwnProcess();
+        requirePython();
+        at_ = underWay.insert(&run);
+    }
+    ~Call() { underWay.erase(at_); }
+    Call(const Call&) = delete;
+    Call& operator=(const Call&) = delete;
+
+  private:
+    std::multiset<Simulation*>::iterator at_;
+};
+
+/// Before Python ends, all simulations rest and all calls return. Python ends a daemon thread where it asks for its
+/// lock, and if this is below a function of C++, the whole process ends abnormally. Calls that a fork has left here
+/// belong to threads of another process and never return.
+void restAll() {
+    pythonEnds = true;
+    const auto ours = [] {
+        std::vector<Simulation*> runs;
+        for (Simulation* run : underWay)
+            if (run->inOwnProcess()) runs.push_back(run);
+        return runs;
+    };
+    for (std::vector<Simulation*> runs = ours(); !runs.empty(); runs = ours()) {
+        for (Simulation* run : runs) run->halt();
+        const py::gil_scoped_release release;
+        std::this_thread::sleep_for(kMoment);
     }
 }
 
@@ -81,6 +135,7 @@ void wait(Simulation& run) {
         }
         throw py::error_already_set(raised);
     }
+    if (!run.over()) requirePython();
 }
 
 py::dict sampleOf(const Simulation& run) {
@@ -89,8 +144,7 @@ py::dict sampleOf(const Simulation& run) {
     if (s.energy) dict.attr("update")(dictOf(kEnergyColumns, *s.energy));
     py::dict bodies, regions, powders;
     const std::vector<std::string> names = bodyNames(run.theCase().world);
-    for (std::size_t b = 0; b < s.bodies.size(); ++b)
-        bodies[names.at(b).c_str()] = dictOf(kBodyColumns, s.bodies[b]);
+    for (std::size_t b = 0; b < s.bodies.size(); ++b) bodies[names.at(b).c_str()] = dictOf(kBodyColumns, s.bodies[b]);
     for (std::size_t b = 0, free = 0; b < s.bodies.size() && free < s.free.size(); ++b) {
         const RigidBody& body = run.theCase().world.bodies.at(b);
         if (body.movesFreely()) bodies[body.name.c_str()].attr("update")(dictOf(kFreeBodyColumns, s.free[free++]));
@@ -145,15 +199,18 @@ PYBIND11_MODULE(_core, m) {
     tryLawsOnDevices();
     m.doc() = "Runs inside Python; see vkdose.Simulation.";
     py::register_local_exception_translator(translate);
+    py::module_::import("atexit").attr("register")(py::cpp_function(restAll));
     py::class_<Simulation>(m, "Simulation")
         .def(py::init(&open), py::arg("file"), py::arg("settings"), py::arg("backend"), py::arg("device"))
         .def("advance",
              [](Simulation& run, double seconds) {
+                 const Call call(run);
                  run.advance(seconds);
                  wait(run);
              })
         .def("advance_to_dose",
              [](Simulation& run) {
+                 const Call call(run);
                  run.advanceToDose();
                  wait(run);
              })
@@ -181,6 +238,7 @@ PYBIND11_MODULE(_core, m) {
         .def_property_readonly("fields", &fieldNames)
         .def("field", &fieldOf)
         .def("store", [](Simulation& run, const std::string& folder, bool force) {
+            const Call call(run);
             const py::gil_scoped_release release;
             run.store(folder, force);
         });

@@ -260,15 +260,15 @@ class Facts {
         if (!run_.particles || !run_.c.canister) return;
         const World& w = run_.c.world;
         const geometry::Coil* coil = w.coil ? &*w.coil : nullptr;
-        if (const auto d = bedDensity(w, *run_.particles, *run_.c.canister, coil))
+        if (const auto d = bedDensity(w, *run_.particles, *run_.c.canister, coil, run_.bodies))
             add("bulk density of the bed, at the end", fmt::format("{:.4g} kg/m³", d->density),
-                fmt::format("over {:.3g} cm³, a mean diameter from walls, coil and surface", d->volume * 1e6));
+                fmt::format("over {:.3g} cm³, a mean diameter from walls, coil, bodies and surface", d->volume * 1e6));
         if (!coil) return;
-        if (const auto d = coilDensity(w, *run_.particles, *run_.c.canister, *coil))
+        if (const auto d = coilDensity(w, *run_.particles, *run_.c.canister, *coil, 0, run_.bodies))
             add("bulk density between the turns, at the end", fmt::format("{:.4g} kg/m³", d->density),
                 "wherever powder lies above; voids under arches included");
         const double last = run_.c.canister->length - coil->pitch;
-        if (const auto d = coilDensity(w, *run_.particles, *run_.c.canister, *coil, last)) {
+        if (const auto d = coilDensity(w, *run_.particles, *run_.c.canister, *coil, last, run_.bodies)) {
             const Schedule& s = run_.c.schedule;
             const double turns = s.coilSpeed * s.rotateTime / (2 * kPi);  // if nothing but the time ends a dose
             const std::string closed =
@@ -276,7 +276,7 @@ class Facts {
             add("the same, in the last turn before the outlet", fmt::format("{:.4g} kg/m³", d->density),
                 s.isPlain() ? closed : "");
         }
-        if (const auto arch = archAbove(*coil, *run_.c.canister, *run_.particles))
+        if (const auto arch = archAbove(*coil, *run_.c.canister, *run_.particles, w, run_.bodies))
             add("arch over the coil, at the end", fmt::format("{:.3g} mm high", arch->height * 1e3),
                 fmt::format("at z = {:.3g} mm; voids over {:.3g} mm of the coil", arch->z * 1e3, arch->length * 1e3));
         else
@@ -290,7 +290,7 @@ class Facts {
 
 }  // namespace
 
-Particles readEndState(const std::filesystem::path& file, const Case& c) {
+Particles endParticles(const std::filesystem::path& file, const Case& c) {
     const Table table = Table::read(file);
     const std::vector<PowderOf> powders = powdersOf(c);
     Particles p;

@@ -14,10 +14,11 @@ struct RunSources {
     std::vector<Dose> doses;
     Json summary;                        ///< null while the run goes on
     std::optional<Particles> particles;  ///< the end state
+    BodyPoses bodies = {};               ///< there
 };
 
 /// The particles of a run's particles.csv; dosed and lost ones with their status.
-Particles readEndState(const std::filesystem::path& file, const Case& c);
+Particles endParticles(const std::filesystem::path& file, const Case& c);
 
 /// What the canister was given until the last line of the time series [kg]; before the first line, the fill.
 double filledMass(const RunSources& run);

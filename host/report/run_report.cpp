@@ -16,6 +16,7 @@
 #include "host/core/json.h"
 #include "host/model/case.h"
 #include "host/output/dose_table.h"
+#include "host/output/end_state.h"
 #include "host/output/summary.h"
 #include "host/report/fields_report.h"
 #include "host/report/free_surface_report.h"
@@ -174,7 +175,11 @@ Json runJson(const fs::path& folder, const std::optional<fs::path>& experiment, 
     const Table doseTable = Table::read(folder / "doses.csv");
     RunSources sources{c, series, dosesOf(doseTable), summaryOf(folder, series), {}};
     if (sources.summary.is_object() && fs::exists(folder / "particles.csv"))
-        sources.particles = readEndState(folder / "particles.csv", sources.c);
+        sources.particles = endParticles(folder / "particles.csv", sources.c);
+    if (sources.particles && !c.world.bodies.empty()) {
+        const Frame end = vkdose::readEndState(folder, c);
+        sources.bodies = bodyPoses(c.world, end.time, end.coilAngle, end.bodiesMoved);
+    }
 
     Json j;
     j["kind"] = "run";

@@ -155,6 +155,22 @@ function parameterChart(parent, found, k) {
   });
 }
 
+/// The runs with new seeds, by which a target is met or not.
+function confirmationTable(parent, found) {
+  if (found.confirmations.length === 0) {
+    add(parent, "p", "No point is believed to meet every target, so none was run with new seeds.");
+    return;
+  }
+  const seeds = found.confirming_seeds;
+  table(parent, [["confirmed at", false], ["target", false], ["measured", true], [`runs with seeds ${seeds.join(", ")}`, true], ["verdict", false]],
+        found.confirmations.flatMap(c => c.figures.map((f, g) => {
+          const t = found.targets[g];
+          const some = f.verdict === "incomplete" ? `, ${f.runs} of ${seeds.length} runs have the figure` : "";
+          return [g === 0 ? c.at : "", figureName(t), within(t.value, t.uncertainty) + inUnit(t),
+                  isNumber(f.mean) ? within(f.mean, f.error) + inUnit(t) : "none", f.verdict + some];
+        })));
+}
+
 function calibrationPart(main, study) {
   const found = study.calibration;
   if (!found && !study.searches) return;
@@ -164,15 +180,18 @@ function calibrationPart(main, study) {
     add(part, "p", "The search has not ended; what it found is shown when it has.");
     return;
   }
-  const one = found.targets.length === 1;
-  facts(part, [
-    {name: one ? "target" : "targets", value: `${found.met ? "met" : "NOT met"} after ${found.points.length} points`,
-     note: "met: believed to within the uncertainty, with a deviation within it"},
-    {name: "misfit", value: rounded(found.misfit, 3), note: "weighted sum of squares over uncertainties"},
-  ]);
-  table(part, [["target", false], ["case", false], ["measured", true], ["believed at the chosen point", true], ["weight", true]],
-        found.targets.map(t => [figureName(t), t.base, within(t.value, t.uncertainty) + inUnit(t), within(t.believed, t.deviation) + inUnit(t),
-                                 short(t.weight)]));
+  const one = found.targets.length === 1, searched = found.points.length > 0;
+  const known = [{name: one ? "target" : "targets",
+                  value: (found.met ? "met" : "NOT met") + (searched ? ` after ${found.points.length} points` : ""),
+                  note: "met: runs with new seeds at the chosen point give it to within the uncertainty, with an error within it"}];
+  if (searched) known.push({name: "misfit", value: rounded(found.misfit, 3), note: "believed: weighted sum of squares over uncertainties"});
+  facts(part, known);
+  confirmationTable(part, found);
+  table(part, [["target", false], ["case", false], ["measured", true],
+               [searched ? "believed at the chosen point" : "interpolated at the chosen point", true], ["weight", true]],
+        found.targets.map(t => [figureName(t), t.base, within(t.value, t.uncertainty) + inUnit(t),
+                                 (searched ? within(t.believed, t.deviation) : short(t.believed)) + inUnit(t), short(t.weight)]));
+  if (!searched) return;
   table(part, [["parameter", false], ["bounds", true], ["chosen", true], ["may meet", true]].concat(
           found.targets.map(t => [`change of ${figureName(t)}`, true]), [["known to", false]]),
         found.parameters.map(p => [p.key, `${short(p.low)} to ${short(p.high)}`, short(p.chosen),

@@ -149,11 +149,10 @@ ParticleRow ParticleJudge::row(std::uint64_t step, double time, std::size_t cont
 
     row.contacts = contacts;
     touched_ = touched_ || contacts > 0;
-    const double rounding = kVelocityFloor + 0x1p-24 * static_cast<double>(step);  // of the velocity scale
-    const double drift = (touched_ ? kRadiusRounding : kPositionFloor) +           // in mean radii
-                         0.5 * rounding * speed_ * time / scales_.radius;
+    const double drift = (touched_ ? kRadiusRounding : kPositionFloor) +  // in mean radii
+                         0.5 * kVelocityFloor * speed_ * time / scales_.radius;
     row.positionLimit = drift * std::max(1.0, twinPosition_ / kFineShift);
-    row.velocityLimit = rounding + drift * twinVelocity_ / kFineShift;
+    row.velocityLimit = kVelocityFloor + drift * twinVelocity_ / kFineShift;
     chaotic_ = chaotic_ || row.positionLimit > kWidest || row.velocityLimit > kWidest;
     const bool within = row.position <= row.positionLimit && row.velocity <= row.velocityLimit;  // false for NaN
     row.verdict = chaotic_ ? Verdict::Undecided : within ? Verdict::Agrees : Verdict::Differs;

@@ -23,12 +23,11 @@ struct StateDifference {
 StateDifference difference(const Particles& a, const Particles& b);
 
 /// Compares particle by particle, time after time. The limit on a candidate's difference allows for three causes:
-/// - It keeps velocities in single precision. Every step rounds them by up to 2^-24 of themselves, and where the
-///   acceleration is steady (a free fall) always to the same side. After n steps that is up to n 2^-24 of the velocity
-///   scale, and half of that times the distance travelled in position. kVelocityFloor covers the part that does not
-///   grow with n: mass and parameters are rounded to single precision once.
-/// - It keeps positions in two floats. Loading them loses nothing that matters (kPositionFloor). The radii are rounded
-///   to single precision, so that the first touch comes early or late by up to kRadiusRounding.
+/// - Mass, time step and parameters are rounded to single precision once, and forces in every step. In free flight that
+///   is up to kVelocityFloor of the velocity scale, and half of that times the distance travelled in position.
+/// - It keeps positions and speeds in two floats. Loading them loses nothing that matters (kPositionFloor). The radii
+/// are
+///   rounded to single precision, so that the first touch comes early or late by up to kRadiusRounding.
 /// - Contacts amplify differences, but not more than they amplified the fine twin's displacement.
 /// Once the limit exceeds kWidest (of a radius, of the velocity scale) the state is chaotic and is no longer judged.
 class ParticleJudge {

@@ -67,6 +67,10 @@ class Surface {
     }
     double top(int cell) const { return top_[cell]; }
     int columns() const { return cells_[0] * cells_[1]; }
+    double highest() const { return top_.empty() ? kNothing : *std::max_element(top_.begin(), top_.end()); }
+    Vec3 low(int cell) const {
+        return {low_[0] + cell / cells_[1] * side_[0], 0, low_[1] + cell % cells_[1] * side_[1]};
+    }
     double area(int cell) const { return extent(0, cell / cells_[1]) * extent(1, cell % cells_[1]); }
     int slices() const { return cells_[1]; }
     int sliceOf(int cell) const { return cell % cells_[1]; }
@@ -124,26 +128,29 @@ double meanActiveRadius(const Particles& particles) {
 }
 
 std::optional<BulkDensity> bedDensity(const World& world, const Particles& particles, const Canister& canister,
-                                      const geometry::Coil* coil) {
+                                      const geometry::Coil* coil, const BodyPoses& bodies) {
     const double a = meanActiveRadius(particles), margin = 2 * a;
     if (!(a > 0)) return std::nullopt;
     const double across = canister.width / 2 - margin;
     const Surface surface(particles, piecesOf(2 * margin, -across, across),
                           piecesOf(2 * margin, margin, canister.length - margin));
     const double low = (coil ? coil->radius + coil->wireRadius : 0.0) + margin;
-    double volume = 0;
-    for (int cell = 0; cell < surface.columns(); ++cell)
-        volume += surface.area(cell) * std::max(0.0, surface.top(cell) - margin - low);
-    const Parts parts = partsWithin(world, particles, [&](const Vec3& x) {
+    const auto inside = [&](const Vec3& x) {
         if (x.y < low) return false;
         const int cell = surface.cellOf(x);
         return cell >= 0 && x.y < surface.top(cell) - margin;
-    });
-    return densityOf(parts, volume, a);
+    };
+    const Box box{{-across, low, margin}, {across, surface.highest() - margin, canister.length - margin}};
+    const BodyRoom room(world, bodies, particles, box, a, margin);
+    double volume = 0;
+    for (int cell = 0; cell < surface.columns(); ++cell)
+        volume += surface.area(cell) * std::max(0.0, surface.top(cell) - margin - low);
+    const Parts parts = partsWithin(world, particles, [&](const Vec3& x) { return inside(x) && !room.takes(x); });
+    return densityOf(parts, volume - room.volume(inside), a);
 }
 
 std::optional<BulkDensity> coilDensity(const World& world, const Particles& particles, const Canister& canister,
-                                       const geometry::Coil& coil, double from) {
+                                       const geometry::Coil& coil, double from, const BodyPoses& bodies) {
     const double a = meanActiveRadius(particles), margin = 2 * a;
     if (!(a > 0)) return std::nullopt;
     const double outer = coil.radius + coil.wireRadius;
@@ -156,41 +163,55 @@ std::optional<BulkDensity> coilDensity(const World& world, const Particles& part
         top = std::min(top, surface.top(cell));
     }
     const auto covered = [&](int slice) { return lowestTop[slice] > outer + margin; };
+    const auto inside = [&](const Vec3& x) {
+        if (x.x * x.x + x.y * x.y >= outer * outer) return false;
+        const int cell = surface.cellOf(x);
+        return cell >= 0 && covered(surface.sliceOf(cell));
+    };
+    const BodyRoom room(world, bodies, particles, {{-outer, -outer, begin}, {outer, outer, end}}, a, margin);
     const double wire = kPi * coil.wireRadius * coil.wireRadius *
                         std::hypot(1.0, 2 * kPi * coil.radius / coil.pitch);  // volume per length along the axis
     double volume = 0;
     for (int slice = 0; slice < surface.slices(); ++slice)
         if (covered(slice)) volume += surface.sliceLength(slice) * (kPi * outer * outer - wire);
-    const Parts parts = partsWithin(world, particles, [&](const Vec3& x) {
-        if (x.x * x.x + x.y * x.y >= outer * outer) return false;
-        const int cell = surface.cellOf(x);
-        return cell >= 0 && covered(surface.sliceOf(cell));
-    });
-    return densityOf(parts, volume, a);
+    const Parts parts = partsWithin(world, particles, [&](const Vec3& x) { return inside(x) && !room.takes(x); });
+    // The wire has no place of its own here: a body takes as large a share of it as of the cylinder.
+    const double share = 1 - wire / (kPi * outer * outer);
+    return densityOf(parts, volume - share * room.volume(inside), a);
 }
 
-std::optional<BulkDensity> settledDensity(const Case& c, const Settling& settling, const Particles& particles) {
+std::optional<BulkDensity> settledDensity(const Case& c, const Settling& settling, const Particles& particles,
+                                          const BodyPoses& bodies) {
     if (!c.canister || settling.speed > kStillFalls * settling.fallSpeed) return std::nullopt;
     const geometry::Coil* coil = c.world.coil ? &*c.world.coil : nullptr;
-    auto bulk = bedDensity(c.world, particles, *c.canister, coil);
-    if (!bulk && coil != nullptr) bulk = coilDensity(c.world, particles, *c.canister, *coil);
+    auto bulk = bedDensity(c.world, particles, *c.canister, coil, bodies);
+    if (!bulk && coil != nullptr) bulk = coilDensity(c.world, particles, *c.canister, *coil, 0, bodies);
     return bulk;
 }
 
-std::optional<BulkDensity> containerDensity(const World& world, const Particles& particles, double radius) {
+std::optional<BulkDensity> containerDensity(const World& world, const Particles& particles, double radius,
+                                            const BodyPoses& bodies) {
     const double a = meanActiveRadius(particles), margin = 2 * a, within = radius - margin;
     if (!(a > 0) || !(within > 0)) return std::nullopt;
     // The square in the cylinder: its columns are all full.
     const double half = within / std::sqrt(2.0);
     const Division side = equalPieces(2 * margin, -half, half);
     const Surface surface(particles, side, side);
+    const Box box{{-within, margin, -within}, {within, surface.highest() - margin, within}};
+    const BodyRoom room(world, bodies, particles, box, a, margin);
     double top = std::numeric_limits<double>::infinity();
-    for (int cell = 0; cell < surface.columns(); ++cell) top = std::min(top, surface.top(cell) - margin);
-    if (!(top > margin)) return std::nullopt;
-    const Parts parts = partsWithin(world, particles, [&](const Vec3& x) {
+    for (int cell = 0; cell < surface.columns(); ++cell) {
+        const Vec3 corner = surface.low(cell);
+        const bool body = surface.top(cell) == kNothing &&
+                          room.takesAnyOver(corner.x, corner.x + side.piece, corner.z, corner.z + side.piece);
+        if (!body) top = std::min(top, surface.top(cell) - margin);
+    }
+    if (!(top > margin) || !std::isfinite(top)) return std::nullopt;
+    const auto inside = [&](const Vec3& x) {
         return x.y > margin && x.y < top && x.x * x.x + x.z * x.z < within * within;
-    });
-    return densityOf(parts, kPi * within * within * (top - margin), a);
+    };
+    const Parts parts = partsWithin(world, particles, [&](const Vec3& x) { return inside(x) && !room.takes(x); });
+    return densityOf(parts, kPi * within * within * (top - margin) - room.volume(inside), a);
 }
 
 double closedFormMass(double bulkDensity, const geometry::Coil& coil, double turns) {

@@ -55,10 +55,13 @@ std::string settlingSentence(const Settling& s, const Schedule& schedule) {
     if (!s.atRest) {
         text = fmt::format("{}not at rest at t = {:.4g} s",
                            schedule.untilRest ? "the longest time is over, and the bed is " : "", s.time);
-        if (s.fallSpeed > 0)
-            text +=
-                fmt::format(" (speed {:.2g} % of that after a fall from the fill's top, not below {:.2g} % for long)",
-                            100 * s.speed / s.fallSpeed, 100 * schedule.restSpeedRatio);
+        if (s.fallSpeed > 0) {
+            const double now = 100 * s.speed / s.fallSpeed, rest = 100 * schedule.restSpeedRatio;
+            text += fmt::format(" (speed {:.2g} % of that after a fall from the fill's top; ", now);
+            text += now < rest
+                        ? fmt::format("it is below {:.2g} %, but has been for less than the time of that fall)", rest)
+                        : fmt::format("at rest it is below {:.2g} %)", rest);
+        }
     }
     if (s.spilled > 0) text += fmt::format("; {} g had left by then, in no dose of this run", grams(s.spilled));
     return text;

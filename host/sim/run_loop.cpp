@@ -77,9 +77,10 @@ StopReason RunLoop::steps() {
         }
         if (checkpointDue()) checkpoint();
     }
+    // Kept with the dose still under way, so that a run that is reopened goes on with it.
+    if (timeline_.hasDoses()) keepState(KeptState::End);  // without doses it is the settled one
     if (book_.underWay()) closeDose(false);
     keepEndState();
-    if (timeline_.hasDoses()) keepState(KeptState::End);  // without doses it is the settled one
     return timeline_.cutByEndTime(step_) ? StopReason::EndTime : StopReason::Settled;
 }
 
@@ -116,12 +117,14 @@ void RunLoop::watchRest() {
 }
 
 void RunLoop::look() {
-    result_.settled = settledBed(case_, timeline_.time(step_), backend_.particles(), backend_.contacts());
+    const double time = timeline_.time(step_);
+    result_.settled = settledBed(case_, time, backend_.particles(), backend_.contacts(),
+                                 bodyPoses(case_.world, time, backend_.coilAngle(), moved()));
 }
 
 void RunLoop::measureDensity() {
     if (!case_.bulkDensityMeasured || !result_.settled || !result_.settling) return;
-    const auto bulk = settledDensity(case_, *result_.settling, result_.settled->particles);
+    const auto bulk = settledDensity(case_, *result_.settling, result_.settled->particles, result_.settled->bodies);
     if (!bulk) return;
     Case measured = case_;
     measured.bulkDensity = bulk->density;

@@ -4,12 +4,14 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <new>
 #include <optional>
 #include <utility>
 
 #include "host/core/error.h"
 #include "host/sim/body_clocks.h"
 #include "host/sim/body_loads.h"
+#include "host/sim/checkpoint_pace.h"
 #include "host/sim/dose_book.h"
 #include "host/sim/energy_ledger.h"
 #include "host/sim/region_book.h"
@@ -48,13 +50,15 @@ class RunLoop {
     void playThrough(const Begin& begin) {
         try {
             begin(*this);
-            checkpointed_ = WallClock::now();
+            pace_ = CheckpointPace(case_.checkpoint.wall, wallSeconds());
             checkpointTime_ = timeline_.time(step_);
             result_.reason = steps();
         } catch (const RunError& e) {
             fail(StopReason::RunError, e.what());
         } catch (const DeviceError& e) {
             fail(StopReason::DeviceError, e.what());
+        } catch (const std::bad_alloc&) {
+            fail(StopReason::RunError, "out of memory: use fewer particles or end other programs");
         }
     }
 
@@ -133,6 +137,7 @@ class RunLoop {
     static double mass(const Sensors& s, Region r) { return s.mass[static_cast<std::size_t>(r)]; }
 
     using WallClock = std::chrono::steady_clock;
+    static double wallSeconds() { return std::chrono::duration<double>(WallClock::now().time_since_epoch()).count(); }
 
     const Case& case_;
     Backend& backend_;
@@ -171,8 +176,8 @@ class RunLoop {
 
     std::optional<EnergyLedger> energy_;  ///< since the start of the run, if the case asks for it
 
-    WallClock::time_point checkpointed_;  ///< last checkpoint, or start of the run
-    double checkpointTime_ = 0;           ///< the same in simulated time [s]
+    CheckpointPace pace_{0, 0};
+    double checkpointTime_ = 0;  ///< of the last checkpoint, or the start of the run, in simulated time [s]
 };
 
 }  // namespace vkdose

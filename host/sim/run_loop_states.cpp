@@ -198,15 +198,15 @@ void RunLoop::restore(const Record& r) {
 void RunLoop::checkpoint() {
     if (!observer_.storesCheckpoints()) return;
     checkpointTime_ = timeline_.time(step_);
+    const double begun = wallSeconds();
     observer_.onCheckpoint({save(), backend_.snapshot()}, checkpointTime_);
-    checkpointed_ = WallClock::now();
+    pace_.stored(begun, wallSeconds());
 }
 
 bool RunLoop::checkpointDue() const {
     const CheckpointInterval& every = case_.checkpoint;
-    const double wall = std::chrono::duration<double>(WallClock::now() - checkpointed_).count();
     const double time = timeline_.time(step_);
-    return (every.wall > 0 && wall >= every.wall) ||
+    return pace_.due(wallSeconds()) ||
            (every.simulated > 0 && std::floor(time / every.simulated) > std::floor(checkpointTime_ / every.simulated));
 }
 

@@ -1,14 +1,16 @@
 #include "host/sim/settled_bed.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "host/model/normal_law.h"
 #include "host/model/pull_off.h"
 
 namespace vkdose {
 
-SettledBed settledBed(const Case& c, double time, const Particles& particles, const std::vector<Contact>& contacts) {
-    SettledBed bed{time, particles, {}, {}, {}};
+SettledBed settledBed(const Case& c, double time, const Particles& particles, const std::vector<Contact>& contacts,
+                      std::vector<geometry::Pose> bodies) {
+    SettledBed bed{time, particles, {}, {}, {}, std::move(bodies)};
     const double gravity = glm::length(c.world.gravity);
     for (const Contact& contact : contacts) {
         if (contact.kind != ContactClass::ParticleParticle) continue;
@@ -45,12 +47,17 @@ void put(Record& record, const std::optional<SettledBed>& bed) {
     record.put("settled_pull_off", bed->pullOff);
     record.put("settled_overlap", bed->overlap);
     record.put("settled_largest_overlap", bed->largestOverlap);
+    std::vector<double> poses;
+    for (const geometry::Pose& p : bed->bodies)
+        poses.insert(poses.end(),
+                     {p.rotation.w, p.rotation.x, p.rotation.y, p.rotation.z, p.origin.x, p.origin.y, p.origin.z});
+    record.put("settled_bodies", std::move(poses));
 }
 
 void get(const Record& record, const Particles& filled, std::optional<SettledBed>& bed) {
     bed.reset();
     if (!record.arrays().contains("settled_time")) return;
-    SettledBed read{record.one<double>("settled_time"), filled, {}, {}, {}};
+    SettledBed read{record.one<double>("settled_time"), filled, {}, {}, {}, {}};
     const auto& place = record.get<double>("settled_position", 3 * filled.size());
     const auto& status = record.get<std::uint32_t>("settled_status", filled.size());
     for (std::size_t i = 0; i < filled.size(); ++i) {
@@ -60,6 +67,11 @@ void get(const Record& record, const Particles& filled, std::optional<SettledBed
     read.pullOff = record.get<double>("settled_pull_off");
     read.overlap = record.get<double>("settled_overlap", read.pullOff.size());
     read.largestOverlap = record.get<double>("settled_largest_overlap", read.pullOff.size());
+    std::vector<double> poses;
+    if (record.arrays().contains("settled_bodies")) poses = record.get<double>("settled_bodies");
+    for (std::size_t i = 0; i + 6 < poses.size(); i += 7)
+        read.bodies.push_back({geometry::Rotation(poses[i], poses[i + 1], poses[i + 2], poses[i + 3]),
+                               {poses[i + 4], poses[i + 5], poses[i + 6]}});
     bed = std::move(read);
 }
 

@@ -15,12 +15,14 @@ struct SettledBed {
     double time = 0;      ///< [s]
     Particles particles;  ///< of the fill, dosed ones included
     // Of each pair of particles in contact:
-    std::vector<double> pullOff;         ///< strongest pull with the adhesion of the doses, over the lighter's weight
-    std::vector<double> overlap;         ///< over the smaller radius
-    std::vector<double> largestOverlap;  ///< the contact's largest so far, over the smaller radius
+    std::vector<double> pullOff;           ///< strongest pull with the adhesion of the doses, over the lighter's weight
+    std::vector<double> overlap;           ///< over the smaller radius
+    std::vector<double> largestOverlap;    ///< the contact's largest so far, over the smaller radius
+    std::vector<geometry::Pose> bodies{};  ///< of World::bodies
 };
 
-SettledBed settledBed(const Case& c, double time, const Particles& particles, const std::vector<Contact>& contacts);
+SettledBed settledBed(const Case& c, double time, const Particles& particles, const std::vector<Contact>& contacts,
+                      std::vector<geometry::Pose> bodies = {});
 
 /// For a checkpoint; radii are not stored.
 void put(Record& record, const std::optional<SettledBed>& bed);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace vkdose {
@@ -77,20 +79,29 @@ void DoseJudge::restore(const Record& record) {
 
 bool DoseJudge::over(double mass, std::uint64_t particles, std::uint64_t left) {
     ++doses_;
-    recent_.push_back(particles == 0 ? 0.0 : mass);
-    while (static_cast<int>(recent_.size()) > rule_.doses) recent_.pop_front();  // a resumed run may look at fewer
+    if (particles > 0 || !recent_.empty()) recent_.push_back(particles == 0 ? 0.0 : mass);
+    return ends(left);
+}
 
+/// Whether the doses so far are as empty as the rule asks for.
+bool DoseJudge::empty() const {
+    if (rule_.kind == StopRule::Kind::None || rule_.doses <= 0) return false;
+    const bool patient = rule_.maxDoses < std::numeric_limits<int>::max() || std::isfinite(rule_.endTime);
+    if (recent_.empty()) return !patient && doses_ / kPatience >= rule_.doses;
+    if (static_cast<int>(recent_.size()) < rule_.doses) return false;
+    const double change = std::accumulate(recent_.begin(), recent_.end(), 0.0);
+    return change <= (rule_.kind == StopRule::Kind::Experiment ? rule_.threshold : 0.0);
+}
+
+bool DoseJudge::ends(std::uint64_t left) {
+    while (static_cast<int>(recent_.size()) > rule_.doses) recent_.pop_front();  // a resumed run may look at fewer
     if (left == 0) {
         reason_ = StopReason::Empty;
         return true;
     }
-    if (rule_.doses > 0 && static_cast<int>(recent_.size()) == rule_.doses && rule_.kind != StopRule::Kind::None) {
-        const bool experiment = rule_.kind == StopRule::Kind::Experiment;
-        const double change = std::accumulate(recent_.begin(), recent_.end(), 0.0);
-        if (change <= (experiment ? rule_.threshold : 0.0)) {
-            reason_ = experiment ? StopReason::Experiment : StopReason::Simulation;
-            return true;
-        }
+    if (empty()) {
+        reason_ = rule_.kind == StopRule::Kind::Experiment ? StopReason::Experiment : StopReason::Simulation;
+        return true;
     }
     reason_ = StopReason::Doses;
     return doses_ >= rule_.maxDoses;

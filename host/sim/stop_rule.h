@@ -42,7 +42,16 @@ class DoseJudge {
     /// A dose without a single particle counts as exactly zero, whatever rounding left in the difference of sums.
     /// Paper: an experiment is complete when three consecutive doses together give no more than 0.15 g; a simulation
     /// when the cumulative mass does not change for three consecutive doses.
+    ///
+    /// Both rules count from the first dose that gives powder: a device fills before it delivers. If nothing ever
+    /// comes, the number of doses or the end time ends the run. A run with neither ends after kPatience times as many
+    /// doses as the rule looks at.
     bool over(double mass, std::uint64_t particles, std::uint64_t left);
+
+    /// Whether the run is over as it stands; then `reason()` says why.
+    bool ends(std::uint64_t left);
+
+    static constexpr int kPatience = 10;
 
     StopReason reason() const { return reason_; }
 
@@ -50,8 +59,10 @@ class DoseJudge {
     void restore(const Record& record);
 
   private:
+    bool empty() const;
+
     StopRule rule_;
-    std::deque<double> recent_;
+    std::deque<double> recent_;  ///< masses of the last doses, from the first on that gave powder [kg]
     int doses_ = 0;
     StopReason reason_ = StopReason::Doses;
 };

@@ -8,8 +8,8 @@
 #include "host/analysis/balance.h"
 #include "host/analysis/beta.h"
 #include "host/core/error.h"
-#include "host/core/file.h"
 #include "host/model/case_reader.h"
+#include "host/model/named_file.h"
 
 namespace vkdose {
 
@@ -19,10 +19,7 @@ namespace {
 void readMeasured(CaseReader& reader, const std::filesystem::path& file, CalibrationAim& aim) {
     constexpr const char* kPath = "calibrate.measured";
     constexpr const char* kRemedy = "give a CSV with the columns dose and mass_g, or dose and cumulative_g";
-    if (!inputFile(file)) {
-        reader.fault(kPath, unreadable(file), kRemedy);
-        return;
-    }
+    if (!requireFile(reader, kPath, file, kRemedy)) return;
     try {
         const std::vector<double> cumulative = readBalance(file).cumulative;
         const Slope slope = betaOf(cumulative, beforeSaturation(cumulative.empty() ? 0 : cumulative.back()));
@@ -70,9 +67,7 @@ CalibrationTarget readTarget(CaseReader& reader, Section& table, const std::stri
     t.base = base;
     if (table.isString("base")) {
         t.base = folder / table.string("base");
-        if (!inputFile(t.base))
-            reader.fault(path + ".base", unreadable(t.base),
-                         "give the path of a case file, relative to the study's folder");
+        requireFile(reader, path + ".base", t.base, "give the path of a case file, relative to the study's folder");
     } else if (table.has("base")) {
         (void)table.string("base");
     }
@@ -138,6 +133,7 @@ CalibrationAim readCalibrationAim(CaseReader& reader, Section& table, const std:
         table.know("target");
         readMassPerDose(reader, table, folder, aim);
     }
+    aim.confirmingSeeds = int(table.integer("confirming_seeds"));
     if (search) {
         aim.maxRuns = int(table.integer("max_runs"));
         const std::vector<Section*> parameters = table.tables("parameter");

@@ -38,6 +38,7 @@ struct CalibrationAim {
     double target = 0;                      ///< mass per dose [kg]
     double tolerance = 0;                   ///< what a match may be off by; as the target's standard error [kg]
     std::filesystem::path measured;         ///< file of a balance's readings, if the target comes from one
+    int confirmingSeeds = 3;                ///< new seeds with which the chosen point runs before a target is met
     std::string along;                      ///< Grid: the key that is interpolated
     int maxRuns = 0;                        ///< Surrogate: points at most, each with every seed
     std::vector<FreeParameter> parameters;  ///< Surrogate

@@ -10,6 +10,7 @@
 #include "host/core/error.h"
 #include "host/core/file.h"
 #include "host/core/json.h"
+#include "host/study/member.h"
 
 namespace vkdose {
 
@@ -37,6 +38,11 @@ std::vector<Target> targetsOf(const Study& study) {
         all.push_back({shared ? t.figure + " of " + file : t.figure, "", file, t.value, t.uncertainty, t.weight, 0, 0});
     }
     return all;
+}
+
+void scaleBy(Confirmed& figure, double scale) {
+    figure.found.value *= scale;
+    figure.found.error *= scale;
 }
 
 Parameter parameterOf(const FreeParameter& free, const SearchResult& result, std::size_t k) {
@@ -86,6 +92,16 @@ Json pointJson(const Point& p) {
     return {{"at", numbersJson(p.at)}, {"values", values}};
 }
 
+Json confirmationJson(const CalibrationFinding::Confirmation& c) {
+    Json figures = Json::array();
+    for (const Confirmed& f : c.figures)
+        figures.push_back({{"mean", jsonNumber(f.found.value)},
+                           {"error", jsonNumber(f.found.error)},
+                           {"runs", f.runs},
+                           {"verdict", verdictText(f.verdict)}});
+    return {{"at", c.at}, {"met", c.met}, {"figures", figures}};
+}
+
 double numberOf(const Json& j) {
     return j.is_null() ? std::numeric_limits<double>::quiet_NaN() : j.get<double>();
 }
@@ -124,13 +140,31 @@ Point readPoint(const Json& j) {
     return p;
 }
 
+Confirmed readConfirmed(const Json& j) {
+    using Verdict = Confirmed::Verdict;
+    Confirmed c{{numberOf(j.at("mean")), numberOf(j.at("error"))}, j.at("runs").get<std::size_t>(), {}};
+    for (const Verdict v : {Verdict::Met, Verdict::Missed, Verdict::Uncertain, Verdict::Incomplete})
+        if (verdictText(v) == j.at("verdict").get<std::string>()) c.verdict = v;
+    return c;
+}
+
+CalibrationFinding::Confirmation readConfirmation(const Json& j) {
+    CalibrationFinding::Confirmation c{j.at("at").get<std::string>(), {}, j.at("met").get<bool>()};
+    for (const Json& figure : j.at("figures")) c.figures.push_back(readConfirmed(figure));
+    return c;
+}
+
 /// Whether every list has an entry for each target, parameter or point that it is about.
 bool isWhole(const CalibrationFinding& f) {
     const std::size_t targets = f.targets.size(), parameters = f.parameters.size();
     const auto good = [&](const Parameter& p) { return p.change.size() == targets && p.mostlyBy < targets; };
     const auto complete = [&](const Point& p) { return p.at.size() == parameters && p.values.size() == targets; };
-    return targets > 0 && f.best < f.points.size() && std::all_of(f.parameters.begin(), f.parameters.end(), good) &&
-           std::all_of(f.points.begin(), f.points.end(), complete);
+    const auto judged = [&](const CalibrationFinding::Confirmation& c) { return c.figures.size() == targets; };
+    const bool grid = f.points.empty() && f.parameters.empty();
+    return targets > 0 && (grid || f.best < f.points.size()) &&
+           std::all_of(f.parameters.begin(), f.parameters.end(), good) &&
+           std::all_of(f.points.begin(), f.points.end(), complete) &&
+           std::all_of(f.confirmations.begin(), f.confirmations.end(), judged);
 }
 
 CalibrationFinding findingIn(const Json& j) {
@@ -140,16 +174,42 @@ CalibrationFinding findingIn(const Json& j) {
     for (const Json& p : j.at("points")) f.points.push_back(readPoint(p));
     f.best = j.at("best").get<std::size_t>();
     f.misfit = numberOf(j.at("misfit"));
+    f.confirmingSeeds = j.at("confirming_seeds").get<std::vector<std::uint64_t>>();
+    for (const Json& c : j.at("confirmations")) f.confirmations.push_back(readConfirmation(c));
     f.met = j.at("met").get<bool>();
     return f;
 }
 
 }  // namespace
 
-CalibrationFinding findingOf(const Study& study, const SearchResult& result) {
+std::vector<Setting> settingsAt(const Study& study, const Parameters& p) {
+    std::vector<Setting> all;
+    for (std::size_t i = 0; i < p.size(); ++i)
+        all.push_back(settingOf(study, study.calibration->parameters[i].key, p[i]));
+    return all;
+}
+
+std::string placeText(const std::vector<Setting>& point) {
+    std::string text;
+    for (const Setting& s : point) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", s.key, tableText(s.value));
+    return text;
+}
+
+CalibrationFinding findingOf(const Study& study, const SearchResult& result,
+                             const std::vector<std::uint64_t>& confirmingSeeds) {
     const CalibrationAim& aim = *study.calibration;
     const double scale = aim.targets.empty() ? kGrams : 1;
-    CalibrationFinding f{targetsOf(study), {}, {}, result.best, result.misfit, result.met};
+    CalibrationFinding f;
+    f.targets = targetsOf(study);
+    f.best = result.best;
+    f.misfit = result.misfit;
+    f.met = result.met;
+    f.confirmingSeeds = confirmingSeeds;
+    for (const Confirmation& c : result.confirmations) {
+        std::vector<Confirmed> figures = c.figures;
+        for (Confirmed& figure : figures) scaleBy(figure, scale);
+        f.confirmations.push_back({placeText(settingsAt(study, result.points[c.point])), figures, c.met()});
+    }
     for (std::size_t g = 0; g < f.targets.size(); ++g) {
         f.targets[g].believed = result.goals[g].mean * scale;
         f.targets[g].deviation = result.goals[g].deviation * scale;
@@ -164,6 +224,22 @@ CalibrationFinding findingOf(const Study& study, const SearchResult& result) {
     return f;
 }
 
+CalibrationFinding findingOf(const Study& study, const std::vector<Setting>& point, double believed,
+                             const Confirmed& confirmed, const std::vector<std::uint64_t>& confirmingSeeds) {
+    CalibrationFinding f;
+    f.targets = targetsOf(study);
+    CalibrationFinding::Target& target = f.targets.front();
+    target.believed = believed * kGrams;
+    target.deviation = std::numeric_limits<double>::quiet_NaN();  // a line between two points has no error of its own
+    f.misfit = std::pow((target.believed - target.value) / target.uncertainty, 2);
+    f.confirmingSeeds = confirmingSeeds;
+    Confirmed figure = confirmed;
+    scaleBy(figure, kGrams);
+    f.met = figure.verdict == Confirmed::Verdict::Met;
+    f.confirmations.push_back({placeText(point), {figure}, f.met});
+    return f;
+}
+
 Json findingJson(const CalibrationFinding& finding) {
     Json j{{"met", finding.met}, {"misfit", jsonNumber(finding.misfit)}};
     for (const char* list : {"targets", "parameters", "points"}) j[list] = Json::array();
@@ -171,6 +247,9 @@ Json findingJson(const CalibrationFinding& finding) {
     for (const Parameter& p : finding.parameters) j["parameters"].push_back(parameterJson(p));
     for (const Point& p : finding.points) j["points"].push_back(pointJson(p));
     j["best"] = finding.best;
+    j["confirming_seeds"] = finding.confirmingSeeds;
+    j["confirmations"] = Json::array();
+    for (const auto& c : finding.confirmations) j["confirmations"].push_back(confirmationJson(c));
     return j;
 }
 

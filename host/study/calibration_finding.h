@@ -1,8 +1,9 @@
 #pragma once
-// The finding of a search, as people see it: `vkdose calibrate` prints it, the file calibration.json in the study's
-// folder keeps it, and the report of the study shows it.
+// The finding of a calibration, as people see it: `vkdose calibrate` prints it, the file calibration.json in the
+// study's folder keeps it, and the report of the study shows it.
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -43,16 +44,36 @@ struct CalibrationFinding {
         Parameters at;
         std::vector<Measured> values;  ///< of each target; NaN where there is none
     };
+    /// What the runs with new seeds gave at a point, a figure for each target in its unit.
+    struct Confirmation {
+        std::string at;  ///< "contact.friction 0.3, contact.kc_over_k 0.25"
+        std::vector<Confirmed> figures;
+        bool met = false;
+    };
     std::vector<Target> targets;
-    std::vector<Parameter> parameters;
-    std::vector<Point> points;  ///< all that were tried, in order
-    std::size_t best = 0;       ///< index of the chosen point
-    double misfit = 0;          ///< there: sum over the targets of weight (distance / uncertainty)^2
-    bool met = false;           ///< see SearchResult::met
+    std::vector<Parameter> parameters;  ///< of a search; none of a grid
+    std::vector<Point> points;          ///< of a search all that were tried, in order; none of a grid
+    std::size_t best = 0;               ///< index of the chosen point
+    double misfit = 0;  ///< there, by the belief: sum over the targets of weight (distance / uncertainty)^2
+    std::vector<std::uint64_t> confirmingSeeds;
+    std::vector<Confirmation> confirmations;  ///< in order
+    bool met = false;                         ///< the last confirmation says so
 };
 
+/// The values of the free parameters at a point of the search.
+std::vector<Setting> settingsAt(const Study& study, const Parameters& point);
+
+/// "contact.friction 0.3, contact.kc_over_k 0.25"
+std::string placeText(const std::vector<Setting>& point);
+
 /// The finding of the search of a study; its mass per dose is in g.
-CalibrationFinding findingOf(const Study& study, const SearchResult& result);
+CalibrationFinding findingOf(const Study& study, const SearchResult& result,
+                             const std::vector<std::uint64_t>& confirmingSeeds);
+
+/// The finding of a grid whose chosen point is `point`. There the interpolated mass per dose is `believed` [kg], and
+/// the confirming runs gave `confirmed` [kg].
+CalibrationFinding findingOf(const Study& study, const std::vector<Setting>& point, double believed,
+                             const Confirmed& confirmed, const std::vector<std::uint64_t>& confirmingSeeds);
 
 /// The content of calibration.json; what is not known is null.
 nlohmann::ordered_json findingJson(const CalibrationFinding& finding);

@@ -135,7 +135,10 @@ GridCalibration calibrateGrid(const Table& members, const std::vector<std::strin
     const Scatter scatter = scatterOf(curves);
     for (const Row& others : order) {
         Curve curve{others, {}, {}};
-        for (const auto& [along, found] : curves[others]) curve.points.push_back(pointOf(along, found, scatter));
+        for (const auto& [along, found] : curves[others]) {
+            curve.points.push_back(pointOf(along, found, scatter));
+            result.betas.push_back(found.beta);
+        }
         findCrossings(curve, aim);
         if (curve.crossings.empty()) findNearest(curve, aim);
         result.curves.push_back(std::move(curve));

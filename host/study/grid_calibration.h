@@ -43,7 +43,8 @@ struct Curve {
 struct GridCalibration {
     std::vector<std::string> keys;  ///< of Curve::values
     std::vector<Curve> curves;
-    int leftOut = 0;  ///< members that failed or have no mass per dose
+    std::vector<std::vector<double>> betas;  ///< masses per dose of each point, one for each seed [kg]
+    int leftOut = 0;                         ///< members that failed or have no mass per dose
     /// The curve whose lowest crossing is chosen. The paper chooses the parameters that match "and lead to the least
     /// variability between successive doses", and of those the lowest k_c. Here the candidates are the crossings whose
     /// RSD exceeds the least one by no more than the standard error of their difference. The lowest of them is chosen.

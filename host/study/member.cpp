@@ -9,9 +9,11 @@
 
 #include "host/core/csv_lines.h"
 #include "host/core/error.h"
+#include "host/core/number.h"
 #include "host/model/case.h"
 #include "host/sim/timeline.h"
 #include "host/study/bed.h"
+#include "host/study/readable_case.h"
 
 namespace vkdose {
 
@@ -36,7 +38,7 @@ Node ownNode(const Study& study, Node::Kind kind, std::string text) {
     if (kind == Node::Kind::String)
         node.string = text;
     else
-        node.number = std::stod(text);
+        node.number = numberOf(text).value();
     node.text = std::move(text);
     return node;
 }
@@ -89,7 +91,8 @@ std::string caseAt(const Study& study, const std::vector<Setting>& point, const 
     if (!study.seeds.empty()) own.push_back({"seed", seedNode(study, study.seeds.front())});
     own.push_back({"name", ownNode(study, Node::Kind::String, name)});
     own.push_back({"reason", ownNode(study, Node::Kind::String, reason)});
-    return loadVariant(study.base, {treeOf(study.set), treeOf(own)}).resolved;
+    const Case c = loadVariant(study.base, {treeOf(study.set), treeOf(own)});
+    return readableText(readTreeText(c.given, study.base.string()));
 }
 
 Member memberAt(const Study& study, int number, std::optional<std::uint64_t> seed, const std::vector<Setting>& point,

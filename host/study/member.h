@@ -32,7 +32,9 @@ std::vector<Member> membersOf(const Study& study);
 Member memberAt(const Study& study, int number, std::optional<std::uint64_t> seed, const std::vector<Setting>& point,
                 const std::filesystem::path& base = {});
 
-/// The study at a point as the text of a case, ready to run, with the study's first seed. Throws CaseError.
+/// The study at a point as the text of a case, ready to run, with the study's first seed. It has the keys of the base
+/// case and of the study, and no defaults: who reads it finds the keys that were varied, and not what follows from
+/// them. Throws CaseError.
 std::string caseAt(const Study& study, const std::vector<Setting>& point, const std::string& name,
                    const std::string& reason);
 

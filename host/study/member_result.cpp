@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <fstream>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "host/core/exit_code.h"
 #include "host/core/file.h"
+#include "host/core/number.h"
 #include "host/output/checkpoint.h"
 #include "host/output/summary.h"
 #include "host/sim/dose.h"
@@ -209,19 +209,14 @@ bool isOver(const fs::path& folder) {
 }
 
 double timeReached(const fs::path& folder) {
-    std::ifstream stream = inputFile(folder / "timeseries.csv");
-    stream.seekg(0, std::ios::end);
-    const std::streamoff size = stream ? std::streamoff(stream.tellg()) : 0;
-    constexpr std::streamoff kTail = 4096;  // several lines
-    std::string tail(std::size_t(std::min(size, kTail)), '\0');
-    if (tail.empty()) return 0;
-    stream.seekg(size - std::streamoff(tail.size()));
-    stream.read(tail.data(), std::streamsize(tail.size()));
+    constexpr std::size_t kTail = 4096;  // several lines
+    const std::string tail = fileEnd(folder / "timeseries.csv", kTail).value_or("");
     const std::size_t end = tail.rfind('\n');
     if (end == std::string::npos || end == 0) return 0;
     const std::size_t start = tail.rfind('\n', end - 1);
     if (start == std::string::npos) return 0;  // the header
-    return std::max(0.0, std::strtod(tail.c_str() + start + 1, nullptr));
+    const std::string_view line = std::string_view(tail).substr(start + 1, end - start - 1);
+    return std::max(0.0, numberOf(line.substr(0, line.find(','))).value_or(0));
 }
 
 }  // namespace vkdose

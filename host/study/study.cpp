@@ -7,8 +7,10 @@
 #include <set>
 
 #include "host/core/file.h"
+#include "host/core/number.h"
 #include "host/model/case_keys.h"
 #include "host/model/case_reader.h"
+#include "host/model/named_file.h"
 #include "host/study/study_keys.h"
 
 namespace vkdose {
@@ -74,7 +76,7 @@ Node rangeValue(const Node& place, double value, bool whole) {
     node.kind = whole ? Node::Kind::Integer : Node::Kind::Float;
     // Twelve digits: 0.3, not 0.30000000000000004.
     node.text = fmt::format("{:.12g}", value);
-    node.number = std::stod(node.text);
+    node.number = nearestDecimal(value, 12);
     node.integer = whole ? std::llround(value) : 0;
     return node;
 }
@@ -243,8 +245,8 @@ Study readStudy(const std::filesystem::path& file, const std::vector<std::string
     study.reason = root.string("reason");
     const std::string base = root.string("base");
     study.base = file.parent_path() / base;
-    if (!base.empty() && !fileContent(study.base))
-        reader.fault("base", unreadable(study.base), "give the path of a case file, relative to the study's folder");
+    if (!base.empty())
+        requireFile(reader, "base", study.base, "give the path of a case file, relative to the study's folder");
     readSeeds(reader, root, study);
     std::set<std::string> used;
     if (const Node* set = root.node("set")) {

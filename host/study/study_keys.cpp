@@ -40,7 +40,10 @@ constexpr Key kCalibrate[] = {
          "a balance's CSV with the columns `dose` (1, 2, ...) and `mass_g` or `cumulative_g`, in place of a target: β "
          "is the slope until 80 % of all is out"),
     text("along", "contact.kc_over_k", "grid: the axis to interpolate along"),
-    integer("max_runs", 3, 500, 30, "surrogate: points at most, each run with every seed"),
+    integer("confirming_seeds", 2, 100, 3,
+            "new seeds with which the chosen point runs; only these runs say whether a target is met"),
+    integer("max_runs", 3, 500, 30,
+            "surrogate: points at most, each run with every seed; a confirmation that missed counts as one"),
 };
 
 constexpr Key kParameter[] = {

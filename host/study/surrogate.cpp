@@ -9,6 +9,7 @@
 
 #include "host/analysis/beta.h"
 #include "host/core/error.h"
+#include "host/core/number.h"
 #include "host/core/vec.h"
 #include "host/study/seed_scatter.h"
 
@@ -51,24 +52,48 @@ double distance(const std::vector<double>& a, const std::vector<double>& b) {
     return most;
 }
 
+/// In the unit of the key, as it will be written: six digits.
+Parameters inUnits(const CalibrationAim& aim, const std::vector<double>& u) {
+    Parameters p;
+    for (std::size_t i = 0; i < u.size(); ++i) {
+        const FreeParameter& free = aim.parameters[i];
+        p.push_back(nearestDecimal(free.low + u[i] * (free.high - free.low), 6));
+    }
+    return p;
+}
+
+/// The first points in the unit cube.
+std::vector<std::vector<double>> firstInUnits(const CalibrationAim& aim) {
+    const std::size_t d = aim.parameters.size();
+    std::vector<std::vector<double>> first;
+    for (int i = 1; i <= std::min(aim.maxRuns, 2 * int(d) + 1); ++i) first.push_back(halton(i, d));
+    return first;
+}
+
 class Search {
   public:
-    Search(const CalibrationAim& aim, const TryPoints& tryPoints)
-        : aim_(aim), tryPoints_(tryPoints), goals_(goalsOf(aim)) {
+    Search(const CalibrationAim& aim, const TryPoints& tryPoints, const ConfirmPoint& confirmPoint)
+        : aim_(aim), tryPoints_(tryPoints), confirmPoint_(confirmPoint), goals_(goalsOf(aim)) {
         result_.goals.resize(goals_.size());
     }
 
     std::optional<SearchResult> run() {
-        const std::size_t d = aim_.parameters.size();
-        std::vector<std::vector<double>> first;
-        for (int i = 1; i <= std::min(aim_.maxRuns, 2 * int(d) + 1); ++i) first.push_back(halton(i, d));
-        if (!tryOut(first)) return std::nullopt;
+        if (!tryOut(firstInUnits(aim_))) return std::nullopt;
         for (;;) {
             const Processes processes = fitted();
-            judge(processes);
-            if (result_.met || int(unit_.size()) >= aim_.maxRuns) return finished(processes);
-            const auto next = mostPromising(processes);
-            if (!next) return finished(processes);
+            if (result_.met) return finished(processes);
+            choose(processes, true);
+            const int made = int(unit_.size() + result_.confirmations.size());
+            // A point that is believed in at the end is confirmed beyond their number, but one alone.
+            if (made <= aim_.maxRuns && believedMet(processes)) {
+                if (!confirm()) return std::nullopt;
+                continue;
+            }
+            const auto next = made >= aim_.maxRuns ? std::nullopt : mostPromising(processes);
+            if (!next) {
+                choose(processes, false);
+                return finished(processes);
+            }
             if (!tryOut({*next})) return std::nullopt;
         }
     }
@@ -76,19 +101,9 @@ class Search {
   private:
     using Processes = std::vector<GaussianProcess>;  ///< one for each goal
 
-    /// In the unit of the key, as it will be written: six digits.
-    Parameters inUnits(const std::vector<double>& u) const {
-        Parameters p;
-        for (std::size_t i = 0; i < u.size(); ++i) {
-            const FreeParameter& free = aim_.parameters[i];
-            p.push_back(std::stod(fmt::format("{:.6g}", free.low + u[i] * (free.high - free.low))));
-        }
-        return p;
-    }
-
     bool tryOut(const std::vector<std::vector<double>>& points) {
         std::vector<Parameters> batch;
-        for (const auto& u : points) batch.push_back(inUnits(u));
+        for (const auto& u : points) batch.push_back(inUnits(aim_, u));
         const auto trials = tryPoints_(batch);
         if (!trials) return false;
         unit_.insert(unit_.end(), points.begin(), points.end());
@@ -98,6 +113,28 @@ class Search {
         return true;
     }
 
+    /// Runs the best point with new seeds, and takes what they gave into its trials. Returns false if interrupted.
+    bool confirm() {
+        const auto trials = confirmPoint_(result_.points[result_.best]);
+        if (!trials) return false;
+        for (std::size_t g = 0; g < goals_.size(); ++g) {
+            std::vector<double>& values = trials_[result_.best][g].values;
+            values.insert(values.end(), trials->at(g).values.begin(), trials->at(g).values.end());
+        }
+        weigh();
+        Confirmation& c = result_.confirmations.emplace_back(Confirmation{result_.best, {}});
+        for (std::size_t g = 0; g < goals_.size(); ++g)
+            c.figures.push_back(confirmedBy(trials->at(g).values, std::size_t(aim_.confirmingSeeds), scatter_[g],
+                                            goals_[g].target, goals_[g].tolerance));
+        result_.met = c.met();
+        return true;
+    }
+
+    bool isConfirmed(std::size_t point) const {
+        return std::any_of(result_.confirmations.begin(), result_.confirmations.end(),
+                           [&](const Confirmation& c) { return c.point == point; });
+    }
+
     /// Means and errors of all trials. They are made anew after each trial, because it tells more about the scatter of
     /// all.
     void weigh() {
@@ -105,6 +142,7 @@ class Search {
             std::vector<std::vector<double>> seeds;
             for (const Trials& trials : trials_) seeds.push_back(trials.at(g).values);
             const double scatter = scatterOfSeeds(seeds);
+            scatter_[g] = scatter;
             std::vector<Measured>& values = result_.goals[g].values;
             values.clear();
             for (const Trials& trials : trials_) {
@@ -159,27 +197,35 @@ class Search {
         return all;
     }
 
-    /// The tried point that is believed nearest to the targets. A single observation may be near by chance, but the
-    /// processes take its neighbours into account.
-    void judge(const Processes& processes) {
+    double distanceOf(const Processes& processes, std::size_t point) const {
+        double squares = 0;
+        for (const Belief& b : distances(processes, unit_[point])) squares += b.mean * b.mean;
+        return std::sqrt(squares);
+    }
+
+    /// Chooses the tried point that is believed nearest to the targets. A single observation may be near by chance, but
+    /// the processes take its neighbours into account. With `open`, points whose confirmation missed are left out,
+    /// unless there is no other.
+    void choose(const Processes& processes, bool open) {
         nearest_ = std::numeric_limits<double>::infinity();
         for (std::size_t i = 0; i < unit_.size(); ++i) {
-            if (!whole(i)) continue;
-            double squares = 0;
-            for (const Belief& b : distances(processes, unit_[i])) squares += b.mean * b.mean;
-            if (std::sqrt(squares) >= nearest_) continue;
-            nearest_ = std::sqrt(squares);
+            if (!whole(i) || (open && isConfirmed(i)) || distanceOf(processes, i) >= nearest_) continue;
+            nearest_ = distanceOf(processes, i);
             result_.best = i;
         }
-        result_.misfit = nearest_ * nearest_;
-        result_.met = true;
+        if (open && !std::isfinite(nearest_)) choose(processes, false);
+    }
+
+    /// Whether the best point is one that has not been confirmed yet and that is believed to meet all goals.
+    bool believedMet(const Processes& processes) const {
+        if (isConfirmed(result_.best)) return false;
         for (std::size_t g = 0; g < goals_.size(); ++g) {
             const Belief belief = processes[g].at(unit_[result_.best]);
-            result_.goals[g].mean = belief.mean;
-            result_.goals[g].deviation = belief.deviation;
-            result_.met = result_.met && std::abs(belief.mean - goals_[g].target) <= goals_[g].tolerance &&
-                          belief.deviation <= goals_[g].tolerance;
+            if (!(std::abs(belief.mean - goals_[g].target) <= goals_[g].tolerance &&
+                  belief.deviation <= goals_[g].tolerance))
+                return false;
         }
+        return true;
     }
 
     double gain(const Processes& processes, const std::vector<double>& u) const {
@@ -218,6 +264,12 @@ class Search {
     }
 
     SearchResult finished(const Processes& processes) {
+        result_.misfit = std::pow(distanceOf(processes, result_.best), 2);
+        for (std::size_t g = 0; g < goals_.size(); ++g) {
+            const Belief belief = processes[g].at(unit_[result_.best]);
+            result_.goals[g].mean = belief.mean;
+            result_.goals[g].deviation = belief.deviation;
+        }
         findCompatible(processes);
         findSensitivity(processes);
         return result_;
@@ -232,7 +284,7 @@ class Search {
                 const Belief belief = processes[g].at(u);
                 if (std::abs(belief.mean - goals_[g].target) > 2 * belief.deviation + goals_[g].tolerance) return;
             }
-            const Parameters p = inUnits(u);
+            const Parameters p = inUnits(aim_, u);
             for (std::size_t i = 0; i < d; ++i) {
                 result_.compatible[i].first = std::min(result_.compatible[i].first, p[i]);
                 result_.compatible[i].second = std::max(result_.compatible[i].second, p[i]);
@@ -271,7 +323,9 @@ class Search {
 
     const CalibrationAim& aim_;
     const TryPoints& tryPoints_;
+    const ConfirmPoint& confirmPoint_;
     std::vector<Goal> goals_;
+    std::vector<double> scatter_ = std::vector<double>(goals_.size());  ///< of each goal, from seed to seed
     std::vector<Trials> trials_;
     std::vector<std::vector<double>> unit_;  ///< the points tried, in the unit cube
     double nearest_ = 0;                     ///< root of the least believed misfit
@@ -333,8 +387,15 @@ std::vector<Goal> goalsOf(const CalibrationAim& aim) {
     return goals;
 }
 
-std::optional<SearchResult> search(const CalibrationAim& aim, const TryPoints& tryPoints) {
-    return Search(aim, tryPoints).run();
+std::optional<SearchResult> search(const CalibrationAim& aim, const TryPoints& tryPoints,
+                                   const ConfirmPoint& confirmPoint) {
+    return Search(aim, tryPoints, confirmPoint).run();
+}
+
+std::vector<Parameters> firstPoints(const CalibrationAim& aim) {
+    std::vector<Parameters> points;
+    for (const auto& u : firstInUnits(aim)) points.push_back(inUnits(aim, u));
+    return points;
 }
 
 }  // namespace vkdose

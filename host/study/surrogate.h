@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "host/study/calibration_aim.h"
+#include "host/study/confirmation.h"
 #include "host/study/gaussian_process.h"
 
 namespace vkdose {
@@ -26,6 +27,9 @@ using Trials = std::vector<Trial>;
 /// Tries a few points. Returns nothing if the search was interrupted.
 using TryPoints = std::function<std::optional<std::vector<Trials>>(const std::vector<Parameters>&)>;
 
+/// Runs a point that was tried again, with `aim.confirmingSeeds` new seeds. Returns nothing if it was interrupted.
+using ConfirmPoint = std::function<std::optional<Trials>(const Parameters&)>;
+
 /// A figure that the search is to bring to its target, in its own unit.
 struct Goal {
     double target = 0;
@@ -37,7 +41,8 @@ std::vector<Goal> goalsOf(const CalibrationAim& aim);
 
 /// What became of one goal, in the unit of its figure.
 struct GoalResult {
-    /// Of each point: the mean over the seeds, NaN where there is none. The errors are the scatter from seed to seed,
+    /// Of each point: the mean over the seeds, those of a confirmation included; NaN where there is none. The errors
+    /// are the scatter from seed to seed,
     /// pooled over all points, or with a single seed the trial's own; NaN if neither is known.
     std::vector<Measured> values;
     double mean = 0;       ///< that is believed at the best point
@@ -50,9 +55,10 @@ struct GoalResult {
 struct SearchResult {
     std::vector<Parameters> points;  ///< all points that were tried, in order
     std::vector<GoalResult> goals;
-    std::size_t best = 0;  ///< index of the point with the least believed misfit
+    std::size_t best = 0;  ///< index of the confirmed point; without one, of that with the least believed misfit
     double misfit = 0;     ///< there: sum over the goals of weight (distance / tolerance)^2
-    bool met = false;      ///< of every goal both the distance to the target and the deviation are within the tolerance
+    bool met = false;      ///< the last confirmation says that the best point meets every goal
+    std::vector<Confirmation> confirmations;  ///< in order, each of another point
     /// For each parameter the range of its values that may meet all goals. A value may meet them if, for some values of
     /// the others, every mean is within two deviations and the tolerance of its target. If two parameters compensate
     /// each other, their ranges are wide.
@@ -63,10 +69,18 @@ struct SearchResult {
     std::vector<double> parameterError;
 };
 
-/// Looks for the point at which `tryPoints` gives the targets. Ends when they are met, when `aim.maxRuns` points have
-/// been tried or when there is nothing to gain. The search is repeatable: the same results lead to the same points.
-/// Returns nothing if it was interrupted. Throws RunError if fewer than two of the first points have all figures.
-std::optional<SearchResult> search(const CalibrationAim& aim, const TryPoints& tryPoints);
+/// Looks for the point at which `tryPoints` gives the targets. A tried point is believed to meet them when of every
+/// goal both the distance to the target and the deviation are within the tolerance. Then `confirmPoint` runs it with
+/// new seeds. If these do not meet the targets, what they gave is taken into the belief, and the search goes on at
+/// other points. It ends when a point is confirmed, when `aim.maxRuns` points and confirmations have been made or when
+/// there is nothing to gain. A point that is believed to meet the targets at the end is confirmed all the same. The
+/// search is repeatable: the same results lead to the same points. Returns nothing if it was interrupted. Throws
+/// RunError if fewer than two of the first points have all figures.
+std::optional<SearchResult> search(const CalibrationAim& aim, const TryPoints& tryPoints,
+                                   const ConfirmPoint& confirmPoint);
+
+/// The points with which a search begins, whatever they give.
+std::vector<Parameters> firstPoints(const CalibrationAim& aim);
 
 /// Expected improvement on `best`, the least distance to the target so far, by a value that is believed to be `mean` +-
 /// `deviation` from the target: the mean of max(0, best - |y|) over a normal distribution, in closed form.

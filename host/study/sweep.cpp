@@ -17,33 +17,22 @@ namespace {
 
 class Sweep {
   public:
-    Sweep(SweepFolder& folder, const std::vector<Member>& members, MemberRunner& runner, SweepObserver& observer)
-        : folder_(folder), members_(members), runner_(runner), observer_(observer) {}
+    Sweep(SweepFolder& folder, const std::vector<Member>& members, MemberRunner& runner, SweepObserver& observer,
+          const HaltRule& rule)
+        : folder_(folder), members_(members), runner_(runner), observer_(observer), rule_(rule) {}
 
-    SweepOutcome run(const std::atomic<bool>& stop, bool retryFailed) {
+    SweepOutcome run(bool retryFailed) {
         retryFailed_ = retryFailed;
-        if (runner_.settlesBeds()) settleBeds(stop);
+        if (runner_.settlesBeds()) settleBeds();
         queue();
-        bool interrupted = false;
         while (!waiting_.empty() || !running_.empty()) {
-            if (stop && !interrupted) {
-                interrupted = true;
-                waiting_.clear();
-                runner_.interrupt();
-            }
-            while (!waiting_.empty() && runner_.takes(*waiting_.front().member)) startNext();
+            if (halts()) waiting_.clear();
+            while (!waiting_.empty() && runner_.takes(*waiting_.front().member) && !halts()) startNext();
             if (running_.empty()) continue;
             if (const auto end = runner_.wait()) ended(*end);
             observer_.onProgress(progress());
         }
-        SweepOutcome outcome;
-        for (const Member& m : members_) {
-            const auto status = folder_.status(m.number);
-            outcome.ok += status == MemberStatus::Ok ? 1 : 0;
-            outcome.failed += status == MemberStatus::Failed ? 1 : 0;
-        }
-        outcome.whole = outcome.ok + outcome.failed == int(members_.size());
-        return outcome;
+        return outcome();
     }
 
   private:
@@ -51,6 +40,29 @@ class Sweep {
         const Member* member;
         double before;  ///< simulated time that it had reached when it was started [s]
     };
+
+    /// Whether something ends the sweep. Then those that run are to end.
+    bool halts() {
+        if (halt_ != Halt::None) return true;
+        halt_ = rule_();
+        if (halt_ != Halt::None) runner_.interrupt();
+        return halt_ != Halt::None;
+    }
+
+    SweepOutcome outcome() const {
+        SweepOutcome outcome;
+        outcome.members = int(members_.size());
+        for (const Member& m : members_) {
+            const auto status = folder_.status(m.number);
+            outcome.ok += status == MemberStatus::Ok ? 1 : 0;
+            outcome.failed += status == MemberStatus::Failed ? 1 : 0;
+            if (status != MemberStatus::Ok && status != MemberStatus::Failed) outcome.workLeft += workLeft(m);
+        }
+        outcome.workLeft -= savedByBeds();
+        outcome.whole = outcome.ok + outcome.failed == int(members_.size());
+        outcome.halt = halt_;
+        return outcome;
+    }
 
     bool isWaiting(const Member& m) const {
         const auto status = folder_.status(m.number);
@@ -72,8 +84,15 @@ class Sweep {
         return needed;
     }
 
+    /// Particle-steps that members who have yet to begin need not make, because their beds settle once.
+    double savedByBeds() const {
+        std::vector<Bed> unsettled = runner_.settlesBeds() ? bedsNeeded() : std::vector<Bed>();
+        std::erase_if(unsettled, [&](const Bed& bed) { return beds_.contains(bed.members.front()); });
+        return workSaved(unsettled, members_);
+    }
+
     /// Settles each bed that is needed once, as a run of its own.
-    void settleBeds(const std::atomic<bool>& stop) {
+    void settleBeds() {
         const std::vector<Bed> beds = bedsNeeded();
         std::vector<Member> runs;
         std::size_t served = 0;
@@ -90,7 +109,7 @@ class Sweep {
             served += bed.members.size();
         }
         if (!runs.empty()) observer_.onBeds(runs.size(), served);
-        playBeds(runs, stop);
+        playBeds(runs);
         for (const Bed& bed : beds) {
             const fs::path folder = bedFolder(folder_.path(), bed);
             if (!isSettled(folder, bed.caseText)) continue;
@@ -98,21 +117,16 @@ class Sweep {
         }
     }
 
-    void playBeds(const std::vector<Member>& runs, const std::atomic<bool>& stop) {
+    void playBeds(const std::vector<Member>& runs) {
         std::vector<WaitingMember> order;
         for (const Member& m : runs)
             order.push_back({&m, m.expectedWork / double(std::max<std::size_t>(m.particles, 1))});
         runner_.order(order);
         std::deque<WaitingMember> waiting(order.begin(), order.end());
         std::size_t running = 0;
-        bool interrupted = false;
         while (!waiting.empty() || running > 0) {
-            if (stop && !interrupted) {
-                interrupted = true;
-                waiting.clear();
-                runner_.interrupt();
-            }
-            for (; !waiting.empty() && runner_.takes(*waiting.front().member); waiting.pop_front())
+            if (halts()) waiting.clear();
+            for (; !waiting.empty() && runner_.takes(*waiting.front().member) && !halts(); waiting.pop_front())
                 running += startBed(*waiting.front().member) ? 1 : 0;
             if (running == 0) continue;
             if (runner_.wait()) --running;
@@ -120,14 +134,18 @@ class Sweep {
         }
     }
 
-    /// Returns false if the process of a sweep that was killed has settled it meanwhile.
+    /// Waits until no process writes into the folder of a run. Returns false if the sweep halts before.
+    bool awaitFree(const fs::path& run) {
+        if (!FolderLock::isTaken(run)) return true;
+        observer_.onBusy(run);
+        return FolderLock::await(run, [&] { return halts(); });
+    }
+
+    /// Returns false if the process of a sweep that was killed has settled it meanwhile, or if the sweep halts.
     bool startBed(const Member& run) {
         const fs::path folder = bedFolder(folder_.path(), {run.number, "", {}});
         createFolder(folder);
-        if (FolderLock::isTaken(folder)) {
-            observer_.onBusy(folder);
-            FolderLock::await(folder);
-        }
+        if (!awaitFree(folder)) return false;
         if (isSettled(folder, run.caseText)) return false;
         const bool same = fileContent(folder / "case.toml") == run.caseText;
         if (!same) replaceFile(folder / "case.toml", run.caseText);
@@ -166,12 +184,13 @@ class Sweep {
         waiting_.assign(waiting.begin(), waiting.end());
     }
 
-    double stepsLeft(const Member& m) const {
+    /// Particle-steps that it still has to make by the closed forms.
+    double workLeft(const Member& m) const {
         const fs::path run = folder_.memberFolder(m.number);
         const double settled = beds_.contains(m.number) ? m.settlingWork : 0;
-        const double work = m.expectedWork - (fs::exists(run / kCheckpointName) ? share(m, timeReached(run)) : settled);
-        return work / double(std::max<std::size_t>(m.particles, 1));
+        return m.expectedWork - (fs::exists(run / kCheckpointName) ? share(m, timeReached(run)) : settled);
     }
+    double stepsLeft(const Member& m) const { return workLeft(m) / double(std::max<std::size_t>(m.particles, 1)); }
 
     /// A checkpoint that cannot be read is given up only when failed members are to run again. Until then the version
     /// of vkdose that wrote it may still go on from it.
@@ -193,10 +212,7 @@ class Sweep {
         if (folder_.status(m.number)) folder_.forget(m.number);
         folder_.begin(m);
         const fs::path run = folder_.memberFolder(m.number);
-        if (FolderLock::isTaken(run)) {
-            observer_.onBusy(run);
-            FolderLock::await(run);
-        }
+        if (!awaitFree(run)) return;
         if (isOver(run)) {  // the run ended, and we were killed before we could note it
             note(m, readResult(run, {m.number, 0, ""}));
             return;
@@ -246,6 +262,8 @@ class Sweep {
     const std::vector<Member>& members_;
     MemberRunner& runner_;
     SweepObserver& observer_;
+    const HaltRule& rule_;
+    Halt halt_ = Halt::None;
     bool retryFailed_ = false;
     std::map<int, fs::path> beds_;  ///< folders of the settled beds with which members begin
     std::deque<WaitingMember> waiting_;
@@ -256,8 +274,8 @@ class Sweep {
 }  // namespace
 
 SweepOutcome runMembers(SweepFolder& folder, const std::vector<Member>& members, MemberRunner& runner,
-                        SweepObserver& observer, const std::atomic<bool>& stop, bool retryFailed) {
-    return Sweep(folder, members, runner, observer).run(stop, retryFailed);
+                        SweepObserver& observer, const HaltRule& halt, bool retryFailed) {
+    return Sweep(folder, members, runner, observer, halt).run(retryFailed);
 }
 
 }  // namespace vkdose

@@ -2,8 +2,8 @@
 // Runs the members of a study, several at a time, and notes their results as they come. It knows neither processes nor
 // devices; these belong to the MemberRunner.
 
-#include <atomic>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -69,18 +69,26 @@ class SweepObserver {
     virtual void onAnew(const Member&, const std::string& why) { (void)why; }
 };
 
+/// What ends a sweep before all of its members have ended.
+enum class Halt { None, Interrupted, TimeIsUp };
+/// Is asked before a member starts, and about once a second while some run.
+using HaltRule = std::function<Halt()>;
+
 struct SweepOutcome {
+    int members = 0;
     int ok = 0;
-    int failed = 0;      ///< those of earlier calls included
-    bool whole = false;  ///< every member has ended
+    int failed = 0;          ///< those of earlier calls included
+    bool whole = false;      ///< every member has ended
+    double workLeft = 0;     ///< particle-steps of the others by the closed forms
+    Halt halt = Halt::None;  ///< what ended it
 };
 
 /// Runs those of `members` that have not ended yet. If the runner can, each bed that several of them have settles once
 /// before, in a folder of its own, and they begin with it; a bed that fails leaves its members to themselves. With
 /// `retryFailed` it runs failed ones again, and starts a member anew if its checkpoint cannot be used. A member that
-/// fails does not keep the others from running. Setting `stop` ends the running ones so that they can be resumed.
-/// Throws OutputError.
+/// fails does not keep the others from running. As soon as `halt` says so, none is started any more, and the running
+/// ones end so that they can be resumed. Throws OutputError.
 SweepOutcome runMembers(SweepFolder& folder, const std::vector<Member>& members, MemberRunner& runner,
-                        SweepObserver& observer, const std::atomic<bool>& stop, bool retryFailed = false);
+                        SweepObserver& observer, const HaltRule& halt, bool retryFailed = false);
 
 }  // namespace vkdose

@@ -9,6 +9,7 @@
 
 #include "host/core/error.h"
 #include "host/core/file.h"
+#include "host/core/number.h"
 #include "host/model/case.h"
 #include "host/output/checkpoint.h"
 #include "host/output/run_folder.h"
@@ -34,8 +35,9 @@ Row head(const Member& m) {
     return joined({fmt::format("{}", m.number), fmt::format("{}", m.seed)}, m.values);
 }
 
-int numberOf(const Row& row) {
-    return row.empty() ? -1 : std::atoi(row[0].c_str());
+int memberOf(const Row& row) {
+    const auto number = row.empty() ? std::nullopt : wholeNumberOf(row[0]);
+    return number && *number < kMostMembers ? int(*number) : -1;
 }
 
 std::string content(const Table& table) {
@@ -45,7 +47,7 @@ std::string content(const Table& table) {
 }
 
 void dropRows(Table& table, const std::set<int>& kept) {
-    table.removeIf([&](const Row& row) { return !kept.contains(numberOf(row)); });
+    table.removeIf([&](const Row& row) { return !kept.contains(memberOf(row)); });
 }
 
 [[noreturn]] void changed(const fs::path& study, const fs::path& folder, const std::string& how) {
@@ -74,18 +76,24 @@ std::string withoutReason(const std::string& resolved) {
 /// because other files of these names may be the user's own.
 bool isSweep(const fs::path& folder, const Case& base) {
     if (Table::salvage(folder / "members.csv").has("member")) return true;
-    std::error_code code;
     const fs::path file = folder / "base.toml";
-    return fs::is_directory(folder / "members", code) &&
-           (fileContent(file) == base.resolved || today(file) == base.resolved);
+    return fs::is_directory(folder / "members") && (fileContent(file) == base.resolved || today(file) == base.resolved);
 }
 
 /// Whether the folder holds nothing but halves of files. A sweep that was killed in its first moment leaves them.
 bool holdsNothing(const fs::path& folder) {
-    std::error_code code;
-    for (const auto& entry : fs::directory_iterator(folder, code))
-        if (entry.path().extension() != ".new") return false;
-    return true;
+    const std::vector<fs::path> entries = entriesOf(folder);
+    return std::all_of(entries.begin(), entries.end(), [](const fs::path& e) { return e.extension() == ".new"; });
+}
+
+/// Refuses a folder that holds something else than a sweep over this base.
+void refuseOther(const fs::path& folder, const Case& base) {
+    std::error_code error;
+    if (fs::exists(folder, error) && !fs::is_directory(folder, error))
+        throw FolderError(fmt::format("{} is a file, not a folder; choose another with --out", folder.string()));
+    if (!isSweep(folder, base) && !holdsNothing(folder))
+        throw FolderError(
+            fmt::format("{} holds something else than a sweep; choose another folder with --out", folder.string()));
 }
 
 /// Refuses to replace a file that the study is read from, unless the content stays the same.
@@ -107,28 +115,22 @@ void requireNothingLost(const fs::path& folder, const Study& study, const Case& 
 
 }  // namespace
 
-SweepFolder::SweepFolder(fs::path folder, const Study& study, const std::vector<Member>& members)
-    : folder_(std::move(folder)), study_(study.file.string()) {
+SweepFolder::SweepFolder(fs::path folder, const Study& study, const std::vector<Member>& members, Manner manner)
+    : folder_(std::move(folder)), study_(study.file.string()), open_(manner == Manner::Open) {
     std::error_code error;
     const Case base = loadCase(study.base);
+    refuseOther(folder_, base);
     const bool former = isSweep(folder_, base);
-    if (fs::exists(folder_, error) && !fs::is_directory(folder_, error))
-        throw FolderError(fmt::format("{} is a file, not a folder; choose another with --out", folder_.string()));
-    if (!former && !holdsNothing(folder_))
-        throw FolderError(
-            fmt::format("{} holds something else than a sweep; choose another folder with --out", folder_.string()));
     const bool made = fs::create_directories(folder_, error);
     if (error) throw FolderError(fmt::format("cannot create {}: {}", folder_.string(), error.message()));
     lock();
     read(study.keys());
-    // A search decides on its members as it goes. It gives the first ones, and calls requireSame when it comes to
-    // others.
-    search_ = study.calibration && study.calibration->method == CalibrationAim::Method::Surrogate;
+    // What decides on its members as it goes gives the first ones here, and calls requireSame when it comes to others.
     for (std::size_t i = 0; i < members_.rows(); ++i)
-        if (!search_ && std::size_t(numberOf(members_.row(i))) >= members.size())
+        if (!open_ && std::size_t(memberOf(members_.row(i))) >= members.size())
             changed(
                 study_, folder_,
-                fmt::format("member {} of members.csv is no longer in it; {}", numberOf(members_.row(i)), kAppendable));
+                fmt::format("member {} of members.csv is no longer in it; {}", memberOf(members_.row(i)), kAppendable));
     for (const Member& m : members) requireSame(m);
     std::set<int> ended;
     for (const auto& [number, status] : status_)
@@ -151,10 +153,9 @@ SweepFolder::SweepFolder(fs::path folder, const Study& study, const std::vector<
 }
 
 std::vector<fs::path> SweepFolder::files(const fs::path& folder) {
-    std::error_code code;
     std::vector<fs::path> files;
     for (const char* name : {"study.toml", "base.toml", "doses.csv", kFindingName, "calibrated.toml", "members.csv"})
-        if (fs::exists(folder / name, code)) files.push_back(folder / name);
+        if (fs::exists(folder / name)) files.push_back(folder / name);
     return files;
 }
 
@@ -182,7 +183,7 @@ void SweepFolder::read(const Row& keys) {
     if (doses_.names().empty()) doses_ = Table(dosesHeader);
     for (std::size_t i = 0; i < members_.rows(); ++i)
         for (const MemberStatus s : {MemberStatus::Ok, MemberStatus::Failed, MemberStatus::Interrupted})
-            if (members_.text(i, "status") == statusText(s)) status_[numberOf(members_.row(i))] = s;
+            if (members_.text(i, "status") == statusText(s)) status_[memberOf(members_.row(i))] = s;
 }
 
 /// Takes results and doses of the members that have ended from their folders, because the tables may have lost some, or
@@ -190,15 +191,15 @@ void SweepFolder::read(const Row& keys) {
 void SweepFolder::gatherResults() {
     std::map<int, std::vector<Row>> noted;
     for (std::size_t k = 0; k < doses_.rows(); ++k) {
-        std::vector<Row>& rows = noted[numberOf(doses_.row(k))];
+        std::vector<Row>& rows = noted[memberOf(doses_.row(k))];
         if (rows.empty() || rows.back() != doses_.row(k)) rows.push_back(doses_.row(k));  // two equal lines: one dose
     }
     std::map<int, std::size_t> last;  // a member that stands there twice is one, with the status of its last row
-    for (std::size_t i = 0; i < members_.rows(); ++i) last[numberOf(members_.row(i))] = i;
+    for (std::size_t i = 0; i < members_.rows(); ++i) last[memberOf(members_.row(i))] = i;
     Table members(members_.names()), doses(doses_.names());
     for (std::size_t i = 0; i < members_.rows(); ++i) {
         Row member = members_.row(i);
-        const int number = numberOf(member);
+        const int number = memberOf(member);
         if (last[number] != i) continue;
         const MemberResult found = readResult(memberFolder(number), {number, 0, ""});
         const auto outputs = member.end() - std::ptrdiff_t(kOutputColumns.size());
@@ -207,7 +208,7 @@ void SweepFolder::gatherResults() {
         const bool lost = found.doses.size() < table.size();  // the folder itself has lost some, or is gone
         // Somebody may have let a failed member go on by himself, to its end. In a search later points may follow from
         // its failure.
-        const bool failed = !search_ && status(number) == MemberStatus::Failed;
+        const bool failed = !open_ && status(number) == MemberStatus::Failed;
         const bool finished = failed && isOver(memberFolder(number));
         const bool ok = status(number) == MemberStatus::Ok || finished;
         if (!lost && ok && found.status == MemberStatus::Ok) {
@@ -226,21 +227,34 @@ void SweepFolder::gatherResults() {
     doses_ = std::move(doses);
 }
 
-void SweepFolder::requireSame(const Member& member) const {
+void SweepFolder::requireUsable(const fs::path& folder, const Study& study) {
+    refuseOther(folder, loadCase(study.base));
+}
+
+/// What the member was when it began in the folder as another case; empty if it did not.
+std::string SweepFolder::anotherIn(const Member& member) const {
     const Row now = head(member);
     for (std::size_t i = 0; i < members_.rows(); ++i) {
         const Row& row = members_.row(i);
-        if (numberOf(row) == member.number && !std::equal(now.begin(), now.end(), row.begin()))
-            changed(study_, folder_,
-                    fmt::format("member {} was another point in members.csv; {}", member.number,
-                                search_ ? kSearchGoesOn : kAppendable));
+        if (memberOf(row) == member.number && !std::equal(now.begin(), now.end(), row.begin()))
+            return "another point in members.csv";
     }
     const fs::path file = memberFolder(member.number) / "case.toml";
     if (fs::exists(file) && fileContent(file).value_or("") != member.caseText &&
         withoutReason(today(file)) != withoutReason(member.caseText))
+        return fmt::format("another case ({})", file.string());
+    return "";
+}
+
+bool SweepFolder::isSame(const Member& member) const {
+    return anotherIn(member).empty();
+}
+
+void SweepFolder::requireSame(const Member& member) const {
+    const std::string other = anotherIn(member);
+    if (!other.empty())
         changed(study_, folder_,
-                fmt::format("member {} was another case ({}); {}", member.number, file.string(),
-                            search_ ? kSearchGoesOn : kAppendable));
+                fmt::format("member {} was {}; {}", member.number, other, open_ ? kSearchGoesOn : kAppendable));
 }
 
 void SweepFolder::keepFormerStudy() const {
@@ -275,7 +289,7 @@ void SweepFolder::begin(const Member& member) const {
 }
 
 void SweepFolder::forget(int number) {
-    for (Table* table : {&members_, &doses_}) table->removeIf([&](const Row& row) { return numberOf(row) == number; });
+    for (Table* table : {&members_, &doses_}) table->removeIf([&](const Row& row) { return memberOf(row) == number; });
     status_.erase(number);
     rewrite();
 }
@@ -296,7 +310,7 @@ void SweepFolder::add(const Member& member, const MemberResult& result) {
 }
 
 void SweepFolder::sort() {
-    const auto earlier = [](const Row& a, const Row& b) { return numberOf(a) < numberOf(b); };
+    const auto earlier = [](const Row& a, const Row& b) { return memberOf(a) < memberOf(b); };
     members_.sort(earlier);
     doses_.sort(earlier);
     rewrite();

@@ -17,13 +17,22 @@ namespace vkdose {
 
 class SweepFolder {
   public:
+    enum class Manner {
+        Whole,  ///< its members are known from the beginning
+        Open    ///< its members are decided on as it goes: those of a search, and confirming runs
+    };
+
     /// Creates the folder, or goes on in it. Going on, it cuts out of the tables rows that were torn, doses of members
     /// without a row, and the rows of interrupted members, who are yet to end. It takes doses from the folders of their
     /// members, even if the table has lost some or holds others. Throws FolderError if another process is writing into
     /// the folder, if it holds something else, if a file of the study is among those to be replaced, or if a member
     /// that has begun in it is another case in `members`. Throws OutputError if it cannot be written; everything made
     /// until then is removed again.
-    SweepFolder(std::filesystem::path folder, const Study& study, const std::vector<Member>& members);
+    SweepFolder(std::filesystem::path folder, const Study& study, const std::vector<Member>& members,
+                Manner manner = Manner::Whole);
+
+    /// Throws FolderError if the folder of this study holds something else, as the constructor would.
+    static void requireUsable(const std::filesystem::path& folder, const Study& study);
 
     /// The files of a sweep that are in a folder, without those of its members' folders.
     static std::vector<std::filesystem::path> files(const std::filesystem::path& folder);
@@ -37,7 +46,9 @@ class SweepFolder {
     /// The rows so far, in the order in which the members ended.
     const Table& members() const { return members_; }
 
-    /// Throws FolderError if this member has begun in the folder as another case.
+    /// Whether this member has not begun in the folder as another case.
+    bool isSame(const Member& member) const;
+    /// Throws FolderError if it has.
     void requireSame(const Member& member) const;
 
     /// Puts study.toml and base.toml back as they were before this object: a search has found that it is another one.
@@ -56,6 +67,7 @@ class SweepFolder {
     void sort();
 
   private:
+    std::string anotherIn(const Member& member) const;
     void lock();
     void read(const Row& keys);
     void gatherResults();
@@ -63,7 +75,7 @@ class SweepFolder {
 
     std::filesystem::path folder_;
     std::string study_;                                    ///< its file, for messages
-    bool search_ = false;                                  ///< it is a calibration's search
+    bool open_ = false;                                    ///< Manner::Open
     std::optional<std::string> formerStudy_, formerBase_;  ///< study.toml and base.toml that were there
     std::optional<FolderLock> lock_;
     Table members_;

@@ -11,6 +11,12 @@ void bounce(Stage& stage);
 void elasticOrder(Stage& stage);
 void dampedOrder(Stage& stage);
 
+// increments.cpp
+void smallFalls(Stage& stage);
+void smallTurns(Stage& stage);
+void smallStretches(Stage& stage);
+void smallWorks(Stage& stage);
+
 // collisions.cpp
 void headOnAdhesive(Stage& stage);
 void headOnDamped(Stage& stage);
@@ -40,6 +46,7 @@ void meshBlock(Stage& stage);
 void drumBalance(Stage& stage);
 void pushedByBodies(Stage& stage);
 void freeBall(Stage& stage);
+void heldByBodies(Stage& stage);
 
 // bed.cpp
 void column(Stage& stage);
@@ -72,6 +79,9 @@ void hertzSpinningUnequal(Stage& stage);
 void eepaPath(Stage& stage);
 void eepaRestitution(Stage& stage);
 void eepaLedger(Stage& stage);
+
+// grazing.cpp
+void grazingImpacts(Stage& stage);
 
 // jkr.cpp
 void jkrPath(Stage& stage);

@@ -78,6 +78,8 @@ State step(const Model& model, const State& s, double dt) {
                 d = model.rates(moved(s, c, dt));
     State next = s;
     for (std::size_t i = 0; i < kPlaces; ++i) next[i] += dt / 6 * (a[i] + 2 * b[i] + 2 * c[i] + d[i]);
+    // A spring that gets stiffer exerts what it did; one that gets softer keeps its length.
+    if (next[kOverlap] > s[kOverlap]) next[kStretch] *= std::sqrt(std::max(s[kOverlap], 0.0) / next[kOverlap]);
     // A slider that slips leaves on the spring what it bears.
     const double k = model.tangentStiffness(next), limit = model.friction * model.hertz(next);
     const double trial = -k * next[kStretch] - model.damping * std::sqrt(k * model.pair.mass) * model.slip(next);

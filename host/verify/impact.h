@@ -21,9 +21,10 @@ struct AfterImpact {
 };
 
 /// The impact at the speed `towards` [m/s] along the normal. Hertz's force and Mindlin's stiffness 8 G* sqrt(R* delta)
-/// without slip act with the damping of Tsuji, Tanaka and Ishida (1992) for the restitution 0 < e <= 1; a slider
-/// limits the tangential force to mu times Hertz's force. Lever arms are the radii less half the overlap. The normal
-/// does not turn. Runge and Kutta's scheme, 20,000 steps to the undamped duration.
+/// without slip act with the damping of Tsuji, Tanaka and Ishida (1992) for the restitution 0 < e <= 1. The spring
+/// exerts what it did while its stiffness grows, and keeps its length while it falls. A slider limits the tangential
+/// force to mu times Hertz's force. Lever arms are the radii less half the overlap. The normal does not turn. Runge and
+/// Kutta's scheme, 20,000 steps to the undamped duration.
 AfterImpact impactOf(const Striker& upper, const Striker& lower, double restitution, double friction, double towards);
 
 }  // namespace vkdose::verify

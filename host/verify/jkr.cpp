@@ -129,7 +129,7 @@ void jkrLedger(Stage& stage) {
     const double deepest = overlapOfImpact(p, mass, 2 * kRadius, towards);
     RuledWorld world = space(p, deepest / towards / 1000);
     world.energyBook = true;
-    world.law.coulombLimit = CoulombLimit::Luding;
+    world.law.limitFriction(CoulombLimit::Luding);
     world.surfaces.push_back(geometry::Plane{Vec3(0), Vec3(0, 1, 0)});
     Particles sphere;
     sphere.add(Vec3(0, kRadius, 0), kRadius, Vec3(along, -towards, 0));

@@ -80,7 +80,7 @@ void coulombLimit(Stage& stage) {
     p.plasticityDepth = 0.05;
     for (const CoulombLimit limit : {CoulombLimit::Luding, CoulombLimit::Absolute}) {
         RuledWorld world = floor(p, dt);
-        world.law.coulombLimit = limit;
+        world.law.limitFriction(limit);
         Trial trial(stage, world, resting(world, 0.2));
         trial.advance(200);  // the spring stretches first
         const double before = trial.now().velocity[0].x;

@@ -1,13 +1,11 @@
 #include "host/vk/device.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cstring>
 #include <mutex>
-#include <type_traits>
 
-#include "host/vk/driver_variable.h"
+#include "host/vk/drivers.h"
+#include "host/vk/instance.h"
 
 namespace vkdose::vk {
 
@@ -19,55 +17,6 @@ struct ValidationMessages {
 
 namespace {
 
-constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
-
-const char* resultName(VkResult r) {
-    switch (r) {
-        case VK_ERROR_OUT_OF_HOST_MEMORY:
-            return "out of host memory: use fewer particles or end other programs";
-        case VK_ERROR_OUT_OF_DEVICE_MEMORY:
-            return "out of device memory: use fewer particles or another device";
-        case VK_ERROR_INITIALIZATION_FAILED:
-            return "initialisation failed: the driver does not start; try another with --device or update it";
-        case VK_ERROR_DEVICE_LOST:
-            return "the device was lost: the driver reset it, or it was unplugged or hung; run again, on another "
-                   "device if it happens again";
-        case VK_ERROR_MEMORY_MAP_FAILED:
-            return "memory of the device cannot be mapped: free some memory of this machine";
-        case VK_ERROR_TOO_MANY_OBJECTS:
-            return "too many objects: end other programs that use the device";
-        case VK_ERROR_LAYER_NOT_PRESENT:
-            return "a layer is not installed";
-        case VK_ERROR_EXTENSION_NOT_PRESENT:
-            return "an extension is not supported";
-        case VK_ERROR_FEATURE_NOT_PRESENT:
-            return "a feature is not supported";
-        case VK_ERROR_INCOMPATIBLE_DRIVER:
-            return "no Vulkan driver that works: install one (Debian: mesa-vulkan-drivers); VK_LOADER_DEBUG=error "
-                   "tells why one was passed over";
-        default:
-            return "error";
-    }
-}
-
-/// Finds the loader on this machine; once.
-void requireLoader() {
-    static const VkResult found = volkInitialize();
-    if (found != VK_SUCCESS)
-        throw DeviceError(
-            "no Vulkan loader (libvulkan.so.1): install it and a driver (Debian: libvulkan1, mesa-vulkan-drivers), or "
-            "use --backend reference");
-}
-
-bool layerInstalled() {
-    std::uint32_t n = 0;
-    vkEnumerateInstanceLayerProperties(&n, nullptr);
-    std::vector<VkLayerProperties> layers(n);
-    vkEnumerateInstanceLayerProperties(&n, layers.data());
-    return std::any_of(layers.begin(), layers.end(),
-                       [](const VkLayerProperties& l) { return std::strcmp(l.layerName, kValidationLayer) == 0; });
-}
-
 VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
                                          const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
     auto& messages = *static_cast<ValidationMessages*>(user);
@@ -76,62 +25,17 @@ VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
     return VK_FALSE;
 }
 
-VkInstance makeInstance(bool validation) {
-    VkApplicationInfo application{
-        VK_STRUCTURE_TYPE_APPLICATION_INFO, nullptr, "vkdose", 1, "vkdose", 1, VK_API_VERSION_1_2};
-    VkInstanceCreateInfo create{
-        VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO, nullptr, 0, &application, 0, nullptr, 0, nullptr};
-    const char* extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
-    VkValidationFeatureEnableEXT enable = VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
-    VkValidationFeaturesEXT features{VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT, nullptr, 1, &enable, 0, nullptr};
-    if (validation) {
-        create.enabledLayerCount = 1;
-        create.ppEnabledLayerNames = &kValidationLayer;
-        create.enabledExtensionCount = 1;
-        create.ppEnabledExtensionNames = &extension;
-        create.pNext = &features;
-    }
-    keepPassesOfOneLength();
-    VkInstance instance = VK_NULL_HANDLE;
-    const VkResult result = vkCreateInstance(&create, nullptr, &instance);
-    // The loader says so of a driver's file that it cannot make sense of.
-    if (result == VK_ERROR_OUT_OF_HOST_MEMORY)
-        throw DeviceError(
-            "vkCreateInstance failed: a driver's description cannot be read, or there is no memory left: look at the "
-            "files in VK_ICD_FILENAMES or /usr/share/vulkan/icd.d (VK_LOADER_DEBUG=error names the one), or use "
-            "--backend reference (VkResult -1)");
-    check(result, "vkCreateInstance");
-    volkLoadInstance(instance);
-    return instance;
-}
-
-std::vector<VkPhysicalDevice> physicalDevices(VkInstance instance) {
-    std::uint32_t n = 0;
-    check(vkEnumeratePhysicalDevices(instance, &n, nullptr), "vkEnumeratePhysicalDevices");
-    std::vector<VkPhysicalDevice> devices(n);
-    if (n > 0) check(vkEnumeratePhysicalDevices(instance, &n, devices.data()), "vkEnumeratePhysicalDevices");
-    return devices;
-}
-
 }  // namespace
 
-void check(VkResult result, const char* call) {
-    if (result != VK_SUCCESS)
-        throw DeviceError(fmt::format("{} failed: {} (VkResult {})", call, resultName(result), int(result)));
-}
-
 std::vector<DeviceInfo> listDevices() {
-    requireLoader();
-    const auto destroy = [](VkInstance instance) { vkDestroyInstance(instance, nullptr); };
-    const std::unique_ptr<std::remove_pointer_t<VkInstance>, decltype(destroy)> instance(makeInstance(false), destroy);
-    return describeAll(physicalDevices(instance.get()));
+    const Instance instance = openInstance(false);
+    return describeAll(devicesOf(instance.get()));
 }
 
 void Device::createInstance(bool validation) {
-    requireLoader();
     messages_ = std::make_unique<ValidationMessages>();
-    bool validate = validation && layerInstalled();
-    instance_ = makeInstance(validate);
+    const bool validate = validation && validationInstalled();
+    instance_ = openInstance(validate).release();
     if (!validate) return;
     VkDebugUtilsMessengerCreateInfoEXT create{};
     create.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT;
@@ -193,14 +97,20 @@ std::vector<std::string> Device::validationMessages() const {
 
 Device::Device(const DeviceChoice& choice) : Device() {
     createInstance(choice.validation);
-    std::vector<VkPhysicalDevice> devices = physicalDevices(instance_);
-    std::vector<DeviceInfo> infos = describeAll(devices);
-    info_ = choose(infos, choice.name);
+    const std::vector<VkPhysicalDevice> devices = devicesOf(instance_);
+    const std::vector<DeviceInfo> infos = describeAll(devices);
+    try {
+        info_ = choose(infos, choice.name);
+    } catch (const DeviceError& e) {
+        throw DeviceError(e.what() + textOf(tryDrivers().broken));
+    }
     physical_ = devices[std::size_t(info_.index)];
     VkPhysicalDeviceProperties properties{};
     vkGetPhysicalDeviceProperties(physical_, &properties);
     limits_ = properties.limits;
     vkGetPhysicalDeviceMemoryProperties(physical_, &memory_);
+    memory_.memoryTypeCount = std::min<std::uint32_t>(memory_.memoryTypeCount, VK_MAX_MEMORY_TYPES);
+    memory_.memoryHeapCount = std::min<std::uint32_t>(memory_.memoryHeapCount, VK_MAX_MEMORY_HEAPS);
     createDevice(std::uint32_t(computeFamily(physical_)), properties.apiVersion);
 }
 
@@ -251,7 +161,7 @@ std::uint64_t Device::freeMemory() const {
     if (told) all.pNext = &budget;
     vkGetPhysicalDeviceMemoryProperties2(physical_, &all);
     std::uint64_t most = 0;
-    for (std::uint32_t h = 0; h < all.memoryProperties.memoryHeapCount; ++h) {
+    for (std::uint32_t h = 0; h < memory_.memoryHeapCount; ++h) {
         if ((all.memoryProperties.memoryHeaps[h].flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT) == 0) continue;
         const std::uint64_t size = all.memoryProperties.memoryHeaps[h].size;
         const std::uint64_t left = budget.heapBudget[h] - std::min(budget.heapBudget[h], budget.heapUsage[h]);
@@ -264,7 +174,8 @@ std::vector<std::uint32_t> Device::memoryTypes(std::uint32_t typeBits, VkMemoryP
                                                VkDeviceSize size) const {
     std::vector<std::uint32_t> types;
     for (std::uint32_t i = 0; i < memory_.memoryTypeCount; ++i) {
-        const bool roomy = memory_.memoryHeaps[memory_.memoryTypes[i].heapIndex].size >= size;
+        const std::uint32_t heap = memory_.memoryTypes[i].heapIndex;
+        const bool roomy = heap < memory_.memoryHeapCount && memory_.memoryHeaps[heap].size >= size;
         if ((typeBits & (1u << i)) && (memoryFlags(i) & wanted) == wanted && roomy) types.push_back(i);
     }
     return types;

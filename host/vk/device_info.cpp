@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
+#include <cstring>
 #include <string_view>
 
+#include "host/core/printable.h"
 #include "shaders/shared/layout.h"
 
 namespace vkdose::vk {
@@ -43,6 +46,32 @@ std::string versionText(std::uint32_t v) {
     return fmt::format("{}.{}.{}", VK_API_VERSION_MAJOR(v), VK_API_VERSION_MINOR(v), VK_API_VERSION_PATCH(v));
 }
 
+/// A text of a driver, which may lack its end and hold what moves a terminal's cursor.
+template <std::size_t N>
+std::string textIn(const char (&text)[N]) {
+    return printable(std::string(text, strnlen(text, N)));
+}
+
+/// What a device says of itself that no Vulkan device may say, and that would lead to divisions by zero here; empty if
+/// there is nothing. Of a driver that says so, other limits are not to be believed either.
+std::string impossible(const VkPhysicalDeviceLimits& l) {
+    struct Row {
+        const char* what;
+        std::uint32_t has, least;
+    };
+    const Row rows[] = {{"invocations of a workgroup", l.maxComputeWorkGroupInvocations, 128},
+                        {"invocations of a workgroup along x", l.maxComputeWorkGroupSize[0], 128},
+                        {"workgroups along x", l.maxComputeWorkGroupCount[0], 1},
+                        {"workgroups along y", l.maxComputeWorkGroupCount[1], 1},
+                        {"workgroups along z", l.maxComputeWorkGroupCount[2], 1},
+                        {"bytes of push constants", l.maxPushConstantsSize, 128}};
+    for (const Row& row : rows)
+        if (row.has < row.least)
+            return fmt::format("has a broken driver: it allows {} {}, and every Vulkan device at least {}", row.has,
+                               row.what, row.least);
+    return "";
+}
+
 std::vector<VkQueueFamilyProperties> queueFamilies(VkPhysicalDevice physical) {
     std::uint32_t n = 0;
     vkGetPhysicalDeviceQueueFamilyProperties(physical, &n, nullptr);
@@ -58,7 +87,7 @@ std::string driverText(VkPhysicalDevice physical, const VkPhysicalDeviceProperti
     driver.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES;
     VkPhysicalDeviceProperties2 all{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &driver, {}};
     vkGetPhysicalDeviceProperties2(physical, &all);
-    const std::string name = driver.driverName, version = driver.driverInfo;
+    const std::string name = textIn(driver.driverName), version = textIn(driver.driverInfo);
     return fmt::format("{}: {}", name, version.empty() ? number : version);
 }
 
@@ -67,7 +96,7 @@ DeviceInfo describe(VkPhysicalDevice physical, int index) {
     vkGetPhysicalDeviceProperties(physical, &base);
     DeviceInfo info;
     info.index = index;
-    info.name = base.deviceName;
+    info.name = textIn(base.deviceName);
     info.type = typeName(base.deviceType);
     info.apiVersion = versionText(base.apiVersion);
     info.maxStorageBufferRange = base.limits.maxStorageBufferRange;
@@ -79,9 +108,11 @@ DeviceInfo describe(VkPhysicalDevice physical, int index) {
     } else if (base.limits.maxPerStageDescriptorStorageBuffers < kStorageBuffers) {
         info.reason = fmt::format("needs {} storage buffers per stage, has {}", kStorageBuffers,
                                   base.limits.maxPerStageDescriptorStorageBuffers);
-    } else {
+    } else if (info.reason = impossible(base.limits); info.reason.empty()) {
         info.usable = true;
-        info.timestampBits = queueFamilies(physical)[std::size_t(computeFamily(physical))].timestampValidBits;
+        const float period = base.limits.timestampPeriod;
+        if (std::isfinite(period) && period > 0)
+            info.timestampBits = queueFamilies(physical)[std::size_t(computeFamily(physical))].timestampValidBits;
         VkPhysicalDeviceSubgroupProperties subgroup{
             VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES, nullptr, 0, 0, 0, VK_FALSE};
         VkPhysicalDeviceProperties2 all{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &subgroup, {}};

@@ -11,6 +11,12 @@ struct NormalAnswer {
     vec3 springs;   // of sliding, rolling, torsion [N/m]
     vec3 dampings;  // of sliding, rolling, torsion [kg/s]
     vec3 slipping;  // the same while they slip; 0: then the spring alone bears the limit
+    float kept;     // share of their length that the springs keep (springsKept)
 };
+
+/// Share of their length that the springs of sliding, rolling and torsion keep when the contact's stiffness goes from
+/// `was`, 0 of a new contact, to `is` [N/m]. Where it grows they get shorter, so that they exert what they did. Where
+/// it falls they keep their length. Neither gives them energy (Thornton, Cummins and Cleary 2013).
+float springsKept(float was, float is) { return was > 0.0 ? min(1.0, was / is) : 1.0; }
 
 #endif

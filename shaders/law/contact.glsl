@@ -16,6 +16,8 @@ struct History {
     vec4 rollingTorsion;  // xyz: rolling spring [m]; w: torsion spring [m]
 #ifdef USER_LAW
     vec4 own[2];  // what the user's law remembers; the last: its stiffness in the last step [N/m]
+#else
+    float last;  // overlap of the last step under EEPA [m]; 0: there was none
 #endif
 };
 
@@ -26,6 +28,8 @@ History noHistory() {
 #ifdef USER_LAW
     h.own[0] = vec4(0.0);
     h.own[1] = vec4(0.0);
+#else
+    h.last = 0.0;
 #endif
     return h;
 }
@@ -37,13 +41,14 @@ struct Meeting {
     float mass;     // reduced mass [kg]
     vec3 velocity;  // of i relative to j at the contact point [m/s]
     vec3 spin;      // omega_i - omega_j [rad/s]
+    float share;    // how much the overlap falls per way along the normal (geometry/features.h)
 };
 
 struct Response {
     vec3 force;                 // on i [N]; on j the opposite
     vec3 sliding;               // its tangential part, which acts on the lever arms [N]
     vec3 couple;                // rolling and torsion torque on i [N m]; on j the opposite
-    float hysteretic, damping;  // the normal part: without damping, and damping alone [N]
+    float hysteretic, damping;  // along the normal: that of the law without damping, and the damping that acts [N]
     bvec3 slips;                // sliding, rolling, torsion
 };
 
@@ -55,33 +60,35 @@ Response contactResponse(ContactParams p, uvec4 choices, Meeting m, float dt, in
     float vn = dot(m.velocity, m.normal);
     vec3 vt = m.velocity - m.normal * vn;
 #ifdef USER_LAW
-    NormalAnswer answer = userAnswer(p, m, -vn, h);
+    NormalAnswer answer = userAnswer(p, m, -m.share * vn, h);
 #else
-    NormalAnswer answer = normalAnswer(p, m.overlap, m.reduced, m.mass, h.slidingMax.w);
+    NormalAnswer answer = normalAnswer(p, m.overlap, m.reduced, m.mass, h.slidingMax.w, h.last);
 #endif
     float f = answer.force;
-    float fn = f - answer.damping * vn;
+    float damping = -answer.damping * m.share * vn;
+    float fn = m.share * (f + damping);
     // Friction is limited by the normal force, counted from the adhesive limit (Luding 2008), or by its size.
-    float bearing = choices.x == kCoulombLuding ? max(0.0, f + answer.pull) : abs(fn);
+    bool bySize = (uint(p.springs.w) & kLimitAbsolute) != 0u;
+    float bearing = bySize ? abs(fn) : m.share * max(0.0, f + answer.pull);
 
     bool slides, rolls, twists;
-    vec3 spring = h.slidingMax.xyz;
-    vec3 ft = frictionForce(answer.springs.x, answer.dampings.x, answer.slipping.x, p.friction.x, bearing, m.normal,
-                            vt, dt, spring, slides);
+    vec3 spring = answer.kept * h.slidingMax.xyz;
+    vec3 ft = frictionForce(answer.springs.x, answer.dampings.x, answer.slipping.x, p.friction.x, bearing, m.normal, vt,
+                            dt, spring, slides);
     h.slidingMax.xyz = spring;
 
-    float lever = rollingLever(m.reduced, choices.y);
-    spring = h.rollingTorsion.xyz;
+    float lever = rollingLever(m.reduced, choices.x);
+    spring = answer.kept * h.rollingTorsion.xyz;
     vec3 fr = frictionForce(answer.springs.y, answer.dampings.y, answer.slipping.y, p.friction.y, bearing, m.normal,
                             rollingVelocity(lever, m.normal, m.spin), dt, spring, rolls);
     h.rollingTorsion.xyz = spring;
 
-    float twist = h.rollingTorsion.w;
+    float twist = answer.kept * h.rollingTorsion.w;
     float fto = torsionForce(answer.springs.z, answer.dampings.z, answer.slipping.z, p.friction.z, bearing,
                              lever * dot(m.normal, m.spin), dt, twist, twists);
     h.rollingTorsion.w = twist;
 
-    return Response(m.normal * fn + ft, ft, lever * (cross(m.normal, fr) + m.normal * fto), f, -answer.damping * vn,
+    return Response(m.normal * fn + ft, ft, lever * (cross(m.normal, fr) + m.normal * fto), f, m.share * damping,
                     bvec3(slides, rolls, twists));
 }
 

@@ -32,10 +32,11 @@ float eepaPull(ContactParams p, EepaPath path, float d) {
     return path.pull > 0.0 ? path.pull * pow(d / path.pole, p.damping.w) : 0.0;
 }
 
-/// `mass` is the reduced one [kg]. All but the normal force are those of Hertz's line at this overlap.
-NormalAnswer eepaAnswer(ContactParams p, float overlap, float reduced, float mass, inout float maxOverlap) {
-    float touched = overlap;
-    NormalAnswer answer = hertzAnswer(p, overlap, reduced, mass, touched);
+/// `mass` is the reduced one [kg]. All but the normal force are those of Hertz's line at this overlap. `last` is the
+/// overlap of the last step, 0 if there was none.
+NormalAnswer eepaAnswer(ContactParams p, float overlap, float reduced, float mass, inout float maxOverlap,
+                        inout float last) {
+    NormalAnswer answer = hertzAnswer(p, overlap, reduced, mass, last);
     maxOverlap = max(maxOverlap, overlap);
     EepaPath path = eepaPath(p, reduced, maxOverlap);
     float d = threeHalves(overlap), pull = eepaPull(p, path, d);

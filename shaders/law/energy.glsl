@@ -52,18 +52,21 @@ float storedIn(ContactParams p, Exerted e, float reduced, History h) {
     return dot(vec4(e.couple.w, sliderEnergy(p, e.rest.w, reduced, h)), vec4(1.0));
 }
 
-/// What the springs of sliding, rolling and torsion of a contact that `goesOn` gain because the overlap makes them
-/// stiffer [J].
-vec3 stiffening(ContactParams p, Exerted before, Exerted now, float reduced, vec3 stored, bool goesOn) {
+/// Share of its energy that a spring loses whose stiffness grows by this factor, or falls.
+float shareLost(float factor) { return 1.0 - min(factor, 1.0 / factor); }
+
+/// What the springs of sliding, rolling and torsion of a contact that `goesOn` lose because the overlap changes their
+/// stiffness (springsKept) [J].
+vec3 lostByStiffness(ContactParams p, Exerted before, Exerted now, float reduced, vec3 stored, bool goesOn) {
 #ifdef USER_LAW
-    return goesOn ? stored * (userGrowth - 1.0) : vec3(0.0);  // a law need not say anything of a contact that parts
+    return goesOn ? stored * shareLost(userGrowth) : vec3(0.0);  // a law need not say anything of a contact that parts
 #else
     if (follows(p, kLawJkr)) {
         float was = jkrStiffness(p, before.rest.w, reduced), is = jkrStiffness(p, now.rest.w, reduced);
-        return goesOn ? stored * (is / was - 1.0) : vec3(0.0);
+        return goesOn ? stored * shareLost(is / was) : vec3(0.0);
     }
     if (before.rest.w <= 0.0 || now.rest.w <= 0.0) return vec3(0.0);
-    return stored * (sqrt(now.rest.w / before.rest.w) - 1.0);
+    return stored * shareLost(sqrt(now.rest.w / before.rest.w));
 #endif
 }
 
@@ -101,10 +104,11 @@ Book bookContact(Exerted before, Exerted now, bool known, bool touching, vec4 st
     vec3 slipping = vec3(touching ? slips : bvec3(true));  // when a contact opens its springs snap
     vec3 friction = spent * slipping;
     float sticking = dot(spent, vec3(1.0) - slipping);
-    if (changes) {  // friction has what comes from no motion
-        vec3 free = stiffening(p, before, now, reduced, storedBefore.yzw, known && touching) * (vec3(1.0) - slipping);
-        friction -= free;
-        sticking += free.x + free.y + free.z;
+    if (changes) {  // friction has what goes to no motion
+        vec3 lost =
+            lostByStiffness(p, before, now, reduced, storedBefore.yzw, known && touching) * (vec3(1.0) - slipping);
+        friction += lost;
+        sticking -= lost.x + lost.y + lost.z;
     }
     return Book(
         vec4(adhesive ? 0.0 : loss, adhesive ? loss : 0.0, a.damping + b.damping + sticking, taken - gained.x - loss),

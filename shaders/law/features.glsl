@@ -14,7 +14,9 @@
 //
 //   bool mayTouch(body, centre, reach)          a coarse test with a sphere around the body
 //   bool mayBeNear(body, centre, reach)         a closer one: whether a shape may come within `reach` of the centre
-//   uint touchedFeatures(body, centre, radius)  the number of features; they stand in features[0], features[1], ...
+//   uint touchedFeatures(body, centre, radius, beyond)
+//                                               the number of features; they stand in features[0], features[1], ...
+//                                               `radius` is the sphere's and the reach of its law, `beyond`, together
 //
 // A number above kMaxBodyFeatures is an error: some features could not be told. `reach` must not be more than that for
 // which the table was packed.
@@ -67,7 +69,8 @@ void wirePlaces(ShapeData s, uint tag, Two3 centre, float radius) {
     for (uint k = 0u; k < coilWindows(wire); ++k) {
         CoilTouch touch = coilCandidate(wire, view, k);
         if (touch.failed) placesLost = true;
-        if (touch.depth > 0.0) addPlace(touch.depth, touch.normal, tag + uint(abs(touch.wireAngle) / kTwoPi + 0.5));
+        if (touch.depth > 0.0)
+            addPlace(touch.depth, touch.normal, tag + uint(abs(touch.wireAngle) / kTwoPi + 0.5), kFlat);
     }
 }
 
@@ -96,7 +99,7 @@ bool mayBeNear(uint body, Two3 centre, float reach) {
     return near || n < shapes.y;
 }
 
-uint touchedFeatures(uint body, Two3 centre, float radius) {
+uint touchedFeatures(uint body, Two3 centre, float radius, float beyond) {
     uvec2 shapes = geometryAt(kBodyVectors * body).xy;
     clearPlaces();
     uint n = 0u;
@@ -111,17 +114,17 @@ uint touchedFeatures(uint body, Two3 centre, float radius) {
             ShapeData s = shapeData(shape);
             for (uint wall = 0u; wall < 6u; ++wall) {
                 Overlap o = roomWall(s, wall, centre, radius);
-                if (o.depth > 0.0) addPlace(o.depth, o.normal, head.y + wall);
+                if (o.depth > 0.0) addPlace(o.depth, o.normal, head.y + wall, kFlat);
             }
         }
         if ((SHAPE_KINDS & kExactShapes) != 0u) {
             Overlap o = exactOverlap(head.x, shapeData(shape), centre, radius);
-            if (o.depth > 0.0) addPlace(o.depth, o.normal, head.y);
+            if (o.depth > 0.0) addPlace(o.depth, o.normal, head.y, kFlat);
         }
         if (n + 1u >= shapes.y) break;  // at the end: shaders/README.md, Drivers
     }
     if (n + 1u < shapes.y) placesLost = true;
-    return distinctFeatures(radius);
+    return distinctFeatures(radius, beyond);
 }
 
 #endif

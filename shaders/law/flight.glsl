@@ -114,7 +114,7 @@ Overlap bladeOverlap(Blade b, BladeView w, BladeSection s, float radius) {
 }
 
 void addBladePlace(Overlap o, uint tag, float turns) {
-    if (o.depth > 0.0) addPlace(o.depth, o.normal, tag + uint(floor(turns + 0.5)));
+    if (o.depth > 0.0) addPlace(o.depth, o.normal, tag + uint(floor(turns + 0.5)), kFlat);
 }
 
 /// Adds the place if the centre lies in the blade: then it is the only one.

@@ -10,13 +10,13 @@ float hertzStiffness(ContactParams p, float overlap, float reduced) {
     return 2.0 * p.normal.x * sqrt(0.5 * reduced * overlap);
 }
 
-/// `mass` is the reduced one [kg]. The memory tells only that the contact touches.
+/// `mass` is the reduced one [kg]. The memory is the overlap.
 NormalAnswer hertzAnswer(ContactParams p, float overlap, float reduced, float mass, inout float memory) {
+    float was = hertzStiffness(p, memory, reduced), stiffness = hertzStiffness(p, overlap, reduced);
     memory = overlap;
-    float stiffness = hertzStiffness(p, overlap, reduced);
     float damping = p.normal.y * sqrt(stiffness * mass);
     return NormalAnswer(2.0 / 3.0 * stiffness * overlap, damping, 0.0, stiffness * p.springs.xyz,
-                        damping * p.damping.xyz, vec3(0.0));
+                        damping * p.damping.xyz, vec3(0.0), springsKept(was, stiffness));
 }
 
 #endif

@@ -33,9 +33,9 @@ struct JkrPatch {
     float room;    // overlap + reach [m]
 };
 
-JkrPatch jkrPatch(ContactParams p, float overlap, float reduced) {
-    float c = jkrLast(p, reduced), square = c * c, size = 0.5 * reduced;
-    float room = max(0.0, overlap + 3.0 * square * square / size), right = size * room;
+/// `room` > 0, or 0 where the contact is lost.
+JkrPatch jkrPatchAt(ContactParams p, float room, float reduced) {
+    float c = jkrLast(p, reduced), square = c * c, size = 0.5 * reduced, right = size * room;
     // Without the middle term the root is too large by a fourth at most; from there the rule comes down to it.
     float t = sqrt(right / (3.0 * square + sqrt(9.0 * square * square + right)));
     for (uint turn = 0u; turn < 4u; ++turn) {
@@ -44,6 +44,11 @@ JkrPatch jkrPatch(ContactParams p, float overlap, float reduced) {
     }
     float b = c + t;
     return JkrPatch(b * b, c / b, b * b * (b * b / size), room);
+}
+
+JkrPatch jkrPatch(ContactParams p, float overlap, float reduced) {
+    float c = jkrLast(p, reduced), square = c * c;
+    return jkrPatchAt(p, max(0.0, overlap + 3.0 * square * square / (0.5 * reduced)), reduced);
 }
 
 /// Stiffness that the other directions and the damping are ratios to: 2 E* a [N/m].
@@ -55,12 +60,13 @@ float jkrStiffness(ContactParams p, float overlap, float reduced) {
 /// [m].
 NormalAnswer jkrAnswer(ContactParams p, float overlap, float reduced, float mass, inout float memory) {
     JkrPatch at = jkrPatch(p, overlap, reduced);
+    float was = memory > 0.0 ? 2.0 * p.normal.x * jkrPatchAt(p, memory, reduced).radius : 0.0;
     memory = max(at.room, 1e-30);  // above 0 while there is a contact
     float stiffness = 2.0 * p.normal.x * at.radius, damping = p.normal.y * sqrt(stiffness * mass);
     float c = jkrLast(p, reduced), square = c * c;
     float pull = 24.0 * p.normal.x * square * (square * square / (0.5 * reduced));  // 2 Fc
     return NormalAnswer(2.0 * stiffness * at.depth * (1.0 / 3.0 - 2.0 * cube(at.ratio)), damping, pull,
-                        stiffness * p.springs.xyz, damping * p.damping.xyz, vec3(0.0));
+                        stiffness * p.springs.xyz, damping * p.damping.xyz, vec3(0.0), springsKept(was, stiffness));
 }
 
 /// Area under the path from where the contact is lost to the overlap [J].

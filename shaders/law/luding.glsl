@@ -28,7 +28,7 @@ float normalForce(ContactParams p, float overlap, float reduced, inout float max
 
 NormalAnswer ludingAnswer(ContactParams p, float overlap, float reduced, inout float maxOverlap) {
     float f = normalForce(p, overlap, reduced, maxOverlap);
-    return NormalAnswer(f, p.damping.w, p.normal.z * overlap, p.springs.xyz, p.damping.xyz, p.damping.xyz);
+    return NormalAnswer(f, p.damping.w, p.normal.z * overlap, p.springs.xyz, p.damping.xyz, p.damping.xyz, 1.0);
 }
 
 /// Slope of the line on which a contact with this history unloads [N/m].

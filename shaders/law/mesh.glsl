@@ -104,6 +104,7 @@ struct MeshPlace {
     float depth;
     vec3 direction;
     float intoOwn;  // of an edge: how far the direction leads into the face that asks
+    uint bend;      // how the direction turns (law/passes.glsl)
 };
 
 /// Of an edge, as its triangle's word names it.
@@ -122,7 +123,8 @@ MeshPlace edgePlace(uint edges, uint word, Two3 centre, float radius) {
     float depth = differenceOfSquares(vec2(radius, 0.0), off) / (radius + away);
     float intoFirst = dot(u, first.xyz), intoSecond = dot(u, second);
     bool isPlace = (word & 2u) != 0u && past.x > 0.0 && beyond < 0.0 && max(intoFirst, intoSecond) <= kSquare;
-    return MeshPlace(isPlace ? depth : -1.0, u, (word & 1u) == 0u ? intoFirst : intoSecond);
+    return MeshPlace(isPlace ? depth : -1.0, u, (word & 1u) == 0u ? intoFirst : intoSecond,
+                     bendOfEdge(e.high));
 }
 
 MeshPlace vertexPlace(uint vertices, uint number, Two3 centre, float radius) {
@@ -135,7 +137,7 @@ MeshPlace vertexPlace(uint vertices, uint number, Two3 centre, float radius) {
     uint k = 0u;
     for (; k < placeLow.w && isPlace; ++k) isPlace = dot(realsAt(place.w + k).xyz, d.high) <= kSquare * away;
     if (isPlace && k < placeLow.w) placesLost = true;
-    return MeshPlace(isPlace ? depth : -1.0, away > 0.0 ? d.high / away : vec3(0.0, 0.0, 1.0), 0.0);
+    return MeshPlace(isPlace ? depth : -1.0, away > 0.0 ? d.high / away : vec3(0.0, 0.0, 1.0), 0.0, kAtCorner);
 }
 
 // Parts of a triangle, as bits: three edges, three corners, the face.
@@ -184,7 +186,7 @@ MeshPlace facePlace(uint at, Two3 centre, float radius) {
     vec2 height = twoDot(d, Two3(normal, realsAt(at + 4u).xyz));
     float up = height.x < 0.0 ? -1.0 : 1.0;
     precise float depth = (radius - up * height.x) - up * height.y;
-    return MeshPlace(depth, up * normal, 0.0);
+    return MeshPlace(depth, up * normal, 0.0, kFlat);
 }
 
 /// Whether an edge may be a place, as far as its two faces tell in plain floats.
@@ -243,7 +245,7 @@ void partPlace(uint at, uint triangle, uint part, uvec3 starts, uvec3 tags, Two3
         tag = tags.x + triangle;
         if (!inFace) place.depth = -1.0;
     }
-    if (place.depth > 0.0) addPlace(place.depth, place.direction, tag);
+    if (place.depth > 0.0) addPlace(place.depth, place.direction, tag, place.bend);
 }
 
 /// Adds the places of the mesh to the list. `shape` is its record, `head` the first vector of it.

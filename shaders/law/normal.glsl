@@ -10,7 +10,7 @@
 
 bool follows(ContactParams p, uint law) {
     uint bit = 1u << law;
-    return (LAWS & bit) != 0u && (LAWS == bit || p.springs.w == float(law));
+    return (LAWS & bit) != 0u && (LAWS == bit || uint(p.springs.w) % kLawKinds == law);
 }
 
 /// How far beyond touch a contact that has come about holds on [m]; grows with `reduced`.
@@ -27,9 +27,11 @@ bool holds(ContactParams p, float overlap, float reduced, float memory) {
 
 /// `overlap` > 0, or above -reachOf where the contact goes on, and `reduced` 2 a_i a_j / (a_i + a_j) (wall: 2 a_i) [m];
 /// `mass` the reduced mass [kg]. `memory` is the contact's history of one number [m], above 0 while there is a contact.
-NormalAnswer normalAnswer(ContactParams p, float overlap, float reduced, float mass, inout float memory) {
+/// `last` is the overlap of the last step, which only EEPA needs beside the memory.
+NormalAnswer normalAnswer(ContactParams p, float overlap, float reduced, float mass, inout float memory,
+                          inout float last) {
     if (follows(p, kLawHertzMindlin)) return hertzAnswer(p, overlap, reduced, mass, memory);
-    if (follows(p, kLawEepa)) return eepaAnswer(p, overlap, reduced, mass, memory);
+    if (follows(p, kLawEepa)) return eepaAnswer(p, overlap, reduced, mass, memory, last);
     if (follows(p, kLawJkr)) return jkrAnswer(p, overlap, reduced, mass, memory);
     return ludingAnswer(p, overlap, reduced, memory);
 }

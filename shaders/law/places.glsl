@@ -8,25 +8,25 @@
 #ifndef VKDOSE_LAW_PLACES_GLSL
 #define VKDOSE_LAW_PLACES_GLSL
 
+#include "law/passes.glsl"
 #include "shared/geometry.h"
 
 struct BodyFeature {
     float depth;     // overlap [m]
-    vec3 direction;  // unit, in the frame of the body, from the surface to the sphere's centre
+    vec3 direction;  // unit, in the frame of the body, the contact's normal
     uint tag;        // of its place (shared/geometry.h)
+    float share;     // how much the overlap falls per way along it (geometry/features.h)
 };
 
 // A sphere that fits snugly into a ring of facets touches all of them.
 const uint kMostPlaces = 128u;
-const float kOneFeature = 0.9397;  // cosine of 20 degrees: geometry/surface.h, kSameDirection
-const float kSameDepth = 2e-7;     // in radii: places of a ring around a sphere count as equally deep
+const float kSameDepth = 2e-7;  // in radii: places of a ring around a sphere count as equally deep
 
-vec4 placeAt[kMostPlaces];  // direction, depth
+Place placeAt[kMostPlaces];
 uint placeTag[kMostPlaces];
-/// The feature of a place, or one of the numbers below.
-uint placeFeature[kMostPlaces];
-const uint kNotLookedAt = kMaxBodyFeatures;
-const uint kCovered = kMaxBodyFeatures + 1u;
+// Once its turn has come, the deepest pass from a place to those before it, and the place at the pass's other end.
+float placePass[kMostPlaces];
+uint placeFrom[kMostPlaces];
 uint placeCount;
 bool placesLost;                         // a place has found no room, or a loop has ended early
 BodyFeature features[kMaxBodyFeatures];  // the answer
@@ -55,167 +55,228 @@ void addToFew(BodyFeature place) {
     placeCount = min(placeCount + 1u, MOST_PLACES);
 }
 
-/// Lists a place that overlaps by `depth` > 0.
-void addPlace(float depth, vec3 direction, uint tag) {
+/// Lists a place that overlaps by `depth` > 0. `bend` tells how its direction turns (law/passes.glsl).
+void addPlace(float depth, vec3 direction, uint tag, uint bend) {
     if (fewPlaces()) {
-        addToFew(BodyFeature(depth, direction, tag));
+        addToFew(BodyFeature(depth, direction, tag, 1.0));
         return;
     }
     if (placeCount == kMostPlaces) {
         placesLost = true;
         return;
     }
-    placeAt[placeCount] = vec4(direction, depth);
+    placeAt[placeCount] = Place(vec4(direction, depth), bend);
     placeTag[placeCount] = tag;
-    placeFeature[placeCount] = kNotLookedAt;
     ++placeCount;
 }
 
-/// Whether the flat of a deeper contact covers a place in another direction: geometry/surface.h, oneContact.
-bool covered(BodyFeature deeper, vec4 place, float radius) {
-    float cosine = dot(deeper.direction, place.xyz);
-    return radius * (1.0 - cosine) + place.w * cosine - deeper.depth < deeper.depth;
+/// A pass among the few, and the numbers of its two places.
+struct FewPass {
+    float depth;
+    uint ends;
+};
+
+FewPass passOfFew(uint a, uint b, float radius) {
+    float depth = passDepth(vec4(few[a].direction, few[a].depth), vec4(few[b].direction, few[b].depth), radius);
+    return FewPass(b < placeCount ? depth : kNoPass, a << 2 | b);
 }
 
-// Features are few and looked at by all places, so they have constant numbers, written out: X(f) for each.
+/// The way over a third place may be the deeper one.
+void goOver(inout FewPass pass, FewPass there, FewPass back) {
+    FewPass lower = there;
+    if (back.depth < there.depth) lower = back;
+    if (lower.depth > pass.depth) pass = lower;
+}
+
+void goDeeper(inout FewPass pass, FewPass other) {
+    if (other.depth > pass.depth) pass = other;
+}
+
+Place fewPlace(uint n) {
+    BodyFeature f = few[0];
+    for (uint k = 1u; k < MOST_PLACES; ++k)
+        if (k == n) f = few[k];
+    return Place(vec4(f.direction, f.depth), kFlat);
+}
+
+/// Puts place n of the few behind `found` others, if it is a feature. `pass` leads to a deeper one.
+void answer(uint n, FewPass pass, float radius, float beyond, inout uint found) {
+    BodyFeature f = few[n];
+    bool counts = n < placeCount && (n == 0u || pass.depth < f.depth - kSameDepth * radius);
+    if (n > 0u && pass.depth > beyond) {
+        Left left = leftBy(fewPlace(n), fewPlace(pass.ends >> 2), fewPlace(pass.ends & 3u), radius, beyond);
+        f = BodyFeature(left.depth, left.direction, f.tag, left.share);
+    }
+    for (uint k = 0u; k <= n; ++k)
+        if (counts && k == found) features[k] = f;
+    if (counts) ++found;
+}
+
+/// distinctFeatures where places are few. Written out, because drivers do not unroll loops in loops.
+uint distinctFew(float radius, float beyond) {
+    const FewPass none = FewPass(kNoPass, 0u);
+    FewPass p01 = none, p02 = none, p03 = none, p12 = none, p13 = none, p23 = none;
+    if (MOST_PLACES > 1u) p01 = passOfFew(0u, 1u, radius);
+    if (MOST_PLACES > 2u) {
+        p02 = passOfFew(0u, 2u, radius);
+        p12 = passOfFew(1u, 2u, radius);
+    }
+    if (MOST_PLACES > 3u) {
+        p03 = passOfFew(0u, 3u, radius);
+        p13 = passOfFew(1u, 3u, radius);
+        p23 = passOfFew(2u, 3u, radius);
+        goOver(p12, p01, p02);
+        goOver(p13, p01, p03);
+        goOver(p23, p02, p03);
+        goOver(p02, p01, p12);
+        goOver(p03, p01, p13);
+        goOver(p23, p12, p13);
+        goOver(p01, p02, p12);
+        goOver(p03, p02, p23);
+        goOver(p13, p12, p23);
+        goOver(p01, p03, p13);
+        goOver(p02, p03, p23);
+        goOver(p12, p13, p23);
+    } else if (MOST_PLACES > 2u) {
+        goOver(p01, p02, p12);
+        goOver(p02, p01, p12);
+    }
+    goDeeper(p02, p12);
+    goDeeper(p03, p13);
+    goDeeper(p03, p23);
+    uint found = 0u;
+    answer(0u, none, radius, beyond, found);
+    if (MOST_PLACES > 1u) answer(1u, p01, radius, beyond, found);
+    if (MOST_PLACES > 2u) answer(2u, p02, radius, beyond, found);
+    if (MOST_PLACES > 3u) answer(3u, p03, radius, beyond, found);
+    return found;
+}
+
+// Features are few, so they have constant numbers, written out: X(f) for each.
 #define EACH_FEATURE(X) X(0u) X(1u) X(2u) X(3u) X(4u) X(5u) X(6u) X(7u)
 
-/// The deepest place that has not been looked at, ties by tag.
-uint deepestLeft() {
-    uint best = 0u, tag = 0xffffffffu;
-    float depth = 0.0;
-    for (uint i = 0u; i < placeCount; ++i) {
-        float other = placeAt[i].w;
-        uint otherTag = placeTag[i];
-        bool first = other > depth || (other == depth && otherTag < tag);
-        if (placeFeature[i] == kNotLookedAt && first) {
-            best = i;
-            depth = other;
-            tag = otherTag;
-        }
+bool comesFirst(float depth, uint tag, float otherDepth, uint otherTag) {
+    return depth > otherDepth || (depth == otherDepth && tag < otherTag);
+}
+
+/// The deepest place, ties by tag.
+uint deepestPlace() {
+    uint best = 0u;
+    for (uint i = 1u; i < placeCount; ++i) {
+        if (comesFirst(placeAt[i].at.w, placeTag[i], placeAt[best].at.w, placeTag[best])) best = i;
         if (i + 1u >= placeCount) break;
     }
     return best;
 }
 
-// The number of the feature's deepest place, or kCovered. That of a feature which another joined stays: among four
-// places nothing is left to join then.
-uint featureOfFew[kFewPlaces];
-uint aliveFew;  // features that no other has joined, a bit each
+void swapPlaces(uint a, uint b) {
+    Place place = placeAt[a];
+    uint tag = placeTag[a], from = placeFrom[a];
+    float pass = placePass[a];
+    placeAt[a] = placeAt[b];
+    placeTag[a] = placeTag[b];
+    placePass[a] = placePass[b];
+    placeFrom[a] = placeFrom[b];
+    placeAt[b] = place;
+    placeTag[b] = tag;
+    placePass[b] = pass;
+    placeFrom[b] = from;
+}
 
-/// Finds the feature of a place; those of the places before it are found.
-void judge(uint n, float radius) {
-    uint touching = 0u, joins = 0u;  // features, a bit each
-    bool hidden = false;
-    for (uint q = 0u; q < n; ++q) {
-        bool near = dot(few[q].direction, few[n].direction) >= kOneFeature;
-        bool under = covered(few[q], vec4(few[n].direction, few[n].depth), radius);
-        if (near && featureOfFew[q] != kCovered) touching |= 1u << featureOfFew[q];
-        hidden = hidden || (under && (aliveFew >> q & 1u) != 0u);
+/// Orders the places so that each is the one with the deepest pass to those before it, the deepest place first. Two
+/// places are then joined by the highest of the passes from the one to the other in this order (Prim 1957).
+void orderByPasses(float radius) {
+    uint next = deepestPlace(), n = 0u;
+    while (n < placeCount) {
+        swapPlaces(n, next);
+        Place here = placeAt[n];
+        next = n + 1u;
+        float deepest = kNoPass, depth = 0.0;
+        uint tag = 0u;
+        for (uint i = n + 1u; i < placeCount; ++i) {
+            float pass = passDepth(here.at, placeAt[i].at, radius), other = placeAt[i].at.w;
+            if (n == 0u || pass > placePass[i]) {
+                placePass[i] = pass;
+                placeFrom[i] = n;
+            }
+            pass = placePass[i];
+            if (pass > deepest || (pass == deepest && comesFirst(other, placeTag[i], depth, tag))) {
+                next = i;
+                deepest = pass;
+                depth = other;
+                tag = placeTag[i];
+            }
+            if (i + 1u >= placeCount) break;
+        }
+        ++n;
+        if (n >= placeCount) break;
     }
-    bool counts = n < placeCount && (touching != 0u || !hidden);
-    uint mine = touching != 0u ? uint(findLSB(touching)) : n;
-    for (uint q = 0u; q < n; ++q) {
-        bool asDeep = few[q].depth - few[n].depth <= kSameDepth * radius;
-        if (counts && q > mine && (touching >> q & 1u) != 0u && asDeep) joins |= 1u << q;
+    if (n < placeCount) placesLost = true;  // broken off, by a driver perhaps
+}
+
+/// A pass, and which of the ordered places has it.
+struct WayOut {
+    float pass;
+    uint at;
+};
+
+void lower(inout WayOut way, uint n) {
+    if (placePass[n] < way.pass) way = WayOut(placePass[n], n);
+}
+
+/// The deepest pass from place n > 0 of the ordered ones to a deeper place, or to one before it that is as deep.
+WayOut wayOut(uint n) {
+    float depth = placeAt[n].at.w;
+    WayOut back = WayOut(placePass[n], n), on = WayOut(-kNoPass, n);
+    uint k = n;
+    while (k > 1u && placeAt[k - 1u].at.w < depth) {
+        --k;
+        lower(back, k);
+        if (k <= 1u) break;
     }
-    featureOfFew[n] = counts ? mine : kCovered;
-    aliveFew &= ~joins;
-    if (counts && touching == 0u) aliveFew |= 1u << n;
+    bool found = false;
+    for (k = n + 1u; k < placeCount && on.pass > back.pass; ++k) {
+        lower(on, k);
+        found = placeAt[k].at.w > depth;
+        if (found || k + 1u >= placeCount) break;
+    }
+    return found && on.pass > back.pass ? on : back;
 }
 
-/// Puts the feature of number n, if there is one, behind `found` others.
-void answer(uint n, inout uint found) {
-    bool counts = (aliveFew >> n & 1u) != 0u;
-    for (uint f = 0u; f <= n; ++f)
-        if (counts && f == found) features[f] = few[n];
-    if (counts) ++found;
-}
-
-/// distinctFeatures where places are few. Written out, because drivers do not unroll loops in loops.
-uint distinctFew(float radius) {
-    aliveFew = 0u;
-    judge(0u, radius);
-    if (MOST_PLACES > 1u) judge(1u, radius);
-    if (MOST_PLACES > 2u) judge(2u, radius);
-    if (MOST_PLACES > 3u) judge(3u, radius);
-    uint found = 0u;
-    answer(0u, found);
-    if (MOST_PLACES > 1u) answer(1u, found);
-    if (MOST_PLACES > 2u) answer(2u, found);
-    if (MOST_PLACES > 3u) answer(3u, found);
-    return found;
-}
-
-/// Finds the distinct ones among the places, deepest first, ties by tag, and puts the first kMaxBodyFeatures into
-/// `features`. Gives their number. If that is more than kMaxBodyFeatures, some could not be told.
-uint distinctFeatures(float radius) {
+/// Finds the distinct ones among the places, and puts the first kMaxBodyFeatures into `features`, the deepest first.
+/// Gives their number. If that is more than kMaxBodyFeatures, some could not be told. `radius` is the sphere's and
+/// `beyond` together.
+uint distinctFeatures(float radius, float beyond) {
     if (fewPlaces()) {
-        uint count = distinctFew(radius);
+        uint count = distinctFew(radius, beyond);
         return placesLost ? kMaxBodyFeatures + 1u : count;
     }
+    orderByPasses(radius);
     // These loops leave at their end when they are through (shaders/README.md, Drivers).
-    uint made = 0u, alive = 0u;  // features; a bit for each that no other has joined
-    uint looked = 0u;
-    while (looked < placeCount) {
-        uint at = deepestLeft();
-        vec4 place = placeAt[at];
-        uint touching = 0u;  // features that it belongs to, a bit each
-        for (uint i = 0u; i < placeCount; ++i) {
-            uint f = placeFeature[i];
-            if (f < kMaxBodyFeatures && dot(placeAt[i].xyz, place.xyz) >= kOneFeature) touching |= 1u << f;
-            if (made == 0u || i + 1u >= placeCount) break;
+    uint found = 0u, n = 0u;
+    while (n < placeCount) {
+        Place here = placeAt[n];
+        BodyFeature feature = BodyFeature(here.at.w, here.at.xyz, placeTag[n], 1.0);
+        bool counts = true;
+        if (n > 0u) {
+            WayOut way = wayOut(n);
+            counts = way.pass < here.at.w - kSameDepth * radius;
+            if (counts && way.pass > beyond) {
+                Left left = leftBy(here, placeAt[way.at], placeAt[placeFrom[way.at]], radius, beyond);
+                feature = BodyFeature(left.depth, left.direction, feature.tag, left.share);
+            }
         }
-        bool hidden = false;
-#define MEET(f) hidden = hidden || ((alive >> f & 1u) != 0u && covered(features[f], place, radius));
-        EACH_FEATURE(MEET)
-        bool counts = touching != 0u || !hidden;
-        uint mine = touching != 0u ? uint(findLSB(touching)) : made;
-        if (counts && mine == kMaxBodyFeatures) {
-            placesLost = true;
-            break;
-        }
-        // It joins features that are no deeper than itself: nothing lies between them.
-        uint joins = 0u;
-#define JOIN(f)                                                                                                 \
-    if (counts && f > mine && (touching >> f & 1u) != 0u && features[f].depth - place.w <= kSameDepth * radius) \
-        joins |= 1u << f;
-        EACH_FEATURE(JOIN)
-        for (uint i = 0u; i < placeCount; ++i) {
-            uint f = placeFeature[i];
-            if (f < kMaxBodyFeatures && (joins >> f & 1u) != 0u) placeFeature[i] = mine;
-            if (joins == 0u || i + 1u >= placeCount) break;
-        }
-        alive &= ~joins;
-        if (counts && touching == 0u) {
-            ++made;
-            alive |= 1u << mine;
 #define ENTER(f) \
-    if (f == mine) features[f] = BodyFeature(place.w, place.xyz, placeTag[at]);
-            EACH_FEATURE(ENTER)
-        }
-        placeFeature[at] = counts ? mine : kCovered;
-        ++looked;
-        if (looked >= placeCount) break;
+    if (counts && f == found) features[f] = feature;
+        EACH_FEATURE(ENTER)
+        if (counts) ++found;
+        ++n;
+        if (n >= placeCount) break;
     }
-    if (looked < placeCount) placesLost = true;  // broken off, by a driver perhaps
-    // Those that another has joined leave gaps.
-    uint gaps = ~alive & ((1u << made) - 1u), found = made;
-    for (uint k = 0u; k < made && gaps != 0u; ++k) {
-        uint gap = uint(findLSB(gaps));
-#define CLOSE(f) \
-    if (f >= gap && f + 1u < kMaxBodyFeatures) features[f] = features[min(f + 1u, kMaxBodyFeatures - 1u)];
-        EACH_FEATURE(CLOSE)
-        gaps = gaps >> (gap + 1u) << gap;
-        --found;
-        if (gaps == 0u) break;
-    }
+    if (n < placeCount) placesLost = true;  // broken off, by a driver perhaps
     return placesLost ? kMaxBodyFeatures + 1u : found;
 }
 
-#undef MEET
-#undef JOIN
 #undef ENTER
-#undef CLOSE
 
 #endif

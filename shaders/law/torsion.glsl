@@ -7,9 +7,9 @@
 
 /// `v` twisting velocity a_r n.(omega_i - omega_j) [m/s]. Returns the pseudo force [N] that resists it;
 /// `slipping`: the damping while it slips [kg/s]; `slips`: whether it does.
-float torsionForce(float k, float gamma, float slipping, float mu, float bearing, float v, float dt,
-                   inout float spring, out bool slips) {
-    spring += v * dt;
+float torsionForce(float k, float gamma, float slipping, float mu, float bearing, float v, float dt, inout float spring,
+                   out bool slips) {
+    spring = grown(spring, v * dt);
     float f = -k * spring - gamma * v;
     float limit = coulombLimit(mu, bearing);
     slips = abs(f) > limit;

@@ -29,6 +29,15 @@ Two3 twoDifference(vec3 aHigh, vec3 aLow, vec3 bHigh, vec3 bLow) {
     return Two3(high, low);
 }
 
+/// (high + low) + step, renormalised. What is lost is at most 2^-48 of `high` and 2^-23 of `step`: the latter where
+/// `step` is the larger one, for then three operations do not give the whole error of the sum, but that much of it.
+Two3 twoGrown(vec3 high, vec3 low, vec3 step) {
+    precise vec3 more = step + low;
+    precise vec3 sum = high + more;
+    precise vec3 rest = more - (sum - high);
+    return Two3(sum, rest);
+}
+
 /// (high + low)^2 as (rounded square, error). Splitting at 12 bits makes the partial products exact.
 vec2 twoSquare(float high, float low) {
     precise float p = high * high;

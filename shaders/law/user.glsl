@@ -26,7 +26,8 @@ NormalAnswer userAnswer(ContactParams p, Meeting m, float speed, inout History h
     userGrowth = before > 0.0 ? stiffness / before : 1.0;
     h.slidingMax.w = max(m.overlap, 1e-9 * m.reduced);  // above 0: the contact goes on
     h.own[1].w = stiffness;
-    return NormalAnswer(force, damping, pull, stiffness * p.springs.xyz, damping * p.damping.xyz, vec3(0.0));
+    return NormalAnswer(force, damping, pull, stiffness * p.springs.xyz, damping * p.damping.xyz, vec3(0.0),
+                        springsKept(before, stiffness));
 }
 
 #endif

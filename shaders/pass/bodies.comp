@@ -6,6 +6,7 @@
 // Each place where the body is touched is a contact. It goes on with the contact of the last step whose direction in
 // the frame of the body is nearest to its own, within 45 degrees, and the springs turn with it (geometry/matching.h).
 #extension GL_GOOGLE_include_directive : require
+#include "law/grown.glsl"
 #include "shared/buffers.glsl"
 #include "pass/bodies.glsl"
 #include "pass/history.glsl"
@@ -73,11 +74,13 @@ uint match(uint count) {
     return left;
 }
 
-/// The vector turned as the unit vector `from` must be to become `to`, on the shortest way.
+/// The vector turned as the unit vector `from` must be to become `to`, on the shortest way. What changes is added as a
+/// small difference: a product with a cosine that rounding makes a little more or less than 1 would change the length
+/// in every step.
 vec3 turnedAlong(vec3 v, vec3 from, vec3 to) {
     vec3 axis = cross(from, to);
-    float cosine = dot(from, to);
-    return cosine * v + cross(axis, v) + axis * (dot(axis, v) / (1.0 + cosine));
+    float more = 1.0 + dot(from, to);  // and the cosine itself is 1 - sin^2/(1 + cos)
+    return grown(v, cross(axis, v) + (axis * dot(axis, v) - v * dot(axis, axis)) / more);
 }
 
 #ifdef ENERGY_BOOK
@@ -88,12 +91,14 @@ Exerted exertedAt(uint slot, uint place) {
 #endif
 
 void load(uint body, uint i, uint number, float value) {
-    bodyLoads[bodyLoadIndex(kBodyLoads * body + number, i)] += value;
+    uint at = bodyLoadIndex(kBodyLoads * body + number, i);
+    bodyLoads[at] = grown(bodyLoads[at], value);
 }
 
 void main() {
     openMember();
     openBodies();
+    dither = ditherOf(stepNumber());
     ContactParams ofWall = lawOf(pairIndex(kFirstPowder, kWallMaterial));  // before any branch, as in `pairs`
     ContactParams ofCoil = lawOf(pairIndex(kFirstPowder, kCoilMaterial));
     uvec4 chosen = choices();
@@ -118,7 +123,7 @@ void main() {
     precise float most = radius;
     if (reaches()) most += reachOf(law, reduced);
     precise float reach = most - radius;
-    uint count = touchedFeatures(body, toBody(motion, me.sphere.high, me.sphere.low), most);
+    uint count = touchedFeatures(body, toBody(motion, me.sphere.high, me.sphere.low), most, reach);
     uint room = reaches() ? kMaxBodyFeatures : kMaxBodyTouches;
     if (count > room) {
         report(kErrorFeatures, i);
@@ -169,6 +174,8 @@ void main() {
         }
         vec3 point = me.sphere.high - normal * (radius - 0.5 * feature.depth);
         vec3 wall = bodyVelocity(motion, point);
+        // The law compares velocities of half a step before, so it takes the body's where the contact was then.
+        vec3 wallBefore = bodyVelocity(motion, point - 0.5 * springDt * me.velocity);
         float seen = motion.spin.w;
         Response r;
 #ifdef ENERGY_BOOK
@@ -176,15 +183,15 @@ void main() {
         Exerted exerted = kNothing;
         if (known) exerted = exertedAt(slot, place);
 #endif
-        WallForce f = meetWall(me, Overlap(feature.depth, normal), reduced, law, chosen, density, perMass, springDt,
-                               seen * wall, seen * motion.spin.xyz, h, r);
+        WallForce f = meetWall(me, Overlap(feature.depth, normal), feature.share, reduced, law, chosen, density,
+                               perMass, springDt, seen * wallBefore, seen * motion.spin.xyz, h, r);
         keepHistoryOfPlace(slot, place, h);
         history[placeHistoryIndex(slot, place, 2u)] = vec4(feature.direction, float(place + 1u));
         // The host asks for single contacts, and `field_branches` for their overlaps.
         writeForce(forceOfPlace(slot, place), vec4(f.force, feature.depth));
 #ifdef ENERGY_BOOK
-        bookPlace(law, springDt, moving, reduced, slot, place, me, Overlap(feature.depth, normal), r, known, exerted,
-                  before, h);
+        bookPlace(law, springDt, moving, reduced, slot, place, me, Overlap(feature.depth, normal), feature.share, r,
+                  known, exerted, before, h);
 #endif
         force += f.force;
         torque += f.torque;

@@ -3,6 +3,7 @@
 #define VKDOSE_PASS_BOOKS_GLSL
 
 #include "law/energy.glsl"
+#include "law/grown.glsl"
 #include "pass/history.glsl"
 #include "pass/body.glsl"
 
@@ -43,12 +44,11 @@ void bookStep(uint i, vec4 normal, vec4 sliders, vec3 centre, float r, float mas
     vec4 flow = books[bookIndex(kBookFlow, i)];
     vec3 v = first ? 2.0 * velocity - newVelocity : velocity, w = first ? 2.0 * spin - newSpin : spin;
     float motion = mass * (0.5 * dot(v, newVelocity) + 0.2 * r * r * dot(w, newSpin) - dot(gravity().xyz, centre));
-    flow.x += sliders.w + (first ? motion : 0.0);
-    if (leaves) flow.y += motion;
-    flow.w += bodyWork;
-    books[bookIndex(kBookNormal, i)] += normal;
-    books[bookIndex(kBookSliders, i)] += vec4(sliders.xyz, 0.0);
-    books[bookIndex(kBookFlow, i)] = flow;
+    dither = ditherOf(stepNumber());
+    vec4 flown = vec4(sliders.w + (first ? motion : 0.0), leaves ? motion : 0.0, 0.0, bodyWork);
+    books[bookIndex(kBookNormal, i)] = grown(books[bookIndex(kBookNormal, i)], normal);
+    books[bookIndex(kBookSliders, i)] = grown(books[bookIndex(kBookSliders, i)], vec4(sliders.xyz, 0.0));
+    books[bookIndex(kBookFlow, i)] = grown(flow, flown);
 }
 
 #endif

@@ -9,11 +9,28 @@
 #include "shared/buffers.glsl"
 #include "pass/slack.glsl"
 
+#ifdef WITH_BODIES
+#include "shared/geometry.h"
+#define TABLE(number, name, element, count, title) \
+    const uint name##Binding = number;             \
+    layout(std430, set = 0, binding = number) readonly buffer name##Buffer { element name[]; };
+#include "shared/body_tables.h"
+
+/// The longest way of a driven body in a step of the batch [m]. `made`: steps before it (Control.steps).
+float bodyWay(uint made) {
+    uvec4 bodies = member.bodies;
+    return bodies.x > 0u ? motions[bodies.z + (made - member.roster.y) * bodies.w].way.y : 0.0;
+}
+#else
+float bodyWay(uint made) { return 0.0; }
+#endif
+
 const uint kRebuild = 1u, kRefresh = 2u;
 shared uint wished;
 
-/// The longest way of a body in a step [m].
-float bodyWay() { return BODIES > 0u ? member.choices.w : 0.0; }
+// Where strides and refreshes fall must follow from the number of the step and the state, not from where the host ends
+// a batch. So a stride ends where the number of the step is a multiple of kStride, a refresh that need not be made at
+// once waits for that, and ways are added up one by one, so that the sum has the same bits in any parts.
 
 /// The stride that was at work is over.
 void account() {
@@ -24,10 +41,12 @@ void account() {
             control.error = uvec4(step, kind, call & (kMostParticles - 1u), 0u);
         if (kind == kCallRebuild) control.wanted.z = 1u;
     }
-    if (call != kEmpty) control.wanted.w = 1u;
+    if (call < kCallWaits) control.wanted.w = 1u;
+    if (call == kCallSoon) control.listed.w = 1u;
     control.call = uvec4(kEmpty);
+    if (BODIES > 0u)
+        for (uint n = 0u; n < made; ++n) control.drift.x += bodyWay(control.steps.x + n);
     control.steps.xz = uvec2(control.steps.x + made, 0u);
-    control.drift.x += float(made) * bodyWay();
 
     if (control.wanted.x != 0u) {  // rows were built in this stride
         control.list.x = 0u;
@@ -36,24 +55,38 @@ void account() {
     control.wanted.xy = uvec2(0u);
 }
 
+/// How many of the next steps, `most` or fewer, are made before a body has gone farther than the lists allow for. At
+/// least one, because the lists are new if need be.
+uint stepsWithin(float drift, uint most) {
+    if (BODIES == 0u) return most;
+    uint steps = 1u;
+    for (; steps < most; ++steps) {
+        drift += bodyWay(control.steps.x + steps - 1u);
+        if (drift > control.drift.y) break;
+    }
+    return steps;
+}
+
 /// Returns the wishes of the member.
 uint plan() {
-    uint left = control.error.x == kEmpty ? member.roster.z - control.steps.x : 0u;
-    float way = bodyWay(), drift = control.drift.x;
-    bool drifts = drift + float(kStride - 1u) * way > control.drift.y;
-    uvec2 wanted = control.wanted.xy | control.wanted.zw | uvec2(0u, drifts ? 1u : 0u);
-    wanted.y |= wanted.x;
+    uint made = control.steps.x, left = control.error.x == kEmpty ? member.roster.z - made : 0u;
+    uvec2 wanted = control.wanted.xy | control.wanted.zw;
+    if (left == 0u) {  // it starts no stride, and keeps its wishes for the next batch
+        control.wanted = uvec4(0u, 0u, wanted);
+        control.steps.y = 0u;
+        return 0u;
+    }
+    uint late = made % kStride;
+    float way = bodyWay(made), drift = control.drift.x, ahead = late == 0u ? float(kStride - 1u) * way : 0.0;
+    bool drifts = drift + ahead > control.drift.y, soon = late == 0u && control.listed.w != 0u;
+    wanted.y |= wanted.x | (drifts || soon ? 1u : 0u);
     if (wanted.y != 0u) {
         drift = 0.0;
         control.drift.y = bodySlack(way);
     }
-    float slack = control.drift.y;
-    // The steps in which all is within its slack; at least one, because the lists are new if need be.
-    float within = min((slack - drift) / max(way, 1e-30), float(kStride));
-    control.steps.y = min(left, min(kStride, 1u + uint(max(0.0, within))));
-    // A member that has made all its steps starts none. It keeps its wishes for the next batch.
-    control.wanted = left > 0u ? uvec4(wanted, 0u, 0u) : uvec4(0u, 0u, wanted);
-    return left == 0u ? 0u : (wanted.x != 0u ? kRebuild : 0u) | (wanted.y != 0u ? kRefresh : 0u);
+    control.steps.y = stepsWithin(drift, min(left, kStride - late));
+    control.wanted = uvec4(wanted, 0u, 0u);
+    return (wanted.x != 0u ? kRebuild : 0u) | (wanted.y != 0u ? kRefresh : 0u);
 }
 
 void main() {

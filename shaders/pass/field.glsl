@@ -36,28 +36,28 @@ const vec4 kNodes = vec4(0.06943184420297371, 0.33000947820757187, 0.66999052179
 const vec4 kShares = vec4(0.17392742256872693, 0.32607257743127307, 0.32607257743127307, 0.17392742256872693);
 
 /// Where a contact is found.
-struct Place {
+struct ContactPlace {
     uint contact;  // kEmpty: it is not in use
     uint slot;
     uint part;  // the place on the body
 };
 
 /// A member's k-th contact: pairs first, then surfaces, then the places on bodies.
-Place memberContact(uint k) {
-    Place none = Place(kEmpty, 0u, 0u);
+ContactPlace memberContact(uint k) {
+    ContactPlace none = ContactPlace(kEmpty, 0u, 0u);
     if (k < push.pairSlots) {
         uint slot = firstPairSlot() + k;
-        return k < control.listed.x ? Place(slot, slot, 0u) : none;
+        return k < control.listed.x ? ContactPlace(slot, slot, 0u) : none;
     }
     k -= push.pairSlots;
     if (k < push.surfaceSlots) {
         uint slot = firstSurfaceSlot() + k;
-        return k < control.listed.y ? Place(slot, slot, 0u) : none;
+        return k < control.listed.y ? ContactPlace(slot, slot, 0u) : none;
     }
     k -= push.surfaceSlots;
     if (k >= kMaxBodyTouches * push.bodySlots) return none;
     uint place = k % kMaxBodyTouches, slot = firstBodySlot() + k / kMaxBodyTouches;
-    return slot - firstBodySlot() < control.listed.z ? Place(forceOfPlace(slot, place), slot, place) : none;
+    return slot - firstBodySlot() < control.listed.z ? ContactPlace(forceOfPlace(slot, place), slot, place) : none;
 }
 
 /// Whether the fields are of this particle's material.

@@ -28,7 +28,7 @@ vec4 wantedPart(vec3 branch, uvec2 who, Sphere a, Sphere b) {
 }
 
 #ifdef WITH_BODIES
-vec4 fromBody(float radius, Place at, uint body) {
+vec4 fromBody(float radius, ContactPlace at, uint body) {
     float depth = forces[at.contact].w;
     vec3 normal = directionToWorld(motionOf(body), history[placeHistoryIndex(at.slot, at.part, 2u)].xyz);
     return depth != 0.0 ? vec4((radius - depth) * normal, 0.0) : kNoBranch;
@@ -42,7 +42,7 @@ void main() {
     openBodies();
 #endif
     uint k = invocation();
-    Place at = memberContact(k);
+    ContactPlace at = memberContact(k);
     if (at.contact == kEmpty) return;
     uvec2 who = entries[at.slot];
     Sphere a = sphereBefore(who.x);

@@ -51,7 +51,7 @@ void main() {
     uint node = k % kFieldNodes;
     k /= kFieldNodes;
     if (field.tile.w == 0u) return;
-    Place at = memberContact(k);
+    ContactPlace at = memberContact(k);
     if (at.contact == kEmpty) return;
     vec4 branch = branches[at.contact];
     vec3 from = offsetOf(1u - source, entries[at.slot].x);

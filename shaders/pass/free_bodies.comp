@@ -8,6 +8,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shared/buffers.glsl"
 #include "shared/geometry.h"
+#include "law/twofloat.glsl"
 #include "pass/slack.glsl"
 
 #define TABLE(number, name, element, count, title) \
@@ -94,29 +95,25 @@ void main() {
     precise vec3 pull = kick * (gravity().xyz - reacted);
     vec3 line = now.line.xyz;
     if (line != vec3(0.0)) pull = dot(pull, line) * line;
-    precise vec3 fast = now.velocity.xyz + pull;
-    precise vec3 gained = fast - now.velocity.xyz;
-    precise vec3 rest = ((now.velocity.xyz - (fast - gained)) + (pull - gained)) + now.free.xyz;
-    precise vec3 velocity = fast + rest;
-    precise vec3 velocityLow = rest - (velocity - fast);
+    Two3 speed = twoGrown(now.velocity.xyz, now.free.xyz, pull);
+    vec3 velocity = speed.high;
 
     vec3 origin = vec3(now.toBodyHigh[0].w, now.toBodyHigh[1].w, now.toBodyHigh[2].w);
     vec3 originLow = vec3(now.toBodyLow[0].w, now.toBodyLow[1].w, now.toBodyLow[2].w);
     precise vec3 step = dt * velocity;
-    precise vec3 advance = step + originLow;
-    precise vec3 high = origin + advance;
-    precise vec3 taken = high - origin;
-    precise vec3 low = (origin - (high - taken)) + (advance - taken);
+    Two3 place = twoGrown(origin, originLow, step);
+    vec3 high = place.high, low = place.low;
     for (uint d = 0u; d < 3u; ++d) {
         motions[next].toBodyHigh[d].w = high[d];
         motions[next].toBodyLow[d].w = low[d];
     }
     motions[next].pivot.xyz = high;
     motions[next].velocity.xyz = velocity;
-    motions[next].free.xyz = velocityLow;
+    motions[next].free.xyz = speed.low;
 
     float gone = length(step);
-    left -= gone;
+    precise float after = left - (gone + left / 8388608.0);  // rounded to the safe side: no way is too short to count
+    left = after;
     motions[next].way.x = left;
     if (left < 0.0)
         report(kCallRefresh, firstParticle());

@@ -11,6 +11,9 @@ History historyOfSlot(uint slot) {
 #ifdef USER_LAW
     h.own[0] = readHistory(kOwnPart, slot);
     h.own[1] = readHistory(kOwnPart + 1u, slot);
+#else
+    h.last = 0.0;
+    if (kParts > kOwnPart) h.last = readHistory(kOwnPart, slot).x;
 #endif
     return h;
 }
@@ -21,6 +24,8 @@ void keepHistory(uint slot, History h, bool touching) {
 #ifdef USER_LAW
     history[historyIndex(kOwnPart, slot)] = touching ? h.own[0] : vec4(0.0);
     history[historyIndex(kOwnPart + 1u, slot)] = touching ? h.own[1] : vec4(0.0);
+#else
+    if (kParts > kOwnPart) history[historyIndex(kOwnPart, slot)] = vec4(touching ? h.last : 0.0, 0.0, 0.0, 0.0);
 #endif
 }
 
@@ -31,6 +36,9 @@ History historyOfPlace(uint slot, uint place) {
 #ifdef USER_LAW
     h.own[0] = historyAt(placeHistoryIndex(slot, place, kOwnPart + 1u));
     h.own[1] = historyAt(placeHistoryIndex(slot, place, kOwnPart + 2u));
+#else
+    h.last = 0.0;
+    if (kParts > kOwnPart) h.last = historyAt(placeHistoryIndex(slot, place, kOwnPart + 1u)).x;
 #endif
     return h;
 }
@@ -42,6 +50,8 @@ void keepHistoryOfPlace(uint slot, uint place, History h) {
 #ifdef USER_LAW
     history[placeHistoryIndex(slot, place, kOwnPart + 1u)] = h.own[0];
     history[placeHistoryIndex(slot, place, kOwnPart + 2u)] = h.own[1];
+#else
+    if (kParts > kOwnPart) history[placeHistoryIndex(slot, place, kOwnPart + 1u)] = vec4(h.last, 0.0, 0.0, 0.0);
 #endif
 }
 

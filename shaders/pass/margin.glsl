@@ -9,10 +9,11 @@
 float slackOfParticle(uint i) { return slackOf(readState(source, kVelocity, i).xyz); }
 
 /// Symmetric to the last bit, so that both particles of a pair decide the same, and `precise`, so that all passes do.
-/// The factor covers the rounding.
+/// The factor and `roundingAt` cover the rounding.
 bool nearPair(vec4 p, float slackP, vec4 q, float slackQ) {
     precise vec3 d = p.xyz - q.xyz;
     precise float reach = 1.00001 * (p.w + q.w) + (slackP + slackQ);
+    reach += roundingAt(p.xyz) + roundingAt(q.xyz);
     if (reaches()) reach += longestReach();
     precise float apart = preciseDot(d, d), most = reach * reach;
     return q.w > 0.0 && apart < most;
@@ -25,7 +26,7 @@ bool nearPair(vec4 p, float slackP, vec4 q, float slackQ) {
 
 /// Surfaces, a bit each.
 uint nearSurfaces(Sphere a, float slack) {
-    float reach = slack + 1e-7;  // [m], above the rounding of surfaceGap
+    float reach = slack + (1e-7 + 2.0 * roundingAt(a.high));  // surfaceGap rounds some more
     if (reaches()) reach += longestReach();
     uint near = 0u;
     PROBE(0u)

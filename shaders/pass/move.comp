@@ -8,6 +8,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shared/buffers.glsl"
 #include "law/mass.glsl"
+#include "law/twofloat.glsl"
 #include "pass/slack.glsl"
 #ifdef ENERGY_BOOK
 #include "pass/body.glsl"
@@ -57,6 +58,7 @@ void main() {
     vec4 spin4 = readState(source, kSpin, i);
     vec3 rowAnchor = anchorsAt(rowAnchorIndex(i)).xyz;
     vec4 listAnchor = anchorsAt(listAnchorIndex(i));  // w: slack
+    vec4 velocityLow = anchorsAt(speedLowIndex(i, 0u)), spinLow = anchorsAt(speedLowIndex(i, 1u));
     uvec4 range = rangesAt(rowRangeIndex(i));
     bool moving = uint(spin4.w) == kStatusActive;
 
@@ -87,13 +89,11 @@ void main() {
     float dt = numbers.x, r = abs(position.w);
     float mass = sphereMass(densityOf(materialIn(residue.w), pull.w), r);
     float kick = opens ? 0.5 * dt : dt;
-    vec3 velocity = velocity4.xyz + kick * (force / mass + pull.xyz);
-    vec3 spin = spin4.xyz + kick / (0.4 * mass * r * r) * torque;
-
-    vec3 advance = dt * velocity + residue.xyz;
-    precise vec3 high = position.xyz + advance;
-    precise vec3 taken = high - position.xyz;
-    precise vec3 low = (position.xyz - (high - taken)) + (advance - taken);
+    Two3 speed = twoGrown(velocity4.xyz, velocityLow.xyz, kick * (force / mass + pull.xyz));
+    Two3 turning = twoGrown(spin4.xyz, spinLow.xyz, kick / (0.4 * mass * r * r) * torque);
+    vec3 velocity = speed.high, spin = turning.high;
+    Two3 place = twoGrown(position.xyz, residue.xyz, dt * velocity);
+    vec3 high = place.high, low = place.low;
 
     bool sound = finite(high) && finite(velocity) && finite(spin);
     bool outside = any(lessThan(high, bottom.xyz)) || any(greaterThan(high, top.xyz));
@@ -101,8 +101,10 @@ void main() {
     uint now = !sound ? kStatusLost : dosed ? kStatusDosed : outside ? kStatusLost : kStatusActive;
     bool leaves = moving && now != kStatusActive;
 
-    // Lists may be made from the rows at any time, so the rows must always hold all that is within the slack.
-    bool rebuild = leaves || beyond(high - rowAnchor, (1.0 - kMostSlack) * unit);
+    // Lists may be made from the rows at any time, so the rows must always hold all that is within the slack, with what
+    // `nearPair` adds to it.
+    float room = max(0.0, (1.0 - kMostSlack) * unit - (roundingAt(high) + 1e-5 * r));
+    bool rebuild = leaves || beyond(high - rowAnchor, room);
     vec3 way = high - listAnchor.xyz;
     bool refresh = beyond(way, listAnchor.w), soon = beyond(way + float(kStride) * dt * velocity, listAnchor.w);
     uint kind = !sound                ? kErrorNan
@@ -122,6 +124,7 @@ void main() {
     float radius = leaves ? -position.w : position.w;  // a negative radius touches nothing
     writeState(to, kPosition, i, moving ? vec4(high, radius) : position,
                moving ? vec4(low, POWDERS == 1u ? 0.0 : residue.w) : residue);
+    writeSpeedLow(i, moving ? vec4(speed.low, 0.0) : velocityLow, moving ? vec4(turning.low, 0.0) : spinLow);
     writeState(to, kVelocity, i, moving ? vec4(velocity, max(velocity4.w, overlap)) : velocity4,
                moving ? vec4(spin, float(now)) : spin4);
 }

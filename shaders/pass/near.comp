@@ -51,8 +51,9 @@ float slackOfFreeBodies() {
 
 /// How far a particle and a body can come nearer before the next refresh. Both may go their slack, and the body a step
 /// more before it is told that it has.
-float slackToBodies(float slack) {
-    float most = slack + control.drift.y + 2.0 * member.choices.w + 1e-7;
+float slackToBodies(vec3 at, float slack) {
+    if (member.bodies.x == 0u) return slack;
+    float most = slack + control.drift.y + 2.0 * motionOf(0u).way.y + (1e-7 + 2.0 * roundingAt(at));
     if ((SHAPE_KINDS & kFreeBodies) != 0u) most += slackOfFreeBodies();
     return most;
 }
@@ -172,7 +173,8 @@ void listSurfaces(uint i, bool joined, uint old, uint oldCount) {
 /// contact with the rim or the throat, or part from it. In front of the front wall itself it cannot.
 bool joinsAtFront(Sphere me, float slack) {
     bool both = (surfaces & (1u << FRONT)) != 0u && bitCount(surfaces) > 1u;
-    return joints() && both && length(me.high.xy) < frontSurface().radius.x + slack + 1e-7;
+    return joints() && both &&
+           length(me.high.xy) < frontSurface().radius.x + slack + (1e-7 + 2.0 * roundingAt(me.high));
 }
 
 void main() {
@@ -209,7 +211,7 @@ void main() {
     listSurfaces(i, joinsAtFront(me, slack), old.z, old.w);
 #ifdef WITH_BODIES
     openBodies();
-    float most = p.w, toBodies = slackToBodies(slack);
+    float most = p.w, toBodies = slackToBodies(p.xyz, slack);
     if (reaches()) most += longestReach();
     bodies = nearBodies(i, p.w, most + toBodies);
     listBodies(i, range, most, toBodies);

@@ -13,6 +13,7 @@
 void main() {
     // These are the same for all invocations. lavapipe reads them once here, but lane by lane behind a branch.
     openMember();
+    dither = ditherOf(stepNumber());
     ContactParams law = lawOf(pairIndex(kFirstPowder, kFirstPowder));
     uvec4 chosen = choices();
     float density = gravity().w;
@@ -35,7 +36,7 @@ void main() {
     vec3 velocity = (a.velocity - b.velocity) - cross(leverA * a.spin + leverB * b.spin, o.normal);
     float mass =
         reducedMass(sphereMass(densityOf(a.material, density), ra), sphereMass(densityOf(b.material, density), rb));
-    Meeting m = Meeting(o.normal, o.depth, reduced, mass, velocity, a.spin - b.spin);
+    Meeting m = Meeting(o.normal, o.depth, reduced, mass, velocity, a.spin - b.spin, 1.0);
     Response r = contactResponse(law, chosen, m, springDt, h);
     vec3 turn = cross(o.normal, r.sliding);
 

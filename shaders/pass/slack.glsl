@@ -8,6 +8,14 @@
 
 float slackUnit() { return 0.5 * numerics().y; }
 
+/// What a particle there adds to the distance at which it is near, because lists are made from the high parts of
+/// positions alone, while contacts are computed from both parts [m]. The low part is at most 2^-24 of the largest
+/// coordinate in each direction.
+float roundingAt(vec3 at) {
+    precise float most = 1.1e-7 * max(abs(at.x), max(abs(at.y), abs(at.z)));
+    return most;
+}
+
 /// The same bits in every pass that asks, so `precise`: near and link must find the same contacts.
 float slackOf(vec3 velocity) {
     precise float some = kSlackSteps * numerics().x * sqrt(preciseDot(velocity, velocity));

@@ -8,8 +8,9 @@
 const Exerted kNothing = Exerted(vec4(0.0), vec4(0.0), vec4(0.0));
 const Response kNoResponse = Response(vec3(0.0), vec3(0.0), vec3(0.0), 0.0, 0.0, bvec3(false));
 
-Exerted exertedNow(Overlap o, Response r, vec4 stored) {
-    return Exerted(vec4(o.normal, r.hysteretic), vec4(r.sliding + o.normal * r.damping, o.depth),
+/// The normal of a contact stands there times its share.
+Exerted exertedNow(Overlap o, float share, Response r, vec4 stored) {
+    return Exerted(vec4(share * o.normal, r.hysteretic), vec4(r.sliding + o.normal * r.damping, o.depth),
                    vec4(r.couple, stored.x));
 }
 
@@ -49,7 +50,7 @@ void bookPair(ContactParams law, float springDt, uint slot, Body a, Body b, Over
     vec4 storedBefore = storedAt(law, before, reduced, old), stored = vec4(0.0);
     if (touching) {
         stored = elasticEnergy(law, r.hysteretic, o.depth, reduced, h);
-        now = exertedNow(o, r, stored);
+        now = exertedNow(o, 1.0, r, stored);
     }
     keepExerted(slot, now);
     Work x = halfStepWork(before, pairVelocity(before, a, b), a.spin - b.spin, springDt);
@@ -87,6 +88,12 @@ float halfStepGiven(Exerted e, vec3 velocity, vec3 spin, float dt) {
     return 0.5 * dt * (dot(force, velocity) + dot(e.couple.xyz, spin));
 }
 
+/// With a unit normal, and the share of the law's force that acts.
+Exerted acting(Exerted e) {
+    float share = length(e.normal.xyz);
+    return Exerted(share > 0.0 ? vec4(e.normal.xyz / share, share * e.normal.w) : vec4(0.0), e.rest, e.couple);
+}
+
 /// The book of a contact with a wall in this step; flow.w: work of the wall.
 Book bookWall(ContactParams law, float springDt, WallMotion wall, float reduced, Body me, Exerted before, Response r,
               bool known, bool touching, vec4 stored, Exerted now, vec4 storedBefore) {
@@ -94,12 +101,13 @@ Book bookWall(ContactParams law, float springDt, WallMotion wall, float reduced,
     // Where both were when `before` acted.
     vec3 came = me.sphere.high - springDt * me.velocity;
     WallMotion wallBefore = WallMotion(wall.velocity, wall.spin, wall.centre - springDt * wall.velocity);
-    vec3 first = wallVelocity(wallBefore, before, me, came), second = wallVelocity(wall, now, me, me.sphere.high);
-    Work x = halfStepWork(before, fromWall(first, before, me), spin, springDt);
-    Work y = halfStepWork(now, fromWall(second, now, me), spin, springDt);
+    Exerted past = acting(before), present = acting(now);
+    vec3 first = wallVelocity(wallBefore, past, me, came), second = wallVelocity(wall, present, me, me.sphere.high);
+    Work x = halfStepWork(past, fromWall(first, past, me), spin, springDt);
+    Work y = halfStepWork(present, fromWall(second, present, me), spin, springDt);
     if (opening()) return bookLoaded(stored);
     Book b = bookContact(before, now, known, touching, storedBefore, stored, x, y, law, reduced, r.slips);
-    b.flow.w = halfStepGiven(before, first, wall.spin, springDt) + halfStepGiven(now, second, wall.spin, springDt);
+    b.flow.w = halfStepGiven(past, first, wall.spin, springDt) + halfStepGiven(present, second, wall.spin, springDt);
     return b;
 }
 
@@ -113,7 +121,7 @@ void bookSurface(ContactParams law, float springDt, uint slot, Body me, Overlap 
     float reduced = 2.0 * me.sphere.radius;
     if (touching) {
         stored = elasticEnergy(law, r.hysteretic, o.depth, reduced, h);
-        now = exertedNow(o, r, stored);
+        now = exertedNow(o, 1.0, r, stored);
     }
     keepExerted(slot, now);
     Book booked = Book(vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
@@ -137,9 +145,9 @@ void addToSlotBook(Book b) {
 
 /// A place on a body that is touched: it goes on with what `before` exerted, unless that is kNothing.
 void bookPlace(ContactParams law, float springDt, WallMotion wall, float reduced, uint slot, uint place, Body me,
-               Overlap o, Response r, bool known, Exerted before, History old, History h) {
+               Overlap o, float share, Response r, bool known, Exerted before, History old, History h) {
     vec4 stored = elasticEnergy(law, r.hysteretic, o.depth, reduced, h);
-    Exerted now = exertedNow(o, r, stored);
+    Exerted now = exertedNow(o, share, r, stored);
     history[placeHistoryIndex(slot, place, 3u)] = now.normal;
     history[placeHistoryIndex(slot, place, 4u)] = now.rest;
     history[placeHistoryIndex(slot, place, 5u)] = now.couple;

@@ -44,6 +44,7 @@ Memory recall(uint slot) {
 
 void main() {
     openMember();
+    dither = ditherOf(stepNumber());
     ContactParams law = lawOf(pairIndex(kFirstPowder, kWallMaterial));  // before any branch, as in `pairs`
     SurfaceParams frontWall = frontSurface();
     uvec4 chosen = choices();
@@ -115,7 +116,7 @@ void main() {
         }
         History h = memory.springs;
         Response r;
-        WallForce f = meetWall(me, o, reduced, law, chosen, density, 0.0, springDt, vec3(0.0), vec3(0.0), h, r);
+        WallForce f = meetWall(me, o, 1.0, reduced, law, chosen, density, 0.0, springDt, vec3(0.0), vec3(0.0), h, r);
         keepHistory(slot, h, touching);
         writeForce(slot, touching ? vec4(f.force, o.depth / me.sphere.radius) : vec4(0.0));
         writeTorque(slot, touching ? vec4(f.torque, 0.0) : vec4(0.0));

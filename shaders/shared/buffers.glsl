@@ -7,6 +7,7 @@
 #ifdef PACKED_STORES
 #extension GL_ARB_gpu_shader_int64 : require
 #endif
+#include "law/reach.glsl"
 #include "shared/layout.h"
 
 layout(local_size_x_id = 0) in;                    // workgroup size, chosen by the host
@@ -77,7 +78,7 @@ const uint kOwnPart = 2u;
 #ifdef USER_LAW
 const uint kParts = kOwnPart + 2u;  // the last two are the memory of the user's law
 #else
-const uint kParts = kOwnPart;
+const uint kParts = kOwnPart + ((LAWS >> kLawEepa) & 1u);  // EEPA keeps the overlap of the last step
 #endif
 const uint kPlaceParts = kParts + 1u;                     // of a place on a body
 const uint kBodyHistory = kMaxBodyTouches * kPlaceParts;  // of a body slot
@@ -146,6 +147,9 @@ uvec4 choices() { return uvec4(OF_MEMBER(choices, kVectorGravity + 4u)); }
 /// How far beyond touch a contact may hold: asked only where law/reach.glsl says that one can [m].
 float longestReach() { return uintBitsToFloat(member.roster.w); }
 
+/// The number of the step at work since the member's load, modulo 2^32.
+uint stepNumber() { return control.steps.x + push.stepInStride; }
+
 /// Which of its member's invocations this is.
 uint invocation() {
     return (gl_WorkGroupID.z * gl_NumWorkGroups.x + gl_WorkGroupID.x) * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
@@ -160,7 +164,7 @@ uvec2 spread(uint groups) {
 /// one lavapipe reads lane by lane.
 bool opening() {
     uvec4 chosen = choices();
-    return push.opening == 1u && chosen.z == 1u;
+    return push.opening == 1u && chosen.y == 1u;
 }
 /// By how much springs grow in this step: not at all in a member's first.
 float springStep() {
@@ -254,6 +258,7 @@ SurfaceParams frontSurface() {
 // The stores of every step. PACKED_STORES writes 64 bits at a time, for devices that store component by component.
 #ifdef PACKED_STORES
 layout(std430, set = 0, binding = stateBinding) buffer PackedStateBuffer { u64vec4 packedState[]; };
+layout(std430, set = 0, binding = anchorsBinding) buffer PackedAnchorBuffer { u64vec4 packedAnchors[]; };
 layout(std430, set = 0, binding = historyBinding) buffer PackedHistoryBuffer { u64vec4 packedHistory[]; };
 layout(std430, set = 0, binding = forcesBinding) buffer PackedForceBuffer { u64vec2 packedForces[]; };
 layout(std430, set = 0, binding = torquesBinding) buffer PackedTorqueBuffer { u64vec4 packedTorques[]; };
@@ -264,6 +269,9 @@ layout(std430, set = 0, binding = torquesBinding) buffer PackedTorqueBuffer { u6
 void writeState(uint side, uint field, uint i, vec4 a, vec4 b) {
     packedState[stateIndex(side, field, i) / 2u] = pack(a, b);
 }
+void writeSpeedLow(uint i, vec4 velocity, vec4 spin) {
+    packedAnchors[speedLowIndex(i, 0u) / 2u] = pack(velocity, spin);
+}
 void writeHistory(uint slot, vec4 a, vec4 b) { packedHistory[slot] = pack(a, b); }
 void writeForce(uint slot, vec4 force) { packedForces[slot] = pack(force); }
 void writeTorques(uint slot, vec4 first, vec4 second) { packedTorques[slot] = pack(first, second); }
@@ -272,6 +280,10 @@ void writeState(uint side, uint field, uint i, vec4 a, vec4 b) {
     uint at = stateIndex(side, field, i);
     state[at] = a;
     state[at + 1u] = b;
+}
+void writeSpeedLow(uint i, vec4 velocity, vec4 spin) {
+    anchors[speedLowIndex(i, 0u)] = velocity;
+    anchors[speedLowIndex(i, 1u)] = spin;
 }
 void writeHistory(uint slot, vec4 a, vec4 b) {
     history[historyIndex(0u, slot)] = a;

@@ -82,7 +82,8 @@ struct BodyMotion {
     vec4 free;  // xyz: what is left of its velocity [m/s]; w: one over its mass [1/kg], 0 if it does not move freely
     vec4 line;  // xyz: direction of the line that it keeps to, 0 if it keeps to none; w: for how much of the step the
                 // forces act on it [s]; 0: it stands
-    vec4 way;   // x: how far it may still go before the contact lists must be made anew [m]
+    vec4 way;   // x: how far it may still go before the contact lists must be made anew [m]; y: of the first body: the
+                // longest way of a driven body of the canister in this step [m]
     // Of any body:
     vec4 pivot;  // xyz: the point about which its torque is told [m]
 };

@@ -56,9 +56,10 @@ SHARED_REAL kMostBodySlack = 0.8f;
 // integers can store in four pieces instead of eight.
 SHARED_CONST kPosition = 0u;  // xyz: high part [m]; w: radius [m], negative once the particle is out of the motion
 SHARED_CONST kResidue = 1u;   // xyz: low part of the position [m]; w: material
-// xyz: half-step velocity [m/s]; w: largest overlap / smaller radius since the last sensing
+// xyz: high part of the half-step velocity [m/s]; w: largest overlap / smaller radius since the last sensing
 SHARED_CONST kVelocity = 2u;
-SHARED_CONST kSpin = 3u;  // xyz: half-step angular velocity [rad/s]; w: status as a float (kStatusActive ...)
+// xyz: high part of the half-step angular velocity [rad/s]; w: status as a float (kStatusActive ...)
+SHARED_CONST kSpin = 3u;
 SHARED_CONST kFields = 4u;
 
 SHARED_FUNCTION uint stateOffset(uint field, uint i, uint particles) {
@@ -96,8 +97,6 @@ SHARED_CONST kFront = 3u;
 SHARED_CONST kEndingWalls = 16u;  // a bit beside those of the kinds: planes or the trough end at the front wall
 
 // --- one canister's parameters ------------------------------------------------------------------------------------
-SHARED_CONST kCoulombLuding = 0u;
-SHARED_CONST kCoulombAbsolute = 1u;
 SHARED_CONST kLeverFull = 0u;
 SHARED_CONST kLeverHalf = 1u;
 
@@ -106,6 +105,8 @@ SHARED_CONST kLawHertzMindlin = 1u;
 SHARED_CONST kLawEepa = 2u;
 SHARED_CONST kLawJkr = 3u;
 SHARED_CONST kLawUser = 4u;         // of a file of the case's own (law/user.glsl)
+SHARED_CONST kLawKinds = 16u;       // more than there can be
+SHARED_CONST kLimitAbsolute = kLawKinds;  // a bit beside the number of a law: friction is limited by the force's size
 SHARED_CONST kOwnParameters = 16u;  // most parameters of such a law; vkdose::kMostLawParameters
 SHARED_CONST kOwnMemories = 7u;     // most numbers that it remembers of a contact; vkdose::kMostLawMemories
 SHARED_CONST kUserReaches = 31u;    // a bit beside those of the laws: the user's has a reach
@@ -119,7 +120,7 @@ struct ContactParams {
     // delta gamma [N/m], lambda_p; JKR: as Hertz-Mindlin, then the cube root of sqrt(2 pi delta gamma/E*)/4 [m^(1/6)];
     // a user's law: the largest stiffness that is taken from it [N/m]
     vec4 normal;
-    vec4 springs;   // of sliding, rolling, torsion: kt, kr, kTo [N/m]; w: law (kLawLuding ...)
+    vec4 springs;   // of sliding, rolling, torsion: kt, kr, kTo [N/m]; w: law (kLawLuding ...), kLimitAbsolute
     vec4 friction;  // coefficients of sliding, rolling, torsion: mu, muR, muTo; w: EEPA: f0 [N]; a
                     // user's law: its farthest reach [m]
     // of sliding, rolling, torsion, then of the normal part: gammaT, gammaR, gammaTo, gamma [kg/s]; EEPA: w: chi/1.5
@@ -142,8 +143,7 @@ struct Member {
     vec4 domainLow;   // xyz [m]; w: throatZ [m]
     vec4 domainHigh;  // xyz [m]; w: outletZ [m]
     vec4 numerics;    // time step [s], skin [m], cell size [m], largest allowed overlap ratio
-    vec4 choices;     // Coulomb limit (kCoulombLuding ...), rolling lever (kLeverFull ...), 1 before any step; w: the
-                      // longest way of any body in a step of this batch [m]
+    vec4 choices;     // rolling lever (kLeverFull ...), 1 before any step
     uvec4 roster;     // x: in block n, the member that row n of a dispatch works for; y, z: steps that the member has
                       // made at the start and at the end of the batch; w: how far beyond touch
                       // a contact may hold, as the bits of a float [m]
@@ -182,7 +182,8 @@ SHARED_CONST kCallShift = 27u;
 SHARED_CONST kMostParticles = 1u << kCallShift;
 SHARED_CONST kCallWaits = 0xfffffffdu;  // this step was not made, because of a call in an earlier one
 SHARED_CONST kCallSoon = 0xfffffffeu;   // a refresh of the contact lists at the end of the stride; names no particle
-SHARED_CONST kStride = 8u;              // most steps between two decisions
+// Most steps between two decisions. A stride ends where the member's number of steps is a multiple of it.
+SHARED_CONST kStride = 8u;
 
 struct Dispatches {   // indirect arguments, three words each: workgroups in a row, a row for each live member, layers.
                       // For all members together: as many workgroups as the one that wants most.
@@ -198,8 +199,10 @@ struct Dispatches {   // indirect arguments, three words each: workgroups in a r
 
 struct Control {   // a member's
     uvec4 wanted;  // x: 1 if this stride starts with new rows, y: with new contact lists; z, w: if a later one is to
-    uvec4 steps;   // x: made since load, modulo 2^32, before this stride; y: this stride has no more; z: made of these
-    uvec4 listed;  // entries of the contact lists in use: pairs, surfaces, particles near bodies
+    uvec4 steps;   // x: the member's number of steps, modulo 2^32, before this stride; y: this stride has no more; z:
+                   // made of these
+    uvec4 listed;  // entries of the contact lists in use: pairs, surfaces, particles near bodies; w: 1 if a call asks
+                   // for new lists when the number of steps is next a multiple of kStride
     uvec4 coming;  // entries taken so far by the refresh at work: those, and links
     uvec4 list;   // x: entries of the rows in use; y: rebuilds since load; z: longest row ever; w: refreshes since load
     vec4 drift;   // x: longest way of a driven body since the last refresh, y: the one that the lists allow for [m]
@@ -253,13 +256,13 @@ SHARED_CONST kFieldContact = 3u;  // and two more: rows of the contact stress
 SHARED_CONST kFieldVectors = 6u;
 
 struct FieldParams {
-    vec4 low;     // xyz: corner of the grid [m]; w: reach of the kernel [m]
-    vec4 size;    // xyz: of the grid [m]; w: width of the kernel [m]
-    vec4 cell;    // xyz: size of a cell [m]; w: its volume [m3]
-    vec4 along;   // xyz: 1 in directions that are resolved, else 0; w: a contact's branch is no longer than this [m]
+    vec4 low;      // xyz: corner of the grid [m]; w: reach of the kernel [m]
+    vec4 size;     // xyz: of the grid [m]; w: width of the kernel [m]
+    vec4 cell;     // xyz: size of a cell [m]; w: its volume [m3]
+    vec4 along;    // xyz: 1 in directions that are resolved, else 0; w: a contact's branch is no longer than this [m]
     uvec4 points;  // xyz: number of cells, a point in the middle of each; w: kernel
-    uvec4 tile;   // xyz: points of a workgroup; w: 1 if contact stress is wanted
-    uvec4 tiles;  // xyz: workgroups; w: particles of a slice
+    uvec4 tile;    // xyz: points of a workgroup; w: 1 if contact stress is wanted
+    uvec4 tiles;   // xyz: workgroups; w: particles of a slice
     uvec4 chosen;  // x: 1 + the material whose particles count; 0: all do
     uvec4 tables;  // xy, zw: addresses of `weights` and `branches`, where passes reach tables by address
 };

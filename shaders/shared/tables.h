@@ -61,9 +61,11 @@ TABLE(6, cells, uint, canisters * cellHeads + particles, the cell table)
 ROWS(cells, headIndex, 0, canisters, cellHeads)
 ROW(cells, nextIndex, canisters * cellHeads, particles)
 // Of each particle: high part of the position when the rows were built. Then: when the contacts were listed; w: slack.
-VIEWED(7, anchors, vec4, 2 * particles, the anchors)
+// Then: low parts of its velocity [m/s] and of its spin [rad/s]. Their high parts are in the state.
+VIEWED(7, anchors, vec4, 4 * particles, the anchors)
 ROW(anchors, rowAnchorIndex, 0, particles)
 ROW(anchors, listAnchorIndex, particles, particles)
+ROWS(anchors, speedLowIndex, 2 * particles, particles, 2)
 // [canisters][workgroups over a canister's particles].
 TABLE(8, records, GroupRecord, canisters * groups, the records of the sensors)
 // Of each slot: the particle; then the other particle, or the surface with the number of its works in the bits above it

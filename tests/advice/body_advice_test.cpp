@@ -1,4 +1,5 @@
 // The warnings of bodies: each slip has its own, and what is right has none.
+#include <algorithm>
 #include <filesystem>
 
 #include "geometry/mesh_writer.h"
@@ -131,4 +132,78 @@ TEST_CASE("two bodies that meet in a seam where powder comes are told, at rest o
                Catch::Contains("body \"left\" and body \"again\" coincide: a sphere at"));
     CHECK_THAT(warned(left + right + sinks), Catch::Contains("meet in a seam"));
     CHECK(warned(left + right + test::replaced(sinks, "-0.1", "-0.2")).empty());
+}
+
+TEST_CASE("a place in mm is blamed, not the speed that follows from it") {
+    const test::Folder folder;
+    folder.write("two.csv", "x,y,z,r\n0.002,0.01,0.001,1e-3\n-0.01,0.01,0,1e-3\n");
+    const auto names = [&](const std::string& at, const std::string& through) {
+        return test::namesOf(test::warningsOfText(folder, test::kFreeCase + test::part("arm", "2, 2, 2", at) +
+                                                              test::kOwnTurn + "through = " + through + "\n"));
+    };
+    const auto has = [](const std::vector<std::string>& all, const char* name) {
+        return std::find(all.begin(), all.end(), name) != all.end();
+    };
+    for (const auto& [at, through] :
+         {std::pair("30, 0, 50", "[30, 20, 50]"), std::pair("0.03, 0, 0.05", "[3000, 0, 50]")}) {
+        const auto found = names(at, through);
+        CAPTURE(at, found);
+        CHECK(has(found, "body-place"));
+        CHECK_FALSE(has(found, "body-speed"));
+    }
+    const auto right = names("0.03, 0, 0.05", "[0.03, 0.02, 0.05]");
+    CHECK_FALSE(has(right, "body-place"));
+    CHECK_FALSE(has(right, "body-speed"));
+}
+
+TEST_CASE("a closed body is not thin, unless it holds the powder") {
+    const test::Folder folder;
+    const geometry::Block block{Vec3(-0.01), Vec3(0.01)};
+    const auto triangles = geometry::tessellated(block, 1, Vec3(-1), Vec3(1));
+    folder.write("block.stl", geometry::stlBytes(triangles, "block", 1));
+    folder.write("open.stl", geometry::stlBytes({triangles.begin(), triangles.end() - 1}, "open", 1));
+    const auto warned = [&](const std::string& body, const std::string& spheres = "0.03,0.001,-0.002,1e-3\n") {
+        folder.write("two.csv", "x,y,z,r\n" + spheres);
+        const std::string text =
+            test::replaced(test::kFreeCase, "friction = 0.5\n", "friction = 0.5\nmax_overlap_ratio = 1\n");
+        return test::lineOf(folder, text + "[[body]]\nname = \"it\"\n" + body, "body-thin");
+    };
+    const std::string inside = "0.003,0.001,-0.002,1e-3\n";
+    CHECK(warned("mesh = \"block.stl\"\nunit = \"m\"\n").empty());
+    CHECK_THAT(warned("mesh = \"block.stl\"\nunit = \"m\"\n", inside), Catch::Contains("the surfaces of body \"it\""));
+    CHECK_THAT(warned("mesh = \"open.stl\"\nunit = \"m\"\n"), Catch::Contains("the surfaces of body \"it\""));
+    const std::string cylinder = "shape = \"cylinder\"\nradius_mm = 5\nlength_mm = 8\n";
+    CHECK(warned(cylinder + "ends = true\n").empty());
+    CHECK_FALSE(warned(cylinder + "ends = true\n", "0,0,0.004,1e-3\n").empty());
+    CHECK_FALSE(warned(cylinder).empty());
+    CHECK_FALSE(warned("shape = \"disc\"\nradius_mm = 5\n").empty());
+    CHECK_FALSE(warned("shape = \"cone\"\nradius_mm = 5\nend_radius_mm = 2\nlength_mm = 3\n").empty());
+    CHECK(warned("shape = \"box\"\nsize_mm = [5, 5, 5]\n").empty());
+}
+
+TEST_CASE("what was mended in a mesh is told, with its number and its places") {
+    const test::Folder folder;
+    folder.write("two.csv", "x,y,z,r\n0.03,0.001,-0.002,1e-3\n");
+    const geometry::Block block{Vec3(-10), Vec3(10)};
+    auto triangles = geometry::tessellated(block, 100, Vec3(-100), Vec3(100));
+    const auto line = [&] {
+        folder.write("block.stl", geometry::stlBytes(triangles, "block", 1));
+        return test::lineOf(folder, test::kFreeCase + "[[body]]\nname = \"it\"\nmesh = \"block.stl\"\nunit = \"mm\"\n",
+                            "body-mended");
+    };
+    CHECK(line().empty());
+    triangles.push_back(triangles.front());
+    triangles.push_back({triangles[0][0], triangles[0][0], triangles[0][1]});
+    CHECK_THAT(line(), Catch::Contains("body[0].mesh: ") && Catch::Contains("the mesh of body \"it\" was mended") &&
+                           Catch::Contains("1 triangle without area left out (at ") &&
+                           Catch::Contains("1 triangle left out that stands there twice (at ") &&
+                           Catch::Contains("block.stl: byte ") && Catch::Contains("(body-mended)"));
+}
+
+TEST_CASE("a lid that fits its cell, and a piston its die, only touch it") {
+    for (const char* file : {"elements/shear.toml", "elements/compression.toml"}) {
+        const Case c = loadCase(shippedCase(file));
+        CAPTURE(file);
+        CHECK(test::warningOf(warningsOf(c, insertParticles(c)), "body-cross") == nullptr);
+    }
 }

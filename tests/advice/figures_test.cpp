@@ -159,3 +159,22 @@ TEST_CASE("gaps of the coil are measured across the wire") {
         figuresOf(loadCase(test::shippedCase("quickstart.toml"), {"gravity=[0, 9.81, 0]"}), insertParticles(c))
             .bedDepth));
 }
+
+TEST_CASE("what limits the time step is told with the bodies that it may be") {
+    const test::Folder folder;
+    const std::string disc = "shape = \"disc\"\nradius_mm = 8\nat = [0, 0, 0.1]\n";
+    const auto file =
+        folder.write("case.toml", std::string(test::kGoodCase) + "[[body]]\nname = \"gate\"\n" + disc +
+                                      "[[body]]\nname = \"lid\"\n" + disc + "material = \"steel\"\n" +
+                                      "[[body]]\nname = \"paddle\"\n" + disc + "[[material]]\nname = " + "\"steel\"\n");
+    const auto limit = [&](const char* key) {
+        const Case c = loadCase(file, {key});
+        return figuresOf(c, insertParticles(c)).stepLimit;
+    };
+    // Rolling against a wall is faster than bouncing off it: 1/6 of sqrt(0.1 m / 0.286 k) against 1/8 of sqrt(m / k).
+    // Of two spheres bouncing is, since it moves half the mass.
+    CHECK(limit("contact.wall.k=90000") == "powder-wall rolling (bodies of this material: gate, paddle)");
+    CHECK(limit("contact.powder-steel.k=90000") == "powder-steel rolling (bodies of this material: lid)");
+    CHECK(limit("contact.coil.k=90000") == "powder-coil rolling");
+    CHECK(limit("contact.wall.k=1") == "powder-powder normal");
+}

@@ -28,6 +28,11 @@ TEST_CASE("blocked: an empty canister is none, and an avalanche later does not u
     CHECK(blockedAt(dosesOf({4e-3, 0, 0, 0, 16e-3}), 0.048) == 2);
 }
 
+TEST_CASE("blocked: a device that fills before it delivers is none") {
+    CHECK(blockedAt(dosesOf({0, 0, 0, 4e-3, 4e-3}), 0.048) == std::nullopt);
+    CHECK(blockedAt(dosesOf({0, 0, 0, 4e-3, 0, 0, 0}), 0.048) == 5);
+}
+
 TEST_CASE("blocked: what fell out while settling is no dose") {
     CHECK(blockedAt(dosesOf({0, 0, 0}, 1e-3), 0.048) == 1);
     CHECK(blockedAt(dosesOf({1e-3, 0, 0}), 0.048) == std::nullopt);

@@ -14,6 +14,7 @@ inline std::vector<Dose> dosesOf(const std::vector<double>& masses, double settl
         Dose d;
         d.startTime = double(doses.size());
         d.mass = m;
+        d.particles = m > 0 ? 1 : 0;
         d.cumulative = (doses.empty() ? settling : doses.back().cumulative) + m;
         d.complete = true;
         doses.push_back(d);

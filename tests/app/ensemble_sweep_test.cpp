@@ -6,7 +6,9 @@
 #include <csignal>
 #include <thread>
 
+#include "host/app/ensemble_runner.h"
 #include "host/output/checkpoint.h"
+#include "host/study/sweep.h"
 #include "tests/app/sandbox.h"
 #include "tests/app/sweep_tables.h"
 #include "tests/support/catch.h"
@@ -121,6 +123,64 @@ TEST_CASE("a sweep on an ensemble that is killed, and interrupted, goes on to th
     const auto on = place.box.vkdose("sweep study.toml --ensemble 4 --out cut");
     CAPTURE(on.out, on.err);
     CHECK(on.code == 1);
+    place.checkSame("cut");
+}
+
+TEST_CASE("a member that waits begins as soon as another one ends, and time that is up cuts all at a checkpoint") {
+    const Place place;
+    const fs::path out = place.box / "turns";
+    const Study study = readStudy(place.box / "study.toml");
+    const std::vector<Member> members = membersOf(study);
+    const DeviceRoom plenty{~std::uint64_t{0}, ~std::uint64_t{0}, 65535};
+    struct Watch : SweepObserver {
+        std::vector<std::string> ends;  ///< status of each
+        void onMember(const Member&, const MemberResult& result) override { ends.push_back(statusText(result.status)); }
+        void onProgress(const SweepProgress& p) override { most = std::max(most, p.running); }
+        int most = 0;
+    } watch;
+    {  // Two places for the four of one kind. The third of them begins when one of the first two has ended.
+        EnsembleRunner runner({}, 2, plenty);
+        SweepFolder folder(out, study, members);
+        const HaltRule halt = [&] {
+            const auto begun = std::count_if(members.begin(), members.end(), [&](const Member& m) {
+                return fs::exists(folder.memberFolder(m.number) / "timeseries.csv");
+            });
+            return begun >= 3 ? Halt::TimeIsUp : Halt::None;
+        };
+        const SweepOutcome outcome = runMembers(folder, members, runner, watch, halt);
+        CHECK(outcome.halt == Halt::TimeIsUp);
+        CHECK_FALSE(outcome.whole);
+        CHECK(watch.most <= 2);
+        REQUIRE_FALSE(watch.ends.empty());
+        CHECK(watch.ends[0] != "interrupted");
+        for (const Member& m : members)
+            if (folder.status(m.number) == MemberStatus::Interrupted)
+                CHECK(fs::exists(folder.memberFolder(m.number) / kCheckpointName));
+    }
+    fs::rename(out, place.box / "elsewhere");
+    const auto on = place.box.vkdose("sweep study.toml --ensemble 2 --out elsewhere --for 2h");
+    CAPTURE(on.out, on.err);
+    CHECK(on.code == 1);
+    place.checkSame("elsewhere");
+}
+
+TEST_CASE("a member goes on in an ensemble on a device of the kind that it began on, or on one that is named") {
+    const Place place;
+    const pid_t sweep = startedSweep(place.box);
+    kill(sweep, SIGINT);
+    waitpid(sweep, nullptr, 0);
+    const fs::path file = place.box / "cut/members/0001" / kCheckpointName;
+    Checkpoint checkpoint = readCheckpoint(file);
+    const std::string device = checkpoint.backend.substr(std::string("vulkan: ").size());
+    checkpoint.backend = "vulkan: Voodoo 2";
+    writeCheckpoint(file, checkpoint);
+    const auto other = place.box.vkdose("sweep study.toml --ensemble 4 --out cut");
+    CHECK(other.code == 1);
+    CHECK_THAT(other.err, Catch::Contains("member 0001") && Catch::Contains("the run was made on 'Voodoo 2'"));
+    const auto named =
+        place.box.vkdose("sweep study.toml --ensemble 4 --out cut --retry-failed --device " + device.substr(0, 5));
+    CAPTURE(named.out, named.err);
+    CHECK(named.code == 1);
     place.checkSame("cut");
 }
 

@@ -189,6 +189,11 @@ high = 0.5
     // The report says the same as the text.
     const Json finding = Json::parse(readText(box / "out/calibration.json"));
     CHECK(finding.at("met") == true);
+    CHECK(finding.at("confirming_seeds") == Json({2, 3, 4}));
+    const Json& confirmed = finding.at("confirmations").back().at("figures");
+    CHECK(confirmed.at(0).at("runs") == 3);
+    CHECK(confirmed.at(0).at("verdict") == "met");
+    CHECK(near(confirmed.at(0).at("mean").get<double>(), 650, 650, 0.01));
     CHECK(finding.at("parameters").at(0).at("constrained") == true);
     CHECK(finding.at("parameters").at(1).at("constrained") == false);
     CHECK(near(finding.at("parameters").at(0).at("chosen").get<double>(), 1300, 1300, 0.02));

@@ -54,6 +54,32 @@ TEST_CASE("killed at random moments, a run that settles until at rest and doses 
     CHECK(timelessSummary(box / "whole/summary.json") == timelessSummary(box / "cut/summary.json"));
 }
 
+TEST_CASE("a run that is killed before its first checkpoint is told the way on") {
+    const Sandbox box;
+    const auto killedAt = [&](const char* file, const char* settle) {
+        const pid_t child = box.start({"run", VKDOSE_SOURCE_DIR "/cases/mini.toml", "--backend", "reference", "--quiet",
+                                       "--set", "checkpoint.wall_s=0", "--set", settle, "--set", "stop.max_doses=100",
+                                       "--out", "cut", "--force"});
+        int status = 0;
+        while (!fs::exists(box / "cut" / file)) {
+            REQUIRE(waitpid(child, &status, WNOHANG) == 0);
+            std::this_thread::yield();
+        }
+        kill(child, SIGKILL);
+        waitpid(child, &status, 0);
+    };
+    killedAt("doses.csv", "settle.time_s=1000");
+    const auto early = box.vkdose("resume cut");
+    CHECK(early.code == 2);
+    CHECK_THAT(early.err, Catch::Contains("no checkpoint") &&
+                              Catch::Contains("start again with `vkdose run cut/case.toml --out cut --force`"));
+    killedAt("settled.h5", "settle.time_s=0.01");
+    const auto settled = box.vkdose("resume cut");
+    CHECK(settled.code == 2);
+    CHECK_THAT(settled.err, Catch::Contains("no checkpoint") && Catch::Contains("`vkdose run --from cut --out DIR`"));
+    CHECK(box.vkdose("run --from cut --out DIR --quiet --set stop.max_doses=1").code == 0);
+}
+
 TEST_CASE("after Ctrl-C or the closing of its terminal a run can be resumed, to the same bits") {
     const int signal = GENERATE(SIGINT, SIGHUP);
     CAPTURE(signal);
@@ -72,6 +98,34 @@ TEST_CASE("after Ctrl-C or the closing of its terminal a run can be resumed, to 
     const auto over = box.vkdose("resume cut");
     CHECK(over.code == 2);
     CHECK_THAT(over.err, Catch::Contains("over"));
+}
+
+TEST_CASE("a run that a stop rule ended goes on with another rule, as if that had been the first") {
+    const std::string backend = GENERATE(std::string("reference"), std::string("vulkan"));
+    const bool byTime = GENERATE(false, true);
+    CAPTURE(backend, byTime);
+    const Sandbox box;
+    // The end time lies in the second dose, at a reading of the sensors and of the frames.
+    const std::string rule = byTime ? "--set stop.end_time_s=0.16 " : "--set stop.max_doses=1 ";
+    const std::string run = "run " + words(kDoses) + "--set frames.interval_s=0 --backend " + backend + " ";
+    REQUIRE(box.vkdose(run + "--out whole").code == 0);
+    REQUIRE(box.vkdose(run + rule + "--out cut").code == 0);
+    REQUIRE(readText(box / "cut/doses.csv") != readText(box / "whole/doses.csv"));
+    const auto plain = box.vkdose("resume cut");
+    CHECK(plain.code == 2);
+    CHECK_THAT(plain.err, Catch::Contains("is over") && Catch::Contains("--set stop.max_doses="));
+    const auto same = box.vkdose("resume cut " + rule);
+    CAPTURE(same.err);
+    CHECK(same.code == 2);
+    CHECK_THAT(same.err, Catch::Contains(byTime ? "is over" : "would end the run where it ended: the dose asked for"));
+    CHECK(box.vkdose("resume cut --set checkpoint.time_s=1").code == 2);  // that ended nothing
+    const auto on = box.vkdose("resume cut --set stop.max_doses=2 --set stop.end_time_s=100");
+    CAPTURE(on.err);
+    REQUIRE(on.code == 0);
+    for (const char* name : {"timeseries.csv", "doses.csv", "particles.csv"})
+        CHECK(readText(box / "cut" / name) == readText(box / "whole" / name));
+    CHECK(timelessSummary(box / "cut/summary.json") == timelessSummary(box / "whole/summary.json"));
+    CHECK(box.vkdose("resume cut --set stop.max_doses=2").code == 2);
 }
 
 TEST_CASE("interrupted before it makes a step, a resumed run still ends with the same bits") {

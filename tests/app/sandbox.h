@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "tests/support/folder.h"
+#include "tests/support/places.h"
 
 namespace vkdose::test {
 
@@ -25,7 +26,7 @@ class Sandbox : public Folder {
     /// Runs the program in the sandbox with these arguments (shell syntax); `before` is shell in front of it ("A=b ",
     /// "ulimit -f 9; ").
     Outcome vkdose(const std::string& arguments, const std::string& before = "") const {
-        const std::string command = "cd '" + path().string() + "' && " + before + "'" VKDOSE_BINARY_DIR "/vkdose' " +
+        const std::string command = "cd '" + path().string() + "' && " + before + "'" + programFile() + "' " +
                                     arguments + " > stdout.txt 2> stderr.txt < /dev/null";
         const int status = std::system(command.c_str());
         return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, readText(path() / "stdout.txt"),
@@ -46,7 +47,7 @@ class Sandbox : public Folder {
     pid_t start(const std::vector<std::string>& arguments) const {
         const pid_t child = fork();
         if (child != 0) return child;
-        std::vector<std::string> words{VKDOSE_BINARY_DIR "/vkdose"};
+        std::vector<std::string> words{programFile()};
         words.insert(words.end(), arguments.begin(), arguments.end());
         std::vector<char*> argv;
         for (std::string& word : words) argv.push_back(word.data());

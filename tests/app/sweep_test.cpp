@@ -163,6 +163,28 @@ TEST_CASE("a dry run prints the members, a faulty study is refused, neither writ
     CHECK(box.files() == std::vector<std::string>{"study.toml"});
 }
 
+TEST_CASE("a dry run of a calibration tells the members that it begins with, and how many there may be") {
+    const Sandbox box;
+    const std::string cut = kStudy.substr(0, kStudy.find("[[axis]]"));
+    const auto search = [&](const std::string& keys) {
+        box.write("study.toml",
+                  cut + "[calibrate]\nmethod = \"surrogate\"\ntarget_g_per_dose = 0.02\ntolerance_g = 0.01\n" + keys +
+                      "[[calibrate.parameter]]\nkey = \"contact.kc_over_k\"\nlow = 0.1\nhigh = 0.6\n");
+        return box.vkdose("calibrate study.toml --dry-run --assume --jobs 2").out;
+    };
+    // Three points first. Each of the two others may be a confirmation that missed, and one more may follow.
+    const std::string few = search("max_runs = 5\n");
+    CHECK_THAT(few, Catch::Contains("member 0002") && !Catch::Contains("member 0003"));
+    CHECK_THAT(few, Catch::Contains("up to 9 more members at 2 more points and in confirming runs: at most ") &&
+                        Catch::Contains("study: at most 12 members, at most ") && Catch::Contains("run time at most "));
+    CHECK_THAT(search("max_runs = 5\nconfirming_seeds = 7\n"), Catch::Contains("at most 24 members"));
+    box.write("study.toml", "seeds = [1]\n" + kStudy + "[calibrate]\ntarget_g_per_dose = 1\ntolerance_g = 0.1\n");
+    const auto grid = box.vkdose("calibrate study.toml --dry-run --assume");
+    CHECK_THAT(grid.out, Catch::Contains("member 0003") && Catch::Contains("up to 3 more members in confirming runs") &&
+                             Catch::Contains("at most 7 members"));
+    CHECK(box.files() == std::vector<std::string>{"study.toml"});
+}
+
 TEST_CASE("calibrate interpolates a finished sweep without running it again, and writes a case that runs") {
     const Sandbox box;
     const std::string study = "seeds = [1]\n" + kStudy;
@@ -173,18 +195,41 @@ TEST_CASE("calibrate interpolates a finished sweep without running it again, and
     // Half way between the two cohesions of the first friction.
     REQUIRE(beta(0) != beta(2));
     const double target = (beta(0) + beta(2)) / 2;
-    box.write("study.toml",
-              study + "[calibrate]\ntarget_g_per_dose = " + std::to_string(target * 1e3) + "\ntolerance_g = 0.001\n");
+    const auto aimed = [&](const std::string& tolerance) {
+        box.write("study.toml", study + "[calibrate]\ntarget_g_per_dose = " + std::to_string(target * 1e3) +
+                                    "\ntolerance_g = " + tolerance + "\n");
+        return box.vkdose("calibrate study.toml --backend reference --out out");
+    };
     const auto before = fs::last_write_time(box / "out/members/0000/summary.json");
-    const auto o = box.vkdose("calibrate study.toml --backend reference --out out");
+    const auto o = aimed("0.05");
     CAPTURE(o.out, o.err);
     CHECK(o.code == 0);
     CHECK(fs::last_write_time(box / "out/members/0000/summary.json") == before);
-    CHECK_THAT(o.out, Catch::Contains("meets the target at contact.kc_over_k 0.35") && Catch::Contains("<- chosen"));
+    CHECK_THAT(o.out, Catch::Contains("crosses the target at contact.kc_over_k 0.35") && Catch::Contains("<- chosen"));
+    CHECK_THAT(
+        o.out,
+        Catch::Contains("confirming 3 runs with new seeds (2, 3, 4):\n    contact.kc_over_k 0.35, contact.friction ") &&
+            Catch::Contains(": met\nthe target is met\n"));
+    CHECK(timeless(box / "out").size() == 4);  // the confirming runs are in no table of the study
+    CHECK(timeless(box / "out/confirm").size() == 3);
+    const std::string found = readText(box / "out/calibrated.toml");
+    CHECK_THAT(found, Catch::Contains("kc_over_k = 0.35\n") && !Catch::Contains("step_s"));
+    CHECK_THAT(found, Catch::Contains("3 runs with new seeds give beta "));
     const auto check = box.vkdose("check out/calibrated.toml");
     CAPTURE(check.err);
     CHECK(check.code == 0);
     CHECK_THAT(check.out, Catch::Contains("study-calibrated"));
+
+    // The interpolation is on the target to the last digit. What the confirming runs gave is not, and they are right.
+    const auto confirmed = fs::last_write_time(box / "out/confirm/members/0002/summary.json");
+    const auto missed = aimed("1e-7");
+    CHECK(missed.code == 1);
+    CHECK(fs::last_write_time(box / "out/confirm/members/0002/summary.json") == confirmed);  // not run again
+    CHECK_THAT(missed.out,
+               Catch::Contains("crosses the target at") && Catch::Contains(": missed\nthe target is NOT met\n"));
+    CHECK_THAT(missed.err, Catch::Contains("no case is written"));
+    CHECK_FALSE(fs::exists(box / "out/calibrated.toml"));
+    CHECK_THAT(readText(box / "out/calibration.json"), Catch::Contains("\"met\": false"));
 
     // As if member 0 had dosed nothing: its point has no RSD.
     std::string told = readText(box / "out/members/0000/summary.json");
@@ -198,7 +243,8 @@ TEST_CASE("calibrate interpolates a finished sweep without running it again, and
     const auto far = box.vkdose("calibrate study.toml --backend reference --out out");
     CHECK(far.code == 1);
     CHECK_FALSE(fs::exists(box / "out/calibrated.toml"));  // it was for another target
-    CHECK_THAT(far.err, Catch::Contains("no curve meets the target or comes within 0.001 g of it"));
+    CHECK_FALSE(fs::exists(box / "out/calibration.json"));
+    CHECK_THAT(far.err, Catch::Contains("no curve comes to the target or within 0.001 g of it"));
     CHECK(box.vkdose("calibrate none.toml").code == 2);
     box.write("plain.toml", kStudy);
     const auto plain = box.vkdose("calibrate plain.toml");
@@ -228,6 +274,37 @@ TEST_CASE("a search runs members until its target is met or its runs are used up
     CHECK(timeless(box / "cut") == timeless(box / "whole"));
     CHECK(readText(box / "cut/calibration.json") == readText(box / "whole/calibration.json"));
     CHECK(box.vkdose("sweep study.toml").code == 2);
+}
+
+TEST_CASE("a calibration that is killed in its confirming runs ends as one that is not") {
+    const Sandbox box;
+    box.write("study.toml", kStudy.substr(0, kStudy.find("[[axis]]")) +
+                                "[calibrate]\nmethod = \"surrogate\"\ntarget_g_per_dose = 0.05\ntolerance_g = 0.1\n"
+                                "[[calibrate.parameter]]\nkey = \"contact.kc_over_k\"\nlow = 0.1\nhigh = 0.6\n");
+    const auto whole = box.vkdose("calibrate study.toml --backend reference --out whole");
+    CAPTURE(whole.out, whole.err);
+    CHECK(whole.code == 0);
+    CHECK_THAT(whole.out, Catch::Contains("the target is met"));
+    CHECK(timeless(box / "whole").size() == 3);
+    CHECK(timeless(box / "whole/confirm").size() == 3);
+    const pid_t run = box.start({"calibrate", "study.toml", "--backend", "reference", "--jobs", "1", "--out", "cut"});
+    REQUIRE(reached(run, box / "cut/confirm/members/0001"));
+    kill(run, SIGKILL);
+    waitpid(run, nullptr, 0);
+    CHECK_FALSE(fs::exists(box / "cut/calibration.json"));
+    CHECK(box.vkdose("calibrate study.toml --backend reference --out cut").code == 0);
+    CHECK(timeless(box / "cut") == timeless(box / "whole"));
+    CHECK(timeless(box / "cut/confirm") == timeless(box / "whole/confirm"));
+    for (const char* name : {"calibration.json", "calibrated.toml"})
+        CHECK(readText(box / "cut" / name) == readText(box / "whole" / name));
+
+    // A folder that holds something else is not taken for one of confirming runs.
+    fs::create_directories(box / "own/confirm");
+    box.write("own/confirm/notes.txt", "mine");
+    const auto own = box.vkdose("calibrate study.toml --backend reference --out own");
+    CHECK(own.code == 2);
+    CHECK_THAT(own.err, Catch::Contains("own/confirm holds something else than a sweep"));
+    CHECK_FALSE(fs::exists(box / "own/members.csv"));
 }
 
 TEST_CASE("a search that has become another one is refused, and loses nothing") {

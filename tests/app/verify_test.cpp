@@ -1,5 +1,6 @@
 // `vkdose verify` as a user meets it. Its families of known answers run in tests/device.
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "tests/app/sandbox.h"
@@ -16,6 +17,18 @@ TEST_CASE("verify writes what it prints") {
     const auto json = nlohmann::json::parse(readText(box / "out/verify/verify.json"));
     CHECK(json["results"].size() == 3);
     CHECK(json["results"][0]["case"] == "integrator/free-fall");
+}
+
+TEST_CASE("verify lists its cases without a device") {
+    const Sandbox box;
+    const auto all = box.vkdose("verify --list", "VK_ICD_FILENAMES=/nowhere ");
+    CHECK(all.code == 0);
+    CHECK(all.out.find("integrator/free-fall ") != std::string::npos);
+    const auto some = box.vkdose("verify --list --only collisions/head");
+    CHECK(some.code == 0);
+    CHECK(some.out.substr(0, 19) == "collisions/head-on ");
+    CHECK(std::count(some.out.begin(), some.out.end(), '\n') == 1);
+    CHECK(box.files().empty());
 }
 
 TEST_CASE("verify tells an unknown case from a known one") {

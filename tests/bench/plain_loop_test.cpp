@@ -97,7 +97,7 @@ TEST_CASE("the plain loop computes the contact law") {
     p.gamma *= 0.1, p.gammaT *= 0.1, p.gammaR *= 0.1;
     SECTION("the paper's") {}
     SECTION("friction limited as in Luding, half the lever") {
-        world.law.coulombLimit = CoulombLimit::Luding;
+        world.law.limitFriction(CoulombLimit::Luding);
         world.law.rollingLever = RollingLever::Half;
     }
     SECTION("beyond the plastic limit") {

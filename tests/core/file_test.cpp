@@ -5,6 +5,8 @@
 #include <sys/sysmacros.h>
 #include <unistd.h>
 
+#include <algorithm>
+
 #include "host/core/error.h"
 #include "host/core/folder_lock.h"
 #include "tests/app/sandbox.h"
@@ -24,6 +26,65 @@ TEST_CASE("the bytes of a file come whole, of an empty one none, of what is no f
     CHECK(readFault(box / "missing") == "there is no such file");
     CHECK(readFault(box.path()) == "cannot be read: it is a folder, not a file");
     CHECK(unreadable(box / "missing") == "there is no file " + (box / "missing").string());
+    const std::filesystem::path tooLong = box / std::string(300, 'a');
+    CHECK_FALSE(fileContent(tooLong));
+    CHECK_THAT(unreadable(tooLong), Catch::StartsWith("there is no file ") && Catch::EndsWith("so long"));
+}
+
+TEST_CASE("the first and the last bytes of a file are read alone, and no more than there are") {
+    const Sandbox box;
+    const std::string text = "0123456789";
+    const fs::path file = box.write("f", text);
+    CHECK(fileStart(file, 0) == "");
+    CHECK(fileStart(file, 3) == "012");
+    CHECK(fileStart(file, 10) == text);
+    CHECK(fileStart(file, 11) == text);
+    CHECK(fileEnd(file, 3) == "789");
+    CHECK(fileEnd(file, 10) == text);
+    CHECK(fileEnd(file, 4096) == text);
+    CHECK(fileEnd(box.write("none", ""), 4096) == "");
+    CHECK_FALSE(fileStart(box / "missing", 3));
+    CHECK_FALSE(fileEnd(box / "missing", 3));
+    const std::string large(300001, 'x');
+    CHECK(fileContent(box.write("large", large)) == large);
+
+    auto parts = InputFile::open(file);
+    std::string got(8, ' ');
+    REQUIRE(parts);
+    CHECK(parts->read(got.data(), 8) == 8);
+    CHECK(got == "01234567");
+    CHECK(parts->rest() == "89");
+    CHECK(parts->read(got.data(), 8) == 0);
+}
+
+TEST_CASE("a file whose size the system does not tell is read whole") {
+    const std::string text = fileContent("/proc/self/status").value_or("");
+    CHECK_THAT(text, Catch::StartsWith("Name:") && Catch::EndsWith("\n"));
+}
+
+TEST_CASE("a file that the system does not read is told with the place and the reason, and is not taken for its end") {
+    // The memory of this process looks like a file, but there is nothing at its beginning.
+    CHECK_THROWS_WITH(fileContent("/proc/self/mem"),
+                      "/proc/self/mem cannot be read from byte 0 on: Input/output error");
+    CHECK_THROWS_AS(fileStart("/proc/self/mem", 1), ReadError);
+    const Sandbox box;
+    fs::create_symlink("round", box / "round");
+    CHECK_THROWS_WITH(fileContent(box / "round"),
+                      Catch::EndsWith("round cannot be read: Too many levels of symbolic links"));
+    CHECK_THROWS_WITH(entriesOf(box / "round"), Catch::Contains("round cannot be listed: Too many levels"));
+    CHECK_FALSE(fileContent(box.write("f", "") / "below"));
+}
+
+TEST_CASE("a folder is listed whole, and what is no folder holds nothing") {
+    const Sandbox box;
+    createFolder(box / "a");
+    const fs::path file = box.write("b", "");
+    std::vector<fs::path> entries = entriesOf(box.path());
+    std::sort(entries.begin(), entries.end());
+    CHECK(entries == std::vector<fs::path>{box / "a", file});
+    CHECK(entriesOf(box / "a").empty());
+    CHECK(entriesOf(file).empty());
+    CHECK(entriesOf(box / "none").empty());
 }
 
 TEST_CASE("a pipe is neither waited for nor read, even if somebody writes into it") {
@@ -33,7 +94,7 @@ TEST_CASE("a pipe is neither waited for nor read, even if somebody writes into i
     CHECK_FALSE(fileContent(pipe));
     CHECK(unreadable(pipe) == pipe.string() + " cannot be read: it is a pipe, not a file");
     fs::create_symlink("pipe", box / "link");
-    CHECK_FALSE(inputFile(box / "link"));
+    CHECK_FALSE(InputFile::open(box / "link"));
     CHECK_THROWS_WITH(replaceFile(pipe, "x"), Catch::Contains("a pipe") && Catch::Contains("nobody reads"));
     CHECK_THROWS_WITH(openOutput(pipe, O_WRONLY | O_CREAT | O_TRUNC), Catch::Contains("nobody reads"));
     CHECK_THROWS_WITH(requireReplaceable(pipe), Catch::Contains("it is a pipe; name a file"));
@@ -150,9 +211,10 @@ TEST_CASE("a folder is one process's, whatever becomes of the files in it, until
         fs::remove(box.write("f", ""));
         CHECK_FALSE(FolderLock::take(box.path()));
         CHECK(FolderLock::isTaken(box.path()));
+        CHECK_FALSE(FolderLock::await(box.path(), [] { return true; }));
     }
     CHECK_FALSE(FolderLock::isTaken(box.path()));
-    FolderLock::await(box.path());
+    CHECK(FolderLock::await(box.path(), [] { return true; }));
     CHECK(FolderLock::take(box.path()));
     CHECK_FALSE(FolderLock::isTaken(box / "none"));
     CHECK_THROWS_AS(FolderLock::take(box / "none"), OutputError);

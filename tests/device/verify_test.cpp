@@ -31,6 +31,9 @@ void requireGreen(const std::string& family) {
 TEST_CASE("verify on the device: integrator") {
     requireGreen("integrator");
 }
+TEST_CASE("verify on the device: increments") {
+    requireGreen("increments");
+}
 TEST_CASE("verify on the device: collisions") {
     requireGreen("collisions");
 }

@@ -23,7 +23,7 @@ namespace {
 struct Bits {
     std::uint64_t filled, settled, dosing;
 };
-constexpr Bits kBits{0x31f89555dbc293f2, 0x19ef1018a469fab, 0xbfcbc8d8cf62a11f};
+constexpr Bits kBits{0x31f89555dbc293f2, 0x19ef1018a469fab, 0x9a03533b5d9ad314};
 constexpr std::uint64_t kDigits = 0x5b1b13aa73221c9;
 constexpr std::uint64_t kLibm = 0xd133e7b2ee97c30e;
 

@@ -97,6 +97,11 @@ TEST_CASE("contact: a wall has the velocity of its turning, a fixed one none") {
     // A sphere that turns with the coil as one rigid body feels no relative motion at all.
     const Body carried = sphere(a.position, glm::cross(Vec3(0, 0, rate), a.position), Vec3(0, 0, rate));
     CHECK(near(touchWall(carried, n, kRadius - overlap, turning)->velocity, Vec3(0), 0.1, kRounding));
+    // The same if its velocity is that of half a step before, when it was where it came from by this velocity.
+    const double back = 1e-3;
+    const Body later = sphere(a.position + back * carried.velocity, carried.velocity, carried.spin);
+    CHECK(near(touchWall(later, n, kRadius - overlap, turning, 0, back)->velocity, Vec3(0), 0.1, kRounding));
+    CHECK(glm::length(touchWall(later, n, kRadius - overlap, turning)->velocity) > 1e-4);
 }
 
 TEST_CASE("contact: what limits friction, both readings") {

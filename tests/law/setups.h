@@ -46,7 +46,7 @@ inline ContactLaw lawOf(const ContactParameters& p, CoulombLimit limit = Coulomb
                         RollingLever lever = RollingLever::Full) {
     ContactLaw law;
     law.pairs.fill(p);
-    law.coulombLimit = limit;
+    law.limitFriction(limit);
     law.rollingLever = lever;
     return law;
 }

@@ -97,10 +97,10 @@ TEST_CASE("soften: every path of overlaps that is s times as wide gives the same
 TEST_CASE("soften: friction, rolling and torsion of a slow motion are the same, under both limits") {
     for (const CoulombLimit limit : {CoulombLimit::Luding, CoulombLimit::Absolute}) {
         ContactLaw hard = softLaw(1);
-        hard.coulombLimit = limit;
+        hard.limitFriction(limit);
         for (const double s : kFactors) {
             ContactLaw law = softLaw(s);
-            law.coulombLimit = limit;
+            law.limitFriction(limit);
             reference::History a, b;
             const double overlap = 2e-6;
             for (int n = 0; n < 40; ++n) {

@@ -1,8 +1,10 @@
 // Our sources must not contain some things: shaders, loops that drivers are known to get wrong; tests, names that only
 // one version of Catch2 has; none of them, a line over 120 characters.
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -94,6 +96,96 @@ TEST_CASE("no precise value is computed with dot or a function like it") {
         INFO(entry.path());
         CHECK_FALSE(std::regex_search(withoutComments(readText(entry.path())), hidden));
     }
+}
+
+using Uses = std::multimap<std::string, std::string>;  ///< what a file holds, by its name
+
+/// The first of `words` in the code that is not the end of a longer word; empty if there is none.
+std::string wordIn(const std::string& code, const std::vector<std::string>& words) {
+    const auto inWord = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
+    for (const std::string& word : words)
+        for (std::size_t at = code.find(word); at != std::string::npos; at = code.find(word, at + 1))
+            if (at == 0 || !inWord(code[at - 1])) return word;
+    return "";
+}
+
+/// Files of the program that hold one of `words` outside of comments, and that word. From the files in `others` those
+/// words are taken first, once each, which must be there.
+Uses usesOf(const std::vector<std::string>& words, const Uses& others) {
+    Uses found;
+    std::size_t files = 0;
+    for (const char* folder : {"host", "geometry"}) {
+        for (const auto& entry : fs::recursive_directory_iterator(fs::path(VKDOSE_SOURCE_DIR) / folder)) {
+            const std::string suffix = entry.path().extension().string();
+            if (suffix != ".cpp" && suffix != ".h") continue;
+            const std::string name = entry.path().lexically_relative(VKDOSE_SOURCE_DIR).string();
+            std::string code = withoutComments(readText(entry.path()));
+            const auto [begin, end] = others.equal_range(name);
+            for (auto other = begin; other != end; ++other) {
+                INFO(name << " no longer holds " << other->second);
+                const std::size_t at = code.find(other->second);
+                REQUIRE(at != std::string::npos);
+                code.erase(at, other->second.size());
+            }
+            const std::string word = wordIn(code, words);
+            if (!word.empty()) found.emplace(name, word);
+            ++files;
+        }
+    }
+    REQUIRE(files >= 300);
+    return found;
+}
+
+// host/core/file.cpp looks at every read. What a stream or a FILE reads ends at an error as it does at the end.
+TEST_CASE("no file but host/core/file.cpp opens another one to read") {
+    const std::vector<std::string> reads{"ifstream",  "basic_ifstream",   "fstream ", "std::fstream", "filebuf",
+                                         "fopen(",    "freopen(",         "fread(",   "fgets(",       "parse_file(",
+                                         "H5Fopen(",  "create_from_png(", "pixRead(", "::open(",      "::open64(",
+                                         "::openat(", "::read(",          "::pread("};
+    CHECK(wordIn("std::ifstream stream(file);", reads) == "ifstream");
+    CHECK(wordIn("std::FILE* file = std::fopen(name, \"r\");", reads) == "fopen(");
+    CHECK(wordIn("const int handle = ::open(name, O_RDONLY);", reads) == "::open(");
+    CHECK(wordIn("auto stream = InputFile::open(file); book.open(0); Table::read(file);", reads).empty());
+    // Folders are opened to lock them; pipes and files without a name are read.
+    CHECK(usesOf(reads, {{"host/core/folder_lock.cpp", "::open(folder.c_str(), "},
+                         {"host/core/file.cpp", "::open(file.c_str(), O_RDONLY "},
+                         {"host/core/file.cpp", "::read(handle_, "},
+                         {"host/core/file.cpp", "::open(file.c_str(), flags "},
+                         {"host/core/file.cpp", "::open(fresh.c_str(), kFlags"},
+                         {"host/core/file.cpp", "::open(above.c_str(), O_RDONLY | O_DIRECTORY"},
+                         {"host/app/tell.cpp", "::open(\"/dev/null\""},
+                         {"host/app/child_runner.cpp", "::read(child->said, "},
+                         {"host/app/film.cpp", "::pread(file, "},
+                         {"host/output/hdf5.cpp", "H5Fopen("}}) == Uses{});  // of a file in memory
+}
+
+// These read and write numbers as the locale of the process has it.
+TEST_CASE("nothing reads or writes a number by a function that knows locales") {
+    const std::vector<std::string> known{
+        "stoi(",    "stol(",     "stoll(",     "stoul(",     "stoull(",  "stof(",         "stod(",     "stold(",
+        "strtof(",  "strtod(",   "strtold(",   "strtol(",    "strtoll(", "strtoul(",      "strtoull(", "atof(",
+        "atoi(",    "atol(",     "atoll(",     "scanf(",     "fscanf(",  "sscanf(",       "printf(",   "fprintf(",
+        "sprintf(", "snprintf(", "vsnprintf(", "setlocale(", "imbue(",   "locale::global"};
+    CHECK(wordIn("std::stod(text)", known) == "stod(");
+    CHECK(wordIn("std::snprintf(to, 8, \"%g\", x)", known) == "snprintf(");
+    CHECK(wordIn("std::to_string(3); numberOf(text); custodi(1)", known).empty());
+    CHECK(usesOf(known, {}) == Uses{});
+    // Of fmt the L of a format: {:L}, {:.3Lg}.
+    const std::vector<std::string> formats{"{:L", "{:.1L", "{:.2L", "{:.3L", "{:.4L", "{:.6L", "{:.9L"};
+    CHECK(usesOf(formats, {}) == Uses{});
+}
+
+// Elsewhere a text that does not arrive would be lost without a word.
+TEST_CASE("nothing but host/app/tell.cpp writes on stdout") {
+    const std::vector<std::string> prints{"fmt::print(", "std::cout", "std::cerr", "std::clog", "puts(",  "fputs(",
+                                          "putc(",       "fputc(",    "putchar(",  "fwrite(",   "fflush("};
+    CHECK(wordIn("fmt::print(\"{}\", x);", prints) == "fmt::print(");
+    CHECK(wordIn("std::fputs(text, stdout);", prints) == "fputs(");
+    CHECK(usesOf(prints, {{"host/app/tell.cpp", "std::fwrite("},
+                          {"host/app/tell.cpp", "std::fflush("},
+                          {"host/bench/copies.cpp", "std::fputs("},  // of a copy of the program, on stderr
+                          {"host/bench/copies.cpp", "std::fflush("},
+                          {"host/bench/copies.cpp", "std::fflush("}}) == Uses{});
 }
 
 // A test that compiles with Catch2 2 alone would be seen on the next Debian only.

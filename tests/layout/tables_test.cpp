@@ -138,10 +138,10 @@ TEST_CASE("every binding of a pass is that of its table in the list, or of the t
     std::set<std::string> met, ofBodies;
     for (const auto variants :
          {std::span<const vk::Variant>(spirv::near), std::span<const vk::Variant>(spirv::bodies),
-          std::span<const vk::Variant>(spirv::free_bodies),
-          std::span<const vk::Variant>(spirv::link), std::span<const vk::Variant>(spirv::pairs),
-          std::span<const vk::Variant>(spirv::surfaces), std::span<const vk::Variant>(spirv::move),
-          std::span<const vk::Variant>(spirv::sense), std::span<const vk::Variant>(spirv::neighbours)})
+          std::span<const vk::Variant>(spirv::free_bodies), std::span<const vk::Variant>(spirv::link),
+          std::span<const vk::Variant>(spirv::pairs), std::span<const vk::Variant>(spirv::surfaces),
+          std::span<const vk::Variant>(spirv::move), std::span<const vk::Variant>(spirv::sense),
+          std::span<const vk::Variant>(spirv::neighbours)})
         for (const vk::Variant& variant : variants)
             for (const auto& [binding, names] : Used(variant.code).names)
                 for (const std::string& name : names) {
@@ -207,6 +207,7 @@ TEST_CASE("an element of a table has its place by part, row and column") {
     CHECK(at.headIndex(2, 4) == 2 * 2048 + 4);
     CHECK(at.nextIndex(4) == 3 * 2048 + 4);
     CHECK(at.listAnchorIndex(4) == particles + 4);
+    CHECK(at.speedLowIndex(4, 1) == 2 * particles + 9);
     CHECK(at.comingEntryIndex(4) == slots + 4);
     CHECK(at.bookIndex(2, 4) == 2 * particles + 4);
     CHECK(at.slotBookIndex(1, 4) == gpu::kBookFields * particles + slots + 4);
@@ -254,4 +255,21 @@ TEST_CASE("shaders/README.md tells of every table, with its binding and element,
         ++passes;
     }
     CHECK(passes >= 17);
+}
+
+TEST_CASE("the manual names the number of storage buffers that a device must bind") {
+    std::ifstream file(VKDOSE_SOURCE_DIR "/host/app/README.md");
+    std::string word, before;
+    int named = 0;
+    while (file >> word) {
+        if (word == "storage") {
+            std::string next, last;
+            if (file >> next >> last && next == "buffers" && last == "per") {
+                CHECK(before == std::to_string(gpu::kTables));
+                ++named;
+            }
+        }
+        before = word;
+    }
+    CHECK(named == 2);
 }

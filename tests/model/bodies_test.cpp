@@ -282,7 +282,7 @@ TEST_CASE("bodies: faults name the key, the value and what would be right") {
              Fault{"shape = \"blob\"\n", "body[0].shape"},
              Fault{"mesh = \"block.stl\"\n", "body[0].unit: is missing"},
              Fault{"mesh = \"block.stl\"\nunit = \"ft\"\n", "give one of m, cm, mm"},
-             Fault{"mesh = \"block.stl\"\nunit = \"m\"\n", "the file is probably in mm"},
+             Fault{"mesh = \"block.stl\"\nunit = \"m\"\n", "give the unit that it was drawn in (it would be "},
              Fault{"mesh = \"gone.stl\"\nunit = \"mm\"\n", "there is no file"},
              Fault{"shape = \"ball\"\nradius_mm = 0\n", "is zero"},
              Fault{"shape = \"ball\"\nradius_mm = 3\nlength_mm = 3\n", "unknown key"},

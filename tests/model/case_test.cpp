@@ -34,7 +34,7 @@ TEST_CASE("the paper's case, value by value") {
     CHECK(c.dosingLaw.of(ContactClass::ParticleCoil).mu == 0.2);
     CHECK(c.dosingLaw.of(ContactClass::ParticleCoil).k2Max == 24067.0);
     for (const ContactParameters& q : test::classesOf(c.settlingLaw)) CHECK(q.kc == Approx(0.3 * 24067).epsilon(1e-14));
-    CHECK(c.dosingLaw.coulombLimit == CoulombLimit::Absolute);
+    CHECK(c.dosingLaw.between(0, 0).coulombLimit == CoulombLimit::Absolute);
     CHECK(c.world.maxOverlapRatio == 1);
     CHECK(c.dosingLaw.rollingLever == RollingLever::Full);
     CHECK(c.world.density() == 1427);
@@ -144,6 +144,21 @@ TEST_CASE("a key of one table of a list is reached by the table's name") {
         }
 }
 
+TEST_CASE("a case with a base does not take its name, and with it its output folder") {
+    const Folder folder;
+    folder.write("base.toml", kGoodCase);
+    folder.write("middle.toml", "base = \"base.toml\"\nname = \"own\"\nseed = 4\n");
+    const auto top = folder.write("top.toml", "base = \"middle.toml\"\n[coil]\npitch_mm = 6\n");
+    CHECK(loadCase(folder.path() / "base.toml").name == "good");
+    CHECK(loadCase(folder.path() / "middle.toml").name == "own");
+    const Case c = loadCase(top);
+    CHECK(c.name == "top");
+    CHECK(c.seed == 4);
+    CHECK_THAT(c.given, Catch::Contains("name = \"top\""));
+    CHECK_THAT(c.resolved, Catch::Contains("name = \"top\""));
+    CHECK(loadCase(top, {"name=said"}).name == "said");
+}
+
 TEST_CASE("a base file is overridden key by key, faults name the file they stand in") {
     const Folder folder;
     std::filesystem::create_directory(folder.path() / "variants");
@@ -215,6 +230,28 @@ TEST_CASE("softer spheres: every class, settling included, once and not again wh
     CHECK(loadCase(file, {"contact.soften=1"}).resolved == hard.resolved);
     CHECK_THROWS_WITH(loadCase(file, {"contact.soften=0.5"}),
                       Catch::Contains("contact.soften = 0.5: makes the spheres harder"));
+}
+
+TEST_CASE("the limit of friction: walls and coil inherit it and may have their own, also while settling") {
+    const Folder folder;
+    const auto file = folder.write("case.toml", kGoodCase);
+    const auto limits = [&](const std::vector<std::string>& overrides) {
+        const Case c = loadCase(file, overrides);
+        checkSame(c, loadCase(folder.write("resolved.toml", c.resolved)));
+        std::vector<CoulombLimit> found;
+        for (const ContactLaw* law : {&c.dosingLaw, &c.settlingLaw})
+            for (const ContactClass k :
+                 {ContactClass::ParticleParticle, ContactClass::ParticleWall, ContactClass::ParticleCoil})
+                found.push_back(law->of(k).coulombLimit);
+        return found;
+    };
+    const auto l = CoulombLimit::Luding, a = CoulombLimit::Absolute;
+    CHECK(limits({"contact.coulomb_limit=absolute"}) == std::vector{a, a, a, a, a, a});
+    CHECK(limits({"contact.coulomb_limit=luding"}) == std::vector{l, l, l, l, l, l});
+    CHECK(limits({"contact.coulomb_limit=luding", "contact.wall.coulomb_limit=absolute"}) ==
+          std::vector{l, a, a, l, a, a});
+    CHECK(limits({"contact.coulomb_limit=absolute", "contact.coil.coulomb_limit=luding"}) ==
+          std::vector{a, a, l, a, a, l});
 }
 
 TEST_CASE("whether contacts see the coil's surface move is the case's choice, and survives being resolved") {

@@ -22,6 +22,15 @@ TEST_CASE("particle list: columns in any order, blank lines, CRLF") {
     CHECK(p.status[1] == Status::Active);
 }
 
+TEST_CASE("particle list: comments stand where they like") {
+    const Folder folder;
+    std::vector<Diagnostic> faults;
+    const Particles p = readParticleList(
+        folder.write("list.csv", "# three\nx,y,z,r\n# the first\n0,0,0,1e-3\n1,0,0,1e-3\n# the end\n"), faults);
+    CHECK(faults.empty());
+    CHECK(p.size() == 2);
+}
+
 TEST_CASE("particle list: spins and a last line without its end") {
     const Folder folder;
     std::vector<Diagnostic> faults;

@@ -59,6 +59,18 @@ TEST_CASE("numbers that do not go together are refused by name") {
     }
 }
 
+TEST_CASE("a list in mm is blamed, not gravity or the times") {
+    const Folder folder;
+    folder.write("two.csv", "x,y,z,r\n1,5,10,1\n3,5,20,1\n");
+    const std::string text = replaced(kFreeCase, "gravity = [0, 0, 0]", "gravity = [0, -9.81, 0]");
+    const std::string said = faultsOf(folder.write("case.toml", text));
+    CHECK_THAT(said, Catch::Contains("particles.list = \"two.csv\": has spheres of radius 1000 mm") &&
+                         Catch::Contains("a list is in metres") && !Catch::Contains("gravity") &&
+                         !Catch::Contains("settle"));
+    folder.write("two.csv", "x,y,z,r\n0.001,0.005,0.010,0.001\n0.003,0.005,0.020,0.001\n");
+    CHECK(faultsOf(folder.write("case.toml", text)).empty());
+}
+
 TEST_CASE("a sphere too light for single precision is refused") {
     const Folder folder;
     folder.write("two.csv", "x,y,z,r\n0,0,0,1e-9\n");

@@ -174,6 +174,43 @@ TEST_CASE("broken sieve tables are refused by name") {
     retained("\"15\"", "is not a list");
 }
 
+TEST_CASE("a table of sieves is read as spreadsheets write it, with semicolons, decimal commas and comments") {
+    const Folder folder;
+    const auto sieves = [&](const std::string& text) {
+        folder.write("sieves.csv", text);
+        return loadCase(folder.write("case.toml", withSize("sieves = \"sieves.csv\"\n"))).filling.size.sieve;
+    };
+    const auto plain = sieves("opening_um,passing_percent\n140,0\n180,30.5\n220.5,80\n280,100\n");
+    REQUIRE(plain.size() == 4);
+    for (const char* text :
+         {"opening_um;passing_percent\n140;0\n180;30,5\n220,5;80\n280;100\n",
+          "\xef\xbb\xbfopening_um;passing_percent\r\n140;0\r\n180;30,5\r\n220.5;80\r\n280;100\r\n",
+          "# lot 12\nopening_um,passing_percent\n140,0\n# by hand\n180,30.5\n220.5,80\n280,100\n# end",
+          "opening_um;passing_percent\n\"140\";0\n180;\"30,5\"\n220,5;80\n280;100"}) {
+        CAPTURE(text);
+        const auto found = sieves(text);
+        REQUIRE(found.size() == plain.size());
+        for (std::size_t i = 0; i < plain.size(); ++i) {
+            CHECK(found[i].radius == plain[i].radius);
+            CHECK(found[i].finer == plain[i].finer);
+        }
+    }
+    const auto fault = [&](const std::string& text) {
+        try {
+            sieves(text);
+        } catch (const CaseError& error) {
+            return std::string(error.what());
+        }
+        return std::string("was accepted");
+    };
+    CHECK_THAT(fault("opening_um,passing_percent\n140,0\n180,30,5\n280,100\n"),
+               Catch::Contains("sieves.csv:3") && Catch::Contains("write decimals with a point"));
+    CHECK_THAT(fault("opening_um;passing_percent\n140;0\n1.180,5;30\n2000;100\n"),
+               Catch::Contains("sieves.csv:3") && Catch::Contains("is not a number"));
+    CHECK_THAT(fault("# opening_um,passing_percent\n140,0\n280,100\n"),
+               Catch::Contains("lacks the column opening_um; it has \"140\", \"0\""));
+}
+
 TEST_CASE("broken files of sieves are refused with their line") {
     const Folder folder;
     const auto file = folder.write("case.toml", withSize("sieves = \"sieves.csv\"\n"));

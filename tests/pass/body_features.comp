@@ -68,7 +68,7 @@ bool sameFromList(uint body, Two3 centre, float radius, uint q, uint count) {
     if (geometryAt(kBodyVectors * body).y != 1u) return true;
     nearbyCount = listNearby(shape, geometryAt(shape), was, radius, slack);
     if (nearbyCount == kWholeCell) return true;
-    bool same = touchedFeatures(body, centre, radius) == count;
+    bool same = touchedFeatures(body, centre, radius, 0.0) == count;
     for (uint k = 0u; k < min(count, kMaxBodyFeatures); ++k)
         same = same && features[k].depth == before[k].depth && features[k].direction == before[k].direction;
     return same;
@@ -81,7 +81,7 @@ void main() {
     uint body = uint(low.w);
     BodyMotion motion = motions[body];
     Two3 centre = toBody(motion, high.xyz, low.xyz);
-    uint count = touchedFeatures(body, centre, high.w);
+    uint count = touchedFeatures(body, centre, high.w, 0.0);
     bool may = mayTouch(body, centre, high.w), near = mayBeNear(body, centre, high.w);
     for (uint k = 0u; k < kMaxBodyFeatures; ++k)
         if (k < count)

@@ -124,16 +124,22 @@ inline Tally compare(Narrow& narrow, const Setup& setup, std::size_t spheres, un
         for (geometry::Feature& f : world) f.normal = pose.directionToWorld(f.normal);
         if (!alike(world, a.features, 0.01 * radius, 0.01)) ++tally.wrongPlace;
         for (std::size_t k = 0; k < world.size(); ++k) {
-            if (k > 0 && a.features[k].distance < a.features[k - 1].distance) ++tally.wrongOrder;
+            // Contacts of which a pass takes a part are in the order of their places, not of what is left of them.
+            const bool whole = std::all_of(world.begin(), world.end(), [](const auto& f) { return f.share == 1; });
+            if (k > 0 && whole && a.features[k].distance < a.features[k - 1].distance) ++tally.wrongOrder;
             // The nearest in direction is the same feature.
             const auto nearest = std::min_element(
                 a.features.begin(), a.features.end(), [&](const geometry::Feature& f, const geometry::Feature& g) {
                     return glm::dot(f.normal, world[k].normal) > glm::dot(g.normal, world[k].normal);
                 });
-            const double depth = radius - world[k].distance;
-            const double allowed = setup.depthError * depth + setup.error;
+            // An overlap delta - p^2/delta is known as well as its delta and p are, each of which counts twice at most.
+            // A normal counts by its share.
+            const double share = world[k].share, counts = share == 1 ? 1 : 4;
+            const double depth = radius - world[share == 1 ? k : 0].distance;
+            const double allowed = counts * (setup.depthError * depth + setup.error);
             tally.worstDepth = std::max(tally.worstDepth, std::abs(nearest->distance - world[k].distance) / allowed);
-            tally.worstTurn = std::max(tally.worstTurn, glm::length(nearest->normal - world[k].normal));
+            tally.worstTurn = std::max(tally.worstTurn,
+                                       std::min(share, 1.0) * glm::length(nearest->normal - world[k].normal) / counts);
         }
     }
     return tally;

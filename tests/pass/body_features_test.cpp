@@ -4,6 +4,7 @@
 #include "tests/pass/body_features.h"
 #include "geometry/tessellate.h"
 #include "host/core/error.h"
+#include "tests/geometry/damaged.h"
 #include "tests/geometry/shatter.h"
 
 using namespace vkdose;
@@ -152,6 +153,34 @@ TEST_CASE("the device finds the features of meshes as the host does, however the
                               way.low,
                               way.high};
             check(narrow, setup, 300, 150);
+        }
+    }
+}
+
+TEST_CASE("the device finds the features of mended meshes as the host does, seams among them") {
+    constexpr double kSize = 0.01;
+    Narrow narrow;
+    for (const Damaged& damaged : damagedMeshes()) {
+        Facets facets;
+        for (const auto& t : damaged.mesh.triangles) {
+            Triangle corners;
+            for (int i = 0; i < 3; ++i) corners[i] = kSize * damaged.mesh.points[t[i]];
+            facets.push_back(corners);
+        }
+        const Mesh mesh = makeMesh(soupOf(facets, damaged.name)).mesh;
+        for (const double radius : {0.5e-3, 3e-3}) {
+            Vec3 low(0), high(0);
+            for (const Vec3& v : mesh.vertices) {
+                low = glm::min(low, v);
+                high = glm::max(high, v);
+            }
+            check(narrow,
+                  {fmt::format("{}, radius {}", damaged.name, radius),
+                   {std::make_shared<MeshSurface>(mesh, radius * 1.1)},
+                   radius,
+                   low - radius,
+                   high + radius},
+                  300, 50);
         }
     }
 }

@@ -260,13 +260,21 @@ TEST_CASE("the sensor records add up to the host's sums") {
     CHECK(near(throat, pz, k, 1e-5));
 }
 
-TEST_CASE("positions survive packing to single precision twice over") {
+TEST_CASE("positions and speeds survive packing to single precision twice over") {
     Particles p = cloud(31, 0.3, 9);
+    for (std::size_t i = 0; i < p.size(); ++i) {
+        p.velocity[i] = 10.0 * Vec3(p.position[i].y, p.position[i].z, p.position[i].x);
+        p.spin[i] = 1e4 * Vec3(p.position[i].z, p.position[i].x, p.position[i].y);
+    }
     std::vector<gpu::vec4> half(std::size_t(gpu::kFields) * 64);
     packState(p, 64, 0, half);
-    const Particles q = unpackState(half, 64, p);
+    const Particles q = unpackState(half, packSpeedLows(p), 64, p);
     // Two floats hold 48 bits: 0.15 m to 1e-15 m.
-    for (std::size_t i = 0; i < p.size(); ++i) CHECK(near(q.position[i], p.position[i], 0.15, 2e-14));
+    for (std::size_t i = 0; i < p.size(); ++i) {
+        CHECK(near(q.position[i], p.position[i], 0.15, 2e-14));
+        CHECK(near(q.velocity[i], p.velocity[i], 1.5, 2e-14));
+        CHECK(near(q.spin[i], p.spin[i], 1500, 2e-14));
+    }
 }
 
 TEST_CASE("indices of 32 bits reach for a hundred million spheres") {

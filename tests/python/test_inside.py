@@ -298,6 +298,77 @@ class Errors(InFolder):
         return subprocess.run([sys.executable, "-B", "-c", script], env=environment, stdout=subprocess.PIPE,
                               stderr=subprocess.STDOUT, text=True)
 
+    def forked(self, device):
+        """What a child says that is forked off from a process with an open simulation, and how both end."""
+        options = 'backend="reference"' if device is None else f"device={device!r}"
+        script = f"""if True:
+            import os, sys, vkdose
+            case = {SHORT!r}
+            sim = vkdose.Simulation("mini", case, {options})
+            sim.advance()
+            positions = sim.positions
+            if os.fork() == 0:
+                for call in (sim.advance, sim.run, lambda: sim.time, lambda: sim.positions, lambda: sim.store("x")):
+                    try:
+                        call()
+                        print("no refusal")
+                    except vkdose.VkdoseError as refusal:
+                        print(refusal)
+                sim.close()
+                with vkdose.Simulation("mini", case, {options}) as own:
+                    own.advance()
+                    print("the same", (own.positions == positions).all())
+                kept = vkdose.Simulation("mini", case, {options})  # open at the end
+                sys.exit(0)
+            print("child", os.waitstatus_to_exitcode(os.wait()[1]))
+            sim.advance()
+            print("parent", sim.time > 0)
+        """
+        said = self.python(script, sys.path)
+        lines = said.stdout.splitlines()
+        self.assertEqual(said.returncode, 0, said.stdout)
+        self.assertEqual(len(lines), 8, said.stdout)
+        for line in lines[:5]:
+            self.assertRegex(line, r"opened in process \d+.*forked off")
+        self.assertEqual(lines[5:], ["the same True", "child 0", "parent True"])
+
+    def test_a_fork_cannot_use_an_open_simulation_and_ends_well(self):
+        self.forked(None)
+
+    def test_a_fork_cannot_use_an_open_simulation_and_ends_well_on_a_device(self):
+        self.forked(DEVICE)
+
+    def test_a_child_that_never_looks_at_an_open_simulation_ends_well(self):
+        script = f"""if True:
+            import os, sys, vkdose
+            sim = vkdose.Simulation("mini", {SHORT!r}, backend="reference")
+            if os.fork() == 0:
+                sys.exit(3)
+            print("child", os.waitstatus_to_exitcode(os.wait()[1]))
+        """
+        said = self.python(script, sys.path)
+        self.assertEqual((said.returncode, said.stdout), (0, "child 3\n"))
+
+    def test_python_ends_well_while_a_daemon_thread_runs(self):
+        script = """if True:
+            import threading, vkdose
+            sim = vkdose.Simulation("mini", {"stop.rule": "none", "stop.max_doses": 1000000}, backend="reference")
+            def work():
+                sim.run()
+                print("went on")
+            threading.excepthook = lambda told: print("refused:", told.exc_value, flush=True)
+            threading.Thread(target=work, daemon=True).start()
+            while True:  # until the other thread waits inside run
+                try:
+                    sim.time
+                except RuntimeError:
+                    break
+        """
+        for _ in range(5):
+            said = self.python(script, sys.path)
+            self.assertEqual(said.returncode, 0, said.stdout)
+            self.assertIn(said.stdout, ("", "refused: Python is ending, so no simulation goes on\n"))
+
     def test_nothing_is_printed(self):
         script = f"import vkdose; vkdose.Simulation('mini', {SHORT!r}, backend='reference').run()"
         said = self.python(script, sys.path)

@@ -133,6 +133,39 @@ class Runs(InFolder):
         with self.assertRaises(vkdose.DeviceError):
             short().run("third", device="no such device")
 
+    def test_a_fork_leaves_a_run_to_the_process_that_started_it(self):
+        with run(short(**{"stop.max_doses": 1000000}), "forked") as going:
+            next(going.samples())
+            reads, writes = os.pipe()
+            child = os.fork()
+            if child == 0:
+                said = []
+                try:
+                    with going:
+                        for call in (going.wait, lambda: next(going.samples()), lambda: going.running):
+                            try:
+                                call()
+                            except vkdose.VkdoseError as refusal:
+                                said.append(str(refusal))
+                finally:
+                    os.write(writes, "\n".join(said).encode())
+                    os._exit(0)
+            os.close(writes)
+            self.assertEqual(os.waitpid(child, 0), (child, 0))
+            with os.fdopen(reads) as pipe:
+                said = pipe.read().splitlines()
+            self.assertEqual(len(said), 3, said)
+            for line in said:
+                self.assertRegex(line, f"process {os.getpid()} has started")
+            self.assertTrue(going.running)
+            next(going.samples())
+
+    def test_the_version_is_there_in_both_ways(self):
+        self.assertRegex(vkdose.version(), r"^\d+\.\d+\.\d+$")
+        self.assertEqual(vkdose.__version__, vkdose.version())
+        with self.assertRaisesRegex(AttributeError, "has no attribute 'nothing'"):
+            vkdose.nothing
+
     def test_no_program(self):
         os.environ["VKDOSE"], before = "/nowhere/vkdose", os.environ.get("VKDOSE")
         try:

@@ -8,6 +8,7 @@
 #include "host/render/outline.h"
 #include "host/render/picture.h"
 #include "tests/support/near.h"
+#include "tests/support/places.h"
 
 using namespace vkdose;
 using namespace vkdose::test;
@@ -20,7 +21,7 @@ using render::Quantity;
 namespace {
 
 Case mini() {
-    return loadCase(VKDOSE_SOURCE_DIR "/cases/mini.toml");
+    return loadCase(sourceDir() + "/cases/mini.toml");
 }
 
 /// Three particles of known speed in the canister of mini, far from each other, and one that is dosed.
@@ -286,7 +287,7 @@ TEST_CASE("a stray sphere does not decide how high a picture reaches") {
 
 TEST_CASE("the outline lies on the surfaces") {
     for (const char* floor : {"trough", "flat"}) {
-        const Case c = loadCase(VKDOSE_SOURCE_DIR "/cases/mini.toml", {std::string("canister.floor=") + floor});
+        const Case c = loadCase(sourceDir() + "/cases/mini.toml", {std::string("canister.floor=") + floor});
         const Box content{{-0.01, -0.01, -0.001}, {0.01, 0.05, 0.022}};
         for (const Vec3& towards : {Vec3(-1, 0, 0), Vec3(0, 0, 1), glm::normalize(Vec3(-1, 0.5, 0.7))}) {
             int points = 0;

@@ -4,6 +4,7 @@
 #include "host/analysis/free_surface.h"
 #include "tests/render/scenes.h"
 #include "tests/support/near.h"
+#include "tests/support/places.h"
 
 using namespace vkdose;
 using namespace vkdose::test;
@@ -39,7 +40,7 @@ photo::Grey photograph(const render::Image& image) {
 }  // namespace
 
 TEST_CASE("the profile of a picture of the settled bed is the surface of its particles") {
-    const Case c = loadCase(VKDOSE_SOURCE_DIR "/tools/bench-data/bed-48g.toml");
+    const Case c = loadCase(sourceDir() + "/tools/bench-data/bed-48g.toml");
     const Particles particles = insertParticles(c).particles;
     render::Scene scene;
     for (std::size_t i = 0; i < particles.size(); ++i)

@@ -8,6 +8,7 @@
 #include "host/render/quantity.h"
 #include "tests/support/catch.h"
 #include "tests/support/near.h"
+#include "tests/support/places.h"
 
 using namespace vkdose;
 using namespace vkdose::test;
@@ -17,7 +18,7 @@ using render::Scale;
 namespace {
 
 Case mini() {
-    return loadCase(VKDOSE_SOURCE_DIR "/cases/mini.toml");
+    return loadCase(sourceDir() + "/cases/mini.toml");
 }
 
 std::vector<std::string> texts(const Scale& scale) {

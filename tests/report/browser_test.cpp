@@ -213,17 +213,37 @@ TEST_CASE("a browser shows of a calibration its targets, and what each of them t
     writeSearch(box);
     const std::string dom = drawn(box, studyJson(folder, {}));
     CHECK(dom.find("data-state=\"ready\"") != std::string::npos);
-    const std::string shown = dom.substr(dom.find("<main>"), dom.find("<footer>") - dom.find("<main>"));
+    const auto mainOf = [](const std::string& page) {
+        return page.substr(page.find("<main>"), page.find("<footer>") - page.find("<main>"));
+    };
+    const std::string shown = mainOf(dom);
     CHECK(shown.find("met after 2 points") != std::string::npos);
     CHECK(shown.find("<td>heap.angle_deg</td><td>heap.toml</td><td class=\"number\">24 ± 0.5</td>"
                      "<td class=\"number\">24.25 ± 0.2</td><td class=\"number\">1</td>") != std::string::npos);
     CHECK(shown.find("<td class=\"number\">3 ± 0.05 g</td>") != std::string::npos);
+    CHECK(shown.find("<td>contact.friction 0.2, contact.kc_over_k 0.5</td><td>heap.angle_deg</td>"
+                     "<td class=\"number\">24 ± 0.5</td><td class=\"number\">20.4 ± 0.2</td><td>missed</td>") !=
+          std::string::npos);
+    CHECK(shown.find("<td class=\"number\">3.02 ± 0.03 g</td><td>met</td>") != std::string::npos);
     CHECK(shown.find("<td class=\"number\">-36</td><td class=\"number\">+8</td>"
                      "<td>± 0.015, mostly by heap.angle_deg</td>") != std::string::npos);
     CHECK(shown.find("the targets do not constrain it within its bounds") != std::string::npos);
     CHECK(shown.find("<h3>heap.angle_deg against contact.friction</h3>") != std::string::npos);
     CHECK(shown.find("<h3>β against contact.kc_over_k</h3>") != std::string::npos);
     CHECK(shown.find("NaN") == std::string::npos);
+
+    // Of a grid there is the interpolation, and what the runs with new seeds made of it.
+    CalibrationFinding grid = *readFinding(folder);
+    grid.points.clear();
+    grid.parameters.clear();
+    grid.confirmations.erase(grid.confirmations.begin() + 1);
+    grid.met = false;
+    writeFinding(folder, grid);
+    const std::string missed = drawn(box, studyJson(folder, {}));
+    CHECK(missed.find("data-state=\"ready\"") != std::string::npos);
+    CHECK(missed.find("NOT met") != std::string::npos);
+    CHECK(missed.find("interpolated at the chosen point") != std::string::npos);
+    CHECK(mainOf(missed).find("NaN") == std::string::npos);  // the page's own code has the word
 
     forgetFinding(folder);
     const std::string going = drawn(box, studyJson(folder, {}));

@@ -111,7 +111,7 @@ TEST_CASE("the end state adds densities and arches, the summary how it ended") {
     box.write("run/particles.csv",
               "id,x_m,y_m,z_m,vx_m_s,vy_m_s,vz_m_s,wx_rad_s,wy_rad_s,wz_rad_s,radius_m,status\n"
               "0,0,0,0.01,0,0,0,0,0,0,0.001,active\n1,0,0,0.01,0,0,0,0,0,0,0.001,dosed\n");
-    const Particles end = readEndState(folder / "particles.csv", Case());
+    const Particles end = endParticles(folder / "particles.csv", Case());
     CHECK(end.status == std::vector<Status>{Status::Active, Status::Dosed});
     CHECK(end.position[0] == Vec3(0, 0, 0.01));
     box.write("run/summary.json", R"({"stop_sentence": "the 3 doses asked for are done", "error": "it broke"})");

@@ -89,7 +89,7 @@ double scaleOf(const EnergyLedger& ledger) {
 /// A bed under the coil that doses: its book closes, and it loses energy in every way.
 void bedClosesOnTheDevice(CoulombLimit limit) {
     RuledWorld w = dosingWorld();
-    w.law.coulombLimit = limit;
+    w.law.limitFriction(limit);
     auto device = gpu();
     device->load(w, thrownAbout(97));
     EnergyLedger ledger;

@@ -1,5 +1,6 @@
 // Canisters that share a device's tables: each computes what it would alone, to the last bit, whatever the others do.
 #include <algorithm>
+#include <atomic>
 #include <thread>
 
 #include "host/model/normal_law.h"
@@ -200,6 +201,105 @@ TEST_CASE("a canister goes on in an ensemble from where it was alone, and the ot
         checkSame(playAlone(scripts[k], from[k]), together[k]);
         checkSameArrays(taken[k], together[k].restored);
     }
+}
+
+namespace {
+
+/// Plays the scripts, the first `places` of them from the beginning. Each of the others enters just before one leaves, so
+/// that those who stay wait for it in the middle of their calls.
+std::vector<Outcome> playInTurn(const std::vector<Script>& scripts, std::size_t places,
+                                const std::vector<const Record*>& from = {}) {
+    VulkanOptions options;
+    options.device = testDevice();
+    VulkanEnsemble ensemble(options);
+    std::vector<std::unique_ptr<Backend>> backends;
+    while (backends.size() < places) backends.push_back(ensemble.enter());
+    std::vector<Outcome> outcomes(scripts.size());
+    std::vector<ValidationReport> reports(scripts.size());
+    std::atomic<std::size_t> next{places};
+    std::vector<std::thread> threads;
+    for (std::size_t place = 0; place < places; ++place)
+        threads.emplace_back([&, place] {
+            for (std::size_t k = place; k < scripts.size();) {
+                outcomes[k] = play(*backends[place], scripts[k], from.empty() ? nullptr : from[k]);
+                reports[k] = validationReport(*backends[place]);
+                k = next++;
+                backends[place] = k < scripts.size() ? ensemble.enter() : nullptr;
+            }
+        });
+    for (std::thread& t : threads) t.join();
+    for (const ValidationReport& report : reports) requireClean(report);
+    return outcomes;
+}
+
+}  // namespace
+
+TEST_CASE("a canister that takes the place of one that is over computes the same bits, and so do those beside it") {
+    const bool energyBook = GENERATE(false, true);
+    // The first two go on all the time. What comes after the third is smaller, larger than all tables, one that fails,
+    // one under another law, and one that is as large as the largest.
+    std::vector<Script> scripts{{203, -9.5, 2.26e-6, 0.3}, {61, 7.0, 3e-6, 0.5},     {140, 0.0, 2.26e-6, 0.1},
+                                {90, -9.5, 2.26e-6, 0.3},  {330, 7.0, 2.26e-6, 0.4}, {70, 7.0, 2.26e-6, 0.3},
+                                {80, -9.5, 2.26e-6, 0.3},  {330, -9.5, 3e-6, 0.2}};
+    scripts[0].calls = {1501, 997, 2700};
+    scripts[1].calls = {300, 4500, 61};
+    scripts[2].calls = {64};
+    for (std::size_t k = 3; k < scripts.size(); ++k) scripts[k].calls = {401, 97, 300};
+    scripts[5].throwFirst = {0, 0, -2000};
+    scripts[6].law = NormalLaw::HertzMindlin;
+    for (Script& s : scripts) s.energyBook = energyBook;
+    const std::vector<Outcome> together = playInTurn(scripts, 3);
+    for (std::size_t k = 0; k < scripts.size(); ++k) {
+        INFO("canister " << k);
+        const Outcome alone = playAlone(scripts[k]);
+        CHECK(alone.error.empty() == (k != 5));
+        if (k < 2) REQUIRE(coilContacts(alone) > 0);
+        checkSame(alone, together[k]);
+    }
+}
+
+TEST_CASE("a canister goes on from where it was in a place that another one left", "[one-driver]") {
+    std::vector<Script> scripts{{120, -9.5, 2.26e-6, 0.3}, {77, 5.0, 2.26e-6, 0.3}, {203, -9.5, 2.26e-6, 0.3}};
+    scripts[1].calls = {30};
+    std::vector<Record> taken(scripts.size());
+    std::vector<const Record*> from;
+    for (std::size_t k = 0; k < scripts.size(); ++k) {
+        (void)playAlone(scripts[k], nullptr, &taken[k]);
+        from.push_back(&taken[k]);
+    }
+    const std::vector<Outcome> together = playInTurn(scripts, 2, from);
+    for (std::size_t k = 0; k < scripts.size(); ++k) {
+        INFO("canister " << k);
+        checkSame(playAlone(scripts[k], from[k]), together[k]);
+        checkSameArrays(taken[k], together[k].restored);
+    }
+}
+
+TEST_CASE("a canister that cannot share the tables is refused, and the others go on without it", "[one-driver]") {
+    VulkanOptions options;
+    options.device = testDevice();
+    VulkanEnsemble ensemble(options);
+    std::unique_ptr<Backend> first = ensemble.enter();
+    const Script script{120, -9.5, 2.26e-6, 0.3};
+    first->load(canisterWorld(), thrownIn(20));
+    std::unique_ptr<Backend> odd = ensemble.enter();
+    std::string said;
+    std::thread other([&] {
+        RuledWorld world = canisterWorld();
+        world.surfaces.pop_back();
+        try {
+            odd->load(world, thrownIn(20));
+        } catch (const RunError& e) {
+            said = e.what();
+        }
+        odd.reset();
+    });
+    const Sensors s = first->advance(40, 0);
+    other.join();
+    CHECK_THAT(said, Catch::Contains("same kinds of surfaces"));
+    CHECK(s.count[0] == 20);
+    checkSame(playAlone(script), play(*first, script));  // which loads anew
+    requireClean(*first);
 }
 
 TEST_CASE("canisters with surfaces of other kinds cannot share tables", "[one-driver]") {

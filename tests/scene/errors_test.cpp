@@ -4,6 +4,7 @@
 
 #include "host/model/case.h"
 #include "tests/support/gpu.h"
+#include "tests/support/places.h"
 
 using namespace vkdose;
 using namespace vkdose::test;
@@ -100,7 +101,7 @@ TEST_CASE("a full neighbour row is reported") {
 }
 
 TEST_CASE("a skin that fills a row at the first step, and no other, is refused with the case", "[one-driver]") {
-    const auto file = std::filesystem::path(VKDOSE_SOURCE_DIR) / "cases" / "mini.toml";
+    const auto file = std::filesystem::path(sourceDir()) / "cases" / "mini.toml";
     const Case c = loadCase(file);
     const Insertion filled = insertParticles(c);
     int refused = 0, runs = 0;

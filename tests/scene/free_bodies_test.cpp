@@ -171,6 +171,35 @@ TEST_CASE("free bodies: a ball that falls into a bed changes no bit by batches, 
     requireClean(*whole);
 }
 
+TEST_CASE("free bodies: a ball goes on as it is when larger tables are made for a canister that comes",
+          "[one-driver]") {
+    const RuledWorld w = dropWorld();
+    RuledWorld more = w;
+    more.bodies.push_back(bodyOf("ring", {geometry::Cone{Vec3(0, 45e-3, 0), Vec3(0, 1, 0), 8e-3, 8e-3, 3e-3}}));
+    VulkanOptions options;
+    options.device = testDevice();
+    VulkanEnsemble ensemble(options);
+    const auto stays = ensemble.enter();
+    auto visitor = ensemble.enter();
+    std::thread beside([&] {
+        for (const RuledWorld& world : {w, more}) {
+            visitor->load(world, bed());
+            visitor->advance(801, 0);
+            visitor = ensemble.enter();  // before the former one leaves, so that the other waits
+        }
+        visitor.reset();
+    });
+    stays->load(w, bed());
+    stays->advance(2501, 0);
+    beside.join();
+    const auto alone = gpu();
+    alone->load(w, bed());
+    alone->advance(2501, 0);
+    CHECK(sameBody(*stays, *alone));
+    CHECK(sameBits(stays->particles(), alone->particles()));
+    requireClean(*stays);
+}
+
 TEST_CASE("free bodies: the bed takes from the ball what the ledger says, on the device as in the reference") {
     RuledWorld w = dropWorld();
     w.energyBook = true;

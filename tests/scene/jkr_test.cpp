@@ -30,7 +30,7 @@ ContactParameters gluey(double restitution = 0.05) {
 RuledWorld glueyWorld(double restitution = 0.05) {
     RuledWorld w = emptyWorld();
     w.law.pairs.fill(gluey(restitution));
-    w.law.coulombLimit = CoulombLimit::Luding;
+    w.law.limitFriction(CoulombLimit::Luding);
     w.energyBook = true;
     return w;
 }

@@ -93,3 +93,38 @@ TEST_CASE("a stop that a law may be to blame for names it") {
     flung.domain = {Vec3(-0.01), Vec3(0.01)};
     CHECK_THROWS_WITH(fall(flung), Contains("left the domain") && Contains("law odd.glsl"));
 }
+
+TEST_CASE("a law may divide whole numbers by what it likes") {
+    // -2147483648 and -1, or 0, made from the contact, so that no compiler sees them.
+    const std::string numbers =
+        "    int one = c.overlap > 0.0 ? 1 : 2, zero = one - 1, least = -2147483647 - one;\n"
+        "    ivec2 leasts = ivec2(least, 7), divisors = ivec2(-one, zero);\n"
+        "    uint none = uint(zero);\n";
+    struct Row {
+        std::string sum;  // of GLSL
+        std::string is;
+    };
+    const std::vector<Row> rows{{"least / -one", "least"},
+                                {"least % -one", "0"},
+                                {"7 * one / zero", "7"},
+                                {"7 * one % zero", "0"},
+                                {"int(9u / none)", "9"},
+                                {"int(9u % none)", "0"},
+                                {"(leasts / divisors).x", "least"},
+                                {"(leasts / divisors).y", "7"},
+                                {"(leasts % divisors).y", "0"},
+                                {"-7 * one / 2", "-3"},
+                                {"(least + one) / -one", "2147483647"}};
+    for (const Row& row : rows) {
+        CAPTURE(row.sum);
+        const RuledWorld w = floorUnder("float force(Contact c) {\n" + numbers + "    return " + row.sum +
+                                        " == " + row.is + " ? 2000.0 * c.overlap : sqrt(-1.0 - c.overlap);\n}\n" +
+                                        "float stiffness(Contact c) { return 2000.0; }\n");
+        CHECK_NOTHROW(fall(w));
+    }
+    const RuledWorld assigned = floorUnder(
+        "float force(Contact c) {\n" + numbers +
+        "    least /= -one;\n    one %= zero;\n    return float(one) + 2000.0 * c.overlap + 0.0 * float(least);\n}\n"
+        "float stiffness(Contact c) { return 2000.0; }\n");
+    CHECK_NOTHROW(fall(assigned));
+}

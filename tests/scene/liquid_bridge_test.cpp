@@ -6,6 +6,7 @@
 #include "host/backend/vulkan/law_trial.h"
 #include "host/model/case.h"
 #include "tests/scene/beds.h"
+#include "tests/support/places.h"
 
 using namespace vkdose;
 using namespace vkdose::test;
@@ -32,7 +33,7 @@ double workOfRupture() {
 
 Case bridgeCase() {
     tryLawsOnDevices();
-    return loadCase(std::filesystem::path(VKDOSE_SOURCE_DIR) / "cases/laws/liquid-bridge.toml");
+    return loadCase(std::filesystem::path(sourceDir()) / "cases/laws/liquid-bridge.toml");
 }
 
 double gapOf(const Particles& p) {

@@ -29,6 +29,7 @@ inline void vary(ContactLaw& law) {
             p.modulus *= 0.5 + share;
             p.dampingShare *= 0.5 + 0.5 * share;
             p.surfaceEnergy *= 0.5 + share;
+            p.coulombLimit = (a + b) % 2 == 0 ? CoulombLimit::Absolute : CoulombLimit::Luding;
             law.between(a, b) = p;
         }
 }

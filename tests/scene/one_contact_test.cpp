@@ -56,7 +56,7 @@ TEST_CASE("two spheres of size ratio three collide off centre") {
     RuledWorld w = emptyWorld();
     for (const auto limit : {CoulombLimit::Luding, CoulombLimit::Absolute})
         for (const auto lever : {RollingLever::Full, RollingLever::Half}) {
-            w.law.coulombLimit = limit;
+            w.law.limitFriction(limit);
             w.law.rollingLever = lever;
             for (const std::uint32_t steps : {20u, 75u}) requireClose(run(w, p, steps));
         }
@@ -118,7 +118,7 @@ TEST_CASE("elasto-plastic adhesive spheres collide off centre, and graze a floor
             rest.constantPull = a.pull;
             rest.adhesionExponent = a.exponent;
             w.law.pairs.fill(elastoPlasticAdhesive({2e6, 0.25}, {2e7, 0.3}, 0.7, rest));
-            w.law.coulombLimit = a.pull > 0 ? CoulombLimit::Luding : CoulombLimit::Absolute;
+            w.law.limitFriction(a.pull > 0 ? CoulombLimit::Luding : CoulombLimit::Absolute);
             w.surfaces = {geometry::Plane{{0, -2e-3, 0}, {0, 1, 0}}};
             Particles p;
             p.add({0.031, 0.02, 0.045}, single(1.875e-3), {0.2, 0.05, 0}, {30, 60, -20});

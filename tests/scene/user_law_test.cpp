@@ -12,6 +12,7 @@
 #include "host/model/user_law.h"
 #include "host/sim/energy_ledger.h"
 #include "tests/scene/beds.h"
+#include "tests/support/places.h"
 
 using namespace vkdose;
 using namespace vkdose::test;
@@ -26,7 +27,7 @@ std::shared_ptr<const UserLaw> lawOf(const std::string& text) {
 }
 
 std::shared_ptr<const UserLaw> shippedLaw(const std::string& name) {
-    return lawOf(*fileContent(std::filesystem::path(VKDOSE_SOURCE_DIR) / "cases/laws" / name));
+    return lawOf(*fileContent(std::filesystem::path(sourceDir()) / "cases/laws" / name));
 }
 
 /// The law of `p`, whose springs are ratios of the user's stiffness already.

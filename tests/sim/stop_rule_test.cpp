@@ -47,9 +47,61 @@ TEST_CASE("simulation rule: not a single particle in three doses") {
 
 TEST_CASE("simulation rule: rounding in the sums of an empty dose is not mass") {
     DoseJudge judge(rule(StopRule::Kind::Simulation));
+    CHECK_FALSE(judge.over(1e-3, 5, 100));
     CHECK_FALSE(judge.over(1e-12, 0, 100));
     CHECK_FALSE(judge.over(-1e-12, 0, 100));
     CHECK(judge.over(1e-12, 0, 100));
+}
+
+TEST_CASE("a device that delivers first in dose 4 is not ended before, whatever rule looks at its doses") {
+    for (const auto kind : {StopRule::Kind::Experiment, StopRule::Kind::Simulation}) {
+        StopRule r = rule(kind);
+        DoseJudge open(r);
+        CHECK(dosesUntilOver(open, {0, 0, 0, 4e-3, 4e-3, 0, 0, 0, 0}) == 8);
+        CHECK(stopKeyword(open.reason()) ==
+              stopKeyword(kind == StopRule::Kind::Experiment ? StopReason::Experiment : StopReason::Simulation));
+        r.maxDoses = 6;
+        DoseJudge counted(r);
+        CHECK(dosesUntilOver(counted, {0, 0, 0, 4e-3, 4e-3, 4e-3, 4e-3}) == 6);
+        CHECK(counted.reason() == StopReason::Doses);
+    }
+}
+
+TEST_CASE("a run in which nothing ever comes makes the doses asked for, and without a number it ends all the same") {
+    const std::vector<double> nothing(100, 0.0);
+    StopRule r = rule(StopRule::Kind::Experiment);
+    DoseJudge endless(r);
+    CHECK(dosesUntilOver(endless, nothing) == 30);  // ten times the three doses of the rule
+    CHECK(endless.reason() == StopReason::Experiment);
+    StopRule timed = r;
+    timed.endTime = 1000;
+    DoseJudge untilThen(timed);
+    CHECK(dosesUntilOver(untilThen, nothing) == 0);
+    r.maxDoses = 50;
+    DoseJudge fifty(r);
+    CHECK(dosesUntilOver(fifty, nothing) == 50);
+    CHECK(fifty.reason() == StopReason::Doses);
+}
+
+TEST_CASE("a run that a rule ended is over by the same rule, and open by another one") {
+    StopRule r = rule(StopRule::Kind::Experiment);
+    DoseJudge ended(r);
+    REQUIRE(dosesUntilOver(ended, {4e-3, 0, 0, 0}) == 4);
+    Record record;
+    ended.save(record);
+    const auto over = [&](const StopRule& other) {
+        DoseJudge judge(other);
+        judge.restore(record);
+        return judge.ends(100);
+    };
+    CHECK(over(r));
+    r.doses = 4;
+    CHECK_FALSE(over(r));
+    r.maxDoses = 4;
+    CHECK(over(r));
+    r.maxDoses = 5;
+    CHECK_FALSE(over(r));
+    CHECK_FALSE(over(rule(StopRule::Kind::None)));
 }
 
 TEST_CASE("the number of doses in a row is the case's") {
@@ -63,6 +115,7 @@ TEST_CASE("a resumed run that is to look at fewer doses looks at the last ones")
     StopRule r = rule(StopRule::Kind::Simulation);
     r.doses = 12;
     DoseJudge before(r);
+    REQUIRE_FALSE(before.over(1e-3, 5, 5));
     for (int i = 0; i < 9; ++i) REQUIRE_FALSE(before.over(0, 0, 5));
     Record record;
     before.save(record);

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host/core/error.h"
+#include "host/study/member.h"
 #include "tests/app/sandbox.h"
 #include "tests/support/catch.h"
 
@@ -34,6 +35,9 @@ SearchResult twoResults() {
     r.best = 1;
     r.misfit = 0.375;
     r.met = true;
+    using Verdict = Confirmed::Verdict;
+    r.confirmations = {{0, {{{20.5, 0.25}, 3, Verdict::Missed}, {{none, none}, 0, Verdict::Incomplete}}},
+                       {1, {{{24.25, 0.25}, 3, Verdict::Met}, {{3, 0.03125}, 3, Verdict::Met}}}};
     r.compatible = {{0.25, 0.375}, {1, 0}};
     r.parameterError = {0.015625, 1.5};
     return r;
@@ -42,7 +46,7 @@ SearchResult twoResults() {
 }  // namespace
 
 TEST_CASE("a finding: each parameter with the target that tells most of it, and what none tells is not constrained") {
-    const CalibrationFinding f = findingOf(twoTargets(), twoResults());
+    const CalibrationFinding f = findingOf(twoTargets(), twoResults(), {4, 5, 6});
     REQUIRE(f.parameters.size() == 2);
     CHECK(f.parameters[0].mostlyBy == 0);  // by the size of the change, not its sign
     CHECK(f.parameters[0].constrained);
@@ -61,14 +65,15 @@ TEST_CASE("a finding: each parameter with the target that tells most of it, and 
 TEST_CASE("a finding: targets of the same figure are told apart by their cases, and beta is in grams") {
     Study study = twoTargets();
     study.calibration->targets[1].figure = "heap.angle_deg";
-    CHECK(findingOf(study, twoResults()).targets[1].name == "heap.angle_deg of dose.toml");
+    CHECK(findingOf(study, twoResults(), {4, 5, 6}).targets[1].name == "heap.angle_deg of dose.toml");
 
     study.calibration->targets.clear();
     study.calibration->target = 3e-3;
     study.calibration->tolerance = 0.125e-3;
     SearchResult r = twoResults();
     r.goals = {{{{4e-3, 0.25e-3}, {3e-3, 0.25e-3}}, 3.25e-3, 0.5e-3, {8, -2}}};
-    const CalibrationFinding f = findingOf(study, r);
+    r.confirmations = {{1, {{{3e-3, 0.125e-3}, 2, Confirmed::Verdict::Met}}}};
+    const CalibrationFinding f = findingOf(study, r, {2, 3});
     REQUIRE(f.targets.size() == 1);
     CHECK(f.targets[0].name == "beta");
     CHECK(f.targets[0].unit == "g");
@@ -79,12 +84,52 @@ TEST_CASE("a finding: targets of the same figure are told apart by their cases, 
     CHECK(f.targets[0].deviation == Approx(0.5));
     CHECK(f.points[0].values[0].value == Approx(4));
     CHECK(f.points[0].values[0].error == Approx(0.25));
+    CHECK(f.confirmations[0].figures[0].found.value == Approx(3));
+    CHECK(f.confirmations[0].figures[0].found.error == Approx(0.125));
+}
+
+TEST_CASE("a finding: what the runs with new seeds gave at each point that they confirmed or missed") {
+    const CalibrationFinding f = findingOf(twoTargets(), twoResults(), {4, 5, 6});
+    CHECK(f.confirmingSeeds == std::vector<std::uint64_t>{4, 5, 6});
+    REQUIRE(f.confirmations.size() == 2);
+    CHECK(f.confirmations[0].at == "contact.friction 0.2, contact.kc_over_k 0.5");
+    CHECK_FALSE(f.confirmations[0].met);
+    CHECK(f.confirmations[0].figures[0].found.value == 20.5);
+    CHECK(f.confirmations[1].at == "contact.friction 0.3, contact.kc_over_k 0.25");
+    CHECK(f.confirmations[1].met);
+    CHECK(f.met);
+}
+
+TEST_CASE("a finding of a grid: the chosen point is met by what its confirming runs gave, not by the interpolation") {
+    const Sandbox box;
+    Study study = twoTargets();
+    CalibrationAim& aim = *study.calibration;
+    aim.targets.clear();
+    aim.parameters.clear();
+    aim.method = CalibrationAim::Method::Grid;
+    aim.target = 3e-3;
+    aim.tolerance = 0.125e-3;
+    const std::vector<Setting> point{settingOf(study, "contact.kc_over_k", 0.35)};
+    const auto finding = [&](double mean) {
+        return findingOf(study, point, aim.target, confirmedBy({mean, mean, mean}, 3, 1e-5, aim.target, aim.tolerance),
+                         {2, 3, 4});
+    };
+    const CalibrationFinding f = finding(3.5e-3);
+    CHECK_FALSE(f.met);
+    CHECK(f.targets[0].believed == Approx(3));
+    CHECK(f.confirmations[0].at == "contact.kc_over_k 0.35");
+    CHECK(f.confirmations[0].figures[0].found.value == Approx(3.5));
+    CHECK(finding(3.1e-3).met);
+    writeFinding(box.path(), f);
+    const auto again = readFinding(box.path());
+    REQUIRE(again);
+    CHECK(findingJson(*again) == findingJson(f));
 }
 
 TEST_CASE("calibration.json holds all of a finding, and a damaged one is refused") {
     const Sandbox box;
     CHECK_FALSE(readFinding(box.path()));
-    const CalibrationFinding f = findingOf(twoTargets(), twoResults());
+    const CalibrationFinding f = findingOf(twoTargets(), twoResults(), {4, 5, 6});
     writeFinding(box.path(), f);
     const auto again = readFinding(box.path());
     REQUIRE(again);
@@ -100,7 +145,8 @@ TEST_CASE("calibration.json holds all of a finding, and a damaged one is refused
         CHECK_THROWS_AS(readFinding(box.path()), CaseError);
     };
     for (const char* bad : {"", "[]", "{", "{}", "7"}) refused(bad);
-    for (const char* part : {"targets", "parameters", "points", "best", "misfit", "met"}) {
+    for (const char* part :
+         {"targets", "parameters", "points", "best", "misfit", "met", "confirming_seeds", "confirmations"}) {
         auto less = findingJson(f);
         less.erase(part);
         refused(less.dump());
@@ -116,6 +162,9 @@ TEST_CASE("calibration.json holds all of a finding, and a damaged one is refused
     refused(other.dump());
     other = findingJson(f);
     other["points"][1]["at"].push_back(1);
+    refused(other.dump());
+    other = findingJson(f);
+    other["confirmations"][0]["figures"].erase(0);
     refused(other.dump());
 
     forgetFinding(box.path());

@@ -29,6 +29,7 @@ class MadeUpRuns : public MemberRunner {
         for (const WaitingMember& w : members) steps[w.member->number] = w.steps;
         if (backwards) std::reverse(members.begin(), members.end());
     }
+    bool settlesBeds() const override { return beds; }
     bool takes(const Member&) const override { return int(running.size()) < slots_; }
     void start(const MemberTask& task) override {
         CHECK(std::filesystem::exists(task.folder / "case.toml"));
@@ -84,6 +85,7 @@ class MadeUpRuns : public MemberRunner {
     std::vector<bool> resumed;
     std::map<int, double> steps;  ///< left, as told before the first was started
     bool backwards = false;
+    bool beds = false;  ///< whether it settles them
     int most = 0;
     bool interrupted = false;
     std::function<void()> onEnd;

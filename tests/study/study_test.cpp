@@ -122,6 +122,32 @@ TEST_CASE("an axis varies mass and sizes of a powder, a material and a pair by t
     CHECK(faults[0].text().find("give a key of one of these: sugar") != std::string::npos);
 }
 
+TEST_CASE("the case at a point has the key that was varied, and neither defaults nor what follows from the key") {
+    const StudyFolder folder;
+    const Study study = folder.study("base = \"good.toml\"\nseeds = [4]\n[set]\nstop.max_doses = 2\n");
+    const std::vector<Setting> point{settingOf(study, "contact.bond_number", 7.25)};
+    const std::string text = caseAt(study, point, "found", "because");
+    CHECK_THAT(text, Catch::Contains("name = \"found\"\n") && Catch::Contains("reason = \"because\"\n") &&
+                         Catch::Contains("seed = 4\n") && Catch::Contains("[contact]\n") &&
+                         Catch::Contains("bond_number = 7.25\n") && Catch::Contains("max_doses = 2\n"));
+    CHECK_THAT(text, !Catch::Contains("kc_over_k") && !Catch::Contains("bulk_density"));
+    const Case found = loadResolvedCase(text, "found.toml"), member = caseOf(memberAt(study, 0, 4, point));
+    CHECK(found.dosingLaw.between(0, 0).kc == member.dosingLaw.between(0, 0).kc);
+    CHECK(found.schedule.stop.maxDoses == 2);
+}
+
+TEST_CASE("every case that is shipped is the same case when it is written for people") {
+    const StudyFolder folder;
+    for (const auto& file : test::shippedCases()) {
+        CAPTURE(file);
+        const Case base = loadCase(file);
+        const Study study = folder.study("base = \"" + file.string() + "\"\n");
+        const std::string text = caseAt(study, {}, base.name, base.reason);
+        CHECK(loadResolvedCase(text, "written.toml").resolved ==
+              loadCase(file, {"reason=\"" + base.reason + "\""}).resolved);
+    }
+}
+
 TEST_CASE("every fault of a study names its line, its key and a remedy") {
     const StudyFolder folder;
     struct Fault {

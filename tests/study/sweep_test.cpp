@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <set>
 #include <sstream>
 #include <tuple>
 
@@ -18,19 +19,19 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const std::atomic<bool> kNoStop{false};
+const HaltRule kNoHalt = [] { return Halt::None; };
 
 struct Sweeping {
     StudyFolder place;
     fs::path out = place.path() / "out";
 
     SweepOutcome run(MadeUpRuns& runs, const std::string& text = kGoodStudy, bool retry = false,
-                     const std::atomic<bool>& stop = kNoStop, SweepObserver* observer = nullptr) const {
+                     const HaltRule& halt = kNoHalt, SweepObserver* observer = nullptr) const {
         const Study study = place.study(text);
         const std::vector<Member> members = membersOf(study);
         SweepFolder folder(out, study, members);
         SweepObserver nobody;
-        const SweepOutcome outcome = runMembers(folder, members, runs, observer ? *observer : nobody, stop, retry);
+        const SweepOutcome outcome = runMembers(folder, members, runs, observer ? *observer : nobody, halt, retry);
         if (outcome.whole) folder.sort();
         return outcome;
     }
@@ -231,11 +232,21 @@ TEST_CASE("a result that a member's folder does not tell stays as the table has 
 TEST_CASE("an interrupted sweep goes on with the members that had begun, from their checkpoints") {
     const Sweeping sweep;
     MadeUpRuns runs(2);
-    std::atomic<bool> stop{false};
-    runs.onEnd = [&] { stop = runs.started.size() >= 5; };
-    const SweepOutcome outcome = sweep.run(runs, kGoodStudy, false, stop);
+    const Halt why = GENERATE(Halt::Interrupted, Halt::TimeIsUp);
+    Halt now = Halt::None;
+    runs.onEnd = [&] { now = runs.started.size() >= 5 ? why : Halt::None; };
+    const SweepOutcome outcome = sweep.run(runs, kGoodStudy, false, [&] { return now; });
     CHECK_FALSE(outcome.whole);
+    CHECK(outcome.halt == why);
     CHECK(outcome.ok == 4);
+    CHECK(outcome.members == 12);
+    // None of those that have yet to end has come to a first sample.
+    std::set<std::string> ended;
+    for (std::size_t row = 0; row < 4; ++row) ended.insert(sweep.members().text(row, "member"));
+    double work = 0;
+    for (const Member& m : membersOf(sweep.place.study()))
+        if (!ended.contains(std::to_string(m.number))) work += m.expectedWork;
+    CHECK(outcome.workLeft == Approx(work));
     const std::vector<int> cut = sweep.members().rows() == 5 ? std::vector<int>{} : std::vector<int>{-1};
     REQUIRE(cut.empty());
     const Table between = sweep.members();
@@ -251,6 +262,29 @@ TEST_CASE("an interrupted sweep goes on with the members that had begun, from th
     CHECK(std::count(rest.resumed.begin(), rest.resumed.end(), true) == 1);
     CHECK(sweep.members().rows() == 12);
     CHECK(sweep.doses().rows() == 24);
+}
+
+TEST_CASE("what is left counts a bed that several members have once, and what has been done of a member not at all") {
+    const Sweeping sweep;
+    const std::string text =
+        "base = \"good.toml\"\n[set]\nsettle.time_s = 0.1\nsettle.kc_over_k = 0.3\n"
+        "[[axis]]\nkey = \"contact.kc_over_k\"\nvalues = [0.1, 0.2, 0.4]\n";
+    MadeUpRuns none(2);
+    none.beds = true;
+    const SweepOutcome outcome = sweep.run(none, text, false, [] { return Halt::TimeIsUp; });
+    CHECK(none.started.empty());
+    const std::vector<Member> members = sweep.place.members(text);
+    REQUIRE(bedsOf(members).size() == 1);
+    const double each = members[0].expectedWork, settling = members[0].settlingWork;
+    REQUIRE(settling > 0);
+    CHECK(outcome.workLeft == Approx(3 * each - 2 * settling));
+
+    const fs::path begun = sweep.out / "members/0001";
+    fs::create_directories(begun);
+    std::ofstream(begun / kCheckpointName) << "state";
+    std::ofstream(begun / "timeseries.csv") << "time_s\n" << members[1].expectedTime / 4 << "\n";
+    const SweepOutcome later = sweep.run(none, text, false, [] { return Halt::TimeIsUp; });
+    CHECK(later.workLeft == Approx(3 * each - settling - each / 4).epsilon(1e-4));
 }
 
 TEST_CASE("a runner may put the members into another order, knowing what is left of each") {
@@ -361,9 +395,10 @@ TEST_CASE("progress does not climb over members that Ctrl-C cut short") {
     } watch;
     const Sweeping sweep;
     MadeUpRuns runs(3);
-    std::atomic<bool> stop{false};
-    runs.onEnd = [&] { stop = true; };  // after the first of twelve
-    const SweepOutcome outcome = sweep.run(runs, kGoodStudy, false, stop, &watch);
+    Halt now = Halt::None;
+    runs.onEnd = [&] { now = Halt::Interrupted; };  // after the first of twelve
+    const SweepOutcome outcome = sweep.run(
+        runs, kGoodStudy, false, [&] { return now; }, &watch);
     CHECK_FALSE(outcome.whole);
     REQUIRE(watch.fractions.size() == 3);  // one ended, two were cut short before they did anything
     CHECK(watch.fractions[0] > 0);

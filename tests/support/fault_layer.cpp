@@ -13,6 +13,13 @@
 //   split-memory    device memory that the host cannot map, as on a discrete card, beside host memory
 //   small-window:N  the same, with a window of N bytes into the device memory
 //   little-local:N  device memory of N bytes, which the host can map, beside host memory, as some integrated GPUs have
+//   huge-limits     every limit of sizes and counts is the largest number there is
+//   no-groups       dispatches of no workgroup at all
+//   one-invocation  workgroups of one invocation
+//   no-period       the clock's period is no number
+//   strange-name    names without an end, which move a terminal's cursor
+//   many-types      more types and heaps of memory than there can be, and a type in a heap that is not there
+//   endless-list    the list of devices never gets complete
 //   no-queue        vkCreateDevice fails
 //   no-pipeline     vkCreateComputePipelines fails
 //   no-memory:N     vkAllocateMemory fails
@@ -25,6 +32,8 @@
 #include <atomic>
 #include <cstdlib>
 #include <cstring>
+#include <iterator>
+#include <limits>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -130,6 +139,7 @@ VKAPI_ATTR void VKAPI_CALL destroyInstance(VkInstance instance, const VkAllocati
 VKAPI_ATTR VkResult VKAPI_CALL enumeratePhysicalDevices(VkInstance instance, std::uint32_t* count,
                                                         VkPhysicalDevice* found) {
     const VkResult result = NEXT(instanceOf(instance), vkEnumeratePhysicalDevices)(instance, count, found);
+    if (fault("endless-list") && found != nullptr) return VK_INCOMPLETE;
     if (!fault("no-device")) return result;
     *count = 0;
     return VK_SUCCESS;
@@ -163,6 +173,17 @@ void lower(VkPhysicalDeviceLimits& l) {
     l.timestampComputeAndGraphics = VK_FALSE;
 }
 
+void enlarge(VkPhysicalDeviceLimits& l) {
+    l.maxStorageBufferRange = l.maxTexelBufferElements = l.maxUniformBufferRange = l.maxPushConstantsSize =
+        l.maxMemoryAllocationCount = l.maxBoundDescriptorSets = l.maxPerStageDescriptorStorageBuffers = ~0u;
+    for (std::uint32_t& count : l.maxComputeWorkGroupCount) count = ~0u;
+}
+
+template <std::size_t N>
+void spoilName(char (&name)[N]) {
+    std::fill(std::begin(name), std::end(name), '\033');
+}
+
 void spoil(VkPhysicalDeviceProperties& p) {
     if (fault("discrete-gpu")) p.deviceType = VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU;
     if (fault("vulkan-1.0")) p.apiVersion = VK_API_VERSION_1_0;
@@ -170,6 +191,12 @@ void spoil(VkPhysicalDeviceProperties& p) {
     if (fault("few-buffers")) p.limits.maxPerStageDescriptorStorageBuffers = 4;
     if (const auto bytes = fault("small-range")) p.limits.maxStorageBufferRange = *bytes > 0 ? *bytes : 65536;
     if (fault("few-groups")) p.limits.maxComputeWorkGroupCount[0] = 2;
+    if (fault("huge-limits")) enlarge(p.limits);
+    if (fault("no-groups"))
+        for (std::uint32_t& count : p.limits.maxComputeWorkGroupCount) count = 0;
+    if (fault("one-invocation")) p.limits.maxComputeWorkGroupInvocations = 1;
+    if (fault("no-period")) p.limits.timestampPeriod = std::numeric_limits<float>::quiet_NaN();
+    if (fault("strange-name")) spoilName(p.deviceName);
 }
 
 VKAPI_ATTR void VKAPI_CALL properties(VkPhysicalDevice physical, VkPhysicalDeviceProperties* p) {
@@ -179,6 +206,9 @@ VKAPI_ATTR void VKAPI_CALL properties(VkPhysicalDevice physical, VkPhysicalDevic
 VKAPI_ATTR void VKAPI_CALL properties2(VkPhysicalDevice physical, VkPhysicalDeviceProperties2* p) {
     NEXT(instanceOf(physical), vkGetPhysicalDeviceProperties2)(physical, p);
     spoil(p->properties);
+    for (auto* at = static_cast<VkBaseOutStructure*>(p->pNext); at != nullptr; at = at->pNext)
+        if (fault("strange-name") && at->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES)
+            spoilName(reinterpret_cast<VkPhysicalDeviceDriverProperties*>(at)->driverInfo);
 }
 
 VKAPI_ATTR void VKAPI_CALL features2(VkPhysicalDevice physical, VkPhysicalDeviceFeatures2* features) {
@@ -210,6 +240,10 @@ std::vector<VkMemoryType> shownTypes() {
 
 VKAPI_ATTR void VKAPI_CALL memoryProperties(VkPhysicalDevice physical, VkPhysicalDeviceMemoryProperties* p) {
     NEXT(instanceOf(physical), vkGetPhysicalDeviceMemoryProperties)(physical, p);
+    if (fault("many-types")) {
+        p->memoryTypes[VK_MAX_MEMORY_TYPES - 1] = {kLocal | kHost, VK_MAX_MEMORY_HEAPS + 7};
+        p->memoryTypeCount = p->memoryHeapCount = 4096;
+    }
     const std::vector<VkMemoryType> shown = shownTypes();
     if (shown.empty()) return;
     p->memoryTypeCount = std::uint32_t(shown.size());

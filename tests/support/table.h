@@ -9,13 +9,15 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/places.h"
+
 namespace vkdose::test {
 
 using TableRow = std::map<std::string, double>;
 
 /// Rows of tests/oracle/<name> by column name. Throws if the file is missing, empty or a cell is not a number.
 inline std::vector<TableRow> oracleTable(const std::string& name) {
-    std::ifstream file(std::string(VKDOSE_SOURCE_DIR) + "/tests/oracle/" + name);
+    std::ifstream file(sourceDir() + "/tests/oracle/" + name);
     if (!file) throw std::runtime_error("cannot open tests/oracle/" + name);
     const auto cells = [](std::string line) {
         if (!line.empty() && line.back() == '\r') line.pop_back();

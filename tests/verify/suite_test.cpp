@@ -107,7 +107,7 @@ std::vector<Mutant> mutants() {
          1,
          {"collisions/oblique-sliding", "sliding/slip-then-roll", "sliding/steep-incline", "coil/pressed-sphere",
           "hertz/oblique", "hertz/oblique-sticking", "hertz/spinning-wall", "hertz/spinning-pair",
-          "hertz/spinning-unequal", "hertz/ledger", "eepa/ledger", "jkr/ledger"},
+          "hertz/spinning-unequal", "hertz/ledger", "eepa/ledger", "jkr/ledger", "increments/turns"},
          "head-on"},
         {"k_c 2 % down",
          scaled(&ContactParameters::kc, 0.98),
@@ -116,8 +116,8 @@ std::vector<Mutant> mutants() {
          "integrator"},
         {"the other Coulomb limit",
          [](RuledWorld& w) {
-             w.law.coulombLimit =
-                 w.law.coulombLimit == CoulombLimit::Luding ? CoulombLimit::Absolute : CoulombLimit::Luding;
+             const bool luding = w.law.between(0, 0).coulombLimit == CoulombLimit::Luding;
+             w.law.limitFriction(luding ? CoulombLimit::Absolute : CoulombLimit::Luding);
          },
          1,
          {"sliding/coulomb-limit"},
@@ -168,6 +168,18 @@ std::vector<Mutant> mutants() {
          1,
          {"eepa/path", "eepa/restitution"},
          "eepa/ledger"},
+        {"sliding springs that grow",
+         asItIs,
+         1,
+         {"energy/grazing"},
+         "integrator",
+         [](Record& r) {
+             const std::size_t contacts = r.get<std::uint32_t>("contact_ends").size() / 3;
+             std::vector<double> numbers = r.get<double>("contact_numbers");
+             for (std::size_t c = 0; c < contacts; ++c)
+                 for (std::size_t d = 1; d < 4; ++d) numbers[numbers.size() / contacts * c + d] *= 1.2;
+             r.put("contact_numbers", std::move(numbers));
+         }},
         {"rolling friction 5 % up", scaled(&ContactParameters::muR, 1.05), 1, {"rolling/resistance"}, "sliding/"},
         {"torsion friction 5 % up", scaled(&ContactParameters::muTo, 1.05), 1, {"torsion/spin-decay"}, "rolling"},
         {"torsion stiffness 5 % up", scaled(&ContactParameters::kTo, 1.05), 1, {"torsion/spin-decay"}, "rolling"},
@@ -181,8 +193,9 @@ std::vector<Mutant> mutants() {
         {"gravity 1 % up",
          [](RuledWorld& w) { w.gravity *= 1.01; },
          1,
-         {"integrator/free-fall", "integrator/bounce", "sliding/steep-incline", "bed/column", "bed/weight",
-          "rolling/gentle-incline", "size-ratio/roll-off", "size-ratio/wedge-rest", "size-ratio/neck"},
+         {"integrator/free-fall", "integrator/bounce", "increments/falls", "increments/works", "sliding/steep-incline",
+          "bed/column", "bed/weight", "rolling/gentle-incline", "size-ratio/roll-off", "size-ratio/wedge-rest",
+          "size-ratio/neck"},
          "head-on"},
         {"the coil 1 % fast", asItIs, 1.01, {"coil/pressed-sphere", "coil/pushed-sphere"}, "rolling"},
         {"a coil of the other hand",
@@ -198,7 +211,7 @@ std::vector<Mutant> mutants() {
                  if (auto* turn = std::get_if<geometry::Turn>(&body.course.motion)) turn->rate *= 1.01;
          },
          1,
-         {"bodies/drum-balance", "bodies/pushed-sphere"},
+         {"bodies/drum-balance", "bodies/pushed-sphere", "bodies/held-sphere"},
          "rolling"},
         {"bodies that move freely 1 % heavier",
          [](RuledWorld& w) {
@@ -259,7 +272,8 @@ std::vector<Mutant> mutants() {
              for (ContactParameters& p : w.law.pairs) p.mu = std::min(p.mu, 0.2);
          },
          1,
-         {"size-ratio/wedge-bounce", "size-ratio/wedge-rest", "size-ratio/neck", "collisions/oblique-sticking"},
+         {"size-ratio/wedge-bounce", "size-ratio/wedge-rest", "size-ratio/neck", "collisions/oblique-sticking",
+          "increments/stretches"},
          "steep-incline"},
         {"a time step four times as long as said",
          [](RuledWorld& w) { w.timeStep *= 4; },

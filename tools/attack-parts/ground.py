@@ -57,11 +57,14 @@ class Try:
         self.note(f"FOUND: {text}")
         self.finds.append(text)
 
-    def start(self, *words, **limits):
-        """Starts the program in the try's folder."""
+    def start(self, *words, folder=None, environment=None, **limits):
+        """Starts the program in the try's folder or another one, with further variables."""
         line = [self.ground.program, *words]
-        self.log.append(shlex.join(line))
-        return program.Running(line, self.folder, self.ground.environment, **limits)
+        more = environment or {}
+        self.log.append(" ".join([f"{key}={shlex.quote(value)}" for key, value in more.items()] + [shlex.join(line)]))
+        if folder:
+            self.log[-1] = f"(cd {shlex.quote(folder)} && {self.log[-1]})"
+        return program.Running(line, folder or self.folder, {**self.ground.environment, **more}, **limits)
 
     def ended(self, running, sent=()):
         """Waits for the program and notes what no command may do. `sent`: the signals that it was sent."""
@@ -73,6 +76,13 @@ class Try:
         if not running.wait_family(self.ground.patience):
             self.found("processes outlive the program")
         return end
+
+    def python(self, script, module):
+        """Runs a script with the package of the source tree and the module in this folder."""
+        self.log.append(f"PYTHONPATH={ROOT}/host/python:{module} python3 {script}")
+        environment = {**self.ground.environment, "VKDOSE": self.ground.program,
+                       "PYTHONPATH": os.pathsep.join((os.path.join(ROOT, "host", "python"), module))}
+        return self.ended(program.Running(["/usr/bin/python3", "-B", script], self.folder, environment))
 
     def vkdose(self, *words, **limits):
         return self.ended(self.start(*words, **limits))
@@ -103,7 +113,8 @@ class Ground:
         # The address sanitizer reserves terabytes and has a limit of its own.
         self.memory = 0 if self.sanitized else options.memory << 20
         self.environment = {**os.environ, "LP_NUM_THREADS": "0", "LC_ALL": "C.UTF-8",
-                            "ASAN_OPTIONS": f"hard_rss_limit_mb={options.memory}:exitcode=99",
+                            "ASAN_OPTIONS": f"hard_rss_limit_mb={options.memory}:exitcode=99:"
+                                            "verify_asan_link_order=0",
                             "UBSAN_OPTIONS": "halt_on_error=1:exitcode=99"}
         self._made, self._locks, self._guard = {}, {}, threading.Lock()
         self.foundation = os.path.join(self.work, "undisturbed")

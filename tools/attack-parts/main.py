@@ -13,14 +13,17 @@ import traceback
 import disks
 import folders
 import foreign
+import forks
 import kills
+import limits
 import moves
 import mutations
 import pairs
 import program
+import reads
 from ground import ROOT, Ground, Try
 
-KINDS = {kind.NAME: kind for kind in (kills, mutations, disks, moves, pairs, foreign)}
+KINDS = {kind.NAME: kind for kind in (kills, mutations, reads, disks, moves, pairs, foreign, limits, forks)}
 
 
 def options_of(words):

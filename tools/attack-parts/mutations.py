@@ -47,7 +47,9 @@ FINDING = """{"met": true, "misfit": 0.01, "best": 1,
               "believed": 3.01, "deviation": 0.02}],
  "parameters": [{"key": "contact.friction", "low": 0.3, "high": 0.5, "chosen": 0.4, "change_in_uncertainties": [-12.5],
                  "mostly_by": 0, "error": 0.016, "constrained": true, "may_meet": [0.38, 0.42]}],
- "points": [{"at": [0.3], "values": [[4.2, null]]}, {"at": [0.4], "values": [[3.01, null]]}]}
+ "points": [{"at": [0.3], "values": [[4.2, null]]}, {"at": [0.4], "values": [[3.01, null]]}], "confirming_seeds": [2, 3],
+ "confirmations": [{"at": "contact.friction 0.4", "met": true,
+                    "figures": [{"mean": 3.02, "error": 0.03, "runs": 2, "verdict": "met"}]}]}
 """
 # The resolved cases of this attack have these as the program derives them, so that it derives the same without them.
 DERIVED = ("step_s", "skin_mm")

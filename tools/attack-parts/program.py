@@ -104,8 +104,8 @@ class Ended:
 class Running:
     """A program that has been started, with everything it starts, in a session of its own."""
 
-    def __init__(self, words, folder, environment, memory=0, file_size=0):
-        limits = ["prlimit", "--core=0"]
+    def __init__(self, words, folder, environment, memory=0, file_size=0, limits=()):
+        limits = ["prlimit", "--core=0", *limits]
         if memory:
             limits.append(f"--as={memory}")
         if file_size:

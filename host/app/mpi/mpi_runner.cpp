@@ -10,6 +10,7 @@
 
 #include "host/app/child_runner.h"
 #include "host/app/interrupt.h"
+#include "host/app/tell.h"
 #include "host/core/error.h"
 
 namespace vkdose {
@@ -92,7 +93,7 @@ class MpiRunner : public MemberRunner {
             while (int(idle_.size()) < ranks_) (void)MpiRunner::wait();
             for (int rank = 1; rank < ranks_; ++rank) say(rank, kQuit, {});
         } catch (const std::exception& e) {
-            fmt::print(stderr, "vkdose: {}\n", e.what());
+            tell(stderr, "vkdose: {}\n", e.what());
             MPI_Abort(MPI_COMM_WORLD, 1);
         }
         MPI_Finalize();

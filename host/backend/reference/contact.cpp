@@ -30,7 +30,7 @@ std::optional<Touch> touchSphere(const Body& i, const Body& j, double reach) {
 }
 
 std::optional<Touch> touchWall(const Body& i, const Vec3& normal, double distance, const geometry::Moving& wall,
-                               double reach) {
+                               double reach, double back) {
     const double overlap = i.radius - distance;
     if (!(overlap > -reach)) return std::nullopt;
 
@@ -42,7 +42,8 @@ std::optional<Touch> touchWall(const Body& i, const Vec3& normal, double distanc
     touch.mass = i.mass;
     touch.leverI = -(i.radius - overlap / 2) * normal;
     touch.leverJ = Vec3(0);
-    touch.velocity = (i.velocity + glm::cross(i.spin, touch.leverI)) - wall.at(i.position + touch.leverI);
+    touch.velocity = (i.velocity + glm::cross(i.spin, touch.leverI)) -
+                     wall.at(i.position - back * i.velocity + touch.leverI);  // where the contact was then
     touch.spin = i.spin - wall.spin;
     return touch;
 }
@@ -55,12 +56,23 @@ Response contactResponse(const ContactLaw& law, MaterialPair pair, const Touch& 
     const ContactParameters& p = law.of(pair);
     const Vec3& n = touch.normal;
 
+    if (history.maxOverlap > 0) {
+        const double kept = springsKept(p, touch.reduced, touch.mass, history.overlap, touch.overlap);
+        history.sliding *= kept;
+        history.rolling *= kept;
+        history.torsion *= kept;
+    }
+    history.overlap = touch.overlap;
+
     const double normalVelocity = glm::dot(touch.velocity, n);
     const NormalAnswer answer = normalAnswer(p, touch.overlap, touch.reduced, touch.mass, history.maxOverlap);
-    const double normal = answer.force - answer.gamma * normalVelocity;
-    const double bearing = law.coulombLimit == CoulombLimit::Luding
-                               ? std::max(0.0, answer.force + answer.pull)  // adhesion moves friction's zero
-                               : std::abs(normal);
+    // The overlap grows by `share` of the way along the normal; the same share of the force takes as much work.
+    const double damping = -answer.gamma * touch.share * normalVelocity;
+    const double normal = touch.share * (answer.force + damping);
+    const double bearing =
+        p.coulombLimit == CoulombLimit::Luding
+            ? touch.share * std::max(0.0, answer.force + answer.pull)  // adhesion moves friction's zero
+            : std::abs(normal);
 
     const Vec3 tangentialVelocity = touch.velocity - n * normalVelocity;
     bool slides = false, rolls = false, twists = false;
@@ -81,7 +93,7 @@ Response contactResponse(const ContactLaw& law, MaterialPair pair, const Touch& 
     response.torqueJ = glm::cross(touch.leverJ, -tangential) - response.couple;
     const bool adhesive = onAdhesiveBranch(p, touch.overlap, answer.force);
     response.parts = {.hysteretic = answer.force,
-                      .damping = -answer.gamma * normalVelocity,
+                      .damping = touch.share * damping,
                       .sliding = tangential,
                       .rolling = rollingCouple,
                       .torsion = torsionCouple,
@@ -93,7 +105,8 @@ Response contactResponse(const ContactLaw& law, MaterialPair pair, const Touch& 
                       .arriving = workOfFirstTouch(p, touch.overlap, touch.reduced, answer.force),
                       .kt = answer.kt,
                       .kr = answer.kr,
-                      .kTo = answer.kTo};
+                      .kTo = answer.kTo,
+                      .share = touch.share};
     return response;
 }
 

@@ -24,6 +24,7 @@ struct History {
     Vec3 sliding{0};        ///< xi [m]
     Vec3 rolling{0};        ///< rho [m]
     double torsion = 0;     ///< [m]
+    double overlap = 0;     ///< in the last step [m]; not a number: not known
 };
 
 /// Kinematics of a contact; `i` is the particle (the smaller index of a pair), `j` the other one or the wall.
@@ -37,23 +38,24 @@ struct Touch {
     Vec3 leverJ;     ///< from the centre of j; zero for a wall [m]
     Vec3 velocity;   ///< of i relative to j at the contact point [m/s]
     Vec3 spin;       ///< omega_i - omega_j [rad/s]
+    double share = 1;  ///< how much the overlap falls per way along the normal (geometry/features.h)
 };
 
 /// Contact of two spheres; nothing unless their overlap is above -reach [m].
 std::optional<Touch> touchSphere(const Body& i, const Body& j, double reach = 0);
 
-/// Contact with a wall at `distance` from the centre of `i` along `normal`. The wall moves as `wall` says. Nothing
-/// unless the overlap is above -reach [m].
+/// Contact with a wall at `distance` from the centre of `i` along `normal`. The velocities of `i` and those of `wall`
+/// are of a time `back` before its position [s]. Nothing unless the overlap is above -reach [m].
 std::optional<Touch> touchWall(const Body& i, const Vec3& normal, double distance, const geometry::Moving& wall,
-                               double reach = 0);
+                               double reach = 0, double back = 0);
 
 /// Velocity of i relative to j at the ends of their levers [m/s].
 Vec3 contactVelocity(const Body& i, const Vec3& leverI, const Body& j, const Vec3& leverJ);
 
 /// The parts that a contact's force is made of, and the state of the elements that exert them.
 struct Parts {
-    double hysteretic;           ///< along the normal, without damping [N]
-    double damping;              ///< along the normal [N]
+    double hysteretic;           ///< along the normal, of the law without damping; `share` of it acts [N]
+    double damping;              ///< along the normal, what acts [N]
     Vec3 sliding;                ///< on i [N]
     Vec3 rolling;                ///< couple on i [N m]
     Vec3 torsion;                ///< couple on i [N m]
@@ -62,6 +64,7 @@ struct Parts {
     NormalLaw law;               ///< of the normal force
     double arriving;             ///< work that pressing a new contact so far takes [J]
     double kt, kr, kTo;          ///< stiffness of sliding, rolling, torsion [N/m]
+    double share;                ///< of the touch
 };
 
 /// Forces and torques of a contact. The opposite force and the opposite couple act on j; the force acts there on j's

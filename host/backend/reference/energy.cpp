@@ -1,5 +1,7 @@
 #include "host/backend/reference/energy.h"
 
+#include <algorithm>
+
 #include "host/backend/reference/normal.h"
 
 namespace vkdose::reference {
@@ -20,7 +22,7 @@ Work halfStepWork(const Exerted& e, const Body& i, const Body& j, double dt) {
     const Vec3 velocity = contactVelocity(i, e.leverI, j, e.leverJ), spin = i.spin - j.spin;
     const double alongNormal = glm::dot(e.normal, velocity);
     const double half = -dt / 2;
-    return {half * e.parts.hysteretic * alongNormal, half * e.parts.damping * alongNormal,
+    return {half * e.parts.share * e.parts.hysteretic * alongNormal, half * e.parts.damping * alongNormal,
             half * glm::dot(e.parts.sliding, velocity), half * glm::dot(e.parts.rolling, spin),
             half * glm::dot(e.parts.torsion, spin)};
 }
@@ -63,29 +65,30 @@ void bookContact(const Exerted& before, const Exerted& now, const Body& i, const
     book.viscous += taken.damping;
 
     // A slider that sticks loses energy in its dashpot only; when the contact opens its spring snaps.
-    // What a spring gains because the overlap makes it stiffer comes from no motion; friction has it too.
+    // What a spring loses because the overlap changes its stiffness (springsKept) goes to no motion; friction has it
+    // too.
     const bool opens = !now.touching;
-    const auto bookSlider = [&](double work, double had, double has, double stiffening, bool slips, double& friction) {
+    const auto bookSlider = [&](double work, double had, double has, double lost, bool slips, double& friction) {
         if (slips || opens) {
             friction += work - (has - had);
             return;
         }
-        book.viscous += work - (has - had) + had * stiffening;
-        friction -= had * stiffening;
+        book.viscous += work - (has - had) - had * lost;
+        friction += had * lost;
     };
-    const auto stiffening = [&](double Parts::*stiffness) {
+    const auto lost = [&](double Parts::*stiffness) {  // share of the spring's energy
         const double was = before.parts.*stiffness, is = now.parts.*stiffness;
-        return was > 0 && is != was ? is / was - 1 : 0;
+        return was > 0 && is > 0 ? 1 - std::min(was / is, is / was) : 0;
     };
     const Elastic &had = before.elastic, &has = now.elastic;
-    bookSlider(taken.sliding, had.sliding, has.sliding, stiffening(&Parts::kt), now.parts.slides, book.sliding);
-    bookSlider(taken.rolling, had.rolling, has.rolling, stiffening(&Parts::kr), now.parts.rolls, book.rolling);
-    bookSlider(taken.torsion, had.torsion, has.torsion, stiffening(&Parts::kTo), now.parts.twists, book.torsion);
+    bookSlider(taken.sliding, had.sliding, has.sliding, lost(&Parts::kt), now.parts.slides, book.sliding);
+    bookSlider(taken.rolling, had.rolling, has.rolling, lost(&Parts::kr), now.parts.rolls, book.rolling);
+    bookSlider(taken.torsion, had.torsion, has.torsion, lost(&Parts::kTo), now.parts.twists, book.torsion);
 }
 
 double halfStepGiven(const Exerted& e, const Body& j, double dt) {
     if (!e.touching) return 0;
-    const Vec3 force = (e.parts.hysteretic + e.parts.damping) * e.normal + e.parts.sliding;
+    const Vec3 force = (e.parts.share * e.parts.hysteretic + e.parts.damping) * e.normal + e.parts.sliding;
     return dt / 2 *
            (glm::dot(force, j.velocity + glm::cross(j.spin, e.leverJ)) +
             glm::dot(e.parts.rolling + e.parts.torsion, j.spin));

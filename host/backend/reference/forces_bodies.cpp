@@ -58,7 +58,7 @@ void Forces::touchBody(std::size_t i, std::uint32_t b, std::span<const OnBody> b
     const double reach = before.empty() ? 0 : reachOf(world_->law.between(materialOf(i), body.material), reduced);
     std::vector<geometry::Feature> found;
     if (particles_->status[i] == Status::Active) try {
-            found = geometry::touched(body.shapes, placed.pose.toBody(particles_->position[i]), radius + reach);
+            found = geometry::touched(body.shapes, placed.pose.toBody(particles_->position[i]), radius, reach);
         } catch (const geometry::TooManyFeatures& e) {
             throw RunError(fmt::format("particle {} at body \"{}\": {}", i, body.name, e.what()));
         }
@@ -74,9 +74,11 @@ void Forces::touchBody(std::size_t i, std::uint32_t b, std::span<const OnBody> b
     for (std::size_t k = 0; k < found.size(); ++k) {
         const Vec3 normal = placed.pose.directionToWorld(directions[k]);
         const bool goes = continues[k] != geometry::kNew;
-        std::optional<Touch> touch = touchWall(this->body(i), normal, found[k].distance, seen, goes ? reach : 0);
+        std::optional<Touch> touch =
+            touchWall(this->body(i), normal, found[k].distance, seen, goes ? reach : 0, springDt_ / 2);
         if (!touch) continue;
         touch->reduced = reduced;
+        touch->share = found[k].share;
         touch->mass /= 1 + touch->mass * placed.perMass;
         OnBody now{b, directions[k], {}, {}};
         Exerted last;

@@ -76,6 +76,12 @@ NormalAnswer normalAnswer(const ContactParameters& p, double overlap, double red
     }
 }
 
+double springsKept(const ContactParameters& p, double reduced, double mass, double before, double now) {
+    if (p.law == NormalLaw::Luding) return 1;
+    const double was = linearised(p, mass, reduced, before).k1, is = linearised(p, mass, reduced, now).k1;
+    return was < is ? was / is : 1;
+}
+
 double storedEnergy(const ContactParameters& p, double overlap, double reduced, double force, double memory) {
     if (p.law == NormalLaw::HertzMindlin) return 0.4 * force * overlap;
     if (p.law == NormalLaw::Eepa) return eepaPath(p, reduced, memory).energy(overlap);

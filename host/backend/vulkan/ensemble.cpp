@@ -86,56 +86,78 @@ Ensemble::Ensemble(const VulkanOptions& options) : options_(options), device_(op
         throw DeviceError(fmt::format("{} gives no addresses of buffers to shaders", device_.info().name));
 }
 
-void Ensemble::load(const std::vector<Canister>& canisters) {
+Ensemble::MemberState Ensemble::newMember(const Canister& c) {
+    if (c.particles.size() == 0) throw RunError("there are no particles to simulate");
+    MemberState m;
+    m.world = c.world;
+    m.bodies = allBodies(c.world);
+    m.loaded = c.particles;
+    m.userLaw = c.law.user;
+    m.block = packMember(c.world, c.law, c.particles);
+    return m;
+}
+
+TableSizes Ensemble::sizesOf(const MemberState& m, std::uint32_t members, const DeviceShape& shape) {
+    return tableSizes(m.world, Crowd(m.loaded), m.block, shape, members, m.userLaw);
+}
+
+Ensemble::Plan Ensemble::planFor(std::vector<MemberState> members) const {
     const VkPhysicalDeviceLimits& limits = device_.limits();
-    if (canisters.size() > limits.maxComputeWorkGroupCount[1])
-        throw DeviceError(fmt::format("{} canisters at once; {} allows {}", canisters.size(), device_.info().name,
+    if (members.size() > limits.maxComputeWorkGroupCount[1])
+        throw DeviceError(fmt::format("{} canisters at once; {} allows {}", members.size(), device_.info().name,
                                       limits.maxComputeWorkGroupCount[1]));
     const std::uint32_t mostGroups = std::min(options_.mostGroups, limits.maxComputeWorkGroupCount[0]);
-    members_.clear();
-    for (const Canister& c : canisters) {
-        if (c.particles.size() == 0) throw RunError("there are no particles to simulate");
-        MemberState m;
-        m.world = c.world;
-        m.bodies = allBodies(c.world);
-        m.loaded = c.particles;
-        m.block = packMember(c.world, c.law, c.particles);
-        members_.push_back(std::move(m));
-    }
+    Plan plan;
     const auto sizesWithin = [&](VkDeviceSize range) {
-        const DeviceShape shape{options_.workgroup, mostGroups, range};
+        plan.shape = {options_.workgroup, mostGroups, range};
         std::vector<TableSizes> rooms;
-        for (std::size_t m = 0; m < members_.size(); ++m)
-            rooms.push_back(tableSizes(members_[m].world, Crowd(members_[m].loaded), members_[m].block, shape,
-                                       std::uint32_t(members_.size()), canisters[m].law.user));
+        for (const MemberState& m : members) rooms.push_back(sizesOf(m, std::uint32_t(members.size()), plan.shape));
         return roomForAll(rooms);
     };
-    TableSizes sizes = sizesWithin(limits.maxStorageBufferRange);
+    plan.sizes = sizesWithin(limits.maxStorageBufferRange);
     // Tables that are bound are the faster ones, so that only beds that they do not hold are reached by address.
-    if (sizes.longestBytes() > limits.maxStorageBufferRange) sizes = sizesWithin(device_.longestBuffer());
-    sizes.addressed = options_.addressed;
+    if (plan.sizes.longestBytes() > limits.maxStorageBufferRange) plan.sizes = sizesWithin(device_.longestBuffer());
+    plan.sizes.addressed = options_.addressed;
     // A view is for memory that nothing writes meanwhile. The passes of contacts read and write their histories, and on
     // a GPU a read through a view may see a store that stands behind it in the same invocation.
-    sizes.texelReads = options_.reads == VulkanOptions::Reads::Automatic && device_.info().type == "CPU";
+    plan.sizes.texelReads = options_.reads == VulkanOptions::Reads::Automatic && device_.info().type == "CPU";
+    plan.members = std::move(members);
+    packAllBodies(plan);
+    return plan;
+}
+
+void Ensemble::make(Plan plan) {
     recorded_.clear();
     fieldPasses_.reset();
     passes_.reset();  // the former tables make room for the new ones
     bodies_.reset();
-    makeBodies(sizes);
+    members_ = std::move(plan.members);
+    shape_ = plan.shape;
+    makeBodies(plan);
     try {
-        passes_ = std::make_unique<Passes>(device_, sizes, bodies_.get());
+        passes_ = std::make_unique<Passes>(device_, plan.sizes, bodies_.get());
     } catch (const LawError& error) {
         const LawFault& first = error.faults.front();
-        throw RunError(fmt::format("{}:{}: {}", sizes.userLaw->name, first.line, first.problem));
+        throw RunError(fmt::format("{}:{}: {}", plan.sizes.userLaw->name, first.line, first.problem));
     }
+    const TableSizes& sizes = passes_->sizes;
     std::vector<gpu::vec4> half(std::size_t(gpu::kFields) * sizes.particles());
     for (std::uint32_t m = 0; m < members_.size(); ++m)
         packState(members_[m].loaded, sizes.share, std::size_t(m) * sizes.share, half);
+    // Both halves, because a restored state goes on in that of its number of steps, and needs the padding there.
     passes_->state.writeAll(half);
+    passes_->state.writeAll(half, half.size() * sizeof(gpu::vec4));
     passes_->reset();
+    for (std::uint32_t m = 0; m < members_.size(); ++m) writeSpeedLows(*passes_, m, 0, members_[m].loaded);
     std::vector<std::uint32_t> all(members_.size());
     std::iota(all.begin(), all.end(), 0U);
     setLive(all);
+}
+
+void Ensemble::load(const std::vector<Canister>& canisters) {
+    std::vector<MemberState> members;
+    for (const Canister& c : canisters) members.push_back(newMember(c));
+    make(planFor(std::move(members)));
 }
 
 void Ensemble::setLive(const std::vector<std::uint32_t>& members) {
@@ -200,17 +222,18 @@ void Ensemble::restore(std::uint32_t member, const Record& record) {
     const auto before = record.arrays().contains("user_law") ? record.one<std::uint64_t>("user_law") : 0;
     if (before != (law ? fnv1a(law->text) : 0))
         throw RecordError(fmt::format("it was made under another law than {}", law ? law->name : "that of the case"));
-    restoreState(*passes_, member, m.loaded.size(), m.half(), record);
+    restoreState(*passes_, member, m.loaded.size(), std::uint32_t(step), record);
     restoreFree(record, step, m);
     m.drive = drive;
     m.step = step;
+    m.made = std::uint32_t(step);
 }
 
 void Ensemble::runBatch(std::uint32_t count, const std::vector<double>& coilRates, PassTimes* times) {
     bool opening = false;
     for (const std::uint32_t index : live_) {
         MemberState& m = members_[index];
-        m.block.choices.z = m.step == 0 ? 1.0f : 0.0f;
+        m.block.choices.y = m.step == 0 ? 1.0f : 0.0f;
         m.block.roster.y = m.made;
         m.block.roster.z = m.made + count;
         opening = opening || m.step == 0;
@@ -237,20 +260,23 @@ std::uint32_t Ensemble::submit(std::uint32_t count, bool opening, PassTimes* tim
     // the batch no member makes a step.
     constexpr std::uint32_t kLong = 8 * gpu::kStride;
     constexpr std::size_t kMostRecordings = 8;
-    const auto record = [&](vk::Commands& commands, std::uint32_t steps) {
+    const auto record = [&](vk::Commands& commands, std::uint32_t steps, std::uint32_t late) {
         commands.begin();
-        passes_->recordSteps(commands, steps, opening, times);
+        passes_->recordSteps(commands, steps, opening, late, times);
         commands.hostBarrier();
     };
+    // A member whose strides begin at other steps than those of the recording makes some of its steps a submission
+    // later.
+    const std::uint32_t late = members_[live_.front()].late();
     if (opening || times != nullptr || count < kLong) {
         vk::Commands commands(device_);
-        record(commands, count);
+        record(commands, count, late);
         commands.submit();
     } else {
-        const std::uint32_t steps = (count + gpu::kStride - 1) / gpu::kStride * gpu::kStride;
+        const std::uint32_t steps = (late + count + gpu::kStride - 1) / gpu::kStride * gpu::kStride;
         if (recorded_.size() >= kMostRecordings && !recorded_.contains(steps)) recorded_.clear();
         const auto [place, added] = recorded_.try_emplace(steps, device_);
-        if (added) record(place->second, steps);
+        if (added) record(place->second, steps, 0);
         place->second.submit();
     }
     const std::vector<gpu::Control> controls = passes_->allControls();
@@ -269,13 +295,17 @@ std::uint32_t Ensemble::submit(std::uint32_t count, bool opening, PassTimes* tim
 
 void Ensemble::advance(std::uint32_t steps, const std::vector<double>& coilRates) {
     for (std::uint32_t done = 0; done < steps;) {
-        std::uint32_t count = std::min(options_.batch > 0 ? options_.batch : pace_.count(), steps - done);
-        if (bodies_) count = std::min(count, mostBatch_);
+        std::uint32_t asked = std::min(options_.batch > 0 ? options_.batch : pace_.count(), steps - done);
+        if (bodies_) asked = std::min(asked, mostBatch_);
+        // For speed alone: no batch ends within a stride for no reason.
+        std::uint32_t count = asked;
+        const std::uint32_t over = (members_[live_.front()].made + count) % gpu::kStride;
+        if (options_.batch == 0 && done + count < steps && over < count) count -= over;
         pace_.begin();
         runBatch(count, coilRates);
         done += count;
         if (std::all_of(live_.begin(), live_.end(), [&](std::uint32_t m) { return failure(m).has_value(); })) return;
-        pace_.end(count);
+        pace_.end(asked);
     }
 }
 

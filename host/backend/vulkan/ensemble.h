@@ -12,6 +12,7 @@
 
 #include "host/backend/vulkan/field_passes.h"
 #include "host/backend/vulkan/pace.h"
+#include "host/backend/vulkan/pack_bodies.h"
 #include "host/backend/vulkan/passes.h"
 #include "host/backend/vulkan/vulkan.h"
 
@@ -30,6 +31,19 @@ class Ensemble {
     /// Start over with these canisters. All are live. Throws RunError if they do not fit the tables, or cannot share
     /// them (roomForAll).
     void load(const std::vector<Canister>& canisters);
+
+    /// Puts a canister into the place of this member, which is over. Returns false and changes nothing if the tables
+    /// have no room for it. Throws RunError if it cannot share them. The member is live after setLive.
+    bool replace(std::uint32_t member, const Canister& canister);
+
+    /// Makes tables anew that hold the members that `stay`, which go on as they are, and canisters beside them. Members
+    /// are numbered anew: first those who stay, then the others, and all are live. Throws RunError, and changes
+    /// nothing, if they cannot share tables.
+    void enlarge(const std::vector<std::uint32_t>& stay, const std::vector<Canister>& beside);
+
+    bool isLoaded() const { return passes_ != nullptr; }
+    /// How many members there are, those that are over included.
+    std::uint32_t size() const { return std::uint32_t(members_.size()); }
 
     /// The members that step from now on, ascending. Those left out keep their state.
     void setLive(const std::vector<std::uint32_t>& members);
@@ -66,6 +80,9 @@ class Ensemble {
     /// The profile of an ensemble of one.
     VulkanProfile profile(std::uint32_t steps, double coilRate);
 
+    /// How often the contact lists of a member were made anew since load.
+    std::uint32_t refreshes(std::uint32_t member) const { return passes_->controlOf(member).list.w; }
+
     /// Size of all tables together [bytes]. Call after `load`.
     std::uint64_t tableBytes() const { return passes_->bytes(); }
 
@@ -76,9 +93,10 @@ class Ensemble {
         World world;
         std::vector<RigidBody> bodies;  ///< allBodies
         Particles loaded;
+        std::shared_ptr<const UserLaw> userLaw;
         gpu::Member block{};
         std::uint64_t step = 0;
-        std::uint32_t made = 0;           ///< steps since load (gpu::Control::steps)
+        std::uint32_t made = 0;           ///< the same modulo 2^32 (gpu::Control::steps)
         std::int64_t drive = 0;           ///< of the drive since load [kDrive turns]; the same for any batches
         std::vector<BodyClock> clocks;    ///< of bodies that move in phases; empty: they stand
         bool moves = false;               ///< one of its bodies
@@ -87,16 +105,39 @@ class Ensemble {
         std::vector<gpu::vec4> around;    ///< of each body: a sphere around it in its own frame: centre, radius [m]
         /// Of each body that turns about the z axis of its frame: how much nearer it comes at most [m per s or rad].
         std::vector<std::optional<double>> approach;
-        std::uint32_t row = 0;  ///< on the roster
+        std::uint32_t shapes = 0;  ///< room for those of its bodies
+        std::uint32_t row = 0;     ///< on the roster
         std::optional<std::string> failure;
 
-        std::uint32_t half() const { return made % 2; }  ///< of the state, which is current
+        std::uint32_t half() const { return made % 2; }             ///< of the state, which is current
+        std::uint32_t late() const { return made % gpu::kStride; }  ///< steps since a stride could begin
     };
+
+    /// Members and all that is known of their tables before these are made.
+    struct Plan {
+        std::vector<MemberState> members;
+        DeviceShape shape;
+        TableSizes sizes;
+        std::vector<gpu::uvec4> shapes;  ///< of the bodies of all
+    };
+    static MemberState newMember(const Canister& c);
+    static TableSizes sizesOf(const MemberState& m, std::uint32_t members, const DeviceShape& shape);
+    /// Throws RunError if they cannot share tables.
+    Plan planFor(std::vector<MemberState> members) const;
+    /// Replaces the tables by those of the plan, without history.
+    void make(Plan plan);
 
     // ensemble_bodies.cpp
     /// How far the drive goes in a step [kDrive turns].
     static std::int64_t drivePerStep(double rate, double dt);
-    void makeBodies(TableSizes& sizes);
+    /// Packs the bodies of a member for passes of these sizes, which learn what shapes there are.
+    static PackedBodies packedBodies(MemberState& m, TableSizes& sizes);
+    static void packAllBodies(Plan& plan);
+    void makeBodies(const Plan& plan);
+    /// Sets how many steps of all motions the table holds. Returns false if it does not hold any.
+    bool boundBatch();
+    /// Where the loads on its bodies are.
+    std::vector<vk::Buffer::Part> loadRows(std::uint32_t member) const;
     void writeMotions(std::uint32_t count, const std::vector<double>& coilRates);
     /// The loads on the bodies of each since it was last sensed, which start anew.
     std::vector<std::vector<BodyLoad>> takeLoads(const std::vector<Look>& looks);
@@ -120,6 +161,7 @@ class Ensemble {
 
     VulkanOptions options_;
     vk::Device device_;
+    DeviceShape shape_;                   ///< for which the tables are sized
     std::unique_ptr<BodyTables> bodies_;  ///< null if no member has bodies
     std::uint32_t mostBatch_ = 0;         ///< steps for which there is room in the motions of the bodies
     std::unique_ptr<Passes> passes_;

@@ -97,45 +97,65 @@ std::int64_t Ensemble::drivePerStep(double rate, double dt) {
     return std::llround(rate * dt / (2 * kPi) / kDrive);
 }
 
-/// Packs the bodies of all members, and makes room for their motions in a batch.
-void Ensemble::makeBodies(TableSizes& sizes) {
-    if (sizes.bodies == 0) return;
-    std::vector<gpu::uvec4> geometry;
-    std::uint32_t motions = 0;  // of one step
-    for (MemberState& m : members_) {
-        const double largest = largestRadius(m.loaded) + double(reachOf(m.block));
-        // Spheres and bodies may go their slack, and the skin is more than that (pass/near.comp). A body that goes
-        // farther than the skin in a step would need longer reach; the time steps here are far too short for that.
-        const PackedBodies packed = packBodies(m.bodies, largest, m.world.skin);
-        m.moves = std::any_of(m.bodies.begin(), m.bodies.end(), [](const RigidBody& b) {
-            return !std::holds_alternative<geometry::Rest>(b.course.motion);
-        });
-        m.free = moveFreely(m.bodies);
-        if (m.free) sizes.shapeKinds |= gpu::kFreeBodies;
-        placeFree(m);
-        m.block.bodies = gpu::uvec4(m.bodies.size(), geometry.size(), 0, 0);
-        for (std::size_t b = 0; b < m.bodies.size(); ++b) {
-            m.around.push_back(aroundOf(packed, b));
-            m.approach.push_back(approachByTurning(m.bodies[b]));
-        }
-        geometry.insert(geometry.end(), packed.table.begin(), packed.table.end());
-        sizes.shapeKinds |= packed.kinds;
-        sizes.mostPlaces = std::max(sizes.mostPlaces, packed.places);
-        motions += std::uint32_t(m.bodies.size());
+PackedBodies Ensemble::packedBodies(MemberState& m, TableSizes& sizes) {
+    const double largest = largestRadius(m.loaded) + double(reachOf(m.block));
+    // Spheres and bodies may go their slack, and the skin is more than that (pass/near.comp). A body that goes farther
+    // than the skin in a step would need longer reach; the time steps here are far too short for that.
+    PackedBodies packed = packBodies(m.bodies, largest, m.world.skin);
+    m.moves = std::any_of(m.bodies.begin(), m.bodies.end(),
+                          [](const RigidBody& b) { return !std::holds_alternative<geometry::Rest>(b.course.motion); });
+    m.free = moveFreely(m.bodies);
+    if (m.free) sizes.shapeKinds |= gpu::kFreeBodies;
+    placeFree(m);
+    m.around.clear();
+    m.approach.clear();
+    for (std::size_t b = 0; b < m.bodies.size(); ++b) {
+        m.around.push_back(aroundOf(packed, b));
+        m.approach.push_back(approachByTurning(m.bodies[b]));
     }
+    sizes.shapeKinds |= packed.kinds;
+    sizes.mostPlaces = std::max(sizes.mostPlaces, packed.places);
+    return packed;
+}
+
+void Ensemble::packAllBodies(Plan& plan) {
+    if (plan.sizes.bodies == 0) return;
+    for (MemberState& m : plan.members) {
+        const PackedBodies packed = packedBodies(m, plan.sizes);
+        m.shapes = std::uint32_t(packed.table.size());
+        m.block.bodies = gpu::uvec4(m.bodies.size(), plan.shapes.size(), 0, 0);
+        plan.shapes.insert(plan.shapes.end(), packed.table.begin(), packed.table.end());
+    }
+}
+
+/// Makes the tables of the bodies, with room for their motions in a batch.
+void Ensemble::makeBodies(const Plan& plan) {
+    if (plan.sizes.bodies == 0) return;
+    std::size_t motions = 0;  // of one step
+    for (const MemberState& m : members_) motions += m.bodies.size();
     const VkPhysicalDeviceLimits& limits = device_.limits();
     const std::size_t room =
         std::min({kMostMotionBytes, std::size_t(limits.maxStorageBufferRange),
                   std::size_t(limits.maxTexelBufferElements) * sizeof(gpu::vec4)});  // so that there is a view
-    const std::size_t stepsOfRoom = room / (sizeof(gpu::BodyMotion) * std::max(motions, 1U));
-    mostBatch_ = std::uint32_t(std::clamp<std::size_t>(stepsOfRoom, 2, 1025) - 1);  // and one more is kept
+    const std::size_t stepsOfRoom = room / (sizeof(gpu::BodyMotion) * std::max<std::size_t>(motions, 1));
     // A slot beyond what the device can bind keeps no triangles: its particle looks at all of its cell.
     std::size_t slots = 0;
-    if ((sizes.shapeKinds & 1U << gpu::kShapeMesh) != 0)
-        slots =
-            std::min<std::size_t>(std::size_t(sizes.members) * sizes.bodySlots,
-                                  device_.limits().maxStorageBufferRange / (gpu::kNearbyWords * sizeof(std::uint32_t)));
-    bodies_ = std::make_unique<BodyTables>(device_, geometry, std::size_t(mostBatch_ + 1) * motions, slots);
+    if ((plan.sizes.shapeKinds & 1U << gpu::kShapeMesh) != 0)
+        slots = std::min<std::size_t>(std::size_t(plan.sizes.members) * plan.sizes.bodySlots,
+                                      limits.maxStorageBufferRange / (gpu::kNearbyWords * sizeof(std::uint32_t)));
+    bodies_ = std::make_unique<BodyTables>(device_, plan.shapes,
+                                           std::clamp<std::size_t>(stepsOfRoom, 2, 1025) * motions, slots);
+    boundBatch();
+}
+
+bool Ensemble::boundBatch() {
+    if (!bodies_) return true;
+    std::size_t motions = 0;
+    for (const MemberState& m : members_) motions += m.bodies.size();
+    const std::size_t steps = bodies_->motions.size() / sizeof(gpu::BodyMotion) / std::max<std::size_t>(motions, 1);
+    if (steps < 2) return false;
+    mostBatch_ = std::uint32_t(std::min<std::size_t>(steps, 1025) - 1);  // and one more is kept
+    return true;
 }
 
 /// Where the bodies of all live members are in each step of the next batch.
@@ -149,10 +169,11 @@ void Ensemble::writeMotions(std::uint32_t count, const std::vector<double>& coil
         const std::int64_t perStep = drivePerStep(rate, dt);
         m.block.bodies.z = std::uint32_t(motions.size());
         m.block.bodies.w = m.moves ? std::uint32_t(bodies.size()) : 0;
-        double way = 0;
         for (std::uint32_t n = 0; n < (m.free ? count + 1 : m.moves ? count : 1); ++n) {
             const double angle = driveAngle(m.drive + perStep * n);
             const double back = m.step + n == 0 ? 0 : dt / 2;  // velocities are those half a step before
+            const std::size_t first = motions.size();
+            double way = 0;
             for (std::size_t b = 0; b < bodies.size(); ++b) {
                 if (bodies[b].movesFreely()) {
                     motions.push_back(motionOfFree(m, b, n));
@@ -162,23 +183,30 @@ void Ensemble::writeMotions(std::uint32_t count, const std::vector<double>& coil
                 motions.push_back(packMotion(bodies[b], now.pose(bodies[b]), now.moving(bodies[b], back)));
                 way = std::max(way, longestWay(m.world, bodies[b], m.around[b], m.approach[b], now));
             }
+            if (!bodies.empty()) motions[first].way.y = float(way);
         }
-        m.block.choices.w = float(way);
     }
     bodies_->motions.writeAll(motions);
+}
+
+std::vector<vk::Buffer::Part> Ensemble::loadRows(std::uint32_t member) const {
+    const MemberState& m = members_[member];
+    std::vector<vk::Buffer::Part> rows;
+    for (std::uint32_t row = 0; row < gpu::kBodyLoads * m.bodies.size(); ++row) {
+        const std::uint64_t at = passes_->at.bodyLoadIndex(row, std::uint64_t(member) * passes_->sizes.share);
+        rows.push_back({at * sizeof(float), m.loaded.size() * sizeof(float)});
+    }
+    return rows;
 }
 
 std::vector<std::vector<BodyLoad>> Ensemble::takeLoads(const std::vector<Look>& looks) {
     std::vector<vk::Buffer::Part> rows;
     std::size_t count = 0;
-    for (const Look& look : looks) {
-        const MemberState& m = members_[look.member];
-        for (std::uint32_t row = 0; row < gpu::kBodyLoads * m.bodies.size(); ++row) {
-            const std::uint64_t at = passes_->at.bodyLoadIndex(row, std::uint64_t(look.member) * passes_->sizes.share);
-            rows.push_back({at * sizeof(float), m.loaded.size() * sizeof(float)});
-            count += m.loaded.size();
+    for (const Look& look : looks)
+        for (const vk::Buffer::Part& part : loadRows(look.member)) {
+            rows.push_back(part);
+            count += part.bytes / sizeof(float);
         }
-    }
     std::vector<float> values(count);
     passes_->bodyLoads.read(rows, values.data());
     passes_->bodyLoads.clear(rows);

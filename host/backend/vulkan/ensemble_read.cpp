@@ -143,7 +143,10 @@ Particles Ensemble::particles(std::uint32_t member) const {
             2ULL * t.share, 2 * (row * t.particles() + std::uint64_t(member) * t.share) * sizeof(gpu::vec4));
         share.insert(share.end(), part.begin(), part.end());
     }
-    return unpackState(share, t.share, members_[member].loaded);
+    const Particles& loaded = members_[member].loaded;
+    const std::uint64_t lows = passes_->at.speedLowIndex(std::uint64_t(member) * t.share, 0);
+    return unpackState(share, passes_->anchors.readAll<gpu::vec4>(2 * loaded.size(), lows * sizeof(gpu::vec4)), t.share,
+                       loaded);
 }
 
 std::vector<Contact> Ensemble::contacts(std::uint32_t member) const {

@@ -24,8 +24,6 @@ static_assert(gpu::kStatusActive == uint32_t(Status::Active) && gpu::kStatusDose
 static_assert(gpu::kFirstPowder == kFirstPowder && gpu::kWallMaterial == kWallMaterial &&
               gpu::kCoilMaterial == kCoilMaterial && gpu::kMostMaterials == kMostMaterials);
 static_assert(gpu::pairIndex(2, 5) == PairTable::index({2, 5}) && gpu::pairIndex(5, 2) == gpu::pairIndex(2, 5));
-static_assert(gpu::kCoulombLuding == uint32_t(CoulombLimit::Luding) &&
-              gpu::kCoulombAbsolute == uint32_t(CoulombLimit::Absolute));
 static_assert(gpu::kLawLuding == uint32_t(NormalLaw::Luding) &&
               gpu::kLawHertzMindlin == uint32_t(NormalLaw::HertzMindlin) &&
               gpu::kLawEepa == uint32_t(NormalLaw::Eepa) && gpu::kLawJkr == uint32_t(NormalLaw::Jkr) &&
@@ -41,7 +39,9 @@ float mostStiffness(const ContactParameters& c) {
 
 gpu::ContactParams packContact(const ContactParameters& c) {
     gpu::ContactParams p{};
-    p.springs = vec4(float(c.kt), float(c.kr), float(c.kTo), float(c.law));
+    const bool bySize = c.coulombLimit == CoulombLimit::Absolute;
+    p.springs =
+        vec4(float(c.kt), float(c.kr), float(c.kTo), float(uint32_t(c.law) + (bySize ? gpu::kLimitAbsolute : 0)));
     p.friction = vec4(float(c.mu), float(c.muR), float(c.muTo), 0.0f);
     p.damping = vec4(float(c.gammaT), float(c.gammaR), float(c.gammaTo), float(c.gamma));
     if (c.law == NormalLaw::User) {
@@ -122,8 +122,7 @@ float reachOf(const gpu::Member& member) {
 
 void packLaw(const ContactLaw& law, gpu::Member& member) {
     std::transform(law.pairs.begin(), law.pairs.end(), member.contact, packContact);
-    member.choices.x = float(law.coulombLimit);
-    member.choices.y = float(law.rollingLever);
+    member.choices.x = float(law.rollingLever);
 }
 
 void packGravity(const World& world, gpu::Member& m) {
@@ -137,7 +136,7 @@ gpu::Member packMember(const World& world, const ContactLaw& law, const Particle
     checkMaterials(world, law, particles);
     gpu::Member m{};
     packLaw(law, m);
-    m.choices.z = 1.0f;
+    m.choices.y = 1.0f;
     for (std::size_t i = 0; i < world.surfaces.size(); ++i) {
         if (std::holds_alternative<geometry::Front>(world.surfaces[i]) && i + 1 < world.surfaces.size())
             throw std::logic_error("the front wall must be the last surface");
@@ -174,20 +173,31 @@ void packState(const Particles& p, std::size_t share, std::size_t first, std::ve
         const bool active = p.status[i] == Status::Active;
         position = vec4(x.high, float(active ? p.radius[i] : -p.radius[i]));
         at(gpu::kResidue, i) = vec4(x.low, float(p.material[i]));
-        at(gpu::kVelocity, i) = vec4(glm::vec3(p.velocity[i]), 0.0f);
-        spin = vec4(glm::vec3(p.spin[i]), float(uint32_t(p.status[i])));
+        at(gpu::kVelocity, i) = vec4(Split3(p.velocity[i]).high, 0.0f);
+        spin = vec4(Split3(p.spin[i]).high, float(uint32_t(p.status[i])));
     }
 }
 
-Particles unpackState(const std::vector<gpu::vec4>& half, std::size_t slots, const Particles& loaded) {
+std::vector<gpu::vec4> packSpeedLows(const Particles& p) {
+    std::vector<gpu::vec4> lows;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+        lows.emplace_back(Split3(p.velocity[i]).low, 0.0f);
+        lows.emplace_back(Split3(p.spin[i]).low, 0.0f);
+    }
+    return lows;
+}
+
+Particles unpackState(const std::vector<gpu::vec4>& half, const std::vector<gpu::vec4>& speedLows, std::size_t slots,
+                      const Particles& loaded) {
     Particles p = loaded;
     const auto at = [&](std::uint32_t field, std::size_t i) {
         return half[gpu::stateOffset(field, std::uint32_t(i), std::uint32_t(slots))];
     };
     for (std::size_t i = 0; i < p.size(); ++i) {
-        p.position[i] = Vec3(glm::vec3(at(gpu::kPosition, i))) + Vec3(glm::vec3(at(gpu::kResidue, i)));
-        p.velocity[i] = Vec3(glm::vec3(at(gpu::kVelocity, i)));
-        p.spin[i] = Vec3(glm::vec3(at(gpu::kSpin, i)));
+        const auto sum = [](const vec4& high, const vec4& low) { return Vec3(glm::vec3(high)) + Vec3(glm::vec3(low)); };
+        p.position[i] = sum(at(gpu::kPosition, i), at(gpu::kResidue, i));
+        p.velocity[i] = sum(at(gpu::kVelocity, i), speedLows[2 * i]);
+        p.spin[i] = sum(at(gpu::kSpin, i), speedLows[2 * i + 1]);
         p.status[i] = Status(uint32_t(at(gpu::kSpin, i).w));
     }
     return p;

@@ -24,7 +24,10 @@ void packGravity(const World& world, gpu::Member& member);
 /// Writes a member's part of one half of the state buffer (gpu::stateOffset): `share` slots from `first` on. Slots that
 /// no particle needs are padding.
 void packState(const Particles& particles, std::size_t share, std::size_t first, std::vector<gpu::vec4>& half);
-/// Reads the particles from a half that holds only this member.
-Particles unpackState(const std::vector<gpu::vec4>& half, std::size_t slots, const Particles& loaded);
+/// The low parts of the speeds beside it: of each particle two vectors (speedLowIndex in shaders/shared/tables.h).
+std::vector<gpu::vec4> packSpeedLows(const Particles& particles);
+/// Reads the particles from a half that holds only this member, and the low parts of their speeds.
+Particles unpackState(const std::vector<gpu::vec4>& half, const std::vector<gpu::vec4>& speedLows, std::size_t slots,
+                      const Particles& loaded);
 
 }  // namespace vkdose

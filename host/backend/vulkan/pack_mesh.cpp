@@ -105,8 +105,9 @@ class MeshPacker {
             edges[i] = mesh.edgesOf[t][(i + longest + 2) % 3];
         }
         const auto edgeWord = [&](int i) {
-            const auto& faces = mesh.edges[edges[i]].faces;
-            return edges[i] << 2 | (faces[0] == t ? 2u : 1u);
+            const geometry::MeshEdge& edge = mesh.edges[edges[i]];
+            const bool first = edge.faces[0] == t;
+            return edges[i] << 2 | (first && !edge.hidden ? 2u : 0u) | (first ? 0u : 1u);
         };
         const auto cornerWord = [&](int i) { return corners[i] << 1 | (owners[corners[i]] == t ? 1u : 0u); };
         const Vec3 &a = mesh.vertices[corners[0]], &b = mesh.vertices[corners[1]], &c = mesh.vertices[corners[2]];

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "host/glsl/compile.h"
+#include "host/glsl/whole_division.h"
 #include "spirv/passes.h"
 #include "spirv/sources.h"
 
@@ -95,6 +96,7 @@ std::span<const std::uint32_t> compiledNow(const std::string& file, const UserLa
         if (law != nullptr) throw told(result.faults);
         throw std::logic_error(fmt::format("shaders/{} does not compile: {}", file, result.faults.front().text));
     }
+    if (law != nullptr) guardWholeDivisions(result.spirv);
     place->second = std::move(result.spirv);
     return place->second;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "host/backend/vulkan/pass_code.h"
@@ -55,7 +56,7 @@ struct StepPass {
 
 /// A stride: `decide`, the passes that make new lists, then steps of the other passes.
 constexpr std::array kPasses{
-    StepPass{"decide", spirv::decide, Extent::One},
+    StepPass{"decide", spirv::decide, Extent::One, 0, true},
     StepPass{"clear", spirv::clear, Extent::OfDevice, offsetof(gpu::Dispatches, heads)},
     StepPass{"bin", spirv::bin, Extent::OfDevice, offsetof(gpu::Dispatches, particles)},
     StepPass{"neighbours", spirv::neighbours, Extent::OfDevice, offsetof(gpu::Dispatches, particles)},
@@ -181,14 +182,44 @@ std::array<std::uint32_t, 13> Passes::constants(const TableSizes& s) {
             s.bodies,    s.shapeKinds, s.laws,         s.mostPlaces, s.powders, s.manyWalls};
 }
 
-void Passes::reset() {
-    const std::vector<gpu::uvec4> none((sizes.bodies > 0 ? 3ULL : 2ULL) * sizes.particles(), gpu::uvec4(0U));
-    ranges.writeAll(none);
+namespace {
+
+/// Of a member that has made no step.
+gpu::Control freshControl() {
     gpu::Control fresh{};
     fresh.call = fresh.error = gpu::uvec4(gpu::kEmpty);
     fresh.wanted = gpu::uvec4(0, 0, 1, 1);
-    controls.writeAll(std::vector<gpu::Control>(sizes.members, fresh), controlOffset(0));
+    return fresh;
+}
+
+}  // namespace
+
+void Passes::reset() {
+    const std::vector<gpu::uvec4> none((sizes.bodies > 0 ? 3ULL : 2ULL) * sizes.particles(), gpu::uvec4(0U));
+    ranges.writeAll(none);
+    anchors.writeAll(std::vector<gpu::vec4>(2ULL * sizes.particles(), gpu::vec4(0.0f)),
+                     at.speedLowIndex(0, 0) * sizeof(gpu::vec4));
+    controls.writeAll(std::vector<gpu::Control>(sizes.members, freshControl()), controlOffset(0));
     setLive(sizes.members);
+}
+
+void Passes::reset(std::uint32_t member) {
+    const std::uint64_t first = std::uint64_t(member) * sizes.share;
+    const auto clear = [first, this](vk::Buffer& table, std::uint64_t count, VkDeviceSize element, auto place) {
+        std::vector<vk::Buffer::Part> parts;
+        for (std::uint64_t row = 0; row < count; ++row)
+            parts.push_back({place(row, first) * element, sizes.share * element});
+        table.clear(parts);
+    };
+    clear(ranges, sizes.bodies > 0 ? 3 : 2, sizeof(gpu::uvec4),
+          [&](std::uint64_t row, std::uint64_t i) { return row * sizes.particles() + i; });
+    anchors.clear({{at.speedLowIndex(first, 0) * sizeof(gpu::vec4), 2ULL * sizes.share * sizeof(gpu::vec4)}});
+    // What is summed since the last sensing.
+    clear(bodyLoads, std::uint64_t(gpu::kBodyLoads) * sizes.bodies, sizeof(float),
+          [&](std::uint64_t row, std::uint64_t i) { return at.bodyLoadIndex(row, i); });
+    clear(books, sizes.energyBook ? gpu::kBookFields : 0, sizeof(gpu::vec4),
+          [&](std::uint64_t row, std::uint64_t i) { return at.bookIndex(row, i); });
+    setControl(member, freshControl());
 }
 
 void Passes::setLive(std::uint32_t live) {
@@ -258,11 +289,12 @@ void Passes::record(vk::Commands& commands, std::size_t n) const {
 }
 
 std::uint32_t Passes::mostDispatches(std::uint32_t count) {
-    const std::uint32_t strides = (count + gpu::kStride - 1) / gpu::kStride;
+    const std::uint32_t strides = (count + gpu::kStride - 1) / gpu::kStride + 1;  // the first may be short
     return std::uint32_t(1 + strides * kFirstOfStep + count * (kPasses.size() - kFirstOfStep));
 }
 
-void Passes::recordSteps(vk::Commands& commands, std::uint32_t count, bool opening, PassTimes* times) const {
+void Passes::recordSteps(vk::Commands& commands, std::uint32_t count, bool opening, std::uint32_t late,
+                         PassTimes* times) const {
     const VkCommandBuffer c = commands.handle();
     bindings_.bind(c);
     if (times != nullptr) times->begin(commands);
@@ -278,7 +310,7 @@ void Passes::recordSteps(vk::Commands& commands, std::uint32_t count, bool openi
     pushStep(0, false);
     one(kDecide, true);
     for (std::uint32_t done = 0; done < count;) {
-        const std::uint32_t stride = std::min(gpu::kStride, count - done);
+        const std::uint32_t stride = std::min(gpu::kStride - std::exchange(late, 0U), count - done);
         for (std::uint32_t step = 0; step < stride; ++step) {
             pushStep(step, opening && done + step == 0);
             if (step == 0)

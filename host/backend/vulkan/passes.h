@@ -93,9 +93,10 @@ class Passes : public Tables {
     Passes(const vk::Device& device, const TableSizes& sizes, const BodyTables* bodyTables = nullptr);
 
     /// Records `count` steps. A member that calls for new lists makes fewer (gpu::Control::steps); none makes more than
-    /// to the end of its batch (gpu::Member::roster). `opening` if the first of them is the first of a member. With
-    /// `times` every pass waits for the one before.
-    void recordSteps(vk::Commands& commands, std::uint32_t count, bool opening, PassTimes* times = nullptr) const;
+    /// to the end of its batch (gpu::Member::roster). `opening` if the first of them is the first of a member. `late`:
+    /// so many steps of the first stride are made. With `times` every pass waits for the one before.
+    void recordSteps(vk::Commands& commands, std::uint32_t count, bool opening, std::uint32_t late = 0,
+                     PassTimes* times = nullptr) const;
     /// The most dispatches that `recordSteps` records.
     static std::uint32_t mostDispatches(std::uint32_t count);
     /// Records the sensing of the member in this row of the roster (gpu::Member).
@@ -105,6 +106,8 @@ class Passes : public Tables {
 
     /// Prepares a load without history: nothing is listed, and the first step builds rows and contact lists.
     void reset();
+    /// The same for one member, beside others that go on.
+    void reset(std::uint32_t member);
 
     /// From now on the first `live` rows of the roster take part in a step.
     void setLive(std::uint32_t live);

@@ -1,11 +1,23 @@
 #include "host/backend/vulkan/rendezvous.h"
 
 #include <algorithm>
-#include <stdexcept>
+#include <set>
+#include <utility>
 
 #include "host/core/error.h"
 
 namespace vkdose {
+
+std::size_t Rendezvous::enter() {
+    const std::lock_guard lock(mutex_);
+    const auto left = std::find_if(guests_.begin(), guests_.end(), [](const Guest& g) { return !g.present; });
+    const auto number = std::size_t(left - guests_.begin());
+    if (left == guests_.end())
+        guests_.emplace_back();
+    else
+        *left = {};
+    return number;
+}
 
 void Rendezvous::load(std::size_t guest, const World& world, const ContactLaw& law, const Particles& particles) {
     std::unique_lock lock(mutex_);
@@ -76,16 +88,62 @@ void Rendezvous::grantAll(const std::exception_ptr& problem) {
 }
 
 void Rendezvous::grantLoad() {
+    std::vector<Guest*> coming, staying;
+    for (Guest& g : guests_)
+        if (g.present) (g.wish == Wish::Load ? coming : staying).push_back(&g);
+    if (!staying.empty()) return grantPlaces(coming, staying);
     std::vector<Ensemble::Canister> canisters;
-    for (Guest& g : guests_) {
-        if (!g.present) continue;
-        if (g.wish != Wish::Load) throw std::logic_error("one canister of an ensemble cannot be loaded anew alone");
-        g.member = std::uint32_t(canisters.size());
-        canisters.push_back(std::exchange(g.canister, {}));
+    for (Guest* g : coming) {
+        g->member = std::uint32_t(canisters.size());
+        canisters.push_back(std::exchange(g->canister, {}));
     }
     ensemble_.load(canisters);
     roster_ = true;
     grantAll(nullptr);
+}
+
+/// Those that come take places that are free. If the tables have no room for some of them, larger ones are made.
+void Rendezvous::grantPlaces(const std::vector<Guest*>& coming, const std::vector<Guest*>& staying) {
+    std::vector<Guest*> placed = staying, waiting;
+    std::set<std::uint32_t> free;
+    for (std::uint32_t member = 0; member < ensemble_.size(); ++member) free.insert(member);
+    for (const Guest* g : staying) free.erase(g->member);
+    const auto refused = [](Guest& g) {
+        g.problem = std::current_exception();
+        g.wish = Wish::None;
+    };
+    for (Guest* g : coming) {
+        try {
+            const auto place = std::find_if(
+                free.begin(), free.end(), [&](std::uint32_t member) { return ensemble_.replace(member, g->canister); });
+            (place == free.end() ? waiting : placed).push_back(g);
+            if (place == free.end()) continue;
+            g->member = *place;
+            g->wish = Wish::None;
+            g->canister = {};
+            free.erase(place);
+        } catch (const RunError&) {
+            refused(*g);
+        }
+    }
+    std::vector<std::uint32_t> members;
+    std::vector<Ensemble::Canister> beside;
+    std::sort(placed.begin(), placed.end(), [](const Guest* a, const Guest* b) { return a->member < b->member; });
+    for (const Guest* g : placed) members.push_back(g->member);
+    if (placed.size() > staying.size()) ensemble_.setLive(members);
+    if (waiting.empty()) return;
+    for (Guest* g : waiting) beside.push_back(std::exchange(g->canister, {}));
+    try {
+        ensemble_.enlarge(members, beside);
+    } catch (const RunError&) {
+        if (!ensemble_.isLoaded()) throw;
+        for (Guest* g : waiting) refused(*g);
+        return;
+    }
+    placed.insert(placed.end(), waiting.begin(), waiting.end());
+    for (std::uint32_t member = 0; member < placed.size(); ++member) placed[member]->member = member;
+    for (Guest* g : waiting) g->wish = Wish::None;
+    roster_ = true;
 }
 
 void Rendezvous::grantAdvance() {

@@ -1,9 +1,10 @@
 #pragma once
 // Lets runs that know nothing of each other share an Ensemble. Each run calls from a thread of its own. When all runs
 // that are present want to advance, one of them advances the device for all, by the smallest number of steps that any
-// of them wants.
+// of them wants. A run may come while others go on. They wait until it has loaded.
 
 #include <condition_variable>
+#include <deque>
 #include <exception>
 #include <mutex>
 #include <vector>
@@ -14,9 +15,13 @@ namespace vkdose {
 
 class Rendezvous {
   public:
-    Rendezvous(const VulkanOptions& options, std::size_t guests) : ensemble_(options), guests_(guests) {}
+    explicit Rendezvous(const VulkanOptions& options) : ensemble_(options) {}
 
-    /// Returns when all guests that are present have loaded. An exception of Ensemble::load is thrown to every guest.
+    /// A new guest, for whom the others wait from now on. Its number may be that of one who has left.
+    std::size_t enter();
+
+    /// Returns when the guest has loaded. Guests that come together wait for each other. An exception of Ensemble::load
+    /// is thrown to all of them; if the guest comes to others that go on, only those that come get a RunError.
     void load(std::size_t guest, const World& world, const ContactLaw& law, const Particles& particles);
 
     /// Returns when the guest's steps are made, with what its sensors tell of them. Steps of other guests may not be
@@ -53,14 +58,15 @@ class Rendezvous {
     bool allWish() const;
     void grant();
     void grantLoad();
+    void grantPlaces(const std::vector<Guest*>& coming, const std::vector<Guest*>& staying);
     void grantAdvance();
     void grantAll(const std::exception_ptr& problem);
 
     std::mutex mutex_;
     std::condition_variable granted_;
     Ensemble ensemble_;
-    std::vector<Guest> guests_;
-    bool roster_ = true;  ///< whether the ensemble's live members are those present
+    std::deque<Guest> guests_;  ///< which stay where they are when others come
+    bool roster_ = true;        ///< whether the ensemble's live members are those present
 };
 
 }  // namespace vkdose

@@ -13,6 +13,8 @@ namespace {
 using gpu::uvec4;
 using gpu::vec4;
 
+constexpr const char* kSpeedLow = "speed_low";
+
 /// Reads `count` vectors, from `first` on, of each of `rows` rows that are `stride` vectors long.
 std::vector<float> packed(const vk::Buffer& from, std::size_t rows, std::size_t stride, std::size_t first,
                           std::size_t count) {
@@ -245,17 +247,29 @@ std::vector<PlaceContact> touchingPlaces(const Passes& passes, std::uint32_t mem
     return found;
 }
 
-void writeParticles(Passes& passes, std::uint32_t member, std::size_t first, const Particles& particles,
-                    std::uint32_t source) {
-    const std::size_t count = particles.size(), couples = gpu::kFields / 2, stride = 2ULL * passes.sizes.particles();
-    std::vector<vec4> half(count * gpu::kFields);
-    packState(particles, count, 0, half);
+void writeSpeedLows(Passes& passes, std::uint32_t member, std::size_t first, const Particles& particles) {
+    const std::uint64_t at = passes.at.speedLowIndex(std::uint64_t(member) * passes.sizes.share + first, 0);
+    passes.anchors.writeAll(packSpeedLows(particles), at * sizeof(vec4));
+}
+
+void writeState(Passes& passes, std::uint32_t member, std::size_t first, const std::vector<gpu::vec4>& state,
+                std::uint32_t source) {
+    const std::size_t count = state.size() / gpu::kFields, couples = gpu::kFields / 2;
+    const std::size_t stride = 2ULL * passes.sizes.particles();
     for (std::size_t couple = 0; couple < couples; ++couple) {
-        const auto part = half.begin() + std::ptrdiff_t(couple * 2 * count);
+        const auto part = state.begin() + std::ptrdiff_t(couple * 2 * count);
         const std::size_t at = 2 * (std::size_t(member) * passes.sizes.share + first);
         passes.state.writeAll(std::vector<vec4>(part, part + std::ptrdiff_t(2 * count)),
                               ((source * couples + couple) * stride + at) * sizeof(vec4));
     }
+}
+
+void writeParticles(Passes& passes, std::uint32_t member, std::size_t first, const Particles& particles,
+                    std::uint32_t source) {
+    std::vector<vec4> state(particles.size() * gpu::kFields);
+    packState(particles, particles.size(), 0, state);
+    writeState(passes, member, first, state, source);
+    writeSpeedLows(passes, member, first, particles);
     gpu::Control control = passes.controlOf(member);
     control.wanted.z = control.wanted.w = 1U;  // new rows and lists, which know them
     passes.setControl(member, control);
@@ -267,6 +281,7 @@ void saveState(const Passes& passes, std::uint32_t member, std::size_t particles
     const std::size_t couples = gpu::kFields / 2;
     record.put("state",
                packed(passes.state, couples, 2 * stride, source * couples * 2 * stride + 2 * first, 2 * particles));
+    record.put(kSpeedLow, packed(passes.anchors, 1, 0, passes.at.speedLowIndex(first, 0), 2 * particles));
     saveContacts(passes, member, record);
     saveBodies(passes, member, record);
     if (passes.sizes.energyBook)
@@ -274,20 +289,23 @@ void saveState(const Passes& passes, std::uint32_t member, std::size_t particles
     record.putOne("rebuilds", std::uint32_t(passes.controlOf(member).list.y));
 }
 
-void restoreState(Passes& passes, std::uint32_t member, std::size_t particles, std::uint32_t source,
+void restoreState(Passes& passes, std::uint32_t member, std::size_t particles, std::uint32_t steps,
                   const Record& record) {
     const std::size_t stride = passes.sizes.particles(), first = std::size_t(member) * passes.sizes.share;
     const std::size_t books = passes.sizes.energyBook ? gpu::kBookFields : 0;
     // The whole record is checked before anything is written.
     const auto& state = record.get<float>("state", 4 * particles * gpu::kFields);
     static const std::vector<float> none;
+    const auto& lows = record.get<float>(kSpeedLow, 8 * particles);
     const auto& book = books > 0 ? record.get<float>("energy_book", 4 * particles * books) : none;
     const auto rebuilds = record.one<std::uint32_t>("rebuilds");
     gpu::Control control = passes.controlOf(member);
     restoreContacts(passes, member, particles, record, control);
-    const std::size_t couples = gpu::kFields / 2;
+    const std::size_t couples = gpu::kFields / 2, source = steps % 2;
     unpack(state, couples, 2 * stride, source * couples * 2 * stride + 2 * first, 2 * particles, passes.state);
+    unpack(lows, 1, 0, passes.at.speedLowIndex(first, 0), 2 * particles, passes.anchors);
     unpack(book, books, stride, first, particles, passes.books);
+    control.steps.x = steps;
     control.list = uvec4(0U, rebuilds, 0U, 0U);
     passes.setControl(member, control);
 }

@@ -32,6 +32,14 @@ struct PlaceContact {
 /// The touching contacts with bodies, in order of particle, then body, then place. The device must be idle.
 std::vector<PlaceContact> touchingPlaces(const Passes& passes, std::uint32_t member);
 
+/// Writes the state that packState made of some of a member's particles, those from `first` on, into half `source`. The
+/// device must be idle.
+void writeState(Passes& passes, std::uint32_t member, std::size_t first, const std::vector<gpu::vec4>& state,
+                std::uint32_t source);
+
+/// Writes the low parts of the speeds of the particles from `first` on. The device must be idle.
+void writeSpeedLows(Passes& passes, std::uint32_t member, std::size_t first, const Particles& particles);
+
 /// Puts active particles into the places of those from `first` on in half `source`, and asks for new rows and contact
 /// lists. The device must be idle.
 void writeParticles(Passes& passes, std::uint32_t member, std::size_t first, const Particles& particles,
@@ -41,9 +49,9 @@ void writeParticles(Passes& passes, std::uint32_t member, std::size_t first, con
 /// must have been sensed since its last step, because the sensors' accumulators are not stored.
 void saveState(const Passes& passes, std::uint32_t member, std::size_t particles, std::uint32_t source, Record& record);
 
-/// Writes the record into half `source` of passes that have just been loaded. Throws RecordError if it does not fit
-/// them.
-void restoreState(Passes& passes, std::uint32_t member, std::size_t particles, std::uint32_t source,
+/// Writes the record into passes that have just been loaded, as the state after so many steps (gpu::Control::steps).
+/// Throws RecordError if it does not fit them.
+void restoreState(Passes& passes, std::uint32_t member, std::size_t particles, std::uint32_t steps,
                   const Record& record);
 
 }  // namespace vkdose

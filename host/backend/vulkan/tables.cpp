@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <tuple>
 
 #include "host/backend/vulkan/pack.h"
 #include "host/core/error.h"
@@ -70,6 +71,16 @@ void TableSizes::growTo(const TableSizes& other) {
     laws |= other.laws;
     powders = std::max(powders, other.powders);
     manyWalls = std::max(manyWalls, other.manyWalls);
+}
+
+bool TableSizes::holds(const TableSizes& other) const {
+    TableSizes both = *this;
+    both.growTo(other);
+    const auto grown = [](const TableSizes& s) {
+        return std::tuple(s.share, s.cells, s.rowEntries, s.linkEntries, s.pairSlots, s.surfaceSlots, s.bodySlots,
+                          s.bodies, s.shapeKinds, s.mostPlaces, s.laws, s.powders, s.manyWalls);
+    };
+    return shares(other) && grown(both) == grown(*this);
 }
 
 TableCounts::TableCounts(const TableSizes& s)
@@ -174,7 +185,7 @@ TableSizes tableSizes(const World& world, const Crowd& crowd, const gpu::Member&
         if (i < gpu::kUnrolledSurfaces) s.surfaceKinds |= kind << (4 * i);
     }
     for (const MaterialPair& pair : occurringPairs(world))
-        s.laws |= 1U << std::uint32_t(member.contact[PairTable::index(pair)].springs.w);
+        s.laws |= 1U << std::uint32_t(member.contact[PairTable::index(pair)].springs.w) % gpu::kLawKinds;
     const std::vector<int> powders = powdersOf(world);
     s.powders = powders == std::vector{kFirstPowder} ? 1U : std::max(2U, std::uint32_t(powders.size()));
     s.manyWalls = hasManyWalls(world) ? 1U : 0U;

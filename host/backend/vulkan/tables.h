@@ -45,6 +45,8 @@ struct TableSizes {
     bool shares(const TableSizes& other) const;
     /// Grows so that each member has at least as much room as in `other`.
     void growTo(const TableSizes& other);
+    /// Whether each member has as much room as in `other`, and passes made for these sizes know all that it has.
+    bool holds(const TableSizes& other) const;
 
     std::uint32_t groups() const { return share / workgroup; }
     /// As `spread` in shaders/shared/buffers.glsl.
@@ -58,8 +60,8 @@ struct TableSizes {
     std::uint32_t firstSurfaceSlot(std::uint32_t member) const { return members * pairSlots + member * surfaceSlots; }
     std::uint32_t firstBodySlot(std::uint32_t member) const { return springSlots() + member * bodySlots; }
     /// Number of vectors in a contact's history (kParts in shared/buffers.glsl).
-    std::uint32_t historyParts() const { return ownPart() + (userLaw ? 2U : 0U); }
-    /// Where in it a user's law has its memory (kOwnPart).
+    std::uint32_t historyParts() const { return ownPart() + (userLaw ? 2U : laws >> gpu::kLawEepa & 1U); }
+    /// Where in it a user's law, or EEPA, has its memory (kOwnPart).
     std::uint32_t ownPart() const { return energyBook ? 5 : 2; }
     /// The same of a place on a body, and of a body slot (kPlaceParts, kBodyHistory).
     std::uint32_t placeParts() const { return historyParts() + 1; }

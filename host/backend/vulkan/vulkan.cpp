@@ -87,6 +87,9 @@ class VulkanBackend final : public Backend {
     double tableBytes() const {
         return alone([](Ensemble& e, std::uint32_t) { return double(e.tableBytes()); });
     }
+    std::uint32_t refreshes() const {
+        return alone([](Ensemble& e, std::uint32_t member) { return e.refreshes(member); });
+    }
     ValidationReport validation() const {
         return ensemble_->alone(guest_, [](Ensemble& e, std::uint32_t) {
             return ValidationReport{e.device().validated(), e.device().validationMessages()};
@@ -112,16 +115,21 @@ class VulkanBackend final : public Backend {
 
 }  // namespace
 
+VulkanEnsemble::VulkanEnsemble(const VulkanOptions& options) : rendezvous_(std::make_shared<Rendezvous>(options)) {}
+
+std::unique_ptr<Backend> VulkanEnsemble::enter() {
+    return std::make_unique<VulkanBackend>(rendezvous_, rendezvous_->enter());
+}
+
 std::vector<std::unique_ptr<Backend>> makeVulkanEnsemble(const VulkanOptions& options, std::size_t members) {
-    const auto rendezvous = std::make_shared<Rendezvous>(options, members);
+    VulkanEnsemble ensemble(options);
     std::vector<std::unique_ptr<Backend>> backends;
-    for (std::size_t guest = 0; guest < members; ++guest)
-        backends.push_back(std::make_unique<VulkanBackend>(rendezvous, guest));
+    while (backends.size() < members) backends.push_back(ensemble.enter());
     return backends;
 }
 
 std::unique_ptr<Backend> makeVulkanBackend(const VulkanOptions& options) {
-    return std::move(makeVulkanEnsemble(options, 1)[0]);
+    return VulkanEnsemble(options).enter();
 }
 
 VulkanProfile profile(Backend& backend, std::uint32_t steps, double coilRate) {
@@ -136,10 +144,16 @@ double tableBytes(const Backend& backend) {
     return vulkan->tableBytes();
 }
 
+std::uint32_t refreshes(const Backend& backend) {
+    const auto* vulkan = dynamic_cast<const VulkanBackend*>(&backend);
+    if (vulkan == nullptr) throw std::invalid_argument("only a Vulkan backend makes contact lists");
+    return vulkan->refreshes();
+}
+
 double stepBytes(double touching, double touchingWalls) {
     constexpr double kVector = 16, kIndex = 4;
     const double pairs = touching / 2;
-    const double own = (2 * gpu::kFields + 3) * kVector;  // state in and out, range, anchors
+    const double own = (2 * gpu::kFields + 7) * kVector;  // state in and out, range, anchors, low parts in and out
     const double gathered = (touching + touchingWalls) * (kIndex + 2 * kVector);
     const double pair =
         2 * kIndex + (2 * gpu::kFields + 2 * 2 + 3) * kVector;  // who, both states, history, what it exerts

@@ -18,7 +18,9 @@ struct VulkanOptions {
     bool addressed = false;            ///< reach tables by address even where they can be bound
     std::uint32_t workgroup = 64;      ///< invocations; a power of two, at most 128
     std::uint32_t mostGroups = 65535;  ///< in one row of a dispatch, what every device can do; more go in layers
-    std::uint32_t batch = 0;  ///< steps per submission; 0: adapted to the device. Changes no bit of the result.
+    /// Steps per submission; 0: adapted to the device. Changes neither a bit of the result nor the steps at which
+    /// contact lists are made anew.
+    std::uint32_t batch = 0;
 };
 
 /// Throws DeviceError if there is no such device or it cannot compute.
@@ -27,11 +29,28 @@ inline std::unique_ptr<Backend> makeVulkanBackend(const vk::DeviceChoice& device
     return makeVulkanBackend(VulkanOptions{device});
 }
 
-/// Backends of canisters that share the device's tables and step together. Each must be used from a thread of its own,
-/// because they wait for each other: all must load before any can go on, and `advance` returns when all backends that
-/// still exist have asked for as many steps. A backend that is destroyed is no longer waited for. The results are the
-/// same, to the bit, as those of a single backend. Each canister may have its own rate of the coil and its own
-/// schedule. The surfaces must be of the same kinds, in the same order.
+class Rendezvous;
+
+/// Canisters that share the device's tables and step together. Each has a backend, which must be used from a thread of
+/// its own, because they wait for each other: all must load before any can go on, and `advance` returns when all
+/// backends that still exist have asked for as many steps. A backend that is destroyed is no longer waited for, and
+/// another one can enter in its place while the others go on. The results are the same, to the bit, as those of a
+/// single backend. Each canister may have its own rate of the coil and its own schedule. The surfaces must be of the
+/// same kinds, in the same order.
+class VulkanEnsemble {
+  public:
+    /// Throws DeviceError if there is no such device or it cannot compute.
+    explicit VulkanEnsemble(const VulkanOptions& options);
+
+    /// A backend, for whose `load` the others wait from now on. Those that are to begin together enter before any of
+    /// them loads. May be called from any thread. Backends outlive the ensemble.
+    std::unique_ptr<Backend> enter();
+
+  private:
+    std::shared_ptr<Rendezvous> rendezvous_;
+};
+
+/// The backends of an ensemble of so many.
 std::vector<std::unique_ptr<Backend>> makeVulkanEnsemble(const VulkanOptions& options, std::size_t members);
 
 /// Messages that the validation layer gave to a backend made by makeVulkanBackend. `validated` tells whether the layer
@@ -62,6 +81,10 @@ struct VulkanProfile {
 /// Advances a loaded Vulkan backend by `steps` with a time mark after every pass. The marks cost some speed. Throws the
 /// same errors as `advance`, and std::invalid_argument if the backend is not a Vulkan backend.
 VulkanProfile profile(Backend& backend, std::uint32_t steps, double coilRate);
+
+/// How often a loaded Vulkan backend has made its contact lists anew since load or restore. It follows from the state
+/// and the number of steps alone. Throws std::invalid_argument if the backend is not a Vulkan backend.
+std::uint32_t refreshes(const Backend& backend);
 
 /// Bytes on the device of all tables of a loaded Vulkan backend, together with those of the backends that share them.
 /// Throws std::invalid_argument if the backend is not a Vulkan backend.

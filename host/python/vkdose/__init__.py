@@ -50,7 +50,14 @@ __all__ = [
     "SweepResult",
     "View",
     "VkdoseError",
+    "__version__",
     "program",
     "resume",
     "version",
 ]
+
+
+def __getattr__(name: str) -> str:
+    if name == "__version__":  # asked of the program, and only when somebody wants to know
+        return version()
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

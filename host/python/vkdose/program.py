@@ -39,6 +39,7 @@ class Process:
     """A program that was started. Its output can be read while it runs, and what it says on stderr is collected."""
 
     def __init__(self, arguments: Sequence[str]) -> None:
+        self._starter = os.getpid()
         # A session of its own: Ctrl-C reaches Python alone, which then decides what becomes of the run.
         self._process = subprocess.Popen(
             [program(), *arguments],
@@ -60,21 +61,41 @@ class Process:
         with self._process.stderr as stream:
             self._said.extend(stream)
 
+    @property
+    def ours(self) -> bool:
+        """Whether this process has started it. One that was forked off later shares the pipe, but is no parent."""
+        return os.getpid() == self._starter
+
+    def require_ours(self) -> None:
+        """Raises VkdoseError in a process that was forked off."""
+        if not self.ours:
+            raise VkdoseError(
+                f"process {self._starter} has started this program, and only it can follow it; this process was forked "
+                f"off from it and has the number {os.getpid()}"
+            )
+
     def lines(self):
         """The lines of stdout as they come."""
         assert self._process.stdout is not None
-        yield from self._process.stdout
+        while True:
+            self.require_ours()  # each time: a fork that comes in between would take lines from its parent
+            line = self._process.stdout.readline()
+            if not line:
+                return
+            yield line
 
     def interrupt(self) -> None:
-        """Asks the program to stop and to keep what it has."""
-        if self._process.poll() is None:
+        """Asks the program to stop and to keep what it has. In a process that was forked off it does nothing."""
+        if self.ours and self._process.poll() is None:
             self._process.send_signal(signal.SIGINT)
 
     def running(self) -> bool:
+        self.require_ours()
         return self._process.poll() is None
 
     def wait(self) -> int:
         """Waits for the end. Returns the exit code; of a program that a signal ended it is 128 and the signal."""
+        self.require_ours()
         assert self._process.stdout is not None
         code = self._process.wait()
         self._listener.join()

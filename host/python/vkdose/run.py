@@ -42,6 +42,7 @@ class Run:
         return self._first
 
     def _read(self) -> Iterator[Event]:
+        self._process.require_ours()
         for line in self._lines:
             event = json.loads(line)
             if event["event"] == "end":
@@ -107,6 +108,8 @@ class Run:
         return self
 
     def __exit__(self, kind: Any, value: Any, trace: Any) -> None:
+        if not self._process.ours:
+            return  # a fork leaves the run to the process that started it
         self.interrupt()
         self._end()
 

@@ -1,0 +1,86 @@
+#include "host/app/limits.h"
+
+#include <fmt/format.h>
+#include <pthread.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <array>
+#include <csignal>
+#include <cstring>
+#include <exception>
+#include <optional>
+
+#include "host/core/exit_code.h"
+
+namespace vkdose {
+
+namespace {
+
+constexpr std::size_t kStack = 8UL << 20;  // [bytes], the usual limit
+
+/// A limit of this process in bytes, if there is one.
+std::optional<rlim_t> limitOf(__rlimit_resource resource) {
+    rlimit limit{};
+    if (getrlimit(resource, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return std::nullopt;
+    return limit.rlim_cur;
+}
+
+std::array<char, 512> lastWords{};  // made beforehand, because a handler may not format
+
+extern "C" void onCrash(int) {
+    [[maybe_unused]] const ssize_t told = write(STDERR_FILENO, lastWords.data(), std::strlen(lastWords.data()));
+    _exit(kDeviceError);
+}
+
+void explainCrashes() {
+    const std::string limit = memoryLimitText();
+    if (limit.empty()) return;
+    const std::string words = "vkdose: crashed, most likely for want of memory in a graphics driver" + limit +
+                              ": raise the limit, use fewer particles or --backend reference\n";
+    words.copy(lastWords.data(), lastWords.size() - 1);
+    for (const int number : {SIGSEGV, SIGBUS, SIGABRT}) {
+        struct sigaction action {};
+        action.sa_handler = onCrash;
+        sigemptyset(&action.sa_mask);
+        sigaction(number, &action, nullptr);
+    }
+}
+
+struct Work {
+    const std::function<int()>* program = nullptr;
+    int code = 0;
+};
+
+extern "C" void* work(void* given) {
+    auto* w = static_cast<Work*>(given);
+    w->code = (*w->program)();
+    return nullptr;
+}
+
+}  // namespace
+
+std::string memoryLimitText() {
+    const std::optional<rlim_t> limit = limitOf(RLIMIT_AS);
+    if (!limit) return "";
+    return fmt::format("; the memory of this process is limited to {} MiB of address space (ulimit -v)", *limit >> 20);
+}
+
+int withinLimits(const std::function<int()>& program) {
+    explainCrashes();
+    const std::optional<rlim_t> stack = limitOf(RLIMIT_STACK);
+    if (!stack || *stack >= kStack) return program();
+    pthread_attr_t attributes;
+    Work w{&program};
+    pthread_t thread{};
+    pthread_attr_init(&attributes);
+    pthread_attr_setstacksize(&attributes, kStack);
+    pthread_setattr_default_np(&attributes);
+    const bool started = pthread_create(&thread, &attributes, work, &w) == 0;
+    pthread_attr_destroy(&attributes);
+    if (!started) return program();
+    pthread_join(thread, nullptr);
+    return w.code;
+}
+
+}  // namespace vkdose

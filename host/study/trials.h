@@ -1,0 +1,19 @@
+#pragma once
+// The figures that the members of a calibration gave for its targets.
+
+#include <filesystem>
+#include <vector>
+
+#include "host/study/surrogate.h"
+#include "host/study/sweep_folder.h"
+
+namespace vkdose {
+
+/// The cases that every point of a calibration runs: those of its targets, or the study's base.
+std::vector<std::filesystem::path> basesOf(const Study& study);
+
+/// The trials of one point: a figure for each target. Its members have the numbers from `first` on, all `seeds` of them
+/// with the first of `basesOf`, then with the next. A member that failed has no figure.
+Trials trialsOf(const Study& study, const SweepFolder& folder, int first, int seeds);
+
+}  // namespace vkdose
