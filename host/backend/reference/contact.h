@@ -24,20 +24,20 @@ struct History {
     Vec3 sliding{0};        ///< xi [m]
     Vec3 rolling{0};        ///< rho [m]
     double torsion = 0;     ///< [m]
-    double overlap = 0;     ///< in the last step [m]; not a number: not known
+    double overlap = 0;     ///< in the last step [m]
 };
 
 /// Kinematics of a contact; `i` is the particle (the smaller index of a pair), `j` the other one or the wall.
 struct Touch {
-    Vec3 normal;     ///< from j to i
-    double overlap;  ///< delta; of a contact that holds on beyond touch not positive [m]
-    double reduced;  ///< 2 a_i a_j / (a_i + a_j), wall 2 a_i [m]
-    double smaller;  ///< the smaller radius, wall a_i [m]
-    double mass;     ///< reduced mass m_i m_j/(m_i + m_j), wall m_i [kg]
-    Vec3 leverI;     ///< from the centre of i to the contact point [m]
-    Vec3 leverJ;     ///< from the centre of j; zero for a wall [m]
-    Vec3 velocity;   ///< of i relative to j at the contact point [m/s]
-    Vec3 spin;       ///< omega_i - omega_j [rad/s]
+    Vec3 normal;       ///< from j to i
+    double overlap;    ///< delta; of a contact that holds on beyond touch not positive [m]
+    double reduced;    ///< 2 a_i a_j / (a_i + a_j), wall 2 a_i [m]
+    double smaller;    ///< the smaller radius, wall a_i [m]
+    double mass;       ///< reduced mass m_i m_j/(m_i + m_j), wall m_i [kg]
+    Vec3 leverI;       ///< from the centre of i to the contact point [m]
+    Vec3 leverJ;       ///< from the centre of j; zero for a wall [m]
+    Vec3 velocity;     ///< of i relative to j at the contact point [m/s]
+    Vec3 spin;         ///< omega_i - omega_j [rad/s]
     double share = 1;  ///< how much the overlap falls per way along the normal (geometry/features.h)
 };
 

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <limits>
-
 #include "host/backend/reference/forces.h"
 
 namespace vkdose::reference {
@@ -20,6 +18,7 @@ void eachNumber(History& h, Visit visit) {
     for (int d = 0; d < 3; ++d) visit(h.sliding[d]);
     for (int d = 0; d < 3; ++d) visit(h.rolling[d]);
     visit(h.torsion);
+    visit(h.overlap);
 }
 
 template <class Visit>
@@ -48,13 +47,12 @@ void eachNumber(Exerted& e, Visit visit) {
 
 void Forces::save(Record& record) const {
     std::vector<std::uint32_t> ends;
-    std::vector<double> numbers, overlap, direction;
+    std::vector<double> numbers, direction;
     const auto add = [&](std::uint32_t kind, std::size_t i, std::size_t other, History history, Exerted exerted) {
         ends.insert(ends.end(), {kind, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(other)});
         const auto push = [&](double& x) { numbers.push_back(x); };
         eachNumber(history, push);
         eachNumber(exerted, push);
-        overlap.push_back(history.overlap);
     };
     for (std::size_t i = 0; i < pairs_.size(); ++i) {
         for (const Known& k : pairs_[i]) add(kPair, i, k.other, k.history, k.exerted);
@@ -66,7 +64,6 @@ void Forces::save(Record& record) const {
     }
     record.put("contact_ends", std::move(ends));
     record.put("contact_numbers", std::move(numbers));
-    record.put("contact_overlap", std::move(overlap));
     record.put("contact_direction", std::move(direction));
 }
 
@@ -83,9 +80,6 @@ void Forces::restore(const Record& record) {
     eachNumber(history, tally);
     eachNumber(exerted, tally);
     const auto& numbers = record.get<double>("contact_numbers", each * count);
-    // Older records do not tell it.
-    std::vector<double> overlaps(count, std::numeric_limits<double>::quiet_NaN());
-    if (record.arrays().contains("contact_overlap")) overlaps = record.get<double>("contact_overlap", count);
     auto next = numbers.begin();
     auto direction = directions.begin();
     const auto take = [&](double& x) { x = *next++; };
@@ -93,7 +87,6 @@ void Forces::restore(const Record& record) {
         const std::uint32_t kind = ends[3 * c], particle = ends[3 * c + 1], other = ends[3 * c + 2];
         eachNumber(history, take);
         eachNumber(exerted, take);
-        history.overlap = overlaps[c];
         if (particle >= pairs_.size() || kind > kOnBody || (kind == kOnBody && other >= bodies_.size()))
             throw RecordError(fmt::format("contact {} is of a particle or body that there is not", c));
         // The contacts were saved in ascending order, so that every row is ascending again.

@@ -78,6 +78,15 @@ void Neighbours::update(const Particles& particles) {
     if (stale(particles)) build(particles);
 }
 
+void Neighbours::restore(const Particles& particles, const std::vector<Vec3>& anchors, std::uint64_t builds) {
+    if (!anchors.empty()) {
+        Particles then = particles;
+        then.position = anchors;
+        build(then);
+    }
+    builds_ = builds;
+}
+
 bool Neighbours::stale(const Particles& particles) const {
     if (anchors_.size() != particles.size()) return true;
     const double allowed = skin_ / 2;

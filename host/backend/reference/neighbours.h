@@ -17,6 +17,13 @@ class Neighbours {
     /// Builds the list if a particle has moved more than half the skin since the last build, or if there is none yet.
     void update(const Particles& particles);
 
+    /// Makes the list as it was built last, so that the next build falls where it would have. `anchors` are the positions
+    /// of that build, empty if the next `update` is to build it.
+    void restore(const Particles& particles, const std::vector<Vec3>& anchors, std::uint64_t builds);
+
+    /// Positions at the last build; empty after `reset`.
+    const std::vector<Vec3>& anchors() const { return anchors_; }
+
     /// Indices j > i, ascending, of the particles closer to i than a_i + a_j + reach + skin at the last build.
     const std::vector<std::uint32_t>& after(std::size_t i) const { return rows_[i]; }
 

@@ -24,7 +24,7 @@ NormalAnswer normalAnswer(const ContactParameters& p, double overlap, double red
 /// Share of their length that the springs of sliding, rolling and torsion keep when the overlap goes from `before` to
 /// `now` [m]. Where the contact gets stiffer they get shorter, so that they exert what they did. Where it gets softer
 /// they keep their length, so that they exert less. Neither gives them energy (Thornton, Cummins and Cleary 2013,
-/// Powder Technology 233:30). 1 under a law whose stiffness does not change, and if `before` is not a number.
+/// Powder Technology 233:30). 1 under a law whose stiffness does not change.
 double springsKept(const ContactParameters& p, double reduced, double mass, double before, double now);
 
 /// Energy that the normal direction gives back when the contact parts slowly [J]. `force` [N] is the answer's. Under

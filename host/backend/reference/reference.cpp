@@ -142,6 +142,7 @@ Record ReferenceBackend::snapshot() const {
     record.putOne(kSnapshotSteps, steps_);
     record.putOne("coil_angle", angle_);
     record.putOne("rebuilds", neighbours_.builds());
+    record.put("list_anchor", flat(neighbours_.anchors()));
     if (moveFreely(world_.bodies)) {
         std::vector<Vec3> shifts, velocities;
         for (const FreeBody& body : free_) {
@@ -174,7 +175,11 @@ void ReferenceBackend::restore(const Record& record) {
     }
     steps_ = record.one<std::uint64_t>(kSnapshotSteps);
     angle_ = record.one<double>("coil_angle");
-    neighbours_.reset(world_.skin, reach_, record.one<std::uint64_t>("rebuilds"));
+    neighbours_.reset(world_.skin, reach_);
+    const auto builds = record.one<std::uint64_t>("rebuilds");
+    std::vector<Vec3> anchors(record.get<double>("list_anchor").empty() ? 0 : n);
+    vectors("list_anchor", anchors);
+    neighbours_.restore(particles_, anchors, builds);
     book_ = {};
     loads_ = {};
     forces_.reset(n, world_);
