@@ -217,11 +217,11 @@ TEST_CASE("energy: a bed under a turning coil that doses closes to rounding, and
         RuledWorld world = smallCanister(2e-6);
         world.law.limitFriction(limit);
         auto backend = makeReferenceBackend();
-        const EnergyLedger ledger = played(*backend, world, throwIn(7), 50000, 100, -60);
+        const EnergyLedger ledger = played(*backend, world, throwIn(7), 70000, 100, -60);
         CHECK(backend->advance(0, 0).count[static_cast<std::size_t>(Region::Dosed)] > 0);
         const EnergyBook& b = ledger.sum;
         for (const double loss : {b.plastic, b.adhesive, b.viscous, b.sliding, b.rolling, b.torsion})
-            CHECK(loss > 1e-5 * ledger.losses());  // every way is walked; adhesion takes 1e-4 of this small bed's losses
+            CHECK(loss > 1e-4 * ledger.losses());
         CHECK(b.coilWork > 0.1 * b.loaded);
         CHECK(b.left != 0);  // of either sign: the outlet reaches below the origin
         // The energy of motion along a normal ends up, by and large, in the three losses of that direction; the time
