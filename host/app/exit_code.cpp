@@ -7,9 +7,9 @@
 #include <system_error>
 
 #include "host/app/backends.h"
-#include "host/app/limits.h"
 #include "host/core/error.h"
 #include "host/core/file.h"
+#include "host/core/memory_limit.h"
 #include "host/core/printable.h"
 #include "host/model/case.h"
 #include "host/output/run_folder.h"

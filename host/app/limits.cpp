@@ -1,6 +1,5 @@
 #include "host/app/limits.h"
 
-#include <fmt/format.h>
 #include <pthread.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -12,6 +11,7 @@
 #include <optional>
 
 #include "host/core/exit_code.h"
+#include "host/core/memory_limit.h"
 
 namespace vkdose {
 
@@ -19,10 +19,10 @@ namespace {
 
 constexpr std::size_t kStack = 8UL << 20;  // [bytes], the usual limit
 
-/// A limit of this process in bytes, if there is one.
-std::optional<rlim_t> limitOf(__rlimit_resource resource) {
+/// The limit of the main thread's stack [bytes], if there is one.
+std::optional<rlim_t> stackLimit() {
     rlimit limit{};
-    if (getrlimit(resource, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return std::nullopt;
+    if (getrlimit(RLIMIT_STACK, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return std::nullopt;
     return limit.rlim_cur;
 }
 
@@ -60,15 +60,9 @@ extern "C" void* work(void* given) {
 
 }  // namespace
 
-std::string memoryLimitText() {
-    const std::optional<rlim_t> limit = limitOf(RLIMIT_AS);
-    if (!limit) return "";
-    return fmt::format("; the memory of this process is limited to {} MiB of address space (ulimit -v)", *limit >> 20);
-}
-
 int withinLimits(const std::function<int()>& program) {
     explainCrashes();
-    const std::optional<rlim_t> stack = limitOf(RLIMIT_STACK);
+    const std::optional<rlim_t> stack = stackLimit();
     if (!stack || *stack >= kStack) return program();
     pthread_attr_t attributes;
     Work w{&program};

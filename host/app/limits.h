@@ -1,8 +1,8 @@
 #pragma once
-// Limits that the shell or the system puts on this process: `ulimit -s` on stacks, `ulimit -v` on its address space.
+// Limits that the shell or the system puts on this process: `ulimit -s` on stacks, `ulimit -v` on its
+// address space (host/core/memory_limit.h tells of it).
 
 #include <functional>
-#include <string>
 
 namespace vkdose {
 
@@ -12,8 +12,5 @@ namespace vkdose {
 /// Where the address space is limited, a crash is told as what it most likely is, memory that a driver did not get, and
 /// ends with the code of a device that failed. Without that limit a crash stays a crash.
 int withinLimits(const std::function<int()>& program);
-
-/// "; the memory of this process is limited to 400 MiB of address space (ulimit -v)"; empty without such a limit.
-std::string memoryLimitText();
 
 }  // namespace vkdose

@@ -78,19 +78,6 @@ NewAnswers answersTo(const NewOptions& options) {
     return answers;
 }
 
-/// The case of a design. What does not fit together is told by its key, because there is no file yet.
-Case caseOf(const NewDesign& design, const std::filesystem::path& file) {
-    try {
-        return loadResolvedCase(newCaseText(design), file);
-    } catch (const CaseError& e) {
-        std::string text = "new: these do not fit together, and nothing was written";
-        for (const Diagnostic& d : e.faults())
-            text += fmt::format("\n{}{}{}: {}; {}", printable(d.key), d.value.empty() ? "" : " = ", printable(d.value),
-                                printable(d.problem), printable(d.remedy));
-        throw UsageError(text);
-    }
-}
-
 void requireNewFile(const std::filesystem::path& file) {
     std::error_code code;
     if (std::filesystem::exists(std::filesystem::symlink_status(file, code)))
@@ -156,6 +143,18 @@ void tellDesign(const NewDesign& d, const Case& c, const std::filesystem::path& 
 }
 
 }  // namespace
+
+Case caseOf(const NewDesign& design, const std::filesystem::path& file) {
+    try {
+        return loadResolvedCase(newCaseText(design), file);
+    } catch (const CaseError& e) {
+        std::string text = "new: these do not fit together, and nothing was written";
+        for (const Diagnostic& d : e.faults())
+            text += fmt::format("\n{}{}{}: {}; {}", printable(d.key), d.value.empty() ? "" : " = ", printable(d.value),
+                                printable(d.problem), printable(d.remedy));
+        throw UsageError(text);
+    }
+}
 
 int newCommand(const NewOptions& options) {
     requireNewFile(options.file);

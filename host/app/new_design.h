@@ -75,4 +75,7 @@ void fitContacts(NewDesign& design, const Case& trial);
 /// The case as commented TOML.
 std::string newCaseText(const NewDesign& design);
 
+/// The case of a design. Throws UsageError with the keys of what does not fit together.
+Case caseOf(const NewDesign& design, const std::filesystem::path& file);
+
 }  // namespace vkdose

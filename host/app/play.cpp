@@ -141,7 +141,8 @@ std::string deeper(const Case& c, const RunResult& result, const RunFolder& fold
 
 std::optional<Diagnostic> endIsOver(const std::string& file, const Case& c, double time) {
     const double end = c.schedule.stop.endTime;
-    if (end > time) return {};
+    // A run ends at the step that is nearest to the time, which may be before it.
+    if (end > time + c.world.timeStep / 2) return {};
     return Diagnostic{file,
                       0,
                       "stop.end_time_s",

@@ -33,7 +33,8 @@ void tell(fmt::format_string<A...> format, A&&... arguments) {
 void openText();
 
 /// Call at the end: the exit code of a command whose own is `code`. If text on stdout was lost, it says so on stderr,
-/// and a good code becomes kOutputError. A pipe that nobody reads any more (`| head`) is no fault.
+/// and a good code becomes kOutputError. A pipe that nobody reads any more (`| head`) is no fault, nor is a terminal
+/// that was closed.
 int closedText(int code);
 
 }  // namespace vkdose

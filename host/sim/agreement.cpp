@@ -151,8 +151,12 @@ ParticleRow ParticleJudge::row(std::uint64_t step, double time, std::size_t cont
     touched_ = touched_ || contacts > 0;
     const double drift = (touched_ ? kRadiusRounding : kPositionFloor) +  // in mean radii
                          0.5 * kVelocityFloor * speed_ * time / scales_.radius;
-    row.positionLimit = drift * std::max(1.0, twinPosition_ / kFineShift);
-    row.velocityLimit = kVelocityFloor + drift * twinVelocity_ / kFineShift;
+    // What contacts leave in the velocities moves the spheres from then on.
+    const double left = drift * kOneTwin * twinVelocity_ / kFineShift;
+    way_ += inUnits(left * speed_ * (time - time_), scales_.radius);
+    time_ = time;
+    row.positionLimit = drift * std::max(1.0, kOneTwin * twinPosition_ / kFineShift) + way_;
+    row.velocityLimit = kVelocityFloor + left;
     chaotic_ = chaotic_ || row.positionLimit > kWidest || row.velocityLimit > kWidest;
     const bool within = row.position <= row.positionLimit && row.velocity <= row.velocityLimit;  // false for NaN
     row.verdict = chaotic_ ? Verdict::Undecided : within ? Verdict::Agrees : Verdict::Differs;

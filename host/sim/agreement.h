@@ -26,15 +26,16 @@ StateDifference difference(const Particles& a, const Particles& b);
 /// - Mass, time step and parameters are rounded to single precision once, and forces in every step. In free flight that
 ///   is up to kVelocityFloor of the velocity scale, and half of that times the distance travelled in position.
 /// - It keeps positions and speeds in two floats. Loading them loses nothing that matters (kPositionFloor). The radii
-/// are
-///   rounded to single precision, so that the first touch comes early or late by up to kRadiusRounding.
-/// - Contacts amplify differences, but not more than they amplified the fine twin's displacement.
+///   are rounded to single precision, so that the first touch comes early or late by up to kRadiusRounding.
+/// - Contacts amplify differences, but not more than kOneTwin times what they made of the fine twin's displacement,
+///   which is one of many. What they may leave in the velocities adds up in the positions.
 /// Once the limit exceeds kWidest (of a radius, of the velocity scale) the state is chaotic and is no longer judged.
 class ParticleJudge {
   public:
     static constexpr double kVelocityFloor = 1e-6;
     static constexpr double kPositionFloor = 1e-9;
     static constexpr double kRadiusRounding = 0x1p-22;
+    static constexpr double kOneTwin = 3;
     static constexpr double kWidest = 0.1;
 
     explicit ParticleJudge(const Scales& scales) : scales_(scales) {}
@@ -47,6 +48,8 @@ class ParticleJudge {
     double speed_ = 0;         ///< velocity scale [m/s]
     double twinPosition_ = 0;  ///< largest so far [mean radii]
     double twinVelocity_ = 0;  ///< largest so far [velocity scales]
+    double time_ = 0;          ///< of the latest row [s]
+    double way_ = 0;           ///< that differences of the velocities may have led to [mean radii]
     bool touched_ = false;     ///< there was a contact
     bool chaotic_ = false;
 };

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "host/core/error.h"
+#include "host/core/memory_limit.h"
 #include "host/sim/body_clocks.h"
 #include "host/sim/body_loads.h"
 #include "host/sim/checkpoint_pace.h"
@@ -58,7 +59,8 @@ class RunLoop {
         } catch (const DeviceError& e) {
             fail(StopReason::DeviceError, e.what());
         } catch (const std::bad_alloc&) {
-            fail(StopReason::RunError, "out of memory: use fewer particles or end other programs");
+            fail(StopReason::RunError,
+                 ("out of memory: use fewer particles or end other programs" + memoryLimitText()).c_str());
         }
     }
 

@@ -7,13 +7,13 @@
 
 namespace vkdose {
 
-Confirmed confirmedBy(const std::vector<double>& values, std::size_t asked, double scatter, double target,
+Confirmed confirmedBy(const std::vector<double>& values, std::size_t asked, const SeedScatter& scatter, double target,
                       double tolerance) {
     using Verdict = Confirmed::Verdict;
     Confirmed c;
     const Estimate mean = estimateOf(values);
     c.runs = std::size_t(mean.count);
-    c.found = {mean.mean, scatter / std::sqrt(double(mean.count))};
+    c.found = {mean.mean, scatter.errorOfMean(mean.count)};
     if (c.runs < asked || c.runs == 0)
         c.verdict = Verdict::Incomplete;
     else if (!(std::abs(c.found.value - target) <= tolerance))

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "host/study/gaussian_process.h"
+#include "host/study/seed_scatter.h"
 
 namespace vkdose {
 
@@ -24,9 +25,9 @@ struct Confirmed {
     Verdict verdict = Verdict::Incomplete;
 };
 
-/// Judges the confirming runs' `values` of one figure, of which there should be `asked`. The standard error is
-/// `scatter`, that of a single run from seed to seed, over the root of their number.
-Confirmed confirmedBy(const std::vector<double>& values, std::size_t asked, double scatter, double target,
+/// Judges the confirming runs' `values` of one figure, of which there should be `asked`. Their standard error follows
+/// from the scatter of single runs.
+Confirmed confirmedBy(const std::vector<double>& values, std::size_t asked, const SeedScatter& scatter, double target,
                       double tolerance);
 
 /// The confirmation of one point: a figure for each target.

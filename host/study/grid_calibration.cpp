@@ -19,7 +19,7 @@ struct Found {
 
 /// From seed to seed, over all points.
 struct Scatter {
-    double beta, rsd;
+    SeedScatter beta, rsd;
 };
 
 Scatter scatterOf(const std::map<Row, std::map<double, Found>>& curves) {
@@ -39,8 +39,7 @@ CurvePoint pointOf(double along, const Found& found, const Scatter& scatter) {
     const Estimate beta = estimateOf(found.beta), rsd = estimateOf(found.rsd);
     point.beta = beta.mean;
     point.seeds = beta.count;
-    point.betaError =
-        std::isfinite(scatter.beta) ? scatter.beta / std::sqrt(double(beta.count)) : found.betaError.front();
+    point.betaError = scatter.beta.freedom > 0 ? scatter.beta.errorOfMean(beta.count) : found.betaError.front();
     // A seed that dosed nothing has no RSD. Were it left out of the mean, the point would pass for a steady one.
     if (rsd.count < beta.count) {
         point.rsd = point.rsdError = std::numeric_limits<double>::quiet_NaN();
@@ -49,7 +48,7 @@ CurvePoint pointOf(double along, const Found& found, const Scatter& scatter) {
     point.rsd = rsd.mean;
     // A standard deviation of n doses, and so the RSD, is known to one part in sqrt(2 (n - 1)).
     const double single = rsd.mean / std::sqrt(2 * (found.doses.front() - 1));
-    point.rsdError = std::isfinite(scatter.rsd) ? scatter.rsd / std::sqrt(double(rsd.count)) : single;
+    point.rsdError = scatter.rsd.freedom > 0 ? scatter.rsd.errorOfMean(rsd.count) : single;
     return point;
 }
 

@@ -1,13 +1,39 @@
 #include "host/study/seed_scatter.h"
 
 #include <cmath>
-#include <limits>
+#include <unsupported/Eigen/SpecialFunctions>
 
 #include "host/analysis/beta.h"
 
 namespace vkdose {
 
-double scatterOfSeeds(const std::vector<std::vector<double>>& points) {
+namespace {
+
+/// Chance that a value of Student's distribution is off by no more than `t`.
+double chanceWithin(double t, int freedom) {
+    Eigen::Array<double, 1, 1> a(freedom / 2.0), b(0.5), x(freedom / (freedom + t * t));
+    return 1 - Eigen::betainc(a, b, x)[0];
+}
+
+/// By which factor two standard errors must grow, to hold the truth as often as those of a known deviation do.
+double widening(int freedom) {
+    constexpr double kErrors = 2;
+    const double chance = std::erf(kErrors / std::sqrt(2.0));
+    double low = 1, high = 10;  // 6.98 for one degree
+    while (high - low > 1e-12) {
+        const double middle = (low + high) / 2;
+        (chanceWithin(kErrors * middle, freedom) < chance ? low : high) = middle;
+    }
+    return high;
+}
+
+}  // namespace
+
+double SeedScatter::errorOfMean(int count) const {
+    return freedom > 0 ? widening(freedom) * deviation / std::sqrt(double(count)) : deviation;
+}
+
+SeedScatter scatterOfSeeds(const std::vector<std::vector<double>>& points) {
     double squares = 0;
     int freedom = 0;
     for (const std::vector<double>& values : points) {
@@ -16,7 +42,8 @@ double scatterOfSeeds(const std::vector<std::vector<double>>& points) {
             if (std::isfinite(x)) squares += (x - mean.mean) * (x - mean.mean);
         freedom += mean.count > 1 ? mean.count - 1 : 0;
     }
-    return freedom > 0 ? std::sqrt(squares / freedom) : std::numeric_limits<double>::quiet_NaN();
+    if (freedom == 0) return {};
+    return {std::sqrt(squares / freedom), freedom};
 }
 
 }  // namespace vkdose

@@ -141,13 +141,12 @@ class Search {
         for (std::size_t g = 0; g < goals_.size(); ++g) {
             std::vector<std::vector<double>> seeds;
             for (const Trials& trials : trials_) seeds.push_back(trials.at(g).values);
-            const double scatter = scatterOfSeeds(seeds);
-            scatter_[g] = scatter;
+            scatter_[g] = scatterOfSeeds(seeds);
             std::vector<Measured>& values = result_.goals[g].values;
             values.clear();
             for (const Trials& trials : trials_) {
                 const Estimate mean = estimateOf(trials[g].values);
-                const double pooled = scatter / std::sqrt(double(mean.count));
+                const double pooled = scatter_[g].errorOfMean(mean.count);
                 values.push_back({mean.mean, std::isfinite(pooled) ? pooled : trials[g].error});
             }
         }
@@ -325,7 +324,7 @@ class Search {
     const TryPoints& tryPoints_;
     const ConfirmPoint& confirmPoint_;
     std::vector<Goal> goals_;
-    std::vector<double> scatter_ = std::vector<double>(goals_.size());  ///< of each goal, from seed to seed
+    std::vector<SeedScatter> scatter_ = std::vector<SeedScatter>(goals_.size());  ///< of each goal
     std::vector<Trials> trials_;
     std::vector<std::vector<double>> unit_;  ///< the points tried, in the unit cube
     double nearest_ = 0;                     ///< root of the least believed misfit

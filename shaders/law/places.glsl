@@ -243,9 +243,9 @@ WayOut wayOut(uint n) {
     return found && on.pass > back.pass ? on : back;
 }
 
-/// Finds the distinct ones among the places, and puts the first kMaxBodyFeatures into `features`, the deepest first.
-/// Gives their number. If that is more than kMaxBodyFeatures, some could not be told. `radius` is the sphere's and
-/// `beyond` together.
+/// Finds the distinct ones among the places, and puts the first kMaxBodyFeatures into `features`, the deepest first and
+/// the others in any order. Gives their number. If that is more than kMaxBodyFeatures, some could not be told.
+/// `radius` is the sphere's and `beyond` together.
 uint distinctFeatures(float radius, float beyond) {
     if (fewPlaces()) {
         uint count = distinctFew(radius, beyond);

@@ -55,6 +55,7 @@ TEST_CASE("every rule is shown by a slip") {
     shown.insert("body-inside");  // below
     shown.insert("body-phases");
     shown.insert("body-seam");
+    shown.insert("body-mended");
     for (const std::string& name : warningNames()) all.insert(name);
     CHECK(all.size() == warningNames().size());
     CHECK(shown == all);

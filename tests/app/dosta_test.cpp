@@ -45,11 +45,11 @@ TEST_CASE("dosta: a silo runs out as in other programs") {
                      1);
 }
 
-TEST_CASE("dosta: two powders go round in a drum as in other programs") {
+TEST_CASE("dosta: two powders go round in a drum as in other programs", "[slow]") {
     requireAgreement("dosta-drum", "seeds = 1\n", 6);
 }
 
-TEST_CASE("dosta: a ball sinks into a bed as in other programs") {
+TEST_CASE("dosta: a ball sinks into a bed as in other programs", "[slow]") {
     // Of seeds 1 to 3 the second is in the middle of what is allowed, so that another packing agrees as well.
     requireAgreement("dosta-ball",
                      "seeds = [2]\n[[axis]]\nkeys = [\"body.ball.motion.velocity\", \"settle.time_s\"]\n"

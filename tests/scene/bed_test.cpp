@@ -47,7 +47,7 @@ Sensors late(const RuledWorld& w, const Particles& p) {
 
 }  // namespace
 
-TEST_CASE("a bed of odd size follows the reference through its first contacts, then in its sums") {
+TEST_CASE("a bed of odd size follows the reference through its first contacts, then in its sums", "[every-driver]") {
     const RuledWorld w = canisterWorld();
     const Particles p = thrownIn(131);
     auto device = gpu();
@@ -84,7 +84,7 @@ TEST_CASE("a bed of odd size follows the reference through its first contacts, t
     requireClean(*device);
 }
 
-TEST_CASE("history follows the pair: how often the rows are rebuilt does not change a bit", "[one-driver]") {
+TEST_CASE("history follows the pair: how often the rows are rebuilt does not change a bit") {
     RuledWorld w = canisterWorld();
     const Particles p = thrownIn(97);
     w.skin = 0.05e-3;
@@ -97,7 +97,7 @@ TEST_CASE("history follows the pair: how often the rows are rebuilt does not cha
     CHECK(sameBits(often->contacts(), seldom->contacts()));
 }
 
-TEST_CASE("the same case gives the same bits, whatever the workgroup and the way of reading", "[one-driver]") {
+TEST_CASE("the same case gives the same bits, whatever the workgroup and the way of reading") {
     const RuledWorld w = canisterWorld();
     const Particles p = thrownIn(131);
     const auto first = played(w, p);
@@ -127,7 +127,7 @@ TEST_CASE("the same case gives the same bits, whatever the workgroup and the way
     CHECK(sameBits(first->contacts(), second->contacts()));
 }
 
-TEST_CASE("the bits do not depend on how the steps are cut into calls", "[one-driver]") {
+TEST_CASE("the bits do not depend on how the steps are cut into calls") {
     const RuledWorld w = canisterWorld();
     const Particles p = thrownIn(65);
     const auto whole = played(w, p);
@@ -166,7 +166,7 @@ TEST_CASE("an isolated cluster keeps its momentum") {
     CHECK(near(momentum(device->particles()), momentum(p), scale, 2e-6));
 }
 
-TEST_CASE("a slow particle moves on though its step is below a float's resolution") {
+TEST_CASE("a slow particle moves on though its step is below a float's resolution", "[every-driver]") {
     RuledWorld w = emptyWorld();
     w.gravity = Vec3(0);
     Particles p;
@@ -179,7 +179,7 @@ TEST_CASE("a slow particle moves on though its step is below a float's resolutio
     CHECK(near(device->particles().position[0], expected, 45e-6, 1e-4));
 }
 
-TEST_CASE("the switch of the law keeps state and history") {
+TEST_CASE("the switch of the law keeps state and history", "[every-driver]") {
     const RuledWorld w = canisterWorld();
     const Particles p = thrownIn(65);
     auto device = gpu();

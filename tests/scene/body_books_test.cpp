@@ -33,7 +33,7 @@ double scaleOf(const EnergyLedger& ledger) {
 
 }  // namespace
 
-TEST_CASE("body books: device and reference book contacts with moving bodies alike, term by term") {
+TEST_CASE("body books: device and reference book contacts with moving bodies alike, term by term", "[every-driver]") {
     const RuledWorld w = bookedWorld();
     struct Throw {
         const char* at;
@@ -69,7 +69,7 @@ TEST_CASE("body books: device and reference book contacts with moving bodies ali
     }
 }
 
-TEST_CASE("body books: a heap in a turning drum closes on the device, and the book moves nothing", "[one-driver]") {
+TEST_CASE("body books: a heap in a turning drum closes on the device, and the book moves nothing") {
     RuledWorld w = bookedWorld();
     const Particles p = layers(60);
     VulkanOptions options;

@@ -46,8 +46,7 @@ void checkMomentum(Backend& backend, const RuledWorld& w, double rate) {
 
 }  // namespace
 
-TEST_CASE("the forces of the contacts are what moves the particles, and survive refreshes, rebuilds and a restart",
-          "[one-driver]") {
+TEST_CASE("the forces of the contacts are what moves the particles, and survive refreshes, rebuilds and a restart") {
     const bool reference = GENERATE(false, true);
     RuledWorld w = canisterWorld();
     w.maxOverlapRatio = 1;

@@ -154,7 +154,8 @@ TEST_CASE("energy: device and reference book the same, term by term, until packi
     requireClean(*device);
 }
 
-TEST_CASE("energy: device and reference book the first and the last step of an elasto-plastic contact alike") {
+TEST_CASE("energy: device and reference book the first and the last step of an elasto-plastic contact alike",
+          "[every-driver]") {
     RuledWorld w = emptyWorld();
     follow(NormalLaw::Eepa, w);
     w.energyBook = true;
@@ -187,7 +188,7 @@ TEST_CASE("energy: a bed under the coil that doses closes on the device, and los
     bedClosesOnTheDevice(CoulombLimit::Luding);
 }
 
-TEST_CASE("energy: a bed under the coil that doses closes under the absolute Coulomb limit", "[one-driver]") {
+TEST_CASE("energy: a bed under the coil that doses closes under the absolute Coulomb limit") {
     bedClosesOnTheDevice(CoulombLimit::Absolute);
 }
 
@@ -257,7 +258,7 @@ TEST_CASE("energy: the book stays closed when gravity changes") {
     requireClean(*device);
 }
 
-TEST_CASE("energy: keeping the book changes no bit of the motion", "[one-driver]") {
+TEST_CASE("energy: keeping the book changes no bit of the motion") {
     RuledWorld w = dosingWorld();
     const Particles p = thrownAbout(97);
     VulkanOptions options;

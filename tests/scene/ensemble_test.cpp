@@ -145,15 +145,15 @@ void requireSameAloneAndTogether(bool energyBook) {
 
 }  // namespace
 
-TEST_CASE("a canister computes the same bits alone and in an ensemble") {
+TEST_CASE("a canister computes the same bits alone and in an ensemble", "[every-driver]") {
     requireSameAloneAndTogether(false);
 }
 
-TEST_CASE("a canister that keeps its energy book computes the same bits alone and in an ensemble", "[one-driver]") {
+TEST_CASE("a canister that keeps its energy book computes the same bits alone and in an ensemble") {
     requireSameAloneAndTogether(true);
 }
 
-TEST_CASE("canisters whose contacts follow different laws share tables", "[one-driver]") {
+TEST_CASE("canisters whose contacts follow different laws share tables") {
     std::vector<Script> scripts{
         {90, -9.5, 2.26e-6, 0.3}, {120, 7.0, 2.26e-6, 0.3}, {70, 7.0, 2.26e-6, 0.3}, {60, 7.0, 2.26e-6, 0.3}};
     scripts[3].law = NormalLaw::Jkr;
@@ -174,7 +174,7 @@ TEST_CASE("canisters whose contacts follow different laws share tables", "[one-d
     CHECK(together[3].sensors[1].energy->adhesive > 0);
 }
 
-TEST_CASE("a canister that fails names its own particle and leaves the others alone", "[one-driver]") {
+TEST_CASE("a canister that fails names its own particle and leaves the others alone") {
     std::vector<Script> scripts{{100, -9.5, 2.26e-6, 0.3}, {61, -9.5, 2.26e-6, 0.3}, {80, -9.5, 2.26e-6, 0.3}};
     scripts[1].throwFirst = {0, 0, -2000};  // through the back
     const std::vector<Outcome> together = playTogether(scripts);
@@ -185,7 +185,7 @@ TEST_CASE("a canister that fails names its own particle and leaves the others al
     CHECK_THAT(together[1].error, Catch::StartsWith("particle 0 "));
 }
 
-TEST_CASE("a canister goes on in an ensemble from where it was alone, and the other way round", "[one-driver]") {
+TEST_CASE("a canister goes on in an ensemble from where it was alone, and the other way round") {
     std::vector<Script> scripts{{120, -9.5, 2.26e-6, 0.3}, {77, 5.0, 2.26e-6, 0.3}, {203, -9.5, 2.26e-6, 0.3}};
     const bool energyBook = GENERATE(false, true);
     for (Script& s : scripts) s.energyBook = energyBook;
@@ -205,8 +205,8 @@ TEST_CASE("a canister goes on in an ensemble from where it was alone, and the ot
 
 namespace {
 
-/// Plays the scripts, the first `places` of them from the beginning. Each of the others enters just before one leaves, so
-/// that those who stay wait for it in the middle of their calls.
+/// Plays the scripts, the first `places` of them from the beginning. Each of the others enters just before one leaves,
+/// so that those who stay wait for it in the middle of their calls.
 std::vector<Outcome> playInTurn(const std::vector<Script>& scripts, std::size_t places,
                                 const std::vector<const Record*>& from = {}) {
     VulkanOptions options;
@@ -258,7 +258,7 @@ TEST_CASE("a canister that takes the place of one that is over computes the same
     }
 }
 
-TEST_CASE("a canister goes on from where it was in a place that another one left", "[one-driver]") {
+TEST_CASE("a canister goes on from where it was in a place that another one left") {
     std::vector<Script> scripts{{120, -9.5, 2.26e-6, 0.3}, {77, 5.0, 2.26e-6, 0.3}, {203, -9.5, 2.26e-6, 0.3}};
     scripts[1].calls = {30};
     std::vector<Record> taken(scripts.size());
@@ -275,7 +275,7 @@ TEST_CASE("a canister goes on from where it was in a place that another one left
     }
 }
 
-TEST_CASE("a canister that cannot share the tables is refused, and the others go on without it", "[one-driver]") {
+TEST_CASE("a canister that cannot share the tables is refused, and the others go on without it") {
     VulkanOptions options;
     options.device = testDevice();
     VulkanEnsemble ensemble(options);
@@ -302,7 +302,7 @@ TEST_CASE("a canister that cannot share the tables is refused, and the others go
     requireClean(*first);
 }
 
-TEST_CASE("canisters with surfaces of other kinds cannot share tables", "[one-driver]") {
+TEST_CASE("canisters with surfaces of other kinds cannot share tables") {
     std::vector<std::unique_ptr<Backend>> backends = gpuEnsemble(2);
     RuledWorld odd = canisterWorld();
     odd.surfaces.pop_back();

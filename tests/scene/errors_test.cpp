@@ -86,7 +86,7 @@ TEST_CASE("how deep an overlap may be is the world's choice") {
     }
 }
 
-TEST_CASE("a full neighbour row is reported") {
+TEST_CASE("a full neighbour row is reported", "[every-driver]") {
     Particles p;
     p.add({0, 0, 0}, 1e-3);
     // Ninety small spheres inside the large one's reach, apart from it and from each other.
@@ -100,7 +100,7 @@ TEST_CASE("a full neighbour row is reported") {
     requireRunError(w, p, 1, "more neighbours than a row holds");
 }
 
-TEST_CASE("a skin that fills a row at the first step, and no other, is refused with the case", "[one-driver]") {
+TEST_CASE("a skin that fills a row at the first step, and no other, is refused with the case") {
     const auto file = std::filesystem::path(sourceDir()) / "cases" / "mini.toml";
     const Case c = loadCase(file);
     const Insertion filled = insertParticles(c);
@@ -151,7 +151,7 @@ TEST_CASE("more particles around one than the neighbour search may look at are r
     requireRunError(w, p, 1, "has thousands of others around it");
 }
 
-TEST_CASE("a dosed particle is counted once and its neighbours forget it") {
+TEST_CASE("a dosed particle is counted once and its neighbours forget it", "[every-driver]") {
     RuledWorld w = canisterWorld();
     w.surfaces.clear();
     w.coil.reset();

@@ -61,7 +61,7 @@ constexpr double kRate = -9.42;
 
 }  // namespace
 
-TEST_CASE("fields: the device's are the reference's, of a packing on walls and coil") {
+TEST_CASE("fields: the device's are the reference's, of a packing on walls and coil", "[every-driver]") {
     RuledWorld world = canisterWorld();
     world.maxOverlapRatio = 1;
     const auto device = gpu(), reference = makeReferenceBackend();
@@ -134,8 +134,7 @@ TEST_CASE("fields: on the device, a bed that moves as one has that velocity to t
     requireClean(*device);
 }
 
-TEST_CASE("fields: asking for them changes nothing, and gives the same bits however the steps were cut",
-          "[one-driver]") {
+TEST_CASE("fields: asking for them changes nothing, and gives the same bits however the steps were cut") {
     const RuledWorld world = canisterWorld();
     const Particles p = thrownIn(211);
     const FieldRequest r = request({1, 23, 31}, 2e-3), small = request({1, 1, 5}, 0.02);
@@ -169,7 +168,7 @@ TEST_CASE("fields: asking for them changes nothing, and gives the same bits howe
     for (const Backend* backend : {a.get(), b.get(), c.get(), again.get()}) requireClean(*backend);
 }
 
-TEST_CASE("fields: a canister has the same in an ensemble as alone", "[one-driver]") {
+TEST_CASE("fields: a canister has the same in an ensemble as alone") {
     const FieldRequest r = request({1, 11, 17}, 3e-3);
     const RuledWorld world = canisterWorld();
     const std::array<Particles, 2> beds{thrownIn(67), thrownIn(130)};

@@ -50,7 +50,7 @@ bool sameBody(const Backend& a, const Backend& b) {
 
 }  // namespace
 
-TEST_CASE("free bodies: on the device a ball flies and meets spheres as in the reference") {
+TEST_CASE("free bodies: on the device a ball flies and meets spheres as in the reference", "[every-driver]") {
     RuledWorld w = dropWorld();
     const Vec3 line = glm::normalize(Vec3(0.05, -1, 0.02));
     auto& free = std::get<geometry::Free>(w.bodies[2].course.motion);
@@ -127,8 +127,7 @@ TEST_CASE("free bodies: on the device free fall is good to a millionth of the wa
     requireClean(*device);
 }
 
-TEST_CASE("free bodies: a ball that falls into a bed changes no bit by batches, a restart or other canisters",
-          "[one-driver]") {
+TEST_CASE("free bodies: a ball that falls into a bed changes no bit by batches, a restart or other canisters") {
     const RuledWorld w = dropWorld();
     const Particles p = bed();
     VulkanOptions small;
@@ -171,8 +170,7 @@ TEST_CASE("free bodies: a ball that falls into a bed changes no bit by batches, 
     requireClean(*whole);
 }
 
-TEST_CASE("free bodies: a ball goes on as it is when larger tables are made for a canister that comes",
-          "[one-driver]") {
+TEST_CASE("free bodies: a ball goes on as it is when larger tables are made for a canister that comes") {
     const RuledWorld w = dropWorld();
     RuledWorld more = w;
     more.bodies.push_back(bodyOf("ring", {geometry::Cone{Vec3(0, 45e-3, 0), Vec3(0, 1, 0), 8e-3, 8e-3, 3e-3}}));

@@ -113,8 +113,7 @@ TEST_CASE("elastic adhesive spheres hang from a ceiling and from each other unti
             }
 }
 
-TEST_CASE("elastic adhesive spheres go on after a restart with the same bits, in contacts beyond touch",
-          "[one-driver]") {
+TEST_CASE("elastic adhesive spheres go on after a restart with the same bits, in contacts beyond touch") {
     for (const Ceiling& ceiling : ceilings())
         for (const bool reference : {true, false}) {
             CAPTURE(ceiling.name, reference);
@@ -143,7 +142,8 @@ TEST_CASE("elastic adhesive spheres go on after a restart with the same bits, in
         }
 }
 
-TEST_CASE("elastic adhesive spheres part from walls, bodies and each other on the device as in the reference") {
+TEST_CASE("elastic adhesive spheres part from walls, bodies and each other on the device as in the reference",
+          "[every-driver]") {
     for (const Ceiling& ceiling : ceilings()) {
         RuledWorld w = glueyWorld(0.8);
         ceiling.put(w);

@@ -94,7 +94,7 @@ TEST_CASE("a stop that a law may be to blame for names it") {
     CHECK_THROWS_WITH(fall(flung), Contains("left the domain") && Contains("law odd.glsl"));
 }
 
-TEST_CASE("a law may divide whole numbers by what it likes") {
+TEST_CASE("a law may divide whole numbers by what it likes", "[every-driver]") {
     // -2147483648 and -1, or 0, made from the contact, so that no compiler sees them.
     const std::string numbers =
         "    int one = c.overlap > 0.0 ? 1 : 2, zero = one - 1, least = -2147483647 - one;\n"

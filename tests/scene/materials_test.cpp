@@ -92,7 +92,7 @@ std::set<std::size_t> pairsMet(const Backend& backend, const RuledWorld& w) {
 
 }  // namespace
 
-TEST_CASE("materials: a mixed bed on the device is that of the reference") {
+TEST_CASE("materials: a mixed bed on the device is that of the reference", "[every-driver]") {
     const bool book = GENERATE(false, true);
     RuledWorld w = mixedWorld();
     w.energyBook = book;
@@ -135,7 +135,7 @@ TEST_CASE("materials: a mixed bed on the device is that of the reference") {
     requireClean(*device);
 }
 
-TEST_CASE("materials: restored and uninterrupted are the same bits", "[one-driver]") {
+TEST_CASE("materials: restored and uninterrupted are the same bits") {
     RuledWorld w = mixedWorld();
     w.energyBook = GENERATE(false, true);
     const Particles p = mixedParticles(150);
@@ -151,7 +151,7 @@ TEST_CASE("materials: restored and uninterrupted are the same bits", "[one-drive
     checkSame({a, whole->particles(), whole->contacts()}, {b, second->particles(), second->contacts()});
 }
 
-TEST_CASE("materials: the numbers of materials do not matter to the bit", "[one-driver]") {
+TEST_CASE("materials: the numbers of materials do not matter to the bit") {
     const bool onDevice = GENERATE(false, true);
     RuledWorld w = mixedWorld();
     w.energyBook = GENERATE(false, true);
@@ -162,7 +162,7 @@ TEST_CASE("materials: the numbers of materials do not matter to the bit", "[one-
     checkSame(run(*one, w, p, 1000), run(*two, other.world, other.particles, 1000));
 }
 
-TEST_CASE("materials: powders that are all alike are one powder to the bit", "[one-driver]") {
+TEST_CASE("materials: powders that are all alike are one powder to the bit") {
     const bool onDevice = GENERATE(false, true);
     RuledWorld w = canisterWorld();
     w.maxOverlapRatio = 1;
@@ -179,7 +179,7 @@ TEST_CASE("materials: powders that are all alike are one powder to the bit", "[o
     checkSame(run(*one, w, p, 2000), run(*two, alike, marked, 2000));
 }
 
-TEST_CASE("materials: canisters of one powder and of several share a device, each with its own bits", "[one-driver]") {
+TEST_CASE("materials: canisters of one powder and of several share a device, each with its own bits") {
     const std::array<RuledWorld, 2> worlds{canisterWorld(), mixedWorld()};
     const std::array<Particles, 2> particles{thrownIn(130), mixedParticles(90)};
     auto backends = gpuEnsemble(2);

@@ -81,7 +81,7 @@ TEST_CASE("an elastic law (k1 = k2) has no plastic limit to divide by") {
     requireClose(run(w, p, 15));
 }
 
-TEST_CASE("elastic spheres of Hertz and Mindlin collide off centre, and graze a floor") {
+TEST_CASE("elastic spheres of Hertz and Mindlin collide off centre, and graze a floor", "[every-driver]") {
     RuledWorld w = emptyWorld();
     const ContactParameters usual = w.law.of(ContactClass::ParticleParticle);
     ContactParameters elastic = hertzMindlin({2e6, 0.25}, {2e7, 0.3}, 0.7);
@@ -97,7 +97,7 @@ TEST_CASE("elastic spheres of Hertz and Mindlin collide off centre, and graze a 
     for (const std::uint32_t steps : {20u, 75u}) requireClose(run(w, p, steps));
 }
 
-TEST_CASE("elasto-plastic adhesive spheres collide off centre, and graze a floor") {
+TEST_CASE("elasto-plastic adhesive spheres collide off centre, and graze a floor", "[every-driver]") {
     RuledWorld w = emptyWorld();
     const ContactParameters usual = w.law.of(ContactClass::ParticleParticle);
     ContactParameters rest;
@@ -144,7 +144,7 @@ TEST_CASE("an elasto-plastic adhesive law without plasticity moves spheres as He
     CHECK(near(a->particles().velocity[0], b->particles().velocity[0], kSpeed, 1e-5));
 }
 
-TEST_CASE("a sphere meets every surface") {
+TEST_CASE("a sphere meets every surface", "[every-driver]") {
     RuledWorld w = emptyWorld();
     const double a = single(1.25e-3), s = std::sqrt(0.5);
     struct Shot {

@@ -44,7 +44,8 @@ constexpr double kRate = -9;
 
 }  // namespace
 
-TEST_CASE("refill: those that wait move nothing and are counted nowhere, those that come fall freely") {
+TEST_CASE("refill: those that wait move nothing and are counted nowhere, those that come fall freely",
+          "[every-driver]") {
     const bool reference = GENERATE(true, false);
     CAPTURE(reference);
     const RuledWorld w = world();
@@ -80,7 +81,7 @@ TEST_CASE("refill: those that wait move nothing and are counted nowhere, those t
     if (!reference) requireClean(*backend);
 }
 
-TEST_CASE("refill: before the first step it is the same as to load them", "[one-driver]") {
+TEST_CASE("refill: before the first step it is the same as to load them") {
     const bool reference = GENERATE(true, false);
     RuledWorld w = world();
     w.energyBook = true;
@@ -96,7 +97,7 @@ TEST_CASE("refill: before the first step it is the same as to load them", "[one-
     CHECK(a.energy->loaded == b.energy->loaded);
 }
 
-TEST_CASE("refill: a restart before or after it goes on with the same bits", "[one-driver]") {
+TEST_CASE("refill: a restart before or after it goes on with the same bits") {
     const bool reference = GENERATE(true, false);
     RuledWorld w = world();
     w.energyBook = true;
@@ -129,7 +130,7 @@ TEST_CASE("refill: a restart before or after it goes on with the same bits", "[o
     CHECK(touching > 0);
 }
 
-TEST_CASE("refill: one member of an ensemble is refilled, the other is not", "[one-driver]") {
+TEST_CASE("refill: one member of an ensemble is refilled, the other is not") {
     const RuledWorld w = world();
     const auto alone = gpu();
     alone->load(w, someWait());

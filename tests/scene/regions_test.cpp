@@ -80,7 +80,7 @@ TEST_CASE("regions: a slanted plane and a box dose what comes into them, and not
     CHECK(again.sinceDose()[2].particles == 0);
 }
 
-TEST_CASE("regions: as many as a device has places for, and none more") {
+TEST_CASE("regions: as many as a device has places for, and none more", "[every-driver]") {
     RuledWorld w = emptyWorld();
     w.gravity = Vec3(0);
     w.domain = {Vec3(-0.1), Vec3(0.1)};

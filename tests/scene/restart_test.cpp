@@ -72,7 +72,7 @@ void restartAgrees(bool reference) {
 
 }  // namespace
 
-TEST_CASE("vulkan: restored and uninterrupted are the same bits", "[one-driver]") {
+TEST_CASE("vulkan: restored and uninterrupted are the same bits", "[every-driver]") {
     restartAgrees(false);
 }
 
@@ -80,7 +80,7 @@ TEST_CASE("reference: restored and uninterrupted are the same bits") {
     restartAgrees(true);
 }
 
-TEST_CASE("a snapshot that does not fit is refused", "[one-driver]") {
+TEST_CASE("a snapshot that does not fit is refused") {
     const bool reference = GENERATE(false, true);
     const auto backend = made(reference), other = made(!reference);
     backend->load(canisterWorld(), thrownIn(20));
@@ -92,7 +92,7 @@ TEST_CASE("a snapshot that does not fit is refused", "[one-driver]") {
     CHECK_THROWS_AS(backend->restore(taken), RecordError);
 }
 
-TEST_CASE("the bits do not depend on how many steps a submission holds", "[one-driver]") {
+TEST_CASE("the bits do not depend on how many steps a submission holds") {
     RuledWorld w = canisterWorld();
     w.maxOverlapRatio = 1;
     const Particles p = thrownIn(67);

@@ -184,7 +184,7 @@ void listsMissNothing(const Scene& scene, std::uint32_t steps) {
 
 }  // namespace
 
-TEST_CASE("contact lists are made anew at the same steps however a run is cut into calls and batches", "[one-driver]") {
+TEST_CASE("contact lists are made anew at the same steps however a run is cut into calls and batches") {
     SECTION("sheared") {
         listsFallAtTheSameSteps(shearFlow());
     }
@@ -199,7 +199,7 @@ TEST_CASE("contact lists are made anew at the same steps however a run is cut in
     }
 }
 
-TEST_CASE("lists that are kept miss no contact that lists made in every step have", "[one-driver]") {
+TEST_CASE("lists that are kept miss no contact that lists made in every step have") {
     SECTION("sheared") {
         listsMissNothing(shearFlow(), 150);
     }

@@ -106,7 +106,7 @@ TEST_CASE("throat: a sphere feels the same force in the trough, in the hole and 
     });
 }
 
-TEST_CASE("throat: one contact along every path through a hole as wide as the trough") {
+TEST_CASE("throat: one contact along every path through a hole as wide as the trough", "[every-driver]") {
     onBoth([&](Backend& backend, double) {
         // Shallow, and pinched as by the coil; below the axis, and above it, where the wall has a sickle of a ledge.
         for (const double depth : {1e-8, 2e-6, 0.1 * kA, 0.3 * kA})

@@ -105,7 +105,7 @@ TEST_CASE("parameters that a law does not declare, or that are missing, are name
                       Catch::Contains("contact.wall.parameters.m"));
     CHECK_THROWS_WITH(loaded(folder, with(kCase, "friction", "k = 2.0\nfriction")), Catch::Contains("key of the law"));
     CHECK_THROWS_WITH(loaded(folder, with(kCase, "spring.glsl", "sprung.glsl")),
-                      Catch::Contains("contact.law") && Catch::Contains("cannot be read"));
+                      Catch::Contains("contact.law") && Catch::Contains("there is no file"));
 }
 
 TEST_CASE("the resolved case holds the text of a user's law and needs no file") {

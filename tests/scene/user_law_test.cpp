@@ -137,7 +137,7 @@ void requireSameBits(const RuledWorld& first, const RuledWorld& second, const Pa
 
 }  // namespace
 
-TEST_CASE("a user's law that repeats luding has luding's bits") {
+TEST_CASE("a user's law that repeats luding has luding's bits", "[every-driver]") {
     const Twins t = ludingTwins();
     requireSameBits(t.own, t.users);
 }
@@ -159,7 +159,7 @@ TEST_CASE("a user's law that repeats hertz-mindlin has its bits") {
     requireSameBits(t.own, t.users);
 }
 
-TEST_CASE("a run under a user's law goes on from a snapshot with the same bits", "[one-driver]") {
+TEST_CASE("a run under a user's law goes on from a snapshot with the same bits") {
     RuledWorld w = ludingTwins().users;
     w.energyBook = GENERATE(false, true);
     auto whole = gpu(), resumed = gpu(byAddress());
@@ -175,7 +175,7 @@ TEST_CASE("a run under a user's law goes on from a snapshot with the same bits",
     requireClean(*resumed);
 }
 
-TEST_CASE("a state of a user's law is refused under another law", "[one-driver]") {
+TEST_CASE("a state of a user's law is refused under another law") {
     const Twins t = ludingTwins();
     auto first = gpu(), second = gpu(), third = gpu();
     first->load(t.users, threeSpheres());
@@ -209,7 +209,7 @@ TEST_CASE("the energy ledger closes under a user's law") {
     }
 }
 
-TEST_CASE("members of an ensemble share a user's law, each with its own parameters", "[one-driver]") {
+TEST_CASE("members of an ensemble share a user's law, each with its own parameters") {
     const RuledWorld first = ludingTwins().users;
     RuledWorld second = first;
     for (ContactParameters& p : second.law.pairs) p.own[2] *= 0.5;  // kc

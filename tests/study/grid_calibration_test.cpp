@@ -8,6 +8,7 @@
 #include <random>
 
 #include "host/study/member_result.h"
+#include "host/study/seed_scatter.h"
 #include "tests/support/catch.h"
 
 using namespace vkdose;
@@ -122,9 +123,10 @@ TEST_CASE("several seeds give the mean and its error, a single one the error of 
     REQUIRE(points.size() == 2);
     CHECK(points[0].seeds == 3);
     CHECK(points[0].beta == Approx(4.5e-3).epsilon(1e-12));
-    CHECK(points[0].betaError == Approx(1e-4 / std::sqrt(3.0)).epsilon(1e-9));  // s = 0.1 g of three
-    CHECK(points[1].betaError == Approx(1e-4).epsilon(1e-9));                   // the scatter of the others
-    CHECK(points[1].rsdError == Approx(1e-4).epsilon(1e-9));
+    const SeedScatter scatter{1e-4, 2};  // s = 0.1 g of three
+    CHECK(points[0].betaError == Approx(scatter.errorOfMean(3)).epsilon(1e-9));
+    CHECK(points[1].betaError == Approx(scatter.errorOfMean(1)).epsilon(1e-9));
+    CHECK(points[1].rsdError == Approx(scatter.errorOfMean(1)).epsilon(1e-9));
 
     Members single;
     single.add("0.5", 0, 4.5e-3, 0.2, "ok", 3e-4);

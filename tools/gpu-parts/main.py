@@ -30,23 +30,24 @@ def options():
     p.add_argument("--device", metavar="NAME", help="index or part of the name (default: as vkdose takes it)")
     p.add_argument("--program", metavar="FILE", help="vkdose (default: of this folder)")
     p.add_argument("--tiny", action="store_true", help="the smallest of everything: does it work at all")
-    p.add_argument("--pack", metavar="DIR", help="only make the folder that is carried to a card")
+    p.add_argument("--pack", metavar="FILE", help="only make the .tar.gz that is carried to a card")
     given = p.parse_args()
     if given.minutes * 60 <= given.early and not given.pack:
         p.error(f"{given.minutes:g} minutes are not more than the {given.early:g} s that are kept at the end (--early)")
     return given
 
 
-def make_folder(given):
+def make_pack(given):
     if os.path.exists(given.pack):
-        print(f"tools/gpu-minutes: {given.pack} is there already; choose another folder", file=sys.stderr)
+        print(f"tools/gpu-minutes: {given.pack} is there already; choose another name", file=sys.stderr)
         return 2
     place = places.Place(ROOT, given.program)
     if not os.path.isfile(place.program):
         print("tools/gpu-minutes: " + "\n".join(places.tools_missing(place)), file=sys.stderr)
         return 2
     size, out = pack.carried(place, given.pack)
-    print(f"{given.pack}: {size / (1 << 20):.1f} MiB; on the machine with the card: tools/gpu-minutes in it")
+    print(f"{given.pack}: {size / (1 << 20):.1f} MiB; on the machine with the card: "
+          f"tar xzf {os.path.basename(given.pack)} && {pack.FOLDER}/tools/gpu-minutes")
     for line in out:
         print("left out: " + line)
     if size > pack.MOST_CARRIED:
@@ -95,7 +96,7 @@ def play(given):
 
 def main():
     given = options()
-    return make_folder(given) if given.pack else play(given)
+    return make_pack(given) if given.pack else play(given)
 
 
 if __name__ == "__main__":

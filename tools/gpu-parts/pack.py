@@ -1,16 +1,18 @@
-"""Folders that are carried to a card, and files that come back from it."""
+"""What is carried to a card, and files that come back from it."""
 
 import os
 import re
 import shutil
 import subprocess
 import tarfile
+import tempfile
 import zlib
 
 import place as places
 
 MOST_FILES, MOST_BYTES = 8, 16 << 20
 MOST_CARRIED = 64 << 20
+FOLDER = "vkdose-card"  # of what is carried, when it is unpacked
 OF_SYSTEM = re.compile(r"lib(c|m|dl|rt|pthread|resolv|util|nsl)\.so|ld-linux|linux-vdso")
 CARRIED = ["cases", "tests/oracle", "tools/gpu-minutes", "tools/gpu-parts", "tools/queue", "tools/bench-data", "LICENSE"]
 
@@ -81,9 +83,7 @@ def libraries_of(program):
 
 
 def carried(place, to, tests=True):
-    """Makes the folder that is carried. Returns its size [bytes] and what stays out."""
-    os.makedirs(os.path.join(to, "bin"))
-    os.makedirs(os.path.join(to, "lib"))
+    """Makes the packed folder `to` (.tar.gz) that is carried to a card. Returns its size [bytes] and what stays out."""
     out = ["the validation layer (vulkan-validationlayers): the tests run without it and say so",
            "the driver of the card, and libc, which come with the machine"]
     programs = [place.program]
@@ -95,27 +95,27 @@ def carried(place, to, tests=True):
     libraries = {}
     for program in programs:
         libraries.update(libraries_of(program))
-        target = os.path.join(to, "bin", os.path.basename(program))
-        shutil.copy2(program, target)
-        if shutil.which("strip"):
-            subprocess.run(["strip", target], check=True)
     loader = places.library("libvulkan.so.1")
     if loader:
         libraries["libvulkan.so.1"] = loader
     else:
         out.append("the Vulkan loader, which is not here (libvulkan1)")
-    for name, path in libraries.items():
-        shutil.copy2(path, os.path.join(to, "lib", name))
-    for item in CARRIED:
-        source = os.path.join(place.root, item)
-        target = os.path.join(to, item)
-        os.makedirs(os.path.dirname(target), exist_ok=True)
-        if os.path.isdir(source):
-            shutil.copytree(source, target, ignore=shutil.ignore_patterns("__pycache__", "pictures", "*.png"))
-        elif os.path.exists(source):
-            shutil.copy2(source, target)
-    return folder_bytes(to), out
+    with tempfile.TemporaryDirectory() as work, tarfile.open(to, "w:gz", compresslevel=6) as archive:
+        for program in programs:
+            name = os.path.basename(program)
+            stripped = shutil.copy2(program, work)
+            if shutil.which("strip"):
+                subprocess.run(["strip", stripped], check=True)
+            archive.add(stripped, os.path.join(FOLDER, "bin", name))
+        for name, path in libraries.items():
+            archive.add(os.path.realpath(path), os.path.join(FOLDER, "lib", name))
+        for item in CARRIED:
+            source = os.path.join(place.root, item)
+            if os.path.exists(source):
+                archive.add(source, os.path.join(FOLDER, item), filter=without_pictures)
+    return os.path.getsize(to), out
 
 
-def folder_bytes(folder):
-    return sum(os.path.getsize(os.path.join(where, n)) for where, _, names in os.walk(folder) for n in names)
+def without_pictures(member):
+    name = os.path.basename(member.name)
+    return None if name in ("__pycache__", "pictures") or name.endswith(".png") else member

@@ -83,10 +83,10 @@ def verify(s, seconds):
 
 
 def tests_in(s, room):
-    """The names of a room's tests, those that take long last."""
+    """The names of a room's tests, those for every driver first."""
     if not os.path.isfile(s.place.test(room)):
         return []
-    first = ["[one-driver]"] if room == "scene" else []
+    spec_first = ["[every-driver]"] if room == "scene" else []
 
     def listed(spec):
         for words in (["--list-test-names-only"], ["--list-tests", "--verbosity", "quiet"]):  # Catch2 2, Catch2 3
@@ -95,9 +95,9 @@ def tests_in(s, room):
                 return [line.strip() for line in text.splitlines() if line.strip()]
         return []
 
-    last = set(listed(first)) if first else set()
+    first = set(listed(spec_first)) if spec_first else set()
     names = listed([])
-    return [n for n in names if n not in last] + [n for n in names if n in last]
+    return [n for n in names if n in first] + [n for n in names if n not in first]
 
 
 def tests(s, seconds):

@@ -17,8 +17,8 @@ class Neighbours {
     /// Builds the list if a particle has moved more than half the skin since the last build, or if there is none yet.
     void update(const Particles& particles);
 
-    /// Makes the list as it was built last, so that the next build falls where it would have. `anchors` are the positions
-    /// of that build, empty if the next `update` is to build it.
+    /// Makes the list as it was built last, so that the next build falls where it would have. `anchors` are the
+    /// positions of that build, empty if the next `update` is to build it.
     void restore(const Particles& particles, const std::vector<Vec3>& anchors, std::uint64_t builds);
 
     /// Positions at the last build; empty after `reset`.
