@@ -176,7 +176,12 @@ Verdict judgeValue(const Expected& e, const std::vector<Point::Output>& outputs)
     const double error = std::sqrt(variance), off = std::abs(mean - e.value) / std::abs(e.value);
     const std::string found = shown(e, mean, error);
     if (e.kind == Kind::AtMost && mean <= e.value) return {Verdict::Kind::Matches, "matches", found};
-    if (off <= e.matches || std::abs(mean - e.value) <= 2 * error) return {Verdict::Kind::Matches, "matches", found};
+    // An error of unknown size forgives nothing.
+    const bool forgiven = std::abs(mean - e.value) <= 2 * error;
+    if (forgiven && 2 * error > e.near * std::abs(e.value))
+        return {Verdict::Kind::NotJudged,
+                fmt::format("known to {:.0f} % only", std::ceil(200 * error / std::abs(e.value))), found};
+    if (off <= e.matches || forgiven) return {Verdict::Kind::Matches, "matches", found};
     if (off <= e.near) return {Verdict::Kind::Within, fmt::format("within {:.0f} %", std::ceil(off * 100)), found};
     return {Verdict::Kind::Contradicts, fmt::format("contradicts ({:+.0f} %)", 100 * (mean - e.value) / e.value),
             found};

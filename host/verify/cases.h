@@ -47,6 +47,7 @@ void drumBalance(Stage& stage);
 void pushedByBodies(Stage& stage);
 void freeBall(Stage& stage);
 void heldByBodies(Stage& stage);
+void mergingPlaces(Stage& stage);
 
 // bed.cpp
 void column(Stage& stage);

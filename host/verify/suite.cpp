@@ -37,6 +37,7 @@ std::vector<Scene> scenes() {
          pushedByBodies},
         {"bodies/free-ball", "a ball that moves freely meets a sphere, another falls", freeBall},
         {"bodies/held-sphere", "a sphere sticks to a turning disc or funnel and stays at its radius", heldByBodies},
+        {"bodies/merging", "an elastic sphere rebounds where places of a mesh become one contact", mergingPlaces},
         {"bed/column", "spheres stacked upon each other", column},
         {"bed/weight", "a bed in a box and what its floor and walls bear", bedWeight},
         {"bed/heap", "a block of spheres slumps, with friction and without", heap},

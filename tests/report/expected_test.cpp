@@ -65,8 +65,13 @@ TEST_CASE("a figure that is not to be exceeded") {
     CHECK(judge(e, {at({}, 6)}).kind == Verdict::Kind::Contradicts);
 }
 
-TEST_CASE("two standard errors are no contradiction") {
-    CHECK(judge(value(4), {at({}, 5.2, 0.7)}).kind == Verdict::Kind::Matches);
+TEST_CASE("two standard errors are no contradiction, and large ones no match") {
+    CHECK(judge(value(4), {at({}, 4.6, 0.35)}).kind == Verdict::Kind::Matches);
+    for (const double found : {4.0, 5.2}) {
+        const Verdict open = judge(value(4), {at({}, found, 0.7)});
+        CHECK(open.kind == Verdict::Kind::NotJudged);
+        CHECK(open.text == "known to 35 % only");
+    }
     CHECK(judge(value(4), {at({}, 5.2, 0.5)}).kind == Verdict::Kind::Contradicts);
 }
 
