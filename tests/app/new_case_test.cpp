@@ -261,7 +261,7 @@ TEST_CASE("new: the dialogue asks again until it understands, and gives the case
     CHECK_FALSE(fs::exists(box / "other.toml"));
 }
 
-TEST_CASE("new: a case of few spheres runs and doses") {
+TEST_CASE("new: a case of few spheres runs and doses", "[slow]") {
     const Sandbox box;
     REQUIRE(box.vkdose("new 'my case.toml' " + kLarge + " --spheres 250 --rotate 1s --doses 1").code == 0);
     const auto run = box.vkdose("run 'my case.toml' --backend reference");

@@ -129,7 +129,7 @@ TEST_CASE("what a run tells of its powders adds up to what it tells of all") {
     CHECK(box.vkdose("report out").code == 0);
 }
 
-TEST_CASE("a run of two powders that is killed and resumed, or begun from its bed, ends with the same bits") {
+TEST_CASE("a run of two powders that is killed and resumed, or begun from its bed, ends with the same bits", "[slow]") {
     const std::string backend = GENERATE(std::string("reference"), std::string("vulkan"));
     CAPTURE(backend);
     const Sandbox box;

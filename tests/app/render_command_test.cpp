@@ -191,7 +191,7 @@ TEST_CASE("render: which state is drawn") {
     CHECK_THAT(refused.err, Catch::Contains("no frame at 1 s; 9 frames reach from 0 to 0.8 s"));
 }
 
-TEST_CASE("render: panels, and layers by the height in the settled bed") {
+TEST_CASE("render: panels, and layers by the height in the settled bed", "[slow]") {
     const Sandbox box;
     writeFrames(box);
     const auto same = [&](const char* a, const char* b) { return readText(box / a) == readText(box / b); };
