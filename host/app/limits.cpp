@@ -8,7 +8,6 @@
 #include <csignal>
 #include <cstring>
 #include <exception>
-#include <optional>
 
 #include "host/core/exit_code.h"
 #include "host/core/memory_limit.h"
@@ -18,13 +17,6 @@ namespace vkdose {
 namespace {
 
 constexpr std::size_t kStack = 8UL << 20;  // [bytes], the usual limit
-
-/// The limit of the main thread's stack [bytes], if there is one.
-std::optional<rlim_t> stackLimit() {
-    rlimit limit{};
-    if (getrlimit(RLIMIT_STACK, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return std::nullopt;
-    return limit.rlim_cur;
-}
 
 std::array<char, 512> lastWords{};  // made beforehand, because a handler may not format
 
@@ -62,8 +54,8 @@ extern "C" void* work(void* given) {
 
 int withinLimits(const std::function<int()>& program) {
     explainCrashes();
-    const std::optional<rlim_t> stack = stackLimit();
-    if (!stack || *stack >= kStack) return program();
+    rlimit stack{};
+    if (getrlimit(RLIMIT_STACK, &stack) != 0 || stack.rlim_cur >= kStack) return program();
     pthread_attr_t attributes;
     Work w{&program};
     pthread_t thread{};

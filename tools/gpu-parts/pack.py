@@ -100,6 +100,7 @@ def carried(place, to, tests=True):
         libraries["libvulkan.so.1"] = loader
     else:
         out.append("the Vulkan loader, which is not here (libvulkan1)")
+    os.makedirs(os.path.dirname(os.path.abspath(to)), exist_ok=True)
     with tempfile.TemporaryDirectory() as work, tarfile.open(to, "w:gz", compresslevel=6) as archive:
         for program in programs:
             name = os.path.basename(program)

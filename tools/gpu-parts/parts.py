@@ -86,8 +86,6 @@ def tests_in(s, room):
     """The names of a room's tests, those for every driver first."""
     if not os.path.isfile(s.place.test(room)):
         return []
-    spec_first = ["[every-driver]"] if room == "scene" else []
-
     def listed(spec):
         for words in (["--list-test-names-only"], ["--list-tests", "--verbosity", "quiet"]):  # Catch2 2, Catch2 3
             text = s.call(f"list-{room}", [s.place.test(room), *spec, *words], 60).text
@@ -95,7 +93,7 @@ def tests_in(s, room):
                 return [line.strip() for line in text.splitlines() if line.strip()]
         return []
 
-    first = set(listed(spec_first)) if spec_first else set()
+    first = set(listed(["[every-driver]"])) if room == "scene" else set()
     names = listed([])
     return [n for n in names if n in first] + [n for n in names if n not in first]
 
