@@ -12,6 +12,7 @@
 #include "host/output/run_folder.h"
 #include "tests/app/sandbox.h"
 #include "tests/support/catch.h"
+#include "tests/support/mini_case.h"
 
 using namespace vkdose;
 using namespace vkdose::test;
@@ -44,10 +45,6 @@ struct Png {
     std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)> surface;
     int width, height;
 };
-
-Case mini() {
-    return loadCase(VKDOSE_SOURCE_DIR "/cases/mini.toml");
-}
 
 Particles threeSpheres() {
     Particles p;

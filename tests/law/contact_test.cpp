@@ -12,8 +12,6 @@ using namespace vkdose::reference;
 
 namespace {
 
-constexpr double kRounding = 1e-12;
-
 Body sphere(const Vec3& x, const Vec3& v = Vec3(0), const Vec3& w = Vec3(0), double a = kRadius) {
     return {x, v, w, a};
 }

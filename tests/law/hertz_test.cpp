@@ -19,7 +19,6 @@ namespace {
 
 constexpr Elasticity kGlass{48e9, 0.2}, kSteel{210e9, 0.3};
 constexpr double kReduced = 0.8e-3, kMass = 3e-6;  // R* = 0.4 mm
-constexpr double kRounding = 1e-12;
 
 NormalAnswer at(const ContactParameters& p, double overlap) {
     double memory = 0;

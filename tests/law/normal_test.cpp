@@ -31,9 +31,6 @@ double forceAfter(const ContactParameters& p, double maxOverlap, double overlap,
     return f;
 }
 
-// Closed forms are evaluated in double precision: a few rounding errors of the largest force in sight.
-constexpr double kRounding = 1e-12;
-
 }  // namespace
 
 TEST_CASE("normal: first loading follows k1 up to the plastic limit, then the k2Max line") {

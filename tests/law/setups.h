@@ -16,6 +16,9 @@ inline constexpr double kK2Max = 24067;
 inline constexpr double kK1 = 4813.4;
 inline constexpr double kGravity = 9.81;
 
+/// Of closed forms in double precision: a few rounding errors of the largest value in sight.
+inline constexpr double kRounding = 1e-12;
+
 inline double massOf(double radius) {
     return kDensity * 4.0 / 3.0 * kPi * radius * radius * radius;
 }

@@ -14,7 +14,6 @@ using reference::intoTangentPlane;
 
 namespace {
 const Vec3 kUp(0, 1, 0);
-constexpr double kRounding = 1e-12;  // closed forms of a few operations
 }  // namespace
 
 TEST_CASE("sliding: below the limit it is a spring with a dashpot") {

@@ -18,7 +18,6 @@ using namespace vkdose::test;
 
 namespace {
 
-constexpr double kRounding = 1e-12;
 constexpr double kFactors[] = {2, 4, 8};
 
 /// The parameters of the paper as a case has them when it is softened by `s`.

@@ -12,10 +12,12 @@
 #include <vector>
 
 #include "tests/support/catch.h"
+#include "tests/support/folder.h"
 
 namespace {
 
 namespace fs = std::filesystem;
+using vkdose::test::readText;
 
 std::string withoutComments(const std::string& text) {
     std::string code;
@@ -48,13 +50,6 @@ std::vector<std::size_t> wideLines(const std::string& text) {
         if (width(line) > 120 && line.rfind("#include", 0) != 0) wide.push_back(number);
     }
     return wide;
-}
-
-std::string readText(const fs::path& file) {
-    std::ifstream stream(file);
-    std::ostringstream text;
-    text << stream.rdbuf();
-    return text.str();
 }
 
 }  // namespace

@@ -15,8 +15,10 @@
 #include "shaders/shared/layout.h"
 #include "spirv/passes.h"
 #include "tests/support/catch.h"
+#include "tests/support/folder.h"
 
 using namespace vkdose;
+using test::readText;
 
 namespace {
 
@@ -124,13 +126,6 @@ class Used {
 
     std::map<unsigned, std::set<std::string>> names;
 };
-
-std::string readText(const std::string& path) {
-    std::ifstream stream(path);
-    std::ostringstream text;
-    text << stream.rdbuf();
-    return text.str();
-}
 
 }  // namespace
 

@@ -7,6 +7,7 @@
 #include "host/render/colour.h"
 #include "host/render/outline.h"
 #include "host/render/picture.h"
+#include "tests/support/mini_case.h"
 #include "tests/support/near.h"
 #include "tests/support/places.h"
 
@@ -19,10 +20,6 @@ using render::PictureSpec;
 using render::Quantity;
 
 namespace {
-
-Case mini() {
-    return loadCase(sourceDir() + "/cases/mini.toml");
-}
 
 /// Three particles of known speed in the canister of mini, far from each other, and one that is dosed.
 Frame someFrame() {

@@ -7,8 +7,8 @@
 #include "host/render/colour.h"
 #include "host/render/quantity.h"
 #include "tests/support/catch.h"
+#include "tests/support/mini_case.h"
 #include "tests/support/near.h"
-#include "tests/support/places.h"
 
 using namespace vkdose;
 using namespace vkdose::test;
@@ -16,10 +16,6 @@ using render::Quantity;
 using render::Scale;
 
 namespace {
-
-Case mini() {
-    return loadCase(sourceDir() + "/cases/mini.toml");
-}
 
 std::vector<std::string> texts(const Scale& scale) {
     std::vector<std::string> all;

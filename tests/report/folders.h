@@ -102,12 +102,11 @@ inline void writeSearch(const Sandbox& box) {
     f.best = 1;
     f.misfit = 0.375;
     f.confirmingSeeds = {3, 4, 5};
-    using Verdict = Confirmed::Verdict;
     f.confirmations = {{"contact.friction 0.2, contact.kc_over_k 0.5",
-                        {{{20.4, 0.2}, 3, Verdict::Missed}, {{4.1, 0.05}, 3, Verdict::Missed}},
+                        {{{20.4, 0.2}, 3, Confirmed::Verdict::Missed}, {{4.1, 0.05}, 3, Confirmed::Verdict::Missed}},
                         false},
                        {"contact.friction 0.3, contact.kc_over_k 0.25",
-                        {{{24.1, 0.2}, 3, Verdict::Met}, {{3.02, 0.03}, 3, Verdict::Met}},
+                        {{{24.1, 0.2}, 3, Confirmed::Verdict::Met}, {{3.02, 0.03}, 3, Confirmed::Verdict::Met}},
                         true}};
     f.met = true;
     writeFinding(box / "sweep", f);

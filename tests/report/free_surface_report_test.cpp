@@ -5,6 +5,7 @@
 #include "tests/report/folders.h"
 #include "tests/report/frames.h"
 #include "tests/support/catch.h"
+#include "tests/support/mini_case.h"
 #include "tests/support/near.h"
 
 using namespace vkdose;
@@ -12,10 +13,6 @@ using namespace vkdose::report;
 using namespace vkdose::test;
 
 namespace {
-
-Case mini() {
-    return loadCase(VKDOSE_SOURCE_DIR "/cases/mini.toml");
-}
 
 /// One sphere in the canister, its middle so high [m, y].
 Particles at(double y) {

@@ -10,6 +10,7 @@
 #include "tests/report/frames.h"
 #include "tests/report/stream.h"
 #include "tests/support/catch.h"
+#include "tests/support/mini_case.h"
 #include "tests/support/near.h"
 
 using namespace vkdose;
@@ -17,10 +18,6 @@ using namespace vkdose::report;
 using namespace vkdose::test;
 
 namespace {
-
-Case mini() {
-    return loadCase(VKDOSE_SOURCE_DIR "/cases/mini.toml");
-}
 
 double random01(std::uint64_t i) {
     return uniforms(3, Stream::Jitter, i)[0];

@@ -278,7 +278,7 @@ std::vector<Mutant> mutants() {
         {"a time step four times as long as said",
          [](RuledWorld& w) { w.timeStep *= 4; },
          1,
-         {"size-ratio/wedge-bounce", "energy/cluster"},
+         {"size-ratio/wedge-bounce", "energy/cluster", "bodies/merging"},
          "column"},
         {"neither friction nor rolling friction",
          [](RuledWorld& w) {
