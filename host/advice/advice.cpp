@@ -89,6 +89,12 @@ std::string Subject::value(const std::string& key) const {
     return found == nullptr || found->kind == Node::Kind::Table ? "" : valueText(*found);
 }
 
+std::string Subject::shown(const std::string& key) const {
+    const std::string last = key.substr(key.rfind('.') + 1), text = value(key);
+    const bool soft = c.softened > 1 && (last == "k" || last == "damping" || last == "plasticity_depth");
+    return soft && !text.empty() ? fmt::format("{} (softened {:.6g} times)", text, c.softened) : text;
+}
+
 std::vector<std::string> Subject::accepted() const {
     const Node* found = node("accepted_warnings");
     return found == nullptr ? std::vector<std::string>() : wordsOf(found->string);
@@ -107,7 +113,7 @@ std::vector<Warning> warningsOf(const Case& c, const Insertion& filled) {
     for (const Rule& rule : kRules) {
         const Found found = rule.find(subject);
         if (!found) continue;
-        all.push_back({rule.name, found->key, subject.value(found->key), found->text, found->cure,
+        all.push_back({rule.name, found->key, subject.shown(found->key), found->text, found->cure,
                        std::find(accepted.begin(), accepted.end(), rule.name) != accepted.end()});
     }
     return all;

@@ -12,7 +12,7 @@ namespace vkdose {
 struct Warning {
     std::string name;   ///< of the rule: "settle-time"
     std::string key;    ///< "settle.time_s"
-    std::string value;  ///< of that key in the resolved case; empty if the case has none
+    std::string value;  ///< of that key in the resolved case, and whether it was softened; empty if the case has none
     std::string text;   ///< the finding, with its figures
     std::string cure;
     bool accepted = false;  ///< the case names it in `accepted_warnings`

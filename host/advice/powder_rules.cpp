@@ -46,20 +46,22 @@ std::string stiffnessKey(const Subject& s, MaterialPair pair) {
     return pairKey(s, asPowder ? pairOf(ContactClass::ParticleParticle) : pair, "k");
 }
 
-/// The cure of overlaps that are too large: `linear` times the stiffness of Luding's law, or `elastic` times the
-/// modulus of Hertz's.
-std::string stiffer(const ContactParameters& p, double linear, double elastic) {
-    return p.law == NormalLaw::Luding ? fmt::format("give at least {:.2g}", p.k2Max * linear)
+/// The cure of overlaps that are too large: `linear` times the stiffness of Luding's law, before it is softened, or
+/// `elastic` times the modulus of Hertz's.
+std::string stiffer(const Subject& s, const ContactParameters& p, double linear, double elastic) {
+    return p.law == NormalLaw::Luding ? fmt::format("give at least {:.2g}", s.c.softened * p.k2Max * linear)
                                       : fmt::format("make it at least {:.2g} times as large", elastic);
 }
 
 /// The damping that would give mean spheres what the key was perhaps meant to say, or else one half.
 std::string dampingCure(const Subject& s, const Restitution& e) {
     const ContactParameters& p = s.c.dosingLaw.of(e.pair);
-    const bool meant = p.gamma >= kLeastRestitution && p.gamma <= kMostRestitution;
-    const double wanted = meant ? p.gamma : 0.5;
+    const double given = std::sqrt(s.c.softened) * p.gamma;
+    const bool meant = given >= kLeastRestitution && given <= kMostRestitution;
+    const double wanted = meant ? given : 0.5;
     const double partner = s.c.world.materials.at(std::size_t(e.pair.b)).powder ? s.f.mean : kWall;
-    const double damping = dampingFor(wanted, p, reducedMass(s.c.world, e.pair, s.f.mean, partner));
+    const double damping =
+        std::sqrt(s.c.softened) * dampingFor(wanted, p, reducedMass(s.c.world, e.pair, s.f.mean, partner));
     return fmt::format(
         "damping is a dashpot in kg/s; {:.3g} gives mean spheres a restitution of {:.2g}; or give "
         "restitution = {:.2g} in its place",
@@ -193,7 +195,7 @@ Found deepUnderWeight(const Subject& s) {
                    fmt::format("under {:.3g} mm of powder mean spheres overlap by {:.2g} of their radius, in chains of "
                                "force {} times that; the run ends at {:.3g}",
                                s.f.bedDepth * 1e3, s.f.overlapUnderBed, kChain, limit),
-                   stiffer(s.c.dosingLaw.of(pair), growth, std::pow(growth, 1.5))};
+                   stiffer(s, s.c.dosingLaw.of(pair), growth, std::pow(growth, 1.5))};
 }
 
 Found deepOfFall(const Subject& s) {
@@ -206,7 +208,7 @@ Found deepOfFall(const Subject& s) {
         fmt::format("the fill falls {:.3g} mm and arrives at {:.2g} m/s, where a largest sphere alone goes "
                     "{:.2g} of its radius into the wall and several at once go deeper; the run ends at {:.3g}",
                     s.f.fall * 1e3, s.f.fallSpeed, s.f.overlapOfFall, limit),
-        stiffer(s.c.dosingLaw.of(pair), growth * growth, std::pow(growth, 2.5)) + ", or a larger max_overlap_ratio"};
+        stiffer(s, s.c.dosingLaw.of(pair), growth * growth, std::pow(growth, 2.5)) + ", or a larger max_overlap_ratio"};
 }
 
 Found fewSpheres(const Subject& s) {

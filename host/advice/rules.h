@@ -23,6 +23,8 @@ struct Subject {
     const Node* node(const std::string& key) const;
     /// The value at "coil.pitch_mm" as the resolved case has it; empty if it has none.
     std::string value(const std::string& key) const;
+    /// The same for people: a softened value says so, because the file has another one.
+    std::string shown(const std::string& key) const;
     /// The names of the warnings that the case expects.
     std::vector<std::string> accepted() const;
     /// The one of two keys that the case gives.

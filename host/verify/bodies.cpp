@@ -7,8 +7,6 @@
 #include <memory>
 
 #include "geometry/coil_mesh.h"
-#include "geometry/mesh_file.h"
-#include "geometry/mesh_surface.h"
 #include "geometry/tessellate.h"
 #include "host/verify/cases.h"
 #include "host/verify/setups.h"
@@ -19,21 +17,6 @@ namespace {
 
 using geometry::Triangle;
 using Triangles = std::vector<Triangle>;
-
-constexpr double kReach = 1.5 * kRadius;
-
-geometry::Shape meshOf(const Triangles& triangles) {
-    return std::make_shared<const geometry::MeshSurface>(
-        geometry::makeMesh(geometry::soupOf(triangles, "verify"), 1e-9).mesh, kReach);
-}
-
-RigidBody bodyOf(std::vector<geometry::Shape> shapes, geometry::Motion motion = geometry::Rest{}) {
-    RigidBody body;
-    body.name = "body";
-    body.shapes = std::move(shapes);
-    body.course.motion = std::move(motion);
-    return body;
-}
 
 /// The plane y = 0 from x = z = -6 to 60 radii, in columns that are in turn 3, 0.37 and 0.02 radii wide, and rows that
 /// are 2.1 and 0.6 radii deep, with diagonals either way: facets larger and smaller than the sphere, and needles.

@@ -4,10 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <memory>
 
-#include "geometry/mesh_file.h"
-#include "geometry/mesh_surface.h"
 #include "host/verify/cases.h"
 #include "host/verify/setups.h"
 
@@ -27,8 +24,7 @@ geometry::Shape surfaceOf(const std::vector<Profile>& profiles) {
             triangles.push_back({a + back, a + front, b + front});
             triangles.push_back({a + back, b + front, b + back});
         }
-    return std::make_shared<const geometry::MeshSurface>(
-        geometry::makeMesh(geometry::soupOf(triangles, "verify"), 1e-9).mesh, 1.5 * kRadius);
+    return meshOf(triangles);
 }
 
 /// Two faces whose normals are so many degrees apart.
@@ -64,10 +60,7 @@ void mergingPlaces(Stage& stage) {
         world.gravity = Vec3(0, -press, 0);
         world.energyBook = true;
         world.maxOverlapRatio = 0.3;
-        RigidBody body;
-        body.name = "body";
-        body.shapes = {surfaceOf(surface.profiles)};
-        world.bodies = {body};
+        world.bodies = {bodyOf({surfaceOf(surface.profiles)})};
         Particles one;
         one.add(surface.from * kRadius, kRadius);
         Trial trial(stage, world, one);

@@ -1,5 +1,8 @@
 #include "host/verify/setups.h"
 
+#include "geometry/mesh_file.h"
+#include "geometry/mesh_surface.h"
+
 namespace vkdose::verify {
 
 double massOf(double radius) {
@@ -31,6 +34,19 @@ RuledWorld space(const ContactParameters& p, double timeStep) {
     world.timeStep = timeStep;
     world.skin = kRadius / 10;
     return world;
+}
+
+geometry::Shape meshOf(const std::vector<geometry::Triangle>& triangles) {
+    return std::make_shared<const geometry::MeshSurface>(
+        geometry::makeMesh(geometry::soupOf(triangles, "verify"), 1e-9).mesh, 1.5 * kRadius);
+}
+
+RigidBody bodyOf(std::vector<geometry::Shape> shapes, geometry::Motion motion) {
+    RigidBody body;
+    body.name = "body";
+    body.shapes = std::move(shapes);
+    body.course.motion = std::move(motion);
+    return body;
 }
 
 RuledWorld floor(const ContactParameters& p, double timeStep, double gravity, double tilt) {

@@ -30,6 +30,11 @@ RuledWorld space(const ContactParameters& p, double timeStep);
 /// The floor y = 0 under gravity that pulls by `gravity` [m/s2], `tilt` [rad] from the vertical towards +x.
 RuledWorld floor(const ContactParameters& p, double timeStep, double gravity = kGravity, double tilt = 0);
 
+/// A mesh for spheres up to 1.5 kRadius.
+geometry::Shape meshOf(const std::vector<geometry::Triangle>& triangles);
+
+RigidBody bodyOf(std::vector<geometry::Shape> shapes, geometry::Motion motion = geometry::Rest{});
+
 /// Parameters with friction, rolling, torsion, damping, adhesion and plasticity all at once, and a cluster of 31
 /// spheres. The spheres are thrown at its middle, so that they collide within a few milliseconds (momentum.cpp).
 ContactParameters everyInteraction();

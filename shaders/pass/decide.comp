@@ -45,7 +45,8 @@ void account() {
     if (call == kCallSoon) control.listed.w = 1u;
     control.call = uvec4(kEmpty);
     if (BODIES > 0u)
-        for (uint n = 0u; n < made; ++n) control.drift.x += bodyWay(control.steps.x + n);
+        for (uint n = 0u; n < made; ++n)
+            control.drift.x = wayAfter(control.drift.x, bodyWay(control.steps.x + n));
     control.steps.xz = uvec2(control.steps.x + made, 0u);
 
     if (control.wanted.x != 0u) {  // rows were built in this stride
@@ -61,7 +62,7 @@ uint stepsWithin(float drift, uint most) {
     if (BODIES == 0u) return most;
     uint steps = 1u;
     for (; steps < most; ++steps) {
-        drift += bodyWay(control.steps.x + steps - 1u);
+        drift = wayAfter(drift, bodyWay(control.steps.x + steps - 1u));
         if (drift > control.drift.y) break;
     }
     return steps;

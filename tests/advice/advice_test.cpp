@@ -14,14 +14,14 @@ using namespace vkdose;
 using test::kBodySlips;
 using test::kSlips;
 using test::namesOf;
-using test::shippedCase;
+using test::plainCase;
 using test::Slip;
 
 namespace {
 
 std::vector<Warning> warningsWith(const std::vector<std::string>& overrides,
-                                  const std::string& file = "quickstart.toml") {
-    const Case c = loadCase(shippedCase(file), overrides);
+                                  const std::filesystem::path& file = plainCase()) {
+    const Case c = loadCase(file, overrides);
     return warningsOf(c, insertParticles(c));
 }
 
@@ -112,7 +112,7 @@ TEST_CASE("a list of touching spheres is a bed, which need not fall") {
                     std::to_string(0.003 + z * pitch) + ",0.002\n";
         }
         folder.write("list.csv", list);
-        const std::string base = "base = \"" + shippedCase("quickstart.toml").string() + "\"\n";
+        const std::string base = "base = \"" + plainCase().string() + "\"\n";
         folder.write("case.toml", base + "[particles]\nlist = \"list.csv\"\n[settle]\ntime_s = 0.01\n");
         const Case c = loadCase(folder.path() / "case.toml");
         const std::vector<std::string> names = namesOf(warningsOf(c, insertParticles(c)));

@@ -9,6 +9,7 @@
 #include "host/model/normal_law.h"
 #include "host/model/pull_off.h"
 #include "host/model/restitution.h"
+#include "tests/advice/warnings.h"
 #include "tests/model/case_files.h"
 #include "tests/support/catch.h"
 
@@ -113,7 +114,7 @@ TEST_CASE("the settled bed fills the canister to its volume") {
     const double mass = 0.5 * kPi * half * half * length * kDensity * kBedFraction;
     const auto figures = [&](double share) {
         const Case c =
-            loadCase(test::shippedCase("quickstart.toml"), {"particles.mass_g=" + std::to_string(share * mass * 1e3)});
+            loadCase(test::plainCase(), {"particles.mass_g=" + std::to_string(share * mass * 1e3)});
         return figuresOf(c, insertParticles(c));
     };
     // One sphere more or less is 0.05 g, a hundredth of the mass, which makes 0.1 mm.
@@ -127,11 +128,11 @@ TEST_CASE("the settled bed fills the canister to its volume") {
 
 TEST_CASE("the fall ends on the canister's own material") {
     const auto figures = [](std::vector<std::string> overrides) {
-        const Case c = loadCase(test::shippedCase("quickstart.toml"), overrides);
+        const Case c = loadCase(test::plainCase(), overrides);
         return figuresOf(c, insertParticles(c));
     };
     const double stiffness =
-        loadCase(test::shippedCase("quickstart.toml")).dosingLaw.of(ContactClass::ParticleWall).k2Max;
+        loadCase(test::plainCase()).dosingLaw.of(ContactClass::ParticleWall).k2Max;
     const std::vector<std::string> steel{"particles.material=\"cocoa\"", "material=[{name=\"steel\"}]",
                                          "canister.material=\"steel\"",
                                          "contact.cocoa-steel.k=" + std::to_string(stiffness / 4)};
@@ -141,7 +142,7 @@ TEST_CASE("the fall ends on the canister's own material") {
 }
 
 TEST_CASE("gaps of the coil are measured across the wire") {
-    const Case c = loadCase(test::shippedCase("quickstart.toml"));
+    const Case c = loadCase(test::plainCase());
     const Figures f = figuresOf(c, insertParticles(c));
     // Two points of neighbouring turns, the nearest pair found by search.
     const geometry::Coil& coil = *c.world.coil;
@@ -156,7 +157,7 @@ TEST_CASE("gaps of the coil are measured across the wire") {
     CHECK(f.coilClearance == Approx(0.1e-3));
     CHECK(f.stepLimit == "particle-particle normal");
     CHECK(std::isnan(
-        figuresOf(loadCase(test::shippedCase("quickstart.toml"), {"gravity=[0, 9.81, 0]"}), insertParticles(c))
+        figuresOf(loadCase(test::plainCase(), {"gravity=[0, 9.81, 0]"}), insertParticles(c))
             .bedDepth));
 }
 

@@ -2,6 +2,7 @@
 // The warnings of a case that a test writes.
 
 #include <algorithm>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,11 @@
 #include "tests/model/case_files.h"
 
 namespace vkdose::test {
+
+/// A case that no warning is for.
+inline std::filesystem::path plainCase() {
+    return std::filesystem::path(VKDOSE_SOURCE_DIR) / "tests/advice/plain.toml";
+}
 
 inline std::vector<std::string> namesOf(const std::vector<Warning>& warnings) {
     std::vector<std::string> names;

@@ -152,7 +152,7 @@ TEST_CASE("render: what cannot be drawn is told, and nothing is written") {
     refused("run --time 0.95 --panels", "excludes");
     refused("run --rate 10", "requires");
     refused("run --device nosuchdevice", "nosuchdevice", kDeviceError);
-    refused("run --out no/such/folder.png", "cannot write", kOutputError);
+    refused("run --size 80x60 --out no/such/folder.png", "cannot write", kOutputError);
     box.write("run/summary.json", "{}");
     refused("run", "simulated_time_s", kOutputError);
 }
@@ -188,16 +188,16 @@ TEST_CASE("render: which state is drawn") {
     CHECK_THAT(refused.err, Catch::Contains("no frame at 1 s; 9 frames reach from 0 to 0.8 s"));
 }
 
-TEST_CASE("render: panels, and layers by the height in the settled bed", "[slow]") {
+TEST_CASE("render: panels, and layers by the height in the settled bed") {
     const Sandbox box;
     writeFrames(box);
     const auto same = [&](const char* a, const char* b) { return readText(box / a) == readText(box / b); };
-    CHECK(box.vkdose("render run --panels --out story.png").code == kOk);
-    CHECK(box.vkdose("render run --time 0.2 0.4 0.8 --out told.png").code == kOk);
+    CHECK(box.vkdose("render run --panels --size 480x160 --out story.png").code == kOk);
+    CHECK(box.vkdose("render run --time 0.2 0.4 0.8 --size 480x160 --out told.png").code == kOk);
     CHECK(same("story.png", "told.png"));
-    CHECK(box.vkdose("render run --time 0.2 0.5 0.8 --out other.png").code == kOk);
+    CHECK(box.vkdose("render run --time 0.2 0.5 0.8 --size 480x160 --out other.png").code == kOk);
     CHECK_FALSE(same("story.png", "other.png"));
-    const auto layers = box.vkdose("render run --color fill-layer --view cut --time 0.3 --out l.png");
+    const auto layers = box.vkdose("render run --color fill-layer --view cut --time 0.3 --size 160x160 --out l.png");
     CHECK(layers.err.empty());
     CHECK(layers.code == kOk);
 }
@@ -237,7 +237,7 @@ TEST_CASE("render: a film is handed to ffmpeg picture by picture") {
     CHECK(outcome.code == kOutputError);
     CHECK_THAT(outcome.err, Catch::Contains("ffmpeg could not write film.mp4: no such codec"));
     box.write("bin/ffmpeg", "#!/bin/sh\necho 'no room' >&2; exit 1\n");  // without taking a single picture
-    outcome = box.vkdose("render run --movie film.mp4 --size 1600x1200", path);
+    outcome = box.vkdose("render run --movie film.mp4 --size 320x240", path);
     CHECK(outcome.code == kOutputError);
     CHECK_THAT(outcome.err, Catch::Contains("no room"));
     outcome = box.vkdose("render run --movie film.mp4 --size 160x120", "PATH=/nowhere; export PATH; ");

@@ -170,3 +170,20 @@ TEST_CASE("C++ and GLSL see the same structs") {
         CHECK(seen.count(name) == 1);
     }
 }
+
+TEST_CASE("a sum of ways is never below the true one, however small they are") {
+    using vkdose::gpu::wayAfter;
+    CHECK(wayAfter(3e-5f, 0) == 3e-5f);
+    for (const float way : {1e-13f, 3e-12f, 1e-7f}) {
+        CAPTURE(way);
+        float gone = 7e-6f;
+        double whole = gone;
+        for (int step = 0; step < 1'000'000; ++step) {
+            gone = wayAfter(gone, way);
+            whole += way;
+        }
+        CHECK(gone >= whole);
+        // Each sum rounds up, by no more than two units in the last place.
+        CHECK(gone <= whole * 1.3);
+    }
+}

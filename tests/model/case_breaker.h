@@ -57,6 +57,8 @@ inline const std::set<std::string> kZeroTables{"[frames]"};
 /// Keys that choose among words.
 inline const std::set<std::string> kWords{"boundaries", "distribution", "coulomb_limit", "floor",
                                           "rule",       "hand",         "kernel"};
+/// Keys that take a word or a number.
+inline const std::set<std::string> kWordOrNumber{"bulk_density"};
 /// Keys without which no case of theirs is complete.
 inline const std::set<std::string> kRequired{"density",
                                              "distribution",
@@ -128,7 +130,8 @@ class Breaker {
         static const std::vector<std::string> notFinite{"nan", "inf", "-inf", "+nan"};
         static const std::vector<std::string> beyond{"1e300", "1.7e308", "1e30"};
         if (e.string()) {
-            value(e, "another type where a string belongs", choice_.of(notString));
+            const bool numberToo = among(e.key, kWordOrNumber);
+            value(e, "another type where a string belongs", numberToo ? "true" : choice_.of(notString));
             if (among(e.key, kWords)) value(e, "a word that is none of the choices", "\"qx\"");
         } else if (e.array()) {
             value(e, "no three finite numbers", choice_.of(notVector));
