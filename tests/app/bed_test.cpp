@@ -68,7 +68,7 @@ void checkAsIfAlone(const Sandbox& box, const std::string& sweep, const std::str
 
 }  // namespace
 
-TEST_CASE("members with one bed are as if each had settled, to the byte") {
+TEST_CASE("members with one bed are as if each had settled, to the byte", "[slow]") {
     const Sandbox box;
     box.write("study.toml", kStudy);
     SECTION("in processes, told in the plan") {
@@ -102,7 +102,7 @@ TEST_CASE("members with one bed are as if each had settled, to the byte") {
     }
 }
 
-TEST_CASE("a sweep that is interrupted while its beds settle goes on to the same tables") {
+TEST_CASE("a sweep that is interrupted while its beds settle goes on to the same tables", "[slow]") {
     const Sandbox box;
     std::string study = kStudy;
     study.insert(study.find("settle.time_s"), "checkpoint.time_s = 0.003\n");

@@ -24,7 +24,8 @@ TEST_CASE("killed again and again at random moments, a run ends with the same bi
     checkSame(box / "whole", box / "cut");
 }
 
-TEST_CASE("killed at random moments, a run that settles until at rest and doses to a mass ends with the same bits") {
+TEST_CASE("killed at random moments, a run that settles until at rest and doses to a mass ends with the same bits",
+          "[slow]") {
     const std::string backend = GENERATE(std::string("reference"), std::string("vulkan"));
     // Nearly as slow as the fall is slow enough, so that settling ends early; the mass is a sphere's.
     std::vector<std::string> options{VKDOSE_SOURCE_DIR "/cases/mini.toml", "--quiet"};
