@@ -66,6 +66,7 @@ constexpr std::array kRules{
     Rule{"refill", lateRefill},
     Rule{"frames", fewFrames},
     Rule{"sensors", fewSensors},
+    Rule{"sensors-alias", aliasedSensors},
     Rule{"time-step", shortStep},
     Rule{"resolution", coarseNumbers},
     Rule{"run-length", longRun},

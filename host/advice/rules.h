@@ -97,6 +97,7 @@ Found earlyStop(const Subject& s);
 Found lateRefill(const Subject& s);
 Found fewFrames(const Subject& s);
 Found fewSensors(const Subject& s);
+Found aliasedSensors(const Subject& s);
 Found shortStep(const Subject& s);
 Found coarseNumbers(const Subject& s);
 Found longRun(const Subject& s);

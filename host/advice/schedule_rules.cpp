@@ -19,11 +19,13 @@ constexpr double kFalls = 2.5;
 constexpr double kSpheresInDose = 20;
 /// The first dose of a cohesive powder, which fills the throat too, took 1.8 times as long as by the closed form.
 constexpr double kDoseTime = 2;
-constexpr double kShortStep = 0.1;      ///< of the automatic step
-constexpr double kLongRun = 1e9;        ///< steps
-constexpr double kTwoFloats = 0x1p-48;  ///< of a number, lost in a step
-constexpr double kCreep = 1e-3;         ///< of the speed after a fall of a sphere's own diameter
-constexpr double kCoarse = 1e-2;        ///< share of its way that may be lost
+constexpr double kSampledPeriod = 0.25;  ///< longest interval of sensors, in periods of a motion
+constexpr double kSlip = 0.05;           ///< periods that sensors of whole periods may slip by in a run
+constexpr double kShortStep = 0.1;       ///< of the automatic step
+constexpr double kLongRun = 1e9;         ///< steps
+constexpr double kTwoFloats = 0x1p-48;   ///< of a number, lost in a step
+constexpr double kCreep = 1e-3;          ///< of the speed after a fall of a sphere's own diameter
+constexpr double kCoarse = 1e-2;         ///< share of its way that may be lost
 /// Steps of a small canister in a second on the fastest devices, in round figures.
 constexpr double kFastSteps = 1e4;
 
@@ -135,6 +137,25 @@ Found fewSensors(const Subject& s) {
                    fmt::format("leaves no more than a line or two of the time series in {} of {:.3g} s",
                                rotate > 0 ? "a rotation" : "the run", shortest),
                    fmt::format("give about {:.2g}", shortest / 50)};
+}
+
+Found aliasedSensors(const Subject& s) {
+    for (const RigidBody& body : s.c.world.bodies) {
+        double frequency = 0;
+        if (const auto* shake = std::get_if<geometry::Shake>(&body.course.motion)) frequency = shake->frequency;
+        if (const auto* swing = std::get_if<geometry::Swing>(&body.course.motion)) frequency = swing->frequency;
+        const double periods = s.c.sensorInterval * frequency, whole = std::round(periods);
+        if (periods <= kSampledPeriod) continue;
+        if (whole >= 1 && std::abs(periods - whole) * s.f.runTime <= kSlip * s.c.sensorInterval) continue;
+        return Finding{
+            "sensors.interval_s",
+            fmt::format("is {:.3g} periods of body \"{}\", which moves at {:.4g} Hz; the time series then shows "
+                        "a slow motion that is none",
+                        periods, body.name, frequency),
+            fmt::format("give {:.3g} or less, or whole periods: {:.6g}", kSampledPeriod / frequency,
+                        std::max(whole, 1.0) / frequency)};
+    }
+    return {};
 }
 
 Found shortStep(const Subject& s) {

@@ -161,6 +161,11 @@ inline const std::vector<BodySlip> kBodySlips{
      part("bar", "4, 0.6, 0.6", "0, 0, 0.003") + "[body.motion]\nkind = \"turn\"\nspeed_rpm = 1e6\naxis = [0, 0, 1]\n" +
          "[settle]",
      "body-speed",
-     {"body \"bar\" moves at up to"}}};
+     {"body \"bar\" moves at up to"}},
+    {"[settle]",
+     part("hammer", "0.6, 0.6, 0.6", "0, -0.004, 0.010") +
+         "[body.motion]\nkind = \"shake\"\naxis = [0, 0, 1]\namplitude_mm = 0.01\nfrequency_hz = 160\n[settle]",
+     "sensors-alias",
+     {"periods of body \"hammer\", which moves at 160 Hz", "0.00156 or less, or whole periods: 0.01875"}}};
 
 }  // namespace vkdose::test
