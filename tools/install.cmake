@@ -16,13 +16,13 @@ install(CODE [[
   set(man "${share}/man/man1")
   file(MAKE_DIRECTORY "${man}" "${share}/bash-completion/completions" "${share}/zsh/vendor-completions"
        "${share}/fish/vendor_completions.d")
-  execute_process(COMMAND "${program}" man --out "${man}" OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
+  execute_process(COMMAND "${program}" manual man --out "${man}" OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
   file(GLOB pages "${man}/vkdose*.1")
   execute_process(COMMAND gzip -9nf ${pages} COMMAND_ERROR_IS_FATAL ANY)
   foreach(place IN ITEMS bash=bash-completion/completions/vkdose zsh=zsh/vendor-completions/_vkdose
                          fish=fish/vendor_completions.d/vkdose.fish)
     string(REGEX MATCH "^(.*)=(.*)$" place "${place}")
-    execute_process(COMMAND "${program}" completion ${CMAKE_MATCH_1} OUTPUT_FILE "${share}/${CMAKE_MATCH_2}"
+    execute_process(COMMAND "${program}" manual completion ${CMAKE_MATCH_1} OUTPUT_FILE "${share}/${CMAKE_MATCH_2}"
                     COMMAND_ERROR_IS_FATAL ANY)
   endforeach()
 ]] COMPONENT vkdose)

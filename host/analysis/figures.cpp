@@ -8,12 +8,15 @@ namespace vkdose {
 
 namespace {
 
-/// The mass of a dose by which the rule for a blockage goes [kg]. A dose to a mass turns until the mass is out. The
-/// closed form of its turns is the greater the longer that took, and is no measure of what should come.
+/// The mass of a dose by which the rule for a blockage goes [kg], or 0 where nothing tells it. A dose to a mass turns
+/// until the mass is out. The closed form of its turns is the greater the longer that took, and is no measure of what
+/// should come.
 double expectedDose(const std::vector<Dose>& doses) {
     if (doses.empty()) return 0;
     const Dose& first = doses.front();
-    return first.target > 0 ? std::min(first.closedForm, first.target) : first.closedForm;
+    const bool known = first.closedForm > 0;  // not where the device has no closed form
+    if (first.target > 0) return known ? std::min(first.closedForm, first.target) : first.target;
+    return known ? first.closedForm : 0;
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "host/analysis/mass_rate.h"
 #include "host/app/calibration_text.h"
 #include "host/app/commands.h"
 #include "host/app/exit_code.h"
@@ -125,14 +126,15 @@ void checkFigures(const Study& study) {
     for (const CalibrationTarget& t : study.calibration->targets) {
         const Case c = loadCase(t.base);
         std::vector<std::string> known{kMassPerDose};
+        for (const RateFigure& f : kRateFigures) known.push_back(std::string(kRateName) + "." + f.name);
         for (const ElementTest& m : c.measures)
             for (const std::string& figure : figureNames(m)) known.push_back(m.name + "." + figure);
         if (std::find(known.begin(), known.end(), t.figure) != known.end()) continue;
         const std::string meant = closestWord(t.figure, known);
-        faults.push_back(
-            {study.file.string(), t.line, "calibrate.target.figure", t.figure,
-             fmt::format("{} has no such figure", t.base.string()),
-             meant.empty() ? "give a figure of one of its [[measure]]" : fmt::format("did you mean \"{}\"?", meant)});
+        faults.push_back({study.file.string(), t.line, "calibrate.target.figure", t.figure,
+                          fmt::format("{} has no such figure", t.base.string()),
+                          meant.empty() ? "give a figure of one of its [[measure]], or of the mass rate"
+                                        : fmt::format("did you mean \"{}\"?", meant)});
     }
     if (!faults.empty()) throw CaseError(faults);
 }

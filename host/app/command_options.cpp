@@ -13,7 +13,7 @@ namespace vkdose {
 
 namespace {
 
-void addNew(CLI::App& program, NewOptions& options) {
+CLI::App& addNew(CLI::App& program, NewOptions& options) {
     CLI::App& command =
         *program.add_subcommand("new", "write a commented case from a device and a powder, or ask for them");
     command.add_option("file", options.file, "case to write (TOML); it must not be there yet")
@@ -28,9 +28,10 @@ void addNew(CLI::App& program, NewOptions& options) {
     }
     command.add_flag("--ask", options.ask,
                      "ask for what is not given; without any option this is done on a terminal anyway");
+    return command;
 }
 
-void addRun(CLI::App& program, RunOptions& options) {
+CLI::App& addRun(CLI::App& program, RunOptions& options) {
     CLI::App& command = *program.add_subcommand("run", "simulate a case and write its output folder");
     addCase(command, options.input).required(false);
     auto* from = command
@@ -54,9 +55,10 @@ void addRun(CLI::App& program, RunOptions& options) {
     addParent(command, options.parent);
     addBackend(command, options.backend);
     from->excludes("--backend");  // the state is that of one backend
+    return command;
 }
 
-void addResume(CLI::App& program, ResumeOptions& options) {
+CLI::App& addResume(CLI::App& program, ResumeOptions& options) {
     CLI::App& command = *program.add_subcommand("resume", "go on with an interrupted run from its checkpoint");
     command.add_option("dir", options.folder, "output folder of the run")->required()->type_name("DIR");
     addSet(command, options.overrides,
@@ -65,79 +67,20 @@ void addResume(CLI::App& program, ResumeOptions& options) {
     addShow(command, options.quiet, options.live, options.events);
     addParent(command, options.parent);
     addDevice(command, options.backend);
+    return command;
 }
 
-void addCheck(CLI::App& program, CheckOptions& options) {
+CLI::App& addCheck(CLI::App& program, CheckOptions& options) {
     CLI::App& command = *program.add_subcommand(
         "check", "validate a case; print its figures, and warnings of what was probably not meant");
     addCase(command, options.input);
     addAssume(command, options.assume);
     command.add_flag("--json", options.json, "print errors, warnings and figures as JSON, for other programs");
     addBackend(command, options.backend);
+    return command;
 }
 
-void addCompare(CLI::App& program, CompareOptions& options) {
-    CLI::App& command =
-        *program.add_subcommand("compare", "run a case on both backends side by side and judge the differences");
-    addCase(command, options.input);
-    auto* steps =
-        command.add_option("--steps", options.steps, "stop after this many steps")->check(CLI::PositiveNumber);
-    command
-        .add_option("--time", options.time, "stop after this simulated time [s] (default: settling and the first dose)")
-        ->check(CLI::PositiveNumber)
-        ->excludes(steps);
-    command
-        .add_option("--twins", options.twins,
-                    "number of perturbed reference runs that measure the chaos of the packing")
-        ->check(CLI::Range(1, 16))
-        ->capture_default_str();
-    addDevice(command, options.backend);
-}
-
-void addVerify(CLI::App& program, VerifyOptions& options) {
-    CLI::App& command = *program.add_subcommand("verify", "run small cases with known answers and judge the results");
-    addBackend(command, options.backend);
-    command.add_option("--out", options.out, "folder for verify.md and verify.json")
-        ->type_name("DIR")
-        ->capture_default_str();
-    command.add_option("--only", options.only, "play only the cases with this in their name")->type_name("NAME");
-    command.add_flag("--list", options.list, "tell which cases there are, and play none");
-}
-
-void addBench(CLI::App& program, BenchOptions& options) {
-    CLI::App& command = *program.add_subcommand("bench", "measure the speed of a device on fixed workloads");
-    addDevice(command, options.backend);
-    command
-        .add_option("--bed", options.bed,
-                    "case with a list of settled particles, which is run at rest and turning (default: " +
-                        std::string(kSettledBed) + ")")
-        ->type_name("CASE");
-    command
-        .add_option("--only", options.only,
-                    "run only the workloads with this in their name; bed-4M, which takes 8 GB, runs only by its name")
-        ->type_name("NAME");
-    command.add_option("--repeats", options.repeats, "timed repeats of each workload")
-        ->check(CLI::Range(1, 1000))
-        ->capture_default_str();
-    command
-        .add_option("--copies", options.copies,
-                    "processes that run each workload at once, each pinned to a core; the rate is their sum")
-        ->check(CLI::Range(1, 1024))
-        ->capture_default_str();
-    command
-        .add_option("--members", options.members,
-                    "canisters that share the device in one ensemble, each with the workload")
-        ->check(CLI::Range(1, 65535))
-        ->capture_default_str()
-        ->excludes("--copies");
-    command.add_flag("--quick", options.quick,
-                     "run only the small workloads, too short to be measured: a trial of the command");
-    command.add_option("--out", options.out, "folder for bench.csv and bench.json")
-        ->type_name("DIR")
-        ->capture_default_str();
-}
-
-void addExportBody(CLI::App& program, ExportBodyOptions& options) {
+CLI::App& addExportBody(CLI::App& program, ExportBodyOptions& options) {
     CLI::App& command = *program.add_subcommand(
         "export-body", "write coil and bodies of a case as a binary STL mesh, for other programs");
     addCase(command, options.input);
@@ -159,6 +102,7 @@ void addExportBody(CLI::App& program, ExportBodyOptions& options) {
     command.add_option("--per-turn", options.perTurn, "straight pieces of a full turn, of round bodies too")
         ->check(CLI::Range(4, 10000))
         ->capture_default_str();
+    return command;
 }
 
 CLI::App& addSweep(CLI::App& program, const char* name, const char* what, SweepOptions& options) {
@@ -191,35 +135,7 @@ CLI::App& addSweep(CLI::App& program, const char* name, const char* what, SweepO
     return command;
 }
 
-void addValidate(CLI::App& program, ValidateOptions& options) {
-    CLI::App& command =
-        *program.add_subcommand("validate", "run the comparisons with the literature and judge the results");
-    command.add_option("name", options.names, "comparisons to run (default: all)")
-        ->check(CLI::IsMember(comparisonNames()));
-    command
-        .add_option("--out", options.sweep.out,
-                    "folder for validate.md, validate.json, validate.html and the runs (default: out/validate, "
-                    "with --full out/validate-full)")
-        ->type_name("DIR");
-    command.add_flag("--full", options.full, "at full size: hours on a CPU");
-    command.add_flag("--list", options.list, "tell which comparisons there are, and run none");
-    CLI::Option* judge = command.add_flag("--judge", options.judge,
-                                          "begin no run: judge those that have ended, while others may still go on");
-    command
-        .add_option("--jobs", options.sweep.jobs,
-                    "runs at once, each in a process of its own (default on a CPU: one for each core)")
-        ->check(CLI::Range(1, 1024))
-        ->excludes(judge);
-    addFor(command, options.sweep.limit);
-    command
-        .add_flag("--retry-failed", options.sweep.retryFailed,
-                  "run those that failed again, from their checkpoints if these can be read")
-        ->excludes(judge);
-    command.add_flag("--quiet", options.sweep.quiet, "print the verdicts and errors only");
-    addBackend(command, options.sweep.backend);
-}
-
-void addReport(CLI::App& program, ReportOptions& options) {
+CLI::App& addReport(CLI::App& program, ReportOptions& options) {
     CLI::App& command = *program.add_subcommand(
         "report", "write an HTML report of a run or a sweep, or of several runs beside each other");
     command
@@ -242,9 +158,10 @@ void addReport(CLI::App& program, ReportOptions& options) {
                     "bed; default: the last dose); may be repeated")
         ->type_name("FILE[@DOSE]")
         ->allow_extra_args(false);
+    return command;
 }
 
-void addProfile(CLI::App& program, ProfileOptions& options) {
+CLI::App& addProfile(CLI::App& program, ProfileOptions& options) {
     CLI::App& command = *program.add_subcommand("profile", "trace the surface of the powder in a photograph");
     photo::Reading& reading = options.reading;
     command.add_option("photo", options.photo, "PNG, JPEG or TIFF")->required();
@@ -300,9 +217,10 @@ void addProfile(CLI::App& program, ProfileOptions& options) {
         .add_option("--check", options.check,
                     "picture to write, with the surface drawn over the photograph, to judge it by")
         ->type_name("FILE");
+    return command;
 }
 
-void addRender(CLI::App& program, RenderOptions& options) {
+CLI::App& addRender(CLI::App& program, RenderOptions& options) {
     CLI::App& command = *program.add_subcommand("render", "draw pictures and films of a run");
     command.add_option("dir", options.folder, "output folder of the run")->required()->type_name("DIR");
     command.add_option("--out", options.out, "picture to write, a PNG (default: picture.png in the folder)")
@@ -344,57 +262,41 @@ void addRender(CLI::App& program, RenderOptions& options) {
         ->type_name("WxH");
     command.add_flag("--no-coil", options.noCoil, "do not draw the coil");
     addDevice(command, options.backend);
+    return command;
 }
 
-/// The commands that print parts of the manual.
-void addManual(CLI::App& program, ManualOptions& options) {
-    CLI::App& keys = *program.add_subcommand("keys", "list every key of a case file: unit, default, bounds, meaning");
-    keys.add_flag("--study", options.study, "list the keys of a study file instead");
-    keys.add_flag("--schema", options.schema, "print them as a JSON Schema, by which an editor completes and checks");
-    CLI::App& columns = *program.add_subcommand("columns", "list every column of the files that a run leaves");
-    columns.add_flag("--sweep", options.sweep, "list the columns of a sweep's tables instead");
-    CLI::App& all = *program.add_subcommand("options", "list every command with its options");
-    all.add_flag("--brief", options.brief, "list the commands alone, a line each");
+/// A sweep may also run on an MPI job or through a queue.
+CLI::App& addPlainSweep(CLI::App& program, SweepOptions& options) {
+    CLI::App& command = addSweep(program, "sweep", "run every member of a study: a base case, axes, seeds", options);
+    command.add_flag("--mpi", options.mpi, "run a member on each rank of an MPI job (needs a build with VKDOSE_MPI)")
+        ->excludes("--ensemble");
+    command.add_flag("--prepare", options.prepare, "only make the members' folders, for a queue (tools/slurm-array)");
+    return command;
 }
 
-/// The commands that print what shells and man(1) read.
-void addShells(CLI::App& program, ShellOptions& options) {
-    CLI::App& completion =
-        *program.add_subcommand("completion", "print the completion of the command line for a shell");
-    completion.add_option("shell", options.shell, "the shell")->check(CLI::IsMember({"bash", "zsh", "fish"}));
-    completion.add_option("--names", options.names, "print the names of what can be given")
-        ->check(CLI::IsMember({"case", "study"}))
-        ->group("");
-    CLI::App& man = *program.add_subcommand("man", "print the page for man(1), of vkdose or of a command");
-    man.add_option("command", options.command, "a command of vkdose; without one the page that lists them");
-    man.add_option("--out", options.out, "folder to write all the pages into, vkdose.1 and one for each command")
-        ->type_name("DIR");
+CLI::App& addCalibrate(CLI::App& program, SweepOptions& options) {
+    return addSweep(program, "calibrate", "find the parameters of a study that dose the measured mass", options);
 }
 
 }  // namespace
 
-void declareCommands(CLI::App& program, Options& options) {
-    addNew(program, options.made);
-    addRun(program, options.run);
-    addResume(program, options.resume);
-    addCheck(program, options.check);
-    program.add_subcommand("devices", "list the Vulkan devices");
-    addCompare(program, options.compare);
-    addVerify(program, options.verification);
-    addBench(program, options.bench);
-    addExportBody(program, options.exportBody);
-    addSweep(program, "sweep", "run every member of a study: a base case, axes, seeds", options.sweep)
-        .add_flag("--mpi", options.sweep.mpi, "run a member on each rank of an MPI job (needs a build with VKDOSE_MPI)")
-        ->excludes("--ensemble");
-    program.get_subcommand("sweep")->add_flag("--prepare", options.sweep.prepare,
-                                              "only make the members' folders, for a queue (tools/slurm-array)");
-    addSweep(program, "calibrate", "find the parameters of a study that dose the measured mass", options.calibration);
-    addValidate(program, options.validation);
-    addReport(program, options.report);
-    addProfile(program, options.profile);
-    addRender(program, options.render);
-    addManual(program, options.manual);
-    addShells(program, options.shells);
+std::vector<Command> declareCommands(CLI::App& program, Options& o) {
+    std::vector<Command> all{
+        {&addNew(program, o.made), [&o] { return newCommand(o.made); }},
+        {&addRun(program, o.run), [&o] { return runCommand(named(o.run)); }},
+        {&addResume(program, o.resume), [&o] { return resumeCommand(o.resume); }},
+        {&addCheck(program, o.check), [&o] { return checkCommand(named(o.check)); }},
+        {program.add_subcommand("devices", "list the Vulkan devices"), [] { return devicesCommand(); }},
+        {&addExportBody(program, o.exportBody), [&o] { return exportBodyCommand(named(o.exportBody)); }},
+        {&addPlainSweep(program, o.sweep), [&o] { return sweepCommand(studied(o.sweep)); }},
+        {&addCalibrate(program, o.calibration), [&o] { return calibrateCommand(studied(o.calibration)); }},
+        {&addReport(program, o.report), [&o] { return reportCommand(o.report); }},
+        {&addProfile(program, o.profile), [&o] { return profileCommand(o.profile); }},
+        {&addRender(program, o.render), [&o] { return renderCommand(o.render); }},
+    };
+    for (const auto& group : {declareManual(program, o), declareTests(program, o)})
+        all.insert(all.end(), group.begin(), group.end());
+    return all;
 }
 
 }  // namespace vkdose

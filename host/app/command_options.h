@@ -1,6 +1,9 @@
 #pragma once
 // The commands and options of the program: what can be given, and where the values go.
 
+#include <functional>
+#include <vector>
+
 #include "host/app/commands.h"
 #include "host/app/validate.h"
 
@@ -10,7 +13,7 @@ class App;
 
 namespace vkdose {
 
-/// Of the commands that print parts of the manual.
+/// Of the commands that print keys, columns and options.
 struct ManualOptions {
     bool study = false;
     bool schema = false;
@@ -38,7 +41,18 @@ struct Options {
     ShellOptions shells;
 };
 
-/// Declares every command in the order of --help. Parsing sets `options`, which must outlive the program.
-void declareCommands(CLI::App& program, Options& options);
+/// Where a command is declared, and what it does.
+struct Command {
+    const CLI::App* app;
+    std::function<int()> run;
+};
+
+/// Declares every command in the order of --help. Parsing sets `options`. These and the program must outlive the
+/// commands.
+std::vector<Command> declareCommands(CLI::App& program, Options& options);
+
+/// Those of the groups `manual` and `test`.
+std::vector<Command> declareManual(CLI::App& program, Options& options);
+std::vector<Command> declareTests(CLI::App& program, Options& options);
 
 }  // namespace vkdose

@@ -3,7 +3,10 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
+#include <map>
 #include <sstream>
+
+#include "host/model/closest_word.h"
 
 namespace vkdose {
 
@@ -79,18 +82,53 @@ std::string usageOf(const CommandText& command) {
     return text;
 }
 
-}  // namespace
-
-std::vector<CommandText> commandTexts(const CLI::App& program) {
+std::vector<CommandText> textsUnder(const CLI::App& app, const std::string& prefix) {
     std::vector<CommandText> all;
-    for (const CLI::App* app : program.get_subcommands([](const CLI::App*) { return true; })) {
-        CommandText command{app->get_name(), app->get_description(), "", {}};
+    for (const CLI::App* sub : app.get_subcommands([](const CLI::App*) { return true; })) {
+        CommandText command{prefix + sub->get_name(), sub->get_description(), "", {}, {}};
         for (const bool positional : {true, false})
-            for (const CLI::Option* option : shownOptions(*app, positional)) command.options.push_back(textOf(*option));
+            for (const CLI::Option* option : shownOptions(*sub, positional)) command.options.push_back(textOf(*option));
         command.usage = usageOf(command);
+        command.commands = textsUnder(*sub, command.name + " ");
         all.push_back(std::move(command));
     }
     return all;
+}
+
+/// Every name in `tree` by its last word.
+void addNames(const std::vector<CommandText>& tree, std::map<std::string, std::string>& names) {
+    for (const CommandText& command : tree) {
+        names[lastWord(command.name)] = command.name;
+        addNames(command.commands, names);
+    }
+}
+
+}  // namespace
+
+std::vector<CommandText> commandTree(const CLI::App& program) {
+    return textsUnder(program, "");
+}
+
+std::vector<CommandText> commandTexts(const CLI::App& program) {
+    std::vector<CommandText> all;
+    for (const CommandText& command : commandTree(program)) {
+        if (command.commands.empty()) all.push_back(command);
+        all.insert(all.end(), command.commands.begin(), command.commands.end());
+    }
+    return all;
+}
+
+std::string lastWord(const std::string& name) {
+    return name.substr(name.rfind(' ') + 1);  // npos + 1 is 0
+}
+
+std::string meantCommand(const std::string& word, const std::vector<CommandText>& tree) {
+    std::map<std::string, std::string> names;
+    addNames(tree, names);
+    std::vector<std::string> words;
+    for (const auto& [last, name] : names) words.push_back(last);
+    const std::string meant = closestWord(word, words);
+    return meant.empty() ? "see `vkdose manual options --brief`" : "did you mean " + names[meant] + "?";
 }
 
 }  // namespace vkdose

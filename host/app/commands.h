@@ -149,11 +149,11 @@ struct RenderOptions {
     std::optional<double> from, to;  ///< ends of the colour bar, in its unit
 };
 
-/// What `vkdose completion` and `vkdose man` print.
+/// What `vkdose manual completion` and `vkdose manual man` print.
 struct ShellOptions {
     std::string shell;
-    std::string names;  ///< instead: the names of "case" or "study"
-    std::string command;
+    std::string names;                 ///< instead: the names of "case" or "study"
+    std::vector<std::string> command;  ///< its words
     std::filesystem::path out;
 };
 
@@ -172,7 +172,7 @@ int reportCommand(const ReportOptions& options);
 int profileCommand(const ProfileOptions& options);
 int renderCommand(const RenderOptions& options);
 
-int completionCommand(const std::vector<CommandText>& commands, const ShellOptions& options);
+int completionCommand(const std::vector<CommandText>& tree, const ShellOptions& options);
 int manCommand(const std::vector<CommandText>& commands, const ShellOptions& options);
 
 }  // namespace vkdose

@@ -24,10 +24,10 @@ std::string joined(const std::vector<std::string>& words, const std::string& bet
     return text;
 }
 
-std::string names(const std::vector<CommandText>& commands) {
-    std::string text;
-    for (const CommandText& command : commands) text += (text.empty() ? "" : " ") + command.name;
-    return text;
+std::vector<std::string> lastWords(const std::vector<CommandText>& commands) {
+    std::vector<std::string> words;
+    for (const CommandText& command : commands) words.push_back(lastWord(command.name));
+    return words;
 }
 
 /// `text` with a backslash before each of `marks`.
@@ -66,8 +66,8 @@ std::string bashOffer(const OptionText& option) {
     }
 }
 
-constexpr const char* kBashHead = R"_(# Completion of vkdose for bash, printed by `vkdose completion bash`:
-#     source <(vkdose completion bash)
+constexpr const char* kBashHead = R"_(# Completion of vkdose for bash, printed by `vkdose manual completion bash`:
+#     source <(vkdose manual completion bash)
 _vkdose_words() {
     mapfile -t COMPREPLY < <(compgen -W "$1" -- "$current")
 }
@@ -76,41 +76,52 @@ _vkdose_paths() {
     compopt -o filenames 2> /dev/null
     mapfile -t COMPREPLY < <(
         compgen "$1" -- "$current"
-        [ -z "${2-}" ] || compgen -W "$("${COMP_WORDS[0]}" completion --names "$2" 2> /dev/null)" -- "$current"
+        [ -z "${2-}" ] || compgen -W "$("${COMP_WORDS[0]}" manual completion --names "$2" 2> /dev/null)" -- "$current"
     )
 }
 _vkdose() {
-    local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]} command=${COMP_WORDS[1]}
+    local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]}
     COMPREPLY=()
-    if [ "$COMP_CWORD" -eq 1 ]; then
 )_";
+
+/// What follows the words of a command.
+std::string bashCommand(const CommandText& command, const std::string& margin) {
+    std::string text = margin + "case $previous in\n";
+    std::string options;
+    std::string place = ":";
+    for (const OptionText& option : command.options) {
+        if (option.positional)
+            place = bashOffer(option);
+        else
+            options += option.name + " ";
+        if (!option.positional && !option.value.empty())
+            text += fmt::format("{}{}) {}; return ;;\n", margin, option.name, bashOffer(option));
+    }
+    text += fmt::format("{0}esac\n{0}case $current in\n{0}-*) _vkdose_words {1} ;;\n{0}*) {2} ;;\n{0}esac\n", margin,
+                        quoted(options + "--help"), place);
+    return text;
+}
+
+/// The commands whose word is the `place`-th behind the program's name, and what follows each.
+std::string bashCommands(const std::vector<CommandText>& commands, int place) {
+    const std::string margin(4 * static_cast<std::size_t>(place), ' ');
+    std::string text =
+        fmt::format("{0}if [ \"$COMP_CWORD\" -eq {1} ]; then\n{0}    _vkdose_words {2}\n{0}    return\n", margin, place,
+                    quoted(joined(lastWords(commands), " ") + (place == 1 ? " --help --version" : " --help")));
+    text += fmt::format("{0}fi\n{0}case ${{COMP_WORDS[{1}]}} in\n", margin, place);
+    for (const CommandText& command : commands) {
+        text += fmt::format("{}{})\n", margin, lastWord(command.name));
+        text += command.commands.empty() ? bashCommand(command, margin + "    ")
+                                         : bashCommands(command.commands, place + 1);
+        text += margin + "    ;;\n";
+    }
+    return text + margin + "esac\n";
+}
 
 }  // namespace
 
-std::string bashCompletion(const std::vector<CommandText>& commands) {
-    std::string text = kBashHead;
-    text += fmt::format("        _vkdose_words {}\n        return\n    fi\n    case \"$command $previous\" in\n",
-                        quoted(names(commands) + " --help --version"));
-    for (const CommandText& command : commands)
-        for (const OptionText& option : command.options)
-            if (!option.positional && !option.value.empty())
-                text += fmt::format("    \"{} {}\") {}; return ;;\n", command.name, option.name, bashOffer(option));
-    text += "    esac\n    case $command in\n";
-    for (const CommandText& command : commands) {
-        std::string options;
-        std::string place = ":";
-        for (const OptionText& option : command.options) {
-            if (option.positional)
-                place = bashOffer(option);
-            else
-                options += option.name + " ";
-        }
-        text += fmt::format(
-            "    {})\n        case $current in\n        -*) _vkdose_words {} ;;\n        *) {} ;;\n        "
-            "esac\n        ;;\n",
-            command.name, quoted(options + "--help"), place);
-    }
-    return text + "    esac\n}\ncomplete -F _vkdose vkdose\n";
+std::string bashCompletion(const std::vector<CommandText>& tree) {
+    return kBashHead + bashCommands(tree, 1) + "}\ncomplete -F _vkdose vkdose\n";
 }
 
 // ---- zsh ----------------------------------------------------------------------------------------------------------
@@ -142,31 +153,45 @@ std::string zshArgument(const OptionText& option) {
     return quoted((option.several ? "*" : "") + option.name + "[" + escaped(option.meaning, "[]:\\") + "]" + value);
 }
 
+/// The commands whose word comes next, and what follows each.
+std::string zshCommands(const std::vector<CommandText>& commands, const std::string& margin) {
+    std::string text = margin + "commands=(\n";
+    for (const CommandText& command : commands)
+        text += fmt::format("{}    {}\n", margin, quoted(lastWord(command.name) + ":" + escaped(command.about, ":\\")));
+    text += fmt::format(
+        "{0})\n{0}if (( CURRENT == 2 )); then\n{0}    _describe command commands\n{0}    return\n{0}fi\n"
+        "{0}command=$words[2]\n{0}shift words\n{0}(( CURRENT -= 1 ))\n{0}case $command in\n",
+        margin);
+    for (const CommandText& command : commands) {
+        text += fmt::format("{}{})\n", margin, lastWord(command.name));
+        if (command.commands.empty()) {
+            text += margin + "    _arguments '--help[print the options with examples]'";
+            for (const OptionText& option : command.options)
+                text += " \\\n" + margin + "        " + zshArgument(option);
+            text += "\n";
+        } else {
+            text += zshCommands(command.commands, margin + "    ");
+        }
+        text += margin + "    ;;\n";
+    }
+    return text + margin + "esac\n";
+}
+
 }  // namespace
 
-std::string zshCompletion(const std::vector<CommandText>& commands) {
-    std::string text = R"_(#compdef vkdose
-# Completion of vkdose for zsh, printed by `vkdose completion zsh`; put it as _vkdose into a folder of $fpath.
+std::string zshCompletion(const std::vector<CommandText>& tree) {
+    const std::string head = R"_(#compdef vkdose
+# Completion of vkdose for zsh, printed by `vkdose manual completion zsh`; put it as _vkdose into a folder of $fpath.
 _vkdose_named() {
     local -a named
-    named=(${(f)"$($service completion --names $1 2> /dev/null)"})
+    named=(${(f)"$($service manual completion --names $1 2> /dev/null)"})
     _alternative "names:$1:compadd -a named" 'files:file:_files'
 }
 _vkdose() {
     local -a commands
-    commands=(
+    local command
 )_";
-    for (const CommandText& command : commands)
-        text += fmt::format("        {}\n", quoted(command.name + ":" + escaped(command.about, ":\\")));
-    text +=
-        "    )\n    if (( CURRENT == 2 )); then\n        _describe command commands\n        return\n    fi\n"
-        "    local command=$words[2]\n    shift words\n    (( CURRENT -= 1 ))\n    case $command in\n";
-    for (const CommandText& command : commands) {
-        text += fmt::format("    {})\n        _arguments '--help[print the options with examples]'", command.name);
-        for (const OptionText& option : command.options) text += " \\\n            " + zshArgument(option);
-        text += "\n        ;;\n";
-    }
-    return text + "    esac\n}\n_vkdose \"$@\"\n";
+    return head + zshCommands(tree, "    ") + "}\n_vkdose \"$@\"\n";
 }
 
 // ---- fish ---------------------------------------------------------------------------------------------------------
@@ -187,34 +212,45 @@ std::string fishOffer(const OptionText& option) {
         case Offer::Files:
             return " -rF";
         case Offer::Cases:
-            return " -rF -a '(vkdose completion --names case)'";
+            return " -rF -a '(vkdose manual completion --names case)'";
         case Offer::Studies:
-            return " -rF -a '(vkdose completion --names study)'";
+            return " -rF -a '(vkdose manual completion --names study)'";
         default:
             return option.value.empty() ? "" : " -x";
     }
 }
 
-}  // namespace
+/// The line's start while `condition` holds.
+std::string fishFront(const std::string& condition) {
+    return fmt::format("complete -c vkdose -n '{}'", condition);
+}
 
-std::string fishCompletion(const std::vector<CommandText>& commands) {
-    std::string text =
-        "# Completion of vkdose for fish, printed by `vkdose completion fish`; put it as vkdose.fish into\n"
-        "# ~/.config/fish/completions.\ncomplete -c vkdose -f\ncomplete -c vkdose -n __fish_use_subcommand -l "
-        "version\n";
+/// The commands whose word comes next where `next` holds, and what follows each. `before` holds behind the words so
+/// far.
+std::string fishCommands(const std::vector<CommandText>& commands, const std::string& next, const std::string& before) {
+    std::string text;
     for (const CommandText& command : commands)
-        text += fmt::format("complete -c vkdose -n __fish_use_subcommand -a {} -d {}\n", command.name,
-                            fishWord(command.about));
+        text += fmt::format("{} -a {} -d {}\n", fishFront(next), lastWord(command.name), fishWord(command.about));
     for (const CommandText& command : commands) {
-        const std::string front = fmt::format("complete -c vkdose -n '__fish_seen_subcommand_from {}'", command.name);
+        const std::string here = before + "__fish_seen_subcommand_from " + lastWord(command.name);
+        const std::string words = joined(lastWords(command.commands), " ");
+        text +=
+            fishCommands(command.commands, here + "; and not __fish_seen_subcommand_from " + words, here + "; and ");
         for (const OptionText& option : command.options) {
             const std::string name = option.positional ? "" : " -l " + option.name.substr(2);
             const std::string meaning = option.positional ? "" : " -d " + fishWord(option.meaning);
-            const std::string offer = fishOffer(option);
-            text += front + name + offer + meaning + "\n";
+            text += fishFront(here) + name + fishOffer(option) + meaning + "\n";
         }
     }
     return text;
+}
+
+}  // namespace
+
+std::string fishCompletion(const std::vector<CommandText>& tree) {
+    return "# Completion of vkdose for fish, printed by `vkdose manual completion fish`; put it as vkdose.fish into\n"
+           "# ~/.config/fish/completions.\ncomplete -c vkdose -f\n" +
+           fishFront("__fish_use_subcommand") + " -l version\n" + fishCommands(tree, "__fish_use_subcommand", "");
 }
 
 }  // namespace vkdose

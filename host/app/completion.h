@@ -1,5 +1,5 @@
 #pragma once
-// Completion of the command line by the shells, printed by `vkdose completion SHELL`.
+// Completion of the command line by the shells, printed by `vkdose manual completion SHELL`.
 
 #include <string>
 #include <vector>
@@ -8,8 +8,8 @@
 
 namespace vkdose {
 
-std::string bashCompletion(const std::vector<CommandText>& commands);
-std::string zshCompletion(const std::vector<CommandText>& commands);
-std::string fishCompletion(const std::vector<CommandText>& commands);
+std::string bashCompletion(const std::vector<CommandText>& tree);
+std::string zshCompletion(const std::vector<CommandText>& tree);
+std::string fishCompletion(const std::vector<CommandText>& tree);
 
 }  // namespace vkdose

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 
@@ -149,6 +150,21 @@ std::string reportText(const Case& c, const RunResult& r, const std::string& bac
     text += fmt::format("speed    {}particle-steps/s ({}particle-steps in {}) on {}\n",
                         large(r.particleStepsPerSecond()), large(r.particleSteps), duration(r.wallTime), backend);
     return text;
+}
+
+std::string rateLine(const RunResult& r, const MassRate& rate) {
+    const auto hasForm = [](const Dose& d) { return d.closedForm > 0; };
+    if (r.doses.size() > 1 && std::any_of(r.doses.begin(), r.doses.end(), hasForm)) return "";
+    if (rate.windows.size() < kFewestWindows) return "";
+    const auto scatter = [](const RateFigures& f) {
+        return std::isfinite(f.relative) ? fmt::format(", RSD {:.2g} %", f.relative * 100) : std::string();
+    };
+    std::string text = fmt::format("rate     {}{} over {} windows of {:.3g} s", rateText(rate.all, "+-"),
+                                   scatter(rate.all), rate.windows.size(), rate.window);
+    if (rate.steady)
+        text += fmt::format("; steady from t = {:.4g} s: {}{}", rate.steadyTime(), rateText(rate.steadyPart, "+-"),
+                            scatter(rate.steadyPart));
+    return text + "\n";
 }
 
 }  // namespace vkdose

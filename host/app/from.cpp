@@ -74,7 +74,7 @@ Stored storedIn(const StartOptions& start) {
     throw UsageError(
         fmt::format("{} {}", start.folder.string(),
                     run ? "holds no state to begin with: a run keeps one when its powder has settled and one at its "
-                          "end, a member of a study and an older vkdose keep none; run its case.toml once more"
+                          "end, a member of a study keeps none; run its case.toml once more"
                         : "holds no run of vkdose; give the output folder of one with --from"));
 }
 

@@ -32,11 +32,6 @@ const std::map<std::string, std::vector<std::string>>& examples() {
           "vkdose check my.toml --assume              # without measuring the device for the run time",
           "vkdose check my.toml --json                # for other programs"}},
         {"devices", {"vkdose devices"}},
-        {"compare", {"vkdose compare mini --steps 200 --twins 1", "vkdose compare mini --time 0.05"}},
-        {"verify",
-         {"vkdose verify                              # every known answer, on the device",
-          "vkdose verify --backend reference --only collisions"}},
-        {"bench", {"vkdose bench --quick", "vkdose bench --device 0 --out out/bench"}},
         {"export-body",
          {"vkdose export-body quickstart coil --out coil.stl --unit m",
           "vkdose export-body my.toml --time 0.5      # coil and all bodies, as they stand then"}},
@@ -45,10 +40,6 @@ const std::map<std::string, std::vector<std::string>>& examples() {
           "vkdose sweep study.toml --set stop.max_doses=2", "vkdose sweep study.toml --jobs 2",
           "vkdose sweep study.toml --retry-failed     # goes on; failed members run again"}},
         {"calibrate", {"vkdose calibrate study.toml                # with a table [calibrate] in the study"}},
-        {"validate",
-         {"vkdose validate                            # all comparisons with the literature, at reduced size",
-          "vkdose validate beverloo heap --jobs 2      # goes on where it was interrupted",
-          "vkdose validate dosta-silo --full --out out/full"}},
         {"report",
          {"vkdose report out/quickstart               # writes out/quickstart/report.html",
           "vkdose report out/quickstart --experiment balance.csv",
@@ -57,14 +48,25 @@ const std::map<std::string, std::vector<std::string>>& examples() {
         {"render",
          {"vkdose render out/quickstart               # the end of the run",
           "vkdose render out/quickstart --panels --no-coil", "vkdose render out/quickstart --movie film.mp4"}},
-        {"keys", {"vkdose keys                                # of a case", "vkdose keys --study"}},
-        {"columns", {"vkdose columns", "vkdose columns --sweep"}},
-        {"options", {"vkdose options --brief"}},
-        {"completion",
-         {"source <(vkdose completion bash)           # in ~/.bashrc",
-          "vkdose completion zsh > ~/.zfunc/_vkdose   # a folder of $fpath",
-          "vkdose completion fish > ~/.config/fish/completions/vkdose.fish"}},
-        {"man", {"vkdose man run | man -l -", "vkdose man --out ~/.local/share/man/man1"}},
+        {"manual keys", {"vkdose manual keys                         # of a case", "vkdose manual keys --study"}},
+        {"manual columns", {"vkdose manual columns", "vkdose manual columns --sweep"}},
+        {"manual options", {"vkdose manual options --brief"}},
+        {"manual man",
+         {"vkdose manual man run | man -l -", "vkdose manual man test verify | man -l -",
+          "vkdose manual man --out ~/.local/share/man/man1"}},
+        {"manual completion",
+         {"source <(vkdose manual completion bash)           # in ~/.bashrc",
+          "vkdose manual completion zsh > ~/.zfunc/_vkdose   # a folder of $fpath",
+          "vkdose manual completion fish > ~/.config/fish/completions/vkdose.fish"}},
+        {"test verify",
+         {"vkdose test verify                         # every known answer, on the device",
+          "vkdose test verify --backend reference --only collisions"}},
+        {"test validate",
+         {"vkdose test validate                       # all comparisons with the literature, at reduced size",
+          "vkdose test validate beverloo heap --jobs 2      # goes on where it was interrupted",
+          "vkdose test validate dosta-silo --full --out out/full"}},
+        {"test bench", {"vkdose test bench --quick", "vkdose test bench --device 0 --out out/bench"}},
+        {"test compare", {"vkdose test compare mini --steps 200 --twins 1", "vkdose test compare mini --time 0.05"}},
     };
     return kAll;
 }
@@ -76,11 +78,13 @@ std::vector<std::string> examplesOf(const std::string& command) {
     return found == examples().end() ? std::vector<std::string>() : found->second;
 }
 
-void addExamples(CLI::App& program) {
-    for (CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; })) {
+void addExamples(CLI::App& app, const std::string& group) {
+    for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+        const std::string name = group + command->get_name();
         std::string text = "Examples:";
-        for (const std::string& line : examplesOf(command->get_name())) text += "\n  " + line;
-        command->footer(text);
+        for (const std::string& line : examplesOf(name)) text += "\n  " + line;
+        if (command->get_subcommands([](const CLI::App*) { return true; }).empty()) command->footer(text);
+        addExamples(*command, name + " ");
     }
 }
 
@@ -93,7 +97,7 @@ std::string overview(const CLI::App& program) {
         "A device of your own:\n"
         "  vkdose new my.toml           asks for a device and a powder, and writes a case with its reasons\n"
         "  vkdose check my.toml         what a case implies, with warnings of what was probably not meant\n"
-        "  vkdose keys                  every key of a case file\n\n"
+        "  vkdose manual keys           every key of a case file\n\n"
         "Commands:\n";
     for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; }))
         text += fmt::format("  {:<12} {}\n", command->get_name(), command->get_description());

@@ -13,8 +13,8 @@ namespace vkdose {
 /// Command lines that can be typed, with a comment behind "#"; none for an unknown command.
 std::vector<std::string> examplesOf(const std::string& command);
 
-/// Puts the examples under the help of every command.
-void addExamples(CLI::App& program);
+/// Puts the examples under the help of every command of the program, or of a `group`: "test ".
+void addExamples(CLI::App& app, const std::string& group = "");
 
 /// The first commands of a new user, and all others in a line each.
 std::string overview(const CLI::App& program);

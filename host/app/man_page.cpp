@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "host/app/help.h"
 
 namespace vkdose {
@@ -66,13 +68,19 @@ std::string manPage(const std::vector<CommandText>& commands) {
     std::string text = head("vkdose", "simulate the dosing of cohesive powder by a turning coil");
     text += ".SH SYNOPSIS\n\\fBvkdose\\fR \\fICOMMAND\\fR [options]\n.SH COMMANDS\n";
     for (const CommandText& command : commands)
-        text += fmt::format(".TP\n\\fB{}\\fR\n{}\nSee \\fBvkdose\\-{}\\fR(1).\n", roff(command.usage),
-                            roff(sentence(command.about)), roff(command.name));
+        text += fmt::format(".TP\n\\fB{}\\fR\n{}\nSee \\fB{}\\fR(1).\n", roff(command.usage),
+                            roff(sentence(command.about)), roff(manName(command)));
     return text + exampleLines({"vkdose run quickstart", "vkdose report out/quickstart", "vkdose new my.toml"});
 }
 
+std::string manName(const CommandText& command) {
+    std::string name = "vkdose-" + command.name;
+    std::replace(name.begin(), name.end(), ' ', '-');
+    return name;
+}
+
 std::string manPage(const CommandText& command) {
-    std::string text = head("vkdose-" + command.name, command.about);
+    std::string text = head(manName(command), command.about);
     text += fmt::format(".SH SYNOPSIS\n\\fB{}\\fR [options]\n.SH DESCRIPTION\n{}\n", roff(command.usage),
                         roff(sentence(command.about)));
     for (const bool positional : {true, false}) {

@@ -11,6 +11,9 @@ namespace vkdose {
 /// vkdose(1): every command in a line.
 std::string manPage(const std::vector<CommandText>& commands);
 
+/// "vkdose-test-verify": the name of a command's page.
+std::string manName(const CommandText& command);
+
 /// vkdose-COMMAND(1): its options and examples.
 std::string manPage(const CommandText& command);
 

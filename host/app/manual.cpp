@@ -9,7 +9,6 @@
 #include "host/app/command_table.h"
 #include "host/core/printable.h"
 #include "host/model/case_keys.h"
-#include "host/model/closest_word.h"
 #include "host/study/output_tables.h"
 #include "host/study/study_keys.h"
 
@@ -84,19 +83,21 @@ std::string columnsPage(bool sweep) {
     return text;
 }
 
-std::string usageFault(const CLI::App& program, const std::string& problem, const std::string& first) {
-    if (first.empty()) return "vkdose: give a command\nRun `vkdose --help` for the commands.\n";
-    std::vector<std::string> names;
-    for (const CommandText& command : commandTexts(program)) names.push_back(command.name);
-    const bool known = std::find(names.begin(), names.end(), first) != names.end();
-    if (!known && first.front() != '-') {
-        // The name that export-body had before it wrote bodies.
-        const std::string meant = first == "export-coil" ? "export-body" : closestWord(first, names);
-        return fmt::format("vkdose: there is no command {}; {}\nRun `vkdose --help` for the commands.\n",
-                           printable(first), meant.empty() ? "see the list" : fmt::format("did you mean {}?", meant));
+std::string usageFault(const CLI::App& program, const std::string& problem, const std::vector<std::string>& words) {
+    const std::vector<CommandText> tree = commandTree(program);
+    const std::vector<CommandText>* known = &tree;
+    std::string command = "vkdose";
+    for (const std::string& word : words) {
+        if (known->empty() || word.rfind('-', 0) == 0) break;
+        const auto found = std::find_if(known->begin(), known->end(),
+                                        [&word](const CommandText& text) { return lastWord(text.name) == word; });
+        if (found == known->end())
+            return fmt::format("{}: there is no command {}; {}\nRun `{} --help` for the commands.\n", command,
+                               word.empty() ? "\"\"" : printable(word), meantCommand(word, tree), command);
+        known = &found->commands;
+        command = "vkdose " + found->name;
     }
-    const std::string name = known ? "vkdose " + first : "vkdose";
-    return fmt::format("{}: {}\nRun `{} --help`.\n", name, printableLines(problem), name);
+    return fmt::format("{}: {}\nRun `{} --help`.\n", command, printableLines(problem), command);
 }
 
 }  // namespace vkdose

@@ -1,8 +1,10 @@
 #pragma once
-// The parts of the manual that the program knows itself, as Markdown: `vkdose keys`, `columns`, `options`. tools/manual
+// The parts of the manual that the program knows itself, as Markdown: `vkdose manual keys`,
+// `columns`, `options`. tools/manual
 // puts them into the pages, and tests/manual holds the pages against them.
 
 #include <string>
+#include <vector>
 
 namespace CLI {
 class App;
@@ -20,7 +22,7 @@ std::string columnsPage(bool sweep);
 std::string optionsPage(const CLI::App& program, bool brief);
 
 /// The lines that report a fault of the command line and say where to read on. `problem` is the message of the parser,
-/// `first` the word after the program's name.
-std::string usageFault(const CLI::App& program, const std::string& problem, const std::string& first);
+/// `words` those after the program's name.
+std::string usageFault(const CLI::App& program, const std::string& problem, const std::vector<std::string>& words);
 
 }  // namespace vkdose

@@ -205,7 +205,7 @@ std::string newCaseText(const NewDesign& d) {
     CaseText out;
     out.remark(
         "Written by `vkdose new`. Behind each value stands its reason: \"given\", a rule, or \"assumed\" where you "
-        "should put what you know. The keys name their units; what has none is in SI. `vkdose keys` explains "
+        "should put what you know. The keys name their units; what has none is in SI. `vkdose manual keys` explains "
         "every key, `vkdose check` what the case implies.");
     for (const std::string& note : d.notes) out.remark(note);
     out.word("reason",

@@ -65,7 +65,7 @@ ExitCode exitCode(StopReason reason) {
     }
 }
 
-/// The case in `text` as this version of vkdose writes it, whichever version wrote `text`. Empty if `text` is not a
+/// The case in `text` as vkdose writes it, without its remarks. Empty if `text` is not a
 /// case.
 std::string resolvedIn(const std::string& text, const std::filesystem::path& file) {
     try {

@@ -14,6 +14,7 @@
 #include "host/app/text.h"
 #include "host/core/printable.h"
 #include "host/output/measured.h"
+#include "host/output/run_history.h"
 #include "host/sim/run_record.h"
 
 namespace vkdose {
@@ -91,7 +92,8 @@ int playAloud(ReadyRun run, Backend& backend, RunFolder& folder, const Manner& m
     if (!played.error.empty()) tell(stderr, "vkdose: {}\n", printable(played.error));
     if (played.code == kOutputError) return kOutputError;
     if (!manner.quiet) {
-        tell("{}{}output   {}\n", reportText(c, played.result, backend.description()),
+        tell("{}{}{}output   {}\n", reportText(c, played.result, backend.description()),
+             rateLine(played.result, rateOf(folder.path(), c)),
              measureText(measuresOf(folder.path(), c, played.result)), printable(folder.path().string()));
         if (played.code == kInterrupted) tell("resume   {}\n", wayOn(folder));
         if (played.code == kOk) tell("{}", nextText(folder.path()));

@@ -4,6 +4,12 @@
 
 namespace vkdose {
 
+CLI::App& addGroup(CLI::App& program, const char* name, const char* about) {
+    CLI::App& group = *program.add_subcommand(name, about);
+    group.require_subcommand(1);
+    return group;
+}
+
 void addSet(CLI::App& command, std::vector<std::string>& overrides, const char* what) {
     command.add_option("--set", overrides, what)->type_name("KEY=VALUE")->take_all()->allow_extra_args(false);
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "host/app/commands.h"
+#include "host/app/find_case.h"
 
 namespace CLI {
 class App;
@@ -13,6 +14,22 @@ class Option;
 }  // namespace CLI
 
 namespace vkdose {
+
+/// A command that has commands of its own.
+CLI::App& addGroup(CLI::App& program, const char* name, const char* about);
+
+/// The options with the file of a case that may have been given by its name.
+template <class Command>
+const Command& named(Command& options) {
+    options.input.file = findCase(options.input.file);
+    return options;
+}
+
+/// The same for a study.
+inline const SweepOptions& studied(SweepOptions& options) {
+    options.study = findCase(options.study);
+    return options;
+}
 
 /// --set, whose help is `what`.
 void addSet(CLI::App& command, std::vector<std::string>& overrides, const char* what);

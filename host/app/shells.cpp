@@ -9,11 +9,10 @@
 #include "host/app/tell.h"
 #include "host/core/file.h"
 #include "host/core/printable.h"
-#include "host/model/closest_word.h"
 
 namespace vkdose {
 
-int completionCommand(const std::vector<CommandText>& commands, const ShellOptions& options) {
+int completionCommand(const std::vector<CommandText>& tree, const ShellOptions& options) {
     std::string text;
     if (!options.names.empty())
         for (const std::string& name : namesOfCases(options.names == "study")) text += name + "\n";
@@ -22,7 +21,7 @@ int completionCommand(const std::vector<CommandText>& commands, const ShellOptio
     else
         text = (options.shell == "bash"  ? bashCompletion
                 : options.shell == "zsh" ? zshCompletion
-                                         : fishCompletion)(commands);
+                                         : fishCompletion)(tree);
     tell("{}", text);
     return kOk;
 }
@@ -32,7 +31,7 @@ int manCommand(const std::vector<CommandText>& commands, const ShellOptions& opt
         createFolder(options.out);
         replaceFile(options.out / "vkdose.1", manPage(commands));
         for (const CommandText& command : commands)
-            replaceFile(options.out / ("vkdose-" + command.name + ".1"), manPage(command));
+            replaceFile(options.out / (manName(command) + ".1"), manPage(command));
         tell("{}\n", printable(options.out.string()));
         return kOk;
     }
@@ -40,16 +39,15 @@ int manCommand(const std::vector<CommandText>& commands, const ShellOptions& opt
         tell("{}", manPage(commands));
         return kOk;
     }
-    std::vector<std::string> names;
+    std::string name;
+    for (const std::string& word : options.command) name += (name.empty() ? "" : " ") + word;
     for (const CommandText& command : commands) {
-        names.push_back(command.name);
-        if (command.name != options.command) continue;
+        if (command.name != name) continue;
         tell("{}", manPage(command));
         return kOk;
     }
-    const std::string meant = closestWord(options.command, names);
-    throw UsageError(fmt::format("man: there is no command {}{}", printable(options.command),
-                                 meant.empty() ? "; `vkdose --help` lists them" : "; did you mean " + meant + "?"));
+    throw UsageError(fmt::format("man: there is no command {}; {}", printable(name),
+                                 meantCommand(options.command.back(), commands)));
 }
 
 }  // namespace vkdose

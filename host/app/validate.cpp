@@ -62,7 +62,7 @@ Result impacts(const ValidateOptions& options) {
         finding.source = test <= 2   ? "published figures and closed forms"
                          : test <= 4 ? "closed forms"
                                      : "closed forms, integrated impacts";
-        finding.remark = fmt::format("{} figures of vkdose verify --only {}", checks.size(), name);
+        finding.remark = fmt::format("{} figures of vkdose test verify --only {}", checks.size(), name);
         result.evaluation.findings.push_back(finding);
     }
     result.cost =
@@ -77,7 +77,7 @@ fs::path outOf(const ValidateOptions& options) {
 
 /// The command that goes on with the comparisons, without the options that every sweep has.
 std::string againText(const ValidateOptions& options) {
-    std::string text = "vkdose validate";
+    std::string text = "vkdose test validate";
     for (const std::string& name : options.names) text += " " + name;
     if (options.full) text += " --full";
     return text + " --out " + shellWord(outOf(options).string());

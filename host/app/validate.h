@@ -1,5 +1,5 @@
 #pragma once
-// `vkdose validate`: the comparisons with the literature (host/validate), run and judged.
+// `vkdose test validate`: the comparisons with the literature (host/validate), run and judged.
 
 #include <string>
 #include <vector>
@@ -16,7 +16,7 @@ struct ValidateOptions {
     SweepOptions sweep;              ///< of each study: `study` is the comparison's own
 };
 
-/// Those that `vkdose validate` can be told.
+/// Those that `vkdose test validate` can be told.
 std::vector<std::string> comparisonNames();
 
 int validateCommand(const ValidateOptions& options);

@@ -63,6 +63,7 @@ struct Column {
     const char* unit = "";     ///< as in ColumnText
     const char* meaning = "";  ///< one sentence
     int digits = 9;            ///< significant digits of a number that is not whole, or kAllDigits
+    bool emptyIfNaN = false;   ///< a number that there is none of is an empty field; else it is "nan"
 
     /// Whether the value is computed from other members. It is then written, but neither stored nor read.
     static constexpr bool kComputed = (std::is_member_function_pointer_v<decltype(Path)> || ...);
@@ -79,6 +80,13 @@ constexpr Column<Path...> column(const char* name, const char* unit, const char*
     return {name, unit, meaning, digits};
 }
 
+/// The same column, whose field is empty where there is no number.
+template <auto... Path>
+constexpr Column<Path...> emptyIfNaN(Column<Path...> c) {
+    c.emptyIfNaN = true;
+    return c;
+}
+
 template <class... C>
 constexpr std::tuple<C...> columns(C... list) {
     return std::tuple<C...>(list...);
@@ -87,7 +95,7 @@ constexpr std::tuple<C...> columns(C... list) {
 /// Turns a column of a type into a column of a type that holds the first as its member `Member`.
 template <auto Member, auto... Path>
 constexpr Column<Member, Path...> within(const Column<Path...>& c) {
-    return {c.name, c.unit, c.meaning, c.digits};
+    return {c.name, c.unit, c.meaning, c.digits, c.emptyIfNaN};
 }
 template <auto Member, class... C>
 constexpr auto within(const std::tuple<C...>& table) {
@@ -138,11 +146,20 @@ std::string cellText(const T& value, int digits) {
         return fmt::format("{}", value);
 }
 
+/// A row's field in a column.
+template <auto... Path, class R>
+std::string fieldText(const Column<Path...>& c, const R& row) {
+    const auto& value = c.of(row);
+    if constexpr (std::is_floating_point_v<std::decay_t<decltype(value)>>)
+        if (c.emptyIfNaN && std::isnan(value)) return "";
+    return cellText(value, c.digits);
+}
+
 /// "0.25,rest,3"
 template <class... C, class R>
 std::string csvRow(const std::tuple<C...>& table, const R& row) {
     std::string line;
-    forEachColumn(table, [&](const auto& c) { line += "," + cellText(c.of(row), c.digits); });
+    forEachColumn(table, [&](const auto& c) { line += "," + fieldText(c, row); });
     return line.substr(1);
 }
 

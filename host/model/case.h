@@ -121,6 +121,9 @@ struct SharedPlace {
     Vec3 centre{0};     ///< of a sphere that touches both [m]
 };
 
+/// No window of the mass rate is shorter than so many sensor intervals: the mass is known at the ends of these only.
+inline constexpr int kFewestRateIntervals = 5;
+
 /// The time between two checkpoints, with which a run can go on after an interruption. 0: not by this clock.
 struct CheckpointInterval {
     double wall = 300;     ///< of wall time [s]
@@ -150,6 +153,7 @@ struct Case {
     std::vector<Refill> refills;
     Schedule schedule;
     double sensorInterval = 0;  ///< [s], a whole number of steps after loading
+    double rateWindow = 0;      ///< of the mass rate over time [s]; 0: as the drive tells (mass_rate.h)
     CheckpointInterval checkpoint;
     FrameStorage frames;
     std::vector<FieldSensor> fields;        ///< taken while the run goes on

@@ -182,6 +182,10 @@ void checkSchedule(CaseReader& reader, const Case& c) {
     if (c.frames.interval > 0 && c.frames.interval < c.sensorInterval)
         reader.fault("frames.interval_s", "is shorter than sensors.interval_s; frames are taken where sensors are read",
                      fmt::format("give 0, at least {:.6g}, or a shorter sensors.interval_s", c.sensorInterval));
+    const double shortest = kFewestRateIntervals * c.sensorInterval;
+    if (c.rateWindow > 0 && c.rateWindow < shortest * (1 - 1e-9))  // the interval is rounded to whole steps
+        reader.fault("sensors.rate_window_s", fmt::format("is shorter than {} sensor intervals", kFewestRateIntervals),
+                     fmt::format("give at least {:.6g}, or a shorter sensors.interval_s", shortest));
 }
 
 void checkBox(CaseReader& reader, const std::string& path, const Box& box) {

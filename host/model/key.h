@@ -1,5 +1,5 @@
 #pragma once
-// A key of a case or study file, declared once: the reader reads by the declaration, and `vkdose keys` lists it.
+// A key of a case or study file, declared once: the reader reads by the declaration, and `vkdose manual keys` lists it.
 
 #include <array>
 #include <cstdint>

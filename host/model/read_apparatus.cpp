@@ -219,6 +219,8 @@ void readSchedule(CaseReader& reader, Section& root, Case& c) {
     readStop(root, c);
     Section& sensors = root.table("sensors");
     c.sensorInterval = sensors.number("interval_s");
+    if (sensors.has("rate_window_s")) c.rateWindow = sensors.number("rate_window_s");
+    sensors.know("rate_window_s");
     c.world.energyBook = sensors.boolean("energy");
     Section& frames = root.table("frames");
     c.frames.interval = frames.number("interval_s");

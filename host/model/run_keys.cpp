@@ -89,6 +89,9 @@ constexpr Key kTime[] = {
 };
 constexpr Key kSensors[] = {
     number("interval_s", kSecond, kPositive, 0.01, "between two lines of the time series; rounded to whole steps"),
+    number("rate_window_s", kSecond, kPositive, told("a turn of the drive, or a twentieth of its time"),
+           "length of the windows in which the mass rate is told; at least five intervals. It changes no bit of the "
+           "run"),
     boolean("energy", false,
             "keeps the energy ledger. The motion stays the same to the last bit; a step costs half as much again"),
 };

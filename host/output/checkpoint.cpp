@@ -75,7 +75,6 @@ void restoreMarks(const Record& when, Checkpoint& c) {
     c.doses.bytes = when.one<std::uint64_t>("doses");
     c.frames.bytes = when.one<std::uint64_t>("frames");
     for (const std::uint64_t bytes : when.get<std::uint64_t>("fields")) c.fields.push_back({bytes});
-    if (!when.arrays().contains("checksums")) return;  // written by a vkdose that noted lengths only
     const auto& checksums = when.get<std::uint32_t>("checksums", 3 + c.fields.size());
     c.timeSeries.checksum = checksums[0];
     c.doses.checksum = checksums[1];
@@ -119,8 +118,6 @@ Checkpoint readCheckpoint(const std::filesystem::path& file) {
         c.time = when.one<double>("time");
         restoreMarks(when, c);
         c.member = when.one<std::uint32_t>("member");
-        c.given = c.caseText;
-        if (!when.arrays().contains("keeps_states")) return c;  // written by a vkdose that kept no states
         c.keepsStates = when.one<std::uint32_t>("keeps_states") != 0;
         c.given = reader.text("/given");
         c.origin = reader.text("/origin");
@@ -128,7 +125,7 @@ Checkpoint readCheckpoint(const std::filesystem::path& file) {
     } catch (const hdf5::Error& e) {
         throw CheckpointError(fmt::format("{} cannot be read: {}", file.string(), e.what()));
     } catch (const RecordError& e) {
-        throw CheckpointError(fmt::format("{} cannot be used: {}", file.string(), e.what()));
+        throw CheckpointError(fmt::format("{} cannot be used: {}; run the case once more", file.string(), e.what()));
     }
 }
 

@@ -3,16 +3,16 @@
 // length and checksum. The block lets vkdose refuse a foreign, cut or damaged file before it trusts anything in it.
 //
 //   /program /backend /case           texts: version of vkdose, description of the backend, the resolved case
-//   /given                            text: the case as it was given; older ones lack it
+//   /given                            text: the case as it was given
 //   /origin                           text: the state of another run that this one began with; empty or lacking: none
 //   /run/*                            the runner's state          (RunCheckpoint::run)
 //   /state/*                          the backend's snapshot      (RunCheckpoint::backend)
 //   /when/time                        simulated time [s]
 //   /when/timeseries, doses, fields   bytes of the CSV files at that time
 //   /when/frames                      bytes of frames.csv; 0: the run keeps no frames
-//   /when/checksums                   CRC-32 of these: time series, doses, frames, every field; older ones lack it
+//   /when/checksums                   CRC-32 of these: time series, doses, frames, every field
 //   /when/member                      number of the run in its study; 0: it is in none
-//   /when/keeps_states                0: the run keeps no states for others; older ones lack it
+//   /when/keeps_states                0: the run keeps no states for others
 
 #include <cstdint>
 #include <filesystem>

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "host/core/error.h"
@@ -36,9 +35,6 @@ Frame readEndState(const std::filesystem::path& folder, const Case& c) {
     frame.time = numberIn(summary, "simulated_time_s", file);
     frame.step = std::uint64_t(numberIn(summary, "steps", file));
     frame.coilAngle = numberIn(summary, "coil_angle_rad", file);
-    // Summaries without this key may be so old that they give the angle as positive when conveying. In their time the
-    // coil only turned in that sense, which tells the sign.
-    if (!summary.contains("settling")) frame.coilAngle = std::abs(frame.coilAngle) * Timeline(c).conveyingSense();
     for (const Json& body : summary.value("bodies", Json::array())) {
         if (!body.is_object() || !body.contains("moved_s")) continue;
         Moved& moved = frame.bodiesMoved.emplace_back(numberIn(body, "moved_s", file));

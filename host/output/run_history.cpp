@@ -9,10 +9,9 @@ std::vector<DoseArch> archesAtDoseEnds(const Frames& frames, const Case& c, cons
     if (!c.world.coil || !c.canister || frames.entries().empty()) return arches;
     const double reach = c.frames.interval / 2 * (1 + 1e-9);  // half way between two frames counts
     for (const Dose& d : doses) {
-        const double planned = d.startTime + c.schedule.rotateTime + c.schedule.restTime;
-        const double end = std::isfinite(d.endTime) ? d.endTime : planned;  // an older table does not tell it
-        const FrameEntry& entry = frames.entries()[nearestOf(frames.entries(), end)];
-        if (!d.complete || std::abs(entry.time - end) > reach) continue;
+        if (!d.complete) continue;
+        const FrameEntry& entry = frames.entries()[nearestOf(frames.entries(), d.endTime)];
+        if (std::abs(entry.time - d.endTime) > reach) continue;
         const Frame frame = frames.read(entry);
         const BodyPoses bodies = bodyPoses(c.world, frame.time, frame.coilAngle, frame.bodiesMoved);
         arches.push_back(
@@ -21,10 +20,19 @@ std::vector<DoseArch> archesAtDoseEnds(const Frames& frames, const Case& c, cons
     return arches;
 }
 
+MassRate rateOf(const std::filesystem::path& folder, const Case& c) {
+    const Table series = Table::salvage(folder / "timeseries.csv");
+    return series.rows() > 0 ? massRate(flowSamples(series), windowRuleOf(c)) : MassRate{};
+}
+
 RunHistory historyOf(const std::filesystem::path& folder, const Case& c, const RunResult& result) {
     RunHistory history;
     const Table series = Table::salvage(folder / "timeseries.csv");
-    if (series.rows() > 0) history.outlet = outletFlow(flowSamples(series), result.ledger.filledMass());
+    if (series.rows() > 0) {
+        const std::vector<FlowSample> samples = flowSamples(series);
+        history.outlet = outletFlow(samples, result.ledger.filledMass());
+        history.rate = massRate(samples, windowRuleOf(c));
+    }
     history.arches = archesAtDoseEnds(Frames(folder), c, result.doses);
     history.measures = measuresOf(folder, c, result);
     return history;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/analysis/blockage.h"
+#include "host/analysis/mass_rate.h"
 #include "host/analysis/outlet.h"
 #include "host/output/frames.h"
 #include "host/output/measured.h"
@@ -25,8 +26,12 @@ struct DoseArch {
 /// None without a coil in a canister. Throws OutputError if a frame cannot be read.
 std::vector<DoseArch> archesAtDoseEnds(const Frames& frames, const Case& c, const std::vector<Dose>& doses);
 
+/// The mass rate of the run whose time series is in this folder; without figures if there is none.
+MassRate rateOf(const std::filesystem::path& folder, const Case& c);
+
 struct RunHistory {
     OutletFlow outlet;
+    MassRate rate;
     std::vector<DoseArch> arches;
     std::string origin;  ///< the state of another run that it began with, in words; empty: none
     std::vector<MeasureResult> measures;

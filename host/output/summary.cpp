@@ -41,10 +41,15 @@ Json inputs(const Case& c, const RunResult& r) {
     return j;
 }
 
+/// Null where there is no closed form.
+Json positive(double x) {
+    return x > 0 ? jsonNumber(x) : Json(nullptr);
+}
+
 /// Doses to a mass have the closed form of the turns that they made. What `derive` gives of them is their target, by
 /// which their number is planned.
 Json closedFormDose(const Case& c, const RunResult& r) {
-    if (c.schedule.targetMass == 0) return jsonNumber(r.derived.massPerDose);
+    if (c.schedule.targetMass == 0) return positive(r.derived.massPerDose);
     const TargetFigures f = targetFigures(r.doses);
     return f.doses > 0 ? jsonNumber(f.closedForm) : Json(nullptr);
 }
@@ -57,10 +62,11 @@ Json closedForms(const Case& c, const RunResult& r) {
         j["bulk_density_kg_m3"] = jsonNumber(density);
         j["bulk_density_is"] = !c.bulkDensityMeasured ? "given" : wasMeasured(c, density) ? "measured" : "assumed";
     }
-    j["push_velocity_m_s"] = jsonNumber(d.pushVelocity);
-    j["tip_velocity_m_s"] = jsonNumber(d.tipVelocity);
+    const bool conveys = c.world.coil || d.massPerTurn > 0;
+    j["push_velocity_m_s"] = conveys ? jsonNumber(d.pushVelocity) : Json(nullptr);
+    j["tip_velocity_m_s"] = conveys ? jsonNumber(d.tipVelocity) : Json(nullptr);
     j["mass_per_dose_kg"] = closedFormDose(c, r);
-    j["doses"] = jsonNumber(d.doses);
+    j["doses"] = positive(d.doses);
     j["stiffest_contact_duration_s"] = jsonNumber(d.stiffest);
     return j;
 }
@@ -131,7 +137,15 @@ Json doseCount(const std::optional<int>& dose) {
     return dose ? Json(*dose) : Json(nullptr);
 }
 
-Json analysis(const Case& c, const RunResult& r) {
+/// Figures that there are none of are null, so that a sweep knows that the run has told them.
+Json massRate(const MassRate& rate) {
+    Json j;
+    j["windows"] = rate.windows.size();
+    for (const RateFigure& f : kRateFigures) j[f.name] = jsonNumber(f.of(rate));
+    return j;
+}
+
+Json analysis(const Case& c, const RunResult& r, const MassRate& rate) {
     const DosingFigures f = figuresOf(r.doses, supplyOf(r), c.schedule.stop);
     Json j;
     j["beta_kg_per_dose"] = jsonNumber(f.beta.beta);
@@ -140,6 +154,7 @@ Json analysis(const Case& c, const RunResult& r) {
     j["beta_cumulative_below_kg"] = jsonNumber(f.window.cumulativeBelow);
     j["doses_to_99_percent"] = doseCount(f.dosesTo99);
     j["blocked_at_dose"] = doseCount(f.blocked);
+    j["rate"] = massRate(rate);
     return j;
 }
 
@@ -260,7 +275,7 @@ std::string summaryJson(const Case& c, const RunResult& r, const std::string& ba
                             {"standard_deviation_kg", s.doses > 1 ? jsonNumber(s.deviation) : Json(nullptr)},
                             {"rsd", s.doses > 1 && s.mean > 0 ? jsonNumber(s.relative) : Json(nullptr)}};
     j["targets"] = targets(r.doses);
-    j["analysis"] = analysis(c, r);
+    j["analysis"] = analysis(c, r, history.rate);
     j["outlet"] = outlet(history.outlet);
     j["arches"] = arches(history.arches);
     if (!history.measures.empty()) j["measures"] = measures(history.measures);

@@ -90,6 +90,19 @@ function powderChart(parent, run, time) {
   });
 }
 
+/// The mass rate window by window, with the part that is steady.
+function rateChart(parent, run, time) {
+  const r = run.rate, from = isNumber(r.steady) ? r.steady : r.time_s.length, dots = r.time_s.length <= 100;
+  if (r.time_s.length < 2) return;
+  const points = zip(r.time_s, r.kg_s, gram), steady = {value: r.steady_kg_s * gram, name: "mean of the steady part"};
+  chart(parent, {
+    title: "Mass rate", link: overTime(run), x: time, y: {label: "g/s"}, bands: run.rotations, level: isNumber(r.steady) ? steady : null,
+    series: [{name: from < points.length ? "before the steady part" : "in windows", points: points.slice(0, from + 1), colour: "var(--s1)", dots, hollow: true},
+             {name: "steady part", points: points.slice(from), colour: "var(--s0)", dots}],
+    note: `In windows of ${short(r.window_s)} s in which the drive turns; the steady part is found by MSER-5.`,
+  });
+}
+
 function timeCharts(parent, run) {
   const s = run.series, turning = "Shaded: the coil turns; numbered by dose.";
   const time = {label: "time [s]", from: 0, to: d3.max(s.time_s)};
@@ -101,6 +114,7 @@ function timeCharts(parent, run) {
   curve("Power of the drive", "mW", "torque times speed", s.coil_power_W, milli, "var(--s3)");
   curve("Outlet velocity", "mm/s", "mean v_z of the mass in the throat", s.outlet_velocity_m_s, milli, "var(--s2)",
         turning + " No curve where the throat is empty; what falls out while settling may leave the frame.");
+  rateChart(parent, run, time);
   bodyCharts(parent, run, time);
   regionChart(parent, run, time);
   powderChart(parent, run, time);

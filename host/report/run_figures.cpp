@@ -8,6 +8,7 @@
 
 #include "host/analysis/blockage.h"
 #include "host/analysis/emptying.h"
+#include "host/analysis/mass_rate.h"
 #include "host/analysis/outlet.h"
 #include "host/analysis/targets.h"
 #include "host/analysis/work.h"
@@ -31,6 +32,7 @@ class Facts {
         masses();
         emptying();
         drive();
+        rate();
         outlet();
         stops();
         arches();
@@ -112,7 +114,7 @@ class Facts {
         farFromClosedForm();
     }
 
-    /// An older summary does not tell the density.
+    /// A run that goes on has no summary yet.
     std::string closedFormNote() const {
         double density = run_.c.bulkDensity;
         std::string is;
@@ -166,6 +168,22 @@ class Facts {
             fmt::format("{:.4g} turns", w.turns));
         add("work of the drive", fmt::format("{:.4g} mJ", w.work * 1e3),
             w.work > 0 ? fmt::format("{:.4g} g/J", w.massPerJoule(dosed) * 1e3) : "");
+    }
+
+    void rate() {
+        const MassRate r = massRate(flowSamples(run_.series), windowRuleOf(run_.c));
+        if (r.windows.size() < kFewestWindows) return;
+        const auto scatter = [](const RateFigures& f) {
+            return std::isfinite(f.relative) ? fmt::format("RSD {:.2g} %", f.relative * 100)
+                                             : std::string("no RSD: nothing was dosed");
+        };
+        add("mass rate", rateText(r.all, "±"),
+            fmt::format("{} over {} windows of {:.3g} s", scatter(r.all), r.windows.size(), r.window));
+        if (r.steady)
+            add("steady mass rate", rateText(r.steadyPart, "±"),
+                fmt::format("{}, from t = {:.4g} s on by MSER-5", scatter(r.steadyPart), r.steadyTime()));
+        else if (r.windows.size() >= kFewestForSteady && r.all.mean > 0)
+            add("steady mass rate", "none", "the rate still changes in the second half, by MSER-5");
     }
 
     /// Means by time. Values while the throat is nearly empty come from few particles, but count like the rest.

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "host/analysis/balance.h"
+#include "host/analysis/mass_rate.h"
 #include "host/analysis/outlet.h"
 #include "host/core/csv_table.h"
 #include "host/core/error.h"
@@ -88,6 +89,22 @@ Json seriesJson(const Table& series, const World& world) {
     j["regions"] = massSeries(series, ".mass_kg", std::max<std::size_t>(size, 1));
     j["powders"] = massSeries(series, ".dosed_mass_kg", std::max<std::size_t>(size, 1));
     return j;
+}
+
+/// The windows of the mass rate, each at its middle. `steady` is the number of the first in the steady part.
+Json rateJson(const Table& series, const Case& c) {
+    const MassRate rate = massRate(flowSamples(series), windowRuleOf(c));
+    const std::size_t size = std::max<std::size_t>((rate.windows.size() + kMostLines - 1) / kMostLines, 1);
+    std::vector<double> times, rates;
+    for (const RateWindow& w : rate.windows) {
+        times.push_back((w.from + w.to) / 2);
+        rates.push_back(w.rate);
+    }
+    return {{"window_s", jsonNumber(rate.window)},
+            {"time_s", numbers(thinned(times, size, true))},
+            {"kg_s", numbers(thinned(rates, size, true))},
+            {"steady", rate.steady ? Json(*rate.steady / size) : Json(nullptr)},
+            {"steady_kg_s", jsonNumber(rate.steadyPart.mean)}};
 }
 
 /// When the coil turned: [begin, end] [s] for each dose. The phase in a line is that of the time between this line and
@@ -189,6 +206,7 @@ Json runJson(const fs::path& folder, const std::optional<fs::path>& experiment, 
     j["doses"] = dosesJson(doseTable, sources);
     j["series"] = seriesJson(series, c.world);
     j["rotations"] = rotations(series);
+    j["rate"] = rateJson(series, c);
     j["beta_below_kg"] =
         jsonNumber(figuresOf(sources.doses, supplyOf(sources), sources.c.schedule.stop).window.cumulativeBelow);
     j["filled_mass_kg"] = jsonNumber(filledMass(sources));

@@ -35,7 +35,8 @@ struct Dose {
     std::uint64_t particles = 0;
     double cumulative = 0;  ///< dosed since the start of the run [kg]
     double coilTorque = 0;  ///< drive torque, mean over its rotation [N m]
-    double closedForm = 0;  ///< rho_b p pi r_c^2 n_t [kg]; 0 without a coil
+    /// rho_b p pi r_c^2 n_t [kg]; NaN where there is none.
+    double closedForm = std::numeric_limits<double>::quiet_NaN();
     bool complete = false;  ///< false if the run ended within it: then it is in no statistics
     double target = 0;      ///< [kg]; 0: it is a dose by time
     double stopMass = std::numeric_limits<double>::quiet_NaN();  ///< dosed when the coil was told to stop [kg]
@@ -50,8 +51,7 @@ struct Dose {
     double overshoot() const { return mass - stopMass; }  ///< dosed after the coil was told to stop [kg]
 };
 
-/// Older tables of doses hold these columns only.
-inline constexpr auto kPlainDoseColumns = columns(
+inline constexpr auto kDoseColumns = columns(
     column<&Dose::index>("dose", "1", "Number of the dose, from 1."),
     column<&Dose::startTime>("start_time_s", "s", "Simulated time at which its rotation began."),
     column<&Dose::mass>("mass_kg", "kg", "Mass dosed from the start of its rotation to the end of its rest."),
@@ -59,22 +59,19 @@ inline constexpr auto kPlainDoseColumns = columns(
     column<&Dose::particles>("particles", "1", "Number of particles that the mass of the dose is made of."),
     column<&Dose::coilTorque>("coil_torque_Nm", "N m",
                               "Torque of the drive, mean over the rotation; positive when the powder resists."),
-    column<&Dose::closedForm>("closed_form_mass_kg", "kg",
-                              "Mass per dose by the closed form: bulk density times the volume that the coil sweeps."),
-    column<&Dose::complete>("complete", "1", "1; 0 if the run ended within the dose, which is in no statistics then."));
-
-/// How the coil was stopped.
-inline constexpr auto kStopColumns =
-    columns(column<&Dose::target>("target_mass_kg", "kg", "Mass that the dose was to have; 0 in a dose by time."),
-            column<&Dose::stopMass>("stop_mass_kg", "kg", "Mass dosed from its start until the coil was told to stop."),
-            column<&Dose::overshoot>("overshoot_kg", "kg",
-                                     "Mass dosed after the coil was told to stop, to the end of the dose's rest."),
-            column<&Dose::rotation>("rotation_s", "s", "Time from its start until the coil was told to stop."),
-            column<&Dose::stoppedBy>("stopped_by", "",
-                                     "What told the coil to stop: time, mass, torque or order; none if the run ended "
-                                     "before."),
-            column<&Dose::endTime>("end_time_s", "s", "Simulated time at which the dose ended."));
-inline constexpr auto kDoseColumns = std::tuple_cat(kPlainDoseColumns, kStopColumns);
+    emptyIfNaN(column<&Dose::closedForm>(
+        "closed_form_mass_kg", "kg",
+        "Mass per dose by the closed form: bulk density times the volume that the coil sweeps. Empty without one.")),
+    column<&Dose::complete>("complete", "1", "1; 0 if the run ended within the dose, which is in no statistics then."),
+    column<&Dose::target>("target_mass_kg", "kg", "Mass that the dose was to have; 0 in a dose by time."),
+    column<&Dose::stopMass>("stop_mass_kg", "kg", "Mass dosed from its start until the coil was told to stop."),
+    column<&Dose::overshoot>("overshoot_kg", "kg",
+                             "Mass dosed after the coil was told to stop, to the end of the dose's rest."),
+    column<&Dose::rotation>("rotation_s", "s", "Time from its start until the coil was told to stop."),
+    column<&Dose::stoppedBy>("stopped_by", "",
+                             "What told the coil to stop: time, mass, torque or order; none if the run ended "
+                             "before."),
+    column<&Dose::endTime>("end_time_s", "s", "Simulated time at which the dose ended."));
 
 struct DoseStatistics {
     int doses = 0;         ///< complete ones

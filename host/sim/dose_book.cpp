@@ -96,7 +96,8 @@ Dose DoseBook::close(bool complete, const Sensors& now, double time) {
     dose_.particles = now.count[kDosed] - before_.count[kDosed];
     // The torque that the drive must supply to convey against the powder's on the coil.
     dose_.coilTorque = steps_ > 0 ? -torqueSum_ / static_cast<double>(steps_) * sense_ + 0.0 : 0;
-    dose_.closedForm = schedule_.isPlain() && !ordered_ ? massPerDose_ : massPerTurn_ * angle_ / (2 * kPi);
+    const double closedForm = schedule_.isPlain() && !ordered_ ? massPerDose_ : massPerTurn_ * angle_ / (2 * kPi);
+    if (closedForm > 0) dose_.closedForm = closedForm;
     dose_.endTime = time;
     return std::exchange(dose_, Dose{});
 }

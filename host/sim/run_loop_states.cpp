@@ -9,9 +9,8 @@ namespace vkdose {
 
 namespace {
 
-/// In force when the state was kept. A state of an earlier version does not say it: there it never changed.
-Vec3 gravityOf(const Record& run, const Vec3& usual) {
-    if (!run.arrays().contains("gravity")) return usual;
+/// In force when the state was kept.
+Vec3 gravityOf(const Record& run) {
     const auto& g = run.get<double>("gravity", 3);
     return {g[0], g[1], g[2]};
 }
@@ -37,7 +36,7 @@ void RunLoop::takeOver(const RunCheckpoint& from, double time) {
     const StateFacts facts = factsOf(from.run);
     if (facts.radii != result_.particles.radius) throw RecordError("its particles are not those of the case");
     step_ = static_cast<std::uint64_t>(std::llround(time / case_.world.timeStep));
-    gravity_ = gravityOf(from.run, case_.world.gravity);
+    gravity_ = gravityOf(from.run);
     backend_.load(worldNow(), facts.dosing ? case_.dosingLaw : case_.settlingLaw, result_.particles);
     Record state = from.backend;
     // The clock of bodies that move counts steps.
@@ -173,8 +172,8 @@ void RunLoop::restore(const Record& r) {
     result_.maxOverlapTime = sums[5];
     result_.particleSteps = sums[6];
     result_.wallTime = sums[7];
-    if (r.arrays().contains("steps_of_others")) result_.stepsOfOthers = r.one<double>("steps_of_others");
-    gravity_ = gravityOf(r, case_.world.gravity);
+    result_.stepsOfOthers = r.one<double>("steps_of_others");
+    gravity_ = gravityOf(r);
     get(r, "now", now_);
     get(r, "energy", energy_);
     timeline_.restore(r);

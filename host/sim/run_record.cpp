@@ -89,7 +89,7 @@ void put(Record& record, const std::string& name, const std::vector<Dose>& doses
 
 void get(const Record& record, const std::string& name, std::vector<Dose>& doses) {
     getRows(record, name + "_counts", name + "_figures", kDoseColumns, doses);
-    // A state of an earlier version, or of a world without bodies, has none.
+    // A state of a world without bodies has none.
     if (doses.empty() || !record.arrays().contains(name + "_bodies")) return;
     const std::vector<BodySample> bodies = samplesOf(record.get<double>(name + "_bodies"));
     const std::size_t each = bodies.size() / doses.size();

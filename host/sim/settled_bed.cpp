@@ -67,8 +67,7 @@ void get(const Record& record, const Particles& filled, std::optional<SettledBed
     read.pullOff = record.get<double>("settled_pull_off");
     read.overlap = record.get<double>("settled_overlap", read.pullOff.size());
     read.largestOverlap = record.get<double>("settled_largest_overlap", read.pullOff.size());
-    std::vector<double> poses;
-    if (record.arrays().contains("settled_bodies")) poses = record.get<double>("settled_bodies");
+    const auto& poses = record.get<double>("settled_bodies");
     for (std::size_t i = 0; i + 6 < poses.size(); i += 7)
         read.bodies.push_back({geometry::Rotation(poses[i], poses[i + 1], poses[i + 2], poses[i + 3]),
                                {poses[i + 4], poses[i + 5], poses[i + 6]}});

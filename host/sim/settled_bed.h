@@ -26,7 +26,7 @@ SettledBed settledBed(const Case& c, double time, const Particles& particles, co
 
 /// For a checkpoint; radii are not stored.
 void put(Record& record, const std::optional<SettledBed>& bed);
-/// Nothing if the run had not settled, or was stored by a version that kept no such bed. `filled` gives the radii.
+/// Nothing if the run had not settled. `filled` gives the radii.
 /// Throws RecordError if the arrays do not fit it.
 void get(const Record& record, const Particles& filled, std::optional<SettledBed>& bed);
 

@@ -20,7 +20,7 @@ struct FreeParameter {
 
 /// A figure that a search is to meet, in the figure's own unit.
 struct CalibrationTarget {
-    std::string figure;  ///< kMassPerDose, or a measure of the case and its figure: "heap.angle_deg"
+    std::string figure;  ///< kMassPerDose, one of kRateFigures, or a measure and its figure: "heap.angle_deg"
     double value = 0;    ///< measured
     double uncertainty = 0;
     double weight = 1;           ///< of its square in the misfit

@@ -45,9 +45,6 @@ std::string meanTorque(const Table& doses) {
     return count > 0 ? cellText(sum / count, 9) : "";
 }
 
-/// What a table without columns of the stop tells about it.
-const Dose kUntold;
-
 std::string errorText(const MemberEnd& end, const Json& summary) {
     std::string error = field(summary, "/error");
     if (error.empty()) error = end.said;
@@ -109,10 +106,16 @@ constexpr MemberColumn kColumns[] = {
     {"target_error_kg", "kg", "Mean of their mass less the target.", "/targets/mean_error_kg"},
     {"overshoot_kg", "kg", "Mean of what fell after the coil was told to stop.", "/targets/mean_overshoot_kg"},
     {"rotation_s", "s", "Mean time until the coil was told to stop.", "/targets/mean_rotation_s"},
+    {"rate_kg_s", "kg/s", "Mass rate while the drive turns; empty with too few windows, as are those that follow.",
+     "/analysis/rate/mean_kg_s"},
+    {"rate_error_kg_s", "kg/s", "Standard error of this mean.", "/analysis/rate/mean_error_kg_s"},
+    {"rate_rsd", "1", "Standard deviation over mean of the rate in windows.", "/analysis/rate/rsd"},
+    {"steady_from_s", "s", "Simulated time at which the steady part begins.", "/analysis/rate/steady_from_s"},
+    {"steady_rate_kg_s", "kg/s", "Mass rate of the steady part.", "/analysis/rate/steady_kg_s"},
+    {"steady_rate_error_kg_s", "kg/s", "Standard error of this mean.", "/analysis/rate/steady_error_kg_s"},
+    {"steady_rate_rsd", "1", "Standard deviation over mean of the rate in windows of the steady part.",
+     "/analysis/rate/steady_rsd"},
 };
-
-/// The first of the columns that members.csv had not always, to its end.
-constexpr const char* kFirstTargetColumn = "target_dose_kg";
 
 Row namesOf(std::span<const MemberColumn> columns) {
     Row names;
@@ -158,37 +161,8 @@ MemberResult readResult(const fs::path& folder, const MemberEnd& end) {
     return result;
 }
 
-Table withTargetColumns(const Table& older) {
-    const std::size_t added = kOutputColumns.size() -
-                              std::size_t(std::find(kOutputColumns.begin(), kOutputColumns.end(), kFirstTargetColumn) -
-                                          kOutputColumns.begin());
-    Row names = older.names();
-    names.insert(names.end(), kOutputColumns.end() - std::ptrdiff_t(added), kOutputColumns.end());
-    Table now(std::move(names));
-    for (std::size_t i = 0; i < older.rows(); ++i) {
-        Row row = older.row(i);
-        row.resize(row.size() + added);
-        now.add(std::move(row));
-    }
-    return now;
-}
-
-Table withStopColumns(const Table& older) {
-    Row names = older.names(), stop = columnNames(kStopColumns), untold;
-    forEachColumn(kStopColumns, [&](const auto& c) { untold.push_back(cellText(c.of(kUntold), 9)); });
-    names.insert(names.end(), stop.begin(), stop.end());
-    Table now(std::move(names));
-    for (std::size_t i = 0; i < older.rows(); ++i) {
-        Row row = older.row(i);
-        row.insert(row.end(), untold.begin(), untold.end());
-        now.add(std::move(row));
-    }
-    return now;
-}
-
 Table dosesIn(const fs::path& folder) {
-    Table table = Table::salvage(folder / "doses.csv");
-    if (table.names() == columnNames(kPlainDoseColumns)) table = withStopColumns(table);
+    const Table table = Table::salvage(folder / "doses.csv");
     // Those of bodies, regions and powders follow; members of a study may differ in them.
     const Row common = columnNames(kDoseColumns);
     const Row& names = table.names();

@@ -52,13 +52,6 @@ MemberResult readResult(const std::filesystem::path& folder, const MemberEnd& en
 /// The doses that a run noted in `folder`. An empty table if there are none, or if the file is not a run's.
 Table dosesIn(const std::filesystem::path& folder);
 
-/// A table of doses that an older vkdose wrote, whose last columns are kPlainDoseColumns, with today's columns behind
-/// them and no figures in them.
-Table withStopColumns(const Table& older);
-
-/// A members.csv that an older vkdose wrote, with today's last columns behind its own and no figures in them.
-Table withTargetColumns(const Table& older);
-
 /// Whether the folder holds a run that is over, so that it need not be repeated.
 bool isOver(const std::filesystem::path& folder);
 

@@ -55,8 +55,14 @@ void dropRows(Table& table, const std::set<int>& kept) {
                                   study.string(), folder.string(), how));
 }
 
-/// The case as today's vkdose would write it. A key that was added since and has its default does not make it another
-/// case.
+/// The first column of `wanted` that a table has not; empty if it has all.
+std::string lacking(const Row& wanted, const Row& has) {
+    const auto there = [&has](const std::string& name) { return std::find(has.begin(), has.end(), name) != has.end(); };
+    const auto missing = std::find_if_not(wanted.begin(), wanted.end(), there);
+    return missing == wanted.end() ? "" : fmt::format(": it has no column {}", *missing);
+}
+
+/// The case as vkdose writes it, so that a remark or another order of its keys does not make it another one.
 std::string today(const fs::path& file) {
     try {
         return loadResolvedCase(fileContent(file).value_or(""), file).resolved;
@@ -170,15 +176,12 @@ void SweepFolder::read(const Row& keys) {
     doses_ = Table::salvage(folder_ / "doses.csv");
     const Row membersHeader = joined(joined({"member", "seed"}, keys), kOutputColumns);
     const Row dosesHeader = joined(joined({"member", "seed"}, keys), columnNames(kDoseColumns));
-    if (doses_.names() == joined(joined({"member", "seed"}, keys), columnNames(kPlainDoseColumns)))
-        doses_ = withStopColumns(doses_);  // an older vkdose wrote it
-    if (const Table now = withTargetColumns(members_); !members_.names().empty() && now.names() == membersHeader)
-        members_ = now;  // likewise
     for (const auto& [name, table, header] :
          {std::tuple("members.csv", &members_, &membersHeader), std::tuple("doses.csv", &doses_, &dosesHeader)})
         if (!table->names().empty() && table->names() != *header)
             changed(study_, folder_,
-                    fmt::format("it varies other keys than the columns of {} say, or that file was edited", name));
+                    fmt::format("it varies other keys than the columns of {} say, or that file was edited{}", name,
+                                lacking(*header, table->names())));
     if (members_.names().empty()) members_ = Table(membersHeader);
     if (doses_.names().empty()) doses_ = Table(dosesHeader);
     for (std::size_t i = 0; i < members_.rows(); ++i)
@@ -282,7 +285,7 @@ std::optional<MemberStatus> SweepFolder::status(int number) const {
 void SweepFolder::begin(const Member& member) const {
     const fs::path folder = memberFolder(member.number);
     createFolder(folder);
-    // A case.toml that an older vkdose left says the same (requireSame). A run that has begun with it goes on with it.
+    // A case.toml in other words says the same (requireSame). A run that has begun with it goes on with it.
     const fs::path file = folder / "case.toml";
     if (fs::exists(folder / kCheckpointName) ? !fs::exists(file) : fileContent(file) != member.caseText)
         replaceFile(file, member.caseText);

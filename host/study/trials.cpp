@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "host/analysis/mass_rate.h"
 #include "host/output/summary.h"
 
 namespace vkdose {
@@ -21,6 +22,10 @@ Measured figureIn(const std::filesystem::path& folder, const std::string& figure
     };
     if (figure == kMassPerDose)
         return {at("/analysis/beta_kg_per_dose") * 1e3, at("/analysis/beta_standard_error_kg_per_dose") * 1e3};
+    if (const RateFigure* rate = rateFigureNamed(figure)) {
+        const std::string all = std::string("/analysis/") + kRateName + "/";
+        return {at(all + rate->name), rate->error ? at(all + rate->error) : std::numeric_limits<double>::quiet_NaN()};
+    }
     std::string pointer = "/measures/" + figure;
     std::replace(pointer.begin(), pointer.end(), '.', '/');
     return {at(pointer), std::numeric_limits<double>::quiet_NaN()};

@@ -90,8 +90,8 @@ SHARED_FUNCTION uint pairIndex(uint a, uint b) {
     return larger * (larger + 1u) / 2u + smaller;
 }
 
-/// No less than the true sum of two lengths [m], however small `way` is: a sum in one float would stand still once `way`
-/// is below its resolution. The factor is the next number after one.
+/// No less than the true sum of two lengths [m], however small `way` is. A sum in one float would stand still once
+/// `way` is below its resolution. The factor is the next number after one.
 SHARED_FUNCTION float wayAfter(float gone, float way) {
     return way > 0.0f ? (gone + way) * (1.0f + 1.1920929e-7f) : gone;
 }

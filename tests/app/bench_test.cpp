@@ -1,4 +1,4 @@
-// `vkdose bench` as a user meets it. Nothing is judged by the clock: the figures must be there and be figures.
+// `vkdose test bench` as a user meets it. Nothing is judged by the clock: the figures must be there and be figures.
 
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -30,7 +30,7 @@ void requirePositive(const nlohmann::json& result, const std::string& key) {
 
 TEST_CASE("bench measures the small workloads on the device") {
     const Sandbox box;
-    const auto outcome = box.vkdose("bench --quick --validation --repeats 2 --out found --bed '" VKDOSE_SOURCE_DIR
+    const auto outcome = box.vkdose("test bench --quick --validation --repeats 2 --out found --bed '" VKDOSE_SOURCE_DIR
                                     "/tools/bench-data/bed-48g.toml'" +
                                     device());
     INFO(outcome.out << outcome.err);
@@ -55,7 +55,7 @@ TEST_CASE("bench does not replace the bed that it measures") {
     const Sandbox box;
     const std::string bed = readText(VKDOSE_SOURCE_DIR "/cases/mini.toml");
     box.write("bench.csv", bed);
-    const auto outcome = box.vkdose("bench --quick --bed bench.csv --only free-fall --out ." + device());
+    const auto outcome = box.vkdose("test bench --quick --bed bench.csv --only free-fall --out ." + device());
     CHECK(outcome.code == kBadInput);
     CHECK(outcome.err.find("bench.csv is read by this command") != std::string::npos);
     CHECK(readText(box / "bench.csv") == bed);
@@ -63,7 +63,8 @@ TEST_CASE("bench does not replace the bed that it measures") {
 
 TEST_CASE("bench sums processes that run side by side") {
     const Sandbox box;
-    const auto outcome = box.vkdose("bench --quick --repeats 2 --copies 2 --only free-fall --out found" + device());
+    const auto outcome =
+        box.vkdose("test bench --quick --repeats 2 --copies 2 --only free-fall --out found" + device());
     INFO(outcome.out << outcome.err);
     REQUIRE(outcome.code == 0);
     CHECK(outcome.out.find("free-fall x2") != std::string::npos);
@@ -75,7 +76,8 @@ TEST_CASE("bench sums processes that run side by side") {
 
 TEST_CASE("bench runs canisters in one ensemble, and tells what their tables take") {
     const Sandbox box;
-    const auto outcome = box.vkdose("bench --quick --repeats 2 --members 3 --only free-fall --out found" + device());
+    const auto outcome =
+        box.vkdose("test bench --quick --repeats 2 --members 3 --only free-fall --out found" + device());
     INFO(outcome.out << outcome.err);
     REQUIRE(outcome.code == 0);
     const auto results = nlohmann::json::parse(readText(box / "found/bench.json"))["results"];
@@ -90,16 +92,16 @@ TEST_CASE("bench runs canisters in one ensemble, and tells what their tables tak
 
 TEST_CASE("bench says what it does not know and what is not there") {
     const Sandbox box;
-    const auto unknown = box.vkdose("bench --only feather");
+    const auto unknown = box.vkdose("test bench --only feather");
     CHECK(unknown.code == 2);
     CHECK(unknown.err.find("free-fall") != std::string::npos);
     CHECK(unknown.err.find("tools/bench-data/bed-48g.toml") != std::string::npos);
     CHECK(box.files().empty());
-    CHECK(box.vkdose("bench --bed nowhere.toml").code == 2);
-    CHECK(box.vkdose("bench --repeats 0").code == 2);
-    const auto nodevice = box.vkdose("bench --quick --only free-fall --device nosuch");
+    CHECK(box.vkdose("test bench --bed nowhere.toml").code == 2);
+    CHECK(box.vkdose("test bench --repeats 0").code == 2);
+    const auto nodevice = box.vkdose("test bench --quick --only free-fall --device nosuch");
     CHECK(nodevice.code == 4);
-    const auto copies = box.vkdose("bench --quick --only free-fall --copies 2 --device nosuch");
+    const auto copies = box.vkdose("test bench --quick --only free-fall --copies 2 --device nosuch");
     CHECK(copies.code == 4);
     CHECK(copies.err.find("nosuch") != std::string::npos);
 }

@@ -9,6 +9,7 @@
 #include <sstream>
 #include <thread>
 
+#include "tests/app/list_of_commands.h"
 #include "tests/app/sandbox.h"
 #include "tests/support/catch.h"
 
@@ -51,12 +52,12 @@ TEST_CASE("help and usage") {
     const Sandbox box;
     const auto help = box.vkdose("--help");
     CHECK(help.code == 0);
-    for (const char* word : {"run", "resume", "sweep", "calibrate", "check", "devices", "compare", "profile"})
+    for (const char* word : {"run", "resume", "sweep", "calibrate", "check", "devices", "profile", "manual", "test"})
         CHECK_THAT(help.out, Catch::Contains(word));
     CHECK(box.vkdose("run --help").code == 0);
     CHECK_THAT(box.vkdose("--version").out, Catch::StartsWith("vkdose "));
-    for (const char* bad : {"fly", "run", "run x.toml --backend cuda", "run x.toml --nonsense",
-                            "compare x.toml --steps 5 --time 1", "compare x.toml --steps 0"}) {
+    for (const char* bad : {"fly", "run", "run x.toml --backend cuda", "run x.toml --nonsense", "test", "test fly",
+                            "test compare x.toml --steps 5 --time 1", "test compare x.toml --steps 0"}) {
         const auto o = box.vkdose(bad);
         CAPTURE(bad, o.err);
         CHECK(o.code == 2);
@@ -66,6 +67,13 @@ TEST_CASE("help and usage") {
     CHECK(box.files().empty());
     // The culprit by its name: the word that is no command, the command that lacks something.
     CHECK_THAT(box.vkdose("rnu x.toml").err, Catch::Contains("there is no command rnu; did you mean run?"));
+    CHECK_THAT(box.vkdose("verify --list").err,
+               Catch::Contains("there is no command verify; did you mean test verify?"));
+    CHECK_THAT(box.vkdose("test run x.toml").err,
+               Catch::Contains("vkdose test: there is no command run; did you mean run?"));
+    CHECK_THAT(box.vkdose("manual").err,
+               Catch::StartsWith("vkdose manual: ") && Catch::Contains("`vkdose manual --help`"));
+    CHECK_THAT(box.vkdose("test --help").out, Catch::Contains("verify") && Catch::Contains("compare"));
     CHECK_THAT(box.vkdose("run").err, Catch::Contains("a case is missing") && Catch::Contains("--from DIR"));
     const auto alone = box.vkdose("");
     CHECK(alone.code == 0);
@@ -74,12 +82,8 @@ TEST_CASE("help and usage") {
 
 TEST_CASE("every command has examples, whose options it knows") {
     const Sandbox box;
-    std::istringstream commands(box.vkdose("options --brief").out);
     int found = 0;
-    for (std::string line; std::getline(commands, line);) {
-        const std::size_t at = line.find("`vkdose ");
-        if (at == std::string::npos) continue;
-        const std::string rest = line.substr(at + 8), name = rest.substr(0, rest.find_first_of(" `"));
+    for (const std::string& name : commandsOf(box)) {
         CAPTURE(name);
         ++found;
         const std::string help = box.vkdose(name + " --help").out;
@@ -130,7 +134,7 @@ TEST_CASE("a bad case is refused with exit code 2 and nothing written") {
         {kMini + "--set nonsense", "nonsense"},
     };
     for (const Bad& bad : all) {
-        for (const char* command : {"run --backend reference --out out ", "check ", "compare "}) {
+        for (const char* command : {"run --backend reference --out out ", "check ", "test compare "}) {
             const auto o = box.vkdose(command + bad.arguments);
             CAPTURE(command, bad.arguments, o.err);
             CHECK(o.code == 2);
@@ -294,9 +298,6 @@ TEST_CASE("export-body writes the coil of a case") {
     const auto none = box.vkdose(paper + "screw");
     CHECK(none.code == 2);
     CHECK_THAT(none.err, Catch::Contains("no \"screw\"; give one of: coil"));
-    const auto old = box.vkdose("export-coil " + kMini);
-    CHECK(old.code == 2);
-    CHECK_THAT(old.err, Catch::Contains("export-body"));
     const auto other = box.vkdose("export-body " + kMini + "--out coil.obj");
     CHECK(other.code == 2);
     CHECK_THAT(other.err, Catch::Contains("writes an STL mesh; give a name that ends in .stl"));

@@ -1,5 +1,5 @@
-// Silo, drum and ball of Dosta and others (2024) at reduced size, one setup of each, as `vkdose validate` runs and
-// judges them beside other programs. All setups are run by hand: `vkdose validate`.
+// Silo, drum and ball of Dosta and others (2024) at reduced size, one setup of each, as `vkdose test validate` runs and
+// judges them beside other programs. All setups are run by hand: `vkdose test validate`.
 
 #include <nlohmann/json.hpp>
 
@@ -21,7 +21,7 @@ void requireAgreement(const std::string& comparison, const std::string& study, s
               "base = \"" + (shipped / (comparison + "-bed.toml")).string() + "\"\n" + study);
     std::filesystem::copy(shipped / (comparison + "-peers.csv"), box / "cases/validate");
 
-    const auto outcome = box.vkdose("validate " + comparison + " --jobs 1");
+    const auto outcome = box.vkdose("test validate " + comparison + " --jobs 1");
     INFO(outcome.out << outcome.err);
     CHECK(outcome.code == 0);
     const auto told = nlohmann::json::parse(readText(box / "out/validate/validate.json"));
@@ -37,7 +37,7 @@ void requireAgreement(const std::string& comparison, const std::string& study, s
 
 }  // namespace
 
-TEST_CASE("dosta: a silo runs out as in other programs") {
+TEST_CASE("dosta: a silo runs out as in other programs", "[slow]") {
     requireAgreement("dosta-silo",
                      "[[axis]]\nkeys = [\"particles.density\", \"contact.friction\"]\nvalues = [[2500.0, 0.3]]\n"
                      "[[axis]]\nkeys = [\"body.cone.radius_mm\", \"body.cone.length_mm\", \"body.bin.at\"]\n"

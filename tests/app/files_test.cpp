@@ -207,7 +207,7 @@ TEST_CASE("a pipe is not waited for, whatever it is given for") {
                                            "check base.toml",
                                            "check list.toml",
                                            "export-body p",
-                                           "compare p",
+                                           "test compare p",
                                            "sweep p",
                                            "sweep study.toml",
                                            "calibrate p",

@@ -126,7 +126,7 @@ TEST_CASE("a file of a case that cannot be read to its end is an error") {
                                                  {check + "liquid-bridge.toml", "liquid-bridge.glsl"},
                                                  {"run " + kShort + "listed.toml --out out", "list.csv"},
                                                  {"export-body moved.toml block", "block.stl"},
-                                                 {"compare listed.toml --steps 3 --twins 1", "list.csv"}})
+                                                 {"test compare listed.toml --steps 3 --twins 1", "list.csv"}})
         checkReading(box, r);
 
     const auto json = box.vkdose(check + "listed.toml --json", onBadDisk("list.csv", "read:short:99,read:EIO:2"));

@@ -15,8 +15,6 @@ TEST_CASE("arches over time: of each complete dose the frame nearest to its end"
     Case c;
     c.world.coil = paperCoil();
     c.canister = paperCanister();
-    c.schedule.rotateTime = 0.8;
-    c.schedule.restTime = 0.2;
     c.frames.interval = 0.5;
     Particles whole = layers(-10e-3, 40e-3), arched = whole;
     for (std::size_t i = 0; i < arched.size(); ++i)  // a tunnel between the planes at 0 and at 14 mm
@@ -34,6 +32,7 @@ TEST_CASE("arches over time: of each complete dose the frame nearest to its end"
     for (int i = 0; i < 4; ++i) {
         doses[std::size_t(i)].index = i + 1;
         doses[std::size_t(i)].startTime = 0.1 + i;
+        doses[std::size_t(i)].endTime = 1.1 + i;
         doses[std::size_t(i)].complete = i != 2;
     }
     const std::vector<DoseArch> arches = archesAtDoseEnds(Frames(box.path()), c, doses);

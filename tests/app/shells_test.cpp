@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "tests/app/list_of_commands.h"
 #include "tests/app/sandbox.h"
 #include "tests/support/catch.h"
 
@@ -16,16 +17,6 @@ std::vector<std::string> linesOf(const std::string& text) {
     std::istringstream stream(text);
     for (std::string line; std::getline(stream, line);) lines.push_back(line);
     return lines;
-}
-
-/// The commands of the program, from its own list.
-std::vector<std::string> commands(const Sandbox& box) {
-    std::vector<std::string> names;
-    for (const std::string& line : linesOf(box.vkdose("options --brief").out)) {
-        const std::size_t at = line.find("`vkdose ");
-        if (at != std::string::npos) names.push_back(line.substr(at + 8, line.find_first_of(" `", at + 8) - at - 8));
-    }
-    return names;
 }
 
 /// What bash offers for the last of `words`, sorted.
@@ -47,7 +38,7 @@ bool has(const std::vector<std::string>& list, const std::string& word) {
 
 TEST_CASE("completion: bash completes commands, options, words, files and names of cases") {
     const Sandbox box;
-    box.write("vkdose.bash", box.vkdose("completion bash").out);
+    box.write("vkdose.bash", box.vkdose("manual completion bash").out);
     REQUIRE(std::system(("bash -n '" + (box / "vkdose.bash").string() + "'").c_str()) == 0);
     CHECK(offered(box, "vkdose re") == std::vector<std::string>{"render", "report", "resume"});
     CHECK(offered(box, "vkdose run --b") == std::vector<std::string>{"--backend"});
@@ -62,20 +53,30 @@ TEST_CASE("completion: bash completes commands, options, words, files and names 
     fs::create_directories(box / "my out");
     CHECK(offered(box, "vkdose run my") == std::vector<std::string>{"my case.toml", "my out"});
     CHECK(offered(box, "vkdose run x --out my") == std::vector<std::string>{"my out"});
-    for (const std::string& command : commands(box)) CHECK(has(offered(box, "vkdose ''"), command));
+    CHECK(offered(box, "vkdose te") == std::vector<std::string>{"test"});
+    CHECK(offered(box, "vkdose test ve") == std::vector<std::string>{"verify"});
+    CHECK(offered(box, "vkdose test compare --tw") == std::vector<std::string>{"--twins"});
+    CHECK(offered(box, "vkdose test bench --on x --out my") == std::vector<std::string>{"my out"});
+    CHECK(has(offered(box, "vkdose test compare q"), "quickstart"));
+    CHECK(offered(box, "vkdose manual completion ''") == std::vector<std::string>{"bash", "fish", "zsh"});
+    for (const std::string& command : commandsOf(box)) {
+        const std::size_t space = command.find(' ') + 1;  // 0 for a command in no group
+        CHECK(has(offered(box, "vkdose " + command.substr(0, space) + "''"), command.substr(space)));
+    }
 }
 
 TEST_CASE("completion: zsh and fish get every command and option") {
     const Sandbox box;
     for (const char* shell : {"zsh", "fish"}) {
-        const std::string script = box.vkdose(std::string("completion ") + shell).out;
+        const std::string script = box.vkdose(std::string("manual completion ") + shell).out;
         const bool there = std::system((std::string("command -v ") + shell + " > /dev/null 2>&1").c_str()) == 0;
         box.write("script", script);
         if (there)
             CHECK(std::system((std::string(shell) + " -n '" + (box / "script").string() + "'").c_str()) == 0);
         else
             WARN("skipped: " << shell << " is not installed (tools/packages-shells)");
-        for (const std::string& command : commands(box)) CHECK_THAT(script, Catch::Contains(command));
+        for (const std::string& command : commandsOf(box))
+            CHECK_THAT(script, Catch::Contains(command.substr(command.find(' ') + 1)));
         const std::string dashes = shell == std::string("zsh") ? "--" : "-l ";
         for (const char* option : {"set", "backend", "sizes", "movie"})
             CHECK_THAT(script, Catch::Contains(dashes + option));
@@ -89,19 +90,21 @@ TEST_CASE("completion: zsh and fish get every command and option") {
             CHECK((quotes - static_cast<long>(escapes)) % 2 == 0);
         }
     }
-    CHECK(box.vkdose("completion").code == 2);
-    CHECK(box.vkdose("completion tcsh").code == 2);
+    CHECK(box.vkdose("manual completion").code == 2);
+    CHECK(box.vkdose("manual completion tcsh").code == 2);
 }
 
 TEST_CASE("man: every page reads without a complaint and names its options") {
     const Sandbox box;
-    REQUIRE(box.vkdose("man --out pages").code == 0);
+    REQUIRE(box.vkdose("manual man --out pages").code == 0);
     CHECK_THAT(readText(box / "pages/vkdose-run.1"),
                Catch::Contains("\\-\\-backend") && Catch::Contains("One of vulkan"));
-    CHECK(readText(box / "pages/vkdose-run.1") == box.vkdose("man run").out);
-    CHECK(readText(box / "pages/vkdose.1") == box.vkdose("man").out);
-    CHECK_THAT(box.vkdose("man rnu").err, Catch::Contains("did you mean run?"));
-    const std::vector<std::string> all = commands(box);
+    CHECK(readText(box / "pages/vkdose-run.1") == box.vkdose("manual man run").out);
+    CHECK(readText(box / "pages/vkdose.1") == box.vkdose("manual man").out);
+    CHECK(readText(box / "pages/vkdose-test-verify.1") == box.vkdose("manual man test verify").out);
+    CHECK_THAT(box.vkdose("manual man verify").err, Catch::Contains("did you mean test verify?"));
+    CHECK_THAT(box.vkdose("manual man rnu").err, Catch::Contains("did you mean run?"));
+    const std::vector<std::string> all = commandsOf(box);
     CHECK(static_cast<std::size_t>(std::distance(fs::directory_iterator(box / "pages"), {})) == all.size() + 1);
     const bool man = std::system("command -v man > /dev/null 2>&1") == 0;
     for (const auto& page : fs::directory_iterator(box / "pages")) {

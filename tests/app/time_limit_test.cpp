@@ -93,11 +93,11 @@ TEST_CASE("calibrate and validate keep to a time too, and a wrong one is refused
     CHECK(search.code == 6);
     CHECK_THAT(search.err, Catch::Contains("3 of 3 members left"));
 
-    const auto compared = box.vkdose("validate beverloo heap --backend reference --for 0.001s");
+    const auto compared = box.vkdose("test validate beverloo heap --backend reference --for 0.001s");
     CAPTURE(compared.err);
     CHECK(compared.code == 6);
     CHECK_THAT(compared.err,
-               Catch::Contains("go on with `vkdose validate beverloo heap --out out/validate"));
+               Catch::Contains("go on with `vkdose test validate beverloo heap --out out/validate"));
 
     const auto wrong = box.vkdose("sweep grid.toml --for 480");
     CHECK(wrong.code == 2);

@@ -1,4 +1,4 @@
-// `vkdose validate` as a user meets it. Its figures and verdicts have their tests in tests/validate.
+// `vkdose test validate` as a user meets it. Its figures and verdicts have their tests in tests/validate.
 
 #include <nlohmann/json.hpp>
 
@@ -9,11 +9,11 @@ using namespace vkdose::test;
 
 TEST_CASE("validate tells its comparisons, and refuses one that it does not know") {
     const Sandbox box;
-    const auto listed = box.vkdose("validate --list");
+    const auto listed = box.vkdose("test validate --list");
     CHECK(listed.code == 0);
     for (const char* name : {"chung-ooi", "beverloo", "heap", "dosta-silo", "dosta-ball", "dosta-drum"})
         CHECK(listed.out.find(name) != std::string::npos);
-    const auto unknown = box.vkdose("validate beverlo --backend reference");
+    const auto unknown = box.vkdose("test validate beverlo --backend reference");
     CHECK(unknown.code == 2);
     CHECK(unknown.err.find("beverlo not in {chung-ooi,beverloo,") != std::string::npos);
     CHECK(box.files().empty());
@@ -21,7 +21,7 @@ TEST_CASE("validate tells its comparisons, and refuses one that it does not know
 
 TEST_CASE("validate plays the published impacts and writes what it prints") {
     const Sandbox box;
-    const auto outcome = box.vkdose("validate chung-ooi --backend reference");
+    const auto outcome = box.vkdose("test validate chung-ooi --backend reference");
     INFO(outcome.out << outcome.err);
     CHECK(outcome.code == 0);
     CHECK(outcome.out.find("8 agrees") != std::string::npos);
@@ -51,7 +51,7 @@ void smallBeverloo(const Sandbox& box) {
 TEST_CASE("validate runs the study of a comparison, judges it, and finds it done the next time") {
     const Sandbox box;
     smallBeverloo(box);
-    const auto outcome = box.vkdose("validate beverloo --backend reference --jobs 2");
+    const auto outcome = box.vkdose("test validate beverloo --backend reference --jobs 2");
     INFO(outcome.out << outcome.err);
     CHECK(outcome.code == 1);  // nothing has run out: no figure, so it differs
     CHECK(outcome.out.find("3 differs") != std::string::npos);
@@ -60,25 +60,25 @@ TEST_CASE("validate runs the study of a comparison, judges it, and finds it done
 
     const auto summary = box / "out/validate/beverloo/members/0000/summary.json";
     const auto before = std::filesystem::last_write_time(summary);
-    CHECK(box.vkdose("validate beverloo --backend reference --jobs 2").code == 1);
+    CHECK(box.vkdose("test validate beverloo --backend reference --jobs 2").code == 1);
     CHECK(std::filesystem::last_write_time(summary) == before);
 }
 
 TEST_CASE("validate --judge judges the runs that have ended, tells how many have not, and begins none") {
     const Sandbox box;
-    const auto nothing = box.vkdose("validate --judge");
+    const auto nothing = box.vkdose("test validate --judge");
     CHECK(nothing.code == 2);
     CHECK(nothing.err.find("has no run of a comparison that has ended") != std::string::npos);
     CHECK(box.files().empty());
 
     smallBeverloo(box);
-    CHECK(box.vkdose("validate beverloo --backend reference --jobs 2").code == 1);
+    CHECK(box.vkdose("test validate beverloo --backend reference --jobs 2").code == 1);
     // As if the second and the third run had not ended yet.
     const std::string members = readText(box / "out/validate/beverloo/members.csv");
     box.write("out/validate/beverloo/members.csv", members.substr(0, members.find("\n1,") + 1));
     for (const char* member : {"0001", "0002"})
         std::filesystem::remove_all(box / "out/validate/beverloo/members" / member);
-    const auto judged = box.vkdose("validate --judge");  // it needs no device
+    const auto judged = box.vkdose("test validate --judge");  // it needs no device
     INFO(judged.out << judged.err);
     CHECK(judged.code == 0);
     CHECK(judged.out.find("1 of 3 runs") != std::string::npos);

@@ -58,7 +58,7 @@ TEST_CASE("a run under the validation layer is clean") {
 TEST_CASE("compare finds the backends in agreement, and tells when they are not") {
     const Sandbox box;
     requireVulkan(box);
-    const auto o = box.vkdose("compare " + kMini + "--set contact.k=8000 --time 0.06 --twins 1");
+    const auto o = box.vkdose("test compare " + kMini + "--set contact.k=8000 --time 0.06 --twins 1");
     CAPTURE(o.out, o.err);
     CHECK(o.code == 0);
     CHECK_THAT(o.out, Catch::Contains("the backends agree") && Catch::Contains("kinetic energy, settling"));
@@ -77,7 +77,7 @@ TEST_CASE("a spring of a contact that bears nothing for a while is the same on b
         "[particles]\ndensity = 2000.0\nlist = \"one.csv\"\n[contact]\nk = 1000.0\nk1_over_k = 0.2\nkc_over_k = 0.0\n"
         "plasticity_depth = 0.005\nrestitution = 0.4\nfriction = 1.0\n[settle]\ntime_s = 0.004\n"
         "[sensors]\ninterval_s = 0.00002\nenergy = true\n");
-    const auto o = box.vkdose("compare slide.toml --twins 3");
+    const auto o = box.vkdose("test compare slide.toml --twins 3");
     CAPTURE(o.out, o.err);
     CHECK(o.code == 0);
     CHECK_THAT(o.out, Catch::Contains("the backends agree"));
@@ -91,7 +91,7 @@ TEST_CASE("compare does not say that backends agree where chaos leaves nothing o
     for (const char* none : {"settle.kc_over_k=0", "contact.kc_over_k=0", "contact.friction=0", "contact.damping=1e-9",
                              "contact.wall.friction=0", "contact.rolling_friction=0", "contact.k1_over_k=1"})
         wild += std::string(" --set ") + none;
-    const auto o = box.vkdose("compare " + kMini + wild);
+    const auto o = box.vkdose("test compare " + kMini + wild);
     CAPTURE(o.out, o.err);
     CHECK(o.code == 1);
     CHECK_THAT(o.out, Catch::Contains("\nUNDECIDED: ") && !Catch::Contains("backends agree"));

@@ -1,4 +1,4 @@
-// The known answers of `vkdose verify`, family by family on the device.
+// The known answers of `vkdose test verify`, family by family on the device.
 
 #include <nlohmann/json.hpp>
 
@@ -17,7 +17,7 @@ std::string device() {
 
 void requireGreen(const std::string& family) {
     const Sandbox box;
-    const auto outcome = box.vkdose("verify --only " + family + "/ --out found" + device());
+    const auto outcome = box.vkdose("test verify --only " + family + "/ --out found" + device());
     INFO(outcome.out << outcome.err);
     CHECK(outcome.code == 0);
     const auto json = nlohmann::json::parse(readText(box / "found/verify.json"));

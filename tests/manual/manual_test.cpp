@@ -98,10 +98,10 @@ TEST_CASE("the comparators of pages tell what is wrong") {
     CHECK(deadPaths(paths, box.path()) == std::vector<std::string>{"p.md:1: host/gone.h is not there"});
 
     const Page parts = parsePage("p.md",
-                                 "<!-- vkdose keys --study -->\n\n| a |\n\n<!-- end -->\n"
+                                 "<!-- vkdose manual keys --study -->\n\n| a |\n\n<!-- end -->\n"
                                  "```sh example\nvkdose devices\n```\n```sh\nrm -r x\n```\n<!-- vkdose x -->\n");
     REQUIRE(parts.parts.size() == 2);
-    CHECK(parts.parts[0].arguments == "keys --study");
+    CHECK(parts.parts[0].arguments == "manual keys --study");
     CHECK(parts.parts[0].text == "\n| a |\n\n");
     REQUIRE(parts.examples.size() == 1);
     CHECK(parts.examples[0].commands == "vkdose devices\n");

@@ -194,6 +194,13 @@ class Results(InFolder):
         self.assertTrue(all(len(values) == len(contacts["ends"]) for values in contacts.values()))
         self.assertEqual(result.fields, [])
 
+    def test_the_mass_rate(self):
+        case = short(**{"dose.rotate_s": 0.5, "dose.rest_s": 0, "stop.max_doses": 1, "sensors.rate_window_s": 0.05})
+        result = run(case).wait()
+        rate = result.summary["analysis"]["rate"]
+        self.assertEqual(rate["windows"], 10)
+        self.assertAlmostEqual(rate["mean_kg_s"], result.doses.mass_kg[0] / 0.5, delta=1e-6 * rate["mean_kg_s"])
+
     def test_arrays_of_a_frame_are_read_when_they_are_touched(self):
         frame = run(short(**{"frames.interval_s": 0.1})).wait().frames[0]
         read = []

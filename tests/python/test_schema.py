@@ -23,8 +23,8 @@ def is_study(content):
 class Schema(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.case = json.loads(call("keys", "--schema"))
-        cls.study = json.loads(call("keys", "--study", "--schema"))
+        cls.case = json.loads(call("manual", "keys", "--schema"))
+        cls.study = json.loads(call("manual", "keys", "--study", "--schema"))
 
     def refused(self, content, schema):
         with self.assertRaises(jsonschema.ValidationError):

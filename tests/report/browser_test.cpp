@@ -54,7 +54,9 @@ TEST_CASE("a browser draws a table of the loads of each body in each dose") {
     header.pop_back();
     for (const char* load : {"force_x_N", "force_y_N", "force_z_N", "torque_Nm", "power_W", "work_J"})
         header += std::string(",screw-1.") + load;
-    box.write("run/doses.csv", header + "\n1,0.1,0.0015,0.0015,9,0.002,0.0016,1,0.25,0.5,0.75,0.00125,0.0625,0.1275\n");
+    box.write(
+        "run/doses.csv",
+        header + "\n1,0.1,0.0015,0.0015,9,0.002,0.0016,1,0,nan,nan,nan,none,nan,0.25,0.5,0.75,0.00125,0.0625,0.1275\n");
     const std::string dom = drawn(box, runJson(folder, {}));
     const std::size_t at = dom.find("<h3>Loads of screw-1</h3>");
     REQUIRE(at != std::string::npos);
@@ -67,7 +69,7 @@ TEST_CASE("a browser draws the line of the closed form for a single dose too") {
     if (browserMissing()) return;
     const Sandbox box;
     const auto folder = writeRun(box, "why");
-    box.write("run/doses.csv", std::string(kDosesHeader) + "1,0.1,0.0015,0.0015,9,0.002,0.0016,1\n");
+    box.write("run/doses.csv", dosesTable("1,0.1,0.0015,0.0015,9,0.002,0.0016,1\n"));
     const std::string dom = drawn(box, runJson(folder, {}));
     for (const char* title : {"<h3>Mass per dose", "<h3>Cumulative dosed mass"}) {
         CAPTURE(title);
@@ -148,8 +150,8 @@ TEST_CASE("keys that move together are drawn along the first of them, where its 
         "name = \"pairs\"\n[[axis]]\nkeys = [\"dose.rotate_s\", \"stop.max_doses\"]\nvalues = [[4, 2], [1, 8]]\n");
     const std::string head = "member,seed,dose.rotate_s,stop.max_doses,status,error,beta_kg_per_dose\n";
     box.write("sweep/members.csv", head + "0,1,4,2,ok,,0.008\n1,1,1,8,ok,,0.002\n");
-    box.write("sweep/doses.csv", std::string("member,seed,dose.rotate_s,stop.max_doses,") + kDosesHeader +
-                                     "0,1,4,2,1,2,0.007,0.007,300,0.01,0.0084,1\n");
+    box.write("sweep/doses.csv",
+              dosesTable("0,1,4,2,1,2,0.007,0.007,300,0.01,0.0084,1\n", "member,seed,dose.rotate_s,stop.max_doses,"));
     std::string dom = drawn(box, studyJson(box / "sweep", {}));
     CHECK(dom.find("<h3>β against dose.rotate_s</h3>") != std::string::npos);
     for (const char* text : {"2 at 1", "8 at 4", ">dose.rotate_s 4<"}) CHECK(dom.find(text) != std::string::npos);

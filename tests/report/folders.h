@@ -16,8 +16,21 @@ inline constexpr const char* kSeriesHeader =
     "canister_count,throat_count,lost_count,kinetic_energy_J,rotational_energy_J,outlet_velocity_m_s,coil_torque_Nm,"
     "coil_power_W,max_overlap_ratio\n";
 
-inline constexpr const char* kDosesHeader =
-    "dose,start_time_s,mass_kg,cumulative_mass_kg,particles,coil_torque_Nm,closed_form_mass_kg,complete\n";
+inline const std::string kDosesHeader =
+    "dose,start_time_s,mass_kg,cumulative_mass_kg,particles,coil_torque_Nm,closed_form_mass_kg,complete,"
+    "target_mass_kg,stop_mass_kg,overshoot_kg,rotation_s,stopped_by,end_time_s\n";
+
+/// Rows of a doses.csv that end at `complete`, with the rest of doses for a time.
+inline std::string dosesRows(const std::string& rows) {
+    std::string whole;
+    for (const char c : rows) whole += c == '\n' ? ",0,nan,nan,nan,none,nan\n" : std::string(1, c);
+    return whole;
+}
+
+/// The table of them. `before` is the header of columns before those of a dose.
+inline std::string dosesTable(const std::string& rows, const std::string& before = "") {
+    return before + kDosesHeader + dosesRows(rows);
+}
 
 /// A run of cases/mini.toml with this reason: 6 g filled, doses of 1.5, 2 and 1.75 g, and one that was cut off. The
 /// coil makes half a turn a dose at 2 mN m.
@@ -25,11 +38,10 @@ inline std::filesystem::path writeRun(const Sandbox& box, const std::string& rea
     std::filesystem::create_directories(box / name);
     const Case c = loadCase(VKDOSE_SOURCE_DIR "/cases/mini.toml", {"reason=" + reason});
     box.write(name + "/case.toml", c.resolved);
-    box.write(name + "/doses.csv", std::string(kDosesHeader) +
-                                       "1,0.1,0.0015,0.0015,9,0.002,0.0016,1\n"
-                                       "2,0.4,0.002,0.0035,12,0.002,0.0016,1\n"
-                                       "3,0.7,0.00175,0.00525,10,0.002,0.0016,1\n"
-                                       "4,1.0,0.000123456789,0.005373456789,1,0.002,0.0016,0\n");
+    box.write(name + "/doses.csv", dosesTable("1,0.1,0.0015,0.0015,9,0.002,0.0016,1\n"
+                                              "2,0.4,0.002,0.0035,12,0.002,0.0016,1\n"
+                                              "3,0.7,0.00175,0.00525,10,0.002,0.0016,1\n"
+                                              "4,1.0,0.000123456789,0.005373456789,1,0.002,0.0016,0\n"));
     std::string series = kSeriesHeader;
     series += "0.1,settle,0,0,0,0.006,0,0,0,36,0,0,0,0,nan,0,0,0.01\n";
     series += "0.3,rotate,1,3.14159265,0.0015,0.004,0.0005,0,9,24,3,0,0,0,0.012,0.002,0.03,0.05\n";
@@ -81,10 +93,10 @@ values = [0.3, 0.5]
     rows += member(6, 1, 0.873, 0.5, 3.6e-3);
     rows += "7,2,0.873,0.5,failed,\"particle 3 at (0, 0, 1) \"\"left\"\" the domain\",run_error,,,,,,,,,,,,,,,,,\n";
     box.write("sweep/members.csv", rows);
-    std::string doses = std::string("member,seed,contact.kc_over_k,contact.friction,") + kDosesHeader;
-    doses += "0,1,0.2,0.3,1,2,0.004,0.004,300,0.01,0.0042,1\n0,1,0.2,0.3,2,4.5,0.005,0.009,300,0.01,0.0042,1\n";
+    std::string doses =
+        "0,1,0.2,0.3,1,2,0.004,0.004,300,0.01,0.0042,1\n0,1,0.2,0.3,2,4.5,0.005,0.009,300,0.01,0.0042,1\n";
     doses += "1,2,0.2,0.3,1,2,0.006,0.006,300,0.01,0.0042,1\n1,2,0.2,0.3,2,4.5,0.005,0.011,300,0.01,0.0042,1\n";
-    box.write("sweep/doses.csv", doses);
+    box.write("sweep/doses.csv", dosesTable(doses, "member,seed,contact.kc_over_k,contact.friction,"));
     return box / "sweep";
 }
 

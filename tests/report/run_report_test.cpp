@@ -52,7 +52,15 @@ TEST_CASE("the page of a run carries the numbers of its doses.csv, to the last d
     for (std::size_t column = 0; column < rows[0].size(); ++column) {
         const Json& values = data["doses"][rows[0][column]];
         REQUIRE(values.size() == rows.size() - 1);
-        for (std::size_t i = 1; i < rows.size(); ++i) CHECK(values[i - 1].get<double>() == std::stod(rows[i][column]));
+        for (std::size_t i = 1; i < rows.size(); ++i) {
+            const Json& value = values[i - 1];
+            const std::string& text = rows[i][column];
+            CAPTURE(rows[0][column], text);
+            if (value.is_number())
+                CHECK(value.get<double>() == std::stod(text));
+            else
+                CHECK(value == (text == "nan" ? Json() : Json(text)));
+        }
     }
     CHECK(data["doses"]["mass_kg"][3] == 0.000123456789);
     CHECK(data["reason"] == "why");
@@ -65,6 +73,32 @@ TEST_CASE("curves and turning times of a run") {
     CHECK(data["series"]["outlet_velocity_m_s"][0].is_null());
     CHECK(data["rotations"] == Json({{0.1, 0.3}, {0.4, 0.6}}));
     CHECK(data["filled_mass_kg"] == 0.006);
+}
+
+TEST_CASE("the mass rate of a run in windows, its steady part marked") {
+    const Sandbox box;
+    const auto folder = writeRun(box, "rate");
+    CHECK(fact(runJson(folder, {}), "mass rate") == "no such fact");  // less than five windows
+    // Ten turns of half a second: nothing, then 1 g a turn, and a tenth more or less in turn.
+    std::string series = vkdose::test::kSeriesHeader;
+    double dosed = 0;
+    for (int i = 1; i <= 100; ++i) {
+        dosed += i <= 10 ? 0 : (i - 1) / 10 % 2 == 0 ? 0.11e-3 : 0.09e-3;
+        series += fmt::format("{},rotate,1,0,{},0.01,0,0,0,0,0,0,0,0,0,0,0,0\n", i * 0.05, dosed);
+    }
+    box.write("run/timeseries.csv", series);
+    const Json data = runJson(folder, {});
+    CHECK(data["rate"]["window_s"] == 0.5);
+    REQUIRE(data["rate"]["kg_s"].size() == 10);
+    CHECK(data["rate"]["kg_s"][0] == 0);
+    CHECK(data["rate"]["kg_s"][1].get<double>() == Approx(1.8e-3));
+    CHECK(data["rate"]["time_s"][1].get<double>() == Approx(0.75));
+    CHECK(data["rate"]["steady"] == 1);
+    CHECK(data["rate"]["steady_kg_s"].get<double>() == Approx((5 * 1.8e-3 + 4 * 2.2e-3) / 9));
+    CHECK(fact(data, "mass rate").find("1.780 g/s ± ") == 0);
+    CHECK_THAT(fact(data, "mass rate", "note"), Catch::Contains("over 10 windows of 0.5 s"));
+    CHECK(fact(data, "steady mass rate").find("1.978 g/s ± ") == 0);
+    CHECK_THAT(fact(data, "steady mass rate", "note"), Catch::Contains("RSD 11 %, from t = 0.5 s"));
 }
 
 TEST_CASE("a long time series is thinned: means of torques, last values of masses") {
@@ -223,13 +257,8 @@ TEST_CASE("of doses to a mass the closed form is the mean for the turns that the
     const Sandbox box;
     const auto folder = writeRun(box, "why");
     CHECK(fact(runJson(folder, {}), "closed form") == "1.600 g/dose");
-    std::string header = kDosesHeader;
-    header.pop_back();
-    for (const char* column :
-         {"target_mass_kg", "stop_mass_kg", "overshoot_kg", "rotation_s", "stopped_by", "end_time_s"})
-        header += std::string(",") + column;
-    box.write("run/doses.csv", header +
-                                   "\n1,0.1,0.002,0.002,9,0.002,0.009,1,0.002,0.002,0,1,mass,0.4\n"
+    box.write("run/doses.csv", kDosesHeader +
+                                   "1,0.1,0.002,0.002,9,0.002,0.009,1,0.002,0.002,0,1,mass,0.4\n"
                                    "2,0.4,0.002,0.004,12,0.002,0.003,1,0.002,0.002,0,0.4,mass,0.7\n");
     const Case c = loadCase(VKDOSE_SOURCE_DIR "/cases/mini.toml", {"dose.mass_g=0.2", "dose.max_rotate_s=2"});
     box.write("run/case.toml", c.resolved);
@@ -242,7 +271,7 @@ TEST_CASE("where nothing was dosed there is no RSD") {
     const Sandbox box;
     const auto folder = writeRun(box, "why");
     CHECK_THAT(fact(runJson(folder, {}), "mass per dose", "note"), Catch::StartsWith("RSD "));
-    box.write("run/doses.csv", std::string(kDosesHeader) + "1,0.1,0,0,0,0.002,0.0016,1\n2,0.4,0,0,0,0.002,0.0016,1\n");
+    box.write("run/doses.csv", dosesTable("1,0.1,0,0,0,0.002,0.0016,1\n2,0.4,0,0,0,0.002,0.0016,1\n"));
     CHECK(fact(runJson(folder, {}), "mass per dose", "note") == "no RSD: nothing was dosed");
 }
 

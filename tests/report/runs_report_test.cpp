@@ -17,7 +17,7 @@ std::vector<std::filesystem::path> twoRuns(const Sandbox& box) {
     const Case c = loadCase(VKDOSE_SOURCE_DIR "/cases/mini.toml",
                             {"coil.speed_rpm=150", "particles.mass_g=0.8", "reason='</script>'"});
     box.write("fast/case.toml", c.resolved);
-    box.write("fast/doses.csv", std::string(kDosesHeader) + "1,0.1,0.0025,0.0025,9,0.002,0.002,1\n");
+    box.write("fast/doses.csv", dosesTable("1,0.1,0.0025,0.0025,9,0.002,0.002,1\n"));
     return {slow, fast};
 }
 

@@ -96,10 +96,10 @@ TEST_CASE("where no slope is known, the window of the doses is that of the run: 
     std::filesystem::create_directories(box / "sweep");
     box.write("sweep/members.csv",
               "member,seed,contact.friction,status,error,filled_mass_kg,beta_kg_per_dose\n0,1,0.5,ok,,0.013,\n");
-    box.write("sweep/doses.csv", std::string("member,seed,contact.friction,") + kDosesHeader +
-                                     "0,1,0.5,1,2,0.005,0.005,300,0.01,0.0042,1\n"
-                                     "0,1,0.5,2,4.5,0.004,0.009,300,0.01,0.0042,1\n"
-                                     "0,1,0.5,3,7,0.003,0.012,300,0.01,0.0042,1\n");
+    box.write("sweep/doses.csv", dosesTable("0,1,0.5,1,2,0.005,0.005,300,0.01,0.0042,1\n"
+                                            "0,1,0.5,2,4.5,0.004,0.009,300,0.01,0.0042,1\n"
+                                            "0,1,0.5,3,7,0.003,0.012,300,0.01,0.0042,1\n",
+                                            "member,seed,contact.friction,"));
     const StudyPoint only = pointsIn(box / "sweep").at(0);
     CHECK(nearRelative(only.beta, 4e-3, 1e-12));
     CHECK(std::isnan(only.betaError));  // two doses are below 10.4 g
@@ -131,7 +131,8 @@ TEST_CASE("doses of a point: complete ones, and its mean curves end with the sho
     const Sandbox box;
     const auto folder = writeSweep(box);
     std::string doses = readText(folder / "doses.csv");
-    doses += "0,1,0.2,0.3,3,7,0.004,0.013,300,0.01,0.0042,1\n1,2,0.2,0.3,3,7,0.001,0.012,300,0.01,0.0042,0\n";
+    doses +=
+        dosesRows("0,1,0.2,0.3,3,7,0.004,0.013,300,0.01,0.0042,1\n1,2,0.2,0.3,3,7,0.001,0.012,300,0.01,0.0042,0\n");
     box.write("sweep/doses.csv", doses);
     const StudyPoint first = pointsIn(folder).at(0);
     CHECK(first.doses.size() == 2);  // only one of its two seeds has a whole third dose

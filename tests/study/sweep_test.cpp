@@ -166,16 +166,6 @@ TEST_CASE("doses that the table has lost come back from the members' folders") {
     SECTION("a line twice") {
         std::ofstream(table) << good + good.substr(good.rfind('\n', good.size() - 2) + 1);
     }
-    SECTION("by an older vkdose, without the columns of the stop, a member's folder gone") {
-        std::istringstream lines(good);
-        std::ofstream older(table);
-        for (std::string line; std::getline(lines, line);) {
-            for (std::size_t k = 0; k < std::tuple_size_v<decltype(kStopColumns)>; ++k) line.resize(line.rfind(','));
-            older << line << "\n";
-        }
-        older.close();
-        fs::remove_all(sweep.out / "members/0003");
-    }
     SECTION("a member's folder gone, the table whole") {
         fs::remove_all(sweep.out / "members/0003");
     }
@@ -183,6 +173,25 @@ TEST_CASE("doses that the table has lost come back from the members' folders") {
     CHECK(sweep.run(nothing).ok == 12);
     CHECK(nothing.started.empty());
     CHECK(readText(table) == good);
+}
+
+TEST_CASE("a sweep does not go on in a table that lacks a column, and leaves it as it is") {
+    const Sweeping sweep;
+    MadeUpRuns runs(1);
+    (void)sweep.run(runs);
+    const std::string name = GENERATE("members.csv", "doses.csv");
+    const fs::path table = sweep.out / name;
+    std::istringstream lines(readText(table));
+    std::ofstream cut(table);
+    for (std::string line; std::getline(lines, line);) cut << line.substr(0, line.rfind(',')) << "\n";
+    cut.close();
+    const std::string before = readText(table);
+    MadeUpRuns nothing(1);
+    CHECK_THROWS_WITH(sweep.run(nothing), Catch::Contains("columns of " + name) &&
+                                              Catch::Contains("it has no column ") &&
+                                              Catch::Contains("give another folder with --out"));
+    CHECK(nothing.started.empty());
+    CHECK(readText(table) == before);
 }
 
 TEST_CASE("results that were edited in the table come back from the members' folders") {

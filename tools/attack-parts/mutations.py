@@ -91,7 +91,7 @@ def prepare(t, command, name):
         list_case(t)
         case = "case.toml" if name == "case.toml" else "case-list.toml"
         words = {"run": ["run", case, "--out", "out", "--quiet", *device], "check": ["check", case, *device],
-                 "compare": ["compare", case, "--steps", "50", "--twins", "1"],
+                 "compare": ["test", "compare", case, "--steps", "50", "--twins", "1"],
                  "export-body": ["export-body", case, "--out", "coil.stl"]}[command]
         return words, t.path(name)
     if command == "profile":
@@ -149,8 +149,8 @@ def whole_summary(text):
 @functools.lru_cache
 def defaults(program):
     """(key, value) of every key of a case that has a default, from the list that the program prints."""
-    rows = (line.split(" | ") for line in subprocess.run([program, "keys"], stdout=subprocess.PIPE, check=True, text=True)
-            .stdout.splitlines() if line.startswith("| `"))
+    page = subprocess.run([program, "manual", "keys"], stdout=subprocess.PIPE, check=True, text=True).stdout
+    rows = (line.split(" | ") for line in page.splitlines() if line.startswith("| `"))
     return {(row[0].strip("| `"), row[2].strip("` ")) for row in rows}
 
 

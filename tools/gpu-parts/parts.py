@@ -40,7 +40,7 @@ def devices(s):
     """Which devices there are. Returns the one that the program takes, or None."""
     s.memory.note(s.vkdose("devices", ["devices"], 60).text.rstrip())
     folder = os.path.join(s.out, "first")
-    ended = s.vkdose("first", ["verify", "--only", "integrator/free-fall", "--out", folder, *s.device], 120)
+    ended = s.vkdose("first", ["test", "verify", "--only", "integrator/free-fall", "--out", folder, *s.device], 120)
     try:
         with open(os.path.join(folder, "verify.json"), encoding="utf-8") as f:
             device = json.load(f)["backend"].removeprefix("vulkan: ")
@@ -55,13 +55,13 @@ def verify(s, seconds):
     """The known answers, case by case."""
     part = s.deadline.part(seconds)
     met = s.memory.card["verify"]
-    words = ["verify", "--list"] + (["--only", "integrator/"] if s.tiny else [])
+    words = ["test", "verify", "--list"] + (["--only", "integrator/"] if s.tiny else [])
     names = [line.split()[0] for line in s.vkdose("verify-list", words, 60).text.splitlines() if "/" in line]
     for name in names:
         if met.get(name, {}).get("failed") == 0 or part.left() <= 0:
             continue
         folder = os.path.join(s.out, "verify", name.replace("/", "-"))
-        ended = s.vkdose("verify " + name, ["verify", "--only", name, "--out", folder, *s.device], part.left())
+        ended = s.vkdose("verify " + name, ["test", "verify", "--only", name, "--out", folder, *s.device], part.left())
         try:
             with open(os.path.join(folder, "verify.json"), encoding="utf-8") as f:
                 results = [r for r in json.load(f)["results"] if r["case"] == name]
@@ -137,7 +137,7 @@ def _first_row(path):
 def _measure(s, known, key, words, folder, seconds):
     if "rate" in known.get(key, {}) or "refused" in known.get(key, {}) or seconds <= 0:
         return
-    ended = s.vkdose("bench " + key, ["bench", "--out", folder, *words, *s.device], seconds)
+    ended = s.vkdose("bench " + key, ["test", "bench", "--out", folder, *words, *s.device], seconds)
     try:
         known[key] = _first_row(os.path.join(folder, "bench.csv"))
     except (OSError, ValueError, KeyError):

@@ -1,0 +1,110 @@
+// The mass rate of a run at the end of the program, in its files, in tables of a sweep and as a target.
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "host/app/end_table.h"
+#include "host/core/csv_table.h"
+#include "tests/app/sandbox.h"
+#include "tests/support/catch.h"
+#include "tests/support/near.h"
+
+using namespace vkdose;
+using namespace vkdose::test;
+
+namespace {
+
+/// One dose of half a second, a turn of the drive, in ten windows.
+constexpr const char* kFeeder = R"(base = ")" VKDOSE_SOURCE_DIR R"(/cases/mini.toml"
+[settle]
+time_s = 0.05
+[dose]
+rotate_s = 0.5
+rest_s = 0.0
+[stop]
+max_doses = 1
+[sensors]
+rate_window_s = 0.05
+)";
+
+/// The rate of six windows, with doses of this closed form [kg].
+std::string lineOf(std::size_t doses, double closedForm, std::size_t windows = 6) {
+    RunResult r;
+    r.doses.resize(doses);
+    for (Dose& d : r.doses) d.closedForm = closedForm;
+    MassRate rate;
+    rate.window = 0.5;
+    rate.windows.resize(windows);
+    rate.all = {2e-3, 1e-4, 0.25};
+    return rateLine(r, rate);
+}
+
+}  // namespace
+
+TEST_CASE("the end of a run tells the rate of a feeder, and not that of doses with a closed form") {
+    const double none = std::nan("");
+    const std::string line = "rate     2.000 g/s +- 0.100 g/s, RSD 25 % over 6 windows of 0.5 s\n";
+    CHECK(lineOf(1, 3e-3) == line);
+    CHECK(lineOf(4, none) == line);
+    CHECK(lineOf(0, none) == line);
+    CHECK(lineOf(2, 3e-3).empty());
+    CHECK(lineOf(1, none, 4).empty());
+}
+
+TEST_CASE("a run of one long dose tells its mass rate, the files of a sweep too, and calibrate takes it") {
+    const Sandbox box;
+    box.write("feeder.toml", kFeeder);
+    const auto o = box.vkdose("run feeder.toml --backend reference --out out");
+    CAPTURE(o.out, o.err);
+    REQUIRE(o.code == 0);
+    CHECK_THAT(o.out, Catch::Contains("\nrate     ") && Catch::Contains(" over 10 windows of 0.05 s"));
+
+    // All windows lie in the dose, and fill it: the mean is its mass over its time.
+    const auto summary = nlohmann::json::parse(readText(box / "out/summary.json"));
+    const auto& rate = summary.at("analysis").at("rate");
+    const double mean = summary.at("doses").at(0).at("mass_kg").get<double>() / 0.5;
+    REQUIRE(mean > 0);
+    CHECK(rate.at("windows") == 10);
+    CHECK(near(rate.at("mean_kg_s").get<double>(), mean, mean, 1e-6));
+
+    box.write("study.toml", R"(base = "feeder.toml"
+[calibrate]
+method = "surrogate"
+max_runs = 3
+confirming_seeds = 2
+[[calibrate.target]]
+figure = "rate.mean_kg_s"
+value = 1.0
+uncertainty = 0.001
+[[calibrate.parameter]]
+key = "contact.friction"
+low = 0.3
+high = 0.6
+)");
+    const auto found = box.vkdose("calibrate study.toml --backend reference --out found");
+    CAPTURE(found.out, found.err);
+    CHECK(found.code == 1);  // a kilogram a second
+    const Table members = Table::read(box / "found/members.csv");
+    const auto finding = nlohmann::json::parse(readText(box / "found/calibration.json"));
+    REQUIRE(members.rows() == 3);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double told = members.number(i, "rate_kg_s");
+        CHECK(told > 0);
+        CHECK(near(finding.at("points").at(i).at("values").at(0).at(0).get<double>(), told, told, 1e-6));
+    }
+
+    std::string study = readText(box / "study.toml");
+    study.replace(study.find("rate.mean_kg_s"), 14, "rate.mean_kgs");
+    box.write("study.toml", study);
+    const auto wrong = box.vkdose("calibrate study.toml --backend reference --out other");
+    CHECK(wrong.code == 2);
+    CHECK_THAT(wrong.err, Catch::Contains("did you mean \"rate.mean_kg_s\""));
+}
+
+TEST_CASE("windows of the rate that are shorter than the sensors can tell are refused") {
+    const Sandbox box;
+    box.write("feeder.toml", kFeeder);
+    const auto o = box.vkdose("check feeder.toml --set sensors.rate_window_s=0.02");
+    CHECK(o.code == 2);
+    CHECK_THAT(o.err, Catch::Contains("sensors.rate_window_s") && Catch::Contains("5 sensor intervals"));
+}
