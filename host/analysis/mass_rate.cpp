@@ -12,6 +12,8 @@ namespace vkdose {
 namespace {
 
 constexpr std::size_t kMostBlocks = 10;
+/// So much of the last window may be missing: whole turns are given in rounded seconds, and made in whole steps.
+constexpr double kAlmost = 0.01;
 constexpr double kTwentieth = 1.0 / 20;
 /// A difference of rates by less than this share is rounding: the time series has nine digits of all that is out.
 constexpr double kRounding = 1e-6;
@@ -50,12 +52,13 @@ class Turning {
         std::vector<RateWindow> list;
         std::size_t line = 0;
         Place from = start(0);
-        // A part in 10^9 is rounding of the sum of lines.
-        for (int k = 1; k * length <= time() * (1 + 1e-9); ++k) {
-            while (line + 1 < lines_.size() && lines_[line].turned < k * length * (1 - 1e-9)) ++line;
-            const Place to = within(line, k * length);
-            list.push_back({from.time, to.time, (to.mass - from.mass) / length});
-            const bool atEnd = lines_[line].turned <= k * length * (1 + 1e-9);
+        for (int k = 1; k * length <= time() + kAlmost * length; ++k) {
+            const double begin = (k - 1) * length, end = std::min(k * length, time());
+            // A part in 10^9 is rounding of the sum of lines.
+            while (line + 1 < lines_.size() && lines_[line].turned < end * (1 - 1e-9)) ++line;
+            const Place to = within(line, end);
+            list.push_back({from.time, to.time, (to.mass - from.mass) / (end - begin)});
+            const bool atEnd = lines_[line].turned <= end * (1 + 1e-9);
             from = atEnd && line + 1 < lines_.size() ? start(line + 1) : to;
         }
         return list;

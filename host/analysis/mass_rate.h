@@ -57,7 +57,7 @@ std::optional<std::size_t> steadyFrom(std::span<const RateWindow> windows);
 
 struct MassRate {
     double window = std::numeric_limits<double>::quiet_NaN();  ///< length of one [s]; NaN if nothing turned
-    std::vector<RateWindow> windows;                           ///< whole ones, in order; what is left at the end is out
+    std::vector<RateWindow> windows;                           ///< in order; the last lacks a hundredth at most
     RateFigures all;
     std::optional<std::size_t> steady;  ///< the first window of the steady part
     RateFigures steadyPart;

@@ -225,8 +225,8 @@ Json figuresJson(const Checked& all) {
             {"bond_largest", jsonNumber(f.bondLargest)},
             {"coil_gap_m", jsonNumber(f.coilGap)},
             {"coil_clearance_m", jsonNumber(f.coilClearance)},
-            {"dose_kg", jsonNumber(d.massPerDose)},
-            {"doses", jsonNumber(d.doses)},
+            {"dose_kg", jsonPositive(d.massPerDose)},
+            {"doses", jsonPositive(d.doses)},
             {"steps", jsonNumber(d.steps)},
             {"simulated_s", jsonNumber(f.runTime)}};
 }

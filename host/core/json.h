@@ -15,6 +15,11 @@ inline nlohmann::ordered_json jsonNumber(double x) {
     return std::isfinite(x) ? nlohmann::ordered_json(x) : nlohmann::ordered_json(nullptr);
 }
 
+/// A figure that there is none of unless it is above 0, as the closed form of a device without one.
+inline nlohmann::ordered_json jsonPositive(double x) {
+    return x > 0 ? jsonNumber(x) : nlohmann::ordered_json(nullptr);
+}
+
 /// A value of a row: a number, a word, true or false.
 template <class T>
 nlohmann::ordered_json jsonValue(const T& x) {

@@ -41,15 +41,10 @@ Json inputs(const Case& c, const RunResult& r) {
     return j;
 }
 
-/// Null where there is no closed form.
-Json positive(double x) {
-    return x > 0 ? jsonNumber(x) : Json(nullptr);
-}
-
 /// Doses to a mass have the closed form of the turns that they made. What `derive` gives of them is their target, by
 /// which their number is planned.
 Json closedFormDose(const Case& c, const RunResult& r) {
-    if (c.schedule.targetMass == 0) return positive(r.derived.massPerDose);
+    if (c.schedule.targetMass == 0) return jsonPositive(r.derived.massPerDose);
     const TargetFigures f = targetFigures(r.doses);
     return f.doses > 0 ? jsonNumber(f.closedForm) : Json(nullptr);
 }
@@ -66,7 +61,7 @@ Json closedForms(const Case& c, const RunResult& r) {
     j["push_velocity_m_s"] = conveys ? jsonNumber(d.pushVelocity) : Json(nullptr);
     j["tip_velocity_m_s"] = conveys ? jsonNumber(d.tipVelocity) : Json(nullptr);
     j["mass_per_dose_kg"] = closedFormDose(c, r);
-    j["doses"] = positive(d.doses);
+    j["doses"] = jsonPositive(d.doses);
     j["stiffest_contact_duration_s"] = jsonNumber(d.stiffest);
     return j;
 }

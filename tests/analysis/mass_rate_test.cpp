@@ -62,6 +62,20 @@ TEST_CASE("a constant rate has its mean, no scatter and no start-up") {
     CHECK(sameRate(r.steadyPart.mean, kRate));
 }
 
+TEST_CASE("a last window that lacks up to a hundredth counts, over the time that it has") {
+    std::vector<FlowSample> samples = turning(1.99, evenly);
+    FlowSample last = samples.back();
+    last.time = 1.9991;
+    last.dosed = evenly(last.time);
+    samples.push_back(last);
+    const MassRate r = massRate(samples, kTenthSecond);
+    REQUIRE(r.windows.size() == 20);
+    CHECK(r.windows.back().to == 1.9991);
+    CHECK(sameRate(r.windows.back().rate, kRate));
+    samples.back().time = 1.9989;
+    CHECK(massRate(samples, kTenthSecond).windows.size() == 19);
+}
+
 TEST_CASE("MSER-5 cuts where a start-up ends, and the steady part has its own figures") {
     // The rate rises for 0.4 s. From there windows of 0.95 and 1.05 of the rate take turns.
     constexpr double kRamp = 0.4;

@@ -60,7 +60,7 @@ void writeEnd(const Sandbox& box) {
     box.write("run/case.toml", mini().resolved);
     writeParticles(box / "run/particles.csv", threeSpheres());
     box.write("run/summary.json",
-              R"({"simulated_time_s": 0.95, "steps": 47500, "coil_angle_rad": 1.5, "doses": [{}, {}]})");
+              R"({"simulated_time_s": 0.95, "steps": 47500, "coil_angle_rad": -1.5, "doses": [{}, {}]})");
 }
 
 /// A run of two doses with a frame every 0.1 s: after 0.2 s of settling one sphere leaves in each of the first dose's
@@ -152,7 +152,7 @@ TEST_CASE("render: what cannot be drawn is told, and nothing is written") {
     refused("run --time 0.95 --panels", "excludes");
     refused("run --rate 10", "requires");
     refused("run --device nosuchdevice", "nosuchdevice", kDeviceError);
-    refused("run --size 80x60 --out no/such/folder.png", "cannot write", kOutputError);
+    refused("run --size 80x64 --out no/such/folder.png", "cannot write", kOutputError);
     box.write("run/summary.json", "{}");
     refused("run", "simulated_time_s", kOutputError);
 }

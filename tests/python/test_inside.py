@@ -367,7 +367,8 @@ class Errors(InFolder):
         for _ in range(5):
             said = self.python(script, sys.path)
             self.assertEqual(said.returncode, 0, said.stdout)
-            self.assertIn(said.stdout, ("", "refused: Python is ending, so no simulation goes on\n"))
+            # The thread may be stopped within the line.
+            self.assertTrue("refused: Python is ending, so no simulation goes on\n".startswith(said.stdout), said.stdout)
 
     def test_nothing_is_printed(self):
         script = f"import vkdose; vkdose.Simulation('mini', {SHORT!r}, backend='reference').run()"
