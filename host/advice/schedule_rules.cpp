@@ -150,7 +150,7 @@ Found aliasedSensors(const Subject& s) {
         return Finding{
             "sensors.interval_s",
             fmt::format("is {:.3g} periods of body \"{}\", which moves at {:.4g} Hz; the time series then shows "
-                        "a slow motion that is none",
+                        "a slow motion that does not exist",
                         periods, body.name, frequency),
             fmt::format("give {:.3g} or less, or whole periods: {:.6g}", kSampledPeriod / frequency,
                         std::max(whole, 1.0) / frequency)};
