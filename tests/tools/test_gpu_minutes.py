@@ -102,7 +102,17 @@ esac
         self.assertIn("signal 11", met["a/dead"]["why"])
         parts.verify(self.session(script), 60)  # as a second call
         with open(os.path.join(self.folder, "calls"), encoding="utf-8") as f:
-            self.assertEqual(f.read().split(), ["a/good", "a/bad", "a/bad"])
+            self.assertEqual(sorted(f.read().split()), ["a/bad", "a/bad", "a/good"])
+
+    def test_as_many_at_once_as_there_are_processors_and_none_begins_after_the_time(self):
+        now = [0.0]
+        s = self.session("true", now=lambda: now[0])
+        begun = []
+        for name, ended in s.side_by_side("abcdefgh" * 8, lambda name: ["sh", "-c", "exit 3"], s.deadline.part(10)):
+            begun.append((name, ended.code))
+            now[0] = 11.0
+        self.assertLess(len(begun), 64)
+        self.assertEqual({code for _, code in begun}, {3})
 
     def test_nothing_begins_without_time(self):
         s = self.session(f"echo called >> {self.folder}/calls")
@@ -262,6 +272,16 @@ class Whole(InFolder):
         made = sorted(n for n in os.listdir(os.path.join(out, "logs")) if not n.startswith("list-"))
         self.assertEqual(made, ["devices.txt", "first.txt", "verify-list.txt"])
 
+    def test_only_the_parts_that_are_asked_for_run(self):
+        out = os.path.join(self.folder, "out")
+        self.call(ROOT, "60", "--tiny", "--only", "queue", "--out", out, "--queue", self.queue(), "--program", PROGRAM)
+        made = sorted(os.listdir(os.path.join(out, "logs")))
+        self.assertEqual(made, ["devices.txt", "first.txt", "queue-tiny.txt"])
+        done = subprocess.run([os.path.join(ROOT, "tools", "gpu-minutes"), "--only", "quark"], capture_output=True,
+                              text=True, check=False)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("quark: give parts of verify,tests,members,bench,queue", done.stderr)
+
     def test_a_packed_folder_works_by_itself(self):
         packed = os.path.join(self.folder, "card.tar.gz")
         said = self.call(ROOT, "--pack", packed, "--program", PROGRAM)
@@ -273,6 +293,8 @@ class Whole(InFolder):
         libraries = os.listdir(os.path.join(folder, "lib"))
         self.assertTrue(any(n.startswith("libfmt") for n in libraries))
         self.assertFalse(any(n.startswith("libc.so") for n in libraries))
+        for name in places.DRIVER_NEEDS:
+            self.assertTrue(name in libraries or f"left out: {name}" in said, name)
         out = os.path.join(self.folder, "out")
         self.call(folder, "60", "--tiny", "--out", out, "--queue", self.queue())
         self.assertTrue(os.path.exists(os.path.join(out, "gpu-minutes.md")))

@@ -13,8 +13,16 @@ import studies
 from run import Deadline
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-# Shares of the time. What a part leaves is there for the next ones.
-SHARES = {"verify": 0.3, "tests": 0.25, "members": 0.15, "bench": 0.15}
+# Shares of the time. What a part leaves is there for the next ones, and the last part has all that is left.
+SHARES = {"verify": 0.2, "tests": 0.2, "members": 0.1, "bench": 0.15, "queue": 0.35}
+
+
+def parts_in(text):
+    names = text.split(",")
+    unknown = [n for n in names if n not in SHARES]
+    if unknown:
+        raise argparse.ArgumentTypeError(f"{unknown[0]}: give parts of {','.join(SHARES)}")
+    return [n for n in SHARES if n in names]
 
 
 def options():
@@ -25,6 +33,8 @@ def options():
     p.add_argument("minutes", nargs="?", type=float, default=15.0, help="that there are (default: 15)")
     p.add_argument("--early", type=float, default=120.0, metavar="SECONDS",
                    help="before the end, when all is packed (default: 120)")
+    p.add_argument("--only", metavar="PARTS", type=parts_in, default=list(SHARES),
+                   help="of " + ",".join(SHARES) + " (default: all)")
     p.add_argument("--queue", metavar="FILE", help="of studies (default: cases/queue.toml)")
     p.add_argument("--out", metavar="DIR", default="out/gpu-minutes", help="folder of the results (default: %(default)s)")
     p.add_argument("--device", metavar="NAME", help="index or part of the name (default: as vkdose takes it)")
@@ -75,12 +85,13 @@ def play(given):
     memory.open_card(device, memories.hash_of(place.program))
     queue = given.queue or os.path.join(ROOT, "cases", "queue.toml")
     spare = deadline.left()
-    steps = [(name, lambda name=name, share=share: getattr(parts, name)(s, share * spare))
-             for name, share in SHARES.items()]
-    steps.append(("queue", lambda: studies.queue(s, queue, deadline.left(), memory.rate() or 1e8)))
-    for name, step in steps:
+    for name in given.only:
+        seconds = deadline.left() if name == given.only[-1] else SHARES[name] * spare
         try:
-            step()
+            if name == "queue":
+                studies.queue(s, queue, seconds, memory.rate() or 1e8)
+            else:
+                getattr(parts, name)(s, seconds)
         except Exception as error:  # a fault of one part leaves the others alone
             memory.note(f"{name}: {type(error).__name__}: {error}")
         memory.save()

@@ -95,11 +95,12 @@ def carried(place, to, tests=True):
     libraries = {}
     for program in programs:
         libraries.update(libraries_of(program))
-    loader = places.library("libvulkan.so.1")
-    if loader:
-        libraries["libvulkan.so.1"] = loader
-    else:
-        out.append("the Vulkan loader, which is not here (libvulkan1)")
+    for name, package in places.DRIVER_NEEDS.items():
+        path = places.library(name)
+        if path:
+            libraries[name] = path
+        else:
+            out.append(f"{name}, which is not here (Debian's package {package})")
     os.makedirs(os.path.dirname(os.path.abspath(to)), exist_ok=True)
     with tempfile.TemporaryDirectory() as work, tarfile.open(to, "w:gz", compresslevel=6) as archive:
         for program in programs:

@@ -1,6 +1,7 @@
 """The parts of a quarter of an hour, in the order of their worth. Each goes on where the memory says that it had come
 to. What fails or overruns is told and does not keep the rest from running."""
 
+import concurrent.futures
 import csv
 import io
 import json
@@ -11,6 +12,7 @@ import place as places
 from run import run
 
 CANISTERS = [1, 4, 16, 64, 256]
+MOST_AT_ONCE = 16  # programs that share the card; known answers and tests leave it idle most of the time
 BEDS = ["free-fall", "bed-48g-rest", "bed-48g-turning", "bed-3k", "bed-27k", "bed-100k", "bed-300k", "bed-1M"]
 
 
@@ -35,6 +37,18 @@ class Session:
     def vkdose(self, name, words, seconds):
         return self.call(name, [self.place.program, *words], seconds)
 
+    def side_by_side(self, names, words, part):
+        """Runs a program for each name, as many at once as there are processors, and yields the names with how they
+        ended as they end. `words`: gives the program's words for a name. None begins after the time of `part`."""
+        def one(name):
+            return self.call(name, words(name), part.left()) if part.left() > 0 else None
+
+        with concurrent.futures.ThreadPoolExecutor(min(MOST_AT_ONCE, os.cpu_count() or 1)) as pool:
+            begun = {pool.submit(one, name): name for name in names}
+            for future in concurrent.futures.as_completed(begun):
+                if future.result() is not None:
+                    yield begun[future], future.result()
+
 
 def devices(s):
     """Which devices there are. Returns the one that the program takes, or None."""
@@ -55,15 +69,19 @@ def verify(s, seconds):
     """The known answers, case by case."""
     part = s.deadline.part(seconds)
     met = s.memory.card["verify"]
-    words = ["test", "verify", "--list"] + (["--only", "integrator/"] if s.tiny else [])
-    names = [line.split()[0] for line in s.vkdose("verify-list", words, 60).text.splitlines() if "/" in line]
-    for name in names:
-        if met.get(name, {}).get("failed") == 0 or part.left() <= 0:
-            continue
-        folder = os.path.join(s.out, "verify", name.replace("/", "-"))
-        ended = s.vkdose("verify " + name, ["test", "verify", "--only", name, "--out", folder, *s.device], part.left())
+    listed = s.vkdose("verify-list", ["test", "verify", "--list"] + (["--only", "integrator/"] if s.tiny else []), 60)
+    names = [line.split()[0] for line in listed.text.splitlines() if "/" in line]
+
+    def folder_of(name):
+        return os.path.join(s.out, "verify", name.replace("/", "-"))
+
+    def words(name):
+        return [s.place.program, "test", "verify", "--only", name, "--out", folder_of(name), *s.device]
+
+    missing = [name for name in names if met.get(name, {}).get("failed") != 0]
+    for name, ended in s.side_by_side(missing, words, part):
         try:
-            with open(os.path.join(folder, "verify.json"), encoding="utf-8") as f:
+            with open(os.path.join(folder_of(name), "verify.json"), encoding="utf-8") as f:
                 results = [r for r in json.load(f)["results"] if r["case"] == name]
         except (OSError, ValueError, KeyError):
             results = None
@@ -103,23 +121,22 @@ def tests(s, seconds):
     part = s.deadline.part(seconds)
     known = s.memory.card["tests"]
     count = 0
+    specs = {}
     for room in places.ROOMS:
         names = tests_in(s, room)[:2 if s.tiny else None]
         count += len(names)
         for name in names:
-            key = f"{room}: {name}"
-            if known.get(key) == "passed" or part.left() <= 0:
-                continue
-            spec = re.sub(r"([\\,\[\]*])", r"\\\1", name)
-            ended = s.call(key, [s.place.test(room), spec], part.left())
-            skipped = "skipped:" in ended.text
-            good = ended.code == 0 and not ended.overran and "No test cases matched" not in ended.text
-            known[key] = "skipped" if skipped and good else "passed" if good else "failed"
-            if ended.overran and part.left() <= 0:
-                known[key] = "unfinished"  # there was no time for it
-            elif not good:
-                s.memory.note(f"test {key}: {ended.words() or 'failed'}")
-            s.memory.save()
+            if known.get(f"{room}: {name}") != "passed":
+                specs[f"{room}: {name}"] = [s.place.test(room), re.sub(r"([\\,\[\]*])", r"\\\1", name)]
+    for key, ended in s.side_by_side(specs, specs.get, part):
+        skipped = "skipped:" in ended.text
+        good = ended.code == 0 and not ended.overran and "No test cases matched" not in ended.text
+        known[key] = "skipped" if skipped and good else "passed" if good else "failed"
+        if ended.overran and part.left() <= 0:
+            known[key] = "unfinished"  # there was no time for it
+        elif not good:
+            s.memory.note(f"test {key}: {ended.words() or 'failed'}")
+        s.memory.save()
     s.memory.card["tests_all"] = count
     s.memory.save()
 

@@ -8,6 +8,11 @@ import shutil
 
 ROOMS = ["pass", "scene", "render", "device"]  # whose tests judge what a device computes
 NVIDIA = "libGLX_nvidia.so.0"
+LOADER = "libvulkan.so.1"
+# Libraries that a bare machine may lack, with Debian's packages: the Vulkan loader, and what NVIDIA's driver loads. Without
+# them the driver is found and says no more than that it does not start.
+DRIVER_NEEDS = {LOADER: "libvulkan1", "libGLdispatch.so.0": "libglvnd0", "libX11.so.6": "libx11-6",
+                "libXext.so.6": "libxext6"}
 
 
 class Place:
@@ -79,6 +84,8 @@ def tools_missing(place):
         missing.append(f"{place.program}: build it with tools/build release, or carry a folder made by --pack")
     missing += [f"{place.test(room)}: its tests are left out" for room in ROOMS
                 if not os.path.isfile(place.test(room))]
-    if not place.packed and library("libvulkan.so.1") is None and shutil.which("ldconfig"):
-        missing.append("libvulkan.so.1, the Vulkan loader: Debian's package libvulkan1")
+    for name, package in DRIVER_NEEDS.items():
+        carried = os.path.exists(os.path.join(place.libraries, name))
+        if (name == LOADER or library(NVIDIA)) and library(name) is None and not carried:
+            missing.append(f"{name}: Debian's package {package}")
     return missing
