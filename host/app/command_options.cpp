@@ -221,9 +221,19 @@ CLI::App& addProfile(CLI::App& program, ProfileOptions& options) {
 }
 
 CLI::App& addRender(CLI::App& program, RenderOptions& options) {
-    CLI::App& command = *program.add_subcommand("render", "draw pictures and films of a run");
-    command.add_option("dir", options.folder, "output folder of the run")->required()->type_name("DIR");
-    command.add_option("--out", options.out, "picture to write, a PNG (default: picture.png in the folder)")
+    CLI::App& command =
+        *program.add_subcommand("render", "draw pictures and films of a run, or of a case before it runs");
+    command
+        .add_option("run", options.input.file,
+                    "output folder of a run; or a case, by its file or its name: its device and its powder before "
+                    "anything moves")
+        ->required()
+        ->type_name("DIR|FILE");
+    addSet(command, options.input.overrides, "replace a value of the case that is drawn; may be repeated");
+    command
+        .add_option("--out", options.out,
+                    "picture to write, a PNG (default: picture.png in the folder; of a case its name in the current "
+                    "folder)")
         ->type_name("FILE");
     auto* times =
         command
@@ -248,9 +258,11 @@ CLI::App& addRender(CLI::App& program, RenderOptions& options) {
         ->check(CLI::Range(0.1, 240.0))
         ->capture_default_str()
         ->needs(movie);
-    command.add_option("--color", options.color, "quantity that the colour tells")
-        ->check(CLI::IsMember({"kinetic-energy", "speed", "overlap", "radius", "fill-layer", "powder"}))
-        ->capture_default_str();
+    command
+        .add_option("--color", options.color,
+                    "quantity that the colour tells (default: kinetic-energy; of a case radius, or powder if it has "
+                    "several)")
+        ->check(CLI::IsMember({"kinetic-energy", "speed", "overlap", "radius", "fill-layer", "powder"}));
     command.add_option("--from", options.from, "value where the colours begin, in the unit of the colour bar");
     command.add_option("--to", options.to, "value where the colours end");
     command.add_option("--view", options.view, "side from which the picture is drawn")

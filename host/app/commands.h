@@ -135,14 +135,14 @@ struct ProfileOptions {
 };
 
 struct RenderOptions {
-    std::filesystem::path folder;  ///< output folder of a run
-    BackendChoice backend;         ///< its device
-    std::filesystem::path out;     ///< empty: picture.png in the folder
-    std::vector<double> times;     ///< [s]; none: the end
+    CaseOptions input;          ///< its file may be the output folder of a run
+    BackendChoice backend;      ///< its device
+    std::filesystem::path out;  ///< empty: picture.png in the folder, or beside the case CASE.png
+    std::vector<double> times;  ///< [s]; none: the end
     bool panels = false;           ///< instead four times that tell the run's story
     std::filesystem::path movie;   ///< a film, or without a suffix a folder; empty: none
     double rate = 25;              ///< pictures of a film in a second
-    std::string color = "kinetic-energy";
+    std::string color;  ///< empty: kinetic-energy, of a case radius or powder
     std::string view = "side";
     std::string size;  ///< "1280x720"; empty: as large as what is to be seen takes
     bool noCoil = false;

@@ -138,6 +138,7 @@ void tellDesign(const NewDesign& d, const Case& c, const std::filesystem::path& 
     const std::string word = shellWord(file.string());
     tell(
         "next       vkdose check {0}   (what it implies, and how long it takes)\n"
+        "           vkdose render {0}   (a picture of the device and its powder)\n"
         "           vkdose run {0}\n",
         word);
 }

@@ -8,6 +8,7 @@
 #include "host/app/commands.h"
 #include "host/app/exit_code.h"
 #include "host/app/film.h"
+#include "host/app/find_case.h"
 #include "host/app/inputs.h"
 #include "host/app/run_states.h"
 #include "host/app/tell.h"
@@ -26,6 +27,31 @@ namespace {
 
 constexpr int kSmallest = 64, kLargest = 16384;
 
+bool isRun(const RenderOptions& options) {
+    std::error_code code;
+    return fs::is_directory(options.input.file, code);
+}
+
+RunStates statesOf(const RenderOptions& options) {
+    const CaseOptions& input = options.input;
+    if (!isRun(options)) return RunStates(loadCase(findCase(input.file), input.overrides));
+    if (!input.overrides.empty())
+        throw UsageError(fmt::format("--set {}: {} is the folder of a run, whose case is what it was; give a case",
+                                     input.overrides.front(), input.file.string()));
+    return RunStates(input.file);
+}
+
+/// The files that are read, which no picture may replace.
+std::vector<fs::path> filesRead(const RenderOptions& options, const RunStates& states) {
+    return isRun(options) ? filesOfRun(options.input.file) : states.setup().files;
+}
+
+fs::path pictureOf(const RenderOptions& options) {
+    if (!options.out.empty()) return options.out;
+    return isRun(options) ? options.input.file / "picture.png"
+                          : fs::path(findCase(options.input.file).stem().string() + ".png");
+}
+
 /// "1280x720" to pixels; zero, zero for nothing.
 std::pair<int, int> sizeOf(const std::string& text) {
     if (text.empty()) return {0, 0};
@@ -41,12 +67,19 @@ std::pair<int, int> sizeOf(const std::string& text) {
     return {width, height};
 }
 
+/// Nothing of a case moves yet, so that what tells its particles apart is coloured.
+render::Quantity quantityOf(const RenderOptions& options, const Case& c) {
+    if (!options.color.empty()) return *render::quantityNamed(options.color);
+    if (isRun(options)) return render::Quantity::KineticEnergy;
+    return powdersOf(c.world).size() > 1 ? render::Quantity::Powder : render::Quantity::Radius;
+}
+
 /// Draws the states of a run, all with the same scale, camera and size.
 class Renderer {
   public:
     Renderer(const RenderOptions& options, const RunStates& states, const std::vector<std::size_t>& chosen)
         : states_(states),
-          quantity_(*render::quantityNamed(options.color)),
+          quantity_(quantityOf(options, states.setup())),
           device_(vk::DeviceChoice{options.backend.device, options.backend.validation}),
           caster_(device_) {
         spec_.view = *render::viewNamed(options.view);
@@ -164,14 +197,16 @@ std::vector<std::size_t> chosenOf(const RenderOptions& options, const RunStates&
 }  // namespace
 
 int renderCommand(const RenderOptions& options) {
-    const fs::path picture = options.out.empty() ? options.folder / "picture.png" : options.out;
-    keepInputs(filesOfRun(options.folder), {picture, options.movie});
+    const RunStates states = statesOf(options);
+    const fs::path picture = pictureOf(options);
+    keepInputs(filesRead(options, states), {picture, options.movie});
     requireSuffix(picture, ".png", "a PNG picture");
     if (!options.movie.has_extension() && !options.movie.empty()) requireNoPictures(options.movie);
-    const RunStates states(options.folder);
     if ((options.panels || !options.movie.empty()) && !states.hasFrames())
-        throw UsageError(fmt::format("{} kept no frames ([frames] in its case does), only its end can be drawn",
-                                     options.folder.string()));
+        throw UsageError(fmt::format("{} {}", options.input.file.string(),
+                                     isRun(options)
+                                         ? "kept no frames ([frames] in its case does), only its end can be drawn"
+                                         : "is a case, only its start can be drawn"));
     const std::vector<std::size_t> chosen = chosenOf(options, states);
     Renderer renderer(options, states, chosen);
     if (!options.movie.empty())

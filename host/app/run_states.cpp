@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "host/app/backends.h"
 #include "host/core/file.h"
@@ -21,19 +22,29 @@ Case caseOf(const fs::path& folder) {
     return loadResolvedCase(*text, file);
 }
 
+FrameEntry entryOf(const Frame& frame) {
+    return {0, frame.step, frame.time, frame.phase, frame.dose, frame.coilAngle};
+}
+
 }  // namespace
 
-RunStates::RunStates(const fs::path& folder) : case_(caseOf(folder)), frames_(folder), entries_(frames_.entries()) {
-    if (hasFrames()) return;
+RunStates::RunStates(const fs::path& folder)
+    : case_(caseOf(folder)), frames_(folder), entries_(frames_->entries()) {
+    if (!entries_.empty()) return;
     if (!fs::exists(folder / "summary.json"))
         throw UsageError(
             fmt::format("{} holds neither frames nor an end: the run has to come to one first", folder.string()));
-    end_ = readEndState(folder, case_);
-    entries_.push_back({0, end_->step, end_->time, end_->phase, end_->dose, end_->coilAngle});
+    only_ = readEndState(folder, case_);
+    entries_ = {entryOf(*only_)};
+}
+
+RunStates::RunStates(Case c) : case_(std::move(c)), only_(Frame{}) {
+    only_->particles = insertParticles(case_).particles;
+    entries_ = {entryOf(*only_)};
 }
 
 Frame RunStates::read(std::size_t entry) const {
-    return end_ ? *end_ : frames_.read(entries_.at(entry));
+    return only_ ? *only_ : frames_->read(entries_.at(entry));
 }
 
 std::size_t RunStates::at(double time) const {

@@ -1,5 +1,5 @@
 #pragma once
-// The states of a run that can be looked at: its frames, or its end if it kept none.
+// The states that can be looked at: the frames of a run, or its end if it kept none; or the start of a case.
 
 #include <cstddef>
 #include <filesystem>
@@ -16,10 +16,12 @@ class RunStates {
     /// Opens the states of the run in this output folder. Throws UsageError if the folder holds no run, or a run with
     /// neither frames nor an end. Throws OutputError if the stored data cannot be read.
     explicit RunStates(const std::filesystem::path& folder);
+    /// The state in which a run of this case would begin. Powder of refills is not in it.
+    explicit RunStates(Case c);
 
     const Case& setup() const { return case_; }
-    bool hasFrames() const { return !frames_.entries().empty(); }
-    /// In the order of time. A run without frames has only its end.
+    bool hasFrames() const { return !only_; }
+    /// In the order of time. A run without frames has only its end, a case only its start.
     const std::vector<FrameEntry>& entries() const { return entries_; }
     Frame read(std::size_t entry) const;
 
@@ -37,8 +39,8 @@ class RunStates {
     double massLeft(std::size_t entry) const;
 
     Case case_;
-    Frames frames_;
-    std::optional<Frame> end_;
+    std::optional<Frames> frames_;
+    std::optional<Frame> only_;  ///< the end or the start
     std::vector<FrameEntry> entries_;
 };
 

@@ -87,7 +87,7 @@ TEST_CASE("new: three devices give cases that check has nothing against") {
         const auto made = box.vkdose("new my.toml " + device.options);
         CAPTURE(made.err);
         REQUIRE(made.code == 0);
-        CHECK_THAT(made.out, Catch::Contains("vkdose check my.toml") && Catch::Contains("particle-steps"));
+        CHECK_THAT(made.out, Catch::Contains("vkdose check my.toml") && Catch::Contains("vkdose render my.toml") && Catch::Contains("particle-steps"));
         CHECK((made.out.find("warning") != made.out.npos) == !device.warned.empty());
         const auto check = checked(box, "my.toml");
         std::vector<std::string> accepted, warned;

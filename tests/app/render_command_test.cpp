@@ -134,7 +134,9 @@ TEST_CASE("render: what cannot be drawn is told, and nothing is written") {
         CHECK_THAT(outcome.err, Catch::Contains(why));
         CHECK_FALSE(fs::exists(box / "run/picture.png"));
     };
-    refused("nowhere", "no output folder of a run");
+    refused("nowhere", "neither a file nowhere nor a case of that name");
+    refused("no/where", "no/where");
+    refused("run --set coil.speed_rpm=60", "is the folder of a run, whose case is what it was");
     refused("empty", "it holds no case.toml");
     refused("begun", "begun holds neither frames nor an end");
     refused("run --time 0.5", "no frame at 0.5 s: the run kept none");
@@ -155,6 +157,36 @@ TEST_CASE("render: what cannot be drawn is told, and nothing is written") {
     refused("run --size 80x64 --out no/such/folder.png", "cannot write", kOutputError);
     box.write("run/summary.json", "{}");
     refused("run", "simulated_time_s", kOutputError);
+}
+
+TEST_CASE("render: a case before it runs") {
+    const Sandbox box;
+    box.write("small.toml", readText(fs::path(VKDOSE_SOURCE_DIR) / "cases/mini.toml"));
+    const auto outcome = box.vkdose("render small.toml --size 320x240");
+    CHECK(outcome.err.empty());
+    REQUIRE(outcome.code == kOk);
+    CHECK(outcome.out == "small.png\n");
+    const int powder = Png(box / "small.png").coloured(0.6);
+    CHECK(powder > 50);
+
+    // By its name, and with a value replaced: twice the powder is seen.
+    CHECK(box.vkdose("render mini --size 320x240 --out same.png").code == kOk);
+    const bool same = readText(box / "same.png") == readText(box / "small.png");
+    CHECK(same);
+    CHECK(box.vkdose("render mini --size 320x240 --set particles.mass_g=0.2 --out less.png").code == kOk);
+    CHECK(Png(box / "less.png").coloured(0.6) < powder / 2);
+
+    const auto refused = [&](const std::string& arguments, const std::string& why) {
+        INFO(arguments);
+        const auto told = box.vkdose("render small.toml " + arguments);
+        CHECK(told.code == kBadInput);
+        CHECK_THAT(told.err, Catch::Contains(why));
+    };
+    refused("--panels", "only its start can be drawn");
+    refused("--movie film", "only its start can be drawn");
+    refused("--color fill-layer", "kept no frames");
+    refused("--out small.toml", "small.toml");
+    refused("--set coil.speed=1", "coil.speed");
 }
 
 TEST_CASE("render: which state is drawn") {
