@@ -27,13 +27,13 @@ bool beyond(vec3 way, float limit) { return dot(way, way) > limit * limit; }
 /// region.
 bool isDosed(vec3 x, float outletZ, vec4 first) {
     bool dosed = x.z > outletZ;
-    for (uint k = 0u; k < kMaxRegionOutlets; ++k) {
+    for (uint k = 0u; k < OUTLETS; ++k) {
         if (first.w == 0.0) break;
         vec4 second = outletVector(2u * k + 1u);
         bool beyond = dot(first.xyz, x) > second.w;
         bool within = all(greaterThan(x, first.xyz)) && all(lessThan(x, second.xyz));
         dosed = dosed || (first.w == 1.0 ? beyond : within);
-        if (k + 1u < kMaxRegionOutlets) first = outletVector(2u * k + 2u);
+        if (k + 1u < OUTLETS) first = outletVector(2u * k + 2u);
     }
     return dosed;
 }
@@ -45,9 +45,9 @@ void main() {
     vec4 bottom = domainLow(), top = domainHigh();
     vec4 outlet = outletVector(0u);
     float unit = slackUnit();
-    bool opens = opening();
-    if (waits()) {  // and the next step does so, too
-        if (push.stepInStride < control.steps.y && callOfStep >= kCallSoon) callOfStep = kCallWaits;
+    bool opens = opening(), follows = push.stepInStride < control.steps.y && callOfStep >= kCallSoon;
+    if (waits()) {
+        if (follows) callOfStep = kCallWaits;  // the next step waits, too
         return;
     }
     if (invocation() == 0u) control.steps.z = push.stepInStride + 1u;

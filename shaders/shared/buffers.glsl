@@ -23,8 +23,10 @@ layout(constant_id = 10) const uint MOST_PLACES = 4u;     // in which a sphere t
 
 layout(constant_id = 11) const uint POWDERS = 1u;     // 1: all particles are of the first powder
 layout(constant_id = 12) const uint MANY_WALLS = 0u;  // 1: a surface or body is of a material of its own
+layout(constant_id = 13) const uint OUTLETS = 0u;     // most regions of a member that delete
 
-layout(push_constant) uniform Push { StepPush push; };
+layout(push_constant) uniform Push { StepPush pushed; };
+StepPush push = pushed;  // read before any branch, like all that is the same for all: shaders/README.md, Drivers
 
 // The tables (shared/tables.h), and their bindings by name.
 #define BOUND(number, name, element, access) \

@@ -190,6 +190,15 @@ TEST_CASE("the parts of a table follow one another and fill it") {
     CHECK(end == fields.weights());
 }
 
+TEST_CASE("tables hold a member with no more regions that delete than their pipelines look for") {
+    TableSizes none = oddSizes(true, true), two = none;
+    two.outlets = 2;
+    CHECK(two.holds(none));
+    CHECK_FALSE(none.holds(two));
+    none.growTo(two);
+    CHECK(none.holds(two));
+}
+
 TEST_CASE("an element of a table has its place by part, row and column") {
     const Parts at(oddSizes(true, true));
     const std::uint64_t particles = 3ULL * 1024, spring = 3ULL * 12 * 64, bodySlots = 3ULL * 11 * 64;

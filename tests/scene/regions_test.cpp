@@ -1,5 +1,9 @@
 // Regions on the device: particles are dosed where the reference doses them, at the step at which it does.
 
+#include <algorithm>
+#include <array>
+#include <thread>
+
 #include "host/sim/region_book.h"
 #include "tests/scene/beds.h"
 #include "tests/support/catch.h"
@@ -22,6 +26,29 @@ Particles lanes() {
     Particles p;
     for (int i = 0; i < 5; ++i) p.add({0, 5e-3 * i, 0}, single(1e-3), {1, 0, 0});
     return p;
+}
+
+/// A world for them with a box that deletes across each of the first lanes.
+RuledWorld boxesAcross(std::size_t count) {
+    RuledWorld w = emptyWorld();
+    w.gravity = Vec3(0);
+    w.domain = {Vec3(-0.1), Vec3(0.1)};
+    for (std::size_t k = 0; k < count; ++k)
+        w.regions.push_back(boxed({10e-3, 5e-3 * double(k) - 2e-3, -1}, {20e-3, 5e-3 * double(k) + 2e-3, 1}));
+    return w;
+}
+
+/// What the lanes' spheres are after 15 mm.
+std::vector<Status> flown(Backend& device, const RuledWorld& w) {
+    device.load(w, lanes());
+    device.advance(std::uint32_t(15e-3 / w.timeStep), 0);
+    return device.particles().status;
+}
+
+std::vector<Status> firstDosed(std::size_t count) {
+    std::vector<Status> status(lanes().size(), Status::Active);
+    std::fill_n(status.begin(), count, Status::Dosed);
+    return status;
 }
 
 }  // namespace
@@ -81,18 +108,21 @@ TEST_CASE("regions: a slanted plane and a box dose what comes into them, and not
 }
 
 TEST_CASE("regions: as many as a device has places for, and none more", "[every-driver]") {
-    RuledWorld w = emptyWorld();
-    w.gravity = Vec3(0);
-    w.domain = {Vec3(-0.1), Vec3(0.1)};
-    for (std::size_t k = 0; k < kMaxOutlets; ++k)
-        w.regions.push_back(boxed({10e-3, 5e-3 * double(k) - 2e-3, -1}, {20e-3, 5e-3 * double(k) + 2e-3, 1}));
-    const Particles p = lanes();
     auto device = gpu();
-    device->load(w, p);
-    device->advance(std::uint32_t(15e-3 / w.timeStep), 0);
-    const Particles end = device->particles();
-    for (std::size_t i = 0; i < p.size(); ++i)
-        CHECK(end.status[i] == (i < kMaxOutlets ? Status::Dosed : Status::Active));
-    w.regions.push_back(w.regions[0]);
-    CHECK_THROWS_AS(device->load(w, p), RunError);
+    for (const std::size_t count : {std::size_t(0), kMaxOutlets, std::size_t(1)})
+        CHECK(flown(*device, boxesAcross(count)) == firstDosed(count));
+    CHECK_THROWS_AS(device->load(boxesAcross(kMaxOutlets + 1), lanes()), RunError);
+}
+
+TEST_CASE("regions: members with none, one and two that delete share tables") {
+    auto backends = gpuEnsemble(3);
+    std::array<std::vector<Status>, 3> status;
+    std::vector<std::thread> threads;
+    for (std::size_t k = 0; k < 3; ++k)
+        threads.emplace_back([&, k] {
+            status[k] = flown(*backends[k], boxesAcross(k));
+            backends[k].reset();
+        });
+    for (std::thread& t : threads) t.join();
+    for (std::size_t k = 0; k < 3; ++k) CHECK(status[k] == firstDosed(k));
 }

@@ -71,6 +71,7 @@ void TableSizes::growTo(const TableSizes& other) {
     laws |= other.laws;
     powders = std::max(powders, other.powders);
     manyWalls = std::max(manyWalls, other.manyWalls);
+    outlets = std::max(outlets, other.outlets);
 }
 
 bool TableSizes::holds(const TableSizes& other) const {
@@ -78,7 +79,7 @@ bool TableSizes::holds(const TableSizes& other) const {
     both.growTo(other);
     const auto grown = [](const TableSizes& s) {
         return std::tuple(s.share, s.cells, s.rowEntries, s.linkEntries, s.pairSlots, s.surfaceSlots, s.bodySlots,
-                          s.bodies, s.shapeKinds, s.mostPlaces, s.laws, s.powders, s.manyWalls);
+                          s.bodies, s.shapeKinds, s.mostPlaces, s.laws, s.powders, s.manyWalls, s.outlets);
     };
     return shares(other) && grown(both) == grown(*this);
 }
@@ -189,6 +190,8 @@ TableSizes tableSizes(const World& world, const Crowd& crowd, const gpu::Member&
     const std::vector<int> powders = powdersOf(world);
     s.powders = powders == std::vector{kFirstPowder} ? 1U : std::max(2U, std::uint32_t(powders.size()));
     s.manyWalls = hasManyWalls(world) ? 1U : 0U;
+    s.outlets = std::uint32_t(
+        std::count_if(world.regions.begin(), world.regions.end(), [](const CountRegion& r) { return r.deletes; }));
     if (userLaw && reachOf(member) > 0) s.laws |= 1U << gpu::kUserReaches;
     s.energyBook = world.energyBook;
 
