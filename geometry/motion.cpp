@@ -166,6 +166,14 @@ std::string fault(const Table& m) {
 
 }  // namespace
 
+std::optional<double> periodOf(const Motion& motion) {
+    double frequency = 0;  // [Hz]
+    if (const auto* turn = std::get_if<Turn>(&motion)) frequency = std::abs(turn->rate) / (2 * kPi);
+    if (const auto* swing = std::get_if<Swing>(&motion)) frequency = swing->frequency;
+    if (const auto* shake = std::get_if<Shake>(&motion)) frequency = shake->frequency;
+    return frequency > 0 ? std::optional(1 / frequency) : std::nullopt;
+}
+
 double Schedule::elapsed(double time) const {
     if (intervals.empty()) return time;
     double sum = 0;

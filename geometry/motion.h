@@ -87,6 +87,9 @@ struct Free {
 
 using Motion = std::variant<Rest, Turn, Swing, Shake, Slide, Table, Free>;
 
+/// The time after which a motion repeats itself [s]; none if it does not. A table does not.
+std::optional<double> periodOf(const Motion& motion);
+
 /// When a motion goes on: in intervals [from, to) of the run's time [s], in order and apart. Outside of them the body
 /// stands where it is, and its own clock with it. No interval: always.
 struct Schedule {

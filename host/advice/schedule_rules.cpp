@@ -60,14 +60,14 @@ Found longDose(const Subject& s) {
 
 Found shortLongestTime(const Subject& s) {
     const Schedule& schedule = s.c.schedule;
-    const double perTurn = s.derived.massPerTurn, longest = schedule.rotateTime;
-    if (schedule.targetMass == 0 || !(perTurn > 0) || schedule.coilSpeed == 0) return {};
+    const double longest = schedule.rotateTime;
+    if (schedule.targetMass == 0 || !(s.derived.rate(schedule.coilSpeed) > 0)) return {};
     double time = schedule.rampTime, done = 0;
     for (const DoseStage& stage : schedule.stages) {
-        time += (stage.until - done) * schedule.targetMass / (perTurn * stage.speed / (2 * kPi));
+        time += (stage.until - done) * schedule.targetMass / s.derived.rate(stage.speed);
         done = stage.until;
     }
-    time += (1 - done) * schedule.targetMass / (perTurn * schedule.coilSpeed / (2 * kPi));
+    time += (1 - done) * schedule.targetMass / s.derived.rate(schedule.coilSpeed);
     if (!(longest < kDoseTime * time)) return {};
     return Finding{"dose.max_rotate_s",
                    fmt::format("by the closed form {:.3g} g take {:.3g} s, and powder that slips or a throat that is "
@@ -141,19 +141,18 @@ Found fewSensors(const Subject& s) {
 
 Found aliasedSensors(const Subject& s) {
     for (const RigidBody& body : s.c.world.bodies) {
-        double frequency = 0;
-        if (const auto* shake = std::get_if<geometry::Shake>(&body.course.motion)) frequency = shake->frequency;
-        if (const auto* swing = std::get_if<geometry::Swing>(&body.course.motion)) frequency = swing->frequency;
-        const double periods = s.c.sensorInterval * frequency, whole = std::round(periods);
+        const std::optional<double> period = geometry::periodOf(body.course.motion);
+        if (!period || std::holds_alternative<geometry::Turn>(body.course.motion)) continue;
+        const double periods = s.c.sensorInterval / *period, whole = std::round(periods);
         if (periods <= kSampledPeriod) continue;
         if (whole >= 1 && std::abs(periods - whole) * s.f.runTime <= kSlip * s.c.sensorInterval) continue;
         return Finding{
             "sensors.interval_s",
             fmt::format("is {:.3g} periods of body \"{}\", which moves at {:.4g} Hz; the time series then shows "
                         "a slow motion that does not exist",
-                        periods, body.name, frequency),
-            fmt::format("give {:.3g} or less, or whole periods: {:.6g}", kSampledPeriod / frequency,
-                        std::max(whole, 1.0) / frequency)};
+                        periods, body.name, 1 / *period),
+            fmt::format("give {:.3g} or less, or whole periods: {:.6g}", kSampledPeriod * *period,
+                        std::max(whole, 1.0) * *period)};
     }
     return {};
 }

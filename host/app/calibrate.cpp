@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "host/analysis/cycles.h"
 #include "host/analysis/mass_rate.h"
 #include "host/app/calibration_text.h"
 #include "host/app/commands.h"
@@ -127,6 +128,7 @@ void checkFigures(const Study& study) {
         const Case c = loadCase(t.base);
         std::vector<std::string> known{kMassPerDose};
         for (const RateFigure& f : kRateFigures) known.push_back(std::string(kRateName) + "." + f.name);
+        for (const CycleFigure& f : kCycleFigures) known.push_back(std::string(kCycleName) + "." + f.name);
         for (const ElementTest& m : c.measures)
             for (const std::string& figure : figureNames(m)) known.push_back(m.name + "." + figure);
         if (std::find(known.begin(), known.end(), t.figure) != known.end()) continue;

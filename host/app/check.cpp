@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -132,15 +133,21 @@ void printGaps(const Checked& all) {
 }
 
 void printPredictions(const Derived& d, const Schedule& schedule, bool coil) {
-    const char* form =
-        coil ? "rho_b p pi r_c^2 n_t" : "rho_b times the way and the free section of the body that carries most";
+    const std::string form =
+        coil ? "rho_b p pi r_c^2 n_t"
+             : fmt::format("rho_b times pitch and free section of {}", fmt::join(d.conveyors, ", "));
     tell("push V_z   {:.4g} mm/s (p Omega / 2 pi)\n", d.pushVelocity * 1e3);
     tell("tip V_t    {:.4g} mm/s (Omega r_c)\n", d.tipVelocity * 1e3);
-    if (schedule.targetMass > 0)
-        tell("per dose   {:.4g} g, which are {:.3g} turns by the closed form ({})\n", d.massPerDose * 1e3,
-             d.massPerDose / d.massPerTurn, form);
+    tell("rate       {:.4g} g/s by the closed form ({})\n", d.rate(schedule.coilSpeed) * 1e3, form);
+    if (schedule.rotateTime == 0) return;
+    if (schedule.targetMass > 0 && d.massPerTurn > 0)
+        tell("per dose   {:.4g} g, which are {:.3g} turns by the closed form\n", d.massPerDose * 1e3,
+             d.massPerDose / d.massPerTurn);
+    else if (schedule.targetMass > 0)
+        tell("per dose   {:.4g} g, which take {:.3g} s by the closed form\n", d.massPerDose * 1e3,
+             d.massPerDose / d.massPerSecond);
     else
-        tell("per dose   {:.4g} g by the closed form ({})\n", d.massPerDose * 1e3, form);
+        tell("per dose   {:.4g} g by the closed form\n", d.massPerDose * 1e3);
     tell("doses      {:.3g} to empty the canister by the closed form\n", d.doses);
 }
 
@@ -162,7 +169,7 @@ void printText(const CheckOptions& options, const Checked& all) {
     printContacts(all.c, all.derived, all.figures);
     printBed(all);
     printGaps(all);
-    if (all.derived.massPerTurn > 0) printPredictions(all.derived, all.c.schedule, all.c.world.coil.has_value());
+    if (all.derived.conveys()) printPredictions(all.derived, all.c.schedule, all.c.world.coil.has_value());
     const Schedule& s = all.c.schedule;
     tell("schedule   settle {}{} steps, rotate {}{}, rest {}; sensors every {} steps\n",
          s.untilRest ? "until at rest, at most " : "", timeline.settleSteps(), s.targetMass > 0 ? "at most " : "",
@@ -225,6 +232,7 @@ Json figuresJson(const Checked& all) {
             {"bond_largest", jsonNumber(f.bondLargest)},
             {"coil_gap_m", jsonNumber(f.coilGap)},
             {"coil_clearance_m", jsonNumber(f.coilClearance)},
+            {"rate_kg_s", jsonPositive(d.rate(all.c.schedule.coilSpeed))},
             {"dose_kg", jsonPositive(d.massPerDose)},
             {"doses", jsonPositive(d.doses)},
             {"steps", jsonNumber(d.steps)},

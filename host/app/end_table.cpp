@@ -152,13 +152,32 @@ std::string reportText(const Case& c, const RunResult& r, const std::string& bac
     return text;
 }
 
-std::string rateLine(const RunResult& r, const MassRate& rate) {
+namespace {
+
+/// Whether a run is that of a feeder: it made one dose, or doses without a closed form.
+bool feeds(const RunResult& r) {
     const auto hasForm = [](const Dose& d) { return d.closedForm > 0; };
-    if (r.doses.size() > 1 && std::any_of(r.doses.begin(), r.doses.end(), hasForm)) return "";
-    if (rate.windows.size() < kFewestWindows) return "";
-    const auto scatter = [](const RateFigures& f) {
-        return std::isfinite(f.relative) ? fmt::format(", RSD {:.2g} %", f.relative * 100) : std::string();
-    };
+    return r.doses.size() <= 1 || std::none_of(r.doses.begin(), r.doses.end(), hasForm);
+}
+
+std::string scatter(const SeriesFigures& f) {
+    return std::isfinite(f.relative) ? fmt::format(", RSD {:.2g} %", f.relative * 100) : std::string();
+}
+
+}  // namespace
+
+std::string cycleLine(const RunResult& r, const Cycles& cycles) {
+    if (!feeds(r) || cycles.list.size() < kFewestWindows) return "";
+    std::string text = fmt::format("cycle    {}{} over {} cycles, each a {}", cycleText(cycles.all, "+-"),
+                                   scatter(cycles.all), cycles.list.size(), cycles.what);
+    if (cycles.steady)
+        text += fmt::format("; steady from t = {:.4g} s: {}{}", cycles.steadyTime(), cycleText(cycles.steadyPart, "+-"),
+                            scatter(cycles.steadyPart));
+    return text + "\n";
+}
+
+std::string rateLine(const RunResult& r, const MassRate& rate) {
+    if (!feeds(r) || rate.windows.size() < kFewestWindows) return "";
     std::string text = fmt::format("rate     {}{} over {} windows of {:.3g} s", rateText(rate.all, "+-"),
                                    scatter(rate.all), rate.windows.size(), rate.window);
     if (rate.steady)

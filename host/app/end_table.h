@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "host/analysis/cycles.h"
 #include "host/analysis/mass_rate.h"
 #include "host/sim/runner.h"
 
@@ -14,5 +15,7 @@ std::string reportText(const Case& c, const RunResult& result, const std::string
 /// A line with the mass rate of a feeder: a run of one dose, or one whose doses have no closed form. Empty of other
 /// runs, and with too few windows.
 std::string rateLine(const RunResult& result, const MassRate& rate);
+/// The same with the mass of its cycles.
+std::string cycleLine(const RunResult& result, const Cycles& cycles);
 
 }  // namespace vkdose

@@ -92,8 +92,10 @@ int playAloud(ReadyRun run, Backend& backend, RunFolder& folder, const Manner& m
     if (!played.error.empty()) tell(stderr, "vkdose: {}\n", printable(played.error));
     if (played.code == kOutputError) return kOutputError;
     if (!manner.quiet) {
-        tell("{}{}{}output   {}\n", reportText(c, played.result, backend.description()),
-             rateLine(played.result, rateOf(folder.path(), c)),
+        const std::vector<FlowSample> flow = flowIn(folder.path());
+        tell("{}{}{}{}output   {}\n", reportText(c, played.result, backend.description()),
+             rateLine(played.result, massRate(flow, windowRuleOf(c))),
+             cycleLine(played.result, cyclesOf(flow, cycleRuleOf(c))),
              measureText(measuresOf(folder.path(), c, played.result)), printable(folder.path().string()));
         if (played.code == kInterrupted) tell("resume   {}\n", wayOn(folder));
         if (played.code == kOk) tell("{}", nextText(folder.path()));

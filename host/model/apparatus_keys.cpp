@@ -112,6 +112,9 @@ constexpr Key kMotion[] = {
     vector("through", kMetre, {0, 0, 0}, "a point of the axis"),
     number("speed_rpm", kRpm, Bound::Any, kRequired, "`turn` by time: speed about the axis, negative the other way"),
     number("turns_per_turn", kPlain, Bound::Any, 1.0, "`turn` by the drive: its turns for one of the drive"),
+    integer("pockets", 1, kMostPockets, told("none"),
+            "`turn`: of a wheel, or whatever repeats itself so often in a turn. The mass of each is told: a "
+            "[cycle](../host/analysis/README.md#mass-by-cycle) is a pocket then. It changes no bit of the run"),
     number("amplitude_deg", kDegree, kPositive, kRequired, "`swing`: to each side"),
     number("amplitude_mm", kMillimetre, kPositive, kRequired, "`shake`: to each side"),
     number("frequency_hz", {1, "1/s"}, kPositive, kRequired, "`swing`, `shake`: how often to and fro in a second"),

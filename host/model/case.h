@@ -242,13 +242,21 @@ struct Derived {
     double stiffest = 0;  ///< smallest of all [s]
     double timeStep = 0;  ///< [s]
     std::size_t particles = 0;
-    double fillMass = 0;      ///< inserted [kg]
-    double pushVelocity = 0;  ///< V_z = p Omega / 2 pi [m/s]
-    double tipVelocity = 0;   ///< V_t = Omega r_c [m/s]
-    double massPerTurn = 0;   ///< rho_b p pi r_c^2 [kg]
-    double massPerDose = 0;   ///< the same times the turns of a dose, n_t; at most the target of a dose to a mass [kg]
-    double doses = 0;         ///< m_tot / m_dose
-    double steps = 0;         ///< until the predicted last dose plus the stop rule's
+    double fillMass = 0;                 ///< inserted [kg]
+    double pushVelocity = 0;             ///< V_z = p Omega / 2 pi [m/s]
+    double tipVelocity = 0;              ///< V_t = Omega r_c [m/s]
+    double massPerTurn = 0;              ///< of the drive: rho_b p pi r_c^2, or that of bodies (conveyors.h) [kg]
+    double massPerSecond = 0;            ///< of bodies that turn by themselves, and not by the drive [kg/s]
+    bool turnsInRests = false;           ///< these turn for the whole dose; else while it rotates
+    std::vector<std::string> conveyors;  ///< the bodies that the closed form counts; none with [coil]
+    double massPerDose = 0;  ///< that of its turns, n_t, or of its time; at most the target of a dose to a mass [kg]
+    double doses = 0;        ///< m_tot / m_dose
+    double steps = 0;        ///< until the predicted last dose plus the stop rule's
+
+    /// Whether there is a closed form.
+    bool conveys() const { return massPerTurn > 0 || massPerSecond > 0; }
+    /// What it carries in a second while it turns, at this speed of the drive [rad/s] [kg/s].
+    double rate(double driveSpeed) const { return massPerTurn * driveSpeed / (2 * kPi) + massPerSecond; }
 };
 Derived derive(const Case& c, const Insertion& filled);
 

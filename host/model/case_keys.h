@@ -10,6 +10,7 @@ namespace vkdose {
 
 /// The largest number of a dose.
 inline constexpr std::int64_t kMostDoses = 1'000'000'000;
+inline constexpr std::int64_t kMostPockets = 1000;  // of a wheel
 
 /// The tables of a case file in the order of the manual.
 std::span<const KeyTable> caseKeys();

@@ -4,8 +4,8 @@
 #include <limits>
 #include <numeric>
 
-#include "host/model/body_form.h"
 #include "host/model/case.h"
+#include "host/model/conveyors.h"
 #include "host/model/size_distribution.h"
 #include "host/model/stability.h"
 
@@ -13,68 +13,35 @@ namespace vkdose {
 namespace {
 
 /// Time that the coil is expected to turn in a dose, ramps included [s].
-double turningTime(const Schedule& s, double massPerTurn) {
-    const double rate = massPerTurn * s.coilSpeed / (2 * kPi);
+double turningTime(const Schedule& s, const Derived& d) {
+    const double rate = d.rate(s.coilSpeed);
     return s.targetMass > 0 && rate > 0 ? std::min(s.rotateTime, s.targetMass / rate + s.rampTime) : s.rotateTime;
 }
 
-/// Cross-section that a body itself takes up of its turn, mean over its length [m2]; 0 where its form does not tell.
-double solidSection(const RigidBody& body, double length) {
-    double section = 0;
-    for (const geometry::Shape& shape : body.shapes) {
-        if (const auto* f = std::get_if<geometry::Flight>(&shape)) {
-            const double shaft = kPi * f->innerRadius * f->innerRadius;
-            const double pitch = (f->pitchStart + f->pitchEnd) / 2;
-            section += shaft + f->thickness / pitch * (kPi * f->outerRadius * f->outerRadius - shaft);
-        } else if (const auto* m = std::get_if<std::shared_ptr<const geometry::MeshSurface>>(&shape)) {
-            const geometry::Mesh& mesh = (*m)->mesh();
-            double volume = 0;
-            for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
-                if (std::binary_search(mesh.inner.begin(), mesh.inner.end(), i)) continue;
-                const auto& t = mesh.triangles[i];
-                volume += glm::dot(mesh.vertices[t[0]], glm::cross(mesh.vertices[t[1]], mesh.vertices[t[2]])) / 6;
-            }
-            if (mesh.closed) section += std::abs(volume) / length;
-        }
-    }
-    return section;
-}
-
-/// The closed form of a device without a coil: a body that the drive turns about the canister's axis carries powder by
-/// its advance through the section that it sweeps and does not take up itself. Of several bodies the one that carries
-/// most counts.
+/// The closed form of a device without a coil.
 void deriveBodies(const Case& c, Derived& d) {
-    if (!c.canister || c.schedule.rotateTime == 0) return;
-    for (const RigidBody& body : c.world.bodies) {
-        const auto* turn = std::get_if<geometry::Turn>(&body.course.motion);
-        if (turn == nullptr || body.clock != Clock::Drive || std::abs(turn->axis.z) < 0.999) continue;
-        const std::vector<geometry::Triangle> mesh = trianglesOf(body);
-        if (mesh.empty()) continue;
-        const TurningReach reach = reachOf(mesh, turn->axis, turn->through);
-        double lead = advancePerTurn(mesh, turn->axis, turn->through);
-        // Of a wire the pitch, and the section within its centre line, as of [coil].
-        const auto* wire = std::get_if<geometry::Coil>(&body.shapes.front());
-        if (wire) lead = std::copysign(wire->pitch, lead);
-        const double advance = turn->rate * turn->axis.z * lead;
-        const double section = wire ? kPi * wire->radius * wire->radius
-                                    : kPi * reach.radius * reach.radius - solidSection(body, reach.high - reach.low);
-        const double perTurn = c.bulkDensity * advance * section;
-        // Less is the rounding of a paddle's facets.
-        if (section <= 0 || advance < 0.02 * reach.radius || perTurn <= d.massPerTurn) continue;
-        d.massPerTurn = perTurn;
-        d.pushVelocity = advance * c.schedule.coilSpeed / (2 * kPi);
-        d.tipVelocity = c.schedule.coilSpeed * std::abs(turn->rate) * reach.radius;
-    }
+    const std::optional<Conveyance> sum = conveyanceOf(c);
+    if (!sum) return;
+    const double mass = c.bulkDensity * sum->volume();
+    (sum->byDrive ? d.massPerTurn : d.massPerSecond) = mass;
+    d.turnsInRests = sum->inRests;
+    d.conveyors = sum->names();
+    const Conveyor& first = sum->conveyors.front();
+    const double turns = first.turns * (sum->byDrive ? c.schedule.coilSpeed / (2 * kPi) : 1);  // [1/s]
+    d.pushVelocity = first.lead * turns;
+    d.tipVelocity = 2 * kPi * first.radius * turns;
 }
 
-double predictedSteps(const Case& c, double doses, double massPerTurn) {
+double predictedSteps(const Case& c, const Derived& d) {
     const Schedule& s = c.schedule;
     double time = s.settleTime;
     if (s.rotateTime > 0) {
-        double count = std::isfinite(doses) ? std::ceil(doses) : 0;
+        // Without a closed form nobody knows how many doses empty the device; what else ends the run decides.
+        const bool ends = s.stop.maxDoses != std::numeric_limits<int>::max() || std::isfinite(s.stop.endTime);
+        double count = d.massPerDose > 0 ? std::ceil(d.doses) : ends ? std::numeric_limits<double>::infinity() : 0;
         if (s.stop.kind != StopRule::Kind::None) count += s.stop.doses;
         count = std::min(count, static_cast<double>(s.stop.maxDoses));
-        time += count * (turningTime(s, massPerTurn) + s.reverseTime() + s.restTime);
+        time += count * (turningTime(s, d) + s.reverseTime() + s.restTime);
     }
     return std::ceil(std::min(time, s.stop.endTime) / c.world.timeStep);
 }
@@ -131,14 +98,14 @@ Derived derive(const Case& c, const Insertion& filled) {
     } else {
         deriveBodies(c, d);
     }
-    if (d.massPerTurn > 0) {
-        const Schedule& s = c.schedule;
+    if (const Schedule& s = c.schedule; d.conveys() && s.rotateTime > 0) {
+        const double rests = d.turnsInRests ? s.reverseTime() + s.restTime : 0;
         const double turns = s.coilSpeed * (s.rotateTime - s.rampTime) / (2 * kPi);
-        d.massPerDose = d.massPerTurn * turns;
+        d.massPerDose = d.massPerTurn * turns + d.massPerSecond * (s.rotateTime + rests);
         if (s.targetMass > 0) d.massPerDose = std::min(d.massPerDose, s.targetMass);
         d.doses = d.massPerDose > 0 ? d.fillMass / d.massPerDose : 0;
     }
-    d.steps = predictedSteps(c, d.doses, d.massPerTurn);
+    d.steps = predictedSteps(c, d);
     return d;
 }
 

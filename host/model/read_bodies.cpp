@@ -343,6 +343,10 @@ void readMotion(CaseReader& reader, Section& body, RigidBody& made) {
         return s.abandon();
     }
     made.course.motion = readMotionOf(reader, s, static_cast<MotionKind>(*kind), made.clock);
+    if (static_cast<MotionKind>(*kind) == MotionKind::Turn) {
+        if (s.has("pockets")) made.pockets = static_cast<int>(s.integer("pockets"));
+        s.know("pockets");
+    }
     if (made.clock == Clock::Drive && s.has("during")) {
         reader.fault(s.path("during"), "does not go with follows = \"drive\": such a body moves when the drive turns",
                      "leave it out, or write follows = \"time\" and a speed");

@@ -67,6 +67,7 @@ struct RigidBody {
     // What contacts see of it; its books see the true motion.
     bool surfaceMoves = true;  ///< the velocity of its surface; false: they see it at rest
     double curvature = 0;      ///< radius of its surface, which a* counts [m]; 0: it is as flat as a wall
+    int pockets = 0;  ///< of a wheel that turns: it repeats itself so often in a turn; 0: the case does not say
 
     bool movesFreely() const { return clock == Clock::Forces; }
     bool rests() const { return std::holds_alternative<geometry::Rest>(course.motion); }

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "host/analysis/cycles.h"
 #include "host/core/error.h"
 #include "host/core/file.h"
 #include "host/model/case_tree.h"
@@ -25,8 +26,8 @@ namespace {
 
 /// The order is that of removal. If the removal is cut short, the files that remain still tell that a run is there, and
 /// which one.
-constexpr std::array kFiles{kCheckpointName, kSettledName, kEndName,    "summary.json",
-                            "particles.csv", "doses.csv",  "case.toml", "timeseries.csv"};
+constexpr std::array kFiles{kCheckpointName, kSettledName, kEndName,    "summary.json",  "particles.csv",
+                            kCyclesName,     "doses.csv",  "case.toml", "timeseries.csv"};
 
 /// "NAME_000012.hdf"
 bool isNumbered(std::string_view file, std::string_view name, std::string_view extension) {

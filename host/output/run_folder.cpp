@@ -220,6 +220,7 @@ void RunFolder::finish(const Case& c, const RunResult& result) {
     storeTables();
     if (result.endState) writeParticles(folder_ / "particles.csv", result.particles, powderNames(c));
     RunHistory history = historyOf(folder_, c, result);
+    writeCycles(folder_ / kCyclesName, history.cycles);
     history.origin = role_.origin;
     replaceFile(folder_ / "summary.json", summaryJson(c, result, backend_, history) + "\n");
     // Whoever removed the folder while these two were written has removed the tables by now, or the case, and is told.
@@ -246,6 +247,17 @@ void writeParticles(const fs::path& file, const Particles& p, const std::vector<
         const ParticleRow row{i, p.position[i], p.velocity[i], p.spin[i], p.radius[i], p.status[i]};
         csv.line(csvRow(kParticleColumns, row) + (powders.empty() ? "" : "," + powders.at(p.material[i])));
     }
+    csv.flush();
+}
+
+void writeCycles(const fs::path& file, const Cycles& cycles) {
+    std::error_code none;
+    if (cycles.list.empty()) {  // there may be one of the run before it went on
+        fs::remove(file, none);
+        return;
+    }
+    CsvFile csv(file, csvHeader(kCycleColumns));
+    for (const CycleMass& cycle : cycles.list) csv.line(csvRow(kCycleColumns, cycle));
     csv.flush();
 }
 

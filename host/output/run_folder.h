@@ -1,7 +1,7 @@
 #pragma once
 // The output folder of a run: case.toml, timeseries.csv, doses.csv, frames/ and fields/ as they come,
-// checkpoint.h5 while it lasts, settled.h5 once the powder has settled, end.h5, particles.csv and summary.json at the
-// end.
+// checkpoint.h5 while it lasts, settled.h5 once the powder has settled, end.h5, particles.csv, cycles.csv and
+// summary.json at the end.
 
 #include <filesystem>
 #include <optional>
@@ -13,6 +13,7 @@
 #include "host/output/csv.h"
 #include "host/output/field_files.h"
 #include "host/output/frame_writer.h"
+#include "host/output/run_history.h"
 #include "host/sim/runner.h"
 
 namespace vkdose {
@@ -84,6 +85,8 @@ class RunFolder : public RunObserver {
 /// powder too. Throws OutputError if it cannot be written.
 void writeParticles(const std::filesystem::path& file, const Particles& particles,
                     const std::vector<std::string>& powders = {});
+/// A line for each cycle, or no file where there is none. Throws OutputError likewise.
+void writeCycles(const std::filesystem::path& file, const Cycles& cycles);
 /// Names of the powders by their material; none with one powder.
 std::vector<std::string> powderNames(const Case& c);
 

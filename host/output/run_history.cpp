@@ -20,18 +20,17 @@ std::vector<DoseArch> archesAtDoseEnds(const Frames& frames, const Case& c, cons
     return arches;
 }
 
-MassRate rateOf(const std::filesystem::path& folder, const Case& c) {
+std::vector<FlowSample> flowIn(const std::filesystem::path& folder) {
     const Table series = Table::salvage(folder / "timeseries.csv");
-    return series.rows() > 0 ? massRate(flowSamples(series), windowRuleOf(c)) : MassRate{};
+    return series.rows() > 0 ? flowSamples(series) : std::vector<FlowSample>();
 }
 
 RunHistory historyOf(const std::filesystem::path& folder, const Case& c, const RunResult& result) {
     RunHistory history;
-    const Table series = Table::salvage(folder / "timeseries.csv");
-    if (series.rows() > 0) {
-        const std::vector<FlowSample> samples = flowSamples(series);
+    if (const std::vector<FlowSample> samples = flowIn(folder); !samples.empty()) {
         history.outlet = outletFlow(samples, result.ledger.filledMass());
         history.rate = massRate(samples, windowRuleOf(c));
+        history.cycles = cyclesOf(samples, cycleRuleOf(c));
     }
     history.arches = archesAtDoseEnds(Frames(folder), c, result.doses);
     history.measures = measuresOf(folder, c, result);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/analysis/blockage.h"
+#include "host/analysis/cycles.h"
 #include "host/analysis/mass_rate.h"
 #include "host/analysis/outlet.h"
 #include "host/output/frames.h"
@@ -26,12 +27,13 @@ struct DoseArch {
 /// None without a coil in a canister. Throws OutputError if a frame cannot be read.
 std::vector<DoseArch> archesAtDoseEnds(const Frames& frames, const Case& c, const std::vector<Dose>& doses);
 
-/// The mass rate of the run whose time series is in this folder; without figures if there is none.
-MassRate rateOf(const std::filesystem::path& folder, const Case& c);
+/// The lines of the time series in this folder; none if there is none.
+std::vector<FlowSample> flowIn(const std::filesystem::path& folder);
 
 struct RunHistory {
     OutletFlow outlet;
     MassRate rate;
+    Cycles cycles;
     std::vector<DoseArch> arches;
     std::string origin;  ///< the state of another run that it began with, in words; empty: none
     std::vector<MeasureResult> measures;

@@ -2,6 +2,7 @@
 
 #include <tuple>
 
+#include "host/analysis/cycles.h"
 #include "host/output/field_row.h"
 #include "host/output/frames.h"
 #include "host/output/particle_row.h"
@@ -41,6 +42,10 @@ std::vector<OutputTable> runTables() {
         {"doses.csv", "A line for every dose.", columnTexts(kDoseColumns)},
         {"doses.csv, with several powders", "These columns follow in the same line, for each powder, likewise.",
          columnTexts(kPowderDoseColumns)},
+        {"cycles.csv",
+         "A line for every [cycle](../analysis/README.md#mass-by-cycle) of the device, at the end of the run. There is "
+         "no such file where nothing repeats itself.",
+         columnTexts(kCycleColumns)},
         {"particles.csv", "A line for every particle, at the end of the run.", columnTexts(kParticleColumns)},
         {"particles.csv, with several powders",
          "This column follows in the same line.",

@@ -57,9 +57,11 @@ Json closedForms(const Case& c, const RunResult& r) {
         j["bulk_density_kg_m3"] = jsonNumber(density);
         j["bulk_density_is"] = !c.bulkDensityMeasured ? "given" : wasMeasured(c, density) ? "measured" : "assumed";
     }
-    const bool conveys = c.world.coil || d.massPerTurn > 0;
+    const bool conveys = c.world.coil || d.conveys();
     j["push_velocity_m_s"] = conveys ? jsonNumber(d.pushVelocity) : Json(nullptr);
     j["tip_velocity_m_s"] = conveys ? jsonNumber(d.tipVelocity) : Json(nullptr);
+    if (!c.world.coil) j["bodies"] = d.conveyors;
+    j["rate_kg_s"] = jsonPositive(d.rate(c.schedule.coilSpeed));
     j["mass_per_dose_kg"] = closedFormDose(c, r);
     j["doses"] = jsonPositive(d.doses);
     j["stiffest_contact_duration_s"] = jsonNumber(d.stiffest);
@@ -140,7 +142,15 @@ Json massRate(const MassRate& rate) {
     return j;
 }
 
-Json analysis(const Case& c, const RunResult& r, const MassRate& rate) {
+Json cycleMass(const Cycles& cycles) {
+    Json j;
+    j["is"] = cycles.what.empty() ? Json(nullptr) : Json(cycles.what);
+    j["cycles"] = cycles.list.size();
+    for (const CycleFigure& f : kCycleFigures) j[f.name] = jsonNumber(f.of(cycles));
+    return j;
+}
+
+Json analysis(const Case& c, const RunResult& r, const RunHistory& history) {
     const DosingFigures f = figuresOf(r.doses, supplyOf(r), c.schedule.stop);
     Json j;
     j["beta_kg_per_dose"] = jsonNumber(f.beta.beta);
@@ -149,7 +159,8 @@ Json analysis(const Case& c, const RunResult& r, const MassRate& rate) {
     j["beta_cumulative_below_kg"] = jsonNumber(f.window.cumulativeBelow);
     j["doses_to_99_percent"] = doseCount(f.dosesTo99);
     j["blocked_at_dose"] = doseCount(f.blocked);
-    j["rate"] = massRate(rate);
+    j[kRateName] = massRate(history.rate);
+    j[kCycleName] = cycleMass(history.cycles);
     return j;
 }
 
@@ -270,7 +281,7 @@ std::string summaryJson(const Case& c, const RunResult& r, const std::string& ba
                             {"standard_deviation_kg", s.doses > 1 ? jsonNumber(s.deviation) : Json(nullptr)},
                             {"rsd", s.doses > 1 && s.mean > 0 ? jsonNumber(s.relative) : Json(nullptr)}};
     j["targets"] = targets(r.doses);
-    j["analysis"] = analysis(c, r, history.rate);
+    j["analysis"] = analysis(c, r, history);
     j["outlet"] = outlet(history.outlet);
     j["arches"] = arches(history.arches);
     if (!history.measures.empty()) j["measures"] = measures(history.measures);

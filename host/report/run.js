@@ -103,6 +103,22 @@ function rateChart(parent, run, time) {
   });
 }
 
+/// The mass of each cycle against what was left in the device: the feed factor.
+function cycleChart(parent, run) {
+  const c = run.cycles;
+  if (c.time_s.length < 2) return;
+  const from = isNumber(c.steady) ? c.steady : c.time_s.length;
+  const points = c.left_kg.map((left, i) => [left * gram, c.mass_kg[i] * gram]);
+  const steady = {value: c.steady_kg * gram, name: "mean of the steady part"};
+  chart(parent, {
+    title: `Mass of a ${c.is} against the mass left`, x: {label: "left in the device at its start [g]", pad: true}, y: {label: "g"},
+    level: isNumber(c.steady) ? steady : null,
+    series: [{name: from < points.length ? "before the steady part" : "in order of time", points: points.slice(0, from + 1), colour: "var(--s1)", dots: true, hollow: true, thin: true},
+             {name: "steady part", points: points.slice(from), colour: "var(--s0)", dots: true, thin: true}],
+    note: "Joined in order of time. Only what comes out while the drive turns forward counts; the steady part is found by MSER-5.",
+  });
+}
+
 function timeCharts(parent, run) {
   const s = run.series, turning = "Shaded: the coil turns; numbered by dose.";
   const time = {label: "time [s]", from: 0, to: d3.max(s.time_s)};
@@ -115,6 +131,7 @@ function timeCharts(parent, run) {
   curve("Outlet velocity", "mm/s", "mean v_z of the mass in the throat", s.outlet_velocity_m_s, milli, "var(--s2)",
         turning + " No curve where the throat is empty; what falls out while settling may leave the frame.");
   rateChart(parent, run, time);
+  cycleChart(parent, run);
   bodyCharts(parent, run, time);
   regionChart(parent, run, time);
   powderChart(parent, run, time);

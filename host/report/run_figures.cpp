@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "host/analysis/blockage.h"
+#include "host/analysis/cycles.h"
 #include "host/analysis/emptying.h"
 #include "host/analysis/mass_rate.h"
 #include "host/analysis/outlet.h"
@@ -33,6 +34,7 @@ class Facts {
         emptying();
         drive();
         rate();
+        cycles();
         outlet();
         stops();
         arches();
@@ -123,7 +125,8 @@ class Facts {
             density = form.value("bulk_density_kg_m3", density);
             if (run_.c.bulkDensityMeasured) is = ", " + form.value("bulk_density_is", std::string("assumed"));
         }
-        return fmt::format("ρ_b p π r_c² n_t with ρ_b = {:.4g} kg/m³{}", density, is);
+        const char* form = run_.c.world.coil ? "ρ_b p π r_c² n_t" : "ρ_b times pitch and free section";
+        return fmt::format("{} with ρ_b = {:.4g} kg/m³{}", form, density, is);
     }
 
     /// The note that the run ended with, if its doses are far from the closed form.
@@ -170,13 +173,14 @@ class Facts {
             w.work > 0 ? fmt::format("{:.4g} g/J", w.massPerJoule(dosed) * 1e3) : "");
     }
 
+    static std::string scatter(const SeriesFigures& f) {
+        return std::isfinite(f.relative) ? fmt::format("RSD {:.2g} %", f.relative * 100)
+                                         : std::string("no RSD: nothing was dosed");
+    }
+
     void rate() {
         const MassRate r = massRate(flowSamples(run_.series), windowRuleOf(run_.c));
         if (r.windows.size() < kFewestWindows) return;
-        const auto scatter = [](const RateFigures& f) {
-            return std::isfinite(f.relative) ? fmt::format("RSD {:.2g} %", f.relative * 100)
-                                             : std::string("no RSD: nothing was dosed");
-        };
         add("mass rate", rateText(r.all, "±"),
             fmt::format("{} over {} windows of {:.3g} s", scatter(r.all), r.windows.size(), r.window));
         if (r.steady)
@@ -184,6 +188,16 @@ class Facts {
                 fmt::format("{}, from t = {:.4g} s on by MSER-5", scatter(r.steadyPart), r.steadyTime()));
         else if (r.windows.size() >= kFewestForSteady && r.all.mean > 0)
             add("steady mass rate", "none", "the rate still changes in the second half, by MSER-5");
+    }
+
+    void cycles() {
+        const Cycles c = cyclesOf(flowSamples(run_.series), cycleRuleOf(run_.c));
+        if (c.list.size() < kFewestWindows) return;
+        add("mass of a " + c.what, cycleText(c.all, "±"),
+            fmt::format("{} over {} cycles", scatter(c.all), c.list.size()));
+        if (c.steady)
+            add("steady mass of a " + c.what, cycleText(c.steadyPart, "±"),
+                fmt::format("{}, from t = {:.4g} s on by MSER-5", scatter(c.steadyPart), c.steadyTime()));
     }
 
     /// Means by time. Values while the throat is nearly empty come from few particles, but count like the rest.

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "host/analysis/balance.h"
+#include "host/analysis/cycles.h"
 #include "host/analysis/mass_rate.h"
 #include "host/analysis/outlet.h"
 #include "host/core/csv_table.h"
@@ -105,6 +106,24 @@ Json rateJson(const Table& series, const Case& c) {
             {"kg_s", numbers(thinned(rates, size, true))},
             {"steady", rate.steady ? Json(*rate.steady / size) : Json(nullptr)},
             {"steady_kg_s", jsonNumber(rate.steadyPart.mean)}};
+}
+
+/// The mass of each cycle beside what was left. `steady` is the number of the first in the steady part.
+Json cyclesJson(const Table& series, const Case& c) {
+    const Cycles cycles = cyclesOf(flowSamples(series), cycleRuleOf(c));
+    const std::size_t size = std::max<std::size_t>((cycles.list.size() + kMostLines - 1) / kMostLines, 1);
+    std::vector<double> times, masses, left;
+    for (const CycleMass& cycle : cycles.list) {
+        times.push_back((cycle.start + cycle.end) / 2);
+        masses.push_back(cycle.mass);
+        left.push_back(cycle.left);
+    }
+    return {{"is", cycles.what},
+            {"time_s", numbers(thinned(times, size, true))},
+            {"mass_kg", numbers(thinned(masses, size, true))},
+            {"left_kg", numbers(thinned(left, size, true))},
+            {"steady", cycles.steady ? Json(*cycles.steady / size) : Json(nullptr)},
+            {"steady_kg", jsonNumber(cycles.steadyPart.mean)}};
 }
 
 /// When the coil turned: [begin, end] [s] for each dose. The phase in a line is that of the time between this line and
@@ -207,6 +226,7 @@ Json runJson(const fs::path& folder, const std::optional<fs::path>& experiment, 
     j["series"] = seriesJson(series, c.world);
     j["rotations"] = rotations(series);
     j["rate"] = rateJson(series, c);
+    j["cycles"] = cyclesJson(series, c);
     j["beta_below_kg"] =
         jsonNumber(figuresOf(sources.doses, supplyOf(sources), sources.c.schedule.stop).window.cumulativeBelow);
     j["filled_mass_kg"] = jsonNumber(filledMass(sources));

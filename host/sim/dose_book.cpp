@@ -16,15 +16,10 @@ constexpr const char* kOrderedSpeed = "dose_ordered_speed";
 }  // namespace
 
 DoseBook::DoseBook(const Case& c, const Derived& derived, double sense)
-    : schedule_(c.schedule),
-      timeStep_(c.world.timeStep),
-      massPerDose_(derived.massPerDose),
-      massPerTurn_(derived.massPerTurn),
-      sense_(sense) {}
+    : schedule_(c.schedule), timeStep_(c.world.timeStep), sense_(sense), derived_(derived) {}
 
 void DoseBook::expect(const Derived& derived) {
-    massPerDose_ = derived.massPerDose;
-    massPerTurn_ = derived.massPerTurn;
+    derived_ = derived;
 }
 
 void DoseBook::open(int index, double time, const Sensors& now) {
@@ -96,7 +91,10 @@ Dose DoseBook::close(bool complete, const Sensors& now, double time) {
     dose_.particles = now.count[kDosed] - before_.count[kDosed];
     // The torque that the drive must supply to convey against the powder's on the coil.
     dose_.coilTorque = steps_ > 0 ? -torqueSum_ / static_cast<double>(steps_) * sense_ + 0.0 : 0;
-    const double closedForm = schedule_.isPlain() && !ordered_ ? massPerDose_ : massPerTurn_ * angle_ / (2 * kPi);
+    const double turning = derived_.turnsInRests ? time - dose_.startTime : timeStep_ * static_cast<double>(steps_);
+    const double closedForm = schedule_.isPlain() && !ordered_
+                                  ? derived_.massPerDose
+                                  : derived_.massPerTurn * angle_ / (2 * kPi) + derived_.massPerSecond * turning;
     if (closedForm > 0) dose_.closedForm = closedForm;
     dose_.endTime = time;
     return std::exchange(dose_, Dose{});

@@ -53,7 +53,8 @@ class DoseBook {
     void noteStop(StopCause cause, const Sensors& now, double time);
 
     const Schedule& schedule_;
-    double timeStep_, massPerDose_, massPerTurn_, sense_;
+    double timeStep_, sense_;
+    Derived derived_;           ///< for the closed form
     Dose dose_;                 ///< index 0: none is under way
     Sensors before_;            ///< at its start
     double torqueSum_ = 0;      ///< times steps

@@ -115,6 +115,19 @@ constexpr MemberColumn kColumns[] = {
     {"steady_rate_error_kg_s", "kg/s", "Standard error of this mean.", "/analysis/rate/steady_error_kg_s"},
     {"steady_rate_rsd", "1", "Standard deviation over mean of the rate in windows of the steady part.",
      "/analysis/rate/steady_rsd"},
+    {"cycle_mass_kg", "kg",
+     "Mean mass of a cycle: a turn of the drive, a pocket of a wheel or a stroke. Empty with too few cycles, as are "
+     "those that follow.",
+     "/analysis/cycle/mean_kg"},
+    {"cycle_mass_error_kg", "kg", "Standard error of this mean.", "/analysis/cycle/mean_error_kg"},
+    {"cycle_rsd", "1", "Standard deviation over mean of the mass of the cycles.", "/analysis/cycle/rsd"},
+    {"steady_cycle_mass_kg", "kg", "Mean mass of a cycle in the steady part.", "/analysis/cycle/steady_kg"},
+    {"steady_cycle_mass_error_kg", "kg", "Standard error of this mean.", "/analysis/cycle/steady_error_kg"},
+    {"steady_cycle_rsd", "1", "Standard deviation over mean of the mass of the cycles in the steady part.",
+     "/analysis/cycle/steady_rsd"},
+    {"closed_form_rate_kg_s", "kg/s",
+     "Mass rate by the closed form, at the last speed of the drive or of the bodies that turn by themselves.",
+     "/closed_form/rate_kg_s"},
 };
 
 Row namesOf(std::span<const MemberColumn> columns) {

@@ -54,7 +54,8 @@ constexpr Key kParameter[] = {
 
 constexpr Key kTarget[] = {
     text("figure", kRequired,
-         "`\"mass_per_dose_g\"`, a figure of the mass rate, `\"rate.steady_kg_s\"`, or the name of a `[[measure]]` and "
+         "`\"mass_per_dose_g\"`, a figure of the mass rate, `\"rate.steady_kg_s\"`, one of the cycles, "
+         "`\"cycle.steady_kg\"`, or the name of a `[[measure]]` and "
          "its figure: `\"heap.angle_deg\"`. Both are named as in `summary.json`"),
     number("value", kPlain, Bound::Any, kRequired, "measured, in the unit of the figure"),
     number("uncertainty", kPlain, Bound::Positive, kRequired, "standard error of the value"),

@@ -1,11 +1,14 @@
 #include "host/study/trials.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "host/analysis/cycles.h"
 #include "host/analysis/mass_rate.h"
 #include "host/output/summary.h"
 
@@ -22,10 +25,12 @@ Measured figureIn(const std::filesystem::path& folder, const std::string& figure
     };
     if (figure == kMassPerDose)
         return {at("/analysis/beta_kg_per_dose") * 1e3, at("/analysis/beta_standard_error_kg_per_dose") * 1e3};
-    if (const RateFigure* rate = rateFigureNamed(figure)) {
-        const std::string all = std::string("/analysis/") + kRateName + "/";
-        return {at(all + rate->name), rate->error ? at(all + rate->error) : std::numeric_limits<double>::quiet_NaN()};
-    }
+    const auto ofSeries = [&](const char* kind, const auto& f) {
+        const std::string all = fmt::format("/analysis/{}/", kind);
+        return Measured{at(all + f.name), f.error ? at(all + f.error) : std::numeric_limits<double>::quiet_NaN()};
+    };
+    if (const RateFigure* f = figureNamed(kRateFigures, kRateName, figure)) return ofSeries(kRateName, *f);
+    if (const CycleFigure* f = figureNamed(kCycleFigures, kCycleName, figure)) return ofSeries(kCycleName, *f);
     std::string pointer = "/measures/" + figure;
     std::replace(pointer.begin(), pointer.end(), '.', '/');
     return {at(pointer), std::numeric_limits<double>::quiet_NaN()};

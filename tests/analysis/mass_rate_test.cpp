@@ -36,13 +36,6 @@ double evenly(double t) {
     return kRate * t;
 }
 
-/// Windows of a second with these rates [kg/s].
-std::vector<RateWindow> windowsOf(const std::vector<double>& rates) {
-    std::vector<RateWindow> windows;
-    for (const double rate : rates) windows.push_back({double(windows.size()), double(windows.size()) + 1, rate});
-    return windows;
-}
-
 /// Sums of lines: rounding.
 Verdict sameRate(double a, double b) {
     return near(a, b, kRate, 1e-9);
@@ -177,6 +170,22 @@ TEST_CASE("what was out before the drive turned is no rate, nor is the time befo
     CHECK(near(r.windows.front().from, 7, kInterval, 1e-9));
 }
 
+TEST_CASE("a run without doses has the rate of all its time, if anything came out") {
+    std::vector<FlowSample> samples = turning(2, evenly);
+    for (FlowSample& s : samples) s.turning = false;
+    CHECK(massRate(samples, kTenthSecond).windows.empty());
+    const WindowRule always{0.1, 0, kInterval, true};
+    const MassRate r = massRate(samples, always);
+    CHECK(r.windows.size() == 20);
+    CHECK(sameRate(r.all.mean, kRate));
+    for (FlowSample& s : samples) s.dosed = 0;
+    CHECK(std::isnan(massRate(samples, always).all.mean));
+    Case c;
+    CHECK(windowRuleOf(c).always);
+    c.schedule.rotateTime = 1;
+    CHECK_FALSE(windowRuleOf(c).always);
+}
+
 TEST_CASE("too few windows have no figures") {
     CHECK(std::isnan(massRate({}, kTenthSecond).window));
     CHECK(std::isnan(massRate(std::vector<FlowSample>(3), kTenthSecond).all.mean));  // nothing turns
@@ -210,13 +219,13 @@ TEST_CASE("the error is that of the means of ten blocks") {
     // Twenty windows in pairs of equal ones: blocks of 1 and 3, whose means deviate by 1.
     std::vector<double> rates;
     for (int i = 0; i < 20; ++i) rates.push_back(i / 2 % 2 == 0 ? 1 : 3);
-    const RateFigures f = rateFigures(windowsOf(rates));
+    const SeriesFigures f = seriesFigures(rates);
     CHECK(f.mean == 2);
     CHECK(near(f.error, std::sqrt(10.0 / 9 / 10), 1, 1e-12));
     CHECK(near(f.relative, std::sqrt(20.0 / 19) / 2, 1, 1e-12));
     // Windows that take turns are even in blocks of two.
     for (int i = 0; i < 20; ++i) rates[std::size_t(i)] = i % 2 == 0 ? 1 : 3;
-    CHECK(rateFigures(windowsOf(rates)).error == 0);
+    CHECK(seriesFigures(rates).error == 0);
 }
 
 TEST_CASE("the period of a case is a turn of its drive, else that of its slowest body") {

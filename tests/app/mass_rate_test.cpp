@@ -108,3 +108,42 @@ TEST_CASE("windows of the rate that are shorter than the sensors can tell are re
     CHECK(o.code == 2);
     CHECK_THAT(o.err, Catch::Contains("sensors.rate_window_s") && Catch::Contains("5 sensor intervals"));
 }
+
+TEST_CASE("a screw and a wheel with pockets: check tells the closed form, the run the mass of each cycle") {
+    const Sandbox box;
+    std::string text = "base = \"" VKDOSE_SOURCE_DIR
+                       "/cases/mini.toml\"\n[dose]\nrotate_s = 2.0\nrest_s = 0.0\n"
+                       "[stop]\nmax_doses = 1\n";
+    const std::string wheel =
+        "[[body]]\nname = \"wheel\"\nshape = \"ball\"\nradius_mm = 1\nat = [0, 0.05, 0.005]\n[body.motion]\n"
+        "kind = \"turn\"\nspeed_rpm = 120\npockets = 4\n";
+    box.write("wheel.toml", text + wheel);
+    const auto o = box.vkdose("run wheel.toml --backend reference --out out");
+    CAPTURE(o.out, o.err);
+    REQUIRE(o.code == 0);
+    CHECK_THAT(o.out, Catch::Contains("\ncycle    ") && Catch::Contains(" over 16 cycles, each a pocket of wheel"));
+    const auto summary = nlohmann::json::parse(readText(box / "out/summary.json"));
+    const auto& cycle = summary.at("analysis").at("cycle");
+    CHECK(cycle.at("is") == "pocket of wheel");
+    const Table cycles = Table::read(box / "out/cycles.csv");
+    REQUIRE(cycles.rows() == 16);
+    double sum = 0;
+    for (const double mass : cycles.column("mass_kg")) sum += mass;
+    const double dosed = summary.at("doses").at(0).at("mass_kg").get<double>();
+    CHECK(near(sum, dosed, dosed, 1e-6));  // all of the dose
+    CHECK(near(cycle.at("mean_kg").get<double>(), dosed / 16, dosed, 1e-6));
+
+    box.write("wrong.toml", text + wheel +
+                                "[[body]]\nname = \"b\"\nshape = \"ball\"\nradius_mm = 1\n"
+                                "at = [0, 0.06, 0.005]\n[body.motion]\nkind = \"shake\"\n"
+                                "amplitude_mm = 1\nfrequency_hz = 2\npockets = 4\n");
+    const auto wrong = box.vkdose("check wrong.toml");
+    CHECK(wrong.code == 2);
+    CHECK_THAT(wrong.err, Catch::Contains("body[1].motion.pockets") && Catch::Contains("wrong.toml:"));
+    CHECK_THAT(box.vkdose("check wheel.toml --set body[0].motion.pockets=0").err,
+               Catch::Contains("motion.pockets = 0"));
+
+    const auto screw = box.vkdose("check " VKDOSE_SOURCE_DIR "/cases/auger.toml");
+    CHECK_THAT(screw.out,
+               Catch::Contains("rate       ") && Catch::Contains("(rho_b times pitch and free section of screw)"));
+}

@@ -94,6 +94,25 @@ TEST_CASE("poses are where closed forms say") {
     CHECK(near(table.pose(0.45).toWorld(kThrough), kThrough + Vec3(0.05, 0, 0), 1, 1e-14));
 }
 
+TEST_CASE("a motion repeats itself after its period, and is elsewhere after half of it") {
+    std::size_t periodic = 0;
+    for (const Motion& motion : everyMotion()) {
+        const std::optional<double> period = periodOf(motion);
+        if (!period) continue;
+        ++periodic;
+        const Course course{Pose{}, motion, {}};
+        const auto place = [&](double t) { return course.pose(t).toWorld(Vec3(1, 2, 3)); };
+        for (const double t : {0.0, 0.123 * *period, 0.7 * *period}) {
+            CHECK(near(place(t + *period), place(t), 1, 1e-12));
+            CHECK(glm::length(place(t + *period / 2) - place(t)) > 1e-5);
+        }
+    }
+    CHECK(periodic == 4);
+    CHECK(nearRelative(*periodOf(Turn{kAxis, kThrough, -4 * kPi}), 0.5, 1e-12));
+    CHECK_FALSE(periodOf(Turn{kAxis, kThrough, 0}));
+    CHECK_FALSE(periodOf(Shake{kAxis, 1e-3, 0, 0}));
+}
+
 TEST_CASE("a body stands still between the intervals of its schedule, and goes on where it was") {
     const Schedule schedule{{{0.2, 0.5}, {0.7, 0.9}}};
     CHECK(schedule.elapsed(0.1) == 0);

@@ -201,6 +201,15 @@ class Results(InFolder):
         self.assertEqual(rate["windows"], 10)
         self.assertAlmostEqual(rate["mean_kg_s"], result.doses.mass_kg[0] / 0.5, delta=1e-6 * rate["mean_kg_s"])
 
+    def test_the_mass_of_each_turn(self):
+        case = short(**{"dose.rotate_s": 0.5, "dose.rest_s": 0, "stop.max_doses": 1, "coil.speed_rpm": 480})
+        result = run(case).wait()
+        self.assertEqual(result.summary["analysis"]["cycle"]["is"], "turn of the drive")
+        self.assertEqual(list(result.cycles.cycle), [1, 2, 3, 4])
+        dosed = result.doses.mass_kg[0]
+        self.assertAlmostEqual(result.cycles.mass_kg.sum(), dosed, delta=1e-6 * dosed)
+        self.assertIsNone(run(short(**{"coil.speed_rpm": 0, "stop.max_doses": 1})).wait().cycles)
+
     def test_arrays_of_a_frame_are_read_when_they_are_touched(self):
         frame = run(short(**{"frames.interval_s": 0.1})).wait().frames[0]
         read = []

@@ -1,5 +1,7 @@
 #include "host/report/run_report.h"
 
+#include <cmath>
+
 #include "host/core/error.h"
 #include "host/report/page.h"
 #include "host/report/run_figures.h"
@@ -99,6 +101,36 @@ TEST_CASE("the mass rate of a run in windows, its steady part marked") {
     CHECK_THAT(fact(data, "mass rate", "note"), Catch::Contains("over 10 windows of 0.5 s"));
     CHECK(fact(data, "steady mass rate").find("1.978 g/s ± ") == 0);
     CHECK_THAT(fact(data, "steady mass rate", "note"), Catch::Contains("RSD 11 %, from t = 0.5 s"));
+}
+
+TEST_CASE("the mass of each turn of the drive beside what was left, its steady part marked") {
+    const Sandbox box;
+    const auto folder = writeRun(box, "cycles");
+    CHECK(runJson(folder, {})["cycles"]["mass_kg"].size() == 1);
+    CHECK_FALSE(runJson(folder, {})["cycles"]["steady"].is_number());
+    // Ten turns of half a second: nothing, then 1 g and a tenth more or less in turn, from 20 g.
+    std::string series = vkdose::test::kSeriesHeader;
+    double dosed = 0;
+    for (int i = 1; i <= 100; ++i) {
+        dosed += i <= 10 ? 0 : (i - 1) / 10 % 2 == 0 ? 0.11e-3 : 0.09e-3;
+        series += fmt::format("{},rotate,1,{},{},{},0,0,0,0,0,0,0,0,0,0,0,0\n", i * 0.05, -i * 0.2 * std::acos(-1.0),
+                              dosed, 0.02 - dosed);
+    }
+    box.write("run/timeseries.csv", series);
+    const Json data = runJson(folder, {}), cycles = data["cycles"];
+    CHECK(cycles["is"] == "turn of the drive");
+    REQUIRE(cycles["mass_kg"].size() == 10);
+    CHECK(cycles["mass_kg"][0] == 0);
+    CHECK(cycles["mass_kg"][1].get<double>() == Approx(0.9e-3));
+    CHECK(cycles["mass_kg"][2].get<double>() == Approx(1.1e-3));
+    CHECK(cycles["left_kg"][1].get<double>() == Approx(20e-3));
+    CHECK(cycles["left_kg"][2].get<double>() == Approx(19.1e-3));
+    CHECK(cycles["time_s"][1].get<double>() == Approx(0.75));
+    CHECK(cycles["steady"] == 1);
+    CHECK(cycles["steady_kg"].get<double>() == Approx((5 * 0.9e-3 + 4 * 1.1e-3) / 9));
+    CHECK(fact(data, "mass of a turn of the drive").find("0.890 g ± ") == 0);
+    CHECK_THAT(fact(data, "mass of a turn of the drive", "note"), Catch::Contains("over 10 cycles"));
+    CHECK_THAT(fact(data, "steady mass of a turn of the drive", "note"), Catch::Contains("RSD 11 %, from t = 0.5 s"));
 }
 
 TEST_CASE("a long time series is thinned: means of torques, last values of masses") {

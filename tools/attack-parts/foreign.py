@@ -13,8 +13,8 @@ NAME, TRIES = "foreign", 80
 
 STRANGE = ("notes.txt", "picture.png", "report.html", "frames/notes.txt", "frames/holiday.jpg", "fields/measured.csv",
            "fields/map.hdf", "frames.csv", "old/case.toml")
-RUN_LIKE = ("case.toml", "timeseries.csv", "doses.csv", "particles.csv", "summary.json", CHECKPOINT, "settled.h5", "end.h5",
-            "frames/frames.csv", "frames/particles_000000.hdf", "frames/coil_000001.hdf", "frames/walls.hdf",
+RUN_LIKE = ("case.toml", "timeseries.csv", "doses.csv", "particles.csv", "cycles.csv", "summary.json", CHECKPOINT, "settled.h5",
+            "end.h5", "frames/frames.csv", "frames/particles_000000.hdf", "frames/coil_000001.hdf", "frames/walls.hdf",
             "frames/particles.hdf.series", "fields/outlet.csv", "fields/mid-plane.csv", "fields/mid-plane_000000.csv",
             "frames", "fields") + STRANGE
 STRANGE_IN_SWEEP = ("notes.txt", "report.html", "members/notes.txt", "members/0001/notes.txt",

@@ -130,6 +130,12 @@ class Result:
         return _table(self.folder / "timeseries.csv")
 
     @property
+    def cycles(self) -> "pandas.DataFrame | None":
+        """A row for each turn, pocket or stroke of the device, with the columns of cycles.csv; None if there are none."""
+        file = self.folder / "cycles.csv"
+        return _table(file) if file.is_file() else None
+
+    @property
     def particles(self) -> "pandas.DataFrame":
         """The end state, a row for each particle."""
         return _table(self.folder / "particles.csv")
