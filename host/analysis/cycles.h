@@ -48,8 +48,8 @@ struct Cycles : SteadySeries {
     double steadyTime() const;
 };
 
-/// From the lines of a run's time series, while the drive turns forward; of a run without doses from all lines. The mass is known at the ends of sensor
-/// intervals alone: a cycle must be kFewestRateIntervals long, or whole intervals.
+/// From the lines of a run's time series, while the drive turns forward; of a run without doses from all lines. The
+/// mass is known at the ends of sensor intervals alone: a cycle must be kFewestRateIntervals long, or whole intervals.
 Cycles cyclesOf(const std::vector<FlowSample>& samples, const CycleRule& rule);
 
 /// "0.402 g ± 0.0021 g": an error that is not known is left out. `plusMinus` is the sign.

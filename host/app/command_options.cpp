@@ -28,6 +28,9 @@ CLI::App& addNew(CLI::App& program, NewOptions& options) {
     }
     command.add_flag("--ask", options.ask,
                      "ask for what is not given; without any option this is done on a terminal anyway");
+    for (std::size_t i = 0; i < kDeviceTemplates.size(); ++i)
+        command.add_flag(fmt::format("--{}", kDeviceTemplates[i].name), options.devices[i],
+                         fmt::format("alone: {}", kDeviceTemplates[i].about));
     return command;
 }
 

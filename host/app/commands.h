@@ -2,6 +2,7 @@
 // One function per command of the program. Each returns an exit code and throws errors that command_line.cpp turns into
 // one.
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -10,6 +11,7 @@
 
 #include "host/app/backends.h"
 #include "host/app/command_table.h"
+#include "host/app/new_template.h"
 #include "host/app/time_limit.h"
 #include "host/photo/profile.h"
 
@@ -22,8 +24,9 @@ struct CaseOptions {
 
 struct NewOptions {
     std::filesystem::path file;
-    std::vector<std::string> answers;  ///< to newQuestions(), in their order; empty: not given
-    bool ask = false;                  ///< for what is not given, even if nobody sits at a terminal
+    std::vector<std::string> answers;                     ///< to newQuestions(), in their order; empty: not given
+    bool ask = false;                                     ///< for what is not given, even if nobody sits at a terminal
+    std::array<bool, kDeviceTemplates.size()> devices{};  ///< a device that is ready; then nothing else
 };
 
 /// A run whose powder another run begins with.
@@ -135,14 +138,14 @@ struct ProfileOptions {
 };
 
 struct RenderOptions {
-    CaseOptions input;          ///< its file may be the output folder of a run
-    BackendChoice backend;      ///< its device
-    std::filesystem::path out;  ///< empty: picture.png in the folder, or beside the case CASE.png
-    std::vector<double> times;  ///< [s]; none: the end
-    bool panels = false;           ///< instead four times that tell the run's story
-    std::filesystem::path movie;   ///< a film, or without a suffix a folder; empty: none
-    double rate = 25;              ///< pictures of a film in a second
-    std::string color;  ///< empty: kinetic-energy, of a case radius or powder
+    CaseOptions input;            ///< its file may be the output folder of a run
+    BackendChoice backend;        ///< its device
+    std::filesystem::path out;    ///< empty: picture.png in the folder, or beside the case CASE.png
+    std::vector<double> times;    ///< [s]; none: the end
+    bool panels = false;          ///< instead four times that tell the run's story
+    std::filesystem::path movie;  ///< a film, or without a suffix a folder; empty: none
+    double rate = 25;             ///< pictures of a film in a second
+    std::string color;            ///< empty: kinetic-energy, of a case radius or powder
     std::string view = "side";
     std::string size;  ///< "1280x720"; empty: as large as what is to be seen takes
     bool noCoil = false;

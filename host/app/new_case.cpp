@@ -13,6 +13,8 @@
 #include "host/app/measures.h"
 #include "host/app/new_answers.h"
 #include "host/app/new_design.h"
+#include "host/app/new_file.h"
+#include "host/app/new_template.h"
 #include "host/app/speed.h"
 #include "host/app/tell.h"
 #include "host/app/text.h"
@@ -78,39 +80,23 @@ NewAnswers answersTo(const NewOptions& options) {
     return answers;
 }
 
-void requireNewFile(const std::filesystem::path& file) {
-    std::error_code code;
-    if (std::filesystem::exists(std::filesystem::symlink_status(file, code)))
-        throw UsageError(fmt::format("new: {} is there already; give another name", printable(file.string())));
-    const std::string suffix = file.extension().string();
-    if (suffix != ".toml" || !file.has_filename())
-        throw UsageError(fmt::format("new {}: a case is a TOML file; give a name that ends in .toml, such as my.toml",
-                                     printable(file.string())));
-}
-
-/// Writes a file that was not there: never over another one, even if that has come in the meantime.
-void writeNew(const std::filesystem::path& file, const std::string& text) {
-    ::close(openOutput(file, O_WRONLY | O_CREAT | O_EXCL));
-    try {
-        replaceFile(file, text);
-    } catch (const OutputError&) {
-        ::unlink(file.c_str());
-        throw;
+/// The device that is ready and was asked for; null if there is none. Throws UsageError if something else was given
+/// too.
+const DeviceTemplate* deviceOf(const NewOptions& options) {
+    const DeviceTemplate* device = nullptr;
+    std::string given = options.ask ? "--ask" : "";
+    const auto questions = newQuestions();
+    for (std::size_t i = 0; i < questions.size(); ++i)
+        if (!options.answers[i].empty()) given = questions[i].option;
+    for (std::size_t i = 0; i < kDeviceTemplates.size(); ++i) {
+        if (!options.devices[i]) continue;
+        if (device != nullptr) given = fmt::format("--{}", device->name);
+        device = &kDeviceTemplates[i];
     }
-}
-
-/// The run time is told only if the device could be asked: a case with a mesh can take many times as long as another
-/// with as many spheres.
-void tellRunTime(const Case& c, const Insertion& filled) {
-    const Derived derived = derive(c, filled);
-    tell("{}", workText(derived));
-    sendText(stdout);
-    const Speed speed = speedOf(c, filled, {}, false);
-    if (speed.measured)
-        tell("{}", runTimeText(derived, speed));
-    else
-        tell("run time   not known, because the device could not be measured: {}\n",
-             printable(speed.told.substr(0, speed.told.find('\n'))));
+    if (device != nullptr && !given.empty())
+        throw UsageError(fmt::format("new: --{} and {}: a device that is ready is changed in its file; give it alone",
+                                     device->name, given));
+    return device;
 }
 
 void tellDesign(const NewDesign& d, const Case& c, const std::filesystem::path& file) {
@@ -133,14 +119,7 @@ void tellDesign(const NewDesign& d, const Case& c, const std::filesystem::path& 
     for (const std::string& what : d.assumed) assumed += (assumed.empty() ? "" : ", ") + what;
     if (!assumed.empty()) tell("assumed    {}\n", assumed);
     for (const std::string& note : d.notes) tell("note       {}\n", note);
-    for (const Warning& w : warningsOf(c, filled))
-        if (!w.accepted) tell("warning    {}\n", w.line());
-    const std::string word = shellWord(file.string());
-    tell(
-        "next       vkdose check {0}   (what it implies, and how long it takes)\n"
-        "           vkdose render {0}   (a picture of the device and its powder)\n"
-        "           vkdose run {0}\n",
-        word);
+    tellNext(c, filled, file);
 }
 
 }  // namespace
@@ -159,6 +138,10 @@ Case caseOf(const NewDesign& design, const std::filesystem::path& file) {
 
 int newCommand(const NewOptions& options) {
     requireNewFile(options.file);
+    if (const DeviceTemplate* device = deviceOf(options)) {
+        writeTemplate(*device, options.file);
+        return kOk;
+    }
     NewDesign design = designOf(answersTo(options), options.file);
     fitContacts(design, caseOf(trialOf(design), options.file));
     const Case c = caseOf(design, options.file);

@@ -160,9 +160,10 @@ void checkDoses(CaseReader& reader, const Case& c) {
 void checkSchedule(CaseReader& reader, const Case& c) {
     const Schedule& s = c.schedule;
     checkDoses(reader, c);
-    if (s.rotateTime > 0 && !c.world.coil && !followsDrive(c.world.bodies))
+    if (s.rotateTime > 0 && !c.world.coil && !movesInDoses(c.world.bodies))
         reader.fault(s.targetMass > 0 ? "dose.mass_g" : "dose.rotate_s", "there is no coil to turn",
-                     "add [coil], or a [[body]] with motion.follows = \"drive\", or set rotate_s = 0");
+                     "add [coil], or a [[body]] with motion.follows = \"drive\" or motion.during = \"rotate\", or set "
+                     "rotate_s = 0");
     if (s.rotateTime == 0 && s.restTime > 0)
         reader.fault("dose.rest_s", "there is no dose to rest after", "give rotate_s > 0, or settle.time_s instead");
     if (s.rotateTime == 0 && s.settleTime == 0)

@@ -85,6 +85,13 @@ bool movesInPhases(const std::vector<RigidBody>& bodies) {
     return std::any_of(bodies.begin(), bodies.end(), [](const RigidBody& b) { return b.clock == Clock::Phases; });
 }
 
+bool movesInDoses(const std::vector<RigidBody>& bodies) {
+    return std::any_of(bodies.begin(), bodies.end(), [](const RigidBody& b) {
+        const bool rotates = std::find(b.phases.begin(), b.phases.end(), Phase::Rotate) != b.phases.end();
+        return b.clock == Clock::Drive || (b.clock == Clock::Phases && rotates);
+    });
+}
+
 bool moveFreely(const std::vector<RigidBody>& bodies) {
     return std::any_of(bodies.begin(), bodies.end(), [](const RigidBody& b) { return b.movesFreely(); });
 }

@@ -97,6 +97,8 @@ void advanceClocks(std::vector<BodyClock>& clocks, std::uint64_t steps);
 bool followsDrive(const std::vector<RigidBody>& bodies);
 /// Whether one of the bodies moves in phases.
 bool movesInPhases(const std::vector<RigidBody>& bodies);
+/// Whether one of the bodies moves in the phases in which powder is dosed, with the drive or by itself.
+bool movesInDoses(const std::vector<RigidBody>& bodies);
 /// Whether one of the bodies moves freely.
 bool moveFreely(const std::vector<RigidBody>& bodies);
 /// All bodies at their start; of those that do not move freely it means nothing.

@@ -4,7 +4,9 @@
 #include <nlohmann/json.hpp>
 
 #include "host/app/backends.h"
+#include "host/app/exit_code.h"
 #include "host/app/measures.h"
+#include "host/app/new_template.h"
 #include "host/model/body_form.h"
 #include "host/model/case.h"
 #include "tests/app/sandbox.h"
@@ -73,6 +75,32 @@ TEST_CASE("figures are rounded to digits that can be read") {
     CHECK(massText(12) == "12 kg");
 }
 
+TEST_CASE("new: devices that are ready are cases that check has nothing against") {
+    const Sandbox box;
+    for (const DeviceTemplate& device : kDeviceTemplates) {
+        const std::string name = device.name;
+        INFO(name);
+        const auto made = box.vkdose("new my-" + name + ".toml --" + name);
+        CAPTURE(made.err);
+        REQUIRE(made.code == kOk);
+        CHECK_THAT(made.out, Catch::Contains(device.about) && Catch::Contains("vkdose render my-" + name + ".toml") &&
+                                 !Catch::Contains("warning"));
+        const nlohmann::json told = checked(box, "my-" + name + ".toml");
+        CHECK(told.at("warnings").empty());
+        CHECK_THAT(readText(box / ("my-" + name + ".toml")), Catch::StartsWith("# A"));
+    }
+
+    const auto refused = [&](const std::string& arguments, const std::string& why) {
+        INFO(arguments);
+        const auto told = box.vkdose("new " + arguments);
+        CHECK(told.code == kBadInput);
+        CHECK_THAT(told.err, Catch::Contains(why));
+    };
+    refused("my-screw.toml --screw", "is there already");
+    refused("a.toml --screw --tray", "--tray and --screw");
+    refused("a.toml --screw --speed 20rpm", "--screw and --speed");
+}
+
 TEST_CASE("new: three devices give cases that check has nothing against") {
     const Sandbox box;
     struct Device {
@@ -87,7 +115,8 @@ TEST_CASE("new: three devices give cases that check has nothing against") {
         const auto made = box.vkdose("new my.toml " + device.options);
         CAPTURE(made.err);
         REQUIRE(made.code == 0);
-        CHECK_THAT(made.out, Catch::Contains("vkdose check my.toml") && Catch::Contains("vkdose render my.toml") && Catch::Contains("particle-steps"));
+        CHECK_THAT(made.out, Catch::Contains("vkdose check my.toml") && Catch::Contains("vkdose render my.toml") &&
+                                 Catch::Contains("particle-steps"));
         CHECK((made.out.find("warning") != made.out.npos) == !device.warned.empty());
         const auto check = checked(box, "my.toml");
         std::vector<std::string> accepted, warned;

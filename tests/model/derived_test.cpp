@@ -66,6 +66,9 @@ TEST_CASE("a run is as long as its limits allow") {
     };
     CHECK(duration({"stop.max_doses=2"}) == Approx(0.15 + 2 * 0.4).epsilon(1e-4));
     CHECK(duration({"stop.end_time_s=0.5"}) == Approx(0.5).epsilon(1e-4));
+    // Without a closed form too: a coil that stands.
+    CHECK(duration({"coil.speed_rpm=0", "stop.max_doses=2"}) == Approx(0.15 + 2 * 0.4).epsilon(1e-4));
+    CHECK(duration({"coil.speed_rpm=0", "stop.end_time_s=0.5"}) == Approx(0.5).epsilon(1e-4));
     CHECK(duration({"dose.rotate_s=0", "dose.rest_s=0", "stop.rule=none"}) == Approx(0.15).epsilon(1e-4));
 }
 

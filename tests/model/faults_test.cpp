@@ -167,6 +167,15 @@ TEST_CASE("doses need a coil") {
     REQUIRE(faults.size() == 1);
     CHECK(faults[0].key == "dose.rotate_s");
     CHECK_THAT(faults[0].text(), Catch::Contains("no coil to turn"));
+
+    // A tray that shakes while powder is dosed is enough, one that shakes while it rests is not.
+    const auto shaken = [](const std::string& during) {
+        return "[[body]]\nname = \"tray\"\nshape = \"ball\"\nradius_mm = 1\nat = [0, 0.02, 0.01]\n[body.motion]\n"
+               "kind = \"shake\"\namplitude_mm = 0.1\nfrequency_hz = 40\nduring = \"" +
+               during + "\"\n";
+    };
+    CHECK(faultsOf(folder.write("tray.toml", replaced(kGoodCase, coil, shaken("rotate")))).empty());
+    CHECK(faultsOf(folder.write("idle.toml", replaced(kGoodCase, coil, shaken("rest")))).size() == 1);
 }
 
 TEST_CASE("particles outside a given domain are told, a few and a count") {

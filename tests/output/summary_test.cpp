@@ -85,7 +85,7 @@ TEST_CASE("the summary has the figures of the mass rate, null where there are no
     CHECK(told() == expected);
 }
 
-TEST_CASE("the summary has the mass of the cycles, and says what a cycle is; cycles.csv has each") {
+TEST_CASE("the summary has the mass of the cycles, and says what a cycle is, and cycles.csv has each") {
     RunHistory history;
     const auto told = [&] {
         return nlohmann::json::parse(summaryJson(smallCase(), RunResult{}, "fake", history)).at("analysis").at("cycle");
