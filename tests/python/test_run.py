@@ -207,7 +207,8 @@ class Results(InFolder):
         self.assertEqual(result.summary["analysis"]["cycle"]["is"], "turn of the drive")
         self.assertEqual(list(result.cycles.cycle), [1, 2, 3, 4])
         dosed = result.doses.mass_kg[0]
-        self.assertAlmostEqual(result.cycles.mass_kg.sum(), dosed, delta=1e-6 * dosed)
+        # The dose is whole steps: it ends a part of a step after the fourth turn.
+        self.assertAlmostEqual(result.cycles.mass_kg.sum(), dosed, delta=1e-4 * dosed)
         self.assertIsNone(run(short(**{"coil.speed_rpm": 0, "stop.max_doses": 1})).wait().cycles)
 
     def test_arrays_of_a_frame_are_read_when_they_are_touched(self):
