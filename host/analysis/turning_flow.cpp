@@ -16,7 +16,8 @@ TurningFlow::TurningFlow(const std::vector<FlowSample>& samples, By by, bool alw
     FlowSample before;
     if (always && (samples.empty() || samples.back().dosed == 0)) return;
     for (const FlowSample& s : samples) {
-        if (s.turning || always) add(before, s, by);
+        const bool empty = &s != &samples.front() && before.inside == 0;
+        if ((s.turning || always) && !empty) add(before, s, by);
         before = s;
     }
 }

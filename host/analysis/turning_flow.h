@@ -15,6 +15,7 @@ class TurningFlow {
     enum class By { Time, Angle };
 
     /// `always`: the run has no doses, and all its lines count. Of such a run from which nothing came out no line does.
+    /// No line counts that begins with an empty device.
     TurningFlow(const std::vector<FlowSample>& samples, By by, bool always);
 
     /// All of it, in that measure.

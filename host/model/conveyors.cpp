@@ -12,7 +12,7 @@ constexpr double kParallel = 0.999;  ///< cosine of the angle between two axes t
 /// A thing that carries less in a turn, over its radius, is a paddle: its facets are rounded.
 constexpr double kPaddle = 0.02;
 
-/// The body itself, over the length of its axis [m2]; 0 where its form does not tell.
+/// The body itself, over the length of its axis [m2]; 0 of a wire, as in the paper's form, and where no form tells.
 double solidSection(const RigidBody& body, double length) {
     double section = 0;
     for (const geometry::Shape& shape : body.shapes) {
@@ -20,8 +20,6 @@ double solidSection(const RigidBody& body, double length) {
             const double shaft = kPi * f->innerRadius * f->innerRadius;
             const double pitch = (f->pitchStart + f->pitchEnd) / 2;
             section += shaft + f->thickness / pitch * (kPi * f->outerRadius * f->outerRadius - shaft);
-        } else if (const auto* w = std::get_if<geometry::Coil>(&shape)) {
-            section += kPi * w->wireRadius * w->wireRadius * std::hypot(1.0, 2 * kPi * w->radius / w->pitch);
         } else if (const auto* m = std::get_if<std::shared_ptr<const geometry::MeshSurface>>(&shape)) {
             const geometry::Mesh& mesh = (*m)->mesh();
             double volume = 0;
@@ -36,7 +34,7 @@ double solidSection(const RigidBody& body, double length) {
     return section;
 }
 
-/// Radius and pitch of a helix around the z axis of its body [m].
+/// Radius, of a wire that of its centre line, and pitch of a helix around the z axis of its body [m].
 struct Helix {
     double radius = 0, pitch = 0;
 };
@@ -44,7 +42,7 @@ std::optional<Helix> helixOf(const RigidBody& body) {
     for (const geometry::Shape& shape : body.shapes) {
         if (const auto* f = std::get_if<geometry::Flight>(&shape))
             return Helix{f->outerRadius, (f->pitchStart + f->pitchEnd) / 2};
-        if (const auto* w = std::get_if<geometry::Coil>(&shape)) return Helix{w->radius + w->wireRadius, w->pitch};
+        if (const auto* w = std::get_if<geometry::Coil>(&shape)) return Helix{w->radius, w->pitch};
     }
     return std::nullopt;
 }

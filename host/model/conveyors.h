@@ -10,7 +10,8 @@
 namespace vkdose {
 
 /// What turns about an axis and carries powder along it, as if the powder filled its circle and did not turn with it:
-/// in a turn its pitch times the area of its circle without its shaft, less the volume of its blade or wire in a pitch.
+/// in a turn its pitch times the area of its circle without its shaft, less the volume of its blade in a pitch. A wire
+/// has the circle of its centre line and leaves nothing out, as in the paper's form.
 /// That is the ideal volumetric throughput of a full enclosed screw (Roberts 1999, Powder Technology 104, 56).
 struct Conveyor {
     std::string name;

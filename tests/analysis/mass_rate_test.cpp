@@ -27,6 +27,7 @@ std::vector<FlowSample> turning(double time, const std::function<double(double)>
         s.turning = true;
         s.dose = 1;
         s.dosed = dosed(s.time);
+        s.inside = 1;
         samples.push_back(s);
     }
     return samples;
@@ -143,6 +144,18 @@ TEST_CASE("rests are no part of the time, nor is what falls in them part of the 
     CHECK(near(halves.windows[2].from, 1.5, kInterval, 1e-9));
 }
 
+TEST_CASE("an empty device has no rate, until it is filled again") {
+    // Empty after a second; a second later powder comes in.
+    std::vector<FlowSample> samples =
+        turning(3, [](double t) { return kRate * (std::min(t, 1.0) + std::max(t - 2, 0.0)); });
+    for (FlowSample& s : samples) s.inside = s.time > 0.995 && s.time < 1.995 ? 0 : 1;
+    const MassRate r = massRate(samples, kTenthSecond);
+    CHECK(r.windows.size() == 20);
+    CHECK(sameRate(r.all.mean, kRate));
+    CHECK(near(r.all.relative, 0, 1, 1e-9));
+    CHECK(near(r.windows.back().to, 3, kInterval, 1e-9));
+}
+
 TEST_CASE("a window that ends within a line has its share of the line's mass") {
     // Lines 2, 4, 6 ... give a milligram each. Windows are five lines and a half long.
     const auto dosed = [](double t) { return 1e-6 * std::floor(std::round(t / kInterval) / 2); };
@@ -159,6 +172,7 @@ TEST_CASE("what was out before the drive turned is no rate, nor is the time befo
     FlowSample state;  // of another run, or of the settling
     state.time = 7;
     state.dosed = 0.5;
+    state.inside = 1;
     for (FlowSample& s : samples) {
         s.time += state.time;
         s.dosed += state.dosed;
