@@ -112,7 +112,7 @@ TEST_CASE("windows of the rate that are shorter than the sensors can tell are re
 TEST_CASE("a screw and a wheel with pockets: check tells the closed form, the run the mass of each cycle") {
     const Sandbox box;
     std::string text = "base = \"" VKDOSE_SOURCE_DIR
-                       "/cases/mini.toml\"\n[dose]\nrotate_s = 2.0\nrest_s = 0.0\n"
+                       "/cases/mini.toml\"\n[dose]\nrotate_s = 1.5\nrest_s = 0.0\n"
                        "[stop]\nmax_doses = 1\n";
     const std::string wheel =
         "[[body]]\nname = \"wheel\"\nshape = \"ball\"\nradius_mm = 1\nat = [0, 0.05, 0.005]\n[body.motion]\n"
@@ -121,17 +121,17 @@ TEST_CASE("a screw and a wheel with pockets: check tells the closed form, the ru
     const auto o = box.vkdose("run wheel.toml --backend reference --out out");
     CAPTURE(o.out, o.err);
     REQUIRE(o.code == 0);
-    CHECK_THAT(o.out, Catch::Contains("\ncycle    ") && Catch::Contains(" over 16 cycles, each a pocket of wheel"));
+    CHECK_THAT(o.out, Catch::Contains("\ncycle    ") && Catch::Contains(" over 12 cycles, each a pocket of wheel"));
     const auto summary = nlohmann::json::parse(readText(box / "out/summary.json"));
     const auto& cycle = summary.at("analysis").at("cycle");
     CHECK(cycle.at("is") == "pocket of wheel");
     const Table cycles = Table::read(box / "out/cycles.csv");
-    REQUIRE(cycles.rows() == 16);
+    REQUIRE(cycles.rows() == 12);
     double sum = 0;
     for (const double mass : cycles.column("mass_kg")) sum += mass;
     const double dosed = summary.at("doses").at(0).at("mass_kg").get<double>();
-    CHECK(near(sum, dosed, dosed, 1e-6));  // all of the dose
-    CHECK(near(cycle.at("mean_kg").get<double>(), dosed / 16, dosed, 1e-6));
+    CHECK(near(sum, dosed, dosed, 1e-4));  // all of the dose, but for a part of a step
+    CHECK(near(cycle.at("mean_kg").get<double>(), dosed / 12, dosed, 1e-4));
 
     box.write("wrong.toml", text + wheel +
                                 "[[body]]\nname = \"b\"\nshape = \"ball\"\nradius_mm = 1\n"
