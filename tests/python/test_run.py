@@ -209,7 +209,7 @@ class Results(InFolder):
         dosed = result.doses.mass_kg[0]
         # The dose is whole steps: it ends a part of a step after the fourth turn.
         self.assertAlmostEqual(result.cycles.mass_kg.sum(), dosed, delta=1e-4 * dosed)
-        self.assertIsNone(run(short(**{"coil.speed_rpm": 0, "stop.max_doses": 1})).wait().cycles)
+        self.assertIsNone(run(short(**{"coil.speed_rpm": 0, "stop.max_doses": 1}), "still").wait().cycles)
 
     def test_arrays_of_a_frame_are_read_when_they_are_touched(self):
         frame = run(short(**{"frames.interval_s": 0.1})).wait().frames[0]
