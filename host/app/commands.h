@@ -140,7 +140,7 @@ struct ProfileOptions {
 struct RenderOptions {
     CaseOptions input;            ///< its file may be the output folder of a run
     BackendChoice backend;        ///< its device
-    std::filesystem::path out;    ///< empty: picture.png in the folder, or beside the case CASE.png
+    std::filesystem::path out;    ///< empty: picture.png in the folder; of a case its name.png here
     std::vector<double> times;    ///< [s]; none: the end
     bool panels = false;          ///< instead four times that tell the run's story
     std::filesystem::path movie;  ///< a film, or without a suffix a folder; empty: none

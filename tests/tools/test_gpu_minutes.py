@@ -104,7 +104,7 @@ esac
         with open(os.path.join(self.folder, "calls"), encoding="utf-8") as f:
             self.assertEqual(sorted(f.read().split()), ["a/bad", "a/bad", "a/good"])
 
-    def test_as_many_at_once_as_there_are_processors_and_none_begins_after_the_time(self):
+    def test_no_program_begins_after_the_time(self):
         now = [0.0]
         s = self.session("true", now=lambda: now[0])
         begun = []
