@@ -205,7 +205,7 @@ class Mender {
             const double s = share(ends, v);
             if (s <= 0 || s >= 1 || glm::length(at(v) - a - s * along) > tolerance_) return;
             if (std::binary_search(found.begin(), found.begin() + known, v)) return;
-            if (ofFlat_.count(v) == 0) mends_.onEdges.add(placed(triangle, at(v)));
+            if (!ofFlat_.contains(v)) mends_.onEdges.add(placed(triangle, at(v)));
             found.push_back(v);
         });
     }

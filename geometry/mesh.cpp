@@ -96,7 +96,7 @@ class MeshMaker {
     /// Whether the two triangles of an edge agree on which side is outside. At a seam there is nothing to agree on.
     bool agrees(std::uint32_t e) const {
         const auto& [ends, faces, hidden] = mesh_.edges[e];
-        if (faces[1] == kNoFace || hidden || crowds_.count(e) != 0 || isInner(faces[0]) || isInner(faces[1]))
+        if (faces[1] == kNoFace || hidden || crowds_.contains(e) || isInner(faces[0]) || isInner(faces[1]))
             return true;
         return runsAlong(mesh_, faces[0], ends[0], ends[1]) != runsAlong(mesh_, faces[1], ends[0], ends[1]);
     }

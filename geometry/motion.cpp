@@ -131,7 +131,7 @@ std::string fault(const Free& m) {
     if (!std::isfinite(m.mass) || !finite(m.velocity)) return "mass and velocity must be finite";
     if (m.mass <= 0) return "the mass must be positive";
     if (!m.line) return "";
-    if (const std::string said = axisFault(*m.line, Vec3(0)); !said.empty()) return said;
+    if (std::string said = axisFault(*m.line, Vec3(0)); !said.empty()) return said;
     const double speed = glm::length(m.velocity);
     return glm::length(glm::cross(*m.line, m.velocity)) <= 1e-9 * speed ? "" : "the velocity leads off the line";
 }

@@ -132,7 +132,7 @@ bool Seams::turnOutwards() {
     next_.assign(2 * count, {});
     for (std::uint32_t e = 0; e < mesh_.edges.size(); ++e) {
         const MeshEdge& edge = mesh_.edges[e];
-        if (edge.faces[1] != kNoFace && !edge.hidden && crowds_.count(e) == 0)
+        if (edge.faces[1] != kNoFace && !edge.hidden && !crowds_.contains(e))
             join({edge.faces[0], edge.faces[1]}, edge.vertices);
     }
     std::size_t k = 0;
@@ -162,9 +162,10 @@ bool Seams::turnOutwards() {
     std::vector<bool> met(2 * count, false), outside(2 * count, false);
     bool closed = true;
     for (std::uint32_t t = 0; t < count; ++t) {
-        if (met[2 * t]) continue;
-        met[2 * t] = true;
-        waiting = {2 * t};
+        const std::uint32_t front = 2 * t;
+        if (met[front]) continue;
+        met[front] = true;
+        waiting = {front};
         std::vector<std::uint32_t> part;
         for (const std::uint32_t side : spread(met, true))
             if (side % 2 == 0) part.push_back(side / 2);
@@ -173,8 +174,9 @@ bool Seams::turnOutwards() {
         outside[waiting.front()] = true;
         spread(outside, false);
         for (const std::uint32_t f : part) {
-            if (outside[2 * f] && outside[2 * f + 1]) closed = false;
-            if (!outside[2 * f] && !outside[2 * f + 1]) mesh_.inner.push_back(f);
+            const std::uint32_t side = 2 * f, other = side + 1;
+            if (outside[side] && outside[other]) closed = false;
+            if (!outside[side] && !outside[other]) mesh_.inner.push_back(f);
         }
     }
     std::sort(mesh_.inner.begin(), mesh_.inner.end());

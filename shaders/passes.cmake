@@ -37,14 +37,25 @@ set(shader_dir ${CMAKE_SOURCE_DIR}/shaders)
 file(GLOB shader_headers CONFIGURE_DEPENDS ${shader_dir}/shared/*.h ${shader_dir}/shared/*.glsl ${shader_dir}/law/*.glsl
                                            ${shader_dir}/pass/*.glsl)
 
+# What glslang leaves to a driver is done here once: functions are written out and variables become values, in the order
+# of `spirv-opt -O`. Passes that move or merge arithmetic are left out, because values that live longer cost a software
+# device more than they save it (tools/results/README.md).
+set(spirv_made_small
+    --wrap-opkill --eliminate-dead-branches --merge-return --inline-entry-points-exhaustive --eliminate-dead-functions
+    --eliminate-dead-code-aggressive --private-to-local --eliminate-local-single-block --eliminate-local-single-store
+    --eliminate-dead-code-aggressive --scalar-replacement=100 --convert-local-access-chains
+    --eliminate-local-single-block --eliminate-local-single-store --eliminate-dead-code-aggressive --ssa-rewrite
+    --eliminate-dead-code-aggressive --merge-blocks)
+
 function(vkdose_compile source name)
   list(TRANSFORM ARGN PREPEND -D)
-  set(glslang ${GLSLANG} --quiet -V --target-env vulkan1.1 -I${shader_dir} ${ARGN})
+  set(spirv ${spirv_dir}/${name}.spv)
   add_custom_command(
-    OUTPUT ${spirv_dir}/${name}.spv.h ${spirv_dir}/${name}.spv
-    COMMAND ${glslang} -o ${spirv_dir}/${name}.spv ${source}
-    COMMAND ${glslang} --vn ${name}_spv -o ${spirv_dir}/${name}.spv.h ${source}
-    DEPENDS ${source} ${shader_headers}
+    OUTPUT ${spirv}.h ${spirv}
+    COMMAND ${GLSLANG} --quiet -V --target-env vulkan1.1 -I${shader_dir} ${ARGN} -o ${spirv}.large ${source}
+    COMMAND ${SPIRV_OPT} ${spirv_made_small} ${spirv}.large -o ${spirv}
+    COMMAND ${CMAKE_COMMAND} -DSPIRV=${spirv} -DHEADER=${spirv}.h -DNAME=${name}_spv -P ${shader_dir}/words.cmake
+    DEPENDS ${source} ${shader_headers} ${shader_dir}/words.cmake
     COMMENT "SPIR-V ${name}"
     VERBATIM)
 endfunction()

@@ -30,35 +30,35 @@ Cells::Cells(const std::vector<Triangle>& mesh) : mesh_(mesh) {
             low_ = glm::min(low_, p);
             high_ = glm::max(high_, p);
         }
+    perLength_ = double(kSide) / glm::max(high_ - low_, Vec3(1e-300));
+    cells_.resize(std::size_t(kSide) * kSide * kSide);
     for (std::size_t i = 0; i < mesh.size(); ++i)
         forEachCell(glm::min(mesh[i][0], glm::min(mesh[i][1], mesh[i][2])),
                     glm::max(mesh[i][0], glm::max(mesh[i][1], mesh[i][2])),
-                    [&](int cell) { cells_[cell].push_back(i); });
+                    [&](std::size_t cell) { cells_[cell].push_back(i); });
 }
 
 bool Cells::passedBy(const Vec3& a, const Vec3& b, double least) const {
     const Vec3 low = glm::min(a, b), high = glm::max(a, b);
     if (glm::any(glm::lessThan(high, low_)) || glm::any(glm::greaterThan(low, high_))) return false;
     bool passed = false;
-    forEachCell(low, high, [&](int cell) {
-        const auto found = cells_.find(cell);
-        if (passed || found == cells_.end()) return;
-        passed = std::any_of(found->second.begin(), found->second.end(),
-                             [&](std::size_t i) { return passes(a, b, mesh_[i], least); });
+    forEachCell(low, high, [&](std::size_t cell) {
+        passed = passed || std::any_of(cells_[cell].begin(), cells_[cell].end(),
+                                       [&](std::size_t i) { return passes(a, b, mesh_[i], least); });
     });
     return passed;
 }
 
 int Cells::cell(double x, int axis) const {
-    const double share = (x - low_[axis]) / std::max(high_[axis] - low_[axis], 1e-300);
-    return int(std::clamp(share * kSide, 0.0, kSide - 1.0));
+    return int(std::clamp((x - low_[axis]) * perLength_[axis], 0.0, kSide - 1.0));
 }
 
 template <class Visit>
 void Cells::forEachCell(const Vec3& low, const Vec3& high, const Visit& visit) const {
-    for (int x = cell(low.x, 0); x <= cell(high.x, 0); ++x)
-        for (int y = cell(low.y, 1); y <= cell(high.y, 1); ++y)
-            for (int z = cell(low.z, 2); z <= cell(high.z, 2); ++z) visit((x * kSide + y) * kSide + z);
+    const int lastX = cell(high.x, 0), lastY = cell(high.y, 1), lastZ = cell(high.z, 2);
+    for (int x = cell(low.x, 0); x <= lastX; ++x)
+        for (int y = cell(low.y, 1); y <= lastY; ++y)
+            for (int z = cell(low.z, 2); z <= lastZ; ++z) visit(std::size_t((x * kSide + y) * kSide + z));
 }
 
 }  // namespace vkdose

@@ -1,7 +1,6 @@
 #pragma once
 // Triangles in the cells of a box, to find those near a segment.
 
-#include <map>
 #include <vector>
 
 #include "geometry/mesh_file.h"
@@ -28,7 +27,8 @@ class Cells {
 
     const std::vector<geometry::Triangle>& mesh_;
     Vec3 low_{1e300}, high_{-1e300};
-    std::map<int, std::vector<std::size_t>> cells_;
+    Vec3 perLength_{0};  ///< cells for each metre along the axes
+    std::vector<std::vector<std::size_t>> cells_;
 };
 
 }  // namespace vkdose

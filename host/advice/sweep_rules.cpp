@@ -1,7 +1,9 @@
 // Warnings about bodies that move through other bodies, or through the walls of a canister.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
+#include <tuple>
 
 #include "host/advice/body_words.h"
 #include "host/advice/cells.h"
@@ -17,7 +19,7 @@ using geometry::Triangle;
 /// radius is at most half of the length.
 constexpr double kFacetError = 0.0015;
 /// At most so many segments are tried for two bodies, in at least so many places of their motion.
-constexpr double kMostTries = 3e7;
+constexpr double kMostTries = 1e7;
 constexpr std::size_t kLeastPlaces = 36, kMostPlaces = 288;
 
 bool rests(const RigidBody& body) {
@@ -111,9 +113,27 @@ std::vector<Pose> waysInRun(const RigidBody& body, const Plan& plan, std::size_t
     return ways;
 }
 
+using Edge = std::array<Vec3, 2>;
+
+/// The edges of triangles. That of two triangles counts once.
+std::vector<Edge> edgesOf(const std::vector<Triangle>& mesh) {
+    const auto before = [](const Vec3& a, const Vec3& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); };
+    std::vector<Edge> edges;
+    for (const Triangle& t : mesh)
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Vec3 &a = t[i], &b = t[(i + 1) % 3];
+            edges.push_back(before(a, b) ? Edge{a, b} : Edge{b, a});
+        }
+    std::sort(edges.begin(), edges.end(),
+              [&](const Edge& a, const Edge& b) { return before(a[0], b[0]) || (a[0] == b[0] && before(a[1], b[1])); });
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    return edges;
+}
+
 /// A body with its triangles at the start.
 struct Form {
     std::vector<Triangle> mesh;
+    std::vector<Edge> edges = edgesOf(mesh);
     Cells cells{mesh};
     double size() const {
         const Vec3 d = cells.high() - cells.low();
@@ -122,6 +142,8 @@ struct Form {
     explicit Form(const RigidBody& body) : mesh(trianglesOf(body)) {}
     Form(const Form& other, double factor) : mesh(other.sized(factor)) {}
     Form(const Form&) = delete;
+    Form& operator=(const Form&) = delete;
+    ~Form() = default;
 
     /// The triangles so many times as large, about the middle of the body.
     std::vector<Triangle> sized(double factor) const {
@@ -135,10 +157,8 @@ struct Form {
 
 /// Whether an edge of `moved`, brought along `way`, passes `still`.
 bool edgesPass(const Form& moved, const Pose& way, const Form& still, double least) {
-    return std::any_of(moved.mesh.begin(), moved.mesh.end(), [&](const Triangle& t) {
-        const Vec3 a = way.toWorld(t[0]), b = way.toWorld(t[1]), c = way.toWorld(t[2]);
-        return still.cells.passedBy(a, b, least) || still.cells.passedBy(b, c, least) ||
-               still.cells.passedBy(c, a, least);
+    return std::any_of(moved.edges.begin(), moved.edges.end(), [&](const Edge& e) {
+        return still.cells.passedBy(way.toWorld(e[0]), way.toWorld(e[1]), least);
     });
 }
 
@@ -162,7 +182,7 @@ bool meet(const Form& a, const std::vector<Pose>& first, const Form& b, const st
 }
 
 std::size_t placesFor(const Form& a, const Form& b) {
-    const double tries = 3 * double(a.mesh.size() + b.mesh.size());
+    const auto tries = double(a.edges.size() + b.edges.size());
     return std::clamp(std::size_t(kMostTries / std::max(tries, 1.0)), kLeastPlaces, kMostPlaces);
 }
 

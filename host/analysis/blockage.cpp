@@ -89,10 +89,13 @@ std::optional<Arch> archAbove(const geometry::Coil& coil, const Canister& canist
     const Box box{{-coil.radius / 2, floor, begin}, {coil.radius / 2, top, end}};
     const BodyRoom room(world, bodies, particles, box, a, 1.5 * a);
     const double step = a / 2;
+    const int pieces = int(std::ceil((top - floor) / step));
     for (int i = 0; i < slices && !world.bodies.empty(); ++i)
-        for (double y = floor; y < top; y += step)
+        for (int k = 0; k < pieces; ++k) {
+            const double y = floor + k * step;
             if (room.takes({0, y + step / 2, begin + (i + 0.5) * slice}))
                 columns[std::size_t(i)].push_back({y, y + step, true});
+        }
     Arch arch;
     for (int i = 0; i < slices; ++i) {
         const auto [low, high] = greatestGap(columns[i], floor);

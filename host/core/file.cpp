@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <new>
 #include <system_error>
 
 #include "host/core/error.h"
@@ -126,7 +127,12 @@ std::string InputFile::rest(std::uint64_t most) {
     for (;;) {
         const std::size_t before = bytes.size();
         const auto wanted = static_cast<std::size_t>(std::min(next, most - before));
-        bytes.resize(before + wanted);
+        try {
+            bytes.resize(before + wanted);
+        } catch (const std::bad_alloc&) {
+            throw ReadError(fmt::format("{} cannot be read: there is no memory for its {} MiB",
+                                        shortenedPath(file_.string()), all >> 20U));
+        }
         const std::size_t n = read(bytes.data() + before, wanted);
         bytes.resize(before + n);
         if (n < wanted || bytes.size() == most) return bytes;

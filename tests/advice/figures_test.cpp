@@ -113,8 +113,7 @@ TEST_CASE("the settled bed fills the canister to its volume") {
     const double half = 11.5e-3, length = 40e-3;
     const double mass = 0.5 * kPi * half * half * length * kDensity * kBedFraction;
     const auto figures = [&](double share) {
-        const Case c =
-            loadCase(test::plainCase(), {"particles.mass_g=" + std::to_string(share * mass * 1e3)});
+        const Case c = loadCase(test::plainCase(), {"particles.mass_g=" + std::to_string(share * mass * 1e3)});
         return figuresOf(c, insertParticles(c));
     };
     // One sphere more or less is 0.05 g, a hundredth of the mass, which makes 0.1 mm.
@@ -131,8 +130,7 @@ TEST_CASE("the fall ends on the canister's own material") {
         const Case c = loadCase(test::plainCase(), overrides);
         return figuresOf(c, insertParticles(c));
     };
-    const double stiffness =
-        loadCase(test::plainCase()).dosingLaw.of(ContactClass::ParticleWall).k2Max;
+    const double stiffness = loadCase(test::plainCase()).dosingLaw.of(ContactClass::ParticleWall).k2Max;
     const std::vector<std::string> steel{"particles.material=\"cocoa\"", "material=[{name=\"steel\"}]",
                                          "canister.material=\"steel\"",
                                          "contact.cocoa-steel.k=" + std::to_string(stiffness / 4)};
@@ -156,9 +154,7 @@ TEST_CASE("gaps of the coil are measured across the wire") {
     CHECK(f.coilGap == Approx(nearest - 2 * coil.wireRadius).epsilon(0.01));
     CHECK(f.coilClearance == Approx(0.1e-3));
     CHECK(f.stepLimit == "particle-particle normal");
-    CHECK(std::isnan(
-        figuresOf(loadCase(test::plainCase(), {"gravity=[0, 9.81, 0]"}), insertParticles(c))
-            .bedDepth));
+    CHECK(std::isnan(figuresOf(loadCase(test::plainCase(), {"gravity=[0, 9.81, 0]"}), insertParticles(c)).bedDepth));
 }
 
 TEST_CASE("what limits the time step is told with the bodies that it may be") {

@@ -251,7 +251,7 @@ TEST_CASE("bodies move in the phases that the case names, and stand in the other
         const auto summary = nlohmann::json::parse(readText(box / "run/summary.json"));
         CHECK(summary["bodies"][0]["moved_s"].get<double>() == Approx(0.06).epsilon(1e-4));
         CHECK(summary["bodies"][1]["moved_s"].get<double>() == Approx(0.05).epsilon(1e-4));
-        CHECK(box.vkdose("render run --out end.png").code == 0);
+        CHECK(box.vkdose("render run --size 320x240 --out end.png").code == 0);
         CHECK(box.vkdose("report run").code == 0);
     }
 }

@@ -56,7 +56,7 @@ TEST_CASE("a lid falls on the powder, and the files tell where it is") {
         CHECK(summary["bodies"][2]["moved_y_m"].get<double>() == Approx(y.back() - 0.0115).epsilon(1e-6));
         CHECK(summary["bodies"][2]["moved_x_m"] == 0);
         CHECK(std::filesystem::exists(box / "run/frames/bodies_000001.hdf"));
-        CHECK(box.vkdose("render run --out end.png").code == 0);
+        CHECK(box.vkdose("render run --size 320x240 --out end.png").code == 0);
         CHECK(box.vkdose("report run").code == 0);
         // From the settled bed the doses are the same: the lid goes on where it was.
         REQUIRE(box.vkdose("run --from run --quiet --out on").code == 0);

@@ -75,5 +75,5 @@ TEST_CASE("powder that was not added shows nowhere") {
     for (const char* name : {"timeseries.csv", "doses.csv"})
         CHECK(readText(box / "never" / name) == readText(box / "without" / name));
     CHECK(box.vkdose("report never").code == 0);
-    CHECK(box.vkdose("render never --out never.png").code == 0);
+    CHECK(box.vkdose("render never --size 320x240 --out never.png").code == 0);
 }

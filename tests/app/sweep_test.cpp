@@ -73,7 +73,7 @@ TEST_CASE("a sweep that is killed again and again ends with the rows of one that
     CHECK(readText(box / "cut/members/0002/timeseries.csv") == readText(box / "whole/members/0002/timeseries.csv"));
 }
 
-TEST_CASE("after Ctrl-C or the closing of its terminal a sweep goes on to the same rows") {
+TEST_CASE("after Ctrl-C or the closing of its terminal a sweep goes on to the same rows", "[slow]") {
     const int signal = GENERATE(SIGINT, SIGHUP);
     CAPTURE(signal);
     const Sandbox box;
@@ -279,7 +279,7 @@ TEST_CASE("a search runs members until its target is met or its runs are used up
     CHECK(box.vkdose("sweep study.toml").code == 2);
 }
 
-TEST_CASE("a calibration that is killed in its confirming runs ends as one that is not") {
+TEST_CASE("a calibration that is killed in its confirming runs ends as one that is not", "[slow]") {
     const Sandbox box;
     box.write("study.toml", kStudy.substr(0, kStudy.find("[[axis]]")) +
                                 "[calibrate]\nmethod = \"surrogate\"\ntarget_g_per_dose = 0.05\ntolerance_g = 0.1\n"

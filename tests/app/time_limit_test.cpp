@@ -96,8 +96,7 @@ TEST_CASE("calibrate and validate keep to a time too, and a wrong one is refused
     const auto compared = box.vkdose("test validate beverloo heap --backend reference --for 0.001s");
     CAPTURE(compared.err);
     CHECK(compared.code == 6);
-    CHECK_THAT(compared.err,
-               Catch::Contains("go on with `vkdose test validate beverloo heap --out out/validate"));
+    CHECK_THAT(compared.err, Catch::Contains("go on with `vkdose test validate beverloo heap --out out/validate"));
 
     const auto wrong = box.vkdose("sweep grid.toml --for 480");
     CHECK(wrong.code == 2);

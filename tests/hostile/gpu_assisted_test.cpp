@@ -69,7 +69,7 @@ TEST_CASE("GPU-assisted checks find an access outside a buffer") {
     CHECK_THAT(messages.front(), Catch::Contains("out of bounds"));
 }
 
-TEST_CASE("no pass reaches outside its buffers while a heap falls on the turning coil") {
+TEST_CASE("no pass reaches outside its buffers while a heap falls on the turning coil", "[slow]") {
     const Assisted assisted;
     for (const auto reads : {VulkanOptions::Reads::Automatic, VulkanOptions::Reads::Storage}) {
         VulkanOptions options;

@@ -1,4 +1,6 @@
 // Limits of the shell on stacks and on the address space: a run works, or says what it lacks.
+#include <filesystem>
+#include <fstream>
 #include <string>
 
 #include "tests/app/sandbox.h"
@@ -65,6 +67,20 @@ TEST_CASE("where a limit on the address space is too small, that is what the pro
     }
     CHECK(worked >= 1);
     CHECK(refused >= 1);
+}
+
+TEST_CASE("a file that the memory does not hold is refused by name") {
+    if (kSanitized) {
+        WARN("skipped: the address sanitizer takes more address space than any limit here");
+        return;
+    }
+    const Sandbox box;
+    std::ofstream(box / "huge.toml") << "seed = 1\n";
+    std::filesystem::resize_file(box / "huge.toml", std::uintmax_t{4} << 30U);  // a hole: it takes no room
+    const auto o = box.vkdose("check huge.toml", "ulimit -v 1000000; ");
+    CAPTURE(o.out, o.err);
+    CHECK(o.code == 2);
+    CHECK_THAT(o.err, Contains("huge.toml") && Contains("no memory for its 4096 MiB"));
 }
 
 TEST_CASE("the reference under a limit on the address space says so too") {

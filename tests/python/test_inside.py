@@ -12,7 +12,7 @@ import unittest.mock
 from pathlib import Path
 
 from inside import DEVICE, simulation  # first: it tells what is missing
-from support import ROOT, SHORT, InFolder, examples, short
+from support import ROOT, SHORT, InFolder, run_examples, short
 
 import numpy
 import pandas
@@ -26,8 +26,9 @@ def endless():
 class Bits(InFolder):
     def same_as_the_program(self, backend, device):
         mini = str(ROOT / "cases" / "mini.toml")
-        vkdose.Case(mini).run("out", backend=backend, device=device).wait()
-        with vkdose.Simulation(mini, backend=backend, device=device or "") as sim:
+        changes = {**SHORT, "coil.speed_rpm": 360}  # a quick coil doses much in a short time
+        vkdose.Case(mini, changes).run("out", backend=backend, device=device).wait()
+        with vkdose.Simulation(mini, changes, backend=backend, device=device or "") as sim:
             sim.advance(0.1)
             sim.advance()
             doses = list(sim.doses())
@@ -71,7 +72,7 @@ class Bits(InFolder):
 
 class Looking(InFolder):
     def test_a_simulation_tells_where_it_is(self):
-        with simulation(short()) as sim:
+        with simulation(short(**{"time.step_s": 5e-5})) as sim:  # all times are whole numbers of these steps
             self.assertEqual((sim.time, sim.over, sim.stop_reason, sim.ended_doses), (0, False, None, []))
             self.assertEqual(sim.positions.shape, (111, 3))
             self.assertAlmostEqual(sim.canister_mass, 0.9e-3, delta=1e-5)
@@ -80,7 +81,7 @@ class Looking(InFolder):
             self.assertAlmostEqual(sim.time, 0.05, places=6)
             first = sim.positions
             sim.advance(sim.sensor_interval)
-            self.assertAlmostEqual(sim.time, 0.055, delta=1e-4)  # a whole number of steps
+            self.assertAlmostEqual(sim.time, 0.055, places=6)
             self.assertEqual(sim.phase, "rotate")
             self.assertGreater(sim.torque, 0)
             self.assertGreater(numpy.abs(sim.positions - first).max(), 0)
@@ -223,11 +224,8 @@ class Looking(InFolder):
             numpy.testing.assert_array_equal(one.positions, other.positions)
 
     def test_the_examples_of_the_page_run(self):
-        blocks = examples(inside=True)
-        self.assertGreaterEqual(len(blocks), 1)
-        names = {"vkdose": vkdose}
-        for block in blocks:
-            exec(compile(block, "README.md", "exec"), names)
+        blocks, names = run_examples(inside=True)
+        self.assertGreaterEqual(blocks, 1)
         self.assertGreater(names["highest"], 0)
 
 

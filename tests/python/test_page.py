@@ -3,16 +3,13 @@
 import unittest
 from pathlib import Path
 
-from support import InFolder, examples
+from support import InFolder, run_examples
 
 
 class Page(InFolder):
     def test_the_examples_run(self):
-        blocks = examples(inside=False)
-        self.assertGreaterEqual(len(blocks), 4)
-        names = {}
-        for block in blocks:
-            exec(compile(block, "README.md", "exec"), names)
+        blocks, names = run_examples(inside=False)
+        self.assertGreaterEqual(blocks, 4)
         self.assertTrue(Path("out/python/summary.json").is_file())
         self.assertEqual(len(names["members"]), 4)
 

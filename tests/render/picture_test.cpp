@@ -3,6 +3,8 @@
 #include "tests/render/scenes.h"
 
 #include <set>
+#include <tuple>
+#include <utility>
 
 #include "host/render/colour.h"
 #include "host/render/outline.h"
@@ -44,6 +46,9 @@ struct Drawn {
     Canvas canvas;
 };
 
+/// Width and height of a picture in which all that the tests look for is several pixels wide. [pixels]
+const std::pair<int, int> kQuick{640, 520};
+
 /// Of these frames, coloured by speed on the automatic scale, 0 to 100 mm/s.
 Drawn drawn(Studio& studio, PictureSpec spec, const std::vector<Frame>& frames) {
     const Case c = mini();
@@ -54,6 +59,7 @@ Drawn drawn(Studio& studio, PictureSpec spec, const std::vector<Frame>& frames) 
         content = render::united(content, render::contentOf(c, f));
     }
     spec.scale = scaleFor(Quantity::Speed, c, {});
+    if (spec.width == 0) std::tie(spec.width, spec.height) = kQuick;
     const Layout layout = layoutOf(spec, content, panels.size());
     return {c, spec, content, layout, drawPicture(studio.caster(), c, spec, content, panels)};
 }
@@ -352,6 +358,7 @@ TEST_CASE("the body that holds the powder is seen through, one that stands in it
 
     Studio studio;
     PictureSpec spec;
+    std::tie(spec.width, spec.height) = kQuick;
     spec.bodies = bodies;
     spec.scale = scaleFor(Quantity::Speed, c, {});
     const std::vector<Panel> panels{{&f, valuesOf(Quantity::Speed, c, f, nullptr), ""}};
