@@ -66,3 +66,20 @@ TEST_CASE("doses to a mass that all reach it are not blocked, however far the co
     for (Dose& d : doses) d.closedForm = 1e-5;  // the coil stopped before the target, by its time or torque
     CHECK(nearRelative(figuresOf(doses, 1e-2, none).rule.threshold, 0.15e-3 * 1e-5 / 4.2e-3, 1e-12));
 }
+
+TEST_CASE("what is next to nothing in a dose to a mass follows the mass where a device has no closed form") {
+    StopRule none;
+    none.kind = StopRule::Kind::None;
+    none.threshold = 0;
+    std::vector<Dose> doses = dosesOf({3e-5, 3e-5, 0, 0, 0}, 0);
+    for (Dose& d : doses) {
+        d.target = 3e-5;
+        d.closedForm = 0;
+    }
+    const DosingFigures f = figuresOf(doses, 0.048, none);
+    CHECK(nearRelative(f.rule.threshold, blockageRule(none, 3e-5).threshold, 1e-12));
+    CHECK(f.rule.threshold > 0);
+    CHECK(f.blocked == 3);
+    for (Dose& d : doses) d.target = 0;  // neither tells how much should come
+    CHECK(figuresOf(doses, 0.048, none).rule.threshold == 0);
+}

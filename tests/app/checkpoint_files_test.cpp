@@ -35,6 +35,37 @@ TEST_CASE("a checkpoint that cannot be used is refused by name") {
     CHECK_THAT(shorter.err, Catch::Contains("timeseries.csv"));
 }
 
+TEST_CASE("a checkpoint that is whole, but lacks a part, is refused by the part's name") {
+    const Sandbox box;
+    const fs::path file = interrupted(box);
+    const Checkpoint good = readCheckpoint(file);
+    const auto without = [](const Record& record, const std::string& name) {
+        Record left;
+        for (const auto& [key, array] : record.arrays())
+            if (key != name) std::visit([&, &k = key](const auto& values) { left.put(k, values); }, array);
+        return left;
+    };
+    const auto refused = [&](const Checkpoint& bad, const std::string& name) {
+        writeCheckpoint(file, bad);
+        const auto o = box.vkdose("resume out");
+        CAPTURE(name, o.err);
+        CHECK(o.code == 2);
+        CHECK_THAT(o.err, Catch::Contains("out/checkpoint.h5") && Catch::Contains(name));
+    };
+    REQUIRE(good.run.run.arrays().size() > 5);
+    REQUIRE(good.run.backend.arrays().size() > 5);
+    for (const auto& [name, array] : good.run.run.arrays()) {
+        Checkpoint bad = good;
+        bad.run.run = without(good.run.run, name);
+        refused(bad, name);
+    }
+    for (const auto& [name, array] : good.run.backend.arrays()) {
+        Checkpoint bad = good;
+        bad.run.backend = without(good.run.backend, name);
+        refused(bad, name);
+    }
+}
+
 TEST_CASE("no cut and no flipped bit of a checkpoint goes unnoticed") {
     const Sandbox box;
     const fs::path file = interrupted(box);
