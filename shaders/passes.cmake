@@ -29,7 +29,7 @@ set(passes
     "pass/field_sums"
     "pass/field_kinetic"
     "pass/store_trial packed"
-    "render/cast")
+    "render/cast texel")
 
 set(spirv_dir ${CMAKE_BINARY_DIR}/spirv)
 file(MAKE_DIRECTORY ${spirv_dir})

@@ -82,10 +82,19 @@ std::vector<vec4> packed(const std::vector<SceneFacet>& facets, const Vec3& orig
     return values;
 }
 
+/// Whether tables are read through texel views. A software device reads a storage buffer ray by ray. No table that
+/// can be bound has too many values for a view.
+bool readsTexels(const vk::Device& device) {
+    const VkPhysicalDeviceLimits& most = device.limits();
+    return device.info().type == "CPU" && most.maxTexelBufferElements >= most.maxStorageBufferRange / sizeof(float);
+}
+
 /// A buffer of these values. If there are none, a buffer that nothing reads.
 template <typename T>
-std::unique_ptr<vk::Buffer> filled(const vk::Device& device, const char* name, const std::vector<T>& values) {
-    auto buffer = std::make_unique<vk::Buffer>(device, name, std::max<std::size_t>(values.size(), 1) * sizeof(T));
+std::unique_ptr<vk::Buffer> filled(const vk::Device& device, const char* name, const std::vector<T>& values,
+                                   VkFormat view = VK_FORMAT_UNDEFINED) {
+    const std::size_t bytes = std::max<std::size_t>(values.size(), 1) * sizeof(T);
+    auto buffer = std::make_unique<vk::Buffer>(device, name, bytes, view);
     buffer->writeAll(values);
     return buffer;
 }
@@ -123,12 +132,15 @@ Image RayCaster::draw(const Scene& scene, const Camera& camera) {
 
     const std::vector<gpu::PictureParams> params{paramsOf(scene, camera, origin, grid, joints.size())};
     const auto paramsBuffer = filled(device_, "the picture's parameters", params);
-    const auto sphereBuffer = filled(device_, "the picture's spheres", spheres);
-    const auto paintBuffer = filled(device_, "the picture's colours", paint);
-    const auto jointBuffer = filled(device_, "the picture's wire", joints);
-    const auto facetBuffer = filled(device_, "the picture's bodies", packed(scene.facets, origin));
-    const auto cellBuffer = filled(device_, "the picture's cells", grid.parts);
-    const auto entryBuffer = filled(device_, "the picture's grid", grid.entries);
+    const bool texels = readsTexels(device_);
+    const auto viewed = [&](VkFormat format) { return texels ? format : VK_FORMAT_UNDEFINED; };
+    const VkFormat floats = viewed(VK_FORMAT_R32G32B32A32_SFLOAT);
+    const auto sphereBuffer = filled(device_, "the picture's spheres", spheres, floats);
+    const auto paintBuffer = filled(device_, "the picture's colours", paint, floats);
+    const auto jointBuffer = filled(device_, "the picture's wire", joints, floats);
+    const auto facetBuffer = filled(device_, "the picture's bodies", packed(scene.facets, origin), floats);
+    const auto cellBuffer = filled(device_, "the picture's cells", grid.parts, viewed(VK_FORMAT_R32G32B32A32_UINT));
+    const auto entryBuffer = filled(device_, "the picture's grid", grid.entries, viewed(VK_FORMAT_R32_UINT));
     const std::size_t pixels = std::size_t(camera.width) * camera.height;
     const vk::Buffer picture(device_, "the picture", pixels * sizeof(glm::uvec2));
     const vk::BindingSet bindings(device_,
@@ -136,7 +148,7 @@ Image RayCaster::draw(const Scene& scene, const Camera& camera) {
                                    cellBuffer.get(), entryBuffer.get(), &picture, facetBuffer.get()},
                                   sizeof(std::uint32_t));
     if (!pipeline_)
-        pipeline_.emplace(device_, bindings, std::span<const std::uint32_t>(cast_spv),
+        pipeline_.emplace(device_, bindings, vk::pick(spirv::cast, texels ? spirv::TEXEL_READS : 0),
                           std::span<const std::uint32_t>());
 
     vk::Commands commands(device_);

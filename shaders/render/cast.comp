@@ -7,21 +7,39 @@
 // the cell can meet, and spheres near enough to take light from a point in it. No loop is longer than a row of cells or
 // such a part.
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
 #include "law/precise.glsl"
 #include "shared/picture.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(std430, set = 0, binding = 0) readonly buffer ParamsBuffer { PictureParams params; };
-layout(std430, set = 0, binding = 1) readonly buffer SphereBuffer { vec4 spheres[]; };  // centre, radius
-layout(std430, set = 0, binding = 2) readonly buffer PaintBuffer { vec4 paint[]; };     // of a sphere: linear RGB
-layout(std430, set = 0, binding = 3) readonly buffer JointBuffer { vec4 joints[]; };    // centre line; w: angle [rad]
-layout(std430, set = 0, binding = 4) readonly buffer CellBuffer { uvec4 cells[]; };  // ends of the four parts
-layout(std430, set = 0, binding = 5) readonly buffer EntryBuffer { uint entries[]; };
+layout(std430, set = 0, binding = 0) readonly buffer ParamsBuffer { PictureParams given; };
 layout(std430, set = 0, binding = 6) writeonly buffer PictureBuffer { uvec2 picture[]; };  // RGBA8 (sRGB), depth bits
-layout(std430, set = 0, binding = 7) readonly buffer FacetBuffer {
-    vec4 facets[];  // of a triangle: three corners (w: kind), three normals there
-};
+
+// The tables. Views of them follow after the eight buffers (vk::BindingSet).
+#ifdef TEXEL_READS
+#define TABLE(number, element, name)                                                   \
+    layout(set = 0, binding = 8 + number) uniform VIEW_##element name##View; \
+    element name##At(uint at) { return OF_TEXEL_##element(texelFetch(name##View, int(at))); }
+#define VIEW_vec4 textureBuffer
+#define VIEW_uint utextureBuffer
+#define VIEW_uvec4 utextureBuffer
+#define OF_TEXEL_vec4(texel) texel
+#define OF_TEXEL_uint(texel) texel.x
+#define OF_TEXEL_uvec4(texel) texel
+#else
+#define TABLE(number, element, name)                                                           \
+    layout(std430, set = 0, binding = number) readonly buffer name##Buffer { element name[]; }; \
+    element name##At(uint at) { return name[at]; }
+#endif
+TABLE(1, vec4, sphere)  // centre, radius
+TABLE(2, vec4, paint)   // of a sphere: linear RGB
+TABLE(3, vec4, joint)   // centre line; w: angle [rad]
+TABLE(4, uvec4, parts)  // ends of the four parts
+TABLE(5, uint, entry)
+TABLE(7, vec4, facet)  // of a triangle: three corners (w: kind), three normals there
+
+PictureParams params;  // as given: lavapipe reads a buffer ray by ray
 
 const float kNever = 1e30;
 const uint kNothing = 0xffffffffu;
@@ -95,8 +113,8 @@ float meetTriangle(Ray ray, uint i, out vec3 share) {
     share = vec3(1.0, 0.0, 0.0);
     vec3 u, v;
     across(ray.way, u, v);
-    vec3 a = facets[kFacetVectors * i].xyz - ray.origin, b = facets[kFacetVectors * i + 1u].xyz - ray.origin,
-         c = facets[kFacetVectors * i + 2u].xyz - ray.origin;
+    vec3 a = facetAt(kFacetVectors * i).xyz - ray.origin, b = facetAt(kFacetVectors * i + 1u).xyz - ray.origin,
+         c = facetAt(kFacetVectors * i + 2u).xyz - ray.origin;
     precise vec2 A = vec2(preciseDot(a, u), preciseDot(a, v)), B = vec2(preciseDot(b, u), preciseDot(b, v)),
                  C = vec2(preciseDot(c, u), preciseDot(c, v));
     precise vec3 side = vec3(B.x * C.y - C.x * B.y, C.x * A.y - A.x * C.y, A.x * B.y - B.x * A.y);
@@ -108,8 +126,8 @@ float meetTriangle(Ray ray, uint i, out vec3 share) {
 }
 
 vec3 facetNormal(uint i) {
-    vec3 a = facets[kFacetVectors * i].xyz;
-    return cross(facets[kFacetVectors * i + 1u].xyz - a, facets[kFacetVectors * i + 2u].xyz - a);
+    vec3 a = facetAt(kFacetVectors * i).xyz;
+    return cross(facetAt(kFacetVectors * i + 1u).xyz - a, facetAt(kFacetVectors * i + 2u).xyz - a);
 }
 
 vec3 onWire(vec3 p, vec3 a, vec3 b) {
@@ -118,7 +136,7 @@ vec3 onWire(vec3 p, vec3 a, vec3 b) {
 }
 
 uint cellAt(ivec3 c) { return (uint(c.z) * params.cells.y + uint(c.y)) * params.cells.x + uint(c.x); }
-uint beginOf(uint cell) { return cell == 0u ? 0u : cells[cell - 1u].w; }
+uint beginOf(uint cell) { return cell == 0u ? 0u : partsAt(cell - 1u).w; }
 ivec3 cellOf(vec3 p) {
     return clamp(ivec3(floor((p - params.box.xyz) / params.box.w)), ivec3(0), ivec3(params.cells.xyz) - 1);
 }
@@ -131,18 +149,18 @@ Hit openedAt(vec3 point, float far) {
     Hit hit = Hit(kNever, kNothing, false);
     float deepest = 0.0;
     uint cell = cellAt(cellOf(point));
-    uvec4 part = cells[cell];
+    uvec4 part = partsAt(cell);
     for (uint e = beginOf(cell); e < part.x; ++e) {
-        vec4 s = spheres[entries[e]];
+        vec4 s = sphereAt(entryAt(e));
         float depth = dot(point - s.xyz, point - s.xyz) - s.w * s.w;
         if (depth < deepest) {
             deepest = depth;
-            hit = Hit(far, entries[e], true);
+            hit = Hit(far, entryAt(e), true);
         }
     }
     for (uint e = part.x; e < part.y; ++e) {
-        vec3 off = point - onWire(point, joints[entries[e]].xyz, joints[entries[e] + 1u].xyz);
-        if (dot(off, off) < params.wire.w * params.wire.w) hit = Hit(far, params.size.z + entries[e], true);
+        vec3 off = point - onWire(point, jointAt(entryAt(e)).xyz, jointAt(entryAt(e) + 1u).xyz);
+        if (dot(off, off) < params.wire.w * params.wire.w) hit = Hit(far, params.size.z + entryAt(e), true);
     }
     return hit;
 }
@@ -153,17 +171,17 @@ void meetFacets(Ray ray, uint begin, uint end, float from, float edge, inout Hit
     vec3 share;
     bool panes = false;
     for (uint e = begin; e < end; ++e) {
-        bool pane = facets[kFacetVectors * entries[e]].w == kSeeThrough;
+        bool pane = facetAt(kFacetVectors * entryAt(e)).w == kSeeThrough;
         panes = panes || pane;
-        float far = pane ? kNever : meetTriangle(ray, entries[e], share);
-        if (far >= from && far < hit.far) hit = Hit(far, params.cells.w + entries[e], false);
+        float far = pane ? kNever : meetTriangle(ray, entryAt(e), share);
+        if (far >= from && far < hit.far) hit = Hit(far, params.cells.w + entryAt(e), false);
     }
     for (uint e = begin; e < end && panes; ++e) {
-        bool pane = facets[kFacetVectors * entries[e]].w == kSeeThrough;
-        float far = pane ? meetTriangle(ray, entries[e], share) : kNever;
+        bool pane = facetAt(kFacetVectors * entryAt(e)).w == kSeeThrough;
+        float far = pane ? meetTriangle(ray, entryAt(e), share) : kNever;
         if (far < from || far >= min(edge, hit.far)) continue;
         // A thin wall takes more light where it is seen aslant.
-        float slope = abs(dot(ray.way, normalize(facetNormal(entries[e]))));
+        float slope = abs(dot(ray.way, normalize(facetNormal(entryAt(e)))));
         clear *= 1.0 - (0.07 + 0.4 * pow(max(1.0 - slope, 0.0), 3.0));
     }
 }
@@ -194,15 +212,15 @@ Hit firstHit(Ray ray) {
     uint most = params.cells.x + params.cells.y + params.cells.z;
     for (uint n = 0u; n < most && under; ++n) {
         uint number = cellAt(cell);
-        uvec4 part = cells[number];
+        uvec4 part = partsAt(number);
         for (uint e = beginOf(number); e < part.x; ++e) {
-            vec4 s = spheres[entries[e]];
+            vec4 s = sphereAt(entryAt(e));
             float far = enterSphere(ray, s.xyz, s.w);
-            if (far >= enter && far < hit.far) hit = Hit(far, entries[e], false);
+            if (far >= enter && far < hit.far) hit = Hit(far, entryAt(e), false);
         }
         for (uint e = part.x; e < part.y; ++e) {
-            float far = enterWire(ray, joints[entries[e]].xyz, joints[entries[e] + 1u].xyz, params.wire.w);
-            if (far >= enter && far < hit.far) hit = Hit(far, params.size.z + entries[e], false);
+            float far = enterWire(ray, jointAt(entryAt(e)).xyz, jointAt(entryAt(e) + 1u).xyz, params.wire.w);
+            if (far >= enter && far < hit.far) hit = Hit(far, params.size.z + entryAt(e), false);
         }
         float edge = min(min(next.x, next.y), next.z);
         meetFacets(ray, part.y, part.z, from, edge, hit);
@@ -218,7 +236,7 @@ Hit firstHit(Ray ray) {
     // A solid that is first seen from within was opened by the cut.
     if (opened && hit.what != kNothing && hit.what >= params.cells.w) {
         uint i = hit.what - params.cells.w;
-        bool within = facets[kFacetVectors * i].w == kSolid && dot(facetNormal(i), ray.way) > 0.0;
+        bool within = facetAt(kFacetVectors * i).w == kSolid && dot(facetNormal(i), ray.way) > 0.0;
         if (within) hit = Hit(enter, hit.what, true);
     }
     return hit;
@@ -227,10 +245,10 @@ Hit firstHit(Ray ray) {
 /// The part of the sky that a point sees past the spheres around it. Each sphere takes cos (r/d)^2, as it would from a
 /// point with nothing else around, and less towards the end of its reach.
 float openness(vec3 p, vec3 normal) {
-    uvec4 part = cells[cellAt(cellOf(p))];
+    uvec4 part = partsAt(cellAt(cellOf(p)));
     float open = 1.0;
     for (uint e = part.z; e < part.w; ++e) {
-        vec4 s = spheres[entries[e]];
+        vec4 s = sphereAt(entryAt(e));
         vec3 to = s.xyz - p;
         float square = dot(to, to), size = s.w * s.w;
         float taken = max(dot(to, normal) * inversesqrt(square), 0.0) * size / square;
@@ -245,14 +263,14 @@ float openness(vec3 p, vec3 normal) {
 vec3 bodyNormal(Ray ray, uint i) {
     vec3 share;
     meetTriangle(ray, i, share);
-    vec3 normal = normalize(mat3(facets[kFacetVectors * i + 3u].xyz, facets[kFacetVectors * i + 4u].xyz,
-                                 facets[kFacetVectors * i + 5u].xyz) * share);
+    vec3 normal = normalize(mat3(facetAt(kFacetVectors * i + 3u).xyz, facetAt(kFacetVectors * i + 4u).xyz,
+                                 facetAt(kFacetVectors * i + 5u).xyz) * share);
     return dot(facetNormal(i), ray.way) > 0.0 ? -normal : normal;
 }
 
 vec3 wireNormal(vec3 p, uint piece) {
     // The angle is interpolated between the joints, and the centre line follows from it, so that there are no facets.
-    vec4 a = joints[piece], b = joints[piece + 1u];
+    vec4 a = jointAt(piece), b = jointAt(piece + 1u);
     vec3 way = b.xyz - a.xyz;
     float share = clamp(dot(p - a.xyz, way) / dot(way, way), 0.0, 1.0), angle = mix(a.w, b.w, share);
     vec3 centre = vec3(params.wire.xy + params.wire.z * vec2(cos(angle), sin(angle)), mix(a.z, b.z, share));
@@ -263,10 +281,10 @@ vec3 wireNormal(vec3 p, uint piece) {
 vec3 shadeFace(vec3 p, Hit hit) {
     bool steel = hit.what >= params.size.z;
     if (steel) return 1.35 * kSteel;
-    vec4 s = spheres[hit.what];
+    vec4 s = sphereAt(hit.what);
     float h = dot(params.cut.xyz, s.xyz) - params.cut.w;
     float disc = sqrt(max(s.w * s.w - h * h, 0.0)), off = length(p - (s.xyz - h * params.cut.xyz));
-    return paint[hit.what].rgb * (disc - off < 0.1 * s.w ? 0.45 : 1.0);
+    return paintAt(hit.what).rgb * (disc - off < 0.1 * s.w ? 0.45 : 1.0);
 }
 
 vec3 shade(Ray ray, Hit hit) {
@@ -275,8 +293,8 @@ vec3 shade(Ray ray, Hit hit) {
     bool body = hit.what >= params.cells.w, steel = hit.what >= params.size.z;
     vec3 normal = body    ? bodyNormal(ray, hit.what - params.cells.w)
                   : steel ? wireNormal(p, hit.what - params.size.z)
-                          : (p - spheres[hit.what].xyz) / spheres[hit.what].w;
-    vec3 colour = steel ? kSteel : paint[hit.what].rgb;
+                          : (p - sphereAt(hit.what).xyz) / sphereAt(hit.what).w;
+    vec3 colour = steel ? kSteel : paintAt(hit.what).rgb;
     float open = openness(p, normal), sun = max(dot(normal, params.light.xyz), 0.0);
     vec3 seen = colour * (kSky * open + kSun * sun * (0.5 + 0.5 * open));
     float gleam = pow(max(dot(normal, normalize(params.light.xyz - ray.way)), 0.0), 40.0);
@@ -289,6 +307,7 @@ vec3 encoded(vec3 c) {  // sRGB, IEC 61966-2-1
 }
 
 void main() {
+    params = given;
     uvec2 at = gl_GlobalInvocationID.xy;
     if (at.x >= params.size.x || at.y >= params.size.y) return;
     uint side = params.size.w;
