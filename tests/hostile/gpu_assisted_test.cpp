@@ -37,7 +37,7 @@ bool givenUp(const std::vector<std::string>& messages) {
 
 }  // namespace
 
-TEST_CASE("GPU-assisted checks find an access outside a buffer") {
+TEST_CASE("GPU-assisted checks find an access outside a buffer", "[slow]") {
     const Assisted assisted;
     vk::Device device(testDevice());
     REQUIRE(device.validated());
