@@ -58,7 +58,8 @@ void Cells::forEachCell(const Vec3& low, const Vec3& high, const Visit& visit) c
     const int lastX = cell(high.x, 0), lastY = cell(high.y, 1), lastZ = cell(high.z, 2);
     for (int x = cell(low.x, 0); x <= lastX; ++x)
         for (int y = cell(low.y, 1); y <= lastY; ++y)
-            for (int z = cell(low.z, 2); z <= lastZ; ++z) visit(std::size_t((x * kSide + y) * kSide + z));
+            for (int z = cell(low.z, 2); z <= lastZ; ++z)
+                visit((std::size_t(x) * kSide + std::size_t(y)) * kSide + std::size_t(z));
 }
 
 }  // namespace vkdose

@@ -126,7 +126,7 @@ TEST_CASE("the settled bed fills the canister to its volume") {
 }
 
 TEST_CASE("the fall ends on the canister's own material") {
-    const auto figures = [](std::vector<std::string> overrides) {
+    const auto figures = [](const std::vector<std::string>& overrides) {
         const Case c = loadCase(test::plainCase(), overrides);
         return figuresOf(c, insertParticles(c));
     };
