@@ -22,6 +22,32 @@ double wave(double frequency, double phase, double t) {
     return 2 * kPi * (frequency * t - std::floor(frequency * t)) + phase;
 }
 
+/// The two rows around a time; the same one twice before the first and after the last.
+template <class Row>
+class Between {
+  public:
+    Between(const std::vector<Row>& rows, double time) {
+        const auto next =
+            std::upper_bound(rows.begin(), rows.end(), time, [](double t, const Row& row) { return t < row.time; });
+        a_ = next == rows.begin() ? &rows.front() : &next[-1];
+        b_ = next == rows.end() ? &rows.back() : &*next;
+        span_ = b_->time - a_->time;
+        share_ = span_ > 0 ? (time - a_->time) / span_ : 0;
+    }
+    template <class T>
+    T value(T Row::*member) const {
+        return a_->*member + share_ * (b_->*member - a_->*member);
+    }
+    template <class T>
+    T rate(T Row::*member) const {
+        return span_ > 0 ? (b_->*member - a_->*member) / span_ : T(0);
+    }
+
+  private:
+    const Row *a_, *b_;
+    double span_ = 0, share_ = 0;
+};
+
 Displacement at(const Rest&, double) {
     return {};
 }
@@ -57,25 +83,23 @@ Displacement at(const Table& m, double t) {
     d.axis = m.axis;
     d.through = m.through;
     if (m.rows.empty()) return d;
-    const auto next = std::upper_bound(m.rows.begin(), m.rows.end(), t,
-                                       [](double time, const Table::Row& row) { return time < row.time; });
-    if (next == m.rows.begin() || next == m.rows.end()) {
-        const Table::Row& row = next == m.rows.begin() ? m.rows.front() : m.rows.back();
-        d.angle = row.angle;
-        d.shift = row.shift;
-        return d;
-    }
-    const Table::Row &a = next[-1], &b = *next;
-    const double span = b.time - a.time, share = (t - a.time) / span;
-    d.angle = a.angle + share * (b.angle - a.angle);
-    d.shift = a.shift + share * (b.shift - a.shift);
-    d.angleRate = (b.angle - a.angle) / span;
-    d.speed = (b.shift - a.shift) / span;
+    const Between<Table::Row> rows(m.rows, t);
+    d.angle = rows.value(&Table::Row::angle);
+    d.shift = rows.value(&Table::Row::shift);
+    d.angleRate = rows.rate(&Table::Row::angle);
+    d.speed = rows.rate(&Table::Row::shift);
     return d;
 }
 
-Displacement at(const Free&, double) {
-    return {};
+Displacement at(const Free& m, double t) {
+    Displacement d;
+    if (!m.line || m.rows.empty()) return d;
+    const Between<Free::Row> rows(m.rows, t);
+    d.axis = *m.line;
+    d.through = m.through;
+    d.angle = rows.value(&Free::Row::angle);
+    d.angleRate = rows.rate(&Free::Row::angle);
+    return d;
 }
 
 Displacement displacement(const Motion& motion, double t) {
@@ -95,13 +119,17 @@ Rates largestRates(const Motion& motion, double from, double to) {
     if (const auto* shake = std::get_if<Shake>(&motion))
         return {0, std::abs(shake->amplitude * 2 * kPi * shake->frequency)};
     Rates rates;
-    if (const auto* table = std::get_if<Table>(&motion))
-        for (std::size_t i = 0; i + 1 < table->rows.size(); ++i) {
-            const Table::Row &a = table->rows[i], &b = table->rows[i + 1];
+    const auto raise = [&](const auto& rows, auto shiftOf) {
+        for (std::size_t i = 0; i + 1 < rows.size(); ++i) {
+            const auto &a = rows[i], &b = rows[i + 1];
             if (b.time <= from || a.time >= to) continue;
             rates.angle = std::max(rates.angle, std::abs(b.angle - a.angle) / (b.time - a.time));
-            rates.shift = std::max(rates.shift, glm::length(b.shift - a.shift) / (b.time - a.time));
+            rates.shift = std::max(rates.shift, glm::length(shiftOf(b) - shiftOf(a)) / (b.time - a.time));
         }
+    };
+    if (const auto* table = std::get_if<Table>(&motion))
+        raise(table->rows, [](const Table::Row& row) { return row.shift; });
+    if (const auto* free = std::get_if<Free>(&motion)) raise(free->rows, [](const Free::Row&) { return Vec3(0); });
     return rates;
 }
 
@@ -127,10 +155,22 @@ std::string fault(const Slide& m) {
     return finite(m.velocity) ? "" : "the velocity is not finite";
 }
 
+std::string laterFault(std::size_t row) {
+    return fmt::format("row {} of the table is not later than the row before", row + 1);
+}
+
 std::string fault(const Free& m) {
     if (!std::isfinite(m.mass) || !finite(m.velocity)) return "mass and velocity must be finite";
     if (m.mass <= 0) return "the mass must be positive";
-    if (!m.line) return "";
+    if (!(m.damping >= 0) || !std::isfinite(m.damping)) return "the damping must be finite and not negative";
+    if (!m.line) return m.rows.empty() ? "" : "a force or a turn needs a line";
+    if (!(m.low <= 0 && m.high >= 0)) return "the body begins beyond its stops";
+    for (std::size_t i = 0; i < m.rows.size(); ++i) {
+        const Free::Row& row = m.rows[i];
+        if (!std::isfinite(row.time) || !std::isfinite(row.force) || !std::isfinite(row.angle))
+            return fmt::format("row {} of the table is not finite", i + 1);
+        if (i > 0 && row.time <= m.rows[i - 1].time) return laterFault(i);
+    }
     if (std::string said = axisFault(*m.line, Vec3(0)); !said.empty()) return said;
     const double speed = glm::length(m.velocity);
     return glm::length(glm::cross(*m.line, m.velocity)) <= 1e-9 * speed ? "" : "the velocity leads off the line";
@@ -158,8 +198,7 @@ std::string fault(const Table& m) {
         const Table::Row& row = m.rows[i];
         if (!std::isfinite(row.time) || !std::isfinite(row.angle) || !finite(row.shift))
             return fmt::format("row {} of the table is not finite", i + 1);
-        if (i > 0 && row.time <= m.rows[i - 1].time)
-            return fmt::format("row {} of the table is not later than the row before", i + 1);
+        if (i > 0 && row.time <= m.rows[i - 1].time) return laterFault(i);
     }
     return axisFault(m.axis, m.through);
 }
@@ -172,6 +211,16 @@ std::optional<double> periodOf(const Motion& motion) {
     if (const auto* swing = std::get_if<Swing>(&motion)) frequency = swing->frequency;
     if (const auto* shake = std::get_if<Shake>(&motion)) frequency = shake->frequency;
     return frequency > 0 ? std::optional(1 / frequency) : std::nullopt;
+}
+
+double Free::force(double time) const {
+    return rows.empty() ? 0 : Between<Row>(rows, time).value(&Row::force);
+}
+
+double Free::stopped(double way, double speed, double timeStep) const {
+    const double room = speed > 0 ? high - way : way - low;
+    if (std::abs(speed) * timeStep <= room) return speed;
+    return room > kAtStop ? std::copysign(room / timeStep, speed) : 0;
 }
 
 double Schedule::elapsed(double time) const {
@@ -196,6 +245,11 @@ Moving Course::moving(double time) const {
     if (!schedule.active(time)) return {};
     const Displacement d = displacement(motion, schedule.elapsed(time));
     return {d.speed, d.angleRate * d.axis, d.through + d.shift};
+}
+
+double Course::force(double time) const {
+    const auto* free = std::get_if<Free>(&motion);
+    return free != nullptr && schedule.active(time) ? free->force(schedule.elapsed(time)) : 0;
 }
 
 double wayBound(const Course& course, const Vec3& centre, double radius, double time, double duration) {

@@ -2,6 +2,7 @@
 // How a body moves: a closed form of time, so that a place and a velocity at any time follow from the time alone. A
 // restart, or a longer step, finds the body where it would have been. A free body is the exception.
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <variant>
@@ -77,13 +78,36 @@ struct Table {
     bool operator==(const Table&) const = default;
 };
 
-/// Moves as the forces on it say, without turning. Its place is no function of time: who computes the forces knows it.
+inline constexpr double kNoStop = std::numeric_limits<double>::infinity();
+
+/// Moves as the forces on it say, and turns as its rows say. Its place is no function of time: who computes the forces
+/// knows it.
 struct Free {
+    /// What is prescribed at a time of its own clock; straight in between, and as the first and the last row say before
+    /// and after.
+    struct Row {
+        double time = 0;   ///< [s]
+        double force = 0;  ///< on the body along its line [N]
+        double angle = 0;  ///< about its line [rad]
+        bool operator==(const Row&) const = default;
+    };
     double mass = 0;                ///< [kg]
     Vec3 velocity{0};               ///< at the start [m/s]
     std::optional<Vec3> line = {};  ///< it moves only along this direction; none: anywhere
+    // With a line:
+    Vec3 through{0};                        ///< a point of it, about which the body turns
+    std::vector<Row> rows = {};             ///< empty: no force, no turn
+    double low = -kNoStop, high = kNoStop;  ///< the stops of its way along the line, from its start [m]
+    // With a line or without:
+    double damping = 0;  ///< this by its velocity is a force against it [kg/s]
     bool operator==(const Free&) const = default;
+
+    double force(double time) const;  ///< [N]
+    /// The speed along its line with which it comes no farther than to its stops in a time step. `way`: so far [m].
+    double stopped(double way, double speed, double timeStep) const;
 };
+/// A body so near to its stop is at it [m]: a device knows its place to less than that.
+inline constexpr double kAtStop = 1e-7;
 
 using Motion = std::variant<Rest, Turn, Swing, Shake, Slide, Table, Free>;
 
@@ -113,6 +137,8 @@ struct Course {
 
     Pose pose(double time) const;
     Moving moving(double time) const;
+    /// The force that drives a body that moves freely, along its line [N]; zero for others.
+    double force(double time) const;
 };
 
 /// Upper bound of the way that any point within `radius` [m] of `centre`, a point of the body's frame, goes from

@@ -23,8 +23,8 @@ constexpr double kEndless = std::numeric_limits<double>::infinity();
 
 /// Half space; particles live where dot(q - point, normal) > 0. A plane that is parallel to z may end at z = `end`.
 struct Plane {
-    Vec3 point;
-    Vec3 normal;  ///< unit, into the free side
+    Vec3 point{0};
+    Vec3 normal{0};  ///< unit, into the free side
     double end = kEndless;
 };
 

@@ -24,6 +24,7 @@ struct ShearPoint {
     double normalDeviation = 0;  ///< from line to line [Pa]
     double shearDeviation = 0;   ///< [Pa]
     int lines = 0;
+    double peak = 0;  ///< largest shear stress of a line [Pa]
 };
 
 /// Means over the lines with from < time <= to [s]. Normal stress: force over the ring's area pi (R^2 - r^2). Shear
@@ -41,5 +42,28 @@ struct YieldLocus {
 };
 /// None without points, or if all have one normal stress.
 std::optional<YieldLocus> yieldLocus(const std::vector<ShearPoint>& points);
+
+/// A stage of a shear test with pre-shear: the powder flows steadily under one load, then fails under a smaller one.
+struct ShearStage {
+    ShearPoint preShear, failure;
+};
+
+/// The points of incipient flow: the load at failure and the peak of the shear stress. The peak is prorated by the mean
+/// shear stress of all pre-shears over that of its own (Schulze, chapter 4), because the bed is a little different each
+/// time.
+std::vector<ShearPoint> prorated(const std::vector<ShearStage>& stages);
+/// The mean of the pre-shears.
+ShearPoint meanPreShear(const std::vector<ShearStage>& stages);
+
+/// How well a powder flows at its consolidation (A. W. Jenike, Storage and Flow of Solids (1964); Schulze, chapter 3).
+struct Flowability {
+    double consolidation = 0;  ///< sigma_1, major principal stress of the steady flow [Pa]
+    double strength = 0;       ///< sigma_c, unconfined yield strength [Pa]
+    double ffc = 0;            ///< sigma_1 over sigma_c
+};
+/// The strength is that of the Mohr circle through the origin that touches the locus. The consolidation is that of the
+/// circle that touches the locus and has the point of steady flow behind the place of touch. None if the locus has no
+/// cohesion, or the point of steady flow lies above it.
+std::optional<Flowability> flowability(const YieldLocus& locus, const ShearPoint& steady);
 
 }  // namespace vkdose

@@ -57,7 +57,7 @@ void EventsDisplay::onSample(const Sample& sample) {
         if (body.movesFreely()) putColumns(kFreeBodyColumns, sample.free[free++], event["bodies"][body.name]);
     }
     for (std::size_t r = 0; r < sample.regions.size(); ++r)
-        putColumns(kRegionColumns, sample.regions[r], event["regions"][case_.world.regions.at(r).name]);
+        putColumns(kRegionSampleColumns, sample.regions[r], event["regions"][case_.world.regions.at(r).name]);
     for (std::size_t k = 0; k < sample.powders.size(); ++k)
         putColumns(kPowderColumns, sample.powders[k], event["powders"][powdersOf(case_).at(k).name]);
     say(event);

@@ -14,10 +14,14 @@
 
 namespace vkdose {
 
-void requireNewFile(const std::filesystem::path& file) {
+void requireAbsent(const std::filesystem::path& file) {
     std::error_code code;
     if (std::filesystem::exists(std::filesystem::symlink_status(file, code)))
         throw UsageError(fmt::format("new: {} is there already; give another name", printable(file.string())));
+}
+
+void requireNewFile(const std::filesystem::path& file) {
+    requireAbsent(file);
     const std::string suffix = file.extension().string();
     if (suffix != ".toml" || !file.has_filename())
         throw UsageError(fmt::format("new {}: a case is a TOML file; give a name that ends in .toml, such as my.toml",

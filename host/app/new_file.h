@@ -8,7 +8,9 @@
 
 namespace vkdose {
 
-/// Throws UsageError if the file is there already, or if its name does not end in .toml.
+/// Throws UsageError if there is something of this name.
+void requireAbsent(const std::filesystem::path& file);
+/// The same of a new case; throws UsageError too if its name does not end in .toml.
 void requireNewFile(const std::filesystem::path& file);
 
 /// Writes a file that was not there: never over another one, even if that has come in the meantime. Throws OutputError.

@@ -34,7 +34,7 @@ constexpr std::array<std::pair<const char*, const char*>, 7> kVectors{{{"avx512f
 }  // namespace
 
 std::string processorIn(const std::string& cpuinfo) {
-    const std::string model = valueOf(cpuinfo, "model name");
+    std::string model = valueOf(cpuinfo, "model name");
     const std::string flags = " " + valueOf(cpuinfo, "flags") + " " + valueOf(cpuinfo, "Features") + " ";
     for (const auto& [flag, name] : kVectors)
         if (flags.find(std::string(" ") + flag + " ") != std::string::npos)

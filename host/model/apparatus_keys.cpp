@@ -103,7 +103,7 @@ constexpr Key kBodyShape[] = {
 constexpr Key kMotion[] = {
     word("kind", "turn swing shake slide table free", kRequired,
          "`turn`: about an axis at a speed; `swing`: to and fro about it; `shake`: to and fro along it; `slide`: along "
-         "a line; `table`: as a file says; `free`: as gravity and the forces of the particles say, without turning")
+         "a line; `table`: as a file says; `free`: as gravity and forces say, those of the particles among them")
         .replacing("*"),
     word("follows", "time drive", "time",
          "`\"time\"`: the body moves by itself; `\"drive\"`: it turns while powder is dosed, with the coil's speed or "
@@ -122,13 +122,23 @@ constexpr Key kMotion[] = {
     vector("velocity", {1, "m/s"}, told("required; `free`: [0, 0, 0]"), "`slide`: of the body; `free`: at its start"),
     number("mass_g", kGram, kPositive, kRequired, "`free`: of the body, whatever its form"),
     vector("along", kPlain, told("anywhere"), "`free`: the direction of the line on which it is guided, either way"),
-    text("file", kRequired,
-         "`table`: a CSV with the columns `time_s`, and `angle_deg`, `x`, `y`, `z` (m) or some of them"),
-    number("from_s", kSecond, kNonNegative, 0.0, "by time, or `free`: the body stands until then"),
+    number("force_N", {1, "N"}, Bound::Any, 0.0, "`free` with `along`: a force on the body in that direction"),
+    number("damping_kg_s", {1, "kg/s"}, kNonNegative, 0.0, "`free`: this by its velocity is a force against it"),
+    number("lowest_mm", kMillimetre, Bound::Any, told("none"),
+           "`free` with `along`: a stop; its way along that direction, from its start, goes no lower"),
+    number("highest_mm", kMillimetre, Bound::Any, told("none"), "`free` with `along`: likewise, and no higher"),
+    text("file", told("required by `table`"),
+         "`table`: a CSV with the columns `time_s`, and `angle_deg`, `x`, `y`, `z` (m) or some of them. `free` with "
+         "`along`: in place of `force_N`, a CSV with `time_s`, and `force_N` along the line, `angle_deg` about it, or "
+         "both"),
+    number("from_s", kSecond, kNonNegative, 0.0,
+           "by time, or `free`: the body stands until then, and its table begins then"),
     number("to_s", kSecond, kPositive, told("for ever"), "by time: and from then on"),
-    text("during", told("at all times"),
-         "by time: the phases in which the body moves, separated by blanks: `settle`, `rotate`, `reverse`, `rest`. In "
-         "all others it stands, and the time of its motion with it. In place of `from_s` and `to_s`"),
+    text(
+        "during", told("at all times"),
+        "by time: the phases in which the body moves, separated by blanks: `settle`, `rotate`, `reverse`, `rest`. In "
+        "all others it stands, and the time of its motion with it. In place of `from_s` and `to_s`. `free`: the phases "
+        "in which force and turn act, and the time of the table goes on"),
     boolean("anew", false,
             "`table` with `during`: it starts anew when the first of these phases begins, once it has come to its end. "
             "Its last row must be the place of its first, or whole turns from it"),
@@ -138,6 +148,8 @@ constexpr Key kCountRegion[] = {
     text("name", kRequired, "of the region, in messages and tables: letters, digits, `-` and `_`"),
     word("kind", "beyond box", kRequired, "`beyond`: all that lies beyond a plane; `box`: all in a box").replacing("*"),
     boolean("deletes", true, "a sphere whose centre comes into it is dosed; `false`: it is counted and goes on"),
+    text("moves_with", told("it rests"),
+         "name of a `[[body]]` that carries it: it is given where the body starts; it needs `deletes = false`"),
     vector("point", kMetre, kRequired, "`beyond`: of the plane"),
     vector("normal", kPlain, kRequired, "`beyond`: points away from the powder, to the side that counts"),
     vector("low", kMetre, kRequired, "`box`: its low corner"),

@@ -180,7 +180,7 @@ Case interpret(const std::filesystem::path& file, Node tree, std::vector<std::fi
     alignWithDrive(c);
     readRegions(reader, root, c);
     readContact(reader, root, materials, c);
-    readRegion(root, kind, c);
+    readRegion(reader, root, kind, c);
     if (!reader.faulty()) fillAboveDriven(root, c);
     readSchedule(reader, root, c);
     readRefills(reader, root, c);
@@ -195,6 +195,8 @@ Case interpret(const std::filesystem::path& file, Node tree, std::vector<std::fi
     // The powder is checked before the times: a size or a density in a wrong unit leads to absurd time steps, and the
     // message must blame the powder for them.
     const SizeRange sizes = sizeRange(c);
+    findVessel(reader, c, sizes.largest);
+    reader.throwIfFaulty();
     checkFilling(reader, c, sizes.largest);
     reader.throwIfFaulty();
     tryUserLaw(reader, c, powderSizes(c));

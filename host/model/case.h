@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -43,6 +44,9 @@ struct Filling {
     std::optional<Particles> list;
     double gridGap = kGridGap;  ///< play between the largest spheres of the grid, as a fraction of their diameter
     Box region;                 ///< of the grid, open upwards in a canister (high.y infinite); unused with a list
+    std::vector<std::size_t>
+        vessel;  ///< the bodies that it is inside of, places in World::bodies; empty: all the region
+    std::shared_ptr<const std::vector<std::uint64_t>> sites;  ///< of the grid those in the vessel; null without one
 };
 
 /// A powder beside that of [particles].

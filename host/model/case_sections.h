@@ -1,11 +1,13 @@
 #pragma once
 // The tables of a case file, read into a Case. Every key is read in read_powder.cpp, read_materials.cpp,
-// read_sieve.cpp, read_contact.cpp, read_apparatus.cpp, read_bodies.cpp, read_field.cpp or read_measure.cpp.
+// read_sieve.cpp, read_contact.cpp, read_apparatus.cpp, read_bodies.cpp, read_motion.cpp, read_regions.cpp,
+// read_field.cpp or read_measure.cpp; names and what refers to them in read_names.cpp.
 
 #include <map>
 #include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "host/model/case.h"
 #include "host/model/case_reader.h"
@@ -18,9 +20,9 @@ enum class Boundaries { Canister, List, None };
 /// Reads the size distribution of a table [particles.size] or [powder.size].
 SizeDistribution readSize(CaseReader& reader, Section& section, Case& c);
 void readParticles(CaseReader& reader, Section& root, Case& c);
-/// Reads the box of the insertion grid. By default it is the canister above its coil. Call after readBoundaries and
-/// readCoil.
-void readRegion(Section& root, std::optional<Boundaries> kind, Case& c);
+/// Reads the box of the insertion grid. By default it is the canister above its coil. Call after readBoundaries,
+/// readCoil and readBodies.
+void readRegion(CaseReader& reader, Section& root, std::optional<Boundaries> kind, Case& c);
 /// Reads the refills. Call after readParticles and readSchedule.
 void readRefills(CaseReader& reader, Section& root, Case& c);
 /// Raises the grid of a canister above the bodies that follow the drive and so stand in the place of a coil.
@@ -75,12 +77,26 @@ void readBodies(CaseReader& reader, Section& root, double meshReach, Case& c);
 /// about its axis while powder is dosed. Call after readBodies and readCoil.
 void alignWithDrive(Case& c);
 
-/// Reads the name of a body, region or refill (`kind`), which may stand before the name of a column: at most 60
-/// letters, digits, - and _. It is a fault if `names`, to which it is added, holds it already.
-std::string readName(CaseReader& reader, Section& section, const std::string& kind, std::set<std::string>& names);
+// read_motion.cpp
+/// Reads the motion of a body whose shape and place are known.
+void readMotion(CaseReader& reader, Section& body, RigidBody& made);
+
+// read_names.cpp
+/// Reads the name of a body, region, refill or measure (`kind`), which may stand before the name of a column: at most
+/// 60 letters, digits, - and _. It is a fault if `names`, to which it is added, holds it already. Without `standard`
+/// the name is required.
+std::string readName(CaseReader& reader, Section& section, const std::string& kind, std::set<std::string>& names,
+                     std::optional<std::string> standard = std::nullopt);
+/// The place of the name among the known ones, which are those of the tables [[kind]]. A fault of the key at `path` if
+/// it is not there.
+std::optional<std::size_t> placeOf(CaseReader& reader, const std::string& path, const std::string& name,
+                                   const std::vector<std::string>& known, const char* kind);
+/// The same among World::bodies.
+std::optional<std::size_t> placeOfBody(CaseReader& reader, const std::string& path, const std::string& name,
+                                       const Case& c);
 
 // read_regions.cpp
-/// Reads the regions. Call after readBoundaries, whose outlet they may replace.
+/// Reads the regions. Call after readBoundaries, whose outlet they may replace, and readBodies.
 void readRegions(CaseReader& reader, Section& root, Case& c);
 
 // read_field.cpp

@@ -89,7 +89,7 @@ std::vector<MaterialPair> statedPairs(const World& world) {
 
 std::string contactKey(CaseReader& reader, const World& world, MaterialPair pair) {
     if (const char* own = ownName(pair)) return own;
-    const std::string other = nameOf(world, pair.b) + "-" + nameOf(world, pair.a);
+    std::string other = nameOf(world, pair.b) + "-" + nameOf(world, pair.a);
     if (reader.root().table("contact").has(other)) return other;
     return nameOf(world, pair.a) + "-" + nameOf(world, pair.b);
 }

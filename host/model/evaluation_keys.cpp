@@ -37,19 +37,24 @@ constexpr Key kMeasure[] = {
            "`angle_of_repose`, `bulk_density`: the frame nearest to it is looked at"),
     text("body", kRequired,
          "`drum_angle`: the body that turns as the drum; `compression`: the piston; `shear`: the lid, which "
-         "turns, swings or follows a table, and behind it, separated by blanks, what is fixed to it"),
+         "turns, swings, follows a table or moves freely along a line, and behind it, separated by blanks, what is "
+         "fixed to it"),
     number("area_mm2", {1e6, "mm2"}, kPositive, kRequired, "`compression`: cross-section of the bed"),
     number("height_mm", kMillimetre, kPositive, kRequired,
            "`compression`: from the floor of the bed to the piston's face before it moves"),
     vector("axis", kPlain, {0, 1, 0}, "`compression`: direction from the floor to the piston"),
     number("inner_radius_mm", kMillimetre, kNonNegative, 0.0, "`shear`: of the inner wall of a ring; 0: a full cell"),
-    text("region", kRequired, "`discharge`: the region into which the powder runs"),
+    text("region", kRequired,
+         "`discharge`: the region into which the powder runs; `content`: the region with the powder"),
     number("hole_mm", kMillimetre, kPositive, told("no constant"),
            "`discharge`: diameter of the round hole, for the constant of Beverloo's law; it takes `bulk_density` too"),
-    other(
-        "from_s", kRequired,
-        "`drum_angle`: the frames from this time on count; `discharge`: the rate is taken from this time on; `shear`: "
-        "for each point of the yield locus the time from which load and torque are averaged"),
+    other("from_s", kRequired,
+          "`drum_angle`: the frames from this time on count; `discharge`, `content`: rate or mean are taken from this "
+          "time on; `shear`: for each point of the yield locus the time from which load and torque are averaged"),
+    other("pre_shear_from_s", told("no pre-shear"),
+          "`shear`: for each point the time from which the steady flow before it is averaged; the point is then the "
+          "largest shear stress of its own time"),
+    other("pre_shear_to_s", told("required with `pre_shear_from_s`"), "`shear`: the times until which they count"),
     other("to_s", told("required by `shear`; else the end of the run"), "the times until which they count"),
 };
 

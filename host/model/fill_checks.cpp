@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numeric>
 
 #include "host/core/millimetres.h"
 #include "host/model/checks.h"
+#include "host/model/free_sites.h"
 #include "host/model/grid.h"
 #include "host/model/powders.h"
 #include "host/model/size_distribution.h"
@@ -128,13 +130,20 @@ void checkGrid(CaseReader& reader, const Case& c, double largest) {
         const double widest = c.mixed ? largest : largestRadius(p.filling.size);
         // In a canister all grids have the same sites in a layer, and layers without end.
         const Box& region = c.canister || c.mixed ? c.filling.region : p.filling.region;
-        const double capacity = InsertionGrid(region, widest, p.filling.gridGap).capacity();
+        const Filling& filling = c.mixed ? c.filling : p.filling;
+        const double capacity = filling.sites ? static_cast<double>(filling.sites->size())
+                                              : InsertionGrid(region, widest, p.filling.gridGap).capacity();
         const double count = c.mixed ? inMixture : static_cast<double>(counts[k]);
         if (counts[k] == 0)
             reader.fault(p.path + ".mass_g", "is less than half of the first particle drawn", "give more mass");
         else if (capacity < 1 && c.canister)
             reader.fault(p.path + ".size", "the largest sphere does not fit between the walls",
                          "give smaller particles");
+        else if (capacity < count && filling.sites && (!c.mixed || k == 0))
+            reader.fault("particles.inside",
+                         fmt::format("has {:.0f} clear sites of the grid for {:.0f} particles", capacity, count),
+                         fmt::format("give at most {:.3g} g, smaller particles or a larger vessel",
+                                     1e3 * fillOf(c).mass * std::floor(0.98 * capacity) / count));
         else if (capacity < count && (!c.mixed || k == 0))
             reader.fault(p.path + ".region",
                          fmt::format("has {:.0f} sites of the grid for {:.0f} particles", capacity, count),
@@ -143,6 +152,20 @@ void checkGrid(CaseReader& reader, const Case& c, double largest) {
 }
 
 }  // namespace
+
+void findVessel(CaseReader& reader, Case& c, double largestRadius) {
+    Filling& filling = c.filling;
+    if (filling.vessel.empty()) return;
+    const double widest = c.mixed ? largestRadius : vkdose::largestRadius(filling.size);
+    const InsertionGrid grid(filling.region, widest, filling.gridGap);
+    if (!(grid.capacity() < kMaxParticles)) {
+        reader.fault("particles.inside", fmt::format("is a vessel with {:.2g} sites of the grid", grid.capacity()),
+                     "bound it by [particles.region], or give larger meso-particles");
+        return;
+    }
+    filling.sites = std::make_shared<const std::vector<std::uint64_t>>(
+        sitesInside(c.world, grid, boxAround(c.world, filling.vessel)));
+}
 
 void checkFilling(CaseReader& reader, const Case& c, double largestRadius) {
     if (c.canister) checkLargest(reader, c, largestRadius);
@@ -155,6 +178,9 @@ void checkRefills(CaseReader& reader, const Case& c, const Insertion& filled) {
         if (filled.waiting[k].particles.size() == 0)
             reader.fault(fmt::format("refill[{}].mass_g", k), "is less than half of the first particle drawn",
                          "give more mass");
+    if (!c.refills.empty() && !c.filling.vessel.empty())
+        reader.fault("refill", "stands over the whole region of the fill, which particles.inside does not give",
+                     "give [particles.region] in place of particles.inside");
     const Vec3& g = c.world.gravity;
     if (!c.refills.empty() && -g.y < glm::length(g) * std::sqrt(0.5))  // more than 45 degrees from -y
         reader.fault("gravity",

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <vector>
 
 #include "host/core/vec.h"
 #include "host/model/world.h"
@@ -15,10 +17,15 @@ inline constexpr double kGridGap = 0.02;
 class InsertionGrid {
   public:
     InsertionGrid(const Box& region, double largestRadius, double gap);
+    /// Only these sites, which are ascending numbers of the grid's own.
+    InsertionGrid(const InsertionGrid& whole, std::shared_ptr<const std::vector<std::uint64_t>> sites);
 
     Vec3 site(std::uint64_t index) const;  ///< index < capacity()
     double capacity() const;               ///< number of sites, 0 if the region is too narrow
-    double jitterAmplitude() const;        ///< per coordinate [m]
+    double pitch() const { return pitch_; }
+    /// The sites beside one of a whole grid, along each axis.
+    std::vector<std::uint64_t> beside(std::uint64_t index) const;
+    double jitterAmplitude() const;  ///< per coordinate [m]
 
     /// Height of the top of the first `count` sites [m, y]. It is as far above the highest of them as the sides of the
     /// box are from the sites beside them, so that a lid there touches no particle in spite of rounding.
@@ -32,6 +39,7 @@ class InsertionGrid {
     std::uint64_t columns_ = 0;
     std::uint64_t rows_ = 0;
     double layers_ = 0;
+    std::shared_ptr<const std::vector<std::uint64_t>> sites_;  ///< null: all
 };
 
 }  // namespace vkdose

@@ -89,13 +89,19 @@ std::vector<Drawn> drawFill(const Case& c, Insertion& result) {
     return all;
 }
 
+/// The grid of a filling in that box, or the part of it that is in the vessel.
+InsertionGrid gridIn(const Box& region, const Filling& filling, double largest) {
+    const InsertionGrid whole(region, largest, filling.gridGap);
+    return filling.sites ? InsertionGrid(whole, filling.sites) : whole;
+}
+
 /// Puts each powder on a grid of its own. In a canister it stands on the one before.
 void fillApart(const Case& c, const std::vector<Drawn>& all, Insertion& result) {
     double top = c.filling.region.low.y;
     for (const Drawn& d : all) {
         Box region = d.powder.filling.region;
         if (c.canister) region = {Vec3(c.filling.region.low.x, top, c.filling.region.low.z), c.filling.region.high};
-        const InsertionGrid grid(region, largestRadius(d.powder.filling.size), d.powder.filling.gridGap);
+        const InsertionGrid grid = gridIn(region, d.powder.filling, largestRadius(d.powder.filling.size));
         addOnGrid(c, grid, d.radii, d.first, d.powder.material, result.particles);
         top = grid.top(d.radii.size());
         result.fillHeight = std::max(result.fillHeight, top);
@@ -106,7 +112,7 @@ void fillApart(const Case& c, const std::vector<Drawn>& all, Insertion& result) 
 void fillMixed(const Case& c, const std::vector<Drawn>& all, Insertion& result) {
     double largest = 0;
     for (const Drawn& d : all) largest = std::max(largest, largestRadius(d.powder.filling.size));
-    const InsertionGrid grid(c.filling.region, largest, c.filling.gridGap);
+    const InsertionGrid grid = gridIn(c.filling.region, c.filling, largest);
     const std::uint64_t count = all.back().first + all.back().radii.size();
     const std::vector<std::uint64_t> sites = shuffled(c.seed, count);
     for (const Drawn& d : all) addOnGrid(c, grid, d.radii, d.first, d.powder.material, result.particles, sites);
@@ -157,7 +163,26 @@ InsertionGrid::InsertionGrid(const Box& region, double largestRadius, double gap
     layers_ = columns_ * rows_ == 0 ? 0 : sites(room.y);
 }
 
+InsertionGrid::InsertionGrid(const InsertionGrid& whole, std::shared_ptr<const std::vector<std::uint64_t>> sites)
+    : InsertionGrid(whole) {
+    sites_ = std::move(sites);
+}
+
+std::vector<std::uint64_t> InsertionGrid::beside(std::uint64_t index) const {
+    const std::uint64_t column = index % columns_, row = index / columns_ % rows_, layer = index / columns_ / rows_;
+    std::vector<std::uint64_t> sites;
+    const auto add = [&](std::uint64_t at, std::uint64_t count, std::uint64_t step) {
+        if (at > 0) sites.push_back(index - step);
+        if (at + 1 < count) sites.push_back(index + step);
+    };
+    add(column, columns_, 1);
+    add(row, rows_, columns_);
+    add(layer, static_cast<std::uint64_t>(layers_), columns_ * rows_);
+    return sites;
+}
+
 Vec3 InsertionGrid::site(std::uint64_t index) const {
+    if (sites_) index = sites_->at(index);
     const std::uint64_t column = index % columns_;
     const std::uint64_t row = index / columns_ % rows_;
     const std::uint64_t layer = index / columns_ / rows_;
@@ -170,6 +195,7 @@ Vec3 InsertionGrid::site(std::uint64_t index) const {
 }
 
 double InsertionGrid::capacity() const {
+    if (sites_) return static_cast<double>(sites_->size());
     return static_cast<double>(columns_) * static_cast<double>(rows_) * layers_;
 }
 

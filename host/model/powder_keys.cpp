@@ -20,7 +20,12 @@ constexpr Key kParticles[] = {
             "on a grid of its own"),
     text("list", told("none"),
          "a CSV of particles to start from in place of a fill; the path is relative to the case file")
-        .replacing("mass_g size region grid_gap drop_mm"),
+        .replacing("mass_g size region grid_gap drop_mm inside"),
+    text("inside", told("none"),
+         "names of `[[body]]`, separated by blanks, which are the vessel that the powder starts in: the grid fills the "
+         "box "
+         "around them in the largest room that is clear of bodies. In place of `[particles.region]`, "
+         "which may bound it. Not in a canister"),
     number(
         "grid_gap", kPlain, kPositive, kGridGap,
         "free way between the largest spheres of the grid that the fill starts from, in their diameters. The larger it "

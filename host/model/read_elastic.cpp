@@ -127,8 +127,8 @@ StatedContact readClass(CaseReader& reader, Section& section, const StatedContac
 }
 
 /// What there is to tell of a pair.
-std::string wordsOf(const LawTables& in, const PairSection& pair, const StatedContact& s, const ContactParameters& p,
-                    NormalLaw law) {
+std::string derivationOf(const LawTables& in, const PairSection& pair, const StatedContact& s,
+                         const ContactParameters& p, NormalLaw law) {
     if (!pair.isNamed()) return "";
     std::string rest;
     if (pair.stated.source == PairSource::Mixture) {
@@ -174,7 +174,7 @@ void readElastic(const LawTables& in, NormalLaw law) {
         s = readClass(reader, *p.section, p.stated.source == PairSource::None ? nullptr : &parent, law);
         ContactParameters& made = c.dosingLaw.of(p.stated.pair);
         made = between(moduli[std::size_t(a)], moduli[std::size_t(b)], s.restitution, s.rest);
-        tell(in, p, wordsOf(in, p, s, made, law));
+        tell(in, p, derivationOf(in, p, s, made, law));
     }
     c.settlingLaw = c.dosingLaw;
     for (ContactParameters& p : c.settlingLaw.pairs) p.dampingShare *= damping;

@@ -210,7 +210,7 @@ Stated mixture(const Stated& a, const Ratios& ofA, const Stated& b, const Ratios
     return mixed;
 }
 
-std::string wordsOf(const LawTables& in, const PairSection& pair, const Stated& stated, const Ratios& r) {
+std::string derivationOf(const LawTables& in, const PairSection& pair, const Stated& stated, const Ratios& r) {
     std::string words = stated.targets.any() ? derivation(stated.targets, r) : "";
     const auto add = [&](const std::string& more) { words += (words.empty() ? "" : "; ") + more; };
     if (pair.stated.source == PairSource::Mixture) {
@@ -297,7 +297,7 @@ void readLuding(const LawTables& in) {
     c.softened = readSoftness(reader, in.contact());
     for (const PairSection& p : in.pairs) {
         Ratios& r = met[p.index()];
-        std::string words = wordsOf(in, p, stated[p.index()], r);
+        std::string words = derivationOf(in, p, stated[p.index()], r);
         if (c.softened > 1) r.soften(c.softened);
         if (c.softened > 1 && (!words.empty() || p.section->has("derived"))) {
             if (words.empty()) words = p.section->string("derived");

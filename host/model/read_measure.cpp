@@ -7,7 +7,6 @@
 #include <set>
 
 #include "host/model/case_sections.h"
-#include "host/model/closest_word.h"
 
 namespace vkdose {
 namespace {
@@ -16,42 +15,27 @@ using Kind = ElementTest::Kind;
 using geometry::Rest;
 using geometry::Turn;
 
-constexpr const char* kNameLetters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_";
-
-void checkName(CaseReader& reader, const std::string& path, const std::string& name, std::set<std::string>& names) {
-    if (name.empty() || name.size() > 60 || name.find_first_not_of(kNameLetters) != std::string::npos)
-        reader.fault(path, fmt::format("\"{}\" is no name of a measure", name.substr(0, 60)),
-                     "give letters, digits, - and _");
-    else if (!names.insert(name).second)
-        reader.fault(path, fmt::format("there are two measures \"{}\"", name), "give each a name of its own");
-}
-
-/// The place of the word among those of its kind, which `what` calls it ("body"). A fault if it is not there.
-std::optional<std::size_t> placeOf(CaseReader& reader, const std::string& path, const std::string& name,
-                                   const std::vector<std::string>& known, const char* what) {
-    const auto found = std::find(known.begin(), known.end(), name);
-    if (found != known.end()) return static_cast<std::size_t>(found - known.begin());
-    const std::string meant = closestWord(name, known);
-    reader.fault(
-        path, fmt::format("there is no {} \"{}\"", what, name),
-        meant.empty() ? fmt::format("give the name of a [[{}]]", what) : fmt::format("did you mean \"{}\"?", meant));
-    return std::nullopt;
-}
-
 /// The bodies that `body` names, the first `most` of them.
 std::vector<std::size_t> readBodyNames(CaseReader& reader, Section& s, std::size_t most, const Case& c) {
     std::vector<std::size_t> places;
     const std::string text = s.string("body");
     if (!s.isString("body")) return places;
-    std::vector<std::string> known;
-    for (const RigidBody& body : c.world.bodies) known.push_back(body.name);
     const std::vector<std::string> names = wordsOf(text);
     if (names.empty() || names.size() > most)
         reader.fault(s.path("body"), fmt::format("names {} bodies", names.size()),
                      most == 1 ? "name one" : "name the lid and what is fixed to it");
     for (const std::string& name : names)
-        if (const auto place = placeOf(reader, s.path("body"), name, known, "body")) places.push_back(*place);
+        if (const auto place = placeOfBody(reader, s.path("body"), name, c)) places.push_back(*place);
     return places;
+}
+
+/// The region that `region` names; the first after a fault.
+std::size_t readRegionName(CaseReader& reader, Section& s, const Case& c) {
+    std::vector<std::string> known;
+    for (const CountRegion& region : c.world.regions) known.push_back(region.name);
+    const std::string name = s.string("region");
+    if (!s.isString("region")) return 0;
+    return placeOf(reader, s.path("region"), name, known, "region").value_or(0);
 }
 
 /// A time, or a list of times [s]; empty after a fault.
@@ -73,32 +57,56 @@ std::vector<double> readTimes(CaseReader& reader, Section& s, const char* key, b
     return times;
 }
 
-/// Windows from `from_s` to `to_s`; of a kind with one window, which may end with the run, `several` is false.
-std::vector<ElementTest::Window> readWindows(CaseReader& reader, Section& s, bool several) {
+struct WindowKeys {
+    const char *from = "from_s", *to = "to_s";
+};
+
+/// Windows between the times of two keys; of a kind with one window, which may end with the run, `several` is false.
+std::vector<ElementTest::Window> readWindows(CaseReader& reader, Section& s, bool several, WindowKeys keys = {}) {
     const bool endRequired = several;
-    const std::vector<double> from = readTimes(reader, s, "from_s", true),
-                              to = readTimes(reader, s, "to_s", endRequired);
+    const std::vector<double> from = readTimes(reader, s, keys.from, true),
+                              to = readTimes(reader, s, keys.to, endRequired);
     std::vector<ElementTest::Window> windows;
-    for (const auto& [key, times] : {std::pair("from_s", &from), std::pair("to_s", &to)})
+    for (const auto& [key, times] : {std::pair(keys.from, &from), std::pair(keys.to, &to)})
         if (!several && times->size() > 1)
             reader.fault(s.path(key), fmt::format("has {} times, and this measure has one window", times->size()),
                          "give one time, and a [[measure]] for each window");
     if (!endRequired && to.empty() && !from.empty()) return {{from.front(), geometry::kEndless}};
     if (!from.empty() && !to.empty() && from.size() != to.size())
-        reader.fault(s.path("to_s"), fmt::format("has {} times, from_s {}", to.size(), from.size()),
+        reader.fault(s.path(keys.to), fmt::format("has {} times, {} {}", to.size(), keys.from, from.size()),
                      "give each window a beginning and an end");
     for (std::size_t i = 0; i < std::min(from.size(), to.size()); ++i) {
         if (to[i] <= from[i])
-            reader.fault(s.path("to_s"), fmt::format("{} is not later than from_s", to[i]), "give a later time");
+            reader.fault(s.path(keys.to), fmt::format("{} is not later than {}", to[i], keys.from),
+                         "give a later time");
         windows.push_back({from[i], to[i]});
     }
     return windows;
 }
 
+/// The steady flows before the points of a shear test, if it has them.
+void readPreShears(CaseReader& reader, Section& s, ElementTest& m) {
+    constexpr WindowKeys kKeys{"pre_shear_from_s", "pre_shear_to_s"};
+    if (!s.has(kKeys.from) && !s.has(kKeys.to)) {
+        s.know(kKeys.from);
+        s.know(kKeys.to);
+        return;
+    }
+    m.preShears = readWindows(reader, s, true, kKeys);
+    if (!m.preShears.empty() && !m.windows.empty() && m.preShears.size() != m.windows.size())
+        reader.fault(s.path(kKeys.from), fmt::format("has {} times, from_s {}", m.preShears.size(), m.windows.size()),
+                     "give each point a pre-shear");
+}
+
+bool isGuided(const geometry::Motion& motion) {
+    const auto* free = std::get_if<geometry::Free>(&motion);
+    return free != nullptr && free->line.has_value();
+}
+
 /// Whether a motion is about a line, which says along which direction and about what the loads of a body count.
 bool hasAxis(const geometry::Motion& motion) {
     return std::holds_alternative<Turn>(motion) || std::holds_alternative<geometry::Swing>(motion) ||
-           std::holds_alternative<geometry::Table>(motion);
+           std::holds_alternative<geometry::Table>(motion) || isGuided(motion);
 }
 
 /// A state before the end of the run is that of a frame.
@@ -144,25 +152,27 @@ void readKind(CaseReader& reader, Section& s, Kind kind, const Case& c, ElementT
             m.bodies = readBodyNames(reader, s, kMaxBodies, c);
             for (const std::size_t body : m.bodies)
                 if (!hasAxis(c.world.bodies[body].course.motion))
-                    reader.fault(s.path("body"), "has no axis, so that its load is no pressure and no torque",
-                                 "let the lid turn, swing or follow a table, and the base stand");
+                    reader.fault(
+                        s.path("body"), "has no axis, so that its load is no pressure and no torque",
+                        "let the lid turn, swing, follow a table or move freely along a line, and the base stand");
             m.radius = s.number("radius_mm");
             m.innerRadius = s.number("inner_radius_mm");
             if (m.innerRadius >= m.radius)
                 reader.fault(s.path("inner_radius_mm"), "is no smaller than the outer radius",
                              "give less than radius_mm");
             m.windows = readWindows(reader, s, true);
+            readPreShears(reader, s, m);
             return;
-        case Kind::Discharge: {
-            std::vector<std::string> known;
-            for (const CountRegion& region : c.world.regions) known.push_back(region.name);
-            const std::string name = s.string("region");
-            if (s.isString("region")) m.region = placeOf(reader, s.path("region"), name, known, "region").value_or(0);
+        case Kind::Discharge:
+            m.region = readRegionName(reader, s, c);
             if (s.has("hole_mm")) m.hole = s.number("hole_mm");
             s.know("hole_mm");
             m.windows = readWindows(reader, s, false);
             return;
-        }
+        case Kind::Content:
+            m.region = readRegionName(reader, s, c);
+            m.windows = readWindows(reader, s, false);
+            return;
     }
 }
 
@@ -178,8 +188,7 @@ void readMeasures(CaseReader& reader, Section& root, Case& c) {
         }
         ElementTest m;
         m.kind = static_cast<Kind>(*kind);
-        m.name = section->string("name", section->node("kind")->string);
-        if (!section->has("name") || section->isString("name")) checkName(reader, section->path("name"), m.name, names);
+        m.name = readName(reader, *section, "measure", names, section->node("kind")->string);
         readKind(reader, *section, m.kind, c, m);
         c.measures.push_back(std::move(m));
     }

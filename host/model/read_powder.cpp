@@ -7,6 +7,7 @@
 
 #include "host/model/body_form.h"
 #include "host/model/case_sections.h"
+#include "host/model/free_sites.h"
 #include "host/model/size_distribution.h"
 
 namespace vkdose {
@@ -89,10 +90,30 @@ void readParticles(CaseReader& reader, Section& root, Case& c) {
     c.filling.size = readSize(reader, section.requiredTable("size"), c);
 }
 
-void readRegion(Section& root, std::optional<Boundaries> kind, Case& c) {
+namespace {
+
+/// The bodies that the powder starts inside of, and the box around them.
+void readVessel(CaseReader& reader, Section& particles, Case& c) {
+    const std::string text = particles.string("inside");
+    if (!particles.isString("inside")) return;
+    for (const std::string& name : wordsOf(text))
+        if (const auto body = placeOfBody(reader, particles.path("inside"), name, c)) c.filling.vessel.push_back(*body);
+    if (wordsOf(text).empty())
+        reader.fault(particles.path("inside"), "names no body", "give the name of the [[body]] that holds the powder");
+    c.filling.region = boxAround(c.world, c.filling.vessel);
+    const bool bounded = glm::all(glm::lessThan(c.filling.region.low, c.filling.region.high));
+    if (c.filling.vessel.empty() || bounded) return;
+    if (!particles.has("region"))
+        reader.fault(particles.path("inside"), "names only bodies without an end", "add [particles.region] as a bound");
+    c.filling.region = {Vec3(-kInfinity), Vec3(kInfinity)};
+}
+
+}  // namespace
+
+void readRegion(CaseReader& reader, Section& root, std::optional<Boundaries> kind, Case& c) {
     Section& particles = root.table("particles");
     if (!kind)
-        for (const char* key : {"region", "drop_mm"}) particles.know(key);
+        for (const char* key : {"region", "drop_mm", "inside"}) particles.know(key);
     if (!kind || c.filling.list) return;
     if (kind == Boundaries::Canister) {
         const Canister& can = *c.canister;
@@ -100,11 +121,24 @@ void readRegion(Section& root, std::optional<Boundaries> kind, Case& c) {
         double floor = can.flatFloor ? -can.width / 2 : 0.0;
         if (c.world.coil) floor = c.world.coil->radius + c.world.coil->wireRadius;
         floor += particles.number("drop_mm");
+        if (particles.has("inside"))
+            reader.fault(particles.path("inside"), "stands beside a canister, which holds the powder above its coil",
+                         "leave it out, or make the walls of bodies: boundaries = \"none\"");
+        particles.know("inside");
         c.filling.region = {{-can.width / 2, floor, 0}, {can.width / 2, kInfinity, can.length}};
         return;
     }
     const auto readBox = [](Section& region) { return Box{region.vector("low"), region.vector("high")}; };
-    c.filling.region = readBox(particles.requiredTable("region"));
+    if (particles.has("inside"))
+        readVessel(reader, particles, c);
+    else
+        c.filling.region = readBox(particles.requiredTable("region"));
+    if (particles.has("inside") && particles.has("region")) {
+        const Box given = readBox(particles.table("region"));
+        c.filling.region = {glm::max(c.filling.region.low, given.low), glm::min(c.filling.region.high, given.high)};
+    }
+    particles.know("inside");
+    particles.know("region");
     if (c.mixed) return;
     for (std::size_t k = 0; k < c.furtherPowders.size(); ++k)
         c.furtherPowders[k].filling.region = readBox(root.item("powder", k).requiredTable("region"));

@@ -8,6 +8,19 @@
 #include "host/model/case_sections.h"
 
 namespace vkdose {
+namespace {
+
+/// The body that carries the region.
+void readCarrier(CaseReader& reader, Section& s, const Case& c, CountRegion& region) {
+    const std::string name = s.string("moves_with");
+    if (!s.isString("moves_with")) return;
+    region.body = placeOfBody(reader, s.path("moves_with"), name, c);
+    if (region.body && region.deletes)
+        reader.fault(s.path("moves_with"), "stands in a region that deletes, which rests",
+                     "add deletes = false, or leave moves_with out");
+}
+
+}  // namespace
 
 void readRegions(CaseReader& reader, Section& root, Case& c) {
     std::set<std::string> names;
@@ -19,6 +32,8 @@ void readRegions(CaseReader& reader, Section& root, Case& c) {
         const auto kind = s.choice("kind");
         region.deletes = s.boolean("deletes");
         outlets += region.deletes ? 1 : 0;
+        if (s.has("moves_with")) readCarrier(reader, s, c, region);
+        s.know("moves_with");
         if (!kind) {
             s.abandon();
         } else if (*kind == 0) {

@@ -6,7 +6,7 @@
 namespace vkdose {
 
 geometry::Pose RigidBody::pose(double time, double driveAngle, const Moved& own) const {
-    geometry::Pose pose = course.pose(clock == Clock::Time ? time : clock == Clock::Drive ? driveAngle : own.time);
+    geometry::Pose pose = course.pose(movesInPhases() ? own.time : clock == Clock::Drive ? driveAngle : time);
     if (clock == Clock::Forces) pose.origin += own.shift;
     return pose;
 }
@@ -29,14 +29,18 @@ double RigidBody::kickOf(std::uint64_t step, double timeStep) const {
 }
 
 geometry::Moving RigidBody::moving(double time, double driveAngle, double driveRate, std::optional<double> own) const {
-    if (clock == Clock::Time) return course.moving(time);
-    if (clock == Clock::Forces) return {};
-    if (clock == Clock::Phases) return own ? course.moving(*own) : geometry::Moving{};
+    if (movesInPhases()) return own ? course.moving(*own) : geometry::Moving{};
+    if (clock != Clock::Drive) return course.moving(time);
     // The course gives the motion per radian of the drive.
     geometry::Moving moving = course.moving(driveAngle);
     moving.velocity *= driveRate;
     moving.spin *= driveRate;
     return moving;
+}
+
+double RigidBody::drivingForce(double time, std::optional<double> own) const {
+    if (movesInPhases()) return own ? course.force(*own) : 0;
+    return course.force(time);
 }
 
 namespace {
@@ -56,6 +60,8 @@ std::optional<Line> turnedAbout(const geometry::Motion& motion) {
 }  // namespace
 
 Vec3 RigidBody::axis() const {
+    if (const auto* free = std::get_if<geometry::Free>(&course.motion); free != nullptr && free->line)
+        return *free->line;
     const auto line = turnedAbout(course.motion);
     return line ? *line->axis : Vec3(0, 0, 1);
 }
@@ -82,13 +88,13 @@ bool followsDrive(const std::vector<RigidBody>& bodies) {
 }
 
 bool movesInPhases(const std::vector<RigidBody>& bodies) {
-    return std::any_of(bodies.begin(), bodies.end(), [](const RigidBody& b) { return b.clock == Clock::Phases; });
+    return std::any_of(bodies.begin(), bodies.end(), [](const RigidBody& b) { return b.movesInPhases(); });
 }
 
 bool movesInDoses(const std::vector<RigidBody>& bodies) {
     return std::any_of(bodies.begin(), bodies.end(), [](const RigidBody& b) {
         const bool rotates = std::find(b.phases.begin(), b.phases.end(), Phase::Rotate) != b.phases.end();
-        return b.clock == Clock::Drive || (b.clock == Clock::Phases && rotates);
+        return b.clock == Clock::Drive || rotates;
     });
 }
 

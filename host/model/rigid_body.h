@@ -20,12 +20,13 @@ enum class Clock {
     Time,    ///< the time since load [s]
     Drive,   ///< the angle of the drive since load [rad]: the motion goes on while powder is dosed, and with its speed
     Phases,  ///< a clock of its own, which runs in some phases of the schedule and stands in all others [s]
-    Forces,  ///< the forces on the body: it moves freely (geometry::Free)
+    Forces,  ///< the forces on the body: it moves freely (geometry::Free); what drives it follows time, or its own
+             ///< clock
 };
 
 /// How far a body has come by what neither time nor drive tells.
 struct Moved {
-    double time = 0;  ///< on its own clock, if it moves in phases [s]
+    double time = 0;  ///< on its own clock, if it has one [s]
     Vec3 shift{0};    ///< from its place at the start, if it moves freely [m]
 
     Moved() = default;
@@ -61,8 +62,8 @@ struct RigidBody {
     geometry::Course course;
     Clock clock = Clock::Time;
     int material = kWallMaterial;  ///< World::materials
-    // Of Clock::Phases:
-    std::vector<Phase> phases{};  ///< in which its clock runs
+    /// In which its own clock runs. Of Clock::Phases, and of a body that is free and turns, or is driven, in phases.
+    std::vector<Phase> phases{};
     bool anew = false;  ///< a table starts anew when the first of `phases` begins, once it has come to its end
     // What contacts see of it; its books see the true motion.
     bool surfaceMoves = true;  ///< the velocity of its surface; false: they see it at rest
@@ -70,6 +71,7 @@ struct RigidBody {
     int pockets = 0;  ///< of a wheel that turns: it repeats itself so often in a turn; 0: the case does not say
 
     bool movesFreely() const { return clock == Clock::Forces; }
+    bool movesInPhases() const { return clock == Clock::Phases || !phases.empty(); }
     bool rests() const { return std::holds_alternative<geometry::Rest>(course.motion); }
     /// Whether the two stay as they are to each other: both rest, or both follow the same motion.
     bool movesAs(const RigidBody& other) const;
@@ -79,9 +81,11 @@ struct RigidBody {
     double kickOf(std::uint64_t step, double timeStep) const;
     /// Where the body is. `driveAngle` [rad].
     geometry::Pose pose(double time, double driveAngle, const Moved& own = {}) const;
-    /// How it moves there, unless it moves freely. `driveRate` [rad/s]; `own` is the time on its own clock, if it moves
-    /// in phases [s], none while that clock stands.
+    /// How it moves there; of a body that moves freely, how it turns. `driveRate` [rad/s]; `own` is the time on its own
+    /// clock, if it moves in phases [s], none while that clock stands.
     geometry::Moving moving(double time, double driveAngle, double driveRate, std::optional<double> own = {}) const;
+    /// The force that drives it along its line then, if it moves freely [N]; `own` likewise.
+    double drivingForce(double time, std::optional<double> own = {}) const;
     /// The direction of the axis about which the body's torque is told: that of its motion, or +z.
     Vec3 axis() const;
     /// A point on that axis, in the world: on the axis of its motion, or the origin of its frame.

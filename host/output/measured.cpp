@@ -68,6 +68,14 @@ constexpr Wording kShear[] = {
     {"cohesion_Pa", "cohesion", "kPa", 1e-3},
     {"effective_friction_angle_deg", "friction angle without cohesion", "°"},
 };
+/// With pre-shear, behind them.
+constexpr Wording kPreShear[] = {
+    {"pre_shear_normal_stress_Pa", "normal stress of the pre-shears", "kPa", 1e-3},
+    {"pre_shear_stress_Pa", "shear stress of the pre-shears", "kPa", 1e-3},
+    {"consolidation_stress_Pa", "consolidation stress", "kPa", 1e-3},
+    {"unconfined_strength_Pa", "unconfined strength", "kPa", 1e-3},
+    {"ffc", "ffc", ""},
+};
 constexpr Wording kBulk[] = {
     {"density_kg_m3", "bulk density", "kg/m³"},
     {"solid_fraction", "solid fraction", ""},
@@ -78,6 +86,11 @@ constexpr Wording kDischarge[] = {
     {"rate_kg_s", "rate of discharge", "g/s", 1e3},
     {"rate_error_kg_s", "standard error of the rate", "g/s", 1e3},
     {"beverloo_constant", "Beverloo's constant", ""},
+};
+constexpr Wording kContent[] = {
+    {"mass_kg", "mass", "g", 1e3},
+    {"mass_deviation_kg", "standard deviation of the mass in that time", "g", 1e3},
+    {"lines", "lines of the time series", ""},
 };
 /// Of each point of the yield locus, which are counted from 1. They are told by their names.
 constexpr const char* kShearPoint[] = {"normal_stress_{}_Pa", "shear_stress_{}_Pa", "shear_stress_deviation_{}_Pa"};
@@ -96,6 +109,8 @@ std::span<const Wording> wordingsOf(ElementTest::Kind kind) {
             return kBulk;
         case ElementTest::Kind::Discharge:
             return kDischarge;
+        case ElementTest::Kind::Content:
+            return kContent;
     }
     return {};
 }
@@ -106,6 +121,19 @@ Figures named(const Wording (&figures)[n], const double (&values)[n]) {
     Figures all;
     for (std::size_t i = 0; i < n; ++i) all.push_back({figures[i].name, values[i]});
     return all;
+}
+
+struct Mean {
+    double value = 0;
+    double deviation = kNone;  ///< of the sample; NaN of a single value
+};
+
+Mean meanOf(const std::vector<double>& values) {
+    const double count = static_cast<double>(values.size());
+    const double mean = std::accumulate(values.begin(), values.end(), 0.0) / count;
+    double squares = 0;
+    for (const double v : values) squares += (v - mean) * (v - mean);
+    return {mean, values.size() > 1 ? std::sqrt(squares / (count - 1)) : kNone};
 }
 
 class Measuring {
@@ -155,6 +183,8 @@ class Measuring {
                 return bulk(m, why);
             case ElementTest::Kind::Discharge:
                 return discharge(m, why);
+            case ElementTest::Kind::Content:
+                return content(m, why);
         }
         return {};
     }
@@ -197,11 +227,8 @@ class Measuring {
             why = "no frame in its time shows a bed ten diameters wide with a free surface";
             return {};
         }
-        const double count = static_cast<double>(angles.size());
-        const double mean = std::accumulate(angles.begin(), angles.end(), 0.0) / count;
-        double squares = 0;
-        for (const double a : angles) squares += (a - mean) * (a - mean);
-        return named(kDrum, {mean, angles.size() > 1 ? std::sqrt(squares / (count - 1)) : kNone, count});
+        const Mean mean = meanOf(angles);
+        return named(kDrum, {mean.value, mean.deviation, static_cast<double>(angles.size())});
     }
 
     Figures discharge(const ElementTest& m, std::string& why) const {
@@ -218,6 +245,21 @@ class Measuring {
         const double grain = 2 * std::accumulate(radii.begin(), radii.end(), 0.0) / static_cast<double>(radii.size());
         const double gravity = glm::length(c_.world.gravity);
         return named(kDischarge, {d->rate, d->error, beverlooConstant(d->rate, bulkDensity(), gravity, m.hole, grain)});
+    }
+
+    Figures content(const ElementTest& m, std::string& why) const {
+        const std::string column = c_.world.regions.at(m.region).name + ".content_kg";
+        std::vector<double> masses;
+        for (std::size_t i = 0; i < series_.rows(); ++i) {
+            const double time = series_.number(i, "time_s");
+            if (time >= m.windows.at(0).from && time <= m.windows.at(0).to) masses.push_back(series_.number(i, column));
+        }
+        if (masses.empty()) {
+            why = "no line of the time series is in its time";
+            return {};
+        }
+        const Mean mean = meanOf(masses);
+        return named(kContent, {mean.value, mean.deviation, static_cast<double>(masses.size())});
     }
 
     /// That of the settled bed if the case has it measured.
@@ -273,16 +315,33 @@ class Measuring {
             samples.push_back(s);
         }
         makePressurePositive(samples);
-        std::vector<ShearPoint> points;
-        for (const ElementTest::Window& w : m.windows)
-            if (const auto p = shearPoint(samples, w.from, w.to, m.innerRadius, m.radius)) points.push_back(*p);
+        const auto pointsOf = [&](const std::vector<ElementTest::Window>& windows) {
+            std::vector<ShearPoint> points;
+            for (const ElementTest::Window& w : windows)
+                if (const auto p = shearPoint(samples, w.from, w.to, m.innerRadius, m.radius)) points.push_back(*p);
+            return points;
+        };
+        std::vector<ShearPoint> points = pointsOf(m.windows);
+        const std::vector<ShearPoint> preShears = pointsOf(m.preShears);
+        std::vector<ShearStage> stages;
+        for (std::size_t i = 0; i < std::min(points.size(), preShears.size()); ++i)
+            stages.push_back({preShears[i], points[i]});
+        if (!stages.empty()) points = prorated(stages);
         const auto locus = yieldLocus(points);
-        if (!locus || points.size() < m.windows.size()) {
-            why = points.size() < m.windows.size() ? "the run has no line of the time series in one of its times"
-                                                   : "all its points have the same normal stress";
+        const bool cut = points.size() < m.windows.size() || preShears.size() < m.preShears.size();
+        if (!locus || cut) {
+            why = cut ? "the run has no line of the time series in one of its times"
+                      : "all its points have the same normal stress";
             return {};
         }
         Figures figures = named(kShear, {degrees(locus->friction), locus->cohesion, degrees(locus->effective)});
+        if (!stages.empty()) {
+            const ShearPoint steady = meanPreShear(stages);
+            const Flowability f = flowability(*locus, steady).value_or(Flowability{kNone, kNone, kNone});
+            for (const MeasuredFigure& figure :
+                 named(kPreShear, {steady.normal, steady.shear, f.consolidation, f.strength, f.ffc}))
+                figures.push_back(figure);
+        }
         for (std::size_t i = 0; i < points.size(); ++i) {
             const double values[std::size(kShearPoint)] = {points[i].normal, points[i].shear, points[i].shearDeviation};
             for (std::size_t k = 0; k < std::size(kShearPoint); ++k)

@@ -100,10 +100,11 @@ std::string freeHeader(const World& world) {
 }
 
 /// The columns of the regions, likewise.
-std::string regionHeader(const World& world) {
+template <class Columns>
+std::string regionHeader(const Columns& columns, const World& world) {
     std::string header;
     for (const CountRegion& region : world.regions)
-        forEachColumn(kRegionColumns, [&](const auto& c) { header += fmt::format(",{}.{}", region.name, c.name); });
+        forEachColumn(columns, [&](const auto& c) { header += fmt::format(",{}.{}", region.name, c.name); });
     return header;
 }
 
@@ -143,10 +144,12 @@ RunFolder::RunFolder(fs::path folder, bool force, const Case& c, std::string bac
         const std::string energy = c.world.energyBook ? "," + csvHeader(kEnergyColumns) : "";
         timeSeries_.emplace(folder_ / "timeseries.csv", csvHeader(kSampleColumns) + energy +
                                                             bodyHeader(kBodyColumns, c.world) + freeHeader(c.world) +
-                                                            regionHeader(c.world) + powderHeader(c, kPowderColumns));
+                                                            regionHeader(kRegionSampleColumns, c.world) +
+                                                            powderHeader(c, kPowderColumns));
         if (!hadCase) replaceFile(folder_ / "case.toml", c.resolved);
         doses_.emplace(folder_ / "doses.csv", csvHeader(kDoseColumns) + bodyHeader(kDoseBodyColumns, c.world) +
-                                                  regionHeader(c.world) + powderHeader(c, kPowderDoseColumns));
+                                                  regionHeader(kRegionColumns, c.world) +
+                                                  powderHeader(c, kPowderDoseColumns));
         if (c.frames.interval > 0) frames_.emplace(folder_, c, role_.member);
         fields_.emplace(folder_, c);
     } catch (const OutputError&) {
@@ -178,7 +181,7 @@ RunFolder::RunFolder(fs::path folder, FolderLock lock, const Checkpoint& from, c
 void RunFolder::onSample(const Sample& s) {
     std::string line = csvRow(kSampleColumns, s) + (s.energy ? "," + csvRow(kEnergyColumns, *s.energy) : "");
     line += cellsOf(kBodyColumns, s.bodies) + cellsOf(kFreeBodyColumns, s.free);
-    line += cellsOf(kRegionColumns, s.regions) + cellsOf(kPowderColumns, s.powders);
+    line += cellsOf(kRegionSampleColumns, s.regions) + cellsOf(kPowderColumns, s.powders);
     timeSeries_->line(line);
     timeSeries_->flush();
 }

@@ -32,9 +32,11 @@ std::vector<OutputTable> runTables() {
          "These columns follow in the same line, for each `[[body]]` and, behind them, for `[coil]` as the body coil. "
          "The name of the body and a dot stand before each.",
          columnTexts(kDoseBodyColumns)},
-        {"timeseries.csv and doses.csv, with regions",
+        {"timeseries.csv, with regions",
          "These columns follow in the same line, for each `[[region]]`. The name of the region and a dot stand before "
          "each.",
+         columnTexts(kRegionSampleColumns)},
+        {"doses.csv, with regions", "These columns follow in the same line, for each `[[region]]`, likewise.",
          columnTexts(kRegionColumns)},
         {"timeseries.csv, with several powders",
          "These columns follow in the same line, for each powder. The name of the powder and a dot stand before each.",

@@ -289,8 +289,9 @@ std::string summaryJson(const Case& c, const RunResult& r, const std::string& ba
     if (!r.last.bodies.empty()) j["bodies"] = bodyList(c, r);
     for (std::size_t i = 0; i < r.last.regions.size(); ++i)
         j["regions"].push_back({{"name", c.world.regions.at(i).name},
-                                {"mass_kg", jsonNumber(r.last.regions[i].mass)},
-                                {"particles", r.last.regions[i].particles}});
+                                {"mass_kg", jsonNumber(r.last.regions[i].came.mass)},
+                                {"particles", r.last.regions[i].came.particles},
+                                {"content_kg", jsonNumber(r.last.regions[i].content.mass)}});
     for (std::size_t k = 0; k < r.last.powders.size(); ++k) {
         Json powder{{"name", powdersOf(c).at(k).name}};
         putColumns(kPowderColumns, r.last.powders[k], powder);

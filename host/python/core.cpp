@@ -150,7 +150,7 @@ py::dict sampleOf(const Simulation& run) {
         if (body.movesFreely()) bodies[body.name.c_str()].attr("update")(dictOf(kFreeBodyColumns, s.free[free++]));
     }
     for (std::size_t r = 0; r < s.regions.size(); ++r)
-        regions[run.theCase().world.regions.at(r).name.c_str()] = dictOf(kRegionColumns, s.regions[r]);
+        regions[run.theCase().world.regions.at(r).name.c_str()] = dictOf(kRegionSampleColumns, s.regions[r]);
     for (std::size_t k = 0; k < s.powders.size(); ++k)
         powders[powdersOf(run.theCase()).at(k).name.c_str()] = dictOf(kPowderColumns, s.powders[k]);
     if (!bodies.empty()) dict["bodies"] = bodies;

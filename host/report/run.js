@@ -68,14 +68,13 @@ function bodyCharts(parent, run, time) {
   });
 }
 
-/// The mass that has come into each region since the start.
-function regionChart(parent, run, time) {
-  const s = run.series, regions = s.regions || [];
-  if (regions.length === 0) return;
+/// A line of mass over time for each region of the list.
+function regionChart(parent, run, time, regions, title, note) {
+  if (!regions || regions.length === 0) return;
   chart(parent, {
-    title: "Mass that came into regions", link: overTime(run), x: time, y: {label: "g"}, bands: run.rotations,
-    series: regions.map((r, i) => ({name: r.name, points: zip(s.time_s, r.mass_kg, gram), colour: colour(i, regions.length), thin: true})),
-    note: "Each particle counts once for a region, since the start of the run.",
+    title, link: overTime(run), x: time, y: {label: "g"}, bands: run.rotations, note,
+    series: regions.map((r, i) => ({name: r.name, points: zip(run.series.time_s, r.mass_kg, gram),
+                                    colour: colour(i, regions.length), thin: true})),
   });
 }
 
@@ -119,10 +118,17 @@ function cycleChart(parent, run) {
   });
 }
 
+const timeAxis = run => ({label: "time [s]", from: 0, to: d3.max(run.series.time_s)});
+
+function flowCharts(parent, run) {
+  rateChart(parent, run, timeAxis(run));
+  cycleChart(parent, run);
+}
+
 function timeCharts(parent, run) {
-  const s = run.series, turning = "Shaded: the coil turns; numbered by dose.";
-  const time = {label: "time [s]", from: 0, to: d3.max(s.time_s)};
-  const curve = (title, unit, name, values, scale, colour, note) => chart(parent, {
+  const s = run.series, turning = "Shaded: powder is dosed; numbered by dose.", time = timeAxis(run);
+  // What a device does not have, such as a drive or a throat, has no curve.
+  const curve = (title, unit, name, values, scale, colour, note) => values.some(v => isNumber(v) && v !== 0) && chart(parent, {
     title, link: overTime(run), x: time, y: {label: unit, scaledFrom: run.rotations.length > 0 ? run.rotations[0][0] : null}, bands: run.rotations, note: note || turning,
     series: [{name, points: zip(s.time_s, values, scale), colour, thin: true}],
   });
@@ -130,16 +136,17 @@ function timeCharts(parent, run) {
   curve("Power of the drive", "mW", "torque times speed", s.coil_power_W, milli, "var(--s3)");
   curve("Outlet velocity", "mm/s", "mean v_z of the mass in the throat", s.outlet_velocity_m_s, milli, "var(--s2)",
         turning + " No curve where the throat is empty; what falls out while settling may leave the frame.");
-  rateChart(parent, run, time);
-  cycleChart(parent, run);
+  if (!run.rate_leads) flowCharts(parent, run);
   bodyCharts(parent, run, time);
-  regionChart(parent, run, time);
+  regionChart(parent, run, time, run.series.regions, "Mass that came into regions",
+              "Each particle counts once for a region, since the start of the run.");
+  regionChart(parent, run, time, run.series.contents, "Mass in regions", "What is in the region at the time.");
   powderChart(parent, run, time);
 
   let below = s.time_s.map(() => 0);
   const layers = [["dosed", s.dosed_mass_kg, "var(--s0)"], ["throat", s.throat_mass_kg, "var(--s4)"],
-                  ["canister", s.canister_mass_kg, "var(--s2)"], ["lost", s.lost_mass_kg, "var(--s6)"]]
-    .filter(([name, values]) => name !== "lost" || d3.max(values) > 0)
+                  [run.holds, s.canister_mass_kg, "var(--s2)"], ["lost", s.lost_mass_kg, "var(--s6)"]]
+    .filter(([name, values]) => (name !== "lost" && name !== "throat") || d3.max(values) > 0)
     .map(([name, values, colour]) => {
       const points = s.time_s.map((t, i) => [t, below[i] + values[i] * gram, below[i]]);
       below = points.map(p => p[1]);
@@ -218,7 +225,8 @@ function runPage(main, run) {
   add(main, "h2", "Charts");
   const charts = add(main, "div", null, "charts");
   if (run.player) playerFigure(charts, run.player);
-  if (run.doses.dose.length > 0) doseCharts(charts, run);
+  if (run.rate_leads) flowCharts(charts, run);
+  if (run.doses.dose.length > 0 && !run.rate_leads) doseCharts(charts, run);
   if (run.surface) surfaceChart(charts, run);
   fieldFigures(charts, run);
   if (run.series.time_s.length > 1) timeCharts(charts, run);

@@ -30,11 +30,11 @@ class Facts {
     Json list() {
         how();
         settling();
+        if (rateLeads(run_)) flow();
         masses();
         emptying();
         drive();
-        rate();
-        cycles();
+        if (!rateLeads(run_)) flow();
         outlet();
         stops();
         arches();
@@ -47,6 +47,11 @@ class Facts {
   private:
     void add(const std::string& name, const std::string& value, const std::string& note = "") {
         list_.push_back({{"name", name}, {"value", value}, {"note", note}});
+    }
+
+    void flow() {
+        rate();
+        cycles();
     }
 
     void how() {
@@ -152,9 +157,11 @@ class Facts {
         rule.doses = f.rule.doses;
         const std::string doses = fmt::format("{} dose{}", rule.doses, rule.doses == 1 ? "" : "s in a row");
         const std::string little = fmt::format("{} together give at most {:.3g} g", doses, rule.threshold * 1e3);
-        say("experiment's stop rule", dosesToRule(dosed, filled_, rule), little);
-        rule.kind = StopRule::Kind::Simulation;
-        say("simulation's stop rule", dosesToRule(dosed, filled_, rule), doses + " give nothing");
+        if (run_.c.schedule.stop.kind != StopRule::Kind::None) {
+            say("experiment's stop rule", dosesToRule(dosed, filled_, rule), little);
+            rule.kind = StopRule::Kind::Simulation;
+            say("simulation's stop rule", dosesToRule(dosed, filled_, rule), doses + " give nothing");
+        }
         add("blocked", f.blocked ? fmt::format("from dose {} on", *f.blocked) : "no",
             little + ", with more than 1 % of the fill inside");
     }
@@ -167,8 +174,8 @@ class Facts {
         for (std::size_t i = 0; i < run_.series.rows() && run_.series.text(i, "phase") == "settle"; ++i)
             spilled = run_.series.number(i, "dosed_mass_kg");
         const double dosed = run_.series.number(run_.series.rows() - 1, "dosed_mass_kg") - spilled;
-        add("mass per turn of the coil", fmt::format("{:.4g} g", w.massPerTurn(dosed) * 1e3),
-            fmt::format("{:.4g} turns", w.turns));
+        add(run_.c.world.coil ? "mass per turn of the coil" : "mass per turn of the drive",
+            fmt::format("{:.4g} g", w.massPerTurn(dosed) * 1e3), fmt::format("{:.4g} turns", w.turns));
         add("work of the drive", fmt::format("{:.4g} mJ", w.work * 1e3),
             w.work > 0 ? fmt::format("{:.4g} g/J", w.massPerJoule(dosed) * 1e3) : "");
     }
@@ -213,7 +220,7 @@ class Facts {
             lowest = std::min(lowest, v);
         }
         if (turns > 0)
-            add("outlet velocity, coil turning", fmt::format("{:.3g} mm/s", turning / turns * 1e3),
+            add("outlet velocity while dosing", fmt::format("{:.3g} mm/s", turning / turns * 1e3),
                 fmt::format("from {:.3g} to {:.3g} mm/s", lowest * 1e3, peak * 1e3));
         const std::vector<double> overlap = run_.series.column("max_overlap_ratio");
         if (!overlap.empty())
@@ -225,13 +232,18 @@ class Facts {
         if (run_.series.rows() == 0) return;
         const OutletFlow flow = outletFlow(flowSamples(run_.series), filled_);
         const OutletFlow::Stop& stop = flow.longest;
-        add("longest stop of the outlet, coil turning",
-            stop.dose > 0 ? fmt::format("{:.3g} s, {:.3g} turns", stop.time, stop.turns) : "none",
+        const std::string lasted = stop.turns > 0 ? fmt::format("{:.3g} s, {:.3g} turns", stop.time, stop.turns)
+                                                  : fmt::format("{:.3g} s", stop.time);
+        add("longest stop of the outlet while dosing", stop.dose > 0 ? lasted : "none",
             stop.dose > 0 ? fmt::format("from t = {:.4g} s, in dose {}", stop.start, stop.dose) : "");
-        add("outlet stopped for more than a turn",
-            flow.stoppedAt ? fmt::format("first in dose {}", *flow.stoppedAt) : "never",
-            flow.lead ? fmt::format("the coil had turned {:.3g} s until something came", *flow.lead)
-                      : "nothing came at all");
+        const std::string lead = flow.lead ? fmt::format("{:.3g} s of dosing until something came", *flow.lead)
+                                           : std::string("nothing came at all");
+        const std::vector<double> angles = run_.series.column("coil_angle_rad");
+        if (std::all_of(angles.begin(), angles.end(), [&](double a) { return a == angles.front(); }))
+            add("first powder", lead);
+        else
+            add("outlet stopped for more than a turn",
+                flow.stoppedAt ? fmt::format("first in dose {}", *flow.stoppedAt) : "never", lead);
     }
 
     /// From frames at the doses' ends. The summary of a run that kept frames lists the arches.
@@ -321,6 +333,10 @@ class Facts {
 };
 
 }  // namespace
+
+bool rateLeads(const RunSources& run) {
+    return run.doses.size() <= 1 && massRate(flowSamples(run.series), windowRuleOf(run.c)).steady.has_value();
+}
 
 Particles endParticles(const std::filesystem::path& file, const Case& c) {
     const Table table = Table::read(file);

@@ -20,6 +20,10 @@ struct RunSources {
 /// The particles of a run's particles.csv; dosed and lost ones with their status.
 Particles endParticles(const std::filesystem::path& file, const Case& c);
 
+/// Whether the figures of the flow come before those of the doses: of a feeder, which has a steady mass rate and doses
+/// once or not at all.
+bool rateLeads(const RunSources& run);
+
 /// What the canister was given until the last line of the time series [kg]; before the first line, the fill.
 double filledMass(const RunSources& run);
 /// The same with the refills that the summary tells.

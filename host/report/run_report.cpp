@@ -79,6 +79,17 @@ Json massSeries(const Table& series, std::string_view ending, std::size_t size) 
     return list;
 }
 
+/// The contents of the regions that do not delete; the others only gain what has been dosed.
+Json contentSeries(const Table& series, const World& world, std::size_t size) {
+    Json list = Json::array();
+    for (Json& content : massSeries(series, ".content_kg", size)) {
+        const auto named = [&](const CountRegion& region) { return region.name == content["name"]; };
+        const auto region = std::find_if(world.regions.begin(), world.regions.end(), named);
+        if (region != world.regions.end() && !region->deletes) list.push_back(std::move(content));
+    }
+    return list;
+}
+
 Json seriesJson(const Table& series, const World& world) {
     const std::size_t size = (series.rows() + kMostLines - 1) / kMostLines;
     Json j;
@@ -88,6 +99,7 @@ Json seriesJson(const Table& series, const World& world) {
         j[name] = numbers(thinned(series.column(name), std::max<std::size_t>(size, 1), true));
     j["bodies"] = bodySeries(series, world, std::max<std::size_t>(size, 1));
     j["regions"] = massSeries(series, ".mass_kg", std::max<std::size_t>(size, 1));
+    j["contents"] = contentSeries(series, world, std::max<std::size_t>(size, 1));
     j["powders"] = massSeries(series, ".dosed_mass_kg", std::max<std::size_t>(size, 1));
     return j;
 }
@@ -227,6 +239,8 @@ Json runJson(const fs::path& folder, const std::optional<fs::path>& experiment, 
     j["rotations"] = rotations(series);
     j["rate"] = rateJson(series, c);
     j["cycles"] = cyclesJson(series, c);
+    j["rate_leads"] = rateLeads(sources);
+    j["holds"] = c.canister ? "canister" : "device";
     j["beta_below_kg"] =
         jsonNumber(figuresOf(sources.doses, supplyOf(sources), sources.c.schedule.stop).window.cumulativeBelow);
     j["filled_mass_kg"] = jsonNumber(filledMass(sources));

@@ -27,7 +27,7 @@ void BodyClocks::enter(Phase phase, int dose) {
     within_ = to;
     for (std::size_t b = 0; b < clocks_.size(); ++b) {
         const RigidBody& body = world_.bodies[b];
-        if (body.clock != Clock::Phases) continue;
+        if (!body.movesInPhases()) continue;
         BodyClock& clock = clocks_[b];
         clock.runs = std::find(body.phases.begin(), body.phases.end(), phase) != body.phases.end();
         if (!body.anew || phase != body.phases.front() || clock.steps == 0) continue;

@@ -1,5 +1,5 @@
 #pragma once
-// The clocks of the bodies that move in phases of the schedule (Clock::Phases), through a run.
+// The clocks of the bodies that move in phases of the schedule (RigidBody::phases), through a run.
 
 #include <cstdint>
 #include <optional>

@@ -15,8 +15,8 @@ constexpr const char* kOrderedSpeed = "dose_ordered_speed";
 
 }  // namespace
 
-DoseBook::DoseBook(const Case& c, const Derived& derived, double sense)
-    : schedule_(c.schedule), timeStep_(c.world.timeStep), sense_(sense), derived_(derived) {}
+DoseBook::DoseBook(const Case& c, Derived derived, double sense)
+    : schedule_(c.schedule), timeStep_(c.world.timeStep), sense_(sense), derived_(std::move(derived)) {}
 
 void DoseBook::expect(const Derived& derived) {
     derived_ = derived;

@@ -14,7 +14,7 @@ namespace vkdose {
 class DoseBook {
   public:
     /// `sense`: +1 or -1, that of the conveying coil about +z.
-    DoseBook(const Case& c, const Derived& derived, double sense);
+    DoseBook(const Case& c, Derived derived, double sense);
 
     /// From now on the closed form is that of these figures: the bulk density has been measured.
     void expect(const Derived& derived);

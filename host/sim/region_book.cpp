@@ -24,31 +24,49 @@ std::size_t deletedBy(const World& world, const Vec3& x) {
 
 }  // namespace
 
-void RegionBook::look(const Particles& particles) {
+RegionBook::RegionBook(const World& world)
+    : world_(world), starts_(bodyPoses(world, 0, 0)), samples_(world.regions.size()), before_(world.regions.size()) {}
+
+void RegionBook::look(const Particles& particles, const BodyPoses& poses) {
     if (empty()) return;
     seen_.resize(particles.size(), 0);
+    for (RegionSample& sample : samples_) sample.content = {};
+    const auto holds = [&](const CountRegion& region, const Vec3& x) {
+        return region.holds(region.body ? starts_[*region.body].toWorld(poses.at(*region.body).toBody(x)) : x);
+    };
     for (std::size_t i = 0; i < particles.size(); ++i) {
         if (particles.status[i] == Status::Lost || particles.status[i] == Status::Waiting) continue;
         const Vec3& x = particles.position[i];
         const bool dosed = particles.status[i] == Status::Dosed;
         const std::size_t outlet = dosed ? deletedBy(world_, x) : world_.regions.size();
-        for (std::size_t r = 0; r < counts_.size(); ++r) {
-            const bool deletes = world_.regions[r].deletes;
-            const bool in = dosed && deletes ? r == outlet : !deletes && world_.regions[r].holds(x);
+        for (std::size_t r = 0; r < samples_.size(); ++r) {
+            const CountRegion& region = world_.regions[r];
+            const bool in = dosed && region.deletes ? r == outlet : !region.deletes && holds(region, x);
+            if (!in) continue;
+            const double mass = massOf(world_, particles, i);
+            const auto add = [mass](RegionCount& count) {
+                count.mass += mass;
+                count.particles += 1;
+            };
+            // A particle that another region took lies still and is in no vessel any more.
+            if (!dosed || region.deletes) add(samples_[r].content);
             const std::uint32_t bit = 1U << r;
-            if (!in || (seen_[i] & bit) != 0) continue;
+            if ((seen_[i] & bit) != 0) continue;
             seen_[i] |= bit;
-            counts_[r].mass += massOf(world_, particles, i);
-            counts_[r].particles += 1;
+            add(samples_[r].came);
         }
     }
 }
 
+void RegionBook::openDose() {
+    for (std::size_t r = 0; r < samples_.size(); ++r) before_[r] = samples_[r].came;
+}
+
 std::vector<RegionCount> RegionBook::sinceDose() const {
-    std::vector<RegionCount> since = counts_;
-    for (std::size_t r = 0; r < since.size(); ++r) {
-        since[r].mass -= before_[r].mass;
-        since[r].particles -= before_[r].particles;
+    std::vector<RegionCount> since;
+    for (std::size_t r = 0; r < samples_.size(); ++r) {
+        const RegionCount& came = samples_[r].came;
+        since.push_back({came.mass - before_[r].mass, came.particles - before_[r].particles});
     }
     return since;
 }
@@ -56,27 +74,38 @@ std::vector<RegionCount> RegionBook::sinceDose() const {
 void RegionBook::save(Record& record) const {
     if (empty()) return;
     std::vector<double> masses;
-    std::vector<std::uint64_t> numbers(seen_.begin(), seen_.end());
-    for (const auto* counts : {&counts_, &before_})
-        for (const RegionCount& c : *counts) {
-            masses.push_back(c.mass);
-            numbers.push_back(c.particles);
-        }
+    std::vector<std::uint64_t> numbers;
+    const auto put = [&](const RegionCount& count) {
+        masses.push_back(count.mass);
+        numbers.push_back(count.particles);
+    };
+    for (std::size_t r = 0; r < samples_.size(); ++r) {
+        put(samples_[r].came);
+        put(samples_[r].content);
+        put(before_[r]);
+    }
     record.put("region_masses", masses);
     record.put("region_counts", numbers);
+    record.put("region_seen", std::vector<std::uint64_t>(seen_.begin(), seen_.end()));
 }
 
 void RegionBook::restore(const Record& record) {
     if (empty()) return;
-    const auto& masses = record.get<double>("region_masses", 2 * counts_.size());
-    const auto& numbers = record.get<std::uint64_t>("region_counts");
-    if (numbers.size() < masses.size()) throw RecordError("region_counts is too short");
-    const std::size_t particles = numbers.size() - masses.size();
-    seen_.assign(numbers.begin(), numbers.begin() + std::ptrdiff_t(particles));
-    for (std::size_t r = 0; r < counts_.size(); ++r) {
-        counts_[r] = {masses[r], numbers[particles + r]};
-        before_[r] = {masses[counts_.size() + r], numbers[particles + counts_.size() + r]};
+    const auto& masses = record.get<double>("region_masses", 3 * samples_.size());
+    const auto& numbers = record.get<std::uint64_t>("region_counts", 3 * samples_.size());
+    std::size_t next = 0;
+    const auto take = [&] {
+        const RegionCount count{masses[next], numbers[next]};
+        ++next;
+        return count;
+    };
+    for (std::size_t r = 0; r < samples_.size(); ++r) {
+        samples_[r].came = take();
+        samples_[r].content = take();
+        before_[r] = take();
     }
+    const auto& seen = record.get<std::uint64_t>("region_seen");
+    seen_.assign(seen.begin(), seen.end());
 }
 
 }  // namespace vkdose

@@ -1,5 +1,5 @@
 #pragma once
-// How much powder has come into each region of a world.
+// How much powder has come into each region of a world, and how much is in it.
 
 #include <cstdint>
 #include <vector>
@@ -7,6 +7,7 @@
 #include "host/core/record.h"
 #include "host/model/particles.h"
 #include "host/model/world.h"
+#include "host/sim/body_room.h"
 #include "host/sim/region_count.h"
 
 namespace vkdose {
@@ -15,13 +16,15 @@ namespace vkdose {
 /// for the region that deleted it, so that these regions together hold what has been dosed.
 class RegionBook {
   public:
-    explicit RegionBook(const World& world) : world_(world), counts_(world.regions.size()), before_(counts_) {}
+    explicit RegionBook(const World& world);
 
-    bool empty() const { return counts_.empty(); }
-    void look(const Particles& particles);
-    const std::vector<RegionCount>& counts() const { return counts_; }
+    bool empty() const { return samples_.empty(); }
+    /// `poses`: of the world's bodies now.
+    void look(const Particles& particles, const BodyPoses& poses);
+    /// Of each region at the last look.
+    const std::vector<RegionSample>& samples() const { return samples_; }
 
-    void openDose() { before_ = counts_; }
+    void openDose();
     std::vector<RegionCount> sinceDose() const;
 
     /// For a checkpoint, and back; nothing without regions. Throws RecordError if the record has other regions.
@@ -30,8 +33,10 @@ class RegionBook {
 
   private:
     const World& world_;
-    std::vector<RegionCount> counts_, before_;  ///< of each region; at the start of the dose
-    std::vector<std::uint32_t> seen_;           ///< of each particle: a bit for each region that it has been in
+    BodyPoses starts_;                   ///< of the bodies
+    std::vector<RegionSample> samples_;  ///< of each region
+    std::vector<RegionCount> before_;    ///< what had come into each at the start of the dose
+    std::vector<std::uint32_t> seen_;    ///< of each particle: a bit for each region that it has been in
 };
 
 }  // namespace vkdose

@@ -64,10 +64,10 @@ void RunLoop::sample() {
     s.free = freePlaces();
     if (!regions_.empty() || !powders_.empty()) {
         const Particles particles = backend_.particles();
-        regions_.look(particles);
+        regions_.look(particles, bodyPoses(case_.world, s.time, s.coilAngle, moved()));
         powders_.look(particles);
     }
-    s.regions = regions_.counts();
+    s.regions = regions_.samples();
     s.powders = powders_.places();
     gathered_ = 0;
     impulse_ = 0;

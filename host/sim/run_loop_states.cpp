@@ -94,7 +94,7 @@ void RunLoop::takeSample(const Record& run, const StateFacts& facts) {
     s.coilAngle = backend_.coilAngle();
     s.energy = energy_;
     s.free = freePlaces();
-    s.regions = regions_.counts();
+    s.regions = regions_.samples();
     s.powders = powders_.places();
 }
 
@@ -181,7 +181,7 @@ void RunLoop::restore(const Record& r) {
     book_.restore(r);
     get(r, "doses", result_.doses);
     get(r, "last", result_.last);
-    result_.last.regions = regions_.counts();
+    result_.last.regions = regions_.samples();
     result_.last.powders = powders_.places();
     get(r, result_.particles, result_.settled);
     measureDensity();

@@ -30,7 +30,7 @@ struct Sample {
     std::optional<EnergyLedger> energy;  ///< if the case asks for it
     std::vector<BodySample> bodies;      ///< of allBodies, in their order
     std::vector<FreePlace> free;         ///< of those that move freely
-    std::vector<RegionCount> regions;    ///< of the world's regions likewise, since the start of the run
+    std::vector<RegionSample> regions;   ///< of the world's regions likewise
     std::vector<PowderPlaces> powders;   ///< of each powder; none if there is one
 };
 

@@ -17,9 +17,10 @@
 namespace vkdose {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 namespace {
+
+using Json = nlohmann::ordered_json;
 
 /// The value at "a/b" as it stands in a table; empty if it is null or not there.
 std::string field(const Json& summary, const char* pointer) {

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <compare>
 #include <limits>
 #include <map>
+#include <tuple>
 
 #include "host/core/csv_table.h"
 #include "host/validate/comparisons.h"
@@ -57,7 +57,7 @@ struct Setup {
     std::string speed;  ///< at which the ball is let go, to two digits [m/s]
     int spheres = 0;
 
-    auto operator<=>(const Setup&) const = default;
+    bool operator<(const Setup& other) const { return std::tie(speed, spheres) < std::tie(other.speed, other.spheres); }
     std::string name() const { return fmt::format("{} m/s, {} spheres", speed, spheres); }
 };
 

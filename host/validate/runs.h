@@ -9,6 +9,7 @@
 
 namespace vkdose::validate {
 
+// NOLINTNEXTLINE(bugprone-exception-escape): no member of the JSON library throws when it is moved
 struct Run {
     std::map<std::string, std::string> at;  ///< the keys that vary, as they stand in members.csv
     nlohmann::ordered_json summary;

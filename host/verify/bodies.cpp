@@ -256,6 +256,53 @@ void freeBall(Stage& stage) {
                 {1e-6, "rounding, in units of the way", t * glm::length(thrown)});
 }
 
+// Forces along their lines drive three bodies. One is damped: with the force F and the damping c its speed is
+// F/c (1 - exp(-c t/m)). One comes to its stop. One is a lid that presses a sphere on a floor: at rest both contacts
+// bear the force, the lid has sunk by two overlaps F/k, and its turn moves nothing, for nothing rubs.
+void drivenBody(Stage& stage) {
+    const double k = 500, gamma = 0.05, dt = 2e-6, force = 5e-3, mass = 1e-4, damping = 0.02, stop = 1.5e-3;
+    const Vec3 way = glm::normalize(Vec3(2, 1, -2)), y(0, 1, 0);
+    RuledWorld world = space(spring(k, gamma), dt);
+    world.surfaces.push_back(geometry::Plane{Vec3(0), y});
+    const auto driven = [&](const geometry::Shape& shape, const Vec3& at, const geometry::Free& free) {
+        RigidBody body = bodyOf({shape}, free);
+        body.name = fmt::format("driven-{}", world.bodies.size());
+        body.clock = Clock::Forces;
+        body.course.start.origin = at;
+        world.bodies.push_back(body);
+    };
+    const geometry::Ball ball{Vec3(0), kRadius};
+    geometry::Free damped{mass, Vec3(0), way, Vec3(0.1), {{0, force, 0}}};
+    damped.damping = damping;
+    geometry::Free stopped{mass, Vec3(0), way, Vec3(-0.1), {{0, force, 0}}};
+    stopped.high = stop;
+    const double turn = 2 * kPi;  // in a second
+    geometry::Free lid{mass, Vec3(0), y, Vec3(0, 2 * kRadius, 0), {{0, -force, 0}, {1, -force, turn}}};
+    lid.damping = 0.2;
+    driven(ball, damped.through, damped);
+    driven(ball, stopped.through, stopped);
+    driven(geometry::Cone{Vec3(0), y, 0, 3 * kRadius, 0}, lid.through, lid);
+    Particles one;
+    one.add(Vec3(0, kRadius, 0), kRadius);
+    Trial trial(stage, world, one);
+    trial.advance(20'000);
+    const std::vector<FreeBody> bodies = trial.freeBodies();
+    const double t = trial.halfStep();
+    stage.check("speed of a damped body", "m/s", force / damping * (1 - std::exp(-damping * t / mass)),
+                glm::dot(bodies[0].velocity, way),
+                {1e-6, "rounding; the step is of second order: (c dt/m)^2/12 = 1e-8"});
+    stage.check("way to a stop", "m", stop, glm::dot(bodies[1].shift, way),
+                {1e-4, "a device knows a place to less than kAtStop"});
+    stage.check("speed at a stop", "m/s", 0, glm::length(bodies[1].velocity),
+                {1e-9, "it stands, in units of the speed without a stop", force / mass * t});
+    const Sensors last = trial.advance(1);
+    stage.check("force that a lid bears", "N", force, last.bodies.at(2).force.y, {1e-4, "the rest of its swing"});
+    stage.check("way of a lid onto a sphere", "m", -2 * force / k, bodies[2].shift.y,
+                {1e-3, "rounding: a device adds overlaps to places of some millimetres"});
+    stage.check("torque of a lid that turns without friction", "N m", 0, last.bodies.at(2).torque,
+                {1e-6, "rounding, in units of the force times the radius", force * kRadius});
+}
+
 // A sphere that sticks to a turning body stays at its radius r. With the velocity of the body at the contact point of
 // the full step it would creep inwards by Omega^2 r dt/2.
 void heldByBodies(Stage& stage) {

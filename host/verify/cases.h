@@ -46,6 +46,7 @@ void meshBlock(Stage& stage);
 void drumBalance(Stage& stage);
 void pushedByBodies(Stage& stage);
 void freeBall(Stage& stage);
+void drivenBody(Stage& stage);
 void heldByBodies(Stage& stage);
 void mergingPlaces(Stage& stage);
 

@@ -34,10 +34,10 @@ using State = std::array<double, kPlaces>;
 struct Model {
     Striker upper, lower;
     Pair pair;
-    double damping;  ///< 2 sqrt(5/6) beta
-    double friction;
+    double damping = 0;  ///< 2 sqrt(5/6) beta
+    double friction = 0;
 
-    double lever(const Striker& s, double overlap) const { return std::isinf(s.radius) ? 0 : s.radius - overlap / 2; }
+    static double lever(const Striker& s, double overlap) { return std::isinf(s.radius) ? 0 : s.radius - overlap / 2; }
     double slip(const State& s) const {
         return s[kUpperAlong] + s[kUpperSpin] * lever(upper, s[kOverlap]) - s[kLowerAlong] +
                s[kLowerSpin] * lever(lower, s[kOverlap]);

@@ -62,7 +62,7 @@ Trial::Trial(Stage& stage, const RuledWorld& world, const Particles& particles)
 }
 
 Sensors Trial::advance(std::uint64_t steps, double coilRate) {
-    const Sensors sensors = backend_->advance(static_cast<std::uint32_t>(steps), coilRate);
+    Sensors sensors = backend_->advance(static_cast<std::uint32_t>(steps), coilRate);
     if (sensors.energy) energy_.add(*sensors.energy);
     steps_ += steps;
     now_ = backend_->particles();

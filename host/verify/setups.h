@@ -70,9 +70,9 @@ class Trial {
 /// A sphere that a plane throws back while it slips throughout: its ledger, and what is expected of it [J].
 struct SlippingImpact {
     EnergyLedger ledger;
-    double energy;    ///< before the impact
-    double normal;    ///< what the law takes from the motion along the normal
-    double friction;  ///< what friction takes
+    double energy = 0;    ///< before the impact
+    double normal = 0;    ///< what the law takes from the motion along the normal
+    double friction = 0;  ///< what friction takes
 };
 
 /// Plays it in `world`, to which the plane is added. `along` and `towards` the plane are the sphere's speeds [m/s], and

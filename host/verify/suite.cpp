@@ -36,6 +36,7 @@ std::vector<Scene> scenes() {
         {"bodies/pushed-sphere", "a screw, and meshes of screw and coil, push a sphere along the trough",
          pushedByBodies},
         {"bodies/free-ball", "a ball that moves freely meets a sphere, another falls", freeBall},
+        {"bodies/driven", "a force drives bodies: against damping, to a stop, onto a sphere", drivenBody},
         {"bodies/held-sphere", "a sphere sticks to a turning disc or funnel and stays at its radius", heldByBodies},
         {"bodies/merging", "an elastic sphere rebounds where places of a mesh become one contact", mergingPlaces},
         {"bed/column", "spheres stacked upon each other", column},

@@ -81,7 +81,7 @@ std::vector<VkQueueFamilyProperties> queueFamilies(VkPhysicalDevice physical) {
 }
 
 std::string driverText(VkPhysicalDevice physical, const VkPhysicalDeviceProperties& base) {
-    const std::string number = fmt::format("{:#x}", base.driverVersion);
+    std::string number = fmt::format("{:#x}", base.driverVersion);
     if (base.apiVersion < VK_API_VERSION_1_2) return number;
     VkPhysicalDeviceDriverProperties driver{};
     driver.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES;

@@ -24,7 +24,7 @@ class OnlyDrivers {
 
   private:
     struct Variable {
-        const char* name;
+        const char* name = "";
         std::optional<std::string> before;
     };
     std::vector<Variable> variables_;

@@ -55,7 +55,8 @@ BodyMotion motionOf(uint body) {
     m.free = texelFetch(motionsView, at + 9);
     m.line = texelFetch(motionsView, at + 10);
     m.way = texelFetch(motionsView, at + 11);
-    m.pivot = texelFetch(motionsView, at + 12);
+    m.held = texelFetch(motionsView, at + 12);
+    m.pivot = texelFetch(motionsView, at + 13);
     return m;
 }
 #else

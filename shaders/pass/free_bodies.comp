@@ -22,6 +22,8 @@ const float kFine = 1073741824.0;  // 2^30
 const float kHardest = 4194304.0;  // 2^22
 const float kWord = 4294967296.0;  // 2^32
 
+const float kAtStop = 1e-7;  // geometry::kAtStop [m]
+
 /// A whole number of 64 bits, the low word first.
 uvec2 added(uvec2 a, uvec2 b) {
     uint carry;
@@ -75,6 +77,12 @@ vec3 reaction(uint b, float perMass) {
     return vec3(realOf(sumsXY[0].xy), realOf(sumsXY[0].zw), realOf(sumsZ[0]));
 }
 
+/// geometry::Free::stopped. `room`: how far it is to the stop [m].
+float stoppedAt(float speed, float room, float dt) {
+    if (abs(speed) * dt <= room) return speed;
+    return room > kAtStop ? sign(speed) * room / dt : 0.0;
+}
+
 void main() {
     openMember();
     uint b = gl_WorkGroupID.x;
@@ -94,12 +102,20 @@ void main() {
     }
     precise vec3 pull = kick * (gravity().xyz - reacted);
     vec3 line = now.line.xyz;
-    if (line != vec3(0.0)) pull = dot(pull, line) * line;
+    bool guided = line != vec3(0.0);
+    if (guided) pull = (dot(pull, line) + kick * now.held.x) * line;
+    // Damping acts at the mean of the velocities before and after.
+    if (now.held.y > 0.0) pull = (pull - now.held.y * now.velocity.xyz) / (1.0 + 0.5 * now.held.y);
     Two3 speed = twoGrown(now.velocity.xyz, now.free.xyz, pull);
-    vec3 velocity = speed.high;
 
     vec3 origin = vec3(now.toBodyHigh[0].w, now.toBodyHigh[1].w, now.toBodyHigh[2].w);
     vec3 originLow = vec3(now.toBodyLow[0].w, now.toBodyLow[1].w, now.toBodyLow[2].w);
+    if (guided) {
+        float along = dot(speed.high, line), at = dot(origin, line) + dot(originLow, line);
+        float stopped = stoppedAt(along, along > 0.0 ? now.held.w - at : at - now.held.z, dt);
+        if (stopped != along) speed = Two3(stopped * line, vec3(0.0));
+    }
+    vec3 velocity = speed.high;
     precise vec3 step = dt * velocity;
     Two3 place = twoGrown(origin, originLow, step);
     vec3 high = place.high, low = place.low;

@@ -84,10 +84,12 @@ struct BodyMotion {
                 // forces act on it [s]; 0: it stands
     vec4 way;   // x: how far it may still go before the contact lists must be made anew [m]; y: of the first body: the
                 // longest way of a driven body of the canister in this step [m]
+    vec4 held;  // x: acceleration along the line by what drives it [m/s2]; y: share of its velocity that damping takes
+                // in this step, if it is small; z, w: the stops, as places on the line through the world's origin [m]
     // Of any body:
     vec4 pivot;  // xyz: the point about which its torque is told [m]
 };
-SHARED_CONST kMotionVectors = 13u;
+SHARED_CONST kMotionVectors = 14u;
 
 #ifdef __cplusplus
 #undef SHARED_CONST

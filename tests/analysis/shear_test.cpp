@@ -81,3 +81,41 @@ TEST_CASE("a lid whose axis points to the powder has the same pressure") {
         CHECK(nearRelative(p->normal, 1000, 0.05));
     }
 }
+
+TEST_CASE("ffc follows from the circles that touch the yield locus, wherever the steady flow lies on its own") {
+    const double phi = 0.55, c = 300;
+    for (const double centre : {3000.0, 9000.0})
+        for (const double behind : {0.0, 0.2, 0.5}) {  // angle past the place of touch [rad]
+            CAPTURE(centre, behind);
+            const double radius = centre * std::sin(phi) + c * std::cos(phi), at = kPi / 2 + phi - behind;
+            ShearPoint steady;
+            steady.normal = centre + radius * std::cos(at);
+            steady.shear = radius * std::sin(at) * (behind == 0 ? 1 - 1e-12 : 1);
+            const auto f = flowability({phi, c, phi}, steady);
+            REQUIRE(f);
+            // At the place of touch itself the root vanishes, and rounding is magnified.
+            CHECK(nearRelative(f->consolidation, centre + radius, 1e-5));
+            CHECK(nearRelative(f->strength, 2 * c * std::tan(kPi / 4 + phi / 2), 1e-9));
+            CHECK(nearRelative(f->ffc, f->consolidation / f->strength, 1e-12));
+        }
+    ShearPoint above;
+    above.normal = 1000;
+    above.shear = 1.01 * (c + 1000 * std::tan(phi));
+    CHECK_FALSE(flowability({phi, c, phi}, above));
+    CHECK_FALSE(flowability({phi, 0, phi}, {1000, 500}));
+    CHECK_FALSE(flowability({phi, std::nan(""), phi}, {1000, 500}));
+}
+
+TEST_CASE("peaks are prorated by the shear stress of their own pre-shear") {
+    const std::vector<LidSample> rising = lines(0, 0.1, 500, 400, 40);
+    const auto point = shearPoint(rising, 0, 0.1, kInner, kOuter);
+    REQUIRE(point);
+    CHECK(nearRelative(point->peak, 440, 1e-3));
+    const std::vector<ShearStage> stages{{{4000, 2000}, {1000, 0, 0, 0, 5, 900}},
+                                         {{4000, 2200}, {2000, 0, 0, 0, 5, 1300}}};
+    CHECK(meanPreShear(stages).shear == Approx(2100));
+    const std::vector<ShearPoint> points = prorated(stages);
+    CHECK(points[0].normal == 1000);
+    CHECK(points[0].shear == Approx(900 * 2100.0 / 2000));
+    CHECK(points[1].shear == Approx(1300 * 2100.0 / 2200));
+}

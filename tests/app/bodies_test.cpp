@@ -319,6 +319,9 @@ TEST_CASE("what comes into a region is in the time series, the doses and the sum
         const auto series = readCsv(box / "run/timeseries.csv"), doses = readCsv(box / "run/doses.csv");
         const auto last = [&](const char* name) { return std::stod(series.back()[column(series, name)]); };
         CHECK(last("low.count") > 0);
+        CHECK(last("low.content_count") > 0);
+        CHECK(last("low.content_kg") <= last("low.mass_kg"));
+        CHECK(last("rear.content_kg") == last("rear.mass_kg"));
         CHECK(last("rear.mass_kg") + last("front.mass_kg") == Approx(last("dosed_mass_kg")).epsilon(1e-6));
         CHECK(last("dosed_count") > 0);
         const double inDose = std::stod(doses.back()[column(doses, "rear.mass_kg")]) +
@@ -328,5 +331,6 @@ TEST_CASE("what comes into a region is in the time series, the doses and the sum
         REQUIRE(summary["regions"].size() == 3);
         CHECK(summary["regions"][0]["name"] == "low");
         CHECK(summary["regions"][0]["particles"] == last("low.count"));
+        CHECK(summary["regions"][0]["content_kg"].get<double>() == Approx(last("low.content_kg")));
     }
 }

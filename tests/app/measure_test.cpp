@@ -129,6 +129,17 @@ kind = "discharge"
 region = "pan"
 hole_mm = 10.0
 from_s = 0.0
+[[region]]
+name = "window"
+kind = "box"
+deletes = false
+low = [-0.01, 0.0195, -0.01]
+high = [0.01, 0.0445, 0.01]
+[[measure]]
+kind = "content"
+region = "window"
+from_s = 0.0095
+to_s = 0.0505
 )");
     const auto o = box.vkdose("run column.toml --backend reference --out out");
     CAPTURE(o.out, o.err);
@@ -138,6 +149,12 @@ from_s = 0.0
     const double rate = 1427 * 4.0 / 3 * 3.14159265358979 * 1e-9 / 5e-3;
     // The line through a staircase of twenty steps is out by less than one of them in twenty.
     CHECK(near(d.at("rate_kg_s").get<double>(), rate, rate, 0.02));
+    // Five spheres at a time are in 25 mm of the column.
+    const Json content = summaryIn(box / "out").at("measures").at("content");
+    const double five = 5 * 1427 * 4.0 / 3 * 3.14159265358979 * 1e-9;
+    CHECK(near(content.at("mass_kg").get<double>(), five, five, 1e-6));
+    CHECK(content.at("mass_deviation_kg").get<double>() < 1e-6 * five);
+    CHECK(content.at("lines") == 41);
     // C = W / (rho sqrt(g) (D - 1.5 d)^5/2), d = 2 mm
     CHECK(near(d.at("beverloo_constant").get<double>(), rate / (800 * 1e-3 * std::pow(7e-3, 2.5)),
                rate / (800 * 1e-3 * std::pow(7e-3, 2.5)), 0.02));

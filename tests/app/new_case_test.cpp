@@ -97,6 +97,12 @@ TEST_CASE("new: devices that are ready are cases that check has nothing against"
         CHECK_THAT(told.err, Catch::Contains(why));
     };
     refused("my-screw.toml --screw", "is there already");
+    CHECK_THAT(readText(box / "my-dosator.toml"), Catch::Contains("\"my-dosator-tube.csv\""));
+    CHECK_THAT(readText(box / "my-dosator-tube.csv"), Catch::StartsWith("time_s,x,y"));
+    box.write("your-piston.csv", "mine");
+    refused("your.toml --dosator", "your-piston.csv is there already");
+    CHECK(readText(box / "your-piston.csv") == "mine");
+    CHECK_FALSE(std::filesystem::exists(box / "your-tube.csv"));
     refused("a.toml --screw --tray", "--tray and --screw");
     refused("a.toml --screw --speed 20rpm", "--screw and --speed");
 }

@@ -92,6 +92,102 @@ TEST_CASE("free bodies: one that nothing touches is thrown as the closed form sa
     }
 }
 
+TEST_CASE("free bodies: a force drives one along its line, at its times and in its phases") {
+    const Vec3 line = glm::normalize(Vec3(1, 2, -2));
+    const double mass = 0.01, force = 0.3;
+    geometry::Free free{mass, Vec3(0), line, Vec3(0), {{0, force, 0}}};
+    RuledWorld world = worldWith({geometry::Ball{Vec3(0), 3e-3}}, free, Vec3(0), spring(1e3));
+    world.gravity = Vec3(0);
+    const auto backend = makeReferenceBackend();
+    const int steps = 10'000;
+    const double t = steps * kStep;
+    const auto way = [&] { return glm::dot(backend->freeBodies().at(0).shift, line); };
+    SECTION("always") {
+        backend->load(world, farAway());
+        backend->advance(steps, 0);
+        CHECK(way() == Approx(0.5 * force / mass * t * t).epsilon(1e-9));
+        CHECK(glm::length(glm::cross(backend->freeBodies().at(0).shift, line)) < 1e-12);
+    }
+    SECTION("a force that grows from nothing") {
+        free.rows = {{0, 0, 0}, {t, force, 0}};
+        world.bodies[0].course.motion = free;
+        backend->load(world, farAway());
+        backend->advance(steps, 0);
+        CHECK(way() == Approx(force / mass * t * t / 6).epsilon(1e-4));
+    }
+    SECTION("in its phases: what is free goes on without the force") {
+        world.bodies[0].phases = {Phase::Rotate};
+        backend->load(world, farAway());
+        backend->setClocks({BodyClock{0, true, BodyClock::kNever}});
+        backend->advance(steps, 0);
+        backend->setClocks({BodyClock{std::uint64_t(steps), false, BodyClock::kNever}});
+        backend->advance(steps, 0);
+        const double speed = force / mass * (t - kStep / 2);
+        CHECK(glm::dot(backend->freeBodies().at(0).velocity, line) == Approx(speed).epsilon(1e-9));
+        CHECK(way() == Approx(0.5 * force / mass * t * t + speed * t).epsilon(1e-4));
+    }
+    SECTION("to its stop, and back") {
+        free.rows = {{0, force, 0}, {t, force, 0}, {1.0001 * t, -force, 0}};
+        free.high = 1e-4;
+        free.low = -2e-4;
+        world.bodies[0].course.motion = free;
+        backend->load(world, farAway());
+        backend->advance(steps, 0);
+        CHECK(way() == Approx(1e-4).margin(1e-12));
+        CHECK(backend->freeBodies().at(0).velocity == Vec3(0));
+        backend->advance(steps, 0);
+        CHECK(way() == Approx(-2e-4).margin(1e-12));
+    }
+    SECTION("against damping") {
+        free.damping = 5;
+        world.bodies[0].course.motion = free;
+        backend->load(world, farAway());
+        backend->advance(steps, 0);
+        const double fade = std::exp(-free.damping * (t - kStep / 2) / mass);
+        CHECK(glm::dot(backend->freeBodies().at(0).velocity, line) ==
+              Approx(force / free.damping * (1 - fade)).epsilon(1e-6));
+    }
+    SECTION("damping that a time step cannot resolve stops it, and does not throw it about") {
+        free.damping = 100 * mass / kStep;
+        free.rows = {};
+        free.velocity = line;
+        world.bodies[0].course.motion = free;
+        backend->load(world, farAway());
+        double before = 1;
+        for (int call = 0; call < 20; ++call) {
+            backend->advance(1, 0);
+            const double now = std::abs(glm::dot(backend->freeBodies().at(0).velocity, line));
+            CHECK(now < before);
+            before = now;
+        }
+    }
+}
+
+TEST_CASE("free bodies: a lid that turns as its table says carries round what it presses") {
+    ContactParameters p = spring(1e3);
+    p.gamma = 0.1;
+    p.mu = 0.5;
+    p.kt = 3e2;
+    p.gammaT = 0.05;
+    const double force = 2e-3, rate = 20;
+    RuledWorld world = lidWorld(p, 1e-4, 0);
+    auto& lid = std::get<geometry::Free>(world.bodies[0].course.motion);
+    lid.through = world.bodies[0].course.start.origin;
+    lid.rows = {{0, -force, 0}, {1, -force, rate}};
+    lid.damping = 0.05;
+    const auto backend = makeReferenceBackend();
+    backend->load(world, underLid());
+    backend->advance(20'000, 0);
+    const Sensors s = backend->advance(1000, 0);
+    const Particles now = backend->particles();
+    CHECK(s.bodies[0].force.z == Approx(force + 1e-4 * kGravity).epsilon(0.02));
+    CHECK(s.bodies[0].torque < 0);  // about its line, +z: the powder resists
+    // Spheres roll between floor and lid at half its speed.
+    const Vec3 x = now.position[12], v = now.velocity[12];
+    CHECK(glm::dot(v, glm::normalize(glm::cross(Vec3(0, 0, 1), x))) ==
+          Approx(rate / 2 * std::hypot(x.x, x.y)).epsilon(0.1));
+}
+
 TEST_CASE("free bodies: the automatic step resolves the impact of one that is far lighter than the sphere") {
     const double sphere = massOf(kRadius);
     for (const double share : {0.02, 0.5, 20.0}) {

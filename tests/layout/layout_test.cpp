@@ -66,7 +66,7 @@ const std::map<std::string, Layout>& hostLayouts() {
         {"BodyMotion",
          {{FIELD(BodyMotion, toBodyHigh), FIELD(BodyMotion, toBodyLow), FIELD(BodyMotion, velocity),
            FIELD(BodyMotion, spin), FIELD(BodyMotion, centre), FIELD(BodyMotion, free), FIELD(BodyMotion, line),
-           FIELD(BodyMotion, way), FIELD(BodyMotion, pivot)},
+           FIELD(BodyMotion, way), FIELD(BodyMotion, held), FIELD(BodyMotion, pivot)},
           sizeof(BodyMotion)}},
         {"GroupRecord", {{FIELD(GroupRecord, sensors), FIELD(GroupRecord, energy)}, sizeof(GroupRecord)}},
         {"FieldParams",

@@ -207,7 +207,7 @@ TEST_CASE("an element of a table has its place by part, row and column") {
     CHECK(at.slotRangeIndex(7) == particles + 7);
     CHECK(at.springIndex(9, 1) == 19);
     CHECK(at.exertedIndex(2, 9) == 4 * spring + 9);
-    CHECK(at.bodyHistoryIndex(3, 8) == 5 * spring + 3 * gpu::kMaxBodyTouches * 6 + 8);
+    CHECK(at.bodyHistoryIndex(3, 8) == 5 * spring + 3ULL * gpu::kMaxBodyTouches * 6 + 8);
     CHECK(at.headIndex(2, 4) == 2 * 2048 + 4);
     CHECK(at.nextIndex(4) == 3 * 2048 + 4);
     CHECK(at.listAnchorIndex(4) == particles + 4);
@@ -216,7 +216,7 @@ TEST_CASE("an element of a table has its place by part, row and column") {
     CHECK(at.bookIndex(2, 4) == 2 * particles + 4);
     CHECK(at.slotBookIndex(1, 4) == gpu::kBookFields * particles + slots + 4);
     CHECK(at.bodyLoadIndex(9, 4) == 9 * particles + 4);
-    CHECK(at.bodyForceIndex(5, 1) == slots + gpu::kMaxBodyTouches * 5 + 1);
+    CHECK(at.bodyForceIndex(5, 1) == slots + 5ULL * gpu::kMaxBodyTouches + 1);
     CHECK(at.torqueIndex(4, 1) == 9);
 }
 

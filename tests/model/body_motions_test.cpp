@@ -95,7 +95,8 @@ TEST_CASE("bodies: a table of motion comes from its file") {
     read.folder.write("way.csv", "time_s,angle\n0,0\n1,1\n");
     CHECK_THAT(read.fault(body), Contains("has a column \"angle\"") && Contains("time_s, angle_deg, x, y, z"));
     read.folder.write("way.csv", "time_s\n0\n1\n");
-    CHECK_THAT(read.fault(body), Contains("has no column but the time") && Contains("add angle_deg"));
+    CHECK_THAT(read.fault(body),
+               Contains("has no column but the time") && Contains("name the columns time_s, angle_deg"));
     read.folder.write("way.csv", "time_s,angle_deg\n1,0\n1,1\n");
     CHECK_THAT(read.fault(body), Contains("row 2 of the table is not later"));
     CHECK_THAT(read.fault(replaced(body, "way.csv", "gone.csv")), Contains("there is no file"));

@@ -81,11 +81,18 @@ radius_mm = 16.0
 inner_radius_mm = 8.0
 from_s = [0.02, 0.05]
 to_s = [0.04, 0.08]
+pre_shear_from_s = [0.01, 0.045]
+pre_shear_to_s = [0.02, 0.05]
 [[measure]]
 kind = "discharge"
 region = "pan"
 hole_mm = 7.5
 from_s = 0.03
+[[measure]]
+kind = "content"
+region = "pan"
+from_s = 0.03
+to_s = 0.05
 )";
 
 }  // namespace
@@ -96,7 +103,7 @@ TEST_CASE("measures: every kind comes from its keys, and the resolved case gives
     const Case again = loadCase(read.folder.write("resolved.toml", first.resolved));
     for (const Case* c : {&first, &again}) {
         const std::vector<ElementTest>& m = c->measures;
-        REQUIRE(m.size() == 6);
+        REQUIRE(m.size() == 7);
         CHECK(m[0].kind == ElementTest::Kind::AngleOfRepose);
         CHECK(m[0].name == "angle_of_repose");
         CHECK(near(m[0].at, Vec3(0.01, 0.002, -0.01), 1, 1e-15));
@@ -116,10 +123,16 @@ TEST_CASE("measures: every kind comes from its keys, and the resolved case gives
         REQUIRE(m[4].windows.size() == 2);
         CHECK(m[4].windows[1].from == 0.05);
         CHECK(m[4].windows[1].to == 0.08);
+        REQUIRE(m[4].preShears.size() == 2);
+        CHECK(m[4].preShears[1].from == 0.045);
         CHECK(c->world.regions.at(m[5].region).name == "pan");
         CHECK(m[5].hole == 7.5e-3);
         REQUIRE(m[5].windows.size() == 1);
         CHECK(m[5].windows[0].from == 0.03);
+        CHECK(m[6].kind == ElementTest::Kind::Content);
+        CHECK(m[6].region == m[5].region);
+        REQUIRE(m[6].windows.size() == 1);
+        CHECK(m[6].windows[0].to == 0.05);
     }
     CHECK(again.resolved == first.resolved);
 }
@@ -150,9 +163,16 @@ TEST_CASE("measures: a fault names file, line, key, value and remedy") {
                Contains("is not later"));
     CHECK_THAT(says("kind = \"shear\"\nbody = \"drum\"\nradius_mm = 5\ninner_radius_mm = 6\nfrom_s = 0\nto_s = 1\n"),
                Contains("inner_radius_mm") && Contains("is no smaller"));
+    const std::string sheared = "kind = \"shear\"\nbody = \"drum\"\nradius_mm = 5\nfrom_s = [1, 3]\nto_s = [2, 4]\n";
+    CHECK_THAT(says(sheared + "pre_shear_from_s = 0.5\npre_shear_to_s = 0.9\n"),
+               Contains("pre_shear_from_s") && Contains("give each point a pre-shear"));
+    CHECK_THAT(says(sheared + "pre_shear_from_s = [0.5, 2.5]\n"), Contains("pre_shear_to_s") && Contains("is missing"));
+    CHECK_THAT(says(sheared + "pre_shear_from_s = [0.5, 2.5]\npre_shear_to_s = [0.4, 2.9]\n"),
+               Contains("is not later than pre_shear_from_s"));
     CHECK_THAT(says("kind = \"shear\"\nbody = \"drum plate\"\nradius_mm = 5\nfrom_s = 0\nto_s = 1\n"),
                Contains("has no axis") && Contains("let the lid turn"));
-    for (const std::string kind : {"drum_angle\"\nbody = \"drum\"\n", "discharge\"\nregion = \"pan\"\n"}) {
+    for (const std::string kind :
+         {"drum_angle\"\nbody = \"drum\"\n", "discharge\"\nregion = \"pan\"\n", "content\"\nregion = \"pan\"\n"}) {
         CHECK_THAT(says("kind = \"" + kind + "from_s = [0.1, 0.2]\n"),
                    Contains("from_s") && Contains("has 2 times, and this measure has one window"));
         CHECK_THAT(says("kind = \"" + kind + "from_s = 0.1\nto_s = [0.2, 0.3]\n"), Contains("to_s"));
@@ -161,7 +181,7 @@ TEST_CASE("measures: a fault names file, line, key, value and remedy") {
                Contains("there is no region \"pam\"") && Contains("did you mean \"pan\""));
     CHECK_THAT(says("kind = \"discharge\"\nregion = \"pan\"\n"), Contains("from_s") && Contains("is missing"));
     CHECK_THAT(says("kind = \"angle_of_repose\"\n[[measure]]\nkind = \"angle_of_repose\"\n"),
-               Contains("two measures \"angle_of_repose\""));
+               Contains("\"angle_of_repose\" stands there twice"));
     CHECK_THAT(says("kind = \"angle_of_repose\"\nname = \"a b\"\n"), Contains("is no name of a measure"));
     const std::string early = "[[measure]]\nkind = \"angle_of_repose\"\ntime_s = 0.05\n";
     CHECK_THAT(read.fault(withMeasures(early, "")), Contains("keeps none") && Contains("add [frames]"));
@@ -177,5 +197,5 @@ TEST_CASE("measures: every shipped element test loads and measures something") {
         CHECK_FALSE(loadCase(entry.path()).measures.empty());
         ++cases;
     }
-    CHECK(cases == 5);
+    CHECK(cases == 6);
 }

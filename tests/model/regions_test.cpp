@@ -44,6 +44,17 @@ TEST_CASE("regions: one that deletes stands in the place of the outlet, one that
     CHECK(again.resolved == both.resolved);
 }
 
+TEST_CASE("a region moves with the body that it names") {
+    const std::string bodies =
+        "[[body]]\nname = \"lid\"\nshape = \"plane\"\nnormal = [0, 0, -1]\nat = [0, 0, 0.5]\n"
+        "[[body]]\nname = \"cup\"\nshape = \"plane\"\nnormal = [0, 0, -1]\nat = [0, 0, 0.4]\n";
+    const Case c = loadText(kGoodCase + bodies + kGate + "moves_with = \"cup\"\n");
+    CHECK(c.world.regions.at(0).body == std::size_t{1});
+    const Case again = loadResolvedCase(c.resolved, "again.toml");
+    CHECK(again.world.regions.at(0).body == std::size_t{1});
+    CHECK_FALSE(loadText(kGoodCase + bodies + kGate).world.regions.at(0).body);
+}
+
 TEST_CASE("regions that cannot be are refused by name") {
     const auto refused = [](const std::string& text, const std::string& said) {
         CAPTURE(text);
@@ -58,6 +69,11 @@ TEST_CASE("regions that cannot be are refused by name") {
         return text.replace(text.find(from), from.size(), to);
     };
     refused(kPan + kPan, "stands there twice");
+    refused(kGate + "moves_with = \"cup\"\n", "region[0].moves_with = \"cup\": there is no body \"cup\"");
+    refused(kGate + "moves_with = 3\n", "moves_with");
+    const std::string cup = "[[body]]\nname = \"cup\"\nshape = \"plane\"\nnormal = [0, 0, -1]\nat = [0, 0, 0.4]\n";
+    refused(cup + kPan + "moves_with = \"cup\"\n", "stands in a region that deletes, which rests");
+    refused(cup + kGate + "moves_with = \"cub\"\n", "did you mean \"cup\"?");
     refused(with(kPan, "\"pan\"", "\"a pan\""), "is no name of a region");
     refused(with(kPan, "-2", "0"), "normal");
     refused(with(kPan, "beyond", "behind"), "kind");

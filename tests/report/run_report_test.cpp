@@ -1,6 +1,9 @@
 #include "host/report/run_report.h"
 
+#include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "host/core/error.h"
 #include "host/report/page.h"
@@ -101,6 +104,23 @@ TEST_CASE("the mass rate of a run in windows, its steady part marked") {
     CHECK_THAT(fact(data, "mass rate", "note"), Catch::Contains("over 10 windows of 0.5 s"));
     CHECK(fact(data, "steady mass rate").find("1.978 g/s ± ") == 0);
     CHECK_THAT(fact(data, "steady mass rate", "note"), Catch::Contains("RSD 11 %, from t = 0.5 s"));
+
+    // A device that doses again and again is told by its doses; one that goes on, by its rate.
+    const auto places = [](const Json& run) {
+        std::vector<std::string> names;
+        for (const Json& f : run["facts"]) names.push_back(f["name"]);
+        const auto at = [&](const char* name) { return std::find(names.begin(), names.end(), name) - names.begin(); };
+        return std::pair(at("steady mass rate"), at("mass per dose"));
+    };
+    CHECK(data["rate_leads"] == false);
+    CHECK(places(data).first > places(data).second);
+    box.write("run/doses.csv", vkdose::test::dosesTable("1,0.1,0.0015,0.0015,9,0.002,0.0016,1\n"));
+    const Json once = runJson(folder, {});
+    CHECK(once["rate_leads"] == true);
+    CHECK(places(once).first < places(once).second);
+    // Nothing turned in it.
+    CHECK(fact(once, "outlet stopped for more than a turn") == "no such fact");
+    CHECK_THAT(fact(once, "first powder"), Catch::Contains("s of dosing until something came"));
 }
 
 TEST_CASE("the mass of each turn of the drive beside what was left, its steady part marked") {
@@ -158,11 +178,11 @@ TEST_CASE("the figures of a run, by hand") {
     CHECK(fact(data, "β") == "2.000 g/dose");
     CHECK_THAT(fact(data, "β", "note"), Catch::Contains("2 doses with less than 4.8 g"));
     CHECK(fact(data, "blocked") == "no");
-    CHECK(fact(data, "mass per turn of the coil") == "3.5 g");        // 3.5 g in one turn
-    CHECK(fact(data, "work of the drive") == "12.57 mJ");             // 2 mN m over 2 pi
-    CHECK(fact(data, "outlet velocity, coil turning") == "15 mm/s");  // of 12 and 18; that at rest left out
+    CHECK(fact(data, "mass per turn of the coil") == "3.5 g");       // 3.5 g in one turn
+    CHECK(fact(data, "work of the drive") == "12.57 mJ");            // 2 mN m over 2 pi
+    CHECK(fact(data, "outlet velocity while dosing") == "15 mm/s");  // of 12 and 18; that at rest left out
     // Something came out in every line in which the coil turned; the first of them ends 0.2 s after it began to.
-    CHECK(fact(data, "longest stop of the outlet, coil turning") == "none");
+    CHECK(fact(data, "longest stop of the outlet while dosing") == "none");
     CHECK(fact(data, "outlet stopped for more than a turn") == "never");
     CHECK_THAT(fact(data, "outlet stopped for more than a turn", "note"), Catch::Contains("0.2 s"));
     CHECK(data["doses"]["longest_stop_s"] == Json({0, 0, 0, 0}));

@@ -63,6 +63,13 @@ TEST_CASE("free bodies: on the device a ball flies and meets spheres as in the r
         w.law.pairs.fill(hertzMindlin({2e6, 0.25}, {2e6, 0.25}, 0.5));
         free.mass = 5e-5;
     }
+    SECTION("driven along a line and about it, against damping") {
+        free.line = line;
+        free.velocity = 0.9 * line;
+        free.through = w.bodies[2].course.start.origin;
+        free.rows = {{0, 0, 0}, {1000 * w.timeStep, 0.2, 2}, {2500 * w.timeStep, 0.1, 3}};
+        free.damping = 0.05;
+    }
     SECTION("from a time on") {
         w.bodies[2].course.schedule.intervals = {{33.5 * w.timeStep, geometry::kEndless}};
     }
@@ -86,6 +93,29 @@ TEST_CASE("free bodies: on the device a ball flies and meets spheres as in the r
     }
     CHECK(met);
     CHECK(differences(*device, *reference, 1).position < 1e-4);
+    requireClean(*device);
+}
+
+TEST_CASE("free bodies: on the device one comes to its stops and stays there") {
+    RuledWorld w = dropWorld();
+    const Vec3 line = glm::normalize(Vec3(0.05, -1, 0.02));
+    w.bodies[2].course.motion = geometry::Free{kMass, Vec3(0), line, w.bodies[2].course.start.origin, {{0, 0.3, 0}}};
+    auto& free = std::get<geometry::Free>(w.bodies[2].course.motion);
+    free.high = 0.7e-3;
+    Particles p;
+    p.add({-1e-3, 2e-3, 0.4e-3}, single(1.25e-3));
+    auto device = gpu();
+    auto reference = makeReferenceBackend();
+    for (Backend* b : {device.get(), reference.get()}) {
+        b->load(w, p);
+        b->advance(std::uint32_t(10e-3 / w.timeStep), 0);
+        CHECK(near(b->freeBodies().at(2).shift, 0.7e-3 * line, 1, 1e-7));
+        CHECK(b->freeBodies().at(2).velocity == Vec3(0));
+        b->setGravity({0, 200, 0});  // it lifts the ball off against its force
+        b->advance(std::uint32_t(1e-3 / w.timeStep), 0);
+    }
+    CHECK(glm::dot(reference->freeBodies().at(2).shift, line) < 0.69e-3);
+    CHECK(near(device->freeBodies().at(2).shift, reference->freeBodies().at(2).shift, 1e-3, 1e-4));
     requireClean(*device);
 }
 

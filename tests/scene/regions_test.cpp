@@ -78,7 +78,7 @@ TEST_CASE("regions: a slanted plane and a box dose what comes into them, and not
             CHECK(a.status[i] == b.status[i]);
             if (a.status[i] == Status::Dosed && dosedAt[i] == 0) dosedAt[i] = a.position[i].x;
         }
-        book.look(a);
+        book.look(a, {});
     }
     // A sphere goes a step farther at most, and the device rounds its place to single precision.
     const double step = dt * 1.0 + 1e-8;
@@ -89,20 +89,20 @@ TEST_CASE("regions: a slanted plane and a box dose what comes into them, and not
         CHECK(dosedAt[i] < expected[i] + step);
     }
     const double mass = sphereMass(w.density(), single(1e-3));
-    CHECK(book.counts()[0].particles == 4);
-    CHECK(book.counts()[1].particles == 1);
-    CHECK(book.counts()[2].particles == 5);
-    CHECK(book.counts()[0].mass == Approx(4 * mass));
-    CHECK(book.counts()[2].mass == Approx(5 * mass));
+    CHECK(book.samples()[0].came.particles == 4);
+    CHECK(book.samples()[1].came.particles == 1);
+    CHECK(book.samples()[2].came.particles == 5);
+    CHECK(book.samples()[0].came.mass == Approx(4 * mass));
+    CHECK(book.samples()[2].came.mass == Approx(5 * mass));
 
     // Back from a record, the book counts nobody again.
     Record record;
     book.save(record);
     RegionBook again(w);
     again.restore(record);
-    again.look(device->particles());
-    CHECK(again.counts()[0].particles == 4);
-    CHECK(again.counts()[2].particles == 5);
+    again.look(device->particles(), {});
+    CHECK(again.samples()[0].came.particles == 4);
+    CHECK(again.samples()[2].came.particles == 5);
     again.openDose();
     CHECK(again.sinceDose()[2].particles == 0);
 }

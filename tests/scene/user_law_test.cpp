@@ -63,7 +63,7 @@ struct Twins {
     RuledWorld own, users;
 };
 
-Twins ludingTwins(RuledWorld world = bowl()) {
+Twins ludingTwins(const RuledWorld& world = bowl()) {
     Twins t{world, world};
     t.own.law = t.users.law = paperLaw(0.3);
     const int materials = int(world.materials.size());
@@ -143,13 +143,13 @@ TEST_CASE("a user's law that repeats luding has luding's bits", "[every-driver]"
 }
 
 TEST_CASE("a user's law has the parameters of each pair of materials") {
-    constexpr int kSecond = 3, kPlate = 4;
+    constexpr int kSecondPowder = 3, kPlate = 4;
     RuledWorld world = bowl();
     world.materials.push_back({"second", true, 2854});
     world.materials.push_back({"plate", false, 0});
     world.bodies[0].material = kPlate;
     Particles spheres = threeSpheres();
-    spheres.material = {kSecond, 0, kSecond};
+    spheres.material = {kSecondPowder, 0, kSecondPowder};
     const Twins t = ludingTwins(world);
     requireSameBits(t.own, t.users, spheres);
 }

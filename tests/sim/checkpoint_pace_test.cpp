@@ -14,11 +14,14 @@ std::vector<double> timesOf(double longest, double work, double end) {
     constexpr double kStart = 4096;
     CheckpointPace pace(longest, kStart);
     std::vector<double> times;
-    for (double t = 0; t <= end; t += 0.25) {
-        if (!pace.due(kStart + t)) continue;
-        times.push_back(t);
-        pace.stored(kStart + t, kStart + t + work);
-        t += work;
+    double t = 0;
+    while (t <= end) {
+        if (pace.due(kStart + t)) {
+            times.push_back(t);
+            pace.stored(kStart + t, kStart + t + work);
+            t += work;
+        }
+        t += 0.25;
     }
     return times;
 }

@@ -20,19 +20,20 @@ void Forces::placeBodies() {
     const auto step = static_cast<std::uint64_t>(std::llround(drive_.time / world_->timeStep));
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
         const RigidBody& body = bodies_[b];
+        const BodyClock clock = clockOf(drive_.clocks, b);
+        Moved own = static_cast<double>(clock.steps) * world_->timeStep;
+        const geometry::Moving moving = body.moving(drive_.time - back, drive_.angle - drive_.rate * back, drive_.rate,
+                                                    clock.runs ? std::optional(own.time - back) : std::nullopt);
         if (body.movesFreely()) {
-            const geometry::Pose pose = body.pose(0, 0, Moved(drive_.free[b].shift));
+            own.shift = drive_.free[b].shift;
+            const geometry::Pose pose = body.pose(drive_.time, 0, own);
             const bool stands = body.kickOf(step, world_->timeStep) == 0;  // as a wall, still
             placed_.push_back({pose,
-                               {drive_.free[b].velocity, Vec3(0), pose.origin},
+                               {drive_.free[b].velocity, moving.spin, pose.origin},
                                stands ? 0 : 1 / std::get<geometry::Free>(body.course.motion).mass});
             continue;
         }
-        const BodyClock clock = clockOf(drive_.clocks, b);
-        const double own = static_cast<double>(clock.steps) * world_->timeStep;
-        placed_.push_back({body.pose(drive_.time, drive_.angle, own),
-                           body.moving(drive_.time - back, drive_.angle - drive_.rate * back, drive_.rate,
-                                       clock.runs ? std::optional(own - back) : std::nullopt)});
+        placed_.push_back({body.pose(drive_.time, drive_.angle, own), moving});
     }
 }
 

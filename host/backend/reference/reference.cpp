@@ -259,10 +259,24 @@ void ReferenceBackend::moveBodies() {
         const double kick = body.kickOf(steps_, world_.timeStep);
         if (kick == 0) continue;
         const auto& motion = std::get<geometry::Free>(body.course.motion);
+        FreeBody& free = free_[b];
         Vec3 push = kick * (loads_.bodies[b].force / motion.mass + world_.gravity);
-        if (motion.line) push = glm::dot(push, *motion.line) * *motion.line;
-        free_[b].velocity += push;
-        free_[b].shift += world_.timeStep * free_[b].velocity;
+        if (motion.line) {
+            const BodyClock clock = clockOf(clocks_, b);
+            const double force = body.drivingForce(
+                static_cast<double>(steps_) * world_.timeStep,
+                clock.runs ? std::optional(static_cast<double>(clock.steps) * world_.timeStep) : std::nullopt);
+            push = (glm::dot(push, *motion.line) + kick * force / motion.mass) * *motion.line;
+        }
+        // The damping acts at the mean of the velocities before and after, so that it takes energy at any size.
+        const double damped = kick * motion.damping / motion.mass;
+        free.velocity += (push - damped * free.velocity) / (1 + damped / 2);
+        if (motion.line) {
+            const double speed = glm::dot(free.velocity, *motion.line);
+            const double stopped = motion.stopped(glm::dot(free.shift, *motion.line), speed, world_.timeStep);
+            if (stopped != speed) free.velocity = stopped * *motion.line;
+        }
+        free.shift += world_.timeStep * free.velocity;
     }
 }
 

@@ -144,8 +144,15 @@ class Ensemble {
     // ensemble_free.cpp, the bodies that move freely
     /// At their start.
     static void placeFree(MemberState& m);
+    /// What is prescribed to a body that moves freely: how it stands and turns, were it at its start, and the force
+    /// along its line [N].
+    struct Driven {
+        geometry::Pose pose;
+        Vec3 spin{0};
+        double force = 0;
+    };
     /// Body `b` in step `n` of the next batch, as far as the host can tell: the device goes on from the first one.
-    static gpu::BodyMotion motionOfFree(const MemberState& m, std::size_t b, std::uint32_t n);
+    static gpu::BodyMotion motionOfFree(const MemberState& m, std::size_t b, std::uint32_t n, const Driven& driven);
     /// After a batch of so many steps.
     void readFree(MemberState& m, std::uint32_t count) const;
     static void saveFree(const MemberState& m, Record& record);

@@ -44,6 +44,9 @@ struct Instant {
           runs(clock.runs) {}
 
     geometry::Pose pose(const RigidBody& body) const { return body.pose(time, angle, own); }
+    double force(const RigidBody& body) const {
+        return body.drivingForce(time, runs ? std::optional(own) : std::nullopt);
+    }
     /// `back` [s] before.
     geometry::Moving moving(const RigidBody& body, double back) const {
         return body.moving(time - back, angle - rate * back, rate, runs ? std::optional(own - back) : std::nullopt);
@@ -67,8 +70,9 @@ std::optional<double> approachByTurning(const RigidBody& body) {
     return most * std::abs(turn->rate);
 }
 
-/// Bound of how much nearer any particle the body can come in the step that begins at that instant. The lists take a
-/// wire for endless (law/coil.glsl, nearCoil), so its ends do not count.
+/// Bound of how much nearer any particle the body can come in the step that begins at that instant. Of a body that
+/// moves freely its turn counts alone: the device watches its way. The lists take a wire for endless (law/coil.glsl,
+/// nearCoil), so its ends do not count.
 double longestWay(const World& world, const RigidBody& body, const gpu::vec4& around,
                   const std::optional<double>& approach, const Instant& now) {
     const geometry::Pose pose = now.pose(body);
@@ -80,13 +84,10 @@ double longestWay(const World& world, const RigidBody& body, const gpu::vec4& ar
         centre = pose.toBody((room.low + room.high) / 2.0);
         radius = reach;
     }
-    if (body.movesFreely()) return 0;  // the device watches its way
     const bool byDrive = body.clock == Clock::Drive;
-    if (body.clock == Clock::Phases && !now.runs) return 0;
+    if (body.movesInPhases() && !now.runs) return 0;
     const double span = byDrive ? std::abs(now.rate) * world.timeStep : world.timeStep;
-    const double from = byDrive                     ? now.angle - (now.rate > 0 ? 0 : span)
-                        : body.clock == Clock::Time ? now.time
-                                                    : now.own;
+    const double from = byDrive ? now.angle - (now.rate > 0 ? 0 : span) : body.movesInPhases() ? now.own : now.time;
     if (approach) return *approach * span;
     return geometry::wayBound(body.course, centre, radius, from, span);
 }
@@ -175,12 +176,12 @@ void Ensemble::writeMotions(std::uint32_t count, const std::vector<double>& coil
             const std::size_t first = motions.size();
             double way = 0;
             for (std::size_t b = 0; b < bodies.size(); ++b) {
-                if (bodies[b].movesFreely()) {
-                    motions.push_back(motionOfFree(m, b, n));
-                    continue;
-                }
+                const RigidBody& body = bodies[b];
                 const Instant now(m.world, m.step + n, angle, rate, clockOf(m.clocks, b), n);
-                motions.push_back(packMotion(bodies[b], now.pose(bodies[b]), now.moving(bodies[b], back)));
+                const geometry::Pose pose = now.pose(body);
+                const geometry::Moving moving = now.moving(body, back);
+                motions.push_back(body.movesFreely() ? motionOfFree(m, b, n, {pose, moving.spin, now.force(body)})
+                                                     : packMotion(body, pose, moving));
                 way = std::max(way, longestWay(m.world, bodies[b], m.around[b], m.approach[b], now));
             }
             if (!bodies.empty()) motions[first].way.y = float(way);

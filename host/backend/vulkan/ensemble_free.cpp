@@ -1,7 +1,9 @@
 // The bodies of an ensemble that move freely. The host knows where they are between two batches; in a batch the device
 // goes on from there by itself (shaders/pass/free_bodies.comp).
 
+#include <algorithm>
 #include <array>
+#include <limits>
 
 #include "host/backend/vulkan/ensemble.h"
 #include "host/backend/vulkan/pack.h"
@@ -34,6 +36,10 @@ gpu::BodyMotion packed(const RigidBody& body, const Vec3& shift, const Vec3& vel
     m.velocity = gpu::vec4(speed.high, m.velocity.w);
     m.free = gpu::vec4(speed.low, float(1 / motion.mass));
     m.line = gpu::vec4(motion.line ? glm::vec3(*motion.line) : glm::vec3(0), 0);
+    const double start = motion.line ? glm::dot(body.course.start.origin, *motion.line) : 0;
+    constexpr double kMost = std::numeric_limits<float>::max();
+    m.held.z = float(std::max(start + motion.low, -kMost));
+    m.held.w = float(std::min(start + motion.high, kMost));
     return m;
 }
 
@@ -51,11 +57,22 @@ void Ensemble::placeFree(MemberState& m) {
         if (m.bodies[b].movesFreely()) m.at[b] = standing(m.bodies[b], 0, m.world.timeStep);
 }
 
-gpu::BodyMotion Ensemble::motionOfFree(const MemberState& m, std::size_t b, std::uint32_t n) {
+gpu::BodyMotion Ensemble::motionOfFree(const MemberState& m, std::size_t b, std::uint32_t n, const Driven& driven) {
     const double dt = m.world.timeStep;
-    gpu::BodyMotion motion = n == 0 ? m.at[b] : standing(m.bodies[b], m.step + n, dt);
-    motion.line.w = float(m.bodies[b].kickOf(m.step + n, dt));
-    for (int d = 0; d < 3; ++d) motion.pivot[d] = motion.toBodyHigh[d].w;  // RigidBody::pivot
+    const RigidBody& body = m.bodies[b];
+    const auto& free = std::get<geometry::Free>(body.course.motion);
+    gpu::BodyMotion motion = n == 0 ? m.at[b] : standing(body, m.step + n, dt);
+    const double kick = body.kickOf(m.step + n, dt);
+    motion.line.w = float(kick);
+    motion.held.x = float(driven.force / free.mass);
+    motion.held.y = float(kick * free.damping / free.mass);
+    const gpu::BodyMotion turned = packMotion(body, driven.pose, {Vec3(0), driven.spin, driven.pose.origin});
+    for (int d = 0; d < 3; ++d) {
+        motion.toBodyHigh[d] = gpu::vec4(glm::vec3(turned.toBodyHigh[d]), motion.toBodyHigh[d].w);
+        motion.toBodyLow[d] = gpu::vec4(glm::vec3(turned.toBodyLow[d]), motion.toBodyLow[d].w);
+        motion.pivot[d] = motion.toBodyHigh[d].w;  // RigidBody::pivot
+    }
+    motion.spin = turned.spin;
     return motion;
 }
 

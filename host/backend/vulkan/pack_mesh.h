@@ -12,10 +12,10 @@ namespace vkdose {
 
 /// What the record of the mesh's shape says, and a sphere around the mesh.
 struct PackedMesh {
-    std::uint32_t tags = 0;          ///< of its triangles, edges and vertices
-    std::uint32_t heads = 0;         ///< where the cells of the grid begin in the table
-    std::uint32_t lists = 0;         ///< where their triangles do
-    std::array<gpu::uvec4, 4> rest;  ///< vectors 2 to 5 of the record
+    std::uint32_t tags = 0;            ///< of its triangles, edges and vertices
+    std::uint32_t heads = 0;           ///< where the cells of the grid begin in the table
+    std::uint32_t lists = 0;           ///< where their triangles do
+    std::array<gpu::uvec4, 4> rest{};  ///< vectors 2 to 5 of the record
     Around around;
 };
 

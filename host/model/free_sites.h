@@ -1,0 +1,23 @@
+#pragma once
+// The part of a grid that lies in a vessel.
+
+#include <cstdint>
+#include <vector>
+
+#include "host/model/grid.h"
+#include "host/model/world.h"
+
+namespace vkdose {
+
+/// The box around these of the world's bodies as they stand at the start. Shapes without an end do not count; without
+/// any other its `high` is below its `low`.
+Box boxAround(const World& world, const std::vector<std::size_t>& bodies);
+
+/// The sites, ascending, of the largest room in the vessel. A room is made of sites that are clear of walls, coil and
+/// bodies as they stand at the start, by half the pitch of the grid, and that are joined by steps to neighbours which
+/// lead through no wall. What lies outside of the vessel, in the corners of the box around it (`vessel`), is open to
+/// the sides of that box; such a room is taken only if there is no other. Empty if no site is clear. The grid must have
+/// an end.
+std::vector<std::uint64_t> sitesInside(const World& world, const InsertionGrid& grid, const Box& vessel);
+
+}  // namespace vkdose
