@@ -314,17 +314,22 @@ bool isThin(const Subject& s, const RigidBody& body) {
 /// An upper bound of the speed of the body's points, by its motion [m/s].
 double largestSpeed(const Subject& s, const RigidBody& body) {
     const geometry::Motion& motion = body.course.motion;
-    if (const auto* free = std::get_if<geometry::Free>(&motion)) return glm::length(free->velocity);
+    const auto* free = std::get_if<geometry::Free>(&motion);
+    if (free != nullptr && free->rows.size() < 2) return glm::length(free->velocity);
     const std::vector<Triangle> mesh = trianglesOf(body);
     // Of a body without an end, what is in the domain counts.
     const auto [low, high] = mesh.empty() ? s.c.world.domain : extentOf(mesh);
     const geometry::Course always{body.course.start, motion, {}};
     const auto* table = std::get_if<geometry::Table>(&motion);
-    const double from = table == nullptr ? 0 : table->rows.front().time;
-    const double span = table == nullptr ? 1 : table->rows.back().time - from;
+    const auto timesOf = [](const auto& rows) { return std::pair(rows.front().time, rows.back().time); };
+    const auto [from, to] = table != nullptr  ? timesOf(table->rows)
+                            : free != nullptr ? timesOf(free->rows)
+                                              : std::pair(0.0, 1.0);
+    const double span = to - from;
     const double way = geometry::wayBound(always, always.start.toBody((low + high) / 2.0), glm::length(high - low) / 2,
                                           from, span);  // [m], of a body that the drive moves in so many rad
-    return way / span * (body.clock == Clock::Drive ? s.c.schedule.coilSpeed : 1);
+    const double thrown = free == nullptr ? 0 : glm::length(free->velocity);
+    return thrown + way / span * (body.clock == Clock::Drive ? s.c.schedule.coilSpeed : 1);
 }
 
 }  // namespace

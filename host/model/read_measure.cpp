@@ -141,9 +141,10 @@ void readKind(CaseReader& reader, Section& s, Kind kind, const Case& c, ElementT
                 if (std::holds_alternative<Rest>(c.world.bodies[body].course.motion))
                     reader.fault(s.path("body"), "does not move",
                                  "give the piston a [body.motion], for example kind = \"table\"");
-                else if (c.world.bodies[body].clock != Clock::Time)
-                    reader.fault(s.path("body"), "does not move by time, so that its way is not known",
-                                 "let the piston move by from_s and to_s, or by the times of a table");
+                else if (c.world.bodies[body].clock != Clock::Time && !c.world.bodies[body].movesFreely())
+                    reader.fault(
+                        s.path("body"), "does not move by time, so that its way is not known",
+                        "let the piston move by from_s and to_s, by the times of a table, or freely under a force");
             m.area = s.number("area_mm2");
             m.height = s.number("height_mm");
             m.axis = readDirection(reader, s, "axis");

@@ -290,7 +290,7 @@ class Measuring {
         std::vector<PistonSample> samples;
         double mass = 0;
         for (std::size_t i = 0; i < series_.rows(); ++i) {
-            const double way = glm::dot(piston.pose(series_.number(i, "time_s"), 0).origin - start, m.axis);
+            const double way = glm::dot(originOf(i, piston) - start, m.axis);
             samples.push_back({m.height + way, glm::dot(force(i, m.bodies[0]), m.axis)});
             mass = series_.number(i, "canister_mass_kg") + series_.number(i, "throat_mass_kg");
         }
@@ -301,6 +301,13 @@ class Measuring {
         }
         return named(kCompression, {c->maxStress, c->looseDensity, c->loadedDensity, c->releasedDensity, c->recovery,
                                     c->work, c->returned, c->work / mass});
+    }
+
+    /// Where the frame of a body is that moves by time or freely.
+    Vec3 originOf(std::size_t i, const RigidBody& body) const {
+        if (!body.movesFreely()) return body.pose(series_.number(i, "time_s"), 0).origin;
+        const auto along = [&](const char* axis) { return series_.number(i, fmt::format("{}.{}_m", body.name, axis)); };
+        return {along("x"), along("y"), along("z")};
     }
 
     Figures shear(const ElementTest& m, std::string& why) const {

@@ -163,6 +163,11 @@ inline const std::vector<BodySlip> kBodySlips{
      "body-speed",
      {"body \"bar\" moves at up to"}},
     {"[settle]",
+     part("lid", "0.6, 0.6, 0.6", "0, -0.004, 0.010") +
+         "[body.motion]\nkind = \"free\"\nmass_g = 1\nvelocity = [0, 0, 50]\n[settle]",
+     "body-speed",
+     {"body \"lid\" moves at up to 50 m/s"}},
+    {"[settle]",
      part("hammer", "0.6, 0.6, 0.6", "0, -0.004, 0.010") +
          "[body.motion]\nkind = \"shake\"\naxis = [0, 0, 1]\namplitude_mm = 0.01\nfrequency_hz = 160\n[settle]",
      "sensors-alias",

@@ -319,8 +319,12 @@ TEST_CASE("what comes into a region is in the time series, the doses and the sum
         const auto series = readCsv(box / "run/timeseries.csv"), doses = readCsv(box / "run/doses.csv");
         const auto last = [&](const char* name) { return std::stod(series.back()[column(series, name)]); };
         CHECK(last("low.count") > 0);
-        CHECK(last("low.content_count") > 0);
-        CHECK(last("low.content_kg") <= last("low.mass_kg"));
+        // It slides through and out again.
+        double most = 0;
+        for (std::size_t i = 1; i < series.size(); ++i)
+            most = std::max(most, std::stod(series[i][column(series, "low.content_count")]));
+        CHECK(most > 0);
+        CHECK(last("low.content_count") < most);
         CHECK(last("rear.content_kg") == last("rear.mass_kg"));
         CHECK(last("rear.mass_kg") + last("front.mass_kg") == Approx(last("dosed_mass_kg")).epsilon(1e-6));
         CHECK(last("dosed_count") > 0);

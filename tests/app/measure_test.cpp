@@ -87,6 +87,24 @@ TEST_CASE("measures: a sphere under a piston has the stress and the work of its 
     CHECK(measures.at("angle_of_repose").contains("none_because"));
 }
 
+TEST_CASE("measures: a piston that a force drives presses with its stress") {
+    const Sandbox box;
+    writePress(box, "press", 2.4);
+    std::string text = readText(box / "press.toml");
+    const std::string table = "kind = \"table\"\nfile = \"press.csv\"\n";
+    REQUIRE(text.find(table) != std::string::npos);
+    text.replace(text.find(table), table.size(),
+                 "kind = \"free\"\nmass_g = 1\nalong = [0, -1, 0]\nfile = \"drive.csv\"\ndamping_kg_s = 2\n");
+    box.write("drive.csv", "time_s,force_N\n0,0.05\n0.045,0.05\n0.055,-0.2\n");
+    box.write("press.toml", "gravity = [0, -1e-6, 0]\n" + text);
+    const auto o = box.vkdose("run press.toml --backend reference --out out");
+    CAPTURE(o.out, o.err);
+    REQUIRE(o.code == 0);
+    const Json press = summaryIn(box / "out").at("measures").at("press");
+    CHECK(near(press.at("max_stress_Pa").get<double>(), 500, 500, 0.01));  // 0.05 N on 100 mm2
+    CHECK(near(press.at("work_J").get<double>(), 2.5e-6, 2.5e-6, 0.05));   // as with a prescribed way
+}
+
 TEST_CASE("measures: a piston that never reaches the powder compresses nothing, and the run says so") {
     const Sandbox box;
     writePress(box, "above", 2.6);

@@ -219,8 +219,17 @@ std::vector<Mutant> mutants() {
                  if (auto* free = std::get_if<geometry::Free>(&body.course.motion)) free->mass *= 1.01;
          },
          1,
-         {"bodies/free-ball"},
+         {"bodies/free-ball", "bodies/driven"},
          "drum"},
+        {"forces that drive bodies 1 % larger",
+         [](RuledWorld& w) {
+             for (RigidBody& body : w.bodies)
+                 if (auto* free = std::get_if<geometry::Free>(&body.course.motion))
+                     for (geometry::Free::Row& row : free->rows) row.force *= 1.01;
+         },
+         1,
+         {"bodies/driven"},
+         "bodies/free-ball"},
         {"every body twice, so that spheres touch it twice",
          [](RuledWorld& w) {
              const std::vector<RigidBody> once = w.bodies;
