@@ -130,7 +130,8 @@ struct Mean {
 
 Mean meanOf(const std::vector<double>& values) {
     const double count = static_cast<double>(values.size());
-    const double mean = std::accumulate(values.begin(), values.end(), 0.0) / count;
+    double mean = values.front();  // of which rounding makes no deviation, if all are equal
+    for (const double v : values) mean += (v - values.front()) / count;
     double squares = 0;
     for (const double v : values) squares += (v - mean) * (v - mean);
     return {mean, values.size() > 1 ? std::sqrt(squares / (count - 1)) : kNone};

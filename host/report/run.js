@@ -137,11 +137,11 @@ function timeCharts(parent, run) {
   curve("Outlet velocity", "mm/s", "mean v_z of the mass in the throat", s.outlet_velocity_m_s, milli, "var(--s2)",
         turning + " No curve where the throat is empty; what falls out while settling may leave the frame.");
   if (!run.rate_leads) flowCharts(parent, run);
-  bodyCharts(parent, run, time);
   regionChart(parent, run, time, run.series.regions, "Mass that came into regions",
               "Each particle counts once for a region, since the start of the run.");
   regionChart(parent, run, time, run.series.contents, "Mass in regions", "What is in the region at the time.");
   powderChart(parent, run, time);
+  bodyCharts(parent, run, time);
 
   let below = s.time_s.map(() => 0);
   const layers = [["dosed", s.dosed_mass_kg, "var(--s0)"], ["throat", s.throat_mass_kg, "var(--s4)"],

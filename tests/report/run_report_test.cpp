@@ -121,6 +121,13 @@ TEST_CASE("the mass rate of a run in windows, its steady part marked") {
     // Nothing turned in it.
     CHECK(fact(once, "outlet stopped for more than a turn") == "no such fact");
     CHECK_THAT(fact(once, "first powder"), Catch::Contains("s of dosing until something came"));
+
+    // One plug in all that time is no flow.
+    series = vkdose::test::kSeriesHeader;
+    for (int i = 1; i <= 100; ++i)
+        series += fmt::format("{},rotate,1,0,{},0.01,0,0,0,0,0,0,0,0,0,0,0,0\n", i * 0.05, i > 85 ? 1e-3 : 0);
+    box.write("run/timeseries.csv", series);
+    CHECK(runJson(folder, {})["rate_leads"] == false);
 }
 
 TEST_CASE("the mass of each turn of the drive beside what was left, its steady part marked") {
