@@ -20,8 +20,8 @@ struct RunSources {
 /// The particles of a run's particles.csv; dosed and lost ones with their status.
 Particles endParticles(const std::filesystem::path& file, const Case& c);
 
-/// Whether the figures of the flow come before those of the doses: of a feeder, which doses once or not at all and has a
-/// steady mass rate of more than three times its standard error.
+/// Whether the figures of the flow come before those of the doses: of a feeder, which doses once or not at all and has
+/// a steady mass rate of more than three times its standard error.
 bool rateLeads(const RunSources& run);
 
 /// What the canister was given until the last line of the time series [kg]; before the first line, the fill.
