@@ -6,7 +6,7 @@ include(GNUInstallDirs)
 set_target_properties(vkdose PROPERTIES SKIP_BUILD_RPATH ON)
 install(TARGETS vkdose COMPONENT vkdose)
 install(DIRECTORY cases/ DESTINATION ${CMAKE_INSTALL_DATADIR}/vkdose/cases COMPONENT vkdose
-        FILES_MATCHING PATTERN "*.toml" PATTERN "*.csv" PATTERN "*.stl" PATTERN "*.py" PATTERN "*.ipynb"
+        FILES_MATCHING PATTERN "*.toml" PATTERN "*.csv" PATTERN "*.stl" PATTERN "*.ply" PATTERN "*.py" PATTERN "*.ipynb"
         PATTERN "*.glsl" PATTERN Snakefile PATTERN pictures EXCLUDE PATTERN cpp EXCLUDE PATTERN __pycache__ EXCLUDE)
 
 # The program prints its own man pages and completions. Debian wants packed pages, without the time of packing in them.
