@@ -12,6 +12,7 @@
 #include "host/core/error.h"
 #include "host/core/file.h"
 #include "host/core/printable.h"
+#include "host/play/backend_choice.h"
 
 namespace vkdose {
 

@@ -60,13 +60,15 @@ class Rooms {
             room.leaks = room.leaks || leaks(grid_.site(site));
         };
         take(first);
-        for (std::size_t next = 0; next < room.sites.size(); ++next)
-            for (const std::uint64_t beside : grid_.beside(room.sites[next])) {
-                // Two sites on both sides of a wall keep half a pitch each, so that it stands in the middle between
-                // them.
-                const Vec3 between = (grid_.site(room.sites[next]) + grid_.site(beside)) / 2.0;
+        std::size_t next = 0;
+        while (next < room.sites.size()) {
+            const std::uint64_t site = room.sites[next++];
+            for (const std::uint64_t beside : grid_.beside(site)) {
+                // Two sites on both sides of a wall keep half a pitch each: it stands in the middle between them.
+                const Vec3 between = (grid_.site(site) + grid_.site(beside)) / 2.0;
                 if (free_[beside] && isClear(between, grid_.pitch() / 4)) take(beside);
             }
+        }
         return room;
     }
 

@@ -33,7 +33,7 @@ using State = std::array<double, kPlaces>;
 
 struct Model {
     Striker upper, lower;
-    Pair pair;
+    Pair pair{upper, lower};
     double damping = 0;  ///< 2 sqrt(5/6) beta
     double friction = 0;
 
