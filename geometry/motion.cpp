@@ -155,8 +155,16 @@ std::string fault(const Slide& m) {
     return finite(m.velocity) ? "" : "the velocity is not finite";
 }
 
-std::string laterFault(std::size_t row) {
-    return fmt::format("row {} of the table is not later than the row before", row + 1);
+/// `isFinite`: whether the numbers of a row are, beside its time.
+template <class Row, class IsFinite>
+std::string rowsFault(const std::vector<Row>& rows, IsFinite isFinite) {
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        if (!std::isfinite(rows[i].time) || !isFinite(rows[i]))
+            return fmt::format("row {} of the table is not finite", i + 1);
+        if (i > 0 && rows[i].time <= rows[i - 1].time)
+            return fmt::format("row {} of the table is not later than the row before", i + 1);
+    }
+    return "";
 }
 
 std::string fault(const Free& m) {
@@ -165,12 +173,8 @@ std::string fault(const Free& m) {
     if (!(m.damping >= 0) || !std::isfinite(m.damping)) return "the damping must be finite and not negative";
     if (!m.line) return m.rows.empty() ? "" : "a force or a turn needs a line";
     if (!(m.low <= 0 && m.high >= 0)) return "the body begins beyond its stops";
-    for (std::size_t i = 0; i < m.rows.size(); ++i) {
-        const Free::Row& row = m.rows[i];
-        if (!std::isfinite(row.time) || !std::isfinite(row.force) || !std::isfinite(row.angle))
-            return fmt::format("row {} of the table is not finite", i + 1);
-        if (i > 0 && row.time <= m.rows[i - 1].time) return laterFault(i);
-    }
+    const auto isFinite = [](const Free::Row& row) { return std::isfinite(row.force) && std::isfinite(row.angle); };
+    if (std::string said = rowsFault(m.rows, isFinite); !said.empty()) return said;
     if (std::string said = axisFault(*m.line, Vec3(0)); !said.empty()) return said;
     const double speed = glm::length(m.velocity);
     return glm::length(glm::cross(*m.line, m.velocity)) <= 1e-9 * speed ? "" : "the velocity leads off the line";
@@ -194,12 +198,8 @@ std::string fault(const Shake& m) {
 
 std::string fault(const Table& m) {
     if (m.rows.size() < 2) return "a table of motion needs two rows or more";
-    for (std::size_t i = 0; i < m.rows.size(); ++i) {
-        const Table::Row& row = m.rows[i];
-        if (!std::isfinite(row.time) || !std::isfinite(row.angle) || !finite(row.shift))
-            return fmt::format("row {} of the table is not finite", i + 1);
-        if (i > 0 && row.time <= m.rows[i - 1].time) return laterFault(i);
-    }
+    const auto isFinite = [](const Table::Row& row) { return std::isfinite(row.angle) && finite(row.shift); };
+    if (std::string said = rowsFault(m.rows, isFinite); !said.empty()) return said;
     return axisFault(m.axis, m.through);
 }
 

@@ -22,8 +22,6 @@ const float kFine = 1073741824.0;  // 2^30
 const float kHardest = 4194304.0;  // 2^22
 const float kWord = 4294967296.0;  // 2^32
 
-const float kAtStop = 1e-7;  // geometry::kAtStop [m]
-
 /// A whole number of 64 bits, the low word first.
 uvec2 added(uvec2 a, uvec2 b) {
     uint carry;

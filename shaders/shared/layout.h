@@ -51,6 +51,8 @@ SHARED_REAL kSlackSteps = 256.0f;  // steps at the present speed
 SHARED_REAL kLeastBodySlack = 0.03f;
 SHARED_REAL kMostBodySlack = 0.8f;
 
+SHARED_REAL kAtStop = 1e-7f;  // geometry::kAtStop [m]
+
 // --- particle state: vec4 state[2 halves][2 couples][particles][2 fields] -------------------------------------------
 // The halves take turns as source and destination. Two fields side by side are 32 bytes, which a device with 64-bit
 // integers can store in four pieces instead of eight.

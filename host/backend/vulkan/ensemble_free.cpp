@@ -14,6 +14,8 @@ namespace vkdose {
 
 namespace {
 
+static_assert(gpu::kAtStop == float(geometry::kAtStop));
+
 constexpr const char* kSaved = "free_bodies";
 constexpr std::size_t kNumbers = 12;  // of each body: its place and its velocity, high and low parts
 
@@ -28,10 +30,13 @@ void eachNumber(Motion& m, Visit visit) {
     }
 }
 
-gpu::BodyMotion packed(const RigidBody& body, const Vec3& shift, const Vec3& velocity) {
-    const geometry::Pose pose = body.pose(0, 0, Moved(shift));
-    gpu::BodyMotion m = packMotion(body, pose, {velocity, Vec3(0), pose.origin});
+/// A body that has not moved freely yet, in this pose and with this spin: it stands, until the step at whose beginning
+/// it has its first velocity.
+gpu::BodyMotion standing(const RigidBody& body, const geometry::Pose& pose, const Vec3& spin, std::uint64_t step,
+                         double timeStep) {
     const auto& motion = std::get<geometry::Free>(body.course.motion);
+    const Vec3 velocity = step >= body.firstFreeStep(timeStep) ? motion.velocity : Vec3(0);
+    gpu::BodyMotion m = packMotion(body, pose, {velocity, spin, pose.origin});
     const Split3 speed(velocity);
     m.velocity = gpu::vec4(speed.high, m.velocity.w);
     m.free = gpu::vec4(speed.low, float(1 / motion.mass));
@@ -43,10 +48,19 @@ gpu::BodyMotion packed(const RigidBody& body, const Vec3& shift, const Vec3& vel
     return m;
 }
 
-/// A body that has not moved freely yet: it stands, until the step at whose beginning it has its first velocity.
-gpu::BodyMotion standing(const RigidBody& body, std::uint64_t step, double timeStep) {
-    const bool begins = step >= body.firstFreeStep(timeStep);
-    return packed(body, Vec3(0), begins ? std::get<geometry::Free>(body.course.motion).velocity : Vec3(0));
+gpu::BodyMotion standingAtStart(const RigidBody& body, std::uint64_t step, double timeStep) {
+    return standing(body, body.pose(0, 0), Vec3(0), step, timeStep);
+}
+
+/// The same body where it has come to by its forces.
+gpu::BodyMotion goingOn(gpu::BodyMotion motion, const gpu::BodyMotion& at) {
+    std::array<float, kNumbers> numbers{};
+    auto to = numbers.begin();
+    eachNumber(at, [&](float x) { *to++ = x; });
+    auto from = numbers.begin();
+    eachNumber(motion, [&](float& x) { x = *from++; });
+    motion.way = at.way;
+    return motion;
 }
 
 }  // namespace
@@ -54,25 +68,20 @@ gpu::BodyMotion standing(const RigidBody& body, std::uint64_t step, double timeS
 void Ensemble::placeFree(MemberState& m) {
     m.at.assign(m.bodies.size(), {});
     for (std::size_t b = 0; b < m.bodies.size(); ++b)
-        if (m.bodies[b].movesFreely()) m.at[b] = standing(m.bodies[b], 0, m.world.timeStep);
+        if (m.bodies[b].movesFreely()) m.at[b] = standingAtStart(m.bodies[b], 0, m.world.timeStep);
 }
 
 gpu::BodyMotion Ensemble::motionOfFree(const MemberState& m, std::size_t b, std::uint32_t n, const Driven& driven) {
     const double dt = m.world.timeStep;
     const RigidBody& body = m.bodies[b];
     const auto& free = std::get<geometry::Free>(body.course.motion);
-    gpu::BodyMotion motion = n == 0 ? m.at[b] : standing(body, m.step + n, dt);
+    gpu::BodyMotion motion = standing(body, driven.pose, driven.spin, m.step + n, dt);
+    if (n == 0) motion = goingOn(motion, m.at[b]);
     const double kick = body.kickOf(m.step + n, dt);
     motion.line.w = float(kick);
     motion.held.x = float(driven.force / free.mass);
     motion.held.y = float(kick * free.damping / free.mass);
-    const gpu::BodyMotion turned = packMotion(body, driven.pose, {Vec3(0), driven.spin, driven.pose.origin});
-    for (int d = 0; d < 3; ++d) {
-        motion.toBodyHigh[d] = gpu::vec4(glm::vec3(turned.toBodyHigh[d]), motion.toBodyHigh[d].w);
-        motion.toBodyLow[d] = gpu::vec4(glm::vec3(turned.toBodyLow[d]), motion.toBodyLow[d].w);
-        motion.pivot[d] = motion.toBodyHigh[d].w;  // RigidBody::pivot
-    }
-    motion.spin = turned.spin;
+    for (int d = 0; d < 3; ++d) motion.pivot[d] = motion.toBodyHigh[d].w;  // RigidBody::pivot
     return motion;
 }
 
@@ -116,7 +125,7 @@ void Ensemble::restoreFree(const Record& record, std::uint64_t step, MemberState
         eachNumber(m.at[b], [&](float& x) { x = *next++; });
         // A state of another time step may know it as standing where it begins to move here.
         if (step <= m.bodies[b].firstFreeStep(m.world.timeStep))
-            m.at[b] = standing(m.bodies[b], step, m.world.timeStep);
+            m.at[b] = standingAtStart(m.bodies[b], step, m.world.timeStep);
     }
 }
 
