@@ -50,12 +50,16 @@ Found shortSettling(const Subject& s) {
 }
 
 Found longDose(const Subject& s) {
-    if (!(s.derived.massPerDose > s.derived.fillMass)) return {};
+    double given = s.derived.fillMass;
+    for (const Refill& refill : s.c.refills)
+        if (refill.planned()) given += refill.mass;
+    if (!(s.derived.massPerDose > given)) return {};
     return Finding{"dose.rotate_s",
-                   fmt::format("by the closed form a dose conveys {:.3g} g, more than the fill of {:.3g} g",
-                               s.derived.massPerDose * 1e3, s.derived.fillMass * 1e3),
+                   fmt::format("by the closed form a dose conveys {:.3g} g, more than the {} of {:.3g} g",
+                               s.derived.massPerDose * 1e3,
+                               given > s.derived.fillMass ? "fill and its refills" : "fill", given * 1e3),
                    fmt::format("give less than {:.3g} s, or a slower coil",
-                               s.c.schedule.rotateTime * s.derived.fillMass / s.derived.massPerDose)};
+                               s.c.schedule.rotateTime * given / s.derived.massPerDose)};
 }
 
 Found shortLongestTime(const Subject& s) {
@@ -107,18 +111,22 @@ Found lateRefill(const Subject& s) {
     const bool counted = plan.rotateTime > 0 && stop.maxDoses < std::numeric_limits<int>::max();
     const double dose = plan.rotateTime + plan.reverseTime() + plan.restTime;
     const double end = std::min(stop.endTime, counted ? plan.settleTime + stop.maxDoses * dose : stop.endTime);
-    for (std::size_t k = 0; k < s.c.refills.size(); ++k) {
-        const Refill& refill = s.c.refills[k];
+    for (const Refill& refill : s.c.refills) {
         if (refill.time && *refill.time > end)
             return Finding{
-                fmt::format("refill[{}].time_s", k),
+                fmt::format("refill[{}].time_s", refill.table),
                 fmt::format("refill \"{}\" never comes: the run ends after {:.4g} s at the latest", refill.name, end),
                 "give an earlier time, or let the run go on for longer"};
         if (refill.beforeDose && counted && *refill.beforeDose > stop.maxDoses)
             return Finding{
-                fmt::format("refill[{}].before_dose", k),
+                fmt::format("refill[{}].before_dose", refill.table),
                 fmt::format("refill \"{}\" never comes: the run ends after {} doses", refill.name, stop.maxDoses),
                 "give an earlier dose, or a larger stop.max_doses"};
+        if (refill.below && !refill.watched && s.filled.mass <= *refill.below)
+            return Finding{fmt::format("refill[{}].below_g", refill.table),
+                           fmt::format("refill \"{}\" never comes: the fill of {:.4g} g is never above its mark",
+                                       refill.name, s.filled.mass * 1e3),
+                           "give a mark below the mass of the fill"};
     }
     return {};
 }

@@ -72,6 +72,8 @@ void printRefills(const Case& c, const Insertion& filled) {
         tell("refill     {}: {}, {:.4g} g, {}\n", r.name, powder.particles.size(), powder.mass * 1e3,
              r.time         ? fmt::format("at t = {:.4g} s", *r.time)
              : r.beforeDose ? fmt::format("before dose {}", *r.beforeDose)
+             : r.below      ? fmt::format("when {} holds less than {:.4g} g",
+                                     r.watched ? c.world.regions[*r.watched].name : "the device", *r.below * 1e3)
                             : "when it is ordered");
     }
 }

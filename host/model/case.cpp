@@ -92,8 +92,9 @@ double canisterTop(const Canister& can, const Insertion& filled) {
 /// a margin of at least ten diameters.
 Box defaultDomain(const Case& c, const SizeRange& sizes, const Insertion& filled) {
     const double diameter = 2 * sizes.largest;
-    double above = 0;  // the grids of refills stand on the powder
-    for (const Insertion::Waiting& w : filled.waiting) above += w.height;
+    double above = 0;                                        // the grids of refills stand on the powder
+    for (std::size_t k = 0; k < filled.waiting.size(); ++k)  // the powder fell below a mark before the next one came
+        if (!c.refills[k].below || !c.refills[k].again) above += filled.waiting[k].height;
     if (c.canister) {
         const Canister& can = *c.canister;
         const double half = can.width / 2;

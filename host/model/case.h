@@ -57,13 +57,20 @@ struct Powder {
 };
 
 /// Powder that is added while the run goes on: spheres of the sizes of its powder, on a grid over the powder that is
-/// there. Without a time or a dose it waits for an order.
+/// there. Without a time, a dose or a mark it waits for an order.
 struct Refill {
     std::string name;
-    int material = kFirstPowder;    ///< of its powder
-    double mass = 0;                ///< target [kg]
-    std::optional<double> time;     ///< it is added at the first reading of the sensors that is not earlier [s]
-    std::optional<int> beforeDose;  ///< it is added before this dose begins
+    std::size_t table = 0;               ///< its [[refill]]; one with `times` gives as many refills
+    bool again = false;                  ///< it comes after the one before it, which is of the same table
+    int material = kFirstPowder;         ///< of its powder
+    double mass = 0;                     ///< target [kg]
+    std::optional<double> time;          ///< it is added at the first reading of the sensors that is not earlier [s]
+    std::optional<int> beforeDose;       ///< it is added before this dose begins
+    std::optional<double> below;         ///< it is added when the powder that is watched falls below this mass [kg]
+    std::optional<std::size_t> watched;  ///< the region whose content that is; else all powder that is not dosed
+
+    /// The case adds it; else it waits for an order.
+    bool planned() const { return time || beforeDose || below; }
 };
 
 /// The rules that end a run. The first one that is met ends it.

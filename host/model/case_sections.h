@@ -94,6 +94,8 @@ std::optional<std::size_t> placeOf(CaseReader& reader, const std::string& path, 
 /// The same among World::bodies.
 std::optional<std::size_t> placeOfBody(CaseReader& reader, const std::string& path, const std::string& name,
                                        const Case& c);
+/// The same for the key `region` among World::regions; the first after a fault.
+std::size_t readRegionName(CaseReader& reader, Section& section, const Case& c);
 
 // read_regions.cpp
 /// Reads the regions. Call after readBoundaries, whose outlet they may replace, and readBodies.

@@ -94,7 +94,8 @@ std::vector<Amount> amountsOf(const Case& c) {
     };
     for (const PowderOf& p : powders) add(p.path + ".mass_g", p.filling.mass, p);
     for (std::size_t k = 0; k < c.refills.size(); ++k)
-        add(fmt::format("refill[{}].mass_g", k), c.refills[k].mass, powders[powderIndex(c, c.refills[k].material)]);
+        add(fmt::format("refill[{}].mass_g", c.refills[k].table), c.refills[k].mass,
+            powders[powderIndex(c, c.refills[k].material)]);
     return amounts;
 }
 
@@ -175,9 +176,9 @@ void checkFilling(CaseReader& reader, const Case& c, double largestRadius) {
 
 void checkRefills(CaseReader& reader, const Case& c, const Insertion& filled) {
     for (std::size_t k = 0; k < c.refills.size(); ++k)
-        if (filled.waiting[k].particles.size() == 0)
-            reader.fault(fmt::format("refill[{}].mass_g", k), "is less than half of the first particle drawn",
-                         "give more mass");
+        if (filled.waiting[k].particles.size() == 0 && !c.refills[k].again)
+            reader.fault(fmt::format("refill[{}].mass_g", c.refills[k].table),
+                         "is less than half of the first particle drawn", "give more mass");
     if (!c.refills.empty() && !c.filling.vessel.empty())
         reader.fault("refill", "stands over the whole region of the fill, which particles.inside does not give",
                      "give [particles.region] in place of particles.inside");

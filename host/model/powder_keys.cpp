@@ -112,15 +112,27 @@ constexpr Key kMaterial[] = {
     number("poisson_ratio", kPlain, kNonNegative, told("required unless `luding`"), "ν; at most 0.5"),
 };
 
+constexpr std::int64_t kMostRefills = 1000;
+
 constexpr Key kRefill[] = {
     text("name", kRequired, "of the refill, in messages and for `add_powder`: letters, digits, `-` and `_`"),
     text("powder", told("the first"), "name of the powder that is added, where there are several"),
     number("mass_g", kGram, kPositive, kRequired, "mass of the powder; it is met as closely as one particle allows"),
     number("time_s", kSecond, kPositive, told("none"),
            "simulated time, settling included: it is added at the first sensor interval that ends no earlier")
-        .replacing("before_dose"),
+        .replacing("before_dose below_g region"),
     integer("before_dose", 1, kMostDoses, told("none"), "it is added when this dose is about to begin")
-        .replacing("time_s"),
+        .replacing("time_s below_g region every_s times"),
+    number("below_g", kGram, kPositive, told("none"),
+           "it is added when the powder that is watched falls below this mass, after it was above: a hopper's lower "
+           "mark. Looked at with each reading of the sensors")
+        .replacing("time_s before_dose every_s"),
+    text("region", told("all powder that is not dosed"), "a `[[region]]` that counts: its content is what is watched"),
+    number("every_s", kSecond, kPositive, told("none"),
+           "with `time_s`: the next one comes so much later, as from an inlet"),
+    integer("times", 1, kMostRefills, 1,
+            "how often it is added, with `every_s` or `below_g`. There are then as many refills, named NAME-1 and so "
+            "on"),
 };
 
 constexpr KeyTable kTables[] = {
@@ -143,8 +155,8 @@ constexpr KeyTable kTables[] = {
      "`[contact.wall]` and `[contact.coil]`."},
     {"refill[]", kRefill,
      "Powder that is added while the run goes on, a table for each. Its spheres have the sizes of its powder. "
-     "They begin at rest on a grid like that of the fill, over the powder that is there. Without `time_s` and "
-     "`before_dose` it waits until a program says `add_powder`."},
+     "They begin at rest on a grid like that of the fill, over the powder that is there. Without `time_s`, "
+     "`before_dose` and `below_g` it waits until a program says `add_powder`."},
 };
 
 }  // namespace

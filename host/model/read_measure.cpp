@@ -29,15 +29,6 @@ std::vector<std::size_t> readBodyNames(CaseReader& reader, Section& s, std::size
     return places;
 }
 
-/// The region that `region` names; the first after a fault.
-std::size_t readRegionName(CaseReader& reader, Section& s, const Case& c) {
-    std::vector<std::string> known;
-    for (const CountRegion& region : c.world.regions) known.push_back(region.name);
-    const std::string name = s.string("region");
-    if (!s.isString("region")) return 0;
-    return placeOf(reader, s.path("region"), name, known, "region").value_or(0);
-}
-
 /// A time, or a list of times [s]; empty after a fault.
 std::vector<double> readTimes(CaseReader& reader, Section& s, const char* key, bool required) {
     const Node* node = s.node(key);

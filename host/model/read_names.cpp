@@ -46,4 +46,12 @@ std::optional<std::size_t> placeOfBody(CaseReader& reader, const std::string& pa
     return placeOf(reader, path, name, known, "body");
 }
 
+std::size_t readRegionName(CaseReader& reader, Section& s, const Case& c) {
+    std::vector<std::string> known;
+    for (const CountRegion& region : c.world.regions) known.push_back(region.name);
+    const std::string name = s.string("region");
+    if (!s.isString("region")) return 0;
+    return placeOf(reader, s.path("region"), name, known, "region").value_or(0);
+}
+
 }  // namespace vkdose

@@ -83,7 +83,7 @@ Json massSeries(const Table& series, std::string_view ending, std::size_t size) 
 Json contentSeries(const Table& series, const World& world, std::size_t size) {
     Json list = Json::array();
     for (Json& content : massSeries(series, ".content_kg", size)) {
-        const auto named = [&](const CountRegion& region) { return region.name == content["name"]; };
+        const auto named = [&](const CountRegion& region) { return content["name"] == region.name; };
         const auto region = std::find_if(world.regions.begin(), world.regions.end(), named);
         if (region != world.regions.end() && !region->deletes) list.push_back(std::move(content));
     }

@@ -81,7 +81,10 @@ class RunLoop {
 
     /// Adds all powder that is due, if the sensors have just been read.
     void addPowder();
-    bool due(std::size_t refill) const;
+    /// Notes whether the powder that it watches is above its mark.
+    bool due(std::size_t refill);
+    /// The powder that is held against the mark of the refill [kg].
+    double watched(const Refill& refill) const;
     bool isAdded(std::size_t refill) const;
     /// Particles of refills that the case will add.
     std::uint64_t planned() const;
@@ -171,6 +174,8 @@ class RunLoop {
     BodyLoads loads_{bodyNames(case_.world).size()};
     RegionBook regions_{case_.world};
     PowderBook powders_{case_.world};
+    /// Of each refill: whether the powder that it watches was above its mark since its turn came.
+    std::vector<std::uint64_t> wasAbove_ = std::vector<std::uint64_t>(case_.refills.size());
     double impulse_ = 0;   ///< torque times steps since the last sample
     double rate_ = 0;      ///< of the coil in the last call [rad/s about +z]
     bool varied_ = false;  ///< it was another since the last sample

@@ -18,9 +18,21 @@ bool RunLoop::isAdded(std::size_t refill) const {
                        [&](const AddedPowder& p) { return p.refill == refill; });
 }
 
-bool RunLoop::due(std::size_t refill) const {
+double RunLoop::watched(const Refill& refill) const {
+    const Sample& last = result_.last;
+    if (refill.watched) return *refill.watched < last.regions.size() ? last.regions[*refill.watched].content.mass : 0;
+    return mass(last.sensors, Region::Canister) + mass(last.sensors, Region::Throat);
+}
+
+bool RunLoop::due(std::size_t refill) {
     const Refill& r = case_.refills[refill];
     if (r.time) return timeline_.time(step_) > *r.time - case_.world.timeStep / 2;
+    if (r.below) {
+        const double now = watched(r);
+        const bool next = !r.again || isAdded(refill - 1);
+        if (next && now >= *r.below) wasAbove_[refill] = 1;
+        return wasAbove_[refill] != 0 && now < *r.below;
+    }
     if (!r.beforeDose) return false;
     const Timeline::Stretch next = timeline_.at(step_);
     return next.phase != Phase::Settle && next.dose >= *r.beforeDose;
@@ -29,8 +41,7 @@ bool RunLoop::due(std::size_t refill) const {
 std::uint64_t RunLoop::planned() const {
     std::uint64_t sum = 0;
     for (std::size_t k = 0; k < case_.refills.size(); ++k)
-        if ((case_.refills[k].time || case_.refills[k].beforeDose) && !isAdded(k))
-            sum += result_.filled.waiting[k].particles.size();
+        if (case_.refills[k].planned() && !isAdded(k)) sum += result_.filled.waiting[k].particles.size();
     return sum;
 }
 
@@ -72,10 +83,12 @@ void RunLoop::saveAdded(Record& r) const {
     std::vector<std::uint64_t> added;
     for (const AddedPowder& p : result_.added) added.insert(added.end(), {p.refill, p.step});
     r.put("refills", std::move(added));
+    r.put("refills_were_above", wasAbove_);
 }
 
 void RunLoop::restoreAdded(const Record& r, double scale) {
     if (case_.refills.empty() || !r.arrays().contains("refills")) return;
+    wasAbove_ = r.get<std::uint64_t>("refills_were_above", case_.refills.size());
     const auto& added = r.get<std::uint64_t>("refills");
     for (std::size_t i = 0; i + 1 < added.size(); i += 2) {
         const std::uint64_t k = added[i];

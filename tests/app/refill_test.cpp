@@ -63,6 +63,43 @@ TEST_CASE("a refill is told before, during and after the run, and is there for t
     CHECK(on.code == 0);
 }
 
+TEST_CASE("a hopper is topped up at its mark, and an inlet brings powder at a rate") {
+    const Sandbox box;
+    writeCase(box, R"(below_g = 0.87
+region = "hopper"
+times = 2
+[[refill]]
+name = "inlet"
+mass_g = 0.05
+time_s = 0.06
+every_s = 0.02
+times = 3
+[[region]]
+name = "hopper"
+kind = "box"
+low = [-0.007, -0.007, 0.0]
+high = [0.007, 0.05, 0.016]
+deletes = false
+)");
+    const auto check = box.vkdose("check top.toml --assume");
+    CHECK_THAT(check.out, Catch::Contains("refill     spoon-2: 48, 0.395 g, when hopper holds less than 0.87 g"));
+    const auto run = box.vkdose("run top.toml --out a");
+    CAPTURE(run.err);
+    REQUIRE(run.code == 0);
+    const auto summary = nlohmann::json::parse(readText(box / "a/summary.json"));
+    REQUIRE(summary["refills"].size() == 5);
+    CHECK(summary["refills"][0]["time_s"].get<double>() > 0.05);
+    for (std::size_t k = 0; k < 3; ++k) {
+        const auto& inlet = summary["refills"][k + 2];
+        CHECK(inlet["name"] == "inlet-" + std::to_string(k + 1));
+        CHECK(inlet["time_s"].get<double>() == Approx(0.06 + 0.02 * double(k)).margin(0.0031));
+    }
+    // It goes on from the settled bed with the same bits.
+    REQUIRE(box.vkdose("run --from a --quiet --out b").code == 0);
+    CHECK(readText(box / "a/doses.csv") == readText(box / "b/doses.csv"));
+    CHECK(readText(box / "a/particles.csv") == readText(box / "b/particles.csv"));
+}
+
 TEST_CASE("powder that was not added shows nowhere") {
     const Sandbox box;
     writeCase(box, "");

@@ -102,6 +102,38 @@ TEST_CASE("a refill without room says what is in its way") {
     refused(sink, "where powder is dosed");
 }
 
+TEST_CASE("a table that adds powder more than once gives as many refills") {
+    const std::string inlet = kSpoon + "every_s = 0.25\ntimes = 3\n";
+    const Case c = loadText(kFilled + inlet + kHandful);
+    REQUIRE(c.refills.size() == 4);
+    for (std::size_t k = 0; k < 3; ++k) {
+        CHECK(c.refills[k].name == "spoon-" + std::to_string(k + 1));
+        CHECK(c.refills[k].table == 0);
+        CHECK(c.refills[k].again == (k > 0));
+        CHECK(c.refills[k].time.value() == Approx(0.5 + 0.25 * double(k)));
+    }
+    CHECK(c.refills[3].name == "handful");
+    CHECK(c.refills[3].table == 1);
+    CHECK(insertParticles(c).waiting.size() == 4);
+    CHECK(loadResolvedCase(c.resolved, "again.toml").resolved == c.resolved);
+
+    const std::string region =
+        "[[region]]\nname = \"hopper\"\nkind = \"box\"\nlow = [0, 0, 0]\n"
+        "high = [0.01, 0.01, 0.01]\ndeletes = false\n";
+    const std::string mark = replaced(kSpoon, "time_s = 0.5", "below_g = 0.15\nregion = \"hopper\"\ntimes = 2");
+    const Case marked = loadText(kFilled + region + mark);
+    REQUIRE(marked.refills.size() == 2);
+    CHECK(marked.refills[1].below.value() == Approx(0.15e-3));
+    CHECK(marked.refills[1].watched == std::size_t{0});
+    CHECK_FALSE(marked.refills[1].time);
+    // The domain has room for both portions of an inlet, and for one that waits for a mark.
+    const Case twice = loadText(kFilled + replaced(inlet, "times = 3", "times = 2"));
+    const double height = insertParticles(twice).waiting[0].height;
+    const double one = marked.world.domain.high.y, two = twice.world.domain.high.y;
+    CHECK(two - one == Approx(height).epsilon(0.5));
+    CHECK(two - one > 0);
+}
+
 TEST_CASE("refills that cannot be are refused by name") {
     const auto refused = [](const std::string& text, const std::string& said) {
         CAPTURE(text);
@@ -121,4 +153,19 @@ TEST_CASE("refills that cannot be are refused by name") {
             "gravity = [0, 0, -9.81]: does not point along -y");
     refused(replaced(kFilled, "[0, 0, 0]", "[0, 9.81, 0]") + kSpoon, "would not fall onto it");
     CHECK_NOTHROW(loadText(replaced(kFilled, "[0, 0, 0]", "[3, -9.3, 0]") + kSpoon));
+
+    const std::string mark = replaced(kSpoon, "time_s = 0.5", "below_g = 0.15");
+    refused(kFilled + mark + "time_s = 2\n", "refill[0].below_g = 0.15: time_s is given too");
+    refused(kFilled + mark + "region = \"hopper\"\n", "there is no region \"hopper\"");
+    refused(kFilled + mark + "every_s = 2\ntimes = 2\n", "counts from time_s, which is missing");
+    refused(kFilled + replaced(mark, "0.15", "-1"), "refill[0].below_g = -1");
+    const std::string pan = "[[region]]\nname = \"pan\"\nkind = \"beyond\"\npoint = [0, -1, 0]\nnormal = [0, -1, 0]\n";
+    refused(kFilled + pan + mark + "region = \"pan\"\n", "takes the powder away");
+    refused(kFilled + pan + kSpoon + "region = \"pan\"\n", "is watched for below_g, which is missing");
+    refused(kFilled + kSpoon + "every_s = 0.1\n", "does not say how often");
+    refused(kFilled + kSpoon + "times = 2\n", "does not say when the others come");
+    refused(kFilled + kHandful + "times = 2\n", "does not say when the others come");
+    refused(kFilled + mark + "times = 2\n" + replaced(kSpoon, "spoon", "spoon-2"), "stands there twice");
+    refused(kFilled + replaced(kSpoon, "spoon", "spoon-2") + mark + "times = 2\n",
+            "gives a refill \"spoon-2\", and another has that name");
 }

@@ -82,11 +82,16 @@ class FakeBackend : public Backend {
         Record record;
         record.putOne("step", step);
         record.putOne("angle", angle_);
+        std::vector<std::uint64_t> status;
+        for (const Status s : particles_.status) status.push_back(static_cast<std::uint64_t>(s));
+        record.put("status", std::move(status));
         return record;
     }
     void restore(const Record& record) override {
         step = record.one<std::uint64_t>("step");
         angle_ = record.one<double>("angle");
+        const auto& status = record.get<std::uint64_t>("status", particles_.size());
+        for (std::size_t i = 0; i < status.size(); ++i) particles_.status[i] = static_cast<Status>(status[i]);
     }
 
     Particles particles() const override { return particles_; }

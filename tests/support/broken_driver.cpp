@@ -7,6 +7,7 @@
 #include <vulkan/vk_icd.h>
 #include <vulkan/vulkan.h>
 
+#include <cstdint>
 #include <cstdlib>
 #include <string_view>
 
