@@ -4,8 +4,6 @@
 #include <cmath>
 #include <cstdio>
 
-#include "host/analysis/cycles.h"
-#include "host/analysis/mass_rate.h"
 #include "host/app/calibration_text.h"
 #include "host/app/commands.h"
 #include "host/app/exit_code.h"
@@ -18,8 +16,6 @@
 #include "host/core/error.h"
 #include "host/core/file.h"
 #include "host/core/printable.h"
-#include "host/model/closest_word.h"
-#include "host/output/measured.h"
 #include "host/output/run_folder.h"
 #include "host/study/calibration_finding.h"
 #include "host/study/grid_calibration.h"
@@ -55,26 +51,6 @@ void writeCase(const Study& study, const SweepFolder& folder, const std::vector<
 void forgetCase(const SweepFolder& folder) {
     std::error_code error;
     std::filesystem::remove(folder.path() / "calibrated.toml", error);
-}
-
-/// Of a calibration that was halted: the members that have ended, and those that wait of the runs begun last.
-SweepOutcome outcomeOf(const CalibrationRuns& parts) {
-    SweepOutcome outcome = parts.last;
-    const int left = outcome.members - outcome.ok - outcome.failed;
-    outcome.ok = outcome.failed = 0;
-    const Table& members = parts.folder.members();
-    for (std::size_t row = 0; row < members.rows(); ++row) {
-        outcome.ok += members.text(row, "status") == statusText(MemberStatus::Ok) ? 1 : 0;
-        outcome.failed += members.text(row, "status") == statusText(MemberStatus::Failed) ? 1 : 0;
-    }
-    outcome.members = outcome.ok + outcome.failed + left;
-    return outcome;
-}
-
-/// How a calibration ends that was halted.
-int halted(CalibrationRuns& parts) {
-    parts.display.finish(parts.folder, outcomeOf(parts), parts.options);
-    return haltCode(parts.last.halt);
 }
 
 /// The point at which the chosen curve crosses the target: a value for each key of the study, in their order.
@@ -119,41 +95,6 @@ int finishGrid(CalibrationRuns& parts, const std::vector<Member>& members) {
     }
     writeCase(study, parts.folder, point, f);
     return kOk;
-}
-
-/// Refuses a target whose figure the run of its case will not have.
-void checkFigures(const Study& study) {
-    std::vector<Diagnostic> faults;
-    for (const CalibrationTarget& t : study.calibration->targets) {
-        const Case c = loadCase(t.base);
-        std::vector<std::string> known{kMassPerDose};
-        for (const RateFigure& f : kRateFigures) known.push_back(std::string(kRateName) + "." + f.name);
-        for (const CycleFigure& f : kCycleFigures) known.push_back(std::string(kCycleName) + "." + f.name);
-        for (const ElementTest& m : c.measures)
-            for (const std::string& figure : figureNames(m)) known.push_back(m.name + "." + figure);
-        if (std::find(known.begin(), known.end(), t.figure) != known.end()) continue;
-        const std::string meant = closestWord(t.figure, known);
-        faults.push_back({study.file.string(), t.line, "calibrate.target.figure", t.figure,
-                          fmt::format("{} has no such figure", t.base.string()),
-                          meant.empty() ? "give a figure of one of its [[measure]], or of the mass rate"
-                                        : fmt::format("did you mean \"{}\"?", meant)});
-    }
-    if (!faults.empty()) throw CaseError(faults);
-}
-
-/// Checks a search before it begins: each corner of its bounds must be a valid case. Throws CaseError if one is not.
-std::vector<Member> cornersOf(const Study& study) {
-    checkFigures(study);
-    const std::vector<FreeParameter>& free = study.calibration->parameters;
-    std::vector<Member> corners;
-    for (const std::filesystem::path& base : basesOf(study))
-        for (unsigned corner = 0; corner < 1U << free.size(); ++corner) {
-            Parameters p;
-            for (std::size_t i = 0; i < free.size(); ++i)
-                p.push_back((corner >> i & 1U) != 0 ? free[i].high : free[i].low);
-            corners.push_back(memberAt(study, 0, std::nullopt, settingsAt(study, p), base));
-        }
-    return corners;
 }
 
 /// The members that a calibration may need beyond those that it begins with. Each takes no longer than the longest of
@@ -226,7 +167,7 @@ int runGrid(CalibrationRuns& parts, const std::vector<Member>& members) {
 
 int calibrateCommand(const SweepOptions& options) {
     const Study study = readStudy(options.study, options.overrides);
-    if (!study.calibration)
+    if (!study.calibration || study.calibration->method == CalibrationAim::Method::Design)
         throw CaseError(
             {{options.study.string(), 0, "calibrate", "", "the table is missing",
               "add [calibrate] with target_g_per_dose and tolerance_g, with measured, or with [[calibrate.target]]"}});

@@ -293,6 +293,10 @@ CLI::App& addCalibrate(CLI::App& program, SweepOptions& options) {
     return addSweep(program, "calibrate", "find the parameters of a study that dose the measured mass", options);
 }
 
+CLI::App& addDesign(CLI::App& program, SweepOptions& options) {
+    return addSweep(program, "design", "find the best compromises between what is wished of a device", options);
+}
+
 }  // namespace
 
 std::vector<Command> declareCommands(CLI::App& program, Options& o) {
@@ -305,6 +309,7 @@ std::vector<Command> declareCommands(CLI::App& program, Options& o) {
         {&addExportBody(program, o.exportBody), [&o] { return exportBodyCommand(named(o.exportBody)); }},
         {&addPlainSweep(program, o.sweep), [&o] { return sweepCommand(studied(o.sweep)); }},
         {&addCalibrate(program, o.calibration), [&o] { return calibrateCommand(studied(o.calibration)); }},
+        {&addDesign(program, o.design), [&o] { return designCommand(studied(o.design)); }},
         {&addReport(program, o.report), [&o] { return reportCommand(o.report); }},
         {&addProfile(program, o.profile), [&o] { return profileCommand(o.profile); }},
         {&addRender(program, o.render), [&o] { return renderCommand(o.render); }},

@@ -32,7 +32,7 @@ struct Options {
     BenchOptions bench;
     ExportBodyOptions exportBody;
     SweepOptions sweep;
-    SweepOptions calibration;
+    SweepOptions calibration, design;
     ValidateOptions validation;
     ReportOptions report;
     ProfileOptions profile;

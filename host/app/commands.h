@@ -171,6 +171,7 @@ int benchCommand(const BenchOptions& options);
 int exportBodyCommand(const ExportBodyOptions& options);
 int sweepCommand(const SweepOptions& options);
 int calibrateCommand(const SweepOptions& options);
+int designCommand(const SweepOptions& options);
 int reportCommand(const ReportOptions& options);
 int profileCommand(const ProfileOptions& options);
 int renderCommand(const RenderOptions& options);

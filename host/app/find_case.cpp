@@ -39,7 +39,8 @@ std::vector<fs::path> places(const fs::path& folder) {
 bool isKind(const fs::path& file, bool study) {
     try {
         const Node tree = readTreeAlone(file);
-        const bool varies = tree.child("axis") != nullptr || tree.child("calibrate") != nullptr;
+        const bool varies =
+            tree.child("axis") != nullptr || tree.child("calibrate") != nullptr || tree.child("design") != nullptr;
         return study ? varies : !varies && (tree.child("particles") != nullptr || tree.child("base") != nullptr);
     } catch (const CaseError&) {
         return false;

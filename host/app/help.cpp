@@ -40,6 +40,7 @@ const std::map<std::string, std::vector<std::string>>& examples() {
           "vkdose sweep study.toml --set stop.max_doses=2", "vkdose sweep study.toml --jobs 2",
           "vkdose sweep study.toml --retry-failed     # goes on; failed members run again"}},
         {"calibrate", {"vkdose calibrate study.toml                # with a table [calibrate] in the study"}},
+        {"design", {"vkdose design study.toml                   # with a table [design] in the study"}},
         {"report",
          {"vkdose report out/quickstart               # writes out/quickstart/report.html",
           "vkdose report out/quickstart --experiment balance.csv",

@@ -1,9 +1,17 @@
 #include "host/app/search_runs.h"
 
-#include <algorithm>
+#include <fmt/format.h>
 
+#include <algorithm>
+#include <string>
+
+#include "host/app/exit_code.h"
+#include "host/app/sweep_setup.h"
 #include "host/app/tell.h"
+#include "host/core/error.h"
+#include "host/model/closest_word.h"
 #include "host/study/calibration_finding.h"
+#include "host/study/design_finding.h"
 
 namespace vkdose {
 
@@ -34,12 +42,66 @@ bool play(CalibrationRuns& p, SweepFolder& folder, const std::vector<Member>& me
                  "vkdose: member {:04} failed and is left so, because later points of the search follow from it\n",
                  m.number);
     }
-    if (!ended || again) forgetFinding(p.folder.path());
+    if (!ended || again) {
+        forgetFinding(p.folder.path());
+        forgetDesign(p.folder.path());
+    }
     p.last = runMembers(folder, members, p.runner, p.display, p.halt, again);
     return p.last.whole;
 }
 
+/// Refuses a target whose figure the run of its case will not have.
+void checkFigures(const Study& study) {
+    const CalibrationAim& aim = *study.calibration;
+    const std::string figureKey =
+        aim.method == CalibrationAim::Method::Design ? "design.goal.figure" : "calibrate.target.figure";
+    std::vector<Diagnostic> faults;
+    for (const CalibrationTarget& t : aim.targets) {
+        const std::vector<std::string> known = figureNames(loadCase(t.base));
+        if (std::find(known.begin(), known.end(), t.figure) != known.end()) continue;
+        const std::string meant = closestWord(t.figure, known);
+        faults.push_back({study.file.string(), t.line, figureKey, t.figure,
+                          fmt::format("{} has no such figure", t.base.string()),
+                          meant.empty() ? "give a figure of its doses, mass rate, cycles, [[measure]] or bodies"
+                                        : fmt::format("did you mean \"{}\"?", meant)});
+    }
+    if (!faults.empty()) throw CaseError(faults);
+}
+
+/// Of a search that was halted: the members that have ended, and those that wait of the runs begun last.
+SweepOutcome outcomeOf(const CalibrationRuns& parts) {
+    SweepOutcome outcome = parts.last;
+    const int left = outcome.members - outcome.ok - outcome.failed;
+    outcome.ok = outcome.failed = 0;
+    const Table& members = parts.folder.members();
+    for (std::size_t row = 0; row < members.rows(); ++row) {
+        outcome.ok += members.text(row, "status") == statusText(MemberStatus::Ok) ? 1 : 0;
+        outcome.failed += members.text(row, "status") == statusText(MemberStatus::Failed) ? 1 : 0;
+    }
+    outcome.members = outcome.ok + outcome.failed + left;
+    return outcome;
+}
+
 }  // namespace
+
+std::vector<Member> cornersOf(const Study& study) {
+    checkFigures(study);
+    const std::vector<FreeParameter>& free = study.calibration->parameters;
+    std::vector<Member> corners;
+    for (const std::filesystem::path& base : basesOf(study))
+        for (unsigned corner = 0; corner < 1U << free.size(); ++corner) {
+            Parameters p;
+            for (std::size_t i = 0; i < free.size(); ++i)
+                p.push_back((corner >> i & 1U) != 0 ? free[i].high : free[i].low);
+            corners.push_back(memberAt(study, 0, std::nullopt, settingsAt(study, p), base));
+        }
+    return corners;
+}
+
+int halted(CalibrationRuns& parts) {
+    parts.display.finish(parts.folder, outcomeOf(parts), parts.options);
+    return haltCode(parts.last.halt);
+}
 
 std::vector<std::uint64_t> confirmingSeeds(const Study& study, const std::vector<Member>& members) {
     std::vector<std::uint64_t> used;

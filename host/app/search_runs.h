@@ -1,5 +1,5 @@
 #pragma once
-// The points of a calibration's search, run as the members of a sweep, and the confirming runs of any calibration.
+// The points of a search, run as the members of a sweep, and the confirming runs of any calibration or design.
 
 #include <cstdint>
 #include <filesystem>
@@ -13,7 +13,7 @@
 
 namespace vkdose {
 
-/// The parts that the runs of a calibration share.
+/// The parts that the runs of a calibration or a design share.
 struct CalibrationRuns {
     const Study& study;
     SweepFolder& folder;  ///< of the sweep or the search
@@ -23,6 +23,13 @@ struct CalibrationRuns {
     const SweepOptions& options;
     SweepOutcome last = {};  ///< of the runs that were begun last
 };
+
+/// Checks a search before it begins: its figures must be those of its cases, and each corner of its bounds must be a
+/// valid case. Throws CaseError if one is not.
+std::vector<Member> cornersOf(const Study& study);
+
+/// Tells how far a calibration or a design came that was halted, and gives the exit code.
+int halted(CalibrationRuns& parts);
 
 /// The seeds of the confirming runs, none of which a member of the study has.
 std::vector<std::uint64_t> confirmingSeeds(const Study& study, const std::vector<Member>& members);

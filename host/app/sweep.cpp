@@ -92,9 +92,9 @@ int sweepCommand(const SweepOptions& options) {
     }
     // Everything that can be refused is refused before anything is written.
     const Study study = readStudy(options.study, options.overrides);
-    if (study.calibration && study.calibration->method == CalibrationAim::Method::Surrogate)
-        throw UsageError(fmt::format("{} is a search, not a sweep; use `vkdose calibrate {}`", options.study.string(),
-                                     shellWord(options.study.string())));
+    if (study.calibration && study.calibration->searches())
+        throw UsageError(fmt::format("{} is a search, not a sweep; use `vkdose {} {}`", options.study.string(),
+                                     study.calibration->table(), shellWord(options.study.string())));
     const std::vector<Member> members = membersOf(study);
     if (options.dryRun) {
         tell("{}", planText(options, study, members));

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <tuple>
 #include <type_traits>
 
@@ -13,6 +14,13 @@ namespace vkdose {
 /// JSON knows no infinity and no NaN. Such a figure is written as null.
 inline nlohmann::ordered_json jsonNumber(double x) {
     return std::isfinite(x) ? nlohmann::ordered_json(x) : nlohmann::ordered_json(nullptr);
+}
+
+/// A list of numbers; null for those that are not finite.
+inline nlohmann::ordered_json jsonNumbers(std::span<const double> values) {
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (const double x : values) list.push_back(jsonNumber(x));
+    return list;
 }
 
 /// A figure that there is none of unless it is above 0, as the closed form of a device without one.

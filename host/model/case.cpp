@@ -114,7 +114,7 @@ Box defaultDomain(const Case& c, const SizeRange& sizes, const Insertion& filled
 /// Refuses a study. It has the shape of a case, so that without this check every key of it would be reported as
 /// unknown.
 void refuseStudy(const Node& tree) {
-    for (const char* name : {"axis", "calibrate", "set"}) {
+    for (const char* name : {"axis", "calibrate", "design", "set"}) {
         const Node* node = tree.child(name);
         if (node == nullptr || (node->kind != Node::Kind::Array && node->kind != Node::Kind::Table)) continue;
         throw CaseError({{node->file, node->line, "", "", "this is a study, not a case",

@@ -234,7 +234,7 @@ Json profileJson(const fs::path& folder, const FieldSensor& s) {
             heights.push_back(rounded(table.number(i, table.names()[kPlace + n])));
         return Json{{"time_s", jsonNumber(table.number(i, "time_s"))},
                     {"dose", static_cast<int>(table.number(i, "dose"))},
-                    {"height_m", numbers(heights)}};
+                    {"height_m", jsonNumbers(heights)}};
     };
     std::vector<std::size_t> all(table.rows());
     for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
@@ -244,7 +244,7 @@ Json profileJson(const fs::path& folder, const FieldSensor& s) {
     for (const std::size_t i : thinned(all, (all.size() + kMostProfiles - 1) / kMostProfiles)) rows.push_back(row(i));
     return {{"name", s.name},
             {"length_m", jsonNumber(grid.high.z - grid.low.z)},
-            {"z_m", numbers(z)},
+            {"z_m", jsonNumbers(z)},
             {"states", states},
             {"rows", rows}};
 }

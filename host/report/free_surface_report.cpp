@@ -31,7 +31,7 @@ std::vector<FrameEntry> lastOfEachDose(const std::vector<FrameEntry>& entries) {
 Json stateJson(const Case& c, const Particles& particles, std::size_t columns, int dose, double time) {
     return {{"dose", dose},
             {"time_s", jsonNumber(time)},
-            {"height_m", numbers(surfaceProfile(particles, *c.canister, columns, Across::Highest).height)}};
+            {"height_m", jsonNumbers(surfaceProfile(particles, *c.canister, columns, Across::Highest).height)}};
 }
 
 std::string known(const Json& states) {
@@ -71,8 +71,8 @@ Json photographJson(const Photograph& photograph, const Json& states, double len
                           fmt::format("give one of {} (0 is the settled bed)", known(states))}});
     return {{"name", photograph.file.filename().string()},
             {"dose", dose},
-            {"z_m", numbers(z)},
-            {"height_m", numbers(height)}};
+            {"z_m", jsonNumbers(z)},
+            {"height_m", jsonNumbers(height)}};
 }
 
 }  // namespace
@@ -114,7 +114,7 @@ Json surfaceJson(const Case& c, const FrameSource& frames, const std::optional<P
     std::vector<double> z;
     for (std::size_t i = 0; i < columns; ++i)
         z.push_back((static_cast<double>(i) + 0.5) * c.canister->length / static_cast<double>(columns));
-    return {{"length_m", c.canister->length}, {"z_m", numbers(z)}, {"states", states}, {"photographs", measured}};
+    return {{"length_m", c.canister->length}, {"z_m", jsonNumbers(z)}, {"states", states}, {"photographs", measured}};
 }
 
 }  // namespace vkdose::report

@@ -199,8 +199,8 @@ Json framesJson(const std::vector<FrameEntry>& entries) {
         doses.push_back(entry.dose);
     }
     Json j;
-    j["time_s"] = numbers(times);
-    j["coil_angle_rad"] = numbers(angles);
+    j["time_s"] = jsonNumbers(times);
+    j["coil_angle_rad"] = jsonNumbers(angles);
     j["phase"] = phases;
     j["dose"] = doses;
     j["settled"] = settledOf(entries);
@@ -248,7 +248,7 @@ Json playerJson(const Case& c, const FrameSource& frames, std::size_t columns, s
             Json j = sceneJson(c);
             j["particles"] = particles;
             j["columns"] = columns;
-            j["radius_m"] = numbers(encoder.radiusRange());
+            j["radius_m"] = jsonNumbers(encoder.radiusRange());
             j["frames"] = framesJson(entries);
             j["bodies"] = bodiesJson(c, places, settled);
             j["stored"] = frames.entries.size();

@@ -63,7 +63,7 @@ Json bodySeries(const Table& series, const World& world, std::size_t size) {
         Json j{{"name", name}};
         std::vector<const char*> loads{"force_x_N", "force_y_N", "force_z_N"};
         if (!world.coil || name != kCoilName) loads.insert(loads.end(), {"torque_Nm", "power_W"});
-        for (const char* load : loads) j[load] = numbers(thinned(series.column(name + "." + load), size, true));
+        for (const char* load : loads) j[load] = jsonNumbers(thinned(series.column(name + "." + load), size, true));
         bodies.push_back(std::move(j));
     }
     return bodies;
@@ -75,7 +75,7 @@ Json massSeries(const Table& series, std::string_view ending, std::size_t size) 
     for (const std::string& column : series.names())
         if (column.ends_with(ending))
             list.push_back({{"name", column.substr(0, column.size() - ending.size())},
-                            {"mass_kg", numbers(thinned(series.column(column), size, false))}});
+                            {"mass_kg", jsonNumbers(thinned(series.column(column), size, false))}});
     return list;
 }
 
@@ -94,9 +94,9 @@ Json seriesJson(const Table& series, const World& world) {
     const std::size_t size = (series.rows() + kMostLines - 1) / kMostLines;
     Json j;
     for (const char* name : {"time_s", "dosed_mass_kg", "canister_mass_kg", "throat_mass_kg", "lost_mass_kg"})
-        j[name] = numbers(thinned(series.column(name), std::max<std::size_t>(size, 1), false));
+        j[name] = jsonNumbers(thinned(series.column(name), std::max<std::size_t>(size, 1), false));
     for (const char* name : {"outlet_velocity_m_s", "coil_torque_Nm", "coil_power_W"})
-        j[name] = numbers(thinned(series.column(name), std::max<std::size_t>(size, 1), true));
+        j[name] = jsonNumbers(thinned(series.column(name), std::max<std::size_t>(size, 1), true));
     j["bodies"] = bodySeries(series, world, std::max<std::size_t>(size, 1));
     j["regions"] = massSeries(series, ".mass_kg", std::max<std::size_t>(size, 1));
     j["contents"] = contentSeries(series, world, std::max<std::size_t>(size, 1));
@@ -114,8 +114,8 @@ Json rateJson(const Table& series, const Case& c) {
         rates.push_back(w.rate);
     }
     return {{"window_s", jsonNumber(rate.window)},
-            {"time_s", numbers(thinned(times, size, true))},
-            {"kg_s", numbers(thinned(rates, size, true))},
+            {"time_s", jsonNumbers(thinned(times, size, true))},
+            {"kg_s", jsonNumbers(thinned(rates, size, true))},
             {"steady", rate.steady ? Json(*rate.steady / size) : Json(nullptr)},
             {"steady_kg_s", jsonNumber(rate.steadyPart.mean)}};
 }
@@ -131,9 +131,9 @@ Json cyclesJson(const Table& series, const Case& c) {
         left.push_back(cycle.left);
     }
     return {{"is", cycles.what},
-            {"time_s", numbers(thinned(times, size, true))},
-            {"mass_kg", numbers(thinned(masses, size, true))},
-            {"left_kg", numbers(thinned(left, size, true))},
+            {"time_s", jsonNumbers(thinned(times, size, true))},
+            {"mass_kg", jsonNumbers(thinned(masses, size, true))},
+            {"left_kg", jsonNumbers(thinned(left, size, true))},
             {"steady", cycles.steady ? Json(*cycles.steady / size) : Json(nullptr)},
             {"steady_kg", jsonNumber(cycles.steadyPart.mean)}};
 }
@@ -172,7 +172,7 @@ Json dosesJson(const Table& table, const RunSources& run) {
     const std::vector<Dose>& doses = run.doses;
     Json j;
     for (const std::string& name : table.names())
-        if (name != "stopped_by") j[name] = numbers(table.column(name));
+        if (name != "stopped_by") j[name] = jsonNumbers(table.column(name));
     j["stopped_by"] = Json::array();
     for (const Dose& d : doses) j["stopped_by"].push_back(cellText(d.stoppedBy, kAllDigits));
     std::vector<int> complete;
@@ -194,21 +194,15 @@ Json dosesJson(const Table& table, const RunSources& run) {
 
 }  // namespace
 
-Json numbers(std::span<const double> values) {
-    Json list = Json::array();
-    for (const double x : values) list.push_back(jsonNumber(x));
-    return list;
-}
-
 Json experimentJson(const fs::path& file) {
     const BalanceReadings balance = readBalance(file);
     std::vector<double> doses(balance.mass.size());
     std::iota(doses.begin(), doses.end(), 1.0);
     Json j;
     j["name"] = file.filename().string();
-    j["dose"] = numbers(doses);
-    j["mass_kg"] = numbers(balance.mass);
-    j["cumulative_mass_kg"] = numbers(balance.cumulative);
+    j["dose"] = jsonNumbers(doses);
+    j["mass_kg"] = jsonNumbers(balance.mass);
+    j["cumulative_mass_kg"] = jsonNumbers(balance.cumulative);
     return j;
 }
 

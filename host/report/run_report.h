@@ -26,7 +26,4 @@ Json runJson(const std::filesystem::path& folder, const std::optional<std::files
 Json runJson(const std::filesystem::path& folder, const std::optional<std::filesystem::path>& experiment,
              const FrameSource& frames, const std::vector<Photograph>& photographs);
 
-/// A list of numbers; null in place of each that is not finite.
-Json numbers(std::span<const double> values);
-
 }  // namespace vkdose::report

@@ -173,7 +173,7 @@ function confirmationTable(parent, found) {
 
 function calibrationPart(main, study) {
   const found = study.calibration;
-  if (!found && !study.searches) return;
+  if (study.designs || (!found && !study.searches)) return;
   add(main, "h2", "Calibration");
   const part = add(main, "section", null, "calibration");
   if (!found) {
@@ -205,6 +205,48 @@ function calibrationPart(main, study) {
   found.parameters.forEach((_, k) => parameterChart(charts, found, k));
 }
 
+const asked = g => [g.wish === "none" ? null : g.wish, isNumber(g.at_least) ? `at least ${short(g.at_least)}` : null,
+                    isNumber(g.at_most) ? `at most ${short(g.at_most)}` : null].filter(Boolean).join(", ");
+
+/// The points of a design over two of its wishes, or over its first parameter if there is one wish.
+function frontChart(parent, found) {
+  const wished = found.goals.map((g, i) => i).filter(i => found.goals[i].wish !== "none");
+  const [y, x] = wished;
+  const across = (p, values) => (x === undefined ? p.at[0] : values[x][0]);
+  const series = (name, shade, points, line) => ({name, colour: shade, dots: true, line, points});
+  const of = points => points.map(p => [across(p, p.figures || p.values), ...(p.figures || p.values)[y]])
+                             .filter(([a, b]) => isNumber(a) && isNumber(b)).sort((a, b) => a[0] - b[0]);
+  const front = found.front.filter(p => p.verdict === "on the front");
+  const others = found.points.filter((_, i) => !front.some(p => p.point === i));
+  chart(parent, {
+    title: "The front", x: {label: x === undefined ? found.parameters[0].key : found.goals[x].name, pad: true},
+    y: {label: found.goals[y].name, zero: false},
+    series: [series("points tried", "var(--s0)", of(others), false), series("front, by runs with new seeds", "var(--s1)", of(front), true)],
+    note: "Bars: standard error.",
+  });
+}
+
+function designPart(main, study) {
+  const found = study.design;
+  if (!study.designs) return;
+  add(main, "h2", "Design");
+  const part = add(main, "section", null, "design");
+  if (!found) {
+    add(part, "p", "The search has not ended; what it found is shown when it has.");
+    return;
+  }
+  table(part, [["goal", false], ["case", false], ["wish", false]], found.goals.map(g => [g.name, g.base, asked(g)]));
+  if (found.front.length === 0) {
+    add(part, "p", "No point keeps the bounds of its goals.");
+  } else {
+    table(part, found.parameters.map(p => [p.key, true]).concat(found.goals.map(g => [g.name, true]), [["verdict", false]]),
+          found.front.map(p => p.at.map(short).concat(p.figures.map(([mean, error]) => (isNumber(mean) ? within(mean, error) : "none")), [p.verdict])));
+    add(part, "p", `Figures are those of runs with the new seeds ${found.confirming_seeds.join(", ")}, because a point is chosen ` +
+        "partly by the chance of its first runs.");
+  }
+  frontChart(add(part, "div", null, "charts"), found);
+}
+
 function verdictTable(main, verdicts) {
   table(main, [["", false], ["published", false], ["section", false], ["here", false], ["verdict", false]],
         verdicts.map(v => {
@@ -227,6 +269,7 @@ function studyPage(main, study) {
     verdictTable(main, study.verdicts);
   }
   calibrationPart(main, study);
+  designPart(main, study);
   const heading = add(main, "h2", "Charts");
   const charts = add(main, "div", null, "charts");
   // The points of a search lie on no lines along its parameters.

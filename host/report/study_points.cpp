@@ -212,7 +212,9 @@ StudyHead readHead(const fs::path& folder, const Table& members) {
         const Node* aim = root.child("calibrate");
         const Node* target = aim != nullptr ? aim->child("target_g_per_dose") : nullptr;
         if (target != nullptr && target->isNumber()) head.target = target->number * 1e-3;
-        head.searches = aim != nullptr && textIn(*aim, "method", "") == "surrogate";
+        head.searches =
+            root.child("design") != nullptr || (aim != nullptr && textIn(*aim, "method", "") == "surrogate");
+        head.designs = root.child("design") != nullptr;
         const Node none, *axes = root.child("axis");
         for (const Node& axis : axes != nullptr ? axes->children : none.children) {
             std::vector<std::string> keys;

@@ -17,7 +17,8 @@ struct StudyHead {
     std::string name, reason;
     std::vector<std::vector<std::string>> axes;  ///< keys of each
     double target = 0;                           ///< [kg/dose] of [calibrate]; NaN without
-    bool searches = false;                       ///< [calibrate] says method = "surrogate"
+    bool searches = false;                       ///< its points are those of a search
+    bool designs = false;                        ///< that of a [design]
 };
 
 /// Reads study.toml. The axes of a sweep without one are the columns between seed and status of `members`.

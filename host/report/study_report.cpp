@@ -9,6 +9,7 @@
 #include "host/core/json.h"
 #include "host/report/study_points.h"
 #include "host/study/calibration_finding.h"
+#include "host/study/design_finding.h"
 
 namespace vkdose::report {
 
@@ -60,7 +61,7 @@ Json pointJson(const StudyPoint& p) {
     j["turns_per_dose"] = jsonNumber(turnsPerDose(p.point));
     j["outputs"] = outputs;
     j["dose_mass_kg"] = doses;
-    j["cumulative_mass_kg"] = numbers(p.point.cumulative);
+    j["cumulative_mass_kg"] = jsonNumbers(p.point.cumulative);
     return j;
 }
 
@@ -103,7 +104,9 @@ Json studyJson(const fs::path& folder, const std::optional<fs::path>& expected) 
     j["members"] = members.rows();
     const std::optional<CalibrationFinding> finding = readFinding(folder);
     j["searches"] = head.searches;
+    j["designs"] = head.designs;
     j["calibration"] = finding ? findingJson(*finding) : Json(nullptr);
+    j["design"] = readDesign(folder);
     j["verdicts"] = expected ? verdictsJson(*expected, points) : Json(nullptr);
     return j;
 }

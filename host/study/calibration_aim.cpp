@@ -50,7 +50,8 @@ FreeParameter readParameter(CaseReader& reader, Section& table, const std::strin
     return p;
 }
 
-CalibrationTarget readTarget(CaseReader& reader, Section& table, const std::string& path,
+/// The figure that a target or a goal is of, and the case whose run gives it.
+CalibrationTarget readFigure(CaseReader& reader, Section& table, const std::string& path,
                              const std::filesystem::path& folder, const std::filesystem::path& base) {
     CalibrationTarget t;
     t.figure = table.string("figure");
@@ -61,9 +62,6 @@ CalibrationTarget readTarget(CaseReader& reader, Section& table, const std::stri
                 path + ".figure", "is no figure of a run",
                 fmt::format("give \"{}\", or a measure of the case and its figure: \"heap.angle_deg\"", kMassPerDose));
     }
-    t.value = table.number("value");
-    t.uncertainty = table.number("uncertainty");
-    t.weight = table.number("weight");
     t.base = base;
     if (table.isString("base")) {
         t.base = folder / table.string("base");
@@ -73,6 +71,40 @@ CalibrationTarget readTarget(CaseReader& reader, Section& table, const std::stri
     }
     table.know("base");
     return t;
+}
+
+CalibrationTarget readTarget(CaseReader& reader, Section& table, const std::string& path,
+                             const std::filesystem::path& folder, const std::filesystem::path& base) {
+    CalibrationTarget t = readFigure(reader, table, path, folder, base);
+    t.value = table.number("value");
+    t.uncertainty = table.number("uncertainty");
+    t.weight = table.number("weight");
+    return t;
+}
+
+CalibrationTarget readGoal(CaseReader& reader, Section& table, const std::string& path,
+                           const std::filesystem::path& folder, const std::filesystem::path& base) {
+    CalibrationTarget t = readFigure(reader, table, path, folder, base);
+    t.wish = static_cast<CalibrationTarget::Wish>(table.choice("wish").value_or(0));
+    if (table.has("at_least")) t.atLeast = table.number("at_least");
+    if (table.has("at_most")) t.atMost = table.number("at_most");
+    for (const char* key : {"at_least", "at_most"}) table.know(key);
+    if (t.wish == CalibrationTarget::Wish::None && !table.has("at_least") && !table.has("at_most"))
+        reader.fault(path + ".wish", "asks nothing of the figure", "give \"largest\" or \"smallest\", or a bound");
+    if (t.atLeast > t.atMost)
+        reader.fault(path + ".at_most", "is below at_least", "give bounds with at_least < at_most");
+    return t;
+}
+
+/// The free parameters of a search, in the tables [[TABLE.parameter]].
+void readParameters(CaseReader& reader, Section& table, CalibrationAim& aim) {
+    const std::string path = fmt::format("{}.parameter", aim.table());
+    const std::vector<Section*> parameters = table.tables("parameter");
+    for (std::size_t i = 0; i < parameters.size(); ++i)
+        aim.parameters.push_back(readParameter(reader, *parameters[i], fmt::format("{}[{}]", path, i)));
+    if (parameters.empty() || parameters.size() > 4)
+        reader.fault(path, "a search has one to four free parameters",
+                     fmt::format("add [[{}]] with key, low and high", path));
 }
 
 /// Reads [[calibrate.target]] in place of the mass per dose alone.
@@ -115,6 +147,13 @@ void readMassPerDose(CaseReader& reader, Section& table, const std::filesystem::
 
 }  // namespace
 
+std::string CalibrationAim::nameOf(const CalibrationTarget& of) const {
+    const bool shared = std::any_of(targets.begin(), targets.end(), [&](const CalibrationTarget& other) {
+        return other.figure == of.figure && other.base != of.base;
+    });
+    return shared ? of.figure + " of " + of.base.filename().string() : of.figure;
+}
+
 std::vector<std::filesystem::path> CalibrationAim::bases() const {
     std::vector<std::filesystem::path> all;
     for (const CalibrationTarget& t : targets)
@@ -136,15 +175,31 @@ CalibrationAim readCalibrationAim(CaseReader& reader, Section& table, const std:
     aim.confirmingSeeds = int(table.integer("confirming_seeds"));
     if (search) {
         aim.maxRuns = int(table.integer("max_runs"));
-        const std::vector<Section*> parameters = table.tables("parameter");
-        for (std::size_t i = 0; i < parameters.size(); ++i)
-            aim.parameters.push_back(readParameter(reader, *parameters[i], fmt::format("calibrate.parameter[{}]", i)));
-        if (parameters.empty() || parameters.size() > 4)
-            reader.fault("calibrate.parameter", "a search has one to four free parameters",
-                         "add [[calibrate.parameter]] with key, low and high");
+        readParameters(reader, table, aim);
     } else {
         aim.along = table.string("along");
     }
+    return aim;
+}
+
+CalibrationAim readDesignAim(CaseReader& reader, Section& table, const std::filesystem::path& folder,
+                             const std::filesystem::path& base) {
+    CalibrationAim aim;
+    aim.method = CalibrationAim::Method::Design;
+    aim.maxRuns = int(table.integer("max_runs"));
+    aim.confirmingSeeds = int(table.integer("confirming_seeds"));
+    const std::vector<Section*> goals = table.tables("goal");
+    for (std::size_t i = 0; i < goals.size(); ++i)
+        aim.targets.push_back(readGoal(reader, *goals[i], fmt::format("design.goal[{}]", i), folder, base));
+    const bool wished = std::any_of(aim.targets.begin(), aim.targets.end(),
+                                    [](const CalibrationTarget& t) { return t.wish != CalibrationTarget::Wish::None; });
+    if (!wished || goals.size() > kMostTargets)
+        reader.fault("design.goal",
+                     fmt::format("a design has one to {} goals, and wishes at least one to be the "
+                                 "largest or the smallest",
+                                 kMostTargets),
+                     "add [[design.goal]] with figure and wish");
+    readParameters(reader, table, aim);
     return aim;
 }
 

@@ -30,13 +30,8 @@ std::vector<Target> targetsOf(const Study& study) {
     const std::string base = study.base.filename().string();
     if (aim.targets.empty()) return {{"beta", "g", base, aim.target * kGrams, aim.tolerance * kGrams, 1, 0, 0}};
     std::vector<Target> all;
-    for (const CalibrationTarget& t : aim.targets) {
-        const bool shared = std::any_of(aim.targets.begin(), aim.targets.end(), [&](const CalibrationTarget& other) {
-            return other.figure == t.figure && other.base != t.base;
-        });
-        const std::string file = t.base.filename().string();
-        all.push_back({shared ? t.figure + " of " + file : t.figure, "", file, t.value, t.uncertainty, t.weight, 0, 0});
-    }
+    for (const CalibrationTarget& t : aim.targets)
+        all.push_back({aim.nameOf(t), "", t.base.filename().string(), t.value, t.uncertainty, t.weight, 0, 0});
     return all;
 }
 
@@ -68,18 +63,12 @@ Json targetJson(const Target& t) {
             {"deviation", jsonNumber(t.deviation)}};
 }
 
-Json numbersJson(const std::vector<double>& values) {
-    Json all = Json::array();
-    for (const double x : values) all.push_back(jsonNumber(x));
-    return all;
-}
-
 Json parameterJson(const Parameter& p) {
     return {{"key", p.key},
             {"low", jsonNumber(p.low)},
             {"high", jsonNumber(p.high)},
             {"chosen", jsonNumber(p.chosen)},
-            {"change_in_uncertainties", numbersJson(p.change)},
+            {"change_in_uncertainties", jsonNumbers(p.change)},
             {"mostly_by", p.mostlyBy},
             {"error", jsonNumber(p.error)},
             {"constrained", p.constrained},
@@ -89,7 +78,7 @@ Json parameterJson(const Parameter& p) {
 Json pointJson(const Point& p) {
     Json values = Json::array();
     for (const Measured& m : p.values) values.push_back({jsonNumber(m.value), jsonNumber(m.error)});
-    return {{"at", numbersJson(p.at)}, {"values", values}};
+    return {{"at", jsonNumbers(p.at)}, {"values", values}};
 }
 
 Json confirmationJson(const CalibrationFinding::Confirmation& c) {

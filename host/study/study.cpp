@@ -156,9 +156,10 @@ void checkCount(CaseReader& reader, const Study& study) {
 /// A search finds its points itself, so it has no axes. A grid interpolates along an axis of numbers.
 void checkCalibration(CaseReader& reader, const Study& study) {
     const CalibrationAim& aim = *study.calibration;
-    if (aim.method == CalibrationAim::Method::Surrogate) {
+    if (aim.searches()) {
         if (!study.axes.empty())
-            reader.fault("calibrate.method", "a search has no axes", "give it [[calibrate.parameter]] instead");
+            reader.fault(aim.method == CalibrationAim::Method::Design ? "axis" : "calibrate.method",
+                         "a search has no axes", fmt::format("give it [[{}.parameter]] instead", aim.table()));
         return;
     }
     const auto axis = std::find_if(study.axes.begin(), study.axes.end(), [&](const Axis& a) {
@@ -172,7 +173,7 @@ void checkCalibration(CaseReader& reader, const Study& study) {
 
 /// Refuses a case: it has none of a study's tables, and all its keys would be reported as unknown.
 void refuseCase(const std::filesystem::path& file, const Node& tree) {
-    for (const char* name : {"axis", "seeds", "set", "calibrate"})
+    for (const char* name : {"axis", "seeds", "set", "calibrate", "design"})
         if (tree.child(name) != nullptr) return;
     for (const KeyTable& table : caseKeys()) {
         const Node* node = table.paths.empty() ? nullptr : tree.child(wordsOf(table.paths).front());
@@ -260,11 +261,15 @@ Study readStudy(const std::filesystem::path& file, const std::vector<std::string
         study.axes.push_back(readAxis(reader, *axes[i], fmt::format("axis[{}]", i), used));
     if (root.has("calibrate")) {
         study.calibration = readCalibrationAim(reader, root.table("calibrate"), file.parent_path(), study.base);
-        for (std::size_t i = 0; i < study.calibration->parameters.size(); ++i)
-            checkKey(reader, fmt::format("calibrate.parameter[{}].key", i), study.calibration->parameters[i].key, used);
-    } else {
-        root.know("calibrate");
+        if (root.has("design")) reader.fault("design", "stands beside [calibrate]", "keep one of the two in a study");
+    } else if (root.has("design")) {
+        study.calibration = readDesignAim(reader, root.table("design"), file.parent_path(), study.base);
     }
+    for (const char* table : {"calibrate", "design"}) root.know(table);
+    if (study.calibration)
+        for (std::size_t i = 0; i < study.calibration->parameters.size(); ++i)
+            checkKey(reader, fmt::format("{}.parameter[{}].key", study.calibration->table(), i),
+                     study.calibration->parameters[i].key, used);
     if (study.calibration) checkCalibration(reader, study);
     checkCount(reader, study);
     reader.finish();

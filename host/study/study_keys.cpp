@@ -46,6 +46,20 @@ constexpr Key kCalibrate[] = {
             "surrogate: points at most, each run with every seed; a confirmation that missed counts as one"),
 };
 
+constexpr Key kDesign[] = {
+    integer("max_runs", 3, 500, 30, "points at most, each run with every seed"),
+    integer("confirming_seeds", 2, 100, 3,
+            "new seeds with which the points of the front run; the front that is told is that of these runs"),
+};
+
+constexpr Key kGoal[] = {
+    text("figure", kRequired, "a figure of a run, as that of a target"),
+    word("wish", "none largest smallest", "none", "what is wished of it"),
+    number("at_least", kPlain, Bound::Any, told("none"), "least value that a design may have, in the figure's unit"),
+    number("at_most", kPlain, Bound::Any, told("none"), "largest value that a design may have"),
+    text("base", told("the study's `base`"), "the case whose run gives the figure, as that of a target"),
+};
+
 constexpr Key kParameter[] = {
     text("key", kRequired, "a key of the base case with a number for a value"),
     number("low", kPlain, Bound::Any, kRequired, "lower bound, in the unit of the key"),
@@ -53,10 +67,12 @@ constexpr Key kParameter[] = {
 };
 
 constexpr Key kTarget[] = {
-    text("figure", kRequired,
-         "`\"mass_per_dose_g\"`, a figure of the mass rate, `\"rate.steady_kg_s\"`, one of the cycles, "
-         "`\"cycle.steady_kg\"`, or the name of a `[[measure]]` and "
-         "its figure: `\"heap.angle_deg\"`. Both are named as in `summary.json`"),
+    text(
+        "figure", kRequired,
+        "`\"mass_per_dose_g\"`, a figure of the doses (`\"dose.mean_kg\"`, `\"dose.rsd\"`, `\"dose.left_kg\"`: what is "
+        "left), of the mass rate (`\"rate.steady_kg_s\"`) or of the cycles (`\"cycle.steady_kg\"`), or the name of a "
+        "`[[measure]]` (`\"heap.angle_deg\"`) or a body (`\"coil.largest_torque_Nm\"`) and its figure, named as in "
+        "`summary.json`"),
     number("value", kPlain, Bound::Any, kRequired, "measured, in the unit of the figure"),
     number("uncertainty", kPlain, Bound::Positive, kRequired, "standard error of the value"),
     number("weight", kPlain, Bound::Positive, 1.0, "of the square of its misfit"),
@@ -72,7 +88,12 @@ constexpr KeyTable kTables[] = {
     {"calibrate.target[]", kTarget,
      "What is to be met together, for `method = \"surrogate\"`: up to eight figures in place of `target_g_per_dose`, "
      "`tolerance_g` and `measured`."},
-    {"calibrate.parameter[]", kParameter, "One to four free parameters, for `method = \"surrogate\"` only."},
+    {"design", kDesign, "For `vkdose design` only."},
+    {"design.goal[]", kGoal,
+     "What a design is judged by: up to eight figures, at least one of which is wished to be the largest or the "
+     "smallest."},
+    {"calibrate.parameter[] design.parameter[]", kParameter,
+     "One to four free parameters, for `method = \"surrogate\"` and for a design."},
 };
 
 }  // namespace

@@ -10,25 +10,9 @@
 #include "host/study/calibration_aim.h"
 #include "host/study/confirmation.h"
 #include "host/study/gaussian_process.h"
+#include "host/study/sampled_points.h"
 
 namespace vkdose {
-
-using Parameters = std::vector<double>;  ///< a value for each free parameter, in the units of their keys
-
-/// What the runs at one point gave of one figure, in its own unit.
-struct Trial {
-    std::vector<double> values;  ///< one for each seed; seeds without one are left out
-    double error = 0;            ///< standard error of a single seed's value; NaN if it is not known
-};
-
-/// What the runs at one point gave: a trial for each goal.
-using Trials = std::vector<Trial>;
-
-/// Tries a few points. Returns nothing if the search was interrupted.
-using TryPoints = std::function<std::optional<std::vector<Trials>>(const std::vector<Parameters>&)>;
-
-/// Runs a point that was tried again, with `aim.confirmingSeeds` new seeds. Returns nothing if it was interrupted.
-using ConfirmPoint = std::function<std::optional<Trials>(const Parameters&)>;
 
 /// A figure that the search is to bring to its target, in its own unit.
 struct Goal {
@@ -41,12 +25,9 @@ std::vector<Goal> goalsOf(const CalibrationAim& aim);
 
 /// What became of one goal, in the unit of its figure.
 struct GoalResult {
-    /// Of each point: the mean over the seeds, those of a confirmation included; NaN where there is none. The errors
-    /// are the scatter from seed to seed,
-    /// pooled over all points, or with a single seed the trial's own; NaN if neither is known.
-    std::vector<Measured> values;
-    double mean = 0;       ///< that is believed at the best point
-    double deviation = 0;  ///< standard deviation of this belief
+    std::vector<Measured> values;  ///< of each point, as SampledPoints has them; confirmations are included
+    double mean = 0;               ///< that is believed at the best point
+    double deviation = 0;          ///< standard deviation of this belief
     /// For each parameter the change that is believed from one bound to the other, by the slope at the best point, over
     /// the tolerance. The goal constrains the parameters for which this is large.
     std::vector<double> sensitivity;

@@ -10,11 +10,31 @@
 
 #include "host/analysis/cycles.h"
 #include "host/analysis/mass_rate.h"
+#include "host/core/columns.h"
+#include "host/output/measured.h"
 #include "host/output/summary.h"
+#include "host/sim/body_loads.h"
 
 namespace vkdose {
 
 namespace {
+
+/// The figures of the doses, as targets name them, and where summary.json has them.
+struct DoseFigure {
+    const char* name;
+    const char* pointer;
+};
+constexpr DoseFigure kDoseFigures[] = {{"dose.mean_kg", "/dose_statistics/mean_kg"},
+                                       {"dose.rsd", "/dose_statistics/rsd"},
+                                       {"dose.left_kg", "/ledger/canister_mass_kg"}};
+
+/// "body.largest_torque_Nm", of the body with this name.
+double bodyFigure(const nlohmann::ordered_json& summary, const std::string& figure) {
+    const std::string body = figure.substr(0, figure.find('.')), name = figure.substr(figure.find('.') + 1);
+    for (const auto& b : summary.value("bodies", nlohmann::ordered_json::array()))
+        if (b.value("name", "") == body && b.contains(name) && b[name].is_number()) return b[name].get<double>();
+    return std::numeric_limits<double>::quiet_NaN();
+}
 
 /// A figure of a run that is over, and its error; NaN where there is none.
 Measured figureIn(const std::filesystem::path& folder, const std::string& figure) {
@@ -31,9 +51,12 @@ Measured figureIn(const std::filesystem::path& folder, const std::string& figure
     };
     if (const RateFigure* f = figureNamed(kRateFigures, kRateName, figure)) return ofSeries(kRateName, *f);
     if (const CycleFigure* f = figureNamed(kCycleFigures, kCycleName, figure)) return ofSeries(kCycleName, *f);
+    for (const DoseFigure& f : kDoseFigures)
+        if (figure == f.name) return {at(f.pointer), std::numeric_limits<double>::quiet_NaN()};
     std::string pointer = "/measures/" + figure;
     std::replace(pointer.begin(), pointer.end(), '.', '/');
-    return {at(pointer), std::numeric_limits<double>::quiet_NaN()};
+    const double measure = at(pointer);
+    return {std::isfinite(measure) ? measure : bodyFigure(summary, figure), std::numeric_limits<double>::quiet_NaN()};
 }
 
 Trial figureOf(const SweepFolder& folder, const std::string& figure, int from, int to) {
@@ -65,6 +88,18 @@ Trial massPerDoseOf(const SweepFolder& folder, int from, int to) {
 }
 
 }  // namespace
+
+std::vector<std::string> figureNames(const Case& c) {
+    std::vector<std::string> names{kMassPerDose};
+    for (const DoseFigure& f : kDoseFigures) names.emplace_back(f.name);
+    for (const RateFigure& f : kRateFigures) names.push_back(std::string(kRateName) + "." + f.name);
+    for (const CycleFigure& f : kCycleFigures) names.push_back(std::string(kCycleName) + "." + f.name);
+    for (const ElementTest& m : c.measures)
+        for (const std::string& figure : figureNames(m)) names.push_back(m.name + "." + figure);
+    for (const std::string& body : bodyNames(c.world))
+        forEachColumn(kBodyPeakColumns, [&](const auto& column) { names.push_back(body + "." + column.name); });
+    return names;
+}
 
 std::vector<std::filesystem::path> basesOf(const Study& study) {
     const std::vector<std::filesystem::path> bases = study.calibration->bases();

@@ -212,9 +212,10 @@ Start startDrivers() {
         start.showsDevices = result == VK_SUCCESS && !devices.empty();
     }
     if (result == VK_SUCCESS) return start;
-    // The loader calls it an error too if no driver finds hardware of its kind.
+    // The loader calls it an error too if no driver finds hardware of its kind. A driver of Vulkan 1.0 is none.
     std::erase_if(said, [](const std::string& message) {
-        return message.ends_with("Found no drivers!") || message.find("any valid GPUs") != std::string::npos;
+        return message.ends_with("Found no drivers!") || message.find("any valid GPUs") != std::string::npos ||
+               message.ends_with("treating as a 1.0 ICD");
     });
     const bool noHardware = result == VK_ERROR_INCOMPATIBLE_DRIVER || result == VK_ERROR_INITIALIZATION_FAILED;
     if (said.empty() && noHardware) return start;

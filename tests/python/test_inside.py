@@ -293,7 +293,9 @@ class Errors(InFolder):
 
     def python(self, script, path):
         environment = dict(os.environ, PYTHONPATH=os.pathsep.join(path))
-        return subprocess.run([sys.executable, "-B", "-c", script], env=environment, stdout=subprocess.PIPE,
+        # From 3.12 on Python warns of every fork beside other threads.
+        quiet = ["-W", "ignore:This process:DeprecationWarning"]
+        return subprocess.run([sys.executable, "-B", *quiet, "-c", script], env=environment, stdout=subprocess.PIPE,
                               stderr=subprocess.STDOUT, text=True)
 
     def forked(self, device):

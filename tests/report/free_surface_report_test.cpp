@@ -1,6 +1,7 @@
 #include "host/report/free_surface_report.h"
 
 #include "host/analysis/free_surface.h"
+#include "host/core/json.h"
 #include "tests/report/faults.h"
 #include "tests/report/folders.h"
 #include "tests/report/frames.h"
@@ -40,9 +41,9 @@ TEST_CASE("the surface of a run: settled, and at the last frame of each dose") {
         CHECK(j["states"][i]["dose"] == i);
         CHECK(j["states"][i]["time_s"] == times[i]);
         CHECK(j["states"][i]["height_m"] ==
-              numbers(surfaceProfile(at(heights[i]), *c.canister, 8, Across::Highest).height));
+              jsonNumbers(surfaceProfile(at(heights[i]), *c.canister, 8, Across::Highest).height));
     }
-    CHECK(j["z_m"] == numbers(surfaceProfile(at(0), *c.canister, 8, Across::Highest).z));
+    CHECK(j["z_m"] == jsonNumbers(surfaceProfile(at(0), *c.canister, 8, Across::Highest).z));
 }
 
 TEST_CASE("the surface of a run without frames is that of its end, and of nothing there is none") {
@@ -50,7 +51,7 @@ TEST_CASE("the surface of a run without frames is that of its end, and of nothin
     const Json j = surfaceJson(c, {}, at(2e-3), 7, {});
     REQUIRE(j["states"].size() == 1);
     CHECK(j["states"][0]["dose"] == 7);
-    CHECK(j["states"][0]["height_m"] == numbers(surfaceProfile(at(2e-3), *c.canister, 8, Across::Highest).height));
+    CHECK(j["states"][0]["height_m"] == jsonNumbers(surfaceProfile(at(2e-3), *c.canister, 8, Across::Highest).height));
     CHECK(surfaceJson(c, {}, {}, 0, {}).is_null());
     CHECK(surfaceJson(c, {}, Particles{}, 0, {}).is_null());
     c.canister.reset();

@@ -189,6 +189,34 @@ TEST_CASE("what the search of a calibration found is in the data, and that one g
     CHECK_THROWS_AS(studyJson(folder, {}), CaseError);
 }
 
+TEST_CASE("the front of a design is in the data") {
+    const Sandbox box;
+    const auto folder = writeSweep(box);
+    CHECK(studyJson(folder, {})["designs"] == false);
+    box.write("sweep/study.toml", "base = \"a.toml\"\n[design]\nmax_runs = 3\n");
+    Json study = studyJson(folder, {});
+    CHECK(study["designs"] == true);
+    CHECK(study["searches"] == true);
+    CHECK(study["design"].is_null());
+    const std::string finding = R"({"goals": [{"name": "dose.rsd", "base": "a.toml", "wish": "smallest",
+        "at_least": null, "at_most": 0.2}], "parameters": [{"key": "coil.speed_rpm", "low": 1, "high": 2}],
+        "points": [{"at": [1.5], "values": [[0.1, null]]}],
+        "front": [{"point": 0, "at": [1.5], "figures": [[0.1, 0.02]], "verdict": "on the front"}],
+        "confirming_seeds": [3, 4]})";
+    box.write("sweep/design.json", finding);
+    study = studyJson(folder, {});
+    CHECK(study["design"]["front"][0]["figures"][0][1] == 0.02);
+    for (const auto& [part, with] :
+         {std::pair("[[0.1, 0.02]]", "[]"), std::pair("[3, 4]", "3"), std::pair("\"dose.rsd\"", "7"),
+          std::pair("\"at\": [1.5], \"v", "\"at\": [], \"v")}) {
+        std::string damaged = finding;
+        damaged.replace(damaged.find(part), std::string(part).size(), with);
+        CAPTURE(damaged);
+        box.write("sweep/design.json", damaged);
+        CHECK_THROWS_AS(studyJson(folder, {}), CaseError);
+    }
+}
+
 TEST_CASE("name, reason, target and failures are in the data") {
     const Sandbox box;
     const Json study = studyJson(writeSweep(box), {});

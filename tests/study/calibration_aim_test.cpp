@@ -1,5 +1,6 @@
 // The table [calibrate]: targets, measured files, and what can be wrong with them.
 #include <algorithm>
+#include <cmath>
 
 #include "tests/study/study_files.h"
 #include "tests/support/catch.h"
@@ -133,4 +134,43 @@ TEST_CASE("every fault of a calibration names its key and a remedy") {
         REQUIRE(told != faults.end());
         CHECK(told->key == row.key);
     }
+}
+
+TEST_CASE("a design has goals, each with a wish or a bound") {
+    const StudyFolder folder;
+    const std::string free = "[[design.parameter]]\nkey = \"coil.pitch_mm\"\nlow = 2\nhigh = 4\n";
+    const std::string goals =
+        "base = \"good.toml\"\n[design]\nmax_runs = 12\n[[design.goal]]\nfigure = \"dose.mean_kg\"\nwish = "
+        "\"largest\"\n"
+        "[[design.goal]]\nfigure = \"coil.largest_torque_Nm\"\nat_most = 0.1\n";
+    const Study study = folder.study(goals + free);
+    REQUIRE(study.calibration);
+    const CalibrationAim& aim = *study.calibration;
+    CHECK(aim.method == CalibrationAim::Method::Design);
+    CHECK(aim.maxRuns == 12);
+    CHECK(aim.confirmingSeeds == 3);
+    REQUIRE(aim.targets.size() == 2);
+    CHECK(aim.targets[0].wish == CalibrationTarget::Wish::Largest);
+    CHECK(std::isinf(aim.targets[0].atMost));
+    CHECK(aim.targets[1].wish == CalibrationTarget::Wish::None);
+    CHECK(aim.targets[1].atMost == 0.1);
+    CHECK(study.keys() == std::vector<std::string>{"coil.pitch_mm"});
+
+    const auto refused = [&](const std::string& text, const std::string& said) {
+        CAPTURE(text);
+        CHECK_THROWS_WITH(folder.study(text), Catch::Contains(said));
+    };
+    const auto with = [&](const std::string& part, const std::string& by) {
+        std::string text = goals + free;
+        return text.replace(text.find(part), part.size(), by);
+    };
+    refused(goals, "design.parameter");
+    refused(with("wish = \"largest\"\n", "at_least = 1\n"), "wishes at least one");
+    refused(with("at_most = 0.1\n", ""), "design.goal[1].wish");
+    refused(with("at_most = 0.1", "at_most = 0.1\nat_least = 0.2"), "is below at_least");
+    refused(with("\"largest\"", "\"most\""), "design.goal[0].wish");
+    refused(with("\"dose.mean_kg\"", "\"mean\""), "is no figure of a run");
+    refused(goals + free + "[[axis]]\nkey = \"contact.friction\"\nvalues = [0.1, 0.2]\n", "a search has no axes");
+    refused(goals + free + "[calibrate]\ntarget_g_per_dose = 1\ntolerance_g = 1\n", "stands beside [calibrate]");
+    refused(with("\"coil.pitch_mm\"", "\"seed\""), "design.parameter[0].key");
 }

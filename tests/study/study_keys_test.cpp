@@ -24,7 +24,10 @@ TEST_CASE("every declared key of a study is read: a date for its value is a faul
             std::string text = name + date + (name == "base" ? "" : "base = \"good.toml\"\n");
             if (table.paths == "axis[]") text = axis + name + date;
             if (table.paths == "calibrate") text = (name == "max_runs" ? search : grid) + name + date;
-            if (table.paths == "calibrate.parameter[]") text = search + "[[calibrate.parameter]]\n" + name + date;
+            if (table.paths.starts_with("calibrate.parameter[]"))
+                text = search + "[[calibrate.parameter]]\n" + name + date;
+            if (table.paths == "design") text = "base = \"good.toml\"\n[design]\n" + name + date;
+            if (table.paths == "design.goal[]") text = "base = \"good.toml\"\n[[design.goal]]\n" + name + date;
             if (table.paths == "calibrate.target[]")
                 text =
                     "base = \"good.toml\"\n[calibrate]\nmethod = \"surrogate\"\n[[calibrate.target]]\n" + name + date;

@@ -7,7 +7,7 @@ import re
 KEYS = {"study": str, "command": str, "priority": int, "cost_G": (int, float), "state": str, "what": str}
 UNKNOWN = float("inf")  # cost of a study that nobody has told
 STATES = ["open", "done"]
-COMMANDS = ["sweep", "calibrate"]
+COMMANDS = ["sweep", "calibrate", "design"]
 
 
 class QueueError(Exception):
