@@ -15,6 +15,7 @@
 #include "host/core/csv_table.h"
 #include "host/model/key.h"
 #include "host/model/powders.h"
+#include "host/output/figure_words.h"
 #include "host/output/frames.h"
 #include "host/sim/density.h"
 
@@ -29,91 +30,6 @@ double degrees(double radians) {
 }
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-
-/// A figure: its name in files, and how people read it.
-struct Wording {
-    const char *name, *words, *unit;
-    double scale = 1;
-};
-
-constexpr Wording kAngle{"angle_deg", "angle of the surface", "°"};
-constexpr Wording kTime{"time_s", "at", "s"};
-
-// The figures of each kind of test, in the order of summary.json.
-constexpr Wording kHeap[] = {
-    kAngle,
-    {"angle_error_deg", "standard error of the angle", "°"},
-    {"height_m", "height", "mm", 1e3},
-    {"flank_from_m", "flank from", "mm", 1e3},
-    {"flank_to_m", "flank to", "mm", 1e3},
-    kTime,
-};
-constexpr Wording kDrum[] = {
-    kAngle,
-    {"angle_deviation_deg", "deviation from frame to frame", "°"},
-    {"frames", "frames", ""},
-};
-constexpr Wording kCompression[] = {
-    {"max_stress_Pa", "largest stress", "kPa", 1e-3},
-    {"loose_density_kg_m3", "loose density", "kg/m³"},
-    {"loaded_density_kg_m3", "density under load", "kg/m³"},
-    {"released_density_kg_m3", "density after release", "kg/m³"},
-    {"elastic_recovery", "elastic recovery", "%", 100},
-    {"work_J", "work", "mJ", 1e3},
-    {"returned_work_J", "returned work", "mJ", 1e3},
-    {"work_J_kg", "work for a mass", "J/kg"},
-};
-constexpr Wording kShear[] = {
-    {"friction_angle_deg", "friction angle", "°"},
-    {"cohesion_Pa", "cohesion", "kPa", 1e-3},
-    {"effective_friction_angle_deg", "friction angle without cohesion", "°"},
-};
-/// With pre-shear, behind them.
-constexpr Wording kPreShear[] = {
-    {"pre_shear_normal_stress_Pa", "normal stress of the pre-shears", "kPa", 1e-3},
-    {"pre_shear_stress_Pa", "shear stress of the pre-shears", "kPa", 1e-3},
-    {"consolidation_stress_Pa", "consolidation stress", "kPa", 1e-3},
-    {"unconfined_strength_Pa", "unconfined strength", "kPa", 1e-3},
-    {"ffc", "ffc", ""},
-};
-constexpr Wording kBulk[] = {
-    {"density_kg_m3", "bulk density", "kg/m³"},
-    {"solid_fraction", "solid fraction", ""},
-    {"volume_m3", "over", "cm³", 1e6},
-    kTime,
-};
-constexpr Wording kDischarge[] = {
-    {"rate_kg_s", "rate of discharge", "g/s", 1e3},
-    {"rate_error_kg_s", "standard error of the rate", "g/s", 1e3},
-    {"beverloo_constant", "Beverloo's constant", ""},
-};
-constexpr Wording kContent[] = {
-    {"mass_kg", "mass", "g", 1e3},
-    {"mass_deviation_kg", "standard deviation of the mass in that time", "g", 1e3},
-    {"lines", "lines of the time series", ""},
-};
-/// Of each point of the yield locus, which are counted from 1. They are told by their names.
-constexpr const char* kShearPoint[] = {"normal_stress_{}_Pa", "shear_stress_{}_Pa", "shear_stress_deviation_{}_Pa"};
-
-std::span<const Wording> wordingsOf(ElementTest::Kind kind) {
-    switch (kind) {
-        case ElementTest::Kind::AngleOfRepose:
-            return kHeap;
-        case ElementTest::Kind::DrumAngle:
-            return kDrum;
-        case ElementTest::Kind::Compression:
-            return kCompression;
-        case ElementTest::Kind::Shear:
-            return kShear;
-        case ElementTest::Kind::BulkDensity:
-            return kBulk;
-        case ElementTest::Kind::Discharge:
-            return kDischarge;
-        case ElementTest::Kind::Content:
-            return kContent;
-    }
-    return {};
-}
 
 /// The values of a list of figures, in its order.
 template <std::size_t n>
@@ -365,14 +281,6 @@ class Measuring {
     Table series_;
 };
 
-/// Null for a figure without words.
-const Wording* wordingOf(const std::string& name) {
-    for (std::size_t kind = 0; kind < wordsOf(ElementTest::kKinds).size(); ++kind)
-        for (const Wording& w : wordingsOf(ElementTest::Kind(kind)))
-            if (name == w.name) return &w;
-    return nullptr;
-}
-
 }  // namespace
 
 std::vector<MeasureResult> measuresOf(const std::filesystem::path& folder, const Case& c, const RunResult& result) {
@@ -381,23 +289,6 @@ std::vector<MeasureResult> measuresOf(const std::filesystem::path& folder, const
     const Measuring measuring(folder, c, result);
     for (const ElementTest& m : c.measures) results.push_back(measuring.of(m));
     return results;
-}
-
-std::vector<std::string> figureNames(const ElementTest& m) {
-    std::vector<std::string> names;
-    for (const Wording& w : wordingsOf(m.kind)) names.emplace_back(w.name);
-    if (m.kind == ElementTest::Kind::Shear)
-        for (std::size_t i = 1; i <= m.windows.size(); ++i)
-            for (const char* name : kShearPoint) names.push_back(fmt::format(fmt::runtime(name), i));
-    return names;
-}
-
-FigureText figureText(const std::string& name, double value) {
-    const Wording* known = wordingOf(name);
-    if (!std::isfinite(value)) return {known != nullptr ? known->words : name, "not known"};
-    if (known == nullptr) return {name, fmt::format("{:.4g}", value)};
-    return {known->words,
-            fmt::format("{:.4g}{}{}", value * known->scale, *known->unit != '\0' ? " " : "", known->unit)};
 }
 
 std::string measureText(const std::vector<MeasureResult>& results) {

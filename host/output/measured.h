@@ -25,15 +25,6 @@ struct MeasureResult {
 /// is that of `result`. Throws OutputError if a frame cannot be read.
 std::vector<MeasureResult> measuresOf(const std::filesystem::path& folder, const Case& c, const RunResult& result);
 
-/// The names of the figures that a measure has, all of which a run may give.
-std::vector<std::string> figureNames(const ElementTest& measure);
-
-/// A figure as people read it: "angle of the flank" and "31.2 °". A name that is not known stands for itself.
-struct FigureText {
-    std::string words, value;
-};
-FigureText figureText(const std::string& name, double value);
-
 /// Lines for the end of a run: one for each measure, indented by the width of the other lines' first word.
 std::string measureText(const std::vector<MeasureResult>& results);
 

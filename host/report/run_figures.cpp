@@ -15,7 +15,7 @@
 #include "host/analysis/work.h"
 #include "host/core/grams.h"
 #include "host/model/powders.h"
-#include "host/output/measured.h"
+#include "host/output/figure_words.h"
 #include "host/output/particle_row.h"
 #include "host/sim/density.h"
 

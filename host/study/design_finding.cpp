@@ -103,10 +103,14 @@ fs::path designCase(const fs::path& folder, std::size_t number) {
     return folder / fmt::format("design-{}.toml", number);
 }
 
-void forgetDesign(const fs::path& folder) {
+std::vector<fs::path> designFiles(const fs::path& folder) {
     std::vector<fs::path> files{folder / kDesignName};
     for (std::size_t n = 1; n <= kMostOnFront; ++n) files.push_back(designCase(folder, n));
-    for (const fs::path& file : files) {
+    return files;
+}
+
+void forgetDesign(const fs::path& folder) {
+    for (const fs::path& file : designFiles(folder)) {
         std::error_code code;
         fs::remove(file, code);
         if (code) throw OutputError(fmt::format("cannot remove {}: {}", file.string(), code.message()));

@@ -28,6 +28,9 @@ nlohmann::ordered_json readDesign(const std::filesystem::path& folder);
 /// The case of a point of the front, numbered from 1, in the folder of the study.
 std::filesystem::path designCase(const std::filesystem::path& folder, std::size_t number);
 
+/// design.json and all cases that a design may leave in the folder, whether they are there or not.
+std::vector<std::filesystem::path> designFiles(const std::filesystem::path& folder);
+
 /// Removes design.json and the cases: a search goes on in this folder and may find others. Throws OutputError.
 void forgetDesign(const std::filesystem::path& folder);
 

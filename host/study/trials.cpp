@@ -11,7 +11,7 @@
 #include "host/analysis/cycles.h"
 #include "host/analysis/mass_rate.h"
 #include "host/core/columns.h"
-#include "host/output/measured.h"
+#include "host/output/figure_words.h"
 #include "host/output/summary.h"
 #include "host/sim/body_loads.h"
 

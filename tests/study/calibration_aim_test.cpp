@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/study/trials.h"
 #include "tests/study/study_files.h"
 #include "tests/support/catch.h"
 
@@ -173,4 +174,18 @@ TEST_CASE("a design has goals, each with a wish or a bound") {
     refused(goals + free + "[[axis]]\nkey = \"contact.friction\"\nvalues = [0.1, 0.2]\n", "a search has no axes");
     refused(goals + free + "[calibrate]\ntarget_g_per_dose = 1\ntolerance_g = 1\n", "stands beside [calibrate]");
     refused(with("\"coil.pitch_mm\"", "\"seed\""), "design.parameter[0].key");
+}
+
+TEST_CASE("a target may name each figure that the run of its case has") {
+    const std::vector<std::string> ring = figureNames(loadCase(VKDOSE_SOURCE_DIR "/cases/elements/ring-shear.toml"));
+    const std::vector<std::string> mini = figureNames(loadCase(VKDOSE_SOURCE_DIR "/cases/mini.toml"));
+    const auto has = [](const std::vector<std::string>& names, const std::string& name) {
+        return std::count(names.begin(), names.end(), name) == 1;
+    };
+    for (const char* name : {"mass_per_dose_g", "dose.rsd", "dose.left_kg", "rate.steady_kg_s", "cycle.steady_kg",
+                             "coil.largest_torque_Nm"})
+        CHECK(has(mini, name));
+    CHECK_FALSE(has(mini, "coil.rsd"));
+    for (const char* name : {"ring-shear.friction_angle_deg", "ring-shear.ffc", "ring-shear.unconfined_strength_Pa"})
+        CHECK(has(ring, name));
 }

@@ -7,7 +7,7 @@ import os
 import stat
 
 import folders
-from ground import CHECKPOINT
+from ground import CHECKPOINT, of_design
 
 NAME, TRIES = "foreign", 80
 
@@ -21,7 +21,7 @@ STRANGE_IN_SWEEP = ("notes.txt", "report.html", "members/notes.txt", "members/00
                     "members/0000/frames/notes.txt", "members/0000/report.html", "members/0007/case.toml")
 SWEEP_LIKE = ("study.toml", "base.toml", "members.csv", "doses.csv", "members/0000/case.toml",
               "members/0000/timeseries.csv", "members/0001/frames/frames.csv", "members/0000/particles.csv",
-              "calibrated.toml", "calibration.json", "members", "confirm/members.csv", "confirm/notes.txt",
+              "calibrated.toml", "calibration.json", "design.json", "design-2.toml", "members", "confirm/members.csv", "confirm/notes.txt",
               "confirm") + STRANGE_IN_SWEEP
 
 
@@ -102,7 +102,7 @@ def inputs_there(t, own):
 
 def sweep_into(t, own):
     """A sweep into the folder of its study, or into one with files that are none of a sweep's."""
-    command = t.rng.choice(("sweep", "sweep", "sweep", "calibrate", "prepare"))
+    command = t.rng.choice(("sweep", "sweep", "sweep", "calibrate", "design", "prepare"))
     names = {"study.toml": t.rng.choice(("study.toml", "mine.toml")),
              "base-case.toml": t.rng.choice(("base.toml", "base-case.toml"))}
     t.ground.study(t.folder)
@@ -110,6 +110,8 @@ def sweep_into(t, own):
     text = text.replace("base-case.toml", names["base-case.toml"])
     if command == "calibrate":
         text += '[calibrate]\ntarget_g_per_dose = 0.01\ntolerance_g = 0.01\nalong = "contact.friction"\n'
+    if command == "design":
+        text = of_design(text)
     base = folders.bytes_of(t.path("base-case.toml"))
     os.unlink(t.path("study.toml"))
     os.unlink(t.path("base-case.toml"))
@@ -121,9 +123,9 @@ def sweep_into(t, own):
     if former:
         folders.copy(t.ground.broken_sweep(), t.path("out"))
     scatter(t, own, t.path(out), STRANGE_IN_SWEEP if former else SWEEP_LIKE, 3)
-    words = ["calibrate" if command == "calibrate" else "sweep", names["study.toml"], "--out", out, "--quiet",
+    words = [command if command in ("calibrate", "design") else "sweep", names["study.toml"], "--out", out, "--quiet",
              "--jobs", "1", "--backend", "reference"]
-    words += {"prepare": ["--prepare"], "sweep": t.rng.choice(([], ["--retry-failed"])), "calibrate": []}[command]
+    words += {"prepare": ["--prepare"], "sweep": t.rng.choice(([], ["--retry-failed"])), "calibrate": [], "design": []}[command]
     t.vkdose(*words)
     own.judge(f"`{' '.join(words[:1] + words[-1:])}`")
 

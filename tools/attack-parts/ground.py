@@ -101,6 +101,24 @@ class Try:
             folders.remove(self.folder)
 
 
+DESIGN = """[design]
+max_runs = 3
+confirming_seeds = 2
+[[design.goal]]
+figure = "dose.left_kg"
+wish = "largest"
+[[design.parameter]]
+key = "contact.friction"
+low = 0.3
+high = 0.5
+"""
+
+
+def of_design(study):
+    """The study with a design in place of its axes."""
+    return study.split("[[axis]]")[0] + DESIGN
+
+
 class Ground:
     """What all tries share. Undisturbed runs are made when first asked for and kept."""
 

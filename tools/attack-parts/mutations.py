@@ -14,7 +14,7 @@ import time
 import zlib
 
 import folders
-from ground import CHECKPOINT, MINI
+from ground import CHECKPOINT, MINI, of_design
 from spoil import spoil
 
 NAME, TRIES = "mutations", 500
@@ -33,15 +33,21 @@ TARGETS = (
     ("report", OF_A_RUN + OF_A_RUN[1:3] + ["summary.json"] * 2 + ["particles.csv", "frames/contacts_000001.hdf"]),
     ("report", ["experiment.csv", "profile.csv"] * 2),
     ("report-sweep", ["members.csv", "doses.csv", "study.toml", "base.toml", "members/0000/case.toml"]),
-    ("report-sweep", ["expected.toml"] * 2 + ["calibration.json"] * 2),
+    ("report-sweep", ["expected.toml"] * 2 + ["calibration.json"] * 2 + ["design.json"]),
     ("render", ["case.toml", "frames/frames.csv", "frames/particles_000001.hdf", "particles.csv"]),
     ("profile", ["photo.png"] * 3),
     ("sweep", ["study.toml"] * 2 + ["base-case.toml"]),
     ("sweep-on", ["members.csv", "doses.csv", "study.toml", "base.toml"]),
     ("sweep-on", ["members/0000/case.toml", "members/0001/case.toml", "members/*/" + CHECKPOINT]),
     ("calibrate", ["study.toml", "measured.csv"]),
+    ("design", ["study.toml"]),
 )
 DECK = [(command, name) for command, names in TARGETS for name in names]
+FRONT = """{"goals": [{"name": "dose.left_kg", "base": "base-case.toml", "wish": "largest", "at_least": null,
+ "at_most": 0.2}], "parameters": [{"key": "contact.friction", "low": 0.3, "high": 0.5}],
+ "points": [{"at": [0.4], "values": [[0.1, null]]}], "confirming_seeds": [3, 4],
+ "front": [{"point": 0, "at": [0.4], "figures": [[0.1, 0.02]], "verdict": "on the front"}]}
+"""
 FINDING = """{"met": true, "misfit": 0.01, "best": 1,
  "targets": [{"name": "beta", "unit": "g", "base": "base-case.toml", "value": 3, "uncertainty": 0.1, "weight": 1,
               "believed": 3.01, "deviation": 0.02}],
@@ -97,8 +103,11 @@ def prepare(t, command, name):
     if command == "profile":
         folders.write(t.path(name), photo())
         return ["profile", name, "--mm-per-pixel", "0.2", "--check", "check.png"], t.path(name)
-    if command in ("sweep", "calibrate"):
+    if command in ("sweep", "calibrate", "design"):
         study = ground.study(t.folder)
+        if command == "design":
+            folders.write(t.path(study), of_design(folders.bytes_of(t.path(study)).decode()))
+            return ["design", study, "--dry-run", "--jobs", "1", "--backend", "reference"], t.path(name)
         if command == "sweep":
             return ground.sweep_words("out", "reference"), t.path(name)
         readings = "".join(f"{i},{0.5 + 0.01 * (i % 3)}\n" for i in range(1, 8))
@@ -114,6 +123,9 @@ def prepare(t, command, name):
         folders.copy(ground.good_sweep("reference")[0], t.path("out"))
         shutil.copy(os.path.join(os.path.dirname(MINI), "paper", "expected.toml"), t.path("expected.toml"))
         folders.write(t.path("out", "calibration.json"), FINDING)
+        folders.write(t.path("out", "design.json"), FRONT)
+        study = folders.bytes_of(t.path("out", "study.toml")).decode()
+        folders.write(t.path("out", "study.toml"), of_design(study))
         at = t.path(name) if name == "expected.toml" else t.path("out", name)
         return ["report", "out", "--expected", "expected.toml"], at
     if command == "resume":
