@@ -31,7 +31,8 @@ bool keepsBounds(const std::vector<CalibrationTarget>& goals, const std::vector<
 }
 
 /// Whether a is at least as good as b in all wishes, and better in one.
-bool beats(const std::vector<CalibrationTarget>& goals, const std::vector<double>& a, const std::vector<double>& b) {
+bool dominates(const std::vector<CalibrationTarget>& goals, const std::vector<double>& a,
+               const std::vector<double>& b) {
     bool better = false;
     for (std::size_t g = 0; g < goals.size(); ++g) {
         if (goals[g].wish == Wish::None) continue;
@@ -41,16 +42,16 @@ bool beats(const std::vector<CalibrationTarget>& goals, const std::vector<double
     return better;
 }
 
-/// Those of the rows that keep the bounds and are beaten by none of the others that do; along the first wish, the best
-/// first.
+/// Those of the rows that keep the bounds and are dominated by none of the others that do; along the first wish, the
+/// best first.
 std::vector<std::size_t> frontOf(const std::vector<CalibrationTarget>& goals,
                                  const std::vector<std::vector<double>>& rows) {
     std::vector<std::size_t> front;
     for (std::size_t i = 0; i < rows.size(); ++i) {
-        const bool beaten = std::any_of(rows.begin(), rows.end(), [&](const std::vector<double>& other) {
-            return keepsBounds(goals, other) && beats(goals, other, rows[i]);
+        const bool dominated = std::any_of(rows.begin(), rows.end(), [&](const std::vector<double>& other) {
+            return keepsBounds(goals, other) && dominates(goals, other, rows[i]);
         });
-        if (keepsBounds(goals, rows[i]) && !beaten) front.push_back(i);
+        if (keepsBounds(goals, rows[i]) && !dominated) front.push_back(i);
     }
     const auto first = std::find_if(goals.begin(), goals.end(), [](const auto& g) { return g.wish != Wish::None; });
     const auto g = std::size_t(first - goals.begin());
@@ -122,7 +123,7 @@ class FrontSearch {
     }
 
     /// The probability that all bounds are kept.
-    double hope(const std::vector<Belief>& beliefs) const {
+    double feasibility(const std::vector<Belief>& beliefs) const {
         double product = 1;
         for (std::size_t g = 0; g < goals_.size(); ++g) {
             const auto below = [&](double bound) {
@@ -156,7 +157,7 @@ class FrontSearch {
 
     double gain(const Processes& processes, const UnitPoint& u, double least) const {
         const std::vector<Belief> beliefs = beliefsAt(processes, u);
-        const double kept = hope(beliefs);
+        const double kept = feasibility(beliefs);
         if (!std::isfinite(least) || kept < kLeastGain) return kept;
         double sum = 0;
         std::vector<double> figures(goals_.size());
@@ -225,7 +226,7 @@ class FrontSearch {
             p.verdict = !complete                                       ? FrontPoint::Verdict::Incomplete
                         : !keepsBounds(goals_, means[k])                ? FrontPoint::Verdict::OutOfBounds
                         : std::count(front.begin(), front.end(), k) > 0 ? FrontPoint::Verdict::OnFront
-                                                                        : FrontPoint::Verdict::Beaten;
+                                                                        : FrontPoint::Verdict::Dominated;
         }
         return result;
     }
@@ -252,8 +253,8 @@ std::string verdictText(FrontPoint::Verdict verdict) {
     switch (verdict) {
         case FrontPoint::Verdict::OnFront:
             return "on the front";
-        case FrontPoint::Verdict::Beaten:
-            return "beaten";
+        case FrontPoint::Verdict::Dominated:
+            return "dominated";
         case FrontPoint::Verdict::OutOfBounds:
             return "out of bounds";
         case FrontPoint::Verdict::Incomplete:

@@ -17,7 +17,7 @@ namespace vkdose {
 struct FrontPoint {
     enum class Verdict {
         OnFront,      ///< it keeps the bounds, and no other such point is at least as good in all wishes
-        Beaten,       ///< another one is
+        Dominated,    ///< another one is
         OutOfBounds,  ///< the mean of a figure is beyond a bound
         Incomplete,   ///< some of the runs do not have all figures
     };
@@ -41,7 +41,7 @@ inline constexpr std::size_t kMostOnFront = 8;
 std::optional<FrontResult> searchFront(const CalibrationAim& aim, const TryPoints& tryPoints,
                                        const ConfirmPoint& confirmPoint);
 
-/// "on the front", "beaten", "out of bounds", "incomplete".
+/// "on the front", "dominated", "out of bounds", "incomplete".
 std::string verdictText(FrontPoint::Verdict verdict);
 
 }  // namespace vkdose

@@ -144,7 +144,7 @@ TEST_CASE("a single wish leads to its best point") {
 
 TEST_CASE("only runs with new seeds say what lies on the front") {
     const CalibrationAim aim = aimAt({goal(Wish::Largest, -INFINITY, 1.5), goal(Wish::Smallest)}, 5, 2);
-    // All points are on the front by their first runs; then one is beaten, one breaks a bound, one has no figure.
+    // All points are on the front by their first runs; then one is dominated, one breaks a bound, one has no figure.
     const auto first = [](const Parameters& p) { return Figures{p[0], p[0]}; };
     const auto then = [](const Parameters& p) -> std::optional<Trials> {
         if (p[0] == 0.25) return Trials{{{0.2, 0.2, 0.2}, 0}, {{0.6, 0.6, 0.6}, 0}};
@@ -159,7 +159,7 @@ TEST_CASE("only runs with new seeds say what lies on the front") {
         REQUIRE(p != r.front.end());
         return *p;
     };
-    CHECK(at(0.25).verdict == Place::Beaten);
+    CHECK(at(0.25).verdict == Place::Dominated);
     CHECK(at(0.75).verdict == Place::OutOfBounds);
     CHECK(at(0.125).verdict == Place::Incomplete);
     CHECK(at(0.5).verdict == Place::OnFront);
