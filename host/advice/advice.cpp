@@ -67,6 +67,7 @@ constexpr std::array kRules{
     Rule{"frames", fewFrames},
     Rule{"sensors", fewSensors},
     Rule{"sensors-alias", aliasedSensors},
+    Rule{"rate-window", longWindow},
     Rule{"time-step", shortStep},
     Rule{"resolution", coarseNumbers},
     Rule{"run-length", longRun},

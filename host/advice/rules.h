@@ -95,6 +95,7 @@ Found shortLongestTime(const Subject& s);
 Found smallDose(const Subject& s);
 Found earlyStop(const Subject& s);
 Found lateRefill(const Subject& s);
+Found longWindow(const Subject& s);
 Found fewFrames(const Subject& s);
 Found fewSensors(const Subject& s);
 Found aliasedSensors(const Subject& s);

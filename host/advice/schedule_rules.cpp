@@ -131,6 +131,17 @@ Found lateRefill(const Subject& s) {
     return {};
 }
 
+Found longWindow(const Subject& s) {
+    const Schedule& plan = s.c.schedule;
+    const double turning = plan.rotateTime > 0 ? plan.rotateTime * plan.stop.maxDoses : s.f.runTime;
+    if (!(s.c.rateWindow > turning)) return {};
+    return Finding{
+        "sensors.rate_window_s",
+        fmt::format("the feeder works for {:.3g} s in all, so that no window is whole, and no mass rate is told",
+                    turning),
+        fmt::format("give about {:.2g}, for twenty windows, or leave it out", turning / 20)};
+}
+
 Found fewFrames(const Subject& s) {
     if (s.c.frames.interval == 0 || s.c.frames.interval <= s.f.runTime) return {};
     return Finding{"frames.interval_s", fmt::format("is longer than the run, which takes some {:.3g} s", s.f.runTime),

@@ -88,6 +88,7 @@ inline const std::vector<Slip> kSlips{
      {"refill[0].below_g", "never above its mark"}},
     {{"frames.interval_s=10"}, "frames", {"2.4 s"}},
     {{"sensors.interval_s=0.5"}, "sensors", {"a rotation of 0.8 s"}},
+    {{"sensors.rate_window_s=10"}, "rate-window", {"works for 1.6 s", "give about 0.08"}},
     {{"time.step_s=1e-7"}, "time-step", {"times as long", "\"auto\""}},
     {{"time.step_s=1e-12", "sensors.interval_s=1e-4"},
      "resolution",
