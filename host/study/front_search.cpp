@@ -126,13 +126,12 @@ class FrontSearch {
     double feasibility(const std::vector<Belief>& beliefs) const {
         double product = 1;
         for (std::size_t g = 0; g < goals_.size(); ++g) {
-            const auto below = [&](double bound) {
-                const double away = bound - beliefs[g].mean;
-                if (beliefs[g].deviation > 0) return normalBelow(away / beliefs[g].deviation);
-                return away >= 0 ? 1.0 : 0.0;
-            };
-            if (std::isfinite(goals_[g].atMost)) product *= below(goals_[g].atMost);
-            if (std::isfinite(goals_[g].atLeast)) product *= 1 - below(goals_[g].atLeast);
+            const Belief& b = beliefs[g];
+            const double low = goals_[g].atLeast - b.mean, high = goals_[g].atMost - b.mean;  // may be infinite
+            if (b.deviation > 0)
+                product *= normalBelow(high / b.deviation) - normalBelow(low / b.deviation);
+            else if (low > 0 || high < 0)
+                return 0;
         }
         return product;
     }

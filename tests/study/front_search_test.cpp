@@ -129,6 +129,15 @@ TEST_CASE("a design keeps its bounds, also where none of the first points does")
         CHECK(p.verdict == Place::OnFront);
     }
     CHECK(r.front.front().figures[0].value > 0.9);
+    // A band has two bounds.
+    for (const FrontPoint& p :
+         found(aimAt({goal(Wish::Largest), goal(Wish::None, 0.45, 0.5)}, 15, 2), [](const Parameters& at) {
+             return Figures{at[0], at[1]};
+         }).front) {
+        CHECK(p.figures[0].value > 0.9);
+        CHECK(p.figures[1].value >= 0.45);
+        CHECK(p.figures[1].value <= 0.5);
+    }
     // A bound that no point keeps leaves no front.
     CHECK(found(aimAt({goal(Wish::Largest, 3), goal(Wish::None)}, 8, 2), [](const Parameters& p) {
               return Figures{p[0], p[1]};
