@@ -61,6 +61,13 @@ std::vector<std::size_t> frontOf(const std::vector<CalibrationTarget>& goals,
     return front;
 }
 
+/// What the processes believe of each figure at a point.
+std::vector<Belief> beliefsAt(const Processes& processes, const UnitPoint& u) {
+    std::vector<Belief> all;
+    for (const GaussianProcess& process : processes) all.push_back(process.at(u));
+    return all;
+}
+
 class FrontSearch {
   public:
     FrontSearch(const CalibrationAim& aim, const TryPoints& tryPoints, const ConfirmPoint& confirmPoint)
@@ -136,12 +143,6 @@ class FrontSearch {
         return product;
     }
 
-    std::vector<Belief> beliefsAt(const Processes& processes, const UnitPoint& u) const {
-        std::vector<Belief> all;
-        for (const GaussianProcess& process : processes) all.push_back(process.at(u));
-        return all;
-    }
-
     /// The least weighed figure that is believed of a tried point within the bounds; infinite without one.
     double leastBelieved(const Processes& processes) const {
         double least = kInfinite;
@@ -184,7 +185,7 @@ class FrontSearch {
     std::vector<std::size_t> candidates() const {
         std::vector<std::vector<double>> rows;
         for (std::size_t i = 0; i < sampled_.size(); ++i) rows.push_back(figuresOf(i));  // NaN keeps no bounds
-        const std::vector<std::size_t> front = frontOf(goals_, rows);
+        std::vector<std::size_t> front = frontOf(goals_, rows);
         if (front.size() <= kMostOnFront) return front;
         std::vector<std::size_t> spread;
         for (std::size_t k = 0; k < kMostOnFront; ++k)
