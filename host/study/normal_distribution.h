@@ -1,5 +1,5 @@
 #pragma once
-// The standard normal distribution.
+// The standard normal distribution, and points that are evenly spread over a cube or over it.
 
 #include <cstddef>
 #include <vector>
