@@ -138,20 +138,12 @@ int reportSearch(const CalibrationRuns& parts, const SearchResult& result, const
 }
 
 int runSearch(CalibrationRuns& parts, const std::vector<Member>& first) {
-    SearchRuns runs(parts);
-    ConfirmingRuns confirming(parts, confirmingSeeds(parts.study, first));
-    std::optional<SearchResult> result;
-    try {
-        result = search(*parts.study.calibration, std::ref(runs), [&](const Parameters& point) {
-            return confirming.at(settingsAt(parts.study, point), parts.options.retryFailed && !runs.goesOn());
-        });
-    } catch (const FolderError&) {  // a later point was another one
-        parts.folder.keepFormerStudy();
-        throw;
-    }
-    if (!result) return halted(parts);
-    parts.folder.sort();
-    return reportSearch(parts, *result, confirming.seeds());
+    return playSearch(
+        parts, first,
+        [&](const TryPoints& tryPoints, const ConfirmPoint& confirmPoint) {
+            return search(*parts.study.calibration, tryPoints, confirmPoint);
+        },
+        reportSearch);
 }
 
 int runGrid(CalibrationRuns& parts, const std::vector<Member>& members) {
@@ -179,14 +171,9 @@ int calibrateCommand(const SweepOptions& options) {
         tell("{}", planText(options, study, members, laterMembers(study, known)));
         return kOk;
     }
-    const std::unique_ptr<MemberRunner> runner = makeRunner(options);
-    const HaltRule halt = haltRule(watchInterrupts(), options.limit);
-    SweepDisplay display("calibrate", study, options.quiet);
-    const std::filesystem::path out = sweepFolder(options);
-    SweepFolder::requireUsable(confirmingFolder(out), study);
-    SweepFolder folder(out, study, members, isSearch ? SweepFolder::Manner::Open : SweepFolder::Manner::Whole);
-    CalibrationRuns parts{study, folder, *runner, display, halt, options};
-    return isSearch ? runSearch(parts, members) : runGrid(parts, members);
+    return withRuns(options, study, members, [&](CalibrationRuns& parts) {
+        return isSearch ? runSearch(parts, members) : runGrid(parts, members);
+    });
 }
 
 }  // namespace vkdose

@@ -7,7 +7,6 @@
 #include "host/app/calibration_text.h"
 #include "host/app/commands.h"
 #include "host/app/exit_code.h"
-#include "host/app/interrupt.h"
 #include "host/app/search_runs.h"
 #include "host/app/sweep_display.h"
 #include "host/app/sweep_setup.h"
@@ -16,7 +15,6 @@
 #include "host/core/error.h"
 #include "host/core/file.h"
 #include "host/core/printable.h"
-#include "host/output/run_folder.h"
 #include "host/study/calibration_finding.h"
 #include "host/study/design_finding.h"
 
@@ -120,27 +118,14 @@ int designCommand(const SweepOptions& options) {
         tell("{}", planText(options, study, members, laterMembers(study, known)));
         return kOk;
     }
-    const std::unique_ptr<MemberRunner> runner = makeRunner(options);
-    const HaltRule halt = haltRule(watchInterrupts(), options.limit);
-    SweepDisplay display("design", study, options.quiet);
-    const std::filesystem::path out = sweepFolder(options);
-    SweepFolder::requireUsable(confirmingFolder(out), study);
-    SweepFolder folder(out, study, members, SweepFolder::Manner::Open);
-    CalibrationRuns parts{study, folder, *runner, display, halt, options};
-    SearchRuns runs(parts);
-    ConfirmingRuns confirming(parts, confirmingSeeds(study, members));
-    std::optional<FrontResult> result;
-    try {
-        result = searchFront(*study.calibration, std::ref(runs), [&](const Parameters& point) {
-            return confirming.at(settingsAt(study, point), options.retryFailed && !runs.goesOn());
-        });
-    } catch (const FolderError&) {  // a later point was another one
-        folder.keepFormerStudy();
-        throw;
-    }
-    if (!result) return halted(parts);
-    folder.sort();
-    return report(parts, *result, confirming.seeds());
+    return withRuns(options, study, members, [&](CalibrationRuns& parts) {
+        return playSearch(
+            parts, members,
+            [&](const TryPoints& tryPoints, const ConfirmPoint& confirmPoint) {
+                return searchFront(*study.calibration, tryPoints, confirmPoint);
+            },
+            report);
+    });
 }
 
 }  // namespace vkdose

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "host/app/exit_code.h"
+#include "host/app/interrupt.h"
 #include "host/app/sweep_setup.h"
 #include "host/app/tell.h"
 #include "host/core/error.h"
@@ -101,6 +102,19 @@ std::vector<Member> cornersOf(const Study& study) {
 int halted(CalibrationRuns& parts) {
     parts.display.finish(parts.folder, outcomeOf(parts), parts.options);
     return haltCode(parts.last.halt);
+}
+
+int withRuns(const SweepOptions& options, const Study& study, const std::vector<Member>& members,
+             const std::function<int(CalibrationRuns&)>& play) {
+    const CalibrationAim& aim = *study.calibration;
+    const std::unique_ptr<MemberRunner> runner = makeRunner(options);
+    const HaltRule halt = haltRule(watchInterrupts(), options.limit);
+    SweepDisplay display(aim.table(), study, options.quiet);
+    const std::filesystem::path out = sweepFolder(options);
+    SweepFolder::requireUsable(confirmingFolder(out), study);
+    SweepFolder folder(out, study, members, aim.searches() ? SweepFolder::Manner::Open : SweepFolder::Manner::Whole);
+    CalibrationRuns parts{study, folder, *runner, display, halt, options};
+    return play(parts);
 }
 
 std::vector<std::uint64_t> confirmingSeeds(const Study& study, const std::vector<Member>& members) {

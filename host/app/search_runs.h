@@ -3,11 +3,14 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <vector>
 
 #include "host/app/commands.h"
 #include "host/app/sweep_display.h"
+#include "host/output/run_folder.h"
+#include "host/study/calibration_finding.h"
 #include "host/study/sweep.h"
 #include "host/study/trials.h"
 
@@ -74,5 +77,29 @@ class ConfirmingRuns {
     std::vector<std::uint64_t> seeds_;
     std::optional<SweepFolder> folder_;
 };
+
+/// Opens the folder of a calibration or a design that begins with these members, and plays it. Gives the exit code.
+int withRuns(const SweepOptions& options, const Study& study, const std::vector<Member>& members,
+             const std::function<int(CalibrationRuns&)>& play);
+
+/// Plays a search that begins with the members `first`. `find(tryPoints, confirmPoint)` gives its result, nothing if it
+/// was halted; `report(parts, result, confirmingSeeds)` tells it, and gives the exit code.
+template <class Find, class Report>
+int playSearch(CalibrationRuns& parts, const std::vector<Member>& first, const Find& find, const Report& report) {
+    SearchRuns runs(parts);
+    ConfirmingRuns confirming(parts, confirmingSeeds(parts.study, first));
+    decltype(find(TryPoints(), ConfirmPoint())) result;
+    try {
+        result = find(std::ref(runs), [&](const Parameters& point) {
+            return confirming.at(settingsAt(parts.study, point), parts.options.retryFailed && !runs.goesOn());
+        });
+    } catch (const FolderError&) {  // a later point was another one
+        parts.folder.keepFormerStudy();
+        throw;
+    }
+    if (!result) return halted(parts);
+    parts.folder.sort();
+    return report(parts, *result, confirming.seeds());
+}
 
 }  // namespace vkdose

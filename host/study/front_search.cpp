@@ -102,7 +102,7 @@ class FrontSearch {
             double high = -kInfinite;
             for (std::size_t i = 0; i < sampled_.size(); ++i) {
                 if (!sampled_.whole(i)) continue;
-                const double here = cost(goals_[wished_[w]], figuresOf(i)[wished_[w]]);
+                const double here = cost(goals_[wished_[w]], sampled_.values(wished_[w])[i].value);
                 low_[w] = std::min(low_[w], here);
                 high = std::max(high, here);
             }

@@ -70,7 +70,8 @@ constexpr Key kTarget[] = {
     text(
         "figure", kRequired,
         "`\"mass_per_dose_g\"`, a figure of the doses (`\"dose.mean_kg\"`, `\"dose.rsd\"`, `\"dose.left_kg\"`: what is "
-        "left), of the mass rate (`\"rate.steady_kg_s\"`) or of the cycles (`\"cycle.steady_kg\"`), or the name of a "
+        "left in the canister), of the mass rate (`\"rate.steady_kg_s\"`) or of the cycles (`\"cycle.steady_kg\"`), or "
+        "the name of a "
         "`[[measure]]` (`\"heap.angle_deg\"`) or a body (`\"coil.largest_torque_Nm\"`) and its figure, named as in "
         "`summary.json`"),
     number("value", kPlain, Bound::Any, kRequired, "measured, in the unit of the figure"),
