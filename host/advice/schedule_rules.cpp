@@ -33,7 +33,7 @@ constexpr double kFastSteps = 1e4;
 bool isBed(const Case& c) {
     if (!c.filling.list) return false;
     std::size_t contacts = 0;
-    forEachOverlap(*c.filling.list, [&](std::size_t, std::size_t, double) { ++contacts; });
+    forEachOverlap(c.world, *c.filling.list, [&](std::size_t, std::size_t, double) { ++contacts; });
     return contacts >= c.filling.list->size();
 }
 

@@ -39,10 +39,17 @@ class Stops {
 
 std::vector<FlowSample> flowSamples(const Table& series) {
     std::vector<FlowSample> samples;
+    // Of three directions those that do not repeat have nothing that goes through.
+    const bool repeats = series.has("through_x_kg");
+    const auto out = [&](std::size_t i) {
+        double mass = series.number(i, "dosed_mass_kg");
+        if (repeats)
+            for (const char* name : {"through_x_kg", "through_y_kg", "through_z_kg"}) mass += series.number(i, name);
+        return mass;
+    };
     for (std::size_t i = 0; i < series.rows(); ++i)
         samples.push_back({series.number(i, "time_s"), series.text(i, "phase") == "rotate",
-                           static_cast<int>(series.number(i, "dose")), series.number(i, "coil_angle_rad"),
-                           series.number(i, "dosed_mass_kg"),
+                           static_cast<int>(series.number(i, "dose")), series.number(i, "coil_angle_rad"), out(i),
                            series.number(i, "canister_mass_kg") + series.number(i, "throat_mass_kg")});
     return samples;
 }

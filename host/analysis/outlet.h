@@ -15,7 +15,7 @@ struct FlowSample {
     bool turning = false;
     int dose = 0;
     double angle = 0;   ///< of the coil, turned since the start [rad]
-    double dosed = 0;   ///< [kg]
+    double dosed = 0;   ///< and gone through the end of a domain that repeats [kg]
     double inside = 0;  ///< canister and throat [kg]
 };
 

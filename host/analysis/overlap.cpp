@@ -10,7 +10,7 @@ namespace vkdose {
 std::vector<double> overlapRatios(const Particles& particles, const World& world, double coilAngle, double time,
                                   const std::vector<Moved>& moved) {
     std::vector<double> ratio(particles.size(), 0.0);
-    forEachOverlap(particles, [&](std::size_t i, std::size_t j, double deep) {
+    forEachOverlap(world, particles, [&](std::size_t i, std::size_t j, double deep) {
         ratio[i] = std::max(ratio[i], deep);
         ratio[j] = std::max(ratio[j], deep);
     });

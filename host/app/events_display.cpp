@@ -49,6 +49,7 @@ void EventsDisplay::onSample(const Sample& sample) {
     Json event{{"event", "sample"}};
     putColumns(kSampleColumns, sample, event);
     if (sample.energy) putColumns(kEnergyColumns, *sample.energy, event);
+    if (case_.world.repeats()) putColumns(kThroughColumns, sample.sensors, event);
     const std::vector<std::string> names = bodyNames(case_.world);
     for (std::size_t b = 0; b < sample.bodies.size(); ++b)
         putColumns(kBodyColumns, sample.bodies[b], event["bodies"][names.at(b)]);

@@ -73,8 +73,11 @@ struct Sensors {
     double coilTorque = 0;         ///< torque about +z that the particles exert on the coil, mean over the call [N m]
     std::vector<BodyLoad> bodies;  ///< of each of allBodies
     double throatMomentumZ = 0;    ///< sum of m v_z in the throat; divided by the mass there: outlet velocity [kg m/s]
-    double maxOverlapRatio = 0;    ///< largest overlap over smaller radius seen during the call [-]
-    std::uint64_t rebuilds = 0;    ///< neighbour-list builds since load
+    /// Mass that has gone through the end of the domain along x, y and z since the load, upwards less downwards; 0 in
+    /// directions that do not repeat [kg].
+    std::array<double, 3> through{};
+    double maxOverlapRatio = 0;        ///< largest overlap over smaller radius seen during the call [-]
+    std::uint64_t rebuilds = 0;        ///< neighbour-list builds since load
     std::optional<EnergyBook> energy;  ///< if the world asks for it and a step has been made since load
 };
 

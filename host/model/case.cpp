@@ -208,6 +208,7 @@ Case interpret(const std::filesystem::path& file, Node tree, std::vector<std::fi
     checkScales(reader, c, sizes);
     reader.throwIfFaulty();
     checkTouches(reader, c, sizes.largest);
+    checkPeriod(reader, c, sizes);
     reader.throwIfFaulty();
 
     const Insertion filled = insertParticles(c);

@@ -31,6 +31,10 @@ void checkFilling(CaseReader& reader, const Case& c, double largestRadius);
 /// Checks whether each refill holds a particle.
 void checkRefills(CaseReader& reader, const Case& c, const Insertion& filled);
 
+// period_checks.cpp
+/// Checks whether a domain that repeats is long enough, and whether walls, coil and bodies repeat with it.
+void checkPeriod(CaseReader& reader, const Case& c, const SizeRange& radii);
+
 // scales.cpp
 /// Checks for numbers that do not go together: masses beyond single precision, a way in one step so long that contacts
 /// are skipped, durations that are not a valid number of steps.

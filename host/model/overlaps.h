@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/model/particles.h"
+#include "host/model/world.h"
 
 namespace vkdose {
 
@@ -39,6 +40,26 @@ void forEachOverlap(const Particles& p, const Visit& visit) {
             visit(i, j, (touch - glm::length(apart)) / std::min(p.radius[i], p.radius[j]));
         }
     }
+}
+
+/// Particles, and behind them their images.
+struct Imaged {
+    Particles all;
+    std::vector<std::size_t> of;  ///< the particle of each image
+};
+/// The images that may touch a particle at the other end of a domain that repeats: each pair that touches across an end
+/// is there once.
+Imaged withImages(const World& world, const Particles& particles);
+
+/// The same in a world whose domain may repeat. There they come in any order.
+template <class Visit>
+void forEachOverlap(const World& world, const Particles& p, const Visit& visit) {
+    if (!world.repeats()) return forEachOverlap(p, visit);
+    const Imaged imaged = withImages(world, p);
+    const auto particle = [&](std::size_t i) { return i < p.size() ? i : imaged.of[i - p.size()]; };
+    forEachOverlap(imaged.all, [&](std::size_t i, std::size_t j, double ratio) {
+        if (i < p.size() || j < p.size()) visit(particle(i), particle(j), ratio);
+    });
 }
 
 }  // namespace vkdose

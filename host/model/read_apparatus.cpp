@@ -256,6 +256,9 @@ bool readDomain(Section& root, Case& c) {
     if (!root.has("domain")) return false;
     Section& domain = root.table("domain");
     c.world.domain = {domain.vector("low"), domain.vector("high")};
+    static constexpr const char* kDirections[] = {"", "x", "y", "z", "xy", "xz", "yz"};  // the words of the key
+    for (const char* name = kDirections[domain.choice("periodic").value_or(0)]; *name != '\0'; ++name)
+        c.world.period[*name - 'x'] = c.world.domain.high[*name - 'x'] - c.world.domain.low[*name - 'x'];
     return true;
 }
 

@@ -114,6 +114,9 @@ constexpr Key kDomain[] = {
     vector("low", kMetre, told("canister and fill with a margin; without a canister the particles, and as much again"),
            "lower corner of the box outside of which a particle is lost, which ends the run"),
     vector("high", kMetre, told("likewise"), "upper corner"),
+    word("periodic", "none x y z xy xz yz", "none",
+         "directions in which the domain repeats: what leaves it at one end comes in at the other, and spheres touch "
+         "across the ends. Needs `low` and `high`"),
 };
 
 constexpr KeyTable kTables[] = {

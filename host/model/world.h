@@ -2,6 +2,7 @@
 // The world that a backend simulates, free of file formats: surfaces, coil, time step. Built from a Case by
 // model/case.h, or by hand in tests.
 
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -24,6 +25,13 @@ struct Box {
     Vec3 high{1.0};
 };
 
+/// A way [m] without whole periods, so that it is the shortest. Directions of period 0 do not repeat.
+inline Vec3 shortest(Vec3 way, const Vec3& period) {
+    for (int d = 0; d < 3; ++d)
+        if (period[d] > 0) way[d] -= period[d] * std::round(way[d] / period[d]);
+    return way;
+}
+
 /// Overlap over smaller radius above which a run stops, unless the case gives another limit. The contact laws here are
 /// not made for larger overlaps.
 inline constexpr double kMaxOverlapRatio = 0.2;
@@ -45,6 +53,10 @@ struct World {
     double maxOverlapRatio = kMaxOverlapRatio;
     bool energyBook = false;  ///< keep the energy book (Sensors::energy)
     Box domain;
+    /// Length of the domain in directions that repeat, else 0; at most two repeat [m]. A particle that leaves the
+    /// domain at one end comes in at the other. Bodies and surfaces are as they are drawn: they are to repeat by
+    /// themselves.
+    Vec3 period{0};
     /// A particle is in the throat if its centre is past throatZ. It is dosed if its centre is past outletZ or in a
     /// region that deletes. Infinite: no throat, no such plane.
     double throatZ = std::numeric_limits<double>::infinity();
@@ -60,6 +72,9 @@ struct World {
         return surface < surfaceMaterials.size() ? surfaceMaterials[surface] : kWallMaterial;
     }
 
+    bool repeats() const { return period != Vec3(0); }
+    /// A way between two places of the domain, by the shortest image [m].
+    Vec3 shortest(const Vec3& way) const { return vkdose::shortest(way, period); }
     bool doses(const Vec3& x) const {
         for (const CountRegion& region : regions)
             if (region.deletes && region.holds(x)) return true;
@@ -75,6 +90,12 @@ struct RuledWorld : World {
 /// Of particle i [kg].
 inline double massOf(const World& world, const Particles& particles, std::size_t i) {
     return sphereMass(world.density(particles.material[i]), particles.radius[i]);
+}
+
+/// Where particle i would be if no direction repeated [m].
+inline Vec3 unfolded(const World& world, const Particles& particles, std::size_t i) {
+    return particles.gone.empty() ? particles.position[i]
+                                  : particles.position[i] + Vec3(particles.gone[i]) * world.period;
 }
 
 /// The powders, ascending.

@@ -52,9 +52,9 @@ class ContactGeometry {
         const Vec3& x = p.position[c.particle];
         const double r = p.radius[c.particle];
         if (c.kind == ContactClass::ParticleParticle) {
-            const Vec3 apart = x - p.position[c.other];
+            const Vec3 apart = world_.shortest(x - p.position[c.other]);
             const double distance = glm::length(apart);
-            return {p.position[c.other], apart / distance, r + p.radius[c.other] - distance};
+            return {x - apart, apart / distance, r + p.radius[c.other] - distance};
         }
         const std::size_t walls = world_.surfaces.size();
         if (c.other < walls) return against(geometry::closestPoint(world_.surfaces[c.other], x), r);

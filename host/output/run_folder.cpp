@@ -133,7 +133,8 @@ RunFolder::RunFolder(fs::path folder, bool force, const Case& c, std::string bac
       backend_(std::move(backend)),
       caseText_(c.resolved),
       given_(c.given),
-      role_(std::move(role)) {
+      role_(std::move(role)),
+      repeats_(c.world.repeats()) {
     const std::vector<fs::path> made = missingFolders(folder_);
     makeFolder(folder_);
     lock_.emplace(lockRun(folder_));
@@ -142,7 +143,8 @@ RunFolder::RunFolder(fs::path folder, bool force, const Case& c, std::string bac
     try {
         removeRun(folder_, replacedIn(folder_, c));  // a stale summary would mislead if this run is killed
         const std::string energy = c.world.energyBook ? "," + csvHeader(kEnergyColumns) : "";
-        timeSeries_.emplace(folder_ / "timeseries.csv", csvHeader(kSampleColumns) + energy +
+        const std::string through = repeats_ ? "," + csvHeader(kThroughColumns) : "";
+        timeSeries_.emplace(folder_ / "timeseries.csv", csvHeader(kSampleColumns) + energy + through +
                                                             bodyHeader(kBodyColumns, c.world) + freeHeader(c.world) +
                                                             regionHeader(kRegionSampleColumns, c.world) +
                                                             powderHeader(c, kPowderColumns));
@@ -166,6 +168,7 @@ RunFolder::RunFolder(fs::path folder, FolderLock lock, const Checkpoint& from, c
       caseText_(c.resolved),
       given_(from.given),
       role_{from.member, from.keepsStates, from.origin},
+      repeats_(c.world.repeats()),
       checkpointTime_(from.time) {
     try {
         if (!fs::exists(folder_ / "case.toml")) replaceFile(folder_ / "case.toml", c.resolved);
@@ -180,6 +183,7 @@ RunFolder::RunFolder(fs::path folder, FolderLock lock, const Checkpoint& from, c
 
 void RunFolder::onSample(const Sample& s) {
     std::string line = csvRow(kSampleColumns, s) + (s.energy ? "," + csvRow(kEnergyColumns, *s.energy) : "");
+    if (repeats_) line += "," + csvRow(kThroughColumns, s.sensors);
     line += cellsOf(kBodyColumns, s.bodies) + cellsOf(kFreeBodyColumns, s.free);
     line += cellsOf(kRegionSampleColumns, s.regions) + cellsOf(kPowderColumns, s.powders);
     timeSeries_->line(line);

@@ -73,6 +73,7 @@ class RunFolder : public RunObserver {
     std::string backend_;
     std::string caseText_, given_;
     RunRole role_;
+    bool repeats_;  ///< a direction of the domain does
     std::optional<CsvFile> timeSeries_;
     std::optional<CsvFile> doses_;
     std::optional<FrameWriter> frames_;  ///< if the case asks for frames

@@ -21,6 +21,8 @@ std::vector<OutputTable> runTables() {
         {"timeseries.csv", "A line for every sensor interval and for the end of every phase.",
          columnTexts(kSampleColumns)},
         {"timeseries.csv, with sensors.energy", "These columns follow in the same line.", columnTexts(kEnergyColumns)},
+        {"timeseries.csv, with domain.periodic", "These columns follow in the same line.",
+         columnTexts(kThroughColumns)},
         {"timeseries.csv, with bodies",
          "These columns follow in the same line, for each `[[body]]` and, behind them, for `[coil]` as the body coil. "
          "The name of the body and a dot stand before each.",

@@ -142,6 +142,7 @@ py::dict sampleOf(const Simulation& run) {
     const Sample& s = run.last();
     py::dict dict = dictOf(kSampleColumns, s);
     if (s.energy) dict.attr("update")(dictOf(kEnergyColumns, *s.energy));
+    if (run.theCase().world.repeats()) dict.attr("update")(dictOf(kThroughColumns, s.sensors));
     py::dict bodies, regions, powders;
     const std::vector<std::string> names = bodyNames(run.theCase().world);
     for (std::size_t b = 0; b < s.bodies.size(); ++b) bodies[names.at(b).c_str()] = dictOf(kBodyColumns, s.bodies[b]);

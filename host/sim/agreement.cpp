@@ -114,8 +114,9 @@ QuantityRow judge(const Quantity& q, const History& reference, const std::vector
 
 }  // namespace
 
-Scales scalesOf(const Particles& particles, double filledMass) {
+Scales scalesOf(const World& world, const Particles& particles, double filledMass) {
     Scales s;
+    s.period = world.period;
     const auto n = static_cast<double>(particles.size());
     for (const double r : particles.radius) s.radius += r / n;
     s.filledMass = filledMass;
@@ -123,12 +124,12 @@ Scales scalesOf(const Particles& particles, double filledMass) {
     return s;
 }
 
-StateDifference difference(const Particles& a, const Particles& b) {
+StateDifference difference(const Particles& a, const Particles& b, const Vec3& period) {
     if (a.size() != b.size()) return {kInfinity, kInfinity};
     StateDifference d;
     for (std::size_t i = 0; i < a.size(); ++i) {
         if (a.status[i] != Status::Active || b.status[i] != Status::Active) continue;
-        d.position = worse(d.position, glm::length(a.position[i] - b.position[i]));
+        d.position = worse(d.position, glm::length(shortest(a.position[i] - b.position[i], period)));
         d.velocity = worse(d.velocity, glm::length(a.velocity[i] - b.velocity[i]));
     }
     return d;
@@ -137,10 +138,10 @@ StateDifference difference(const Particles& a, const Particles& b) {
 ParticleRow ParticleJudge::row(std::uint64_t step, double time, std::size_t contacts, const Particles& reference,
                                const Particles& fineTwin, const Particles& candidate) {
     speed_ = worse(speed_, rootMeanSquareSpeed(reference));
-    const StateDifference t = difference(reference, fineTwin);
+    const StateDifference t = difference(reference, fineTwin, scales_.period);
     twinPosition_ = worse(twinPosition_, inUnits(t.position, scales_.radius));
     twinVelocity_ = worse(twinVelocity_, inUnits(t.velocity, speed_));
-    const StateDifference d = difference(reference, candidate);
+    const StateDifference d = difference(reference, candidate, scales_.period);
     ParticleRow row;
     row.step = step;
     row.time = time;

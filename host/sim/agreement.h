@@ -12,15 +12,16 @@ struct Scales {
     double radius = 0;        ///< mean [m]
     double particleMass = 0;  ///< mean [kg]
     double filledMass = 0;    ///< [kg]
+    Vec3 period{0};           ///< World::period
 };
-Scales scalesOf(const Particles& particles, double filledMass);
+Scales scalesOf(const World& world, const Particles& particles, double filledMass);
 
 /// Largest difference of two states over the particles that are active in both.
 struct StateDifference {
     double position = 0;  ///< [m]
     double velocity = 0;  ///< [m/s]
 };
-StateDifference difference(const Particles& a, const Particles& b);
+StateDifference difference(const Particles& a, const Particles& b, const Vec3& period = Vec3(0));
 
 /// Compares particle by particle, time after time. The limit on a candidate's difference allows for three causes:
 /// - Mass, time step and parameters are rounded to single precision once, and forces in every step. In free flight that

@@ -165,7 +165,7 @@ Comparison compareBackends(const Case& c, const Insertion& filled, Backend& refe
                            Backend& candidate, std::uint64_t steps, const std::function<void(std::uint64_t)>& progress,
                            const std::atomic<bool>& stop) {
     const Timeline timeline(c);
-    const Scales scales = scalesOf(filled.particles, filled.mass);
+    const Scales scales = scalesOf(c.world, filled.particles, filled.mass);
     Walker ref("reference", c, timeline, reference, filled.particles, filled.mass);
     Walker other(candidate.description(), c, timeline, candidate, filled.particles, filled.mass);
     const auto start = [&](double shift, std::uint32_t twin) {

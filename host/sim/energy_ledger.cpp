@@ -28,7 +28,7 @@ double energyOfGravityChange(const World& world, const Particles& particles, con
     double sum = 0;
     for (std::size_t i = 0; i < particles.size(); ++i) {
         if (particles.status[i] != Status::Active) continue;
-        const Vec3 middle = particles.position[i] - 0.5 * world.timeStep * particles.velocity[i];
+        const Vec3 middle = unfolded(world, particles, i) - 0.5 * world.timeStep * particles.velocity[i];
         sum -= massOf(world, particles, i) * glm::dot(to - from, middle);
     }
     return sum;

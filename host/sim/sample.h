@@ -52,6 +52,13 @@ inline constexpr auto kKineticColumns =
                                                "Kinetic energy of rotation of all particles that are not dosed."));
 inline constexpr auto kOverlapColumns = columns(column<&Sensors::maxOverlapRatio>(
     "max_overlap_ratio", "1", "Largest overlap over the smaller radius of the two, since the line before.", 6));
+/// The columns of timeseries.csv that follow where a direction of the domain repeats.
+inline constexpr auto kThroughColumns = columns(
+    column<&Sensors::through, 0>("through_x_kg", "kg",
+                                 "Mass that has gone through the end of the domain along x since the start, upwards "
+                                 "less downwards; 0 if that direction does not repeat."),
+    column<&Sensors::through, 1>("through_y_kg", "kg", "The same along y."),
+    column<&Sensors::through, 2>("through_z_kg", "kg", "The same along z."));
 /// Only the checkpoint has these columns.
 inline constexpr auto kInnerSensorColumns =
     columns(column<&Sensors::coilTorque>("particle_torque_Nm", "N m", "Torque of the particles on the coil about +z."),
@@ -59,7 +66,7 @@ inline constexpr auto kInnerSensorColumns =
             column<&Sensors::rebuilds>("rebuilds", "1", "Number of times that the neighbour list was built."));
 /// All columns of the sensors, as a checkpoint holds them.
 inline constexpr auto kSensorColumns =
-    std::tuple_cat(kMassColumns, kCountColumns, kKineticColumns, kInnerSensorColumns, kOverlapColumns);
+    std::tuple_cat(kMassColumns, kCountColumns, kKineticColumns, kThroughColumns, kInnerSensorColumns, kOverlapColumns);
 
 // The columns that a sample has beside its sensors.
 inline constexpr auto kStepColumns = columns(column<&Sample::step>("step", "1", "Number of time steps made."));

@@ -20,7 +20,8 @@ SettledBed settledBed(const Case& c, double time, const Particles& particles, co
         const double smaller = std::min(a, b);
         const double weight =
             std::min(massOf(c.world, particles, contact.particle), massOf(c.world, particles, contact.other)) * gravity;
-        const double apart = glm::distance(particles.position[contact.particle], particles.position[contact.other]);
+        const double apart =
+            glm::length(c.world.shortest(particles.position[contact.particle] - particles.position[contact.other]));
         const double reduced = 2 * a * b / (a + b);
         bed.pullOff.push_back(pullOff(law, reduced, contact.maxOverlap) / weight);
         // A contact is listed where it touched in the last step, and may have parted by its end.

@@ -96,6 +96,12 @@ void materialsLuding(Stage& stage);
 void materialsSliding(Stage& stage);
 void materialsCluster(Stage& stage);
 
+// period.cpp
+void periodRebound(Stage& stage);
+void periodMomentum(Stage& stage);
+void periodIncline(Stage& stage);
+void periodScrew(Stage& stage);
+
 // size_ratio.cpp
 void wedgeBounce(Stage& stage);
 void wedgeRest(Stage& stage);

@@ -63,14 +63,23 @@ ContactPlace memberContact(uint k) {
 /// Whether the fields are of this particle's material.
 bool isWanted(uint i) { return field.chosen.x == 0u || field.chosen.x == materialOf(i) + 1u; }
 
+/// In directions that repeat, the image of an offset that is nearest to the middle of the grid.
+vec3 overGrid(vec3 offset) {
+    if (PERIODS == 0u) return offset;
+    vec3 middle = 0.5 * field.size.xyz;
+    return middle + shortest(offset - middle, period());
+}
+
 vec3 offsetOf(uint side, uint i) {
-    return (state[stateIndex(side, kPosition, i)].xyz - field.low.xyz) + state[stateIndex(side, kResidue, i)].xyz;
+    return overGrid((state[stateIndex(side, kPosition, i)].xyz - field.low.xyz) +
+                    state[stateIndex(side, kResidue, i)].xyz);
 }
 
 vec3 pointAt(uvec3 cell) { return (vec3(cell) + 0.5) * field.cell.xyz; }
 
 /// The kernel without its norm.
 float kernel(vec3 away) {
+    if (PERIODS == 1u) away = shortest(away, period());
     vec3 d = field.along.xyz * away;
     float square = dot(d, d), reach = field.low.w, width = field.size.w;
     if (square >= reach * reach) return 0.0;

@@ -51,7 +51,9 @@ void main() {
         // apart
     } else if (ofPair(at.slot)) {
         Sphere b = sphereBefore(who.y);
-        branch = wantedPart((a.high - b.high) + (a.low - b.low), who, a, b);
+        vec3 apart = (a.high - b.high) + (a.low - b.low);
+        if (PERIODS == 1u) apart = shortest(apart, period());
+        branch = wantedPart(apart, who, a, b);
     } else if (!isWanted(who.x)) {
         // at a wall or a body the whole branch is the particle's
     } else if (at.slot < springSlotCount()) {

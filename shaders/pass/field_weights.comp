@@ -13,6 +13,11 @@ float weightAt(vec3 offset) {
     vec3 span = field.low.w / field.cell.xyz * field.along.xyz + (1.0 - field.along.xyz);
     uvec3 first = uvec3(clamp(floor(middle - span), vec3(0.0), most));
     uvec3 last = uvec3(clamp(ceil(middle + span), vec3(0.0), most));
+    if (PERIODS == 1u) {  // across an end of the domain the kernel reaches points at the other end
+        uvec3 repeats = uvec3(greaterThan(period().high, vec3(0.0)));
+        first *= 1u - repeats;
+        last += repeats * (uvec3(most) - last);
+    }
     float sum = 0.0;  // of planes, of rows: fewer roundings than in one long sum
     for (uint z = first.z; z <= last.z; ++z) {
         float plane = 0.0;
@@ -56,5 +61,5 @@ void main() {
     vec4 branch = branches[at.contact];
     vec3 from = offsetOf(1u - source, entries[at.slot].x);
     float away = branch.w + kNodes[node];
-    weights[nodeWeightIndex(at.contact, node)] = branch.w >= 0.0 ? weightAt(from - away * branch.xyz) : 0.0;
+    weights[nodeWeightIndex(at.contact, node)] = branch.w >= 0.0 ? weightAt(overGrid(from - away * branch.xyz)) : 0.0;
 }

@@ -12,6 +12,7 @@ float slackOfParticle(uint i) { return slackOf(readState(source, kVelocity, i).x
 /// The factor and `roundingAt` cover the rounding.
 bool nearPair(vec4 p, float slackP, vec4 q, float slackQ) {
     precise vec3 d = p.xyz - q.xyz;
+    if (PERIODS == 1u) d = shortest(d, period());
     precise float reach = 1.00001 * (p.w + q.w) + (slackP + slackQ);
     reach += roundingAt(p.xyz) + roundingAt(q.xyz);
     if (reaches()) reach += longestReach();

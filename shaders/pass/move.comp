@@ -10,6 +10,7 @@
 #include "law/mass.glsl"
 #include "law/twofloat.glsl"
 #include "pass/slack.glsl"
+#include "shared/geometry.h"
 #ifdef ENERGY_BOOK
 #include "pass/body.glsl"
 #include "pass/books.glsl"
@@ -19,6 +20,18 @@
 bool finite(vec3 v) {
     const uvec3 exponent = uvec3(0x7f800000u);
     return all(notEqual(floatBitsToUint(v) & exponent, exponent));
+}
+
+/// Takes a place that has left the domain in a direction that repeats back into it. Returns the periods gone in this
+/// step.
+vec3 wrap(inout vec3 high, inout vec3 low, vec3 bottom, vec3 top, Period p) {
+    vec3 margin = kBeyondEnd * p.high;
+    vec3 gone = vec3(greaterThan(high, top + margin)) - vec3(lessThan(high, bottom - margin));
+    gone *= vec3(greaterThan(p.high, vec3(0.0)));
+    Two3 back = twoDifference(high, low, gone * p.high, gone * p.low);
+    high = back.high;
+    low = back.low;
+    return gone;
 }
 
 bool beyond(vec3 way, float limit) { return dot(way, way) > limit * limit; }
@@ -45,6 +58,8 @@ void main() {
     vec4 bottom = domainLow(), top = domainHigh();
     vec4 outlet = outletVector(0u);
     float unit = slackUnit();
+    Period repeats = Period(vec3(0.0), vec3(0.0));
+    if (PERIODS == 1u) repeats = period();
     bool opens = opening(), follows = push.stepInStride < control.steps.y && callOfStep >= kCallSoon;
     if (waits()) {
         if (follows) callOfStep = kCallWaits;  // the next step waits, too
@@ -59,6 +74,7 @@ void main() {
     vec3 rowAnchor = anchorsAt(rowAnchorIndex(i)).xyz;
     vec4 listAnchor = anchorsAt(listAnchorIndex(i));  // w: slack
     vec4 velocityLow = anchorsAt(speedLowIndex(i, 0u)), spinLow = anchorsAt(speedLowIndex(i, 1u));
+    vec2 kept = vec2(velocityLow.w, spinLow.w);
     uvec4 range = rangesAt(rowRangeIndex(i));
     bool moving = uint(spin4.w) == kStatusActive;
 
@@ -96,7 +112,15 @@ void main() {
     vec3 high = place.high, low = place.low;
 
     bool sound = finite(high) && finite(velocity) && finite(spin);
-    bool outside = any(lessThan(high, bottom.xyz)) || any(greaterThan(high, top.xyz));
+    vec3 gone = vec3(0.0);
+    bvec3 under = lessThan(high, bottom.xyz), over = greaterThan(high, top.xyz);
+    if (PERIODS == 1u) {
+        gone = wrap(high, low, bottom.xyz, top.xyz, repeats);
+        bvec3 ends = equal(repeats.high, vec3(0.0));
+        under = bvec3(uvec3(under) * uvec3(ends));
+        over = bvec3(uvec3(over) * uvec3(ends));
+    }
+    bool outside = any(under) || any(over);
     bool dosed = isDosed(high, top.w, outlet);
     uint now = !sound ? kStatusLost : dosed ? kStatusDosed : outside ? kStatusLost : kStatusActive;
     bool leaves = moving && now != kStatusActive;
@@ -104,9 +128,16 @@ void main() {
     // Lists may be made from the rows at any time, so the rows must always hold all that is within the slack, with what
     // `nearPair` adds to it.
     float room = max(0.0, (1.0 - kMostSlack) * unit - (roundingAt(high) + 1e-5 * r));
-    bool rebuild = leaves || beyond(high - rowAnchor, room);
-    vec3 way = high - listAnchor.xyz;
-    bool refresh = beyond(way, listAnchor.w), soon = beyond(way + float(kStride) * dt * velocity, listAnchor.w);
+    vec3 fromRow = high - rowAnchor, way = high - listAnchor.xyz;
+    if (PERIODS == 1u) {
+        fromRow = shortest(fromRow, repeats);
+        way = shortest(way, repeats);
+    }
+    bool rebuild = leaves || beyond(fromRow, room);
+    // The parts of a mesh that were kept for a particle at one end of the domain are not those at the other end.
+    bool elsewhere = (SHAPE_KINDS & (1u << kShapeMesh)) != 0u && gone != vec3(0.0);
+    bool refresh = elsewhere || beyond(way, listAnchor.w),
+         soon = beyond(way + float(kStride) * dt * velocity, listAnchor.w);
     uint kind = !sound                ? kErrorNan
                 : overlap > numbers.w ? kErrorOverlap
                 : now == kStatusLost  ? kErrorLost
@@ -116,15 +147,19 @@ void main() {
     if (moving && (atOnce || soon)) atomicMin(callOfStep, atOnce ? kind << kCallShift | i : kCallSoon);
 
 #ifdef ENERGY_BOOK
+    vec3 centre = position.xyz;
+    if (PERIODS == 1u) centre += wayGone(kept, repeats);
     if (moving)
-        bookStep(i, normal, sliders, position.xyz, r, mass, velocity4.xyz, spin4.xyz, velocity, spin, bodyWork, leaves);
+        bookStep(i, normal, sliders, centre, r, mass, velocity4.xyz, spin4.xyz, velocity,
+                 spin, bodyWork, leaves);
 #endif
 
+    vec2 keeps = PERIODS == 1u ? kept + keptPeriods(gone, repeats) : vec2(0.0);
     uint to = 1u - source;
     float radius = leaves ? -position.w : position.w;  // a negative radius touches nothing
     writeState(to, kPosition, i, moving ? vec4(high, radius) : position,
                moving ? vec4(low, POWDERS == 1u ? 0.0 : residue.w) : residue);
-    writeSpeedLow(i, moving ? vec4(speed.low, 0.0) : velocityLow, moving ? vec4(turning.low, 0.0) : spinLow);
+    writeSpeedLow(i, moving ? vec4(speed.low, keeps.x) : velocityLow, moving ? vec4(turning.low, keeps.y) : spinLow);
     writeState(to, kVelocity, i, moving ? vec4(velocity, max(velocity4.w, overlap)) : velocity4,
                moving ? vec4(spin, float(now)) : spin4);
 }

@@ -4,6 +4,9 @@
 // the sum of radii + reach of contacts + skin, so it stays complete until some particle has moved half the skin from
 // its anchor. Where in the table a row lies depends on timing; nothing that moves a particle depends on it.
 //
+// In a direction that repeats, a particle near an end of the domain is also sought around its images beyond the other
+// end. Cells are those of the places as they are: a cell that stood for another one would not have a slot of its own.
+//
 // One loop goes through all chains of the 27 cells, so that no lane waits at the end of each chain for the longest one.
 // A row is sorted in registers, sixteen at a time: lavapipe takes five times as long with an array that it must index.
 // A row that is longer is found in several searches, each for the sixteen that follow.
@@ -52,6 +55,24 @@ uint cellsInReach(vec3 at, float reach) {
     return nine(x, y, low.z, reach) | nine(x, y, 0.0, reach) << 9u | nine(x, y, high.z, reach) << 18u;
 }
 
+/// The images of a place, of the 27 by a period or none in each direction, that may have a particle within
+/// `reach` [m], a bit each; the place itself is not among them. Image k is k % 3 - 1 periods farther along x, and so
+/// on.
+uint imagesInReach(vec3 at, float reach, Period p) {
+    vec3 low = domainLow().xyz, high = domainHigh().xyz;
+    bvec3 repeats = greaterThan(p.high, vec3(0.0));
+    vec3 far = reach + 10.0 * kBeyondEnd * p.high;
+    bvec3 up = lessThan(at, low + far), down = greaterThan(at, high - far);
+    uvec3 ways = uvec3(2u) + uvec3(repeats) * (uvec3(down) + 4u * uvec3(up));
+    uint x = ways.x;
+    uint y = (ways.y & 1u) * x | (ways.y >> 1u & 1u) * (x << 3u) | (ways.y >> 2u) * (x << 6u);
+    uint z = (ways.z & 1u) * y | (ways.z >> 1u & 1u) * (y << 9u) | (ways.z >> 2u) * (y << 18u);
+    return z & ~(1u << 13u);
+}
+
+/// Image k, as above.
+vec3 imageOf(vec3 at, uint k, Period p) { return at + (vec3(k % 3u, k / 3u % 3u, k / 9u) - 1.0) * p.high; }
+
 struct Search {
     Kept kept;
     uint found;  // neighbours, kept or not
@@ -62,12 +83,21 @@ struct Search {
 Search search(uint i, vec4 p, uint least) {
     float skin = numerics().y, size = numerics().z;
     if (reaches()) skin += longestReach();
-    ivec3 corner = cellOf(p.xyz, size) - 1;
+    vec3 centre = p.xyz;
+    ivec3 corner = cellOf(centre, size) - 1;
     // A cell is as wide as two of the largest spheres and the skin.
-    uint left = cellsInReach(p.xyz / size, (p.w + 0.5 * (size + skin)) / size);
+    float farthest = p.w + 0.5 * (size + skin);
+    uint left = cellsInReach(centre / size, farthest / size), images = 0u;
+    if (PERIODS == 1u) images = imagesInReach(centre, farthest, period());
     Search s = Search(Kept(uvec4(kEmpty), uvec4(kEmpty), uvec4(kEmpty), uvec4(kEmpty)), 0u, false);
     uint j = kEmpty, visits = 0u;
-    for (; (j != kEmpty || left != 0u) && visits < kMostVisits + kCells; ++visits) {
+    for (; (j != kEmpty || left != 0u || images != 0u) && visits < kMostVisits + kCells; ++visits) {
+        if (PERIODS == 1u && j == kEmpty && left == 0u) {
+            centre = imageOf(p.xyz, uint(findLSB(images)), period());
+            images &= images - 1u;
+            corner = cellOf(centre, size) - 1;
+            left = cellsInReach(centre / size, farthest / size);
+        }
         uint at = nextIndex(j);
         if (j == kEmpty) {
             uint cell = uint(findLSB(left));
@@ -78,12 +108,12 @@ Search search(uint i, vec4 p, uint least) {
         uint other = j == kEmpty ? i : j;
         vec4 q = readState(source, kPosition, other);
         float reach = p.w + q.w + skin;
-        vec3 d = p.xyz - q.xyz;
+        vec3 d = centre - q.xyz;
         bool hit = other != i && dot(d, d) < reach * reach;
         if (hit) ++s.found;
         keep(s.kept, hit && j >= least ? j : kEmpty);
     }
-    s.ended = j == kEmpty && left == 0u;
+    s.ended = j == kEmpty && left == 0u && images == 0u;
     return s;
 }
 

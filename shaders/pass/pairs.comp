@@ -29,6 +29,10 @@ void main() {
 #ifdef ENERGY_BOOK
     History old = h;
 #endif
+    if (PERIODS == 1u) {
+        Two3 image = nearestImage(b.sphere.high, b.sphere.low, a.sphere.high, period());
+        b.sphere = Sphere(image.high, image.low, b.sphere.radius);
+    }
     Overlap o = sphereOverlap(a.sphere, b.sphere);
     float ra = a.sphere.radius, rb = b.sphere.radius, reduced = 2.0 * ra * rb / (ra + rb);
     bool touching = holds(law, o.depth, reduced, h.slidingMax.w);

@@ -10,6 +10,7 @@ shared uvec4 count[gl_WorkGroupSize.x];
 shared vec4 mass[gl_WorkGroupSize.x];
 shared vec4 motion[gl_WorkGroupSize.x];
 shared float overlap[gl_WorkGroupSize.x];
+shared vec2 through[gl_WorkGroupSize.x];  // mass by the periods that it has gone through (law/period.glsl)
 
 void main() {
     openMember();
@@ -34,6 +35,8 @@ void main() {
         vec4(active_ * 0.5 * m * dot(velocity.xyz, velocity.xyz), active_ * 0.2 * m * r * r * dot(spin.xyz, spin.xyz),
              float(here[kRegionThroat]) * m * velocity.z, 0.0);
     overlap[lane] = velocity.w;
+    through[lane] = vec2(0.0);
+    if (PERIODS == 1u) through[lane] = m * vec2(anchors[speedLowIndex(i, 0u)].w, anchors[speedLowIndex(i, 1u)].w);
     if (status != kStatusAbsent) {
         state[stateIndex(source, kVelocity, i)] = vec4(velocity.xyz, 0.0);
     }
@@ -45,9 +48,10 @@ void main() {
             mass[lane] += mass[lane + width];
             motion[lane] += motion[lane + width];
             overlap[lane] = max(overlap[lane], overlap[lane + width]);
+            through[lane] += through[lane + width];
         }
     }
     if (lane == 0u)
         records[i / gl_WorkGroupSize.x].sensors =
-            SensorRecord(count[0], mass[0], motion[0], vec4(overlap[0], 0.0, 0.0, 0.0));
+            SensorRecord(count[0], mass[0], motion[0], vec4(overlap[0], through[0], 0.0));
 }

@@ -20,6 +20,11 @@ void main() {
     vec3 velocity = state[stateIndex(source, kVelocity, i)].xyz;
     vec4 spin = state[stateIndex(source, kSpin, i)];
     vec3 start = state[stateIndex(before, kPosition, i)].xyz;
+    if (PERIODS == 1u) {
+        Period p = period();
+        vec2 kept = vec2(anchors[speedLowIndex(i, 0u)].w, anchors[speedLowIndex(i, 1u)].w);
+        start = position.xyz + wayGone(kept, p) + shortest(start - position.xyz, p);
+    }
     vec3 oldVelocity = state[stateIndex(before, kVelocity, i)].xyz;
     vec3 oldSpin = state[stateIndex(before, kSpin, i)].xyz;
     if (push.opening == 1u) {  // half a kick: as in pass/books.glsl

@@ -13,6 +13,10 @@ float slackUnit() { return 0.5 * numerics().y; }
 /// coordinate in each direction.
 float roundingAt(vec3 at) {
     precise float most = 1.1e-7 * max(abs(at.x), max(abs(at.y), abs(at.z)));
+    if (PERIODS == 1u) {  // an image is rounded as well
+        vec3 lengths = period().high;
+        most += 1.1e-7 * max(lengths.x, max(lengths.y, lengths.z));
+    }
     return most;
 }
 

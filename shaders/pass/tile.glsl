@@ -35,6 +35,8 @@ bool reaches(uint i, vec3 low, vec3 high, float margin) {
     vec3 offset = offsetOf(source, i);
     vec3 outside = max(-offset, offset - field.size.xyz);
     vec3 away = field.along.xyz * max(max(low - offset, offset - high), vec3(0.0));
+    if (PERIODS == 1u)
+        away = field.along.xyz * max(abs(shortest(offset - 0.5 * (low + high), period())) - 0.5 * (high - low), 0.0);
     float reach = field.low.w + margin;
     return uint(state[stateIndex(source, kSpin, i)].w) == kStatusActive && all(lessThanEqual(outside, vec3(margin))) &&
            dot(away, away) < reach * reach;

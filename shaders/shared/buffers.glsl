@@ -7,6 +7,7 @@
 #ifdef PACKED_STORES
 #extension GL_ARB_gpu_shader_int64 : require
 #endif
+#include "law/period.glsl"
 #include "law/reach.glsl"
 #include "shared/layout.h"
 
@@ -24,6 +25,7 @@ layout(constant_id = 10) const uint MOST_PLACES = 4u;     // in which a sphere t
 layout(constant_id = 11) const uint POWDERS = 1u;     // 1: all particles are of the first powder
 layout(constant_id = 12) const uint MANY_WALLS = 0u;  // 1: a surface or body is of a material of its own
 layout(constant_id = 13) const uint OUTLETS = 0u;     // most regions of a member that delete
+layout(constant_id = 14) const uint PERIODS = 0u;     // 1: a direction of a member repeats
 
 layout(push_constant) uniform Push { StepPush pushed; };
 StepPush push = pushed;  // read before any branch, like all that is the same for all: shaders/README.md, Drivers
@@ -144,6 +146,10 @@ vec4 domainLow() { return OF_MEMBER(domainLow, kVectorGravity + 1u); }
 vec4 domainHigh() { return OF_MEMBER(domainHigh, kVectorGravity + 2u); }
 vec4 numerics() { return OF_MEMBER(numerics, kVectorGravity + 3u); }
 vec4 outletVector(uint k) { return OF_MEMBER(outlets[k], kVectorOutlets + k); }
+/// In directions that repeat, the domain's length. Asked only where PERIODS is 1.
+Period period() {
+    return Period(OF_MEMBER(period[0], kVectorPeriod).xyz, OF_MEMBER(period[1], kVectorPeriod + 1u).xyz);
+}
 uvec4 choices() { return uvec4(OF_MEMBER(choices, kVectorGravity + 4u)); }
 
 /// How far beyond touch a contact may hold: asked only where law/reach.glsl says that one can [m].

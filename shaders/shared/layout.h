@@ -161,6 +161,7 @@ struct Member {
                                            // beyond a plane: its normal, then its place along it in w [m]; 2 a box: its
                                            // low, then its high corner [m]
     vec4 densities[kMostMaterials / 4u];   // of each material's particles [kg/m3]
+    vec4 period[2];  // xyz: length of the domain in directions that repeat, else 0, in two floats [m]
 };
 // Where in a member some of its vectors are.
 SHARED_CONST kContactVectors = 4u + kOwnParameters / 4u;
@@ -168,7 +169,8 @@ SHARED_CONST kVectorSurface = kMostPairs * kContactVectors;
 SHARED_CONST kVectorGravity = kVectorSurface + 4u * kMaxSurfaces;
 SHARED_CONST kVectorOutlets = kVectorGravity + 7u;
 SHARED_CONST kVectorDensities = kVectorOutlets + 2u * kMaxRegionOutlets;
-SHARED_CONST kMemberVectors = kVectorDensities + kMostMaterials / 4u;
+SHARED_CONST kVectorPeriod = kVectorDensities + kMostMaterials / 4u;
+SHARED_CONST kMemberVectors = kVectorPeriod + 2u;
 
 // --- control block: decisions and reports of the device -----------------------------------------------------------
 // Calls of particles in order of urgency: errors first (causes before their effects), then rebuild, then refresh. A
@@ -224,7 +226,7 @@ struct SensorRecord {
     uvec4 count;    // particles per region (kRegionCanister ...)
     vec4 mass;      // per region [kg]
     vec4 motion;    // kinetic energy, rotational energy [J], momentum along z in the throat [kg m/s]
-    vec4 extremes;  // x: largest overlap ratio
+    vec4 extremes;  // x: largest overlap ratio; yz: mass by the periods it has gone through, as keptPeriods [kg]
 };
 
 // --- the energy book (host/backend/backend.h, EnergyBook), kept only where the world asks for it [J] ---------------

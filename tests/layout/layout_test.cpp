@@ -44,7 +44,7 @@ const std::map<std::string, Layout>& hostLayouts() {
         {"Member",
          {{FIELD(Member, contact), FIELD(Member, surface), FIELD(Member, gravity), FIELD(Member, domainLow),
            FIELD(Member, domainHigh), FIELD(Member, numerics), FIELD(Member, choices), FIELD(Member, roster),
-           FIELD(Member, bodies), FIELD(Member, outlets), FIELD(Member, densities)},
+           FIELD(Member, bodies), FIELD(Member, outlets), FIELD(Member, densities), FIELD(Member, period)},
           sizeof(Member)}},
         {"Dispatches",
          {{FIELD(Dispatches, heads), FIELD(Dispatches, particles), FIELD(Dispatches, refresh),

@@ -13,6 +13,7 @@ TEST_CASE("sensors are stored by region, then as their members stand") {
     s.mass = {0.1, 0.2, 0.3, 0.4};
     s.kineticEnergy = 5;
     s.rotationalEnergy = 6;
+    s.through = {6.1, 6.2, 6.3};
     s.coilTorque = 7;
     s.throatMomentumZ = 8;
     s.maxOverlapRatio = 9;
@@ -20,11 +21,12 @@ TEST_CASE("sensors are stored by region, then as their members stand") {
     Record record;
     put(record, "now", s);
     CHECK(record.get<std::uint64_t>("now_counts") == Counts{1, 2, 3, 4, 10});
-    CHECK(record.get<double>("now_figures") == Figures{0.1, 0.2, 0.3, 0.4, 5, 6, 7, 8, 9});
+    CHECK(record.get<double>("now_figures") == Figures{0.1, 0.2, 0.3, 0.4, 5, 6, 6.1, 6.2, 6.3, 7, 8, 9});
     Sensors back;
     get(record, "now", back);
     CHECK(back.count == s.count);
     CHECK(back.mass == s.mass);
+    CHECK(back.through == s.through);
     CHECK(back.throatMomentumZ == 8);
     CHECK(back.rebuilds == 10);
 }

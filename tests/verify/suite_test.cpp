@@ -213,6 +213,19 @@ std::vector<Mutant> mutants() {
          1,
          {"bodies/drum-balance", "bodies/pushed-sphere", "bodies/held-sphere"},
          "rolling"},
+        {"a period 1 % longer than the domain",
+         [](RuledWorld& w) { w.period *= 1.01; },
+         1,
+         {"period/rebound", "period/incline"},
+         "rolling"},
+        {"a domain that does not repeat",
+         [](RuledWorld& w) {
+             if (w.repeats()) w.domain = {Vec3(-1), Vec3(1)};
+             w.period = Vec3(0);
+         },
+         1,
+         {"period/rebound", "period/momentum", "period/incline", "period/screw"},
+         "rolling"},
         {"bodies that move freely 1 % heavier",
          [](RuledWorld& w) {
              for (RigidBody& body : w.bodies)

@@ -16,13 +16,18 @@ struct Weight {
 
 class Smear {
   public:
-    explicit Smear(const FieldRequest& request)
-        : request_(request), cell_(request.grid.cell()), volume_(request.grid.cellVolume()) {}
+    Smear(const FieldRequest& request, const World& world)
+        : request_(request),
+          period_(world.period),
+          cell_(request.grid.cell()),
+          volume_(request.grid.cellVolume()),
+          middle_((request.grid.low + request.grid.high) / 2.0) {}
 
-    /// The kernel around `x`, normalised over the grid. It is empty if `x` is not in the grid. Valid until the next
-    /// call.
-    const std::vector<Weight>& around(const Vec3& x) {
+    /// The kernel around a place, normalised over the grid. It is empty if the place is not in the grid. Valid until
+    /// the next call.
+    const std::vector<Weight>& around(const Vec3& place) {
         weights_.clear();
+        const Vec3 x = middle_ + shortest(place - middle_, period_);
         const FieldGrid& g = request_.grid;
         if (!glm::all(glm::greaterThanEqual(x, g.low)) || !glm::all(glm::lessThanEqual(x, g.high))) return weights_;
         std::size_t first[3], last[3];
@@ -31,13 +36,17 @@ class Smear {
             const double span = g.resolved(d) ? request_.reach() / cell_[d] : 1;
             first[d] = std::size_t(std::clamp(std::floor(at - span), 0.0, most));
             last[d] = std::size_t(std::clamp(std::ceil(at + span), 0.0, most));
+            if (period_[d] > 0) {  // across an end of the domain the kernel reaches points at the other end
+                first[d] = 0;
+                last[d] = std::size_t(most);
+            }
         }
         double sum = 0;
         for (std::size_t z = first[2]; z <= last[2]; ++z)
             for (std::size_t y = first[1]; y <= last[1]; ++y)
                 for (std::size_t xx = first[0]; xx <= last[0]; ++xx) {
                     const std::size_t point = (z * g.cells[1] + y) * g.cells[0] + xx;
-                    Vec3 away = g.point(point) - x;
+                    Vec3 away = shortest(g.point(point) - x, period_);
                     for (int d = 0; d < 3; ++d)
                         if (!g.resolved(d)) away[d] = 0;
                     const double w = request_.shape(glm::length(away));
@@ -51,8 +60,9 @@ class Smear {
 
   private:
     const FieldRequest& request_;
-    Vec3 cell_;
+    Vec3 period_, cell_;
     double volume_;
+    Vec3 middle_;  ///< of the grid
     std::vector<Weight> weights_;
 };
 
@@ -89,7 +99,7 @@ std::vector<double> touchesOf(const Particles& particles, const std::vector<Bran
 FieldPoints coarseGrain(const FieldRequest& request, const World& world, const Particles& p,
                         const std::vector<Branch>& branches) {
     FieldPoints points(request.grid.points());
-    Smear smear(request);
+    Smear smear(request, world);
     const std::vector<double> touches = touchesOf(p, branches);
     const auto counts = [&](std::size_t i) {
         return p.status[i] == Status::Active && (!request.material || p.material[i] == *request.material);

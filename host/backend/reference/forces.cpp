@@ -58,6 +58,14 @@ Body Forces::body(std::size_t i) const {
             massOf(*world_, *particles_, i)};
 }
 
+/// Particle j, at its image that is nearest to particle i.
+Body Forces::imageNear(std::size_t i, std::size_t j) const {
+    Body image = body(j);
+    const Vec3& x = particles_->position[i];
+    if (world_->repeats()) image.position = x + world_->shortest(image.position - x);
+    return image;
+}
+
 void Forces::note(const Touch& touch, ContactClass kind, std::size_t particle, std::size_t other) {
     const double ratio = touch.overlap / touch.smaller;
     if (ratio > loads_->deepest.ratio)
@@ -91,7 +99,7 @@ void Forces::partPair(std::size_t i, const Known& known) {
     };
     const bool both = particles_->status[i] == Status::Active && particles_->status[known.other] == Status::Active;
     if (both)
-        book(known.exerted, Exerted{}, body(i), body(known.other));
+        book(known.exerted, Exerted{}, body(i), imageNear(i, known.other));
     else
         bookDeparture(known.exerted, present(i), present(known.other), springDt_, loads_->energy);
 }
@@ -119,8 +127,9 @@ void Forces::pairs(std::size_t i) {
         const bool continues = known != before_.cend() && known->other == j;
         const double reduced = reducedSize(particles_->radius[i], particles_->radius[j]);
         const MaterialPair pair{materialOf(i), materialOf(j)};
+        const Body other = imageNear(i, j);
         const std::optional<Touch> touch =
-            touchSphere(body(i), body(j), reachOf(world_->law.of(pair), reduced, continues));
+            touchSphere(body(i), other, reachOf(world_->law.of(pair), reduced, continues));
         if (!touch) continue;
         const Known before = continues ? *known++ : Known{j, {}, {}};
         History history = before.history;
@@ -131,9 +140,9 @@ void Forces::pairs(std::size_t i) {
         loads_->torque[i] += response.torqueI;
         loads_->torque[j] += response.torqueJ;
         loads_->branches.push_back({static_cast<std::uint32_t>(i), j, true, particles_->position[i],
-                                    particles_->position[i] - particles_->position[j], response.force});
+                                    particles_->position[i] - other.position, response.force});
         const Exerted now = exertedBy(pair, *touch, response, history);
-        book(before.exerted, now, body(i), body(j));
+        book(before.exerted, now, body(i), other);
         pairs_[i].push_back({j, history, now});
         note(*touch, ContactClass::ParticleParticle, i, j);
     }

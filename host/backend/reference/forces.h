@@ -107,6 +107,7 @@ class Forces {
     void partPair(std::size_t i, const Known& known);
     void partWall(std::size_t i, const Exerted& before);
     Body body(std::size_t i) const;
+    Body imageNear(std::size_t i, std::size_t j) const;
     int materialOf(std::size_t i) const { return particles_->material[i]; }
     void note(const Touch& touch, ContactClass kind, std::size_t particle, std::size_t other);
 

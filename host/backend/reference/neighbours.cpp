@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "host/model/world.h"
+
 namespace vkdose::reference {
 
 namespace {
@@ -22,7 +24,8 @@ class CellGrid {
             largest = std::max(largest, particles.radius[i]);
         }
         low_ = low;
-        const double reach = 2 * largest + beyond;
+        high_ = high;
+        const double reach = reach_ = 2 * largest + beyond;
         for (int d = 0; d < 3; ++d) {
             constexpr double kMaxCells = 64;  // per axis: bounds the memory when a few particles are far apart
             const double cells = std::floor((high[d] - low[d]) / reach);
@@ -35,9 +38,10 @@ class CellGrid {
             if (particles.status[i] == Status::Active) cells_[index(cellOf(particles.position[i]))].push_back(i);
     }
 
-    /// Calls `visit(j)` for every particle in the 27 cells around `x`.
+    /// Calls `visit(j)` for every particle in the 27 cells around `x`, if `x` is in reach of any particle.
     template <class Visit>
     void around(const Vec3& x, Visit visit) const {
+        if (glm::any(glm::lessThan(x, low_ - reach_)) || glm::any(glm::greaterThan(x, high_ + reach_))) return;
         const std::array<int, 3> home = cellOf(x);
         const auto low = [&](int d) { return std::max(home[d] - 1, 0); };
         const auto high = [&](int d) { return std::min(home[d] + 1, count_[d] - 1); };
@@ -58,17 +62,32 @@ class CellGrid {
         return (static_cast<std::size_t>(cell[0]) * count_[1] + cell[1]) * count_[2] + cell[2];
     }
 
-    Vec3 low_{0};
+    double reach_ = 0;
+    Vec3 low_{0}, high_{0};
     Vec3 edge_{1};
     std::array<int, 3> count_{};
     std::vector<std::vector<std::size_t>> cells_;
 };
 
+/// The shifts from a place to its images, one period away or none in each direction.
+std::vector<Vec3> imagesOf(const Vec3& period) {
+    std::vector<Vec3> images{Vec3(0)};
+    for (int d = 0; d < 3; ++d) {
+        if (period[d] == 0) continue;
+        Vec3 shift(0);
+        shift[d] = period[d];
+        const std::vector<Vec3> former = images;
+        for (const Vec3& image : former) images.insert(images.end(), {image + shift, image - shift});
+    }
+    return images;
+}
+
 }  // namespace
 
-void Neighbours::reset(double skin, double reach, std::uint64_t builds) {
+void Neighbours::reset(double skin, double reach, std::uint64_t builds, const Vec3& period) {
     skin_ = skin;
     reach_ = reach;
+    period_ = period;
     builds_ = builds;
     anchors_.clear();
     rows_.clear();
@@ -91,7 +110,7 @@ bool Neighbours::stale(const Particles& particles) const {
     if (anchors_.size() != particles.size()) return true;
     const double allowed = skin_ / 2;
     for (std::size_t i = 0; i < particles.size(); ++i) {
-        const Vec3 moved = particles.position[i] - anchors_[i];
+        const Vec3 moved = shortest(particles.position[i] - anchors_[i], period_);
         if (particles.status[i] == Status::Active && glm::dot(moved, moved) > allowed * allowed) return true;
     }
     return false;
@@ -103,14 +122,18 @@ void Neighbours::build(const Particles& particles) {
     ++builds_;
     const double beyond = skin_ + reach_;
     const CellGrid grid(particles, beyond);
+    const std::vector<Vec3> images = imagesOf(period_);
     for (std::size_t i = 0; i < particles.size(); ++i) {
         rows_[i].clear();
         if (particles.status[i] != Status::Active) continue;
-        grid.around(particles.position[i], [&](std::size_t j) {
-            const Vec3 apart = particles.position[i] - particles.position[j];
-            const double reach = particles.radius[i] + particles.radius[j] + beyond;
-            if (j > i && glm::dot(apart, apart) < reach * reach) rows_[i].push_back(static_cast<std::uint32_t>(j));
-        });
+        for (const Vec3& image : images) {
+            const Vec3 at = particles.position[i] + image;
+            grid.around(at, [&](std::size_t j) {
+                const Vec3 apart = at - particles.position[j];
+                const double reach = particles.radius[i] + particles.radius[j] + beyond;
+                if (j > i && glm::dot(apart, apart) < reach * reach) rows_[i].push_back(static_cast<std::uint32_t>(j));
+            });
+        }
         std::sort(rows_[i].begin(), rows_[i].end());
     }
 }

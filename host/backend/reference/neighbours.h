@@ -11,8 +11,9 @@ namespace vkdose::reference {
 class Neighbours {
   public:
     /// Forgets everything. The next `update` builds the list, and the count of builds goes on from `builds`. `skin`
-    /// and `reach`, how far beyond touch a contact may hold, in metres.
-    void reset(double skin, double reach, std::uint64_t builds = 0);
+    /// and `reach`, how far beyond touch a contact may hold, in metres. `period`: World::period, longer than twice the
+    /// reach of a pair.
+    void reset(double skin, double reach, std::uint64_t builds = 0, const Vec3& period = Vec3(0));
 
     /// Builds the list if a particle has moved more than half the skin since the last build, or if there is none yet.
     void update(const Particles& particles);
@@ -24,7 +25,8 @@ class Neighbours {
     /// Positions at the last build; empty after `reset`.
     const std::vector<Vec3>& anchors() const { return anchors_; }
 
-    /// Indices j > i, ascending, of the particles closer to i than a_i + a_j + reach + skin at the last build.
+    /// Indices j > i, ascending, of the particles closer to i than a_i + a_j + reach + skin at the last build, by the
+    /// nearest image.
     const std::vector<std::uint32_t>& after(std::size_t i) const { return rows_[i]; }
 
     std::uint64_t builds() const { return builds_; }
@@ -34,6 +36,7 @@ class Neighbours {
     void build(const Particles& particles);
 
     double skin_ = 0, reach_ = 0;
+    Vec3 period_{0};
     std::uint64_t builds_ = 0;
     std::vector<Vec3> anchors_;  ///< positions at the last build
     std::vector<std::vector<std::uint32_t>> rows_;

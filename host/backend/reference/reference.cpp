@@ -25,8 +25,11 @@ bool finite(const Vec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-bool inside(const Box& box, const Vec3& x) {
-    return glm::all(glm::greaterThanEqual(x, box.low)) && glm::all(glm::lessThanEqual(x, box.high));
+/// In directions that repeat, any place is.
+bool inside(const World& world, const Vec3& x) {
+    for (int d = 0; d < 3; ++d)
+        if (world.period[d] == 0 && !(x[d] >= world.domain.low[d] && x[d] <= world.domain.high[d])) return false;
+    return true;
 }
 
 std::string nameOf(const Deepest& deepest, const World& world) {
@@ -53,7 +56,8 @@ class ReferenceBackend final : public Backend {
         forces_.reset(particles.size(), world);
         loads_ = {};
         reach_ = reachIn(law);
-        neighbours_.reset(world.skin, reach_);
+        neighbours_.reset(world.skin, reach_, 0, world.period);
+        if (world.repeats()) particles_.gone.assign(particles.size(), glm::ivec3(0));
         steps_ = 0;
         angle_ = 0;
         clocks_.clear();
@@ -139,6 +143,11 @@ Record ReferenceBackend::snapshot() const {
     record.put("velocity", flat(particles_.velocity));
     record.put("spin", flat(particles_.spin));
     record.put("status", std::move(status));
+    if (world_.repeats()) {
+        std::vector<Vec3> gone;
+        for (const glm::ivec3& g : particles_.gone) gone.emplace_back(g);
+        record.put("periods_gone", flat(gone));
+    }
     record.putOne(kSnapshotSteps, steps_);
     record.putOne("coil_angle", angle_);
     record.putOne("rebuilds", neighbours_.builds());
@@ -167,6 +176,11 @@ void ReferenceBackend::restore(const Record& record) {
     vectors("spin", particles_.spin);
     const auto& status = record.get<std::uint32_t>("status", n);
     for (std::size_t i = 0; i < n; ++i) particles_.status[i] = static_cast<Status>(status[i]);
+    if (world_.repeats()) {
+        std::vector<Vec3> gone(n);
+        vectors("periods_gone", gone);
+        for (std::size_t i = 0; i < n; ++i) particles_.gone[i] = glm::ivec3(gone[i]);
+    }
     if (moveFreely(world_.bodies)) {
         std::vector<Vec3> shifts(free_.size()), velocities(free_.size());
         vectors("body_shift", shifts);
@@ -175,7 +189,7 @@ void ReferenceBackend::restore(const Record& record) {
     }
     steps_ = record.one<std::uint64_t>(kSnapshotSteps);
     angle_ = record.one<double>("coil_angle");
-    neighbours_.reset(world_.skin, reach_);
+    neighbours_.reset(world_.skin, reach_, 0, world_.period);
     const auto builds = record.one<std::uint64_t>("rebuilds");
     std::vector<Vec3> anchors(record.get<double>("list_anchor").empty() ? 0 : n);
     vectors("list_anchor", anchors);
@@ -192,7 +206,7 @@ void ReferenceBackend::addParticles(std::size_t first, const std::vector<Vec3>& 
         particles_.velocity[first + k] = velocityOfRest(world_.timeStep, world_.gravity, steps_);
         particles_.status[first + k] = Status::Active;
     }
-    neighbours_.reset(world_.skin, reach_, neighbours_.builds());
+    neighbours_.reset(world_.skin, reach_, neighbours_.builds(), world_.period);
 }
 
 Sensors ReferenceBackend::advance(std::uint32_t steps, double coilRate) {
@@ -248,7 +262,14 @@ void ReferenceBackend::move(std::size_t i, double kick) {
     const double inertia = 0.4 * m * particles_.radius[i] * particles_.radius[i];
     particles_.velocity[i] += kick * (loads_.force[i] / m + world_.gravity);
     particles_.spin[i] += kick / inertia * loads_.torque[i];
-    particles_.position[i] += world_.timeStep * particles_.velocity[i];
+    Vec3& x = particles_.position[i];
+    x += world_.timeStep * particles_.velocity[i];
+    for (int d = 0; d < 3; ++d) {
+        if (world_.period[d] == 0) continue;
+        const int gone = x[d] >= world_.domain.high[d] ? 1 : x[d] < world_.domain.low[d] ? -1 : 0;
+        x[d] -= gone * world_.period[d];
+        particles_.gone[i][d] += gone;
+    }
 }
 
 /// As `move`, of the bodies that move freely.
@@ -294,7 +315,7 @@ void ReferenceBackend::settleStatus(std::size_t i) {
     const bool broken = !finite(x) || !finite(particles_.velocity[i]) || !finite(particles_.spin[i]);
     if (!broken && world_.doses(x)) {
         particles_.status[i] = Status::Dosed;
-    } else if (broken || !inside(world_.domain, x)) {
+    } else if (broken || !inside(world_, x)) {
         particles_.status[i] = Status::Lost;
         if (lost_.empty())
             lost_ = fmt::format(
@@ -337,7 +358,7 @@ ReferenceBackend::Mechanical ReferenceBackend::mechanicalEnergy(std::size_t i) c
     const double m = mass(i), a = particles_.radius[i];
     return {0.5 * m * glm::dot(before_.velocity[i], particles_.velocity[i]),
             0.5 * (0.4 * m * a * a) * glm::dot(before_.spin[i], particles_.spin[i]),
-            -m * glm::dot(world_.gravity, before_.position[i])};
+            -m * glm::dot(world_.gravity, unfolded(world_, before_, i))};
 }
 
 EnergyBook ReferenceBackend::senseEnergy() const {
@@ -379,6 +400,8 @@ Sensors ReferenceBackend::sense() const {
         if (status == Status::Lost) region = Region::Lost;
         sensors.count[static_cast<std::size_t>(region)] += 1;
         sensors.mass[static_cast<std::size_t>(region)] += mass(i);
+        if (!particles_.gone.empty())
+            for (int d = 0; d < 3; ++d) sensors.through[std::size_t(d)] += mass(i) * particles_.gone[i][d];
         if (status != Status::Active) continue;
 
         const double m = mass(i), a = particles_.radius[i];

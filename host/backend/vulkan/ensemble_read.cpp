@@ -14,8 +14,9 @@ namespace vkdose {
 namespace {
 
 /// The sums over a member's groups.
-Sensors sensorsOf(std::span<const gpu::GroupRecord> groups) {
+Sensors sensorsOf(std::span<const gpu::GroupRecord> groups, const Vec3& period) {
     Sensors s;
+    glm::dvec2 through(0);
     for (const gpu::GroupRecord& group : groups) {
         const gpu::SensorRecord& r = group.sensors;
         for (int region = 0; region < kRegions; ++region) {
@@ -26,7 +27,9 @@ Sensors sensorsOf(std::span<const gpu::GroupRecord> groups) {
         s.rotationalEnergy += double(r.motion.y);
         s.throatMomentumZ += double(r.motion.z);
         s.maxOverlapRatio = std::max(s.maxOverlapRatio, double(r.extremes.x));
+        through += glm::dvec2(double(r.extremes.y), double(r.extremes.z));
     }
+    s.through = fromKept(through, period);
     return s;
 }
 
@@ -110,7 +113,7 @@ std::vector<Sensors> Ensemble::sense(const std::vector<Look>& looks) {
     for (std::size_t n = 0; n < looks.size(); ++n) {
         const MemberState& m = members_[looks[n].member];
         const std::span<const gpu::GroupRecord> own(records.data() + groups * n, groups);
-        Sensors& s = all.emplace_back(sensorsOf(own));
+        Sensors& s = all.emplace_back(sensorsOf(own, m.world.period));
         s.bodies = std::move(loads[n]);
         if (booked(m)) s.energy = energyOf(own);
         if (m.world.coil) {  // the last of allBodies
@@ -146,7 +149,7 @@ Particles Ensemble::particles(std::uint32_t member) const {
     const Particles& loaded = members_[member].loaded;
     const std::uint64_t lows = passes_->at.speedLowIndex(std::uint64_t(member) * t.share, 0);
     return unpackState(share, passes_->anchors.readAll<gpu::vec4>(2 * loaded.size(), lows * sizeof(gpu::vec4)), t.share,
-                       loaded);
+                       loaded, members_[member].world.period);
 }
 
 std::vector<Contact> Ensemble::contacts(std::uint32_t member) const {

@@ -151,10 +151,18 @@ gpu::Member packMember(const World& world, const ContactLaw& law, const Particle
     m.domainLow = vec4(glm::vec3(world.domain.low), finite(world.throatZ));
     m.domainHigh = vec4(glm::vec3(world.domain.high), finite(world.outletZ));
     packOutlets(world, m);
+    const Split3 period(world.period);
+    m.period[0] = vec4(period.high, 0.0f);
+    m.period[1] = vec4(period.low, 0.0f);
     m.numerics = vec4(float(world.timeStep), float(world.skin), float(2 * largest + reach + world.skin),
                       float(world.maxOverlapRatio));
     m.roster.w = std::bit_cast<gpu::uint>(float(reach));
     return m;
+}
+
+std::array<double, 3> fromKept(const glm::dvec2& kept, const Vec3& period) {
+    const bool x = period.x > 0, y = period.y > 0, z = period.z > 0;
+    return {x ? kept.x : 0, y ? (x ? kept.y : kept.x) : 0, z ? kept.y : 0};
 }
 
 void packState(const Particles& p, std::size_t share, std::size_t first, std::vector<gpu::vec4>& half) {
@@ -188,8 +196,9 @@ std::vector<gpu::vec4> packSpeedLows(const Particles& p) {
 }
 
 Particles unpackState(const std::vector<gpu::vec4>& half, const std::vector<gpu::vec4>& speedLows, std::size_t slots,
-                      const Particles& loaded) {
+                      const Particles& loaded, const Vec3& period) {
     Particles p = loaded;
+    if (period != Vec3(0)) p.gone.resize(p.size());
     const auto at = [&](std::uint32_t field, std::size_t i) {
         return half[gpu::stateOffset(field, std::uint32_t(i), std::uint32_t(slots))];
     };
@@ -199,6 +208,9 @@ Particles unpackState(const std::vector<gpu::vec4>& half, const std::vector<gpu:
         p.velocity[i] = sum(at(gpu::kVelocity, i), speedLows[2 * i]);
         p.spin[i] = sum(at(gpu::kSpin, i), speedLows[2 * i + 1]);
         p.status[i] = Status(uint32_t(at(gpu::kSpin, i).w));
+        if (p.gone.empty()) continue;
+        const auto gone = fromKept({double(speedLows[2 * i].w), double(speedLows[2 * i + 1].w)}, period);
+        p.gone[i] = glm::ivec3(glm::dvec3(gone[0], gone[1], gone[2]));
     }
     return p;
 }

@@ -177,9 +177,9 @@ std::vector<const char*> Passes::names() {
     return names;
 }
 
-std::array<std::uint32_t, 14> Passes::constants(const TableSizes& s) {
-    return {s.workgroup, s.surfaces,   s.surfaceKinds, s.kindSet,    s.members, s.mostGroups, s.front,
-            s.bodies,    s.shapeKinds, s.laws,         s.mostPlaces, s.powders, s.manyWalls,  s.outlets};
+std::array<std::uint32_t, 15> Passes::constants(const TableSizes& s) {
+    return {s.workgroup,  s.surfaces, s.surfaceKinds, s.kindSet, s.members,   s.mostGroups, s.front,  s.bodies,
+            s.shapeKinds, s.laws,     s.mostPlaces,   s.powders, s.manyWalls, s.outlets,    s.periods};
 }
 
 namespace {

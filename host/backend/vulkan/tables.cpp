@@ -72,6 +72,7 @@ void TableSizes::growTo(const TableSizes& other) {
     powders = std::max(powders, other.powders);
     manyWalls = std::max(manyWalls, other.manyWalls);
     outlets = std::max(outlets, other.outlets);
+    periods = std::max(periods, other.periods);
 }
 
 bool TableSizes::holds(const TableSizes& other) const {
@@ -79,7 +80,7 @@ bool TableSizes::holds(const TableSizes& other) const {
     both.growTo(other);
     const auto grown = [](const TableSizes& s) {
         return std::tuple(s.share, s.cells, s.rowEntries, s.linkEntries, s.pairSlots, s.surfaceSlots, s.bodySlots,
-                          s.bodies, s.shapeKinds, s.mostPlaces, s.laws, s.powders, s.manyWalls, s.outlets);
+                          s.bodies, s.shapeKinds, s.mostPlaces, s.laws, s.powders, s.manyWalls, s.outlets, s.periods);
     };
     return shares(other) && grown(both) == grown(*this);
 }
@@ -192,6 +193,7 @@ TableSizes tableSizes(const World& world, const Crowd& crowd, const gpu::Member&
     s.manyWalls = hasManyWalls(world) ? 1U : 0U;
     s.outlets = std::uint32_t(
         std::count_if(world.regions.begin(), world.regions.end(), [](const CountRegion& r) { return r.deletes; }));
+    s.periods = world.repeats() ? 1U : 0U;
     if (userLaw && reachOf(member) > 0) s.laws |= 1U << gpu::kUserReaches;
     s.energyBook = world.energyBook;
 

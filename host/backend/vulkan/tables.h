@@ -30,6 +30,7 @@ struct TableSizes {
     std::uint32_t powders = 1;               ///< 1: all particles are of the first powder
     std::uint32_t manyWalls = 0;             ///< 1: a surface or body is of another material than walls and coil
     std::uint32_t outlets = 0;               ///< most regions of a member that delete
+    std::uint32_t periods = 0;               ///< 1: a direction of a member repeats
     std::uint32_t shapeKinds = 0;            ///< bit k: a body has a shape of kind k (shaders/shared/geometry.h)
     std::uint32_t mostPlaces = 1;  ///< in which a sphere touches a body at once; gpu::kFewPlaces: that or more
     // Of each member:
