@@ -8,6 +8,19 @@
 
 namespace vkdose {
 
+std::vector<Vec3> imageShifts(const Vec3& period) {
+    std::vector<Vec3> shifts;
+    for (int d = 0; d < 3; ++d) {
+        if (period[d] == 0) continue;
+        Vec3 shift(0);
+        shift[d] = period[d];
+        const std::vector<Vec3> former = shifts;
+        for (const Vec3& other : former) shifts.insert(shifts.end(), {other + shift, other - shift});
+        shifts.insert(shifts.end(), {shift, -shift});
+    }
+    return shifts;
+}
+
 std::vector<int> powdersOf(const World& world) {
     std::vector<int> powders;
     for (int m = 0; m < int(world.materials.size()); ++m)

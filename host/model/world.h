@@ -32,6 +32,9 @@ inline Vec3 shortest(Vec3 way, const Vec3& period) {
     return way;
 }
 
+/// The ways from a place to its images, one period away or none in each direction, but for the place itself [m].
+std::vector<Vec3> imageShifts(const Vec3& period);
+
 /// Overlap over smaller radius above which a run stops, unless the case gives another limit. The contact laws here are
 /// not made for larger overlaps.
 inline constexpr double kMaxOverlapRatio = 0.2;

@@ -6,6 +6,9 @@ const std::vector<Comparison>& comparisons() {
     static const std::vector<Comparison> kAll{
         {"beverloo", "rate of discharge through holes in a flat floor",
          "W. A. Beverloo, H. A. Leniger, J. van de Velde, Chem. Eng. Sci. 15 (1961) 260", beverloo},
+        {"anand", "mass that leaves a rectangular hopper over time, in a slice that repeats",
+         "A. Anand, J. S. Curtis, C. R. Wassgren, B. C. Hancock, W. R. Ketterhagen, Chem. Eng. Sci. 63 (2008) 5821",
+         anand},
         {"heap", "angle of repose over friction, rolling friction and size",
          "Y. C. Zhou, B. H. Xu, A. B. Yu, P. Zulli, Powder Technol. 125 (2002) 45", heap},
         {"dosta-silo", "spheres left in a silo over time, two materials and two holes",

@@ -22,6 +22,7 @@ struct Comparison {
 
 const std::vector<Comparison>& comparisons();
 
+Evaluation anand(const std::vector<Run>& runs, const std::filesystem::path& studies);
 Evaluation beverloo(const std::vector<Run>& runs, const std::filesystem::path& studies);
 Evaluation heap(const std::vector<Run>& runs, const std::filesystem::path& studies);
 Evaluation dostaBall(const std::vector<Run>& runs, const std::filesystem::path& studies);

@@ -1,6 +1,8 @@
 // Figures and verdicts of the comparisons, from runs whose results are made up so that the answer is known.
 
+#include <fmt/format.h>
 #include <array>
+
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -216,6 +218,36 @@ TEST_CASE("the error of an exponent knows the quarters of the heaps, the filling
     runs = heaps({0, 0, 0});
     for (const std::size_t i : {0, 7}) angle(runs[i]) = 20 * std::exp(0.3);  // the middle, off the line by 0.2
     CHECK(errorOf(runs) == Approx(std::sqrt(0.2 * 0.2 + 2 * 0.1 * 0.1) / std::sqrt(spread)));
+}
+
+TEST_CASE("a hopper is judged by the published curve, from the time when its gate opens") {
+    const test::Folder published;
+    published.write("anand-curve.csv", "time_s,mass_g\n0,0\n0.25,20\n0.75,60\n1.1,84\n2,90\n");
+    const auto runOf = [](const test::Folder& folder, double rate) {
+        std::string rows = "time_s,pan.mass_kg\n0,0\n0.9,0\n";
+        for (int i = 0; i <= 20; ++i)
+            rows += fmt::format("{},{}\n", 1 + 0.1 * i, 1e-3 * std::min(90.0, rate * 0.1 * i));
+        folder.write("timeseries.csv", rows);
+        Run run;
+        run.folder = folder.path();
+        return run;
+    };
+    const test::Folder one, two, slow;
+    const Evaluation good = anand({runOf(one, 79), runOf(two, 82)}, published.path());
+    REQUIRE(good.findings.size() == 5);
+    CHECK(good.findings[0].got == Approx(80.5));
+    CHECK(good.findings[0].error == Approx(1.5));
+    CHECK(good.findings[0].low == Approx(0.95 * 80));
+    CHECK(good.findings[2].got == Approx((40 / 79.0 + 40 / 82.0) / 2).epsilon(1e-3));
+    for (const Finding& f : good.findings) CHECK(f.verdict() == Verdict::Agrees);
+    CHECK(good.charts[0].curves.size() == 3);
+    // The curve belongs to both sizes.
+    CHECK(anand({runOf(one, 79)}, published.path() / "full").findings[0].low == Approx(0.95 * 80));
+    const Evaluation wrong = anand({runOf(slow, 70)}, published.path());
+    CHECK(wrong.findings[0].verdict() == Verdict::Differs);
+    CHECK(wrong.findings[4].verdict() == Verdict::Differs);
+    // Less than it takes comes out.
+    CHECK(anand({runOf(slow, 20)}, published.path()).findings[3].verdict() == Verdict::Differs);
 }
 
 TEST_CASE("a silo is judged by the programs that ran the same inputs, and by none without them") {

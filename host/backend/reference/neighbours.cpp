@@ -69,19 +69,6 @@ class CellGrid {
     std::vector<std::vector<std::size_t>> cells_;
 };
 
-/// The shifts from a place to its images, one period away or none in each direction.
-std::vector<Vec3> imagesOf(const Vec3& period) {
-    std::vector<Vec3> images{Vec3(0)};
-    for (int d = 0; d < 3; ++d) {
-        if (period[d] == 0) continue;
-        Vec3 shift(0);
-        shift[d] = period[d];
-        const std::vector<Vec3> former = images;
-        for (const Vec3& image : former) images.insert(images.end(), {image + shift, image - shift});
-    }
-    return images;
-}
-
 }  // namespace
 
 void Neighbours::reset(double skin, double reach, std::uint64_t builds, const Vec3& period) {
@@ -122,7 +109,8 @@ void Neighbours::build(const Particles& particles) {
     ++builds_;
     const double beyond = skin_ + reach_;
     const CellGrid grid(particles, beyond);
-    const std::vector<Vec3> images = imagesOf(period_);
+    std::vector<Vec3> images = imageShifts(period_);
+    images.emplace_back(0);  // the place itself
     for (std::size_t i = 0; i < particles.size(); ++i) {
         rows_[i].clear();
         if (particles.status[i] != Status::Active) continue;

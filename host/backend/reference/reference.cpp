@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "host/backend/reference/forces.h"
+#include "host/backend/reference/free_motion.h"
 #include "host/backend/reference/neighbours.h"
 #include "host/core/error.h"
 #include "host/model/normal_law.h"
@@ -92,7 +93,6 @@ class ReferenceBackend final : public Backend {
   private:
     void step(double coilRate);
     void move(std::size_t i, double kick);
-    void moveBodies();
     void settleStatus(std::size_t i);
     void bookStep(bool opening);
     void refuseDeepOverlap() const;
@@ -243,7 +243,7 @@ void ReferenceBackend::step(double coilRate) {
                      loads_);
     refuseDeepOverlap();
     if (world_.energyBook) before_ = particles_;
-    moveBodies();
+    reference::moveFreeBodies(world_, loads_, steps_, clocks_, free_);
 
     ++steps_;
     advanceClocks(clocks_, 1);
@@ -269,35 +269,6 @@ void ReferenceBackend::move(std::size_t i, double kick) {
         const int gone = x[d] >= world_.domain.high[d] ? 1 : x[d] < world_.domain.low[d] ? -1 : 0;
         x[d] -= gone * world_.period[d];
         particles_.gone[i][d] += gone;
-    }
-}
-
-/// As `move`, of the bodies that move freely.
-void ReferenceBackend::moveBodies() {
-    for (std::size_t b = 0; b < free_.size(); ++b) {
-        const RigidBody& body = world_.bodies[b];
-        if (!body.movesFreely()) continue;
-        const double kick = body.kickOf(steps_, world_.timeStep);
-        if (kick == 0) continue;
-        const auto& motion = std::get<geometry::Free>(body.course.motion);
-        FreeBody& free = free_[b];
-        Vec3 push = kick * (loads_.bodies[b].force / motion.mass + world_.gravity);
-        if (motion.line) {
-            const BodyClock clock = clockOf(clocks_, b);
-            const double force = body.drivingForce(
-                static_cast<double>(steps_) * world_.timeStep,
-                clock.runs ? std::optional(static_cast<double>(clock.steps) * world_.timeStep) : std::nullopt);
-            push = (glm::dot(push, *motion.line) + kick * force / motion.mass) * *motion.line;
-        }
-        // The damping acts at the mean of the velocities before and after, so that it takes energy at any size.
-        const double damped = kick * motion.damping / motion.mass;
-        free.velocity += (push - damped * free.velocity) / (1 + damped / 2);
-        if (motion.line) {
-            const double speed = glm::dot(free.velocity, *motion.line);
-            const double stopped = motion.stopped(glm::dot(free.shift, *motion.line), speed, world_.timeStep);
-            if (stopped != speed) free.velocity = stopped * *motion.line;
-        }
-        free.shift += world_.timeStep * free.velocity;
     }
 }
 
