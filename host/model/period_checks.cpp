@@ -57,7 +57,7 @@ class Ends {
         if (differs(d, 0)) return;
         constexpr int kInstants = 16;
         for (const double span : spansToLookAt(d))
-            for (int k = 1; k < kInstants; ++k)
+            for (int k = 1; k <= kInstants; ++k)
                 if (differs(d, span * k / kInstants)) return;
     }
 
