@@ -3,14 +3,15 @@
 
 #include <dlfcn.h>
 
-// Leaks that are not ours. The Vulkan loader, the drivers and their libraries keep memory until the process ends, and
-// cairo keeps the fonts that it has looked up.
+// Leaks that are not ours. The Vulkan loader, the drivers and their libraries keep memory until the process ends, cairo
+// keeps the fonts that it has looked up, and the C library the folders of LOCPATH.
 extern "C" const char* __lsan_default_suppressions() {
     return "leak:libvulkan\n"
            "leak:libvk_swiftshader\n"
            "leak:libVkLayer\n"
            "leak:libLLVM\n"
-           "leak:libfontconfig\n";
+           "leak:libfontconfig\n"
+           "leak:__argz_add_sep\n";
 }
 
 extern "C" const char* __lsan_default_options() {
