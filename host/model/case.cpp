@@ -223,6 +223,7 @@ Case interpret(const std::filesystem::path& file, Node tree, std::vector<std::fi
         c.world.domain = defaultDomain(c, sizes, filled);
         root.table("domain").record("low", c.world.domain.low);
         root.table("domain").record("high", c.world.domain.high);
+        root.table("domain").record("periodic", std::string("none"));
     }
     checkExtent(reader, c, sizes.smallest, domainGiven || !c.filling.list ? "domain" : "particles.list");
     reader.throwIfFaulty();
