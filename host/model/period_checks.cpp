@@ -135,20 +135,20 @@ class Ends {
 
 }  // namespace
 
-void checkPeriod(CaseReader& reader, const Case& c, const SizeRange& sizes) {
+void checkPeriod(CaseReader& reader, const Case& c, const SizeRange& radii) {
     if (!c.world.repeats()) return;
     if (c.canister) {
         reader.fault(kKey, "has no use with a canister, which ends at its walls",
                      "write boundaries = \"list\" or \"none\" and give the walls as bodies");
         return;
     }
-    const double contact = std::max(longestReach(c.world, c.settlingLaw, sizes.largest),
-                                    longestReach(c.world, c.dosingLaw, sizes.largest));
-    const double shortest = 2 * (2 * sizes.largest + contact + c.world.skin);
+    const double contact = std::max(longestReach(c.world, c.settlingLaw, radii.largest),
+                                    longestReach(c.world, c.dosingLaw, radii.largest));
+    const double shortest = 2 * (2 * radii.largest + contact + c.world.skin);
     for (int d = 0; d < 3; ++d) {
         if (c.world.period[d] == 0) continue;
         if (c.world.period[d] >= shortest)
-            Ends(reader, c, sizes).check(d);
+            Ends(reader, c, radii).check(d);
         else
             reader.fault(kKey,
                          fmt::format("repeats every {:.4g} mm along {}: a sphere would meet another one and its image",
