@@ -254,19 +254,19 @@ TEST_CASE("period: a slice of a screw is as a long one") {
         if (apart && geometry::touched(open.bodies[0].shapes, at, 1.3e-3).empty())
             p.add(at, single(1.25e-3), Vec3(0.05, -0.1, 0.4), Vec3(3, 1, -2));
     }
-    const auto long_ = made(reference), part = made(reference);
-    long_->load(open, p);
+    const auto endless = made(reference), part = made(reference);
+    endless->load(open, p);
     part->load(w, p);
     double way = 0;
     for (int call = 0; call < 8; ++call) {
-        long_->advance(1000, 0);
+        endless->advance(1000, 0);
         part->advance(1000, 0);
-        const Particles a = part->particles(), b = long_->particles();
+        const Particles a = part->particles(), b = endless->particles();
         for (std::size_t i = 0; i < p.size(); ++i) {
             CHECK(near(unfolded(w, a, i), b.position[i], a.radius[i], reference ? 1e-6 : 1e-2));
             way = std::max(way, b.position[i].z - p.position[i].z);
         }
-        CHECK(part->contacts().size() == long_->contacts().size());
+        CHECK(part->contacts().size() == endless->contacts().size());
     }
     CHECK(way > pitch);
     if (!reference) requireClean(*part);
