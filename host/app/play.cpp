@@ -119,7 +119,8 @@ void change(Checkpoint& from, const Case& c, const std::vector<std::string>& ove
 
 /// What can be done with a run that has ended before its first checkpoint.
 std::string withoutCheckpoint(const std::filesystem::path& folder) {
-    const std::string word = shellWord(folder.string()), ended = folder.string() + " holds a run with no checkpoint";
+    const std::string word = shellWord(folder.string());
+    const std::string ended = fmt::format("{} holds a run with no checkpoint ({})", folder.string(), kCheckpointName);
     if (std::filesystem::exists(folder / kSettledName))
         return fmt::format(
             "{}, but with its settled bed: run its doses from there with `vkdose run --from {} --out "

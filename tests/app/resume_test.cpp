@@ -75,12 +75,13 @@ TEST_CASE("a run that is killed before its first checkpoint is told the way on")
     killedAt("doses.csv", "settle.time_s=1000");
     const auto early = box.vkdose("resume cut");
     CHECK(early.code == 2);
-    CHECK_THAT(early.err, Catch::Contains("no checkpoint") &&
+    CHECK_THAT(early.err, Catch::Contains("no checkpoint (checkpoint.h5)") &&
                               Catch::Contains("start again with `vkdose run cut/case.toml --out cut --force`"));
     killedAt("settled.h5", "settle.time_s=0.01");
     const auto settled = box.vkdose("resume cut");
     CHECK(settled.code == 2);
-    CHECK_THAT(settled.err, Catch::Contains("no checkpoint") && Catch::Contains("`vkdose run --from cut --out DIR`"));
+    CHECK_THAT(settled.err, Catch::Contains("no checkpoint (checkpoint.h5)") &&
+                                Catch::Contains("`vkdose run --from cut --out DIR`"));
     CHECK(box.vkdose("run --from cut --out DIR --quiet --set stop.max_doses=1").code == 0);
 }
 
