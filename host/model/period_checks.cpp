@@ -47,10 +47,9 @@ double spanOf(const geometry::Motion& motion) {
 
 class Ends {
   public:
-    Ends(CaseReader& reader, const Case& c, const SizeRange& sizes) : reader_(reader), c_(c), sizes_(sizes) {
-        reach_ = sizes.largest + std::max(longestReach(c.world, c.settlingLaw, sizes.largest),
-                                          longestReach(c.world, c.dosingLaw, sizes.largest));
-    }
+    /// `reach` [m]: from a centre to all that a sphere may touch.
+    Ends(CaseReader& reader, const Case& c, double smallestRadius, double reach)
+        : reader_(reader), c_(c), smallest_(smallestRadius), reach_(reach) {}
 
     /// Whether all that powder touches is the same at both ends along axis `d`, whenever it is looked at.
     void check(int d) {
@@ -110,7 +109,7 @@ class Ends {
         Vec3 there = x;
         there[d] += c_.world.period[d];
         const Obstacle low = around.nearest(x, reach_), high = around.nearest(there, reach_);
-        if (std::abs(low.distance - high.distance) <= kSame * sizes_.smallest) return false;
+        if (std::abs(low.distance - high.distance) <= kSame * smallest_) return false;
         const bool atLow = low.distance < high.distance;
         const Obstacle &near = atLow ? low : high, &far = atLow ? high : low;
         const Vec3 at = atLow ? x : there;
@@ -129,8 +128,8 @@ class Ends {
     static constexpr char kAxis[] = "xyz";
     CaseReader& reader_;
     const Case& c_;
-    SizeRange sizes_;
-    double reach_;  ///< from a centre to all that a sphere may touch [m]
+    double smallest_;  ///< radius [m]
+    double reach_;     ///< [m]
 };
 
 }  // namespace
@@ -148,7 +147,7 @@ void checkPeriod(CaseReader& reader, const Case& c, const SizeRange& radii) {
     for (int d = 0; d < 3; ++d) {
         if (c.world.period[d] == 0) continue;
         if (c.world.period[d] >= shortest)
-            Ends(reader, c, radii).check(d);
+            Ends(reader, c, radii.smallest, radii.largest + contact).check(d);
         else
             reader.fault(kKey,
                          fmt::format("repeats every {:.4g} mm along {}: a sphere would meet another one and its image",
