@@ -59,6 +59,8 @@ FINDING = """{"met": true, "misfit": 0.01, "best": 1,
 """
 # The resolved cases of this attack have these as the program derives them, so that it derives the same without them.
 DERIVED = ("step_s", "skin_mm")
+# What these tables do not state they have from these.
+INHERITED = {"[contact.wall]": "[contact]", "[contact.coil]": "[contact.wall]"}
 # A resumed run may miss that these are spoilt: it does not need them and does not write them again.
 UNREAD = ("frames/particles_", "fields/mid-plane_")
 
@@ -174,18 +176,22 @@ def lines_of(path):
 
 def says_the_same(t, good, name):
     """Whether the owner's case says what the good one says: the same lines but for blanks, and but for keys that have
-    their default. The keys behind the preset of a field have it too, and so have those whose default is derived from
-    the rest of the case, in the cases of this attack. Such a case stays as its owner left it."""
+    their default. The keys behind the preset of a field have it too, so have those whose default is derived from
+    the rest of the case, in the cases of this attack, and those that a table of contacts has from the one before. Such
+    a case stays as its owner left it."""
     other = t.path("out", name)
     if os.path.basename(name) != "case.toml" or not os.path.isfile(other):
         return False
     left = lines_of(other)
-    preset = False
+    tables, table, preset = {}, "", False  # each with its lines so far
     for words in lines_of(os.path.join(good, name)):
+        if words[0].startswith("["):
+            table = words[0]
+        tables.setdefault(table, []).append(words)
         preset = words[0] == "preset" or preset and not words[0].startswith("[")
         if left and left[0] == words:
             left.pop(0)
-        elif words[0] in DERIVED or words == ["[time]"]:
+        elif words[0] in DERIVED or words == ["[time]"] or words in tables.get(INHERITED.get(table), []):
             continue
         elif not preset and (words[0], " ".join(words[2:])) not in defaults(t.ground.program):
             return False
