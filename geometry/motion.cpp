@@ -102,6 +102,13 @@ Displacement at(const Free& m, double t) {
     return d;
 }
 
+Displacement at(const Hinge& m, double) {
+    Displacement d;
+    d.axis = m.axis;
+    d.through = m.through;
+    return d;
+}
+
 Displacement displacement(const Motion& motion, double t) {
     return std::visit([&](const auto& m) { return at(m, t); }, motion);
 }
@@ -180,6 +187,18 @@ std::string fault(const Free& m) {
     return glm::length(glm::cross(*m.line, m.velocity)) <= 1e-9 * speed ? "" : "the velocity leads off the line";
 }
 
+std::string fault(const Hinge& m) {
+    if (!std::isfinite(m.inertia) || !std::isfinite(m.rate) || !std::isfinite(m.mass) || !finite(m.centre))
+        return "inertia, rate, mass and centre must be finite";
+    if (m.inertia <= 0) return "the moment of inertia must be positive";
+    if (m.mass < 0) return "the mass must not be negative";
+    if (!(m.damping >= 0) || !std::isfinite(m.damping)) return "the damping must be finite and not negative";
+    if (!(m.low <= 0 && m.high >= 0)) return "the body begins beyond its stops";
+    const auto isFinite = [](const Hinge::Row& row) { return std::isfinite(row.torque); };
+    if (std::string said = rowsFault(m.rows, isFinite); !said.empty()) return said;
+    return axisFault(m.axis, m.through);
+}
+
 std::string waveFault(double amplitude, double frequency, double phase) {
     if (!std::isfinite(amplitude) || !std::isfinite(frequency) || !std::isfinite(phase))
         return "amplitude, frequency and phase must be finite";
@@ -217,7 +236,17 @@ double Free::force(double time) const {
     return rows.empty() ? 0 : Between<Row>(rows, time).value(&Row::force);
 }
 
-double Free::stopped(double way, double speed, double timeStep) const {
+double Hinge::torque(double time) const {
+    return rows.empty() ? 0 : Between<Row>(rows, time).value(&Row::torque);
+}
+
+glm::dvec2 Hinge::weight(const Vec3& gravity) const {
+    const Vec3 arm = centre - through, pull = mass * gravity;
+    return {glm::dot(axis, glm::cross(arm - glm::dot(arm, axis) * axis, pull)),
+            glm::dot(axis, glm::cross(glm::cross(axis, arm), pull))};
+}
+
+double stoppedAt(double low, double high, double way, double speed, double timeStep) {
     const double room = speed > 0 ? high - way : way - low;
     if (std::abs(speed) * timeStep <= room) return speed;
     return room > kAtStop ? std::copysign(room / timeStep, speed) : 0;
@@ -237,8 +266,9 @@ bool Schedule::active(double time) const {
 
 Pose Course::pose(double time) const {
     const Displacement d = displacement(motion, schedule.elapsed(time));
-    const Rotation turned = glm::angleAxis(d.angle, d.axis);
-    return {turned * start.rotation, d.through + turned * (start.origin - d.through) + d.shift};
+    Pose pose = turned(start, d.axis, d.through, d.angle);
+    pose.origin += d.shift;
+    return pose;
 }
 
 Moving Course::moving(double time) const {
@@ -247,9 +277,16 @@ Moving Course::moving(double time) const {
     return {d.speed, d.angleRate * d.axis, d.through + d.shift};
 }
 
-double Course::force(double time) const {
-    const auto* free = std::get_if<Free>(&motion);
-    return free != nullptr && schedule.active(time) ? free->force(schedule.elapsed(time)) : 0;
+double Course::drive(double time) const {
+    if (!schedule.active(time)) return 0;
+    if (const auto* free = std::get_if<Free>(&motion)) return free->force(schedule.elapsed(time));
+    if (const auto* hinge = std::get_if<Hinge>(&motion)) return hinge->torque(schedule.elapsed(time));
+    return 0;
+}
+
+Pose turned(const Pose& pose, const Vec3& axis, const Vec3& through, double angle) {
+    const Rotation turn = glm::angleAxis(angle, axis);
+    return {turn * pose.rotation, through + turn * (pose.origin - through)};
 }
 
 double wayBound(const Course& course, const Vec3& centre, double radius, double time, double duration) {

@@ -1,6 +1,6 @@
 #pragma once
 // How a body moves: a closed form of time, so that a place and a velocity at any time follow from the time alone. A
-// restart, or a longer step, finds the body where it would have been. A free body is the exception.
+// restart, or a longer step, finds the body where it would have been. A free body and a hinged one are the exceptions.
 
 #include <limits>
 #include <optional>
@@ -103,13 +103,39 @@ struct Free {
     bool operator==(const Free&) const = default;
 
     double force(double time) const;  ///< [N]
-    /// The speed along its line with which it comes no farther than to its stops in a time step. `way`: so far [m].
-    double stopped(double way, double speed, double timeStep) const;
 };
-/// A body so near to its stop is at it [m]: a device knows its place to less than that.
+
+/// Turns about a line as the torques on it say. Its angle is no function of time, either.
+struct Hinge {
+    /// The torque that drives it at a time of its own clock; in between as in Free::Row.
+    struct Row {
+        double time = 0;    ///< [s]
+        double torque = 0;  ///< about the axis [N m]
+        bool operator==(const Row&) const = default;
+    };
+    Vec3 axis{0, 0, 1}, through{0};
+    double inertia = 0;                     ///< moment of inertia about the axis [kg m2]
+    double rate = 0;                        ///< at the start [rad/s]
+    double mass = 0;                        ///< on which gravity acts [kg]
+    Vec3 centre{0};                         ///< of that mass, at the start, in the world [m]
+    std::vector<Row> rows = {};             ///< empty: no torque
+    double low = -kNoStop, high = kNoStop;  ///< the stops of its turn, from its start [rad]
+    double damping = 0;                     ///< this by its rate is a torque against it [N m s]
+    bool operator==(const Hinge&) const = default;
+
+    double torque(double time) const;  ///< [N m]
+    /// The torque of its weight about the axis when it has turned by `angle` [rad] is
+    /// x cos(angle) + y sin(angle) [N m].
+    glm::dvec2 weight(const Vec3& gravity) const;
+};
+
+/// The speed with which a body comes no farther than to its stops in a time step: along a line [m/s] or about one
+/// [rad/s]. `way`: so far, in the unit of the stops.
+double stoppedAt(double low, double high, double way, double speed, double timeStep);
+/// A body so near to its stop is at it [m], [rad]: a device knows its place to less than that.
 inline constexpr double kAtStop = 1e-7;
 
-using Motion = std::variant<Rest, Turn, Swing, Shake, Slide, Table, Free>;
+using Motion = std::variant<Rest, Turn, Swing, Shake, Slide, Table, Free, Hinge>;
 
 /// The time after which a motion repeats itself [s]; none if it does not. A table does not.
 std::optional<double> periodOf(const Motion& motion);
@@ -137,9 +163,13 @@ struct Course {
 
     Pose pose(double time) const;
     Moving moving(double time) const;
-    /// The force that drives a body that moves freely, along its line [N]; zero for others.
-    double force(double time) const;
+    /// What drives a body that moves freely: the force along its line [N], or the torque about its hinge [N m]; zero
+    /// for others.
+    double drive(double time) const;
 };
+
+/// A pose turned about the line through `through` along `axis` by `angle` [rad].
+Pose turned(const Pose& pose, const Vec3& axis, const Vec3& through, double angle);
 
 /// Upper bound of the way that any point within `radius` [m] of `centre`, a point of the body's frame, goes from
 /// `time` to `time` + `duration` [m]. From it a device knows when the contacts with the body have to be sought anew.

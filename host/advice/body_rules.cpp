@@ -316,6 +316,7 @@ double largestSpeed(const Subject& s, const RigidBody& body) {
     const geometry::Motion& motion = body.course.motion;
     const auto* free = std::get_if<geometry::Free>(&motion);
     if (free != nullptr && free->rows.size() < 2) return glm::length(free->velocity);
+    if (const geometry::Hinge* hinge = body.hinge()) return std::abs(hinge->rate) * hingeLever(body);
     const std::vector<Triangle> mesh = trianglesOf(body);
     // Of a body without an end, what is in the domain counts.
     const auto [low, high] = mesh.empty() ? s.c.world.domain : extentOf(mesh);

@@ -242,7 +242,7 @@ Json figuresJson(const Checked& all) {
 }
 
 Json runTimeJson(const CheckOptions& options, const Checked& all) {
-    const double work = all.derived.steps * static_cast<double>(all.derived.particles);
+    const double work = all.derived.work;
     const Speed speed = speedOf(all.c, all.filled, options.backend, options.assume);
     return {{"particle_steps", jsonNumber(work)},
             {"particle_steps_per_second", jsonNumber(speed.rate)},

@@ -55,7 +55,10 @@ void EventsDisplay::onSample(const Sample& sample) {
         putColumns(kBodyColumns, sample.bodies[b], event["bodies"][names.at(b)]);
     for (std::size_t b = 0, free = 0; b < sample.bodies.size() && free < sample.free.size(); ++b) {
         const RigidBody& body = case_.world.bodies.at(b);
-        if (body.movesFreely()) putColumns(kFreeBodyColumns, sample.free[free++], event["bodies"][body.name]);
+        if (!body.movesFreely()) continue;
+        const FreePlace& place = sample.free[free++];
+        putColumns(kFreeBodyColumns, place, event["bodies"][body.name]);
+        if (place.hinged) putColumns(kHingedBodyColumns, place, event["bodies"][body.name]);
     }
     for (std::size_t r = 0; r < sample.regions.size(); ++r)
         putColumns(kRegionSampleColumns, sample.regions[r], event["regions"][case_.world.regions.at(r).name]);

@@ -33,11 +33,6 @@ double measuredSpeed(const Case& c, const Insertion& filled, Backend& backend) {
     return work / seconds;
 }
 
-/// [particle-steps]
-double workOf(const Derived& derived) {
-    return derived.steps * static_cast<double>(derived.particles);
-}
-
 }  // namespace
 
 Speed speedOf(const Case& c, const Insertion& filled, const BackendChoice& choice, bool assume) {
@@ -62,12 +57,12 @@ std::string speedText(const Speed& speed) {
 
 std::string workText(const Derived& derived) {
     return fmt::format("work       about {:.3g} million steps, {}particle-steps\n", derived.steps * 1e-6,
-                       large(workOf(derived)));
+                       large(derived.work));
 }
 
 std::string runTimeText(const Derived& derived, const Speed& speed) {
     const std::string text =
-        fmt::format("run time   {} {}\n", duration(workOf(derived) / speed.rate), speedText(speed));
+        fmt::format("run time   {} {}\n", duration(derived.work / speed.rate), speedText(speed));
     return text + caveatText(speed, 11);
 }
 

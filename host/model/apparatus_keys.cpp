@@ -101,16 +101,18 @@ constexpr Key kBodyShape[] = {
     word("hand", "right left", "right", "`wire`, `screw`: hand of the helix"),
 };
 constexpr Key kMotion[] = {
-    word("kind", "turn swing shake slide table free", kRequired,
+    word("kind", "turn swing shake slide table free hinge", kRequired,
          "`turn`: about an axis at a speed; `swing`: to and fro about it; `shake`: to and fro along it; `slide`: along "
-         "a line; `table`: as a file says; `free`: as gravity and forces say, those of the particles among them")
+         "a line; `table`: as a file says; `free`: as gravity and forces say, those of the particles among them; "
+         "`hinge`: about an axis, as their torques say")
         .replacing("*"),
     word("follows", "time drive", "time",
          "`\"time\"`: the body moves by itself; `\"drive\"`: it turns while powder is dosed, with the coil's speed or "
          "with `dose.speed_rpm`"),
     vector("axis", kPlain, {0, 0, 1}, "direction of the axis"),
     vector("through", kMetre, {0, 0, 0}, "a point of the axis"),
-    number("speed_rpm", kRpm, Bound::Any, kRequired, "`turn` by time: speed about the axis, negative the other way"),
+    number("speed_rpm", kRpm, Bound::Any, told("required; `hinge`: 0"),
+           "`turn` by time: speed about the axis, negative the other way; `hinge`: at its start"),
     number("turns_per_turn", kPlain, Bound::Any, 1.0, "`turn` by the drive: its turns for one of the drive"),
     integer("pockets", 1, kMostPockets, told("none"),
             "`turn`: of a wheel, or whatever repeats itself so often in a turn. The mass of each is told: a "
@@ -120,7 +122,16 @@ constexpr Key kMotion[] = {
     number("frequency_hz", {1, "1/s"}, kPositive, kRequired, "`swing`, `shake`: how often to and fro in a second"),
     number("phase_deg", kDegree, Bound::Any, 0.0, "`swing`, `shake`: of the sine at the start"),
     vector("velocity", {1, "m/s"}, told("required; `free`: [0, 0, 0]"), "`slide`: of the body; `free`: at its start"),
-    number("mass_g", kGram, kPositive, kRequired, "`free`: of the body, whatever its form"),
+    number("mass_g", kGram, kPositive, told("required; `hinge`: none"),
+           "`free`: of the body, whatever its form; `hinge`: for its weight, which acts at `centre`"),
+    vector("centre", kMetre, told("required with `mass_g`"), "`hinge`: centre of its mass, at the start, in the world"),
+    number("inertia_g_mm2", {1e9, "g mm2"}, kPositive, kRequired, "`hinge`: moment of inertia about the axis"),
+    number("torque_mNm", {1e3, "mN m"}, Bound::Any, 0.0,
+           "`hinge`: a torque on the body about the axis, positive by the right hand"),
+    number("damping_mNm_s", {1e3, "mN m s"}, kNonNegative, 0.0,
+           "`hinge`: this by its rate in rad/s is a torque against it"),
+    number("lowest_deg", kDegree, Bound::Any, told("none"), "`hinge`: a stop; its turn, from its start, goes no lower"),
+    number("highest_deg", kDegree, Bound::Any, told("none"), "`hinge`: likewise, and no higher"),
     vector("along", kPlain, told("anywhere"), "`free`: the direction of the line on which it is guided, either way"),
     number("force_N", {1, "N"}, Bound::Any, 0.0, "`free` with `along`: a force on the body in that direction"),
     number("damping_kg_s", {1, "kg/s"}, kNonNegative, 0.0, "`free`: this by its velocity is a force against it"),
@@ -130,15 +141,14 @@ constexpr Key kMotion[] = {
     text("file", told("required by `table`"),
          "`table`: a CSV with the columns `time_s`, and `angle_deg`, `x`, `y`, `z` (m) or some of them. `free` with "
          "`along`: in place of `force_N`, a CSV with `time_s`, and `force_N` along the line, `angle_deg` about it, or "
-         "both"),
+         "both. `hinge`: in place of `torque_mNm`, a CSV with `time_s` and `torque_mNm`"),
     number("from_s", kSecond, kNonNegative, 0.0,
-           "by time, or `free`: the body stands until then, and its table begins then"),
+           "by time, or `free`, `hinge`: the body stands until then, and its table begins then"),
     number("to_s", kSecond, kPositive, told("for ever"), "by time: and from then on"),
-    text(
-        "during", told("at all times"),
-        "by time: the phases in which the body moves, separated by blanks: `settle`, `rotate`, `reverse`, `rest`. In "
-        "all others it stands, and the time of its motion with it. In place of `from_s` and `to_s`. `free`: the phases "
-        "in which force and turn act, and the time of the table goes on"),
+    text("during", told("at all times"),
+         "by time: the phases in which the body moves, separated by blanks: `settle`, `rotate`, `reverse`, `rest`. In "
+         "all others it stands, and the time of its motion with it. In place of `from_s` and `to_s`. `free`, "
+         "`hinge`: the phases in which force, torque and turn act, and the time of the table goes on"),
     boolean("anew", false,
             "`table` with `during`: it starts anew when the first of these phases begins, once it has come to its end. "
             "Its last row must be the place of its first, or whole turns from it"),

@@ -103,6 +103,11 @@ struct Pushes {
 
 }  // namespace
 
+double hingeLever(const RigidBody& body) {
+    const geometry::Hinge* hinge = body.hinge();
+    return hinge == nullptr ? 0 : reachOf(trianglesOf(body), hinge->axis, hinge->through).radius;
+}
+
 double advancePerTurn(const std::vector<Triangle>& mesh, const Vec3& axis, const Vec3& through) {
     Pushes all;
     forEachPush(mesh, axis, through, [&](double push, double weight, double) { all.add(push, weight); });

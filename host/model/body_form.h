@@ -19,6 +19,9 @@ struct TurningReach {
 };
 TurningReach reachOf(const std::vector<geometry::Triangle>& mesh, const Vec3& axis, const Vec3& through);
 
+/// Of a body on a hinge the largest distance of its surface from the axis, 0 for others [m].
+double hingeLever(const RigidBody& body);
+
 /// How far a thing that turns about a line carries powder along `axis` in a turn by the right hand [m], if the powder
 /// slides along its blades and does not turn with them: the pitch of a left-handed screw, minus the pitch of a
 /// right-handed one, zero for a paddle. It is the mean over the surface that is oblique to its motion: a surface with

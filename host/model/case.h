@@ -263,6 +263,9 @@ struct Derived {
     double massPerDose = 0;  ///< that of its turns, n_t, or of its time; at most the target of a dose to a mass [kg]
     double doses = 0;        ///< m_tot / m_dose
     double steps = 0;        ///< until the predicted last dose plus the stop rule's
+    /// Particle-steps until then. Refills at a time or before a dose count from then on; those at a mark, whose time
+    /// nobody knows, do not count.
+    double work = 0;
 
     /// Whether there is a closed form.
     bool conveys() const { return massPerTurn > 0 || massPerSecond > 0; }

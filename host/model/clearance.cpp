@@ -23,9 +23,8 @@ Clearance::Clearance(const World& world, double time, double coilAngle, std::spa
                      std::span<const FreeBody> free)
     : world_(world), coilAngle_(coilAngle) {
     for (std::size_t b = 0; b < world.bodies.size(); ++b) {
-        Moved own = static_cast<double>(clockOf(clocks, b).steps) * world.timeStep;
-        if (b < free.size()) own.shift = free[b].shift;
-        poses_.push_back(world.bodies[b].pose(time, coilAngle, own));
+        const double own = static_cast<double>(clockOf(clocks, b).steps) * world.timeStep;
+        poses_.push_back(world.bodies[b].pose(time, coilAngle, Moved(own, b < free.size() ? free[b] : FreeBody{})));
     }
 }
 

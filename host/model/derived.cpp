@@ -46,6 +46,22 @@ double predictedSteps(const Case& c, const Derived& d) {
     return std::ceil(std::min(time, s.stop.endTime) / c.world.timeStep);
 }
 
+/// When a refill is expected [s]; infinite if nobody knows.
+double expectedTime(const Refill& refill, const Schedule& s, const Derived& d) {
+    if (refill.time) return *refill.time;
+    if (!refill.beforeDose) return std::numeric_limits<double>::infinity();
+    return s.settleTime + (*refill.beforeDose - 1) * (turningTime(s, d) + s.reverseTime() + s.restTime);
+}
+
+double predictedWork(const Case& c, const Insertion& filled, const Derived& d) {
+    double work = d.steps * static_cast<double>(d.particles);
+    for (std::size_t k = 0; k < std::min(c.refills.size(), filled.waiting.size()); ++k) {
+        const double before = expectedTime(c.refills[k], c.schedule, d) / d.timeStep;
+        work += std::max(0.0, d.steps - before) * static_cast<double>(filled.waiting[k].particles.size());
+    }
+    return work;
+}
+
 }  // namespace
 
 double Schedule::fastestSpeed() const {
@@ -106,6 +122,7 @@ Derived derive(const Case& c, const Insertion& filled) {
         d.doses = d.massPerDose > 0 ? d.fillMass / d.massPerDose : 0;
     }
     d.steps = predictedSteps(c, d);
+    d.work = predictedWork(c, filled, d);
     return d;
 }
 

@@ -37,6 +37,7 @@ struct KeepsPeriod {
         const bool turns = std::any_of(m.rows.begin(), m.rows.end(), [](const auto& row) { return row.angle != 0; });
         return m.line && across(*m.line) && !turns;
     }
+    bool operator()(const geometry::Hinge& m) const { return along(m.axis); }
 };
 
 /// The time, or the angle of the drive, that a motion takes to show all its places; 0: it never does.

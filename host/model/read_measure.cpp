@@ -97,7 +97,8 @@ bool isGuided(const geometry::Motion& motion) {
 /// Whether a motion is about a line, which says along which direction and about what the loads of a body count.
 bool hasAxis(const geometry::Motion& motion) {
     return std::holds_alternative<Turn>(motion) || std::holds_alternative<geometry::Swing>(motion) ||
-           std::holds_alternative<geometry::Table>(motion) || isGuided(motion);
+           std::holds_alternative<geometry::Table>(motion) || std::holds_alternative<geometry::Hinge>(motion) ||
+           isGuided(motion);
 }
 
 /// A state before the end of the run is that of a frame.
@@ -132,6 +133,9 @@ void readKind(CaseReader& reader, Section& s, Kind kind, const Case& c, ElementT
                 if (std::holds_alternative<Rest>(c.world.bodies[body].course.motion))
                     reader.fault(s.path("body"), "does not move",
                                  "give the piston a [body.motion], for example kind = \"table\"");
+                else if (c.world.bodies[body].hinge() != nullptr)
+                    reader.fault(s.path("body"), "turns on a hinge, and a piston goes along a line",
+                                 "give the piston a line: kind = \"free\" with along");
                 else if (c.world.bodies[body].clock != Clock::Time && !c.world.bodies[body].movesFreely())
                     reader.fault(
                         s.path("body"), "does not move by time, so that its way is not known",

@@ -50,26 +50,43 @@ std::vector<geometry::Table::Row> readMotionTable(CaseReader& reader, Section& s
         });
 }
 
-enum class MotionKind { Turn, Swing, Shake, Slide, Table, Free };
+enum class MotionKind { Turn, Swing, Shake, Slide, Table, Free, Hinge };
 
-/// What drives a body along and about its line.
-void readDriving(CaseReader& reader, Section& s, geometry::Free& free) {
+/// What drives a body that moves freely: a steady value of `key`, or the rows of a file, which `readTable` reads.
+template <class Row, class ReadTable>
+std::vector<Row> readDrive(CaseReader& reader, Section& s, const char* key, ReadTable readTable) {
     if (!s.has("file")) {
         s.know("file");
-        if (const double force = s.number("force_N"); force != 0) free.rows = {{0, force, 0}};
-        return;
+        const double steady = s.number(key);
+        return steady != 0 ? std::vector<Row>{{0, steady}} : std::vector<Row>{};
     }
-    if (s.has("force_N"))
-        reader.fault(s.path("force_N"), "stands beside file, which says the same otherwise", "give one of the two");
-    s.know("force_N");
-    free.rows = readRows<geometry::Free::Row>(reader, s, {"force_N", "angle_deg"},
-                                              "name the columns time_s, force_N, angle_deg",
-                                              [](double time, auto in) -> geometry::Free::Row {
-                                                  return {time, in("force_N"), in("angle_deg") / kDegree.perSI};
-                                              });
+    if (s.has(key))
+        reader.fault(s.path(key), "stands beside file, which says the same otherwise", "give one of the two");
+    s.know(key);
+    return readTable();
 }
 
-/// The way along its line from its start to a stop [m].
+std::vector<geometry::Free::Row> readForces(CaseReader& reader, Section& s) {
+    using Row = geometry::Free::Row;
+    return readDrive<Row>(reader, s, "force_N", [&] {
+        return readRows<Row>(reader, s, {"force_N", "angle_deg"}, "name the columns time_s, force_N, angle_deg",
+                             [](double time, auto in) -> Row {
+                                 return {time, in("force_N"), in("angle_deg") / kDegree.perSI};
+                             });
+    });
+}
+
+std::vector<geometry::Hinge::Row> readTorques(CaseReader& reader, Section& s) {
+    using Row = geometry::Hinge::Row;
+    return readDrive<Row>(reader, s, "torque_mNm", [&] {
+        return readRows<Row>(reader, s, {"torque_mNm"}, "name the columns time_s, torque_mNm",
+                             [](double time, auto in) -> Row {
+                                 return {time, in("torque_mNm") / 1e3};
+                             });
+    });
+}
+
+/// The way of a body that moves freely from its start to a stop, along its line [m] or about its hinge [rad].
 double readStop(Section& s, const char* key, double none) {
     s.know(key);
     return s.has(key) ? s.number(key) : none;
@@ -91,7 +108,7 @@ geometry::Free readFree(CaseReader& reader, Section& s, const Vec3& at) {
     }
     free.line = readDirection(reader, s, "along");
     free.through = at;
-    readDriving(reader, s, free);
+    free.rows = readForces(reader, s);
     free.low = readStop(s, "lowest_mm", -geometry::kNoStop);
     free.high = readStop(s, "highest_mm", geometry::kNoStop);
     if (glm::length(glm::cross(*free.line, free.velocity)) > 1e-9 * glm::length(free.velocity))
@@ -101,6 +118,27 @@ geometry::Free readFree(CaseReader& reader, Section& s, const Vec3& at) {
         if (const std::string why = geometry::motionFault(free); !why.empty())
             reader.fault(s.path("kind"), why, "mend the motion");
     return free;
+}
+
+geometry::Hinge readHinge(CaseReader& reader, Section& s) {
+    geometry::Hinge hinge{readDirection(reader, s, "axis"), s.vector("through"), s.number("inertia_g_mm2")};
+    hinge.rate = s.number("speed_rpm", 0.0);
+    if (s.has("mass_g")) {
+        hinge.mass = s.number("mass_g");
+        hinge.centre = s.vector("centre");
+    } else {
+        if (s.has("centre")) reader.fault(s.path("centre"), "is of no mass", "add mass_g, or leave it out");
+        s.know("mass_g");
+        s.know("centre");
+    }
+    hinge.rows = readTorques(reader, s);
+    hinge.low = readStop(s, "lowest_deg", -geometry::kNoStop);
+    hinge.high = readStop(s, "highest_deg", geometry::kNoStop);
+    hinge.damping = s.number("damping_mNm_s");
+    if (!reader.faulty())
+        if (const std::string why = geometry::motionFault(hinge); !why.empty())
+            reader.fault(s.path("kind"), why, "mend the motion");
+    return hinge;
 }
 
 geometry::Motion readMotionOf(CaseReader& reader, Section& s, MotionKind kind, Clock clock) {
@@ -127,6 +165,7 @@ geometry::Motion readMotionOf(CaseReader& reader, Section& s, MotionKind kind, C
             return geometry::Table{axis, through, readMotionTable(reader, s)};
         }
         case MotionKind::Free:
+        case MotionKind::Hinge:
             break;  // readFreeBody
     }
     return geometry::Rest{};
@@ -192,21 +231,34 @@ void readTimes(CaseReader& reader, Section& s, RigidBody& made) {
     if (from > 0 || to < geometry::kEndless) made.course.schedule.intervals = {{from, to}};
 }
 
+/// Of a body that moves freely, whether more than gravity and the particles drives it.
+bool isDriven(const geometry::Motion& motion) {
+    if (const auto* hinge = std::get_if<geometry::Hinge>(&motion)) return !hinge->rows.empty();
+    return !std::get<geometry::Free>(motion).rows.empty();
+}
+
 /// A body that moves freely, from a time on.
-void readFreeBody(CaseReader& reader, Section& s, RigidBody& made) {
-    made.course.motion = readFree(reader, s, made.course.start.origin);
+void readFreeBody(CaseReader& reader, Section& s, MotionKind kind, RigidBody& made) {
+    const bool hinged = kind == MotionKind::Hinge;
+    if (hinged)
+        made.course.motion = readHinge(reader, s);
+    else
+        made.course.motion = readFree(reader, s, made.course.start.origin);
     for (const char* key : {"to_s", "anew"}) {
         if (s.has(key))
-            reader.fault(s.path(key), "does not go with kind = \"free\": once it is free, the body follows its forces",
+            reader.fault(s.path(key),
+                         fmt::format("does not go with kind = \"{}\": once it is free, the body follows its forces",
+                                     hinged ? "hinge" : "free"),
                          "leave it out; from_s says when it is free");
         s.know(key);
     }
     if (made.clock == Clock::Drive) reader.fault(s.path("follows"), "only a turn can follow the drive", "leave it out");
     made.clock = Clock::Forces;
     if (s.has("during")) {
-        if (std::get<geometry::Free>(made.course.motion).rows.empty())
+        if (!isDriven(made.course.motion))
             reader.fault(s.path("during"),
-                         "stands beside neither force_N nor file, and a free body moves in all phases",
+                         fmt::format("stands beside neither {} nor file, and a free body moves in all phases",
+                                     hinged ? "torque_mNm" : "force_N"),
                          "leave it out; from_s says when it is free");
         made.phases = readPhases(reader, s);
     } else {
@@ -234,14 +286,15 @@ void readMotion(CaseReader& reader, Section& body, RigidBody& made) {
     const auto follows = s.choice("follows");
     if (!kind || !follows) return s.abandon();
     made.clock = static_cast<Clock>(*follows);
-    if (static_cast<MotionKind>(*kind) == MotionKind::Free) return readFreeBody(reader, s, made);
-    if (made.clock == Clock::Drive && static_cast<MotionKind>(*kind) != MotionKind::Turn) {
+    const auto motion = static_cast<MotionKind>(*kind);
+    if (motion == MotionKind::Free || motion == MotionKind::Hinge) return readFreeBody(reader, s, motion, made);
+    if (made.clock == Clock::Drive && motion != MotionKind::Turn) {
         reader.fault(s.path("follows"), "only a turn can follow the drive",
                      "write kind = \"turn\", or follows = \"time\"");
         return s.abandon();
     }
-    made.course.motion = readMotionOf(reader, s, static_cast<MotionKind>(*kind), made.clock);
-    if (static_cast<MotionKind>(*kind) == MotionKind::Turn) {
+    made.course.motion = readMotionOf(reader, s, motion, made.clock);
+    if (motion == MotionKind::Turn) {
         if (s.has("pockets")) made.pockets = static_cast<int>(s.integer("pockets"));
         s.know("pockets");
     }

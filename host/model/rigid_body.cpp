@@ -7,7 +7,9 @@ namespace vkdose {
 
 geometry::Pose RigidBody::pose(double time, double driveAngle, const Moved& own) const {
     geometry::Pose pose = course.pose(movesInPhases() ? own.time : clock == Clock::Drive ? driveAngle : time);
-    if (clock == Clock::Forces) pose.origin += own.shift;
+    if (clock != Clock::Forces) return pose;
+    if (const geometry::Hinge* h = hinge()) return geometry::turned(pose, h->axis, h->through, own.angle);
+    pose.origin += own.shift;
     return pose;
 }
 
@@ -38,9 +40,17 @@ geometry::Moving RigidBody::moving(double time, double driveAngle, double driveR
     return moving;
 }
 
-double RigidBody::drivingForce(double time, std::optional<double> own) const {
-    if (movesInPhases()) return own ? course.force(*own) : 0;
-    return course.force(time);
+double RigidBody::driveOf(double time, std::optional<double> own) const {
+    if (movesInPhases()) return own ? course.drive(*own) : 0;
+    return course.drive(time);
+}
+
+double RigidBody::perMass(const Vec3& x, const Vec3& normal) const {
+    if (const auto* free = std::get_if<geometry::Free>(&course.motion)) return 1 / free->mass;
+    const geometry::Hinge* h = hinge();
+    if (h == nullptr) return 0;
+    const double lever = glm::dot(h->axis, glm::cross(x - h->through, normal));
+    return lever * lever / h->inertia;
 }
 
 namespace {
@@ -54,6 +64,7 @@ std::optional<Line> turnedAbout(const geometry::Motion& motion) {
     if (const auto* m = std::get_if<geometry::Turn>(&motion)) return Line{&m->axis, &m->through};
     if (const auto* m = std::get_if<geometry::Swing>(&motion)) return Line{&m->axis, &m->through};
     if (const auto* m = std::get_if<geometry::Table>(&motion)) return Line{&m->axis, &m->through};
+    if (const auto* m = std::get_if<geometry::Hinge>(&motion)) return Line{&m->axis, &m->through};
     return std::nullopt;
 }
 
@@ -104,9 +115,11 @@ bool moveFreely(const std::vector<RigidBody>& bodies) {
 
 std::vector<FreeBody> freeAtStart(const std::vector<RigidBody>& bodies) {
     std::vector<FreeBody> start(bodies.size());
-    for (std::size_t b = 0; b < bodies.size(); ++b)
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
         if (const auto* free = std::get_if<geometry::Free>(&bodies[b].course.motion))
             start[b].velocity = free->velocity;
+        if (const geometry::Hinge* hinge = bodies[b].hinge()) start[b].rate = hinge->rate;
+    }
     return start;
 }
 

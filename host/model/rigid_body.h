@@ -20,25 +20,30 @@ enum class Clock {
     Time,    ///< the time since load [s]
     Drive,   ///< the angle of the drive since load [rad]: the motion goes on while powder is dosed, and with its speed
     Phases,  ///< a clock of its own, which runs in some phases of the schedule and stands in all others [s]
-    Forces,  ///< the forces on the body: it moves freely (geometry::Free); what drives it follows time, or its own
-             ///< clock
+    Forces,  ///< the forces on the body: it moves freely (geometry::Free, geometry::Hinge); what drives it follows
+             ///< time, or its own clock
+};
+
+/// A body that moves freely. Velocity and rate belong to half a step before; before the first step, to the instant.
+struct FreeBody {
+    Vec3 shift{0};     ///< from its place at the start, if it has no hinge [m]
+    Vec3 velocity{0};  ///< likewise [m/s]
+    double angle = 0;  ///< about its hinge from its start, if it has one [rad]
+    double rate = 0;   ///< likewise [rad/s]
 };
 
 /// How far a body has come by what neither time nor drive tells.
 struct Moved {
-    double time = 0;  ///< on its own clock, if it has one [s]
-    Vec3 shift{0};    ///< from its place at the start, if it moves freely [m]
+    double time = 0;   ///< on its own clock, if it has one [s]
+    Vec3 shift{0};     ///< from its place at the start, if it moves freely [m]
+    double angle = 0;  ///< about its hinge, likewise [rad]
 
     Moved() = default;
     Moved(double t) : time(t) {}  // NOLINT(google-explicit-constructor): most bodies have a clock or nothing
     explicit Moved(const Vec3& way) : shift(way) {}
+    /// On its own clock, and as it has moved freely.
+    Moved(double t, const FreeBody& free) : time(t), shift(free.shift), angle(free.angle) {}
     friend bool operator==(const Moved&, const Moved&) = default;
-};
-
-/// A body that moves freely.
-struct FreeBody {
-    Vec3 shift{0};     ///< from its place at the start [m]
-    Vec3 velocity{0};  ///< half a step before; before the first step, at the instant [m/s]
 };
 
 /// The clock of a body that moves in phases.
@@ -81,11 +86,15 @@ struct RigidBody {
     double kickOf(std::uint64_t step, double timeStep) const;
     /// Where the body is. `driveAngle` [rad].
     geometry::Pose pose(double time, double driveAngle, const Moved& own = {}) const;
-    /// How it moves there; of a body that moves freely, how it turns. `driveRate` [rad/s]; `own` is the time on its own
-    /// clock, if it moves in phases [s], none while that clock stands.
+    /// How it moves there; of a body that moves freely, how its table turns it. `driveRate` [rad/s]; `own` is the time
+    /// on its own clock, if it moves in phases [s], none while that clock stands.
     geometry::Moving moving(double time, double driveAngle, double driveRate, std::optional<double> own = {}) const;
-    /// The force that drives it along its line then, if it moves freely [N]; `own` likewise.
-    double drivingForce(double time, std::optional<double> own = {}) const;
+    /// What drives it then, if it moves freely: along its line [N] or about its hinge [N m]; `own` likewise.
+    double driveOf(double time, std::optional<double> own = {}) const;
+    /// One over the mass that a contact at `x` with this unit normal sees in it, if it moves freely [1/kg].
+    double perMass(const Vec3& x, const Vec3& normal) const;
+    /// Of a body that moves freely about a hinge its motion; null for others.
+    const geometry::Hinge* hinge() const { return std::get_if<geometry::Hinge>(&course.motion); }
     /// The direction of the axis about which the body's torque is told: that of its motion, or +z.
     Vec3 axis() const;
     /// A point on that axis, in the world: on the axis of its motion, or the origin of its frame.

@@ -38,6 +38,14 @@ double mostOnBody(double area, const SizeRange& size, double a) {
     return std::min(4 * kPi * around * around / room, size.count);
 }
 
+/// The least mass that a sphere can see in a body that moves freely [kg].
+double leastMass(const RigidBody& body) {
+    const geometry::Hinge* hinge = body.hinge();
+    if (hinge == nullptr) return std::get<geometry::Free>(body.course.motion).mass;
+    const double lever = hingeLever(body);
+    return hinge->inertia / (lever * lever);
+}
+
 bool isNormal(const ContactMode& mode) {
     return mode.name.ends_with(" normal");
 }
@@ -148,10 +156,10 @@ std::vector<ContactMode> contactModes(const World& world, const ContactLaw& law,
         if (p.muR > 0) add(name + " rolling", p.kr, p.gammaR, turning);
         if (p.muTo > 0) add(name + " torsion", p.kTo, p.gammaTo, turning);
     }
-    // A body that moves freely swings on all spheres that carry it. It does not turn.
+    // A body that moves freely swings on all spheres that carry it, one on a hinge with its rim.
     for (const RigidBody& body : world.bodies) {
-        const auto* free = std::get_if<geometry::Free>(&body.course.motion);
-        if (free == nullptr) continue;
+        if (!body.movesFreely()) continue;
+        const double freeMass = leastMass(body);
         const double area = surfaceOf(body);
         for (const int powder : powdersOf(world)) {
             const MaterialPair pair{powder, body.material};
@@ -163,7 +171,7 @@ std::vector<ContactMode> contactModes(const World& world, const ContactLaw& law,
                 const double mass = sphereMass(world.density(powder), a), many = mostOnBody(area, size, a);
                 const ContactParameters p = stiffest(law.of(pair), mass, a, kWall, world.maxOverlapRatio);
                 const auto swinging = [&](double sphere) {
-                    return std::min(sphere / (1 + sphere / free->mass), free->mass / std::max(1.0, many));
+                    return std::min(sphere / (1 + sphere / freeMass), freeMass / std::max(1.0, many));
                 };
                 add(name + " normal", p.k2Max, p.gamma, swinging(mass));
                 if (p.mu > 0) add(name + " sliding", p.kt, p.gammaT, swinging(mass / 3.5));

@@ -38,6 +38,7 @@ Frame readEndState(const std::filesystem::path& folder, const Case& c) {
     for (const Json& body : summary.value("bodies", Json::array())) {
         if (!body.is_object() || !body.contains("moved_s")) continue;
         Moved& moved = frame.bodiesMoved.emplace_back(numberIn(body, "moved_s", file));
+        if (body.contains("turned_rad")) moved.angle = numberIn(body, "turned_rad", file);
         if (!body.contains("moved_x_m")) continue;
         moved.shift = {numberIn(body, "moved_x_m", file), numberIn(body, "moved_y_m", file),
                        numberIn(body, "moved_z_m", file)};

@@ -15,6 +15,8 @@ using vtkhdf::Array;
 
 constexpr const char* kBodyClocks = "body_clocks";
 constexpr const char* kBodyShifts = "body_shifts";
+constexpr const char* kBodyAngles = "body_angles";
+constexpr const char* kPeriodsGone = "periods_gone";
 
 std::vector<double> flat(const std::vector<Vec3>& vectors) {
     std::vector<double> values;
@@ -108,14 +110,18 @@ std::vector<vtkhdf::Array> fieldsOf(const Frame& f) {
         {"dose", "", 1, number(f.dose)},
         {"coil_angle", "rad", 1, std::vector<double>{f.coilAngle}}};
     if (f.bodiesMoved.empty()) return fields;
-    std::vector<double> clocks, shifts;
+    std::vector<double> clocks, shifts, angles;
     for (const Moved& body : f.bodiesMoved) {
         clocks.push_back(body.time);
         shifts.insert(shifts.end(), {body.shift.x, body.shift.y, body.shift.z});
+        angles.push_back(body.angle);
     }
     fields.push_back({kBodyClocks, "s", 1, std::move(clocks)});
-    if (std::any_of(shifts.begin(), shifts.end(), [](double x) { return x != 0; }))
-        fields.push_back({kBodyShifts, "m", 3, std::move(shifts)});
+    const auto some = [](const std::vector<double>& all) {
+        return std::any_of(all.begin(), all.end(), [](double x) { return x != 0; });
+    };
+    if (some(shifts)) fields.push_back({kBodyShifts, "m", 3, std::move(shifts)});
+    if (some(angles)) fields.push_back({kBodyAngles, "rad", 1, std::move(angles)});
     return fields;
 }
 
@@ -158,6 +164,12 @@ vtkhdf::Grid particlesGrid(const Frame& frame, const World& world, std::uint32_t
                       {"status", "", 1, std::move(status)},
                       {"member", "", 1, std::vector<std::uint32_t>(n, member)}};
     if (powdersOf(world).size() > 1) grid.pointData.push_back({"material", "", 1, p.material});
+    if (!p.gone.empty()) {
+        std::vector<float> gone;  // exact below 2^24
+        for (const glm::ivec3& g : p.gone)
+            for (int d = 0; d < 3; ++d) gone.push_back(static_cast<float>(g[d]));
+        grid.pointData.push_back({kPeriodsGone, "", 3, std::move(gone)});
+    }
     grid.fieldData = fieldsOf(frame);
     return grid;
 }
@@ -260,6 +272,11 @@ void readParticlesFile(std::string bytes, Frame& frame) {
         for (std::size_t b = 0; b < std::min(frame.bodiesMoved.size(), shifts.size() / 3); ++b)
             frame.bodiesMoved[b].shift = {shifts[3 * b], shifts[3 * b + 1], shifts[3 * b + 2]};
     }
+    if (reader.has(fields + kBodyAngles)) {
+        const std::vector<double> angles = reader.array<double>(fields + kBodyAngles);
+        for (std::size_t b = 0; b < std::min(frame.bodiesMoved.size(), angles.size()); ++b)
+            frame.bodiesMoved[b].angle = angles[b];
+    }
     const std::size_t n = one(reader, "NumberOfPoints");
     const Columns data(reader, "/VTKHDF/PointData", n);
     Particles& p = frame.particles;
@@ -271,6 +288,9 @@ void readParticlesFile(std::string bytes, Frame& frame) {
     if (reader.has("/VTKHDF/PointData/material"))
         for (std::size_t i = 0; const std::uint32_t m : data.get<std::uint32_t>("material"))
             p.material[i++] = static_cast<std::uint8_t>(m);
+    p.gone.clear();
+    if (reader.has(std::string("/VTKHDF/PointData/") + kPeriodsGone))
+        for (const Vec3& gone : data.vector(kPeriodsGone)) p.gone.emplace_back(gone);
     p.status.clear();
     for (const std::uint32_t s : data.get<std::uint32_t>("status")) p.status.push_back(static_cast<Status>(s));
 }

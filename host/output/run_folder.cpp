@@ -93,9 +93,11 @@ std::string bodyHeader(const Columns& columns, const World& world) {
 /// The columns of the bodies that move freely, likewise.
 std::string freeHeader(const World& world) {
     std::string header;
-    for (const RigidBody& body : world.bodies)
-        if (body.movesFreely())
-            forEachColumn(kFreeBodyColumns, [&](const auto& c) { header += fmt::format(",{}.{}", body.name, c.name); });
+    for (const RigidBody& body : world.bodies) {
+        const auto name = [&](const auto& c) { header += fmt::format(",{}.{}", body.name, c.name); };
+        if (body.movesFreely()) forEachColumn(kFreeBodyColumns, name);
+        if (body.hinge() != nullptr) forEachColumn(kHingedBodyColumns, name);
+    }
     return header;
 }
 
@@ -184,7 +186,11 @@ RunFolder::RunFolder(fs::path folder, FolderLock lock, const Checkpoint& from, c
 void RunFolder::onSample(const Sample& s) {
     std::string line = csvRow(kSampleColumns, s) + (s.energy ? "," + csvRow(kEnergyColumns, *s.energy) : "");
     if (repeats_) line += "," + csvRow(kThroughColumns, s.sensors);
-    line += cellsOf(kBodyColumns, s.bodies) + cellsOf(kFreeBodyColumns, s.free);
+    line += cellsOf(kBodyColumns, s.bodies);
+    for (const FreePlace& place : s.free) {
+        line += "," + csvRow(kFreeBodyColumns, place);
+        if (place.hinged) line += "," + csvRow(kHingedBodyColumns, place);
+    }
     line += cellsOf(kRegionSampleColumns, s.regions) + cellsOf(kPowderColumns, s.powders);
     timeSeries_->line(line);
     timeSeries_->flush();

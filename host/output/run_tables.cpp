@@ -28,8 +28,12 @@ std::vector<OutputTable> runTables() {
          "The name of the body and a dot stand before each.",
          columnTexts(kBodyColumns)},
         {"timeseries.csv, with bodies that move freely",
-         "These columns follow in the same line, for each `[[body]]` of `kind = \"free\"`, likewise.",
+         "These columns follow in the same line, for each `[[body]]` of `kind = \"free\"` or `\"hinge\"`, "
+         "likewise.",
          columnTexts(kFreeBodyColumns)},
+        {"timeseries.csv, with bodies on a hinge",
+         "These columns follow behind those of a body that moves freely, for each `[[body]]` of `kind = \"hinge\"`.",
+         columnTexts(kHingedBodyColumns)},
         {"doses.csv, with bodies",
          "These columns follow in the same line, for each `[[body]]` and, behind them, for `[coil]` as the body coil. "
          "The name of the body and a dot stand before each.",

@@ -93,6 +93,10 @@ Json bodyList(const Case& c, const RunResult& r) {
         const Moved& moved = r.bodiesMoved[b];
         one["moved_s"] = jsonNumber(moved.time);
         if (!c.world.bodies[b].movesFreely()) continue;
+        if (c.world.bodies[b].hinge() != nullptr) {
+            one["turned_rad"] = jsonNumber(moved.angle);
+            continue;
+        }
         one["moved_x_m"] = jsonNumber(moved.shift.x);
         one["moved_y_m"] = jsonNumber(moved.shift.y);
         one["moved_z_m"] = jsonNumber(moved.shift.z);

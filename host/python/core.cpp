@@ -148,7 +148,11 @@ py::dict sampleOf(const Simulation& run) {
     for (std::size_t b = 0; b < s.bodies.size(); ++b) bodies[names.at(b).c_str()] = dictOf(kBodyColumns, s.bodies[b]);
     for (std::size_t b = 0, free = 0; b < s.bodies.size() && free < s.free.size(); ++b) {
         const RigidBody& body = run.theCase().world.bodies.at(b);
-        if (body.movesFreely()) bodies[body.name.c_str()].attr("update")(dictOf(kFreeBodyColumns, s.free[free++]));
+        if (!body.movesFreely()) continue;
+        const FreePlace& place = s.free[free++];
+        const auto update = bodies[body.name.c_str()].attr("update");
+        update(dictOf(kFreeBodyColumns, place));
+        if (place.hinged) update(dictOf(kHingedBodyColumns, place));
     }
     for (std::size_t r = 0; r < s.regions.size(); ++r)
         regions[run.theCase().world.regions.at(r).name.c_str()] = dictOf(kRegionSampleColumns, s.regions[r]);

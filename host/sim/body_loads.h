@@ -33,6 +33,9 @@ inline constexpr auto kBodyColumns = columns(
 struct FreePlace {
     Vec3 at{0};        ///< [m]
     Vec3 velocity{0};  ///< half a step before [m/s]
+    bool hinged = false;
+    double angle = 0;  ///< about its hinge, if it has one [rad]
+    double rate = 0;   ///< likewise, half a step before [rad/s]
 };
 
 /// The columns of timeseries.csv for each body that moves freely, behind those of all bodies.
@@ -43,6 +46,10 @@ inline constexpr auto kFreeBodyColumns = columns(
     column<&FreePlace::velocity, 0>("velocity_x_m_s", "m/s", "Velocity of the body along x, half a step before."),
     column<&FreePlace::velocity, 1>("velocity_y_m_s", "m/s", "The same along y."),
     column<&FreePlace::velocity, 2>("velocity_z_m_s", "m/s", "The same along z."));
+/// Of those on a hinge, behind them.
+inline constexpr auto kHingedBodyColumns =
+    columns(column<&FreePlace::angle>("angle_rad", "rad", "By how much the body has turned about its hinge."),
+            column<&FreePlace::rate>("rate_rad_s", "rad/s", "How fast it turns about its hinge, half a step before."));
 
 /// The columns of doses.csv for each body, likewise.
 inline constexpr auto kDoseBodyColumns = columns(

@@ -10,6 +10,7 @@
 
 #include "host/core/error.h"
 #include "host/core/random.h"
+#include "host/model/body_form.h"
 #include "host/sim/agreement.h"
 #include "host/sim/body_clocks.h"
 #include "host/sim/ledger.h"
@@ -58,6 +59,7 @@ class Walker {
           ledger_(start.size(), filledMass),
           clocks_(c.world),
           gravity_(c.settlingGravity()) {
+        for (const RigidBody& body : c.world.bodies) levers_.push_back(hingeLever(body));
         told([&] { backend_.load(c.settlingWorld(), c.settlingLaw, start); });
     }
 
@@ -119,7 +121,9 @@ class Walker {
             active += 1;
         }
         m.meanHeight = active > 0 ? height / active : 0;
-        for (const FreeBody& body : backend_.freeBodies()) m.freeWay += glm::length(body.shift);
+        const std::vector<FreeBody> free = backend_.freeBodies();
+        for (std::size_t b = 0; b < free.size(); ++b)
+            m.freeWay += glm::length(free[b].shift) + std::abs(free[b].angle) * levers_[b];
         // Means over the phase; energy and contacts from the values at the checkpoints.
         impulse_ += s.coilTorque * n;
         energySteps_ += m.kineticEnergy * n;
@@ -139,6 +143,7 @@ class Walker {
     std::uint64_t step_ = 0;
     const ContactLaw* law_ = nullptr;  // in force
     Vec3 gravity_;                     // in force [m/s2]
+    std::vector<double> levers_;       // hingeLever of each body [m]
     std::uint64_t phaseEnd_ = 0;
     double impulse_ = 0, energySteps_ = 0, contactSteps_ = 0;  // sums over the phase, times steps
     std::uint64_t phaseSteps_ = 0;

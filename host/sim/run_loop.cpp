@@ -145,7 +145,7 @@ std::vector<Moved> RunLoop::moved() const {
     if (!moveFreely(case_.world.bodies)) return moved;
     const std::vector<FreeBody> free = backend_.freeBodies();
     moved.resize(std::max(moved.size(), free.size()));
-    for (std::size_t b = 0; b < free.size(); ++b) moved[b].shift = free[b].shift;
+    for (std::size_t b = 0; b < free.size(); ++b) moved[b] = Moved(moved[b].time, free[b]);
     return moved;
 }
 
@@ -155,7 +155,12 @@ std::vector<FreePlace> RunLoop::freePlaces() const {
     const std::vector<FreeBody> free = backend_.freeBodies();
     for (std::size_t b = 0; b < free.size(); ++b) {
         const RigidBody& body = case_.world.bodies[b];
-        if (body.movesFreely()) places.push_back({body.course.start.origin + free[b].shift, free[b].velocity});
+        if (!body.movesFreely()) continue;
+        const Vec3 at = body.pose(0, 0, Moved(0, free[b])).origin;
+        const geometry::Hinge* hinge = body.hinge();
+        const Vec3 velocity =
+            hinge != nullptr ? glm::cross(free[b].rate * hinge->axis, at - hinge->through) : free[b].velocity;
+        places.push_back({at, velocity, hinge != nullptr, free[b].angle, free[b].rate});
     }
     return places;
 }

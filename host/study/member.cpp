@@ -110,7 +110,7 @@ Member memberAt(const Study& study, int number, std::optional<std::uint64_t> see
     member.caseText = c.resolved;
     member.particles = derived.particles;
     member.expectedTime = derived.steps * derived.timeStep;
-    member.expectedWork = derived.steps * double(derived.particles);
+    member.expectedWork = derived.work;
     member.settlingWork = double(timeline.settleSteps()) * double(derived.particles);
     member.bed = bedText(c);
     return member;

@@ -45,10 +45,14 @@ void meshIncline(Stage& stage);
 void meshBlock(Stage& stage);
 void drumBalance(Stage& stage);
 void pushedByBodies(Stage& stage);
-void freeBall(Stage& stage);
-void drivenBody(Stage& stage);
 void heldByBodies(Stage& stage);
 void mergingPlaces(Stage& stage);
+
+// free_bodies.cpp
+void freeBall(Stage& stage);
+void drivenBody(Stage& stage);
+void hingedBall(Stage& stage);
+void drivenHinge(Stage& stage);
 
 // bed.cpp
 void column(Stage& stage);

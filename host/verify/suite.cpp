@@ -37,6 +37,8 @@ std::vector<Scene> scenes() {
          pushedByBodies},
         {"bodies/free-ball", "a ball that moves freely meets a sphere, another falls", freeBall},
         {"bodies/driven", "a force drives bodies: against damping, to a stop, onto a sphere", drivenBody},
+        {"bodies/hinged-ball", "a sphere strikes a ball on a hinge", hingedBall},
+        {"bodies/hinge", "torques drive hinges: against damping, to a stop, as a pendulum, onto a sphere", drivenHinge},
         {"bodies/held-sphere", "a sphere sticks to a turning disc or funnel and stays at its radius", heldByBodies},
         {"bodies/merging", "an elastic sphere rebounds where places of a mesh become one contact", mergingPlaces},
         {"bed/column", "spheres stacked upon each other", column},

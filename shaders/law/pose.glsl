@@ -27,4 +27,16 @@ vec3 directionToWorld(BodyMotion m, vec3 n) {
 /// Velocity of the body at a point of the world [m/s].
 vec3 bodyVelocity(BodyMotion m, vec3 x) { return m.velocity.xyz + cross(m.spin.xyz, x - m.centre.xyz); }
 
+/// One over the mass that a contact at `x` with the normal `n` sees in a body that moves freely [1/kg]. One that still
+/// stands is as a wall.
+float perMassAt(BodyMotion m, vec3 x, vec3 n) {
+    if (m.line.w <= 0.0) return 0.0;
+    if (m.hinge.w == 0.0) return m.free.w;
+    float lever = dot(m.line.xyz, cross(x - m.pivot.xyz, n));
+    return lever * lever * m.free.w;
+}
+
+/// No point of a body that moves freely is faster [m/s].
+float freeSpeed(BodyMotion m) { return m.hinge.w == 0.0 ? length(m.velocity.xyz) : abs(m.hinge.z) * m.hinge.w; }
+
 #endif

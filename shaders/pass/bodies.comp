@@ -116,7 +116,6 @@ void main() {
     if (ownLaws()) law = lawOf(pairIndex(me.material, uint(motion.velocity.w)));
     density = densityOf(me.material, density);
 
-    float perMass = motion.line.w > 0.0 ? motion.free.w : 0.0;  // a free body that still stands is as a wall
     float radius = me.sphere.radius, reduced = reducedAtWall(radius, motion.centre.w);
     if (openNearby(slot)) nearbyCount = nearby[nearbyStart];
     // Features beyond touch, in which a contact may hold on, have a depth as well: `most` is the radius with the reach.
@@ -176,7 +175,8 @@ void main() {
         vec3 wall = bodyVelocity(motion, point);
         // The law compares velocities of half a step before, so it takes the body's where the contact was then.
         vec3 wallBefore = bodyVelocity(motion, point - 0.5 * springDt * me.velocity);
-        float seen = motion.spin.w;
+        float seen = motion.spin.w, perMass = 0.0;
+        if ((SHAPE_KINDS & kFreeBodies) != 0u) perMass = perMassAt(motion, point, normal);
         Response r;
 #ifdef ENERGY_BOOK
         History before = h;

@@ -57,6 +57,9 @@ BodyMotion motionOf(uint body) {
     m.way = texelFetch(motionsView, at + 11);
     m.held = texelFetch(motionsView, at + 12);
     m.pivot = texelFetch(motionsView, at + 13);
+    m.hinge = texelFetch(motionsView, at + 14);
+    m.axisLow = texelFetch(motionsView, at + 15);
+    m.pivotLow = texelFetch(motionsView, at + 16);
     return m;
 }
 #else

@@ -44,7 +44,7 @@ float slackOfFreeBodies() {
     float most = 0.0;
     for (uint b = 0u; b < member.bodies.x; ++b) {
         BodyMotion motion = motionOf(b);
-        if (motion.free.w != 0.0) most = max(most, slackOfFreeBody(motion.velocity.xyz));
+        if (motion.free.w != 0.0) most = max(most, slackOfFreeBody(freeSpeed(motion)));
     }
     return most;
 }

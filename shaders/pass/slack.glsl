@@ -32,6 +32,7 @@ float bodySlack(float way) {
     return clamp(kSlackSteps * way, kLeastBodySlack * slackUnit(), kMostBodySlack * slackUnit());
 }
 
-float slackOfFreeBody(vec3 velocity) { return bodySlack(numerics().x * length(velocity)); }
+/// `speed`: freeSpeed [m/s].
+float slackOfFreeBody(float speed) { return bodySlack(numerics().x * speed); }
 
 #endif

@@ -79,17 +79,24 @@ struct BodyMotion {
     vec4 centre;         // xyz: a point x fixed to the body has velocity + spin x (x - centre) [m]; w: radius of its
                          // surface, which a* counts [m]; 0: flat
     // Of a body that moves freely (pass/free_bodies.comp):
-    vec4 free;  // xyz: what is left of its velocity [m/s]; w: one over its mass [1/kg], 0 if it does not move freely
-    vec4 line;  // xyz: direction of the line that it keeps to, 0 if it keeps to none; w: for how much of the step the
-                // forces act on it [s]; 0: it stands
+    vec4 free;  // xyz: what is left of its velocity [m/s]; w: one over its mass [1/kg], 0 if it does not move freely;
+                // on a hinge: x: what is left of its rate [rad/s]; w: one over its moment of inertia [1/(kg m2)]
+    vec4 line;  // xyz: direction of the line that it keeps to, or of its hinge; 0 if it has neither; w: for how much of
+                // the step the forces act on it [s]; 0: it stands
     vec4 way;   // x: how far it may still go before the contact lists must be made anew [m]; y: of the first body: the
                 // longest way of a driven body of the canister in this step [m]
     vec4 held;  // x: acceleration along the line by what drives it [m/s2]; y: share of its velocity that damping takes
-                // in this step, if it is small; z, w: the stops, as places on the line through the world's origin [m]
+                // in this step, if it is small; z, w: the stops, as places on the line through the world's origin [m];
+                // on a hinge: the same about it [rad/s2], [rad]
     // Of any body:
     vec4 pivot;  // xyz: the point about which its torque is told [m]
+    // Of a body on a hinge:
+    vec4 hinge;  // x, y: by how much it has turned, high and low part [rad]; z: its rate [rad/s]; w: no point of it is
+                 // farther from the axis [m]; 0: it has no hinge
+    vec4 axisLow;   // xyz: what is left of `line`; w: by its weight it accelerates by this times the cosine of its turn
+    vec4 pivotLow;  // xyz: what is left of `pivot` [m]; w: and this times the sine [rad/s2]
 };
-SHARED_CONST kMotionVectors = 14u;
+SHARED_CONST kMotionVectors = 17u;
 
 #ifdef __cplusplus
 #undef SHARED_CONST

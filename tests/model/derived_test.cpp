@@ -48,6 +48,25 @@ TEST_CASE("predictions for the paper's case") {
     CHECK(d.steps == Approx((2 + 15 * 2.5) / 2.26e-6).epsilon(1e-6));
 }
 
+TEST_CASE("the work of a run counts what is added, where it is known when") {
+    const Folder folder;
+    const auto workOf = [&](const std::string& refill) {
+        const Case c = loadCase(folder.write("case.toml", std::string(kGoodCase) + refill));
+        const Insertion filled = insertParticles(c);
+        const Derived d = derive(c, filled);
+        const double added = filled.waiting.empty() ? 0 : double(filled.waiting[0].particles.size());
+        CHECK((refill.empty() || added > 0));
+        return std::pair((d.work - d.steps * double(d.particles)) / std::max(added, 1.0), d);
+    };
+    CHECK(workOf("").first == 0);
+    const auto [timed, d] = workOf("[[refill]]\nname = \"more\"\nmass_g = 2\ntime_s = 0.1\n");
+    REQUIRE(d.steps * d.timeStep > 0.1);
+    CHECK(timed == Approx(d.steps - 0.1 / d.timeStep));
+    const double dosed = workOf("[[refill]]\nname = \"more\"\nmass_g = 2\nbefore_dose = 2\n").first;
+    CHECK((dosed > 0 && dosed < d.steps));
+    CHECK(workOf("[[refill]]\nname = \"more\"\nmass_g = 2\nbelow_g = 1\n").first == 0);
+}
+
 TEST_CASE("the wide coil pushes twice as fast and doses twice as much") {
     const Case narrow = loadCase(shippedCase("paper-48g.toml"));
     const Case wide = loadCase(shippedCase("paper-48g-wide.toml"));

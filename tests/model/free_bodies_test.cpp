@@ -52,7 +52,7 @@ TEST_CASE("free bodies: a case gives force, turn, damping and stops") {
     const std::string guided = kBall + "kind = \"free\"\nmass_g = 30\nalong = [0, -2, 0]\n";
     const Case c = read.load(guided + "force_N = 3\nlowest_mm = -2\nhighest_mm = 40\ndamping_kg_s = 0.5\n");
     const RigidBody& pressed = c.world.bodies.at(0);
-    CHECK(pressed.drivingForce(7) == 3);
+    CHECK(pressed.driveOf(7) == 3);
     CHECK(freeOf(pressed).damping == 0.5);
     CHECK(freeOf(pressed).low == Approx(-2e-3));
     CHECK(freeOf(pressed).high == Approx(40e-3));
@@ -62,16 +62,16 @@ TEST_CASE("free bodies: a case gives force, turn, damping and stops") {
 
     const Case turned = read.load(guided + "file = \"drive.csv\"\nfrom_s = 2\n");
     const RigidBody& lid = turned.world.bodies.at(0);
-    CHECK(lid.drivingForce(1) == 0);
-    CHECK(lid.drivingForce(2.5) == Approx(-3));
+    CHECK(lid.driveOf(1) == 0);
+    CHECK(lid.driveOf(2.5) == Approx(-3));
     CHECK(near(lid.moving(2.5, 0, 0).spin, Vec3(0, -kPi / 2, 0), 1, 1e-12));
     // About its own place, a quarter of a turn by its end.
     CHECK(near(lid.pose(9, 0).origin, Vec3(0, 0.1, 0), 0.1, 1e-12));
     CHECK(near(lid.pose(9, 0).directionToWorld(Vec3(1, 0, 0)), Vec3(0, 0, 1), 1, 1e-12));
     CHECK(lid.axis() == Vec3(0, -1, 0));
-    CHECK(read.load(guided + "file = \"drive.csv\"\nduring = \"rotate\"\n").world.bodies.at(0).drivingForce(9, 0.5) ==
+    CHECK(read.load(guided + "file = \"drive.csv\"\nduring = \"rotate\"\n").world.bodies.at(0).driveOf(9, 0.5) ==
           Approx(-3));
-    CHECK(read.load(guided + "force_N = 1\nduring = \"rotate\"\n").world.bodies.at(0).drivingForce(9) == 0);
+    CHECK(read.load(guided + "force_N = 1\nduring = \"rotate\"\n").world.bodies.at(0).driveOf(9) == 0);
 }
 
 TEST_CASE("bodies: a ball is as flat as a wall, or counts its radius") {

@@ -30,6 +30,10 @@ Case smallWorld(bool contacts = true) {
     return c;
 }
 
+double inexact(int k) {
+    return std::sqrt(5.0 + k);
+}
+
 /// No two numbers alike, and none that a shorter type would hold.
 Frame someFrame(int k) {
     Frame f;
@@ -42,6 +46,8 @@ Frame someFrame(int k) {
         const double x = 1e-3 * std::sqrt(2.0 + i + k);
         f.particles.add({x, x / 3, x / 7}, 1e-3 + x / 11, {x / 13, -x, 0}, {1 / x, x / 17, -1 / x});
     }
+    f.particles.gone.assign(5, glm::ivec3(k, -7, 0));
+    f.bodiesMoved = {Moved(inexact(k)), Moved(0, {{1e-3 * k, inexact(k), 0}, Vec3(0), -inexact(k), 0})};
     f.particles.status[1] = Status::Dosed;
     f.particles.status[2] = Status::Lost;
     const double s = 1e-6 / 3 + k;
@@ -62,6 +68,7 @@ void checkSame(const Frame& a, const Frame& b) {
     CHECK(a.particles.velocity == b.particles.velocity);
     CHECK(a.particles.spin == b.particles.spin);
     CHECK(a.particles.radius == b.particles.radius);
+    CHECK(a.particles.gone == b.particles.gone);
     CHECK(a.particles.status == b.particles.status);
     REQUIRE(a.contacts.size() == b.contacts.size());
     for (std::size_t i = 0; i < a.contacts.size(); ++i) {

@@ -49,6 +49,18 @@ inline Particles layers(int count) {
     return p;
 }
 
+/// A loose bed in an upright tube with a radius of 9 mm.
+inline Particles tubeBed() {
+    Particles p;
+    for (int layer = 0; layer < 4; ++layer)
+        for (int i = 0; i < 24; ++i) {
+            const double angle = 2 * kPi * i / (i < 16 ? 16 : 8) + 0.1 * layer, out = i < 16 ? 7.4e-3 : 3.8e-3;
+            p.add({out * std::cos(angle), 1.3e-3 + layer * 2.65e-3, out * std::sin(angle)},
+                  single(1.25e-3 - 0.01e-3 * (i % 5)), Vec3(0.01 * (i % 3), -0.02, 0));
+        }
+    return p;
+}
+
 /// Of the drive [rad/s].
 inline constexpr double kDrive = -9.0000001;
 

@@ -31,18 +31,6 @@ RuledWorld dropWorld() {
     return w;
 }
 
-/// A loose bed in it.
-Particles bed() {
-    Particles p;
-    for (int layer = 0; layer < 4; ++layer)
-        for (int i = 0; i < 24; ++i) {
-            const double angle = 2 * kPi * i / (i < 16 ? 16 : 8) + 0.1 * layer, out = i < 16 ? 7.4e-3 : 3.8e-3;
-            p.add({out * std::cos(angle), 1.3e-3 + layer * 2.65e-3, out * std::sin(angle)},
-                  single(1.25e-3 - 0.01e-3 * (i % 5)), Vec3(0.01 * (i % 3), -0.02, 0));
-        }
-    return p;
-}
-
 bool sameBody(const Backend& a, const Backend& b) {
     return a.freeBodies().at(2).shift == b.freeBodies().at(2).shift &&
            a.freeBodies().at(2).velocity == b.freeBodies().at(2).velocity;
@@ -159,7 +147,7 @@ TEST_CASE("free bodies: on the device free fall is good to a millionth of the wa
 
 TEST_CASE("free bodies: a ball that falls into a bed changes no bit by batches, a restart or other canisters") {
     const RuledWorld w = dropWorld();
-    const Particles p = bed();
+    const Particles p = tubeBed();
     VulkanOptions small;
     small.batch = 7;
     const auto whole = gpu(), other = gpu(small), second = gpu(byAddress());
@@ -186,7 +174,7 @@ TEST_CASE("free bodies: a ball that falls into a bed changes no bit by batches, 
     RuledWorld fewer = w;
     fewer.bodies.pop_back();
     std::thread first([&] {
-        members[0]->load(fewer, bed());
+        members[0]->load(fewer, tubeBed());
         members[0]->advance(2501, 0);
         members[0].reset();  // nobody waits for it any more
     });
@@ -211,17 +199,17 @@ TEST_CASE("free bodies: a ball goes on as it is when larger tables are made for 
     auto visitor = ensemble.enter();
     std::thread beside([&] {
         for (const RuledWorld& world : {w, more}) {
-            visitor->load(world, bed());
+            visitor->load(world, tubeBed());
             visitor->advance(801, 0);
             visitor = ensemble.enter();  // before the former one leaves, so that the other waits
         }
         visitor.reset();
     });
-    stays->load(w, bed());
+    stays->load(w, tubeBed());
     stays->advance(2501, 0);
     beside.join();
     const auto alone = gpu();
-    alone->load(w, bed());
+    alone->load(w, tubeBed());
     alone->advance(2501, 0);
     CHECK(sameBody(*stays, *alone));
     CHECK(sameBits(stays->particles(), alone->particles()));
@@ -238,7 +226,7 @@ TEST_CASE("free bodies: the bed takes from the ball what the ledger says, on the
     for (const bool onDevice : {false, true}) {
         CAPTURE(onDevice);
         const auto backend = onDevice ? gpu() : makeReferenceBackend();
-        backend->load(w, bed());
+        backend->load(w, tubeBed());
         EnergyLedger ledger;
         for (int call = 0; call < 8; ++call) ledger.add(*backend->advance(499, 0).energy);
         const double had = 0.5 * kMass * (0.05 * 0.05 + 1 + 0.02 * 0.02), lost = had - ballAt(*backend);
@@ -255,7 +243,7 @@ TEST_CASE("free bodies: on the device the momentum of ball and spheres stays") {
     w.bodies.erase(w.bodies.begin(), w.bodies.begin() + 2);
     w.gravity = Vec3(0);
     w.domain = {Vec3(-0.1), Vec3(0.1)};
-    const Particles p = bed();
+    const Particles p = tubeBed();
     auto device = gpu();
     device->load(w, p);
     const auto momentum = [&] {

@@ -243,6 +243,14 @@ std::vector<Mutant> mutants() {
          1,
          {"bodies/driven"},
          "bodies/free-ball"},
+        {"bodies on a hinge with 1 % more inertia",
+         [](RuledWorld& w) {
+             for (RigidBody& body : w.bodies)
+                 if (auto* hinge = std::get_if<geometry::Hinge>(&body.course.motion)) hinge->inertia *= 1.01;
+         },
+         1,
+         {"bodies/hinged-ball", "bodies/hinge"},
+         "bodies/driven"},
         {"every body twice, so that spheres touch it twice",
          [](RuledWorld& w) {
              const std::vector<RigidBody> once = w.bodies;

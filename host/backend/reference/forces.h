@@ -89,7 +89,7 @@ class Forces {
     struct Placed {
         geometry::Pose pose;
         geometry::Moving moving;  ///< during the step before; in the opening step, at the instant
-        double perMass = 0;       ///< one over the mass of a body that moves freely [1/kg]; else 0
+        bool yields = false;      ///< it moves freely, and contacts see its mass
     };
 
     void pairs(std::size_t i);

@@ -21,16 +21,17 @@ void Forces::placeBodies() {
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
         const RigidBody& body = bodies_[b];
         const BodyClock clock = clockOf(drive_.clocks, b);
-        Moved own = static_cast<double>(clock.steps) * world_->timeStep;
+        const Moved own = static_cast<double>(clock.steps) * world_->timeStep;
         const geometry::Moving moving = body.moving(drive_.time - back, drive_.angle - drive_.rate * back, drive_.rate,
                                                     clock.runs ? std::optional(own.time - back) : std::nullopt);
         if (body.movesFreely()) {
-            own.shift = drive_.free[b].shift;
-            const geometry::Pose pose = body.pose(drive_.time, 0, own);
-            const bool stands = body.kickOf(step, world_->timeStep) == 0;  // as a wall, still
-            placed_.push_back({pose,
-                               {drive_.free[b].velocity, moving.spin, pose.origin},
-                               stands ? 0 : 1 / std::get<geometry::Free>(body.course.motion).mass});
+            const FreeBody& free = drive_.free[b];
+            const geometry::Pose pose = body.pose(drive_.time, 0, Moved(own.time, free));
+            const bool yields = body.kickOf(step, world_->timeStep) > 0;  // else it is as a wall, still
+            if (const geometry::Hinge* hinge = body.hinge())
+                placed_.push_back({pose, {Vec3(0), free.rate * hinge->axis, hinge->through}, yields});
+            else
+                placed_.push_back({pose, {free.velocity, moving.spin, pose.origin}, yields});
             continue;
         }
         placed_.push_back({body.pose(drive_.time, drive_.angle, own), moving});
@@ -80,7 +81,10 @@ void Forces::touchBody(std::size_t i, std::uint32_t b, std::span<const OnBody> b
         if (!touch) continue;
         touch->reduced = reduced;
         touch->share = found[k].share;
-        touch->mass /= 1 + touch->mass * placed.perMass;
+        if (placed.yields) {
+            const Vec3 point = particles_->position[i] + touch->leverI;
+            touch->mass /= 1 + touch->mass * body.perMass(point, normal);
+        }
         OnBody now{b, directions[k], {}, {}};
         Exerted last;
         if (goes) {

@@ -1,9 +1,45 @@
 #include "host/backend/reference/free_motion.h"
 
+#include <cmath>
 #include <optional>
 #include <variant>
 
 namespace vkdose::reference {
+
+namespace {
+
+/// The change of a speed that a kick makes against damping, which takes the share `damped` of the speed if that is
+/// small. It acts at the mean of the velocities before and after, so that it takes energy at any size.
+template <class Speed>
+Speed gained(const Speed& kick, const Speed& speed, double damped) {
+    return (kick - damped * speed) / (1 + damped / 2);
+}
+
+/// `drive` [N].
+void shift(const geometry::Free& motion, const World& world, const Vec3& load, double drive, double kick,
+           FreeBody& free) {
+    Vec3 push = kick * (load / motion.mass + world.gravity);
+    if (motion.line) push = (glm::dot(push, *motion.line) + kick * drive / motion.mass) * *motion.line;
+    free.velocity += gained(push, free.velocity, kick * motion.damping / motion.mass);
+    if (motion.line) {
+        const double speed = glm::dot(free.velocity, *motion.line);
+        const double stopped =
+            geometry::stoppedAt(motion.low, motion.high, glm::dot(free.shift, *motion.line), speed, world.timeStep);
+        if (stopped != speed) free.velocity = stopped * *motion.line;
+    }
+    free.shift += world.timeStep * free.velocity;
+}
+
+/// `load`, `drive` [N m].
+void turn(const geometry::Hinge& motion, const World& world, double load, double drive, double kick, FreeBody& free) {
+    const glm::dvec2 weight = motion.weight(world.gravity);
+    const double torque = load + weight.x * std::cos(free.angle) + weight.y * std::sin(free.angle) + drive;
+    free.rate += gained(kick * torque / motion.inertia, free.rate, kick * motion.damping / motion.inertia);
+    free.rate = geometry::stoppedAt(motion.low, motion.high, free.angle, free.rate, world.timeStep);
+    free.angle += world.timeStep * free.rate;
+}
+
+}  // namespace
 
 void moveFreeBodies(const World& world, const Loads& loads, std::uint64_t step, const std::vector<BodyClock>& clocks,
                     std::vector<FreeBody>& bodies) {
@@ -12,25 +48,15 @@ void moveFreeBodies(const World& world, const Loads& loads, std::uint64_t step, 
         if (!body.movesFreely()) continue;
         const double kick = body.kickOf(step, world.timeStep);
         if (kick == 0) continue;
-        const auto& motion = std::get<geometry::Free>(body.course.motion);
-        FreeBody& free = bodies[b];
-        Vec3 push = kick * (loads.bodies[b].force / motion.mass + world.gravity);
-        if (motion.line) {
-            const BodyClock clock = clockOf(clocks, b);
-            const double force = body.drivingForce(
-                static_cast<double>(step) * world.timeStep,
-                clock.runs ? std::optional(static_cast<double>(clock.steps) * world.timeStep) : std::nullopt);
-            push = (glm::dot(push, *motion.line) + kick * force / motion.mass) * *motion.line;
-        }
-        // The damping acts at the mean of the velocities before and after, so that it takes energy at any size.
-        const double damped = kick * motion.damping / motion.mass;
-        free.velocity += (push - damped * free.velocity) / (1 + damped / 2);
-        if (motion.line) {
-            const double speed = glm::dot(free.velocity, *motion.line);
-            const double stopped = motion.stopped(glm::dot(free.shift, *motion.line), speed, world.timeStep);
-            if (stopped != speed) free.velocity = stopped * *motion.line;
-        }
-        free.shift += world.timeStep * free.velocity;
+        const BodyClock clock = clockOf(clocks, b);
+        const double drive =
+            body.driveOf(static_cast<double>(step) * world.timeStep,
+                         clock.runs ? std::optional(static_cast<double>(clock.steps) * world.timeStep) : std::nullopt);
+        const BodyLoad& load = loads.bodies[b];
+        if (const geometry::Hinge* hinge = body.hinge())
+            turn(*hinge, world, load.torque, drive, kick, bodies[b]);
+        else
+            shift(std::get<geometry::Free>(body.course.motion), world, load.force, drive, kick, bodies[b]);
     }
 }
 

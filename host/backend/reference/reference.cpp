@@ -154,12 +154,17 @@ Record ReferenceBackend::snapshot() const {
     record.put("list_anchor", flat(neighbours_.anchors()));
     if (moveFreely(world_.bodies)) {
         std::vector<Vec3> shifts, velocities;
+        std::vector<double> angles, rates;
         for (const FreeBody& body : free_) {
             shifts.push_back(body.shift);
             velocities.push_back(body.velocity);
+            angles.push_back(body.angle);
+            rates.push_back(body.rate);
         }
         record.put("body_shift", flat(shifts));
         record.put("body_velocity", flat(velocities));
+        record.put("body_angle", angles);
+        record.put("body_rate", rates);
     }
     forces_.save(record);
     return record;
@@ -185,7 +190,9 @@ void ReferenceBackend::restore(const Record& record) {
         std::vector<Vec3> shifts(free_.size()), velocities(free_.size());
         vectors("body_shift", shifts);
         vectors("body_velocity", velocities);
-        for (std::size_t b = 0; b < free_.size(); ++b) free_[b] = {shifts[b], velocities[b]};
+        const auto &angles = record.get<double>("body_angle", free_.size()),
+                   &rates = record.get<double>("body_rate", free_.size());
+        for (std::size_t b = 0; b < free_.size(); ++b) free_[b] = {shifts[b], velocities[b], angles[b], rates[b]};
     }
     steps_ = record.one<std::uint64_t>(kSnapshotSteps);
     angle_ = record.one<double>("coil_angle");
@@ -276,7 +283,10 @@ std::vector<FreeBody> ReferenceBackend::freeBodies() const {
     if (!moveFreely(world_.bodies)) return {};
     std::vector<FreeBody> bodies = free_;
     for (std::size_t b = 0; b < bodies.size(); ++b)
-        if (steps_ < world_.bodies[b].firstFreeStep(world_.timeStep)) bodies[b].velocity = Vec3(0);
+        if (steps_ < world_.bodies[b].firstFreeStep(world_.timeStep)) {
+            bodies[b].velocity = Vec3(0);
+            bodies[b].rate = 0;
+        }
     return bodies;
 }
 

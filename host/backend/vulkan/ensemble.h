@@ -144,12 +144,12 @@ class Ensemble {
     // ensemble_free.cpp, the bodies that move freely
     /// At their start.
     static void placeFree(MemberState& m);
-    /// What is prescribed to a body that moves freely: how it stands and turns, were it at its start, and the force
-    /// along its line [N].
+    /// What is prescribed to a body that moves freely: how it stands and turns, were it at its start, and what drives
+    /// it along its line [N] or about its hinge [N m].
     struct Driven {
         geometry::Pose pose;
         Vec3 spin{0};
-        double force = 0;
+        double drive = 0;
     };
     /// Body `b` in step `n` of the next batch, as far as the host can tell: the device goes on from the first one.
     static gpu::BodyMotion motionOfFree(const MemberState& m, std::size_t b, std::uint32_t n, const Driven& driven);

@@ -44,9 +44,7 @@ struct Instant {
           runs(clock.runs) {}
 
     geometry::Pose pose(const RigidBody& body) const { return body.pose(time, angle, own); }
-    double force(const RigidBody& body) const {
-        return body.drivingForce(time, runs ? std::optional(own) : std::nullopt);
-    }
+    double drive(const RigidBody& body) const { return body.driveOf(time, runs ? std::optional(own) : std::nullopt); }
     /// `back` [s] before.
     geometry::Moving moving(const RigidBody& body, double back) const {
         return body.moving(time - back, angle - rate * back, rate, runs ? std::optional(own - back) : std::nullopt);
@@ -107,13 +105,13 @@ PackedBodies Ensemble::packedBodies(MemberState& m, TableSizes& sizes) {
                           [](const RigidBody& b) { return !std::holds_alternative<geometry::Rest>(b.course.motion); });
     m.free = moveFreely(m.bodies);
     if (m.free) sizes.shapeKinds |= gpu::kFreeBodies;
-    placeFree(m);
     m.around.clear();
     m.approach.clear();
     for (std::size_t b = 0; b < m.bodies.size(); ++b) {
         m.around.push_back(aroundOf(packed, b));
         m.approach.push_back(approachByTurning(m.bodies[b]));
     }
+    placeFree(m);
     sizes.shapeKinds |= packed.kinds;
     sizes.mostPlaces = std::max(sizes.mostPlaces, packed.places);
     return packed;
@@ -180,7 +178,7 @@ void Ensemble::writeMotions(std::uint32_t count, const std::vector<double>& coil
                 const Instant now(m.world, m.step + n, angle, rate, clockOf(m.clocks, b), n);
                 const geometry::Pose pose = now.pose(body);
                 const geometry::Moving moving = now.moving(body, back);
-                motions.push_back(body.movesFreely() ? motionOfFree(m, b, n, {pose, moving.spin, now.force(body)})
+                motions.push_back(body.movesFreely() ? motionOfFree(m, b, n, {pose, moving.spin, now.drive(body)})
                                                      : packMotion(body, pose, moving));
                 way = std::max(way, longestWay(m.world, bodies[b], m.around[b], m.approach[b], now));
             }

@@ -2,7 +2,6 @@
 // goes on from there by itself (shaders/pass/free_bodies.comp).
 
 #include <algorithm>
-#include <array>
 #include <limits>
 
 #include "host/backend/vulkan/ensemble.h"
@@ -17,9 +16,15 @@ namespace {
 static_assert(gpu::kAtStop == float(geometry::kAtStop));
 
 constexpr const char* kSaved = "free_bodies";
-constexpr std::size_t kNumbers = 12;  // of each body: its place and its velocity, high and low parts
 
-/// Calls `visit` for each of these numbers.
+/// A stop, on a device.
+float kept(double stop) {
+    constexpr double kMost = std::numeric_limits<float>::max();
+    return float(std::clamp(stop, -kMost, kMost));
+}
+
+/// Calls `visit` for each of the numbers that tell where a body has come to: its place and its velocity, on a hinge its
+/// angle, its rate and where it is by them; high and low parts.
 template <class Motion, class Visit>
 void eachNumber(Motion& m, Visit visit) {
     for (int d = 0; d < 3; ++d) {
@@ -28,12 +33,38 @@ void eachNumber(Motion& m, Visit visit) {
         visit(m.velocity[d]);
         visit(m.free[d]);
     }
+    if (m.hinge.w == 0) return;
+    for (int d = 0; d < 3; ++d) {
+        for (int k = 0; k < 3; ++k) {
+            visit(m.toBodyHigh[d][k]);
+            visit(m.toBodyLow[d][k]);
+        }
+        visit(m.hinge[d]);
+        visit(m.spin[d]);
+    }
+}
+
+/// As `standing`, of a body on a hinge. `lever`: no point of it is farther from the axis [m].
+gpu::BodyMotion standingOnHinge(const RigidBody& body, const geometry::Pose& pose, bool moves, double lever) {
+    const geometry::Hinge& hinge = *body.hinge();
+    const double start = moves ? hinge.rate : 0;
+    gpu::BodyMotion m = packMotion(body, pose, {Vec3(0), start * hinge.axis, hinge.through});
+    const Split rate(start);
+    const Split3 axis(hinge.axis), through(hinge.through);
+    m.free = gpu::vec4(rate.low, 0, 0, float(1 / hinge.inertia));
+    m.line = gpu::vec4(axis.high, 0);
+    m.held = gpu::vec4(0, 0, kept(hinge.low), kept(hinge.high));
+    m.hinge = gpu::vec4(0, 0, rate.high, float(lever));
+    m.axisLow = gpu::vec4(axis.low, 0);
+    m.pivotLow = gpu::vec4(through.low, 0);
+    return m;
 }
 
 /// A body that has not moved freely yet, in this pose and with this spin: it stands, until the step at whose beginning
 /// it has its first velocity.
 gpu::BodyMotion standing(const RigidBody& body, const geometry::Pose& pose, const Vec3& spin, std::uint64_t step,
-                         double timeStep) {
+                         double timeStep, double lever) {
+    if (body.hinge() != nullptr) return standingOnHinge(body, pose, step >= body.firstFreeStep(timeStep), lever);
     const auto& motion = std::get<geometry::Free>(body.course.motion);
     const Vec3 velocity = step >= body.firstFreeStep(timeStep) ? motion.velocity : Vec3(0);
     gpu::BodyMotion m = packMotion(body, pose, {velocity, spin, pose.origin});
@@ -42,25 +73,32 @@ gpu::BodyMotion standing(const RigidBody& body, const geometry::Pose& pose, cons
     m.free = gpu::vec4(speed.low, float(1 / motion.mass));
     m.line = gpu::vec4(motion.line ? glm::vec3(*motion.line) : glm::vec3(0), 0);
     const double start = motion.line ? glm::dot(body.course.start.origin, *motion.line) : 0;
-    constexpr double kMost = std::numeric_limits<float>::max();
-    m.held.z = float(std::max(start + motion.low, -kMost));
-    m.held.w = float(std::min(start + motion.high, kMost));
+    m.held.z = kept(start + motion.low);
+    m.held.w = kept(start + motion.high);
     return m;
 }
 
-gpu::BodyMotion standingAtStart(const RigidBody& body, std::uint64_t step, double timeStep) {
-    return standing(body, body.pose(0, 0), Vec3(0), step, timeStep);
+gpu::BodyMotion standingAtStart(const RigidBody& body, std::uint64_t step, double timeStep, double lever) {
+    return standing(body, body.pose(0, 0), Vec3(0), step, timeStep, lever);
 }
 
 /// The same body where it has come to by its forces.
 gpu::BodyMotion goingOn(gpu::BodyMotion motion, const gpu::BodyMotion& at) {
-    std::array<float, kNumbers> numbers{};
-    auto to = numbers.begin();
-    eachNumber(at, [&](float x) { *to++ = x; });
+    std::vector<float> numbers;
+    eachNumber(at, [&](float x) { numbers.push_back(x); });
     auto from = numbers.begin();
     eachNumber(motion, [&](float& x) { x = *from++; });
     motion.way = at.way;
     return motion;
+}
+
+/// A bound of the distance of the body's points from its hinge, by the sphere around it in its frame [m]; 0: it has
+/// none.
+double leverOf(const RigidBody& body, const gpu::vec4& around) {
+    const geometry::Hinge* hinge = body.hinge();
+    if (hinge == nullptr) return 0;
+    const geometry::Course once{body.course.start, geometry::Turn{hinge->axis, hinge->through, 1}, {}};
+    return geometry::wayBound(once, Vec3(glm::vec3(around)), double(around.w), 0, 1);
 }
 
 }  // namespace
@@ -68,18 +106,27 @@ gpu::BodyMotion goingOn(gpu::BodyMotion motion, const gpu::BodyMotion& at) {
 void Ensemble::placeFree(MemberState& m) {
     m.at.assign(m.bodies.size(), {});
     for (std::size_t b = 0; b < m.bodies.size(); ++b)
-        if (m.bodies[b].movesFreely()) m.at[b] = standingAtStart(m.bodies[b], 0, m.world.timeStep);
+        if (m.bodies[b].movesFreely())
+            m.at[b] = standingAtStart(m.bodies[b], 0, m.world.timeStep, leverOf(m.bodies[b], m.around[b]));
 }
 
 gpu::BodyMotion Ensemble::motionOfFree(const MemberState& m, std::size_t b, std::uint32_t n, const Driven& driven) {
     const double dt = m.world.timeStep;
     const RigidBody& body = m.bodies[b];
-    const auto& free = std::get<geometry::Free>(body.course.motion);
-    gpu::BodyMotion motion = standing(body, driven.pose, driven.spin, m.step + n, dt);
+    gpu::BodyMotion motion = standing(body, driven.pose, driven.spin, m.step + n, dt, leverOf(body, m.around[b]));
     if (n == 0) motion = goingOn(motion, m.at[b]);
     const double kick = body.kickOf(m.step + n, dt);
     motion.line.w = float(kick);
-    motion.held.x = float(driven.force / free.mass);
+    if (const geometry::Hinge* hinge = body.hinge()) {
+        const glm::dvec2 weight = hinge->weight(m.world.gravity) / hinge->inertia;
+        motion.held.x = float(driven.drive / hinge->inertia);
+        motion.held.y = float(kick * hinge->damping / hinge->inertia);
+        motion.axisLow.w = float(weight.x);
+        motion.pivotLow.w = float(weight.y);
+        return motion;
+    }
+    const auto& free = std::get<geometry::Free>(body.course.motion);
+    motion.held.x = float(driven.drive / free.mass);
     motion.held.y = float(kick * free.damping / free.mass);
     for (int d = 0; d < 3; ++d) motion.pivot[d] = motion.toBodyHigh[d].w;  // RigidBody::pivot
     return motion;
@@ -98,6 +145,11 @@ std::vector<FreeBody> Ensemble::freeBodies(std::uint32_t member) const {
     for (std::size_t b = 0; b < bodies.size(); ++b) {
         if (!m.bodies[b].movesFreely()) continue;
         const gpu::BodyMotion& at = m.at[b];
+        if (m.bodies[b].hinge() != nullptr) {
+            bodies[b].angle = double(at.hinge.x) + double(at.hinge.y);
+            bodies[b].rate = double(at.hinge.z) + double(at.free.x);
+            continue;
+        }
         for (int d = 0; d < 3; ++d) {
             const double place = double(at.toBodyHigh[d].w) + double(at.toBodyLow[d].w);
             bodies[b].shift[d] = place - m.bodies[b].course.start.origin[d];
@@ -118,14 +170,15 @@ void Ensemble::saveFree(const MemberState& m, Record& record) {
 void Ensemble::restoreFree(const Record& record, std::uint64_t step, MemberState& m) {
     if (!m.free) return;
     std::size_t count = 0;
-    for (const RigidBody& body : m.bodies) count += body.movesFreely() ? 1 : 0;
-    auto next = record.get<float>(kSaved, kNumbers * count).begin();
+    for (std::size_t b = 0; b < m.bodies.size(); ++b)
+        if (m.bodies[b].movesFreely()) eachNumber(m.at[b], [&](float) { ++count; });
+    auto next = record.get<float>(kSaved, count).begin();
     for (std::size_t b = 0; b < m.bodies.size(); ++b) {
         if (!m.bodies[b].movesFreely()) continue;
         eachNumber(m.at[b], [&](float& x) { x = *next++; });
         // A state of another time step may know it as standing where it begins to move here.
         if (step <= m.bodies[b].firstFreeStep(m.world.timeStep))
-            m.at[b] = standingAtStart(m.bodies[b], step, m.world.timeStep);
+            m.at[b] = standingAtStart(m.bodies[b], step, m.world.timeStep, leverOf(m.bodies[b], m.around[b]));
     }
 }
 

@@ -256,7 +256,8 @@ class Simulation:
 
         "position", "velocity" and "spin" (n, 3) [m, m/s, rad/s], "radius" [m], "force" (n, 3) [N] of all its contacts in
         the last step, "overlap" [m] of its deepest contact, "kinetic_energy" [J], "id", "status" (0: active, 1: dosed,
-        2: lost, 3: waiting for its refill) and "member" (0). Each call asks the backend for its contacts.
+        2: lost, 3: waiting for its refill) and "member" (0). In a domain that repeats also "periods_gone" (n, 3), how often
+        it has gone through each end, upwards less downwards. Each call asks the backend for its contacts.
         """
         return self._run.particles
 
