@@ -40,6 +40,19 @@ struct KeepsPeriod {
     bool operator()(const geometry::Hinge& m) const { return along(m.axis); }
 };
 
+/// Whether a body of planes moves within them, as a belt does, so that it is always where it was.
+bool movesWithinItself(const RigidBody& body) {
+    Vec3 way(0);
+    if (const auto* slide = std::get_if<geometry::Slide>(&body.course.motion)) way = slide->velocity;
+    if (const auto* shake = std::get_if<geometry::Shake>(&body.course.motion)) way = shake->direction;
+    return way != Vec3(0) && std::all_of(body.shapes.begin(), body.shapes.end(), [&](const geometry::Shape& shape) {
+               const auto* plane = std::get_if<geometry::Plane>(&shape);
+               if (plane == nullptr || plane->end < geometry::kEndless) return false;
+               const Vec3 normal = body.course.start.directionToWorld(plane->normal);
+               return std::abs(glm::dot(normal, way)) <= KeepsPeriod::kSame * glm::length(way);
+           });
+}
+
 /// The time, or the angle of the drive, that a motion takes to show all its places; 0: it never does.
 double spanOf(const geometry::Motion& motion) {
     if (const auto* table = std::get_if<geometry::Table>(&motion)) return table->rows.back().time;
@@ -69,7 +82,7 @@ class Ends {
         if (world.coil && d != 2) spans.push_back(2 * kPi);
         for (std::size_t b = 0; b < world.bodies.size(); ++b) {
             const geometry::Motion& motion = world.bodies[b].course.motion;
-            if (std::visit(KeepsPeriod{d}, motion)) continue;
+            if (std::visit(KeepsPeriod{d}, motion) || movesWithinItself(world.bodies[b])) continue;
             const double span = world.bodies[b].movesFreely() ? 0 : spanOf(motion);
             if (span > 0)
                 spans.push_back(span);

@@ -161,4 +161,10 @@ TEST_CASE("period: what stays away from the ends, and moves across, is accepted"
     CHECK_NOTHROW(loadText(kSlice +
                            "[[body]]\nname = \"plug\"\nshape = \"ball\"\nradius_mm = 1\nat = [0, 0.015, 0.01]\n"
                            "[body.motion]\nkind = \"free\"\nmass_g = 1\nalong = [0, 1, 0]\n"));
+    // A belt is always where it was, if it runs within its plane.
+    const std::string belt = kSlice +
+                             "[[body]]\nname = \"belt\"\nshape = \"plane\"\nat = [0, -0.015, 0]\n"
+                             "[body.motion]\nkind = \"slide\"\n";
+    CHECK_NOTHROW(loadText(belt + "velocity = [0, 0, 0.01]\n"));
+    CHECK_THROWS_WITH(loadText(belt + "velocity = [0, 0.01, 0.01]\n"), Catch::Contains("moves along z"));
 }
