@@ -37,6 +37,23 @@ RuledWorld hungAlone(const geometry::Hinge& hinge) {
     return hingeWorld({geometry::Ball{Vec3(5e-3, 0, 0), 3e-3}}, hinge, spring(1e3));
 }
 
+/// A disc that falls on spheres on a floor.
+RuledWorld flapOverSpheres() {
+    const Vec3 z(0, 0, 1);
+    geometry::Hinge hinge = hingeAt(Vec3(-8e-3, 0, 2.2 * kRadius));
+    hinge.axis = Vec3(0, 1, 0);
+    hinge.rate = 10;
+    RuledWorld world = hingeWorld({geometry::Cone{Vec3(8e-3, 0, 0), z, 0, 12e-3, 0}}, hinge, paperParameters(0.1));
+    world.surfaces.push_back(geometry::Plane{Vec3(0), z});
+    return world;
+}
+
+Particles underFlap() {
+    Particles p;
+    for (int i = 0; i < 9; ++i) p.add(Vec3((i % 3) * 2.6e-3, (i / 3 - 1) * 2.6e-3, kRadius), kRadius);
+    return p;
+}
+
 /// A sphere far away from all.
 Particles farFromHinge() {
     Particles p;
@@ -153,15 +170,9 @@ TEST_CASE("hinges: the pose and the axis of a body follow its angle") {
 }
 
 TEST_CASE("hinges: the work of a flap is what its own energy falls by, and the ledger closes") {
-    const Vec3 z(0, 0, 1);
-    geometry::Hinge hinge = hingeAt(Vec3(-8e-3, 0, 2.2 * kRadius));
-    hinge.axis = Vec3(0, 1, 0);
-    hinge.rate = 10;
-    RuledWorld world = hingeWorld({geometry::Cone{Vec3(8e-3, 0, 0), z, 0, 12e-3, 0}}, hinge, paperParameters(0.1));
-    world.surfaces.push_back(geometry::Plane{Vec3(0), z});
+    RuledWorld world = flapOverSpheres();
     world.energyBook = true;
-    Particles p;
-    for (int i = 0; i < 9; ++i) p.add(Vec3((i % 3) * 2.6e-3, (i / 3 - 1) * 2.6e-3, kRadius), kRadius);
+    const Particles p = underFlap();
     const auto backend = makeReferenceBackend();
     backend->load(world, p);
     EnergyLedger ledger;
@@ -207,14 +218,8 @@ TEST_CASE("hinges: the automatic step resolves the impact of one that is far lig
 }
 
 TEST_CASE("hinges: a run goes on from its record with the same bits") {
-    const Vec3 z(0, 0, 1);
-    geometry::Hinge hinge = hingeAt(Vec3(-8e-3, 0, 2.2 * kRadius));
-    hinge.axis = Vec3(0, 1, 0);
-    hinge.rate = 10;
-    RuledWorld world = hingeWorld({geometry::Cone{Vec3(8e-3, 0, 0), z, 0, 12e-3, 0}}, hinge, paperParameters(0.1));
-    world.surfaces.push_back(geometry::Plane{Vec3(0), z});
-    Particles p;
-    for (int i = 0; i < 9; ++i) p.add(Vec3((i % 3) * 2.6e-3, (i / 3 - 1) * 2.6e-3, kRadius), kRadius);
+    RuledWorld world = flapOverSpheres();
+    const Particles p = underFlap();
     auto whole = makeReferenceBackend(), cut = makeReferenceBackend(), on = makeReferenceBackend();
     for (Backend* b : {whole.get(), cut.get(), on.get()}) b->load(world, p);
     whole->advance(3'000, 0);

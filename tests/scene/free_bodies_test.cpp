@@ -6,7 +6,7 @@
 
 #include "host/model/normal_law.h"
 #include "host/sim/energy_ledger.h"
-#include "tests/scene/body_beds.h"
+#include "tests/scene/free_body_bits.h"
 #include "tests/support/catch.h"
 #include "tests/support/records.h"
 
@@ -29,11 +29,6 @@ RuledWorld dropWorld() {
     ball.course.start.origin = Vec3(0.2e-3, 17.1e-3, -0.3e-3);
     w.bodies.push_back(std::move(ball));
     return w;
-}
-
-bool sameBody(const Backend& a, const Backend& b) {
-    return a.freeBodies().at(2).shift == b.freeBodies().at(2).shift &&
-           a.freeBodies().at(2).velocity == b.freeBodies().at(2).velocity;
 }
 
 }  // namespace
@@ -146,46 +141,8 @@ TEST_CASE("free bodies: on the device free fall is good to a millionth of the wa
 }
 
 TEST_CASE("free bodies: a ball that falls into a bed changes no bit by batches, a restart or other canisters") {
-    const RuledWorld w = dropWorld();
-    const Particles p = tubeBed();
-    VulkanOptions small;
-    small.batch = 7;
-    const auto whole = gpu(), other = gpu(small), second = gpu(byAddress());
-    for (Backend* b : {whole.get(), other.get(), second.get()}) b->load(w, p);
-    whole->advance(2501, 0);
-    other->advance(2501, 0);
-    CHECK(glm::length(whole->freeBodies().at(2).velocity - Vec3(0.05, -1, 0.02)) > 0.1);
-    CHECK(sameBody(*whole, *other));
-    CHECK(sameBits(whole->particles(), other->particles()));
-
-    const Record taken = whole->snapshot();
-    second->restore(taken);
-    checkSameArrays(taken, second->snapshot());
-    for (int call = 0; call < 2; ++call) {
-        whole->advance(701, 0);
-        second->advance(701, 0);
-        CHECK(sameBody(*whole, *second));
-        CHECK(sameBits(whole->particles(), second->particles()));
-        CHECK(sameBits(whole->contacts(), second->contacts()));
-    }
-
-    // Beside a canister in which nothing moves freely.
-    auto members = gpuEnsemble(2);
-    RuledWorld fewer = w;
-    fewer.bodies.pop_back();
-    std::thread first([&] {
-        members[0]->load(fewer, tubeBed());
-        members[0]->advance(2501, 0);
-        members[0].reset();  // nobody waits for it any more
-    });
-    members[1]->load(w, p);
-    members[1]->advance(2501, 0);
-    const Particles together = members[1]->particles();
-    CHECK(sameBody(*members[1], *other));
-    requireClean(*members[1]);
-    first.join();
-    CHECK(sameBits(together, other->particles()));
-    requireClean(*whole);
+    checkSameBitsOverBed(dropWorld(),
+                         [](const FreeBody& ball) { return glm::length(ball.velocity - Vec3(0.05, -1, 0.02)) > 0.1; });
 }
 
 TEST_CASE("free bodies: a ball goes on as it is when larger tables are made for a canister that comes") {

@@ -2,11 +2,10 @@
 // other canisters.
 
 #include <cmath>
-#include <thread>
 
 #include "host/model/normal_law.h"
 #include "host/sim/energy_ledger.h"
-#include "tests/scene/body_beds.h"
+#include "tests/scene/free_body_bits.h"
 #include "tests/support/catch.h"
 #include "tests/support/records.h"
 
@@ -38,11 +37,6 @@ RuledWorld flapWorld(double height = 16.2e-3) {
 
 geometry::Hinge& hingeOf(RuledWorld& w) {
     return std::get<geometry::Hinge>(w.bodies[2].course.motion);
-}
-
-bool sameTurn(const Backend& a, const Backend& b) {
-    const FreeBody one = a.freeBodies().at(2), other = b.freeBodies().at(2);
-    return one.angle == other.angle && one.rate == other.rate;
 }
 
 }  // namespace
@@ -123,46 +117,7 @@ TEST_CASE("hinges: a body that has turned many times stands where its angle says
 }
 
 TEST_CASE("hinges: a flap that falls into a bed changes no bit by batches, a restart or other canisters") {
-    const RuledWorld w = flapWorld(kOverBed);
-    const Particles p = tubeBed();
-    VulkanOptions small;
-    small.batch = 7;
-    const auto whole = gpu(), other = gpu(small), second = gpu(byAddress());
-    for (Backend* b : {whole.get(), other.get(), second.get()}) b->load(w, p);
-    whole->advance(2501, 0);
-    other->advance(2501, 0);
-    CHECK(whole->freeBodies().at(2).rate > 0.9 * kFlapStart);  // it has met the bed
-    CHECK(sameTurn(*whole, *other));
-    CHECK(sameBits(whole->particles(), other->particles()));
-
-    const Record taken = whole->snapshot();
-    second->restore(taken);
-    checkSameArrays(taken, second->snapshot());
-    for (int call = 0; call < 2; ++call) {
-        whole->advance(701, 0);
-        second->advance(701, 0);
-        CHECK(sameTurn(*whole, *second));
-        CHECK(sameBits(whole->particles(), second->particles()));
-        CHECK(sameBits(whole->contacts(), second->contacts()));
-    }
-
-    // Beside a canister in which nothing moves freely.
-    auto members = gpuEnsemble(2);
-    RuledWorld fewer = w;
-    fewer.bodies.pop_back();
-    std::thread first([&] {
-        members[0]->load(fewer, tubeBed());
-        members[0]->advance(2501, 0);
-        members[0].reset();  // nobody waits for it any more
-    });
-    members[1]->load(w, p);
-    members[1]->advance(2501, 0);
-    const Particles together = members[1]->particles();
-    CHECK(sameTurn(*members[1], *other));
-    requireClean(*members[1]);
-    first.join();
-    CHECK(sameBits(together, other->particles()));
-    requireClean(*whole);
+    checkSameBitsOverBed(flapWorld(kOverBed), [](const FreeBody& flap) { return flap.rate > 0.9 * kFlapStart; });
 }
 
 TEST_CASE("hinges: the bed takes from the flap what the ledger says, on the device as in the reference") {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <optional>
+#include <utility>
 #include <variant>
 
 namespace vkdose::reference {
@@ -58,6 +59,30 @@ void moveFreeBodies(const World& world, const Loads& loads, std::uint64_t step, 
         else
             shift(std::get<geometry::Free>(body.course.motion), world, load.force, drive, kick, bodies[b]);
     }
+}
+
+void saveFreeBodies(const std::vector<FreeBody>& bodies, Record& record) {
+    std::vector<double> shifts, velocities, angles, rates;
+    for (const FreeBody& body : bodies) {
+        shifts.insert(shifts.end(), {body.shift.x, body.shift.y, body.shift.z});
+        velocities.insert(velocities.end(), {body.velocity.x, body.velocity.y, body.velocity.z});
+        angles.push_back(body.angle);
+        rates.push_back(body.rate);
+    }
+    record.put("body_shift", std::move(shifts));
+    record.put("body_velocity", std::move(velocities));
+    record.put("body_angle", std::move(angles));
+    record.put("body_rate", std::move(rates));
+}
+
+void restoreFreeBodies(const Record& record, std::vector<FreeBody>& bodies) {
+    const auto &shifts = record.get<double>("body_shift", 3 * bodies.size()),
+               &velocities = record.get<double>("body_velocity", 3 * bodies.size()),
+               &angles = record.get<double>("body_angle", bodies.size()),
+               &rates = record.get<double>("body_rate", bodies.size());
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+        bodies[b] = {Vec3(shifts[3 * b], shifts[3 * b + 1], shifts[3 * b + 2]),
+                     Vec3(velocities[3 * b], velocities[3 * b + 1], velocities[3 * b + 2]), angles[b], rates[b]};
 }
 
 }  // namespace vkdose::reference

@@ -13,4 +13,8 @@ namespace vkdose::reference {
 void moveFreeBodies(const World& world, const Loads& loads, std::uint64_t step, const std::vector<BodyClock>& clocks,
                     std::vector<FreeBody>& bodies);
 
+/// For Backend::snapshot, and back. Throws RecordError if the record has other bodies.
+void saveFreeBodies(const std::vector<FreeBody>& bodies, Record& record);
+void restoreFreeBodies(const Record& record, std::vector<FreeBody>& bodies);
+
 }  // namespace vkdose::reference

@@ -152,20 +152,7 @@ Record ReferenceBackend::snapshot() const {
     record.putOne("coil_angle", angle_);
     record.putOne("rebuilds", neighbours_.builds());
     record.put("list_anchor", flat(neighbours_.anchors()));
-    if (moveFreely(world_.bodies)) {
-        std::vector<Vec3> shifts, velocities;
-        std::vector<double> angles, rates;
-        for (const FreeBody& body : free_) {
-            shifts.push_back(body.shift);
-            velocities.push_back(body.velocity);
-            angles.push_back(body.angle);
-            rates.push_back(body.rate);
-        }
-        record.put("body_shift", flat(shifts));
-        record.put("body_velocity", flat(velocities));
-        record.put("body_angle", angles);
-        record.put("body_rate", rates);
-    }
+    if (moveFreely(world_.bodies)) reference::saveFreeBodies(free_, record);
     forces_.save(record);
     return record;
 }
@@ -186,14 +173,7 @@ void ReferenceBackend::restore(const Record& record) {
         vectors("periods_gone", gone);
         for (std::size_t i = 0; i < n; ++i) particles_.gone[i] = glm::ivec3(gone[i]);
     }
-    if (moveFreely(world_.bodies)) {
-        std::vector<Vec3> shifts(free_.size()), velocities(free_.size());
-        vectors("body_shift", shifts);
-        vectors("body_velocity", velocities);
-        const auto &angles = record.get<double>("body_angle", free_.size()),
-                   &rates = record.get<double>("body_rate", free_.size());
-        for (std::size_t b = 0; b < free_.size(); ++b) free_[b] = {shifts[b], velocities[b], angles[b], rates[b]};
-    }
+    if (moveFreely(world_.bodies)) reference::restoreFreeBodies(record, free_);
     steps_ = record.one<std::uint64_t>(kSnapshotSteps);
     angle_ = record.one<double>("coil_angle");
     neighbours_.reset(world_.skin, reach_, 0, world_.period);
