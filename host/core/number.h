@@ -16,6 +16,10 @@ std::optional<double> numberOf(std::string_view text);
 /// The same of a whole number without a sign.
 std::optional<unsigned long long> wholeNumberOf(std::string_view text);
 
+inline bool isDigit(char c) {
+    return c >= '0' && c <= '9';
+}
+
 /// The number nearest to `value` with so many significant digits in decimal.
 double nearestDecimal(double value, int digits);
 

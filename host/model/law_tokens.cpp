@@ -8,6 +8,8 @@
 #include <regex>
 #include <utility>
 
+#include "host/core/number.h"
+
 namespace vkdose {
 namespace {
 
@@ -82,9 +84,6 @@ bool isNameStart(char c) {
 }
 bool isNamePart(char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
-}
-bool isDigit(char c) {
-    return std::isdigit(static_cast<unsigned char>(c)) != 0;
 }
 
 template <std::size_t n>

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "host/core/number.h"
+
 namespace vkdose {
 namespace {
 
@@ -115,10 +117,6 @@ Node convert(const toml::node& from, const Source& source, std::string key) {
 constexpr int kMostDots = 64;
 /// Longest text that is read. A case is only a few kilobytes long.
 constexpr std::size_t kMostBytes = 1U << 20U;
-
-bool isDigit(char c) {
-    return c >= '0' && c <= '9';
-}
 
 /// Whether a dot between two digits is that of a number. A key of digits may be dotted too, and has other dots beside.
 bool isOfNumber(const std::string& text, std::size_t dot) {
