@@ -13,13 +13,13 @@
 namespace vkdose {
 namespace {
 
-/// Shortest text that reads back as the same double.
+/// Shortest text that reads back as the same double; "-0" is a whole number, which has no sign at 0.
 std::string numeral(double value) {
-    return fmt::format("{}", value);
+    return value == 0 && std::signbit(value) ? "-0.0" : fmt::format("{}", value);
 }
 
 std::string numeral(const Vec3& v) {
-    return fmt::format("[{}, {}, {}]", v.x, v.y, v.z);
+    return fmt::format("[{}, {}, {}]", numeral(v.x), numeral(v.y), numeral(v.z));
 }
 
 std::string kindName(Node::Kind kind) {

@@ -78,6 +78,17 @@ TEST_CASE("every shipped case loads, says why it exists and survives being resol
     CHECK(count >= 21);
 }
 
+TEST_CASE("a resolved case keeps the sign of a zero") {
+    const Case c = test::loadText(
+        replaced(replaced(kFreeCase, "gravity = [0, 0, 0]", "gravity = [-0.0, -9.81, 0.0]"), "list = \"two.csv\"",
+                 "mass_g = 0.2\n[particles.size]\ndistribution = \"fixed\"\nradius_mm = 1\n[particles.region]\n"
+                 "low = [0, 0, 0]\nhigh = [0.01, 0.02, 0.01]"));
+    CHECK_THAT(c.resolved, Catch::Contains("gravity = [-0.0, -9.81, 0]"));
+    const Case again = loadResolvedCase(c.resolved, "again.toml");
+    CHECK(again.resolved == c.resolved);
+    CHECK(std::signbit(again.world.gravity.x));
+}
+
 TEST_CASE("a resolved case with a list, planes and words of its own loads again") {
     const Folder folder;
     std::filesystem::create_directory(folder.path() / "deep");
