@@ -46,6 +46,7 @@ constexpr std::array kRules{
     Rule{"domain", tightDomain},
     Rule{"region", unreachableRegion},
     Rule{"no-outlet", noOutlet},
+    Rule{"no-floor", openBelow},
     Rule{"body-backwards", bodyBackwards},
     Rule{"body-wall", bodyInWall},
     Rule{"body-cross", bodiesCross},

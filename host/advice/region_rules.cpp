@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "host/advice/body_words.h"
+#include "host/model/clearance.h"
 
 namespace vkdose {
 namespace {
@@ -33,7 +34,42 @@ bool behindWalls(const CountRegion& region, const Canister& can, const Box& doma
     return held;
 }
 
+/// Whether a sphere that falls straight down from there leaves the domain, and meets nothing and no region that deletes
+/// before.
+bool fallsOut(const World& world, const Clearance& around, Vec3 x, double radius, const Vec3& down) {
+    const auto inside = [&](const Vec3& at) {
+        return glm::all(glm::greaterThanEqual(at, world.domain.low)) &&
+               glm::all(glm::lessThanEqual(at, world.domain.high));
+    };
+    for (; inside(x); x += radius * down)
+        if (world.doses(x) || !around.nearest(x, radius).what.empty()) return false;
+    return true;
+}
+
 }  // namespace
+
+Found openBelow(const Subject& s) {
+    constexpr std::size_t kLooks = 200;
+    const World& world = s.c.world;
+    const double g = glm::length(world.gravity);
+    const Vec3 down = g > 0 ? world.gravity / g : Vec3(0);
+    const bool onward = glm::length(world.period * down) > 0;  // it comes in again at the other end
+    if (s.c.canister || g == 0 || onward) return {};
+    const Particles& p = s.filled.particles;
+    const Clearance around(world);
+    const std::size_t step = std::max<std::size_t>(p.size() / kLooks, 1);
+    for (std::size_t i = 0; i < p.size(); i += step) {
+        if (!fallsOut(world, around, p.position[i], p.radius[i], down)) continue;
+        const Vec3 mm = 1e3 * p.position[i];
+        return Finding{
+            "particles",
+            fmt::format("nothing stands under the powder at ({:.3g}, {:.3g}, {:.3g}) mm: it falls out of the "
+                        "domain, which ends the run",
+                        mm.x, mm.y, mm.z),
+            "close the device below, or add a [[region]] that the powder falls into"};
+    }
+    return {};
+}
 
 Found unreachableRegion(const Subject& s) {
     for (const CountRegion& region : s.c.world.regions)

@@ -57,6 +57,7 @@ Found tightDomain(const Subject& s);
 // region_rules.cpp: where powder is dosed or counted
 Found unreachableRegion(const Subject& s);
 Found noOutlet(const Subject& s);
+Found openBelow(const Subject& s);
 
 // powder_rules.cpp: particles, contacts and gravity
 Found lightOrHeavyPowder(const Subject& s);

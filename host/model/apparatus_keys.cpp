@@ -72,7 +72,12 @@ constexpr Key kBody[] = {
         .replacing("material"),
     text("material", told("none"), "in place of `contact`: name of a `[[material]]` that it is made of")
         .replacing("contact"),
-    vector("at", kMetre, {0, 0, 0}, "where the origin of its frame is at the start"),
+    text("moves_with", told("none"),
+         "in place of `[body.motion]`: name of a `[[body]]` before it, whose motion it shares, as if the two were one. "
+         "Not of one that is `free` or on a `hinge`")
+        .replacing("motion"),
+    vector("at", kMetre, {0, 0, 0},
+           "where the origin of its frame is at the start; of a body that swings or shakes, in the middle of its way"),
     vector("rotation_axis", kPlain, {0, 0, 1}, "direction of the axis about which its frame is turned at the start"),
     number("rotation_deg", kDegree, Bound::Any, 0.0, "the angle of that turn"),
 };

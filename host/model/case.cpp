@@ -195,9 +195,9 @@ Case interpret(const std::filesystem::path& file, Node tree, std::vector<std::fi
 
     // The powder is checked before the times: a size or a density in a wrong unit leads to absurd time steps, and the
     // message must blame the powder for them.
-    const SizeRange sizes = sizeRange(c);
-    findVessel(reader, c, sizes.largest);
+    findVessel(reader, root.table("particles"), c);
     reader.throwIfFaulty();
+    const SizeRange sizes = sizeRange(c);
     checkFilling(reader, c, sizes.largest);
     reader.throwIfFaulty();
     tryUserLaw(reader, c, powderSizes(c));

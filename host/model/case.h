@@ -44,6 +44,8 @@ struct Filling {
     std::optional<Particles> list;
     double gridGap = kGridGap;  ///< play between the largest spheres of the grid, as a fraction of their diameter
     Box region;                 ///< of the grid, open upwards in a canister (high.y infinite); unused with a list
+    /// To which the settled powder fills its vessel, over the lowest point of it [m]: `mass` follows.
+    std::optional<double> height;
     /// The bodies that it is inside of, places in World::bodies. Empty: it takes all of the region.
     std::vector<std::size_t> vessel;
     std::shared_ptr<const std::vector<std::uint64_t>> sites;  ///< of the grid those in the vessel; null without one

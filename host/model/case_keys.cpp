@@ -20,7 +20,7 @@ constexpr Key kTop[] = {
     integer("seed", 0, kAnyCount, 1, "sets sizes and positions: the same seed gives the same particles"),
     vector("gravity", {1, "m/s2"}, {0, -9.81, 0}, "acceleration of gravity"),
     number("bulk_density", kKilogramPerCubicMetre, Bound::Positive, 471.0,
-           "of the settled powder; only the closed form uses it. `\"measure\"`: that of this "
+           "of the settled powder, for the closed form and for `fill_height_mm`. `\"measure\"`: that of this "
            "run's own bed when it has settled; until then, and if the bed is too small or still falls (at more than a "
            "tenth of the speed after a fall from its top), 0.46 of the particles' density")
         .orElse("measure")

@@ -23,8 +23,8 @@ void checkTimeStep(CaseReader& reader, const Case& c, const PowderSizes& sizes);
 void checkTouches(CaseReader& reader, const Case& c, double largestRadius);
 
 // fill_checks.cpp
-/// Finds the sites of the grid that are in the vessel, if the fill has one.
-void findVessel(CaseReader& reader, Case& c, double largestRadius);
+/// Finds the sites of the grid that are in the vessel, if the fill has one, and the mass that fills it to a height.
+void findVessel(CaseReader& reader, Section& particles, Case& c);
 /// Checks whether the largest sphere passes the outlet, the mass fits the canister, and the grid fits its region.
 void checkFilling(CaseReader& reader, const Case& c, double largestRadius);
 

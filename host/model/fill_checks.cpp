@@ -152,20 +152,63 @@ void checkGrid(CaseReader& reader, const Case& c, double largest) {
     }
 }
 
+/// The vessel's grid is as wide as the powder of the fill needs it.
+void checkVesselRefills(CaseReader& reader, const Case& c, const Insertion& filled) {
+    const InsertionGrid grid = gridOfFill(c);
+    for (std::size_t k = 0; k < c.refills.size(); ++k) {
+        const auto fault = [&](const char* key, const std::string& problem, const std::string& remedy) {
+            reader.fault(fmt::format("refill[{}].{}", c.refills[k].table, key), problem, remedy);
+        };
+        const double largest = largestRadius(powdersOf(c)[powderIndex(c, c.refills[k].material)].filling.size);
+        const std::size_t spheres = filled.waiting[k].particles.size();
+        if (2 * largest > grid.pitch())
+            fault("powder", "has larger spheres than the powder that starts inside the vessel",
+                  "let the powder with the largest spheres be that of [particles]");
+        if (static_cast<double>(spheres) > grid.capacity())
+            fault(
+                "mass_g",
+                fmt::format("takes {} spheres, and the vessel has {:.0f} sites of the grid", spheres, grid.capacity()),
+                "add it in several refills");
+    }
+}
+
+/// The bulk density times the room of the vessel below the height.
+void fillToHeight(CaseReader& reader, Section& particles, Case& c) {
+    Filling& filling = c.filling;
+    Box below = filling.region;
+    below.high.y = below.low.y + *filling.height;
+    if (below.high.y > filling.region.high.y) {
+        reader.fault("particles.fill_height_mm",
+                     fmt::format("reaches over the vessel, which is {:.4g} mm high",
+                                 mm(filling.region.high.y - filling.region.low.y)),
+                     "give a height in it");
+        return;
+    }
+    const double room = roomInside(c.world, below, gridOfFill(c).pitch() / 2);
+    filling.mass = c.bulkDensity * room;
+    if (!(filling.mass > 0)) {
+        reader.fault("particles.fill_height_mm", "leaves no room in the vessel for powder", "give a larger height");
+        return;
+    }
+    particles.record("mass_g", 1e3 * filling.mass);
+    c.derivations.push_back(fmt::format("particles: mass_g = {:.4g} from fill_height_mm = {:.4g}, a room of {:.4g} cm3",
+                                        1e3 * filling.mass, mm(*filling.height), 1e6 * room));
+}
+
 }  // namespace
 
-void findVessel(CaseReader& reader, Case& c, double largestRadius) {
+void findVessel(CaseReader& reader, Section& particles, Case& c) {
     Filling& filling = c.filling;
     if (filling.vessel.empty()) return;
-    const double widest = c.mixed ? largestRadius : vkdose::largestRadius(filling.size);
-    const InsertionGrid grid(filling.region, widest, filling.gridGap);
+    const InsertionGrid grid = gridOfFill(c);
     if (!(grid.capacity() < kMaxParticles)) {
         reader.fault("particles.inside", fmt::format("is a vessel with {:.2g} sites of the grid", grid.capacity()),
                      "bound it by [particles.region], or give larger meso-particles");
         return;
     }
     filling.sites = std::make_shared<const std::vector<std::uint64_t>>(
-        sitesInside(c.world, grid, boxAround(c.world, filling.vessel)));
+        sitesInside(c.world, grid, boxAround(c.world, filling.vessel), grid.pitch() / 2));
+    if (filling.height) fillToHeight(reader, particles, c);
 }
 
 void checkFilling(CaseReader& reader, const Case& c, double largestRadius) {
@@ -179,9 +222,10 @@ void checkRefills(CaseReader& reader, const Case& c, const Insertion& filled) {
         if (filled.waiting[k].particles.size() == 0 && !c.refills[k].again)
             reader.fault(fmt::format("refill[{}].mass_g", c.refills[k].table),
                          "is less than half of the first particle drawn", "give more mass");
-    if (!c.refills.empty() && !c.filling.vessel.empty())
-        reader.fault("refill", "stands over the whole region of the fill, which particles.inside does not give",
-                     "give [particles.region] in place of particles.inside");
+    if (c.filling.sites) {
+        checkVesselRefills(reader, c, filled);
+        return;  // they stand in the vessel, wherever gravity points
+    }
     const Vec3& g = c.world.gravity;
     if (!c.refills.empty() && -g.y < glm::length(g) * std::sqrt(0.5))  // more than 45 degrees from -y
         reader.fault("gravity",

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "host/model/body_form.h"
-#include "host/model/clearance.h"
+#include "host/model/overlaps.h"
 
 namespace vkdose {
 
@@ -30,9 +30,9 @@ struct Room {
 
 class Rooms {
   public:
-    Rooms(const World& world, const InsertionGrid& grid, const Box& vessel)
+    Rooms(const World& world, const InsertionGrid& grid, const Box& vessel, double reach)
         : around_(world), grid_(grid), vessel_(vessel), free_(static_cast<std::size_t>(grid.capacity()), false) {
-        for (std::uint64_t i = 0; i < free_.size(); ++i) free_[i] = isClear(grid.site(i), grid.pitch() / 2);
+        for (std::uint64_t i = 0; i < free_.size(); ++i) free_[i] = isClear(grid.site(i), reach);
         for (std::uint64_t i = 0; i < free_.size(); ++i)
             if (free_[i]) rooms_.push_back(roomFrom(i));
     }
@@ -93,8 +93,55 @@ class Rooms {
 
 }  // namespace
 
-std::vector<std::uint64_t> sitesInside(const World& world, const InsertionGrid& grid, const Box& vessel) {
-    return Rooms(world, grid, vessel).inner();
+std::vector<std::uint64_t> sitesInside(const World& world, const InsertionGrid& grid, const Box& vessel, double reach) {
+    return Rooms(world, grid, vessel, reach).inner();
+}
+
+double roomInside(const World& world, const Box& vessel, double radius) {
+    constexpr double kMostCells = 1e6;
+    const Vec3 edges = vessel.high - vessel.low;
+    const double cell = std::max(0.37 * radius, std::cbrt(edges.x * edges.y * edges.z / kMostCells));
+    const InsertionGrid grid(vessel, cell / 2, 0);
+    // A centre stands up to a cell farther from a wall than it could: so half a cell is taken off what it keeps. The
+    // radius is no whole number of cells, so that the errors at walls along the grid are those of all others.
+    std::vector<std::uint64_t> covered = sitesInside(world, grid, vessel, std::max(radius - cell / 2, 0.0));
+    // From cell to cell: the centre that is nearest to each, as far as a centre covers.
+    std::vector<std::uint64_t> nearest(static_cast<std::size_t>(grid.capacity()));
+    std::vector<double> distance(nearest.size(), radius);
+    for (const std::uint64_t site : covered) {
+        nearest[site] = site;
+        distance[site] = 0;
+    }
+    for (std::size_t next = 0; next < covered.size(); ++next)
+        for (const std::uint64_t beside : grid.beside(covered[next])) {
+            const double way = glm::distance(grid.site(beside), grid.site(nearest[covered[next]]));
+            if (way >= distance[beside]) continue;
+            distance[beside] = way;
+            nearest[beside] = nearest[covered[next]];
+            covered.push_back(beside);
+        }
+    const auto cells = std::ranges::count_if(distance, [&](double way) { return way < radius; });
+    return edges.x * edges.y * edges.z * static_cast<double>(cells) / std::max(grid.capacity(), 1.0);
+}
+
+std::vector<std::uint64_t> clearSites(const World& world, const InsertionGrid& grid, const Clearance& around,
+                                      const Particles& now) {
+    const double reach = grid.pitch() / 2;
+    Particles all = now;
+    std::vector<bool> clear(static_cast<std::size_t>(grid.capacity()));
+    for (std::uint64_t i = 0; i < clear.size(); ++i) {
+        const Vec3 x = grid.site(i);
+        clear[i] = around.nearest(x, reach).what.empty() && !world.doses(x);
+        all.add(x, reach, Vec3(0), Vec3(0), kFirstPowder);
+    }
+    forEachOverlap(world, all, [&](std::size_t i, std::size_t j, double) {
+        const std::size_t first = std::min(i, j), second = std::max(i, j);
+        if (first < now.size() && second >= now.size()) clear[second - now.size()] = false;
+    });
+    std::vector<std::uint64_t> sites;
+    for (std::uint64_t i = 0; i < clear.size(); ++i)
+        if (clear[i]) sites.push_back(i);
+    return sites;
 }
 
 }  // namespace vkdose

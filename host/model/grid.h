@@ -42,4 +42,8 @@ class InsertionGrid {
     std::shared_ptr<const std::vector<std::uint64_t>> sites_;  ///< null: all
 };
 
+/// By how much the sphere of a draw stands off its site, in each coordinate at most `amplitude` [m], so that a bed does
+/// not start out as a crystal.
+Vec3 jitter(std::uint64_t seed, std::uint64_t draw, double amplitude);
+
 }  // namespace vkdose

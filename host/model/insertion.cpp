@@ -35,14 +35,6 @@ std::vector<double> drawRadii(const Case& c, const PowderOf& powder, double targ
 /// representable.
 constexpr double kMaxSites = 1e9;
 
-/// Shift of site `index`, within the grid's play, so that the bed does not start out as a crystal.
-Vec3 jitter(std::uint64_t seed, std::uint64_t index, double amplitude) {
-    const auto [x, y] = uniforms(seed, Stream::Jitter, index, 0);
-    const auto [z, unused] = uniforms(seed, Stream::Jitter, index, 1);
-    (void)unused;
-    return amplitude * (2.0 * Vec3(x, y, z) - 1.0);
-}
-
 /// Adds particles of a powder with these radii on the grid. `first` is the draw of the first of them. With `sites` they
 /// take those, from `first` on, else the grid's in their order.
 void addOnGrid(const Case& c, const InsertionGrid& grid, const std::vector<double>& radii, std::uint64_t first,
@@ -89,19 +81,16 @@ std::vector<Drawn> drawFill(const Case& c, Insertion& result) {
     return all;
 }
 
-/// The grid of a filling in that box, or the part of it that is in the vessel.
-InsertionGrid gridIn(const Box& region, const Filling& filling, double largest) {
-    const InsertionGrid whole(region, largest, filling.gridGap);
-    return filling.sites ? InsertionGrid(whole, filling.sites) : whole;
-}
-
 /// Puts each powder on a grid of its own. In a canister it stands on the one before.
 void fillApart(const Case& c, const std::vector<Drawn>& all, Insertion& result) {
     double top = c.filling.region.low.y;
     for (const Drawn& d : all) {
         Box region = d.powder.filling.region;
         if (c.canister) region = {Vec3(c.filling.region.low.x, top, c.filling.region.low.z), c.filling.region.high};
-        const InsertionGrid grid = gridIn(region, d.powder.filling, largestRadius(d.powder.filling.size));
+        const SizeDistribution& size = d.powder.filling.size;
+        const InsertionGrid grid = d.powder.filling.sites
+                                       ? gridOfFill(c)
+                                       : InsertionGrid(region, largestRadius(size), d.powder.filling.gridGap);
         addOnGrid(c, grid, d.radii, d.first, d.powder.material, result.particles);
         top = grid.top(d.radii.size());
         result.fillHeight = std::max(result.fillHeight, top);
@@ -110,9 +99,7 @@ void fillApart(const Case& c, const std::vector<Drawn>& all, Insertion& result) 
 
 /// Puts all powders at random places of one grid, in the region of the first.
 void fillMixed(const Case& c, const std::vector<Drawn>& all, Insertion& result) {
-    double largest = 0;
-    for (const Drawn& d : all) largest = std::max(largest, largestRadius(d.powder.filling.size));
-    const InsertionGrid grid = gridIn(c.filling.region, c.filling, largest);
+    const InsertionGrid grid = gridOfFill(c);
     const std::uint64_t count = all.back().first + all.back().radii.size();
     const std::vector<std::uint64_t> sites = shuffled(c.seed, count);
     for (const Drawn& d : all) addOnGrid(c, grid, d.radii, d.first, d.powder.material, result.particles, sites);
@@ -130,7 +117,7 @@ void drawRefills(const Case& c, Insertion& result) {
         const std::vector<double> radii = drawRadii(c, powder, refill.mass, draws, waiting.mass, result.redrawn);
         addOnGrid(c, grid, radii, draws, refill.material, waiting.particles);
         waiting.particles.status.assign(radii.size(), Status::Waiting);
-        waiting.height = grid.top(radii.size()) - region.low.y;
+        waiting.height = c.filling.sites ? 0 : grid.top(radii.size()) - region.low.y;
         draws += radii.size();
     }
 }
@@ -148,6 +135,13 @@ Insertion::Share shareOf(const Case& c, const Particles& list, int material) {
 }
 
 }  // namespace
+
+Vec3 jitter(std::uint64_t seed, std::uint64_t draw, double amplitude) {
+    const auto [x, y] = uniforms(seed, Stream::Jitter, draw, 0);
+    const auto [z, unused] = uniforms(seed, Stream::Jitter, draw, 1);
+    (void)unused;
+    return amplitude * (2.0 * Vec3(x, y, z) - 1.0);
+}
 
 InsertionGrid::InsertionGrid(const Box& region, double largestRadius, double gap)
     : gap_(gap),
@@ -205,6 +199,14 @@ double InsertionGrid::jitterAmplitude() const {
 
 double InsertionGrid::top(std::uint64_t count) const {
     return (count == 0 ? low_.y : site(count - 1).y) + 0.5 * pitch_;
+}
+
+InsertionGrid gridOfFill(const Case& c) {
+    double largest = largestRadius(c.filling.size);
+    if (c.mixed)
+        for (const PowderOf& powder : powdersOf(c)) largest = std::max(largest, largestRadius(powder.filling.size));
+    const InsertionGrid whole(c.filling.region, largest, c.filling.gridGap);
+    return c.filling.sites ? InsertionGrid(whole, c.filling.sites) : whole;
 }
 
 std::vector<std::size_t> drawnParticles(const Case& c) {

@@ -9,9 +9,13 @@ using namespace key;
 
 constexpr Key kParticles[] = {
     number("density", kKilogramPerCubicMetre, kPositive, kRequired, "of the particles themselves, not of the bed"),
-    number("mass_g", kGram, kPositive, told("required without `list`"),
+    number("mass_g", kGram, kPositive, told("this, `fill_height_mm` or `list`"),
            "mass of the fill, of the first powder where there are several; it is met as closely as one particle allows")
-        .replacing("list"),
+        .replacing("list fill_height_mm"),
+    number("fill_height_mm", kMillimetre, kPositive, told("in place of `mass_g`"),
+           "height over the lowest point of the vessel `inside`, along +y, up to which the settled powder fills it: "
+           "`mass_g` is `bulk_density` times the room of the vessel below")
+        .replacing("list mass_g"),
     text("material", "powder",
          "name of what the powder is made of, where there are [several](#several-powders-and-materials): letters, "
          "digits and `_`. It names the powder too"),
@@ -20,7 +24,7 @@ constexpr Key kParticles[] = {
             "on a grid of its own"),
     text("list", told("none"),
          "a CSV of particles to start from in place of a fill; the path is relative to the case file")
-        .replacing("mass_g size region grid_gap drop_mm inside"),
+        .replacing("mass_g fill_height_mm size region grid_gap drop_mm inside"),
     text("inside", told("none"),
          "names of `[[body]]`, separated by blanks, which are the vessel that the powder starts in: the grid fills the "
          "box "

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/model/case.h"
+#include "host/model/grid.h"
 
 namespace vkdose {
 
@@ -29,6 +30,10 @@ struct Fill {
     double mass = 0, volume = 0;
 };
 Fill fillOf(const Case& c);
+
+/// The grid that the first powder starts from, or all that are mixed: the part of it that is in the vessel, once
+/// findVessel has found that.
+InsertionGrid gridOfFill(const Case& c);
 
 /// Density of the particles of a powder [kg/m3]; of all the mean over the volume of the fill.
 double solidDensity(const Case& c, std::optional<int> material = {});

@@ -171,6 +171,25 @@ geometry::Pose readPlace(const BodyReader& b) {
     return {glm::angleAxis(s.number("rotation_deg"), axis), at};
 }
 
+/// The motion of another body, which it shares.
+void readCompany(const BodyReader& b, RigidBody& body) {
+    const std::string name = b.section.string("moves_with");
+    if (!b.section.isString("moves_with")) return;
+    if (b.section.has("motion"))
+        return b.fault("moves_with", "stands beside [body.motion], which says another motion", "give one of the two");
+    const auto place = placeOfBody(b.reader, b.section.path("moves_with"), name, b.c);
+    if (!place) return;
+    const RigidBody& leader = b.c.world.bodies[*place];
+    if (leader.movesFreely())
+        return b.fault("moves_with", "names a body that forces move, and these move it alone",
+                       "make one body of the two, as one mesh");
+    body.course.motion = leader.course.motion;
+    body.course.schedule = leader.course.schedule;
+    body.clock = leader.clock;
+    body.phases = leader.phases;
+    body.anew = leader.anew;
+}
+
 }  // namespace
 
 void readBodies(CaseReader& reader, Section& root, double meshReach, Case& c) {
@@ -195,6 +214,8 @@ void readBodies(CaseReader& reader, Section& root, double meshReach, Case& c) {
         body.material = readMaterialName(reader, *section, c, asCoil ? kCoilMaterial : kWallMaterial);
         body.course.start = readPlace(b);
         readMotion(reader, *section, body);
+        if (section->has("moves_with")) readCompany(b, body);
+        section->know("moves_with");
         c.world.bodies.push_back(std::move(body));
     }
     if (c.world.bodies.size() > kMaxBodies)

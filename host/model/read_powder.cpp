@@ -73,6 +73,27 @@ SizeDistribution readSize(CaseReader& reader, Section& section, Case& c) {
     return size;
 }
 
+namespace {
+
+/// The mass, or the height of the vessel that it follows from.
+void readAmount(CaseReader& reader, Section& particles, Filling& filling) {
+    if (!particles.has("fill_height_mm")) {
+        particles.know("fill_height_mm");
+        filling.mass = particles.number("mass_g");
+        return;
+    }
+    filling.height = particles.number("fill_height_mm");
+    particles.forget("fill_height_mm");
+    particles.record("mass_g", 0.0);  // keeps its place in the resolved case; findVessel knows it
+    const std::string path = particles.path("fill_height_mm");
+    if (particles.has("mass_g")) reader.fault(path, "mass_g is given too", "give one of the two");
+    if (!particles.has("inside"))
+        reader.fault(path, "is the height of a vessel, and no vessel is given", "give particles.inside, or mass_g");
+    particles.know("mass_g");
+}
+
+}  // namespace
+
 void readParticles(CaseReader& reader, Section& root, Case& c) {
     Section& section = root.requiredTable("particles");
     c.world.density() = section.number("density");
@@ -80,12 +101,13 @@ void readParticles(CaseReader& reader, Section& root, Case& c) {
         if (section.has("mass_g"))
             reader.fault("particles.mass_g", "a list of particles has its own mass", "give mass_g or list, not both");
         section.know("mass_g");
+        section.know("fill_height_mm");
         c.filling.list.emplace();
         (void)section.string("list");  // readList reads the file, once the powders have names
         return;
     }
     section.know("list");
-    c.filling.mass = section.number("mass_g");
+    readAmount(reader, section, c.filling);
     c.filling.gridGap = section.number("grid_gap");
     c.filling.size = readSize(reader, section.requiredTable("size"), c);
 }

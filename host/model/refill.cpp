@@ -6,6 +6,8 @@
 #include <limits>
 
 #include "host/core/error.h"
+#include "host/model/free_sites.h"
+#include "host/model/grid.h"
 #include "host/model/powders.h"
 
 namespace vkdose {
@@ -33,8 +35,29 @@ Box refillRegion(const Case& c, const Refill& refill) {
     return region;
 }
 
+namespace {
+
+std::vector<Vec3> placeInVessel(const Case& c, const Insertion& filled, std::size_t index, const Particles& now,
+                                const Clearance& around) {
+    const InsertionGrid grid = gridOfFill(c);
+    const std::vector<std::uint64_t> clear = clearSites(c.world, grid, around, now);
+    const std::size_t count = filled.waiting.at(index).particles.size(), first = filled.firstOf(index);
+    if (clear.size() < count)
+        throw RunError(fmt::format(
+            "there is no room for the powder of refill \"{}\" ({:.4g} g): of the {:.0f} sites of "
+            "the grid in the vessel {} are clear, for {} spheres; add it later, or less of it",
+            c.refills.at(index).name, filled.waiting[index].mass * 1e3, grid.capacity(), clear.size(), count));
+    std::vector<Vec3> places;
+    for (std::size_t i = 0; i < count; ++i)
+        places.push_back(grid.site(clear[i]) + jitter(c.seed, first + i, grid.jitterAmplitude()));
+    return places;
+}
+
+}  // namespace
+
 std::vector<Vec3> placeRefill(const Case& c, const Insertion& filled, std::size_t index, const Particles& now,
                               const Clearance& around) {
+    if (c.filling.sites) return placeInVessel(c, filled, index, now, around);
     const Particles& powder = filled.waiting.at(index).particles;
     const Box region = refillRegion(c, c.refills.at(index));
     const double lift = topUnder(region, now) - region.low.y;

@@ -14,8 +14,9 @@ namespace vkdose {
 Box refillRegion(const Case& c, const Refill& refill);
 
 /// Positions of the spheres of refill `index` [m]. Their grid stands as low as the filling's did, but above all active
-/// particles of `now` that are in the way of its fall. Throws RunError if a sphere would be outside of the domain, in a
-/// place where powder is dosed, or in what `around` knows.
+/// particles of `now` that are in the way of its fall. In a vessel they take the first sites of its grid that are
+/// clear. Throws RunError if a sphere would be outside of the domain, in a place where powder is dosed, or in what
+/// `around` knows, or if the vessel has too few clear sites.
 std::vector<Vec3> placeRefill(const Case& c, const Insertion& filled, std::size_t index, const Particles& now,
                               const Clearance& around);
 

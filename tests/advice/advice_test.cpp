@@ -49,7 +49,7 @@ TEST_CASE("each slip has its warning with figures and a cure") {
 }
 
 TEST_CASE("every rule is shown by a slip") {
-    std::set<std::string> shown{"no-outlet"}, all;  // that one takes a case without a canister
+    std::set<std::string> shown{"no-outlet", "no-floor"}, all;  // those take a case without a canister
     for (const Slip& slip : kSlips) shown.insert(slip.name);
     for (const test::BodySlip& slip : kBodySlips) shown.insert(slip.name);
     shown.insert("body-inside");  // below
@@ -90,6 +90,35 @@ TEST_CASE("doses without a canister take a region that deletes") {
     CHECK(warned(""));
     CHECK(warned(region + "deletes = false\n"));
     CHECK_FALSE(warned(region));
+}
+
+TEST_CASE("powder under which nothing stands is told, and where") {
+    const test::Folder folder;
+    const auto warned = [&](const std::string& more) {
+        folder.write(
+            "case.toml",
+            "boundaries = \"none\"\nreason = \"r\"\n[particles]\ndensity = 1500\nmass_g = 3\ninside = \"tube\"\n"
+            "[particles.size]\ndistribution = \"fixed\"\nradius_mm = 1\n[contact]\nlaw = \"hertz-mindlin\"\n"
+            "youngs_modulus = 5e6\npoisson_ratio = 0.3\nrestitution = 0.6\nfriction = 0.4\n[settle]\n"
+            "time_s = 0.1\n[[body]]\nname = \"tube\"\nshape = \"cylinder\"\nradius_mm = 15\nlength_mm = 60\n"
+            "rotation_axis = [1, 0, 0]\nrotation_deg = -90\n" +
+                more);
+        const Case c = loadCase(folder.path() / "case.toml");
+        const std::vector<Warning> found = warningsOf(c, insertParticles(c));
+        const auto it = std::find_if(found.begin(), found.end(), [](const Warning& w) { return w.name == "no-floor"; });
+        return it == found.end() ? std::string() : it->line();
+    };
+    CHECK_THAT(warned(""), Catch::Contains("nothing stands under the powder at (") && Catch::Contains("[[region]]"));
+    CHECK(warned("[[body]]\nname = \"floor\"\nshape = \"plane\"\n").empty());
+    CHECK(
+        warned("[[region]]\nname = \"pan\"\nkind = \"beyond\"\npoint = [0, -0.01, 0]\nnormal = [0, -1, 0]\n").empty());
+    // A floor under half of it.
+    CHECK_FALSE(
+        warned("[[body]]\nname = \"half\"\nshape = \"box\"\nsize_mm = [20, 2, 40]\nat = [0.01, -0.001, 0]\n").empty());
+    // What falls out comes in again.
+    CHECK(warned("[particles.region]\nlow = [-0.02, 0.011, -0.02]\nhigh = [0.02, 0.049, 0.02]\n[domain]\n"
+                 "low = [-0.02, 0.01, -0.02]\nhigh = [0.02, 0.05, 0.02]\nperiodic = \"y\"\n")
+              .empty());
 }
 
 TEST_CASE("an accepted warning stays, marked as such") {

@@ -36,6 +36,35 @@ TEST_CASE("bodies: one that follows the drive turns about its axis while powder 
     CHECK_THAT(faultOf(folder.write("case.toml", both)), Contains("dose.speed_rpm = 30: has no use beside a coil"));
 }
 
+TEST_CASE("bodies: one that moves with another has its motion, from a place of its own") {
+    Read read;
+    const std::string lead = "[[body]]\nname = \"front\"\nshape = \"box\"\nsize_mm = [1, 2, 3]\nat = [0, 0, 0.01]\n";
+    const std::string rear = "[[body]]\nname = \"rear\"\nshape = \"box\"\nsize_mm = [1, 2, 3]\nat = [0, 0, -0.01]\n";
+    const std::string with = rear + "moves_with = \"front\"\n";
+    for (const char* motion :
+         {"kind = \"turn\"\naxis = [0, 1, 0]\nthrough = [0.1, 0, 0]\nspeed_rpm = 60\n",
+          "kind = \"shake\"\naxis = [0, 0, 1]\namplitude_mm = 3\nfrequency_hz = 2\nphase_deg = -90\nfrom_s = 0.1\n",
+          "kind = \"swing\"\namplitude_deg = 20\nfrequency_hz = 2\nduring = \"settle\"\n"}) {
+        const std::string moves = std::string("[body.motion]\n") + motion;
+        const Case c = read.load(lead + moves + with), apart = read.load(lead + moves + rear + moves);
+        const RigidBody &body = c.world.bodies.at(1), &own = apart.world.bodies.at(1);
+        CHECK(body.movesAs(c.world.bodies.at(0)));
+        CHECK(body.clock == own.clock);
+        CHECK(body.phases == own.phases);
+        for (const double t : {0.0, 0.07, 0.4}) {
+            CHECK(body.pose(t, 0, t).origin == own.pose(t, 0, t).origin);
+            CHECK(body.moving(t, 0, 0, t).velocity == own.moving(t, 0, 0, t).velocity);
+        }
+        CHECK(loadResolvedCase(c.resolved, "again.toml").resolved == c.resolved);
+    }
+    const std::string turn = "[body.motion]\nkind = \"turn\"\nspeed_rpm = 60\n";
+    CHECK_THAT(read.fault(lead + turn + with + turn), Contains("body[1].moves_with") && Contains("another motion"));
+    CHECK_THAT(read.fault(lead + turn + rear + "moves_with = \"fron\"\n"), Contains("did you mean \"front\"?"));
+    CHECK_THAT(read.fault(with + lead + turn), Contains("body[0].moves_with"));  // it comes later
+    CHECK_THAT(read.fault(lead + "[body.motion]\nkind = \"free\"\nmass_g = 1\n" + with),
+               Contains("moves it alone") || Contains("forces move"));
+}
+
 TEST_CASE("bodies: the form tells which way a turning body conveys, and how far") {
     Read read;
     const auto formOf = [&](const std::string& shape) {
