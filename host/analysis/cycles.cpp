@@ -46,11 +46,10 @@ double Cycles::steadyTime() const {
 CycleRule cycleRuleOf(const Case& c) {
     const double fastest = c.schedule.fastestSpeed();  // of the drive
     const auto byAngle = [&](std::string what, double angle) {
-        return CycleRule{std::move(what), TurningFlow::By::Angle, angle, angle / fastest, c.sensorInterval, false};
+        return CycleRule{std::move(what), TurningFlow::By::Angle, angle, angle / fastest, c.sensorInterval, {}};
     };
     const auto byTime = [&](std::string what, double time) {
-        return CycleRule{std::move(what),  TurningFlow::By::Time,     time, time,
-                         c.sensorInterval, c.schedule.rotateTime == 0};
+        return CycleRule{std::move(what), TurningFlow::By::Time, time, time, c.sensorInterval, countedFrom(c)};
     };
     const RigidBody* slowest = nullptr;
     double longest = 0;
@@ -76,7 +75,7 @@ Cycles cyclesOf(const std::vector<FlowSample>& samples, const CycleRule& rule) {
     Cycles cycles;
     cycles.what = rule.what;
     if (!(rule.length > 0)) return cycles;
-    const auto parts = TurningFlow(samples, rule.by, rule.always).parts(rule.length);
+    const auto parts = TurningFlow(samples, rule.by, rule.from).parts(rule.length);
     if (!isResolved(rule, parts.size())) return cycles;
     std::vector<double> masses;
     for (const TurningFlow::Part& p : parts) {

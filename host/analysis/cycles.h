@@ -15,10 +15,10 @@ namespace vkdose {
 struct CycleRule {
     std::string what;  ///< "turn of the drive", "pocket of wheel", "stroke of tray"; empty: nothing repeats itself
     TurningFlow::By by = TurningFlow::By::Time;
-    double length = 0;    ///< of one: time [s], or angle of the drive [rad]
-    double period = 0;    ///< its shortest time [s]
-    double interval = 0;  ///< of the sensors [s]
-    bool always = false;  ///< the run has no doses: all its time counts
+    double length = 0;                          ///< of one: time [s], or angle of the drive [rad]
+    double period = 0;                          ///< its shortest time [s]
+    double interval = 0;                        ///< of the sensors [s]
+    std::optional<double> from = std::nullopt;  ///< of countedFrom
 };
 /// The passing of a pocket if the case tells a wheel's pockets, else a turn of the drive, else the longest period of a
 /// body.

@@ -38,7 +38,7 @@ WindowRule windowRuleOf(const Case& c) {
     WindowRule rule;
     rule.asked = c.rateWindow;
     rule.interval = c.sensorInterval;
-    rule.always = c.schedule.rotateTime == 0;
+    rule.from = countedFrom(c);
     const bool driven = c.world.coil || followsDrive(c.world.bodies);
     if (driven && c.schedule.coilSpeed > 0) rule.period = 2 * kPi / c.schedule.coilSpeed;
     if (driven) return rule;
@@ -65,7 +65,7 @@ std::string rateText(const SeriesFigures& f, const char* plusMinus) {
 
 MassRate massRate(const std::vector<FlowSample>& samples, const WindowRule& rule) {
     MassRate r;
-    const TurningFlow turning(samples, TurningFlow::By::Time, rule.always);
+    const TurningFlow turning(samples, TurningFlow::By::Time, rule.from);
     if (!(turning.length() > 0)) return r;
     r.window = windowLength(rule, turning.length());
     std::vector<double> rates;

@@ -14,10 +14,10 @@ namespace vkdose {
 
 /// From what the length of a window follows [s]; 0: there is none.
 struct WindowRule {
-    double asked = 0;     ///< by the case
-    double period = 0;    ///< a turn of the drive; without a drive the longest period of a body
-    double interval = 0;  ///< of the sensors
-    bool always = false;  ///< the run has no doses: all its time counts
+    double asked = 0;                           ///< by the case
+    double period = 0;                          ///< a turn of the drive; without a drive the longest period of a body
+    double interval = 0;                        ///< of the sensors
+    std::optional<double> from = std::nullopt;  ///< of countedFrom
 };
 WindowRule windowRuleOf(const Case& c);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace vkdose {
 
@@ -12,12 +13,24 @@ constexpr double kAlmost = 0.01;
 
 }  // namespace
 
-TurningFlow::TurningFlow(const std::vector<FlowSample>& samples, By by, bool always) {
+std::optional<double> countedFrom(const Case& c) {
+    if (c.schedule.rotateTime > 0) return {};
+    double from = std::numeric_limits<double>::infinity();
+    for (const RigidBody& body : c.world.bodies) {
+        if (body.rests()) continue;
+        const auto& intervals = body.course.schedule.intervals;
+        from = std::min(from, body.clock == Clock::Time && !intervals.empty() ? intervals.front().from : 0.0);
+    }
+    return std::isfinite(from) ? from : 0.0;
+}
+
+TurningFlow::TurningFlow(const std::vector<FlowSample>& samples, By by, std::optional<double> from) {
     FlowSample before;
-    if (always && (samples.empty() || samples.back().dosed == 0)) return;
+    if (from && (samples.empty() || samples.back().dosed == 0)) return;
     for (const FlowSample& s : samples) {
         const bool empty = &s != &samples.front() && before.inside == 0;
-        if ((s.turning || always) && !empty) add(before, s, by);
+        const bool counted = from && before.time >= *from * (1 - 1e-9);
+        if ((s.turning || counted) && !empty) add(before, s, by);
         before = s;
     }
 }

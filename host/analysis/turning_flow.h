@@ -1,11 +1,17 @@
 #pragma once
 // What comes out while the drive turns forward, line by line of the time series, in parts of equal time or angle.
 
+#include <optional>
 #include <vector>
 
 #include "host/analysis/outlet.h"
+#include "host/model/case.h"
 
 namespace vkdose {
+
+/// Of a case without doses: from when on its time counts, which is when the first of its bodies begins to move [s]. 0
+/// if none moves, and if forces move one. None of a case with doses.
+std::optional<double> countedFrom(const Case& c);
 
 /// The lines in which the drive turns forward, one behind the other. Rests and turning back are no part of it, nor is
 /// what comes out in them. Within a line the mass is taken to come out evenly, and the drive to turn evenly.
@@ -14,9 +20,9 @@ class TurningFlow {
     /// What parts are measured by: time [s], or the angle of the drive [rad].
     enum class By { Time, Angle };
 
-    /// `always`: the run has no doses, and all its lines count. Of such a run from which nothing came out no line does.
-    /// No line counts that begins with an empty device.
-    TurningFlow(const std::vector<FlowSample>& samples, By by, bool always);
+    /// With `from` the run has no doses, and all its lines from that time on count [s]. Of such a run from which
+    /// nothing came out no line does. No line counts that begins with an empty device.
+    TurningFlow(const std::vector<FlowSample>& samples, By by, std::optional<double> from);
 
     /// All of it, in that measure.
     double length() const { return lines_.empty() ? 0 : lines_.back().turned; }

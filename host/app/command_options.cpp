@@ -269,7 +269,7 @@ CLI::App& addRender(CLI::App& program, RenderOptions& options) {
     command.add_option("--from", options.from, "value where the colours begin, in the unit of the colour bar");
     command.add_option("--to", options.to, "value where the colours end");
     command.add_option("--view", options.view, "side from which the picture is drawn")
-        ->check(CLI::IsMember({"side", "end", "iso", "cut"}))
+        ->check(CLI::IsMember({"side", "end", "iso", "cut", "cut-end"}))
         ->capture_default_str();
     command
         .add_option("--size", options.size,

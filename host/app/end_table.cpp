@@ -74,17 +74,20 @@ std::string densityLine(const Case& c, const RunResult& r) {
                            : "assumed: the bed has not settled, or is too small to measure its density");
 }
 
-std::string ledgerLine(const RunResult& r) {
+std::string ledgerLine(const Case& c, const RunResult& r) {
     const Sensors& s = r.last.sensors;
     const auto entry = [&s](Region region) {
         const auto i = static_cast<std::size_t>(region);
         return fmt::format("{} g ({})", grams(s.mass[i]), s.count[i]);
     };
+    // A device that is made of bodies has neither a canister nor a throat.
+    const std::string inside =
+        c.canister ? fmt::format("canister {} + throat {}", entry(Region::Canister), entry(Region::Throat))
+                   : fmt::format("inside {}", entry(Region::Canister));
     const bool closed = r.ledger.closings() > 0 && r.reason != StopReason::RunError;
     return fmt::format(
-        "ledger   canister {} + throat {} + dosed {} + lost {} = filled {} g ({}): {}\n", entry(Region::Canister),
-        entry(Region::Throat), entry(Region::Dosed), entry(Region::Lost), grams(r.ledger.filledMass()),
-        r.ledger.filledCount(),
+        "ledger   {} + dosed {} + lost {} = filled {} g ({}): {}\n", inside, entry(Region::Dosed), entry(Region::Lost),
+        grams(r.ledger.filledMass()), r.ledger.filledCount(),
         closed ? fmt::format("closed {} times, worst error {:.1e}", r.ledger.closings(), r.ledger.worstMassError())
                : std::string("as of the last sample"));
 }
@@ -99,7 +102,7 @@ std::string overlapLine(const RunResult& r) {
     std::string text = fmt::format("overlap  at most {:.3g} of the smaller radius, at t = {:.4g} s", r.maxOverlapRatio,
                                    r.maxOverlapTime);
     if (r.maxOverlapRatio > kMaxOverlapRatio)
-        text += fmt::format("; beyond {} (a particle pinched between coil and wall) the contact law is extrapolated",
+        text += fmt::format("; beyond {} (a particle that a body pinches) the contact law is extrapolated",
                             kMaxOverlapRatio);
     return text + "\n";
 }
@@ -143,7 +146,7 @@ std::string reportText(const Case& c, const RunResult& r, const std::string& bac
     for (const AddedPowder& p : r.added) text += fmt::format("refill   {}: {}\n", p.name, addedText(p));
     if (r.settling) text += fmt::format("settled  {}\n", settlingSentence(*r.settling, c.schedule));
     text += densityLine(c, r) + closedFormLine(c, r);
-    text += figureLines(r, c.schedule.stop) + ledgerLine(r);
+    text += figureLines(r, c.schedule.stop) + ledgerLine(c, r);
     if (r.last.energy) text += energyLine(*r.last.energy);
     text += overlapLine(r);
     text += fmt::format("stopped  {} at t = {:.4g} s\n", stopSentence(r.reason, c.schedule.stop), r.last.time);

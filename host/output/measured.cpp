@@ -161,7 +161,10 @@ class Measuring {
         const std::vector<double>& radii = result_.particles.radius;
         const double grain = 2 * std::accumulate(radii.begin(), radii.end(), 0.0) / static_cast<double>(radii.size());
         const double gravity = glm::length(c_.world.gravity);
-        return named(kDischarge, {d->rate, d->error, beverlooConstant(d->rate, bulkDensity(), gravity, m.hole, grain)});
+        Figures figures =
+            named(kDischarge, {d->rate, d->error, beverlooConstant(d->rate, bulkDensity(), gravity, m.hole, grain)});
+        if (!(m.hole > 0)) figures.pop_back();  // the constant is that of a round hole
+        return figures;
     }
 
     Figures content(const ElementTest& m, std::string& why) const {

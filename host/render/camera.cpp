@@ -9,7 +9,7 @@ namespace vkdose::render {
 
 namespace {
 
-constexpr std::array<const char*, 4> kNames{"side", "end", "iso", "cut"};
+constexpr std::array<const char*, 5> kNames{"side", "end", "iso", "cut", "cut-end"};
 
 /// Distance of the eye in parts of the diagonal of the scene; it acts as a lens of moderate length.
 constexpr double kEyeDistance = 3;
@@ -39,8 +39,9 @@ std::optional<View> viewNamed(std::string_view name) {
 }
 
 std::optional<CutPlane> cutOf(View view) {
-    if (view != View::Cut) return std::nullopt;
-    return CutPlane{{-1, 0, 0}, 0};
+    if (view == View::Cut) return CutPlane{{-1, 0, 0}, 0};
+    if (view == View::CutEnd) return CutPlane{{0, 0, 1}, 0};
+    return std::nullopt;
 }
 
 Camera::Place Camera::project(const Vec3& point) const {
@@ -59,6 +60,7 @@ Camera cameraFor(View view, const Box& content, int width, int height) {
             c.towards = {-1, 0, 0};
             break;
         case View::End:
+        case View::CutEnd:
             c.towards = {0, 0, 1};
             break;
         case View::Iso:

@@ -10,8 +10,9 @@
 namespace vkdose::render {
 
 /// Side: seen from -x, the outlet on the right. End: seen into the outlet. Iso: in perspective, from the side, the
-/// outlet's end and above. Cut: as Side, with all of x < 0 taken away. All but Iso are true to scale.
-enum class View { Side, End, Iso, Cut };
+/// outlet's end and above. Cut: as Side, with all of x < 0 taken away. CutEnd: as End, with all of z > 0 taken away.
+/// All but Iso are true to scale.
+enum class View { Side, End, Iso, Cut, CutEnd };
 
 /// "side" ...; none if there is no such view.
 std::optional<View> viewNamed(std::string_view name);

@@ -78,7 +78,7 @@ Layout layoutOf(const PictureSpec& spec, const Box& content, std::size_t panels)
     l.barHeight = std::floor(std::min(room, 24 * l.text));
     l.bar = {std::floor(left + usedX + kGap * l.text), std::floor(top + kHeader * l.text + (room - l.barHeight) / 2)};
 
-    const Vec3 along = spec.view == View::End ? Vec3(1, 0, 0) : Vec3(0, 0, 1);
+    const Vec3 along = spec.view == View::End || spec.view == View::CutEnd ? Vec3(1, 0, 0) : Vec3(0, 0, 1);
     l.scaleLength = roundedDown(0.35 * glm::dot(content.high - content.low, along));
     const Canvas::Point corner = l.panels[(rows - 1) * a.columns];
     // Along the lower edge of the content, on the viewer's side.

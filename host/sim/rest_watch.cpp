@@ -63,7 +63,8 @@ std::string settlingSentence(const Settling& s, const Schedule& schedule) {
                         : fmt::format("at rest it is below {:.2g} %)", rest);
         }
     }
-    if (s.spilled > 0) text += fmt::format("; {} g had left by then, in no dose of this run", grams(s.spilled));
+    if (s.spilled > 0 && schedule.rotateTime > 0)
+        text += fmt::format("; {} g had left by then, in no dose of this run", grams(s.spilled));
     return text;
 }
 

@@ -128,9 +128,12 @@ TEST_CASE("in a run without doses all cycles count, if anything comes out") {
     for (FlowSample& s : samples) s.turning = false;
     CycleRule rule{"stroke of tray", TurningFlow::By::Time, 0.1, 0.1, kInterval};
     CHECK(cyclesOf(samples, rule).list.empty());
-    rule.always = true;
+    rule.from = 0.0;
     const Cycles c = cyclesOf(samples, rule);
     CHECK(c.list.size() == 20);
+    rule.from = 0.5;  // the tray stood before
+    CHECK(cyclesOf(samples, rule).list.size() == 15);
+    CHECK(near(cyclesOf(samples, rule).list.front().start, 0.5, 1, 1e-9));
     CHECK(sameMass(c.all.mean, kRate * 0.1));
     for (FlowSample& s : samples) s.dosed = 0;
     CHECK(cyclesOf(samples, rule).list.empty());
@@ -162,9 +165,18 @@ TEST_CASE("a cycle is a pocket, else a turn of the drive, else the slowest motio
     wheel.name = "wheel";
     wheel.course.motion = geometry::Turn{{0, 1, 0}, {}, -kPi};
     c.world.bodies = {tray};
-    CHECK(cycleRuleOf(c).always);
+    CHECK(cycleRuleOf(c).from == 0.0);
+    c.world.bodies[0].course.schedule.intervals = {{0.5, geometry::kEndless}};
+    CHECK(cycleRuleOf(c).from == 0.5);
+    c.world.bodies.push_back(wheel);  // it moves from the start
+    CHECK(cycleRuleOf(c).from == 0.0);
+    c.world.bodies[1].course.schedule.intervals = {{0.2, 0.3}};
+    CHECK(cycleRuleOf(c).from == 0.2);
+    c.world.bodies[1].clock = Clock::Forces;  // nobody knows when it moves
+    CHECK(cycleRuleOf(c).from == 0.0);
+    c.world.bodies = {tray};
     c.schedule.rotateTime = 1;
-    CHECK_FALSE(cycleRuleOf(c).always);
+    CHECK_FALSE(cycleRuleOf(c).from);
     CHECK(cycleRuleOf(c).what == "stroke of tray");
     CHECK(near(cycleRuleOf(c).length, 0.04, 1, 1e-12));
     c.world.bodies = {tray, wheel};

@@ -188,16 +188,16 @@ TEST_CASE("a run without doses has the rate of all its time, if anything came ou
     std::vector<FlowSample> samples = turning(2, evenly);
     for (FlowSample& s : samples) s.turning = false;
     CHECK(massRate(samples, kTenthSecond).windows.empty());
-    const WindowRule always{0.1, 0, kInterval, true};
+    const WindowRule always{0.1, 0, kInterval, 0.0};
     const MassRate r = massRate(samples, always);
     CHECK(r.windows.size() == 20);
     CHECK(sameRate(r.all.mean, kRate));
     for (FlowSample& s : samples) s.dosed = 0;
     CHECK(std::isnan(massRate(samples, always).all.mean));
     Case c;
-    CHECK(windowRuleOf(c).always);
+    CHECK(windowRuleOf(c).from == 0.0);
     c.schedule.rotateTime = 1;
-    CHECK_FALSE(windowRuleOf(c).always);
+    CHECK_FALSE(windowRuleOf(c).from);
 }
 
 TEST_CASE("too few windows have no figures") {

@@ -43,7 +43,7 @@ TEST_CASE("completion: bash completes commands, options, words, files and names 
     CHECK(offered(box, "vkdose re") == std::vector<std::string>{"render", "report", "resume"});
     CHECK(offered(box, "vkdose run --b") == std::vector<std::string>{"--backend"});
     CHECK(offered(box, "vkdose run --backend ''") == std::vector<std::string>{"reference", "vulkan"});
-    CHECK(offered(box, "vkdose render out --view c") == std::vector<std::string>{"cut"});
+    CHECK(offered(box, "vkdose render out --view c") == std::vector<std::string>{"cut", "cut-end"});
     CHECK(offered(box, "vkdose new my.toml --flow ''") == std::vector<std::string>{"cohesive", "easy", "free"});
     CHECK(has(offered(box, "vkdose run q"), "quickstart"));
     CHECK(has(offered(box, "vkdose check paper-48g-w"), "paper-48g-wide"));

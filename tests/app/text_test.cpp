@@ -129,11 +129,15 @@ TEST_CASE("the table at the end shows doses beside the closed form, statistics, 
     backend.dosed = [](std::uint64_t s) { return s < 130 ? 0 : s < 200 ? 2 : s < 300 ? 5 : 6; };
     Notebook notes;
     const RunResult r = play(smallCase(), backend, notes);
-    const std::string text = reportText(smallCase(), r, "fake");
+    Case c = smallCase();
+    const std::string text = reportText(c, r, "fake");
     CHECK_THAT(text, Catch::Contains("    2      3.000          5.000            0.000           2.000\n"));
     CHECK_THAT(text, Catch::Contains("mean 2.000 g, standard deviation 1.000 g, RSD 50.0 % over 3 doses"));
-    CHECK_THAT(text, Catch::Contains("canister 4.000 g (4) + throat 0.000 g (0) + dosed 6.000 g (6) + lost 0.000 g (0) "
-                                     "= filled 10.000 g (10): closed"));
+    const std::string out = "dosed 6.000 g (6) + lost 0.000 g (0) = filled 10.000 g (10): closed";
+    CHECK_THAT(text, Catch::Contains("ledger   inside 4.000 g (4) + " + out));
+    c.canister.emplace();
+    CHECK_THAT(reportText(c, r, "fake"),
+               Catch::Contains("ledger   canister 4.000 g (4) + throat 0.000 g (0) + " + out));
     CHECK_THAT(text, Catch::Contains("the 3 doses asked for are done at t = 0.31 s"));
     CHECK_THAT(text, !Catch::Contains("note"));  // the mean is the closed form
 }

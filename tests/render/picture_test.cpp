@@ -173,7 +173,7 @@ TEST_CASE("the colour bar shows the map from bottom to top, with ticks and a tit
 
 TEST_CASE("the scale bar is as long as it says") {
     Studio studio;
-    for (const auto view : {render::View::Side, render::View::End, render::View::Cut}) {
+    for (const auto view : {render::View::Side, render::View::End, render::View::Cut, render::View::CutEnd}) {
         PictureSpec spec;
         spec.view = view;
         const Drawn d = drawn(studio, spec, {someFrame()});
@@ -216,7 +216,8 @@ TEST_CASE("any size is kept, and the parts stay inside") {
     const Box content = render::contentOf(c, f);
     for (const auto& [width, height] : {std::pair{317, 211}, {64, 64}, {1280, 720}, {200, 900}, {0, 0}})
         for (const std::size_t panels : {1u, 2u, 4u, 5u}) {
-            for (const auto view : {render::View::Side, render::View::End, render::View::Iso, render::View::Cut}) {
+            for (const auto view :
+                 {render::View::Side, render::View::End, render::View::Iso, render::View::Cut, render::View::CutEnd}) {
                 PictureSpec spec;
                 spec.view = view;
                 spec.width = width;
@@ -254,7 +255,8 @@ TEST_CASE("any size is kept, and the parts stay inside") {
 
 TEST_CASE("the camera fills the picture with what is to be seen") {
     const Box box{{-0.01, -0.02, 0}, {0.03, 0.05, 0.06}};
-    for (const auto view : {render::View::Side, render::View::End, render::View::Iso, render::View::Cut}) {
+    for (const auto view :
+         {render::View::Side, render::View::End, render::View::Iso, render::View::Cut, render::View::CutEnd}) {
         const render::Camera c = cameraFor(view, box, 400, 300);
         double left = 1e9, right = -1e9, top = 1e9, bottom = -1e9;
         for (int corner = 0; corner < 8; ++corner) {
@@ -273,6 +275,7 @@ TEST_CASE("the camera fills the picture with what is to be seen") {
         CHECK((c.width == 400 || c.height == 300));
     }
     CHECK(render::viewNamed("cut") == render::View::Cut);
+    CHECK(render::viewNamed("cut-end") == render::View::CutEnd);
     CHECK_FALSE(render::viewNamed("top"));
 }
 

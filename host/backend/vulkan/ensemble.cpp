@@ -36,7 +36,7 @@ const char* text(std::uint32_t error) {
                    "started in one place";
         case gpu::kErrorOverlap:
             return "is in an overlap deeper than the case allows (contact.max_overlap_ratio, of the smaller radius): "
-                   "use a smaller time step or a stiffer k; if it is pinched between coil and wall, allow more";
+                   "use a smaller time step or a stiffer k; if a body pinches it, allow more";
         case gpu::kErrorLost:
             return "left the domain: close the boundaries around it (canister.lid = true if it flew out at the top) or "
                    "use a smaller time step";
@@ -66,7 +66,7 @@ std::string text(std::uint32_t error, const UserLaw* law) {
         return fmt::format(
             "is in an overlap deeper than the case allows (contact.max_overlap_ratio, of the smaller radius): let the "
             "law {} push harder, let its stiffness be no less than the slope of its force, or use a smaller time "
-            "step; if the particle is pinched between coil and wall, allow more",
+            "step; if a body pinches the particle, allow more",
             law->name);
     if (law != nullptr && error == gpu::kErrorLost)
         return fmt::format("{}; if the law {} flung it out, let its stiffness be no less than the slope of its force",
