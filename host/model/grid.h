@@ -18,7 +18,7 @@ class InsertionGrid {
   public:
     InsertionGrid(const Box& region, double largestRadius, double gap);
     /// Only these sites, which are ascending numbers of the grid's own.
-    InsertionGrid(const InsertionGrid& whole, std::shared_ptr<const std::vector<std::uint64_t>> sites);
+    InsertionGrid(InsertionGrid whole, std::shared_ptr<const std::vector<std::uint64_t>> sites);
 
     Vec3 site(std::uint64_t index) const;  ///< index < capacity()
     double capacity() const;               ///< number of sites, 0 if the region is too narrow

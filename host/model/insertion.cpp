@@ -4,6 +4,7 @@
 #include <limits>
 #include <numeric>
 #include <stdexcept>
+#include <utility>
 
 #include "host/core/random.h"
 #include "host/model/case.h"
@@ -157,8 +158,8 @@ InsertionGrid::InsertionGrid(const Box& region, double largestRadius, double gap
     layers_ = columns_ * rows_ == 0 ? 0 : sites(room.y);
 }
 
-InsertionGrid::InsertionGrid(const InsertionGrid& whole, std::shared_ptr<const std::vector<std::uint64_t>> sites)
-    : InsertionGrid(whole) {
+InsertionGrid::InsertionGrid(InsertionGrid whole, std::shared_ptr<const std::vector<std::uint64_t>> sites)
+    : InsertionGrid(std::move(whole)) {
     sites_ = std::move(sites);
 }
 

@@ -65,18 +65,6 @@ Discharge ofRun(const Run& run) {
     return d;
 }
 
-/// The mean over the runs, without a range yet.
-Finding meanOf(const std::string& what, const char* unit, const std::vector<double>& values) {
-    Finding finding{what, unit};
-    const auto n = static_cast<double>(values.size());
-    finding.got = 0;
-    for (const double v : values) finding.got += v / n;
-    double squares = 0;
-    for (const double v : values) squares += std::pow(v - finding.got, 2);
-    if (values.size() > 1) finding.error = std::sqrt(squares / (n * (n - 1)));
-    return finding;
-}
-
 /// Beside one published value alone, which has no error.
 Finding besideCurve(Finding finding, double expected) {
     finding.low = finding.high = expected;

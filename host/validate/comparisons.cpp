@@ -11,6 +11,18 @@ const std::vector<Comparison>& comparisons() {
          anand},
         {"heap", "angle of repose over friction, rolling friction and size",
          "Y. C. Zhou, B. H. Xu, A. B. Yu, P. Zulli, Powder Technol. 125 (2002) 45", heap},
+        {"plane-shear", "stresses and volume of a layer that is sheared steadily under a load",
+         "S. Chialvo, J. Sun, S. Sundaresan, Phys. Rev. E 85 (2012) 021305; P. Jop, Y. Forterre, O. Pouliquen, Nature "
+         "441 "
+         "(2006) 727; LAMMPS with the same spheres",
+         planeShear},
+        {"ring-shear", "angles of beads in a ring shear cell",
+         "D. Schulze, Powders and Bulk Solids; round robin of the RST-01", ringShear},
+        {"screw", "mass rate of a turn of an endless screw over speed, fill and slope",
+         "P. J. Owen, P. W. Cleary, Powder Technol. 193 (2009) 274; A. W. Roberts, Powder Technol. 104 (1999) 56",
+         screw},
+        {"long-screw", "mass rate of a long screw beside that of one turn whose domain repeats",
+         "none: both are vkdose", longScrew},
         {"dosta-silo", "spheres left in a silo over time, two materials and two holes",
          "M. Dosta and others, Comput. Phys. Commun. 296 (2024) 109066", dostaSilo},
         {"dosta-drum", "two powders in a drum: the spheres of each in two quadrants over time",

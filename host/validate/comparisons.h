@@ -24,6 +24,10 @@ const std::vector<Comparison>& comparisons();
 
 Evaluation anand(const std::vector<Run>& runs, const std::filesystem::path& studies);
 Evaluation beverloo(const std::vector<Run>& runs, const std::filesystem::path& studies);
+Evaluation planeShear(const std::vector<Run>& runs, const std::filesystem::path& studies);
+Evaluation longScrew(const std::vector<Run>& runs, const std::filesystem::path& studies);
+Evaluation ringShear(const std::vector<Run>& runs, const std::filesystem::path& studies);
+Evaluation screw(const std::vector<Run>& runs, const std::filesystem::path& studies);
 Evaluation heap(const std::vector<Run>& runs, const std::filesystem::path& studies);
 Evaluation dostaBall(const std::vector<Run>& runs, const std::filesystem::path& studies);
 Evaluation dostaSilo(const std::vector<Run>& runs, const std::filesystem::path& studies);

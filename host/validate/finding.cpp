@@ -20,6 +20,18 @@ Verdict Finding::verdict() const {
     return outside <= 2 * error ? Verdict::Undecided : Verdict::Differs;
 }
 
+Finding meanOf(const std::string& figure, const std::string& unit, const std::vector<double>& values) {
+    Finding finding{figure, unit};
+    if (values.empty()) return finding;
+    const auto n = static_cast<double>(values.size());
+    finding.got = 0;
+    for (const double v : values) finding.got += v / n;
+    double squares = 0;
+    for (const double v : values) squares += (v - finding.got) * (v - finding.got);
+    if (values.size() > 1) finding.error = std::sqrt(squares / (n * (n - 1)));
+    return finding;
+}
+
 void notComparable(Finding& finding, const std::string& why) {
     finding.comparable = false;
     finding.remark = why;

@@ -36,6 +36,10 @@ struct Finding {
 
 const char* wordOf(Verdict verdict);
 
+/// The mean of what several runs gave and its standard error, without a range yet. NaN of none; of one no error is
+/// known.
+Finding meanOf(const std::string& figure, const std::string& unit, const std::vector<double>& values);
+
 /// The figure cannot be compared, for this reason.
 void notComparable(Finding& finding, const std::string& why);
 

@@ -25,6 +25,22 @@ double Run::value(const std::string& key) const {
                       "evaluate the study that came with vkdose"}});
 }
 
+Vec3 Run::vector(const std::string& key) const {
+    const auto found = at.find(key);
+    const std::string text = found == at.end() ? "" : found->second;
+    Vec3 numbers(0);
+    int count = 0;
+    const char *next = text.data(), *const end = next + text.size();
+    while (next != end && count < 3) {
+        const auto [after, fault] = std::from_chars(next, end, numbers[count]);
+        count += fault == std::errc() ? 1 : 0;
+        next = fault == std::errc() ? after : next + 1;
+    }
+    if (count == 3) return numbers;
+    throw CaseError({{folder.string(), 0, key, text, "is not three numbers that vary",
+                      "evaluate the study that came with vkdose"}});
+}
+
 double Run::figure(const std::string& pointer) const {
     const nlohmann::ordered_json::json_pointer place(pointer);
     if (!summary.contains(place) || !summary.at(place).is_number()) return std::numeric_limits<double>::quiet_NaN();

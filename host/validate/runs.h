@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "host/core/vec.h"
+
 namespace vkdose::validate {
 
 // NOLINTNEXTLINE(bugprone-exception-escape): no member of the JSON library throws when it is moved
@@ -17,6 +19,8 @@ struct Run {
 
     /// The value of a key that varies. Throws CaseError if it is not one, or is no number.
     double value(const std::string& key) const;
+    /// The three numbers of one, likewise.
+    Vec3 vector(const std::string& key) const;
     /// A figure of the summary by its JSON pointer, "/measures/heap/angle_deg"; NaN if there is none.
     double figure(const std::string& pointer) const;
     /// A column of the time series. Throws CaseError if there is none.

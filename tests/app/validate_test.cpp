@@ -11,7 +11,8 @@ TEST_CASE("validate tells its comparisons, and refuses one that it does not know
     const Sandbox box;
     const auto listed = box.vkdose("test validate --list");
     CHECK(listed.code == 0);
-    for (const char* name : {"chung-ooi", "beverloo", "heap", "dosta-silo", "dosta-ball", "dosta-drum"})
+    for (const char* name : {"chung-ooi", "beverloo", "anand", "heap", "plane-shear", "ring-shear", "screw",
+                             "long-screw", "dosta-silo", "dosta-ball", "dosta-drum"})
         CHECK(listed.out.find(name) != std::string::npos);
     const auto unknown = box.vkdose("test validate beverlo --backend reference");
     CHECK(unknown.code == 2);
