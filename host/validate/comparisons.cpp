@@ -12,9 +12,8 @@ const std::vector<Comparison>& comparisons() {
         {"heap", "angle of repose over friction, rolling friction and size",
          "Y. C. Zhou, B. H. Xu, A. B. Yu, P. Zulli, Powder Technol. 125 (2002) 45", heap},
         {"plane-shear", "stresses and volume of a layer that is sheared steadily under a load",
-         "S. Chialvo, J. Sun, S. Sundaresan, Phys. Rev. E 85 (2012) 021305; P. Jop, Y. Forterre, O. Pouliquen, Nature "
-         "441 "
-         "(2006) 727; LAMMPS with the same spheres",
+         "S. Chialvo, J. Sun, S. Sundaresan, Phys. Rev. E 85 (2012) 021305; "
+         "P. Jop, Y. Forterre, O. Pouliquen, Nature 441 (2006) 727; LAMMPS with the same spheres",
          planeShear},
         {"ring-shear", "angles of beads in a ring shear cell",
          "D. Schulze, Powders and Bulk Solids; round robin of the RST-01", ringShear},
