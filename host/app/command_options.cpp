@@ -108,13 +108,9 @@ CLI::App& addExportBody(CLI::App& program, ExportBodyOptions& options) {
     return command;
 }
 
-CLI::App& addSweep(CLI::App& program, const char* name, const char* what, SweepOptions& options) {
-    CLI::App& command = *program.add_subcommand(name, what);
-    command.add_option("study", options.study, "study file (TOML)")->required();
-    command
-        .add_option("--out", options.out,
-                    "folder of the sweep (default: out/<name of the study's file> in the current folder)")
-        ->type_name("DIR");
+/// The options of commands that run members.
+void addMembers(CLI::App& command, SweepOptions& options, const char* out) {
+    command.add_option("--out", options.out, out)->type_name("DIR");
     command
         .add_option("--jobs", options.jobs,
                     "members at once, each in a process of its own (default on a CPU: one for each core)")
@@ -135,6 +131,31 @@ CLI::App& addSweep(CLI::App& program, const char* name, const char* what, SweepO
     addAssume(command, options.assume).needs(dry);
     command.add_flag("--quiet", options.quiet, "print errors only");
     addBackend(command, options.backend);
+}
+
+CLI::App& addSweep(CLI::App& program, const char* name, const char* what, SweepOptions& options) {
+    CLI::App& command = *program.add_subcommand(name, what);
+    command.add_option("study", options.study, "study file (TOML)")->required();
+    addMembers(command, options, "folder of the sweep (default: out/<name of the study's file> in the current folder)");
+    return command;
+}
+
+CLI::App& addScale(CLI::App& program, ScaleOptions& options) {
+    CLI::App& command = *program.add_subcommand(
+        "scale", "run a case with spheres of several sizes: which figures depend on the size, and from where on");
+    command.add_option("case", options.sweep.study, "case file (TOML), or name of a case")->required();
+    command
+        .add_option("--sizes", options.factors,
+                    "sizes of the spheres over those of the case; all are judged by the smallest")
+        ->delimiter(',')
+        ->type_name("FLOAT,...")
+        ->default_str("1,1.5,2,3");
+    command.add_option("--seeds", options.seeds, "runs of each size")->check(CLI::Range(1, 100))->capture_default_str();
+    command
+        .add_option("--within", options.within, "difference that is none, in percent of the smallest spheres' figure")
+        ->check(CLI::Range(0.01, 100.0))
+        ->capture_default_str();
+    addMembers(command, options.sweep, "folder of the runs (default: out/<name of the case>-scale)");
     return command;
 }
 
@@ -310,6 +331,11 @@ std::vector<Command> declareCommands(CLI::App& program, Options& o) {
         {&addPlainSweep(program, o.sweep), [&o] { return sweepCommand(studied(o.sweep)); }},
         {&addCalibrate(program, o.calibration), [&o] { return calibrateCommand(studied(o.calibration)); }},
         {&addDesign(program, o.design), [&o] { return designCommand(studied(o.design)); }},
+        {&addScale(program, o.scale),
+         [&o] {
+             (void)studied(o.scale.sweep);
+             return scaleCommand(o.scale);
+         }},
         {&addReport(program, o.report), [&o] { return reportCommand(o.report); }},
         {&addProfile(program, o.profile), [&o] { return profileCommand(o.profile); }},
         {&addRender(program, o.render), [&o] { return renderCommand(o.render); }},

@@ -33,6 +33,7 @@ struct Options {
     ExportBodyOptions exportBody;
     SweepOptions sweep;
     SweepOptions calibration, design;
+    ScaleOptions scale;
     ValidateOptions validation;
     ReportOptions report;
     ProfileOptions profile;

@@ -122,6 +122,13 @@ struct SweepOptions {
     bool quiet = false;
 };
 
+struct ScaleOptions {
+    SweepOptions sweep;  ///< `study` is the case
+    std::vector<double> factors{1, 1.5, 2, 3};
+    int seeds = 3;
+    double within = 5;  ///< [%]
+};
+
 struct ReportOptions {
     std::vector<std::filesystem::path> sources;  ///< folder of a run or a sweep, or a study's file; or several runs
     std::filesystem::path out;                   ///< empty: report.html in the folder, of several comparison.html
@@ -172,6 +179,7 @@ int exportBodyCommand(const ExportBodyOptions& options);
 int sweepCommand(const SweepOptions& options);
 int calibrateCommand(const SweepOptions& options);
 int designCommand(const SweepOptions& options);
+int scaleCommand(const ScaleOptions& options);
 int reportCommand(const ReportOptions& options);
 int profileCommand(const ProfileOptions& options);
 int renderCommand(const RenderOptions& options);

@@ -32,9 +32,9 @@ struct SizeDistribution {
     double deviation = 0;  ///< Normal: standard deviation [m]; Lognormal: of ln(radius) [-]
     double radiusMin = 0;  ///< Uniform: bounds; the others: truncation (draws outside are drawn again)
     double radiusMax = 0;
-    double r10 = 0, r50 = 0, r90 = 0;  ///< Quantiles (by volume) after scaling: radii of the meso-particles
+    double r10 = 0, r50 = 0, r90 = 0;  ///< Quantiles (by volume): radii of the spheres
     std::vector<SievePoint> sieve;     ///< Sieve: from fine to coarse, from 0 to 1
-    double scaleUp = 1;                ///< Quantiles, Sieve: factor from the powder's sizes to the meso-particles'
+    double scaleUp = 1;                ///< size of a sphere over that of a grain; all other members are of spheres
 };
 
 /// The origin of the particles: drawn and put on a grid, or listed in a CSV.

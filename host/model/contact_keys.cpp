@@ -36,6 +36,11 @@ constexpr Key kContactAlone[] = {
            "s, at least 1: similar softer spheres. k is divided by s, γ by √s, φ_f multiplied by s, in every class. "
            "Forces of a bed at rest stay, overlaps grow as s, and the time step of `\"auto\"` as √s. The resolved case "
            "states the softer values and `soften = 1`"),
+    word("scaling", "none stress", "none",
+         "whose the parameters are where `scale_up` makes spheres of s times the size of grains. `\"none\"`: the "
+         "spheres'. `\"stress\"`: the grains'. The contacts of the spheres then [bear the same stress at the same "
+         "strain](#larger-spheres): k and `surface_energy` are multiplied by s, γ and `pull_off_force` by s². Moduli, "
+         "ratios and coefficients of friction stay"),
 };
 constexpr Key kContactClass[] = {
     number("youngs_modulus", {1, "Pa"}, kPositive, told("required unless `luding`"),

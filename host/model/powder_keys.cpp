@@ -40,29 +40,37 @@ constexpr Key kParticles[] = {
            "in a canister only"),
 };
 
+/// Of the kinds whose radii are those of the powder.
+constexpr Key kScaleUp = number("scale_up", kPlain, kPositive, 1.0,
+                                "size of a simulated sphere over that of a grain: all radii are of grains");
+
 constexpr Key kUniform[] = {
     word("distribution", "uniform fixed normal lognormal quantiles sieve", kRequired, "the kind of distribution")
         .replacing("*"),
+    kScaleUp,
     number("radius_min_mm", kMillimetre, kPositive, kRequired, "smallest radius"),
     number("radius_max_mm", kMillimetre, kPositive, kRequired, "largest radius"),
 };
 constexpr Key kFixed[] = {
+    kScaleUp,
     number("radius_mm", kMillimetre, kPositive, kRequired, "radius of every sphere"),
 };
 constexpr Key kNormal[] = {
+    kScaleUp,
     number("radius_mean_mm", kMillimetre, kPositive, kRequired, "mean radius before the bounds cut"),
     number("radius_deviation_mm", kMillimetre, kPositive, kRequired, "standard deviation of the radius"),
     number("radius_min_mm", kMillimetre, kPositive, told("mean - 2 deviations, at least mean/10"), "smallest radius"),
     number("radius_max_mm", kMillimetre, kPositive, told("mean + 2 deviations"), "largest radius"),
 };
 constexpr Key kLognormal[] = {
+    kScaleUp,
     number("radius_median_mm", kMillimetre, kPositive, kRequired, "median radius before the bounds cut"),
     number("log_deviation", kPlain, kPositive, kRequired, "standard deviation of ln r"),
     number("radius_min_mm", kMillimetre, kPositive, told("median · exp(-2 `log_deviation`)"), "smallest radius"),
     number("radius_max_mm", kMillimetre, kPositive, told("median · exp(2 `log_deviation`)"), "largest radius"),
 };
 constexpr Key kQuantiles[] = {
-    number("scale_up", kPlain, kPositive, 1.0, "size of a simulated meso-particle over that of a grain of the powder"),
+    number("scale_up", kPlain, kPositive, 1.0, "size of a simulated sphere over that of a grain of the powder"),
     number("d10_um", kMicrometre, kPositive, kRequired, "**diameter** below which 10 % of the powder's volume lies"),
     number("d50_um", kMicrometre, kPositive, kRequired, "diameter below which half of the volume lies"),
     number("d90_um", kMicrometre, kPositive, kRequired, "diameter below which 90 % of the volume lies"),
@@ -73,7 +81,7 @@ constexpr Key kQuantiles[] = {
 };
 
 constexpr Key kSieve[] = {
-    number("scale_up", kPlain, kPositive, 1.0, "size of a simulated meso-particle over that of a grain of the powder"),
+    number("scale_up", kPlain, kPositive, 1.0, "size of a simulated sphere over that of a grain of the powder"),
     other(
         "openings_um", told("this or `sieves`"),
         "openings of the sieves in µm, from fine to coarse or the other way. The first of the fine end is the diameter "

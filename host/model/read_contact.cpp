@@ -6,6 +6,7 @@
 
 #include "host/model/read_laws.h"
 #include "host/model/read_user_law.h"
+#include "host/model/scaling.h"
 
 namespace vkdose {
 namespace {
@@ -150,6 +151,17 @@ void readFrictionLimits(const LawTables& in) {
     }
 }
 
+/// From the grains to the spheres.
+void scaleContacts(const LawTables& in) {
+    if (in.scale == 1) return;
+    for (ContactLaw* law : {&in.c.dosingLaw, &in.c.settlingLaw})
+        for (ContactParameters& p : law->pairs) scaleStress(p, in.scale);
+    in.c.derivations.push_back(
+        fmt::format("contact: the parameters are those of grains; spheres {0:.6g} times as large have springs and "
+                    "surface energies {0:.6g} times, dashpots and pull-off forces {1:.6g} times as large",
+                    in.scale, in.scale * in.scale));
+}
+
 void readContact(CaseReader& reader, Section& root, const MaterialTables& materials, Case& c) {
     Section& contact = root.requiredTable("contact");
     const bool user = namesFile(contact, contact.node("law"));
@@ -158,7 +170,8 @@ void readContact(CaseReader& reader, Section& root, const MaterialTables& materi
     c.world.maxOverlapRatio = contact.number("max_overlap_ratio");
     c.dosingLaw.pairs.resize(int(c.world.materials.size()));
     checkPairTables(reader, contact, c.world);
-    const LawTables in{reader, tablesOf(reader, contact, c.world), root.table("settle"), materials, c};
+    const double scale = readScaling(reader, contact, law, c);
+    const LawTables in{reader, tablesOf(reader, contact, c.world), root.table("settle"), materials, c, scale};
     std::vector<Section*> sections;
     for (const PairSection& p : in.pairs) sections.push_back(p.section);
     if (!user) refuseUserLaw(reader, sections);
@@ -168,6 +181,7 @@ void readContact(CaseReader& reader, Section& root, const MaterialTables& materi
         readLuding(in);
     else
         readElastic(in, law);
+    scaleContacts(in);
     readFrictionLimits(in);
 }
 

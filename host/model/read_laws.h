@@ -31,6 +31,7 @@ struct LawTables {
     Section& settle;
     const MaterialTables& materials;
     Case& c;
+    double scale = 1;  ///< size of the spheres over that of the grains that the parameters are of
 
     Section& contact() const { return *pairs.front().section; }
     /// Room for something of each pair, by PairTable::index.

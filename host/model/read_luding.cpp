@@ -133,7 +133,7 @@ double readSoftness(CaseReader& reader, Section& contact) {
     return s;
 }
 
-/// The radius of the mean sphere of each material [m]; infinite for walls, NaN while the case is at fault. A powder
+/// The radius of the mean grain of each material [m]; infinite for walls, NaN while the case is at fault. A powder
 /// without particles has that of the others, so that its targets lead to figures of the right order.
 std::vector<double> meanRadii(const LawTables& in) {
     const std::vector<Material>& materials = in.c.world.materials;
@@ -141,7 +141,7 @@ std::vector<double> meanRadii(const LawTables& in) {
     if (!in.reader.faulty()) {
         const PowderSizes sizes = powderSizes(in.c);
         for (std::size_t m = 0; m < radii.size(); ++m)
-            radii[m] = std::isfinite(sizes[m].smallest) ? sizes[m].mean : overall(sizes).mean;
+            radii[m] = (std::isfinite(sizes[m].smallest) ? sizes[m].mean : overall(sizes).mean) / in.scale;
     }
     for (std::size_t m = 0; m < radii.size(); ++m)
         if (!materials[m].powder) radii[m] = kInfinity;

@@ -28,45 +28,53 @@ void recordDerivation(Section& section, const SizeDistribution& size, Case& c) {
 SizeDistribution readSize(CaseReader& reader, Section& section, Case& c) {
     using Kind = SizeDistribution::Kind;
     SizeDistribution size;
-    const auto bounds = [&](double low, double high) {  // defaults, in metres
-        size.radiusMin = section.number("radius_min_mm", low * 1e3);
-        size.radiusMax = section.number("radius_max_mm", high * 1e3);
-    };
     const auto kind = section.choice("distribution");
     if (!kind) {
         section.abandon();
         return size;
     }
     size.kind = static_cast<Kind>(*kind);
+    size.scaleUp = section.number("scale_up");
+    const auto ofGrains = [&](const char* key, std::optional<double> standard = {}) {
+        return size.scaleUp * section.number(key, standard);
+    };
+    const auto boundsOfGrains = [&](double low, double high) {  // defaults, of the spheres [m]
+        size.radiusMin = ofGrains("radius_min_mm", low * 1e3 / size.scaleUp);
+        size.radiusMax = ofGrains("radius_max_mm", high * 1e3 / size.scaleUp);
+    };
+    const auto boundsOfSpheres = [&](double low, double high) {
+        size.radiusMin = section.number("radius_min_mm", low * 1e3);
+        size.radiusMax = section.number("radius_max_mm", high * 1e3);
+    };
     switch (size.kind) {
         case Kind::Uniform:
-            size.radiusMin = section.number("radius_min_mm");
-            size.radiusMax = section.number("radius_max_mm");
+            size.radiusMin = ofGrains("radius_min_mm");
+            size.radiusMax = ofGrains("radius_max_mm");
             break;
         case Kind::Fixed:
-            size.radius = section.number("radius_mm");
+            size.radius = ofGrains("radius_mm");
             break;
         case Kind::Normal:
-            size.radius = section.number("radius_mean_mm");
-            size.deviation = section.number("radius_deviation_mm");
-            bounds(std::max(size.radius - 2 * size.deviation, 0.1 * size.radius), size.radius + 2 * size.deviation);
+            size.radius = ofGrains("radius_mean_mm");
+            size.deviation = ofGrains("radius_deviation_mm");
+            boundsOfGrains(std::max(size.radius - 2 * size.deviation, 0.1 * size.radius),
+                           size.radius + 2 * size.deviation);
             break;
         case Kind::Lognormal:
-            size.radius = section.number("radius_median_mm");
+            size.radius = ofGrains("radius_median_mm");
             size.deviation = section.number("log_deviation");
-            bounds(size.radius * std::exp(-2 * size.deviation), size.radius * std::exp(2 * size.deviation));
+            boundsOfGrains(size.radius * std::exp(-2 * size.deviation), size.radius * std::exp(2 * size.deviation));
             break;
         case Kind::Quantiles:
-            size.scaleUp = section.number("scale_up");
-            size.r10 = 0.5 * size.scaleUp * section.number("d10_um");
-            size.r50 = 0.5 * size.scaleUp * section.number("d50_um");
-            size.r90 = 0.5 * size.scaleUp * section.number("d90_um");
-            bounds(finestRadius(size), coarsestRadius(size));
+            size.r10 = 0.5 * ofGrains("d10_um");
+            size.r50 = 0.5 * ofGrains("d50_um");
+            size.r90 = 0.5 * ofGrains("d90_um");
+            boundsOfSpheres(finestRadius(size), coarsestRadius(size));
             break;
         case Kind::Sieve:
-            size.scaleUp = section.number("scale_up");
             readSieve(reader, section, size, c.files);
-            bounds(size.sieve.empty() ? kNaN : finestRadius(size), size.sieve.empty() ? kNaN : coarsestRadius(size));
+            boundsOfSpheres(size.sieve.empty() ? kNaN : finestRadius(size),
+                            size.sieve.empty() ? kNaN : coarsestRadius(size));
             recordDerivation(section, size, c);
             break;
     }

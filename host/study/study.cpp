@@ -194,7 +194,8 @@ void gatherSettings(const Node& node, const std::string& path, std::vector<Setti
     }
 }
 
-/// Puts overrides into what holds for every member. The record of the study tells them.
+}  // namespace
+
 void applyOverrides(Study& study, const std::vector<std::string>& overrides) {
     std::vector<Setting> settings;
     gatherSettings(overrideTree(overrides), "", settings);
@@ -218,8 +219,6 @@ void applyOverrides(Study& study, const std::vector<std::string>& overrides) {
     if (!overrides.empty() && !study.text.ends_with('\n')) study.text += '\n';
     for (const std::string& text : overrides) study.text += fmt::format("# --set {}\n", text);
 }
-
-}  // namespace
 
 std::vector<std::string> Study::keys() const {
     std::vector<std::string> all;

@@ -49,4 +49,8 @@ inline constexpr std::size_t kMostMembers = 10000;
 /// `overrides` ("key.path=value") replace values of every member.
 Study readStudy(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
 
+/// Puts overrides into what holds for every member; the record of the study tells them. Throws CaseError for keys that
+/// the study varies, or that are not the members'.
+void applyOverrides(Study& study, const std::vector<std::string>& overrides);
+
 }  // namespace vkdose

@@ -36,7 +36,8 @@ double bodyFigure(const nlohmann::ordered_json& summary, const std::string& figu
     return std::numeric_limits<double>::quiet_NaN();
 }
 
-/// A figure of a run that is over, and its error; NaN where there is none.
+}  // namespace
+
 Measured figureIn(const std::filesystem::path& folder, const std::string& figure) {
     const auto summary = readSummary(folder).value_or(nlohmann::ordered_json::object());
     const auto at = [&](const std::string& pointer) {
@@ -58,6 +59,8 @@ Measured figureIn(const std::filesystem::path& folder, const std::string& figure
     const double measure = at(pointer);
     return {std::isfinite(measure) ? measure : bodyFigure(summary, figure), std::numeric_limits<double>::quiet_NaN()};
 }
+
+namespace {
 
 Trial figureOf(const SweepFolder& folder, const std::string& figure, int from, int to) {
     Trial trial;

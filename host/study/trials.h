@@ -18,6 +18,9 @@ std::vector<std::filesystem::path> basesOf(const Study& study);
 /// of the mass rate and of the cycles, of each measure and of each body.
 std::vector<std::string> figureNames(const Case& c);
 
+/// A figure of a run that is over, by its name, with its standard error; NaN where there is none.
+Measured figureIn(const std::filesystem::path& folder, const std::string& figure);
+
 /// The trials of one point: a figure for each target. Its members have the numbers from `first` on, all `seeds` of them
 /// with the first of `basesOf`, then with the next. A member that failed has no figure.
 Trials trialsOf(const Study& study, const SweepFolder& folder, int first, int seeds);

@@ -107,3 +107,36 @@ TEST_CASE("each kind of study is refused by the other commands, which name the r
     CHECK(wrong.code == 2);
     CHECK_THAT(wrong.err, Catch::Contains("did you mean \"dose.left_kg\"") && Catch::Contains("design.goal.figure"));
 }
+
+TEST_CASE("scale runs a case with larger spheres and judges its figures by the smallest") {
+    const Sandbox box;
+    const std::string command = "scale " VKDOSE_SOURCE_DIR
+                                "/cases/mini.toml --set settle.time_s=0.02 --set settle.until_rest=false --set "
+                                "dose.rotate_s=0.02 --set dose.rest_s=0.005 --set stop.max_doses=1 --set "
+                                "contact.max_overlap_ratio=0.95 --sizes 1,1.2 --seeds 2 ";
+    const auto dry = box.vkdose(command + "--dry-run --assume");
+    CAPTURE(dry.err);
+    CHECK(dry.code == 0);
+    CHECK_THAT(dry.out, Catch::Contains("particles.size.scale_up 1.2, seed 2") && Catch::Contains("4 members"));
+    const auto o = box.vkdose(command + "--backend reference");
+    CAPTURE(o.out, o.err);
+    REQUIRE(o.code == 0);
+    CHECK_THAT(o.out,
+               Catch::Contains("1.2x") && Catch::Contains("coil.largest_torque_Nm") && Catch::Contains("outlet"));
+    const auto finding = nlohmann::json::parse(readText(box / "out/mini-scale/scale.json"));
+    CHECK(finding["sizes"][1]["factor"] == 1.2);
+    CHECK(finding["within"] == 0.05);
+    CHECK(!finding["figures"].empty());
+    CHECK(Table::read(box / "out/mini-scale/members.csv").rows() == 4);
+    // It goes on without a run, and says the same.
+    const auto again = box.vkdose(command + "--backend reference");
+    CHECK(again.code == 0);
+    CHECK(again.out.substr(again.out.find("spheres ")) == o.out.substr(o.out.find("spheres ")));
+    // Without time it tells the command that goes on, with all that was given.
+    const auto timed = box.vkdose(command + "--backend reference --out timed --for 0.001s");
+    CHECK(timed.code == 6);
+    CHECK_THAT(timed.err, Catch::Contains("--sizes 1,1.2 --seeds 2 --within 5 --out timed --set settle.time_s=0.02"));
+
+    CHECK_THAT(box.vkdose("scale mini --sizes 2,1").err, Catch::Contains("each larger than the one before"));
+    CHECK_THAT(box.vkdose("scale mini --sizes 1").err, Catch::Contains("two factors or more"));
+}

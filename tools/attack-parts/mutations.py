@@ -28,6 +28,7 @@ TARGETS = (
     ("check", ["case.toml"] * 2 + ["list.csv"]),
     ("compare", ["case.toml"]),
     ("export-body", ["case.toml"]),
+    ("scale", ["case.toml"]),
     ("resume", [CHECKPOINT] * 6 + OF_A_RUN + OF_A_RUN[:3] + ["fields/outlet.csv"]),
     ("from", ["settled.h5"] * 3),
     ("report", OF_A_RUN + OF_A_RUN[1:3] + ["summary.json"] * 2 + ["particles.csv", "frames/contacts_000001.hdf"]),
@@ -94,13 +95,14 @@ def prepare(t, command, name):
     """Makes the folder for the command. Returns the words of the command and the path of the file to be spoilt."""
     ground = t.ground
     device = ["--backend", "vulkan" if t.rng.random() < 0.1 else "reference"]
-    if command in ("run", "check", "compare", "export-body"):
+    if command in ("run", "check", "compare", "export-body", "scale"):
         folders.write(t.path("case.toml"), ground.case_text("short"))
         list_case(t)
         case = "case.toml" if name == "case.toml" else "case-list.toml"
         words = {"run": ["run", case, "--out", "out", "--quiet", *device], "check": ["check", case, *device],
                  "compare": ["test", "compare", case, "--steps", "50", "--twins", "1"],
-                 "export-body": ["export-body", case, "--out", "coil.stl"]}[command]
+                 "export-body": ["export-body", case, "--out", "coil.stl"],
+                 "scale": ["scale", case, "--dry-run", "--jobs", "1", "--backend", "reference"]}[command]
         return words, t.path(name)
     if command == "profile":
         folders.write(t.path(name), photo())
