@@ -16,7 +16,7 @@ const std::vector<Comparison>& comparisons() {
          "P. Jop, Y. Forterre, O. Pouliquen, Nature 441 (2006) 727; LAMMPS with the same spheres",
          planeShear},
         {"ring-shear", "angles of beads in a ring shear cell",
-         "D. Schulze, Powders and Bulk Solids; round robin of the RST-01", ringShear},
+         "table of a Bulk Solids Centre, measured with a ring shear tester RST-01", ringShear},
         {"screw", "mass rate of a turn of an endless screw over speed, fill and slope",
          "P. J. Owen, P. W. Cleary, Powder Technol. 193 (2009) 274; A. W. Roberts, Powder Technol. 104 (1999) 56",
          screw},

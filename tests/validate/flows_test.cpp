@@ -143,7 +143,7 @@ TEST_CASE("a screw is judged by its exponent of the speed and by the trends of s
     }
 }
 
-TEST_CASE("beads in a ring shear cell are judged by the angle of the round robin") {
+TEST_CASE("beads in a ring shear cell are judged by the angle that a tester measured") {
     const auto runOf = [](double steady) {
         Run run;
         run.summary["measures"]["ring-shear"] = {{"pre_shear_stress_Pa", 2000 * std::tan(steady * kPi / 180)},
