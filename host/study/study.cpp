@@ -11,29 +11,12 @@
 #include "host/model/case_keys.h"
 #include "host/model/case_reader.h"
 #include "host/model/named_file.h"
+#include "host/study/read_axis.h"
 #include "host/study/study_keys.h"
 
 namespace vkdose {
 
 namespace {
-
-constexpr const char* kKeyRemedy = "give a key of the base case with its table, e.g. \"contact.friction\"";
-
-/// Faults of the key at `path` when it cannot be varied; `used` holds the keys so far.
-bool checkKey(CaseReader& reader, const std::string& path, const std::string& key, std::set<std::string>& used) {
-    if (!isKeyPath(key)) {
-        reader.fault(path, fmt::format("\"{}\" is not the path of a key", key), kKeyRemedy);
-    } else if (key == "seed") {
-        reader.fault(path, "the seed is not an axis", "give seeds = [1, 2, 3]");
-    } else if (key == "base" || key == "name" || key == "reason") {
-        reader.fault(path, fmt::format("{} cannot be varied", key), kKeyRemedy);
-    } else if (!used.insert(key).second) {
-        reader.fault(path, fmt::format("{} is given twice", key), "keep it in one place");
-    } else {
-        return true;
-    }
-    return false;
-}
 
 /// The settings in a table, with or without quotes around dotted keys.
 void readSettings(CaseReader& reader, const Node& table, const std::string& prefix, const std::string& path,
@@ -66,83 +49,6 @@ void readSeeds(CaseReader& reader, Section& root, Study& study) {
         study.seeds.push_back(std::uint64_t(seed.integer));
     }
     if (!good) reader.fault("seeds", "are not seeds", kRemedy);
-}
-
-/// The value of a range as it would have been written.
-Node rangeValue(const Node& place, double value, bool whole) {
-    Node node;
-    node.file = place.file;
-    node.line = place.line;
-    node.kind = whole ? Node::Kind::Integer : Node::Kind::Float;
-    // Twelve digits: 0.3, not 0.30000000000000004.
-    node.text = fmt::format("{:.12g}", value);
-    node.number = nearestDecimal(value, 12);
-    node.integer = whole ? std::llround(value) : 0;
-    return node;
-}
-
-void readRange(CaseReader& reader, Section& table, const std::string& path, Axis& axis) {
-    const double from = table.number("from");
-    const double to = table.number("to");
-    const std::int64_t steps = table.integer("steps");
-    const Node* first = table.node("from");
-    const Node* last = table.node("to");
-    if (axis.keys.size() > 1)
-        reader.fault(path + ".from", "a range is for a single key", "give values, a row for each point");
-    if (from == to) reader.fault(path + ".to", "the range is empty", "give another end than from");
-    if (first == nullptr || last == nullptr || !std::isfinite(from) || !std::isfinite(to)) return;
-    bool whole = first->kind == Node::Kind::Integer && last->kind == Node::Kind::Integer;
-    const auto at = [&](std::int64_t i) { return from + (to - from) * double(i) / double(steps - 1); };
-    for (std::int64_t i = 0; i < steps; ++i) whole = whole && at(i) == std::round(at(i));
-    for (std::int64_t i = 0; i < steps; ++i) axis.points.push_back({rangeValue(*first, at(i), whole)});
-}
-
-void readValues(CaseReader& reader, const Node& values, bool rows, const std::string& path, Axis& axis) {
-    if (values.kind != Node::Kind::Array || values.children.empty()) {
-        reader.fault(path, "is not a list of values", rows ? "give values = [[..., ...], ...]" : "give values = [...]");
-        return;
-    }
-    std::set<std::string> seen;
-    for (const Node& value : values.children) {
-        if (!rows) {
-            axis.points.push_back({value});
-        } else if (value.kind == Node::Kind::Array && value.children.size() == axis.keys.size()) {
-            axis.points.push_back(value.children);
-        } else {
-            reader.fault(path, fmt::format("{} is not a row of {} values", valueText(value), axis.keys.size()),
-                         "give each point a value for each of the keys, in their order");
-            return;
-        }
-        if (!seen.insert(valueText(value)).second)
-            reader.fault(path, fmt::format("{} is there twice", valueText(value)), "name every point once");
-    }
-}
-
-Axis readAxis(CaseReader& reader, Section& table, const std::string& path, std::set<std::string>& used) {
-    Axis axis;
-    const bool rows = table.has("keys");
-    if (rows && table.has("key")) reader.fault(path + ".keys", "key is there too", "give key or keys, not both");
-    const Node* keys = table.node("keys");
-    const bool single = table.has("key") || !rows;
-    if (single) axis.keys.push_back(table.string("key"));
-    if (!single && keys->kind == Node::Kind::Array)
-        for (const Node& key : keys->children) axis.keys.push_back(key.string);
-    if (axis.keys.empty()) reader.fault(path + ".keys", "is not a list of keys", kKeyRemedy);
-    if (!single || table.isString("key"))
-        for (const std::string& key : axis.keys) checkKey(reader, path + (single ? ".key" : ".keys"), key, used);
-
-    const bool range = table.has("from") || table.has("to") || table.has("steps");
-    const Node* values = table.node("values");
-    if (range && values != nullptr)
-        reader.fault(path + ".values", "there is a range too", "give values, or from, to and steps");
-    if (range)
-        readRange(reader, table, path, axis);
-    else if (values != nullptr)
-        readValues(reader, *values, !single, path + ".values", axis);
-    else
-        reader.fault(path, "has no values", "give values, or from, to and steps");
-    for (const char* key : {"from", "to", "steps"}) table.know(key);
-    return axis;
 }
 
 void checkCount(CaseReader& reader, const Study& study) {
@@ -257,7 +163,7 @@ Study readStudy(const std::filesystem::path& file, const std::vector<std::string
     }
     const std::vector<Section*> axes = root.tables("axis");
     for (std::size_t i = 0; i < axes.size(); ++i)
-        study.axes.push_back(readAxis(reader, *axes[i], fmt::format("axis[{}]", i), used));
+        study.axes.push_back(readAxis(reader, *axes[i], fmt::format("axis[{}]", i), file.parent_path(), used));
     if (root.has("calibrate")) {
         study.calibration = readCalibrationAim(reader, root.table("calibrate"), file.parent_path(), study.base);
         if (root.has("design")) reader.fault("design", "stands beside [calibrate]", "keep one of the two in a study");

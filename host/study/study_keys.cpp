@@ -24,10 +24,19 @@ constexpr Key kSet[] = {
 constexpr Key kAxis[] = {
     text("key", told("this or `keys`"), "the key that varies, with its table: `\"contact.friction\"`"),
     other("keys", told("this or `key`"), "keys that vary together"),
-    other("values", told("this or a range"), "the values; with `keys` a row of values for each point"),
+    other("values", told("this, a range, a box or a table"), "the values; with `keys` a row of values for each point"),
     number("from", kPlain, Bound::Any, told("this or `values`"), "first value of a range"),
     number("to", kPlain, Bound::Any, told("with `from`"), "last value of the range"),
     integer("steps", 2, std::int64_t(kMostMembers), told("with `from`"), "number of values, both ends included"),
+    other("low", told("this or `values`"), "lower bound of a box; with `keys` a list, one for each"),
+    other("high", told("with `low`"), "upper bound"),
+    integer(
+        "points", 1, std::int64_t(kMostMembers), told("with `low`; of a table all rows"),
+        "number of points: so many of the Halton sequence in the box, which fill it evenly, or the first rows of the "
+        "table"),
+    text("table", told("in place of `key` or `keys`"),
+         "a CSV with a column for each key, named by it, and a row for each point; the path is relative to the study's "
+         "folder"),
 };
 
 constexpr Key kCalibrate[] = {

@@ -175,7 +175,7 @@ TEST_CASE("every fault of a study names its line, its key and a remedy") {
         {"values = [0.2, 0.50]", "from = 0.2\nto = 0.2\nsteps = 4", "to = 0.2", "axis[0].to", "the range is empty"},
         {"values = [0.2, 0.50]", "from = 0.2\nto = 0.5\nsteps = 1", "steps = 1", "axis[0].steps", ">= 2"},
         {"values = [0.2, 0.50]", "values = [0.2]\nfrom = 0.1\nto = 0.2\nsteps = 3", "values = [0.2]", "axis[0].values",
-         "there is a range too"},
+         "given in another way too"},
         {"values = [0.2, 0.50]", "from = 0\nto = 1\nsteps = 9000", "[[axis]]", "axis", "more than 10000"},
         {"[2, 60]", "[2]", "values = [[3", "axis[1].values", "[2] is not a row of 2 values"},
         {"[2, 60]", "2", "values = [[3", "axis[1].values", "2 is not a row of 2 values"},

@@ -1,0 +1,20 @@
+#pragma once
+// The axes of a study.
+
+#include <filesystem>
+#include <set>
+#include <string>
+
+#include "host/model/case_reader.h"
+#include "host/study/study.h"
+
+namespace vkdose {
+
+/// Faults of the key at `path` when it cannot be varied; `used` holds the keys so far.
+bool checkKey(CaseReader& reader, const std::string& path, const std::string& key, std::set<std::string>& used);
+
+/// Reads an [[axis]]: values, a range, points spread over a box, or a table. A table's path is relative to `folder`.
+Axis readAxis(CaseReader& reader, Section& table, const std::string& path, const std::filesystem::path& folder,
+              std::set<std::string>& used);
+
+}  // namespace vkdose
