@@ -18,6 +18,7 @@
 #include "host/model/checks.h"
 #include "host/model/normal_law.h"
 #include "host/model/parse_toml.h"
+#include "host/model/powder_file.h"
 #include "host/model/powders.h"
 #include "host/model/shared_places.h"
 #include "host/model/size_distribution.h"
@@ -258,15 +259,16 @@ Case loadCase(const std::filesystem::path& file, const std::vector<std::string>&
 Case loadVariant(const std::filesystem::path& file, std::vector<Node> layers) {
     std::vector<std::filesystem::path> files;
     Node tree = readTree(file, files);
-    for (Node& layer : layers) merge(tree, std::move(layer));
+    for (Node& layer : layers) layOver(tree, std::move(layer), files);
     return interpretKept(file, std::move(tree), std::move(files));
 }
 
 Case loadResolvedCase(const std::string& text, const std::filesystem::path& file,
                       const std::vector<std::string>& overrides) {
+    std::vector<std::filesystem::path> files{file};
     Node tree = readTreeText(text, file.string());
-    merge(tree, overrideTree(overrides));
-    return interpretKept(file, std::move(tree), {file});
+    layOver(tree, overrideTree(overrides), files);
+    return interpretKept(file, std::move(tree), std::move(files));
 }
 
 }  // namespace vkdose

@@ -11,6 +11,9 @@ constexpr std::int64_t kAnyCount = std::numeric_limits<std::int64_t>::max();
 
 constexpr Key kTop[] = {
     text("base", told("none"), "another case to start from; the path is relative to this file"),
+    text("powder_file", told("none"),
+         "[a powder in a file of its own](powders/README.md), relative to this one. It takes the place of the base's "
+         "powder: sizes, contacts, how they settle, `time.step_s`. What this file states itself comes on top"),
     text("name", told("name of the file"),
          "name of the case and of its default output folder: at most 200 visible characters, no slash, no blank at "
          "either end"),

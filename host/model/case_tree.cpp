@@ -11,6 +11,7 @@
 #include "host/core/file.h"
 #include "host/model/case_keys.h"
 #include "host/model/parse_toml.h"
+#include "host/model/powder_file.h"
 
 namespace vkdose {
 namespace {
@@ -37,7 +38,11 @@ Node readWithBase(const std::filesystem::path& file, const Diagnostic& whoAsks,
     above.push_back(canonical);
     Node tree = parseToml(readText(file, whoAsks), file.string());
     const Node* base = tree.child("base");
-    if (base == nullptr) return tree;
+    if (base == nullptr) {
+        Node alone;
+        layOver(alone, std::move(tree), above);
+        return alone;
+    }
     const Diagnostic place{base->file, base->line, "base",
                            base->text, "",         "give the path of a case file, relative to this one"};
     if (base->kind != Node::Kind::String) {
@@ -48,7 +53,7 @@ Node readWithBase(const std::filesystem::path& file, const Diagnostic& whoAsks,
     Node lower = readWithBase(file.parent_path() / base->string, place, above);
     tree.drop("base");
     lower.drop("name");  // or two cases would share an output folder
-    merge(lower, std::move(tree));
+    layOver(lower, std::move(tree), above);
     return lower;
 }
 
