@@ -34,6 +34,25 @@ CLI::App& addNew(CLI::App& program, NewOptions& options) {
     return command;
 }
 
+/// How members run. Returns the options.
+std::vector<CLI::Option*> addMemberOptions(CLI::App& command, MemberOptions& options) {
+    auto* jobs = command
+                     .add_option("--jobs", options.jobs,
+                                 "members at once, each in a process of its own (default on a CPU: one for each core)")
+                     ->check(CLI::Range(1, 1024));
+    auto* ensemble =
+        command
+            .add_option("--ensemble", options.ensemble,
+                        "members at once that share the device in an ensemble (default on a GPU: as many as its memory "
+                        "holds)")
+            ->check(CLI::Range(1, 1024))
+            ->excludes(jobs);
+    auto* limit = addFor(command, options.limit);
+    auto* retry = command.add_flag("--retry-failed", options.retryFailed,
+                                   "run the members that failed again, from their checkpoints if these can be read");
+    return {jobs, ensemble, limit, retry};
+}
+
 CLI::App& addRun(CLI::App& program, RunOptions& options) {
     CLI::App& command = *program.add_subcommand("run", "simulate a case and write its output folder");
     addCase(command, options.input).required(false);
@@ -56,6 +75,17 @@ CLI::App& addRun(CLI::App& program, RunOptions& options) {
     addShow(command, options.quiet, options.live, options.events);
     command.add_option("--member", options.member, "number of the run in a study")->group("");
     addParent(command, options.parent);
+    auto* draws = command
+                      .add_option("--draws", options.draws,
+                                  "so many runs, each with another draw from the distribution of the powder's "
+                                  "parameters and another seed: figures with 95 % intervals (default: one run)")
+                      ->check(CLI::Range(2, 1000))
+                      ->needs("--powder")
+                      ->excludes(from)
+                      ->excludes("--live")
+                      ->excludes("--events")
+                      ->excludes("--force");
+    for (CLI::Option* option : addMemberOptions(command, options.ofDraws)) option->needs(draws);
     addBackend(command, options.backend);
     from->excludes("--backend");  // the state is that of one backend
     return command;
@@ -111,19 +141,7 @@ CLI::App& addExportBody(CLI::App& program, ExportBodyOptions& options) {
 /// The options of commands that run members.
 void addMembers(CLI::App& command, SweepOptions& options, const char* out) {
     command.add_option("--out", options.out, out)->type_name("DIR");
-    command
-        .add_option("--jobs", options.jobs,
-                    "members at once, each in a process of its own (default on a CPU: one for each core)")
-        ->check(CLI::Range(1, 1024));
-    command
-        .add_option(
-            "--ensemble", options.ensemble,
-            "members at once that share the device in an ensemble (default on a GPU: as many as its memory holds)")
-        ->check(CLI::Range(1, 1024))
-        ->excludes("--jobs");
-    addFor(command, options.limit);
-    command.add_flag("--retry-failed", options.retryFailed,
-                     "run the members that failed again, from their checkpoints if these can be read");
+    addMemberOptions(command, options);
     addSet(command, options.overrides,
            "replace a value of every member's case: --set stop.max_doses=2; may be repeated");
     auto* dry = command.add_flag("--dry-run", options.dryRun,
@@ -156,6 +174,13 @@ CLI::App& addScale(CLI::App& program, ScaleOptions& options) {
         ->check(CLI::Range(0.01, 100.0))
         ->capture_default_str();
     addMembers(command, options.sweep, "folder of the runs (default: out/<name of the case>-scale)");
+    return command;
+}
+
+CLI::App& addPowders(CLI::App& program, PowdersOptions& options) {
+    CLI::App& command =
+        *program.add_subcommand("powders", "list the powders that are known, or tell all that is known of one");
+    command.add_option("powder", options.name, "name of a powder, or a powder file (TOML)");
     return command;
 }
 
@@ -323,7 +348,8 @@ CLI::App& addDesign(CLI::App& program, SweepOptions& options) {
 std::vector<Command> declareCommands(CLI::App& program, Options& o) {
     std::vector<Command> all{
         {&addNew(program, o.made), [&o] { return newCommand(o.made); }},
-        {&addRun(program, o.run), [&o] { return runCommand(named(o.run)); }},
+        {&addRun(program, o.run),
+         [&o] { return o.run.draws > 0 ? drawsCommand(named(o.run)) : runCommand(named(o.run)); }},
         {&addResume(program, o.resume), [&o] { return resumeCommand(o.resume); }},
         {&addCheck(program, o.check), [&o] { return checkCommand(named(o.check)); }},
         {program.add_subcommand("devices", "list the Vulkan devices"), [] { return devicesCommand(); }},
@@ -336,6 +362,7 @@ std::vector<Command> declareCommands(CLI::App& program, Options& o) {
              (void)studied(o.scale.sweep);
              return scaleCommand(o.scale);
          }},
+        {&addPowders(program, o.powders), [&o] { return powdersCommand(o.powders); }},
         {&addReport(program, o.report), [&o] { return reportCommand(o.report); }},
         {&addProfile(program, o.profile), [&o] { return profileCommand(o.profile); }},
         {&addRender(program, o.render), [&o] { return renderCommand(o.render); }},

@@ -16,6 +16,7 @@ namespace vkdose {
 /// Of the commands that print keys, columns and options.
 struct ManualOptions {
     bool study = false;
+    bool powder = false;
     bool schema = false;
     bool sweep = false;
     bool brief = false;
@@ -34,6 +35,7 @@ struct Options {
     SweepOptions sweep;
     SweepOptions calibration, design;
     ScaleOptions scale;
+    PowdersOptions powders;
     ValidateOptions validation;
     ReportOptions report;
     ProfileOptions profile;

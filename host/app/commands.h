@@ -20,6 +20,7 @@ namespace vkdose {
 struct CaseOptions {
     std::filesystem::path file;
     std::vector<std::string> overrides;  ///< "key.path=value"
+    std::filesystem::path powder = {};   ///< file of a powder that takes the place of the case's; empty: none
 };
 
 struct NewOptions {
@@ -27,6 +28,14 @@ struct NewOptions {
     std::vector<std::string> answers;                     ///< to newQuestions(), in their order; empty: not given
     bool ask = false;                                     ///< for what is not given, even if nobody sits at a terminal
     std::array<bool, kDeviceTemplates.size()> devices{};  ///< a device that is ready; then nothing else
+};
+
+/// How the members of a sweep run, or the draws of a powder.
+struct MemberOptions {
+    int jobs = 0;                    ///< at once, in processes; 0: one for each core, if those are what it takes
+    int ensemble = 0;                ///< at once that share the device; 0: on a GPU as many as fit
+    std::optional<TimeLimit> limit;  ///< of the command's wall time
+    bool retryFailed = false;
 };
 
 /// A run whose powder another run begins with.
@@ -46,6 +55,8 @@ struct RunOptions {
     bool events = false;                  ///< JSON lines on stdout in place of all text there
     int parent = 0;                       ///< process with which this one ends, as by Ctrl-C; 0: none
     std::optional<std::uint32_t> member;  ///< number in a study
+    int draws = 0;                        ///< runs with so many draws of the powder in place of one; 0: one
+    MemberOptions ofDraws;
 };
 
 struct ResumeOptions {
@@ -105,18 +116,14 @@ struct ExportBodyOptions {
     int perTurn = 64;  ///< pieces of a turn
 };
 
-struct SweepOptions {
+struct SweepOptions : MemberOptions {
     std::filesystem::path study;
     std::vector<std::string> overrides;  ///< "key.path=value", for every member
     BackendChoice backend;
     std::filesystem::path out;  ///< empty: out/<name of the study's file>
     bool mpi = false;           ///< a member on each rank of an MPI job instead
-    int jobs = 0;               ///< members at once, in processes; 0: one for each core, if those are what it takes
-    int ensemble = 0;           ///< members at once that share the device; 0: on a GPU as many as fit
-    std::optional<TimeLimit> limit;  ///< of the command's wall time
-    std::string again;  ///< the command that goes on, without what all have; empty: that of the sweep itself
-    bool retryFailed = false;
-    bool prepare = false;  ///< only make the members' folders
+    std::string again;          ///< the command that goes on, without what all have; empty: that of the sweep itself
+    bool prepare = false;       ///< only make the members' folders
     bool dryRun = false;
     bool assume = false;  ///< a speed, without measuring the device, for the hours of a dry run
     bool quiet = false;
@@ -127,6 +134,10 @@ struct ScaleOptions {
     std::vector<double> factors{1, 1.5, 2, 3};
     int seeds = 3;
     double within = 5;  ///< [%]
+};
+
+struct PowdersOptions {
+    std::filesystem::path name;  ///< of a powder; empty: all are listed
 };
 
 struct ReportOptions {
@@ -169,6 +180,8 @@ struct ShellOptions {
 
 int newCommand(const NewOptions& options);
 int runCommand(const RunOptions& options);
+int drawsCommand(const RunOptions& options);  ///< a run with draws
+int powdersCommand(const PowdersOptions& options);
 int resumeCommand(const ResumeOptions& options);
 int checkCommand(const CheckOptions& options);
 int devicesCommand();

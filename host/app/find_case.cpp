@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <string>
 
@@ -41,7 +42,9 @@ bool isKind(const fs::path& file, bool study) {
         const Node tree = readTreeAlone(file);
         const bool varies =
             tree.child("axis") != nullptr || tree.child("calibrate") != nullptr || tree.child("design") != nullptr;
-        return study ? varies : !varies && (tree.child("particles") != nullptr || tree.child("base") != nullptr);
+        const bool powder = tree.child("title") != nullptr;
+        return study ? varies
+                     : !varies && !powder && (tree.child("particles") != nullptr || tree.child("base") != nullptr);
     } catch (const CaseError&) {
         return false;
     }
@@ -74,6 +77,29 @@ fs::path findCase(const fs::path& name, const std::vector<fs::path>& folders) {
     throw UsageError(fmt::format("there is neither a file {} nor a case of that name; {}", name.string(),
                                  meant.empty() ? "give the path of a case file, or a name such as quickstart"
                                                : fmt::format("did you mean {}?", meant)));
+}
+
+std::vector<fs::path> powderFiles(const std::vector<fs::path>& folders) {
+    std::map<std::string, fs::path> found;
+    for (const fs::path& folder : folders)
+        for (const fs::path& entry : entriesOf(folder / "powders"))
+            if (entry.extension() == ".toml" && !isKind(entry, true)) found.emplace(entry.stem().string(), entry);
+    std::vector<fs::path> files;
+    for (const auto& [name, file] : found) files.push_back(file);
+    return files;
+}
+
+fs::path findPowder(const fs::path& name, const std::vector<fs::path>& folders) {
+    if (isThere(name) || name.empty()) return name;
+    std::vector<std::string> names;
+    for (const fs::path& file : powderFiles(folders)) {
+        names.push_back(file.stem().string());
+        if (names.back() == name.string()) return file;
+    }
+    const std::string meant = closestWord(name.string(), names);
+    throw UsageError(fmt::format(
+        "there is neither a file {} nor a powder of that name; {}", printable(name.string()),
+        meant.empty() ? "`vkdose powders` lists those that there are" : fmt::format("did you mean {}?", meant)));
 }
 
 std::vector<std::string> namesOfCases(bool studies, const std::vector<fs::path>& folders) {

@@ -17,6 +17,13 @@ std::vector<std::filesystem::path> caseFolders();
 std::filesystem::path findCase(const std::filesystem::path& name,
                                const std::vector<std::filesystem::path>& folders = caseFolders());
 
+/// The same of a powder: the file of that name in the folder `powders` of one of `folders`.
+std::filesystem::path findPowder(const std::filesystem::path& name,
+                                 const std::vector<std::filesystem::path>& folders = caseFolders());
+
+/// The powder files in these folders, by their names; of two with one name that of the first folder.
+std::vector<std::filesystem::path> powderFiles(const std::vector<std::filesystem::path>& folders = caseFolders());
+
 /// The names by which `findCase` finds the cases in these folders, or the studies; each once, in order.
 std::vector<std::string> namesOfCases(bool studies, const std::vector<std::filesystem::path>& folders = caseFolders());
 

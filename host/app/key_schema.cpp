@@ -5,7 +5,6 @@
 #include <string_view>
 
 #include "host/model/case_keys.h"
-#include "host/study/study_keys.h"
 
 namespace vkdose {
 namespace {
@@ -125,16 +124,26 @@ void addKey(Json& table, const Key& key) {
 
 }  // namespace
 
-std::string keySchema(bool study) {
+std::string keySchema(FileKind kind) {
     Json root{{"$schema", "http://json-schema.org/draft-07/schema#"},
-              {"title", study ? "a study of vkdose" : "a case of vkdose"}};
+              {"title", kind == FileKind::Study    ? "a study of vkdose"
+                        : kind == FileKind::Powder ? "a powder file of vkdose"
+                                                   : "a case of vkdose"}};
     root.update(emptyTable());
-    for (const KeyTable& table : study ? studyKeys() : caseKeys()) {
-        std::vector<std::string> paths = wordsOf(table.paths);
-        if (paths.empty()) paths.emplace_back();
-        for (const std::string& path : paths)
-            for (const Key& key : table.keys) addKey(tableAt(root, path), key);
-    }
+    const auto add = [&](std::span<const KeyTable> tables, const auto& takes) {
+        for (const KeyTable& table : tables) {
+            std::vector<std::string> paths = wordsOf(table.paths);
+            if (paths.empty()) paths.emplace_back();
+            for (const std::string& path : paths)
+                for (const Key& key : table.keys)
+                    if (takes(path, key)) addKey(tableAt(root, path), key);
+        }
+    };
+    add(keysOfKind(kind), [](const std::string&, const Key&) { return true; });
+    if (kind == FileKind::Powder)  // it has tables of a case beside its own
+        add(caseKeys(), [](const std::string& path, const Key& key) {
+            return path.starts_with("particles") || path.starts_with("contact") || key.name == "bulk_density";
+        });
     return root.dump(2) + "\n";
 }
 

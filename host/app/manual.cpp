@@ -9,6 +9,7 @@
 #include "host/app/command_table.h"
 #include "host/core/printable.h"
 #include "host/model/case_keys.h"
+#include "host/model/powder_file.h"
 #include "host/study/output_tables.h"
 #include "host/study/study_keys.h"
 
@@ -45,8 +46,20 @@ std::string optionRows(const CommandText& command) {
 
 }  // namespace
 
-std::string keysPage(bool study) {
-    return keyReference(study ? studyKeys() : caseKeys());
+std::span<const KeyTable> keysOfKind(FileKind kind) {
+    switch (kind) {
+        case FileKind::Study:
+            return studyKeys();
+        case FileKind::Powder:
+            return powderFileKeys();
+        case FileKind::Case:
+            break;
+    }
+    return caseKeys();
+}
+
+std::string keysPage(FileKind kind) {
+    return keyReference(keysOfKind(kind));
 }
 
 std::string optionsPage(const CLI::App& program, bool brief) {

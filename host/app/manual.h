@@ -3,8 +3,11 @@
 // `columns`, `options`. tools/manual
 // puts them into the pages, and tests/manual holds the pages against them.
 
+#include <span>
 #include <string>
 #include <vector>
+
+#include "host/model/key.h"
 
 namespace CLI {
 class App;
@@ -12,8 +15,12 @@ class App;
 
 namespace vkdose {
 
-/// Every key of a case file, or of a study.
-std::string keysPage(bool study);
+/// The kinds of files that people write.
+enum class FileKind { Case, Study, Powder };
+
+/// Every key of a file of this kind.
+std::span<const KeyTable> keysOfKind(FileKind kind);
+std::string keysPage(FileKind kind);
 
 /// Every column of the tables that a run leaves, or a sweep.
 std::string columnsPage(bool sweep);

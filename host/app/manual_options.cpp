@@ -15,7 +15,8 @@ namespace {
 
 CLI::App& addKeys(CLI::App& group, ManualOptions& options) {
     CLI::App& command = *group.add_subcommand("keys", "list every key of a case file: unit, default, bounds, meaning");
-    command.add_flag("--study", options.study, "list the keys of a study file instead");
+    auto* study = command.add_flag("--study", options.study, "list the keys of a study file instead");
+    command.add_flag("--powder", options.powder, "list the keys of a powder file instead")->excludes(study);
     command.add_flag("--schema", options.schema,
                      "print them as a JSON Schema, by which an editor completes and checks");
     return command;
@@ -60,7 +61,10 @@ int printed(const std::string& page) {
 
 std::vector<Command> declareManual(CLI::App& program, Options& o) {
     CLI::App& manual = addGroup(program, "manual", "print what vkdose knows of its files and commands");
-    const auto keys = [&o] { return printed(o.manual.schema ? keySchema(o.manual.study) : keysPage(o.manual.study)); };
+    const auto keys = [&o] {
+        const FileKind kind = o.manual.study ? FileKind::Study : o.manual.powder ? FileKind::Powder : FileKind::Case;
+        return printed(o.manual.schema ? keySchema(kind) : keysPage(kind));
+    };
     const auto options = [&] { return printed(optionsPage(program, o.manual.brief)); };
     return {
         {&addKeys(manual, o.manual), keys},

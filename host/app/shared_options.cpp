@@ -2,6 +2,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "host/model/case_tree.h"
+
 namespace vkdose {
 
 CLI::App& addGroup(CLI::App& program, const char* name, const char* about) {
@@ -14,8 +16,18 @@ void addSet(CLI::App& command, std::vector<std::string>& overrides, const char* 
     command.add_option("--set", overrides, what)->type_name("KEY=VALUE")->take_all()->allow_extra_args(false);
 }
 
+void usePowder(CaseOptions& input) {
+    if (input.powder.empty()) return;
+    input.powder = std::filesystem::absolute(findPowder(input.powder)).lexically_normal();
+    input.overrides.insert(input.overrides.begin(), "powder_file=" + tomlString(input.powder.string()));
+}
+
 CLI::Option& addCase(CLI::App& command, CaseOptions& input) {
     addSet(command, input.overrides, "replace a value of the case: --set coil.speed_rpm=60; may be repeated");
+    command
+        .add_option("--powder", input.powder,
+                    "a powder in place of the case's: a powder file (TOML), or a name that `vkdose powders` lists")
+        ->type_name("FILE");
     return *command.add_option("case", input.file, "case file (TOML), or the name of a case in the folder cases")
                 ->required();
 }
@@ -49,8 +61,8 @@ void addShow(CLI::App& command, bool& quiet, bool& live, bool& events) {
         ->excludes("--live");
 }
 
-void addFor(CLI::App& command, std::optional<TimeLimit>& limit) {
-    command
+CLI::Option* addFor(CLI::App& command, std::optional<TimeLimit>& limit) {
+    return command
         .add_option_function<std::string>(
             "--for",
             [&limit](const std::string& text) {

@@ -18,10 +18,14 @@ namespace vkdose {
 /// A command that has commands of its own.
 CLI::App& addGroup(CLI::App& program, const char* name, const char* about);
 
-/// The options with the file of a case that may have been given by its name.
+/// Finds the powder of a case that is named, and makes it an override, the first.
+void usePowder(CaseOptions& input);
+
+/// The options with the files of a case and of a powder that may have been given by their names.
 template <class Command>
 const Command& named(Command& options) {
     options.input.file = findCase(options.input.file);
+    usePowder(options.input);
     return options;
 }
 
@@ -48,7 +52,7 @@ void addParent(CLI::App& command, int& parent);
 void addShow(CLI::App& command, bool& quiet, bool& live, bool& events);
 
 /// --for, of commands that run members.
-void addFor(CLI::App& command, std::optional<TimeLimit>& limit);
+CLI::Option* addFor(CLI::App& command, std::optional<TimeLimit>& limit);
 
 CLI::Option& addAssume(CLI::App& command, bool& assume);
 

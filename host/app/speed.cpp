@@ -61,8 +61,7 @@ std::string workText(const Derived& derived) {
 }
 
 std::string runTimeText(const Derived& derived, const Speed& speed) {
-    const std::string text =
-        fmt::format("run time   {} {}\n", duration(derived.work / speed.rate), speedText(speed));
+    const std::string text = fmt::format("run time   {} {}\n", duration(derived.work / speed.rate), speedText(speed));
     return text + caveatText(speed, 11);
 }
 

@@ -32,7 +32,7 @@ constexpr Key kLaboratory[] = {
 };
 constexpr Key kHeld[] = {
     text("test", kRequired, "the case that the spheres were run in; the path is relative to this file"),
-    text("figure", kRequired, "its figure, named as in `summary.json`: `\"heap.angle_deg\"`"),
+    text("figure", kRequired, "its figure, named as in `summary.json`, or what is made of such: `\"heap.angle_deg\"`"),
     number("measured", kPlain, Bound::Any, kRequired, "by the laboratory, in the unit of the figure"),
     number("measured_error", kPlain, kNonNegative, told("none stated"), "standard error of that"),
     number("simulated", kPlain, Bound::Any, kRequired, "mean over the runs"),

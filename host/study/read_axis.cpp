@@ -10,6 +10,7 @@
 #include "host/core/number.h"
 #include "host/model/named_file.h"
 #include "host/study/normal_distribution.h"
+#include "host/study/study_keys.h"
 
 namespace vkdose {
 
@@ -124,6 +125,16 @@ Node cellValue(const Node& place, const std::string& text) {
     return node;
 }
 
+/// The first rows of a table, as if they had been written at `place`.
+std::vector<std::vector<Node>> rowsOf(const Table& csv, const Node& place, std::size_t count) {
+    std::vector<std::vector<Node>> points;
+    for (std::size_t row = 0; row < count; ++row) {
+        std::vector<Node>& point = points.emplace_back();
+        for (const std::string& cell : csv.row(row)) point.push_back(cellValue(place, cell));
+    }
+    return points;
+}
+
 /// The points are the rows of a CSV whose columns are keys.
 void readTable(CaseReader& reader, Section& table, const std::string& path, const std::filesystem::path& folder,
                Axis& axis, std::set<std::string>& used) {
@@ -139,11 +150,7 @@ void readTable(CaseReader& reader, Section& table, const std::string& path, cons
         return reader.fault(path + (table.has("points") ? ".points" : ".table"),
                             fmt::format("{} has {} rows", file.filename().string(), csv.rows()),
                             "give no more points than it has, at least one");
-    for (std::size_t row = 0; row < points; ++row) {
-        std::vector<Node> point;
-        for (const std::string& cell : csv.row(row)) point.push_back(cellValue(*table.node("table"), cell));
-        axis.points.push_back(std::move(point));
-    }
+    axis.points = rowsOf(csv, *table.node("table"), points);
 }
 
 void readKeys(CaseReader& reader, Section& table, const std::string& path, Axis& axis, std::set<std::string>& used) {
@@ -160,6 +167,20 @@ void readKeys(CaseReader& reader, Section& table, const std::string& path, Axis&
 }
 
 }  // namespace
+
+Axis axisOfTable(const std::filesystem::path& file, int points) {
+    const Table csv = Table::read(file, LastLine::Whole);
+    CaseReader reader(file.string(), Node{}, studyKeys());
+    std::set<std::string> used;
+    for (const std::string& key : csv.names()) checkKey(reader, "table", key, used);
+    if (std::size_t(points) > csv.rows())
+        reader.fault("table", fmt::format("has {} rows, and {} are asked for", csv.rows(), points),
+                     "ask for no more than it has");
+    reader.throwIfFaulty();
+    Node place;
+    place.file = file.string();
+    return {csv.names(), rowsOf(csv, place, std::size_t(points))};
+}
 
 bool checkKey(CaseReader& reader, const std::string& path, const std::string& key, std::set<std::string>& used) {
     if (!isKeyPath(key)) {

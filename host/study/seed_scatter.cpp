@@ -18,16 +18,20 @@ double chanceWithin(double t, int freedom) {
 /// By which factor two standard errors must grow, to hold the truth as often as those of a known deviation do.
 double widening(int freedom) {
     constexpr double kErrors = 2;
-    const double chance = std::erf(kErrors / std::sqrt(2.0));
-    double low = 1, high = 10;  // 6.98 for one degree
-    while (high - low > 1e-12) {
-        const double middle = (low + high) / 2;
-        (chanceWithin(kErrors * middle, freedom) < chance ? low : high) = middle;
-    }
-    return high;
+    return studentFactor(std::erf(kErrors / std::sqrt(2.0)), freedom) / kErrors;
 }
 
 }  // namespace
+
+double studentFactor(double chance, int freedom) {
+    double low = 0, high = 1;
+    while (chanceWithin(high, freedom) < chance) high *= 2;
+    while (high - low > 1e-12 * high) {
+        const double middle = (low + high) / 2;
+        (chanceWithin(middle, freedom) < chance ? low : high) = middle;
+    }
+    return high;
+}
 
 double SeedScatter::errorOfMean(int count) const {
     return freedom > 0 ? widening(freedom) * deviation / std::sqrt(double(count)) : deviation;

@@ -16,6 +16,10 @@ struct SeedScatter {
     double errorOfMean(int count) const;
 };
 
+/// How many deviations off the mean a value of Student's distribution lies at most with this chance, below 1 [-]: 2.262
+/// for 0.95 and 9 degrees of freedom.
+double studentFactor(double chance, int freedom);
+
 /// Pooled over all points. Each point is a list of the values of its seeds; those that are not finite are left out. Two
 /// or three seeds of one point say next to nothing about their scatter. Those of all points together do, if the scatter
 /// is much the same everywhere.
