@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "host/analysis/line_fit.h"
+#include "host/core/line_fit.h"
 
 namespace vkdose {
 

@@ -5,8 +5,9 @@
 #include <limits>
 #include <stdexcept>
 
-#include "host/analysis/line_fit.h"
+#include "host/analysis/quarters.h"
 #include "host/analysis/surface_map.h"
+#include "host/core/line_fit.h"
 #include "host/sim/density.h"
 
 namespace vkdose {
@@ -58,6 +59,56 @@ std::optional<double> drumAngle(const Particles& particles) {
     }
     if (most - least > kSteady) return std::nullopt;
     return sum / kCounted;
+}
+
+namespace {
+
+constexpr int kQuarters = 4;
+constexpr double kMostPixels = 1000;  // of the window's half
+
+double pixelOf(double halfWidth, double diameter) {
+    return std::max(diameter / kPixelsOfDiameter, halfWidth / kMostPixels);
+}
+
+}  // namespace
+
+DrumFront::DrumFront(double halfWidth, double diameter, int photographs)
+    : halfWidth_(halfWidth),
+      diameter_(diameter),
+      photographs_(photographs),
+      all_(halfWidth, pixelOf(halfWidth, diameter)),
+      quarters_(kQuarters, all_) {}
+
+void DrumFront::add(const Particles& particles) {
+    const int quarter = std::min(kQuarters * all_.photographs() / std::max(1, photographs_), kQuarters - 1);
+    quarters_[static_cast<std::size_t>(quarter)].add(particles);
+    all_.add(particles);
+}
+
+std::optional<double> DrumFront::angleOf(const AveragedView& view) const {
+    const std::vector<std::optional<double>> heights = view.surface();
+    LineFit line;
+    for (int c = 0; c < view.columns(); ++c) {
+        const auto& height = heights[static_cast<std::size_t>(c)];
+        if (!height) return std::nullopt;
+        line.add(view.x(c), *height);
+    }
+    return std::atan(line.slope());
+}
+
+int DrumFront::emptyColumns() const {
+    const std::vector<std::optional<double>> heights = all_.surface();
+    return static_cast<int>(std::count(heights.begin(), heights.end(), std::nullopt));
+}
+
+std::optional<SurfaceAngle> DrumFront::angle() const {
+    if (!(2 * halfWidth_ > kLeastDiameters * diameter_)) return std::nullopt;
+    const auto angle = angleOf(all_);
+    if (!angle) return std::nullopt;
+    std::vector<double> parts;
+    for (const AveragedView& quarter : quarters_)
+        if (const auto part = angleOf(quarter); part && quarter.photographs() > 1) parts.push_back(*part);
+    return SurfaceAngle{*angle, parts.size() == kQuarters ? errorOfMean(parts) : std::nan("")};
 }
 
 }  // namespace vkdose

@@ -7,8 +7,10 @@
 #include <vector>
 
 #include "geometry/surface.h"
-#include "host/analysis/line_fit.h"
+#include "host/analysis/averaged_view.h"
+#include "host/analysis/quarters.h"
 #include "host/analysis/surface_map.h"
+#include "host/core/line_fit.h"
 #include "host/sim/density.h"
 
 namespace vkdose {
@@ -78,10 +80,79 @@ std::optional<HeapSlope> heapSlope(const Particles& particles) {
         quarters.at((map.x(i) < 0 ? 2U : 0U) + (map.z(i) < 0 ? 1U : 0U)).add(r, h);
     }
     slope.angle = std::atan(-whole.slope());
-    double mean = 0, squares = 0;
-    for (const LineFit& q : quarters) mean += std::atan(-q.slope()) / 4;
-    for (const LineFit& q : quarters) squares += std::pow(std::atan(-q.slope()) - mean, 2);
-    slope.error = std::sqrt(squares / 3) / 2;  // the deviation of four, over the root of four
+    std::vector<double> angles;
+    for (const LineFit& q : quarters) angles.push_back(std::atan(-q.slope()));
+    slope.error = errorOfMean(angles);
+    return slope;
+}
+
+namespace {
+
+constexpr int kViews = 16;  // photographs from all sides; each shows two flanks
+
+/// The powder as a camera sees it that has gone round the heap by this angle [rad].
+Particles seenFrom(const Particles& particles, double angle) {
+    Particles turned = particles;
+    for (Vec3& at : turned.position)
+        at = {std::cos(angle) * at.x + std::sin(angle) * at.z, at.y, std::cos(angle) * at.z - std::sin(angle) * at.x};
+    return turned;
+}
+
+double widthOf(const Particles& particles) {
+    double width = 0;
+    for (std::size_t i = 0; i < particles.size(); ++i)
+        if (particles.status[i] == Status::Active)
+            width = std::max(width, std::hypot(particles.position[i].x, particles.position[i].z) + particles.radius[i]);
+    return width;
+}
+
+/// A flank of a photograph.
+struct Flank {
+    LineFit line;             ///< height over the distance from the axis, which is negative on the left
+    double from = 0, to = 0;  ///< distances of its ends from the axis [m]
+};
+
+/// The flank of the photograph to the right of its highest column (`side` 1) or to the left (-1).
+Flank flankOf(const AveragedView& view, const std::vector<std::optional<double>>& heights, int top, int side) {
+    const auto height = [&](int c) {
+        return c < 0 || c >= view.columns() ? 0 : heights[static_cast<std::size_t>(c)].value_or(0);
+    };
+    int column = top;
+    while (height(column) > kFlankHigh * height(top)) column += side;
+    Flank flank;
+    flank.from = flank.to = side * view.x(column) - view.pixel() / 2;
+    for (; height(column) >= kFlankLow * height(top); column += side) {
+        flank.line.add(side * view.x(column), height(column));
+        flank.to = side * view.x(column) + view.pixel() / 2;
+    }
+    return flank;
+}
+
+}  // namespace
+
+std::optional<HeapSlope> heapSlopeFromSide(const Particles& particles) {
+    const double diameter = 2 * meanActiveRadius(particles), width = widthOf(particles);
+    if (!(diameter > 0)) return std::nullopt;
+    HeapSlope slope;
+    std::array<double, 4> quarters{};
+    for (int k = 0; k < kViews; ++k) {
+        AveragedView view(width, diameter / kPixelsOfDiameter);
+        view.add(seenFrom(particles, kPi * k / kViews));
+        const std::vector<std::optional<double>> heights = view.surface();
+        const auto top = std::max_element(heights.begin(), heights.end());
+        if (!(*top > 0.0)) return std::nullopt;
+        slope.height += **top / kViews;
+        for (const int side : {1, -1}) {
+            const Flank flank = flankOf(view, heights, static_cast<int>(top - heights.begin()), side);
+            if (!(flank.to - flank.from >= 3 * diameter)) return std::nullopt;
+            const double angle = std::atan(-flank.line.slope());
+            slope.angle += angle / (2 * kViews);
+            slope.from += flank.from / (2 * kViews);
+            slope.to += flank.to / (2 * kViews);
+            quarters.at(static_cast<std::size_t>((side > 0 ? k : kViews + k) / 8)) += angle / 8;
+        }
+    }
+    slope.error = errorOfMean({quarters.begin(), quarters.end()});
     return slope;
 }
 

@@ -29,4 +29,12 @@ struct HeapSlope {
 /// least squares fit to the surface over the flank's rings. None if the flank has fewer than three rings.
 std::optional<HeapSlope> heapSlope(const Particles& particles);
 
+/// The slope of the same heap as sixteen photographs show it that are taken from all sides, at equal angles
+/// (AveragedView). A photograph shows the outline of the heap: in each column the highest powder along the line of
+/// sight. Its flanks go from the highest column outwards, to the right and to the left, from 80 down to 20 % of the
+/// highest column's height. `angle` is the mean over the thirty-two flanks of the angle of the least-squares line
+/// through the heights of its columns; `error` that of the means of the four quarters of the compass; height, `from`
+/// and `to` are means. None if a flank has fewer than three mean diameters.
+std::optional<HeapSlope> heapSlopeFromSide(const Particles& particles);
+
 }  // namespace vkdose

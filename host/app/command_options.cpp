@@ -213,7 +213,8 @@ CLI::App& addReport(CLI::App& program, ReportOptions& options) {
 CLI::App& addProfile(CLI::App& program, ProfileOptions& options) {
     CLI::App& command = *program.add_subcommand("profile", "trace the surface of the powder in a photograph");
     photo::Reading& reading = options.reading;
-    command.add_option("photo", options.photo, "PNG, JPEG or TIFF")->required();
+    command.add_option("photo", options.photos, "PNG, JPEG or TIFF; of several of one scene the mean is read")
+        ->required();
     command
         .add_option_function<std::vector<int>>(
             "--roi",

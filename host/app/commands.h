@@ -149,7 +149,7 @@ struct ReportOptions {
 };
 
 struct ProfileOptions {
-    std::filesystem::path photo;
+    std::vector<std::filesystem::path> photos;  ///< of one scene; their mean is read
     photo::Reading reading;
     std::filesystem::path out = "profile.csv";
     std::filesystem::path check;  ///< empty: no picture to judge by

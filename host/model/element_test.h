@@ -15,6 +15,14 @@ struct ElementTest {
     /// The words for the kinds in files, in their order.
     static constexpr const char* kKinds = "angle_of_repose drum_angle compression shear bulk_density discharge content";
 
+    /// How the surface of the powder is looked at.
+    enum class View {
+        Bulk,   ///< all of it, as seen from above
+        Front,  ///< DrumAngle: as averaged photographs through the front glass show it
+        Side,   ///< AngleOfRepose: as photographs from the side show it
+    };
+    static constexpr const char* kViews = "bulk front side";
+
     /// A time over which a figure is taken [s].
     struct Window {
         double from = 0, to = 0;
@@ -22,6 +30,8 @@ struct ElementTest {
 
     std::string name;
     Kind kind = Kind::AngleOfRepose;
+    View view = View::Bulk;
+    double halfWidth = 0;  ///< DrumAngle, Front: the line is fitted where |x| is less [m]
     /// The bodies that bear the load, or the drum: places in World::bodies.
     std::vector<std::size_t> bodies;
     std::size_t region = 0;      ///< Discharge, Content: place in World::regions

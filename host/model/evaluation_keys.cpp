@@ -31,6 +31,13 @@ constexpr Key kMeasure[] = {
     text("name", told("the kind"), "of its figures: letters, digits, `-` and `_`"),
     vector("at", kMetre, {0, 0, 0},
            "`angle_of_repose`, `bulk_density`: a point of the upright axis, at the height of the foot or floor"),
+    word("view", ElementTest::kViews, "bulk",
+         "`angle_of_repose`, `drum_angle`: how the surface is looked at. `\"bulk\"`: all of the powder counts; "
+         "`\"side\"`, of a heap: as photographs of its outline show it; `\"front\"`, of a drum: as the mean of "
+         "photographs through its glass shows it"),
+    number("window_mm", kMillimetre, kPositive, told("required with `view = \"front\"`"),
+           "`drum_angle`: the line is fitted to the surface less than this to the left and to the right of the drum's "
+           "axis"),
     number("radius_mm", kMillimetre, kPositive, kRequired,
            "`bulk_density`: inner radius of the round container; `shear`: of the cell"),
     number("time_s", kSecond, kNonNegative, told("the end of the run"),

@@ -107,11 +107,55 @@ void requireFrames(CaseReader& reader, Section& s, const char* key, const Case& 
     reader.fault(s.path(key), "looks at frames, and the run keeps none", "add [frames] with interval_s");
 }
 
+/// Whether the surface is looked at by a camera, from where `camera` says; else all of the powder counts.
+bool readCamera(CaseReader& reader, Section& s, ElementTest::View camera, ElementTest& m) {
+    const std::optional<std::size_t> view = s.choice("view");
+    if (!view) return false;
+    m.view = static_cast<ElementTest::View>(*view);
+    if (m.view != ElementTest::View::Bulk && m.view != camera)
+        reader.fault(s.path("view"), "is no view of this kind of measure",
+                     fmt::format("give \"{}\", or \"bulk\"", wordsOf(ElementTest::kViews).at(std::size_t(camera))));
+    return m.view == camera;
+}
+
+/// Of a drum made of a cylinder [m]; endless if it has another form.
+double largestRadius(const RigidBody& drum) {
+    double radius = 0;
+    for (const geometry::Shape& shape : drum.shapes)
+        if (const auto* round = std::get_if<geometry::Cone>(&shape))
+            radius = std::max({radius, round->baseRadius, round->endRadius});
+    return radius > 0 ? radius : geometry::kEndless;
+}
+
+void readFrontView(CaseReader& reader, Section& s, const Case& c, ElementTest& m) {
+    constexpr const char* kWindow = "window_mm";
+    if (!readCamera(reader, s, ElementTest::View::Front, m)) {
+        s.know(kWindow);
+        if (s.has(kWindow) && m.view == ElementTest::View::Bulk)
+            reader.fault(s.path(kWindow), "belongs to a view through the glass",
+                         "add view = \"front\", or leave it out");
+        return;
+    }
+    if (!s.has(kWindow)) {
+        reader.fault(
+            s.path(kWindow), "is missing",
+            "give the distance from the drum's axis up to which the line is fitted, half of the drum's radius say");
+        return;
+    }
+    m.halfWidth = s.number(kWindow);
+    for (const std::size_t body : m.bodies)
+        if (const double radius = largestRadius(c.world.bodies[body]); m.halfWidth >= radius)
+            reader.fault(s.path(kWindow),
+                         fmt::format("reaches beyond the drum, whose radius is {:.6g} mm", radius * 1e3),
+                         "give less: it counts from the axis to either side");
+}
+
 void readKind(CaseReader& reader, Section& s, Kind kind, const Case& c, ElementTest& m) {
     switch (kind) {
         case Kind::AngleOfRepose:
         case Kind::BulkDensity:
             m.at = s.vector("at");
+            if (kind == Kind::AngleOfRepose) readCamera(reader, s, ElementTest::View::Side, m);
             if (kind == Kind::BulkDensity) m.radius = s.number("radius_mm");
             if (s.has("time_s")) {
                 m.time = s.number("time_s");
@@ -124,6 +168,7 @@ void readKind(CaseReader& reader, Section& s, Kind kind, const Case& c, ElementT
             for (const std::size_t body : m.bodies)
                 if (!std::holds_alternative<Turn>(c.world.bodies[body].course.motion))
                     reader.fault(s.path("body"), "does not turn", "name a body with [body.motion] kind = \"turn\"");
+            readFrontView(reader, s, c, m);
             m.windows = readWindows(reader, s, false);
             requireFrames(reader, s, "from_s", c);
             return;

@@ -44,7 +44,9 @@ const Wording* wordingOf(const std::string& name) {
 
 std::vector<std::string> figureNames(const ElementTest& m) {
     std::vector<std::string> names;
-    for (const Wording& w : wordingsOf(m.kind)) names.emplace_back(w.name);
+    const bool throughGlass = m.kind == ElementTest::Kind::DrumAngle && m.view == ElementTest::View::Front;
+    for (const Wording& w : throughGlass ? std::span<const Wording>(kDrumFront) : wordingsOf(m.kind))
+        names.emplace_back(w.name);
     if (!m.preShears.empty())
         for (const Wording& w : kPreShear) names.emplace_back(w.name);
     if (m.kind == ElementTest::Kind::Shear)

@@ -32,6 +32,12 @@ inline constexpr Wording kDrum[] = {
     {"angle_deviation_deg", "deviation from frame to frame", "°"},
     {"frames", "frames", ""},
 };
+/// With a view through the glass, in their place.
+inline constexpr Wording kDrumFront[] = {
+    kAngle,
+    {"angle_error_deg", "standard error of the angle", "°"},
+    {"frames", "frames", ""},
+};
 inline constexpr Wording kCompression[] = {
     {"max_stress_Pa", "largest stress", "kPa", 1e-3},
     {"loose_density_kg_m3", "loose density", "kg/m³"},

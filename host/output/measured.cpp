@@ -108,7 +108,8 @@ class Measuring {
 
     Figures heap(const ElementTest& m, std::string& why) const {
         const State state = stateAt(m.time);
-        const auto slope = heapSlope(upright(state.particles, m.at, up_));
+        const Particles powder = upright(state.particles, m.at, up_);
+        const auto slope = m.view == ElementTest::View::Side ? heapSlopeFromSide(powder) : heapSlope(powder);
         if (!slope) {
             why = "the powder makes no heap with a flank of three diameters about its axis";
             return {};
@@ -128,18 +129,51 @@ class Measuring {
         return named(kBulk, {bulk->density, bulk->solid / bulk->volume, bulk->volume, state.time});
     }
 
-    Figures drum(const ElementTest& m, std::string& why) const {
+    /// The frames of the first window.
+    std::vector<FrameEntry> framesIn(const ElementTest& m) const {
+        std::vector<FrameEntry> found;
+        for (const FrameEntry& entry : frames_.entries())
+            if (entry.time >= m.windows.at(0).from && entry.time <= m.windows.at(0).to) found.push_back(entry);
+        return found;
+    }
+
+    /// The powder of a frame, as it stands in the drum.
+    Particles inDrumOf(const ElementTest& m, const FrameEntry& entry) const {
         const RigidBody& body = c_.world.bodies.at(m.bodies.at(0));
         const auto& turn = std::get<geometry::Turn>(body.course.motion);
         // By the drive a body turns as the coil conveys, which may be either way about its axis.
         const bool back = body.clock == Clock::Drive ? turn.rate * senseOfDrive() < 0 : turn.rate < 0;
-        const Vec3 axis = back ? -turn.axis : turn.axis;
-        std::vector<double> angles;
-        for (const FrameEntry& entry : frames_.entries()) {
-            if (entry.time < m.windows.at(0).from || entry.time > m.windows.at(0).to) continue;
-            if (const auto angle = drumAngle(inDrum(frames_.read(entry).particles, turn.through, axis, up_)))
-                angles.push_back(degrees(*angle));
+        return inDrum(frames_.read(entry).particles, turn.through, back ? -turn.axis : turn.axis, up_);
+    }
+
+    static std::string whyNoFront(const ElementTest& m, const DrumFront& front, double diameter) {
+        const double window = m.halfWidth * 1e3;
+        if (front.photographs() == 0) return "no frame is in its time";
+        if (2 * m.halfWidth <= DrumFront::kLeastDiameters * diameter)
+            return fmt::format("a window from {:.4g} to {:.4g} mm is no wider than {:.0f} mean diameters, of {:.4g} mm",
+                               -window, window, DrumFront::kLeastDiameters, diameter * 1e3);
+        return fmt::format("the bed does not reach from {:.4g} to {:.4g} mm: {} of {} columns of pixels show none",
+                           -window, window, front.emptyColumns(), front.columns());
+    }
+
+    Figures drumFront(const ElementTest& m, std::string& why) const {
+        const std::vector<FrameEntry> entries = framesIn(m);
+        const double diameter = 2 * meanActiveRadius(result_.particles);
+        DrumFront front(m.halfWidth, diameter, static_cast<int>(entries.size()));
+        for (const FrameEntry& entry : entries) front.add(inDrumOf(m, entry));
+        const auto seen = front.angle();
+        if (!seen) {
+            why = whyNoFront(m, front, diameter);
+            return {};
         }
+        return named(kDrumFront, {degrees(seen->angle), degrees(seen->error), static_cast<double>(entries.size())});
+    }
+
+    Figures drum(const ElementTest& m, std::string& why) const {
+        if (m.view == ElementTest::View::Front) return drumFront(m, why);
+        std::vector<double> angles;
+        for (const FrameEntry& entry : framesIn(m))
+            if (const auto angle = drumAngle(inDrumOf(m, entry))) angles.push_back(degrees(*angle));
         if (angles.empty()) {
             why = "no frame in its time shows a bed ten diameters wide with a free surface";
             return {};

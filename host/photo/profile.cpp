@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/core/line_fit.h"
 #include "host/photo/light.h"
 
 namespace vkdose::photo {
@@ -56,6 +57,7 @@ Surface surfaceOf(const Picture& picture, const Reading& reading) {
     s.region = reading.region.value_or(whole(picture));
     const Grey grey = greyOf(picture, s.region);
     s.mmPerPixel = pixelSize(reading, s.region);
+    s.rearLeft = reading.rearLeft;
     const int speck = speckPixels(reading, s.mmPerPixel);
     const Mask bed = bedOf(powderPixels(grey, reading, s.powder), speck);
     s.edge = upperEdge(bed);
@@ -82,6 +84,14 @@ Surface surfaceOf(const Picture& picture, const Reading& reading) {
             "no powder reaches the region's lower edge; end --roi at the canister's lowest point, or tell what is "
             "--powder, dark or light");
     return s;
+}
+
+std::optional<double> slopeOf(const Surface& surface) {
+    LineFit line;
+    for (const SurfacePoint& p : surface.points)
+        if (p.heightMm) line.add(surface.rearLeft ? p.zMm : -p.zMm, *p.heightMm);
+    if (line.count() < 2) return std::nullopt;
+    return std::atan(line.slope());
 }
 
 std::string csvText(const Surface& surface) {

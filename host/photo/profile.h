@@ -35,7 +35,8 @@ struct Surface {
     std::vector<std::optional<int>> edge;  ///< per column of the region: the highest row of the bed, from the top
     Powder powder = Powder::Dark;
     double mmPerPixel = 0;
-    int columnsCut = 0;  ///< where the bed reaches the region's upper edge, so that its height is not known
+    bool rearLeft = true;  ///< the rear wall is on the left: `points` go to the right
+    int columnsCut = 0;    ///< where the bed reaches the region's upper edge, so that its height is not known
 };
 
 /// Row of the highest 1 in every column, from the top; none where there is none.
@@ -44,6 +45,10 @@ std::vector<std::optional<int>> upperEdge(const Mask& mask);
 /// Finds the surface. A height is off by up to half a pixel, and by the blur of the picture. Throws PhotoError if the
 /// options make no sense or nothing is found.
 Surface surfaceOf(const Picture& picture, const Reading& reading);
+
+/// Angle to the horizontal of the least-squares line through the heights of all columns that have one [rad]; positive
+/// where the surface rises to the right of the picture. None of fewer than two heights.
+std::optional<double> slopeOf(const Surface& surface);
 
 /// "z_mm,height_mm" and a line for each point; the height is empty where there is none.
 std::string csvText(const Surface& surface);

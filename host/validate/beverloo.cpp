@@ -5,7 +5,7 @@
 #include <cmath>
 #include <set>
 
-#include "host/analysis/line_fit.h"
+#include "host/core/line_fit.h"
 #include "host/core/worse.h"
 #include "host/validate/comparisons.h"
 

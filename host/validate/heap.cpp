@@ -9,7 +9,7 @@
 #include <cmath>
 #include <map>
 
-#include "host/analysis/line_fit.h"
+#include "host/core/line_fit.h"
 #include "host/validate/comparisons.h"
 
 namespace vkdose::validate {

@@ -8,9 +8,9 @@
 #include <limits>
 #include <map>
 
-#include "host/analysis/line_fit.h"
 #include "host/analysis/steady.h"
 #include "host/core/csv_table.h"
+#include "host/core/line_fit.h"
 #include "host/validate/comparisons.h"
 
 namespace vkdose::validate {

@@ -11,7 +11,7 @@
 #include <map>
 
 #include "host/analysis/discharge.h"
-#include "host/analysis/line_fit.h"
+#include "host/core/line_fit.h"
 #include "host/validate/comparisons.h"
 
 namespace vkdose::validate {

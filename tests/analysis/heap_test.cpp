@@ -42,6 +42,32 @@ TEST_CASE("the slope of a cone of small spheres is the cone's") {
     }
 }
 
+TEST_CASE("the slope of a cone from the side is the cone's") {
+    for (const double degrees : {12.0, 30.0, 45.0, 60.0}) {
+        CAPTURE(degrees);
+        const auto slope = heapSlopeFromSide(cone(degrees * kDegreeAngle, 15e-3, 0.5e-3));
+        REQUIRE(slope);
+        CHECK(near(slope->angle / kDegreeAngle, degrees, 1, 0.2));
+        CHECK(slope->error / kDegreeAngle < 0.1);
+        CHECK(nearRelative(slope->height, 15e-3 + 0.5e-3, 0.01));
+        CHECK(nearRelative(slope->to - slope->from, 0.6 * slope->height / std::tan(degrees * kDegreeAngle), 0.03));
+    }
+}
+
+TEST_CASE("a ridge hides the flat flanks before and behind it: the two views of a heap differ") {
+    // A cone of 25 degrees with two thin walls of 40 degrees across it, one along x and one along z.
+    Particles p = cone(25 * kDegreeAngle, 12e-3, 0.5e-3);
+    for (int i = -60; i <= 60; ++i) {
+        const double s = 0.25e-3 * i, h = 16e-3 - std::abs(s) * std::tan(40 * kDegreeAngle);
+        p.add({s, h, 0}, 0.5e-3);
+        p.add({0, h, s}, 0.5e-3);
+    }
+    const auto plan = heapSlope(p), side = heapSlopeFromSide(p);
+    REQUIRE(plan);
+    REQUIRE(side);
+    CHECK(side->angle - plan->angle > 3 * kDegreeAngle);
+}
+
 TEST_CASE("the slope of a heap does not change with its place, with what has rolled away and what was dosed") {
     const double angle = 33 * kDegreeAngle;
     const Vec3 up = glm::normalize(Vec3(0.3, 0.2, 1)), foot(0.1, -0.2, 0.05);
@@ -59,6 +85,9 @@ TEST_CASE("the slope of a heap does not change with its place, with what has rol
     REQUIRE(slope);
     CHECK(near(slope->angle / kDegreeAngle, plain->angle / kDegreeAngle, 1, 0.1));
     CHECK(nearRelative(slope->height, plain->height, 0.02));
+    const auto side = heapSlopeFromSide(upright(turned, foot, up));
+    REQUIRE(side);
+    CHECK(near(side->angle / kDegreeAngle, 33, 1, 0.1));
 }
 
 TEST_CASE("an uneven heap has the mean slope, and its error tells the unevenness") {
@@ -80,6 +109,8 @@ TEST_CASE("a layer of powder is no heap") {
     Particles p;
     for (int i = -10; i <= 10; ++i)
         for (int k = -10; k <= 10; ++k) p.add({2e-3 * i, 1e-3, 2e-3 * k}, 1e-3);
-    CHECK_FALSE(heapSlope(p));
-    CHECK_FALSE(heapSlope(Particles()));
+    for (const auto& slope : {heapSlope, heapSlopeFromSide}) {
+        CHECK_FALSE(slope(p));
+        CHECK_FALSE(slope(Particles()));
+    }
 }

@@ -47,6 +47,31 @@ TEST_CASE("profile writes the surface and the picture to judge it by") {
     CHECK(near(std::stod(mirrored[150][1]), 27, 0.2, 1));
 }
 
+TEST_CASE("profile reads the mean of several photographs, and tells the slope") {
+    const Sandbox box;
+    std::string names;
+    for (const int i : {0, 1, 2, 3, 4}) {
+        Drawing d;
+        d.surface = [&](double x) { return 60 + 8 * i + x / 2; };  // the middle one at 76 pixels
+        box.write(std::to_string(i) + ".png", photo::pngBytes(photo::pictureOf(draw(d))));
+        names += std::to_string(i) + ".png ";
+    }
+    const auto o = box.vkdose("profile " + names + "--mm-per-pixel 0.2 --roi 50,0,100,200");
+    CAPTURE(o.out, o.err);
+    REQUIRE(o.code == 0);
+    CHECK_THAT(o.out, Catch::Contains("at 26.57° to the horizontal, rising to the right"));
+    const auto rows = readCsv(box / "profile.csv");
+    REQUIRE(rows.size() == 101);
+    CHECK(near(std::stod(rows[1][1]), 0.2 * (76 + 25), 0.2, 1));
+
+    box.write("small.png", photo::pngBytes(photo::pictureOf(photo::Grey(40, 30))));
+    const auto mixed = box.vkdose("profile 0.png small.png --mm-per-pixel 0.2");
+    CHECK(mixed.code == 2);
+    CHECK_THAT(mixed.err,
+               Catch::Contains("small.png has 40 x 30 pixels, 0.png has 300 x 200; give photographs of one"));
+    CHECK_THAT(box.vkdose("profile 0.png 1.png --mm-per-pixel 1 --out 1.png").err, Catch::Contains("1.png"));
+}
+
 TEST_CASE("profile refuses what it cannot read, and writes nothing") {
     const Sandbox box;
     writePhoto(box);

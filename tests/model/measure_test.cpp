@@ -93,6 +93,17 @@ kind = "content"
 region = "pan"
 from_s = 0.03
 to_s = 0.05
+[[measure]]
+kind = "drum_angle"
+name = "photographed"
+body = "drum"
+view = "front"
+window_mm = 21.0
+from_s = 0.04
+[[measure]]
+kind = "angle_of_repose"
+name = "outline"
+view = "side"
 )";
 
 }  // namespace
@@ -103,7 +114,7 @@ TEST_CASE("measures: every kind comes from its keys, and the resolved case gives
     const Case again = loadCase(read.folder.write("resolved.toml", first.resolved));
     for (const Case* c : {&first, &again}) {
         const std::vector<ElementTest>& m = c->measures;
-        REQUIRE(m.size() == 7);
+        REQUIRE(m.size() == 9);
         CHECK(m[0].kind == ElementTest::Kind::AngleOfRepose);
         CHECK(m[0].name == "angle_of_repose");
         CHECK(near(m[0].at, Vec3(0.01, 0.002, -0.01), 1, 1e-15));
@@ -133,6 +144,11 @@ TEST_CASE("measures: every kind comes from its keys, and the resolved case gives
         CHECK(m[6].region == m[5].region);
         REQUIRE(m[6].windows.size() == 1);
         CHECK(m[6].windows[0].to == 0.05);
+        CHECK(m[2].view == ElementTest::View::Bulk);
+        CHECK(m[7].view == ElementTest::View::Front);
+        CHECK(nearRelative(m[7].halfWidth, 21e-3, 1e-12));
+        CHECK(m[0].view == ElementTest::View::Bulk);
+        CHECK(m[8].view == ElementTest::View::Side);
     }
     CHECK(again.resolved == first.resolved);
 }
@@ -149,12 +165,26 @@ TEST_CASE("measures: a fault names file, line, key, value and remedy") {
     CHECK_THAT(says("kind = \"drum_angle\"\nbody = \"drum plate\"\nfrom_s = 0\n"), Contains("names 2 bodies"));
     CHECK_THAT(says("kind = \"drum_angle\"\nbody = \"piston\"\nfrom_s = 0\n"), Contains("does not turn"));
     CHECK_THAT(says("kind = \"drum_angle\"\nbody = \"drum\"\nfrom_s = \"late\"\n"), Contains("is no time"));
+    const std::string turned = "kind = \"drum_angle\"\nbody = \"drum\"\nfrom_s = 0\n";
+    CHECK_THAT(says(turned + "view = \"frond\"\n"), Contains("measure[0].view") && Contains("did you mean \"front\""));
+    CHECK_THAT(says(turned + "view = \"side\"\n"), Contains("measure[0].view = \"side\": is no view of this kind") &&
+                                                       Contains("give \"front\", or \"bulk\""));
+    CHECK_THAT(says(turned + "view = \"front\"\n"),
+               Contains("measure[0].window_mm: is missing") && Contains("half of the drum's radius"));
+    CHECK_THAT(
+        says(turned + "view = \"front\"\nwindow_mm = 100\n"),
+        Contains("window_mm = 100: reaches beyond the drum, whose radius is 100 mm") && Contains("to either side"));
+    CHECK_THAT(says(turned + "view = \"front\"\nwindow_mm = -5\n"), Contains("window_mm"));
+    CHECK_THAT(says(turned + "window_mm = 21\n"),
+               Contains("window_mm = 21: belongs to a view through the glass") && Contains("add view = \"front\""));
+    CHECK_THAT(says("kind = \"angle_of_repose\"\nview = \"front\"\n"), Contains("give \"side\", or \"bulk\""));
+    CHECK_THAT(says("kind = \"bulk_density\"\nradius_mm = 5\nview = \"side\"\n"), Contains("unknown key"));
     CHECK_THAT(says("kind = \"compression\"\nbody = \"plate\"\narea_mm2 = 1\nheight_mm = 1\n"),
                Contains("does not move"));
     const std::string press = "[[measure]]\nkind = \"compression\"\nbody = \"piston\"\narea_mm2 = 1\nheight_mm = 1\n";
     const std::string byPhase = replaced(withMeasures(press), "-0.01, 0]\n", "-0.01, 0]\nduring = \"settle\"\n");
-    CHECK_THAT(read.fault(byPhase), Contains("measure[0].body = \"piston\": does not move by time") &&
-                                        Contains("or freely under a force"));
+    CHECK_THAT(read.fault(byPhase),
+               Contains("measure[0].body = \"piston\": does not move by time") && Contains("or freely under a force"));
     CHECK_THAT(says("kind = \"shear\"\nbody = \"drum\"\nradius_mm = 5\nfrom_s = 0.1\n"),
                Contains("measure[0].to_s") && Contains("is missing"));
     CHECK_THAT(says("kind = \"shear\"\nbody = \"drum\"\nradius_mm = 5\nfrom_s = [0, 1]\nto_s = [1]\n"),
@@ -197,5 +227,5 @@ TEST_CASE("measures: every shipped element test loads and measures something") {
         CHECK_FALSE(loadCase(entry.path()).measures.empty());
         ++cases;
     }
-    CHECK(cases == 6);
+    CHECK(cases == 9);
 }
