@@ -326,6 +326,11 @@ TEST_CASE("a search makes no more points and confirmations than are foreseen") {
         CHECK(result->points.size() <= 10);
         CHECK(firstPoints(aim) == std::vector(result->points.begin(), result->points.begin() + 3));
     }
+    CalibrationAim more = aimAt(4.4e-3, 0.05e-3, 10, {kCohesion});
+    more.firstPoints = 7;
+    CHECK(firstPoints(more).size() == 7);
+    more.maxRuns = 5;
+    CHECK(firstPoints(more).size() == 5);
 }
 
 TEST_CASE("a target out of reach is not met, and the nearest end is told") {
