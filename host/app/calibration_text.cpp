@@ -176,7 +176,7 @@ std::string fitText(const CalibrationFinding& f) {
         text += fmt::format(
             "    there {} for {}{}{}\n", figureText(f.targets[g], f.fit->figures[g].mean, f.fit->figures[g].deviation),
             withError(f.targets[g].value, f.targets[g].uncertainty), inUnit(f.targets[g]),
-            isReached(f, g) ? "" : ": no values within the bounds give it, or not together with the others");
+            isReached(f, g) ? "" : ": by the surrogates no values within the bounds give it, or not with the others");
     if (!(f.fit->rHat < kAgreed))
         text += "    warning: the samples do not agree (R-hat is far from 1), so the intervals are rough\n";
     return text;
