@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <random>
 #include <string>
 
@@ -71,91 +70,6 @@ std::optional<SearchResult> searched(const CalibrationAim& aim, const TryPoints&
 }
 
 }  // namespace
-
-TEST_CASE("a process passes through what was observed and doubts what was not") {
-    std::vector<std::vector<double>> points;
-    std::vector<Measured> values;
-    for (const double x : {0.0, 0.2, 0.4, 0.6, 0.8, 1.0}) {
-        points.push_back({x});
-        values.push_back({std::sin(2 * kPi * x), 0});
-    }
-    const GaussianProcess process(points, values);
-    // In units of the amplitude, 1. At an observation only the little noise is left that is thought possible
-    // beforehand: exp(-4), about 2 % of the values' spread.
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        CHECK(std::abs(process.at(points[i]).mean - values[i].value) < 1e-3);
-        CHECK(process.at(points[i]).deviation < 0.02);
-    }
-    for (const double x : {0.1, 0.3, 0.5, 0.7, 0.9}) {
-        const Belief belief = process.at({x});
-        CAPTURE(x, belief.mean, belief.deviation);
-        CHECK(belief.deviation > process.at({0.4}).deviation);
-        CHECK(std::abs(belief.mean - std::sin(2 * kPi * x)) < 3 * belief.deviation);
-        CHECK(std::abs(belief.mean - std::sin(2 * kPi * x)) < 0.2);
-    }
-    CHECK(process.at({3.0}).deviation > 0.5);
-}
-
-TEST_CASE("a process finds out how noisy its observations are") {
-    std::mt19937 random(5);
-    std::normal_distribution<double> noise(0, 0.3);
-    std::vector<std::vector<double>> points;
-    std::vector<Measured> values;
-    for (int i = 0; i < 41; ++i) {
-        points.push_back({i / 40.0});
-        values.push_back({4 * points.back()[0] + noise(random), 0});
-    }
-    const GaussianProcess process(points, values);
-    double off = 0, believed = 0;
-    for (int i = 0; i < 41; ++i) {
-        off += std::pow(process.at(points[i]).mean - 4 * points[i][0], 2) / 41;
-        believed += std::pow(process.at(points[i]).deviation, 2) / 41;
-    }
-    // Between a line through 41 points (0.3 sqrt(2/41) = 0.07) and no smoothing at all (0.3).
-    CHECK(std::sqrt(off) < 0.15);
-    // Its estimate of its own error is right to a factor of two.
-    CHECK(std::sqrt(believed) > 0.5 * std::sqrt(off));
-    CHECK(std::sqrt(believed) < 3 * std::sqrt(off));
-}
-
-TEST_CASE("the mean of noise is known to its standard error, not better") {
-    // A constant, observed sixteen times with an error of 1 each.
-    std::mt19937 random(9);
-    std::normal_distribution<double> noise;
-    std::vector<std::vector<double>> points;
-    std::vector<Measured> values;
-    for (int i = 0; i < 16; ++i) {
-        points.push_back({i / 15.0});
-        values.push_back({noise(random), 1.0});
-    }
-    const GaussianProcess process(points, values);
-    // 1/sqrt(16), if it takes the observations for a constant; a slope or a bend that it thinks possible adds to that.
-    CHECK(process.at({0.5}).deviation > 0.24);
-    CHECK(process.at({0.5}).deviation < 0.6);
-}
-
-TEST_CASE("what looks like noise is not known better than a mean of noise would be") {
-    std::vector<std::vector<double>> points;
-    std::vector<Measured> values;
-    for (int i = 0; i < 8; ++i) {
-        points.push_back({i / 7.0});
-        values.push_back({i % 2 == 0 ? 1.0 : -1.0, 0});
-    }
-    CHECK(GaussianProcess(points, values).at({0.5}).deviation > 1 / std::sqrt(8.0));
-}
-
-TEST_CASE("a coordinate that plays no part gets a long length") {
-    std::mt19937 random(2);
-    std::uniform_real_distribution<double> uniform;
-    std::vector<std::vector<double>> points;
-    std::vector<Measured> values;
-    for (int i = 0; i < 25; ++i) {
-        points.push_back({uniform(random), uniform(random)});
-        values.push_back({std::sin(6 * points.back()[0]), 0});
-    }
-    const GaussianProcess process(points, values);
-    CHECK(process.lengths()[1] > 5 * process.lengths()[0]);
-}
 
 TEST_CASE("the expected improvement is the integral it stands for") {
     for (const double mean : {-1.5, 0.0, 0.3, 2.0})
@@ -258,27 +172,6 @@ TEST_CASE("the scatter from seed to seed is that of all points together") {
     // Squares 0, 2 x 0.1^2 and 2 x 0.1^2 on three degrees of freedom.
     for (const Measured& m : result->goals[0].values)
         CHECK(m.error == Approx(SeedScatter{0.1e-3 * std::sqrt(4.0 / 3), 3}.errorOfMean(2)).epsilon(1e-9));
-}
-
-TEST_CASE("the error of a mean is wider, the less is known of its scatter") {
-    // Student's t at 95.45 %, from tables, over 2.
-    const std::vector<std::pair<int, double>> table{{1, 13.968}, {2, 4.527}, {3, 3.307}, {10, 2.284}, {100, 2.026}};
-    for (const auto& [freedom, t] : table)
-        CHECK(SeedScatter{3.0, freedom}.errorOfMean(9) == Approx(t / 2).epsilon(1e-3));
-    // Two errors hold the truth in 95 of 100 cases, however few values there are.
-    std::mt19937 random(3);
-    std::normal_distribution<double> noise;
-    for (const int count : {2, 3, 5}) {
-        int within = 0;
-        for (int i = 0; i < 4000; ++i) {
-            std::vector<double> values;
-            for (int k = 0; k < count; ++k) values.push_back(noise(random));
-            const double mean = std::accumulate(values.begin(), values.end(), 0.0) / count;
-            within += std::abs(mean) <= 2 * scatterOfSeeds({values}).errorOfMean(count) ? 1 : 0;
-        }
-        CAPTURE(count);
-        CHECK(std::abs(within / 4000.0 - 0.9545) < 0.012);  // 3.6 deviations
-    }
 }
 
 TEST_CASE("a target is met only if runs with new seeds meet it, however surely it is believed") {
