@@ -17,6 +17,7 @@
 #include "host/core/file.h"
 #include "host/core/printable.h"
 #include "host/output/run_folder.h"
+#include "host/study/calibration_file.h"
 #include "host/study/calibration_finding.h"
 #include "host/study/grid_calibration.h"
 #include "host/study/seed_scatter.h"
@@ -122,10 +123,13 @@ LaterMembers laterMembers(const Study& study, const std::vector<Member>& known) 
 
 int reportSearch(const CalibrationRuns& parts, const SearchResult& result, const std::vector<std::uint64_t>& seeds) {
     const CalibrationAim& aim = *parts.study.calibration;
-    const CalibrationFinding f = findingOf(parts.study, result, seeds);
+    const Posterior posterior = posteriorOf(aim, goalsOf(aim), result.processes);
+    const CalibrationFinding f = findingOf(parts.study, result, posterior, seeds);
     forgetCase(parts.folder);
     writeFinding(parts.folder.path(), f);
-    tell("{}{}{}", targetsText(aim, f), searchText(f), confirmationText(f));
+    const std::string draws = printable((parts.folder.path() / kDrawsName).string());
+    tell("{}{}{}{}draws      {}, {} of the points that fit\n", targetsText(aim, f), searchText(f), fitText(f),
+         confirmationText(f), draws, f.fit->draws.size());
     if (!f.met) {
         tell(stderr,
              "vkdose: no case is written; give a larger max_runs, or in another folder other bounds, more "

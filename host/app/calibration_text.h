@@ -17,8 +17,11 @@ std::string targetsText(const CalibrationAim& aim, const CalibrationFinding& fin
 /// The curves of a grid with their points, and where they cross the target.
 std::string gridText(const GridCalibration& grid, const CalibrationAim& aim);
 
-/// The points of a search, what is believed at the chosen one, and what each target tells of each parameter.
+/// The points of a search, what is believed at the chosen one, and how each parameter changes each target.
 std::string searchText(const CalibrationFinding& finding);
+
+/// Of a search: the errors of its surrogates, the values of each parameter that fit, and which of them compensate.
+std::string fitText(const CalibrationFinding& finding);
 
 /// The confirming runs, a line for each point, and the verdict.
 std::string confirmationText(const CalibrationFinding& finding);

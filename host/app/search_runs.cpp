@@ -11,6 +11,7 @@
 #include "host/app/tell.h"
 #include "host/core/error.h"
 #include "host/model/closest_word.h"
+#include "host/study/calibration_file.h"
 #include "host/study/calibration_finding.h"
 #include "host/study/design_finding.h"
 

@@ -146,7 +146,7 @@ function follow(c, link, x) {
 }
 
 /// Returns what draws the chart again. link {place(): where on x, jump(x), listen(f)}: what the chart follows.
-/// spec: title, note, link, x {label, whole, categories, pad, from, to}, y {label, zero, scaledFrom: x}, bands [[from, to]], level {value, name},
+/// spec: title, note, link, x {label, whole, categories, pad, from, to}, y {label, zero, from, to, scaledFrom: x}, bands [[from, to]], level {value, name},
 /// series [{name, unnamed, points [[x, y, error or lower edge]], colour, line, dots, hollow, dash, thin, area}]
 function chart(parent, spec) {
   const series = spec.series.filter(s => pieces(s.points).length > 0);
@@ -165,6 +165,8 @@ function chart(parent, spec) {
   if (level) [low, high] = [Math.min(low, level.value), Math.max(high, level.value)];
   if (spec.y.zero !== false) [low, high] = [Math.min(0, low), Math.max(0, high)];
   if (low === high) [low, high] = [low - 1, high + 1];
+  if (isNumber(spec.y.from)) low = spec.y.from;
+  if (isNumber(spec.y.to)) high = spec.y.to;
   if (isNumber(spec.x.from)) extent[0] = spec.x.from;
   if (isNumber(spec.x.to)) extent[1] = spec.x.to;
   if (spec.x.categories) [extent[0], extent[1]] = [-0.5, spec.x.categories.length - 0.5];

@@ -134,6 +134,7 @@ function pointTable(main, study) {
         study.points.map(p => p.at.map(said).concat(figures.map(([, of]) => of(p)), [outcome(p)])));
 }
 
+const rounded2 = x => Math.round(x * 100) / 100;
 const rounded = (x, digits) => (isNumber(x) ? String(Number(x.toPrecision(digits))) : "");
 const within = (value, error) => `${short(value)} ± ${rounded(error, 2) || "?"}`;
 const figureName = t => (t.name === "beta" ? "β" : t.name);
@@ -153,6 +154,54 @@ function parameterChart(parent, found, k) {
              series("chosen", "var(--s1)", [found.points[found.best]])],
     note: "All parameters differ from point to point. Bars: standard error.",
   });
+}
+
+/// Two parameters at the draws: a cloud, or the ridge along which they compensate. The frame is that of the bounds.
+function pairChart(parent, study, i, j) {
+  const found = study.calibration, [x, y] = [found.parameters[i], found.parameters[j]];
+  chart(parent, {
+    title: `${y.key} over ${x.key}`, x: {label: x.key, from: x.low, to: x.high}, y: {label: y.key, from: y.low, to: y.high},
+    series: [{name: "values that fit", colour: "var(--s0)", dots: true, line: false, points: study.draws.map(d => [d[i], d[j]])},
+             {name: "chosen", colour: "var(--s1)", dots: true, line: false, points: [[x.chosen, y.chosen]]}],
+    note: `Correlation ${signed(rounded2(found.fit.correlation[i][j]))}. The frame is that of the bounds.`,
+  });
+}
+
+/// How a parameter is known, in words.
+function knownText(found, k) {
+  const p = found.parameters[k], others = found.fit.compensations.filter(pair => pair.includes(k)).map(pair => pair[0] === k ? pair[1] : pair[0]);
+  if (others.length > 0) return `only together with ${others.map(j => found.parameters[j].key).join(" and ")}`;
+  return p.constrained ? `mostly by ${figureName(found.targets[p.mostly_by])}` : "the targets do not constrain it within its bounds";
+}
+
+const kSurrogateWords = {
+  honest: "", cautious: "less sure than it may be: intervals are wider than need be",
+  overconfident: "surer than it may be: intervals are too narrow", blind: "predicts little: too few points, or a figure that hardly moves",
+};
+
+/// What the surrogates are worth, and what values fit.
+function fitPart(part, study) {
+  const found = study.calibration, fit = found.fit;
+  table(part, [["surrogate of", false], ["off by", true], ["over what it expects", true], ["at most", true], ["predictive R²", true], ["", false]],
+        found.targets.map(t => {
+          const l = t.leave_one_out;
+          return [figureName(t), rounded(l.error, 2) + inUnit(t), rounded(l.standardised_error, 2), rounded(l.largest_standardised_error, 2),
+                  rounded(l.predictive_r2, 2), kSurrogateWords[l.verdict]];
+        }));
+  add(part, "p", `Each of the ${found.targets[0].leave_one_out.points} points is predicted from the others. Errors over what is expected of them are of order one.`);
+  table(part, [["parameter", false], ["bounds", true], ["chosen", true], ["median that fits", true], ["95 % of what fits", true]].concat(
+          found.targets.map(t => [`change of ${figureName(t)}`, true]), [["known", false]]),
+        found.parameters.map((p, k) => [p.key, `${short(p.low)} to ${short(p.high)}`, short(p.chosen), short(p.median),
+                                        `${short(p.interval_95[0])} to ${short(p.interval_95[1])}`].concat(
+          p.change_in_uncertainties.map(signed), [knownText(found, k)])));
+  fit.compensations.forEach(([i, j]) => add(part, "p", `${found.parameters[i].key} and ${found.parameters[j].key} compensate ` +
+      `(correlation ${signed(rounded2(fit.correlation[i][j]))}): only their combination is known.`));
+  found.targets.forEach((t, g) => {
+    if (!fit.figures[g].reached) add(part, "p", `Where values within the bounds fit best, ${figureName(t)} is ` +
+      `${within(fit.figures[g].mean, fit.figures[g].deviation)} for ${within(t.value, t.uncertainty)}${inUnit(t)}: out of reach, or not together with the others.`);
+  });
+  add(part, "p", `What fits is told by ${fit.sampled} points sampled from its distribution (${fit.method}; R-hat ${rounded(fit.r_hat, 4)}, ` +
+      `${rounded(fit.effective, 2)} effective). Changes are from bound to bound by the slope at the chosen point, in uncertainties of the target.`);
 }
 
 /// The runs with new seeds, by which a target is met or not.
@@ -192,16 +241,9 @@ function calibrationPart(main, study) {
         found.targets.map(t => [figureName(t), t.base, within(t.value, t.uncertainty) + inUnit(t),
                                  (searched ? within(t.believed, t.deviation) : short(t.believed)) + inUnit(t), short(t.weight)]));
   if (!searched) return;
-  table(part, [["parameter", false], ["bounds", true], ["chosen", true], ["may meet", true]].concat(
-          found.targets.map(t => [`change of ${figureName(t)}`, true]), [["known to", false]]),
-        found.parameters.map(p => [p.key, `${short(p.low)} to ${short(p.high)}`, short(p.chosen),
-                                   p.may_meet ? `${short(p.may_meet[0])} to ${short(p.may_meet[1])}` : "none"].concat(
-          p.change_in_uncertainties.map(signed),
-          [p.constrained ? `± ${rounded(p.error, 2)}, mostly by ${figureName(found.targets[p.mostly_by])}`
-                         : "the targets do not constrain it within its bounds"])));
-  add(part, "p", "Changes are from bound to bound by the slope at the chosen point, in uncertainties of the target. " +
-      "A parameter is known to the standard error that all targets together leave to it.");
+  fitPart(part, study);
   const charts = add(part, "div", null, "charts");
+  found.parameters.forEach((_, j) => d3.range(j).forEach(i => pairChart(charts, study, i, j)));
   found.parameters.forEach((_, k) => parameterChart(charts, found, k));
 }
 

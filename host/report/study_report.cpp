@@ -8,7 +8,7 @@
 #include "host/core/csv_table.h"
 #include "host/core/json.h"
 #include "host/report/study_points.h"
-#include "host/study/calibration_finding.h"
+#include "host/study/calibration_file.h"
 #include "host/study/design_finding.h"
 
 namespace vkdose::report {
@@ -106,6 +106,9 @@ Json studyJson(const fs::path& folder, const std::optional<fs::path>& expected) 
     j["searches"] = head.searches;
     j["designs"] = head.designs;
     j["calibration"] = finding ? findingJson(*finding) : Json(nullptr);
+    j["draws"] = Json::array();
+    if (finding && finding->fit)
+        for (const Parameters& draw : finding->fit->draws) j["draws"].push_back(jsonNumbers(draw));
     j["design"] = readDesign(folder);
     j["verdicts"] = expected ? verdictsJson(*expected, points) : Json(nullptr);
     return j;

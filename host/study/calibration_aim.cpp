@@ -175,6 +175,10 @@ CalibrationAim readCalibrationAim(CaseReader& reader, Section& table, const std:
     aim.confirmingSeeds = int(table.integer("confirming_seeds"));
     if (search) {
         aim.maxRuns = int(table.integer("max_runs"));
+        table.know("first_points");
+        if (table.has("first_points")) aim.firstPoints = int(table.integer("first_points"));
+        if (aim.firstPoints > aim.maxRuns)
+            reader.fault("calibrate.first_points", "is more than max_runs", "give a larger max_runs, or fewer");
         readParameters(reader, table, aim);
     } else {
         aim.along = table.string("along");

@@ -46,6 +46,7 @@ struct CalibrationAim {
     int confirmingSeeds = 3;                ///< new seeds with which the chosen point runs before a target is met
     std::string along;                      ///< Grid: the key that is interpolated
     int maxRuns = 0;                        ///< of a search: points at most, each with every seed
+    int firstPoints = 0;                    ///< of a search: with which it begins; 0: two for each parameter, and one
     std::vector<FreeParameter> parameters;  ///< of a search
     /// Surrogate: what is to be met together, in place of `target`. Empty: the mass per dose alone. Design: the goals.
     std::vector<CalibrationTarget> targets;

@@ -33,43 +33,56 @@ double matern(const std::vector<double>& a, const std::vector<double>& b, const 
 }  // namespace
 
 GaussianProcess::GaussianProcess(std::vector<std::vector<double>> points, const std::vector<Measured>& observations)
-    : points_(std::move(points)), values_(Eigen::Index(points_.size())), errors_(values_.size()) {
-    for (Eigen::Index i = 0; i < values_.size(); ++i) {
-        values_(i) = observations[std::size_t(i)].value;
-        errors_(i) = observations[std::size_t(i)].error;
-    }
-    mean_ = values_.mean();
-    values_.array() -= mean_;
+    : points_(std::move(points)) {
+    take(observations);
+    kernel_.mean = values_.mean();
+    values_.array() -= kernel_.mean;
     const double spread = std::sqrt(values_.squaredNorm() / double(values_.size()));
-    if (spread > 0) scale_ = spread;
-    values_ /= scale_;
-    errors_ /= scale_;
-
-    const std::vector<double> logs = fitted();
-    const std::size_t d = points_.front().size();
-    for (std::size_t i = 0; i < d; ++i) lengths_.push_back(std::exp(logs[i]));
-    variance_ = std::exp(logs[d + 1]);
-    root_.compute(covariance(logs));
+    if (spread > 0) kernel_.scale = spread;
+    take(observations);
+    kernel_ = kernelOf(fitted());
+    root_.compute(covariance(kernel_));
     weights_ = root_.solve(values_);
 }
 
-Eigen::MatrixXd GaussianProcess::covariance(const std::vector<double>& logs) const {
+GaussianProcess::GaussianProcess(std::vector<std::vector<double>> points, const std::vector<Measured>& observations,
+                                 ProcessKernel kernel)
+    : points_(std::move(points)), kernel_(std::move(kernel)) {
+    take(observations);
+    root_.compute(covariance(kernel_));
+    weights_ = root_.solve(values_);
+}
+
+void GaussianProcess::take(const std::vector<Measured>& observations) {
+    values_.resize(Eigen::Index(points_.size()));
+    errors_.resize(values_.size());
+    for (Eigen::Index i = 0; i < values_.size(); ++i) {
+        values_(i) = (observations[std::size_t(i)].value - kernel_.mean) / kernel_.scale;
+        errors_(i) = observations[std::size_t(i)].error / kernel_.scale;
+    }
+}
+
+ProcessKernel GaussianProcess::kernelOf(const std::vector<double>& logs) const {
     const std::size_t d = points_.front().size();
-    std::vector<double> lengths;
-    for (std::size_t i = 0; i < d; ++i) lengths.push_back(std::exp(logs[i]));
-    const double noise = std::exp(logs[d]), variance = std::exp(logs[d + 1]);
+    ProcessKernel kernel{{}, std::exp(logs[d]), std::exp(logs[d + 1]), kernel_.mean, kernel_.scale};
+    for (std::size_t i = 0; i < d; ++i) kernel.lengths.push_back(std::exp(logs[i]));
+    return kernel;
+}
+
+Eigen::MatrixXd GaussianProcess::covariance(const ProcessKernel& kernel) const {
     const auto n = Eigen::Index(points_.size());
     Eigen::MatrixXd k(n, n);
     for (Eigen::Index i = 0; i < n; ++i) {
         for (Eigen::Index j = 0; j < i; ++j)
-            k(i, j) = k(j, i) = variance * matern(points_[std::size_t(i)], points_[std::size_t(j)], lengths);
-        k(i, i) = variance + noise + errors_(i) * errors_(i);
+            k(i, j) = k(j, i) =
+                kernel.variance * matern(points_[std::size_t(i)], points_[std::size_t(j)], kernel.lengths);
+        k(i, i) = kernel.variance + kernel.noise + errors_(i) * errors_(i);
     }
     return k;
 }
 
 double GaussianProcess::logPosterior(const std::vector<double>& logs) const {
-    const Eigen::LLT<Eigen::MatrixXd> root(covariance(logs));
+    const Eigen::LLT<Eigen::MatrixXd> root(covariance(kernelOf(logs)));
     if (root.info() != Eigen::Success) return -std::numeric_limits<double>::infinity();
     const Eigen::MatrixXd lower = root.matrixL();
     double sum = -values_.dot(root.solve(values_)) / 2 - lower.diagonal().array().log().sum();
@@ -123,9 +136,21 @@ std::vector<double> GaussianProcess::fitted() const {
 
 Belief GaussianProcess::at(const std::vector<double>& point) const {
     Eigen::VectorXd k(Eigen::Index(points_.size()));
-    for (Eigen::Index i = 0; i < k.size(); ++i) k(i) = variance_ * matern(point, points_[std::size_t(i)], lengths_);
-    const double left = variance_ - k.dot(root_.solve(k));
-    return {mean_ + scale_ * k.dot(weights_), scale_ * std::sqrt(std::max(0.0, left))};
+    for (Eigen::Index i = 0; i < k.size(); ++i)
+        k(i) = kernel_.variance * matern(point, points_[std::size_t(i)], kernel_.lengths);
+    const double left = kernel_.variance - k.dot(root_.solve(k));
+    return {kernel_.mean + kernel_.scale * k.dot(weights_), kernel_.scale * std::sqrt(std::max(0.0, left))};
+}
+
+std::vector<LeftOut> GaussianProcess::leftOut() const {
+    const Eigen::MatrixXd inverse = root_.solve(Eigen::MatrixXd::Identity(values_.size(), values_.size()));
+    std::vector<LeftOut> all;
+    for (Eigen::Index i = 0; i < values_.size(); ++i) {
+        const double mean = values_(i) - weights_(i) / inverse(i, i), deviation = std::sqrt(1 / inverse(i, i));
+        all.push_back({kernel_.mean + kernel_.scale * values_(i),
+                       {kernel_.mean + kernel_.scale * mean, kernel_.scale * deviation}});
+    }
+    return all;
 }
 
 }  // namespace vkdose

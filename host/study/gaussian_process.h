@@ -19,6 +19,22 @@ struct Measured {
     double error = 0;
 };
 
+/// What a process takes from all its observations beside the values themselves.
+struct ProcessKernel {
+    std::vector<double> lengths;     ///< over which a value changes, one for each coordinate
+    double noise = 0, variance = 1;  ///< that all observations share, and of the process, in units of scale^2
+    double mean = 0, scale = 1;      ///< in the unit of the observations
+};
+
+/// An observation, and what all others say of one there.
+struct LeftOut {
+    double observed = 0;
+    Belief predicted;  ///< its deviation includes the noise of the observation
+
+    /// How far it is off, in deviations. Of an honest process the squares have a mean of 1.
+    double standardised() const { return (observed - predicted.mean) / predicted.deviation; }
+};
+
 class GaussianProcess {
   public:
     /// Takes at least two observations, with coordinates in [0, 1]. The covariance is Matern 5/2, with a length for
@@ -26,22 +42,32 @@ class GaussianProcess {
     /// variance of the process are the most probable ones, from the marginal likelihood and weak prior beliefs.
     GaussianProcess(std::vector<std::vector<double>> points, const std::vector<Measured>& observations);
 
+    /// A process through at least one observation whose kernel is known.
+    GaussianProcess(std::vector<std::vector<double>> points, const std::vector<Measured>& observations,
+                    ProcessKernel kernel);
+
     Belief at(const std::vector<double>& point) const;
 
-    const std::vector<double>& lengths() const { return lengths_; }
+    /// Each observation as all others predict it, with the same kernel. In closed form, from one inverse of the
+    /// covariance K: mean y_i - [K^-1 y]_i / [K^-1]_ii, variance 1 / [K^-1]_ii (Sundararajan and Keerthi 2001;
+    /// Rasmussen and Williams 2006, section 5.4.2).
+    std::vector<LeftOut> leftOut() const;
+
+    const ProcessKernel& kernel() const { return kernel_; }
+    const std::vector<double>& lengths() const { return kernel_.lengths; }
 
   private:
-    Eigen::MatrixXd covariance(const std::vector<double>& logs) const;
+    void take(const std::vector<Measured>& observations);
+    Eigen::MatrixXd covariance(const ProcessKernel& kernel) const;
+    ProcessKernel kernelOf(const std::vector<double>& logs) const;
     double logPosterior(const std::vector<double>& logs) const;
     std::vector<double> climbed(std::vector<double> logs) const;
     std::vector<double> fitted() const;
 
     std::vector<std::vector<double>> points_;
-    double mean_ = 0, scale_ = 1;  ///< the values below are measured from the mean, in units of the scale
-    Eigen::VectorXd values_;
-    Eigen::VectorXd errors_;
-    std::vector<double> lengths_;
-    double variance_ = 0;  ///< of the process
+    ProcessKernel kernel_;
+    Eigen::VectorXd values_;  ///< measured from the kernel's mean, in units of its scale
+    Eigen::VectorXd errors_;  ///< in units of its scale
     Eigen::LLT<Eigen::MatrixXd> root_;
     Eigen::VectorXd weights_;
 };

@@ -16,6 +16,11 @@ std::vector<OutputTable> outputTables() {
     std::vector<OutputTable> tables = runTables();
     tables.push_back({"members.csv, of a sweep", "A line for every member that has ended.", members});
     tables.push_back({"doses.csv, of a sweep", "A line for every dose of every member that has ended.", doses});
+    tables.push_back(
+        {"powder-draws.csv, of a calibration",
+         "A line for each draw from the distribution of the parameters that fit. All are equally probable, "
+         "and their order says nothing.",
+         {{"KEY", "", "Value of the parameter, in the unit of its key; a column for each, named by it."}}});
     return tables;
 }
 

@@ -27,7 +27,8 @@ double distance(const UnitPoint& a, const UnitPoint& b) {
 std::vector<UnitPoint> SampledPoints::first(const CalibrationAim& aim) {
     const std::size_t d = aim.parameters.size();
     std::vector<UnitPoint> first;
-    for (int i = 1; i <= std::min(aim.maxRuns, 2 * int(d) + 1); ++i) first.push_back(haltonPoint(i, d));
+    const int count = aim.firstPoints > 0 ? aim.firstPoints : 2 * int(d) + 1;
+    for (int i = 1; i <= std::min(aim.maxRuns, count); ++i) first.push_back(haltonPoint(i, d));
     return first;
 }
 

@@ -53,6 +53,9 @@ constexpr Key kCalibrate[] = {
             "new seeds with which the chosen point runs; only these runs say whether a target is met"),
     integer("max_runs", 3, 500, 30,
             "surrogate: points at most, each run with every seed; a confirmation that missed counts as one"),
+    integer("first_points", 3, 500, told("two for each parameter, and one"),
+            "surrogate: points spread over the bounds with which the search begins. More of them, such as ten for each "
+            "parameter, tell the distribution of the parameters that fit more sharply"),
 };
 
 constexpr Key kDesign[] = {

@@ -10,11 +10,9 @@ namespace vkdose {
 
 namespace {
 
-constexpr int kCandidates = 4096;     // points of the range at which the goals may be met
 constexpr double kNothingNew = 1e-3;  // of the tolerance: an improvement not worth a run
 constexpr double kTooNear = 1e-3;     // of the range: a run so near to a former one tells nothing new
 constexpr double kSlopeStep = 0.05;   // of the range, to each side
-constexpr double kOpen = 1e-6;        // information in an open direction: an error of a thousand ranges
 
 class Search {
   public:
@@ -123,55 +121,23 @@ class Search {
             const Belief belief = processes[g].at(sampled_.unit()[result_.best]);
             result_.goals[g].mean = belief.mean;
             result_.goals[g].deviation = belief.deviation;
+            result_.goals[g].leaveOneOut = leaveOneOut(processes[g].leftOut());
         }
-        findCompatible(processes);
         findSensitivity(processes);
+        result_.processes = processes;
         return result_;
     }
 
-    void findCompatible(const Processes& processes) {
-        const std::size_t d = aim_.parameters.size();
-        const double inf = std::numeric_limits<double>::infinity();
-        result_.compatible.assign(d, {inf, -inf});
-        const auto widen = [&](const std::vector<double>& u) {
-            for (std::size_t g = 0; g < goals_.size(); ++g) {
-                const Belief belief = processes[g].at(u);
-                if (std::abs(belief.mean - goals_[g].target) > 2 * belief.deviation + goals_[g].tolerance) return;
-            }
-            const Parameters p = SampledPoints::inUnits(aim_, u);
-            for (std::size_t i = 0; i < d; ++i) {
-                result_.compatible[i].first = std::min(result_.compatible[i].first, p[i]);
-                result_.compatible[i].second = std::max(result_.compatible[i].second, p[i]);
-            }
-        };
-        for (int i = 1; i <= kCandidates; ++i) widen(haltonPoint(i, d));
-        for (const UnitPoint& u : sampled_.unit()) widen(u);
-    }
-
-    /// Slopes of the beliefs at the best point, and the errors of the parameters that follow: the inverse of
-    /// sum_g w_g s_g s_g^T, with s_g the slopes over the tolerance (Gauss-Newton).
+    /// Slopes of the beliefs at the best point.
     void findSensitivity(const Processes& processes) {
-        const std::size_t d = aim_.parameters.size();
-        Eigen::MatrixXd information = Eigen::MatrixXd::Zero(Eigen::Index(d), Eigen::Index(d));
         for (std::size_t g = 0; g < goals_.size(); ++g) {
-            Eigen::VectorXd slopes{Eigen::Index(d)};
-            for (std::size_t i = 0; i < d; ++i) {
+            for (std::size_t i = 0; i < aim_.parameters.size(); ++i) {
                 UnitPoint low = sampled_.unit()[result_.best], high = low;
                 low[i] = std::max(0.0, low[i] - kSlopeStep);
                 high[i] = std::min(1.0, high[i] + kSlopeStep);
-                slopes[Eigen::Index(i)] = (processes[g].at(high).mean - processes[g].at(low).mean) /
-                                          ((high[i] - low[i]) * goals_[g].tolerance);
+                result_.goals[g].sensitivity.push_back((processes[g].at(high).mean - processes[g].at(low).mean) /
+                                                       ((high[i] - low[i]) * goals_[g].tolerance));
             }
-            result_.goals[g].sensitivity.assign(slopes.begin(), slopes.end());
-            information += goals_[g].weight * slopes * slopes.transpose();
-        }
-        // What the goals leave open has an error without bound; the least addition keeps it a number.
-        information.diagonal().array() += kOpen;
-        const Eigen::MatrixXd covariance = information.inverse();
-        for (std::size_t i = 0; i < d; ++i) {
-            const FreeParameter& free = aim_.parameters[i];
-            result_.parameterError.push_back(std::sqrt(covariance(Eigen::Index(i), Eigen::Index(i))) *
-                                             (free.high - free.low));
         }
     }
 

@@ -4,22 +4,16 @@
 
 #include <functional>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "host/study/calibration_aim.h"
 #include "host/study/confirmation.h"
-#include "host/study/gaussian_process.h"
+#include "host/study/leave_one_out.h"
+#include "host/study/posterior.h"
 #include "host/study/sampled_points.h"
 
 namespace vkdose {
 
-/// A figure that the search is to bring to its target, in its own unit.
-struct Goal {
-    double target = 0;
-    double tolerance = 0;  ///< what a match may be off by; as the target's standard error
-    double weight = 1;
-};
 /// The goals of a calibration: its targets, or its mass per dose [kg].
 std::vector<Goal> goalsOf(const CalibrationAim& aim);
 
@@ -28,6 +22,7 @@ struct GoalResult {
     std::vector<Measured> values;  ///< of each point, as SampledPoints has them; confirmations are included
     double mean = 0;               ///< that is believed at the best point
     double deviation = 0;          ///< standard deviation of this belief
+    LeaveOneOut leaveOneOut;       ///< of its process
     /// For each parameter the change that is believed from one bound to the other, by the slope at the best point, over
     /// the tolerance. The goal constrains the parameters for which this is large.
     std::vector<double> sensitivity;
@@ -40,14 +35,7 @@ struct SearchResult {
     double misfit = 0;     ///< there: sum over the goals of weight (distance / tolerance)^2
     bool met = false;      ///< the last confirmation says that the best point meets every goal
     std::vector<Confirmation> confirmations;  ///< in order, each of another point
-    /// For each parameter the range of its values that may meet all goals. A value may meet them if, for some values of
-    /// the others, every mean is within two deviations and the tolerance of its target. If two parameters compensate
-    /// each other, their ranges are wide.
-    std::vector<std::pair<double, double>> compatible;
-    /// For each parameter its standard error, in its unit, that the tolerances of all goals leave by their slopes at
-    /// the best point, while all parameters are free. More than the distance of the bounds: the goals do not constrain
-    /// it.
-    std::vector<double> parameterError;
+    Processes processes;                      ///< through all that was tried, one for each goal: for the posterior
 };
 
 /// Looks for the point at which `tryPoints` gives the targets. A tried point is believed to meet them when of every

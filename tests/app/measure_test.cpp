@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "host/core/csv_table.h"
 #include "tests/app/sandbox.h"
 #include "tests/support/catch.h"
 #include "tests/support/near.h"
@@ -314,6 +315,20 @@ high = 0.5
     CHECK(finding.at("parameters").at(0).at("constrained") == true);
     CHECK(finding.at("parameters").at(1).at("constrained") == false);
     CHECK(near(finding.at("parameters").at(0).at("chosen").get<double>(), 1300, 1300, 0.02));
+    // Both targets know k to their uncertainty over their slope, 10 Pa over 0.5 Pa and 5 over 0.25: 14 N/m together,
+    // and 2 x 1.96 of them are an interval of 55. What the surrogates do not know comes to it.
+    const Json& fits = finding.at("parameters").at(0).at("interval_95");
+    const double low = fits.at(0).get<double>(), high = fits.at(1).get<double>();
+    CHECK(near((low + high) / 2, 1300, 1300, 0.03));
+    CHECK(high - low > 45);
+    CHECK(high - low < 150);
+    CHECK_THAT(o.out, Catch::Contains("each of ") && Catch::Contains("points predicted from the others") &&
+                          Catch::Contains("95 % from ") &&
+                          Catch::Contains("correlation of contact.k and contact.friction ") &&
+                          Catch::Contains("draws      out/powder-draws.csv, 200 of the points that fit"));
+    const Table draws = Table::read(box / "out/powder-draws.csv");
+    CHECK(draws.names() == Row{"contact.k", "contact.friction"});
+    CHECK(draws.rows() == 200);
     REQUIRE(box.vkdose("report out").code == 0);
     CHECK_THAT(readText(box / "out/report.html"), Catch::Contains("\"name\":\"press.max_stress_Pa of less.toml\""));
 

@@ -229,16 +229,35 @@ TEST_CASE("a browser shows of a calibration its targets, and what each of them t
           std::string::npos);
     CHECK(shown.find("<td class=\"number\">3.02 ± 0.03 g</td><td>met</td>") != std::string::npos);
     CHECK(shown.find("<td class=\"number\">-36</td><td class=\"number\">+8</td>"
-                     "<td>± 0.015, mostly by heap.angle_deg</td>") != std::string::npos);
+                     "<td>mostly by heap.angle_deg</td>") != std::string::npos);
+    CHECK(shown.find("<td class=\"number\">0.3125</td><td class=\"number\">0.25 to 0.375</td>") != std::string::npos);
+    CHECK(shown.find("<td>heap.angle_deg</td><td class=\"number\">0.75</td><td class=\"number\">1.3</td>"
+                     "<td class=\"number\">1.5</td><td class=\"number\">0.88</td><td></td>") != std::string::npos);
+    CHECK(shown.find("surer than it may be") != std::string::npos);
+    CHECK(shown.find("β is 3.5 ± 0.13 for 3 ± 0.05 g") != std::string::npos);
+    CHECK(shown.find("<h3>contact.kc_over_k over contact.friction</h3>") != std::string::npos);
+    CHECK(shown.find("values that fit: 0.75 at 0.3<") != std::string::npos);
+    CHECK(shown.find("compensate") == std::string::npos);
     CHECK(shown.find("the targets do not constrain it within its bounds") != std::string::npos);
     CHECK(shown.find("<h3>heap.angle_deg against contact.friction</h3>") != std::string::npos);
     CHECK(shown.find("<h3>β against contact.kc_over_k</h3>") != std::string::npos);
     CHECK(shown.find("NaN") == std::string::npos);
 
+    // Two that compensate have no interval of their own to be taken at its word.
+    const Sandbox other;
+    const auto both = writeSweep(other);
+    writeSearch(other, true);
+    const std::string ridge = mainOf(drawn(other, studyJson(both, {})));
+    CHECK(ridge.find("<td>only together with contact.kc_over_k</td>") != std::string::npos);
+    CHECK(ridge.find("contact.friction and contact.kc_over_k compensate (correlation -0.94)") != std::string::npos);
+    CHECK(ridge.find("mostly by") == std::string::npos);
+
     // Of a grid there is the interpolation, and what the runs with new seeds made of it.
     CalibrationFinding grid = *readFinding(folder);
     grid.points.clear();
     grid.parameters.clear();
+    grid.fit.reset();
+    for (CalibrationFinding::Target& t : grid.targets) t.leaveOneOut = {};
     grid.confirmations.erase(grid.confirmations.begin() + 1);
     grid.met = false;
     writeFinding(folder, grid);

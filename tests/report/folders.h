@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "host/model/case.h"
-#include "host/study/calibration_finding.h"
+#include "host/study/calibration_file.h"
 #include "tests/app/sandbox.h"
 
 namespace vkdose::test {
@@ -100,16 +100,26 @@ values = [0.3, 0.5]
     return box / "sweep";
 }
 
-/// Makes a study a search that found: the heap's angle tells the friction, and nothing tells the cohesion.
-inline void writeSearch(const Sandbox& box) {
+/// Makes a study a search that found: the heap's angle tells the friction, and nothing tells the cohesion. With
+/// `compensating` the two are known in their combination alone.
+inline void writeSearch(const Sandbox& box, bool compensating = false) {
     std::string study = readText(box / "sweep/study.toml");
     study.replace(study.find("[calibrate]\n"), 12, "[calibrate]\nmethod = \"surrogate\"\n");
     box.write("sweep/study.toml", study);
     CalibrationFinding f;
-    f.targets = {{"heap.angle_deg", "", "heap.toml", 24, 0.5, 1, 24.25, 0.2},
-                 {"beta", "g", "dose.toml", 3, 0.05, 2, 3.01, 0.02}};
-    f.parameters = {{"contact.friction", 0.1, 0.7, 0.3, {-36, 8}, 0, 0.0154, true, std::pair(0.25, 0.375)},
-                    {"contact.kc_over_k", 0, 1, 0.25, {0.5, -0.75}, 1, 1.5, false, {}}};
+    f.targets = {{"heap.angle_deg", "", "heap.toml", 24, 0.5, 1, 24.25, 0.2, {2, 0.75, 1.25, 1.5, 0.875}},
+                 {"beta", "g", "dose.toml", 3, 0.05, 2, 3.01, 0.02, {2, 0.5, 2.5, 3, -0.25}}};
+    f.parameters = {{"contact.friction", 0.1, 0.7, 0.3, {-36, 8}, 0, {0.3125, 0.25, 0.375}},
+                    {"contact.kc_over_k", 0, 1, 0.25, {0.5, -0.75}, 1, {0.5, 0.03125, 0.96875}}};
+    const double c = compensating ? -0.9375 : 0.125;
+    f.fit = {{{1, c}, {c, 1}},
+             {{24.25, 0.25}, {3.5, 0.125}},
+             {{0.3, 0.75}, {0.31, 0.5}, {0.32, 0.25}},
+             2048,
+             7,
+             0.3125,
+             1.00390625,
+             640};
     f.points = {{{0.2, 0.5}, {{20, 0.25}, {4, std::nan("")}}}, {{0.3, 0.25}, {{24.5, 0.25}, {3, 0.1}}}};
     f.best = 1;
     f.misfit = 0.375;

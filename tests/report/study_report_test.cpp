@@ -173,13 +173,18 @@ TEST_CASE("what the search of a calibration found is in the data, and that one g
     Json study = studyJson(folder, {});
     CHECK(study["searches"] == false);
     CHECK(study["calibration"].is_null());
+    CHECK(study["draws"].empty());
     writeSearch(box);
     study = studyJson(folder, {});
     CHECK(study["searches"] == true);
     const Json& found = study["calibration"];
     CHECK(found["targets"][0]["name"] == "heap.angle_deg");
     CHECK(found["parameters"][0]["change_in_uncertainties"] == Json({-36.0, 8.0}));
+    CHECK(found["parameters"][0]["interval_95"] == Json({0.25, 0.375}));
     CHECK(found["parameters"][1]["constrained"] == false);
+    CHECK(found["targets"][1]["leave_one_out"]["verdict"] == "overconfident");
+    CHECK(found["fit"]["figures"][1]["reached"] == false);
+    CHECK(study["draws"] == Json::parse("[[0.3, 0.75], [0.31, 0.5], [0.32, 0.25]]"));
     CHECK(found["points"][0]["values"][1][1].is_null());
     forgetFinding(folder);
     study = studyJson(folder, {});

@@ -57,6 +57,7 @@ TEST_CASE("a search has free parameters for keys") {
     REQUIRE(study.calibration->parameters.size() == 1);
     CHECK(study.calibration->parameters[0].high == 0.6);
     CHECK(study.keys() == std::vector<std::string>{"contact.friction"});
+    CHECK(study.calibration->firstPoints == 0);
 }
 
 TEST_CASE("a search may have several targets, each with its own case") {
@@ -113,6 +114,8 @@ TEST_CASE("every fault of a calibration names its key and a remedy") {
               "a search has no axes"},
              {search + "key = \"coil.turns\"\nlow = 2\nhigh = 3\n", "calibrate.parameter[0].key",
               "coil.turns is given twice"},
+             {"max_runs = 9\nfirst_points = 10\n" + search + "key = \"contact.damping\"\nlow = 0.1\nhigh = 0.2\n",
+              "calibrate.first_points", "is more than max_runs"},
              {search + "key = \"contact.damping\"\nlow = 0.2\nhigh = 0.2\n", "calibrate.parameter[0].high",
               "is not above low"},
              {"method = \"surrogate\"\ntarget_g_per_dose = 3.7\ntolerance_g = 0.05\n", "calibrate.parameter",

@@ -1,4 +1,4 @@
-#include "host/study/calibration_finding.h"
+#include "host/study/calibration_file.h"
 
 #include <cmath>
 #include <limits>
@@ -30,32 +30,53 @@ SearchResult twoResults() {
     const double none = std::numeric_limits<double>::quiet_NaN();
     SearchResult r;
     r.points = {{0.2, 0.5}, {0.3, 0.25}};
-    r.goals = {{{{20, 0.25}, {24.5, 0.25}}, 24.25, 0.125, {-36, 0.5}},
-               {{{4, none}, {none, none}}, 3.5, 0.5, {8, -0.75}}};
+    r.goals = {{{{20, 0.25}, {24.5, 0.25}}, 24.25, 0.125, {2, 0.75, 1.25, 1.5, 0.875}, {-36, 0.5}},
+               {{{4, none}, {none, none}}, 3.5, 0.5, {2, 0.5, 2.5, 3, none}, {8, -0.75}}};
     r.best = 1;
     r.misfit = 0.375;
     r.met = true;
     using Verdict = Confirmed::Verdict;
     r.confirmations = {{0, {{{20.5, 0.25}, 3, Verdict::Missed}, {{none, none}, 0, Verdict::Incomplete}}},
                        {1, {{{24.25, 0.25}, 3, Verdict::Met}, {{3, 0.03125}, 3, Verdict::Met}}}};
-    r.compatible = {{0.25, 0.375}, {1, 0}};
-    r.parameterError = {0.015625, 1.5};
     return r;
+}
+
+/// The angle is met, the mass per dose is not.
+Posterior twoParameters(double correlation = 0.125) {
+    Posterior p;
+    p.draws = {{0.3, 0.75}, {0.3125, 0.5}, {0.25, 1e-7}};
+    p.parameters = {{0.3125, 0.25, 0.375}, {0.5, 0.03125, 0.96875}};
+    p.correlation = {{1, correlation}, {correlation, 1}};
+    p.figures = {{24.25, 0.25}, {3.5, 0.125}};
+    p.sampled = 2048;
+    p.steps = 7;
+    p.acceptance = 0.3125;
+    p.rHat = 1.0625;
+    p.effective = 640;
+    return p;
+}
+
+CalibrationFinding twoFound(double correlation = 0.125) {
+    return findingOf(twoTargets(), twoResults(), twoParameters(correlation), {4, 5, 6});
 }
 
 }  // namespace
 
 TEST_CASE("a finding: each parameter with the target that tells most of it, and what none tells is not constrained") {
-    const CalibrationFinding f = findingOf(twoTargets(), twoResults(), {4, 5, 6});
+    const CalibrationFinding f = twoFound();
     REQUIRE(f.parameters.size() == 2);
     CHECK(f.parameters[0].mostlyBy == 0);  // by the size of the change, not its sign
-    CHECK(f.parameters[0].constrained);
+    CHECK(f.parameters[0].constrained());
     CHECK(f.parameters[0].change == std::vector<double>{-36, 8});
     CHECK(f.parameters[0].chosen == 0.3);
     CHECK(f.parameters[1].mostlyBy == 1);
-    CHECK_FALSE(f.parameters[1].constrained);  // 1.5 of a range of 1
-    CHECK(f.parameters[0].mayMeet == std::pair(0.25, 0.375));
-    CHECK_FALSE(f.parameters[1].mayMeet);
+    CHECK_FALSE(f.parameters[1].constrained());  // 0.94 of a range of 1
+    CHECK(f.parameters[0].fits.low == 0.25);
+    CHECK(f.parameters[0].fits.high == 0.375);
+    CHECK(f.parameters[1].fits.median == 0.5);
+    CHECK(f.targets[0].leaveOneOut.standardised == 1.25);
+    CHECK(isReached(f, 0));
+    CHECK_FALSE(isReached(f, 1));  // off by 0.5, with errors of 0.05 and 0.125
     CHECK(f.targets[0].name == "heap.angle_deg");
     CHECK(f.targets[0].base == "heap.toml");
     CHECK(f.targets[1].weight == 2);
@@ -65,15 +86,17 @@ TEST_CASE("a finding: each parameter with the target that tells most of it, and 
 TEST_CASE("a finding: targets of the same figure are told apart by their cases, and beta is in grams") {
     Study study = twoTargets();
     study.calibration->targets[1].figure = "heap.angle_deg";
-    CHECK(findingOf(study, twoResults(), {4, 5, 6}).targets[1].name == "heap.angle_deg of dose.toml");
+    CHECK(findingOf(study, twoResults(), twoParameters(), {4, 5, 6}).targets[1].name == "heap.angle_deg of dose.toml");
 
     study.calibration->targets.clear();
     study.calibration->target = 3e-3;
     study.calibration->tolerance = 0.125e-3;
     SearchResult r = twoResults();
-    r.goals = {{{{4e-3, 0.25e-3}, {3e-3, 0.25e-3}}, 3.25e-3, 0.5e-3, {8, -2}}};
+    r.goals = {{{{4e-3, 0.25e-3}, {3e-3, 0.25e-3}}, 3.25e-3, 0.5e-3, {2, 0.25e-3, 1.25, 1.5, 0.875}, {8, -2}}};
+    Posterior p = twoParameters();
+    p.figures = {{3.125e-3, 0.0625e-3}};
     r.confirmations = {{1, {{{3e-3, 0.125e-3}, 2, Confirmed::Verdict::Met}}}};
-    const CalibrationFinding f = findingOf(study, r, {2, 3});
+    const CalibrationFinding f = findingOf(study, r, p, {2, 3});
     REQUIRE(f.targets.size() == 1);
     CHECK(f.targets[0].name == "beta");
     CHECK(f.targets[0].unit == "g");
@@ -86,10 +109,26 @@ TEST_CASE("a finding: targets of the same figure are told apart by their cases, 
     CHECK(f.points[0].values[0].error == Approx(0.25));
     CHECK(f.confirmations[0].figures[0].found.value == Approx(3));
     CHECK(f.confirmations[0].figures[0].found.error == Approx(0.125));
+    CHECK(f.targets[0].leaveOneOut.error == Approx(0.25));
+    CHECK(f.targets[0].leaveOneOut.standardised == 1.25);
+    CHECK(f.fit->figures[0].mean == Approx(3.125));
+    CHECK(f.fit->figures[0].deviation == Approx(0.0625));
+}
+
+TEST_CASE("a finding: two parameters that only their combination is known of") {
+    CHECK(compensations(twoFound(0.5)).empty());
+    for (const double correlation : {-0.75, 0.875}) {
+        const std::vector<Compensation> both = compensations(twoFound(correlation));
+        REQUIRE(both.size() == 1);
+        CHECK(both[0].first == 0);
+        CHECK(both[0].second == 1);
+        CHECK(both[0].correlation == correlation);
+        CHECK(findingJson(twoFound(correlation)).at("fit").at("compensations") == nlohmann::json({{0, 1}}));
+    }
 }
 
 TEST_CASE("a finding: what the runs with new seeds gave at each point that they confirmed or missed") {
-    const CalibrationFinding f = findingOf(twoTargets(), twoResults(), {4, 5, 6});
+    const CalibrationFinding f = twoFound();
     CHECK(f.confirmingSeeds == std::vector<std::uint64_t>{4, 5, 6});
     REQUIRE(f.confirmations.size() == 2);
     CHECK(f.confirmations[0].at == "contact.friction 0.2, contact.kc_over_k 0.5");
@@ -129,7 +168,7 @@ TEST_CASE("a finding of a grid: the chosen point is met by what its confirming r
 TEST_CASE("calibration.json holds all of a finding, and a damaged one is refused") {
     const Sandbox box;
     CHECK_FALSE(readFinding(box.path()));
-    const CalibrationFinding f = findingOf(twoTargets(), twoResults(), {4, 5, 6});
+    const CalibrationFinding f = twoFound();
     writeFinding(box.path(), f);
     const auto again = readFinding(box.path());
     REQUIRE(again);
@@ -137,8 +176,14 @@ TEST_CASE("calibration.json holds all of a finding, and a damaged one is refused
     CHECK(again->points[0].values[1].value == 4);
     CHECK(std::isnan(again->points[0].values[1].error));
     CHECK(again->parameters[1].key == "contact.kc_over_k");
-    CHECK(again->parameters[1].error == 1.5);
+    CHECK(again->parameters[1].fits.high == 0.96875);
+    CHECK(again->targets[0].leaveOneOut.predictiveR2 == 0.875);
+    CHECK(std::isnan(again->targets[1].leaveOneOut.predictiveR2));
     CHECK(again->best == 1);
+    REQUIRE(again->fit);
+    CHECK(again->fit->draws == f.fit->draws);
+    CHECK(again->fit->rHat == 1.0625);
+    CHECK(readText(box / kDrawsName) == "contact.friction,contact.kc_over_k\n0.3,0.75\n0.3125,0.5\n0.25,1e-07\n");
 
     const auto refused = [&](const std::string& text) {
         box.write(kFindingName, text);
@@ -146,7 +191,7 @@ TEST_CASE("calibration.json holds all of a finding, and a damaged one is refused
     };
     for (const char* bad : {"", "[]", "{", "{}", "7"}) refused(bad);
     for (const char* part :
-         {"targets", "parameters", "points", "best", "misfit", "met", "confirming_seeds", "confirmations"}) {
+         {"targets", "parameters", "points", "best", "misfit", "met", "fit", "confirming_seeds", "confirmations"}) {
         auto less = findingJson(f);
         less.erase(part);
         refused(less.dump());
@@ -166,8 +211,29 @@ TEST_CASE("calibration.json holds all of a finding, and a damaged one is refused
     other = findingJson(f);
     other["confirmations"][0]["figures"].erase(0);
     refused(other.dump());
+    other = findingJson(f);
+    other["fit"] = nullptr;  // a search has one
+    refused(other.dump());
+    other = findingJson(f);
+    other["fit"]["correlation"][1].erase(0);
+    refused(other.dump());
+    other = findingJson(f);
+    other["fit"]["figures"].erase(0);
+    refused(other.dump());
+    const std::string good = findingJson(f).dump(), draws = readText(box / kDrawsName);
+    box.write(kFindingName, good);
+    CHECK_NOTHROW(readFinding(box.path()));
+    for (const char* bad : {"", "contact.friction\n0.3\n", "contact.friction,contact.kc_over_k\n0.3,\n",
+                            "contact.friction,contact.kc_over_k\n0.3,much\n"}) {
+        box.write(kDrawsName, bad);
+        CHECK_THROWS_AS(readFinding(box.path()), CaseError);
+    }
+    std::filesystem::remove(box / kDrawsName);
+    CHECK_THROWS_AS(readFinding(box.path()), CaseError);
+    box.write(kDrawsName, draws);
 
     forgetFinding(box.path());
     CHECK_FALSE(readFinding(box.path()));
+    CHECK_FALSE(std::filesystem::exists(box / kDrawsName));
     forgetFinding(box.path());  // nothing to forget is no fault
 }

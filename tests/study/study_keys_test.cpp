@@ -23,7 +23,8 @@ TEST_CASE("every declared key of a study is read: a date for its value is a faul
             if (table.paths == "set") continue;  // any key of a case
             std::string text = name + date + (name == "base" ? "" : "base = \"good.toml\"\n");
             if (table.paths == "axis[]") text = axis + name + date;
-            if (table.paths == "calibrate") text = (name == "max_runs" ? search : grid) + name + date;
+            if (table.paths == "calibrate")
+                text = (name == "max_runs" || name == "first_points" ? search : grid) + name + date;
             if (table.paths.starts_with("calibrate.parameter[]"))
                 text = search + "[[calibrate.parameter]]\n" + name + date;
             if (table.paths == "design") text = "base = \"good.toml\"\n[design]\n" + name + date;

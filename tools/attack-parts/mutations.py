@@ -34,7 +34,7 @@ TARGETS = (
     ("report", OF_A_RUN + OF_A_RUN[1:3] + ["summary.json"] * 2 + ["particles.csv", "frames/contacts_000001.hdf"]),
     ("report", ["experiment.csv", "profile.csv"] * 2),
     ("report-sweep", ["members.csv", "doses.csv", "study.toml", "base.toml", "members/0000/case.toml"]),
-    ("report-sweep", ["expected.toml"] * 2 + ["calibration.json"] * 2 + ["design.json"]),
+    ("report-sweep", ["expected.toml"] * 2 + ["calibration.json"] * 2 + ["powder-draws.csv"] + ["design.json"]),
     ("render", ["case.toml", "frames/frames.csv", "frames/particles_000001.hdf", "particles.csv"]),
     ("profile", ["photo.png"] * 3),
     ("sweep", ["study.toml"] * 2 + ["base-case.toml"]),
@@ -51,9 +51,13 @@ FRONT = """{"goals": [{"name": "dose.left_kg", "base": "base-case.toml", "wish":
 """
 FINDING = """{"met": true, "misfit": 0.01, "best": 1,
  "targets": [{"name": "beta", "unit": "g", "base": "base-case.toml", "value": 3, "uncertainty": 0.1, "weight": 1,
-              "believed": 3.01, "deviation": 0.02}],
+              "believed": 3.01, "deviation": 0.02,
+              "leave_one_out": {"points": 2, "error": 0.1, "standardised_error": 0.9,
+                                "largest_standardised_error": 1.2, "predictive_r2": 0.95}}],
  "parameters": [{"key": "contact.friction", "low": 0.3, "high": 0.5, "chosen": 0.4, "change_in_uncertainties": [-12.5],
-                 "mostly_by": 0, "error": 0.016, "constrained": true, "may_meet": [0.38, 0.42]}],
+                 "mostly_by": 0, "median": 0.4, "interval_95": [0.38, 0.42], "constrained": true}],
+ "fit": {"sampled": 2048, "steps": 4, "acceptance": 0.3, "r_hat": 1.01, "effective": 700, "draws": 2,
+         "correlation": [[1]], "figures": [{"mean": 3, "deviation": 0.1}]},
  "points": [{"at": [0.3], "values": [[4.2, null]]}, {"at": [0.4], "values": [[3.01, null]]}], "confirming_seeds": [2, 3],
  "confirmations": [{"at": "contact.friction 0.4", "met": true,
                     "figures": [{"mean": 3.02, "error": 0.03, "runs": 2, "verdict": "met"}]}]}
@@ -127,6 +131,7 @@ def prepare(t, command, name):
         folders.copy(ground.good_sweep("reference")[0], t.path("out"))
         shutil.copy(os.path.join(os.path.dirname(MINI), "paper", "expected.toml"), t.path("expected.toml"))
         folders.write(t.path("out", "calibration.json"), FINDING)
+        folders.write(t.path("out", "powder-draws.csv"), "contact.friction\n0.39\n0.41\n")
         folders.write(t.path("out", "design.json"), FRONT)
         study = folders.bytes_of(t.path("out", "study.toml")).decode()
         folders.write(t.path("out", "study.toml"), of_design(study))
