@@ -17,6 +17,7 @@
 #include "host/core/printable.h"
 #include "host/study/calibration_finding.h"
 #include "host/study/design_finding.h"
+#include "host/study/finding_file.h"
 
 namespace vkdose {
 
@@ -62,8 +63,7 @@ int report(const CalibrationRuns& parts, const FrontResult& result, const std::v
     const Study& study = parts.study;
     const std::filesystem::path& folder = parts.folder.path();
     forgetDesign(folder);
-    const auto json = designJson(study, result, seeds);
-    replaceFile(folder / kDesignName, json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+    writeFindingFile(folder / kDesignName, designJson(study, result, seeds));
     std::string text;
     for (const CalibrationTarget& g : study.calibration->targets)
         text +=

@@ -12,9 +12,9 @@
 #include "host/app/tell.h"
 #include "host/app/text.h"
 #include "host/core/error.h"
-#include "host/core/file.h"
 #include "host/core/printable.h"
 #include "host/model/powder_file.h"
+#include "host/study/finding_file.h"
 #include "host/study/prediction.h"
 
 namespace vkdose {
@@ -64,6 +64,7 @@ int drawsCommand(const RunOptions& options) {
     const std::unique_ptr<MemberRunner> runner = makeRunner(sweep);
     const HaltRule halt = haltRule(watchInterrupts(), sweep.limit);
     SweepFolder folder(out, study, members);
+    removeFindings({folder.path() / kPredictionName});
     SweepDisplay display("run", study, options.quiet);
     display.begin(members, runner->manner());
     const SweepOutcome outcome = runMembers(folder, members, *runner, display, halt, sweep.retryFailed);
@@ -71,8 +72,7 @@ int drawsCommand(const RunOptions& options) {
     display.finish(folder, outcome, sweep);
     if (!outcome.whole) return haltCode(outcome.halt);
     const Prediction prediction = predictionOf(members, folder);
-    replaceFile(folder.path() / kPredictionName,
-                predictionJson(prediction).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+    writeFindingFile(folder.path() / kPredictionName, predictionJson(prediction));
     if (!options.quiet) tell("{}", predictionText(prediction, powder));
     return outcome.failed > 0 ? kDisagree : kOk;
 }

@@ -16,8 +16,8 @@
 #include "host/app/tell.h"
 #include "host/app/text.h"
 #include "host/core/error.h"
-#include "host/core/file.h"
 #include "host/core/printable.h"
+#include "host/study/finding_file.h"
 #include "host/study/scale_study.h"
 
 namespace vkdose {
@@ -101,6 +101,7 @@ int scaleCommand(const ScaleOptions& o) {
     const std::unique_ptr<MemberRunner> runner = makeRunner(options);
     const HaltRule halt = haltRule(watchInterrupts(), options.limit);
     SweepFolder folder(options.out, study, members);
+    removeFindings({folder.path() / kScaleName});
     SweepDisplay display("scale", study, options.quiet);
     display.begin(members, runner->manner());
     const SweepOutcome outcome = runMembers(folder, members, *runner, display, halt, options.retryFailed);
@@ -109,8 +110,7 @@ int scaleCommand(const ScaleOptions& o) {
     if (!outcome.whole) return haltCode(outcome.halt);
     const Case smallest = loadResolvedCase(members.front().caseText, study.base);
     const ScaleFinding finding = scaleFinding(study, aim, members, folder, gapsOf(smallest));
-    replaceFile(folder.path() / kScaleName,
-                scaleJson(finding).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+    writeFindingFile(folder.path() / kScaleName, scaleJson(finding));
     std::string text = sizesText(finding);
     for (const ScaleFinding::Figure& figure : finding.figures) text += figureText(finding, figure);
     tell("{}", text);

@@ -289,6 +289,37 @@ function designPart(main, study) {
   frontChart(add(part, "div", null, "charts"), found);
 }
 
+/// The figures of a device with draws of its powder.
+function predictionPart(main, study) {
+  const found = study.prediction;
+  if (!found) return;
+  add(main, "h2", "Prediction");
+  const part = add(main, "section", null, "prediction");
+  const failed = found.failed > 0 ? `, of which ${found.failed} failed` : "";
+  add(part, "p", `${found.draws} draws of the powder's parameters${failed}. One more run with another draw is to be expected ` +
+      `within the interval with a chance of ${Math.round(100 * found.chance)} %.`);
+  table(part, [["figure", false], ["mean", true], ["from", true], ["to", true], ["draws that have it", true]],
+        found.figures.map(f => [f.name, short(f.mean), isNumber(f.low) ? short(f.low) : "?", isNumber(f.high) ? short(f.high) : "?",
+                                String(f.draws)]));
+}
+
+/// Which figures of a case hold with larger spheres.
+function scalePart(main, study) {
+  const found = study.scale;
+  if (!found) return;
+  add(main, "h2", "Size of the spheres");
+  const part = add(main, "section", null, "scale");
+  const gaps = Object.keys(found.sizes[0].widths_in_diameters);
+  table(part, [["size", true], ["mean diameter [mm]", true], ["particles", true]].concat(gaps.map(g => [`${g} in diameters`, true])),
+        found.sizes.map(s => [short(s.factor), short(1e3 * s.mean_diameter_m), String(s.particles)]
+            .concat(gaps.map(g => short(s.widths_in_diameters[g])))));
+  add(part, "p", `Each figure is held against that of the smallest spheres, to ${rounded(100 * found.within, 3)} %. Open: the seeds do not tell.`);
+  table(part, [["figure", false]].concat(found.sizes.map(s => [`size ${short(s.factor)}`, true]), [["holds up to", true]]),
+        found.figures.map(f => [f.name].concat(
+            f.at.map((m, k) => (isNumber(m.mean) ? within(m.mean, m.error) : "none") + (k > 0 ? `, ${m.verdict}` : "")),
+            [short(f.holds_to_factor)])));
+}
+
 function verdictTable(main, verdicts) {
   table(main, [["", false], ["published", false], ["section", false], ["here", false], ["verdict", false]],
         verdicts.map(v => {
@@ -312,15 +343,18 @@ function studyPage(main, study) {
   }
   calibrationPart(main, study);
   designPart(main, study);
+  predictionPart(main, study);
+  scalePart(main, study);
   const heading = add(main, "h2", "Charts");
   const charts = add(main, "div", null, "charts");
-  // The points of a search lie on no lines along its parameters.
-  if (!study.searches) {
+  // The points of a search and the draws of a powder lie on no lines along the parameters.
+  const scattered = study.searches || Boolean(study.prediction);
+  if (!scattered) {
     betaCharts(charts, study);
     calibrationMap(charts, study);
   }
   doseCurves(charts, study);
-  if (study.axes.length > 0 && !study.searches) {
+  if (study.axes.length > 0 && !scattered) {
     alongAxis(charts, study, 0, {title: "Doses to 99 %", name: "doses", unit: "doses"}, p => output(p, "doses_to_99_percent", 1));
     alongAxis(charts, study, 0, {title: "RSD of the doses", name: "RSD", unit: "%"}, p => output(p, "rsd", 100));
   }

@@ -10,6 +10,8 @@
 #include "host/report/study_points.h"
 #include "host/study/calibration_file.h"
 #include "host/study/design_finding.h"
+#include "host/study/prediction.h"
+#include "host/study/scale_study.h"
 
 namespace vkdose::report {
 
@@ -110,6 +112,8 @@ Json studyJson(const fs::path& folder, const std::optional<fs::path>& expected) 
     if (finding && finding->fit)
         for (const Parameters& draw : finding->fit->draws) j["draws"].push_back(jsonNumbers(draw));
     j["design"] = readDesign(folder);
+    j["prediction"] = readPrediction(folder);
+    j["scale"] = readScale(folder);
     j["verdicts"] = expected ? verdictsJson(*expected, points) : Json(nullptr);
     return j;
 }

@@ -11,6 +11,7 @@
 #include "host/core/error.h"
 #include "host/core/file.h"
 #include "host/core/json.h"
+#include "host/study/finding_file.h"
 
 namespace vkdose {
 
@@ -238,33 +239,22 @@ Json findingJson(const CalibrationFinding& finding) {
 }
 
 void writeFinding(const fs::path& folder, const CalibrationFinding& finding) {
-    const std::string text = findingJson(finding).dump(2, ' ', false, Json::error_handler_t::replace);
     // The draws first: a folder with calibration.json has them.
     if (finding.fit) replaceFile(folder / kDrawsName, drawsText(finding));
-    replaceFile(folder / kFindingName, text + "\n");
+    writeFindingFile(folder / kFindingName, findingJson(finding));
 }
 
 void forgetFinding(const fs::path& folder) {
-    for (const char* name : {kFindingName, kDrawsName}) {
-        std::error_code code;
-        fs::remove(folder / name, code);
-        if (code) throw OutputError(fmt::format("cannot remove {}: {}", (folder / name).string(), code.message()));
-    }
+    removeFindings({folder / kFindingName, folder / kDrawsName});
 }
 
 std::optional<CalibrationFinding> readFinding(const fs::path& folder) {
-    const fs::path file = folder / kFindingName;
-    if (!fs::exists(file)) return std::nullopt;
-    try {
-        CalibrationFinding f = findingIn(Json::parse(fileContent(file).value_or("")));
-        if (isWhole(f)) {
-            if (f.fit) f.fit->draws = readDraws(folder / kDrawsName, f.parameters);
-            return f;
-        }
-    } catch (const Json::exception&) {  // told below, as what is incomplete
-    }
-    throw CaseError(
-        {{file.string(), 0, "", "", "is not the finding of a calibration", "run vkdose calibrate again to write it"}});
+    std::optional<CalibrationFinding> found;
+    const auto whole = [&](const Json& j) { return isWhole(found.emplace(findingIn(j))); };
+    if (readFindingFile(folder / kFindingName, whole, "the finding of a calibration", "vkdose calibrate").is_null())
+        return std::nullopt;
+    if (found->fit) found->fit->draws = readDraws(folder / kDrawsName, found->parameters);
+    return found;
 }
 
 }  // namespace vkdose

@@ -6,10 +6,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "host/core/error.h"
-#include "host/core/file.h"
 #include "host/core/json.h"
 #include "host/study/calibration_finding.h"
+#include "host/study/finding_file.h"
 
 namespace vkdose {
 
@@ -36,7 +35,7 @@ Json measuredJson(const Measured& m) {
 }
 
 /// Whether every list has an entry for each goal, parameter or point that it is about.
-bool isWhole(const Json& j) {
+bool isDesign(const Json& j) {
     const std::size_t goals = j.at("goals").size(), parameters = j.at("parameters").size();
     const auto counts = [&](const char* list, const char* figures) {
         return std::all_of(j.at(list).begin(), j.at(list).end(), [&](const Json& p) {
@@ -88,15 +87,7 @@ Json designJson(const Study& study, const FrontResult& result, const std::vector
 }
 
 Json readDesign(const fs::path& folder) {
-    const fs::path file = folder / kDesignName;
-    if (!fs::exists(file)) return nullptr;
-    try {
-        Json j = Json::parse(fileContent(file).value_or(""));
-        if (isWhole(j)) return j;
-    } catch (const Json::exception&) {  // told below, as what is incomplete
-    }
-    throw CaseError(
-        {{file.string(), 0, "", "", "is not the finding of a design", "run vkdose design again to write it"}});
+    return readFindingFile(folder / kDesignName, isDesign, "the finding of a design", "vkdose design");
 }
 
 fs::path designCase(const fs::path& folder, std::size_t number) {
@@ -110,11 +101,7 @@ std::vector<fs::path> designFiles(const fs::path& folder) {
 }
 
 void forgetDesign(const fs::path& folder) {
-    for (const fs::path& file : designFiles(folder)) {
-        std::error_code code;
-        fs::remove(file, code);
-        if (code) throw OutputError(fmt::format("cannot remove {}: {}", file.string(), code.message()));
-    }
+    removeFindings(designFiles(folder));
 }
 
 }  // namespace vkdose

@@ -2,14 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 
 #include "host/analysis/beta.h"
-#include "host/core/error.h"
 #include "host/core/json.h"
 #include "host/model/case.h"
+#include "host/study/finding_file.h"
 #include "host/study/read_axis.h"
 #include "host/study/seed_scatter.h"
 #include "host/study/trials.h"
@@ -91,6 +92,18 @@ nlohmann::ordered_json predictionJson(const Prediction& prediction) {
                                 {"low", jsonNumber(f.low)},
                                 {"high", jsonNumber(f.high)}});
     return j;
+}
+
+nlohmann::ordered_json readPrediction(const std::filesystem::path& folder) {
+    const auto isWhole = [](const nlohmann::ordered_json& j) {
+        const auto& figures = j.at("figures");
+        return j.at("draws").is_number() && j.at("failed").is_number() && figures.is_array() &&
+               std::all_of(figures.begin(), figures.end(), [](const auto& f) {
+                   return f.at("name").is_string() && f.contains("mean") && f.contains("low") && f.contains("high") &&
+                          f.at("draws").is_number();
+               });
+    };
+    return readFindingFile(folder / kPredictionName, isWhole, "a prediction", "vkdose run --draws");
 }
 
 }  // namespace vkdose

@@ -46,4 +46,7 @@ Prediction predictionOf(const std::vector<Member>& members, const SweepFolder& f
 /// The content of prediction.json; what is not known is null.
 nlohmann::ordered_json predictionJson(const Prediction& prediction);
 
+/// That of a folder; null without the file. Throws CaseError if it is damaged.
+nlohmann::ordered_json readPrediction(const std::filesystem::path& folder);
+
 }  // namespace vkdose

@@ -13,6 +13,7 @@
 #include "host/core/json.h"
 #include "host/model/powders.h"
 #include "host/model/size_distribution.h"
+#include "host/study/finding_file.h"
 #include "host/study/seed_scatter.h"
 #include "host/study/trials.h"
 
@@ -190,6 +191,18 @@ nlohmann::ordered_json scaleJson(const ScaleFinding& finding) {
             {{"name", figure.name}, {"at", at}, {"holds_to_factor", finding.sizes[figure.holds].factor}});
     }
     return j;
+}
+
+nlohmann::ordered_json readScale(const std::filesystem::path& folder) {
+    const auto isWhole = [](const nlohmann::ordered_json& j) {
+        const auto &sizes = j.at("sizes"), &figures = j.at("figures");
+        return !sizes.empty() && std::all_of(sizes.begin(), sizes.end(), [](const auto& size) {
+            return size.at("factor").is_number() && size.at("widths_in_diameters").is_object();
+        }) && std::all_of(figures.begin(), figures.end(), [&](const auto& f) {
+            return f.at("name").is_string() && f.at("at").size() == sizes.size() && f.at("holds_to_factor").is_number();
+        });
+    };
+    return readFindingFile(folder / kScaleName, isWhole, "the finding of a study of sizes", "vkdose scale");
 }
 
 }  // namespace vkdose

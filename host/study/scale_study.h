@@ -73,4 +73,7 @@ const char* verdictText(ScaleFinding::Verdict verdict);
 /// The content of scale.json; what is not known is null.
 nlohmann::ordered_json scaleJson(const ScaleFinding& finding);
 
+/// That of a folder; null without the file. Throws CaseError if it is damaged.
+nlohmann::ordered_json readScale(const std::filesystem::path& folder);
+
 }  // namespace vkdose

@@ -1,6 +1,7 @@
 #include "host/report/study_report.h"
 
 #include <cmath>
+#include <tuple>
 
 #include "host/core/error.h"
 #include "host/report/study_points.h"
@@ -219,6 +220,35 @@ TEST_CASE("the front of a design is in the data") {
         CAPTURE(damaged);
         box.write("sweep/design.json", damaged);
         CHECK_THROWS_AS(studyJson(folder, {}), CaseError);
+    }
+}
+
+TEST_CASE("a prediction and the sizes of spheres are in the data") {
+    const Sandbox box;
+    const auto folder = writeSweep(box);
+    CHECK(studyJson(folder, {})["prediction"].is_null());
+    CHECK(studyJson(folder, {})["scale"].is_null());
+    const std::string prediction = R"({"draws": 16, "failed": 1, "chance": 0.95, "figures": [{"name": "dose.rsd",
+        "draws": 15, "mean": 0.1, "deviation": 0.02, "low": 0.05, "high": null}]})";
+    const std::string scale = R"({"within": 0.05, "sizes": [{"factor": 1, "widths_in_diameters": {"outlet": 7}}],
+        "figures": [{"name": "dose.rsd", "at": [{"mean": 0.1, "error": null, "verdict": "holds"}],
+        "holds_to_factor": 1}]})";
+    box.write("sweep/prediction.json", prediction);
+    box.write("sweep/scale.json", scale);
+    const Json study = studyJson(folder, {});
+    CHECK(study["prediction"]["figures"][0]["mean"] == 0.1);
+    CHECK(study["scale"]["sizes"][0]["widths_in_diameters"]["outlet"] == 7);
+    for (const auto& [file, text, part, with] :
+         {std::tuple("sweep/prediction.json", prediction, "\"dose.rsd\"", "7"),
+          std::tuple("sweep/prediction.json", prediction, "\"draws\": 16", "\"draw\": 16"),
+          std::tuple("sweep/scale.json", scale, "\"factor\": 1,", ""),
+          std::tuple("sweep/scale.json", scale, "{\"mean\": 0.1, \"error\": null, \"verdict\": \"holds\"}", "")}) {
+        std::string damaged = text;
+        damaged.replace(damaged.find(part), std::string(part).size(), with);
+        CAPTURE(damaged);
+        box.write(file, damaged);
+        CHECK_THROWS_AS(studyJson(folder, {}), CaseError);
+        box.write(file, text);
     }
 }
 

@@ -20,7 +20,7 @@ CARRIED = ["cases", "tests/oracle", "tools/gpu-minutes", "tools/gpu-parts", "too
 def order_of(path):
     """What comes back first: tables, then the small files of runs, then the states to go on from, then the rest."""
     name = os.path.basename(path)
-    tables = ("members.csv", "doses.csv", "calibration.json", "powder-draws.csv", "verify.json", "verify.md")
+    tables = ("members.csv", "doses.csv", "calibration.json", "powder-draws.csv", "prediction.json", "scale.json", "verify.json", "verify.md")
     if path.count(os.sep) == 0 or name in tables:
         return 0
     if name.endswith((".txt", ".md", ".toml")) or name in ("summary.json", "bench.csv", "bench.json"):
