@@ -1,4 +1,4 @@
-"""The JSON Schema of cases and studies, judged by a validator that is not ours."""
+"""The JSON Schema of cases, studies and powders, judged by a validator that is not ours."""
 
 import copy
 import json
@@ -16,8 +16,13 @@ def tables(file):
     return tomllib.loads(file.read_text(encoding="utf-8"))
 
 
-def is_study(content):
-    return bool({"axis", "calibrate", "set", "seeds"} & content.keys())
+def kind_of(content):
+    """None: a table of expected results or a queue."""
+    if {"axis", "calibrate", "set", "seeds"} & content.keys():
+        return "study"
+    if "title" in content:
+        return "powder"
+    return "case" if {"particles", "base"} & content.keys() else None
 
 
 class Schema(unittest.TestCase):
@@ -25,27 +30,29 @@ class Schema(unittest.TestCase):
     def setUpClass(cls):
         cls.case = json.loads(call("manual", "keys", "--schema"))
         cls.study = json.loads(call("manual", "keys", "--study", "--schema"))
+        cls.powder = json.loads(call("manual", "keys", "--powder", "--schema"))
 
     def refused(self, content, schema):
         with self.assertRaises(jsonschema.ValidationError):
             jsonschema.validate(content, schema, jsonschema.Draft7Validator)
 
-    def test_both_are_schemas(self):
-        for schema in (self.case, self.study):
+    def test_all_are_schemas(self):
+        for schema in (self.case, self.study, self.powder):
             jsonschema.Draft7Validator.check_schema(schema)
 
     def test_every_shipped_file_is_valid(self):
-        seen = {"case": 0, "study": 0}
+        seen = {"case": 0, "study": 0, "powder": 0}
         for file in sorted((ROOT / "cases").rglob("*.toml")):
             content = tables(file)
-            if not is_study(content) and not {"particles", "base"} & content.keys():
-                continue  # a table of expected results
-            kind = "study" if is_study(content) else "case"
+            kind = kind_of(content)
+            if kind is None:
+                continue
             with self.subTest(file=file.name):
                 jsonschema.validate(content, getattr(self, kind), jsonschema.Draft7Validator)
             seen[kind] += 1
         self.assertGreater(seen["case"], 15)
         self.assertGreater(seen["study"], 10)
+        self.assertGreater(seen["powder"], 0)
 
     def test_slips_are_refused(self):
         good = tables(ROOT / "cases" / "mini.toml")
@@ -67,6 +74,8 @@ class Schema(unittest.TestCase):
             with self.subTest(key=".".join(path)):
                 self.refused(content, self.case)
         self.refused({"base": "mini.toml", "axis": [{"kye": "coil.speed_rpm"}]}, self.study)
+        self.refused({"title": "beads", "coil": {"turns": 3}}, self.powder)
+        self.refused({"title": "beads", "held": [{"figure": "heap.angle_deg", "fitted": 1}]}, self.powder)
 
     def test_a_table_of_a_study_may_have_any_key_of_a_case(self):
         content = {"base": "mini.toml", "set": {"coil.speed_rpm": 60}, "axis": [{"key": "seed", "values": [1, 2]}]}
