@@ -29,6 +29,9 @@ TARGETS = (
     ("compare", ["case.toml"]),
     ("export-body", ["case.toml"]),
     ("scale", ["case.toml"]),
+    ("powder", ["powder.toml"] * 3),
+    ("draws", ["draws.csv"] * 2 + ["powder.toml"]),
+    ("report-sweep", ["prediction.json", "scale.json"]),
     ("resume", [CHECKPOINT] * 6 + OF_A_RUN + OF_A_RUN[:3] + ["fields/outlet.csv"]),
     ("from", ["settled.h5"] * 3),
     ("report", OF_A_RUN + OF_A_RUN[1:3] + ["summary.json"] * 2 + ["particles.csv", "frames/contacts_000001.hdf"]),
@@ -61,6 +64,39 @@ FINDING = """{"met": true, "misfit": 0.01, "best": 1,
  "points": [{"at": [0.3], "values": [[4.2, null]]}, {"at": [0.4], "values": [[3.01, null]]}], "confirming_seeds": [2, 3],
  "confirmations": [{"at": "contact.friction 0.4", "met": true,
                     "figures": [{"mean": 3.02, "error": 0.03, "runs": 2, "verdict": "met"}]}]}
+"""
+PREDICTION = """{"draws": 2, "failed": 0, "chance": 0.95, "figures": [{"name": "dose.rsd", "draws": 2, "mean": 0.1,
+ "deviation": 0.02, "low": 0.05, "high": null}]}
+"""
+SCALE = """{"within": 0.05, "sizes": [{"factor": 1, "mean_diameter_m": 0.002, "particles": 9, "time_step_s": 1e-5,
+ "particle_steps": 1e6, "widths_in_diameters": {"outlet": 7}}], "figures": [{"name": "dose.rsd", "holds_to_factor": 1,
+ "at": [{"mean": 0.1, "error": null, "verdict": "holds"}]}]}
+"""
+POWDER = """title = "Made up"
+limits = "none"
+draws = "draws.csv"
+[particles]
+density = 1427.0
+[particles.size]
+distribution = "uniform"
+radius_min_mm = 0.9
+radius_max_mm = 1.3
+[contact]
+k = 2000.0
+k1_over_k = 0.2
+kc_over_k = 0.3
+plasticity_depth = 0.05
+damping = 0.02
+friction = 0.5
+[[laboratory]]
+figure = "bulk density"
+value = 640.0
+source = "nobody"
+[[held]]
+test = "case.toml"
+figure = "dose.mean_kg"
+measured = 0.1
+simulated = 0.1
 """
 # The resolved cases of this attack have these as the program derives them, so that it derives the same without them.
 DERIVED = ("step_s", "skin_mm")
@@ -108,6 +144,12 @@ def prepare(t, command, name):
                  "export-body": ["export-body", case, "--out", "coil.stl"],
                  "scale": ["scale", case, "--dry-run", "--jobs", "1", "--backend", "reference"]}[command]
         return words, t.path(name)
+    if command in ("powder", "draws"):
+        folders.write(t.path("case.toml"), ground.case_text("short"))
+        folders.write(t.path("powder.toml"), POWDER)
+        folders.write(t.path("draws.csv"), "contact.friction,contact.kc_over_k\n0.4,0.2\n0.5,0.3\n")
+        draws = ["--draws", "2", "--jobs", "1"] if command == "draws" else []
+        return ["run", "case.toml", "--powder", "powder.toml", *draws, "--out", "out", "--quiet", *device], t.path(name)
     if command == "profile":
         folders.write(t.path(name), photo())
         return ["profile", name, "--mm-per-pixel", "0.2", "--check", "check.png"], t.path(name)
@@ -133,6 +175,8 @@ def prepare(t, command, name):
         folders.write(t.path("out", "calibration.json"), FINDING)
         folders.write(t.path("out", "powder-draws.csv"), "contact.friction\n0.39\n0.41\n")
         folders.write(t.path("out", "design.json"), FRONT)
+        folders.write(t.path("out", "prediction.json"), PREDICTION)
+        folders.write(t.path("out", "scale.json"), SCALE)
         study = folders.bytes_of(t.path("out", "study.toml")).decode()
         folders.write(t.path("out", "study.toml"), of_design(study))
         at = t.path(name) if name == "expected.toml" else t.path("out", name)
@@ -209,7 +253,7 @@ def judge_success(t, command, name, way, readable):
     """Checks the promises of exit 0 after a spoilt file."""
     # Where a file's link leads, and the file now lies.
     behind = [os.path.join(os.path.dirname(name), "nowhere")] if way == "dangling" else []
-    if command in ("run", "from"):
+    if command in ("run", "from", "powder"):
         if not folders.complete(t.path("out")) or not whole_summary(folders.bytes_of(t.path("out", "summary.json"))):
             t.found("exit 0 without a whole summary")
     elif command == "resume":
@@ -225,7 +269,7 @@ def judge_success(t, command, name, way, readable):
         t.expect_same(good, t.path("out"), "swept on, exit 0, but", but)
     else:
         made = {"report": "out/report.html", "report-sweep": "out/report.html", "render": "out/picture.png",
-                "profile": "profile.csv", "export-body": "coil.stl"}.get(command)
+                "profile": "profile.csv", "export-body": "coil.stl", "draws": "out/prediction.json"}.get(command)
         content = folders.bytes_of(t.path(made)).rstrip() if made and os.path.exists(t.path(made)) else b""
         if made and (not content or made.endswith("html") and not content.endswith(b"</html>")):
             t.found(f"exit 0 without a whole {made}")
@@ -238,7 +282,7 @@ def judge_success(t, command, name, way, readable):
 def judge_refusal(t, end, command, name):
     """Checks a refusal: it names the file. If the spoilt case is another valid case, the message may be another one."""
     said = end.err + end.out
-    allowed = {"run": (2, 3), "compare": (1, 2, 3), "sweep": (1, 2), "sweep-on": (1, 2, 5)}
+    allowed = {"run": (2, 3), "powder": (2, 3), "draws": (1, 2), "compare": (1, 2, 3), "sweep": (1, 2), "sweep-on": (1, 2, 5)}
     if end.code not in allowed.get(command, (2, 5)):
         t.found(f"{end.how()} for a spoilt {name}: {end.said()}")
     elif end.code in (2, 5) and os.path.basename(name) not in said:
