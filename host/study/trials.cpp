@@ -54,10 +54,16 @@ Measured figureIn(const std::filesystem::path& folder, const std::string& figure
     if (const CycleFigure* f = figureNamed(kCycleFigures, kCycleName, figure)) return ofSeries(kCycleName, *f);
     for (const DoseFigure& f : kDoseFigures)
         if (figure == f.name) return {at(f.pointer), std::numeric_limits<double>::quiet_NaN()};
-    std::string pointer = "/measures/" + figure;
-    std::replace(pointer.begin(), pointer.end(), '.', '/');
-    const double measure = at(pointer);
-    return {std::isfinite(measure) ? measure : bodyFigure(summary, figure), std::numeric_limits<double>::quiet_NaN()};
+    const auto ofMeasure = [&](std::string pointer) {
+        std::replace(pointer.begin(), pointer.end(), '.', '/');
+        return at("/measures/" + pointer);
+    };
+    const double measure = ofMeasure(figure);
+    if (!std::isfinite(measure)) return {bodyFigure(summary, figure), std::numeric_limits<double>::quiet_NaN()};
+    // Where a measure tells the error of angle_deg, it is its angle_error_deg.
+    const std::size_t unit = figure.rfind('_');
+    return {measure, unit == std::string::npos ? std::numeric_limits<double>::quiet_NaN()
+                                               : ofMeasure(figure.substr(0, unit) + "_error" + figure.substr(unit))};
 }
 
 namespace {
