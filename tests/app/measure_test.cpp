@@ -326,8 +326,8 @@ high = 0.5
                           Catch::Contains("95 % from ") &&
                           Catch::Contains("correlation of contact.k and contact.friction ") &&
                           Catch::Contains("draws      out/powder-draws.csv, 200 of the points that fit"));
-    const Table draws = Table::read(box / "out/powder-draws.csv");
-    CHECK(draws.names() == Row{"contact.k", "contact.friction"});
+    const vkdose::Table draws = vkdose::Table::read(box / "out/powder-draws.csv");
+    CHECK(draws.names() == vkdose::Row{"contact.k", "contact.friction"});
     CHECK(draws.rows() == 200);
     REQUIRE(box.vkdose("report out").code == 0);
     CHECK_THAT(readText(box / "out/report.html"), Catch::Contains("\"name\":\"press.max_stress_Pa of less.toml\""));
