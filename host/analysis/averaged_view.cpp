@@ -26,7 +26,7 @@ void AveragedView::show(Column& column, int from, int to) const {
         column.pixels.insert(column.pixels.begin(), static_cast<std::size_t>(column.lowest - from), Pixel());
         column.lowest = from;
     }
-    const auto rows = static_cast<std::size_t>(to - column.lowest + 1);
+    const auto rows = static_cast<std::size_t>(to - column.lowest) + 1;
     if (column.pixels.size() < rows) column.pixels.resize(rows);
     for (int row = from; row <= to; ++row) {
         Pixel& pixel = column.pixels[static_cast<std::size_t>(row - column.lowest)];
