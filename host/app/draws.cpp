@@ -6,8 +6,6 @@
 
 #include "host/app/commands.h"
 #include "host/app/exit_code.h"
-#include "host/app/interrupt.h"
-#include "host/app/sweep_display.h"
 #include "host/app/sweep_setup.h"
 #include "host/app/tell.h"
 #include "host/app/text.h"
@@ -59,22 +57,14 @@ int drawsCommand(const RunOptions& options) {
     sweep.quiet = options.quiet;
     const Study study = drawsStudy(options.input.file, options.input.overrides, *powder.draws, options.draws);
     const std::vector<Member> members = drawsMembers(study);
-    const std::filesystem::path out = options.out.empty() ? std::filesystem::path("out") / study.name : options.out;
-    sweep.again = againText(options, out);
-    const std::unique_ptr<MemberRunner> runner = makeRunner(sweep);
-    const HaltRule halt = haltRule(watchInterrupts(), sweep.limit);
-    SweepFolder folder(out, study, members);
-    removeFindings({folder.path() / kPredictionName});
-    SweepDisplay display("run", study, options.quiet);
-    display.begin(members, runner->manner());
-    const SweepOutcome outcome = runMembers(folder, members, *runner, display, halt, sweep.retryFailed);
-    if (outcome.whole) folder.sort();
-    display.finish(folder, outcome, sweep);
-    if (!outcome.whole) return haltCode(outcome.halt);
-    const Prediction prediction = predictionOf(members, folder);
-    writeFindingFile(folder.path() / kPredictionName, predictionJson(prediction));
-    if (!options.quiet) tell("{}", predictionText(prediction, powder));
-    return outcome.failed > 0 ? kDisagree : kOk;
+    sweep.out = options.out.empty() ? std::filesystem::path("out") / study.name : options.out;
+    sweep.again = againText(options, sweep.out);
+    const auto write = [&](const SweepFolder& folder) {
+        const Prediction prediction = predictionOf(members, folder);
+        writeFindingFile(folder.path() / kPredictionName, predictionJson(prediction));
+        if (!options.quiet) tell("{}", predictionText(prediction, powder));
+    };
+    return playSweep(sweep, study, members, *makeRunner(sweep), {"run", kPredictionName, write});
 }
 
 }  // namespace vkdose

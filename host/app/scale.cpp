@@ -9,9 +9,7 @@
 #include "host/app/calibration_text.h"
 #include "host/app/commands.h"
 #include "host/app/exit_code.h"
-#include "host/app/interrupt.h"
 #include "host/app/measures.h"
-#include "host/app/sweep_display.h"
 #include "host/app/sweep_setup.h"
 #include "host/app/tell.h"
 #include "host/app/text.h"
@@ -98,23 +96,15 @@ int scaleCommand(const ScaleOptions& o) {
         tell("{}", planText(options, study, members));
         return kOk;
     }
-    const std::unique_ptr<MemberRunner> runner = makeRunner(options);
-    const HaltRule halt = haltRule(watchInterrupts(), options.limit);
-    SweepFolder folder(options.out, study, members);
-    removeFindings({folder.path() / kScaleName});
-    SweepDisplay display("scale", study, options.quiet);
-    display.begin(members, runner->manner());
-    const SweepOutcome outcome = runMembers(folder, members, *runner, display, halt, options.retryFailed);
-    if (outcome.whole) folder.sort();
-    display.finish(folder, outcome, options);
-    if (!outcome.whole) return haltCode(outcome.halt);
-    const Case smallest = loadResolvedCase(members.front().caseText, study.base);
-    const ScaleFinding finding = scaleFinding(study, aim, members, folder, gapsOf(smallest));
-    writeFindingFile(folder.path() / kScaleName, scaleJson(finding));
-    std::string text = sizesText(finding);
-    for (const ScaleFinding::Figure& figure : finding.figures) text += figureText(finding, figure);
-    tell("{}", text);
-    return outcome.failed > 0 ? kDisagree : kOk;
+    const auto write = [&](const SweepFolder& folder) {
+        const Case smallest = loadResolvedCase(members.front().caseText, study.base);
+        const ScaleFinding finding = scaleFinding(study, aim, members, folder, gapsOf(smallest));
+        writeFindingFile(folder.path() / kScaleName, scaleJson(finding));
+        std::string text = sizesText(finding);
+        for (const ScaleFinding::Figure& figure : finding.figures) text += figureText(finding, figure);
+        tell("{}", text);
+    };
+    return playSweep(options, study, members, *makeRunner(options), {"scale", kScaleName, write});
 }
 
 }  // namespace vkdose

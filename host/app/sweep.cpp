@@ -16,6 +16,7 @@
 #include "host/app/text.h"
 #include "host/core/error.h"
 #include "host/core/printable.h"
+#include "host/study/finding_file.h"
 #include "host/study/member.h"
 #include "host/study/study.h"
 #include "host/study/sweep.h"
@@ -84,6 +85,21 @@ std::filesystem::path sweepFolder(const SweepOptions& options) {
     return options.out.empty() ? std::filesystem::path("out") / options.study.stem() : options.out;
 }
 
+int playSweep(const SweepOptions& options, const Study& study, const std::vector<Member>& members, MemberRunner& runner,
+              const SweepReport& report) {
+    const HaltRule halt = haltRule(watchInterrupts(), options.limit);
+    SweepFolder folder(sweepFolder(options), study, members);
+    if (report.finding != nullptr) removeFindings({folder.path() / report.finding});
+    SweepDisplay display(report.command, study, options.quiet);
+    display.begin(members, runner.manner());
+    const SweepOutcome outcome = runMembers(folder, members, runner, display, halt, options.retryFailed);
+    if (outcome.whole) folder.sort();
+    display.finish(folder, outcome, options);
+    if (!outcome.whole) return haltCode(outcome.halt);
+    if (report.write) report.write(folder);
+    return outcome.failed > 0 ? kDisagree : kOk;
+}
+
 int sweepCommand(const SweepOptions& options) {
     std::unique_ptr<MemberRunner> runner;
     if (options.mpi) {
@@ -107,16 +123,7 @@ int sweepCommand(const SweepOptions& options) {
         return kOk;
     }
     if (!runner) runner = makeRunner(options);
-    const std::filesystem::path out = sweepFolder(options);
-    const HaltRule halt = haltRule(watchInterrupts(), options.limit);
-    SweepFolder folder(out, study, members);
-    SweepDisplay display("sweep", study, options.quiet);
-    display.begin(members, runner->manner());
-    const SweepOutcome outcome = runMembers(folder, members, *runner, display, halt, options.retryFailed);
-    if (outcome.whole) folder.sort();
-    display.finish(folder, outcome, options);
-    if (!outcome.whole) return haltCode(outcome.halt);
-    return outcome.failed > 0 ? kDisagree : kOk;
+    return playSweep(options, study, members, *runner, {"sweep", nullptr, nullptr});
 }
 
 }  // namespace vkdose

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -31,5 +32,16 @@ ExitCode haltCode(Halt halt);
 
 /// The folder of the sweep: --out, or out/<name of the study's file>.
 std::filesystem::path sweepFolder(const SweepOptions& options);
+
+/// What a command makes of a sweep.
+struct SweepReport {
+    const char* command;                            ///< its name
+    const char* finding;                            ///< file in the folder that is removed before; null: none
+    std::function<void(const SweepFolder&)> write;  ///< is called when every member has ended; null: nothing is
+};
+
+/// Runs the members of a study into `sweepFolder`, or goes on with them, and tells how they ended. Gives the exit code.
+int playSweep(const SweepOptions& options, const Study& study, const std::vector<Member>& members, MemberRunner& runner,
+              const SweepReport& report);
 
 }  // namespace vkdose

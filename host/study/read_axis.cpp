@@ -83,7 +83,7 @@ std::optional<std::vector<double>> boundOf(CaseReader& reader, Section& table, c
     return {};
 }
 
-/// Points of the Halton sequence. Each is as far as may be from those before, so that more points may follow later.
+/// Points of the Halton sequence. They fill the box evenly however many are taken, so that more may follow later.
 void readBox(CaseReader& reader, Section& table, const std::string& path, bool rows, Axis& axis) {
     const std::size_t keys = axis.keys.size();
     const auto low = boundOf(reader, table, "low", path, keys, rows),
