@@ -5,7 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "host/analysis/quarters.h"
+#include "host/analysis/beta.h"
 #include "host/analysis/surface_map.h"
 #include "host/core/line_fit.h"
 #include "host/sim/density.h"
@@ -108,7 +108,7 @@ std::optional<SurfaceAngle> DrumFront::angle() const {
     std::vector<double> parts;
     for (const AveragedView& quarter : quarters_)
         if (const auto part = angleOf(quarter); part && quarter.photographs() > 1) parts.push_back(*part);
-    return SurfaceAngle{*angle, parts.size() == kQuarters ? errorOfMean(parts) : std::nan("")};
+    return SurfaceAngle{*angle, parts.size() == kQuarters ? estimateOf(parts).standardError : std::nan("")};
 }
 
 }  // namespace vkdose

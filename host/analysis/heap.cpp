@@ -8,7 +8,7 @@
 
 #include "geometry/surface.h"
 #include "host/analysis/averaged_view.h"
-#include "host/analysis/quarters.h"
+#include "host/analysis/beta.h"
 #include "host/analysis/surface_map.h"
 #include "host/core/line_fit.h"
 #include "host/sim/density.h"
@@ -82,7 +82,8 @@ std::optional<HeapSlope> heapSlope(const Particles& particles) {
     slope.angle = std::atan(-whole.slope());
     std::vector<double> angles;
     for (const LineFit& q : quarters) angles.push_back(std::atan(-q.slope()));
-    slope.error = errorOfMean(angles);
+    const Estimate ofQuarters = estimateOf(angles);  // leaves out a quarter without a line
+    slope.error = ofQuarters.count == 4 ? ofQuarters.standardError : std::nan("");
     return slope;
 }
 
@@ -152,7 +153,7 @@ std::optional<HeapSlope> heapSlopeFromSide(const Particles& particles) {
             quarters.at(static_cast<std::size_t>((side > 0 ? k : kViews + k) / 8)) += angle / 8;
         }
     }
-    slope.error = errorOfMean({quarters.begin(), quarters.end()});
+    slope.error = estimateOf(quarters).standardError;
     return slope;
 }
 
