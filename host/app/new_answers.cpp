@@ -6,6 +6,7 @@
 
 #include "geometry/mesh_file.h"
 #include "host/app/backends.h"
+#include "host/app/find_case.h"
 #include "host/app/measures.h"
 #include "host/core/number.h"
 #include "host/core/printable.h"
@@ -135,17 +136,21 @@ constexpr std::array kQuestions{
     NewQuestion{"--fill", "MASS", "mass of the powder in the canister",
                 "a bed up to half a coil over the coil, or 0.7 of the height", "48g", true,
                 take<&NewAnswers::fill, Measure::Mass>},
+    NewQuestion{"--powder", "FILE",
+                "a powder that is known: a powder file (TOML), or a name that `vkdose powders` lists",
+                "none; the powder's figures are asked for", "glass-beads", true,
+                [](NewAnswers& a, const NewQuestion&, const std::string& text) { a.powder = findPowder(text); }},
     NewQuestion{"--bulk-density", "DENSITY", "density of the settled powder", "500 kg/m3", "471kg/m3", true,
-                take<&NewAnswers::bulkDensity, Measure::Density>},
+                take<&NewAnswers::bulkDensity, Measure::Density>, true},
     NewQuestion{"--density", "DENSITY", "density of the spheres", "that with which their bed has the bulk density",
-                "1427kg/m3", false, take<&NewAnswers::density, Measure::Density>},
+                "1427kg/m3", false, take<&NewAnswers::density, Measure::Density>, true},
     NewQuestion{"--sizes", "D50|D10/D50/D90",
                 "diameters of the powder by volume; they are enlarged to what can be "
                 "simulated",
-                "as the sphere budget says", "60/90/130um", true, takeSizes},
+                "as the sphere budget says", "60/90/130um", true, takeSizes, true},
     NewQuestion{"--flow", "free|easy|cohesive",
                 "how the powder flows: free (ffc above 10), easy (from 4 to 10) or cohesive (below)", "easy",
-                "cohesive", true, takeFlow},
+                "cohesive", true, takeFlow, true},
     NewQuestion{"--speed", "SPEED", "speed of the coil in a dose", "60 rpm, less for a large coil", "90rpm", true,
                 take<&NewAnswers::speed, Measure::Speed>},
     NewQuestion{"--rotate", "TIME", "time that the coil turns in a dose", "two turns, at most a quarter of the fill",

@@ -2,6 +2,7 @@
 // The questions of `vkdose new`, each once: they are its options and its dialogue.
 
 #include <array>
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -25,6 +26,7 @@ struct NewAnswers {
     std::optional<double> density;          ///< of its particles [kg/m3]
     std::vector<double> sizes;              ///< diameters by volume: d50, or d10, d50, d90 [m]
     std::optional<Flow> flow;
+    std::filesystem::path powder;         ///< file of a powder, which tells these four; empty: none
     std::optional<double> speed, rotate;  ///< [rad/s], [s]
     std::optional<double> dose;           ///< mass to dose to [kg]
     std::optional<int> doses, spheres;
@@ -39,6 +41,7 @@ struct NewQuestion {
     bool asked;  ///< in the dialogue
     /// Puts the answer `text` into its place. Throws UsageError that says what would be right.
     void (*take)(NewAnswers& answers, const NewQuestion& question, const std::string& text);
+    bool ofPowder = false;  ///< a powder file answers it
 };
 
 std::span<const NewQuestion> newQuestions();

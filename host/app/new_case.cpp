@@ -20,6 +20,7 @@
 #include "host/app/text.h"
 #include "host/core/file.h"
 #include "host/core/printable.h"
+#include "host/model/size_distribution.h"
 
 namespace vkdose {
 
@@ -64,9 +65,14 @@ NewAnswers answersTo(const NewOptions& options) {
     if (options.ask || (!any && ::isatty(STDIN_FILENO) == 1)) {
         tell("A device and its powder, in a few questions; units are written with the numbers.\n\n");
         for (std::size_t i = 0; i < questions.size(); ++i)
-            if (questions[i].asked && options.answers[i].empty()) ask(questions[i], answers);
+            if (questions[i].asked && options.answers[i].empty() && (!questions[i].ofPowder || answers.powder.empty()))
+                ask(questions[i], answers);
         tell("\n");
     }
+    for (std::size_t i = 0; i < questions.size(); ++i)
+        if (!answers.powder.empty() && questions[i].ofPowder && !options.answers[i].empty())
+            throw UsageError(
+                fmt::format("new: {} is told by the file of --powder; give one or the other", questions[i].option));
     if (!answers.canister) throw UsageError(fmt::format("new: --canister is needed: `{}`, or --ask", kExample));
     if (answers.mesh.empty() != answers.meshUnit.empty())
         throw UsageError(answers.mesh.empty() ? "new: --unit is that of a mesh; give --mesh FILE too"
@@ -94,8 +100,9 @@ const DeviceTemplate* deviceOf(const NewOptions& options) {
         device = &kDeviceTemplates[i];
     }
     if (device != nullptr && !given.empty())
-        throw UsageError(fmt::format("new: --{} and {}: a device that is ready is changed in its file; give it alone",
-                                     device->name, given));
+        throw UsageError(fmt::format("new: --{} and {}: a device that is ready is changed in its file; give it alone{}",
+                                     device->name, given,
+                                     given == "--powder" ? ", and the powder to `vkdose run`" : ""));
     return device;
 }
 
@@ -112,8 +119,9 @@ void tellDesign(const NewDesign& d, const Case& c, const std::filesystem::path& 
              figureText(d.coilLength.value / d.pitch.value, 4), lengthText(d.pitch.value),
              lengthText(d.coilStart.value), lengthText(d.coilStart.value + d.coilLength.value),
              lengthText(d.wire.value));
-    tell("powder     {} in {} spheres of {} to {}\n", massText(filled.mass), filled.particles.size(),
-         lengthText(2 * d.size.radiusMin), lengthText(2 * d.size.radiusMax));
+    if (d.powder) tell("powder     {} ({})\n", printable(d.powder->title), printable(d.powder->file.string()));
+    tell("{:<10} {} in {} spheres of {} to {}\n", d.powder ? "" : "powder", massText(filled.mass),
+         filled.particles.size(), lengthText(2 * smallestRadius(d.size)), lengthText(2 * largestRadius(d.size)));
     tellRunTime(c, filled);
     std::string assumed;
     for (const std::string& what : d.assumed) assumed += (assumed.empty() ? "" : ", ") + what;

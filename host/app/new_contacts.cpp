@@ -56,7 +56,7 @@ void fitStiffness(NewDesign& d, const Figures& f, const Case& trial) {
 
 void fitContacts(NewDesign& d, const Case& trial) {
     const Figures f = figuresOf(trial, insertParticles(trial));
-    fitStiffness(d, f, trial);
+    if (!d.powder) fitStiffness(d, f, trial);
     d.settle.value = roundedUp(kFalls * f.fallTime, 2);
     d.settle.why = fmt::format("at the latest: {} times the fall of the fill ({})", kFalls, lengthText(f.fall));
 }

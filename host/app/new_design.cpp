@@ -157,7 +157,7 @@ double bedFractionOf(const NewAnswers& a) {
     return a.flow == Flow::Free ? kFreeBedFraction : kBedFraction;
 }
 
-void designFill(NewDesign& d, const NewAnswers& a) {
+void designDensities(NewDesign& d, const NewAnswers& a) {
     const Choice choose(d);
     const double fraction = bedFractionOf(a);
     const double ofDensity = a.density ? rounded(fraction * *a.density, 2) : kAssumedBulk;
@@ -171,6 +171,23 @@ void designFill(NewDesign& d, const NewAnswers& a) {
     // The default of the program is that of cocoa, which check asks about; here somebody has said it.
     if (a.bulkDensity && *a.bulkDensity == 471 && std::abs(d.density.value / 1427 - 1) > 0.02)
         d.accepted.emplace_back("bulk-density");
+}
+
+void designPowder(NewDesign& d, const NewAnswers& a, const std::filesystem::path& file) {
+    if (a.powder.empty()) return designDensities(d, a);
+    const PowderFile powder = readPowderFile(a.powder);
+    d.powder = {fromCase(a.powder, file), powder.title, spheresOf(powder)};
+    const PowderSpheres& spheres = d.powder->spheres;
+    const Choice choose(d);
+    d.density = {spheres.density, "of the powder's file"};
+    d.bulkDensity = choose(spheres.bulkDensity, rounded(kBedFraction * spheres.density, 2),
+                           fmt::format("assumed: {} of the density, as spheres settle", kBedFraction));
+    choose.assumed(!spheres.bulkDensity,
+                   fmt::format("{} kg/m3 (bulk_density of the powder's file)", figureText(d.bulkDensity.value)));
+}
+
+void designFill(NewDesign& d, const NewAnswers& a) {
+    const Choice choose(d);
     const double high = std::max(0.55 * d.width.value, std::min(1.5 * d.width.value, 0.7 * d.height.value));
     d.fill = choose(a.fill, rounded(d.bulkDensity.value * volumeUpTo(d, std::min(high, 0.9 * d.height.value)), 2),
                     "assumed: a bed up to half a width over the coil, at most 0.7 of the height");
@@ -222,9 +239,12 @@ void designDose(NewDesign& d, const NewAnswers& a) {
 }
 
 /// The distribution of the powder itself; without sizes that of spheres with a diameter of 1 m, to be scaled.
-SizeDistribution ownSizes(const NewAnswers& a) {
+SizeDistribution ownSizes(const NewDesign& d, const NewAnswers& a) {
     SizeDistribution s;
-    if (a.sizes.size() == 3) {
+    if (d.powder) {
+        s = d.powder->spheres.size;
+        if (byVolume(s)) s.radiusMin = std::max(s.radiusMin, s.radiusMax / kWidestSizes);
+    } else if (a.sizes.size() == 3) {
         s.kind = SizeDistribution::Kind::Quantiles;
         s.r10 = a.sizes[0] / 2;
         s.r50 = a.sizes[1] / 2;
@@ -237,12 +257,6 @@ SizeDistribution ownSizes(const NewAnswers& a) {
         s.radiusMin = 0.8 * radius;
         s.radiusMax = 1.2 * radius;
     }
-    return s;
-}
-
-SizeDistribution scaled(SizeDistribution s, double factor) {
-    for (double* r : {&s.radiusMin, &s.radiusMax, &s.r10, &s.r50, &s.r90}) *r *= factor;
-    s.scaleUp *= factor;
     return s;
 }
 
@@ -268,7 +282,7 @@ Limit largestScale(const NewDesign& d, const SizeDistribution& own) {
 }
 
 void designSpheres(NewDesign& d, const NewAnswers& a) {
-    const SizeDistribution own = ownSizes(a);
+    const SizeDistribution own = ownSizes(d, a);
     const int budget = a.spheres.value_or(kUsualSpheres);
     const double unit = d.fill.value / (d.density.value * 4.0 / 3.0 * kPi * meanCubedRadius(own));
     const Limit limit = largestScale(d, own);
@@ -279,7 +293,8 @@ void designSpheres(NewDesign& d, const NewAnswers& a) {
         why = fmt::format("as large as {} allows; the fill is then some {:.0f} spheres", limit.why,
                           rounded(unit / std::pow(scale, 3), 2));
     }
-    if (!a.sizes.empty() && scale < 1) {
+    const bool grains = d.powder.has_value() || !a.sizes.empty();
+    if (grains && scale < 1) {
         scale = 1;
         why = fmt::format("as they are; the fill is {:.0f} spheres", rounded(unit, 2));
         if (limit.scale < 1)
@@ -302,11 +317,17 @@ void designSpheres(NewDesign& d, const NewAnswers& a) {
             a.sizes.size() == 3 ? fmt::format(" With one size in place of three (--sizes {}) there are fewer.",
                                               figureText(a.sizes[1] * 1e6) + "um")
                                 : ""));
-    if (!a.sizes.empty() && scale > 1) scale = std::max(1.0, roundedDown(scale, 3));
-    d.size = scaled(own, scale);
+    if (grains && scale > 1) scale = std::max(1.0, roundedDown(scale, 3));
+    d.size = enlarged(own, scale);
+    if (!grains) d.size.scaleUp = 1;
     d.sizeWhy = why;
-    Choice(d).assumed(a.sizes.empty(), fmt::format("spheres of {} to {} (--sizes, --spheres)",
-                                                   lengthText(2 * d.size.radiusMin), lengthText(2 * d.size.radiusMax)));
+    if (d.powder && scale > 1 && !d.powder->spheres.stressScaled)
+        d.notes.push_back(fmt::format(
+            "The spheres are {} times as large as those that the powder's file is of, and its contacts do not follow "
+            "(contact.scaling): what the powder was held against need not hold. More spheres (--spheres) are smaller.",
+            figureText(scale)));
+    Choice(d).assumed(!grains, fmt::format("spheres of {} to {} (--sizes, --spheres)", lengthText(2 * d.size.radiusMin),
+                                           lengthText(2 * d.size.radiusMax)));
 }
 
 void designFlow(NewDesign& d, const NewAnswers& a) {
@@ -321,6 +342,13 @@ void designFlow(NewDesign& d, const NewAnswers& a) {
 
 }  // namespace
 
+std::filesystem::path fromCase(const std::filesystem::path& file, const std::filesystem::path& caseFile) {
+    const std::filesystem::path folder = caseFile.has_parent_path() ? caseFile.parent_path() : ".";
+    std::error_code code;
+    const std::filesystem::path relative = std::filesystem::proximate(file, folder, code);
+    return code || relative.empty() ? std::filesystem::absolute(file) : relative;
+}
+
 NewDesign trialOf(NewDesign design) {
     design.bond = 0;
     return design;
@@ -333,13 +361,14 @@ NewDesign designOf(const NewAnswers& answers, const std::filesystem::path& file)
         designCoil(d, answers);
     else
         designMesh(d, answers, file);
+    designPowder(d, answers, file);
     designFill(d, answers);
     designDose(d, answers);
     d.rest = {roundedUp(2 * std::sqrt(2 * d.outlet.value / kGravity), 1),
               "twice the time of a fall through the outlet's height, so that the dose comes to an end"};
     d.doses = answers.doses.value_or(3);
     designSpheres(d, answers);
-    designFlow(d, answers);
+    if (!d.powder) designFlow(d, answers);
     // First guesses, with which the case loads.
     d.stiffness.value = 1000;
     d.settle.value = 1;

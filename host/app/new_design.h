@@ -8,6 +8,7 @@
 
 #include "host/app/new_answers.h"
 #include "host/model/case.h"
+#include "host/model/powder_file.h"
 
 namespace vkdose {
 
@@ -30,15 +31,23 @@ struct NewMesh {
     double solid = 0;                   ///< cross-section that the mesh itself takes up, mean over its length [m2]
 };
 
+/// A powder by its file, whose contacts are those of the case.
+struct NewPowder {
+    std::filesystem::path file;  ///< as the case names it: relative to the case's folder
+    std::string title;
+    PowderSpheres spheres;
+};
+
 struct NewDesign {
     std::optional<NewMesh> mesh;
+    std::optional<NewPowder> powder;
     Reasoned length, width, height, outlet, throat;  ///< of the canister [m]
     bool flatFloor = false;
     Reasoned pitch, coilLength, coilStart, wire, clearance;  ///< of the coil [m]
     Reasoned speed;                                          ///< [rad/s]
     Reasoned fill;                                           ///< [kg]
     Reasoned bulkDensity, density;                           ///< [kg/m3]
-    SizeDistribution size;                                   ///< uniform or by quantiles
+    SizeDistribution size;                                   ///< uniform or by quantiles, or that of the powder
     std::string sizeWhy;
     Flow flow = Flow::Easy;
     bool flowGiven = false;
@@ -58,12 +67,15 @@ struct NewDesign {
 };
 
 /// `file` is the case to be written. Everything but the contacts and the time to settle, for which there are first
-/// guesses. Throws UsageError where the answers contradict each other.
+/// guesses. Throws UsageError where the answers contradict each other, CaseError with the faults of a powder file.
 NewDesign designOf(const NewAnswers& answers, const std::filesystem::path& file);
 
 /// Reads the mesh of `a` and lays it into the canister: throat, pitch, wire and clearance of the design become those of
 /// a coil of its size. Throws UsageError.
 void designMesh(NewDesign& d, const NewAnswers& a, const std::filesystem::path& file);
+
+/// `file` as a case in `caseFile` names it: from its own folder.
+std::filesystem::path fromCase(const std::filesystem::path& file, const std::filesystem::path& caseFile);
 
 /// The design with contacts that load whatever its spheres are: without adhesion, which may need stiffer ones.
 NewDesign trialOf(NewDesign design);

@@ -53,14 +53,6 @@ Vec3 turned(const NewMesh& m, const Vec3& p) {
     return glm::angleAxis(m.rotation * kPi / 180, m.rotationAxis) * p;
 }
 
-/// The case names the mesh from its own folder.
-std::filesystem::path fromCase(const std::string& mesh, const std::filesystem::path& file) {
-    const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
-    std::error_code code;
-    const std::filesystem::path relative = std::filesystem::proximate(mesh, folder, code);
-    return code || relative.empty() ? std::filesystem::absolute(mesh) : relative;
-}
-
 std::string sizeText(const Vec3& size) {
     return fmt::format("{} x {} x {}", lengthText(size.x), lengthText(size.y), lengthText(size.z));
 }

@@ -63,6 +63,35 @@ class CaseText {
     std::string text_;
 };
 
+void writeOverlap(CaseText& out, const NewDesign& d) {
+    if (d.mesh)
+        out.line("max_overlap_ratio", "0.95", "a sphere pressed in deeper than its radius would pass through the mesh");
+    else
+        out.line("max_overlap_ratio", "1", "spheres are wedged between coil and wall; the report tells how deep");
+}
+
+/// The sizes of a powder's file, in the spheres of this case.
+void writeScale(CaseText& out, const NewDesign& d) {
+    const SizeDistribution &s = d.size, &own = d.powder->spheres.size;
+    // Where the bounds are of the spheres, not of the grains, those of the file would stay.
+    const bool bounds = byVolume(s);
+    if (s.scaleUp == own.scaleUp && !(bounds && s.radiusMin > own.radiusMin)) return;
+    out.table("particles.size");
+    out.line("scale_up", figureText(s.scaleUp, 6), d.sizeWhy);
+    if (bounds) {
+        out.line("radius_min_mm", figureText(roundedUp(s.radiusMin * 1e3, 3)), "at least a third of the largest");
+        out.line("radius_max_mm", figureText(roundedDown(s.radiusMax * 1e3, 6), 6), "");
+    }
+}
+
+void writePowder(CaseText& out, const NewDesign& d) {
+    out.table("particles");
+    out.line("mass_g", d.fill, 1e3);
+    writeScale(out, d);
+    out.table("contact");
+    writeOverlap(out, d);
+}
+
 void writeParticles(CaseText& out, const NewDesign& d) {
     out.table("particles");
     out.line("density", d.density, 1);
@@ -70,9 +99,11 @@ void writeParticles(CaseText& out, const NewDesign& d) {
     out.table("particles.size");
     const SizeDistribution& s = d.size;
     if (s.kind == SizeDistribution::Kind::Uniform) {
+        const bool enlarged = s.scaleUp != 1;
         out.word("distribution", "uniform", "diameters spread by a fifth, against a crystal");
-        out.line("radius_min_mm", figureText(s.radiusMin * 1e3), d.sizeWhy);
-        out.line("radius_max_mm", figureText(s.radiusMax * 1e3), "");
+        out.line("radius_min_mm", figureText(s.radiusMin / s.scaleUp * 1e3), enlarged ? "given" : d.sizeWhy);
+        out.line("radius_max_mm", figureText(s.radiusMax / s.scaleUp * 1e3), "");
+        if (enlarged) out.line("scale_up", figureText(s.scaleUp), d.sizeWhy);
         return;
     }
     out.word("distribution", "quantiles", "");
@@ -98,22 +129,30 @@ void writeContacts(CaseText& out, const NewDesign& d) {
                     free                   ? "freely"
                     : d.flow == Flow::Easy ? "easily"
                                            : "badly (cohesive)"));
-    out.line("k", figureText(d.stiffness.value), d.stiffness.why);
+    const double scale = d.size.scaleUp;
+    if (scale == 1) {
+        out.line("k", figureText(d.stiffness.value), d.stiffness.why);
+    } else {
+        out.word("scaling", "stress", "k and bond_number are of the grains; the contacts of larger spheres follow");
+        out.line("k", figureText(d.stiffness.value / scale),
+                 fmt::format("that of the spheres is {} {}", figureText(d.stiffness.value), d.stiffness.why));
+    }
     out.line("k1_over_k", figureText(d.k1OverK),
              free ? "elastic" : "loading is plastic, which keeps contacts together");
     if (!free) out.line("plasticity_depth", "0.05", "of the radius");
     if (d.bond == 0)
         out.line("kc_over_k", "0", "no adhesion");
     else
-        out.line("bond_number", figureText(d.bond), "a contact pressed hard holds so many weights of a mean sphere");
+        out.line("bond_number", figureText(d.bond * scale),
+                 scale == 1 ? "a contact pressed hard holds so many weights of a mean sphere"
+                            : fmt::format("a contact pressed hard holds so many weights of a mean grain, or {} of a "
+                                          "mean sphere",
+                                          figureText(d.bond)));
     out.line("restitution", "0.5", "of mean spheres, at slow impacts; it gives the damping");
     out.line("friction", figureText(d.friction), "assumed; between particles");
     out.line("rolling_friction", figureText(d.rollingFriction), "assumed; stands for the shape of the grains");
     out.word("coulomb_limit", "absolute", "friction of the force that a contact bears");
-    if (d.mesh)
-        out.line("max_overlap_ratio", "0.95", "a sphere pressed in deeper than its radius would pass through the mesh");
-    else
-        out.line("max_overlap_ratio", "1", "spheres are wedged between coil and wall; the report tells how deep");
+    writeOverlap(out, d);
     out.table("contact.wall");
     out.line("friction", "0.3",
              fmt::format("assumed; of the powder on the wall and, as there is no [contact.coil], on the {}",
@@ -220,9 +259,15 @@ std::string newCaseText(const NewDesign& d) {
         for (const std::string& name : d.accepted) names += (names.empty() ? "" : " ") + name;
         out.word("accepted_warnings", names, "of vkdose check: what it warns of was given");
     }
-    out.line("bulk_density", Reasoned{d.bulkDensity.value, "kg/m3; " + d.bulkDensity.why}, 1);
-    writeParticles(out, d);
-    writeContacts(out, d);
+    if (d.powder) out.word("powder_file", d.powder->file.generic_string(), "given; " + d.powder->title);
+    if (!d.powder || !d.powder->spheres.bulkDensity)
+        out.line("bulk_density", Reasoned{d.bulkDensity.value, "kg/m3; " + d.bulkDensity.why}, 1);
+    if (d.powder) {
+        writePowder(out, d);
+    } else {
+        writeParticles(out, d);
+        writeContacts(out, d);
+    }
     writeDevice(out, d);
     writeSchedule(out, d);
     return out.text();

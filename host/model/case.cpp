@@ -266,7 +266,8 @@ Case loadVariant(const std::filesystem::path& file, std::vector<Node> layers) {
 Case loadResolvedCase(const std::string& text, const std::filesystem::path& file,
                       const std::vector<std::string>& overrides) {
     std::vector<std::filesystem::path> files{file};
-    Node tree = readTreeText(text, file.string());
+    Node tree;
+    layOver(tree, readTreeText(text, file.string()), files);
     layOver(tree, overrideTree(overrides), files);
     return interpretKept(file, std::move(tree), std::move(files));
 }

@@ -200,8 +200,8 @@ Case loadCase(const std::filesystem::path& file, const std::vector<std::string>&
 /// written.
 Case loadVariant(const std::filesystem::path& file, std::vector<Node> layers);
 
-/// The same for the text of a case (`Case::resolved` or `Case::given`). Messages and paths treat it as the content of
-/// `file`.
+/// The same for the text of a case that names no base: `Case::resolved`, `Case::given` or a new one. Messages and paths
+/// treat it as the content of `file`.
 Case loadResolvedCase(const std::string& text, const std::filesystem::path& file,
                       const std::vector<std::string>& overrides = {});
 

@@ -6,7 +6,9 @@
 #include <utility>
 
 #include "host/core/printable.h"
+#include "host/model/case_keys.h"
 #include "host/model/case_reader.h"
+#include "host/model/case_sections.h"
 #include "host/model/named_file.h"
 
 namespace vkdose {
@@ -126,6 +128,21 @@ PowderFile readPowderFile(const std::filesystem::path& file) {
     reader.finish();
     reader.throwIfFaulty();
     return powder;
+}
+
+PowderSpheres spheresOf(const PowderFile& powder) {
+    CaseReader reader(powder.file.string(), powder.spheres, caseKeys());
+    Section& root = reader.root();
+    Section& particles = root.requiredTable("particles");
+    PowderSpheres spheres;
+    spheres.density = particles.number("density");
+    Case sieves;  // keeps the paths of their files, which are not asked for
+    spheres.size = readSize(reader, particles.requiredTable("size"), sieves);
+    if (root.has("bulk_density") && !root.isString("bulk_density")) spheres.bulkDensity = root.number("bulk_density");
+    const Node* scaling = powder.spheres.child("contact")->child("scaling");
+    spheres.stressScaled = scaling != nullptr && scaling->string == "stress";
+    reader.throwIfFaulty();
+    return spheres;
 }
 
 void layOver(Node& lower, Node upper, std::vector<std::filesystem::path>& files) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "host/model/case.h"
 #include "host/model/case_tree.h"
 #include "host/model/key.h"
 
@@ -40,6 +41,17 @@ struct PowderFile {
 
 /// Throws CaseError with every fault of the file, but for those of the case's own keys: these the case tells.
 PowderFile readPowderFile(const std::filesystem::path& file);
+
+/// The spheres of a powder by themselves, as every case with its file has them.
+struct PowderSpheres {
+    SizeDistribution size;
+    double density = 0;                 ///< [kg/m3]
+    std::optional<double> bulkDensity;  ///< of their settled bed, if the file states it as a number [kg/m3]
+    bool stressScaled = false;          ///< contact.scaling = "stress": larger spheres have contacts that follow
+};
+
+/// Throws CaseError with the faults of the keys that these are read from.
+PowderSpheres spheresOf(const PowderFile& powder);
 
 /// Every key of such a file that is not a case's.
 std::span<const KeyTable> powderFileKeys();

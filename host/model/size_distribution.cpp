@@ -100,11 +100,11 @@ double drawByVolume(const SizeDistribution& size, double u) {
     return largestRadius(size);
 }
 
+}  // namespace
+
 bool byVolume(const SizeDistribution& size) {
     return size.kind == SizeDistribution::Kind::Quantiles || size.kind == SizeDistribution::Kind::Sieve;
 }
-
-}  // namespace
 
 double drawRadius(const SizeDistribution& size, std::uint64_t seed, std::uint64_t index, std::uint64_t& redrawn) {
     if (size.kind == SizeDistribution::Kind::Fixed) return size.radius;
@@ -164,6 +164,14 @@ double meanCubedRadius(const SizeDistribution& size) {
         default:
             return r * r * r;
     }
+}
+
+SizeDistribution enlarged(SizeDistribution size, double factor) {
+    for (double* r : {&size.radius, &size.radiusMin, &size.radiusMax, &size.r10, &size.r50, &size.r90}) *r *= factor;
+    if (size.kind != SizeDistribution::Kind::Lognormal) size.deviation *= factor;
+    for (SievePoint& s : size.sieve) s.radius *= factor;
+    size.scaleUp *= factor;
+    return size;
 }
 
 double acceptance(const SizeDistribution& size) {

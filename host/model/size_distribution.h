@@ -21,6 +21,12 @@ double largestRadius(const SizeDistribution& size);
 double meanRadius(const SizeDistribution& size);
 double meanCubedRadius(const SizeDistribution& size);
 
+/// Whether the distribution is that of a powder's volume: Quantiles or Sieve. Its bounds are of the spheres alone.
+bool byVolume(const SizeDistribution& size);
+
+/// The same powder in spheres `factor` times as large.
+SizeDistribution enlarged(SizeDistribution size, double factor);
+
 /// Fraction of the draws that fall inside the bounds. It is 1 for distributions that never draw again.
 double acceptance(const SizeDistribution& size);
 

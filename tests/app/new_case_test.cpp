@@ -280,8 +280,8 @@ TEST_CASE("new: it never replaces a file, and says how to name one") {
 
 TEST_CASE("new: the dialogue asks again until it understands, and gives the case of the same options") {
     const Sandbox box;
-    // canister, coil, outlet, wire, fill, bulk density, sizes, flow, speed, rotate, doses, spheres
-    box.write("answers", "80x30\n80x30x100mm\n\n6\n6turns\n\n\n48 g\n500kg/m3\n\ncohesive\n90rpm\n\n5\n\n");
+    // canister, coil, outlet, wire, fill, powder, bulk density, sizes, flow, speed, rotate, doses, spheres
+    box.write("answers", "80x30\n80x30x100mm\n\n6\n6turns\n\n\n48 g\n\n500kg/m3\n\ncohesive\n90rpm\n\n5\n\n");
     const std::string from = "' new my.toml --ask < answers > said.txt 2>&1";
     REQUIRE(std::system(("cd '" + box.path().string() + "' && '" VKDOSE_BINARY_DIR "/vkdose" + from).c_str()) == 0);
     const std::string said = readText(box / "said.txt");
@@ -290,6 +290,12 @@ TEST_CASE("new: the dialogue asks again until it understands, and gives the case
                        "cohesive --speed 90rpm --doses 5")
                 .code == 0);
     CHECK(readText(box / "my.toml") == readText(box / "same.toml"));
+    // A powder's file answers the questions about the powder.
+    box.write("answers", "80x30x100mm\n6turns\n\n\n48g\nglas-beads\nglass-beads\n90rpm\n\n5\n\n");
+    const std::string beads = "' new beads.toml --ask < answers > said.txt 2>&1";
+    REQUIRE(std::system(("cd '" + box.path().string() + "' && '" VKDOSE_BINARY_DIR "/vkdose" + beads).c_str()) == 0);
+    CHECK_THAT(readText(box / "said.txt"), Catch::Contains("did you mean glass-beads?") && !Catch::Contains("sizes"));
+    CHECK_THAT(readText(box / "beads.toml"), Catch::Contains("glass-beads.toml\""));
     const auto ended = box.vkdose("new other.toml --ask");
     CHECK(ended.code == 2);
     CHECK_THAT(ended.err, Catch::Contains("the answers end before --canister; nothing was written"));

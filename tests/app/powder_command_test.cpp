@@ -3,7 +3,9 @@
 
 #include "host/app/find_case.h"
 #include "host/core/csv_table.h"
+#include "host/model/case.h"
 #include "host/model/powder_file.h"
+#include "host/model/size_distribution.h"
 #include "tests/app/sandbox.h"
 #include "tests/support/catch.h"
 
@@ -92,4 +94,53 @@ TEST_CASE("draws of a powder are runs of their own, with intervals of what came 
     CHECK_THAT(box.vkdose("run mini --powder powder.toml --draws 4").err, Catch::Contains("has 3 rows"));
     CHECK_THAT(box.vkdose("run mini --powder glass-beads --draws 3").err,
                Catch::Contains("draws") && Catch::Contains("no distribution"));
+}
+
+TEST_CASE("new: a case with a powder's file has its contacts, and its sizes as far as the device allows") {
+    const Sandbox box;
+    box.write("powder.toml", kPowder);
+    box.write("draws.csv", "contact.friction\n0.4\n");
+    const std::string device = " --canister 80x50x100mm --coil 5x15mm --fill 100g ";
+    const auto o = box.vkdose("new plain.toml --powder powder.toml" + device);
+    CAPTURE(o.out, o.err);
+    REQUIRE(o.code == 0);
+    CHECK_THAT(o.out, Catch::Contains("Made up (powder.toml)") && Catch::Contains("bulk_density of the powder's file"));
+    Case c = loadCase(box / "plain.toml");
+    CHECK(c.dosingLaw.of(ContactClass::ParticleParticle).mu == 0.5);
+    CHECK(c.world.density() == 1427);
+    CHECK(c.bulkDensity == Approx(0.46 * 1427).epsilon(0.01));
+    CHECK(c.filling.mass == Approx(0.1));
+    CHECK(meanRadius(c.filling.size) == Approx(1.1e-3 * c.filling.size.scaleUp));
+    // 12500 spheres as they are; so they are larger, and their contacts do not follow.
+    CHECK(c.filling.size.scaleUp > 1.3);
+    CHECK_THAT(o.out, Catch::Contains("its contacts do not follow"));
+
+    // Grains of a tenth of a millimetre, with contacts that follow.
+    std::string fine = kPowder;
+    fine.replace(fine.find("distribution"), fine.find("[contact]") - fine.find("distribution"),
+                 "distribution = \"quantiles\"\nd10_um = 90\nd50_um = 120\nd90_um = 500\n");
+    box.write("fine.toml", fine + "scaling = \"stress\"\n");
+    const auto scaled = box.vkdose("new sub/fine.toml --powder fine.toml" + device);
+    CHECK(scaled.code == 5);  // there is no such folder
+    std::filesystem::create_directory(box / "sub");
+    const auto enlarged = box.vkdose("new sub/fine.toml --powder fine.toml" + device);
+    CAPTURE(enlarged.out, enlarged.err);
+    REQUIRE(enlarged.code == 0);
+    CHECK_THAT(enlarged.out, !Catch::Contains("do not follow"));
+    c = loadCase(box / "sub/fine.toml");
+    const double s = c.filling.size.scaleUp;
+    CHECK(s > 5);
+    CHECK(c.dosingLaw.of(ContactClass::ParticleParticle).k2Max == Approx(2000 * s));
+    CHECK(largestRadius(c.filling.size) <= 3.01 * smallestRadius(c.filling.size));
+    CHECK(largestRadius(c.filling.size) == Approx(coarsestRadius(c.filling.size)).epsilon(1e-5));
+
+    CHECK_THAT(box.vkdose("new no.toml --powder fine.toml --flow free" + device).err,
+               Catch::Contains("--flow is told by the file of --powder"));
+    CHECK_THAT(box.vkdose("new no.toml --screw --powder glass-beads").err, Catch::Contains("vkdose run"));
+    box.write("bad.toml", "title = \"x\"\n[particles]\ndensity = -1.0\n[particles.size]\n[contact]\nk = 1.0\n");
+    const auto bad = box.vkdose("new no.toml --powder bad.toml" + device);
+    CHECK(bad.code == 2);
+    CHECK_THAT(bad.err,
+               Catch::Contains("bad.toml:3: particles.density") && Catch::Contains("particles.size.distribution"));
+    CHECK_FALSE(std::filesystem::exists(box / "no.toml"));
 }

@@ -157,6 +157,12 @@ TEST_CASE("every kind of sizes can be scaled up") {
         CHECK(smallestRadius(three) > 0.8e-3);
         CHECK(largestRadius(more) == Approx(1.1 * largestRadius(three)));
         CHECK(smallestRadius(more) == Approx(1.1 * smallestRadius(three)));
+        const SizeDistribution same = enlarged(three, 1.1);
+        CHECK(same.scaleUp == Approx(3.3));
+        CHECK(meanRadius(same) == Approx(meanRadius(more)));
+        CHECK(meanCubedRadius(same) == Approx(meanCubedRadius(more)));
+        CHECK(smallestRadius(same) == Approx(smallestRadius(more)));
+        CHECK(largestRadius(same) == Approx(largestRadius(more)));
         std::uint64_t redrawn = 0;
         for (std::uint64_t i = 0; i < 200; ++i)
             CHECK(drawRadius(more, 7, i, redrawn) == Approx(1.1 * drawRadius(three, 7, i, redrawn)));
