@@ -16,6 +16,7 @@
 #include "host/app/text.h"
 #include "host/core/error.h"
 #include "host/core/printable.h"
+#include "host/study/figures_table.h"
 #include "host/study/finding_file.h"
 #include "host/study/member.h"
 #include "host/study/study.h"
@@ -89,6 +90,7 @@ int playSweep(const SweepOptions& options, const Study& study, const std::vector
               const SweepReport& report) {
     const HaltRule halt = haltRule(watchInterrupts(), options.limit);
     SweepFolder folder(sweepFolder(options), study, members);
+    removeFindings({folder.path() / kFiguresName});
     if (report.finding != nullptr) removeFindings({folder.path() / report.finding});
     SweepDisplay display(report.command, study, options.quiet);
     display.begin(members, runner.manner());
@@ -96,6 +98,7 @@ int playSweep(const SweepOptions& options, const Study& study, const std::vector
     if (outcome.whole) folder.sort();
     display.finish(folder, outcome, options);
     if (!outcome.whole) return haltCode(outcome.halt);
+    writeFigures(folder, study, members);
     if (report.write) report.write(folder);
     return outcome.failed > 0 ? kDisagree : kOk;
 }

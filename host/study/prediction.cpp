@@ -63,15 +63,15 @@ PredictedFigure predictedFrom(const std::string& name, const std::vector<double>
 
 Prediction predictionOf(const std::vector<Member>& members, const SweepFolder& folder) {
     Prediction prediction{members.size(), 0, {}};
-    std::vector<int> whole;
+    std::vector<RunFigures> whole;
     for (const Member& m : members)
-        if (folder.status(m.number) == MemberStatus::Ok) whole.push_back(m.number);
+        if (folder.status(m.number) == MemberStatus::Ok) whole.emplace_back(folder.memberFolder(m.number));
     prediction.failed = members.size() - whole.size();
     const Case c = loadResolvedCase(members.front().caseText, "case.toml");
     for (const std::string& name : figureNames(c)) {
         std::vector<double> values;
-        for (const int number : whole) {
-            const double value = figureIn(folder.memberFolder(number), name).value;
+        for (const RunFigures& run : whole) {
+            const double value = run.at(name).value;
             if (std::isfinite(value)) values.push_back(value);
         }
         if (!values.empty()) prediction.figures.push_back(predictedFrom(name, values));

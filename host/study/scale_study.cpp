@@ -73,7 +73,7 @@ std::vector<std::vector<double>> valuesOf(const SweepFolder& folder, const std::
     std::vector<std::vector<double>> values(sizes);
     for (std::size_t m = 0; m < members; ++m) {
         if (folder.status(int(m)) != MemberStatus::Ok) continue;
-        const double value = figureIn(folder.memberFolder(int(m)), figure).value;
+        const double value = RunFigures(folder.memberFolder(int(m))).at(figure).value;
         if (std::isfinite(value)) values[m % sizes].push_back(value);
     }
     return values;

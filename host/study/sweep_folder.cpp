@@ -16,6 +16,7 @@
 #include "host/sim/dose.h"
 #include "host/study/calibration_file.h"
 #include "host/study/design_finding.h"
+#include "host/study/figures_table.h"
 #include "host/study/prediction.h"
 #include "host/study/scale_study.h"
 
@@ -164,7 +165,7 @@ SweepFolder::SweepFolder(fs::path folder, const Study& study, const std::vector<
 std::vector<fs::path> SweepFolder::files(const fs::path& folder) {
     std::vector<fs::path> files;
     for (const char* name : {"study.toml", "base.toml", "doses.csv", kFindingName, kDrawsName, kPredictionName,
-                             kScaleName, "calibrated.toml", "members.csv"})
+                             kScaleName, kFiguresName, "calibrated.toml", "members.csv"})
         if (fs::exists(folder / name)) files.push_back(folder / name);
     for (const fs::path& file : designFiles(folder))
         if (fs::exists(file)) files.push_back(file);

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "host/analysis/cycles.h"
@@ -38,10 +37,12 @@ double bodyFigure(const nlohmann::ordered_json& summary, const std::string& figu
 
 }  // namespace
 
-Measured figureIn(const std::filesystem::path& folder, const std::string& figure) {
-    const auto summary = readSummary(folder).value_or(nlohmann::ordered_json::object());
+RunFigures::RunFigures(const std::filesystem::path& folder)
+    : summary_(readSummary(folder).value_or(nlohmann::ordered_json::object())) {}
+
+Measured RunFigures::at(const std::string& figure) const {
     const auto at = [&](const std::string& pointer) {
-        const auto value = summary.value(nlohmann::ordered_json::json_pointer(pointer), nlohmann::ordered_json());
+        const auto value = summary_.value(nlohmann::ordered_json::json_pointer(pointer), nlohmann::ordered_json());
         return value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
     };
     if (figure == kMassPerDose)
@@ -59,7 +60,7 @@ Measured figureIn(const std::filesystem::path& folder, const std::string& figure
         return at("/measures/" + pointer);
     };
     const double measure = ofMeasure(figure);
-    if (!std::isfinite(measure)) return {bodyFigure(summary, figure), std::numeric_limits<double>::quiet_NaN()};
+    if (!std::isfinite(measure)) return {bodyFigure(summary_, figure), std::numeric_limits<double>::quiet_NaN()};
     // Where a measure tells the error of angle_deg, it is its angle_error_deg.
     const std::size_t unit = figure.rfind('_');
     return {measure, unit == std::string::npos ? std::numeric_limits<double>::quiet_NaN()
@@ -71,7 +72,7 @@ namespace {
 Trial figureOf(const SweepFolder& folder, const std::string& figure, int from, int to) {
     Trial trial;
     for (int number = from; number < to; ++number) {
-        const Measured value = figureIn(folder.memberFolder(number), figure);
+        const Measured value = RunFigures(folder.memberFolder(number)).at(figure);
         if (folder.status(number) != MemberStatus::Ok || !std::isfinite(value.value)) continue;
         trial.values.push_back(value.value);
         trial.error = value.error;

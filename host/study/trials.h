@@ -2,6 +2,7 @@
 // The figures that the members of a calibration gave for its targets.
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -18,8 +19,18 @@ std::vector<std::filesystem::path> basesOf(const Study& study);
 /// of the mass rate and of the cycles, of each measure and of each body.
 std::vector<std::string> figureNames(const Case& c);
 
-/// A figure of a run that is over, by its name, with its standard error; NaN where there is none.
-Measured figureIn(const std::filesystem::path& folder, const std::string& figure);
+/// The figures of a run that is over.
+class RunFigures {
+  public:
+    /// Reads the summary in the run's folder. Without one, no figure has a value.
+    explicit RunFigures(const std::filesystem::path& folder);
+
+    /// A figure by its name, with its standard error; NaN where there is none.
+    Measured at(const std::string& figure) const;
+
+  private:
+    nlohmann::ordered_json summary_;
+};
 
 /// The trials of one point: a figure for each target. Its members have the numbers from `first` on, all `seeds` of them
 /// with the first of `basesOf`, then with the next. A member that failed has no figure.

@@ -82,6 +82,13 @@ TEST_CASE("draws of a powder are runs of their own, with intervals of what came 
     const Table members = Table::read(box / "out/mini-draws/members.csv");
     CHECK(members.column("seed") == std::vector<double>{1, 2, 3});
     CHECK(members.column("contact.friction") == std::vector<double>{0.4, 0.5, 0.6});
+    const Table figures = Table::read(box / "out/mini-draws/figures.csv");
+    CHECK(figures.column("member") == std::vector<double>{0, 1, 2});
+    CHECK(figures.column("contact.kc_over_k") == std::vector<double>{0.2, 0.3, 0.4});
+    double torque = 0;
+    for (const double t : figures.column("coil.largest_torque_Nm")) torque += t;
+    CHECK(torque == Approx(sum).epsilon(1e-8));
+    CHECK_FALSE(figures.has("cycle.mean_kg"));  // no member has it
     // It goes on without a run.
     const auto again = box.vkdose(command);
     CHECK(again.code == 0);

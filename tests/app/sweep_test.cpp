@@ -70,6 +70,7 @@ TEST_CASE("a sweep that is killed again and again ends with the rows of one that
     CHECK(on.code == 0);
     CHECK(timeless(box / "cut") == timeless(box / "whole"));
     CHECK(readText(box / "cut/doses.csv") == readText(box / "whole/doses.csv"));
+    CHECK(readText(box / "cut/figures.csv") == readText(box / "whole/figures.csv"));
     CHECK(readText(box / "cut/members/0002/timeseries.csv") == readText(box / "whole/members/0002/timeseries.csv"));
 }
 
@@ -136,6 +137,8 @@ TEST_CASE("a member that fails is told, the rest go on, and the exit code says s
         CHECK(table.text(i, "error").empty() == (i % 2 == 0));
     }
     CHECK_THAT(o.out, Catch::Contains("2 done, 2 failed"));
+    const Table figures = Table::read(box / "out/study/figures.csv");
+    CHECK(figures.column("member") == std::vector<double>{0, 2});
 }
 
 TEST_CASE("a dry run prints the members, a faulty study is refused, neither writes anything") {

@@ -17,7 +17,7 @@ TEST_CASE("a figure of a run comes with its standard error, where the run tells 
         "bodies": [{"name": "lid", "largest_torque_Nm": 0.5}],
         "measures": {"heap": {"angle_deg": 31.5, "angle_error_deg": 1.2, "height_m": 0.01},
                      "front": {"angle_deg": 43.8, "angle_error_deg": null}}})");
-    const auto in = [&](const char* figure) { return figureIn(run.path(), figure); };
+    const auto in = [&](const char* figure) { return RunFigures(run.path()).at(figure); };
     CHECK(in("heap.angle_deg").value == 31.5);
     CHECK(in("heap.angle_deg").error == 1.2);
     CHECK(in("heap.angle_error_deg").value == 1.2);
