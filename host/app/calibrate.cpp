@@ -128,8 +128,8 @@ int reportSearch(const CalibrationRuns& parts, const SearchResult& result, const
     forgetCase(parts.folder);
     writeFinding(parts.folder.path(), f);
     const std::string draws = printable((parts.folder.path() / kDrawsName).string());
-    tell("{}{}{}{}draws      {}, {} of the points that fit\n", targetsText(aim, f), searchText(f), fitText(f),
-         confirmationText(f), draws, f.fit->draws.size());
+    tell("{}{}{}{}draws      {}, {} of the points that fit\n", targetsText(aim, f), searchText(f),
+         fitText(f, "; give more first_points"), confirmationText(f), draws, f.fit->draws.size());
     if (!f.met) {
         tell(stderr,
              "vkdose: no case is written; give a larger max_runs, or in another folder other bounds, more "

@@ -72,20 +72,21 @@ std::string sensitivityText(const CalibrationFinding& f) {
 }
 
 /// How well a surrogate predicts points that it has not seen, and how well it knows that.
-std::string leaveOneOutText(const CalibrationFinding::Target& t) {
+std::string leaveOneOutText(const CalibrationFinding::Target& t, const std::string& cure) {
     const LeaveOneOut& l = t.leaveOneOut;
     std::string text = fmt::format(
-        "    {} off by {:.2g}{}, {:.2g} times what is expected, at most {:.2g} times; predictive R2 {:.2g}\n",
-        printable(t.name), l.error, inUnit(t), l.standardised, l.largest, l.predictiveR2);
+        "    {} of {} off by {:.2g}{}, {:.2g} times what is expected, at most {:.2g} times; predictive R2 {:.2g}\n",
+        printable(t.name), counted(l.points, "point"), l.error, inUnit(t), l.standardised, l.largest, l.predictiveR2);
     switch (l.verdict()) {
         case LeaveOneOut::Verdict::Overconfident:
             return text +
-                   "    warning: the surrogate is surer than it may be, so the intervals are too narrow; give more "
-                   "first_points\n";
+                   fmt::format(
+                       "    warning: the surrogate is surer than it may be, so the intervals are too narrow{}\n", cure);
         case LeaveOneOut::Verdict::Blind:
-            return text +
-                   "    warning: the surrogate predicts little: the points are too few, or the parameters hardly "
-                   "move this figure; give more first_points\n";
+            return text + fmt::format(
+                              "    warning: the surrogate predicts little: the points are too few, or the parameters "
+                              "hardly move this figure{}\n",
+                              cure);
         case LeaveOneOut::Verdict::Cautious:
             return text + "    the surrogate is less sure than it may be, so the intervals are wider than need be\n";
         default:
@@ -163,10 +164,9 @@ std::string searchText(const CalibrationFinding& f) {
     return text + sensitivityText(f);
 }
 
-std::string fitText(const CalibrationFinding& f) {
-    std::string text =
-        fmt::format("each of {} predicted from the others:\n", counted(f.targets.front().leaveOneOut.points, "point"));
-    for (const CalibrationFinding::Target& t : f.targets) text += leaveOneOutText(t);
+std::string fitText(const CalibrationFinding& f, const std::string& cure) {
+    std::string text = "each point predicted from the others:\n";
+    for (const CalibrationFinding::Target& t : f.targets) text += leaveOneOutText(t, cure);
     text +=
         fmt::format("the parameters that fit, by {} points of their distribution (R-hat {:.3f}, {:.0f} effective):\n",
                     f.fit->sampled, f.fit->rHat, f.fit->effective);

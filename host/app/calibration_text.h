@@ -21,7 +21,8 @@ std::string gridText(const GridCalibration& grid, const CalibrationAim& aim);
 std::string searchText(const CalibrationFinding& finding);
 
 /// Of a search: the errors of its surrogates, the values of each parameter that fit, and which of them compensate.
-std::string fitText(const CalibrationFinding& finding);
+/// `cure` follows where too few points make a surrogate poor: "; give more first_points".
+std::string fitText(const CalibrationFinding& finding, const std::string& cure);
 
 /// The confirming runs, a line for each point, and the verdict.
 std::string confirmationText(const CalibrationFinding& finding);

@@ -180,7 +180,15 @@ CLI::App& addScale(CLI::App& program, ScaleOptions& options) {
 CLI::App& addPowders(CLI::App& program, PowdersOptions& options) {
     CLI::App& command =
         *program.add_subcommand("powders", "list the powders that are known, or tell all that is known of one");
-    command.add_option("powder", options.name, "name of a powder, or a powder file (TOML)");
+    auto* name = command.add_option("powder", options.name, "name of a powder, or a powder file (TOML)");
+    auto* like = command
+                     .add_option("--like", options.like,
+                                 "find a powder by what a laboratory measured of it: bulk=520 tapped=640 repose=48+-2")
+                     ->type_name("FIGURE=VALUE")
+                     ->excludes(name);
+    command.add_option("--out", options.out, "powder file to write it to (TOML); it must not be there yet")
+        ->type_name("FILE")
+        ->needs(like);
     return command;
 }
 

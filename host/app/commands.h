@@ -137,7 +137,9 @@ struct ScaleOptions {
 };
 
 struct PowdersOptions {
-    std::filesystem::path name;  ///< of a powder; empty: all are listed
+    std::filesystem::path name;     ///< of a powder; empty: all are listed
+    std::vector<std::string> like;  ///< "repose=48": figures of a powder that is to be found
+    std::filesystem::path out;      ///< of it as a powder file; empty: none is written
 };
 
 struct ReportOptions {

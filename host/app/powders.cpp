@@ -7,6 +7,7 @@
 #include "host/app/commands.h"
 #include "host/app/exit_code.h"
 #include "host/app/find_case.h"
+#include "host/app/like.h"
 #include "host/app/tell.h"
 #include "host/app/text.h"
 #include "host/core/csv_table.h"
@@ -64,6 +65,7 @@ std::string powderText(const PowderFile& p) {
 }  // namespace
 
 int powdersCommand(const PowdersOptions& options) {
+    if (!options.like.empty()) return likeCommand(options);
     if (!options.name.empty()) {
         tell("{}", powderText(readPowderFile(findPowder(options.name))));
         return kOk;

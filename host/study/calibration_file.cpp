@@ -157,18 +157,6 @@ std::vector<Parameters> readDraws(const fs::path& file, const std::vector<Parame
     return draws;
 }
 
-std::string drawsText(const CalibrationFinding& f) {
-    Row head;
-    for (const Parameter& p : f.parameters) head.push_back(p.key);
-    std::string text = csvLine(head) + "\n";
-    for (const Parameters& draw : f.fit->draws) {
-        Row row;
-        for (const double x : draw) row.push_back(fmt::format("{}", x));
-        text += csvLine(row) + "\n";
-    }
-    return text;
-}
-
 Point readPoint(const Json& j) {
     Point p;
     p.at = numbersOf(j.at("at"));
@@ -236,6 +224,18 @@ Json findingJson(const CalibrationFinding& finding) {
     j["confirmations"] = Json::array();
     for (const auto& c : finding.confirmations) j["confirmations"].push_back(confirmationJson(c));
     return j;
+}
+
+std::string drawsText(const CalibrationFinding& f) {
+    Row head;
+    for (const Parameter& p : f.parameters) head.push_back(p.key);
+    std::string text = csvLine(head) + "\n";
+    for (const Parameters& draw : f.fit->draws) {
+        Row row;
+        for (const double x : draw) row.push_back(fmt::format("{}", x));
+        text += csvLine(row) + "\n";
+    }
+    return text;
 }
 
 void writeFinding(const fs::path& folder, const CalibrationFinding& finding) {

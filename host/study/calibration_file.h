@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <string>
 
 #include "host/study/calibration_finding.h"
 
@@ -14,6 +15,9 @@ inline constexpr const char* kDrawsName = "powder-draws.csv";
 
 /// The content of calibration.json, which has no draws; what is not known is null.
 nlohmann::ordered_json findingJson(const CalibrationFinding& finding);
+
+/// The draws of a search as a CSV: a column for each parameter, and a row for each draw.
+std::string drawsText(const CalibrationFinding& finding);
 
 /// Writes calibration.json, and of a search powder-draws.csv, into the folder of a sweep. Throws OutputError.
 void writeFinding(const std::filesystem::path& folder, const CalibrationFinding& finding);

@@ -95,6 +95,7 @@ void readBox(CaseReader& reader, Section& table, const std::string& path, bool r
         if (!((*low)[k] < (*high)[k]))
             return reader.fault(path + ".high", fmt::format("{:.6g} is not above {:.6g}", (*high)[k], (*low)[k]),
                                 "give a higher bound");
+    for (std::size_t k = 0; k < keys; ++k) axis.box.push_back({axis.keys[k], (*low)[k], (*high)[k]});
     for (int i = 1; i <= int(points); ++i) {
         const std::vector<double> at = haltonPoint(i, keys);
         std::vector<Node> point;
@@ -179,7 +180,7 @@ Axis axisOfTable(const std::filesystem::path& file, int points) {
     reader.throwIfFaulty();
     Node place;
     place.file = file.string();
-    return {csv.names(), rowsOf(csv, place, std::size_t(points))};
+    return {csv.names(), rowsOf(csv, place, std::size_t(points)), {}};
 }
 
 bool checkKey(CaseReader& reader, const std::string& path, const std::string& key, std::set<std::string>& used) {

@@ -22,6 +22,7 @@ struct Setting {
 struct Axis {
     std::vector<std::string> keys;
     std::vector<std::vector<Node>> points;  ///< a value for each key
+    std::vector<FreeParameter> box = {};    ///< that the points fill; empty if they are given one by one
 };
 
 struct Study {

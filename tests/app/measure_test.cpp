@@ -322,7 +322,7 @@ high = 0.5
     CHECK(near((low + high) / 2, 1300, 1300, 0.03));
     CHECK(high - low > 45);
     CHECK(high - low < 150);
-    CHECK_THAT(o.out, Catch::Contains("each of ") && Catch::Contains("points predicted from the others") &&
+    CHECK_THAT(o.out, Catch::Contains("each point predicted from the others") && Catch::Contains(" points off by ") &&
                           Catch::Contains("95 % from ") &&
                           Catch::Contains("correlation of contact.k and contact.friction ") &&
                           Catch::Contains("draws      out/powder-draws.csv, 200 of the points that fit"));

@@ -151,3 +151,34 @@ TEST_CASE("new: a case with a powder's file has its contacts, and its sizes as f
                Catch::Contains("bad.toml:3: particles.density") && Catch::Contains("particles.size.distribution"));
     CHECK_FALSE(std::filesystem::exists(box / "no.toml"));
 }
+
+TEST_CASE("a powder is found by its laboratory figures, and written as a file that cases take") {
+    const Sandbox box;
+    const auto o = box.vkdose("powders --like bulk=520 tapped=600+-10 --out my.toml");
+    CAPTURE(o.out, o.err);
+    REQUIRE(o.code == 0);
+    CHECK_THAT(o.out, Catch::Contains("tapped 600 +- 10") && Catch::Contains("bulk 520 +- 16") &&
+                          Catch::Contains("Hausner ratio") && Catch::Contains("foretold   poured volume fraction"));
+    CHECK(Table::read(box / "my-draws.csv").rows() == 200);
+    CHECK(box.vkdose("check mini --assume --powder my.toml").code == 0);
+    CHECK(box.vkdose("run mini --powder my.toml --draws 2 --backend reference " + kShort).code == 0);
+    const auto again = box.vkdose("powders --like bulk=520 tapped=600+-10 --out my.toml");
+    CHECK(again.code == 2);
+    CHECK_THAT(again.err, Catch::Contains("my.toml"));
+
+    const auto refused = [&](const std::string& figures, const std::string& why) {
+        const auto r = box.vkdose("powders --like " + figures);
+        CAPTURE(figures, r.err);
+        CHECK(r.code != 0);
+        CHECK_THAT(r.err, Catch::Contains(why));
+    };
+    refused("repos=40", "there is no such figure; give some of density, bulk");
+    refused("repose", "has no value; write repose=48");
+    refused("repose=-4", "no number above 0");
+    refused("repose=40+-0", "has an error that is no number above 0");
+    refused("repose=40 repose=41", "given twice");
+    refused("bulk=600 tapped=500", "bulk = 600 is not below tapped = 500");
+    refused("bulk=500 tapped=600 hausner=1.2", "give two of the three");
+    refused("bulk=520", "give repose, drum");
+    CHECK(box.files().size() == 3);  // my.toml, my-draws.csv, out
+}

@@ -1,0 +1,11 @@
+#pragma once
+// `vkdose powders --like`: a powder by its laboratory figures.
+
+#include "host/app/commands.h"
+
+namespace vkdose {
+
+/// Prints the powder, and writes it if it is to be written. Gives the exit code. Throws UsageError.
+int likeCommand(const PowdersOptions& options);
+
+}  // namespace vkdose
