@@ -324,6 +324,26 @@ class Paths(InFolder):
 
 
 class Studies(InFolder):
+    def test_a_case_with_draws_of_a_powder(self):
+        Path("powder.toml").write_text(
+            'title = "Made up"\ndraws = "draws.csv"\n[particles]\ndensity = 1427.0\n[particles.size]\n'
+            'distribution = "uniform"\nradius_min_mm = 0.9\nradius_max_mm = 1.3\n[contact]\nk = 2000.0\n'
+            "k1_over_k = 0.2\nkc_over_k = 0.3\nplasticity_depth = 0.05\ndamping = 0.02\nfriction = 0.5\n"
+        )
+        Path("draws.csv").write_text("contact.friction\n0.4\n0.5\n0.6\n")
+        case = vkdose.Case("mini", SHORT)
+        swept = case.draws("powder.toml", 2, "drawn", backend="reference")
+        self.assertEqual(list(swept.members["contact.friction"]), [0.4, 0.5])
+        torque = swept.figures["coil.largest_torque_Nm"]
+        told = swept.prediction.loc["coil.largest_torque_Nm"]
+        self.assertEqual(told["draws"], 2)
+        self.assertAlmostEqual(told["mean"], torque.mean())
+        self.assertLess(told["low"], torque.min())
+        with self.assertRaisesRegex(vkdose.InputError, "has 3 rows"):
+            case.draws("powder.toml", 4, "more")
+        swept = vkdose.Study({"base": "mini", "set": dict(SHORT)}).sweep("plain", backend="reference")
+        self.assertIsNone(swept.prediction)
+
     def test_a_sweep_of_a_dict(self):
         study = vkdose.Study(
             {"base": "mini", "set": dict(SHORT), "seeds": 2, "axis": [{"key": "coil.speed_rpm", "values": [60, 90]}]}

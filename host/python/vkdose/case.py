@@ -14,6 +14,7 @@ import tomli_w
 
 from .errors import CaseWarning, Fault, InputError, error_for
 from .program import Process
+from .results import SweepResult, played
 from .run import Run
 
 Source = Union[str, "os.PathLike[str]", Mapping[str, Any]]
@@ -137,6 +138,31 @@ class Case:
                 faults = self.check().errors
                 raise InputError(str(error), faults) from None
         return run
+
+    def draws(
+        self,
+        powder: Union[str, "os.PathLike[str]"],
+        count: int,
+        out: Optional[Union[str, "os.PathLike[str]"]] = None,
+        *,
+        jobs: Optional[int] = None,
+        backend: Optional[str] = None,
+        device: Optional[str] = None,
+    ) -> SweepResult:
+        """Runs the case with the first ``count`` draws of a powder, each with another seed, and waits.
+
+        ``powder`` is a powder file that has draws, or its name. ``prediction`` of the result has the intervals of the
+        figures. ``out`` is the folder (default: out/NAME-draws); a second call goes on in it. ``jobs`` runs go on at
+        once. Raises InputError if case or powder are wrong, or the powder has fewer draws.
+        """
+        options = ["--powder", os.fspath(powder), "--draws", str(count), "--quiet"]
+        with self.arguments() as case:
+            folder = Path(out) if out is not None else Path("out") / f"{Path(case[0]).stem}-draws"
+            given = (("--jobs", jobs), ("--backend", backend), ("--device", device))
+            for name, value in given:
+                if value is not None:
+                    options += [name, str(value)]
+            return played(["run", *case, *options, "--out", str(folder)], folder)
 
 
 @contextmanager

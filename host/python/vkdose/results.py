@@ -7,10 +7,10 @@ import json
 import os
 import re
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Iterator, Mapping, Optional, Union
+from typing import TYPE_CHECKING, Any, Iterator, Mapping, Optional, Sequence, Union
 
-from .errors import InputError
-from .program import call
+from .errors import InputError, error_for
+from .program import Process, call
 
 if TYPE_CHECKING:
     import numpy
@@ -216,6 +216,24 @@ class SweepResult:
         """A row for each dose of each member."""
         return _table(self.folder / "doses.csv")
 
+    @property
+    def figures(self) -> "pandas.DataFrame":
+        """A row for each member that ended well, with every figure that a target can name. See figures.csv."""
+        return _table(self.folder / "figures.csv")
+
+    @property
+    def prediction(self) -> "Optional[pandas.DataFrame]":
+        """Of runs with draws of a powder: for each figure ``draws``, ``mean``, ``deviation``, ``low`` and ``high``.
+
+        One more such run is to be expected between ``low`` and ``high`` with a chance of 95 %. None of other sweeps.
+        """
+        file = self.folder / "prediction.json"
+        if not file.is_file():
+            return None
+        import pandas
+
+        return pandas.DataFrame(json.loads(file.read_text())["figures"]).set_index("name")
+
     def member(self, number: int) -> Result:
         """The result of one member, by its number in ``members``."""
         return Result(self.folder / "members" / f"{number:04d}")
@@ -231,3 +249,19 @@ class SweepResult:
         """The case that a calibration found, ready to run; None if it met no target."""
         file = self.folder / "calibrated.toml"
         return file if file.is_file() else None
+
+
+def played(arguments: Sequence[str], folder: Path) -> SweepResult:
+    """Runs the command of a sweep into ``folder`` and waits. Ctrl-C interrupts it, and a second call goes on with it."""
+    process = Process(arguments)
+    try:
+        for _ in process.lines():
+            pass
+    except BaseException:
+        process.interrupt()
+        process.wait()
+        raise
+    code = process.wait()
+    if code not in (0, 1):  # 1: a member failed, or a target was not met; the tables say so
+        raise error_for(code, process.said)
+    return SweepResult(folder)

@@ -8,9 +8,7 @@ from pathlib import Path
 from typing import Any, Iterator, Mapping, Optional, Union
 
 from .case import Case, Source, file_name, placed, written
-from .errors import error_for
-from .program import Process
-from .results import SweepResult
+from .results import SweepResult, played
 
 
 def _targets(study: Mapping[str, Any]) -> list[dict[str, Any]]:
@@ -63,18 +61,7 @@ class Study:
             for name, value in options.items():
                 if value is not None:
                     arguments += [f"--{name}", value]
-            process = Process(arguments)
-            try:
-                for _ in process.lines():
-                    pass
-            except BaseException:
-                process.interrupt()
-                process.wait()
-                raise
-            code = process.wait()
-        if code not in (0, 1):  # 1: a member failed, or a target was not met; the tables say so
-            raise error_for(code, process.said)
-        return SweepResult(folder)
+            return played(arguments, folder)
 
     def sweep(
         self,
