@@ -17,6 +17,7 @@
 #include "host/model/bed_weight.h"
 #include "host/model/powders.h"
 #include "host/model/stability.h"
+#include "host/report/player_data.h"
 #include "host/sim/runner.h"
 
 namespace vkdose {
@@ -251,6 +252,14 @@ Json runTimeJson(const CheckOptions& options, const Checked& all) {
             {"told", printable(speed.told)}};
 }
 
+/// The powder as it is filled in, and the device around it.
+Json sceneOf(const Checked& all) {
+    Frame frame;
+    frame.particles = all.filled.particles;
+    const report::FrameSource only{{FrameEntry{}}, [&](const FrameEntry&) { return frame; }};
+    return report::playerJson(all.c, only, 0);
+}
+
 int checkAsJson(const CheckOptions& options) {
     Json out{{"case", printable(options.input.file.string())},
              {"file", std::filesystem::absolute(options.input.file).string()},
@@ -266,6 +275,7 @@ int checkAsJson(const CheckOptions& options) {
         Json derivations = Json::array();
         for (const std::string& line : all.c.derivations) derivations.push_back(printable(line));
         out["derived"] = derivations;
+        if (options.scene) out["scene"] = sceneOf(all);
     } catch (const CaseError& error) {
         out["errors"] = errorsOf(error);
         code = kBadInput;

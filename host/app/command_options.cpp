@@ -108,7 +108,10 @@ CLI::App& addCheck(CLI::App& program, CheckOptions& options) {
         "check", "validate a case; print its figures, and warnings of what was probably not meant");
     addCase(command, options.input);
     addAssume(command, options.assume);
-    command.add_flag("--json", options.json, "print errors, warnings and figures as JSON, for other programs");
+    auto* json =
+        command.add_flag("--json", options.json, "print errors, warnings and figures as JSON, for other programs");
+    command.add_flag("--scene", options.scene, "the device and its powder too, as the player of a report takes them")
+        ->needs(json);
     addBackend(command, options.backend);
     return command;
 }
@@ -189,6 +192,14 @@ CLI::App& addPowders(CLI::App& program, PowdersOptions& options) {
     command.add_option("--out", options.out, "powder file to write it to (TOML); it must not be there yet")
         ->type_name("FILE")
         ->needs(like);
+    return command;
+}
+
+CLI::App& addStudio(CLI::App& program, StudioOptions& options) {
+    CLI::App& command = *program.add_subcommand("studio", "serve the workbench to the browser of this machine");
+    command.add_option("folder", options.folder, "folder with the cases")->type_name("DIR")->capture_default_str();
+    command.add_option("--port", options.port, "port to listen on (default: any that is free)")
+        ->check(CLI::Range(1, 65535));
     return command;
 }
 
@@ -371,6 +382,7 @@ std::vector<Command> declareCommands(CLI::App& program, Options& o) {
              (void)studied(o.scale.sweep);
              return scaleCommand(o.scale);
          }},
+        {&addStudio(program, o.studio), [&o] { return studioCommand(o.studio); }},
         {&addPowders(program, o.powders), [&o] { return powdersCommand(o.powders); }},
         {&addReport(program, o.report), [&o] { return reportCommand(o.report); }},
         {&addProfile(program, o.profile), [&o] { return profileCommand(o.profile); }},

@@ -36,6 +36,7 @@ struct Options {
     SweepOptions calibration, design;
     ScaleOptions scale;
     PowdersOptions powders;
+    StudioOptions studio;
     ValidateOptions validation;
     ReportOptions report;
     ProfileOptions profile;

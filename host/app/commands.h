@@ -74,6 +74,7 @@ struct CheckOptions {
     BackendChoice backend;
     bool assume = false;  ///< a speed, without measuring the device
     bool json = false;    ///< print errors, warnings and figures for other programs
+    bool scene = false;   ///< with json: the device and its powder too, as the player of a report takes them
 };
 
 struct CompareOptions {
@@ -136,6 +137,11 @@ struct ScaleOptions {
     double within = 5;  ///< [%]
 };
 
+struct StudioOptions {
+    std::filesystem::path folder = ".";
+    int port = 0;  ///< 0: any that is free
+};
+
 struct PowdersOptions {
     std::filesystem::path name;     ///< of a powder; empty: all are listed
     std::vector<std::string> like;  ///< "repose=48": figures of a powder that is to be found
@@ -183,6 +189,7 @@ struct ShellOptions {
 int newCommand(const NewOptions& options);
 int runCommand(const RunOptions& options);
 int drawsCommand(const RunOptions& options);  ///< a run with draws
+int studioCommand(const StudioOptions& options);
 int powdersCommand(const PowdersOptions& options);
 int resumeCommand(const ResumeOptions& options);
 int checkCommand(const CheckOptions& options);

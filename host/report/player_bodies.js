@@ -9,7 +9,7 @@ function unpackNumbers(text, Kind) {
 
 const inMillimetresOf = text => unpackNumbers(text, Float32Array).map(x => 1e3 * x);
 
-/// One object whose `show(f)` brings it to its place in a frame. `corners` are those of the body in its own frame.
+/// One object whose `show(f)` brings it to its place in a frame; `place(body)` takes the places out of newer data. `corners` are those of the body in its own frame.
 function bodyObject(body) {
   const group = new THREE.Group(), faces = new THREE.BufferGeometry(), edges = new THREE.BufferGeometry();
   faces.setAttribute("position", new THREE.BufferAttribute(inMillimetresOf(body.points), 3));
@@ -20,7 +20,9 @@ function bodyObject(body) {
   const pane = {color: 0x8fa3b5, transparent: true, opacity: 0.16, depthWrite: false, side: THREE.DoubleSide};
   const mesh = new THREE.Mesh(faces, new THREE.MeshPhongMaterial(body.pane ? pane : steel));
   group.add(mesh, new THREE.LineSegments(edges, new THREE.LineBasicMaterial({color: 0x6d7780})));
-  const poses = unpackNumbers(body.poses, Float32Array);
+  let poses = null;
+  group.place = of => { poses = unpackNumbers(of.poses, Float32Array); };
+  group.place(body);
   group.show = f => {
     const [w, x, y, z, ...origin] = poses.subarray(7 * f, 7 * f + 7);
     group.quaternion.set(x, y, z, w);

@@ -3,8 +3,8 @@
 const gram = 1e3, milli = 1e3;
 const zip = (x, y, scale) => x.map((t, i) => [t, isNumber(y[i]) ? y[i] * scale : null]);
 
-function facts(main, list) {
-  const box = add(main, "dl", null, "facts");
+function facts(main, list, into) {
+  const box = into || add(main, "dl", null, "facts");
   list.forEach(fact => {
     const row = add(box, "div");
     add(row, "dt", fact.name);

@@ -1,0 +1,214 @@
+// The workbench, asked as its page asks it and as no page should.
+
+#include "host/studio/server.h"
+
+#include <httplib.h>
+
+#include <future>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "host/core/file.h"
+#include "tests/support/catch.h"
+#include "tests/support/folder.h"
+#include "tests/support/places.h"
+
+using namespace vkdose;
+using test::Folder;
+using Json = nlohmann::json;
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string mini() {
+    return fileContent(VKDOSE_SOURCE_DIR "/cases/mini.toml").value();
+}
+
+/// A workbench on a folder, in a thread, and a browser that has opened it.
+class Bench {
+  public:
+    explicit Bench(const fs::path& folder) {
+        std::promise<std::string> address;
+        studio::ServerOptions options{folder, VKDOSE_SOURCE_DIR "/cases/mini.toml", 0, test::programFile()};
+        thread_ = std::thread([this, options, &address] {
+            studio::serve(
+                options, [&](const std::string& a) { address.set_value(a); }, stop_);
+        });
+        const std::string all = address.get_future().get();
+        const std::size_t slash = all.find("/?");
+        host = all.substr(7, slash - 7);
+        query = all.substr(slash);
+        client = std::make_unique<httplib::Client>("http://" + host);
+        client->set_read_timeout(120);
+        const auto first = client->Get(query);
+        REQUIRE(first);
+        REQUIRE(first->status == 302);
+        const std::string cookie = first->get_header_value("Set-Cookie");
+        headers = {{"Cookie", cookie.substr(0, cookie.find(';'))}, {"Origin", "http://" + host}};
+    }
+    ~Bench() {
+        stop_ = true;
+        thread_.join();
+    }
+
+    httplib::Result get(const std::string& path) const { return client->Get(path, headers); }
+    httplib::Result post(const std::string& path, const Json& body) const {
+        return client->Post(path, headers, body.dump(), "application/json");
+    }
+    Json asked(const std::string& path, const Json& body) const {
+        const auto r = post(path, body);
+        REQUIRE(r);
+        CAPTURE(path, r->body);
+        REQUIRE(r->status == 200);
+        return Json::parse(r->body);
+    }
+
+    std::string host, query;
+    httplib::Headers headers;
+    std::unique_ptr<httplib::Client> client;
+
+  private:
+    std::atomic<bool> stop_{false};
+    std::thread thread_;
+};
+
+}  // namespace
+
+TEST_CASE("the workbench answers who has its token, and no other site") {
+    const Folder folder;
+    const Bench bench(folder.path());
+    CHECK(bench.get("/")->status == 200);
+    CHECK_THAT(bench.get("/")->get_header_value("Content-Security-Policy"), Catch::Contains("script-src 'self'"));
+    CHECK(bench.get("/page/studio.js")->status == 200);
+    CHECK(bench.client->Get("/")->status == 403);
+    CHECK(bench.client->Get("/?token=00000000000000000000000000000000")->status == 403);
+    CHECK(bench.client->Get("/page/studio.js")->status == 403);
+    const auto with = [&](const char* name, const char* value) {
+        httplib::Headers other = bench.headers;
+        other.erase(name);
+        other.emplace(name, value);
+        return bench.client->Get("/api/folder", other)->status;
+    };
+    CHECK(with("Host", "evil.example") == 403);
+    CHECK(with("Origin", "http://evil.example") == 403);
+    CHECK(with("Accept", "*/*") == 200);
+    // A form of another site can send text, and no JSON.
+    const auto form = bench.client->Post("/api/save", bench.headers, R"({"name":"a.toml","text":""})", "text/plain");
+    CHECK(form->status == 415);
+    CHECK(fs::is_empty(folder.path()));
+}
+
+TEST_CASE("the workbench reads and writes cases in its folder, and nothing else") {
+    const Folder outer;
+    outer.write("outside.toml", "secret");
+    fs::create_directory(outer.path() / "work");
+    const Bench bench(outer.path() / "work");
+    bench.asked("/api/save", {{"name", "sub/my.toml"}, {"text", "a = 1\n"}, {"before", nullptr}});
+    CHECK(fileContent(outer.path() / "work/sub/my.toml") == "a = 1\n");
+    CHECK(Json::parse(bench.get("/api/case?name=sub/my.toml")->body)["text"] == "a = 1\n");
+    CHECK(Json::parse(bench.get("/api/folder")->body)["cases"] == Json{"sub/my.toml"});
+    // It replaces what the page has read, and nothing that another program has written since.
+    bench.asked("/api/save", {{"name", "sub/my.toml"}, {"text", "a = 2\n"}, {"before", "a = 1\n"}});
+    CHECK(bench.post("/api/save", {{"name", "sub/my.toml"}, {"text", "a = 3\n"}, {"before", "a = 1\n"}})->status ==
+          409);
+    CHECK(bench.post("/api/save", {{"name", "sub/my.toml"}, {"text", "a = 3\n"}, {"before", nullptr}})->status == 409);
+    CHECK(fileContent(outer.path() / "work/sub/my.toml") == "a = 2\n");
+    for (const char* name : {"../outside.toml", "/etc/passwd", "my.txt", ".."}) {
+        CAPTURE(name);
+        CHECK(bench.get(std::string("/api/case?name=") + name)->status == 403);
+        CHECK(bench.post("/api/save", {{"name", name}, {"text", "x"}, {"before", nullptr}})->status == 403);
+        CHECK(bench.post("/api/check", {{"name", name}, {"text", "x"}})->status == 403);
+        CHECK(bench.post("/api/run", {{"name", name}})->status == 403);
+    }
+    for (const char* run : {"../work2", "/tmp", "sub/.."}) {
+        CAPTURE(run);
+        CHECK(bench.get(std::string("/report?run=") + run)->status == 403);
+        CHECK(bench.get(std::string("/api/frame?run=") + run)->status == 403);
+        CHECK(bench.get(std::string("/api/history?run=") + run)->status == 403);
+        CHECK(bench.get(std::string("/api/events?run=") + run)->status == 403);
+        CHECK(bench.post("/api/report", {{"run", run}})->status == 403);
+        CHECK(bench.post("/api/resume", {{"run", run}})->status == 403);
+    }
+    CHECK(bench.post("/api/save", "text")->status == 400);
+    CHECK(bench.post("/api/save", {{"name", 4}})->status == 400);
+    CHECK(bench.post("/api/save", {{"name", "large.toml"}, {"text", std::string(5 << 20, 'x')}})->status == 413);
+    CHECK(bench.get("/api/case?name=none.toml")->status == 404);
+    CHECK(bench.get("/nothing")->status == 404);
+    CHECK(fileContent(outer.path() / "outside.toml") == "secret");
+    CHECK_FALSE(fs::exists(outer.path() / "work/large.toml"));
+}
+
+TEST_CASE("the workbench checks a text as the command line does, and shows the device before anything runs") {
+    const Folder folder;
+    const Bench bench(folder.path());
+    const Json good = bench.asked("/api/check", {{"name", "my.toml"}, {"text", mini()}});
+    CHECK(good["errors"].empty());
+    CHECK(good["figures"]["particles"] == 111);
+    CHECK(good["scene"]["particles"] == 111);
+    CHECK(good["scene"]["coil"]["pitch"].get<double>() > 0);
+    std::string text = mini();
+    text.replace(text.find("mass_g = 0.9"), 12, "mass_g = -3");
+    const Json bad = bench.asked("/api/check", {{"name", "my.toml"}, {"text", text}});
+    REQUIRE(bad["errors"].size() == 1);
+    CHECK(bad["errors"][0]["file"] == "");
+    CHECK(bad["errors"][0]["line"] == 11);
+    CHECK(bad["errors"][0]["key"] == "particles.mass_g");
+    CHECK(bench.asked("/api/check", {{"name", "my.toml"}, {"text", "["}})["errors"].size() == 1);
+    CHECK(fs::is_empty(folder.path()));  // no draft is left
+}
+
+TEST_CASE("a run of the workbench tells its events to who comes early and late, and is stopped and goes on") {
+    const Folder folder;
+    folder.write("my.toml", mini() + "\n[frames]\ninterval_s = 0.02\n");
+    const Bench bench(folder.path());
+    CHECK(bench.asked("/api/run", {{"name", "my.toml"}})["run"] == "out/my");
+    // The stream ends with the run.
+    const auto events = [&](const httplib::Headers& more = {},
+                            const std::function<void(const std::string&)>& heard = {}) {
+        httplib::Headers headers = bench.headers;
+        headers.insert(more.begin(), more.end());
+        std::string text;
+        httplib::Client listener("http://" + bench.host);
+        listener.set_read_timeout(300);
+        const auto r = listener.Get("/api/events?run=out/my", headers, [&](const char* data, std::size_t size) {
+            text.append(data, size);
+            if (heard) heard(text);
+            return true;
+        });
+        REQUIRE(r);
+        CHECK(r->status == 200);
+        return text;
+    };
+    const std::string all = events();
+    CHECK_THAT(all, Catch::StartsWith("id: 0\ndata: {\"event\":\"run\"") && Catch::Contains("\"event\":\"dose\"") &&
+                        Catch::Contains("event: over\ndata: {\"known\":true,\"code\":0"));
+    CHECK(events() == all);
+    CHECK_THAT(events({{"Last-Event-ID", "2"}}), Catch::StartsWith("id: 3\n"));
+    CHECK(bench.post("/api/stop", {{"run", "out/my"}})->status == 409);
+    CHECK(bench.post("/api/run", {{"name", "my.toml"}})->status == 409);  // a former run is there
+    CHECK(Json::parse(bench.get("/api/folder")->body)["runs"] == Json{"out/my"});
+    const Json history = Json::parse(bench.get("/api/history?run=out/my")->body);
+    CHECK(history["doses"]["dose"] == Json{1, 2});
+    CHECK(history["samples"]["time_s"].size() > 50);
+    const Json frame = Json::parse(bench.get("/api/frame?run=out/my")->body);
+    CHECK(frame["particles"] == 111);
+    CHECK(frame["frames"]["time_s"].size() == 1);
+    CHECK(frame["frames"]["dose"][0] == 2);
+    bench.asked("/api/report", {{"run", "out/my"}});
+    CHECK_THAT(bench.get("/report?run=out/my")->body, Catch::Contains("<html"));
+
+    // Stopped as soon as it is under way, it goes on where it was.
+    bench.asked("/api/run", {{"name", "my.toml"}, {"force", true}});
+    CHECK(bench.post("/api/run", {{"name", "my.toml"}, {"force", true}})->status == 500);  // it is going on
+    bool stopped = false;
+    const std::string cut = events({}, [&](const std::string& text) {
+        if (stopped || text.find("\"event\":\"sample\"") == std::string::npos) return;
+        stopped = true;
+        bench.asked("/api/stop", {{"run", "out/my"}});
+    });
+    CHECK(stopped);
+    CHECK_THAT(cut, Catch::Contains("\"code\":130"));
+    bench.asked("/api/resume", {{"run", "out/my"}});
+    CHECK_THAT(events(), Catch::Contains("\"code\":0"));
+    CHECK(Json::parse(bench.get("/api/history?run=out/my")->body)["doses"] == history["doses"]);
+}
