@@ -10,6 +10,7 @@ import threading
 import time
 import traceback
 
+import browsers
 import disks
 import folders
 import foreign
@@ -23,7 +24,7 @@ import program
 import reads
 from ground import ROOT, Ground, Try
 
-KINDS = {kind.NAME: kind for kind in (kills, mutations, reads, disks, moves, pairs, foreign, limits, forks)}
+KINDS = {kind.NAME: kind for kind in (kills, mutations, reads, disks, moves, pairs, foreign, limits, forks, browsers)}
 
 
 def options_of(words):

@@ -136,6 +136,10 @@ class Running:
         if not self.over():
             send(self.pid, number)
 
+    def so_far(self):
+        """What it has printed until now."""
+        return os.pread(self._out.fileno(), TAIL, 0).decode("utf-8", "replace")
+
     def hangs(self, seconds):
         """Whether it has taken so much processor time, or waits idly. The clock would say nothing on a busy machine."""
         now = time.monotonic()
