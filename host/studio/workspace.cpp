@@ -34,7 +34,11 @@ Workspace::Workspace(const fs::path& folder) {
 
 std::optional<fs::path> Workspace::inside(const std::string& name) const {
     const fs::path given = name;
-    if (name.empty() || given.is_absolute() || name.find('\0') != std::string::npos) return std::nullopt;
+    if (name.empty() || given.is_absolute()) return std::nullopt;
+    const auto odd = [](unsigned char c) { return c < ' ' || c == '\\' || c == 127; };
+    if (std::any_of(name.begin(), name.end(), odd)) return std::nullopt;
+    for (const fs::path& part : given)
+        if (isHidden(part)) return std::nullopt;
     std::error_code code;
     const fs::path full = fs::weakly_canonical(folder_ / given, code);
     if (code) return std::nullopt;

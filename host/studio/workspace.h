@@ -16,8 +16,8 @@ class Workspace {
 
     const std::filesystem::path& folder() const { return folder_; }
 
-    /// The file or folder of this name below the folder, which need not be there. Nothing for a name that is absolute
-    /// or leads outside, also by a link.
+    /// The file or folder of this name below the folder, which need not be there. Nothing for a name that is absolute,
+    /// that leads outside by a link, or that has a part which begins with a dot, a backslash or a control character.
     std::optional<std::filesystem::path> inside(const std::string& name) const;
 
     struct Entry {

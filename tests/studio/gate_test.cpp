@@ -42,10 +42,10 @@ TEST_CASE("a workspace reaches what is inside of it, and nothing by dots, links 
     const Workspace work(outer.path() / "work");
     const fs::path root = fs::canonical(outer.path() / "work");
     CHECK(work.inside("a.toml") == root / "a.toml");
-    CHECK(work.inside("sub/../b.toml") == root / "b.toml");
     CHECK(work.inside("new/deep/c.toml") == root / "new/deep/c.toml");
-    for (const char* name : {"", ".", "..", "../outside.toml", "sub/../../outside.toml", "/etc/passwd", "link.toml",
-                             "up/outside.toml", "up", "sub/.."}) {
+    for (const char* name :
+         {"", ".", "..", "../outside.toml", "sub/../../outside.toml", "/etc/passwd", "link.toml", "up/outside.toml",
+          "up", "sub/..", "sub/../b.toml", ".hidden/a.toml", "..\\outside.toml", "a\nb.toml", "....//x.toml"}) {
         CAPTURE(name);
         CHECK_FALSE(work.inside(name).has_value());
     }

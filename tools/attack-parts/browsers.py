@@ -99,7 +99,7 @@ def escape(t, bench):
 
 def nonsense(t, bench):
     """No JSON, too much of it, or of other kinds; the answer is a refusal."""
-    body = t.rng.choice((b"", b"{", b"[]", b"null", b"\xff\xfe", b'{"name": 3}', b'{"name": "my.toml", "text": {}}',
+    body = t.rng.choice((b"", b"{", b"[]", b"null", b"\xff\xfe", b'{"name": 3}', b'{"name": ["my.toml"], "run": {}}',
                          b"[" * 100000, b'{"name": "' + b"n" * 300000 + b'.toml", "text": ""}', b"x" * (5 << 20)))
     kind = t.rng.choice(("application/json", "text/plain", "application/x-www-form-urlencoded", ""))
     method, path = t.rng.choice(("POST", "PUT", "DELETE", "OPTIONS")), t.rng.choice(POSTS)
