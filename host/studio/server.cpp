@@ -16,6 +16,7 @@
 #include "host/model/case.h"
 #include "host/report/player_data.h"
 #include "host/studio/gate.h"
+#include "host/studio/own_law.h"
 #include "host/studio/runs.h"
 #include "host/studio/workspace.h"
 #include "studio/parts.h"
@@ -98,6 +99,16 @@ class Workbench {
         if (file.extension() != ".toml") throw Refused(403, fmt::format("{} is no case file (.toml)", printable(name)));
         return file;
     }
+    /// The law that nobody has allowed yet; nothing if there is none.
+    std::optional<OwnLaw> lawToAskFor(const fs::path& file) const {
+        auto law = ownLawOf(file);
+        if (law && laws_.has(law->text)) law.reset();
+        return law;
+    }
+    void requireAllowed(const fs::path& file) const {
+        if (const auto law = lawToAskFor(file))
+            throw Refused(403, fmt::format("{} is a law that nobody has allowed; open the case", printable(law->file)));
+    }
     /// What the program prints as one JSON object.
     Json asked(const std::vector<std::string>& arguments, milliseconds limit) const {
         std::string text;
@@ -121,6 +132,7 @@ class Workbench {
 
     Workspace workspace_;
     fs::path program_, first_;
+    AllowedLaws laws_;
     Runs runs_;
     std::atomic<std::size_t> listeners_{0};
 };
@@ -145,6 +157,7 @@ Json Workbench::check(const std::string& name, const std::string& text) const {
     if (!fs::is_directory(file.parent_path(), code))
         throw Refused(404, fmt::format("there is no folder for {}", printable(name)));
     const Draft draft(file, text);
+    if (const auto law = lawToAskFor(draft.file())) return {{"law", {{"file", law->file}, {"text", law->text}}}};
     Json json = asked({"check", draft.file().string(), "--json", "--assume", "--scene"}, kCheckLimit);
     for (Json& error : json["errors"])
         if (error.value("file", "") == printable(draft.file().string())) error["file"] = "";
@@ -169,6 +182,7 @@ Json Workbench::save(const Json& body) const {
 
 Json Workbench::start(const Json& body) {
     const fs::path file = caseOf(textOf(body, "name"));
+    requireAllowed(file);
     const std::string run = "out/" + file.stem().string();
     const fs::path out = fileOf(run);
     const bool force = body.value("force", false);
@@ -182,7 +196,9 @@ Json Workbench::start(const Json& body) {
 }
 
 Json Workbench::resume(const std::string& run) {
-    runs_.start(run, {"resume", fileOf(run).string(), "--events"});
+    const fs::path folder = fileOf(run);
+    requireAllowed(folder / "case.toml");
+    runs_.start(run, {"resume", folder.string(), "--events"});
     return {{"run", run}};
 }
 
@@ -269,6 +285,10 @@ void Workbench::route(httplib::Server& server, const std::atomic<bool>& stopped)
     server.Post("/api/check", answer([this](const auto& r) {
                     const Json body = bodyOf(r);
                     return check(textOf(body, "name"), textOf(body, "text"));
+                }));
+    server.Post("/api/allow", answer([this](const auto& r) {
+                    laws_.allow(textOf(bodyOf(r), "text"));
+                    return Json::object();
                 }));
     server.Post("/api/save", answer([this](const auto& r) { return save(bodyOf(r)); }));
     server.Post("/api/run", answer([this](const auto& r) { return start(bodyOf(r)); }));

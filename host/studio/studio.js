@@ -130,6 +130,17 @@ async function check() {
   const number = ++open.checked, name = open.name;
   const found = await ask("/api/check", {name, text: at("text").value});
   if (number !== open.checked || name !== open.name) return;  // another text has come meanwhile
+  at("law").hidden = !found.law;
+  if (found.law) {
+    at("law-name").textContent = found.law.file;
+    at("law-text").textContent = found.law.text;
+    at("verdict").textContent = "The case waits for your word on its law.";
+    at("verdict").className = "within";
+    at("faults").textContent = "";
+    at("run").disabled = true;
+    document.documentElement.dataset.checked = String(number);
+    return;
+  }
   showFaults(found);
   const list = at("figures");
   list.textContent = "";
@@ -333,6 +344,7 @@ async function begin() {
   at("stop").addEventListener("click", tried(() => ask("/api/stop", {run: live.run})));
   at("resume").addEventListener("click", tried(() => ask("/api/resume", {run: live.run}).then(() => watch(live.run))));
   at("report").addEventListener("click", tried(openReport));
+  at("allow").addEventListener("click", tried(() => ask("/api/allow", {text: at("law-text").textContent}).then(check)));
   at("new").addEventListener("submit", tried(make));
   document.addEventListener("keydown", event => {
     if (!(event.ctrlKey || event.metaKey) || !open.name) return;

@@ -157,6 +157,29 @@ TEST_CASE("the workbench checks a text as the command line does, and shows the d
     CHECK(fs::is_empty(folder.path()));  // no draft is left
 }
 
+TEST_CASE("a law of a case's own is compiled for nobody who has not seen its text") {
+    const Folder folder;
+    const std::string law = fileContent(VKDOSE_SOURCE_DIR "/cases/laws/liquid-bridge.glsl").value();
+    folder.write("liquid-bridge.glsl", law);
+    fs::copy(VKDOSE_SOURCE_DIR "/cases/laws/liquid-bridge.csv", folder.path());
+    std::string text = fileContent(VKDOSE_SOURCE_DIR "/cases/laws/liquid-bridge.toml").value();
+    folder.write("my.toml", text);
+    folder.write("upper.toml", "base = \"my.toml\"\n");
+    const Bench bench(folder.path());
+    for (const char* name : {"my.toml", "upper.toml"}) {
+        CAPTURE(name);
+        const Json asked =
+            bench.asked("/api/check", {{"name", name}, {"text", fileContent(folder.path() / name).value()}});
+        CHECK(asked == Json{{"law", {{"file", "liquid-bridge.glsl"}, {"text", law}}}});
+        CHECK(bench.post("/api/run", {{"name", name}})->status == 403);
+    }
+    bench.asked("/api/allow", {{"text", law}});
+    CHECK(bench.asked("/api/check", {{"name", "upper.toml"}, {"text", "base = \"my.toml\"\n"}})["errors"].empty());
+    folder.write("liquid-bridge.glsl", law + "// changed\n");
+    CHECK(bench.asked("/api/check", {{"name", "my.toml"}, {"text", text}}).contains("law"));
+    CHECK(bench.post("/api/run", {{"name", "my.toml"}})->status == 403);
+}
+
 TEST_CASE("a run of the workbench tells its events to who comes early and late, and is stopped and goes on") {
     const Folder folder;
     folder.write("my.toml", mini() + "\n[frames]\ninterval_s = 0.02\n");
