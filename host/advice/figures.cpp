@@ -72,7 +72,8 @@ std::string bodiesOf(const World& world, const std::string& motion) {
 
 void addStep(Figures& f, const Case& c, const Insertion& filled) {
     f.automaticStep = std::numeric_limits<double>::infinity();
-    for (const ContactMode& mode : modesOf(c, powderSizes(c.world, filled.particles))) {
+    // Refills count: the more spheres there are, the more of them a body that moves freely can swing on.
+    for (const ContactMode& mode : modesOf(c, powderSizes(c.world, filled.allParticles()))) {
         ContactMode undamped = mode;
         undamped.decay = 0;
         const double step = automaticTimeStep({mode}, c.stepsPerContact);

@@ -66,16 +66,43 @@ void printFilling(const Case& c, const Insertion& filled) {
     }
 }
 
+/// As many refills of one table are told one by one; more of them would push all else from the screen.
+constexpr std::size_t kToldRefills = 4;
+
+std::string whenOf(const Case& c, const Refill& r) {
+    if (r.time) return fmt::format("at t = {:.4g} s", *r.time);
+    if (r.beforeDose) return fmt::format("before dose {}", *r.beforeDose);
+    if (!r.below) return "when it is ordered";
+    return fmt::format("when {} holds less than {:.4g} g", r.watched ? c.world.regions[*r.watched].name : "the device",
+                       *r.below * 1e3);
+}
+
+/// The refills of one table, `first` to before `end`, in one line.
+void printSeries(const Case& c, const Insertion& filled, std::size_t first, std::size_t end) {
+    const Refill &one = c.refills[first], &last = c.refills[end - 1];
+    std::size_t spheres = 0;
+    double mass = 0;
+    for (std::size_t k = first; k < end; ++k) {
+        spheres += filled.waiting[k].particles.size();
+        mass += filled.waiting[k].mass;
+    }
+    tell("refill     {} to {}: {}, {:.4g} g in all, {}\n", one.name, last.name, spheres, mass * 1e3,
+         one.time ? fmt::format("from t = {:.4g} s to {:.4g} s", *one.time, *last.time) : whenOf(c, one));
+}
+
 void printRefills(const Case& c, const Insertion& filled) {
-    for (std::size_t k = 0; k < c.refills.size(); ++k) {
+    for (std::size_t k = 0; k < c.refills.size();) {
         const Refill& r = c.refills[k];
+        std::size_t end = k + 1;
+        while (end < c.refills.size() && c.refills[end].table == r.table) ++end;
+        if (end - k > kToldRefills) {
+            printSeries(c, filled, k, end);
+            k = end;
+            continue;
+        }
         const Insertion::Waiting& powder = filled.waiting[k];
-        tell("refill     {}: {}, {:.4g} g, {}\n", r.name, powder.particles.size(), powder.mass * 1e3,
-             r.time         ? fmt::format("at t = {:.4g} s", *r.time)
-             : r.beforeDose ? fmt::format("before dose {}", *r.beforeDose)
-             : r.below      ? fmt::format("when {} holds less than {:.4g} g",
-                                     r.watched ? c.world.regions[*r.watched].name : "the device", *r.below * 1e3)
-                            : "when it is ordered");
+        tell("refill     {}: {}, {:.4g} g, {}\n", r.name, powder.particles.size(), powder.mass * 1e3, whenOf(c, r));
+        ++k;
     }
 }
 

@@ -13,6 +13,9 @@ namespace vkdose {
 
 namespace {
 
+/// With so many times the particles of the fill a run goes at another speed.
+constexpr double kManyMore = 2;
+
 /// The freshly filled grid has no contacts yet, so it runs faster than the bed it becomes.
 double measuredSpeed(const Case& c, const Insertion& filled, Backend& backend) {
     using Clock = std::chrono::steady_clock;
@@ -39,7 +42,7 @@ Speed speedOf(const Case& c, const Insertion& filled, const BackendChoice& choic
     if (assume) return {kAssumedSpeed, false, ""};
     try {
         const std::unique_ptr<Backend> backend = makeBackend(choice, filled.particles.size());
-        return {measuredSpeed(c, filled, *backend), true, backend->description()};
+        return {measuredSpeed(c, filled, *backend), true, backend->description(), filled.particles.size()};
     } catch (const DeviceError& e) {
         return {kAssumedSpeed, false, e.what()};
     } catch (const RunError& e) {
@@ -62,6 +65,13 @@ std::string workText(const Derived& derived) {
 
 std::string runTimeText(const Derived& derived, const Speed& speed) {
     const std::string text = fmt::format("run time   {} {}\n", duration(derived.work / speed.rate), speedText(speed));
+    // A step has a cost of its own, which a hundred spheres bear as well as a thousand.
+    const double mean = derived.steps > 0 ? derived.work / derived.steps : 0;
+    if (speed.measured && mean > kManyMore * static_cast<double>(speed.particles))
+        return text + fmt::format(
+                          "           with the {} particles of the fill; refills make them {:.0f} on average, "
+                          "and a step with more of them takes less time for each\n",
+                          speed.particles, mean);
     return text + caveatText(speed, 11);
 }
 

@@ -15,7 +15,8 @@ inline constexpr double kAssumedSpeed = 6e6;
 struct Speed {
     double rate = 0;  ///< [particle-steps/s]
     bool measured = false;
-    std::string told;  ///< on which backend it was measured, or why it was not; empty: nobody asked
+    std::string told;           ///< on which backend it was measured, or why it was not; empty: nobody asked
+    std::size_t particles = 0;  ///< with which it was measured
 };
 
 /// The speed of a backend with the fresh filling of a case, measured for about a second, or an assumed one if `assume`

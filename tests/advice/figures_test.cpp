@@ -157,6 +157,23 @@ TEST_CASE("gaps of the coil are measured across the wire") {
     CHECK(std::isnan(figuresOf(loadCase(test::plainCase(), {"gravity=[0, 9.81, 0]"}), insertParticles(c)).bedDepth));
 }
 
+TEST_CASE("the automatic time step that is told is the one that is taken, with the spheres that refills bring") {
+    const test::Folder folder;
+    const std::string flap =
+        "[[body]]\nname = \"flap\"\nshape = \"disc\"\nradius_mm = 8\nat = [0, 0, 0.1]\n[body.motion]\n"
+        "kind = \"hinge\"\ninertia_g_mm2 = 1\n";
+    const auto taken = [&](const std::string& refill) {
+        const Case c = loadCase(folder.write("case.toml", std::string(test::kGoodCase) + flap + refill),
+                                {"particles.mass_g=0.01"});
+        const Figures f = figuresOf(c, insertParticles(c));
+        // It is that of the bounds of the sizes; the few spheres that are drawn are somewhat larger.
+        CHECK(c.world.timeStep == Approx(f.automaticStep).epsilon(0.1));
+        CHECK((f.stepLimit.find("flap") != std::string::npos) == !refill.empty());
+        return c.world.timeStep;
+    };
+    CHECK(taken("[[refill]]\nname = \"more\"\nmass_g = 0.2\nbefore_dose = 2\n") < 0.8 * taken(""));
+}
+
 TEST_CASE("what limits the time step is told with the bodies that it may be") {
     const test::Folder folder;
     const std::string disc = "shape = \"disc\"\nradius_mm = 8\nat = [0, 0, 0.1]\n";

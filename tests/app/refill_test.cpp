@@ -63,6 +63,21 @@ TEST_CASE("a refill is told before, during and after the run, and is there for t
     CHECK(on.code == 0);
 }
 
+TEST_CASE("an inlet of many refills is told in one line, and the speed of its few first spheres with a caveat") {
+    const Sandbox box;
+    writeCase(box, "time_s = 0.06\nevery_s = 0.01\ntimes = 5\n");
+    const std::string many = box.vkdose("check top.toml --assume").out;
+    CHECK_THAT(many, Catch::Contains("refill     spoon-1 to spoon-5: ") &&
+                         Catch::Contains(" g in all, from t = 0.06 s to 0.1 s\n"));
+    CHECK_THAT(many, !Catch::Contains("spoon-2"));
+    const std::string caveat = " particles of the fill; refills make them ";
+    CHECK_THAT(many, !Catch::Contains(caveat));  // nothing was measured
+    const std::string few = " --set particles.mass_g=0.02 --backend reference";
+    CHECK_THAT(box.vkdose("check top.toml" + few).out, Catch::Contains(caveat));
+    writeCase(box, "before_dose = 2\n");
+    CHECK_THAT(box.vkdose("check top.toml --backend reference").out, !Catch::Contains(caveat));
+}
+
 TEST_CASE("a hopper is topped up at its mark, and an inlet brings powder at a rate") {
     const Sandbox box;
     writeCase(box, R"(below_g = 0.87

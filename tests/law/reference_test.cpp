@@ -245,8 +245,8 @@ TEST_CASE("reference: a particle that leaves the domain is an error that names i
     auto backend = makeReferenceBackend();
     backend->load(world, two);
     const std::string message = errorOf(*backend, 10);
-    CHECK_THAT(message,
-               Contains("particle 1 left the domain") && Contains("step 5 (t = 0.005 s)") && Contains("(0.01, 0, 0)"));
+    CHECK_THAT(message, Contains("particle 1 left the domain") && Contains("step 5 (t = 0.005 s)") &&
+                            Contains("(0.01, 0, 0)") && Contains("domain.high"));
     CHECK(backend->particles().status[1] == Status::Lost);
     CHECK(backend->advance(0, 0).count[3] == 1);
 }

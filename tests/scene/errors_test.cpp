@@ -32,6 +32,7 @@ TEST_CASE("a particle that leaves the domain is named with its place and time") 
     p.add({0.0099, 0, 0}, 1e-3, {1, 0, 0});
     requireRunError(w, p, 200, "particle 1 ");
     requireRunError(w, p, 200, "left the domain");
+    requireRunError(w, p, 200, "domain.high");
 }
 
 TEST_CASE("a backend that could not load a world has no state to give, and loads another") {

@@ -283,8 +283,8 @@ void ReferenceBackend::settleStatus(std::size_t i) {
                 "particle {} {} in {}, at ({:.6g}, {:.6g}, {:.6g}) m: {}", i,
                 broken ? "is no longer finite" : "left the domain", when(), x.x, x.y, x.z,
                 broken ? "use a smaller time step"
-                       : "close the boundaries around it (canister.lid = true if it flew out at the top) or use a "
-                         "smaller time step");
+                       : "close the boundaries around it (canister.lid = true if it flew out at the top), give the "
+                         "domain more room there (domain.low, domain.high) or use a smaller time step");
     }
 }
 

@@ -38,8 +38,8 @@ const char* text(std::uint32_t error) {
             return "is in an overlap deeper than the case allows (contact.max_overlap_ratio, of the smaller radius): "
                    "use a smaller time step or a stiffer k; if a body pinches it, allow more";
         case gpu::kErrorLost:
-            return "left the domain: close the boundaries around it (canister.lid = true if it flew out at the top) or "
-                   "use a smaller time step";
+            return "left the domain: close the boundaries around it (canister.lid = true if it flew out at the top), "
+                   "give the domain more room there (domain.low, domain.high) or use a smaller time step";
         case gpu::kErrorFeatures:
             return "touches one body in more than four places, or more than 128 facets of its mesh at once: use "
                    "smaller spheres, a smoother body, a coarser mesh, or --backend reference";
