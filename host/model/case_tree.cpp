@@ -75,38 +75,65 @@ void dropRivals(Node& lower, const Node& upper, std::string_view path) {
     }
 }
 
-void mergeAt(Node& lower, Node upper, const std::string& path);
+/// What becomes of the keys of a lower layer that keys of an upper one exclude.
+enum class Rivals { Drop, Keep };
+
+void mergeAt(Node& lower, Node upper, const std::string& path, Rivals rivals);
+
+/// The name of a table of a list, given or by default; empty if the tables of this list have none.
+std::string nameOf(const Node& item, std::string_view path, std::size_t place) {
+    const auto word = [&](std::string_view key) {
+        const Node* value = item.child(key);
+        return value != nullptr && value->kind == Node::Kind::String ? value->string : "";
+    };
+    if (item.child("name") != nullptr) return word("name");
+    const std::vector<const Key*> keys = keysOf(caseKeys(), path);
+    const auto find = [&](std::string_view name) {
+        return std::find_if(keys.begin(), keys.end(), [&](const Key* key) { return key->name == name; });
+    };
+    const auto named = find("name");
+    if (named == keys.end() || (*named)->followed.empty()) return "";
+    const std::string kind = word((*named)->followed);
+    const Default& usual = (*find((*named)->followed))->standard;
+    if (usual.kind != Default::Kind::Value || (!kind.empty() && kind != usual.text)) return kind;
+    return fmt::format("{}-{}", path.substr(path.rfind('.') + 1), place + 1);
+}
 
 /// A table over a list of tables changes those that it names: `body.gate.at` is a key of the [[body]] named gate.
-void mergeNamed(Node& list, Node upper, const std::string& path) {
+void mergeNamed(Node& list, Node upper, const std::string& path, Rivals rivals) {
     for (Node& value : upper.children) {
         std::string names;
         Node* meant = nullptr;
-        for (Node& item : list.children) {
-            const Node* name = item.child("name");
-            if (name == nullptr || name->kind != Node::Kind::String) continue;
-            names += (names.empty() ? "" : ", ") + name->string;
-            if (name->string == value.key) meant = &item;
+        for (std::size_t k = 0; k < list.children.size(); ++k) {
+            const std::string name = nameOf(list.children[k], path, k);
+            if (name.empty()) continue;
+            names += (names.empty() ? "" : ", ") + name;
+            if (name == value.key) meant = &list.children[k];
         }
         if (meant == nullptr || value.kind != Node::Kind::Table)
             throw CaseError(
                 {{value.file, value.line, path + "." + value.key, value.text,
                   fmt::format("is no table of the list [[{}]]", path),
                   names.empty() ? "give the whole list" : fmt::format("give a key of one of these: {}", names)}});
-        mergeAt(*meant, std::move(value), path);
+        const Node* given = meant->child("name");
+        const std::optional<Node> name = given != nullptr ? std::optional(*given) : std::nullopt;
+        mergeAt(*meant, std::move(value), path, rivals);
+        // Another shape or kind removes all keys of the old one, but the name says which table this is.
+        if (name && meant->child("name") == nullptr) meant->children.push_back(*name);
     }
 }
 
-void mergeAt(Node& lower, Node upper, const std::string& path) {
-    dropRivals(lower, upper, path);
+void mergeAt(Node& lower, Node upper, const std::string& path, Rivals rivals) {
+    if (rivals == Rivals::Drop) dropRivals(lower, upper, path);
     for (Node& value : upper.children) {
         Node* below = lower.child(value.key);
+        const std::string at = path.empty() ? value.key : path + "." + value.key;
         if (below == nullptr)
             lower.children.push_back(std::move(value));
         else if (below->kind == Node::Kind::Table && value.kind == Node::Kind::Table)
-            mergeAt(*below, std::move(value), path.empty() ? below->key : path + "." + below->key);
+            mergeAt(*below, std::move(value), at, rivals);
         else if (below->kind == Node::Kind::Array && value.kind == Node::Kind::Table)
-            mergeNamed(*below, std::move(value), path.empty() ? below->key : path + "." + below->key);
+            mergeNamed(*below, std::move(value), at, rivals);
         else
             *below = std::move(value);
     }
@@ -205,15 +232,15 @@ Node overrideTree(const std::vector<std::string>& overrides) {
         try {
             if (equals == std::string::npos)
                 throw CaseError({{kCommandLine, 0, text, "", "has no value", "write key.path=value"}});
-            // "\n" is a path that no table has, so that no override removes another. Two overrides that exclude each
-            // other are a fault, which is reported later.
-            mergeAt(all, overrideNode(trim(text.substr(0, equals)), trim(text.substr(equals + 1))), "\n");
+            // Two overrides that exclude each other are a fault, which is reported later.
+            Node override = overrideNode(trim(text.substr(0, equals)), trim(text.substr(equals + 1)));
+            clearLines(override);
+            mergeAt(all, std::move(override), "", Rivals::Keep);
         } catch (const CaseError& error) {
             faults.insert(faults.end(), error.faults().begin(), error.faults().end());
         }
     }
     if (!faults.empty()) throw CaseError(faults);
-    clearLines(all);
     return all;
 }
 
@@ -283,7 +310,7 @@ std::string treeText(Node tree) {
 }
 
 void merge(Node& lower, Node upper) {
-    mergeAt(lower, std::move(upper), "");
+    mergeAt(lower, std::move(upper), "", Rivals::Drop);
 }
 
 }  // namespace vkdose

@@ -10,7 +10,8 @@ using namespace key;
 constexpr Key kField[] = {
     word("preset", "grid height-profile mid-plane outlet", "grid",
          "sets box and cells; `\"grid\"` is the whole canister in three directions"),
-    text("name", told("the preset's; of grids `field-1`, ..."), "of its files: letters, digits, `-` and `_`"),
+    text("name", told("the preset's; of grids `field-1`, ..."), "of its files: letters, digits, `-` and `_`")
+        .following("preset"),
     text("powder", told("all"), "name of a powder, where there are several: the field is that of its particles alone"),
     word("kernel", "gaussian lucy", "gaussian", "`\"gaussian\"` is cut at three widths; `\"lucy\"` ends at its width"),
     number("width_mm", kMillimetre, kPositive, told("mean diameter; Lucy: two"), "width of the kernel"),
@@ -28,7 +29,7 @@ constexpr Key kField[] = {
 
 constexpr Key kMeasure[] = {
     word("kind", ElementTest::kKinds, kRequired, "the element test").replacing("*"),
-    text("name", told("the kind"), "of its figures: letters, digits, `-` and `_`"),
+    text("name", told("the kind"), "of its figures: letters, digits, `-` and `_`").following("kind"),
     vector("at", kMetre, {0, 0, 0},
            "`angle_of_repose`, `bulk_density`: a point of the upright axis, at the height of the foot or floor"),
     word("view", ElementTest::kViews, "bulk",

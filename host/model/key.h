@@ -64,6 +64,9 @@ struct Key {
     std::string_view orEnding{};                                   ///< of other texts that may stand in place of a word
     /// Keys and tables of a lower layer that this one removes, separated by blanks; "*": all of its table.
     std::string_view losers{};
+    /// Of a `name`: the key whose word is the name of a table of a list without one. A word that is the default of
+    /// that key names none: the table is `field-1` then, by the list and its place.
+    std::string_view followed{};
 
     /// Returns this key, of a number, with the addition that `word` may stand in its place.
     constexpr Key orElse(std::string_view word) const {
@@ -85,6 +88,13 @@ struct Key {
     constexpr Key replacing(std::string_view others) const {
         Key key = *this;
         key.losers = others;
+        return key;
+    }
+
+    /// Returns this key, a `name`, with the addition that the word of the key `other` is its default.
+    constexpr Key following(std::string_view other) const {
+        Key key = *this;
+        key.followed = other;
         return key;
     }
 };

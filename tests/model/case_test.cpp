@@ -155,6 +155,45 @@ TEST_CASE("a key of one table of a list is reached by the table's name") {
         }
 }
 
+TEST_CASE("a key of a table of a list is reached by the name that the table has by default") {
+    const Folder folder;
+    const std::string rooms = "[[region]]\nname = \"pan\"\nkind = \"beyond\"\npoint = [0, 0, 1]\nnormal = [0, 0, 1]\n";
+    const auto file =
+        folder.write("case.toml", std::string(kGoodCase) + rooms +
+                                      "[[measure]]\nkind = \"discharge\"\nregion = \"pan\"\nfrom_s = 0.2\n"
+                                      "[[field]]\npreset = \"outlet\"\n[[field]]\nstress = false\n");
+    CHECK(loadCase(file, {"measure.discharge.from_s=0.25"}).measures.at(0).windows.at(0).from == 0.25);
+    CHECK(loadCase(file, {"measure.discharge.name=flow"}).measures.at(0).name == "flow");
+    const Case c = loadCase(file, {"field.outlet.average=true", "field.field-2.stress=true"});
+    CHECK(c.fields.at(0).average);
+    CHECK(c.fields.at(1).stress);
+    CHECK(c.fields.at(1).name == "field-2");
+    const auto upper = folder.write("upper.toml", "base = \"case.toml\"\n[measure.discharge]\nto_s = 0.4\n");
+    CHECK(loadCase(upper).measures.at(0).windows.at(0).to == 0.4);
+    const auto refused = [&](const std::vector<std::string>& overrides, const char* told) {
+        INFO(overrides.back());
+        try {
+            loadCase(file, overrides);
+            FAIL("was taken");
+        } catch (const CaseError& error) {
+            CHECK_THAT(error.what(), Catch::Contains(told));
+        }
+    };
+    refused({"measure.content.from_s=1"}, "one of these: discharge");
+    refused({"field.grid.stress=true"}, "one of these: outlet, field-2");
+    refused({"measure=[{kind=\"discharge\",region=\"pan\",from_s=0.3}]", "measure.content.from_s=1"},
+            "--set measure.content: is no table of the list [[measure]]; give a key of one of these: discharge");
+}
+
+TEST_CASE("a table of a list keeps its name when it takes another shape") {
+    const Folder folder;
+    const auto file = folder.write("case.toml", std::string(kGoodCase) +
+                                                    "[[body]]\nname = \"gate\"\nshape = \"disc\"\nradius_mm = 8\n"
+                                                    "at = [0, 0, 0.1]\n");
+    const Case c = loadCase(file, {"body.gate.shape=box", "body.gate.size_mm=[9, 9, 9]", "body.gate.at=[0, 0, 0.2]"});
+    CHECK(c.world.bodies.at(0).name == "gate");
+}
+
 TEST_CASE("a case with a base does not take its name, and with it its output folder") {
     const Folder folder;
     folder.write("base.toml", kGoodCase);
