@@ -18,6 +18,7 @@
 #include "host/model/powders.h"
 #include "host/model/stability.h"
 #include "host/report/player_data.h"
+#include "host/sim/added_series.h"
 #include "host/sim/runner.h"
 
 namespace vkdose {
@@ -65,9 +66,6 @@ void printFilling(const Case& c, const Insertion& filled) {
         tell("\n");
     }
 }
-
-/// As many refills of one table are told one by one; more of them would push all else from the screen.
-constexpr std::size_t kToldRefills = 4;
 
 std::string whenOf(const Case& c, const Refill& r) {
     if (r.time) return fmt::format("at t = {:.4g} s", *r.time);

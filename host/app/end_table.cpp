@@ -10,6 +10,7 @@
 #include "host/analysis/figures.h"
 #include "host/analysis/targets.h"
 #include "host/app/text.h"
+#include "host/sim/added_series.h"
 #include "host/sim/density.h"
 
 namespace vkdose {
@@ -143,7 +144,7 @@ std::string reportText(const Case& c, const RunResult& r, const std::string& bac
         text += fmt::format("mean {} g (one dose: no standard deviation, no RSD)\n", grams(s.mean));
     }
     text += targetLine(r.doses);
-    for (const AddedPowder& p : r.added) text += fmt::format("refill   {}: {}\n", p.name, addedText(p));
+    for (const AddedSeries& a : seriesOf(r.added)) text += fmt::format("refill   {}: {}\n", a.name(), a.text());
     if (r.settling) text += fmt::format("settled  {}\n", settlingSentence(*r.settling, c.schedule));
     text += densityLine(c, r) + closedFormLine(c, r);
     text += figureLines(r, c.schedule.stop) + ledgerLine(c, r);

@@ -9,6 +9,7 @@
 #include "host/analysis/targets.h"
 #include "host/app/tell.h"
 #include "host/app/text.h"
+#include "host/sim/added_series.h"
 
 namespace vkdose {
 
@@ -79,8 +80,11 @@ void ProgressDisplay::onDose(const Dose& d) {
 }
 
 void ProgressDisplay::onRefill(const AddedPowder& p) {
+    const bool one = p.ofTable <= kToldRefills;
+    if (!one && !inlets_.insert(p.table).second) return;
     close();
-    say(fmt::format("refill {}: {}\n", p.name, addedText(p)));
+    say(fmt::format("refill {}: {}{}\n", p.name, seriesOf({p}).front().text(),
+                    one ? "" : fmt::format("; the end of the run tells all {} together", p.ofTable)));
 }
 
 void ProgressDisplay::say(const std::string& text) {

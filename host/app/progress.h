@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <set>
 
 #include "host/sim/runner.h"
 
@@ -35,7 +36,8 @@ class ProgressDisplay : public RunDisplay {
 
     std::FILE* stream_;
     bool terminal_;
-    bool open_ = false;  ///< a bar stands on the current line
+    bool open_ = false;             ///< a bar stands on the current line
+    std::set<std::size_t> inlets_;  ///< tables of many refills of which one was told
     Clock::time_point last_;
 };
 

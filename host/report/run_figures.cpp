@@ -17,11 +17,27 @@
 #include "host/model/powders.h"
 #include "host/output/figure_words.h"
 #include "host/output/particle_row.h"
+#include "host/sim/added_series.h"
 #include "host/sim/density.h"
 
 namespace vkdose::report {
 
 namespace {
+
+/// In the order of the case.
+std::vector<AddedPowder> addedPowder(const RunSources& run) {
+    std::vector<AddedPowder> list;
+    const std::vector<Refill>& all = run.c.refills;
+    const Json told = run.summary.value("refills", Json::array());
+    for (std::size_t k = 0; k < std::min(all.size(), told.size()); ++k) {
+        if (!told[k].value("time_s", Json()).is_number()) continue;
+        const auto same = [&](const Refill& r) { return r.table == all[k].table; };
+        const auto ofTable = std::size_t(std::count_if(all.begin(), all.end(), same));
+        list.push_back({k, all[k].name, all[k].table, ofTable, 0, told[k]["time_s"].get<double>(), 0,
+                        told[k].value("mass_kg", 0.0)});
+    }
+    return list;
+}
 
 class Facts {
   public:
@@ -61,11 +77,9 @@ class Facts {
             add("state", "still running, or ended without a summary", "the figures are those so far");
             return;
         }
-        for (const Json& refill : s.value("refills", Json::array()))
-            if (refill.value("time_s", Json()).is_number())
-                add(fmt::format("refill {}", refill.value("name", std::string())),
-                    fmt::format("{} g", grams(refill.value("mass_kg", 0.0))),
-                    fmt::format("at t = {:.4g} s, counted in the fill", refill["time_s"].get<double>()));
+        for (const AddedSeries& added : seriesOf(addedPowder(run_)))
+            add(fmt::format("refill {}", added.name()), fmt::format("{} g", grams(added.mass)),
+                added.when() + ", counted in the fill");
         if (s.contains("stop_sentence")) add("ended", s.value("stop_sentence", std::string()));
         if (s.contains("error") && s["error"].is_string()) add("error", s["error"].get<std::string>());
         if (s.contains("backend")) add("computed on", s.value("backend", std::string()));

@@ -1,17 +1,10 @@
 // The powder that is added while a run goes on.
-#include <fmt/format.h>
-
 #include <algorithm>
 
-#include "host/core/grams.h"
 #include "host/model/refill.h"
 #include "host/sim/run_loop.h"
 
 namespace vkdose {
-
-std::string addedText(const AddedPowder& p) {
-    return fmt::format("{} g in {} spheres, at t = {:.6g} s", grams(p.mass), p.particles, p.time);
-}
 
 bool RunLoop::isAdded(std::size_t refill) const {
     return std::any_of(result_.added.begin(), result_.added.end(),
@@ -64,7 +57,11 @@ void RunLoop::addPowder() {
 void RunLoop::bookAdded(std::size_t refill, std::uint64_t step) {
     const Insertion::Waiting& powder = result_.filled.waiting[refill];
     const std::size_t count = powder.particles.size();
-    result_.added.push_back({refill, case_.refills[refill].name, step, timeline_.time(step), count, powder.mass});
+    const std::size_t table = case_.refills[refill].table;
+    const auto ofTable =
+        std::count_if(case_.refills.begin(), case_.refills.end(), [&](const Refill& r) { return r.table == table; });
+    result_.added.push_back({refill, case_.refills[refill].name, table, std::size_t(ofTable), step,
+                             timeline_.time(step), count, powder.mass});
     result_.ledger.add(count, powder.mass);
 }
 

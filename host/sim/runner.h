@@ -52,14 +52,12 @@ enum class KeptState { Settled, Frame, End };
 struct AddedPowder {
     std::size_t refill = 0;  ///< index in Case::refills
     std::string name;
-    std::uint64_t step = 0;  ///< steps made before
-    double time = 0;         ///< [s]
+    std::size_t table = 0, ofTable = 1;  ///< its [[refill]], and how many refills that gives
+    std::uint64_t step = 0;              ///< steps made before
+    double time = 0;                     ///< [s]
     std::size_t particles = 0;
     double mass = 0;  ///< [kg]
 };
-
-/// "10 g in 812 spheres, at t = 4 s"
-std::string addedText(const AddedPowder& powder);
 
 /// Is told of events as a run goes on. An exception that it throws ends the run; an OutputError says that a result
 /// could not be stored.

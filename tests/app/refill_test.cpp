@@ -70,6 +70,18 @@ TEST_CASE("an inlet of many refills is told in one line, and the speed of its fe
     CHECK_THAT(many, Catch::Contains("refill     spoon-1 to spoon-5: ") &&
                          Catch::Contains(" g in all, from t = 0.06 s to 0.1 s\n"));
     CHECK_THAT(many, !Catch::Contains("spoon-2"));
+    const auto run = box.vkdose("run top.toml --out many");
+    CAPTURE(run.err);
+    REQUIRE(run.code == 0);
+    CHECK_THAT(run.err, Catch::Contains("refill spoon-1: ") && Catch::Contains(" at t = 0.06") &&
+                            Catch::Contains("; the end of the run tells all 5 together\n") &&
+                            !Catch::Contains("spoon-2"));
+    CHECK_THAT(run.out, Catch::Contains("refill   spoon-1 to spoon-5: ") &&
+                            Catch::Contains(" spheres, from t = 0.06") && !Catch::Contains("spoon-2"));
+    CHECK(nlohmann::json::parse(readText(box / "many/summary.json"))["refills"].size() == 5);
+    REQUIRE(box.vkdose("report many").code == 0);
+    CHECK_THAT(readText(box / "many/report.html"),
+               Catch::Contains("\"refill spoon-1 to spoon-5\"") && !Catch::Contains("\"refill spoon-2\""));
     const std::string caveat = " particles of the fill; refills make them ";
     CHECK_THAT(many, !Catch::Contains(caveat));  // nothing was measured
     const std::string few = " --set particles.mass_g=0.02 --backend reference";
