@@ -63,6 +63,10 @@ std::string rateText(const SeriesFigures& f, const char* plusMinus) {
     return fmt::format("{} g/s{}", grams(f.mean), error);
 }
 
+bool comesInPortions(const MassRate& rate) {
+    return rate.steady && rate.steadyPart.relative > 1;
+}
+
 MassRate massRate(const std::vector<FlowSample>& samples, const WindowRule& rule) {
     MassRate r;
     const TurningFlow turning(samples, TurningFlow::By::Time, rule.from);

@@ -45,6 +45,10 @@ struct MassRate : SteadySeries {
 /// Between two lines the mass is taken to come out evenly.
 MassRate massRate(const std::vector<FlowSample>& samples, const WindowRule& rule);
 
+/// Whether the windows of its steady part scatter by more than their mean: a device that doses in strokes gives most of
+/// its powder in few of them, and its steady rate is that of no time.
+bool comesInPortions(const MassRate& rate);
+
 using RateFigure = NamedFigure<MassRate>;
 extern const std::span<const RateFigure> kRateFigures;
 /// Under this name a target of a calibration has them: "rate.steady_kg_s".

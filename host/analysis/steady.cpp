@@ -1,5 +1,7 @@
 #include "host/analysis/steady.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -66,6 +68,11 @@ std::optional<std::size_t> steadyFrom(std::span<const double> values) {
         best = d;
     }
     return best < half ? std::optional(best) : std::nullopt;
+}
+
+std::string rsdText(const SeriesFigures& figures) {
+    const double percent = figures.relative * 100;
+    return percent < 99.5 ? fmt::format("RSD {:.2g} %", percent) : fmt::format("RSD {:.0f} %", percent);
 }
 
 SteadySeries steadySeries(std::span<const double> values) {

@@ -32,6 +32,9 @@ SeriesFigures seriesFigures(std::span<const double> values);
 /// change.
 std::optional<std::size_t> steadyFrom(std::span<const double> values);
 
+/// "RSD 0.52 %", "RSD 173 %", of one that is known.
+std::string rsdText(const SeriesFigures& figures);
+
 /// Both, and the figures of the steady part.
 struct SteadySeries {
     SeriesFigures all;

@@ -17,12 +17,14 @@ namespace vkdose {
 
 namespace {
 
-std::string doseTable(const std::vector<Dose>& doses) {
+/// Of a device without a drive there is no torque.
+std::string doseTable(const std::vector<Dose>& doses, bool driven) {
     std::string text = fmt::format("{:>5} {:>10} {:>14} {:>16} {:>15}\n", "dose", "mass [g]", "cumulative [g]",
                                    "torque [mN m]", "closed form [g]");
     for (const Dose& d : doses) {
-        text += fmt::format("{:>5} {:>10} {:>14} {:>16.3f} {:>15}{}\n", d.index, grams(d.mass), grams(d.cumulative),
-                            d.coilTorque * 1e3, d.closedForm > 0 ? grams(d.closedForm) : "none",
+        text += fmt::format("{:>5} {:>10} {:>14} {:>16} {:>15}{}\n", d.index, grams(d.mass), grams(d.cumulative),
+                            driven ? fmt::format("{:.3f}", d.coilTorque * 1e3) : "none",
+                            d.closedForm > 0 ? grams(d.closedForm) : "none",
                             d.complete ? "" : "  incomplete, not in the mean");
     }
     return text;
@@ -131,7 +133,7 @@ std::string energyLine(const EnergyLedger& ledger) {
 
 std::string reportText(const Case& c, const RunResult& r, const std::string& backend) {
     std::string text;
-    if (!r.doses.empty()) text += doseTable(r.doses);
+    if (!r.doses.empty()) text += doseTable(r.doses, c.world.coil || followsDrive(c.world.bodies));
     const bool controlled = c.schedule.targetMass > 0 || std::isfinite(c.schedule.maxTorque);
     if (controlled && !r.doses.empty()) text += stopTable(r.doses);
     const DoseStatistics& s = r.statistics;
@@ -145,7 +147,7 @@ std::string reportText(const Case& c, const RunResult& r, const std::string& bac
     }
     text += targetLine(r.doses);
     for (const AddedSeries& a : seriesOf(r.added)) text += fmt::format("refill   {}: {}\n", a.name(), a.text());
-    if (r.settling) text += fmt::format("settled  {}\n", settlingSentence(*r.settling, c.schedule));
+    if (r.settling) text += fmt::format("settled  {}\n", settlingSentence(*r.settling, c));
     text += densityLine(c, r) + closedFormLine(c, r);
     text += figureLines(r, c.schedule.stop) + ledgerLine(c, r);
     if (r.last.energy) text += energyLine(*r.last.energy);
@@ -165,7 +167,7 @@ bool feeds(const RunResult& r) {
 }
 
 std::string scatter(const SeriesFigures& f) {
-    return std::isfinite(f.relative) ? fmt::format(", RSD {:.2g} %", f.relative * 100) : std::string();
+    return std::isfinite(f.relative) ? ", " + rsdText(f) : std::string();
 }
 
 }  // namespace
@@ -184,7 +186,9 @@ std::string rateLine(const RunResult& r, const MassRate& rate) {
     if (!feeds(r) || rate.windows.size() < kFewestWindows) return "";
     std::string text = fmt::format("rate     {}{} over {} windows of {:.3g} s", rateText(rate.all, "+-"),
                                    scatter(rate.all), rate.windows.size(), rate.window);
-    if (rate.steady)
+    if (comesInPortions(rate))
+        text += "; the powder comes in portions, so that no rate is steady";
+    else if (rate.steady)
         text += fmt::format("; steady from t = {:.4g} s: {}{}", rate.steadyTime(), rateText(rate.steadyPart, "+-"),
                             scatter(rate.steadyPart));
     return text + "\n";

@@ -67,7 +67,7 @@ void EventsDisplay::onSample(const Sample& sample) {
     say(event);
 }
 
-void EventsDisplay::onSettled(const Settling& settling, const Schedule&) {
+void EventsDisplay::onSettled(const Settling& settling, const Case&) {
     say({{"event", "settled"},
          {"time_s", jsonNumber(settling.time)},
          {"at_rest", settling.atRest},

@@ -32,7 +32,7 @@ class EventsDisplay : public RunDisplay {
     void warn(const Warning& warning);
     void onProgress(const Progress& progress) override;
     void onSample(const Sample& sample) override;
-    void onSettled(const Settling& settling, const Schedule& schedule) override;
+    void onSettled(const Settling& settling, const Case& c) override;
     void onDose(const Dose& dose) override;
     void onRefill(const AddedPowder& powder) override;
     void end(const RunResult& result, ExitCode code, const std::string& error, const std::filesystem::path& output);

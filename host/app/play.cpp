@@ -25,8 +25,8 @@ class Fanout : public RunObserver {
         folder_.onSample(s);
         if (display_) display_->onSample(s);
     }
-    void onSettled(const Settling& settling, const Schedule& schedule) override {
-        if (display_) display_->onSettled(settling, schedule);
+    void onSettled(const Settling& settling, const Case& c) override {
+        if (display_) display_->onSettled(settling, c);
     }
     void onDose(const Dose& d) override {
         folder_.onDose(d);

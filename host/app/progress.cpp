@@ -68,9 +68,10 @@ void ProgressDisplay::onProgress(const Progress& p) {
     last_ = now;
 }
 
-void ProgressDisplay::onSettled(const Settling& settling, const Schedule& schedule) {
+void ProgressDisplay::onSettled(const Settling& settling, const Case& c) {
+    if (c.schedule.rotateTime == 0) return;  // it is the end of the run, which tells it
     close();
-    say(fmt::format("settled: {}\n", settlingSentence(settling, schedule)));
+    say(fmt::format("settled: {}\n", settlingSentence(settling, c)));
 }
 
 void ProgressDisplay::onDose(const Dose& d) {

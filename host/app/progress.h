@@ -24,7 +24,7 @@ class ProgressDisplay : public RunDisplay {
     ProgressDisplay& operator=(const ProgressDisplay&) = delete;
 
     void onProgress(const Progress& progress) override;
-    void onSettled(const Settling& settling, const Schedule& schedule) override;
+    void onSettled(const Settling& settling, const Case& c) override;
     void onDose(const Dose& dose) override;
     void onRefill(const AddedPowder& powder) override;
 

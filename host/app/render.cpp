@@ -121,7 +121,7 @@ class Renderer {
         std::vector<render::Panel> panels;
         for (std::size_t i = 0; i < frames.size(); ++i) {
             const std::string mark = frames.size() > 1 ? fmt::format("({}) ", char('a' + i % 26)) : std::string();
-            panels.push_back({&frames[i], valuesOf(frames[i]), mark + render::stateText(frames[i])});
+            panels.push_back({&frames[i], valuesOf(frames[i]), mark + render::stateText(states_.setup(), frames[i])});
         }
         return render::drawPicture(caster_, states_.setup(), spec_, *content_, panels);
     }

@@ -167,11 +167,17 @@ Box contentOf(const Case& c, const Frame& frame, const std::vector<DrawnBody>& b
     return {box.low - margin, box.high + margin};
 }
 
-std::string stateText(const Frame& frame) {
-    constexpr std::array<const char*, 4> kDoing{"", ", turning", ", resting", ", turning back"};
-    const char* doing = kDoing.at(std::size_t(frame.phase));
+std::string stateText(const Case& c, const Frame& frame) {
     if (frame.dose == 0) return fmt::format("{:.2f} s", frame.time);
-    return fmt::format("{:.2f} s, dose {}{}", frame.time, frame.dose, doing);
+    const std::vector<RigidBody>& bodies = c.world.bodies;
+    const bool turns = c.world.coil || std::any_of(bodies.begin(), bodies.end(), [](const RigidBody& b) {
+                           return std::holds_alternative<geometry::Turn>(b.course.motion);
+                       });
+    const char* moving = turns ? "turning" : "moving";
+    const std::string doing = frame.phase == Phase::Rest      ? "resting"
+                              : frame.phase == Phase::Reverse ? fmt::format("{} back", moving)
+                                                              : moving;
+    return fmt::format("{:.2f} s, dose {}, {}", frame.time, frame.dose, doing);
 }
 
 Canvas drawPicture(RayCaster& caster, const Case& c, const PictureSpec& spec, const Box& content,

@@ -33,8 +33,8 @@ Box contentOf(const Case& c, const Frame& frame, const std::vector<DrawnBody>& b
 /// Of several frames.
 Box united(const Box& a, const Box& b);
 
-/// "1.20 s, dose 1, turning".
-std::string stateText(const Frame& frame);
+/// "1.20 s, dose 1, turning"; of a device in which nothing turns "moving".
+std::string stateText(const Case& c, const Frame& frame);
 
 /// Where the parts of a picture stand, all in pixels. Each panel has the same camera.
 struct Layout {

@@ -27,6 +27,7 @@ namespace {
 /// In the order of the case.
 std::vector<AddedPowder> addedPowder(const RunSources& run) {
     std::vector<AddedPowder> list;
+    if (!run.summary.is_object()) return list;
     const std::vector<Refill>& all = run.c.refills;
     const Json told = run.summary.value("refills", Json::array());
     for (std::size_t k = 0; k < std::min(all.size(), told.size()); ++k) {
@@ -96,7 +97,10 @@ class Facts {
         const bool rested = s.value("at_rest", Json(false)) == Json(true);
         const std::string still =
             fmt::format("{:.2g} % of the speed after a fall from the fill's top", fall > 0 ? 100 * speed / fall : 0.0);
-        add("bed when settling ended", fmt::format("{} at t = {:.4g} s", rested ? "at rest" : "not at rest", time),
+        const std::string mover = rested ? "" : moverOf(run_.c, {0, rested, time, speed, fall, spilled});
+        add("bed when settling ended",
+            fmt::format("{} at t = {:.4g} s{}", rested ? "at rest" : "not at rest", time,
+                        mover.empty() ? "" : ", as " + mover),
             s.value("until_rest", Json(false)) == Json(true) && !rested ? still + "; the longest time was over"
                                                                         : still);
         // With another run's powder this is what had come out there, in its doses too.
@@ -195,8 +199,7 @@ class Facts {
     }
 
     static std::string scatter(const SeriesFigures& f) {
-        return std::isfinite(f.relative) ? fmt::format("RSD {:.2g} %", f.relative * 100)
-                                         : std::string("no RSD: nothing was dosed");
+        return std::isfinite(f.relative) ? rsdText(f) : std::string("no RSD: nothing was dosed");
     }
 
     void rate() {
@@ -204,7 +207,9 @@ class Facts {
         if (r.windows.size() < kFewestWindows) return;
         add("mass rate", rateText(r.all, "±"),
             fmt::format("{} over {} windows of {:.3g} s", scatter(r.all), r.windows.size(), r.window));
-        if (r.steady)
+        if (comesInPortions(r))
+            add("steady mass rate", "none", "the powder comes in portions");
+        else if (r.steady)
             add("steady mass rate", rateText(r.steadyPart, "±"),
                 fmt::format("{}, from t = {:.4g} s on by MSER-5", scatter(r.steadyPart), r.steadyTime()));
         else if (r.windows.size() >= kFewestForSteady && r.all.mean > 0)
@@ -352,7 +357,7 @@ bool rateLeads(const RunSources& run) {
     if (run.doses.size() > 1) return false;
     // One plug in a long time is steady nowhere, though MSER-5 takes it all.
     const MassRate rate = massRate(flowSamples(run.series), windowRuleOf(run.c));
-    return rate.steady && rate.steadyPart.mean > 3 * rate.steadyPart.error;
+    return rate.steady && !comesInPortions(rate) && rate.steadyPart.mean > 3 * rate.steadyPart.error;
 }
 
 Particles endParticles(const std::filesystem::path& file, const Case& c) {
@@ -382,10 +387,7 @@ double filledMass(const RunSources& run) {
 
 Supply supplyOf(const RunSources& run) {
     Supply supply = filledMass(run);
-    if (run.summary.is_object())
-        for (const Json& refill : run.summary.value("refills", Json::array()))
-            if (refill.value("time_s", Json()).is_number())
-                supply.refills.push_back({refill["time_s"].get<double>(), refill.value("mass_kg", 0.0)});
+    for (const AddedPowder& p : addedPowder(run)) supply.refills.push_back({p.time, p.mass});
     return supply;
 }
 

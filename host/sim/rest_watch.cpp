@@ -50,15 +50,38 @@ void RestWatch::restore(const Record& record) {
     slowSince_ = record.one<std::uint64_t>("slow_since");
 }
 
-std::string settlingSentence(const Settling& s, const Schedule& schedule) {
+std::string moverOf(const Case& c, const Settling& settling) {
+    for (const RigidBody& body : c.world.bodies) {
+        const bool own = body.movesInPhases();
+        if (body.movesFreely() || body.clock == Clock::Drive) continue;
+        if (own && std::find(body.phases.begin(), body.phases.end(), Phase::Settle) == body.phases.end()) continue;
+        const auto clock = own ? std::optional(settling.time) : std::nullopt;
+        // A step before the end, at which an interval of its motion may end too.
+        const geometry::Moving now = body.moving(settling.time - c.world.timeStep, 0, 0, clock);
+        if (now.velocity != Vec3(0) || now.spin != Vec3(0)) return fmt::format("body \"{}\" moves", body.name);
+    }
+    const double gravity = glm::length(c.settlingGravity());
+    const double fall = gravity > 0 ? settling.fallSpeed / gravity : 0;
+    const bool comes = std::any_of(c.refills.begin(), c.refills.end(), [&](const Refill& r) {
+        return r.time && *r.time <= settling.time && *r.time >= settling.time - fall;
+    });
+    return comes ? "powder comes in" : "";
+}
+
+std::string settlingSentence(const Settling& s, const Case& c) {
+    const Schedule& schedule = c.schedule;
     std::string text = fmt::format("at rest at t = {:.4g} s", s.time);
     if (!s.atRest) {
         text = fmt::format("{}not at rest at t = {:.4g} s",
                            schedule.untilRest ? "the longest time is over, and the bed is " : "", s.time);
+        const std::string mover = moverOf(c, s);
+        if (!mover.empty()) text += ", as " + mover;
         if (s.fallSpeed > 0) {
             const double now = 100 * s.speed / s.fallSpeed, rest = 100 * schedule.restSpeedRatio;
-            text += fmt::format(" (speed {:.2g} % of that after a fall from the fill's top; ", now);
-            text += now < rest
+            text += fmt::format(" (speed {:.2g} % of that after a fall from the fill's top", now);
+            if (mover.empty()) text += "; ";
+            text += !mover.empty() ? ")"
+                    : now < rest
                         ? fmt::format("it is below {:.2g} %, but has been for less than the time of that fall)", rest)
                         : fmt::format("at rest it is below {:.2g} %)", rest);
         }

@@ -56,8 +56,12 @@ struct Settling {
     double spilled = 0;      ///< mass that had left the throat by then; it is in no dose [kg]
 };
 
-/// "at rest at t = 0.31 s; 0.083 g had left by then, in no dose of this run": for people. `schedule` is the case's.
-std::string settlingSentence(const Settling& settling, const Schedule& schedule);
+/// What the case itself moves when the settling ends, so that no powder can rest: "body \"belt\" moves", "powder comes
+/// in". Empty: nothing. A body that the powder moves is none of that.
+std::string moverOf(const Case& c, const Settling& settling);
+
+/// "at rest at t = 0.31 s; 0.083 g had left by then, in no dose of this run": for people.
+std::string settlingSentence(const Settling& settling, const Case& c);
 
 /// For a checkpoint. Nothing is read if the settling had not ended.
 void put(Record& record, const std::optional<Settling>& settling);

@@ -113,7 +113,7 @@ void RunLoop::watchRest() {
     if (step_ != timeline_.settleSteps()) return;
     result_.settling =
         Settling{step_, rests, timeline_.time(step_), meanSpeed(s), rest_.fall().speed, mass(s, Region::Dosed)};
-    observer_.onSettled(*result_.settling, case_.schedule);
+    observer_.onSettled(*result_.settling, case_);
 }
 
 void RunLoop::look() {

@@ -66,7 +66,7 @@ class RunObserver {
     virtual ~RunObserver() = default;
     virtual void onProgress(const Progress&) {}
     virtual void onSample(const Sample&) {}
-    virtual void onSettled(const Settling&, const Schedule&) {}
+    virtual void onSettled(const Settling&, const Case&) {}
     virtual void onDose(const Dose&) {}
     /// Asked at each sample at which the drive conveys and nothing in the case stops it. The drive obeys from this
     /// sample on.

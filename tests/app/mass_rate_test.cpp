@@ -51,6 +51,31 @@ TEST_CASE("the end of a run tells the rate of a feeder, and not that of doses wi
     CHECK(lineOf(1, none, 4).empty());
 }
 
+TEST_CASE("no steady rate is told of a device that gives its powder in portions") {
+    RunResult r;
+    MassRate rate;
+    rate.window = 0.08;
+    for (int k = 0; k < 18; ++k) rate.windows.push_back({0.08 * k, 0.08 * (k + 1), 0});
+    rate.all = {5.8e-3, 2.5e-3, 1.73};
+    rate.steady = 2;
+    rate.steadyPart = {6e-3, 2.6e-3, 1.5};
+    CHECK(rateLine(r, rate) ==
+          "rate     5.800 g/s +- 2.500 g/s, RSD 173 % over 18 windows of 0.08 s; the powder comes in portions, so that "
+          "no rate is steady\n");
+    rate.steadyPart.relative = 0.9;  // it came late, and then all the time
+    CHECK_THAT(rateLine(r, rate), Catch::Contains("; steady from t = 0.16 s: 6.000 g/s +- 2.600 g/s, RSD 90 %"));
+}
+
+TEST_CASE("a device without a drive has no torque of the drive in its table") {
+    RunResult r;
+    r.doses.resize(1);
+    r.doses[0].coilTorque = 1.5e-3;
+    Case c;
+    CHECK_THAT(reportText(c, r, "x"), Catch::Contains(" none            none  incomplete"));
+    c.world.coil.emplace();
+    CHECK_THAT(reportText(c, r, "x"), Catch::Contains(" 1.500            none  incomplete"));
+}
+
 TEST_CASE("a run of one long dose tells its mass rate, the files of a sweep too, and calibrate takes it") {
     const Sandbox box;
     box.write("feeder.toml", kFeeder);

@@ -55,7 +55,7 @@ Drawn drawn(Studio& studio, PictureSpec spec, const std::vector<Frame>& frames) 
     std::vector<Panel> panels;
     Box content = render::contentOf(c, frames.at(0));
     for (const Frame& f : frames) {
-        panels.push_back({&f, valuesOf(Quantity::Speed, c, f, nullptr), render::stateText(f)});
+        panels.push_back({&f, valuesOf(Quantity::Speed, c, f, nullptr), render::stateText(c, f)});
         content = render::united(content, render::contentOf(c, f));
     }
     spec.scale = scaleFor(Quantity::Speed, c, {});
@@ -206,8 +206,29 @@ TEST_CASE("panels stand side by side, each with its state and its title") {
             ink(d.canvas, p.x, p.y - 1.6 * d.layout.text, p.x + d.layout.camera.width, p.y - 0.2 * d.layout.text));
     CHECK(*titles.begin() > 50);
     CHECK(titles.size() == 2);  // the third tells another time
-    CHECK(render::stateText(frames[2]) == "12.30 s, dose 1, turning");
-    CHECK(render::stateText(Frame{}) == "0.00 s");
+}
+
+TEST_CASE("a picture tells what the device does: a slide does not turn") {
+    Case c = mini();
+    Frame f;
+    CHECK(render::stateText(c, f) == "0.00 s");
+    f.time = 12.3;
+    f.dose = 1;
+    f.phase = Phase::Rotate;
+    CHECK(render::stateText(c, f) == "12.30 s, dose 1, turning");
+    c.world.coil.reset();
+    RigidBody slide;
+    slide.course.motion = geometry::Slide{Vec3(0, 0, 0.1)};
+    c.world.bodies = {slide};
+    CHECK(render::stateText(c, f) == "12.30 s, dose 1, moving");
+    f.phase = Phase::Reverse;
+    CHECK(render::stateText(c, f) == "12.30 s, dose 1, moving back");
+    f.phase = Phase::Rest;
+    CHECK(render::stateText(c, f) == "12.30 s, dose 1, resting");
+    c.world.bodies.push_back(slide);
+    c.world.bodies[1].course.motion = geometry::Turn{};
+    f.phase = Phase::Rotate;
+    CHECK(render::stateText(c, f) == "12.30 s, dose 1, turning");
 }
 
 TEST_CASE("any size is kept, and the parts stay inside") {

@@ -41,7 +41,7 @@ Sensors movingAt(double speed) {
 struct Teller : Notebook {
     std::vector<Settling> settled;
     std::vector<RunCheckpoint> kept;
-    void onSettled(const Settling& s, const Schedule&) override { settled.push_back(s); }
+    void onSettled(const Settling& s, const Case&) override { settled.push_back(s); }
     void onCheckpoint(const RunCheckpoint& c, double) override { kept.push_back(c); }
     bool storesCheckpoints() const override { return true; }
 };
@@ -114,7 +114,7 @@ TEST_CASE("settling until at rest ends at the sample that finds the bed at rest,
     CHECK(r.dosedWhileSettling == Approx(2e-3));
     CHECK(backend.step == 390 + 70);
     for (const FakeBackend::Call& call : backend.calls) CHECK(call.kc == (call.firstStep < 390 ? 3 : 7));
-    CHECK_THAT(settlingSentence(*r.settling, restCase().schedule),
+    CHECK_THAT(settlingSentence(*r.settling, restCase()),
                Catch::StartsWith("at rest at t = 0.39 s") && Catch::Contains("2.000 g"));
 }
 
@@ -127,8 +127,46 @@ TEST_CASE("a bed that never rests doses after the longest time, and that is told
     CHECK(r.settling->step == 1000);
     CHECK_FALSE(r.settling->atRest);
     CHECK(r.doses.size() == 1);
-    CHECK_THAT(settlingSentence(*r.settling, restCase().schedule),
+    CHECK_THAT(settlingSentence(*r.settling, restCase()),
                Catch::Contains("longest time is over") && Catch::Contains("not at rest") && Catch::Contains("32 %"));
+}
+
+TEST_CASE("powder that a body or an inlet moves is not told as a bed that should rest") {
+    Case c = restCase();
+    c.schedule.untilRest = false;
+    const Settling s{1000, false, 1.0, 0.04, 1.0, 0};
+    const std::string bed =
+        "not at rest at t = 1 s (speed 4 % of that after a fall from the fill's top; at rest it is below 1 %)";
+    CHECK(settlingSentence(s, c) == bed);
+    RigidBody belt;
+    belt.name = "belt";
+    belt.course.motion = geometry::Slide{Vec3(0, 0, 0.06)};
+    c.world.bodies = {belt};
+    CHECK(settlingSentence(s, c) ==
+          "not at rest at t = 1 s, as body \"belt\" moves (speed 4 % of that after a fall from the fill's top)");
+    c.schedule.untilRest = true;
+    CHECK_THAT(
+        settlingSentence(s, c),
+        Catch::StartsWith("the longest time is over, and the bed is not at rest at t = 1 s, as body \"belt\" moves"));
+    c.schedule.untilRest = false;
+    c.world.bodies[0].course.schedule.intervals = {{0.2, 0.9}};  // a cylinder that was lifted: the heap should rest
+    CHECK(settlingSentence(s, c) == bed);
+    c.world.bodies[0].course.schedule.intervals = {{0.2, 1.0}};
+    CHECK_THAT(settlingSentence(s, c), Catch::Contains("\"belt\" moves"));
+    c.world.bodies[0].course.schedule.intervals.clear();
+    c.world.bodies[0].clock = Clock::Drive;  // it stands while powder settles
+    CHECK(settlingSentence(s, c) == bed);
+    c.world.bodies[0].clock = Clock::Phases;
+    c.world.bodies[0].phases = {Phase::Rotate};
+    CHECK(settlingSentence(s, c) == bed);
+    c.world.bodies[0].phases = {Phase::Settle, Phase::Rotate};
+    CHECK_THAT(settlingSentence(s, c), Catch::Contains("\"belt\" moves"));
+    c.world.bodies.clear();
+    c.refills.resize(1);
+    c.refills[0].time = 0.95;  // it falls for 0.1 s
+    CHECK_THAT(settlingSentence(s, c), Catch::StartsWith("not at rest at t = 1 s, as powder comes in (speed 4 %"));
+    c.refills[0].time = 0.5;
+    CHECK(settlingSentence(s, c) == bed);
 }
 
 TEST_CASE("without until_rest a bed at rest changes no step of the schedule") {
