@@ -48,11 +48,12 @@ Found bodySeam(const Subject& s) {
     }
     const Cells cells(all);
     const std::vector<Vec3>& powder = s.filled.particles.position;
-    // The outer side of a vessel has seams that no powder meets. A place that a straight way leads to is met.
+    // The outer side of a vessel has seams that no powder meets. A place that a straight way leads to is met. A gap
+    // less wide than the radius of the smallest sphere is no way: none fits through one twice as wide.
     const auto met = [&](const Vec3& place) {
         const std::size_t step = powder.size() / kMostWays + 1;
         for (std::size_t i = 0; i < powder.size(); i += step)
-            if (!cells.passedBy(place, powder[i])) return true;
+            if (cells.isOpen(place, powder[i], s.f.smallest / 2)) return true;
         return false;
     };
     const SharedPlace* worst = nullptr;  // the first area, or else the first seam

@@ -1,7 +1,10 @@
 #include "host/advice/cells.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+
+#include "geometry/surface.h"
 
 namespace vkdose {
 
@@ -47,6 +50,13 @@ bool Cells::passedBy(const Vec3& a, const Vec3& b, double least) const {
                                        [&](std::size_t i) { return passes(a, b, mesh_[i], least); });
     });
     return passed;
+}
+
+bool Cells::isOpen(const Vec3& a, const Vec3& b, double aside) const {
+    const Vec3 along = glm::normalize(b - a), across = aside * geometry::anyNormal(along);
+    const Vec3 up = glm::cross(along, across);
+    const std::array<Vec3, 5> ways{Vec3(0), across, -across, up, -up};
+    return std::none_of(ways.begin(), ways.end(), [&](const Vec3& way) { return passedBy(a + way, b + way); });
 }
 
 int Cells::cell(double x, int axis) const {

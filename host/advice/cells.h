@@ -15,6 +15,9 @@ class Cells {
     /// Whether the segment passes a triangle, and goes on at both ends for more than `least` [m] from its plane.
     bool passedBy(const Vec3& a, const Vec3& b, double least = 0) const;
 
+    /// Whether no triangle is in the way from `a` to `b`, nor `aside` [m] of it to either side, up and down.
+    bool isOpen(const Vec3& a, const Vec3& b, double aside) const;
+
     const Vec3& low() const { return low_; }
     const Vec3& high() const { return high_; }
 

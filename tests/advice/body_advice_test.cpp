@@ -125,6 +125,15 @@ TEST_CASE("two bodies that meet in a seam where powder comes are told, at rest o
         "[[body]]\nname = \"bin\"\nshape = \"cylinder\"\nradius_mm = 12\nlength_mm = 20\nat = [0, 0.006, 0]\n"
         "rotation_axis = [1, 0, 0]\nrotation_deg = -90\n";
     CHECK(warned(funnel + bin).empty());
+    // Under a plate with a slit through which one sees the seam, but too narrow for a sphere, and under a wide one.
+    const auto plate = [](const std::string& name, const std::string& x) {
+        return "[[body]]\nname = \"" + name + "\"\nshape = \"box\"\nsize_mm = [20, 0.2, 20]\nat = [" + x +
+               ", 0.005, 0]\n";
+    };
+    const std::string below = box("left", "-0.005, 0, 0") + box("right", "0.005, 0, 0");
+    CHECK(warned(below + plate("lid-left", "-0.00953") + plate("lid-right", "0.01067")).empty());
+    CHECK_THAT(warned(below + plate("lid-left", "-0.01093") + plate("lid-right", "0.01207")),
+               Catch::Contains("body \"left\" and body \"right\" meet in a seam"));
     // Bodies that move as one, and two that part.
     const std::string sinks = "[body.motion]\nkind = \"slide\"\nvelocity = [0, -0.1, 0]\n";
     const std::string left = box("left", "-0.005, 0, 0") + sinks, right = box("right", "0.005, 0, 0");
