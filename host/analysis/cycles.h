@@ -11,17 +11,25 @@
 
 namespace vkdose {
 
+/// A body on a hinge between two stops, which tips over and comes back as its load says.
+struct TippingBody {
+    std::size_t hinge = 0;  ///< which of the bodies on a hinge
+    double far = 0;         ///< from its stop at the start to the other one [rad]
+};
+
 /// What a cycle of a device is.
 struct CycleRule {
-    std::string what;  ///< "turn of the drive", "pocket of wheel", "stroke of tray"; empty: nothing repeats itself
+    std::string what;  ///< "turn of the drive", "pocket of wheel", "stroke of tray", "tip of bucket"; empty: nothing
+                       ///< repeats itself
     TurningFlow::By by = TurningFlow::By::Time;
-    double length = 0;                          ///< of one: time [s], or angle of the drive [rad]
-    double period = 0;                          ///< its shortest time [s]
-    double interval = 0;                        ///< of the sensors [s]
-    std::optional<double> from = std::nullopt;  ///< of countedFrom
+    double length = 0;                               ///< of one: time [s], or angle of the drive [rad]
+    double period = 0;                               ///< its shortest time [s]
+    double interval = 0;                             ///< of the sensors [s]
+    std::optional<double> from = std::nullopt;       ///< of countedFrom
+    std::optional<TippingBody> tips = std::nullopt;  ///< a cycle is from tip to tip, however long that takes
 };
 /// The passing of a pocket if the case tells a wheel's pockets, else a turn of the drive, else the longest period of a
-/// body.
+/// body, else the tip of the first body on a hinge that starts at one of its two stops.
 CycleRule cycleRuleOf(const Case& c);
 
 /// In the output folder of a run.
@@ -33,12 +41,12 @@ struct CycleMass {
     double mass = 0;            ///< that came out in it [kg]
     double left = 0;            ///< in the device at its start [kg]
 };
-inline constexpr auto kCycleColumns =
-    columns(column<&CycleMass::number>("cycle", "1", "Number of the cycle, from 1."),
-            column<&CycleMass::start>("start_time_s", "s", "Simulated time at which it began."),
-            column<&CycleMass::end>("end_time_s", "s", "Simulated time at which it ended."),
-            column<&CycleMass::mass>("mass_kg", "kg", "Mass that came out in it while the drive turned forward."),
-            column<&CycleMass::left>("left_kg", "kg", "Mass that was in the device at its start, throat included."));
+inline constexpr auto kCycleColumns = columns(
+    column<&CycleMass::number>("cycle", "1", "Number of the cycle, from 1."),
+    column<&CycleMass::start>("start_time_s", "s", "Simulated time at which it began."),
+    column<&CycleMass::end>("end_time_s", "s", "Simulated time at which it ended."),
+    column<&CycleMass::mass>("mass_kg", "kg", "Mass that came out in it; of a drive while that turned forward."),
+    column<&CycleMass::left>("left_kg", "kg", "Mass that was in the device at its start, throat included."));
 
 struct Cycles : SteadySeries {
     std::string what;             ///< of CycleRule

@@ -47,10 +47,15 @@ std::vector<FlowSample> flowSamples(const Table& series) {
             for (const char* name : {"through_x_kg", "through_y_kg", "through_z_kg"}) mass += series.number(i, name);
         return mass;
     };
-    for (std::size_t i = 0; i < series.rows(); ++i)
+    std::vector<std::string> hinges;
+    for (const std::string& name : series.names())
+        if (name.ends_with(".angle_rad")) hinges.push_back(name);
+    for (std::size_t i = 0; i < series.rows(); ++i) {
         samples.push_back({series.number(i, "time_s"), series.text(i, "phase") == "rotate",
                            static_cast<int>(series.number(i, "dose")), series.number(i, "coil_angle_rad"), out(i),
                            series.number(i, "canister_mass_kg") + series.number(i, "throat_mass_kg")});
+        for (const std::string& name : hinges) samples.back().hinges.push_back(series.number(i, name));
+    }
     return samples;
 }
 

@@ -14,9 +14,10 @@ struct FlowSample {
     double time = 0;  ///< [s]
     bool turning = false;
     int dose = 0;
-    double angle = 0;   ///< of the coil, turned since the start [rad]
-    double dosed = 0;   ///< and gone through the end of a domain that repeats [kg]
-    double inside = 0;  ///< canister and throat [kg]
+    double angle = 0;                 ///< of the coil, turned since the start [rad]
+    double dosed = 0;                 ///< and gone through the end of a domain that repeats [kg]
+    double inside = 0;                ///< canister and throat [kg]
+    std::vector<double> hinges = {};  ///< by how much each body on a hinge has turned, in the order of the case [rad]
 };
 
 /// The lines of a run's timeseries.csv. Throws CaseError if a column is missing.

@@ -196,3 +196,58 @@ TEST_CASE("a cycle is a pocket, else a turn of the drive, else the slowest motio
     CHECK(cycleRuleOf(c).what == "turn of the drive");
     CHECK(near(cycleRuleOf(c).length, 2 * kPi, 1, 1e-12));
 }
+
+TEST_CASE("a body that tips between two stops has a cycle from tip to tip") {
+    Case c;
+    RigidBody flap, bucket;
+    flap.course.motion = geometry::Hinge{};  // it swings freely: nothing tells one of its swings from another
+    bucket.name = "bucket";
+    geometry::Hinge hinge;
+    hinge.low = -2;
+    hinge.high = 0;
+    bucket.course.motion = hinge;
+    flap.clock = bucket.clock = Clock::Forces;
+    c.world.bodies = {flap};
+    CHECK(cycleRuleOf(c).what.empty());
+    c.world.bodies.push_back(bucket);
+    const CycleRule rule = cycleRuleOf(c);
+    CHECK(rule.what == "tip of bucket");
+    REQUIRE(rule.tips);
+    CHECK(rule.tips->hinge == 1);
+    CHECK(rule.tips->far == -2);
+
+    // It trembles, tips at 0.5 s, 1.4 s and 2.6 s, and each time 3, 4 and 5 g come out while it is over. At a bounce on
+    // its way back it goes over the middle again.
+    std::vector<FlowSample> samples;
+    double out = 0;
+    const auto line = [&](double angle, double mass) {
+        out += mass;
+        samples.push_back({kInterval * double(samples.size() + 1), false, 0, 0, out, kFill - out, {0.3, angle}});
+    };
+    double mass = 3e-3;
+    for (const double start : {0.5, 1.4, 2.6}) {
+        while (kInterval * double(samples.size()) < start - kInterval / 2)
+            line(samples.size() % 20 == 7 ? -0.4 : 0, samples.size() % 20 == 9 ? 1e-5 : 0);
+        for (const double angle : {-0.3, -0.9, -1.6, -2.0, -1.1, -0.9, -1.2, -0.5}) line(angle, mass / 8);
+        mass += 1e-3;
+    }
+    const Cycles cycles = cyclesOf(samples, rule);
+    CHECK(cycles.what == "tip of bucket");
+    REQUIRE(cycles.list.size() == 2);
+    CHECK(near(cycles.list[0].start, 0.5, 1, 1e-9));
+    CHECK(near(cycles.list[0].end, 1.4, 1, 1e-9));
+    CHECK(near(cycles.list[1].end, 2.6, 1, 1e-9));
+    CHECK(near(cycles.list[0].mass, 3e-3, 1e-3, 0.05));  // and what fell past it
+    CHECK(near(cycles.list[1].mass, 4e-3, 1e-3, 0.07));
+    CHECK(sameMass(cycles.list[0].left, kFill - samples[49].dosed));
+    CHECK(sameMass(cycles.all.mean, (cycles.list[0].mass + cycles.list[1].mass) / 2));
+}
+
+TEST_CASE("the angle of each hinge comes from the time series") {
+    Table series({"time_s", "phase", "dose", "coil_angle_rad", "dosed_mass_kg", "canister_mass_kg", "throat_mass_kg",
+                  "flap.angle_rad", "bucket.angle_rad"});
+    series.add({"0.1", "settle", "0", "0", "0", "1", "0", "0.25", "-2"});
+    const auto samples = flowSamples(series);
+    REQUIRE(samples.size() == 1);
+    CHECK(samples[0].hinges == std::vector<double>{0.25, -2});
+}
