@@ -59,8 +59,8 @@ std::string speedText(const Speed& speed) {
 }
 
 std::string workText(const Derived& derived) {
-    return fmt::format("work       about {:.3g} million steps, {}particle-steps\n", derived.steps * 1e-6,
-                       large(derived.work));
+    return fmt::format("work       about {:.3g} million steps, {}particle-steps{}\n", derived.steps * 1e-6,
+                       large(derived.work), derived.countsLeaving ? "" : "; powder that leaves is not taken off");
 }
 
 std::string runTimeText(const Derived& derived, const Speed& speed) {

@@ -266,8 +266,9 @@ struct Derived {
     double doses = 0;        ///< m_tot / m_dose
     double steps = 0;        ///< until the predicted last dose plus the stop rule's
     /// Particle-steps until then. Refills at a time or before a dose count from then on; those at a mark, whose time
-    /// nobody knows, do not count.
+    /// nobody knows, do not count. What leaves by the closed form counts until then.
     double work = 0;
+    bool countsLeaving = true;  ///< false: powder can leave, and nobody knows how much is inside: all of it counts
 
     /// Whether there is a closed form.
     bool conveys() const { return massPerTurn > 0 || massPerSecond > 0; }

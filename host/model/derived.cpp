@@ -53,13 +53,63 @@ double expectedTime(const Refill& refill, const Schedule& s, const Derived& d) {
     return s.settleTime + (*refill.beforeDose - 1) * (turningTime(s, d) + s.reverseTime() + s.restTime);
 }
 
+/// Whether particles can leave the device.
+bool hasOutlet(const World& world) {
+    return std::isfinite(world.outletZ) ||
+           std::any_of(world.regions.begin(), world.regions.end(), [](const CountRegion& r) { return r.deletes; });
+}
+
+/// Of a run without doses: the time until `time` for which the body that carries powder out has moved [s].
+double carriedFor(const Case& c, const Derived& d, double time) {
+    for (const RigidBody& body : c.world.bodies) {
+        if (d.conveyors.empty() || body.name != d.conveyors.front()) continue;
+        // One that moves in phases does so while the powder settles, or it had no closed form (conveyors.h).
+        return body.movesInPhases() ? time : body.course.schedule.elapsed(time);
+    }
+    return 0;
+}
+
+/// What has left the device by `time` if its powder lasts, by the closed form [kg].
+double leftBy(const Case& c, const Derived& d, double time) {
+    const Schedule& s = c.schedule;
+    if (s.rotateTime == 0) return d.massPerSecond * carriedFor(c, d, time);
+    return d.massPerDose * std::max(0.0, time - s.settleTime) / (turningTime(s, d) + s.reverseTime() + s.restTime);
+}
+
+/// Whether the closed form tells how much powder is inside. Refills at a mark make up for what leaves, and nobody knows
+/// when they come.
+bool knowsLeaving(const Case& c, const Derived& d) {
+    return (c.schedule.rotateTime > 0 ? d.massPerDose : d.massPerSecond) > 0 &&
+           std::none_of(c.refills.begin(), c.refills.end(), [](const Refill& r) { return r.below.has_value(); });
+}
+
+/// The particle-steps that particles do not make because they have left.
+double sparedWork(const Case& c, const Insertion& filled, const Derived& d) {
+    if (!knowsLeaving(c, d) || !(d.fillMass > 0)) return 0;
+    constexpr int kSlices = 1000;
+    const double slice = d.steps * d.timeStep / kSlices, each = d.fillMass / static_cast<double>(d.particles);
+    double inside = d.fillMass, left = 0, spared = 0;  // [kg], [kg s]
+    for (int k = 0; k < kSlices; ++k) {
+        const double from = k * slice;
+        for (std::size_t r = 0; r < std::min(c.refills.size(), filled.waiting.size()); ++r) {
+            const double comes = expectedTime(c.refills[r], c.schedule, d);
+            if (comes >= from && comes < from + slice) inside += filled.waiting[r].mass;
+        }
+        const double goes = std::min(inside, leftBy(c, d, from + slice) - leftBy(c, d, from));
+        inside -= goes;
+        spared += (left + goes / 2) * slice;
+        left += goes;
+    }
+    return spared / each / d.timeStep;
+}
+
 double predictedWork(const Case& c, const Insertion& filled, const Derived& d) {
     double work = d.steps * static_cast<double>(d.particles);
     for (std::size_t k = 0; k < std::min(c.refills.size(), filled.waiting.size()); ++k) {
         const double before = expectedTime(c.refills[k], c.schedule, d) / d.timeStep;
         work += std::max(0.0, d.steps - before) * static_cast<double>(filled.waiting[k].particles.size());
     }
-    return work;
+    return work - sparedWork(c, filled, d);
 }
 
 }  // namespace
@@ -123,6 +173,7 @@ Derived derive(const Case& c, const Insertion& filled) {
     }
     d.steps = predictedSteps(c, d);
     d.work = predictedWork(c, filled, d);
+    d.countsLeaving = !hasOutlet(c.world) || knowsLeaving(c, d);
     return d;
 }
 

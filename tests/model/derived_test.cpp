@@ -51,7 +51,9 @@ TEST_CASE("predictions for the paper's case") {
 TEST_CASE("the work of a run counts what is added, where it is known when") {
     const Folder folder;
     const auto workOf = [&](const std::string& refill) {
-        const Case c = loadCase(folder.write("case.toml", std::string(kGoodCase) + refill));
+        // A coil that stands, so that nothing leaves.
+        const Case c = loadCase(folder.write("case.toml", std::string(kGoodCase) + refill),
+                                {"coil.speed_rpm=0", "stop.max_doses=3"});
         const Insertion filled = insertParticles(c);
         const Derived d = derive(c, filled);
         const double added = filled.waiting.empty() ? 0 : double(filled.waiting[0].particles.size());
@@ -65,6 +67,44 @@ TEST_CASE("the work of a run counts what is added, where it is known when") {
     const double dosed = workOf("[[refill]]\nname = \"more\"\nmass_g = 2\nbefore_dose = 2\n").first;
     CHECK((dosed > 0 && dosed < d.steps));
     CHECK(workOf("[[refill]]\nname = \"more\"\nmass_g = 2\nbelow_g = 1\n").first == 0);
+}
+
+TEST_CASE("the work of a run leaves out what leaves the device by the closed form") {
+    const Folder folder;
+    const auto derivedOf = [](const Case& c) { return derive(c, insertParticles(c)); };
+    const auto file = folder.write("case.toml", kGoodCase);
+    // A coil that empties the canister in doses of 2.5 s after a settling of 2 s: half of it is there then on average.
+    const Derived paper = derivedOf(loadCase(shippedCase("paper-48g.toml")));
+    const double all = 2 + 2.5 * paper.doses / 2;
+    CHECK(paper.work * paper.timeStep / double(paper.particles) == Approx(all).epsilon(1e-3));
+    CHECK(paper.countsLeaving);
+    // A hopper that is topped up at its mark holds its powder, and nobody knows how much of it.
+    const Derived full = derivedOf(loadCase(shippedCase("devices/loss-in-weight.toml")));
+    CHECK(full.work == full.steps * double(full.particles));
+    CHECK_FALSE(full.countsLeaving);
+    // Without a closed form nobody knows how fast it leaves.
+    const Derived still = derivedOf(loadCase(file, {"coil.speed_rpm=0", "stop.max_doses=2"}));
+    CHECK(still.work == still.steps * double(still.particles));
+    CHECK_FALSE(still.countsLeaving);
+    // A run without doses: a belt tells no rate, a screw that turns by itself does, from when it turns.
+    const Derived belt = derivedOf(loadCase(shippedCase("devices/belt-feeder.toml")));
+    CHECK(belt.work == belt.steps * double(belt.particles));
+    CHECK_FALSE(belt.countsLeaving);
+    Case c = loadCase(shippedCase("auger.toml"));
+    c.schedule.rotateTime = 0;
+    c.schedule.settleTime = 2;
+    for (RigidBody& body : c.world.bodies)
+        if (body.name == "screw") {
+            body.clock = Clock::Time;
+            std::get<geometry::Turn>(body.course.motion).rate = -2 * kPi;
+            body.course.schedule.intervals = {{0.5, geometry::kEndless}};
+        }
+    const Derived screw = derivedOf(c);
+    REQUIRE(screw.massPerSecond > 0);
+    REQUIRE(screw.massPerSecond * 1.5 < screw.fillMass);
+    const double spared = (2 - screw.work * screw.timeStep / double(screw.particles)) * screw.fillMass;  // [kg s]
+    CHECK(spared == Approx(screw.massPerSecond * 1.5 * 1.5 / 2).epsilon(1e-3));
+    CHECK(screw.countsLeaving);
 }
 
 TEST_CASE("the wide coil pushes twice as fast and doses twice as much") {
