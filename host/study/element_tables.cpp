@@ -76,6 +76,9 @@ constexpr TableFigure kFigures[] = {
 
 ElementTable read(const std::filesystem::path& folder, const std::string& test) {
     const std::filesystem::path file = folder / (test + ".csv");
+    if (!std::filesystem::exists(file))
+        throw CaseError({{file.string(), 0, "", "", "is not there: this table has not been computed",
+                          "leave out the figures of this test, or take the figures.csv of the study beside it"}});
     const Study study = readStudy(folder / (test + ".toml"));
     ElementTable t;
     t.box = study.axes.empty() ? std::vector<FreeParameter>() : study.axes.front().box;
