@@ -46,7 +46,7 @@ TEST_CASE("every powder that comes with the program is read, makes a case, and s
     for (const auto& file : files) {
         CAPTURE(file);
         const PowderFile p = readPowderFile(file);
-        CHECK(!p.laboratory.empty());
+        REQUIRE(!p.laboratory.empty());
         CHECK(!p.limits.empty());
         CHECK_THAT(list.out, Catch::Contains(file.stem().string()) && Catch::Contains(p.title));
         const auto told = box.vkdose("powders " + file.stem().string());
