@@ -122,6 +122,16 @@ void addKey(Json& table, const Key& key) {
         place = {{"anyOf", Json::array({place, schema})}};
 }
 
+/// A case over another one may change tables of a list by their names, `[body.gate]`, in place of the whole list.
+void allowNames(Json& schema) {
+    if (!schema.is_object()) return;
+    for (auto& [name, value] : schema.items())
+        if (value.is_structured()) allowNames(value);
+    if (schema.value("type", "") != "array" || schema["items"].value("type", "") != "object") return;
+    const Json named{{"type", "object"}, {"additionalProperties", schema["items"]}};
+    schema = {{"anyOf", Json::array({schema, named})}};
+}
+
 }  // namespace
 
 std::string keySchema(FileKind kind) {
@@ -144,6 +154,7 @@ std::string keySchema(FileKind kind) {
         add(caseKeys(), [](const std::string& path, const Key& key) {
             return path.starts_with("particles") || path.starts_with("contact") || key.name == "bulk_density";
         });
+    if (kind == FileKind::Case) allowNames(root);
     return root.dump(2) + "\n";
 }
 

@@ -73,6 +73,10 @@ class Schema(unittest.TestCase):
             table[path[-1]] = value
             with self.subTest(key=".".join(path)):
                 self.refused(content, self.case)
+        # Tables of a list by their names, over a base.
+        jsonschema.validate({"base": "a.toml", "body": {"gate": {"motion": {"speed_rpm": 3.0}}}}, self.case,
+                            jsonschema.Draft7Validator)
+        self.refused({"base": "a.toml", "body": {"gate": {"motion": {"speed": 3.0}}}}, self.case)
         self.refused({"base": "mini.toml", "axis": [{"kye": "coil.speed_rpm"}]}, self.study)
         self.refused({"title": "beads", "coil": {"turns": 3}}, self.powder)
         self.refused({"title": "beads", "held": [{"figure": "heap.angle_deg", "fitted": 1}]}, self.powder)
