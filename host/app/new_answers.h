@@ -33,14 +33,14 @@ struct NewAnswers {
 };
 
 struct NewQuestion {
-    const char* option;  ///< "--canister"
-    const char* form;    ///< "LxWxHmm"
-    const char* meaning;
-    const char* standard;  ///< what holds without an answer; nullptr: an answer is needed
-    const char* example;
-    bool asked;  ///< in the dialogue
+    const char* option = "";  ///< "--canister"
+    const char* form = "";    ///< "LxWxHmm"
+    const char* meaning = "";
+    const char* standard = nullptr;  ///< what holds without an answer; nullptr: an answer is needed
+    const char* example = "";
+    bool asked = false;  ///< in the dialogue
     /// Puts the answer `text` into its place. Throws UsageError that says what would be right.
-    void (*take)(NewAnswers& answers, const NewQuestion& question, const std::string& text);
+    void (*take)(NewAnswers& answers, const NewQuestion& question, const std::string& text) = nullptr;
     bool ofPowder = false;  ///< a powder file answers it
 };
 

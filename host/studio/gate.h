@@ -26,7 +26,7 @@ class Gate {
     /// Why a request is refused, for the person who sent it; nothing if it may pass.
     std::optional<std::string> refusal(const Caller& caller) const;
     /// Whether the request brings the token in its address, so that the browser is to be given the cookie.
-    bool isFirst(const Caller& caller) const { return !caller.token.empty(); }
+    static bool isFirst(const Caller& caller) { return !caller.token.empty(); }
 
     const std::string& token() const { return token_; }
     std::string address() const;

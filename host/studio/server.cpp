@@ -95,7 +95,7 @@ class Workbench {
         return *file;
     }
     fs::path caseOf(const std::string& name) const {
-        const fs::path file = fileOf(name);
+        fs::path file = fileOf(name);
         if (file.extension() != ".toml") throw Refused(403, fmt::format("{} is no case file (.toml)", printable(name)));
         return file;
     }
@@ -332,7 +332,7 @@ void guard(httplib::Server& server, const Gate& gate) {
             response.set_content(*why + "\n", "text/plain; charset=utf-8");
             return httplib::Server::HandlerResponse::Handled;
         }
-        if (!gate.isFirst(caller)) return httplib::Server::HandlerResponse::Unhandled;
+        if (!Gate::isFirst(caller)) return httplib::Server::HandlerResponse::Unhandled;
         // The token leaves the address, so that it is in no bookmark and no history of what comes.
         response.set_header("Set-Cookie", gate.cookie());
         response.set_redirect("/");

@@ -8,9 +8,9 @@
 namespace vkdose {
 
 struct SheetFigure {
-    const char* name;  ///< "repose"
-    const char* unit;
-    const char* meaning;
+    const char* name = "";  ///< "repose"
+    const char* unit = "";
+    const char* meaning = "";
     /// The standard error that is taken where none is given: a part of the value, or an amount in the unit.
     double relative = 0, absolute = 0;
 

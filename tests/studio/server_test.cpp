@@ -51,6 +51,9 @@ class Bench {
         thread_.join();
     }
 
+    Bench(const Bench&) = delete;
+    Bench& operator=(const Bench&) = delete;
+
     httplib::Result get(const std::string& path) const { return client->Get(path, headers); }
     httplib::Result post(const std::string& path, const Json& body) const {
         return client->Post(path, headers, body.dump(), "application/json");
